@@ -1,0 +1,11 @@
+# LCM installs no CMake package. Defines LCM::lcm (the library) and LCM_GEN_EXECUTABLE (the message compiler).
+find_path(LCM_INCLUDE_DIR lcm/lcm.h)
+find_library(LCM_LIBRARY lcm)
+find_program(LCM_GEN_EXECUTABLE lcm-gen)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(LCM REQUIRED_VARS LCM_LIBRARY LCM_INCLUDE_DIR)
+if(LCM_FOUND AND NOT TARGET LCM::lcm)
+  add_library(LCM::lcm UNKNOWN IMPORTED)
+  set_target_properties(LCM::lcm PROPERTIES IMPORTED_LOCATION ${LCM_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${LCM_INCLUDE_DIR})
+endif()
+mark_as_advanced(LCM_INCLUDE_DIR LCM_LIBRARY LCM_GEN_EXECUTABLE)

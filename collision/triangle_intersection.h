@@ -1,0 +1,21 @@
+#pragma once
+
+/// Exact predicates on triangles given by double-precision points.
+
+#include <Eigen/Core>
+
+#include <array>
+
+namespace glissade::collision {
+
+/// The three corners of a triangle, all in one frame.
+using TrianglePoints = std::array<Eigen::Vector3d, 3>;
+
+/// Whether the three points lie on one line, decided exactly: such a triangle has no area.
+bool is_degenerate(const TrianglePoints& triangle);
+
+/// Whether two closed triangles share a point, decided exactly for these coordinates; touching counts. Coplanar pairs,
+/// shared edges and shared vertices are ordinary cases. Neither triangle may be degenerate.
+bool triangles_intersect(const TrianglePoints& a, const TrianglePoints& b);
+
+}  // namespace glissade::collision
