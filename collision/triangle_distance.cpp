@@ -11,18 +11,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A point on each triangle and the vector from the first to the second, which is more accurate than the difference of
-// the two rounded points when the coordinates are large.
+// A point on each triangle and the square of their distance; that is taken from differences of corners, which are more
+// accurate than differences of the rounded points when the coordinates are large.
 struct Candidate {
   Vector3d p_a;
   Vector3d p_b;
-  Vector3d gap;
   double squared_distance;
 };
-
-Candidate make_candidate(const Vector3d& p_a, const Vector3d& p_b, const Vector3d& gap) {
-  return {p_a, p_b, gap, gap.squaredNorm()};
-}
 
 // A triangle with what the features share: edge i goes from corner i to corner i + 1.
 struct Face {
@@ -44,10 +39,17 @@ double clamp_to_unit(double parameter) {
   return std::clamp(parameter, 0.0, 1.0);
 }
 
-// Closest points of edge i of a and edge j of b. The parameter on the first edge is that of the two lines, from cross
-// products because they lose no digits on nearly parallel edges; projecting back and forth then brings both points to
-// where the squared distance, convex in the two parameters, is least. Whatever parallel edges start from is as good.
-Candidate edge_to_edge(const Face& a, std::size_t i, const Face& b, std::size_t j) {
+// Closest points of edge i of a and edge j of b: the parameters along the edges and the vector between the points.
+struct EdgePair {
+  double s;
+  double t;
+  Vector3d gap;
+};
+
+// The parameter on the first edge is that of the two lines, from cross products because they lose no digits on nearly
+// parallel edges; projecting back and forth then brings both points to where the squared distance, convex in the two
+// parameters, is least. Whatever parallel edges start from is as good.
+EdgePair closest_on_edges(const Face& a, std::size_t i, const Face& b, std::size_t j) {
   const Vector3d& along_a = a.edges[i];
   const Vector3d& along_b = b.edges[j];
   const Vector3d offset = b.corners[j] - a.corners[i];
@@ -57,13 +59,23 @@ Candidate edge_to_edge(const Face& a, std::size_t i, const Face& b, std::size_t 
   double s = clamp_to_unit(on_lines);
   const double t = clamp_to_unit((s * along_a - offset).dot(along_b) / b.squared_lengths[j]);
   s = clamp_to_unit((offset + t * along_b).dot(along_a) / a.squared_lengths[i]);
-  return make_candidate(a.corners[i] + s * along_a, b.corners[j] + t * along_b, offset + t * along_b - s * along_a);
+  return {s, t, offset + t * along_b - s * along_a};
 }
 
-// Whether the slab across the gap between two edges keeps the triangles apart: then no other points are closer.
-bool edges_are_closest(const Candidate& candidate, const Face& a, std::size_t i, const Face& b, std::size_t j) {
-  return (a.corners[(i + 2) % 3] - candidate.p_a).dot(candidate.gap) <= 0.0 &&
-         (b.corners[(j + 2) % 3] - candidate.p_b).dot(candidate.gap) >= 0.0;
+// Whether the slab across the gap between two edges keeps the third corners apart too: then no other points are closer.
+// Only when that is certain, because over a small gap a slightly tilted slab would hide closer points far away from it.
+bool edges_are_closest(const EdgePair& pair, const Face& a, std::size_t i, const Face& b, std::size_t j,
+                       double uncertainty) {
+  const Vector3d to_corner_a = -a.edges[(i + 2) % 3] - pair.s * a.edges[i];
+  const Vector3d to_corner_b = -b.edges[(j + 2) % 3] - pair.t * b.edges[j];
+  return to_corner_a.dot(pair.gap) < -uncertainty && to_corner_b.dot(pair.gap) > uncertainty;
+}
+
+// Bound on the rounding error of `edges_are_closest`.
+double slab_uncertainty(const Face& a, const Face& b) {
+  const double reach = (b.corners[0] - a.corners[0]).lpNorm<1>() + a.edges[0].lpNorm<1>() + a.edges[2].lpNorm<1>() +
+                       b.edges[0].lpNorm<1>() + b.edges[2].lpNorm<1>();
+  return 16.0 * std::numeric_limits<double>::epsilon() * reach * reach;
 }
 
 // Coordinates of a vector in the basis edge 0 and minus edge 2 of a face, after projection on its plane.
@@ -90,34 +102,35 @@ Vector3d gap_to_face(const Vector3d& point, const Face& face, bool& inside) {
   return offset + u * face.edges[0] - v * face.edges[2];
 }
 
-void keep_closer(const Candidate& candidate, Candidate& best) {
-  if (candidate.squared_distance < best.squared_distance) {
-    best = candidate;
+void keep_closer(const Vector3d& p_a, const Vector3d& p_b, const Vector3d& gap, Candidate& best) {
+  const double squared_distance = gap.squaredNorm();
+  if (squared_distance < best.squared_distance) {
+    best = {p_a, p_b, squared_distance};
   }
 }
 
 // The closest of the 9 pairs of edges and the 6 pairs of a corner and the inside of a face.
 Candidate closest_features(const Face& a, const Face& b) {
-  Candidate best{};
-  best.squared_distance = std::numeric_limits<double>::infinity();
+  const double uncertainty = slab_uncertainty(a, b);
+  Candidate best{a.corners[0], b.corners[0], std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      const Candidate candidate = edge_to_edge(a, i, b, j);
-      if (edges_are_closest(candidate, a, i, b, j)) {
-        return candidate;
+      const EdgePair pair = closest_on_edges(a, i, b, j);
+      keep_closer(a.corners[i] + pair.s * a.edges[i], b.corners[j] + pair.t * b.edges[j], pair.gap, best);
+      if (edges_are_closest(pair, a, i, b, j, uncertainty)) {
+        return best;
       }
-      keep_closer(candidate, best);
     }
   }
   bool inside = false;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3d a_to_b = gap_to_face(a.corners[i], b, inside);
     if (inside) {
-      keep_closer(make_candidate(a.corners[i], a.corners[i] + a_to_b, a_to_b), best);
+      keep_closer(a.corners[i], a.corners[i] + a_to_b, a_to_b, best);
     }
     const Vector3d b_to_a = gap_to_face(b.corners[i], a, inside);
     if (inside) {
-      keep_closer(make_candidate(b.corners[i] + b_to_a, b.corners[i], -b_to_a), best);
+      keep_closer(b.corners[i] + b_to_a, b.corners[i], b_to_a, best);
     }
   }
   return best;
@@ -138,8 +151,11 @@ void keep_closer_crossings(const Face& piercing, const Face& face, bool swapped,
     if (!inside) {
       continue;
     }
-    const Vector3d on_face = crossing + gap;
-    keep_closer(swapped ? make_candidate(on_face, crossing, -gap) : make_candidate(crossing, on_face, gap), best);
+    if (swapped) {
+      keep_closer(crossing + gap, crossing, gap, best);
+    } else {
+      keep_closer(crossing, crossing + gap, gap, best);
+    }
   }
 }
 

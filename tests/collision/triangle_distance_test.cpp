@@ -66,7 +66,7 @@ TEST(TriangleDistance, IsZeroExactlyWhenTheyIntersect) {
   TrianglePoints above{Vector3d(.3, .3, height), Vector3d(.3, .5, height + 1), Vector3d(.5, .3, height + 1)};
   EXPECT_EQ(triangle_distance(face, above).distance, 0.0);
   above[0].z() = next;
-  EXPECT_DOUBLE_EQ(triangle_distance(face, above).distance, next - height);
+  EXPECT_NEAR(triangle_distance(face, above).distance, next - height, 1e-6 * (next - height));
 }
 
 TEST(TriangleDistance, KeepsTheDistanceWhereEdgesAreNearlyParallel) {
@@ -86,6 +86,13 @@ TEST(TriangleDistance, IsRightForNeedles) {
   const Vector3d tip = 1e-3 * up;
   const TrianglePoints above{tip, tip + along + up, tip - along + up};
   EXPECT_NEAR(triangle_distance(needle, above).distance, 1e-3, 1e-15);
+}
+
+TEST(TriangleDistance, LooksFartherThanTheFirstSmallGap) {
+  // The edge of b on the x axis passes 1e-8 above an edge of a, but a is tilted and meets it 1 m further on, less 1e-9.
+  const TrianglePoints a{Vector3d(0, -1, 0), Vector3d(0, 1, 0), Vector3d(2, 0, 1.8e-8)};
+  const TrianglePoints b{Vector3d(-1, 0, 1e-8), Vector3d(1, 0, 1e-8), Vector3d(0, 0, 1)};
+  EXPECT_NEAR(triangle_distance(a, b).distance, 1e-9, 1e-16);
 }
 
 double largest_coordinate(const test_support::TrianglePair& pair) {
