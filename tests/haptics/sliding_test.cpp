@@ -139,8 +139,8 @@ TEST_P(BoxOnFaces, TheWrenchIsExactlyZeroWheneverNothingIsInTheWay) {
 INSTANTIATE_TEST_SUITE_P(Tessellations, BoxOnFaces,
                          ::testing::Values(Tessellation{12, false}, Tessellation{1200, false},
                                            Tessellation{1200, true}),
-                         [](const auto& info) {
-                           return std::to_string(info.param.triangles) + (info.param.flipped ? "Flipped" : "");
+                         [](const auto& tested) {
+                           return std::to_string(tested.param.triangles) + (tested.param.flipped ? "Flipped" : "");
                          });
 
 TEST(Sliding, AThinSheetAtFiveMetresPerSecondIsNeverCrossed) {
