@@ -1,9 +1,10 @@
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -44,6 +45,10 @@ LcmHandle connect_to(const std::string& url) {
   return lcm;
 }
 
+[[noreturn]] void refuse_to_receive(const std::string& url) {
+  throw std::invalid_argument("The LCM address '" + url + "' does not work: nothing can be received from it.");
+}
+
 }  // namespace
 
 class LcmBus::Connection {
@@ -59,14 +64,7 @@ class LcmBus::Connection {
   bool publish(const std::string& channel, std::span<const std::uint8_t> message);
 
  private:
-  /// The handlers of one channel. liblcm may still call a subscription that another thread has just ended, so its own
-  /// subscriptions last as long as the bus, and handlers come and go here.
-  struct Channel {
-    std::mutex mutex;  ///< held while handlers run, so that one that was removed is not running either
-    std::vector<std::pair<std::int64_t, Handler>> handlers;
-  };
-
-  static void dispatch(const lcm_recv_buf_t* buffer, const char* channel, void* context);
+  static void dispatch(const lcm_recv_buf_t* buffer, const char* channel, void* connection);
   void start_receiving();
   void receive(int lcm_fd);
 
@@ -74,10 +72,14 @@ class LcmBus::Connection {
   LcmHandle sender_;  ///< empty over memq, where sending and receiving need the same object
   LcmHandle receiver_;
   int wake_fd_ = -1;
-  std::mutex mutex_;  ///< guards the members below
-  std::map<std::string, Channel> channels_;
-  std::int64_t next_id_ = 0;
+  std::mutex set_up_mutex_;  ///< one subscription at a time
   std::thread thread_;
+
+  // liblcm may still call a subscription that another thread has just ended. So its own subscriptions, one for each
+  // channel, last as long as the bus, and handlers come and go here.
+  std::mutex handlers_mutex_;  ///< held while handlers run, so that one that was removed is not running either
+  std::map<std::string, std::vector<std::pair<std::int64_t, Handler>>, std::less<>> handlers_;
+  std::int64_t next_id_ = 0;
 };
 
 LcmBus::Connection::Connection(const std::string& url) : url_(url) {
@@ -98,23 +100,21 @@ LcmBus::Connection::~Connection() {
 
 std::int64_t LcmBus::Connection::subscribe(const std::string& channel, Handler handler) {
   check_channel(channel);
-  const std::lock_guard lock(mutex_);
-  const auto [entry, is_new] = channels_.try_emplace(channel);
-  if (is_new && lcm_subscribe(receiver_.get(), channel.c_str(), dispatch, &entry->second) == nullptr) {
-    channels_.erase(entry);
-    throw std::invalid_argument("Nothing can be received from the LCM address '" + url_ + "'.");
-  }
+  const std::lock_guard set_up_lock(set_up_mutex_);
+  const bool is_new = [&] {
+    const std::lock_guard lock(handlers_mutex_);
+    return !handlers_.contains(channel);
+  }();
+  if (is_new && lcm_subscribe(receiver_.get(), channel.c_str(), dispatch, this) == nullptr) refuse_to_receive(url_);
   if (!thread_.joinable()) start_receiving();
-  const std::lock_guard channel_lock(entry->second.mutex);
-  entry->second.handlers.emplace_back(next_id_, std::move(handler));
+  const std::lock_guard lock(handlers_mutex_);
+  handlers_[channel].emplace_back(next_id_, std::move(handler));
   return next_id_++;
 }
 
 void LcmBus::Connection::unsubscribe(const std::string& channel, std::int64_t id) {
-  const std::lock_guard lock(mutex_);
-  Channel& entry = channels_.at(channel);
-  const std::lock_guard channel_lock(entry.mutex);
-  std::erase_if(entry.handlers, [id](const auto& handler) { return handler.first == id; });
+  const std::lock_guard lock(handlers_mutex_);
+  std::erase_if(handlers_.at(channel), [id](const auto& handler) { return handler.first == id; });
 }
 
 bool LcmBus::Connection::publish(const std::string& channel, std::span<const std::uint8_t> message) {
@@ -123,10 +123,12 @@ bool LcmBus::Connection::publish(const std::string& channel, std::span<const std
   return lcm_publish(lcm, channel.c_str(), message.data(), static_cast<unsigned int>(message.size())) == 0;
 }
 
-void LcmBus::Connection::dispatch(const lcm_recv_buf_t* buffer, const char* /*channel*/, void* context) {
-  Channel& channel = *static_cast<Channel*>(context);
-  const std::lock_guard lock(channel.mutex);
-  for (const auto& [id, handler] : channel.handlers) {
+void LcmBus::Connection::dispatch(const lcm_recv_buf_t* buffer, const char* channel, void* connection) {
+  auto& self = *static_cast<Connection*>(connection);
+  const std::lock_guard lock(self.handlers_mutex_);
+  const auto entry = self.handlers_.find(std::string_view(channel));
+  if (entry == self.handlers_.end()) return;
+  for (const auto& [id, handler] : entry->second) {
     // An exception must not pass through liblcm: it would leave its locks taken.
     try {
       handler({static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
@@ -137,7 +139,7 @@ void LcmBus::Connection::dispatch(const lcm_recv_buf_t* buffer, const char* /*ch
 
 void LcmBus::Connection::start_receiving() {
   const int lcm_fd = lcm_get_fileno(receiver_.get());
-  if (lcm_fd < 0) throw std::invalid_argument("Nothing can be received from the LCM address '" + url_ + "'.");
+  if (lcm_fd < 0) refuse_to_receive(url_);
   thread_ = std::thread([this, lcm_fd] { receive(lcm_fd); });
 }
 
