@@ -1,7 +1,7 @@
-#include <glissade/haptics/contact_set.h>
-
 #include <algorithm>
 #include <numeric>
+
+#include <glissade/haptics/contact_set.h>
 
 namespace glissade::haptics {
 

@@ -1,6 +1,6 @@
-#include <glissade/haptics/haptic_kernel.h>
-
 #include <algorithm>
+
+#include <glissade/haptics/haptic_kernel.h>
 
 namespace glissade::haptics {
 

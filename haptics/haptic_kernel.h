@@ -3,9 +3,9 @@
 /// One tick of the haptic thread as a pure function of its inputs: glove state and contact set in, glove command out.
 /// Owns no clock, no thread and no device, so the same code runs in real time, offline and in tests.
 
-#include <Eigen/Geometry>
-
 #include <chrono>
+
+#include <Eigen/Geometry>
 
 #include <glissade/devices/glove_types.h>
 #include <glissade/devices/safety_limits.h>

@@ -1,6 +1,6 @@
-#include <glissade/haptics/proxy.h>
-
 #include <algorithm>
+
+#include <glissade/haptics/proxy.h>
 
 namespace glissade::haptics {
 

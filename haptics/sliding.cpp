@@ -12,7 +12,7 @@ constexpr double kDefaultStiffness_N_per_m = 1000.0;
 constexpr double kSmallestReach_m = 30e-6;
 constexpr double kLargestReach_m = 3e-3;
 
-constexpr int kProjections = 4;     // the first, and three more with rows for what could not be proved
+constexpr int kProjections = 4;  // the first, and three more with rows for what could not be proved
 constexpr int kHalvings = 6;
 constexpr int kDampings = 4;
 
