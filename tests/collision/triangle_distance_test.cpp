@@ -10,11 +10,13 @@
 
 #include "cgal_oracle.h"
 #include "random_triangles.h"
+#include "sanitizers.h"
 
 namespace glissade::collision {
 namespace {
 
 using Eigen::Vector3d;
+using test_support::affordable;
 using test_support::RandomTriangles;
 
 const TrianglePoints kUnit{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)};
@@ -131,19 +133,19 @@ void expect_agreement_with_cgal(int count, std::uint64_t seed, const Next& next)
 }
 
 TEST(TriangleDistanceAgainstCgal, AgreesAnywhere) {
-  expect_agreement_with_cgal(2'000, 11, [](RandomTriangles& random) { return random.anywhere(); });
+  expect_agreement_with_cgal(affordable(2'000), 11, [](RandomTriangles& random) { return random.anywhere(); });
 }
 
 TEST(TriangleDistanceAgainstCgal, AgreesOnLattices) {
-  expect_agreement_with_cgal(2'000, 12, [](RandomTriangles& random) { return random.on_lattice(3); });
+  expect_agreement_with_cgal(affordable(2'000), 12, [](RandomTriangles& random) { return random.on_lattice(3); });
 }
 
 TEST(TriangleDistanceAgainstCgal, AgreesOnPairsThatNearlyTouch) {
-  expect_agreement_with_cgal(2'000, 13, [](RandomTriangles& random) { return random.nearly_touching(); });
+  expect_agreement_with_cgal(affordable(2'000), 13, [](RandomTriangles& random) { return random.nearly_touching(); });
 }
 
 TEST(TriangleDistanceAgainstCgal, AgreesOnPairsThatAreNearlyCoplanar) {
-  expect_agreement_with_cgal(2'000, 14, [](RandomTriangles& random) { return random.nearly_coplanar(); });
+  expect_agreement_with_cgal(affordable(2'000), 14, [](RandomTriangles& random) { return random.nearly_coplanar(); });
 }
 
 }  // namespace

@@ -9,11 +9,13 @@
 
 #include "cgal_oracle.h"
 #include "random_triangles.h"
+#include "sanitizers.h"
 
 namespace glissade::collision {
 namespace {
 
 using Eigen::Vector3d;
+using test_support::affordable;
 using test_support::RandomTriangles;
 
 const TrianglePoints kUnit{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)};
@@ -182,20 +184,20 @@ void expect_agreement_with_cgal(int count, std::uint64_t seed, const Next& next)
 }
 
 TEST(TriangleIntersectionAgainstCgal, AgreesAnywhere) {
-  expect_agreement_with_cgal(40'000, 1, [](RandomTriangles& random) { return random.anywhere(); });
+  expect_agreement_with_cgal(affordable(40'000), 1, [](RandomTriangles& random) { return random.anywhere(); });
 }
 
 TEST(TriangleIntersectionAgainstCgal, AgreesOnSmallLattices) {
-  expect_agreement_with_cgal(40'000, 2, [](RandomTriangles& random) { return random.on_lattice(2); });
-  expect_agreement_with_cgal(40'000, 3, [](RandomTriangles& random) { return random.on_lattice(4); });
+  expect_agreement_with_cgal(affordable(40'000), 2, [](RandomTriangles& random) { return random.on_lattice(2); });
+  expect_agreement_with_cgal(affordable(40'000), 3, [](RandomTriangles& random) { return random.on_lattice(4); });
 }
 
 TEST(TriangleIntersectionAgainstCgal, AgreesOnPairsThatNearlyTouch) {
-  expect_agreement_with_cgal(50'000, 4, [](RandomTriangles& random) { return random.nearly_touching(); });
+  expect_agreement_with_cgal(affordable(50'000), 4, [](RandomTriangles& random) { return random.nearly_touching(); });
 }
 
 TEST(TriangleIntersectionAgainstCgal, AgreesOnPairsThatAreNearlyCoplanar) {
-  expect_agreement_with_cgal(30'000, 5, [](RandomTriangles& random) { return random.nearly_coplanar(); });
+  expect_agreement_with_cgal(affordable(30'000), 5, [](RandomTriangles& random) { return random.nearly_coplanar(); });
 }
 
 }  // namespace
