@@ -2,9 +2,9 @@
 
 /// The discretely oriented polytope (DOP): the intersection of k = 24 half-spaces of fixed directions (paper §2.1).
 
-#include <Eigen/Core>
-
 #include <array>
+
+#include <Eigen/Core>
 
 namespace glissade::collision {
 
@@ -13,7 +13,8 @@ inline constexpr int kDopDirections = 24;
 inline constexpr int kDopSlabs = kDopDirections / 2;
 
 /// The twelve slab directions: the axes, the edge directions of a cube and three of its corner directions, as small
-/// integers so that projections on them are nearly exact. Half-space i < 12 has direction i, half-space i + 12 its opposite.
+/// integers so that projections on them are nearly exact. Half-space i < 12 has direction i, half-space i + 12 its
+/// opposite.
 inline constexpr std::array<std::array<int, 3>, kDopSlabs> kSlabDirections{{{1, 0, 0},
                                                                             {0, 1, 0},
                                                                             {0, 0, 1},
@@ -31,7 +32,9 @@ inline constexpr std::array<std::array<int, 3>, kDopSlabs> kSlabDirections{{{1, 
 Eigen::Vector3d dop_direction(int half_space);
 
 /// The half-space that faces the other way.
-constexpr int opposite(int half_space) { return half_space < kDopSlabs ? half_space + kDopSlabs : half_space - kDopSlabs; }
+constexpr int opposite(int half_space) {
+  return half_space < kDopSlabs ? half_space + kDopSlabs : half_space - kDopSlabs;
+}
 
 /// Support values: for every point x inside and every half-space i, dop_direction(i)·x ≤ support[i]. Single precision,
 /// rounded outward.

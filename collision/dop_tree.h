@@ -3,11 +3,11 @@
 /// The DOP-tree: a hierarchy of discretely oriented polytopes over a triangle soup (paper §2.1).
 /// Build one per mesh, share it between objects and threads, and query pairs of them with `dop_query.h`.
 
-#include <Eigen/Core>
-
 #include <cstdint>
 #include <memory>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include <glissade/collision/dop.h>
 #include <glissade/collision/triangle_mesh.h>
@@ -17,7 +17,8 @@ namespace glissade::collision {
 /// One node: its polytope, and either two children or a run of triangles.
 struct DopNode {
   Dop dop;
-  std::int32_t first = 0;  ///< inner node: its first child, the second follows; leaf: the first entry of `leaf_triangles()`
+  std::int32_t first =
+      0;  ///< inner node: its first child, the second follows; leaf: the first entry of `leaf_triangles()`
   std::int32_t count = 0;  ///< 0 for an inner node, otherwise the leaf's number of triangles
 
   bool is_leaf() const { return count > 0; }
@@ -28,11 +29,11 @@ struct DopNode {
 /// Thread-safety: immutable after construction, so any number of threads may query it at once.
 class DopTree {
  public:
-  /// Builds the hierarchy by binned surface-area heuristic; deterministic. Degenerate triangles (zero area) are left out
-  /// of the tree and counted.
+  /// Builds the hierarchy by binned surface-area heuristic; deterministic. Degenerate triangles (zero area) are left
+  /// out of the tree and counted.
   ///
-  /// Throws std::invalid_argument when the mesh has no triangle of positive area, an index out of range, or a coordinate
-  /// that is not finite or beyond ±1e9. Cost O(n log n).
+  /// Throws std::invalid_argument when the mesh has no triangle of positive area, an index out of range, or a
+  /// coordinate that is not finite or beyond ±1e9. Cost O(n log n).
   explicit DopTree(std::shared_ptr<const TriangleMesh> mesh);
 
   const TriangleMesh& mesh() const { return *mesh_; }

@@ -2,9 +2,9 @@
 
 /// Exact predicates on triangles given by double-precision points.
 
-#include <Eigen/Core>
-
 #include <array>
+
+#include <Eigen/Core>
 
 namespace glissade::collision {
 

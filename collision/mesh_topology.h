@@ -1,0 +1,66 @@
+#pragma once
+
+/// Which triangles of a mesh meet in which edges and vertices, without any use of their orientation: what contact
+/// constraints need to know of a mesh straight from CAD.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glissade/collision/triangle_mesh.h>
+
+namespace glissade::collision {
+
+/// Edges and vertices of a mesh with their neighbourhoods. Degenerate triangles take no part.
+/// Immutable after construction, so safe to share between threads.
+class MeshTopology {
+ public:
+  struct Edge {
+    std::array<std::int32_t, 2> vertices;
+    std::int32_t owner;  ///< the one of its triangles that answers for it
+    bool flat;           ///< exactly two triangles meet here, and they continue each other in one plane
+  };
+
+  /// Cost O(n log n).
+  explicit MeshTopology(const TriangleMesh& mesh);
+
+  const std::vector<Edge>& edges() const { return edges_; }
+
+  /// The edges of a triangle: entry i joins its corners i and i + 1. Entries are −1 for a degenerate triangle.
+  const std::array<std::int32_t, 3>& edges_of(std::int32_t triangle) const {
+    return triangle_edges_[static_cast<std::size_t>(triangle)];
+  }
+  /// The corners that face an edge, one for each of its triangles.
+  std::span<const std::int32_t> apexes_of(std::int32_t edge) const { return apexes_.of(edge); }
+  /// The vertices joined to a vertex by an edge.
+  std::span<const std::int32_t> neighbours_of(std::int32_t vertex) const { return neighbours_.of(vertex); }
+  /// The one of a vertex's triangles that answers for it, −1 if it has none.
+  std::int32_t owner_of(std::int32_t vertex) const { return vertex_owner_[static_cast<std::size_t>(vertex)]; }
+  /// Whether every edge at the vertex is flat: it lies inside a plane patch, and other vertices bound that patch.
+  bool is_flat(std::int32_t vertex) const { return vertex_flat_[static_cast<std::size_t>(vertex)] != 0; }
+
+ private:
+  /// A list for each of n items, stored end to end.
+  struct Lists {
+    std::vector<std::int32_t> start;
+    std::vector<std::int32_t> entries;
+    std::span<const std::int32_t> of(std::int32_t item) const {
+      const auto i = static_cast<std::size_t>(item);
+      return {entries.data() + start[i], entries.data() + start[i + 1]};
+    }
+  };
+
+  void collect_edges(const TriangleMesh& mesh);
+  void mark_flat(const TriangleMesh& mesh);
+  void collect_vertices(const TriangleMesh& mesh);
+
+  std::vector<Edge> edges_;
+  std::vector<std::array<std::int32_t, 3>> triangle_edges_;
+  std::vector<std::int32_t> vertex_owner_;
+  std::vector<char> vertex_flat_;
+  Lists apexes_;
+  Lists neighbours_;
+};
+
+}  // namespace glissade::collision

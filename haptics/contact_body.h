@@ -1,0 +1,31 @@
+#pragma once
+
+/// A mesh made ready for sliding contact: its DOP-tree and its topology.
+
+#include <memory>
+
+#include <glissade/collision/dop_tree.h>
+#include <glissade/collision/mesh_topology.h>
+
+namespace glissade::haptics {
+
+/// Immutable after construction, so safe to share between threads.
+struct ContactBody {
+  /// Throws std::invalid_argument as DopTree does. Cost O(n log n).
+  explicit ContactBody(const std::shared_ptr<const collision::TriangleMesh>& mesh) : tree(mesh), topology(*mesh) {}
+
+  collision::DopTree tree;
+  collision::MeshTopology topology;
+};
+
+/// The part in the hand, in its own frame V. Displacements and the coupling act at a reference point fixed in it: the
+/// centre of its bounding box, so that rotation and translation are as independent as its shape allows.
+struct SlidingPart : ContactBody {
+  using ContactBody::ContactBody;
+
+  const Eigen::Vector3d& p_Vref() const { return tree.center(); }
+  /// ρ: the largest distance of a vertex from the reference point, metres.
+  double radius() const { return tree.radius(); }
+};
+
+}  // namespace glissade::haptics

@@ -1,0 +1,183 @@
+#include <glissade/haptics/contact_search.h>
+
+#include "triangle_features.h"
+
+namespace glissade::haptics {
+namespace {
+
+using collision::MeshTopology;
+using collision::TriangleMesh;
+using collision::TrianglePoints;
+
+/// One side of a pair, part or obstacle: its mesh in world coordinates and what its triangle answers for.
+class Side {
+ public:
+  Side(const ContactBody& body, const Eigen::Isometry3d& X_WB, double sign)
+      : mesh_(body.tree.mesh()), topology_(body.topology), X_WB_(X_WB), sign_(sign) {}
+
+  void select(std::int32_t triangle) {
+    triangle_ = triangle;
+    for (int c = 0; c < 3; ++c)
+      points_[static_cast<std::size_t>(c)] = X_WB_ * mesh_.corner(triangle, c);
+  }
+
+  std::int32_t triangle() const { return triangle_; }
+  const TrianglePoints& points() const { return points_; }
+  const Eigen::Vector3d& corner(int i) const { return points_[static_cast<std::size_t>(i)]; }
+
+  /// Whether the selected triangle answers for its corner / edge i, and that feature can stop anything.
+  bool owns_corner(int i) const {
+    const std::int32_t v = vertex(i);
+    return topology_.owner_of(v) == triangle_ && !topology_.is_flat(v);
+  }
+  bool owns_edge(int i) const {
+    const MeshTopology::Edge& e = topology_.edges()[static_cast<std::size_t>(edge(i))];
+    return e.owner == triangle_ && !e.flat;
+  }
+  bool owns_anything() const {
+    for (int i = 0; i < 3; ++i) {
+      if (owns_corner(i) || owns_edge(i)) return true;
+    }
+    return false;
+  }
+
+  /// Whether no neighbour of corner / edge i lies nearer to the other side than it by more than `tolerance`, along the
+  /// normal n (from obstacle to part).
+  bool corner_is_nearest(int i, const Eigen::Vector3d& n, double tolerance) const {
+    return none_nearer(topology_.neighbours_of(vertex(i)), corner(i), n, tolerance);
+  }
+  bool edge_is_nearest(int i, const Eigen::Vector3d& n, double tolerance) const {
+    return none_nearer(topology_.apexes_of(edge(i)), corner(i), n, tolerance);
+  }
+
+ private:
+  std::int32_t vertex(int i) const {
+    return mesh_.triangles[static_cast<std::size_t>(triangle_)][static_cast<std::size_t>(i)];
+  }
+  std::int32_t edge(int i) const { return topology_.edges_of(triangle_)[static_cast<std::size_t>(i)]; }
+
+  bool none_nearer(std::span<const std::int32_t> vertices, const Eigen::Vector3d& x_W, const Eigen::Vector3d& n,
+                   double tolerance) const {
+    for (const std::int32_t v : vertices) {
+      const Eigen::Vector3d y_W = X_WB_ * mesh_.vertices[static_cast<std::size_t>(v)];
+      if (sign_ * n.dot(y_W - x_W) < -tolerance) return false;
+    }
+    return true;
+  }
+
+  const TriangleMesh& mesh_;
+  const MeshTopology& topology_;
+  Eigen::Isometry3d X_WB_;
+  double sign_;  // +1 for the part, from which the normal points away; −1 for the obstacle
+  std::int32_t triangle_ = -1;
+  TrianglePoints points_;
+};
+
+class ContactSearch {
+ public:
+  ContactSearch(const ContactBody& obstacles_W, const SlidingPart& part_V, const Eigen::Isometry3d& X_WV, double reach,
+                double margin, std::vector<Contact>& contacts)
+      : part_(part_V, X_WV, 1.0),
+        obstacle_(obstacles_W, Eigen::Isometry3d::Identity(), -1.0),
+        reach_(reach),
+        margin_(margin),
+        contacts_(contacts) {}
+
+  void search(const CandidatePair& pair) {
+    part_.select(pair.part_triangle);
+    obstacle_.select(pair.obstacle_triangle);
+    if (!part_.owns_anything() && !obstacle_.owns_anything()) return;
+    for (int i = 0; i < 3; ++i) {
+      if (part_.owns_corner(i)) search_part_corner(i);
+      if (obstacle_.owns_corner(i)) search_obstacle_corner(i);
+      if (part_.owns_edge(i)) search_part_edge(i);
+    }
+  }
+
+ private:
+  void search_part_corner(int i) {
+    const Eigen::Vector3d& x = part_.corner(i);
+    const ClosestOnTriangle on = closest_on_triangle(x, obstacle_.points());
+    Eigen::Vector3d n;
+    const double gap = gap_and_normal(on.point, x, n);
+    if (gap < 0.0) return;
+    switch (on.region) {
+      case Region::kFace:
+        add(ContactKind::kVertexFace, n, x, gap);
+        break;
+      case Region::kEdge:
+        if (obstacle_.owns_edge(on.index) && obstacle_.edge_is_nearest(on.index, n, margin_) &&
+            part_.corner_is_nearest(i, n, margin_)) {
+          add(ContactKind::kVertexEdge, n, x, gap);
+        }
+        break;
+      case Region::kVertex:
+        if (obstacle_.owns_corner(on.index) && obstacle_.corner_is_nearest(on.index, n, margin_) &&
+            part_.corner_is_nearest(i, n, margin_)) {
+          add(ContactKind::kVertexVertex, n, x, gap);
+        }
+        break;
+    }
+  }
+
+  void search_obstacle_corner(int i) {
+    const Eigen::Vector3d& y = obstacle_.corner(i);
+    const ClosestOnTriangle on = closest_on_triangle(y, part_.points());
+    Eigen::Vector3d n;
+    const double gap = gap_and_normal(y, on.point, n);
+    if (gap < 0.0 || on.region == Region::kVertex) return;  // vertex–vertex is found from the part's side
+    if (on.region == Region::kFace) {
+      add(ContactKind::kFaceVertex, n, on.point, gap);
+    } else if (part_.owns_edge(on.index) && part_.edge_is_nearest(on.index, n, margin_) &&
+               obstacle_.corner_is_nearest(i, n, margin_)) {
+      add(ContactKind::kEdgeVertex, n, on.point, gap);
+    }
+  }
+
+  void search_part_edge(int i) {
+    for (int j = 0; j < 3; ++j) {
+      if (!obstacle_.owns_edge(j)) continue;
+      SegmentPoints closest;
+      if (!interior_closest_points(part_.corner(i), part_.corner((i + 1) % 3), obstacle_.corner(j),
+                                   obstacle_.corner((j + 1) % 3), closest)) {
+        continue;
+      }
+      Eigen::Vector3d n;
+      const double gap = gap_and_normal(closest.q, closest.p, n);
+      if (gap < 0.0 || !part_.edge_is_nearest(i, n, margin_) || !obstacle_.edge_is_nearest(j, n, margin_)) continue;
+      add(ContactKind::kEdgeEdge, n, closest.p, gap);
+    }
+  }
+
+  /// The gap between a point of the obstacle and one of the part, −1 where it is out of reach or has no direction.
+  double gap_and_normal(const Eigen::Vector3d& q, const Eigen::Vector3d& p, Eigen::Vector3d& n) const {
+    n = p - q;
+    const double gap = n.norm();
+    if (gap > reach_ || gap == 0.0) return -1.0;
+    n /= gap;
+    return gap;
+  }
+
+  void add(ContactKind kind, const Eigen::Vector3d& n, const Eigen::Vector3d& p, double gap) {
+    contacts_.push_back({kind, part_.triangle(), obstacle_.triangle(), n, p, gap});
+  }
+
+  Side part_;
+  Side obstacle_;
+  double reach_;
+  double margin_;
+  std::vector<Contact>& contacts_;
+};
+
+}  // namespace
+
+void find_contacts(const ContactBody& obstacles_W, const SlidingPart& part_V, const Eigen::Isometry3d& X_WV,
+                   std::span<const CandidatePair> candidates, double reach, double margin,
+                   std::vector<Contact>& contacts) {
+  contacts.clear();
+  ContactSearch search(obstacles_W, part_V, X_WV, reach, margin, contacts);
+  for (const CandidatePair& pair : candidates)
+    search.search(pair);
+}
+
+}  // namespace glissade::haptics

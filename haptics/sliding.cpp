@@ -1,0 +1,220 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <glissade/haptics/contact_search.h>
+#include <glissade/haptics/sliding.h>
+
+namespace glissade::haptics {
+namespace {
+
+constexpr double kDefaultStiffness_N_per_m = 1000.0;
+constexpr double kSmallestReach_m = 30e-6;
+constexpr double kLargestReach_m = 3e-3;
+constexpr double kSlew_m = 0.2e-3;  // what the part may catch up per tick with a ghost at rest
+constexpr int kProjections = 4;     // the first, and three more with rows for what could not be proved
+constexpr int kHalvings = 6;
+constexpr int kDampings = 4;
+
+CouplingStiffness default_stiffness(const SlidingPart& part_V) {
+  return {kDefaultStiffness_N_per_m, kDefaultStiffness_N_per_m * part_V.radius() * part_V.radius()};
+}
+
+}  // namespace
+
+std::optional<Metaphor> metaphor_from_name(std::string_view name) {
+  if (name == "force-feedback") return Metaphor::kForceFeedback;
+  if (name == "rubber-band-spring") return Metaphor::kRubberBandSpring;
+  return std::nullopt;
+}
+
+std::string_view name_of(SlidingState state) {
+  switch (state) {
+    case SlidingState::kFree:
+      return "free";
+    case SlidingState::kSliding:
+      return "sliding";
+    case SlidingState::kResting:
+      return "resting";
+    case SlidingState::kCatchingUp:
+      return "catching-up";
+  }
+  return "unknown";
+}
+
+Sliding::Sliding(std::shared_ptr<const ContactBody> obstacles_W, std::shared_ptr<const SlidingPart> part_V,
+                 const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options)
+    : obstacles_W_(std::move(obstacles_W)),
+      part_V_(std::move(part_V)),
+      stiffness_(options.stiffness.value_or(default_stiffness(*part_V_))),
+      metaphor_(options.metaphor),
+      max_cycles_(options.max_cycles),
+      margin_(std::clamp(1e-4 * part_V_->radius(), 2e-6, 10e-6)),
+      candidates_(*obstacles_W_, *part_V_),
+      certificate_(*obstacles_W_, *part_V_, kFloorOfMargin * margin_) {
+  collision::QueryWorkspace workspace;
+  if (collision::intersects(obstacles_W_->tree, part_V_->tree, X_WV_start, workspace)) {
+    throw std::invalid_argument("the part collides with an obstacle at its start pose");
+  }
+  result_.X_WG = X_WV_start;
+  result_.X_WV = X_WV_start;
+}
+
+const SlidingResult& Sliding::advance(const Eigen::Isometry3d& X_WG) {
+  ghost_motion_ = motion_bound(displacement_between(result_.X_WG, X_WG, part_V_->p_Vref()), part_V_->radius());
+  result_.X_WG = X_WG;
+  double budget =
+      metaphor_ == Metaphor::kForceFeedback ? kSlew_m + 2.0 * ghost_motion_ : std::numeric_limits<double>::infinity();
+  double moved = 0.0;
+  for (result_.cycles = 1;; ++result_.cycles) {
+    const Step step = cycle(X_WG, budget);
+    budget -= step.length;
+    moved += step.length;
+    if (step.arrives || step.length < 0.05 * margin_ || result_.cycles == max_cycles_) break;
+  }
+  result_.state = classify(moved);
+  return result_;
+}
+
+/// One cycle: look around, project, prove, move.
+Sliding::Step Sliding::cycle(const Eigen::Isometry3d& X_WG, double budget) {
+  result_.reach = choose_reach(budget);
+  if (!candidates_.covers(result_.reach)) {
+    candidates_.refresh(result_.X_WV, result_.reach + std::clamp(4.0 * ghost_motion_, 30e-6, 0.5e-3));
+  }
+  find_rows();
+
+  const Displacement wanted = displacement_between(result_.X_WV, X_WG, part_V_->p_Vref());
+  const double energy_before = energy(wanted);
+  // Contacts that ask for their margin back may cost energy; a step that gains any beyond that went over a bend of the
+  // contact that the projection did not see, and is tried again with damping.
+  const double allowance = 2.0 * margin_ * std::sqrt(2.0 * energy_before * stiffness_.translational) +
+                           stiffness_.translational * margin_ * margin_;
+  Step step;
+  for (int trial = 0; trial < kDampings; ++trial) {
+    step = certified_step(wanted.scaled(1.0 / (1.0 + damping_)), budget);
+    step.arrives = step.arrives && damping_ == 0.0;
+    const Displacement remaining =
+        displacement_between(displaced(result_.X_WV, part_V_->p_Vref(), step.displacement), X_WG, part_V_->p_Vref());
+    if (step.arrives || energy(remaining) <= energy_before + allowance) {
+      damping_ = damping_ < 0.1 ? 0.0 : 0.25 * damping_;
+      apply(step, X_WG);
+      return step;
+    }
+    damping_ = std::max(0.5, 4.0 * damping_);
+  }
+  const Step none{{}, 0.0, false, true};
+  apply(none, X_WG);
+  return none;
+}
+
+double Sliding::choose_reach(double budget) const {
+  double reach = 1.5 * std::max(ghost_motion_, last_step_) + 2.0 * margin_;
+  if (last_clipped_) reach *= 2.0;
+  return std::clamp(std::min(reach, budget + 2.0 * margin_), kSmallestReach_m, kLargestReach_m);
+}
+
+void Sliding::find_rows() {
+  find_contacts(*obstacles_W_, *part_V_, result_.X_WV, candidates_.within(result_.reach), result_.reach, margin_,
+                result_.contacts);
+  result_.X_WV_of_contacts = result_.X_WV;
+  const Eigen::Vector3d p_Wref = result_.X_WV * part_V_->p_Vref();
+  rows_.clear();
+  for (const Contact& contact : result_.contacts) {
+    // A contact nearer than the margin asks for some of it back.
+    const double missing = margin_ - contact.gap;
+    const double bound = missing > 0.0 ? 0.7 * missing : missing;
+    rows_.push_back({contact.n_W, contact.p_W - p_Wref, bound});
+  }
+}
+
+/// The largest step towards `wanted` that can be proved free.
+Sliding::Step Sliding::certified_step(const Displacement& wanted, double budget) {
+  rows_.resize(result_.contacts.size());
+  Step step;
+  bool proved = false;
+  for (int projection = 0; projection < kProjections && !proved; ++projection) {
+    if (projection > 0) add_rows_for_failures();
+    const Displacement d = project_on_rows(wanted);
+    const double fraction = allowed_fraction(d, budget);
+    step.displacement = d.scaled(fraction);
+    step.clipped = fraction < 1.0;
+    step.length = motion_bound(step.displacement, part_V_->radius());
+    proved = certificate_.prove(result_.X_WV, step.displacement, candidates_.within(step.length + floor()), failures_);
+  }
+  for (int halving = 0; halving < kHalvings && !proved; ++halving) {
+    step.displacement = step.displacement.scaled(0.5);
+    step.clipped = true;
+    step.length = motion_bound(step.displacement, part_V_->radius());
+    proved = certificate_.prove(result_.X_WV, step.displacement, candidates_.within(step.length + floor()), failures_);
+  }
+  if (!proved) return Step{{}, 0.0, false, true};
+  step.arrives = !step.clipped && projection_.active_count == 0;
+  return step;
+}
+
+Displacement Sliding::project_on_rows(const Displacement& wanted) {
+  projection_ = project(wanted, stiffness_, rows_);
+  if (projection_.status == ProjectionStatus::kInfeasible) {
+    // Not every contact can have its margin back. Standing still is always allowed.
+    for (ConstraintRow& row : rows_)
+      row.bound = std::min(row.bound, 0.0);
+    projection_ = project(wanted, stiffness_, rows_);
+  }
+  if (projection_.status != ProjectionStatus::kSolved) projection_ = Projection{};
+  return projection_.displacement;
+}
+
+/// How much of a displacement the reach, the slew and the linearisation of rotations allow.
+double Sliding::allowed_fraction(const Displacement& d, double budget) const {
+  const double length = motion_bound(d, part_V_->radius());
+  const double longest = std::min(result_.reach - margin_, budget);
+  double fraction = length > longest ? std::max(0.0, longest) / length : 1.0;
+  const double angle = d.w.norm();
+  const double largest_angle = std::sqrt(margin_ / part_V_->radius());
+  if (!rows_.empty() && angle * fraction > largest_angle) fraction = largest_angle / angle;
+  return fraction;
+}
+
+/// Keeps each triangle of the part that could not be proved apart on its side of the plane that separated it.
+void Sliding::add_rows_for_failures() {
+  const auto& obstacles = obstacles_W_->tree.mesh();
+  const auto& part = part_V_->tree.mesh();
+  const Eigen::Vector3d p_Wref = result_.X_WV * part_V_->p_Vref();
+  for (const UncertifiedPair& failure : failures_) {
+    double top = -std::numeric_limits<double>::infinity();
+    for (int c = 0; c < 3; ++c)
+      top = std::max(top, failure.n_W.dot(obstacles.corner(failure.obstacle_triangle, c)));
+    for (int c = 0; c < 3; ++c) {
+      const Eigen::Vector3d x_W = result_.X_WV * part.corner(failure.part_triangle, c);
+      const double gap = failure.n_W.dot(x_W) - top;
+      rows_.push_back({failure.n_W, x_W - p_Wref, std::min(0.0, margin_ - gap)});
+    }
+  }
+}
+
+double Sliding::energy(const Displacement& error) const {
+  return 0.5 * (stiffness_.translational * error.v.squaredNorm() + stiffness_.rotational * error.w.squaredNorm());
+}
+
+void Sliding::apply(const Step& step, const Eigen::Isometry3d& X_WG) {
+  for (int i = 0; i < projection_.active_count; ++i) {
+    const auto slot = static_cast<std::size_t>(i);
+    const auto row = static_cast<std::size_t>(projection_.active[slot]);
+    if (row < result_.contacts.size()) result_.contacts[row].force = projection_.force[slot];
+  }
+  result_.pushing = projection_.active_count;
+  // An arrival copies the ghost's pose, so that the coupling wrench is zero and not merely small.
+  result_.X_WV = step.arrives ? X_WG : displaced(result_.X_WV, part_V_->p_Vref(), step.displacement);
+  candidates_.moved(step.length);
+  last_step_ = step.length;
+  last_clipped_ = step.clipped;
+}
+
+SlidingState Sliding::classify(double moved) const {
+  if (result_.X_WV.matrix() == result_.X_WG.matrix()) return SlidingState::kFree;
+  if (result_.pushing == 0) return SlidingState::kCatchingUp;
+  return moved > 0.05 * margin_ ? SlidingState::kSliding : SlidingState::kResting;
+}
+
+}  // namespace glissade::haptics

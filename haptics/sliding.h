@@ -1,0 +1,133 @@
+#pragma once
+
+/// Sliding contact (paper §3): the visible part follows the ghost as nearly as the obstacles allow, and is never inside
+/// anything, neither at rest nor on its way.
+///
+/// The method is sequential projection with a margin and a certificate. Each cycle finds the contacts within reach,
+/// projects the wanted displacement on what they allow, in the metric of the coupling, and takes the step only when
+/// every triangle pair within reach is proved apart on its whole path. The paper's bisection finds the instant of
+/// contact instead and derives a new direction from it; at that instant the gap is zero, where a closed predicate
+/// already says "colliding" and no further motion is possible, so here contacts hold the part one margin away.
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/haptics/candidate_pairs.h>
+#include <glissade/haptics/contact.h>
+#include <glissade/haptics/contact_body.h>
+#include <glissade/haptics/motion.h>
+#include <glissade/haptics/path_certificate.h>
+#include <glissade/haptics/projection.h>
+
+namespace glissade::haptics {
+
+/// How hand and part are tied (paper §3).
+enum class Metaphor : std::uint8_t {
+  kForceFeedback,     ///< rigid grasp; the device holds the hand back, and the part catches up at a limited speed
+  kRubberBandSpring,  ///< the part is tied to the ghost by a rubber band and a spiral spring and catches up at once
+};
+
+/// The metaphor called `name` on the command line ("force-feedback", "rubber-band-spring"); none for any other name.
+std::optional<Metaphor> metaphor_from_name(std::string_view name);
+
+enum class SlidingState : std::uint8_t {
+  kFree,        ///< visible part and ghost coincide
+  kSliding,     ///< contacts push, the part moves along them
+  kResting,     ///< contacts push, the part stands still
+  kCatchingUp,  ///< nothing pushes, but the part has not reached the ghost yet
+};
+
+std::string_view name_of(SlidingState state);
+
+struct SlidingOptions {
+  Metaphor metaphor = Metaphor::kForceFeedback;
+  /// By default 1000 N/m, and as much against rotation as that gives at the part's radius: k_r = k_t ρ².
+  std::optional<CouplingStiffness> stiffness;
+  /// Projection cycles in one call: more follow corners more closely, fewer bound the work.
+  int max_cycles = 10;
+};
+
+/// What one call of `advance` led to.
+struct SlidingResult {
+  Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< the ghost
+  Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part
+  SlidingState state = SlidingState::kFree;
+  /// The contacts of the last cycle and the pose they were found at; those with a force push.
+  std::vector<Contact> contacts;
+  Eigen::Isometry3d X_WV_of_contacts = Eigen::Isometry3d::Identity();
+  double reach = 0.0;  ///< metres from that pose within which contacts were looked for
+  int pushing = 0;     ///< number of contacts with a force
+  int cycles = 0;
+};
+
+/// The simulation of one part among fixed obstacles. Deterministic: the same calls give the same bits.
+/// Not thread-safe; several simulations may share bodies.
+class Sliding {
+ public:
+  /// `obstacles_W` in world coordinates. Throws std::invalid_argument when the part collides at X_WV_start.
+  Sliding(std::shared_ptr<const ContactBody> obstacles_W, std::shared_ptr<const SlidingPart> part_V,
+          const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options = {});
+
+  Sliding(const Sliding&) = delete;
+  Sliding& operator=(const Sliding&) = delete;
+
+  /// Moves the visible part towards the ghost, once per millisecond of motion.
+  const SlidingResult& advance(const Eigen::Isometry3d& X_WG);
+
+  const SlidingResult& result() const { return result_; }
+  const SlidingPart& part() const { return *part_V_; }
+  const CouplingStiffness& stiffness() const { return stiffness_; }
+  /// Metres at which contacts hold the part away: 1e-4 ρ, but 2 to 10 µm.
+  double margin() const { return margin_; }
+  /// Metres that every certified path keeps away from everything.
+  double floor() const { return kFloorOfMargin * margin_; }
+  std::int64_t tree_queries() const { return candidates_.queries(); }
+
+  static constexpr double kFloorOfMargin = 0.3;
+
+ private:
+  /// A displacement that is proved free, and what led to it.
+  struct Step {
+    Displacement displacement;
+    double length = 0.0;   ///< its motion bound, metres
+    bool arrives = false;  ///< nothing shortened or turned it
+    bool clipped = false;  ///< shortened by the reach, the slew or a missing proof
+  };
+
+  Step cycle(const Eigen::Isometry3d& X_WG, double budget);
+  double choose_reach(double budget) const;
+  void find_rows();
+  Step certified_step(const Displacement& wanted, double budget);
+  Displacement project_on_rows(const Displacement& wanted);
+  double allowed_fraction(const Displacement& d, double budget) const;
+  void add_rows_for_failures();
+  double energy(const Displacement& error) const;
+  void apply(const Step& step, const Eigen::Isometry3d& X_WG);
+  SlidingState classify(double moved) const;
+
+  std::shared_ptr<const ContactBody> obstacles_W_;
+  std::shared_ptr<const SlidingPart> part_V_;
+  CouplingStiffness stiffness_;
+  Metaphor metaphor_;
+  int max_cycles_;
+  double margin_;
+  CandidatePairs candidates_;
+  PathCertificate certificate_;
+
+  SlidingResult result_;
+  std::vector<ConstraintRow> rows_;  // one for each contact, then those of failed proofs
+  Projection projection_;
+  std::vector<UncertifiedPair> failures_;
+  double ghost_motion_ = 0.0;  // metres, of this tick
+  double last_step_ = 0.0;     // metres
+  bool last_clipped_ = false;
+  double damping_ = 0.0;  // Levenberg–Marquardt
+};
+
+}  // namespace glissade::haptics
