@@ -1,0 +1,23 @@
+#include "generator_checks.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace glissade::collision {
+
+void require_positive(const char* name, double value) {
+  if (std::isfinite(value) && value > 0) return;
+  std::ostringstream message;
+  message << name << " must be positive and finite, but is " << value << ".";
+  throw std::invalid_argument(message.str());
+}
+
+void require_triangle_count(std::int64_t triangle_count) {
+  if (triangle_count >= 1 && triangle_count <= 50'000'000) return;
+  std::ostringstream message;
+  message << "triangle_count must be from 1 to 50000000, but is " << triangle_count << ".";
+  throw std::invalid_argument(message.str());
+}
+
+}  // namespace glissade::collision

@@ -1,0 +1,58 @@
+#include <algorithm>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/collision/mesh_generators.h>
+#include <glissade/collision/mesh_operations.h>
+#include <glissade/collision/mesh_report.h>
+
+namespace glissade::collision {
+namespace {
+
+TEST(MeshOperations, MergeKeepsPartsSeparate) {
+  const std::vector<TriangleMesh> parts{make_box({1, 1, 1}, 12), make_sphere(1, 200)};
+  const MeshReport merged = report(merge(parts));
+  EXPECT_EQ(merged.components, 2);
+  EXPECT_TRUE(merged.is_watertight);
+  EXPECT_NEAR(merged.area, report(parts[0]).area + report(parts[1]).area, 1e-12);
+}
+
+TEST(MeshOperations, TransformedMovesEveryVertex) {
+  Eigen::Isometry3d X_AB = Eigen::Isometry3d::Identity();
+  X_AB.rotate(Eigen::AngleAxisd(0.5, Eigen::Vector3d(1, 2, 3).normalized()));
+  X_AB.pretranslate(Eigen::Vector3d(1, 2, 3));
+  const TriangleMesh mesh_B = make_box({1, 2, 3}, 12);
+  const TriangleMesh mesh_A = transformed(mesh_B, X_AB);
+  EXPECT_EQ(mesh_A.triangles, mesh_B.triangles);
+  for (std::size_t i = 0; i < mesh_B.vertices.size(); ++i) {
+    EXPECT_TRUE(mesh_A.vertices[i].isApprox(X_AB * mesh_B.vertices[i]));
+  }
+}
+
+TEST(MeshOperations, FlipRandomlyTurnsAboutHalfOfTheTriangles) {
+  const TriangleMesh mesh = make_plate({1, 1}, 2000);
+  const TriangleMesh flipped = flip_randomly(mesh, 7);
+  std::size_t turned = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (flipped.triangles[t] != mesh.triangles[t]) ++turned;
+    EXPECT_TRUE(
+        std::is_permutation(flipped.triangles[t].begin(), flipped.triangles[t].end(), mesh.triangles[t].begin()));
+  }
+  EXPECT_NEAR(static_cast<double>(turned), 1000, 150) << "seed 7";
+  EXPECT_EQ(flip_randomly(mesh, 7).triangles, flipped.triangles);
+  EXPECT_NE(flip_randomly(mesh, 8).triangles, flipped.triangles);
+}
+
+TEST(MeshOperations, WeldJoinsIdenticalPositionsOnly) {
+  TriangleMesh soup;
+  soup.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, -0.0}, {1, 1, 0}, {0, 1, 1e-300}, {9, 9, 9}};
+  soup.triangles = {{0, 1, 2}, {3, 4, 5}};
+  const TriangleMesh welded = weld(soup);
+  EXPECT_EQ(welded.vertices.size(), 5U) << "one shared vertex; one differs by very little; one is unused";
+  const std::vector<Triangle> expected{{0, 1, 2}, {1, 3, 4}};
+  EXPECT_EQ(welded.triangles, expected);
+}
+
+}  // namespace
+}  // namespace glissade::collision

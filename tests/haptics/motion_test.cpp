@@ -1,0 +1,59 @@
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <glissade/haptics/motion.h>
+
+namespace glissade::haptics {
+namespace {
+
+constexpr unsigned kSeed = 7;
+
+class Motion : public ::testing::Test {
+ protected:
+  Eigen::Vector3d random_vector() { return {uniform_(generator_), uniform_(generator_), uniform_(generator_)}; }
+  Eigen::Isometry3d random_pose() {
+    return displaced(Eigen::Isometry3d::Identity(), Eigen::Vector3d::Zero(), {random_vector(), 3.0 * random_vector()});
+  }
+  std::mt19937 generator_{kSeed};
+  std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
+};
+
+TEST_F(Motion, DisplacementBetweenTwoPosesTakesOneToTheOther) {
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Isometry3d X_WV = random_pose();
+    const Eigen::Isometry3d X_WG = random_pose();
+    const Eigen::Vector3d p_Vref = random_vector();
+    const Displacement d = displacement_between(X_WV, X_WG, p_Vref);
+    EXPECT_TRUE(displaced(X_WV, p_Vref, d).isApprox(X_WG, 1e-12));
+  }
+}
+
+TEST_F(Motion, RotatesAboutTheReferencePoint) {
+  const Eigen::Vector3d p_Vref(0.1, 0.2, 0.3);
+  const Displacement turn{Eigen::Vector3d::Zero(), {0.0, 0.0, std::numbers::pi / 2}};
+  const Eigen::Isometry3d X = displaced(Eigen::Isometry3d::Identity(), p_Vref, turn);
+  EXPECT_TRUE((X * p_Vref).isApprox(p_Vref));
+  EXPECT_TRUE((X * Eigen::Vector3d(p_Vref + Eigen::Vector3d::UnitX())).isApprox(p_Vref + Eigen::Vector3d::UnitY()));
+}
+
+TEST_F(Motion, NoPointMovesMoreThanTheBoundAtAnyMoment) {
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  const double radius = 0.5;
+  for (int i = 0; i < 200; ++i) {
+    const Displacement d{0.1 * random_vector(), random_vector()};
+    const Eigen::Vector3d x = radius * random_vector().normalized();
+    for (const double t : {0.1, 0.5, 0.9, 1.0}) {
+      const Eigen::Isometry3d X = displaced(Eigen::Isometry3d::Identity(), Eigen::Vector3d::Zero(), d.scaled(t));
+      EXPECT_LE((X * x - x).norm(), motion_bound(d, radius) * (1.0 + 1e-12));
+    }
+  }
+  // ... and the bound is attained by a half turn.
+  EXPECT_DOUBLE_EQ(motion_bound({Eigen::Vector3d::Zero(), {std::numbers::pi, 0, 0}}, radius), 2.0 * radius);
+}
+
+}  // namespace
+}  // namespace glissade::haptics

@@ -1,0 +1,189 @@
+// Sliding against optima known in closed form: a box pressed against a plane, into a groove and into a corner, and thin
+// sheets at speed.
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/collision/mesh_generators.h>
+#include <glissade/collision/mesh_operations.h>
+#include <glissade/haptics/coupling.h>
+#include <glissade/haptics/sliding.h>
+
+namespace glissade::haptics {
+namespace {
+
+using collision::TriangleMesh;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+const Vector3d kBoxSize(0.1, 0.06, 0.04);
+
+/// How finely the faces are cut, and whether their triangles are turned at random.
+struct Tessellation {
+  std::int64_t triangles;
+  bool flipped;
+};
+
+std::shared_ptr<const ContactBody> body(const std::vector<TriangleMesh>& meshes, const Tessellation& tessellation) {
+  TriangleMesh mesh = collision::merge(meshes);
+  if (tessellation.flipped) mesh = collision::flip_randomly(mesh, 17);
+  return std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(std::move(mesh)));
+}
+
+std::shared_ptr<const SlidingPart> box_part(const Tessellation& tessellation) {
+  TriangleMesh mesh = collision::make_box(kBoxSize, tessellation.triangles);
+  if (tessellation.flipped) mesh = collision::flip_randomly(mesh, 18);
+  return std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(std::move(mesh)));
+}
+
+/// A square sheet of 0.5 m through the origin, with the given normal.
+TriangleMesh sheet(const Vector3d& normal, const Tessellation& tessellation) {
+  Isometry3d X = Isometry3d::Identity();
+  X.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal).toRotationMatrix();
+  return collision::transformed(collision::make_plate({0.5, 0.5}, tessellation.triangles), X);
+}
+
+Isometry3d at(const Vector3d& p, const Eigen::Quaterniond& q = Eigen::Quaterniond::Identity()) {
+  Isometry3d X = Isometry3d::Identity();
+  X.linear() = q.toRotationMatrix();
+  X.translation() = p;
+  return X;
+}
+
+/// Leads the ghost in a straight line for some milliseconds, and lets `check` see every one of them.
+template <typename Check>
+void lead(Sliding& sliding, const Isometry3d& X_WG_to, int milliseconds, const Check& check) {
+  const Isometry3d X_WG_from = sliding.result().X_WG;
+  const Eigen::Quaterniond q_from(X_WG_from.linear());
+  for (int i = 1; i <= milliseconds; ++i) {
+    const double t = static_cast<double>(i) / milliseconds;
+    const Vector3d p = (1.0 - t) * X_WG_from.translation() + t * X_WG_to.translation();
+    check(sliding.advance(at(p, q_from.slerp(t, Eigen::Quaterniond(X_WG_to.linear())))));
+  }
+}
+
+class BoxOnFaces : public ::testing::TestWithParam<Tessellation> {
+ protected:
+  const Tessellation& tessellation() const { return GetParam(); }
+};
+
+TEST_P(BoxOnFaces, PressedOnAPlaneItFollowsTheGhostAlongIt) {
+  Sliding sliding(body({sheet(Vector3d::UnitZ(), tessellation())}, tessellation()), box_part(tessellation()),
+                  at({-0.1, 0.0, 0.03}));
+  lead(sliding, at({-0.1, 0.0, 0.017}), 200, [](const SlidingResult&) {});  // 3 mm into the plane
+  lead(sliding, at({0.1, 0.05, 0.017}), 500, [&](const SlidingResult& result) {
+    Vector3d optimum = result.X_WG.translation();
+    optimum.z() = 0.5 * kBoxSize.z();
+    ASSERT_LT((result.X_WV.translation() - optimum).norm(), 2.0 * sliding.margin());
+    ASSERT_LT(Eigen::AngleAxisd(result.X_WV.linear()).angle(), 1e-4);
+  });
+}
+
+TEST_P(BoxOnFaces, PressedIntoAGrooveItFollowsTheGhostAlongIt) {
+  const Vector3d left = Vector3d(1.0, 0.0, 1.0).normalized();
+  const Vector3d right = Vector3d(-1.0, 0.0, 1.0).normalized();
+  const Eigen::Quaterniond q_45(Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitY()));
+  // With two faces flush in the groove, the box's centre is half its height and half its length away from its sides.
+  const Vector3d seat = 0.5 * kBoxSize.z() * left + 0.5 * kBoxSize.x() * right;
+  const auto along = [&](double y) { return Vector3d(seat.x(), y, seat.z()); };
+  Sliding sliding(body({sheet(left, tessellation()), sheet(right, tessellation())}, tessellation()),
+                  box_part(tessellation()), at(along(-0.1) + Vector3d(0, 0, 0.01), q_45));
+  lead(sliding, at(along(-0.1) + Vector3d(0.001, 0, -0.003), q_45), 200, [](const SlidingResult&) {});
+  lead(sliding, at(along(0.1) + Vector3d(0.001, 0, -0.003), q_45), 500, [&](const SlidingResult& result) {
+    const Vector3d optimum = along(result.X_WG.translation().y());
+    ASSERT_LT((result.X_WV.translation() - optimum).norm(), 2.0 * sliding.margin());
+  });
+}
+
+TEST_P(BoxOnFaces, PressedIntoACornerItStopsThere) {
+  Sliding sliding(body({sheet(Vector3d::UnitX(), tessellation()), sheet(Vector3d::UnitY(), tessellation()),
+                        sheet(Vector3d::UnitZ(), tessellation())},
+                       tessellation()),
+                  box_part(tessellation()), at({0.06, 0.04, 0.03}));
+  const Vector3d seat = 0.5 * kBoxSize;
+  lead(sliding, at(seat - Vector3d(2e-3, 3e-3, 4e-3)), 200, [](const SlidingResult&) {});
+  lead(sliding, at(seat - Vector3d(4e-3, 2e-3, 1e-3)), 200, [&](const SlidingResult& result) {
+    ASSERT_LT((result.X_WV.translation() - seat).norm(), 2.0 * sliding.margin());
+    ASSERT_LT(Eigen::AngleAxisd(result.X_WV.linear()).angle(), 1e-4);
+    const Wrench wrench =
+        spring_wrench(sliding.stiffness(), displacement_between(result.X_WV, result.X_WG, sliding.part().p_Vref()));
+    // The springs of the three axes, each shortened by the margin at most.
+    const Vector3d expected = sliding.stiffness().translational * (seat - result.X_WG.translation());
+    ASSERT_LT((wrench.f - expected).norm(), sliding.stiffness().translational * 2.0 * sliding.margin());
+  });
+}
+
+TEST_P(BoxOnFaces, TheWrenchIsExactlyZeroWheneverNothingIsInTheWay) {
+  Sliding sliding(body({sheet(Vector3d::UnitZ(), tessellation())}, tessellation()), box_part(tessellation()),
+                  at({-0.1, 0.0, 0.03}));
+  const auto no_wrench = [&](const SlidingResult& result) {
+    const Wrench wrench =
+        spring_wrench(sliding.stiffness(), displacement_between(result.X_WV, result.X_WG, sliding.part().p_Vref()));
+    ASSERT_EQ(result.state, SlidingState::kFree);
+    ASSERT_EQ(wrench.f, Vector3d::Zero());
+    ASSERT_EQ(wrench.t, Vector3d::Zero());
+  };
+  const Eigen::Quaterniond q_tilted(Eigen::AngleAxisd(0.4, Vector3d(1.0, 2.0, 3.0).normalized()));
+  lead(sliding, at({0.1, 0.02, 0.06}, q_tilted), 300, no_wrench);
+  lead(sliding, at({0.0, 0.0, 0.03}), 300, no_wrench);
+  lead(sliding, at({0.0, 0.0, 0.01}), 100, [](const SlidingResult&) {});
+  EXPECT_EQ(sliding.result().state, SlidingState::kResting);
+  lead(sliding, at({0.0, 0.0, 0.03}), 300, [](const SlidingResult&) {});
+  lead(sliding, at({0.02, 0.0, 0.03}), 10, no_wrench);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tessellations, BoxOnFaces,
+                         ::testing::Values(Tessellation{12, false}, Tessellation{1200, false},
+                                           Tessellation{1200, true}),
+                         [](const auto& info) {
+                           return std::to_string(info.param.triangles) + (info.param.flipped ? "Flipped" : "");
+                         });
+
+TEST(Sliding, AThinSheetAtFiveMetresPerSecondIsNeverCrossed) {
+  const Tessellation tessellation{400, true};
+  const auto obstacle = body({sheet(Vector3d::UnitZ(), tessellation)}, tessellation);
+  TriangleMesh plate = collision::flip_randomly(collision::make_plate({0.1, 0.06}, 200), 3);
+  const auto part = std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(std::move(plate)));
+  for (const Metaphor metaphor : {Metaphor::kForceFeedback, Metaphor::kRubberBandSpring}) {
+    for (const double side : {1.0, -1.0}) {
+      for (const double tilt : {0.0, 0.02, 0.7, std::numbers::pi / 2}) {
+        const Eigen::Quaterniond q(Eigen::AngleAxisd(tilt, Vector3d::UnitX()));
+        Sliding sliding(obstacle, part, at({0.0, 0.0, 0.1 * side}, q), {.metaphor = metaphor});
+        lead(sliding, at({0.01, 0.02, -0.3 * side}, q), 80, [&](const SlidingResult& result) {
+          for (const Vector3d& x_V : part->tree.mesh().vertices)
+            ASSERT_GT(side * (result.X_WV * x_V).z(), 0.0);
+        });
+        EXPECT_NE(sliding.result().state, SlidingState::kFree);
+        EXPECT_GT(sliding.result().pushing, 0);
+      }
+    }
+  }
+}
+
+TEST(Sliding, WillNotStartInsideAnything) {
+  const Tessellation tessellation{12, false};
+  const auto obstacle = body({sheet(Vector3d::UnitZ(), tessellation)}, tessellation);
+  EXPECT_THROW(Sliding(obstacle, box_part(tessellation), at({0.0, 0.0, 0.01})), std::invalid_argument);
+}
+
+TEST(Sliding, TheSameGhostGivesTheSameBits) {
+  const Tessellation tessellation{1200, true};
+  const auto obstacle =
+      body({sheet(Vector3d::UnitZ(), tessellation), sheet(Vector3d::UnitX(), tessellation)}, tessellation);
+  const auto part = box_part(tessellation);
+  const auto run = [&] {
+    std::vector<Eigen::Matrix4d> poses;
+    Sliding sliding(obstacle, part, at({0.1, 0.0, 0.03}));
+    lead(sliding, at({0.03, 0.02, 0.01}, Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Vector3d::UnitY()))), 200,
+         [&](const SlidingResult& result) { poses.push_back(result.X_WV.matrix()); });
+    return poses;
+  };
+  EXPECT_EQ(run(), run());
+}
+
+}  // namespace
+}  // namespace glissade::haptics
