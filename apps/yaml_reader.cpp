@@ -41,17 +41,24 @@ void YamlReader::fail(const YAML::Node& node, const std::string& message) const 
   throw std::invalid_argument(where(node) + ": " + message);
 }
 
-void YamlReader::check_keys(const YAML::Node& map, const std::string& what,
-                            const std::vector<std::string>& known) const {
-  if (!map.IsMap()) fail(map, what + " must be a map with the keys " + joined(known) + ", not " + shown(map));
+void YamlReader::check_map(const YAML::Node& map, const std::string& what) const {
+  if (!map.IsMap()) fail(map, what + " must be a map of keys and values, not " + shown(map));
   std::set<std::string> seen;
   for (const auto& entry : map) {
     if (!entry.first.IsScalar()) fail(entry.first, what + ": a key must be text, not " + shown(entry.first));
     const std::string& key = entry.first.Scalar();
+    if (!seen.insert(key).second) fail(entry.first, what + ": the key " + in_quotes(key) + " is given twice");
+  }
+}
+
+void YamlReader::check_keys(const YAML::Node& map, const std::string& what,
+                            const std::vector<std::string>& known) const {
+  check_map(map, what);
+  for (const auto& entry : map) {
+    const std::string& key = entry.first.Scalar();
     if (std::find(known.begin(), known.end(), key) == known.end()) {
       fail(entry.first, what + ": unknown key " + in_quotes(key) + " (known: " + joined(known) + ")");
     }
-    if (!seen.insert(key).second) fail(entry.first, what + ": the key " + in_quotes(key) + " is given twice");
   }
 }
 

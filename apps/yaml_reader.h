@@ -25,7 +25,10 @@ class YamlReader {
   /// Throws for `node` with the sentence `message`.
   [[noreturn]] void fail(const YAML::Node& node, const std::string& message) const;
 
-  /// Checks that `map` (called `what` in messages) is a map with none but the keys `known`, each at most once.
+  /// Checks that `map` (called `what` in messages) is a map whose keys are texts and differ.
+  void check_map(const YAML::Node& map, const std::string& what) const;
+
+  /// The same, with none but the keys `known`.
   void check_keys(const YAML::Node& map, const std::string& what, const std::vector<std::string>& known) const;
 
   /// The value of `key`, which must be there.
