@@ -87,6 +87,10 @@ class ObjReader {
     if (words_.size() < 4) {
       reject(path_, where_ + ": a face needs at least 3 corners, but has " + std::to_string(words_.size() - 1));
     }
+    if (words_.size() - 1 > kMostCorners) {
+      reject(path_, where_ + ": a face of " + std::to_string(words_.size() - 1) + " corners, at most " +
+                        std::to_string(kMostCorners) + " are supported");
+    }
     face_begins_.push_back(corners_.size());
     for (std::size_t i = 1; i < words_.size(); ++i) {
       const std::int64_t index = corner(words_[i]);

@@ -284,6 +284,10 @@ class PlyReader {
     if (is_face && count < 3) {
       reject(path_, where + ": a face needs at least 3 corners, but has " + std::to_string(static_cast<int>(count)));
     }
+    if (is_face && count > static_cast<double>(kMostCorners)) {
+      reject(path_, where + ": a face of " + std::to_string(static_cast<std::int64_t>(count)) + " corners, at most " +
+                        std::to_string(kMostCorners) + " are supported");
+    }
     for (double k = 0; k < count; ++k) {
       const double value = body_.next(property.type, where);
       if (is_face) corners_.push_back(value);

@@ -56,14 +56,16 @@ std::vector<std::array<std::size_t, 3>> triangulated(std::span<const Eigen::Vect
   if (remaining.size() == 3) return {{0, 1, 2}};
   const std::vector<Eigen::Vector2d> flat = flattened(points);
   std::size_t position = 0;
+  bool has_ears = true;
   while (remaining.size() > 2) {
     const std::size_t n = remaining.size();
     std::size_t tried = 0;
-    while (tried < n && !is_ear(flat, remaining, (position + tried) % n)) {
+    while (has_ears && tried < n && !is_ear(flat, remaining, (position + tried) % n)) {
       ++tried;
     }
-    // Where no corner is an ear, the polygon crosses itself or the rest of it has no area: cut off any.
-    position = (position + (tried < n ? tried : 0)) % n;
+    // Where no corner is an ear, the polygon crosses itself or the rest of it has no area: cut off any from now on.
+    has_ears = has_ears && tried < n;
+    if (has_ears) position = (position + tried) % n;
     triangles.push_back({remaining[(position + n - 1) % n], remaining[position], remaining[(position + 1) % n]});
     remaining.erase(remaining.begin() + static_cast<std::ptrdiff_t>(position));
     // Going on two corners further, rather than beside the cut, avoids fans of slivers.

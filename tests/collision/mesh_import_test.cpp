@@ -102,6 +102,18 @@ TEST_F(MeshImport, PolygonsAreTriangulatedAlsoConcaveOnes) {
   EXPECT_NEAR(report(imported.mesh).area, 7, 1e-12);
 }
 
+TEST_F(MeshImport, PolygonsThatCrossThemselvesBecomeTrianglesToo) {
+  const std::string points = "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nv 3 3 3\n";
+  EXPECT_EQ(import_mesh(folder_.write("bow_tie.obj", points + "f 1 2 3 4\n")).mesh.triangles.size(), 2U);
+  EXPECT_EQ(import_mesh(folder_.write("twice_around.obj", points + "f 1 3 2 4 1 3 2 4\n")).mesh.triangles.size(), 6U);
+  std::string huge = "f";
+  for (int i = 0; i < 6000; ++i) {
+    huge += ' ';
+    huge += std::to_string(1 + i % 5);
+  }
+  EXPECT_THAT(error_of("huge.obj", points + huge + "\n"), testing::HasSubstr("line 6: a face of 6000 corners"));
+}
+
 TEST_F(MeshImport, DegenerateTrianglesAreDroppedAndCounted) {
   const std::string obj = kObj + "v 0.5 0 0\nv 9 9 9\nf 1 5 2\nf 1 1 2\nf 6 6 6\n";
   const ImportedMesh imported = import_mesh(folder_.write("slivers.obj", obj));
