@@ -20,9 +20,9 @@ inline Wrench about_point(const Wrench& wrench, const Eigen::Vector3d& from, con
   return {wrench.f, wrench.t + (from - to).cross(wrench.f)};
 }
 
-/// The spring's wrench on the hand about the ghost's reference point: −K ξ*, where `error` ξ* is the displacement from the
-/// visible part to the ghost. Exactly zero when they coincide. As the part was projected in the metric of K, it is a sum of
-/// contact normals: sliding is without friction.
+/// The spring's wrench on the hand about the ghost's reference point: −K ξ*, where `error` ξ* is the displacement from
+/// the visible part to the ghost. Exactly zero when they coincide. As the part was projected in the metric of K, it is
+/// a sum of contact normals: sliding is without friction.
 inline Wrench spring_wrench(const CouplingStiffness& stiffness, const Displacement& error) {
   return {-stiffness.translational * error.v, -stiffness.rotational * error.w};
 }

@@ -11,8 +11,8 @@ namespace {
 constexpr double kDefaultStiffness_N_per_m = 1000.0;
 constexpr double kSmallestReach_m = 30e-6;
 constexpr double kLargestReach_m = 3e-3;
-constexpr double kSlew_m = 0.2e-3;  // what the part may catch up per tick with a ghost at rest
-constexpr int kProjections = 4;     // the first, and three more with rows for what could not be proved
+
+constexpr int kProjections = 4;  // the first, and three more with rows for what could not be proved
 constexpr int kHalvings = 6;
 constexpr int kDampings = 4;
 

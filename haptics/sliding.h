@@ -36,6 +36,10 @@ enum class Metaphor : std::uint8_t {
 /// The metaphor called `name` on the command line ("force-feedback", "rubber-band-spring"); none for any other name.
 std::optional<Metaphor> metaphor_from_name(std::string_view name);
 
+/// What a part under force feedback may catch up in a tick beyond twice the ghost's own motion: it takes the jumps out
+/// of the force where the part snaps into a gap.
+inline constexpr double kSlew_m = 0.2e-3;
+
 enum class SlidingState : std::uint8_t {
   kFree,        ///< visible part and ghost coincide
   kSliding,     ///< contacts push, the part moves along them

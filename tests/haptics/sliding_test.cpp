@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <ostream>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -26,6 +27,10 @@ const Vector3d kBoxSize(0.1, 0.06, 0.04);
 struct Tessellation {
   std::int64_t triangles;
   bool flipped;
+
+  friend void PrintTo(const Tessellation& tessellation, std::ostream* out) {
+    *out << tessellation.triangles << (tessellation.flipped ? "Flipped" : "");
+  }
 };
 
 std::shared_ptr<const ContactBody> body(const std::vector<TriangleMesh>& meshes, const Tessellation& tessellation) {
@@ -139,9 +144,7 @@ TEST_P(BoxOnFaces, TheWrenchIsExactlyZeroWheneverNothingIsInTheWay) {
 INSTANTIATE_TEST_SUITE_P(Tessellations, BoxOnFaces,
                          ::testing::Values(Tessellation{12, false}, Tessellation{1200, false},
                                            Tessellation{1200, true}),
-                         [](const auto& info) {
-                           return std::to_string(info.param.triangles) + (info.param.flipped ? "Flipped" : "");
-                         });
+                         ::testing::PrintToStringParamName());
 
 TEST(Sliding, AThinSheetAtFiveMetresPerSecondIsNeverCrossed) {
   const Tessellation tessellation{400, true};

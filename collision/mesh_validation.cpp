@@ -1,0 +1,37 @@
+#include "mesh_validation.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+
+namespace glissade::collision {
+
+void reject(const std::filesystem::path& path, const std::string& what) {
+  throw std::invalid_argument(path.string() + ": " + what + ".");
+}
+
+void check_coordinate(const std::filesystem::path& path, const std::string& where, double value) {
+  constexpr double kLargest = 1e9;
+  if (std::isfinite(value) && std::abs(value) <= kLargest) return;
+  std::ostringstream message;
+  message << where << ": the coordinate " << value << (std::isfinite(value) ? " is beyond 1e9" : " is not finite");
+  reject(path, message.str());
+}
+
+std::string file_content(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) reject(path, "There is no such file");
+  if (std::filesystem::is_directory(status)) reject(path, "This is a folder, not a file");
+  if (!std::filesystem::is_regular_file(status)) reject(path, "This is not a regular file");
+  std::ifstream file(path, std::ios::binary);
+  std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file.is_open() || file.bad()) reject(path, "The file cannot be read");
+  if (content.empty()) reject(path, "The file is empty");
+  return content;
+}
+
+}  // namespace glissade::collision

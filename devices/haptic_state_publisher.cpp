@@ -1,0 +1,34 @@
+#include <utility>
+
+#include <glissade/devices/haptic_state_publisher.h>
+
+#include "glove_messages.h"
+
+namespace glissade::devices {
+
+HapticStatePublisher::HapticStatePublisher(std::shared_ptr<LcmBus> bus, std::size_t capacity)
+    : bus_(std::move(bus)), ring_(capacity) {
+  constexpr std::chrono::milliseconds kPeriod(5);  // a viewer sees no delay below a frame
+  thread_ = std::make_unique<realtime::PeriodicThread>(clock_, realtime::PeriodicThreadOptions{.period = kPeriod},
+                                                       [this](const realtime::PeriodicTick&) {
+                                                         publish_all();
+                                                         return true;
+                                                       });
+}
+
+HapticStatePublisher::~HapticStatePublisher() {
+  thread_->stop();
+  publish_all();
+}
+
+// Viewers can do without a tick: one that cannot be sent is lost.
+void HapticStatePublisher::publish_all() noexcept {
+  try {
+    HapticState state;
+    while (ring_.pop(state))
+      bus_->publish(kHapticStateChannel, encode(state));
+  } catch (...) {  // NOLINT(bugprone-empty-catch)
+  }
+}
+
+}  // namespace glissade::devices

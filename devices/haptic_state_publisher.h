@@ -1,0 +1,42 @@
+#pragma once
+
+/// Tells viewers and recorders, on the LCM channel HAPTIC_STATE, about every haptic tick, without holding up the loop.
+
+#include <chrono>
+#include <cstddef>
+#include <memory>
+
+#include <glissade/devices/haptic_state.h>
+#include <glissade/devices/lcm_bus.h>
+#include <glissade/realtime/clock.h>
+#include <glissade/realtime/periodic_thread.h>
+#include <glissade/realtime/spsc_ring.h>
+
+namespace glissade::devices {
+
+/// A ring that the haptic thread fills, and a thread of its own that empties and publishes it.
+class HapticStatePublisher {
+ public:
+  static constexpr std::size_t kDefaultCapacity = 1024;  ///< a second of ticks
+
+  /// Throws std::invalid_argument when `capacity` is 0.
+  explicit HapticStatePublisher(std::shared_ptr<LcmBus> bus, std::size_t capacity = kDefaultCapacity);
+  /// Publishes what is left.
+  ~HapticStatePublisher();
+
+  /// Haptic thread: takes `state` along; returns false, and counts it as dropped, when the ring is full. Wait-free.
+  bool push(const HapticState& state) noexcept { return ring_.push(state); }
+
+  /// States dropped so far. Any thread.
+  std::uint64_t dropped() const noexcept { return ring_.dropped(); }
+
+ private:
+  void publish_all() noexcept;
+
+  std::shared_ptr<LcmBus> bus_;
+  realtime::SteadyClock clock_;
+  realtime::SpscRing<HapticState> ring_;
+  std::unique_ptr<realtime::PeriodicThread> thread_;
+};
+
+}  // namespace glissade::devices

@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <cerrno>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <lcm/lcm.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <glissade/devices/lcm_bus.h>
+
+#include "lcm_url.h"
+
+namespace glissade::devices {
+namespace {
+
+constexpr std::size_t kLongestChannelName = 15;
+
+/// liblcm takes a subscription's channel for a regular expression, so nothing but plain characters may pass.
+void check_channel(const std::string& channel) {
+  const auto is_allowed = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; };
+  if (!channel.empty() && channel.size() <= kLongestChannelName &&
+      std::all_of(channel.begin(), channel.end(), is_allowed)) {
+    return;
+  }
+  throw std::invalid_argument("The LCM channel '" + channel + "' must have 1 to 15 characters of A-Z, 0-9 and _.");
+}
+
+struct DestroyLcm {
+  void operator()(lcm_t* lcm) const { lcm_destroy(lcm); }
+};
+using LcmHandle = std::unique_ptr<lcm_t, DestroyLcm>;
+
+LcmHandle connect_to(const std::string& url) {
+  LcmHandle lcm(lcm_create(url.c_str()));
+  if (!lcm) throw std::invalid_argument("The LCM address '" + url + "' does not work: liblcm cannot open it.");
+  return lcm;
+}
+
+[[noreturn]] void refuse_to_receive(const std::string& url) {
+  throw std::invalid_argument("The LCM address '" + url + "' does not work: nothing can be received from it.");
+}
+
+}  // namespace
+
+class LcmBus::Connection {
+ public:
+  explicit Connection(const std::string& url);
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+  ~Connection();
+
+  const std::string& url() const noexcept { return url_; }
+  std::int64_t subscribe(const std::string& channel, Handler handler);
+  void unsubscribe(const std::string& channel, std::int64_t id);
+  bool publish(const std::string& channel, std::span<const std::uint8_t> message);
+
+ private:
+  static void dispatch(const lcm_recv_buf_t* buffer, const char* channel, void* connection);
+  void start_receiving();
+  void receive(int lcm_fd);
+
+  std::string url_;
+  LcmHandle sender_;  ///< empty over memq, where sending and receiving need the same object
+  LcmHandle receiver_;
+  int wake_fd_ = -1;
+  std::mutex set_up_mutex_;  ///< one subscription at a time
+  std::thread thread_;
+
+  // liblcm may still call a subscription that another thread has just ended. So its own subscriptions, one for each
+  // channel, last as long as the bus, and handlers come and go here.
+  std::mutex handlers_mutex_;  ///< held while handlers run, so that one that was removed is not running either
+  std::map<std::string, std::vector<std::pair<std::int64_t, Handler>>, std::less<>> handlers_;
+  std::int64_t next_id_ = 0;
+};
+
+LcmBus::Connection::Connection(const std::string& url) : url_(url) {
+  const LcmProvider provider = check_lcm_url(url);
+  receiver_ = connect_to(url);
+  if (provider == LcmProvider::kUdpm) sender_ = connect_to(url);
+  wake_fd_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  if (wake_fd_ < 0) throw std::system_error(errno, std::generic_category(), "No eventfd for the LCM receive thread");
+}
+
+LcmBus::Connection::~Connection() {
+  if (thread_.joinable()) {
+    eventfd_write(wake_fd_, 1);
+    thread_.join();
+  }
+  close(wake_fd_);
+}
+
+std::int64_t LcmBus::Connection::subscribe(const std::string& channel, Handler handler) {
+  check_channel(channel);
+  const std::lock_guard set_up_lock(set_up_mutex_);
+  const bool is_new = [&] {
+    const std::lock_guard lock(handlers_mutex_);
+    return !handlers_.contains(channel);
+  }();
+  if (is_new && lcm_subscribe(receiver_.get(), channel.c_str(), dispatch, this) == nullptr) refuse_to_receive(url_);
+  if (!thread_.joinable()) start_receiving();
+  const std::lock_guard lock(handlers_mutex_);
+  handlers_[channel].emplace_back(next_id_, std::move(handler));
+  return next_id_++;
+}
+
+void LcmBus::Connection::unsubscribe(const std::string& channel, std::int64_t id) {
+  const std::lock_guard lock(handlers_mutex_);
+  std::erase_if(handlers_.at(channel), [id](const auto& handler) { return handler.first == id; });
+}
+
+bool LcmBus::Connection::publish(const std::string& channel, std::span<const std::uint8_t> message) {
+  check_channel(channel);
+  lcm_t* lcm = sender_ ? sender_.get() : receiver_.get();
+  return lcm_publish(lcm, channel.c_str(), message.data(), static_cast<unsigned int>(message.size())) == 0;
+}
+
+void LcmBus::Connection::dispatch(const lcm_recv_buf_t* buffer, const char* channel, void* connection) {
+  auto& self = *static_cast<Connection*>(connection);
+  const std::lock_guard lock(self.handlers_mutex_);
+  const auto entry = self.handlers_.find(std::string_view(channel));
+  if (entry == self.handlers_.end()) return;
+  for (const auto& [id, handler] : entry->second) {
+    // An exception must not pass through liblcm: it would leave its locks taken.
+    try {
+      handler({static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+    } catch (...) {  // NOLINT(bugprone-empty-catch): promised by Handler
+    }
+  }
+}
+
+void LcmBus::Connection::start_receiving() {
+  const int lcm_fd = lcm_get_fileno(receiver_.get());
+  if (lcm_fd < 0) refuse_to_receive(url_);
+  thread_ = std::thread([this, lcm_fd] { receive(lcm_fd); });
+}
+
+void LcmBus::Connection::receive(int lcm_fd) {
+  pollfd files[2] = {{.fd = wake_fd_, .events = POLLIN, .revents = 0}, {.fd = lcm_fd, .events = POLLIN, .revents = 0}};
+  for (;;) {
+    if (poll(files, 2, -1) < 0 && errno != EINTR) return;
+    if (files[0].revents != 0) return;
+    if (files[1].revents != 0 && lcm_handle(receiver_.get()) < 0) return;
+  }
+}
+
+LcmBus::LcmBus(const std::string& url) : connection_(std::make_unique<Connection>(url)) {}
+
+LcmBus::~LcmBus() = default;
+
+const std::string& LcmBus::url() const noexcept {
+  return connection_->url();
+}
+
+std::unique_ptr<LcmBus::Subscription> LcmBus::subscribe(const std::string& channel, Handler handler) {
+  const std::int64_t id = connection_->subscribe(channel, std::move(handler));
+  return std::make_unique<Subscription>(*connection_, channel, id);
+}
+
+bool LcmBus::publish(const std::string& channel, std::span<const std::uint8_t> message) {
+  return connection_->publish(channel, message);
+}
+
+LcmBus::Subscription::Subscription(Connection& connection, std::string channel, std::int64_t id)
+    : connection_(connection), channel_(std::move(channel)), id_(id) {}
+
+LcmBus::Subscription::~Subscription() {
+  connection_.unsubscribe(channel_, id_);
+}
+
+}  // namespace glissade::devices

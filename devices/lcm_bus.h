@@ -1,0 +1,66 @@
+#pragma once
+
+/// One connection to LCM, shared by everything in a process that sends or receives messages.
+///
+/// `memq://` connects the ends inside one process: only ends that share one LcmBus hear each other. `udpm://` connects
+/// processes and hosts by UDP multicast: `udpm://239.255.76.67:7667?ttl=0` stays on this machine.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace glissade::devices {
+
+/// Raw messages by channel. One thread, started by the first subscription, receives for all subscribers; it has the
+/// scheduling of the thread that subscribes first. Channel names are 1 to 15 characters of A–Z, 0–9 and `_`.
+///
+/// Thread-safety: any number of threads may subscribe and publish at once. Everything here may block and allocate: none
+/// of it belongs into a real-time thread.
+class LcmBus {
+ public:
+  /// Called in the receive thread, one message after the other. The bytes are only valid during the call. What it
+  /// throws is swallowed. It must not subscribe, or end a subscription.
+  using Handler = std::function<void(std::span<const std::uint8_t> message)>;
+
+  /// Ends with its life: once the destructor returns, the handler is not running and will not run. The bus must live
+  /// longer.
+  class Subscription;
+
+  /// Throws std::invalid_argument, naming the URL, when it is not a correct memq or udpm address, or when this machine
+  /// has no way to send to it.
+  explicit LcmBus(const std::string& url);
+  LcmBus(const LcmBus&) = delete;
+  LcmBus& operator=(const LcmBus&) = delete;
+  /// Stops receiving at once. Messages that were published but not yet handled are lost.
+  ~LcmBus();
+
+  const std::string& url() const noexcept;
+
+  /// Throws std::invalid_argument when the channel's name is not allowed or nothing can be received from the URL.
+  [[nodiscard]] std::unique_ptr<Subscription> subscribe(const std::string& channel, Handler handler);
+
+  /// Returns false when the system refused to send. Over memq, a message nobody has subscribed to is lost at once.
+  /// Throws std::invalid_argument when the channel's name is not allowed.
+  bool publish(const std::string& channel, std::span<const std::uint8_t> message);
+
+ private:
+  class Connection;
+  std::unique_ptr<Connection> connection_;
+};
+
+class LcmBus::Subscription {
+ public:
+  Subscription(Connection& connection, std::string channel, std::int64_t id);
+  Subscription(const Subscription&) = delete;
+  Subscription& operator=(const Subscription&) = delete;
+  ~Subscription();
+
+ private:
+  Connection& connection_;
+  std::string channel_;
+  std::int64_t id_;
+};
+
+}  // namespace glissade::devices

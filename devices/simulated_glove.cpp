@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <glissade/devices/safety_limits.h>
+#include <glissade/devices/simulated_glove.h>
+
+namespace glissade::devices {
+namespace {
+
+constexpr std::chrono::nanoseconds kLargestStep = std::chrono::milliseconds(1);
+
+JointValues radians(JointValues degrees) {
+  for (double& angle : degrees)
+    angle *= std::numbers::pi / 180.0;
+  return degrees;
+}
+
+/// Axis times angle, 0 to π.
+Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& q) {
+  const Eigen::AngleAxisd turn(q);
+  return turn.angle() * turn.axis();
+}
+
+Eigen::Quaterniond from_rotation_vector(const Eigen::Vector3d& vector) {
+  const double angle = vector.norm();
+  if (angle == 0.0) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle));
+}
+
+void check_sign(std::string_view name, double value, bool may_be_zero) {
+  const bool is_fine = std::isfinite(value) && (may_be_zero ? value >= 0.0 : value > 0.0);
+  if (is_fine) return;
+  throw std::invalid_argument("Simulated glove: " + std::string(name) + " must be finite and " +
+                              (may_be_zero ? "not negative." : "positive."));
+}
+
+/// Semi-implicit Euler of a mass on a spring and damper is stable while h² k + 2 h b < 4 m; half of that keeps a margin
+/// for the stiffness that is rendered on top.
+void check_stable(std::string_view what, double inertia, double stiffness, double damping) {
+  const double h = std::chrono::duration<double>(kLargestStep).count();
+  if (h * h * stiffness + 2.0 * h * damping < 2.0 * inertia) return;
+  throw std::invalid_argument("Simulated glove: the wearer's " + std::string(what) +
+                              " stiffness or damping is too large for the inertia to be simulated in steps of 1 ms.");
+}
+
+void check(const SimulatedGloveParameters& p) {
+  check_sign("mass", p.mass, false);
+  check_sign("rotational_inertia", p.rotational_inertia, false);
+  check_sign("arm_damping", p.arm_damping, true);
+  check_sign("arm_rotational_damping", p.arm_rotational_damping, true);
+  check_sign("wearer_stiffness", p.wearer_stiffness, false);
+  check_sign("wearer_damping", p.wearer_damping, true);
+  check_sign("wearer_rotational_stiffness", p.wearer_rotational_stiffness, false);
+  check_sign("wearer_rotational_damping", p.wearer_rotational_damping, true);
+  check_sign("finger_stiffness", p.finger_stiffness, false);
+  check_sign("finger_time_constant", p.finger_time_constant, false);
+  check_stable("linear", p.mass, p.wearer_stiffness, p.wearer_damping + p.arm_damping);
+  check_stable("rotational", p.rotational_inertia, p.wearer_rotational_stiffness,
+               p.wearer_rotational_damping + p.arm_rotational_damping);
+  for (std::size_t i = 0; i < kGloveJoints; ++i) {
+    if (!std::isfinite(p.grasp_posture[i])) {
+      throw std::invalid_argument("Simulated glove: grasp_posture of " + std::string(kGloveJointNames[i]) +
+                                  " is not finite.");
+    }
+  }
+}
+
+}  // namespace
+
+DeviceDescriptor simulated_glove_descriptor() {
+  DeviceDescriptor descriptor;
+  descriptor.name = "simulated glove";
+  descriptor.max_force = 20.0;
+  descriptor.max_torque = 1.0;
+  descriptor.max_stiffness = 4000.0;
+  descriptor.max_rotational_stiffness = 10.0;
+  descriptor.max_damping = 30.0;
+  descriptor.max_joint_torque = 0.5;
+  // thumb roll, MCP, IP, abduction; index; middle and abduction; ring and abduction; little and abduction; palm; wrist
+  descriptor.joint_lower =
+      radians({0, -10, -15, -25, -20, 0, -10, -20, 0, -10, -15, -20, 0, -10, -20, -20, 0, -10, -40, 0, -70, -30});
+  descriptor.joint_upper =
+      radians({60, 60, 80, 35, 90, 105, 90, 90, 105, 90, 30, 90, 105, 90, 15, 90, 105, 90, 20, 30, 80, 20});
+  descriptor.update_rate = 1000.0;
+  return descriptor;
+}
+
+SimulatedGlove::SimulatedGlove(PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters)
+    : script_X_WH_(std::move(script_X_WH)), parameters_(parameters), descriptor_(simulated_glove_descriptor()) {
+  check(parameters_);
+  state_.time = script_X_WH_.first_time();
+  state_.X_WH = script_X_WH_.pose_at(state_.time);
+  q_WH_ = Eigen::Quaterniond(state_.X_WH.linear());
+  for (std::size_t i = 0; i < kGloveJoints; ++i) {
+    state_.joint_angles[i] =
+        std::clamp(parameters_.grasp_posture[i], descriptor_.joint_lower[i], descriptor_.joint_upper[i]);
+  }
+}
+
+GloveState SimulatedGlove::step(std::chrono::nanoseconds dt, const GloveCommand& newest) noexcept {
+  const GloveCommand command = limit_command(newest, descriptor_).command;
+  for (std::chrono::nanoseconds left = dt; left > std::chrono::nanoseconds::zero();) {
+    const std::chrono::nanoseconds now = std::min(left, kLargestStep);
+    const double h = std::chrono::duration<double>(now).count();
+    move_hand(h, command);
+    turn_hand(h, command);
+    move_fingers(h, command);
+    state_.time += now;
+    left -= now;
+  }
+  ++state_.sequence;
+  return state_;
+}
+
+void SimulatedGlove::move_hand(double h, const GloveCommand& command) noexcept {
+  const Eigen::Vector3d p_WS = script_X_WH_.pose_at(state_.time).translation();
+  const Eigen::Vector3d v_WS = script_X_WH_.velocity_at(state_.time).v_WB;
+  const Eigen::Vector3d f_H_W = parameters_.wearer_stiffness * (p_WS - state_.X_WH.translation()) +
+                                parameters_.wearer_damping * (v_WS - state_.v_WH) -
+                                parameters_.arm_damping * state_.v_WH + command.f_H_W;
+  state_.v_WH += h / parameters_.mass * f_H_W;
+  state_.X_WH.translation() += h * state_.v_WH;
+}
+
+void SimulatedGlove::turn_hand(double h, const GloveCommand& command) noexcept {
+  const Eigen::Quaterniond q_WS(script_X_WH_.pose_at(state_.time).linear());
+  const Eigen::Vector3d w_WS = script_X_WH_.velocity_at(state_.time).w_WB;
+  const Eigen::Vector3d to_script_W = rotation_vector(q_WS * q_WH_.conjugate());
+  // The inertia is the same about every axis, so there is no gyroscopic torque.
+  const Eigen::Vector3d t_H_W = parameters_.wearer_rotational_stiffness * to_script_W +
+                                parameters_.wearer_rotational_damping * (w_WS - state_.w_WH) -
+                                parameters_.arm_rotational_damping * state_.w_WH + command.t_H_W;
+  state_.w_WH += h / parameters_.rotational_inertia * t_H_W;
+  q_WH_ = (from_rotation_vector(h * state_.w_WH) * q_WH_).normalized();
+  state_.X_WH.linear() = q_WH_.toRotationMatrix();
+}
+
+// Fingers weigh little: each goes to the balance of the wearer's grip and the torque without swinging.
+void SimulatedGlove::move_fingers(double h, const GloveCommand& command) noexcept {
+  const double part = -std::expm1(-h / parameters_.finger_time_constant);
+  for (std::size_t i = 0; i < kGloveJoints; ++i) {
+    const double balance = parameters_.grasp_posture[i] + command.joint_torques[i] / parameters_.finger_stiffness;
+    double& angle = state_.joint_angles[i];
+    angle = std::clamp(angle + part * (balance - angle), descriptor_.joint_lower[i], descriptor_.joint_upper[i]);
+  }
+}
+
+}  // namespace glissade::devices

@@ -1,0 +1,23 @@
+#include <glissade/haptics/haptic_sample.h>
+
+namespace glissade::haptics {
+
+devices::HapticState make_sample(const HapticTick& tick, const ContactSet& set, const Eigen::Vector3d& p_WH,
+                                 std::chrono::nanoseconds now) noexcept {
+  devices::HapticState sample;
+  sample.sequence = tick.command.sequence;
+  sample.time = now;
+  sample.X_WG = tick.X_WG;
+  sample.X_WV = set.X_WV;
+  const Wrench on_hand = about_point({tick.command.f_H_W, tick.command.t_H_W}, p_WH, set.X_WV.translation());
+  sample.force_on_hand_W = on_hand.f;
+  sample.torque_on_hand_V_W = on_hand.t;
+  sample.contact_count = set.pushing;
+  sample.contact_set_age = set.sequence == 0 ? std::chrono::nanoseconds(0) : now - set.time;
+  sample.is_in_contact = set.pushing > 0;
+  sample.is_force_limited = tick.limited.any();
+  sample.is_contact_set_late = sample.contact_set_age > kLateContactSet;
+  return sample;
+}
+
+}  // namespace glissade::haptics

@@ -1,0 +1,31 @@
+#include <algorithm>
+
+#include <glissade/haptics/proxy.h>
+
+namespace glissade::haptics {
+
+const Eigen::Isometry3d& Proxy::update(const ContactSet& set, const Eigen::Isometry3d& X_WG) noexcept {
+  const double ghost_motion = motion_bound(displacement_between(X_WG_, X_WG, p_Vref_), radius_);
+  X_WG_ = X_WG;
+  const Eigen::Isometry3d X_WP_new = target(set, X_WG);
+  const Displacement change = displacement_between(X_WP_, X_WP_new, p_Vref_);
+  const double length = motion_bound(change, radius_);
+  const double longest = kSlew_m + 2.0 * ghost_motion;
+  X_WP_ = length > longest ? displaced(X_WP_, p_Vref_, change.scaled(longest / length)) : X_WP_new;
+  return X_WP_;
+}
+
+Eigen::Isometry3d Proxy::target(const ContactSet& set, const Eigen::Isometry3d& X_WG) const noexcept {
+  if (set.sequence == 0) return X_WG;  // the simulation has not answered yet
+  const Displacement wanted = displacement_between(set.X_WV_of_rows, X_WG, p_Vref_);
+  const Projection projection = project(wanted, stiffness_, set.rows());
+  if (projection.status != ProjectionStatus::kSolved) return X_WP_;
+  // Nothing known is in the way. Beyond the reach of the set something might be; but holding the hand back there would
+  // make a late simulation feel like drag, and the visible part is safe whatever the proxy does.
+  if (projection.active_count == 0) return X_WG;
+  const double length = motion_bound(projection.displacement, radius_);
+  const double fraction = length > set.reach ? set.reach / length : 1.0;
+  return displaced(set.X_WV_of_rows, p_Vref_, projection.displacement.scaled(fraction));
+}
+
+}  // namespace glissade::haptics

@@ -1,0 +1,50 @@
+#pragma once
+
+/// Durations in fixed memory: record millions of them in a real-time loop, ask for quantiles afterwards.
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+namespace glissade::realtime {
+
+/// A log-linear histogram of nanoseconds: exact below 128 ns, 64 buckets per power of two above, up to 2^40 ns (18
+/// minutes).
+///
+/// Thread-safety: none; read it in the thread that records, or after that thread has been joined.
+class LatencyHistogram {
+ public:
+  /// A quantile is never below the exact one and above it by at most this part of it.
+  static constexpr double kRelativeError = 1.0 / 64.0;
+
+  /// Adds one duration. Negative ones count as 0; ones of 2^40 ns or more are only exact in `max()`. Wait-free, no
+  /// allocation.
+  void record(std::chrono::nanoseconds duration) noexcept;
+
+  /// Adds everything that `other` has recorded.
+  void merge(const LatencyHistogram& other) noexcept;
+
+  std::uint64_t count() const noexcept { return count_; }
+
+  /// The largest recorded duration, exact; 0 when there is none.
+  std::chrono::nanoseconds max() const noexcept { return std::chrono::nanoseconds(max_); }
+
+  /// The smallest duration that at least the part `p` (clamped to 0…1) of all durations does not exceed, rounded up by
+  /// at most `kRelativeError`; 0 when there is none. quantile(0.5) is the median, quantile(1) is max().
+  std::chrono::nanoseconds quantile(double p) const noexcept;
+
+ private:
+  static constexpr int kLinearBits = 6;  ///< 2^6 buckets per power of two
+  static constexpr int kValueBits = 40;
+  static constexpr std::size_t kBuckets = std::size_t{kValueBits - kLinearBits + 1} << kLinearBits;
+
+  static std::size_t bucket_of(std::int64_t nanoseconds) noexcept;
+  static std::int64_t largest_in(std::size_t bucket) noexcept;
+
+  std::array<std::uint64_t, kBuckets> counts_{};
+  std::uint64_t count_ = 0;
+  std::int64_t max_ = 0;
+};
+
+}  // namespace glissade::realtime

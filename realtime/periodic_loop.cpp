@@ -1,0 +1,32 @@
+#include <stdexcept>
+
+#include <glissade/realtime/periodic_loop.h>
+
+namespace glissade::realtime {
+
+PeriodicSchedule::PeriodicSchedule(std::chrono::nanoseconds start, std::chrono::nanoseconds period)
+    : period_(period), deadline_(start) {
+  if (period <= std::chrono::nanoseconds::zero()) throw std::invalid_argument("The period of a loop must be positive.");
+}
+
+void PeriodicSchedule::finish_tick(std::chrono::nanoseconds started, std::chrono::nanoseconds ended,
+                                   PeriodicStatistics& statistics) noexcept {
+  ++statistics.ticks;
+  statistics.lateness.record(started - deadline_);
+  statistics.duration.record(ended - started);
+  if (started - deadline_ >= period_) ++statistics.late_ticks;
+
+  deadline_ += period_;
+  if (ended - deadline_ >= period_) {
+    const auto skipped = (ended - deadline_) / period_;
+    statistics.skipped_deadlines += static_cast<std::uint64_t>(skipped);
+    deadline_ += skipped * period_;
+  }
+}
+
+void run_bare_timer(Clock& clock, std::chrono::nanoseconds period, std::uint64_t ticks,
+                    PeriodicStatistics& statistics) {
+  run_periodic(clock, period, statistics, [ticks](const PeriodicTick& tick) { return tick.index + 1 < ticks; });
+}
+
+}  // namespace glissade::realtime

@@ -1,0 +1,86 @@
+#pragma once
+
+/// A bounded queue from one thread to another that drops and counts instead of waiting.
+/// For logs and recordings, where every value counts; use `TripleBuffer` where only the newest one does.
+
+#include <atomic>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <glissade/realtime/cache_line.h>
+
+namespace glissade::realtime {
+
+/// Thread-safety: one producer thread and one consumer thread; the counters may be read by any.
+/// Progress: push and pop are wait-free and bounded. Nothing is allocated after construction unless T's assignment
+/// does.
+template <typename T>
+class SpscRing {
+ public:
+  /// Room for `capacity` values, rounded up to a power of two. Throws std::invalid_argument when it is 0 or beyond
+  /// 2^32.
+  explicit SpscRing(std::size_t capacity) : slots_(checked_capacity(capacity)), mask_(slots_.size() - 1) {}
+
+  SpscRing(const SpscRing&) = delete;
+  SpscRing& operator=(const SpscRing&) = delete;
+
+  std::size_t capacity() const noexcept { return slots_.size(); }
+
+  /// Producer: appends `value`; when the ring is full, drops it, counts that, and returns false.
+  bool push(const T& value) noexcept(std::is_nothrow_copy_assignable_v<T>) {
+    const std::uint64_t end = end_.load(std::memory_order_relaxed);
+    if (end - begin_seen_by_producer_ == slots_.size()) {
+      begin_seen_by_producer_ = begin_.load(std::memory_order_acquire);
+      if (end - begin_seen_by_producer_ == slots_.size()) {
+        dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+        return false;
+      }
+    }
+    slots_[end & mask_] = value;
+    end_.store(end + 1, std::memory_order_release);
+    return true;
+  }
+
+  /// Consumer: moves the oldest value into `value`; returns false, and leaves `value` alone, when the ring is empty.
+  bool pop(T& value) noexcept(std::is_nothrow_move_assignable_v<T>) {
+    const std::uint64_t begin = begin_.load(std::memory_order_relaxed);
+    if (begin == end_seen_by_consumer_) {
+      end_seen_by_consumer_ = end_.load(std::memory_order_acquire);
+      if (begin == end_seen_by_consumer_) return false;
+    }
+    value = std::move(slots_[begin & mask_]);
+    begin_.store(begin + 1, std::memory_order_release);
+    return true;
+  }
+
+  /// Any thread: values dropped so far.
+  std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
+
+ private:
+  static std::size_t checked_capacity(std::size_t capacity) {
+    if (capacity == 0 || capacity > (std::size_t{1} << 32U)) {
+      throw std::invalid_argument("The capacity of a ring must lie between 1 and 2^32.");
+    }
+    return std::bit_ceil(capacity);
+  }
+
+  std::vector<T> slots_;
+  std::size_t mask_;
+
+  // Positions count up for ever; each side keeps a copy of the other's, so that it touches the other's cache line only
+  // when its copy says full or empty.
+  alignas(kCacheLineBytes) std::atomic<std::uint64_t> end_{0};
+  std::uint64_t begin_seen_by_producer_ = 0;
+  std::atomic<std::uint64_t> dropped_{0};
+  alignas(kCacheLineBytes) std::atomic<std::uint64_t> begin_{0};
+  std::uint64_t end_seen_by_consumer_ = 0;
+
+  static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
+};
+
+}  // namespace glissade::realtime

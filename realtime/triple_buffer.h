@@ -1,0 +1,75 @@
+#pragma once
+
+/// The newest value, from one thread to another, with no lock and no waiting on either side.
+/// For states and commands, where an old value is worth nothing; use `SpscRing` where every value counts.
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <type_traits>
+
+#include <glissade/realtime/cache_line.h>
+
+namespace glissade::realtime {
+
+/// Three slots: one belongs to the writer, one to the reader, and one lies between them. Publishing and updating each
+/// exchange the own slot for the one between.
+///
+/// Thread-safety: one writer thread and one reader thread. Progress: every function is wait-free and bounded, whatever
+/// the other thread does or wherever it was pre-empted. Nothing is allocated unless T's assignment does.
+template <typename T>
+class TripleBuffer {
+ public:
+  /// All three slots start as `initial`; it does not count as published.
+  explicit TripleBuffer(const T& initial = T{}) : slots_{Slot{initial}, Slot{initial}, Slot{initial}} {}
+
+  TripleBuffer(const TripleBuffer&) = delete;
+  TripleBuffer& operator=(const TripleBuffer&) = delete;
+
+  /// Writer: makes `value` the newest. One the reader has not taken yet is overwritten.
+  void publish(const T& value) noexcept(std::is_nothrow_copy_assignable_v<T>) {
+    write_slot() = value;
+    publish();
+  }
+
+  /// Writer: the slot to fill in place before `publish()`. It holds an arbitrary older value: write all of it.
+  T& write_slot() noexcept { return slots_[writer_].value; }
+
+  /// Writer: makes the contents of `write_slot()` the newest.
+  void publish() noexcept {
+    writer_ = between_.exchange(static_cast<std::uint8_t>(writer_ | kFresh), std::memory_order_acq_rel) & kIndex;
+  }
+
+  /// Reader: takes the newest value, if one was published since the last call; returns whether there was one.
+  bool update() noexcept {
+    if ((between_.load(std::memory_order_relaxed) & kFresh) == 0) return false;
+    reader_ = between_.exchange(reader_, std::memory_order_acq_rel) & kIndex;
+    return true;
+  }
+
+  /// Reader: the value last taken by `update()`, or the initial one. It stays as it is until the next `update()`.
+  const T& value() const noexcept { return slots_[reader_].value; }
+
+  /// Reader: `update()` and `value()` in one.
+  const T& latest() noexcept {
+    update();
+    return value();
+  }
+
+ private:
+  static constexpr std::uint8_t kIndex = 3;
+  static constexpr std::uint8_t kFresh = 4;  ///< set in `between_` from a publish to the update that takes it
+
+  struct alignas(kCacheLineBytes) Slot {
+    T value;
+  };
+
+  std::array<Slot, 3> slots_;
+  alignas(kCacheLineBytes) std::uint8_t writer_ = 0;
+  alignas(kCacheLineBytes) std::uint8_t reader_ = 1;
+  alignas(kCacheLineBytes) std::atomic<std::uint8_t> between_{2};
+
+  static_assert(std::atomic<std::uint8_t>::is_always_lock_free);
+};
+
+}  // namespace glissade::realtime
