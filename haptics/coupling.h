@@ -2,6 +2,8 @@
 
 /// The virtual coupling: the spring and damper between the hand and the visible part, and the wrench the hand feels.
 
+#include <algorithm>
+
 #include <Eigen/Core>
 
 #include <glissade/haptics/motion.h>
@@ -33,15 +35,23 @@ struct CouplingDamping {
   double rotational;
 };
 
-/// Velocity of a part: of its reference point (m/s) and angular (rad/s), in world axes.
+/// Velocity of the ghost: of its reference point (m/s) and angular (rad/s), in world axes.
 struct Velocity {
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
   Eigen::Vector3d w = Eigen::Vector3d::Zero();
 };
 
-/// The damper's wrench on the hand, from the velocities of the part it is shown and of the ghost.
-inline Wrench damper_wrench(const CouplingDamping& damping, const Velocity& part, const Velocity& ghost) {
-  return {damping.translational * (part.v - ghost.v), damping.rotational * (part.w - ghost.w)};
+/// The damper's wrench on the hand. It acts along the spring's force and torque only, since against fixed obstacles the
+/// part moves freely across them, and never exceeds them: so it sets in smoothly when contact is made, and never pulls
+/// the hand towards a contact it leaves.
+inline Wrench damper_wrench(const CouplingDamping& damping, const Wrench& spring, const Velocity& ghost) {
+  const auto along = [](const Eigen::Vector3d& push, double coefficient, const Eigen::Vector3d& velocity) {
+    const double magnitude = push.norm();
+    if (magnitude == 0.0) return Eigen::Vector3d(Eigen::Vector3d::Zero());
+    const Eigen::Vector3d direction = push / magnitude;
+    return Eigen::Vector3d(std::clamp(-coefficient * velocity.dot(direction), -magnitude, magnitude) * direction);
+  };
+  return {along(spring.f, damping.translational, ghost.v), along(spring.t, damping.rotational, ghost.w)};
 }
 
 }  // namespace glissade::haptics

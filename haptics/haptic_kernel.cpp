@@ -22,25 +22,25 @@ HapticKernel::HapticKernel(const SlidingPart& part_V, const Coupling& coupling, 
       X_WV_start_(X_WV_start),
       proxy_(part_V.p_Vref(), part_V.radius(), coupling.stiffness, X_WV_start) {}
 
-HapticTick HapticKernel::tick(const devices::GloveState& state, const ContactSet& set,
-                              std::chrono::nanoseconds dt) noexcept {
+HapticTick HapticKernel::tick(const devices::GloveState& state, const ContactSet& set) noexcept {
   if (!grasped_) {
     X_HG_ = state.X_WH.inverse() * X_WV_start_;
     grasped_ = true;
   }
   HapticTick tick;
   tick.X_WG = state.X_WH * X_HG_;
-  const Eigen::Isometry3d X_WP_before = proxy_.pose();
   tick.X_WP = proxy_.update(set, tick.X_WG);
 
-  Wrench wrench;
+  const Eigen::Vector3d& p_WH = state.X_WH.translation();
   const Eigen::Vector3d p_Wref = tick.X_WG * p_Vref_;
-  if (tick.X_WP.matrix() != tick.X_WG.matrix()) {  // in free space nothing is felt, not even damping
+  Wrench wrench;
+  if (tick.X_WP.matrix() != tick.X_WG.matrix()) {
     tick.spring = spring_wrench(coupling_.stiffness, displacement_between(tick.X_WP, tick.X_WG, p_Vref_));
-    const Wrench damping = damper(state, p_Wref, displacement_between(X_WP_before, tick.X_WP, p_Vref_), dt);
+    const Velocity ghost{state.v_WH + state.w_WH.cross(p_Wref - p_WH), state.w_WH};
+    const Wrench damping = damper_wrench(coupling_.damping, tick.spring, ghost);
     wrench = {tick.spring.f + damping.f, tick.spring.t + damping.t};
   }
-  const Wrench on_hand = about_point(wrench, p_Wref, state.X_WH.translation());
+  const Wrench on_hand = about_point(wrench, p_Wref, p_WH);
 
   devices::GloveCommand command;
   command.sequence = ++sequence_;
@@ -52,15 +52,6 @@ HapticTick HapticKernel::tick(const devices::GloveState& state, const ContactSet
   tick.command = limited.command;
   tick.limited = limited.reasons;
   return tick;
-}
-
-Wrench HapticKernel::damper(const devices::GloveState& state, const Eigen::Vector3d& p_Wref,
-                            const Displacement& proxy_motion, std::chrono::nanoseconds dt) const noexcept {
-  const double seconds = std::chrono::duration<double>(dt).count();
-  if (!(seconds > 0.0)) return {};
-  const Velocity ghost{state.v_WH + state.w_WH.cross(p_Wref - state.X_WH.translation()), state.w_WH};
-  const Velocity proxy{proxy_motion.v / seconds, proxy_motion.w / seconds};
-  return damper_wrench(coupling_.damping, proxy, ghost);
 }
 
 }  // namespace glissade::haptics

@@ -3,8 +3,6 @@
 /// One tick of the haptic thread as a pure function of its inputs: glove state and contact set in, glove command out.
 /// Owns no clock, no thread and no device, so the same code runs in real time, offline and in tests.
 
-#include <chrono>
-
 #include <Eigen/Geometry>
 
 #include <glissade/devices/glove_types.h>
@@ -42,13 +40,10 @@ class HapticKernel {
   HapticKernel(const SlidingPart& part_V, const Coupling& coupling, const devices::DeviceDescriptor& device,
                const Eigen::Isometry3d& X_WV_start);
 
-  /// The tick for the newest state and the newest contact set; `dt` is the time since the last tick.
-  HapticTick tick(const devices::GloveState& state, const ContactSet& set, std::chrono::nanoseconds dt) noexcept;
+  /// The tick for the newest state and the newest contact set.
+  HapticTick tick(const devices::GloveState& state, const ContactSet& set) noexcept;
 
  private:
-  Wrench damper(const devices::GloveState& state, const Eigen::Vector3d& p_Wref, const Displacement& proxy_motion,
-                std::chrono::nanoseconds dt) const noexcept;
-
   Eigen::Vector3d p_Vref_;
   Coupling coupling_;
   devices::DeviceDescriptor device_;

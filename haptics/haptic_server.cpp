@@ -33,8 +33,7 @@ bool HapticServer::haptic_tick(const realtime::PeriodicTick& timing) noexcept {
   }
   sets_.update();
   const ContactSet& set = sets_.value();
-  HapticTick tick = kernel_.tick(state_, set, timing.start - last_tick_);
-  last_tick_ = timing.start;
+  HapticTick tick = kernel_.tick(state_, set);
   const bool device_is_silent = timing.start - state_arrival_ > options_.device_timeout;
   if (device_is_silent) {
     tick.command.f_H_W.setZero();

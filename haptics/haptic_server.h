@@ -84,7 +84,6 @@ class HapticServer {
   devices::GloveState state_;
   std::int64_t state_sequence_ = -1;
   std::chrono::nanoseconds state_arrival_{0};
-  std::chrono::nanoseconds last_tick_{0};
 
   // Of the simulation thread.
   std::int64_t set_sequence_ = 0;

@@ -11,7 +11,7 @@ void run_offline(devices::SimulatedGlove& glove, Sliding& sliding, HapticKernel&
   for (std::int64_t i = 1; i <= ticks; ++i) {
     const std::chrono::nanoseconds now = i * kTickPeriod;
     const devices::GloveState state = glove.step(kTickPeriod, command);
-    const HapticTick tick = kernel.tick(state, set, kTickPeriod);
+    const HapticTick tick = kernel.tick(state, set);
     command = tick.command;
     sink(make_sample(tick, set, state.X_WH.translation(), now));
     sliding.advance(tick.X_WG);

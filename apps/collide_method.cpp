@@ -1,0 +1,108 @@
+#include <stdexcept>
+#include <utility>
+
+#include <glissade/apps/collide_method.h>
+#include <glissade/apps/text.h>
+#include <glissade/collision/dop_query.h>
+#include <glissade/collision/dop_tree.h>
+#include <glissade/collision/triangle_distance.h>
+#include <glissade/collision/triangle_intersection.h>
+
+namespace glissade::apps {
+
+namespace {
+
+using collision::DopTree;
+using collision::TriangleMesh;
+using collision::TrianglePoints;
+
+constexpr const char* kDopTree = "dop-tree";
+constexpr const char* kBruteForce = "brute-force";
+
+/// The trees of two meshes and room for their queries.
+class TreeMethod {
+ public:
+  TreeMethod(std::shared_ptr<const TriangleMesh> mesh_A, std::shared_ptr<const TriangleMesh> mesh_B,
+             const CollideQuestion& question)
+      : tree_A_(std::make_shared<const DopTree>(std::move(mesh_A))),
+        tree_B_(std::make_shared<const DopTree>(std::move(mesh_B))),
+        question_(question) {}
+
+  CollideAnswer operator()(const Eigen::Isometry3d& X_AB) {
+    if (question_.tolerance > 0.0) {
+      pairs_within(*tree_A_, *tree_B_, X_AB, question_.tolerance, workspace_, close_pairs_);
+      return {!close_pairs_.empty(), static_cast<std::int64_t>(close_pairs_.size())};
+    }
+    if (!question_.count_pairs) return {intersects(*tree_A_, *tree_B_, X_AB, workspace_), 0};
+    intersecting_pairs(*tree_A_, *tree_B_, X_AB, workspace_, pairs_);
+    return {!pairs_.empty(), static_cast<std::int64_t>(pairs_.size())};
+  }
+
+ private:
+  std::shared_ptr<const DopTree> tree_A_;
+  std::shared_ptr<const DopTree> tree_B_;
+  CollideQuestion question_;
+  collision::QueryWorkspace workspace_;
+  std::vector<collision::TrianglePair> pairs_;
+  std::vector<collision::ClosePair> close_pairs_;
+};
+
+/// The triangles of `mesh` that have an area, in the frame to which X leads from that of the mesh.
+std::vector<TrianglePoints> triangles_of(const TriangleMesh& mesh, const Eigen::Isometry3d& X) {
+  std::vector<TrianglePoints> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh.triangles.size()); ++i) {
+    // Decided before the pose is applied, as the trees do.
+    if (collision::is_degenerate({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)})) continue;
+    triangles.push_back({X * mesh.corner(i, 0), X * mesh.corner(i, 1), X * mesh.corner(i, 2)});
+  }
+  return triangles;
+}
+
+/// Every triangle of one mesh against every triangle of the other.
+class BruteForceMethod {
+ public:
+  BruteForceMethod(const TriangleMesh& mesh_A, std::shared_ptr<const TriangleMesh> mesh_B,
+                   const CollideQuestion& question)
+      : triangles_A_(triangles_of(mesh_A, Eigen::Isometry3d::Identity())),
+        mesh_B_(std::move(mesh_B)),
+        question_(question) {}
+
+  CollideAnswer operator()(const Eigen::Isometry3d& X_AB) const {
+    std::int64_t pairs = 0;
+    for (const TrianglePoints& b : triangles_of(*mesh_B_, X_AB)) {
+      for (const TrianglePoints& a : triangles_A_) {
+        if (!counts(a, b)) continue;
+        if (!question_.count_pairs) return {true, 0};
+        ++pairs;
+      }
+    }
+    return {pairs > 0, pairs};
+  }
+
+ private:
+  bool counts(const TrianglePoints& a, const TrianglePoints& b) const {
+    if (question_.tolerance == 0.0) return collision::triangles_intersect(a, b);
+    return collision::triangle_distance(a, b).distance <= question_.tolerance;
+  }
+
+  std::vector<TrianglePoints> triangles_A_;
+  std::shared_ptr<const TriangleMesh> mesh_B_;
+  CollideQuestion question_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& collide_method_names() {
+  static const std::vector<std::string> names{kDopTree, kBruteForce};
+  return names;
+}
+
+CollideMethod make_collide_method(const std::string& name, std::shared_ptr<const TriangleMesh> mesh_A,
+                                  std::shared_ptr<const TriangleMesh> mesh_B, const CollideQuestion& question) {
+  if (name == kBruteForce) return BruteForceMethod(*mesh_A, std::move(mesh_B), question);
+  if (name == kDopTree) return TreeMethod(std::move(mesh_A), std::move(mesh_B), question);
+  throw std::invalid_argument("unknown method " + in_quotes(name) + " (known: " + joined(collide_method_names()) + ")");
+}
+
+}  // namespace glissade::apps

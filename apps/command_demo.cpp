@@ -1,0 +1,107 @@
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/command.h>
+#include <glissade/apps/embedded_scene.h>
+#include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/haptic_session.h>
+#include <glissade/apps/progress.h>
+#include <glissade/apps/stop_signal.h>
+#include <glissade/apps/text.h>
+#include <glissade/apps/trajectory_file.h>
+#include <glissade/devices/simulated_glove_service.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr const char* kDescription = "The whole system without hardware: a simulated glove carries a part to its seat";
+
+constexpr const char* kFooter =
+    "Without --scene, the glove carries a window motor into a car door: through the access hole of the inner panel, past\n"
+    "the side-impact tube and back against the panel. The hand follows a script, squeezed or stretched to the seconds\n"
+    "given, and yields to the forces it is sent. In real time glove and server talk over LCM, 1000 times a second;\n"
+    "offline everything happens in one thread on a simulated clock, with the same result every time.\n"
+    "Every visible pose is checked afterwards by brute force; a collision makes the exit code 1.\n"
+    "\n"
+    "Examples:\n"
+    "  glissade demo\n"
+    "  glissade demo --seconds 20 --report report\n"
+    "  glissade demo --offline --json";
+
+struct Options {
+  double seconds = 10.0;
+  std::string scene;
+  bool offline = false;
+  bool json = false;
+  std::string lcm_url = "memq://";
+  std::string report;
+};
+
+std::int64_t checked_ticks(double seconds) {
+  if (!(seconds >= 0.01 && seconds <= 3600.0)) {
+    throw std::invalid_argument("--seconds: must lie between 0.01 and 3600, not " + format_number(seconds));
+  }
+  return std::llround(seconds * 1000.0);
+}
+
+struct Demo {
+  HapticScene scene;
+  devices::PoseTrajectory script_X_WH;
+};
+
+Demo embedded_demo() {
+  const Scene scene = parse_scene(std::string(embedded_scene_yaml()), "car_door.yaml", ".");
+  return {make_haptic_scene(scene, only_movable_object(scene)),
+          parse_trajectory(embedded_scene_script(), "car_door_script.csv")};
+}
+
+Demo demo_from_file(const std::string& path) {
+  const Scene scene = read_scene(path);
+  if (!scene.script_path) throw std::invalid_argument(path + ": the scene has no script for the hand to follow");
+  return {make_haptic_scene(scene, only_movable_object(scene)), read_trajectory(*scene.script_path)};
+}
+
+Session run_in_real_time(const Demo& demo, const devices::PoseTrajectory& script_X_WH, std::int64_t ticks,
+                         const std::string& lcm_url) {
+  const StopSignal stop_signal;
+  const auto bus = std::make_shared<devices::LcmBus>(lcm_url);
+  realtime::SteadyClock clock;
+  devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script_X_WH), clock);
+  ProgressBar progress("real time", ticks);
+  return run_session(demo.scene, bus, ticks, &StopSignal::requested, [&](std::int64_t done) { progress.update(done); });
+}
+
+int run(const Options& options) {
+  const std::int64_t ticks = checked_ticks(options.seconds);
+  const Demo demo = options.scene.empty() ? embedded_demo() : demo_from_file(options.scene);
+  const devices::PoseTrajectory script_X_WH = demo.script_X_WH.time_scaled(std::chrono::milliseconds(ticks));
+  const Session session = options.offline ? run_session_offline(demo.scene, script_X_WH, ticks)
+                                          : run_in_real_time(demo, script_X_WH, ticks, options.lcm_url);
+  conclude(session, demo.scene, "glissade demo: " + demo.scene.part_name + (options.offline ? ", offline" : ""),
+           options.json, options.report);
+  return 0;
+}
+
+}  // namespace
+
+void add_demo_command(CLI::App& app, Command& chosen) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("demo", kDescription);
+  command->footer(kFooter);
+  command->add_option("--seconds", options->seconds, "How long the script takes, in seconds")->capture_default_str();
+  command->add_option("--scene", options->scene, "Another scene (YAML) with one movable object and a script");
+  command->add_flag("--offline", options->offline, "Deterministic, on a simulated clock, in one thread");
+  command->add_flag("--json", options->json, "Print the summary as JSON");
+  command->add_option("--lcm", options->lcm_url, "LCM address that glove and server meet at")->capture_default_str();
+  command->add_option("--report", options->report, "Folder for an HTML page with the plots of force and lag");
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,78 @@
+#include <chrono>
+#include <cstdint>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/command.h>
+#include <glissade/apps/embedded_scene.h>
+#include <glissade/apps/progress.h>
+#include <glissade/apps/stop_signal.h>
+#include <glissade/apps/text.h>
+#include <glissade/apps/trajectory_file.h>
+#include <glissade/devices/simulated_glove_service.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr const char* kDescription = "A simulated force-feedback glove as a process of its own";
+
+constexpr const char* kFooter =
+    "The hand follows a script, t_s,x_m,y_m,z_m,qw,qx,qy,qz: the pose X_WH of the hand root over time; without one, that\n"
+    "of the car door demonstration. It waits at the script's start until a server sends the first command, yields to\n"
+    "the forces it is sent, and ends when the script does.\n"
+    "\n"
+    "Example, with 'glissade run' in another terminal:\n"
+    "  glissade glove --lcm 'udpm://239.255.76.67:7667?ttl=0' --script hand.csv";
+
+struct Options {
+  std::string side = "right";
+  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string script;
+};
+
+int run(const Options& options) {
+  const devices::PoseTrajectory script = options.script.empty()
+                                             ? parse_trajectory(embedded_scene_script(), "car_door_script.csv")
+                                             : read_trajectory(options.script);
+  const StopSignal stop_signal;
+  const auto bus = std::make_shared<devices::LcmBus>(options.lcm_url);
+  realtime::SteadyClock clock;
+  devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script), clock);
+
+  std::cerr << "glissade glove: the " << options.side << " hand waits for a server at " << options.lcm_url << '\n';
+  const std::int64_t milliseconds = script.duration() / std::chrono::milliseconds(1);
+  {
+    ProgressBar progress("script", milliseconds);
+    while (glove.steps() < milliseconds && !StopSignal::requested()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      progress.update(glove.steps());
+    }
+  }
+  glove.stop();
+  const devices::LinkStatistics link = glove.link_statistics();
+  std::cout << "glissade glove: " << glove.steps() << " ms of the script, " << link.accepted << " commands ("
+            << link.lost << " lost, " << link.rejected() << " refused), greatest force "
+            << format_number(glove.greatest_force()) << " N\n";
+  return 0;
+}
+
+}  // namespace
+
+void add_glove_command(CLI::App& app, Command& chosen) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("glove", kDescription);
+  command->footer(kFooter);
+  command->add_option("--side", options->side, "Which hand wears it")
+      ->check(CLI::IsMember({"left", "right"}))
+      ->capture_default_str();
+  command->add_option("--lcm", options->lcm_url, "LCM address to meet the server at")->capture_default_str();
+  command->add_option("--script", options->script, "What the hand does (CSV), see below");
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace glissade::apps

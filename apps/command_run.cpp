@@ -1,0 +1,75 @@
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/command.h>
+#include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/haptic_session.h>
+#include <glissade/apps/stop_signal.h>
+#include <glissade/apps/text.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr const char* kDescription = "The haptic server: glove states in over LCM, forces out, 1000 times a second";
+
+constexpr const char* kFooter =
+    "The scene's one movable object is the part in the hand. It is grasped rigidly, where it lies, when the first glove\n"
+    "state arrives on the channel GLOVE_STATE; commands go out on GLOVE_COMMAND, and every tick on HAPTIC_STATE for\n"
+    "viewers and loggers. Ends after the seconds given, counted from the first glove state, or with Ctrl-C, and then\n"
+    "prints a summary; the poses of the last minute are checked by brute force.\n"
+    "\n"
+    "Example, with a simulated glove in a second terminal:\n"
+    "  glissade run examples/scenes/car_door.yaml --lcm 'udpm://239.255.76.67:7667?ttl=0' --seconds 12\n"
+    "  glissade glove --lcm 'udpm://239.255.76.67:7667?ttl=0'";
+
+struct Options {
+  std::string scene;
+  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  double seconds = 0.0;
+  bool json = false;
+  std::string report;
+};
+
+int run(const Options& options) {
+  if (!(options.seconds >= 0.0 && options.seconds <= 86400.0)) {
+    throw std::invalid_argument("--seconds: must lie between 0 and 86400, not " + format_number(options.seconds));
+  }
+  const Scene file = read_scene(options.scene);
+  const HapticScene scene = make_haptic_scene(file, only_movable_object(file));
+  const auto bus = std::make_shared<devices::LcmBus>(options.lcm_url);
+  const StopSignal stop_signal;
+  bool announced = false;
+  std::cerr << "glissade run: waiting for a glove at " << options.lcm_url << '\n';
+  const Session session = run_session(scene, bus, std::llround(options.seconds * 1000.0), &StopSignal::requested,
+                                      [&](std::int64_t ticks) {
+                                        if (ticks == 0 || announced) return;
+                                        announced = true;
+                                        std::cerr << "glissade run: the glove holds '" << scene.part_name << "'\n";
+                                      });
+  conclude(session, scene, "glissade run: " + scene.part_name, options.json, options.report);
+  return 0;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, Command& chosen) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("run", kDescription);
+  command->footer(kFooter);
+  command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
+  command->add_option("--lcm", options->lcm_url, "LCM address of the glove")->capture_default_str();
+  command->add_option("--seconds", options->seconds, "Ends so long after the first glove state; 0: on Ctrl-C")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "Print the summary as JSON");
+  command->add_option("--report", options->report, "Folder for an HTML page with the plots of force and lag");
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace glissade::apps

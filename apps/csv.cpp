@@ -1,0 +1,126 @@
+#include <cassert>
+#include <cerrno>
+#include <iostream>
+#include <stdexcept>
+#include <system_error>
+
+#include <glissade/apps/csv.h>
+#include <glissade/apps/text.h>
+
+namespace glissade::apps {
+
+namespace {
+
+std::string at_line(const std::string& source, std::size_t line) {
+  return source + ":" + std::to_string(line);
+}
+
+/// Takes the next line off `text`, without its line break (either kind).
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  std::string_view line = text.substr(0, end);
+  text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (std::size_t comma = line.find(','); comma != std::string_view::npos; comma = line.find(',')) {
+    fields.push_back(line.substr(0, comma));
+    line.remove_prefix(comma + 1);
+  }
+  fields.push_back(line);
+  return fields;
+}
+
+void check_header(std::string_view line, const std::string& source, const std::vector<std::string>& columns) {
+  const std::vector<std::string_view> names = fields_of(line);
+  if (std::equal(names.begin(), names.end(), columns.begin(), columns.end())) return;
+  std::string expected;
+  for (const std::string& column : columns)
+    expected += (expected.empty() ? "" : ",") + column;
+  throw std::invalid_argument(at_line(source, 1) + ": the header row must be " + expected + ", not " + in_quotes(line));
+}
+
+std::vector<double> parse_row(std::string_view line, const std::string& where,
+                              const std::vector<std::string>& columns) {
+  const std::vector<std::string_view> fields = fields_of(line);
+  if (fields.size() != columns.size()) {
+    throw std::invalid_argument(where + ": the row must have " + std::to_string(columns.size()) + " columns, not " +
+                                std::to_string(line.empty() ? 0 : fields.size()));
+  }
+  std::vector<double> values;
+  values.reserve(fields.size());
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const std::optional<double> value = parse_number(fields[i]);
+    if (!value) {
+      throw std::invalid_argument(where + ": column " + columns[i] + ": " + in_quotes(fields[i]) +
+                                  " is not a finite number");
+    }
+    values.push_back(*value);
+  }
+  return values;
+}
+
+}  // namespace
+
+std::string CsvTable::where(std::size_t row) const {
+  return at_line(source, row + 2);
+}
+
+CsvTable read_csv(const std::string& path, const std::vector<std::string>& columns) {
+  return parse_csv(read_text_file(path), path, columns);
+}
+
+CsvTable parse_csv(std::string_view text, const std::string& source, const std::vector<std::string>& columns) {
+  if (text.empty()) throw std::invalid_argument(source + ": the file is empty");
+  check_header(take_line(text), source, columns);
+  CsvTable table{source, {}};
+  while (!text.empty()) {
+    table.rows.push_back(parse_row(take_line(text), table.where(table.rows.size()), columns));
+  }
+  if (table.rows.empty()) throw std::invalid_argument(at_line(source, 1) + ": the header is not followed by any row");
+  return table;
+}
+
+CsvWriter::CsvWriter(const std::string& path, const std::vector<std::string>& columns)
+    : path_(path), columns_(columns.size()), out_(&std::cout) {
+  if (path != "-") {
+    file_.open(path, std::ios::binary);
+    if (!file_) throw std::invalid_argument(path + ": cannot be written: " + std::generic_category().message(errno));
+    out_ = &file_;
+  }
+  for (const std::string& column : columns)
+    add(column);
+  end_row();
+}
+
+CsvWriter& CsvWriter::add(double value) {
+  return add(std::string_view{format_number(value)});
+}
+
+CsvWriter& CsvWriter::add(std::int64_t value) {
+  return add(std::string_view{std::to_string(value)});
+}
+
+CsvWriter& CsvWriter::add(std::string_view text) {
+  if (values_in_row_ > 0) *out_ << ',';
+  *out_ << text;
+  ++values_in_row_;
+  return *this;
+}
+
+void CsvWriter::end_row() {
+  assert(values_in_row_ == columns_);
+  *out_ << '\n';
+  values_in_row_ = 0;
+}
+
+void CsvWriter::close() {
+  out_->flush();
+  if (!*out_)
+    throw std::runtime_error((path_ == "-" ? "standard output" : path_) + ": not everything could be written");
+}
+
+}  // namespace glissade::apps

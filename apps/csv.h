@@ -1,0 +1,60 @@
+#pragma once
+
+/// Tables of numbers as CSV: a header row, decimal points, commas, no quoting.
+
+#include <cstdint>
+#include <fstream>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace glissade::apps {
+
+/// The rows of a CSV file; every value is finite.
+struct CsvTable {
+  std::string source;                     ///< the file's name, for messages
+  std::vector<std::vector<double>> rows;  ///< row i has one value per column and stands on line i + 2
+
+  /// "source:line" of row `row`.
+  std::string where(std::size_t row) const;
+};
+
+/// Reads a file whose header row is exactly `columns`.
+///
+/// Throws std::invalid_argument, naming file, line, column and value, for a file that is missing, a folder or not
+/// readable, another header, no rows, a wrong number of columns, and anything that is not a finite number.
+CsvTable read_csv(const std::string& path, const std::vector<std::string>& columns);
+
+/// The same for a text that is already in memory; `source` stands in for the file's name in messages.
+CsvTable parse_csv(std::string_view text, const std::string& source, const std::vector<std::string>& columns);
+
+/// Writes a CSV file row by row; numbers read back as exactly the values written. Not thread-safe.
+class CsvWriter {
+ public:
+  /// Opens `path`, or standard output when it is "-", and writes the header row.
+  /// Throws std::invalid_argument when the file cannot be created.
+  CsvWriter(const std::string& path, const std::vector<std::string>& columns);
+
+  /// Appends one value to the current row.
+  CsvWriter& add(double value);
+  CsvWriter& add(std::int64_t value);
+  /// `text` must hold no comma, quote or line break.
+  CsvWriter& add(std::string_view text);
+
+  /// Ends the row; it must have one value per column.
+  void end_row();
+
+  /// Flushes. Throws std::runtime_error when not everything could be written (say, on a full disk). Call it at the end;
+  /// the destructor cannot tell anyone.
+  void close();
+
+ private:
+  std::string path_;
+  std::size_t columns_;
+  std::size_t values_in_row_ = 0;
+  std::ofstream file_;
+  std::ostream* out_;
+};
+
+}  // namespace glissade::apps

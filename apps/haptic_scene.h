@@ -1,0 +1,34 @@
+#pragma once
+
+/// A scene made ready for sliding: one part in the hand, everything else an obstacle.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/apps/scene_file.h>
+#include <glissade/collision/grid_check.h>
+#include <glissade/haptics/contact_body.h>
+
+namespace glissade::apps {
+
+struct HapticScene {
+  std::string part_name;
+  std::shared_ptr<const haptics::SlidingPart> part_V;
+  Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
+  std::shared_ptr<const haptics::ContactBody> obstacles_W;  ///< all of them as one mesh in world coordinates
+  std::vector<collision::PlacedMesh> placed_obstacles;      ///< the same, for the independent check
+  std::optional<Eigen::Isometry3d> X_WGoal;
+};
+
+/// Takes the object `part_name` as the part. Throws std::invalid_argument, naming the scene and the object, when there is
+/// no such object, nothing else in the scene, or a mesh without area.
+HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name);
+
+/// The name of the one movable object. Throws std::invalid_argument, naming the scene, when there is none or several.
+std::string only_movable_object(const Scene& scene);
+
+}  // namespace glissade::apps

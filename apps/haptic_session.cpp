@@ -1,0 +1,78 @@
+#include <glissade/apps/haptic_session.h>
+
+
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include <glissade/devices/haptic_state_publisher.h>
+#include <glissade/devices/lcm_glove.h>
+#include <glissade/devices/simulated_glove.h>
+#include <glissade/haptics/haptic_kernel.h>
+#include <glissade/haptics/haptic_server.h>
+#include <glissade/haptics/offline_run.h>
+#include <glissade/realtime/clock.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr double kStiffness_N_per_m = 1000.0;
+constexpr int kFifoPriority = 80;
+/// What a run without an end keeps of its ticks: the last minute.
+constexpr std::size_t kKeptTicks = 60'000;
+
+haptics::Coupling coupling_of(const HapticScene& scene, const devices::DeviceDescriptor& device) {
+  const double radius = scene.part_V->radius();
+  return haptics::coupling_for(device, {kStiffness_N_per_m, kStiffness_N_per_m * radius * radius});
+}
+
+haptics::SlidingOptions sliding_options(const haptics::Coupling& coupling, int max_cycles) {
+  return {.metaphor = haptics::Metaphor::kForceFeedback, .stiffness = coupling.stiffness, .max_cycles = max_cycles};
+}
+
+}  // namespace
+
+Session run_session_offline(const HapticScene& scene, const devices::PoseTrajectory& script_X_WH, std::int64_t ticks) {
+  devices::SimulatedGlove glove(script_X_WH);
+  const haptics::Coupling coupling = coupling_of(scene, glove.descriptor());
+  haptics::Sliding sliding(scene.obstacles_W, scene.part_V, scene.X_WV_start, sliding_options(coupling, 10));
+  haptics::HapticKernel kernel(*scene.part_V, coupling, glove.descriptor(), scene.X_WV_start);
+  SessionRecorder recorder(static_cast<std::size_t>(ticks));
+  ProgressBar progress("offline", ticks);
+  haptics::run_offline(glove, sliding, kernel, ticks, [&](const devices::HapticState& sample) {
+    recorder.record(sample);
+    progress.update(recorder.total());
+  });
+  return {ticks, recorder.samples(), std::nullopt};
+}
+
+Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, std::int64_t ticks,
+                    const std::function<bool()>& should_stop, const std::function<void(std::int64_t)>& watch) {
+  const devices::DeviceDescriptor descriptor = devices::simulated_glove_descriptor();
+  const haptics::Coupling coupling = coupling_of(scene, descriptor);
+  haptics::Sliding sliding(scene.obstacles_W, scene.part_V, scene.X_WV_start, sliding_options(coupling, 3));
+  SessionRecorder recorder(ticks > 0 ? static_cast<std::size_t>(ticks) : kKeptTicks);
+  devices::HapticStatePublisher publisher(bus);
+  devices::LcmGlove glove(bus, descriptor);
+  realtime::SteadyClock clock;
+
+  haptics::HapticServer server(
+      glove, sliding, coupling, clock,
+      [&](const devices::HapticState& sample) {
+        recorder.record(sample);
+        publisher.push(sample);
+      },
+      {.ticks = ticks, .fifo_priority = kFifoPriority});
+  realtime::PeriodicThread bare_timer(clock, {.period = haptics::kTickPeriod, .fifo_priority = kFifoPriority},
+                                      [](const realtime::PeriodicTick&) { return true; });
+  while (!server.is_done() && !should_stop()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    watch(server.ticks());
+  }
+  server.stop();
+  bare_timer.stop();
+  return {server.ticks(), recorder.samples(), RealTimeFigures{server.statistics(), bare_timer.statistics()}};
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,30 @@
+#pragma once
+
+/// Round numbers for the axes of a plot.
+
+#include <string>
+#include <vector>
+
+namespace glissade::apps {
+
+/// Ticks at multiples of a 1, 2 or 5 times a power of ten.
+struct AxisTicks {
+  double step;
+  std::vector<double> values;       ///< ascending, all within the range asked for
+  std::vector<std::string> labels;  ///< one per value, all with the same number of decimals
+};
+
+/// Between 2 and `most` + 1 ticks for the range from `low` to `high`; both finite, `low` < `high`, `most` ≥ 2.
+AxisTicks axis_ticks(double low, double high, int most);
+
+/// A range of values with room to draw in.
+struct AxisRange {
+  double low;
+  double high;
+};
+
+/// The smallest range between multiples of the tick step that holds `low` to `high`; a single value gets room on both
+/// sides.
+AxisRange rounded_range(double low, double high, int most);
+
+}  // namespace glissade::apps

@@ -1,0 +1,40 @@
+#include <cmath>
+#include <stdexcept>
+
+#include <glissade/apps/pose_rules.h>
+#include <glissade/apps/text.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr double kLengthTolerance = 1e-3;
+constexpr double kLargestCoordinate = 1e9;
+
+std::string spaced(const Eigen::Vector4d& values) {
+  return format_number(values[0]) + " " + format_number(values[1]) + " " + format_number(values[2]) + " " +
+         format_number(values[3]);
+}
+
+}  // namespace
+
+Eigen::Isometry3d checked_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& q, const std::string& where) {
+  for (const double coordinate : position) {
+    if (std::abs(coordinate) > kLargestCoordinate) {
+      throw std::invalid_argument(where + ": the position " + format_number(coordinate) + " is beyond 1e9 m");
+    }
+  }
+  const double length = q.norm();
+  // Written so that a length that is not a number fails as well.
+  if (!(std::abs(length - 1.0) <= kLengthTolerance)) {
+    throw std::invalid_argument(
+        where + ": the quaternion (w x y z) " + spaced({q.w(), q.x(), q.y(), q.z()}) +
+        (length == 0.0 ? " is zero" : " has length " + format_number(length) + " instead of 1"));
+  }
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = q.normalized().toRotationMatrix();
+  X.translation() = position;
+  return X;
+}
+
+}  // namespace glissade::apps

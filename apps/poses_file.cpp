@@ -1,0 +1,26 @@
+#include <glissade/apps/pose_rules.h>
+#include <glissade/apps/poses_file.h>
+
+namespace glissade::apps {
+
+const std::vector<std::string>& pose_columns() {
+  static const std::vector<std::string> columns{"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};
+  return columns;
+}
+
+std::vector<Eigen::Isometry3d> read_poses(const std::string& path) {
+  const CsvTable table = read_csv(path, pose_columns());
+  std::vector<Eigen::Isometry3d> poses;
+  poses.reserve(table.rows.size());
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    poses.push_back(pose_from_row(table, row, 0));
+  return poses;
+}
+
+Eigen::Isometry3d pose_from_row(const CsvTable& table, std::size_t row, std::size_t first_column) {
+  const double* values = table.rows[row].data() + first_column;
+  return checked_pose({values[0], values[1], values[2]}, {values[3], values[4], values[5], values[6]},
+                      table.where(row));
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,24 @@
+#pragma once
+
+/// Files of poses: one row `x_m,y_m,z_m,qw,qx,qy,qz` each.
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/apps/csv.h>
+
+namespace glissade::apps {
+
+/// The columns of a pose: position in metres, unit quaternion.
+const std::vector<std::string>& pose_columns();
+
+/// The poses X_AB of a file, in its order.
+/// Throws std::invalid_argument, naming file, line and value: see `read_csv` and `checked_pose`.
+std::vector<Eigen::Isometry3d> read_poses(const std::string& path);
+
+/// The pose in row `row` of `table`, whose `pose_columns()` begin at `first_column`. Throws like `checked_pose`.
+Eigen::Isometry3d pose_from_row(const CsvTable& table, std::size_t row, std::size_t first_column);
+
+}  // namespace glissade::apps

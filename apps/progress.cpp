@@ -1,0 +1,49 @@
+#include <algorithm>
+#include <iostream>
+#include <utility>
+
+#include <unistd.h>
+
+#include <glissade/apps/progress.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr std::chrono::seconds kQuietTime{1};
+constexpr std::chrono::milliseconds kRedrawPeriod{100};
+constexpr int kBarWidth = 40;
+
+}  // namespace
+
+ProgressBar::ProgressBar(std::string label, std::int64_t total)
+    : label_(std::move(label)),
+      total_(total),
+      on_terminal_(isatty(STDERR_FILENO) == 1),
+      next_draw_(std::chrono::steady_clock::now() + kQuietTime) {}
+
+ProgressBar::~ProgressBar() {
+  // Carriage return, then "erase to the end of the line".
+  if (drawn_) std::cerr << "\r\033[K" << std::flush;
+}
+
+void ProgressBar::update(std::int64_t done) {
+  if (!on_terminal_ || std::chrono::steady_clock::now() < next_draw_) return;
+  draw(done);
+}
+
+void ProgressBar::draw(std::int64_t done) {
+  std::cerr << '\r' << progress_line(label_, done, total_, kBarWidth) << std::flush;
+  drawn_ = true;
+  next_draw_ = std::chrono::steady_clock::now() + kRedrawPeriod;
+}
+
+std::string progress_line(const std::string& label, std::int64_t done, std::int64_t total, int width) {
+  const std::int64_t within = std::clamp<std::int64_t>(done, 0, total);
+  const auto filled = static_cast<std::size_t>(within * width / total);
+  const std::string percent = std::to_string(within * 100 / total);
+  return label + " [" + std::string(filled, '#') + std::string(static_cast<std::size_t>(width) - filled, ' ') + "] " +
+         std::string(3 - percent.size(), ' ') + percent + " %";
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,38 @@
+#pragma once
+
+/// A progress bar for work that takes more than a second.
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace glissade::apps {
+
+/// Shows on standard error how much of some counted work is done, only when that is a terminal and only once the work
+/// has taken a second; wiped when destroyed. Not thread-safe; may block on the terminal.
+class ProgressBar {
+ public:
+  /// `total` > 0 is the amount of work.
+  ProgressBar(std::string label, std::int64_t total);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// Tells that `done` of the work is done. Cheap enough for every step of a loop of microseconds: it draws 10 times a
+  /// second.
+  void update(std::int64_t done);
+
+ private:
+  void draw(std::int64_t done);
+
+  std::string label_;
+  std::int64_t total_;
+  bool on_terminal_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point next_draw_;
+};
+
+/// The line that the bar shows: the label, a bar of `width` cells and the percentage.
+std::string progress_line(const std::string& label, std::int64_t done, std::int64_t total, int width);
+
+}  // namespace glissade::apps

@@ -1,0 +1,68 @@
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+
+#include <glissade/apps/text.h>
+
+namespace glissade::apps {
+
+namespace {
+
+bool is_control(char character) {
+  const auto byte = static_cast<unsigned char>(character);
+  return byte < 0x20 || byte == 0x7f;
+}
+
+}  // namespace
+
+std::optional<double> parse_number(std::string_view text) {
+  double value = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || stop != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::string format_number(double value) {
+  std::array<char, 32> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kLongest = 60;
+  const bool cut = text.size() > kLongest;
+  return "'" + one_line(text.substr(0, kLongest)) + (cut ? "...'" : "'");
+}
+
+std::string one_line(std::string_view text) {
+  std::string result;
+  bool in_run = false;
+  for (const char character : text) {
+    const bool control = is_control(character);
+    if (!control) result += character;
+    if (control && !in_run) result += ' ';
+    in_run = control;
+  }
+  return result;
+}
+
+std::string read_text_file(const std::string& path) {
+  // A folder opens like a file and fails only later, with a less helpful reason.
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw std::invalid_argument(path + ": is a folder, not a file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::invalid_argument(path + ": " + std::generic_category().message(errno));
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (file.bad()) throw std::invalid_argument(path + ": cannot be read");
+  return std::move(text).str();
+}
+
+}  // namespace glissade::apps

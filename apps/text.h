@@ -1,0 +1,38 @@
+#pragma once
+
+/// Small text helpers that the file readers and the error messages share.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace glissade::apps {
+
+/// The whole of `text` as a number with a decimal point, whatever the locale; nothing when it is anything else. "inf",
+/// "nan" and values beyond the range of a double are not numbers here.
+std::optional<double> parse_number(std::string_view text);
+
+/// The shortest decimal text that reads back as exactly `value`.
+std::string format_number(double value);
+
+/// `text` in single quotes, fit for a one-line message: control characters are replaced and long texts cut short.
+std::string in_quotes(std::string_view text);
+
+/// `text` on one line: runs of line breaks and other control characters become one space.
+std::string one_line(std::string_view text);
+
+/// The texts joined by ", ".
+template <typename Texts>
+std::string joined(const Texts& texts) {
+  std::string result;
+  for (const auto& text : texts) {
+    if (!result.empty()) result += ", ";
+    result += text;
+  }
+  return result;
+}
+
+/// The file's bytes. Throws std::invalid_argument, naming the file, when it is missing, a folder or cannot be read.
+std::string read_text_file(const std::string& path);
+
+}  // namespace glissade::apps

@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include <glissade/apps/text.h>
+#include <glissade/apps/yaml_reader.h>
+
+namespace glissade::apps {
+
+namespace {
+
+std::string at_mark(const std::string& source, const YAML::Mark& mark) {
+  return mark.is_null() ? source : source + ":" + std::to_string(mark.line + 1);
+}
+
+std::string shown(const YAML::Node& node) {
+  if (node.IsScalar()) return in_quotes(node.Scalar());
+  if (node.IsMap()) return "a map";
+  return node.IsSequence() ? "a list" : "nothing";
+}
+
+}  // namespace
+
+YamlReader::YamlReader(std::string source) : source_(std::move(source)) {}
+
+YAML::Node YamlReader::parse(const std::string& text) const {
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::Exception& error) {
+    throw std::invalid_argument(at_mark(source_, error.mark) + ": not valid YAML: " + error.msg);
+  }
+}
+
+std::string YamlReader::where(const YAML::Node& node) const {
+  return at_mark(source_, node.Mark());
+}
+
+void YamlReader::fail(const YAML::Node& node, const std::string& message) const {
+  throw std::invalid_argument(where(node) + ": " + message);
+}
+
+void YamlReader::check_map(const YAML::Node& map, const std::string& what) const {
+  if (!map.IsMap()) fail(map, what + " must be a map of keys and values, not " + shown(map));
+  std::set<std::string> seen;
+  for (const auto& entry : map) {
+    if (!entry.first.IsScalar()) fail(entry.first, what + ": a key must be text, not " + shown(entry.first));
+    const std::string& key = entry.first.Scalar();
+    if (!seen.insert(key).second) fail(entry.first, what + ": the key " + in_quotes(key) + " is given twice");
+  }
+}
+
+void YamlReader::check_keys(const YAML::Node& map, const std::string& what,
+                            const std::vector<std::string>& known) const {
+  check_map(map, what);
+  for (const auto& entry : map) {
+    const std::string& key = entry.first.Scalar();
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      fail(entry.first, what + ": unknown key " + in_quotes(key) + " (known: " + joined(known) + ")");
+    }
+  }
+}
+
+YAML::Node YamlReader::required(const YAML::Node& map, const std::string& what, const std::string& key) const {
+  YAML::Node node = map[key];
+  if (!node) fail(map, what + ": the key " + in_quotes(key) + " is missing");
+  return node;
+}
+
+std::string YamlReader::text(const YAML::Node& node, const std::string& key) const {
+  if (!node.IsScalar() || node.Scalar().empty()) fail(node, key + ": must be a text, not " + shown(node));
+  return node.Scalar();
+}
+
+double YamlReader::number(const YAML::Node& node, const std::string& key) const {
+  const std::optional<double> value = node.IsScalar() ? parse_number(node.Scalar()) : std::nullopt;
+  if (!value) fail(node, key + ": must be a finite number, not " + shown(node));
+  return *value;
+}
+
+bool YamlReader::boolean(const YAML::Node& node, const std::string& key) const {
+  const std::string value = node.IsScalar() ? node.Scalar() : "";
+  if (value != "true" && value != "false") fail(node, key + ": must be true or false, not " + shown(node));
+  return value == "true";
+}
+
+Eigen::VectorXd YamlReader::numbers(const YAML::Node& node, const std::string& key, std::size_t count) const {
+  if (!node.IsSequence())
+    fail(node, key + ": must be a list of " + std::to_string(count) + " numbers, not " + shown(node));
+  if (node.size() != count) {
+    fail(node,
+         key + ": must be a list of " + std::to_string(count) + " numbers, not of " + std::to_string(node.size()));
+  }
+  Eigen::VectorXd values(static_cast<Eigen::Index>(count));
+  for (std::size_t i = 0; i < count; ++i)
+    values[static_cast<Eigen::Index>(i)] = number(node[i], key);
+  return values;
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,48 @@
+#pragma once
+
+/// Typed access to YAML that tolerates nothing unexpected: every error is one line with file, line and key.
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <yaml-cpp/yaml.h>
+
+namespace glissade::apps {
+
+/// Reads the nodes of one file. Every function but `where` throws std::invalid_argument, beginning with `where(node)`.
+class YamlReader {
+ public:
+  /// `source` is the file's name, for messages.
+  explicit YamlReader(std::string source);
+
+  /// The document's root node; throws on a syntax error.
+  YAML::Node parse(const std::string& text) const;
+
+  /// "file:line" of a node.
+  std::string where(const YAML::Node& node) const;
+
+  /// Throws for `node` with the sentence `message`.
+  [[noreturn]] void fail(const YAML::Node& node, const std::string& message) const;
+
+  /// Checks that `map` (called `what` in messages) is a map whose keys are texts and differ.
+  void check_map(const YAML::Node& map, const std::string& what) const;
+
+  /// The same, with none but the keys `known`.
+  void check_keys(const YAML::Node& map, const std::string& what, const std::vector<std::string>& known) const;
+
+  /// The value of `key`, which must be there.
+  YAML::Node required(const YAML::Node& map, const std::string& what, const std::string& key) const;
+
+  /// `node` as text that is not empty, a finite number, true or false, or a list of `count` finite numbers. `key` names
+  /// it.
+  std::string text(const YAML::Node& node, const std::string& key) const;
+  double number(const YAML::Node& node, const std::string& key) const;
+  bool boolean(const YAML::Node& node, const std::string& key) const;
+  Eigen::VectorXd numbers(const YAML::Node& node, const std::string& key, std::size_t count) const;
+
+ private:
+  std::string source_;
+};
+
+}  // namespace glissade::apps

@@ -1,0 +1,44 @@
+#pragma once
+
+/// A simulated glove that lives on an LCM bus like a real one: its own thread at 1 kHz, states out, commands in.
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+#include <glissade/devices/lcm_bus.h>
+#include <glissade/devices/lcm_glove_host.h>
+#include <glissade/devices/simulated_glove.h>
+#include <glissade/realtime/clock.h>
+#include <glissade/realtime/periodic_thread.h>
+
+namespace glissade::devices {
+
+/// Starts in its constructor and ends with its destructor. The hand waits at the start of its script until the first
+/// command arrives, so that server and glove may be started in any order.
+class SimulatedGloveService {
+ public:
+  /// Throws std::invalid_argument when the bus cannot receive. The clock must outlive the service.
+  SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock);
+
+  /// Milliseconds of the script done so far. Any thread.
+  std::int64_t steps() const noexcept { return steps_.load(std::memory_order_relaxed); }
+
+  /// Ends the thread; afterwards the figures below are final.
+  void stop() { thread_->stop(); }
+
+  /// Greatest norm of a force the hand was sent, N. Valid after `stop`.
+  double greatest_force() const noexcept { return greatest_force_; }
+  LinkStatistics link_statistics() const noexcept { return host_.statistics(); }
+
+ private:
+  void tick();
+
+  LcmGloveHost host_;
+  SimulatedGlove glove_;
+  std::atomic<std::int64_t> steps_{0};
+  double greatest_force_ = 0.0;
+  std::unique_ptr<realtime::PeriodicThread> thread_;
+};
+
+}  // namespace glissade::devices

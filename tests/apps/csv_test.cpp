@@ -1,0 +1,107 @@
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glissade/apps/csv.h>
+#include <glissade/apps/text.h>
+
+#include "expect_bad_input.h"
+#include "temporary_folder.h"
+
+namespace glissade::apps {
+namespace {
+
+using test_support::expect_bad_input;
+using test_support::TemporaryFolder;
+
+const std::vector<std::string> kColumns{"t_s", "x_m"};
+
+CsvTable parse(const std::string& text) {
+  return parse_csv(text, "table.csv", kColumns);
+}
+
+TEST(Csv, ReadsRowsOfNumbers) {
+  const CsvTable table = parse("t_s,x_m\n0,1.5\n-2e-3,.25\n");
+  EXPECT_THAT(table.rows, testing::ElementsAre(std::vector<double>{0.0, 1.5}, std::vector<double>{-2e-3, 0.25}));
+  EXPECT_EQ(table.where(1), "table.csv:3");
+}
+
+TEST(Csv, LineBreaksMayBeOfEitherKindAndTheLastOneMayBeMissing) {
+  EXPECT_EQ(parse("t_s,x_m\r\n1,2\r\n3,4").rows, parse("t_s,x_m\n1,2\n3,4\n").rows);
+}
+
+TEST(Csv, TheHeaderMustBeExact) {
+  expect_bad_input([] { parse("t_s,y_m\n1,2\n"); }, {"table.csv:1:", "t_s,x_m", "'t_s,y_m'"});
+  expect_bad_input([] { parse("t_s,x_m,y_m\n1,2,3\n"); }, {"table.csv:1:", "t_s,x_m,y_m"});
+  expect_bad_input([] { parse("1,2\n3,4\n"); }, {"table.csv:1:", "'1,2'"});
+}
+
+TEST(Csv, AWrongNumberOfColumnsNamesTheLine) {
+  expect_bad_input([] { parse("t_s,x_m\n1,2\n3\n"); }, {"table.csv:3:", "2 columns, not 1"});
+  expect_bad_input([] { parse("t_s,x_m\n1,2,3\n"); }, {"table.csv:2:", "2 columns, not 3"});
+  expect_bad_input([] { parse("t_s,x_m\n1,2\n\n3,4\n"); }, {"table.csv:3:", "2 columns, not 0"});
+}
+
+TEST(Csv, WhatIsNotAFiniteNumberNamesLineColumnAndValue) {
+  for (const std::string bad : {"left", "nan", "inf", "-inf", "1e999", "", " 1", "1 ", "1;2", "0x10", "\"1\""}) {
+    expect_bad_input([&] { parse("t_s,x_m\n1,2\n1," + bad + "\n"); }, {"table.csv:3:", "column x_m", "'" + bad + "'"});
+  }
+}
+
+TEST(Csv, ABinaryFileIsToldOnOneShortLine) {
+  const std::string garbage(10000, '\x01');
+  expect_bad_input([&] { parse(garbage); }, {"table.csv:1:"});
+  expect_bad_input([&] { parse("t_s,x_m\n1," + std::string(10000, 'x')); }, {"'xxxxx", "...'"});
+}
+
+TEST(Csv, ATableWithoutRowsIsAnError) {
+  expect_bad_input([] { parse(""); }, {"table.csv: the file is empty"});
+  expect_bad_input([] { parse("t_s,x_m\n"); }, {"table.csv:1:", "not followed by any row"});
+}
+
+TEST(Csv, FilesThatCannotBeReadAreNamed) {
+  const TemporaryFolder folder;
+  expect_bad_input([&] { read_csv(folder.path("none.csv"), kColumns); }, {"none.csv: No such file"});
+  expect_bad_input([&] { read_csv(folder.path(""), kColumns); }, {folder.path("") + ": is a folder"});
+}
+
+TEST(CsvWriter, WrittenNumbersReadBackAsTheSameBits) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("out.csv");
+  const std::vector<double> values{
+      0.1,          1.0 / 3.0, -1e-300, std::numeric_limits<double>::max(), std::numeric_limits<double>::denorm_min(),
+      123456789.125};
+  CsvWriter writer(path, kColumns);
+  for (const double value : values) {
+    writer.add(std::int64_t{7}).add(value);
+    writer.end_row();
+  }
+  writer.close();
+
+  const CsvTable table = read_csv(path, kColumns);
+  ASSERT_EQ(table.rows.size(), values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    EXPECT_EQ(table.rows[i], (std::vector<double>{7.0, values[i]}));
+  }
+}
+
+TEST(CsvWriter, AFileThatCannotBeMadeIsNamed) {
+  const TemporaryFolder folder;
+  expect_bad_input([&] { CsvWriter(folder.path("none/out.csv"), kColumns); }, {"none/out.csv", "No such file"});
+}
+
+TEST(CsvWriter, AFullDiskIsAFailureWhileRunning) {
+  CsvWriter writer("/dev/full", kColumns);
+  EXPECT_THROW(writer.close(), std::runtime_error);
+}
+
+TEST(Text, QuotedTextStaysShortAndOnOneLine) {
+  EXPECT_EQ(in_quotes("a\r\nb"), "'a b'");
+  EXPECT_LT(in_quotes(std::string(1000, 'a')).size(), 80U);
+}
+
+}  // namespace
+}  // namespace glissade::apps

@@ -1,0 +1,74 @@
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glissade/apps/html_report.h>
+
+#include "expect_bad_input.h"
+#include "temporary_folder.h"
+
+namespace glissade::apps {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+Report small_report() {
+  return {"Motor <into> door",
+          {{"greatest force", "12.5 N"}, {"seat reached", "yes & held"}},
+          {{"Force on the hand", "time [s]", "force [N]", {{"x", {0, 1}, {0, 1}}, {"y", {0, 1}, {1, 0}}}}}};
+}
+
+TEST(HtmlReport, ShowsTitleSummaryPlotsAndLegend) {
+  const std::string html = html_report(small_report());
+  EXPECT_THAT(html, HasSubstr("<h1>Motor &lt;into&gt; door</h1>"));
+  EXPECT_THAT(html, HasSubstr("<td>12.5 N</td>"));
+  EXPECT_THAT(html, HasSubstr("yes &amp; held"));
+  EXPECT_THAT(html, HasSubstr("<h2>Force on the hand</h2>"));
+  EXPECT_THAT(html, HasSubstr("<li class=\"c1\"><span>y</span></li>"));
+}
+
+TEST(HtmlReport, NeedsNoNetworkAndNoScript) {
+  const std::string html = html_report(small_report());
+  EXPECT_THAT(html, Not(HasSubstr("<script")));
+  EXPECT_THAT(html, Not(HasSubstr("src=")));
+  EXPECT_THAT(html, Not(HasSubstr("href=")));
+  EXPECT_THAT(html, Not(HasSubstr("url(")));
+  EXPECT_THAT(html, Not(HasSubstr("@import")));
+}
+
+TEST(HtmlReport, EveryElementIsClosed) {
+  const std::string html = html_report(small_report());
+  for (const std::string tag :
+       {"html", "head", "body", "main", "section", "table", "tr", "th", "td", "svg", "text", "ul", "li"}) {
+    const std::regex opening("<" + tag + "[ >]");
+    const std::regex closing("</" + tag + ">");
+    const auto count = [&](const std::regex& pattern) {
+      return std::distance(std::sregex_iterator(html.begin(), html.end(), pattern), std::sregex_iterator());
+    };
+    EXPECT_GT(count(opening), 0) << tag;
+    EXPECT_EQ(count(opening), count(closing)) << tag;
+  }
+}
+
+TEST(HtmlReport, IsWrittenIntoAFolderThatNeedNotExist) {
+  const test_support::TemporaryFolder folder;
+  const std::string path = write_html_report(small_report(), folder.path("deep/report"));
+  EXPECT_EQ(path, folder.path("deep/report/index.html"));
+  std::ostringstream written;
+  written << std::ifstream(path).rdbuf();
+  EXPECT_EQ(written.str(), html_report(small_report()));
+}
+
+TEST(HtmlReport, AFolderThatCannotBeMadeIsNamed) {
+  const test_support::TemporaryFolder folder;
+  const std::string file = folder.write("file", "");
+  test_support::expect_bad_input([&] { write_html_report(small_report(), file + "/report"); }, {file + "/report"});
+}
+
+}  // namespace
+}  // namespace glissade::apps

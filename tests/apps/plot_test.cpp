@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glissade/apps/plot.h>
+#include <glissade/apps/plot_axis.h>
+#include <glissade/apps/svg_plot.h>
+
+namespace glissade::apps {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+PlotSeries wave(std::size_t count) {
+  PlotSeries series{"wave", {}, {}};
+  for (std::size_t i = 0; i < count; ++i) {
+    series.x.push_back(static_cast<double>(i));
+    series.y.push_back(std::sin(0.01 * static_cast<double>(i)));
+  }
+  return series;
+}
+
+TEST(Decimation, KeepsPeaksEndsAndOrder) {
+  PlotSeries series = wave(10000);
+  series.y[4321] = 7.0;
+  series.y[8765] = -9.0;
+  const PlotSeries few = decimated(series, 200);
+  EXPECT_LE(few.x.size(), 200U);
+  EXPECT_EQ(*std::max_element(few.y.begin(), few.y.end()), 7.0);
+  EXPECT_EQ(*std::min_element(few.y.begin(), few.y.end()), -9.0);
+  EXPECT_EQ(few.x.front(), 0.0);
+  EXPECT_EQ(few.x.back(), 9999.0);
+  EXPECT_TRUE(std::is_sorted(few.x.begin(), few.x.end()));
+}
+
+TEST(Decimation, LeavesShortLinesAlone) {
+  EXPECT_EQ(decimated(wave(200), 200).y, wave(200).y);
+}
+
+TEST(Decimation, KeepsGaps) {
+  PlotSeries series = wave(10000);
+  std::fill(series.y.begin() + 3000, series.y.begin() + 6000, std::numeric_limits<double>::quiet_NaN());
+  const PlotSeries few = decimated(series, 200);
+  EXPECT_TRUE(std::any_of(few.y.begin(), few.y.end(), [](double y) { return std::isnan(y); }));
+  EXPECT_TRUE(std::isfinite(few.y.back()));
+}
+
+TEST(AxisTicks, AreRoundNumbersWithEvenLabels) {
+  EXPECT_THAT(axis_ticks(0.0, 10.0, 5).labels, ElementsAre("0", "2", "4", "6", "8", "10"));
+  EXPECT_THAT(axis_ticks(-0.3, 0.35, 4).labels, ElementsAre("-0.2", "0.0", "0.2"));
+  EXPECT_THAT(axis_ticks(0.0, 0.05, 6).labels, ElementsAre("0.00", "0.01", "0.02", "0.03", "0.04", "0.05"));
+  EXPECT_THAT(axis_ticks(0.0, 4e-8, 4).labels, ElementsAre("0e+00", "1e-08", "2e-08", "3e-08", "4e-08"));
+}
+
+TEST(AxisTicks, AFlatLineGetsRoomOnBothSides) {
+  for (const double value : {0.0, 5.0, -1e-9, 1e12}) {
+    const AxisRange range = rounded_range(value, value, 6);
+    EXPECT_LT(range.low, value);
+    EXPECT_GT(range.high, value);
+  }
+}
+
+TEST(AxisTicks, TheRangeHoldsTheDataAndEndsAtTicks) {
+  const AxisRange range = rounded_range(-0.13, 9.7, 6);
+  EXPECT_DOUBLE_EQ(range.low, -2.0);
+  EXPECT_DOUBLE_EQ(range.high, 10.0);
+}
+
+TEST(SvgPlot, DrawsALineForEachSeriesAndBreaksItAtGaps) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Plot plot{"force", "time [s]", "force [N]", {{"a", {0, 1, 2, 3, 4}, {0, 1, nan, 1, 0}}, {"b", {0, 4}, {2, 2}}}};
+  const std::string svg = svg_plot(plot);
+  EXPECT_THAT(svg, HasSubstr("class=\"line c0\""));
+  EXPECT_THAT(svg, HasSubstr("class=\"line c1\""));
+  EXPECT_EQ(std::count(svg.begin(), svg.end(), 'M'), 3) << "two pieces of a, one of b";
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+}
+
+TEST(SvgPlot, EscapesItsTexts) {
+  const std::string svg = svg_plot({"a<b & \"c\"", "x<y", "z", {{"s", {0, 1}, {0, 1}}}});
+  EXPECT_THAT(svg, HasSubstr("a&lt;b &amp; &quot;c&quot;"));
+  EXPECT_THAT(svg, HasSubstr("x&lt;y"));
+}
+
+TEST(SvgPlot, SaysWhenThereIsNothingToDraw) {
+  EXPECT_THAT(svg_plot({"empty", "x", "y", {}}), HasSubstr("no data"));
+  EXPECT_THAT(svg_plot({"empty", "x", "y", {{"s", {}, {}}}}), HasSubstr("no data"));
+  EXPECT_THAT(svg_plot({"point", "x", "y", {{"s", {1.0}, {2.0}}}}), Not(HasSubstr("no data")));
+}
+
+}  // namespace
+}  // namespace glissade::apps

@@ -1,0 +1,49 @@
+#include <chrono>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <glissade/apps/trajectory_file.h>
+
+#include "expect_bad_input.h"
+
+namespace glissade::apps {
+namespace {
+
+using std::chrono::milliseconds;
+using test_support::expect_bad_input;
+
+devices::PoseTrajectory parse_rows(const std::string& rows) {
+  return parse_trajectory("t_s,x_m,y_m,z_m,qw,qx,qy,qz\n" + rows, "path.csv");
+}
+
+TEST(TrajectoryFile, ReadsTimesAndPoses) {
+  const devices::PoseTrajectory path = parse_rows("0.5,0,0,0,1,0,0,0\n1.5,2,0,4,1,0,0,0\n");
+  EXPECT_EQ(path.first_time(), milliseconds(500));
+  EXPECT_EQ(path.last_time(), milliseconds(1500));
+  EXPECT_TRUE(path.pose_at(milliseconds(1000)).translation().isApprox(Eigen::Vector3d(1.0, 0.0, 2.0)));
+}
+
+TEST(TrajectoryFile, ATimeThatDoesNotRiseNamesItsLine) {
+  for (const std::string time : {"1", "0.5", "1.0000000001"}) {
+    expect_bad_input([&] { parse_rows("0,0,0,0,1,0,0,0\n1,0,0,0,1,0,0,0\n" + time + ",0,0,0,1,0,0,0\n"); },
+                     {"path.csv:4:", "t_s", time, "does not rise"});
+  }
+}
+
+TEST(TrajectoryFile, ATimeThatNanosecondsCannotCountIsAnError) {
+  expect_bad_input([] { parse_rows("1e300,0,0,0,1,0,0,0\n"); }, {"path.csv:2:", "t_s", "1e+300"});
+}
+
+TEST(TrajectoryFile, PosesFollowTheRuleForPoses) {
+  expect_bad_input([] { parse_rows("0,0,0,0,0,0,0,0\n"); }, {"path.csv:2:", "is zero"});
+  expect_bad_input([] { parse_rows("0,0,0,0,1.01,0,0,0\n"); }, {"path.csv:2:", "length 1.01"});
+}
+
+TEST(TrajectoryFile, APosesFileIsNotATrajectory) {
+  expect_bad_input([] { parse_trajectory("x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,1,0,0,0\n", "path.csv"); },
+                   {"path.csv:1:", "t_s,x_m"});
+}
+
+}  // namespace
+}  // namespace glissade::apps
