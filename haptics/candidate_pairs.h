@@ -44,6 +44,9 @@ class CandidatePairs {
   /// A lower bound, in metres, of the distance of a pair at the part's present pose.
   double distance_at_least(const CandidatePair& pair) const { return pair.distance - drift_; }
 
+  /// Number of candidates.
+  std::size_t size() const { return pairs_.size(); }
+
   std::int64_t queries() const { return queries_; }
 
  private:

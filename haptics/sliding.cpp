@@ -11,6 +11,8 @@ namespace {
 constexpr double kDefaultStiffness_N_per_m = 1000.0;
 constexpr double kSmallestReach_m = 30e-6;
 constexpr double kLargestReach_m = 3e-3;
+constexpr double kSmallestReachLimit_m = 0.5e-3;
+constexpr std::size_t kAffordablePairs = 30'000;
 
 constexpr int kProjections = 4;  // the first, and three more with rows for what could not be proved
 constexpr int kHalvings = 6;
@@ -51,7 +53,8 @@ Sliding::Sliding(std::shared_ptr<const ContactBody> obstacles_W, std::shared_ptr
       max_cycles_(options.max_cycles),
       margin_(std::clamp(1e-4 * part_V_->radius(), 2e-6, 10e-6)),
       candidates_(*obstacles_W_, *part_V_),
-      certificate_(*obstacles_W_, *part_V_, kFloorOfMargin * margin_) {
+      certificate_(*obstacles_W_, *part_V_, kFloorOfMargin * margin_),
+      reach_limit_(kLargestReach_m) {
   collision::QueryWorkspace workspace;
   if (collision::intersects(obstacles_W_->tree, part_V_->tree, X_WV_start, workspace)) {
     throw std::invalid_argument("the part collides with an obstacle at its start pose");
@@ -80,7 +83,7 @@ const SlidingResult& Sliding::advance(const Eigen::Isometry3d& X_WG) {
 Sliding::Step Sliding::cycle(const Eigen::Isometry3d& X_WG, double budget) {
   result_.reach = choose_reach(budget);
   if (!candidates_.covers(result_.reach)) {
-    candidates_.refresh(result_.X_WV, result_.reach + std::clamp(4.0 * ghost_motion_, 30e-6, 0.5e-3));
+    refresh_candidates();
   }
   find_rows();
 
@@ -108,10 +111,18 @@ Sliding::Step Sliding::cycle(const Eigen::Isometry3d& X_WG, double budget) {
   return none;
 }
 
+/// A query looks some ticks ahead. Where finely cut surfaces lie flush there are very many pairs, and a part that falls
+/// behind would look further with every query and so fall behind more; the limit on the reach ends that.
+void Sliding::refresh_candidates() {
+  candidates_.refresh(result_.X_WV, result_.reach + std::clamp(4.0 * ghost_motion_, 30e-6, 0.5e-3));
+  const bool too_many = candidates_.size() > kAffordablePairs;
+  reach_limit_ = std::clamp((too_many ? 0.5 : 1.25) * reach_limit_, kSmallestReachLimit_m, kLargestReach_m);
+}
+
 double Sliding::choose_reach(double budget) const {
   double reach = 1.5 * std::max(ghost_motion_, last_step_) + 2.0 * margin_;
   if (last_clipped_) reach *= 2.0;
-  return std::clamp(std::min(reach, budget + 2.0 * margin_), kSmallestReach_m, kLargestReach_m);
+  return std::clamp(std::min(reach, budget + 2.0 * margin_), kSmallestReach_m, reach_limit_);
 }
 
 void Sliding::find_rows() {

@@ -106,6 +106,7 @@ class Sliding {
 
   Step cycle(const Eigen::Isometry3d& X_WG, double budget);
   double choose_reach(double budget) const;
+  void refresh_candidates();
   void find_rows();
   Step certified_step(const Displacement& wanted, double budget);
   Displacement project_on_rows(const Displacement& wanted);
@@ -131,6 +132,7 @@ class Sliding {
   double ghost_motion_ = 0.0;  // metres, of this tick
   double last_step_ = 0.0;     // metres
   bool last_clipped_ = false;
+  double reach_limit_;    // metres; adapts to how many pairs the queries find
   double damping_ = 0.0;  // Levenberg–Marquardt
 };
 
