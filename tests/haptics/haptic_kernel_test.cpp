@@ -1,0 +1,122 @@
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include <glissade/collision/mesh_generators.h>
+#include <glissade/devices/simulated_glove.h>
+#include <glissade/haptics/haptic_kernel.h>
+
+#include "allocation_counter.h"
+
+namespace glissade::haptics {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+const CouplingStiffness kStiffness{1000.0, 2.0};
+
+class Kernel : public ::testing::Test {
+ protected:
+  /// A glove state with the hand at `p_WH`.
+  static devices::GloveState hand_at(const Vector3d& p_WH) {
+    devices::GloveState state;
+    state.X_WH.translation() = p_WH;
+    return state;
+  }
+
+  /// The part may sink by `depth` from where it starts.
+  static ContactSet floor_below(double depth) {
+    ContactSet set;
+    set.sequence = 1;
+    set.reach = 0.05;
+    set.X_WV_of_rows = kStart;
+    set.X_WV = kStart;
+    set.row_count = 1;
+    set.row_array[0] = {Vector3d::UnitZ(), Vector3d::Zero(), -depth};
+    return set;
+  }
+
+  HapticTick settle(const devices::GloveState& state, const ContactSet& set) {
+    HapticTick tick;
+    for (int i = 0; i < 500; ++i)
+      tick = kernel_.tick(state, set);
+    return tick;
+  }
+
+  static inline const Isometry3d kStart{Eigen::Translation3d(0.0, 0.0, 0.5)};
+  SlidingPart part_{std::make_shared<collision::TriangleMesh>(collision::make_box({0.1, 0.1, 0.1}, 12))};
+  devices::DeviceDescriptor device_ = devices::simulated_glove_descriptor();
+  HapticKernel kernel_{part_, coupling_for(device_, kStiffness), device_, kStart};
+};
+
+TEST_F(Kernel, TheFirstStateGraspsThePartWhereItLies) {
+  const Vector3d beside(0.2, 0.0, 0.5);  // the hand is not where the part is
+  const HapticTick first = kernel_.tick(hand_at(beside), ContactSet{});
+  EXPECT_TRUE(first.X_WG.isApprox(kStart));
+  const HapticTick second = kernel_.tick(hand_at(beside + Vector3d(0.0, 0.01, 0.0)), ContactSet{});
+  EXPECT_TRUE(second.X_WG.translation().isApprox(Vector3d(0.0, 0.01, 0.5)));
+}
+
+TEST_F(Kernel, PushesBackWithTheStiffnessTimesTheDepth) {
+  kernel_.tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
+  const HapticTick tick = settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
+  EXPECT_TRUE(tick.command.f_H_W.isApprox(Vector3d(0.0, 0.0, 2.0), 1e-9));
+  EXPECT_TRUE(tick.command.t_H_W.isZero(1e-9));
+}
+
+TEST_F(Kernel, AHandBesideThePartFeelsTheTorqueOfItsLever) {
+  kernel_.tick(hand_at({0.2, 0.0, 0.5}), floor_below(0.0));
+  const HapticTick tick = settle(hand_at({0.2, 0.0, 0.498}), floor_below(0.0));
+  EXPECT_TRUE(tick.command.f_H_W.isApprox(Vector3d(0.0, 0.0, 2.0), 1e-9));
+  EXPECT_TRUE(tick.command.t_H_W.isApprox(Vector3d(0.0, 0.4, 0.0), 1e-9));  // (−0.2, 0, 0) × (0, 0, 2)
+}
+
+TEST_F(Kernel, NeverExceedsTheDevice) {
+  kernel_.tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
+  const HapticTick tick = settle(hand_at({0.0, 0.0, 0.3}), floor_below(0.0));
+  EXPECT_NEAR(tick.command.f_H_W.norm(), device_.max_force, 1e-9);
+  EXPECT_TRUE(tick.limited.force_limited);
+}
+
+TEST_F(Kernel, ABrokenStateGivesNoForce) {
+  kernel_.tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
+  const HapticTick tick = kernel_.tick(hand_at({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()}), floor_below(0.0));
+  EXPECT_EQ(tick.command.f_H_W, Vector3d::Zero());
+  EXPECT_EQ(tick.command.t_H_W, Vector3d::Zero());
+}
+
+TEST_F(Kernel, CutsTheCouplingToWhatTheDeviceCanRender) {
+  devices::DeviceDescriptor weak = device_;
+  weak.max_stiffness = 400.0;
+  weak.max_rotational_stiffness = 0.3;
+  weak.max_damping = 1.0;
+  const Coupling coupling = coupling_for(weak, kStiffness);
+  EXPECT_EQ(coupling.stiffness.translational, 400.0);
+  EXPECT_EQ(coupling.stiffness.rotational, 0.3);
+  EXPECT_EQ(coupling.damping.translational, 1.0);
+}
+
+TEST_F(Kernel, ATickAllocatesNothing) {
+  if (!test_support::allocations_are_counted()) GTEST_SKIP() << "a sanitizer's allocator cannot be interposed";
+  ContactSet set = floor_below(1e-3);
+  set.row_count = static_cast<std::int32_t>(kMaxContactRows);
+  for (std::size_t i = 0; i < kMaxContactRows; ++i) {
+    const double angle = 0.7 * static_cast<double>(i);
+    set.row_array[i] = {Vector3d(0.3 * std::cos(angle), 0.3 * std::sin(angle), 1.0).normalized(),
+                        Vector3d(0.05 * std::cos(angle), 0.05 * std::sin(angle), -0.05), -1e-4};
+  }
+  const std::int64_t at_start = test_support::allocations_of_this_thread();
+  const auto probe = std::make_unique<double>(1.0);
+  ASSERT_GT(test_support::allocations_of_this_thread(), at_start) << "the counter does not count";
+
+  const std::int64_t before = test_support::allocations_of_this_thread();
+  for (int i = 0; i < 1000; ++i)
+    kernel_.tick(hand_at({1e-5 * i, 0.0, 0.5 - 1e-5 * i}), set);
+  EXPECT_EQ(test_support::allocations_of_this_thread(), before);
+}
+
+}  // namespace
+}  // namespace glissade::haptics

@@ -1,0 +1,54 @@
+#include "allocation_counter.h"
+
+#include <cerrno>
+#include <cstddef>
+
+#include "sanitizers.h"
+
+namespace {
+thread_local std::int64_t allocations = 0;
+}
+
+namespace glissade::test_support {
+
+std::int64_t allocations_of_this_thread() {
+  return allocations;
+}
+
+bool allocations_are_counted() {
+  return !kSanitized;
+}
+
+}  // namespace glissade::test_support
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// glibc exports its own functions under these names too; operator new ends up in malloc or aligned_alloc.
+extern "C" {
+void* __libc_malloc(std::size_t size);                           // NOLINT
+void* __libc_calloc(std::size_t count, std::size_t size);        // NOLINT
+void* __libc_realloc(void* block, std::size_t size);             // NOLINT
+void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT
+
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* block, std::size_t size) {
+  ++allocations;
+  return __libc_realloc(block, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
+  ++allocations;
+  *block = __libc_memalign(alignment, size);
+  return *block == nullptr ? ENOMEM : 0;
+}
+}
+#endif
