@@ -3,6 +3,7 @@
 
 #include <glissade/apps/collide_method.h>
 #include <glissade/apps/text.h>
+#include <glissade/collision/brute_force.h>
 #include <glissade/collision/dop_query.h>
 #include <glissade/collision/dop_tree.h>
 #include <glissade/collision/triangle_distance.h>
@@ -62,17 +63,24 @@ std::vector<TrianglePoints> triangles_of(const TriangleMesh& mesh, const Eigen::
 /// Every triangle of one mesh against every triangle of the other.
 class BruteForceMethod {
  public:
-  BruteForceMethod(const TriangleMesh& mesh_A, std::shared_ptr<const TriangleMesh> mesh_B,
+  BruteForceMethod(std::shared_ptr<const TriangleMesh> mesh_A, std::shared_ptr<const TriangleMesh> mesh_B,
                    const CollideQuestion& question)
-      : triangles_A_(triangles_of(mesh_A, Eigen::Isometry3d::Identity())),
-        mesh_B_(std::move(mesh_B)),
-        question_(question) {}
+      : mesh_A_(std::move(mesh_A)), mesh_B_(std::move(mesh_B)), question_(question) {}
 
   CollideAnswer operator()(const Eigen::Isometry3d& X_AB) const {
+    if (question_.tolerance > 0.0) return within_tolerance(X_AB);
+    if (!question_.count_pairs) return {brute_force_intersects(*mesh_A_, *mesh_B_, X_AB), 0};
+    const auto pairs = static_cast<std::int64_t>(brute_force_pairs(*mesh_A_, *mesh_B_, X_AB).size());
+    return {pairs > 0, pairs};
+  }
+
+ private:
+  CollideAnswer within_tolerance(const Eigen::Isometry3d& X_AB) const {
+    const std::vector<TrianglePoints> triangles_A = triangles_of(*mesh_A_, Eigen::Isometry3d::Identity());
     std::int64_t pairs = 0;
     for (const TrianglePoints& b : triangles_of(*mesh_B_, X_AB)) {
-      for (const TrianglePoints& a : triangles_A_) {
-        if (!counts(a, b)) continue;
+      for (const TrianglePoints& a : triangles_A) {
+        if (collision::triangle_distance(a, b).distance > question_.tolerance) continue;
         if (!question_.count_pairs) return {true, 0};
         ++pairs;
       }
@@ -80,13 +88,7 @@ class BruteForceMethod {
     return {pairs > 0, pairs};
   }
 
- private:
-  bool counts(const TrianglePoints& a, const TrianglePoints& b) const {
-    if (question_.tolerance == 0.0) return collision::triangles_intersect(a, b);
-    return collision::triangle_distance(a, b).distance <= question_.tolerance;
-  }
-
-  std::vector<TrianglePoints> triangles_A_;
+  std::shared_ptr<const TriangleMesh> mesh_A_;
   std::shared_ptr<const TriangleMesh> mesh_B_;
   CollideQuestion question_;
 };
@@ -100,7 +102,7 @@ const std::vector<std::string>& collide_method_names() {
 
 CollideMethod make_collide_method(const std::string& name, std::shared_ptr<const TriangleMesh> mesh_A,
                                   std::shared_ptr<const TriangleMesh> mesh_B, const CollideQuestion& question) {
-  if (name == kBruteForce) return BruteForceMethod(*mesh_A, std::move(mesh_B), question);
+  if (name == kBruteForce) return BruteForceMethod(std::move(mesh_A), std::move(mesh_B), question);
   if (name == kDopTree) return TreeMethod(std::move(mesh_A), std::move(mesh_B), question);
   throw std::invalid_argument("unknown method " + in_quotes(name) + " (known: " + joined(collide_method_names()) + ")");
 }

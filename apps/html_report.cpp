@@ -90,7 +90,7 @@ std::string write_html_report(const Report& report, const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw std::invalid_argument(folder + ": cannot make this folder: " + error.message());
-  const std::string path = (std::filesystem::path(folder) / "index.html").string();
+  std::string path = (std::filesystem::path(folder) / "index.html").string();
   std::ofstream file(path, std::ios::binary);
   if (!file) throw std::invalid_argument(path + ": cannot be written: " + std::generic_category().message(errno));
   file << html_report(report) << std::flush;

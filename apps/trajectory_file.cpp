@@ -19,8 +19,8 @@ std::vector<std::string> trajectory_columns() {
 }
 
 std::chrono::nanoseconds time_of(double t_s, const std::string& where) {
-  constexpr double kLatest_s = 1e9;
-  if (std::abs(t_s) > kLatest_s) {
+  constexpr double kLatestSeconds = 1e9;
+  if (std::abs(t_s) > kLatestSeconds) {
     throw std::invalid_argument(where + ": column t_s: " + format_number(t_s) + " is beyond 1e9 s");
   }
   return std::chrono::nanoseconds(std::llround(t_s * 1e9));

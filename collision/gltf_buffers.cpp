@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cstdint>
+#include <stdexcept>
 
 #include "mesh_validation.h"
 
@@ -54,7 +55,11 @@ std::string buffer_content(const std::filesystem::path& path, const std::string&
     return decoded_base64(path, where, std::string_view(uri).substr(mark + kMark.size()));
   }
   if (uri.find("://") != std::string::npos) reject(path, where + ": only files are read, not '" + uri + "'");
-  return file_content(path.parent_path() / decoded_percent(uri));
+  try {
+    return file_content(path.parent_path() / decoded_percent(uri));
+  } catch (const std::invalid_argument& error) {
+    reject(path, where + ": " + error.what());
+  }
 }
 
 }  // namespace

@@ -1,17 +1,15 @@
-#include <glissade/collision/mesh_import.h>
-
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
 #include <algorithm>
 #include <array>
-#include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
 #include <sstream>
 #include <string>
 #include <utility>
 
+#include <assimp/Importer.hpp>
+#include <assimp/scene.h>
+
+#include <glissade/collision/mesh_import.h>
 #include <glissade/collision/mesh_operations.h>
 #include <glissade/collision/triangle_intersection.h>
 
@@ -22,7 +20,7 @@ namespace {
 
 struct Format {
   const char* extension;
-  std::string (*vetted)(const std::filesystem::path&, std::string_view);
+  VettedFile (*vetted)(const std::filesystem::path&, std::string_view);
   const char* hint;  // what the importer library is told about the clean file
 };
 
@@ -57,16 +55,6 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::pat
     reject(path, "The file cannot be imported: " + problem);
   }
   return *scene;
-}
-
-std::int64_t count_polygons(const aiScene& scene) {
-  std::int64_t polygons = 0;
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& mesh = *scene.mMeshes[m];
-    polygons += std::count_if(mesh.mFaces, mesh.mFaces + mesh.mNumFaces,
-                              [](const aiFace& face) { return face.mNumIndices > 3; });
-  }
-  return polygons;
 }
 
 Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
@@ -123,18 +111,14 @@ ImportedMesh import_mesh(const std::filesystem::path& path, double scale) {
   }
   const std::string content = file_content(path);
   const Format& format = format_of(path);
-  const std::string clean = format.vetted(path, content);
+  const VettedFile clean = format.vetted(path, content);
 
   Assimp::Importer importer;
-  const aiScene* scene = &read_scene(importer, path, clean, format.hint);
+  const aiScene& scene = read_scene(importer, path, clean.bytes, format.hint);
   ImportedMesh result;
-  result.polygons_triangulated = count_polygons(*scene);
-  if (result.polygons_triangulated > 0) {
-    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-    if (scene == nullptr) reject(path, "The polygons of the file cannot be triangulated");
-  }
+  result.polygons_triangulated = clean.polygons_triangulated;
   TriangleMesh soup;
-  add_node(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), soup);
+  add_node(scene, *scene.mRootNode, Eigen::Matrix4d::Identity(), soup);
   for (Eigen::Vector3d& vertex : soup.vertices) {
     vertex *= scale;
     for (const double coordinate : vertex) {
@@ -143,6 +127,7 @@ ImportedMesh import_mesh(const std::filesystem::path& path, double scale) {
   }
   result.mesh = weld(soup);
   result.degenerate_triangles = drop_degenerate(result.mesh);
+  if (result.degenerate_triangles > 0) result.mesh = weld(result.mesh);  // drops the vertices only they used
   if (result.mesh.triangles.empty()) {
     reject(path, "None of its " + std::to_string(result.degenerate_triangles) + " triangles has an area");
   }

@@ -16,14 +16,14 @@ struct ImportedMesh {
   std::int64_t polygons_triangulated = 0;  ///< faces of more than three corners in the file
 };
 
-/// Reads the geometry of a file: all meshes of the file, placed by its nodes, as one mesh, vertices at identical positions
-/// welded, polygons triangulated. Normals, texture coordinates, materials, lines and points are ignored. Coordinates are
-/// multiplied by `scale` (metres per unit of the file); they are read in single precision.
+/// Reads the geometry of a file: all meshes of the file, placed by its nodes, as one mesh, vertices at identical
+/// positions welded, polygons triangulated. Normals, texture coordinates, materials, lines and points are ignored.
+/// Coordinates are multiplied by `scale` (metres per unit of the file); they are read in single precision.
 ///
 /// Throws std::invalid_argument, in one line that names the file and the line, element or value, for a file that is
-/// missing, not a file, of unknown format, unreadable, empty, truncated or otherwise broken; for coordinates that are not
-/// finite or beyond ±1e9 before or after scaling; for indices out of range; when no triangle has area; and for a scale
-/// that is not positive and finite. Compressed and sparse glTF is refused. May block on the disk.
+/// missing, not a file, of unknown format, unreadable, empty, truncated or otherwise broken; for coordinates that are
+/// not finite or beyond ±1e9 before or after scaling; for indices out of range; when no triangle has area; and for a
+/// scale that is not positive and finite. Compressed and sparse glTF is refused. May block on the disk.
 ImportedMesh import_mesh(const std::filesystem::path& path, double scale = 1.0);
 
 }  // namespace glissade::collision

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <glissade/collision/mesh_report.h>
+#include <glissade/collision/triangle_intersection.h>
 
 namespace glissade::collision {
 namespace {
@@ -94,7 +95,7 @@ MeshReport report(const TriangleMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& triangle = mesh.triangles[t];
     const auto corner = [&](int i) { return mesh.corner(static_cast<std::int32_t>(t), i); };
-    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) {
+    if (is_degenerate({corner(0), corner(1), corner(2)})) {
       ++result.degenerate;
       continue;
     }

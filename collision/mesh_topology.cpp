@@ -97,6 +97,13 @@ void MeshTopology::collect_vertices(const TriangleMesh& mesh) {
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     neighbours_.start[v + 1] = neighbours_.start[v] + degree[v];
   }
+  answers_.assign(mesh.triangles.size(), 0);
+  for (const Edge& edge : edges_) {
+    if (!edge.flat) answers_[static_cast<std::size_t>(edge.owner)] = 1;
+  }
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (vertex_owner_[v] >= 0 && vertex_flat_[v] == 0) answers_[static_cast<std::size_t>(vertex_owner_[v])] = 1;
+  }
   neighbours_.entries.resize(2 * edges_.size());
   std::vector<std::int32_t> next(neighbours_.start.begin(), neighbours_.start.end() - 1);
   for (const Edge& edge : edges_) {

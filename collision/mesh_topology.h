@@ -39,6 +39,8 @@ class MeshTopology {
   std::int32_t owner_of(std::int32_t vertex) const { return vertex_owner_[static_cast<std::size_t>(vertex)]; }
   /// Whether every edge at the vertex is flat: it lies inside a plane patch, and other vertices bound that patch.
   bool is_flat(std::int32_t vertex) const { return vertex_flat_[static_cast<std::size_t>(vertex)] != 0; }
+  /// Whether a triangle answers for any edge or vertex that is not flat: only those can stop another mesh.
+  bool answers_for_features(std::int32_t triangle) const { return answers_[static_cast<std::size_t>(triangle)] != 0; }
 
  private:
   /// A list for each of n items, stored end to end.
@@ -59,6 +61,7 @@ class MeshTopology {
   std::vector<std::array<std::int32_t, 3>> triangle_edges_;
   std::vector<std::int32_t> vertex_owner_;
   std::vector<char> vertex_flat_;
+  std::vector<char> answers_;
   Lists apexes_;
   Lists neighbours_;
 };

@@ -10,7 +10,7 @@
 namespace glissade::collision {
 
 void reject(const std::filesystem::path& path, const std::string& what) {
-  throw std::invalid_argument(path.string() + ": " + what + ".");
+  throw std::invalid_argument(path.string() + ": " + what + (what.ends_with('.') ? "" : "."));
 }
 
 void check_coordinate(const std::filesystem::path& path, const std::string& where, double value) {

@@ -3,22 +3,27 @@
 // Strict reading of mesh files before the importer library sees them. Private to mesh_import.cpp.
 //
 // The library crashes, hangs or makes up geometry on broken files. So each function here reads a whole file, throws
-// std::invalid_argument for the first thing that is wrong, naming the file and the place, and returns a clean file of the
-// same format with nothing but the geometry in it.
+// std::invalid_argument for the first thing that is wrong, naming the file and the place, and returns a clean file of
+// the same format with nothing but the geometry in it.
 
-#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace glissade::collision {
 
-std::string vetted_obj(const std::filesystem::path& path, std::string_view bytes);
-std::string vetted_stl(const std::filesystem::path& path, std::string_view bytes);
-std::string vetted_ply(const std::filesystem::path& path, std::string_view bytes);
+struct VettedFile {
+  std::string bytes;
+  std::int64_t polygons_triangulated = 0;
+};
+
+VettedFile vetted_obj(const std::filesystem::path& path, std::string_view bytes);
+VettedFile vetted_stl(const std::filesystem::path& path, std::string_view bytes);
+VettedFile vetted_ply(const std::filesystem::path& path, std::string_view bytes);
 // Both kinds come back as one GLB. Reads the buffers that lie in files of their own.
-std::string vetted_gltf(const std::filesystem::path& path, std::string_view bytes);
-std::string vetted_glb(const std::filesystem::path& path, std::string_view bytes);
+VettedFile vetted_gltf(const std::filesystem::path& path, std::string_view bytes);
+VettedFile vetted_glb(const std::filesystem::path& path, std::string_view bytes);
 
 // The whole content of a regular file that is not empty.
 std::string file_content(const std::filesystem::path& path);

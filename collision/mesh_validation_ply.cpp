@@ -8,6 +8,7 @@
 
 #include "byte_order.h"
 #include "mesh_validation.h"
+#include "polygon_triangulation.h"
 #include "text_scanner.h"
 
 namespace glissade::collision {
@@ -50,7 +51,9 @@ std::optional<Scalar> scalar_named(std::string_view name) {
   return std::nullopt;
 }
 
-bool is_integer(Scalar type) { return type != Scalar::kFloat && type != Scalar::kDouble; }
+bool is_integer(Scalar type) {
+  return type != Scalar::kFloat && type != Scalar::kDouble;
+}
 
 /// What the lines up to "end_header" say, and the rest of the file.
 struct Header {
@@ -132,15 +135,21 @@ class HeaderReader {
 class BodyReader {
  public:
   BodyReader(const std::filesystem::path& path, const Header& header)
-      : path_(path), byte_order_(header.byte_order), bytes_(header.body), lines_(header.body), header_lines_(header.lines) {}
+      : path_(path),
+        byte_order_(header.byte_order),
+        bytes_(header.body),
+        lines_(header.body),
+        header_lines_(header.lines) {}
 
   /// The next number; `where` is the element it belongs to.
-  double next(Scalar type, const std::string& where) { return byte_order_ ? next_binary(type, where) : next_word(where); }
+  double next(Scalar type, const std::string& where) {
+    return byte_order_ ? next_binary(type, where) : next_word(where);
+  }
 
   /// Rejects what is left, but for blanks.
   void expect_end() {
-    const bool has_more = byte_order_ ? bytes_.find_first_not_of(" \t\r\n", offset_) != std::string_view::npos
-                                      : has_word();
+    const bool has_more =
+        byte_order_ ? bytes_.find_first_not_of(" \t\r\n", offset_) != std::string_view::npos : has_word();
     if (has_more) reject(path_, "The file is longer than its header says");
   }
 
@@ -188,8 +197,8 @@ class BodyReader {
     if (!has_word()) reject(path_, where + ": the file is truncated here");
     const auto value = parse_number(words_[next_++]);
     if (!value) {
-      reject(path_, "line " + std::to_string(header_lines_ + lines_.number()) + ", " + where +
-                        ": this is not a number");
+      reject(path_,
+             "line " + std::to_string(header_lines_ + lines_.number()) + ", " + where + ": this is not a number");
     }
     return *value;
   }
@@ -210,7 +219,7 @@ class PlyReader {
   PlyReader(const std::filesystem::path& path, std::string_view bytes)
       : path_(path), header_(HeaderReader(path, bytes).read()), body_(path, header_) {}
 
-  std::string clean() {
+  VettedFile clean() {
     check_layout();
     for (const Element& element : header_.elements) {
       // An element without properties takes no room in the file, however many there are.
@@ -239,7 +248,8 @@ class PlyReader {
         if (element.name == "vertex" && is_axis && !property.count_type) ++axes;
         if (element.name == "face" && is_corner_list(property)) {
           ++lists;
-          if (!is_integer(property.type)) reject(path_, "The property " + property.name + " must be a list of integers");
+          if (!is_integer(property.type))
+            reject(path_, "The property " + property.name + " must be a list of integers");
         }
       }
     }
@@ -249,25 +259,20 @@ class PlyReader {
 
   void read(const Element& element, std::int64_t i) {
     const std::string where = element.name + " " + std::to_string(i);
-    std::array<double, 3> point{};
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
     for (const Property& property : element.properties) {
       if (property.count_type) {
         read_list(element, property, where);
         continue;
       }
       const double value = body_.next(property.type, where);
-      const std::size_t axis = property.name == "x" ? 0 : property.name == "y" ? 1 : property.name == "z" ? 2 : 3;
+      const Eigen::Index axis = property.name == "x" ? 0 : property.name == "y" ? 1 : property.name == "z" ? 2 : 3;
       if (element.name == "vertex" && axis < 3) {
         check_coordinate(path_, where, value);
         point[axis] = value;
       }
     }
-    if (element.name == "vertex") {
-      for (const double coordinate : point) {
-        append_number(vertices_, static_cast<float>(coordinate));
-      }
-      ++vertex_count_;
-    }
+    if (element.name == "vertex") vertices_.push_back(point);
   }
 
   void read_list(const Element& element, const Property& property, const std::string& where) {
@@ -278,6 +283,10 @@ class PlyReader {
     const bool is_face = element.name == "face" && is_corner_list(property);
     if (is_face && count < 3) {
       reject(path_, where + ": a face needs at least 3 corners, but has " + std::to_string(static_cast<int>(count)));
+    }
+    if (is_face && count > static_cast<double>(kMostCorners)) {
+      reject(path_, where + ": a face of " + std::to_string(static_cast<std::int64_t>(count)) + " corners, at most " +
+                        std::to_string(kMostCorners) + " are supported");
     }
     for (double k = 0; k < count; ++k) {
       const double value = body_.next(property.type, where);
@@ -292,42 +301,58 @@ class PlyReader {
     for (std::size_t face = 0; face < face_corners_.size(); ++face) {
       for (std::uint32_t k = 0; k < face_corners_[face]; ++k) {
         const double index = corners_[next++];
-        if (index >= 0 && index < static_cast<double>(vertex_count_) && index == std::floor(index)) continue;
+        if (index >= 0 && index < static_cast<double>(vertices_.size()) && index == std::floor(index)) continue;
         reject(path_, "face " + std::to_string(face) + ": the vertex index " +
                           std::to_string(static_cast<std::int64_t>(index)) + " is out of range, the file has " +
-                          std::to_string(vertex_count_) + " vertices");
+                          std::to_string(vertices_.size()) + " vertices");
       }
     }
   }
 
-  std::string written() const {
-    std::string output = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(vertex_count_) +
-                         "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-                         std::to_string(face_corners_.size()) +
-                         "\nproperty list uint int vertex_indices\nend_header\n";
-    output += vertices_;
-    std::size_t next = 0;
+  VettedFile written() const {
+    VettedFile file;
+    std::string faces;
+    std::int64_t count = 0;
+    std::vector<Eigen::Vector3d> points;
+    std::size_t begin = 0;
     for (const std::uint32_t corners : face_corners_) {
-      append_number(output, corners);
+      points.clear();
       for (std::uint32_t k = 0; k < corners; ++k) {
-        append_number(output, static_cast<std::int32_t>(corners_[next++]));
+        points.push_back(vertices_[static_cast<std::size_t>(corners_[begin + k])]);
+      }
+      if (corners > 3) ++file.polygons_triangulated;
+      for (const auto& triangle : triangulated(points)) {
+        append_number(faces, std::uint8_t{3});
+        for (const std::size_t corner : triangle) {
+          append_number(faces, static_cast<std::int32_t>(corners_[begin + corner]));
+        }
+        ++count;
+      }
+      begin += corners;
+    }
+    file.bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(vertices_.size()) +
+                 "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(count) +
+                 "\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const Eigen::Vector3d& vertex : vertices_) {
+      for (const double coordinate : vertex) {
+        append_number(file.bytes, static_cast<float>(coordinate));
       }
     }
-    return output;
+    file.bytes += faces;
+    return file;
   }
 
   const std::filesystem::path& path_;
   Header header_;
   BodyReader body_;
-  std::int64_t vertex_count_ = 0;
-  std::string vertices_;  // as written
+  std::vector<Eigen::Vector3d> vertices_;
   std::vector<std::uint32_t> face_corners_;
   std::vector<double> corners_;
 };
 
 }  // namespace
 
-std::string vetted_ply(const std::filesystem::path& path, std::string_view bytes) {
+VettedFile vetted_ply(const std::filesystem::path& path, std::string_view bytes) {
   return PlyReader(path, bytes).clean();
 }
 

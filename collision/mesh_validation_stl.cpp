@@ -147,8 +147,8 @@ bool is_text(std::string_view bytes) {
 
 }  // namespace
 
-std::string vetted_stl(const std::filesystem::path& path, std::string_view bytes) {
-  return is_text(bytes) ? TextStlReader(path, bytes).clean() : vetted_binary(path, bytes);
+VettedFile vetted_stl(const std::filesystem::path& path, std::string_view bytes) {
+  return {is_text(bytes) ? TextStlReader(path, bytes).clean() : vetted_binary(path, bytes)};
 }
 
 }  // namespace glissade::collision

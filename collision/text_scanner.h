@@ -54,8 +54,8 @@ inline void split(std::string_view line, std::vector<std::string_view>& words) {
   }
 }
 
-// The whole word as a number, "nan" and "inf" included; nothing if it is not one. A value too large for a double counts as
-// infinite, one too small as zero.
+// The whole word as a number, "nan" and "inf" included; nothing if it is not one. A value too large for a double counts
+// as infinite, one too small as zero.
 inline std::optional<double> parse_number(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0;

@@ -10,7 +10,9 @@ void CandidatePairs::refresh(const Eigen::Isometry3d& X_WV, double radius) {
   for (const collision::ClosePair& pair : close_pairs_) {
     const Eigen::Vector3d n_W =
         pair.distance > 0.0 ? ((pair.p_B - pair.p_A) / pair.distance).eval() : Eigen::Vector3d::Zero();
-    pairs_.push_back({pair.triangles.triangle_A, pair.triangles.triangle_B, pair.distance, n_W});
+    const bool has_features = obstacles_W_.topology.answers_for_features(pair.triangles.triangle_A) ||
+                              part_V_.topology.answers_for_features(pair.triangles.triangle_B);
+    pairs_.push_back({pair.triangles.triangle_A, pair.triangles.triangle_B, has_features, pair.distance, n_W});
   }
   std::stable_sort(pairs_.begin(), pairs_.end(),
                    [](const CandidatePair& a, const CandidatePair& b) { return a.distance < b.distance; });

@@ -17,6 +17,7 @@ namespace glissade::haptics {
 struct CandidatePair {
   std::int32_t obstacle_triangle;
   std::int32_t part_triangle;
+  bool has_features;    ///< either triangle answers for an edge or vertex that can stop the part
   double distance;      ///< metres, at the pose of the query
   Eigen::Vector3d n_W;  ///< unit, from the obstacle's to the part's closest point, at the pose of the query
 };

@@ -34,13 +34,6 @@ class Side {
     const MeshTopology::Edge& e = topology_.edges()[static_cast<std::size_t>(edge(i))];
     return e.owner == triangle_ && !e.flat;
   }
-  bool owns_anything() const {
-    for (int i = 0; i < 3; ++i) {
-      if (owns_corner(i) || owns_edge(i)) return true;
-    }
-    return false;
-  }
-
   /// Whether no neighbour of corner / edge i lies nearer to the other side than it by more than `tolerance`, along the
   /// normal n (from obstacle to part).
   bool corner_is_nearest(int i, const Eigen::Vector3d& n, double tolerance) const {
@@ -84,9 +77,9 @@ class ContactSearch {
         contacts_(contacts) {}
 
   void search(const CandidatePair& pair) {
+    if (!pair.has_features) return;
     part_.select(pair.part_triangle);
     obstacle_.select(pair.obstacle_triangle);
-    if (!part_.owns_anything() && !obstacle_.owns_anything()) return;
     for (int i = 0; i < 3; ++i) {
       if (part_.owns_corner(i)) search_part_corner(i);
       if (obstacle_.owns_corner(i)) search_obstacle_corner(i);

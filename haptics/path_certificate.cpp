@@ -16,6 +16,10 @@ double gap_along(const Eigen::Vector3d& n, const TrianglePoints& obstacle, const
   return part_bottom - obstacle_top;
 }
 
+Eigen::Vector3d face_normal(const TrianglePoints& triangle) {
+  return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
+}
+
 Eigen::Vector3d direction(const TriangleDistance& closest) {
   return closest.distance > 0.0 ? ((closest.p_b - closest.p_a) / closest.distance).eval() : Eigen::Vector3d::Zero();
 }
@@ -41,8 +45,14 @@ bool PathCertificate::prove_pair(const CandidatePair& pair, Eigen::Vector3d& n_s
                mesh.corner(pair.obstacle_triangle, 2)};
   const TrianglePoints part_start = part_triangle_at(pair.part_triangle, 0);
   const TrianglePoints part_end = part_triangle_at(pair.part_triangle, kMoments);
-  // The direction found by the query still separates nearly every pair.
-  if (separates(pair.n_W, part_start, part_end, curvature_loss(0, kMoments), floor_)) return true;
+  // The direction found by the query still separates most pairs; of flush faces that slide over each other, where the
+  // closest points of neighbouring triangles lie askew, a face normal separates the others.
+  const double curvature = curvature_loss(0, kMoments);
+  if (separates(pair.n_W, part_start, part_end, curvature, floor_)) return true;
+  for (const Eigen::Vector3d& normal : {face_normal(obstacle_), face_normal(part_start)}) {
+    const Eigen::Vector3d n = normal.dot(part_start[0] - obstacle_[0]) < 0.0 ? (-normal).eval() : normal;
+    if (separates(n, part_start, part_end, curvature, floor_)) return true;
+  }
 
   const TriangleDistance closest = collision::triangle_distance(obstacle_, part_start);
   n_start = direction(closest);

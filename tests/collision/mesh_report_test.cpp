@@ -52,7 +52,7 @@ TEST(MeshReport, FinOnASheetIsNonManifold) {
 TEST(MeshReport, ComponentsAreConnectedThroughVertices) {
   TriangleMesh mesh = two_triangles({2, 3, 4});
   EXPECT_EQ(report(mesh).components, 1);
-  mesh.vertices.resize(8, Eigen::Vector3d(5, 5, 5));
+  mesh.vertices.insert(mesh.vertices.end(), {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}});
   mesh.triangles.push_back({5, 6, 7});
   EXPECT_EQ(report(mesh).components, 2);
 }

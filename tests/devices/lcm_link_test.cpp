@@ -28,6 +28,7 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <typename Message>
 Bytes encoded(const Message& message) {
@@ -47,21 +48,21 @@ class LcmLink : public testing::Test {
  protected:
   /// Sends `bytes` as a glove would and returns what the link makes of them.
   LinkStatistics after(const Bytes& bytes) {
-    const LinkStatistics before = glove_.statistics();
-    bus_->publish("GLOVE_STATE", bytes);
+    const LinkStatistics before = glove.statistics();
+    bus->publish("GLOVE_STATE", bytes);
     EXPECT_TRUE(eventually([&] {
-      const LinkStatistics now = glove_.statistics();
+      const LinkStatistics now = glove.statistics();
       return now.accepted + now.rejected() == before.accepted + before.rejected() + 1;
     }));
-    return glove_.statistics();
+    return glove.statistics();
   }
 
-  std::shared_ptr<LcmBus> bus_ = std::make_shared<LcmBus>("memq://");
-  LcmGlove glove_{bus_, simulated_glove_descriptor()};
+  std::shared_ptr<LcmBus> bus = std::make_shared<LcmBus>("memq://");
+  LcmGlove glove{bus, simulated_glove_descriptor()};
 };
 
 TEST_F(LcmLink, StatesArriveWhole) {
-  LcmGloveHost host(bus_);
+  LcmGloveHost host(bus);
   GloveState sent;
   sent.sequence = 42;
   sent.time = nanoseconds(123456789012);
@@ -72,20 +73,20 @@ TEST_F(LcmLink, StatesArriveWhole) {
     sent.joint_angles[i] = 0.01 * static_cast<double>(i);
 
   GloveState received;
-  EXPECT_FALSE(glove_.read(received));
+  EXPECT_FALSE(glove.read(received));
   EXPECT_TRUE(host.publish(sent));
-  ASSERT_TRUE(eventually([&] { return glove_.read(received); }));
+  ASSERT_TRUE(eventually([&] { return glove.read(received); }));
   EXPECT_EQ(received.sequence, sent.sequence);
   EXPECT_EQ(received.time, sent.time);
   EXPECT_TRUE(received.X_WH.isApprox(sent.X_WH, 1e-14));
   EXPECT_EQ(received.v_WH, sent.v_WH);
   EXPECT_EQ(received.w_WH, sent.w_WH);
   EXPECT_EQ(received.joint_angles, sent.joint_angles);
-  EXPECT_TRUE(glove_.read(received)) << "the newest state can be read again";
+  EXPECT_TRUE(glove.read(received)) << "the newest state can be read again";
 }
 
 TEST_F(LcmLink, CommandsReachTheGloveWithinItsLimits) {
-  LcmGloveHost host(bus_);
+  LcmGloveHost host(bus);
   EXPECT_EQ(host.newest_command().sequence, 0);
   GloveCommand sent;
   sent.sequence = 5;
@@ -94,7 +95,7 @@ TEST_F(LcmLink, CommandsReachTheGloveWithinItsLimits) {
   sent.f_H_W = Vector3d(300, 0, 400);
   sent.t_H_W = Vector3d(0.1, 0.2, 0.3);
   sent.joint_torques[21] = -0.25;
-  glove_.command(sent);
+  glove.command(sent);
   ASSERT_TRUE(eventually([&] { return host.statistics().accepted == 1; }));
   const GloveCommand received = host.newest_command();
   EXPECT_EQ(received.sequence, 5);
@@ -106,12 +107,12 @@ TEST_F(LcmLink, CommandsReachTheGloveWithinItsLimits) {
 }
 
 TEST_F(LcmLink, AnOldCommandIsNotObeyed) {
-  LcmGloveHost host(bus_, {.command_timeout = milliseconds(20)});
+  LcmGloveHost host(bus, {.command_timeout = milliseconds(20)});
   GloveCommand sent;
   sent.sequence = 1;
   sent.f_H_W = Vector3d(1, 0, 0);
   sent.joint_torques.fill(0.1);
-  glove_.command(sent);
+  glove.command(sent);
   ASSERT_TRUE(eventually([&] { return host.statistics().accepted == 1; }));
   ASSERT_TRUE(eventually([&] { return host.newest_command().f_H_W.isZero(0.0); }));
   EXPECT_EQ(host.newest_command().sequence, 1);
@@ -156,10 +157,11 @@ TEST_F(LcmLink, RefusesAnotherTypeOfTheSameSize) {
 }
 
 TEST_F(LcmLink, RefusesNumbersThatAreNone) {
-  const std::function<void(glove_state_t&)> spoilers[] = {
-      [](glove_state_t& m) { m.position_WH_m[1] = kNan; }, [](glove_state_t& m) { m.orientation_WH_wxyz[0] = kNan; },
-      [](glove_state_t& m) { m.v_WH_m_per_s[2] = -INFINITY; }, [](glove_state_t& m) { m.w_WH_rad_per_s[0] = INFINITY; },
-      [](glove_state_t& m) { m.joint_angles_rad[21] = kNan; }};
+  const std::function<void(glove_state_t&)> spoilers[] = {[](glove_state_t& m) { m.position_WH_m[1] = kNan; },
+                                                          [](glove_state_t& m) { m.orientation_WH_wxyz[0] = kNan; },
+                                                          [](glove_state_t& m) { m.v_WH_m_per_s[2] = -kInfinity; },
+                                                          [](glove_state_t& m) { m.w_WH_rad_per_s[0] = kInfinity; },
+                                                          [](glove_state_t& m) { m.joint_angles_rad[21] = kNan; }};
   std::uint64_t refused = 0;
   for (const auto& spoil : spoilers) {
     glove_state_t message = good_state(1);
@@ -167,7 +169,7 @@ TEST_F(LcmLink, RefusesNumbersThatAreNone) {
     EXPECT_EQ(after(encoded(message)).not_finite, ++refused);
   }
   GloveState state;
-  EXPECT_FALSE(glove_.read(state));
+  EXPECT_FALSE(glove.read(state));
 }
 
 TEST_F(LcmLink, RefusesNumbersBeyondSense) {
@@ -192,7 +194,7 @@ TEST_F(LcmLink, NormalisesAQuaternionThatIsNearlyOne) {
   message.orientation_WH_wxyz[0] = 0.9995;
   EXPECT_EQ(after(encoded(message)).accepted, 1U);
   GloveState state;
-  ASSERT_TRUE(glove_.read(state));
+  ASSERT_TRUE(glove.read(state));
   EXPECT_TRUE(state.X_WH.linear().isIdentity(1e-15));
 }
 
@@ -203,7 +205,7 @@ TEST_F(LcmLink, SequencesMustRiseAndGapsAreCounted) {
   EXPECT_EQ(after(encoded(good_state(11))).lost, 0U);
   EXPECT_EQ(after(encoded(good_state(15))).lost, 3U);
   GloveState state;
-  ASSERT_TRUE(glove_.read(state));
+  ASSERT_TRUE(glove.read(state));
   EXPECT_EQ(state.sequence, 15);
 }
 
@@ -291,7 +293,7 @@ TEST_F(LcmLink, ASimulatedGloveYieldsToTheServer) {
   std::atomic<bool> done{false};
   std::atomic<double> hand_x{0.0};
   std::thread glove_thread([&] {
-    LcmGloveHost host(bus_);
+    LcmGloveHost host(bus);
     SimulatedGlove simulated(PoseTrajectory({{nanoseconds(0), Eigen::Isometry3d::Identity()}}));
     while (!done) {
       host.publish(simulated.step(milliseconds(1), host.newest_command()));
@@ -302,17 +304,17 @@ TEST_F(LcmLink, ASimulatedGloveYieldsToTheServer) {
   GloveState state;
   GloveCommand command;
   EXPECT_TRUE(eventually([&] {
-    if (glove_.read(state)) {
+    if (glove.read(state)) {
       ++command.sequence;
       command.state_sequence = state.sequence;
       command.f_H_W = Vector3d(4, 0, 0);
-      glove_.command(command);
+      glove.command(command);
     }
     return std::abs(hand_x - 4.0 / SimulatedGloveParameters{}.wearer_stiffness) < 1e-4;
   }));
   done = true;
   glove_thread.join();
-  EXPECT_EQ(glove_.statistics().rejected(), 0U);
+  EXPECT_EQ(glove.statistics().rejected(), 0U);
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ ProgramResult run_program(const std::vector<std::string>& arguments) {
 
   std::vector<std::string> copies = arguments;
   std::vector<char*> argv;
+  argv.reserve(copies.size() + 1);
   for (std::string& argument : copies)
     argv.push_back(argument.data());
   argv.push_back(nullptr);

@@ -1,0 +1,24 @@
+#pragma once
+
+/// How a command of the program plugs in: `add_<name>_command(app, chosen)` declares its options and, when the user
+/// names it, sets `chosen` to the work to do. Parsing is then over before any work starts.
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace glissade::apps {
+
+/// The work of a command line; returns the exit code. Throws std::invalid_argument for bad input (exit code 2) and
+/// anything else for a failure while running (exit code 1).
+using Command = std::function<int()>;
+
+/// `glissade info MESH [--json]`
+void add_info_command(CLI::App& app, Command& chosen);
+
+/// `glissade collide A B --poses FILE [--pairs] [--tolerance-m T] [--method M] [--out FILE]`
+void add_collide_command(CLI::App& app, Command& chosen);
+
+}  // namespace glissade::apps

@@ -1,0 +1,134 @@
+#include <cstdint>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <glissade/apps/command.h>
+#include <glissade/collision/dop_tree.h>
+#include <glissade/collision/mesh_import.h>
+#include <glissade/collision/mesh_report.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr const char* kDescription = "What a mesh is made of, its defects, and the statistics of its DOP-tree";
+
+constexpr const char* kFooter =
+    "None of the defects keeps a mesh from being used; triangles without area are left out. Vertices at the\n"
+    "same position are welded first, and polygons are triangulated.\n"
+    "\n"
+    "Examples:\n"
+    "  glissade info door.stl\n"
+    "  glissade info door.stl --json | jq .bounds_max_m";
+
+struct Options {
+  std::string mesh;
+  bool json = false;
+};
+
+/// What the command tells.
+struct Info {
+  collision::MeshReport report;  ///< of the imported mesh, which has no degenerate triangle left
+  std::int64_t degenerate_triangles;
+  std::int64_t polygons_triangulated;
+  std::int64_t tree_nodes;
+  int tree_depth;
+  double tree_bytes_per_triangle;
+};
+
+Info gather(const std::string& path) {
+  collision::ImportedMesh imported = collision::import_mesh(path);
+  const auto mesh = std::make_shared<const collision::TriangleMesh>(std::move(imported.mesh));
+  const collision::DopTree tree(mesh);
+  return {collision::report(*mesh),
+          imported.degenerate_triangles,
+          imported.polygons_triangulated,
+          static_cast<std::int64_t>(tree.nodes().size()),
+          tree.depth(),
+          static_cast<double>(tree.memory_bytes()) / static_cast<double>(tree.leaf_triangles().size())};
+}
+
+std::vector<double> list(const Eigen::Vector3d& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+void print_json(const Info& info) {
+  const collision::MeshReport& report = info.report;
+  const nlohmann::ordered_json json{{"vertices", report.vertices},
+                                    {"triangles", report.triangles},
+                                    {"degenerate_triangles", info.degenerate_triangles},
+                                    {"polygons_triangulated", info.polygons_triangulated},
+                                    {"duplicate_triangles", report.duplicates},
+                                    {"open_edges", report.open_edges},
+                                    {"nonmanifold_edges", report.nonmanifold_edges},
+                                    {"inconsistent_edges", report.inconsistent_edges},
+                                    {"components", report.components},
+                                    {"watertight", report.is_watertight},
+                                    {"area_m2", report.area},
+                                    {"bounds_min_m", list(report.bounds.min())},
+                                    {"bounds_max_m", list(report.bounds.max())},
+                                    {"tree_nodes", info.tree_nodes},
+                                    {"tree_depth", info.tree_depth},
+                                    {"tree_bytes_per_triangle", info.tree_bytes_per_triangle}};
+  std::cout << json.dump(2) << '\n';
+}
+
+std::string spaced(const Eigen::Vector3d& p) {
+  std::ostringstream text;
+  text << p.x() << ' ' << p.y() << ' ' << p.z();
+  return text.str();
+}
+
+void print_text(const Info& info) {
+  const auto row = [](const char* what, const auto& value, const char* unit = "") {
+    std::cout << std::left << std::setw(28) << what << value << unit << '\n';
+  };
+  const collision::MeshReport& report = info.report;
+  row("vertices", report.vertices);
+  row("triangles", report.triangles);
+  row("duplicate triangles", report.duplicates);
+  row("left out, without area", info.degenerate_triangles);
+  row("polygons triangulated", info.polygons_triangulated);
+  row("open edges", report.open_edges);
+  row("non-manifold edges", report.nonmanifold_edges);
+  row("inconsistent edges", report.inconsistent_edges);
+  row("components", report.components);
+  row("watertight", report.is_watertight ? "yes" : "no");
+  row("area", report.area, " m^2");
+  row("bounds from", spaced(report.bounds.min()), " m");
+  row("bounds to", spaced(report.bounds.max()), " m");
+  row("tree nodes", info.tree_nodes);
+  row("tree depth", info.tree_depth);
+  row("tree bytes per triangle", info.tree_bytes_per_triangle);
+}
+
+int run(const Options& options) {
+  const Info info = gather(options.mesh);
+  if (options.json) {
+    print_json(info);
+  } else {
+    print_text(info);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, Command& chosen) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("info", kDescription);
+  command->footer(kFooter);
+  command->add_option("MESH", options->mesh, "Mesh file: OBJ, STL, PLY or glTF, in metres")->required();
+  command->add_flag("--json", options->json, "Print one JSON object instead of a table");
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,63 @@
+/// The program `glissade`: sets up its commands, parses, runs the one that was chosen, and turns errors into one line
+/// and an exit code.
+
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/command.h>
+#include <glissade/apps/text.h>
+
+namespace {
+
+using glissade::apps::Command;
+
+constexpr int kFailed = 1;
+constexpr int kBadInput = 2;
+
+constexpr const char* kDescription =
+    "Real-time haptic rendering: exact collision, sliding contact, force-feedback gloves.\n"
+    "Metres, newtons, seconds and radians everywhere; quaternions are w, x, y, z.";
+
+constexpr const char* kFooter =
+    "Each command explains itself: glissade COMMAND --help\n"
+    "Exit code: 0 when done, 1 when a run failed, 2 when the input or the usage is wrong (one line on standard error).";
+
+int fail(int exit_code, const std::string& message) {
+  std::cerr << "glissade: " << glissade::apps::one_line(message) << '\n';
+  return exit_code;
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app{kDescription, "glissade"};
+  app.footer(kFooter);
+  app.set_version_flag("--version", "glissade " GLISSADE_VERSION, "Print the version and exit");
+  app.set_help_flag("-h,--help", "Print this help and exit");
+  Command chosen;
+  glissade::apps::add_info_command(app, chosen);
+  glissade::apps::add_collide_command(app, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {
+    return app.exit(request);  // --help and --version
+  } catch (const CLI::ParseError& error) {
+    return fail(kBadInput, error.what());
+  }
+  if (!chosen) return fail(kBadInput, "a command is missing: see glissade --help");
+  return chosen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const std::invalid_argument& error) {
+    return fail(kBadInput, error.what());
+  } catch (const std::exception& error) {
+    return fail(kFailed, error.what());
+  }
+}

@@ -1,0 +1,132 @@
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include <glissade/apps/pose_rules.h>
+#include <glissade/apps/scene_file.h>
+#include <glissade/apps/text.h>
+#include <glissade/apps/yaml_reader.h>
+#include <glissade/collision/mesh_import.h>
+#include <glissade/collision/shape_catalog.h>
+
+namespace glissade::apps {
+
+namespace {
+
+using collision::TriangleMesh;
+
+/// Reads the parts of one scene file.
+class SceneReader {
+ public:
+  SceneReader(std::string source, std::filesystem::path base_folder)
+      : yaml_(source), source_(std::move(source)), base_folder_(std::move(base_folder)) {}
+
+  Scene read(const std::string& text) const {
+    const YAML::Node root = yaml_.parse(text);
+    yaml_.check_keys(root, "scene", {"objects", "script", "goal"});
+    const YAML::Node objects = yaml_.required(root, "scene", "objects");
+    if (!objects.IsSequence() || objects.size() == 0) yaml_.fail(objects, "objects: must be a list of objects");
+    Scene scene{source_, {}, std::nullopt, std::nullopt};
+    std::map<std::string, std::string> where_named;
+    for (const YAML::Node& object : objects) {
+      scene.objects.push_back(read_object(object));
+      const auto [entry, is_new] = where_named.emplace(scene.objects.back().name, yaml_.where(object));
+      if (!is_new)
+        yaml_.fail(object, "name: the object " + in_quotes(entry->first) + " is already at " + entry->second);
+    }
+    if (root["script"]) scene.script_path = full_path(yaml_.text(root["script"], "script"));
+    if (root["goal"]) scene.X_WGoal = read_pose(root["goal"], "goal");
+    return scene;
+  }
+
+ private:
+  SceneObject read_object(const YAML::Node& node) const {
+    yaml_.check_keys(node, "object", {"name", "mesh", "shape", "scale", "pose", "movable"});
+    SceneObject object;
+    object.name = yaml_.text(yaml_.required(node, "object", "name"), "name");
+    collision::ImportedMesh imported = read_geometry(node, object.name);
+    object.degenerate_triangles = imported.degenerate_triangles;
+    object.mesh = std::make_shared<const TriangleMesh>(std::move(imported.mesh));
+    if (node["pose"]) object.X_WB = read_pose(node["pose"], "pose");
+    if (node["movable"]) object.movable = yaml_.boolean(node["movable"], "movable");
+    return object;
+  }
+
+  collision::ImportedMesh read_geometry(const YAML::Node& object, const std::string& name) const {
+    const YAML::Node mesh = object["mesh"];
+    const YAML::Node shape = object["shape"];
+    if (mesh && shape) yaml_.fail(shape, "object " + in_quotes(name) + " has both a mesh and a shape");
+    if (!mesh && !shape) yaml_.fail(object, "object " + in_quotes(name) + " has neither a mesh nor a shape");
+    if (mesh) return read_mesh(mesh, object["scale"]);
+    if (object["scale"]) yaml_.fail(object["scale"], "scale: is for meshes; the parameters of a shape are in metres");
+    return {read_shape(shape)};
+  }
+
+  collision::ImportedMesh read_mesh(const YAML::Node& mesh, const YAML::Node& scale_node) const {
+    const std::string path = full_path(yaml_.text(mesh, "mesh"));
+    const double scale = scale_node ? yaml_.number(scale_node, "scale") : 1.0;
+    if (scale <= 0.0) yaml_.fail(scale_node, "scale: must be positive, not " + in_quotes(scale_node.Scalar()));
+    try {
+      return collision::import_mesh(path, scale);
+    } catch (const std::invalid_argument& error) {
+      yaml_.fail(mesh, std::string("mesh: ") + error.what());
+    }
+  }
+
+  TriangleMesh read_shape(const YAML::Node& shape) const {
+    yaml_.check_map(shape, "shape");
+    const std::string type = yaml_.text(yaml_.required(shape, "shape", "type"), "type");
+    std::map<std::string, double> parameters;
+    for (const auto& entry : shape) {
+      const std::string& key = entry.first.Scalar();
+      if (key != "type") parameters.emplace(key, yaml_.number(entry.second, key));
+    }
+    try {
+      return collision::make_shape(type, parameters);
+    } catch (const std::invalid_argument& error) {
+      yaml_.fail(shape, std::string("shape: ") + error.what());
+    }
+  }
+
+  Eigen::Isometry3d read_pose(const YAML::Node& node, const std::string& key) const {
+    yaml_.check_keys(node, key, {"position_m", "orientation_wxyz"});
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+    if (const YAML::Node given = node["position_m"]) position = yaml_.numbers(given, "position_m", 3);
+    std::string where = yaml_.where(node) + ": " + key;
+    if (const YAML::Node given = node["orientation_wxyz"]) {
+      const Eigen::Vector4d wxyz = yaml_.numbers(given, "orientation_wxyz", 4);
+      q = Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+      where = yaml_.where(given) + ": " + key + ": orientation_wxyz";
+    }
+    return checked_pose(position, q, where);
+  }
+
+  std::string full_path(const std::string& path) const { return (base_folder_ / path).string(); }
+
+  YamlReader yaml_;
+  std::string source_;
+  std::filesystem::path base_folder_;
+};
+
+}  // namespace
+
+const SceneObject& Scene::find(const std::string& name) const {
+  std::vector<std::string> known;
+  for (const SceneObject& object : objects) {
+    if (object.name == name) return object;
+    known.push_back(object.name);
+  }
+  throw std::invalid_argument(source + ": there is no object " + in_quotes(name) + " (known: " + joined(known) + ")");
+}
+
+Scene read_scene(const std::string& path) {
+  return parse_scene(read_text_file(path), path, std::filesystem::path(path).parent_path().string());
+}
+
+Scene parse_scene(const std::string& text, const std::string& source, const std::string& base_folder) {
+  return SceneReader(source, base_folder).read(text);
+}
+
+}  // namespace glissade::apps

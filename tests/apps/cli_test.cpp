@@ -1,0 +1,155 @@
+/// The program as its users meet it: what it prints, and how it ends on bad input.
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "run_program.h"
+#include "temporary_folder.h"
+
+namespace glissade::apps {
+namespace {
+
+using test_support::ProgramResult;
+using test_support::TemporaryFolder;
+using testing::HasSubstr;
+
+constexpr const char* kTetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+constexpr const char* kPosesHeader = "x_m,y_m,z_m,qw,qx,qy,qz\n";
+
+ProgramResult glissade(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), GLISSADE_PROGRAM);
+  return test_support::run_program(arguments);
+}
+
+/// Expects exit code 2 and one line on standard error that holds every one of `parts`.
+void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& parts) {
+  const ProgramResult result = glissade(arguments);
+  const std::string& message = result.standard_error;
+  EXPECT_EQ(result.exit_code, 2) << message;
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
+  EXPECT_TRUE(message.starts_with("glissade: ") && message.ends_with("\n")) << message;
+  for (const std::string& part : parts)
+    EXPECT_THAT(message, HasSubstr(part));
+}
+
+/// A folder with a mesh `a.obj`, to which tests add what is wrong.
+class Cli : public testing::Test {
+ protected:
+  void expect_row_refused(const std::string& row, const std::vector<std::string>& parts) const {
+    const std::string bad_poses = folder.write("poses.csv", kPosesHeader + std::string("0,0,0,1,0,0,0\n") + row + "\n");
+    expect_refused({"collide", mesh, mesh, "--poses", bad_poses}, parts);
+  }
+
+  TemporaryFolder folder;
+  std::string mesh = folder.write("a.obj", kTetrahedron);
+  std::string poses = folder.write("good.csv", kPosesHeader + std::string("0.5,0,0,1,0,0,0\n2,0,0,1,0,0,0\n"));
+};
+
+TEST_F(Cli, HelpAndVersionSucceed) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--help"}, {"--version"}, {"info", "--help"}, {"collide", "--help"}}) {
+    const ProgramResult result = glissade(arguments);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.standard_error, "");
+    EXPECT_NE(result.standard_output, "");
+  }
+  EXPECT_THAT(glissade({"collide", "--help"}).standard_output, HasSubstr("glissade collide door.stl motor.obj"));
+}
+
+TEST_F(Cli, InfoTellsTheTrianglesAndTheTree) {
+  const ProgramResult result = glissade({"info", mesh, "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+  const nlohmann::json info = nlohmann::json::parse(result.standard_output);
+  EXPECT_EQ(info.at("triangles"), 4);
+  EXPECT_EQ(info.at("vertices"), 4);
+  EXPECT_EQ(info.at("watertight"), true);
+  EXPECT_EQ(info.at("bounds_max_m"), (std::vector<double>{1.0, 1.0, 1.0}));
+  EXPECT_GE(info.at("tree_nodes"), 1);
+  EXPECT_THAT(glissade({"info", mesh}).standard_output, HasSubstr("watertight"));
+}
+
+TEST_F(Cli, CollideAnswersForEveryPose) {
+  for (const std::string method : {"dop-tree", "brute-force"}) {
+    const ProgramResult result = glissade({"collide", mesh, mesh, "--poses", poses, "--method", method});
+    EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+    EXPECT_EQ(result.standard_output, "pose,colliding\n0,1\n1,0\n");
+    EXPECT_EQ(result.standard_error, "");
+  }
+}
+
+TEST_F(Cli, CollideCountsPairsWithinTheTolerance) {
+  // Two units apart, the near corner of B is 1 m from the corner (1, 0, 0), which three triangles of A share.
+  const ProgramResult result = glissade({"collide", mesh, mesh, "--poses", poses, "--pairs", "--tolerance-m", "1.0"});
+  EXPECT_THAT(result.standard_output, HasSubstr("pose,colliding,pairs\n0,1,"));
+  EXPECT_THAT(result.standard_output, HasSubstr("\n1,1,9\n"));
+}
+
+TEST_F(Cli, CollideWritesTheSameToAFile) {
+  const std::string out = folder.path("out.csv");
+  const ProgramResult result = glissade({"collide", mesh, mesh, "--poses", poses, "--out", out});
+  EXPECT_EQ(result.standard_output, "");
+  EXPECT_EQ(std::filesystem::file_size(out), std::string("pose,colliding\n0,1\n1,0\n").size());
+}
+
+TEST_F(Cli, AFullDiskIsAFailureWhileRunning) {
+  const ProgramResult result = glissade({"collide", mesh, mesh, "--poses", poses, "--out", "/dev/full"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.standard_error, HasSubstr("glissade: /dev/full"));
+}
+
+TEST_F(Cli, WrongUsageIsRefused) {
+  expect_refused({}, {"command"});
+  expect_refused({"frobnicate"}, {"frobnicate"});
+  expect_refused({"--frobnicate"}, {"--frobnicate"});
+  expect_refused({"info"}, {"MESH"});
+  expect_refused({"info", mesh, "--frobnicate"}, {"--frobnicate"});
+  expect_refused({"info", mesh, "surplus"}, {"surplus"});
+  expect_refused({"collide", mesh, mesh}, {"--poses"});
+  expect_refused({"collide", mesh, mesh, "--poses", poses, "--method", "guess"}, {"--method", "guess", "dop-tree"});
+  for (const std::string bad : {"wide", "-1", "nan", "inf"}) {
+    expect_refused({"collide", mesh, mesh, "--poses", poses, "--tolerance-m", bad}, {"--tolerance-m", bad});
+  }
+  expect_refused({"collide", mesh, mesh, "--poses", poses, "--out", folder.path("no/out.csv")}, {"no/out.csv"});
+}
+
+TEST_F(Cli, FilesThatCannotBeReadAreRefused) {
+  expect_refused({"info", folder.path("none.obj")}, {"none.obj"});
+  expect_refused({"info", folder.path("")}, {folder.path("")});
+  expect_refused({"info", folder.write("a.doc", "text")}, {"a.doc"});
+  expect_refused({"info", folder.write("empty.obj", "")}, {"empty.obj"});
+  expect_refused({"info", folder.write("truncated.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0")},
+                 {"truncated.stl"});
+  expect_refused({"info", folder.write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")}, {"nan.obj"});
+  expect_refused({"info", folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")}, {"flat.obj"});
+  expect_refused({"collide", mesh, mesh, "--poses", folder.path("none.csv")}, {"none.csv"});
+  expect_refused({"collide", mesh, mesh, "--poses", folder.path("")}, {"folder"});
+  expect_refused({"collide", mesh, folder.path("none.obj"), "--poses", poses}, {"none.obj"});
+}
+
+TEST_F(Cli, AFileWithoutPermissionIsRefused) {
+  std::filesystem::permissions(mesh, std::filesystem::perms::none);
+  if (access(mesh.c_str(), R_OK) == 0) GTEST_SKIP() << "this user may read every file";
+  expect_refused({"info", mesh}, {"a.obj"});
+}
+
+TEST_F(Cli, WrongPosesAreRefusedWithLineColumnAndValue) {
+  expect_row_refused("0,0,0,1,0,0", {"poses.csv:3:", "7 columns, not 6"});
+  expect_row_refused("0,0,north,1,0,0,0", {"poses.csv:3:", "z_m", "'north'"});
+  expect_row_refused("0,0,nan,1,0,0,0", {"poses.csv:3:", "z_m", "'nan'"});
+  expect_row_refused("0,0,0,0,0,0,0", {"poses.csv:3:", "is zero"});
+  expect_row_refused("0,0,0,0.99,0,0,0", {"poses.csv:3:", "length 0.99"});
+}
+
+TEST_F(Cli, AStrangeFileNameCannotBreakTheLine) {
+  expect_refused({"info", folder.path("a\nb.obj")}, {"a b.obj"});
+}
+
+}  // namespace
+}  // namespace glissade::apps

@@ -1,0 +1,171 @@
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glissade/apps/scene_file.h>
+
+#include "expect_bad_input.h"
+#include "temporary_folder.h"
+
+namespace glissade::apps {
+namespace {
+
+using test_support::expect_bad_input;
+using test_support::TemporaryFolder;
+
+constexpr const char* kTetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+
+Scene parse(const std::string& text) {
+  return parse_scene(text, "scene.yaml", ".");
+}
+
+/// A scene with one box and the lines `more` in its object.
+Scene parse_object(const std::string& more) {
+  return parse("objects:\n  - name: block\n    shape: {type: box}\n" + more);
+}
+
+TEST(SceneFile, ReadsObjectsScriptAndGoal) {
+  const TemporaryFolder folder;
+  folder.write("part.obj", kTetrahedron);
+  const std::string path = folder.write("scene.yaml",
+                                        "objects:\n"
+                                        "  - name: block\n"
+                                        "    shape: {type: box, size_x_m: 2}\n"
+                                        "  - name: part\n"
+                                        "    mesh: part.obj\n"
+                                        "    scale: 0.001\n"
+                                        "    pose: {position_m: [1, 2, 3], orientation_wxyz: [0, 1, 0, 0]}\n"
+                                        "    movable: true\n"
+                                        "script: hand.csv\n"
+                                        "goal: {position_m: [0, 0, 4]}\n");
+  const Scene scene = read_scene(path);
+  ASSERT_EQ(scene.objects.size(), 2U);
+
+  const SceneObject& block = scene.find("block");
+  EXPECT_TRUE(block.X_WB.isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_FALSE(block.movable);
+  double largest_x = 0.0;
+  for (const Eigen::Vector3d& vertex : block.mesh->vertices)
+    largest_x = std::max(largest_x, vertex.x());
+  EXPECT_DOUBLE_EQ(largest_x, 1.0) << "size_x_m is the full edge";
+
+  const SceneObject& part = scene.find("part");
+  EXPECT_TRUE(part.movable);
+  EXPECT_EQ(part.mesh->triangles.size(), 4U);
+  double extent = 0.0;
+  for (const Eigen::Vector3d& vertex : part.mesh->vertices)
+    extent = std::max(extent, vertex.maxCoeff());
+  EXPECT_NEAR(extent, 0.001, 1e-9);
+  EXPECT_TRUE((part.X_WB * Eigen::Vector3d(0.0, 1.0, 1.0)).isApprox(Eigen::Vector3d(1.0, 1.0, 2.0)));
+
+  EXPECT_EQ(scene.script_path, folder.path("hand.csv"));
+  ASSERT_TRUE(scene.X_WGoal.has_value());
+  EXPECT_TRUE(scene.X_WGoal->translation().isApprox(Eigen::Vector3d(0.0, 0.0, 4.0)));
+}
+
+TEST(SceneFile, ScriptAndGoalAreOptional) {
+  const Scene scene = parse_object("");
+  EXPECT_FALSE(scene.script_path.has_value());
+  EXPECT_FALSE(scene.X_WGoal.has_value());
+}
+
+TEST(SceneFile, CountsTrianglesWithoutArea) {
+  const TemporaryFolder folder;
+  folder.write("part.obj", std::string(kTetrahedron) + "f 1 2 2\nv 2 0 0\nf 1 2 5\n");
+  const std::string path = folder.write("scene.yaml", "objects:\n  - {name: part, mesh: part.obj}\n");
+  EXPECT_EQ(read_scene(path).objects.front().degenerate_triangles, 2);
+}
+
+TEST(SceneFile, AnUnknownObjectListsTheKnownOnes) {
+  expect_bad_input([] { (void)parse_object("  - {name: ball, shape: {type: sphere}}\n").find("motor"); },
+                   {"scene.yaml:", "'motor'", "block, ball"});
+}
+
+TEST(SceneFile, UnknownAndRepeatedKeysNameTheirLine) {
+  expect_bad_input([] { parse_object("    colour: red\n"); }, {"scene.yaml:4:", "'colour'", "movable"});
+  expect_bad_input([] { parse_object("    movable: true\n    movable: false\n"); },
+                   {"scene.yaml:5:", "'movable'", "twice"});
+  expect_bad_input([] { parse_object("gaol: {}\n"); }, {"scene.yaml:4:", "'gaol'"});
+  expect_bad_input([] { parse_object("    pose: {position: [0, 0, 0]}\n"); }, {"scene.yaml:4:", "'position'"});
+  expect_bad_input([] { parse_object("    pose: {position_m: [0, 0, 0], position_m: [1, 0, 0]}\n"); },
+                   {"scene.yaml:4:", "twice"});
+}
+
+TEST(SceneFile, NamesMustBeThereAndDiffer) {
+  expect_bad_input([] { parse("objects:\n  - shape: {type: box}\n"); }, {"scene.yaml:2:", "'name'", "missing"});
+  expect_bad_input([] { parse("objects:\n  - name: ''\n    shape: {type: box}\n"); }, {"scene.yaml:2:", "name"});
+  expect_bad_input([] { parse_object("  - name: block\n    shape: {type: sphere}\n"); },
+                   {"scene.yaml:4:", "'block'", "scene.yaml:2"});
+}
+
+TEST(SceneFile, ExactlyOneOfMeshAndShape) {
+  expect_bad_input([] { parse("objects:\n  - name: block\n"); }, {"scene.yaml:2:", "'block'", "neither"});
+  expect_bad_input([] { parse_object("    mesh: block.obj\n"); }, {"scene.yaml:3:", "'block'", "both"});
+}
+
+TEST(SceneFile, ShapesAndTheirParametersMustBeKnown) {
+  expect_bad_input([] { parse("objects:\n  - name: a\n    shape: {type: blob}\n"); },
+                   {"scene.yaml:3:", "blob", "sphere"});
+  expect_bad_input([] { parse("objects:\n  - name: a\n    shape: {type: box, size: 1}\n"); },
+                   {"scene.yaml:3:", "size", "size_x_m"});
+  expect_bad_input([] { parse("objects:\n  - name: a\n    shape: {type: box, size_x_m: wide}\n"); },
+                   {"scene.yaml:3:", "size_x_m", "'wide'"});
+  expect_bad_input([] { parse("objects:\n  - name: a\n    shape: {size_x_m: 1}\n"); }, {"scene.yaml:3:", "'type'"});
+  expect_bad_input([] { parse("objects:\n  - name: a\n    shape: {type: box, type: sphere}\n"); },
+                   {"scene.yaml:3:", "'type'", "twice"});
+  expect_bad_input([] { parse("objects:\n  - name: a\n    shape: box\n"); }, {"scene.yaml:3:", "shape"});
+}
+
+TEST(SceneFile, AMeshThatCannotBeReadNamesSceneLineAndFile) {
+  expect_bad_input([] { parse("objects:\n  - name: a\n    mesh: none.obj\n"); }, {"scene.yaml:3:", "none.obj"});
+}
+
+TEST(SceneFile, ValuesOfTheWrongTypeNameKeyAndValue) {
+  expect_bad_input([] { parse_object("    movable: maybe\n"); }, {"scene.yaml:4:", "movable", "'maybe'"});
+  expect_bad_input([] { parse_object("    pose: here\n"); }, {"scene.yaml:4:", "pose", "'here'"});
+  expect_bad_input([] { parse_object("    pose: {position_m: [0, 0]}\n"); },
+                   {"scene.yaml:4:", "position_m", "3 numbers"});
+  expect_bad_input([] { parse_object("    pose: {position_m: [0, 0, up]}\n"); },
+                   {"scene.yaml:4:", "position_m", "'up'"});
+  expect_bad_input([] { parse_object("script: [a, b]\n"); }, {"scene.yaml:4:", "script", "a list"});
+}
+
+TEST(SceneFile, AScaleIsForMeshesAndMustLeaveOneThatCanBeQueried) {
+  const TemporaryFolder folder;
+  folder.write("part.obj", kTetrahedron);
+  const auto read_scaled = [&](const std::string& scale) {
+    read_scene(folder.write("scene.yaml", "objects:\n  - name: part\n    mesh: part.obj\n    scale: " + scale + "\n"));
+  };
+  expect_bad_input([&] { read_scaled("big"); }, {"scene.yaml:4:", "scale", "'big'"});
+  expect_bad_input([&] { read_scaled("-1"); }, {"scene.yaml:4:", "scale", "'-1'"});
+  expect_bad_input([&] { read_scaled(".nan"); }, {"scene.yaml:4:", "scale", "'.nan'"});
+  expect_bad_input([&] { read_scaled("1e12"); }, {"scene.yaml:3:", "part.obj"});
+  expect_bad_input([] { parse_object("    scale: 2\n"); }, {"scene.yaml:4:", "scale", "for meshes"});
+}
+
+TEST(SceneFile, QuaternionsFollowTheRuleForPoses) {
+  expect_bad_input([] { parse_object("    pose: {orientation_wxyz: [0, 0, 0, 0]}\n"); },
+                   {"scene.yaml:4:", "orientation_wxyz", "is zero"});
+  expect_bad_input([] { parse_object("goal:\n  orientation_wxyz: [1, 0.1, 0, 0]\n"); },
+                   {"scene.yaml:5:", "orientation_wxyz", "length"});
+}
+
+TEST(SceneFile, WhatIsNotASceneIsAnError) {
+  expect_bad_input([] { parse("objects: [\n"); }, {"scene.yaml:", "not valid YAML"});
+  expect_bad_input([] { parse("a: b: c\n"); }, {"scene.yaml:1:", "not valid YAML"});
+  expect_bad_input([] { parse(""); }, {"scene.yaml", "must be a map"});
+  expect_bad_input([] { parse("just text\n"); }, {"scene.yaml:1:", "scene", "'just text'"});
+  expect_bad_input([] { parse("script: hand.csv\n"); }, {"scene.yaml:1:", "'objects'", "missing"});
+  expect_bad_input([] { parse("objects: []\n"); }, {"scene.yaml:1:", "objects"});
+  expect_bad_input([] { parse("objects:\n  - 7\n"); }, {"scene.yaml:2:", "object", "'7'"});
+}
+
+TEST(SceneFile, AFileThatCannotBeReadIsNamed) {
+  const TemporaryFolder folder;
+  expect_bad_input([&] { read_scene(folder.path("none.yaml")); }, {"none.yaml: No such file"});
+  expect_bad_input([&] { read_scene(folder.path("")); }, {"is a folder"});
+}
+
+}  // namespace
+}  // namespace glissade::apps
