@@ -21,4 +21,16 @@ void add_info_command(CLI::App& app, Command& chosen);
 /// `glissade collide A B --poses FILE [--pairs] [--tolerance-m T] [--method M] [--out FILE]`
 void add_collide_command(CLI::App& app, Command& chosen);
 
+/// `glissade demo [--seconds S] [--scene FILE] [--offline] [--json] [--lcm URL] [--report DIR]`
+void add_demo_command(CLI::App& app, Command& chosen);
+
+/// `glissade slide SCENE --part NAME --trajectory FILE [--metaphor M] [--out FILE]`
+void add_slide_command(CLI::App& app, Command& chosen);
+
+/// `glissade run SCENE [--lcm URL] [--seconds S] [--json] [--report DIR]`
+void add_run_command(CLI::App& app, Command& chosen);
+
+/// `glissade glove [--side left|right] [--lcm URL] [--script FILE]`
+void add_glove_command(CLI::App& app, Command& chosen);
+
 }  // namespace glissade::apps

@@ -24,7 +24,8 @@ namespace {
 constexpr const char* kDescription = "The whole system without hardware: a simulated glove carries a part to its seat";
 
 constexpr const char* kFooter =
-    "Without --scene, the glove carries a window motor into a car door: through the access hole of the inner panel, past\n"
+    "Without --scene, the glove carries a window motor into a car door: through the access hole of the inner panel, "
+    "past\n"
     "the side-impact tube and back against the panel. The hand follows a script, squeezed or stretched to the seconds\n"
     "given, and yields to the forces it is sent. In real time glove and server talk over LCM, 1000 times a second;\n"
     "offline everything happens in one thread on a simulated clock, with the same result every time.\n"

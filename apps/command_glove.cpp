@@ -22,7 +22,8 @@ namespace {
 constexpr const char* kDescription = "A simulated force-feedback glove as a process of its own";
 
 constexpr const char* kFooter =
-    "The hand follows a script, t_s,x_m,y_m,z_m,qw,qx,qy,qz: the pose X_WH of the hand root over time; without one, that\n"
+    "The hand follows a script, t_s,x_m,y_m,z_m,qw,qx,qy,qz: the pose X_WH of the hand root over time; without one, "
+    "that\n"
     "of the car door demonstration. It waits at the script's start until a server sends the first command, yields to\n"
     "the forces it is sent, and ends when the script does.\n"
     "\n"

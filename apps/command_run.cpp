@@ -20,7 +20,8 @@ namespace {
 constexpr const char* kDescription = "The haptic server: glove states in over LCM, forces out, 1000 times a second";
 
 constexpr const char* kFooter =
-    "The scene's one movable object is the part in the hand. It is grasped rigidly, where it lies, when the first glove\n"
+    "The scene's one movable object is the part in the hand. It is grasped rigidly, where it lies, when the first "
+    "glove\n"
     "state arrives on the channel GLOVE_STATE; commands go out on GLOVE_COMMAND, and every tick on HAPTIC_STATE for\n"
     "viewers and loggers. Ends after the seconds given, counted from the first glove state, or with Ctrl-C, and then\n"
     "prints a summary; the poses of the last minute are checked by brute force.\n"
@@ -47,12 +48,12 @@ int run(const Options& options) {
   const StopSignal stop_signal;
   bool announced = false;
   std::cerr << "glissade run: waiting for a glove at " << options.lcm_url << '\n';
-  const Session session = run_session(scene, bus, std::llround(options.seconds * 1000.0), &StopSignal::requested,
-                                      [&](std::int64_t ticks) {
-                                        if (ticks == 0 || announced) return;
-                                        announced = true;
-                                        std::cerr << "glissade run: the glove holds '" << scene.part_name << "'\n";
-                                      });
+  const Session session =
+      run_session(scene, bus, std::llround(options.seconds * 1000.0), &StopSignal::requested, [&](std::int64_t ticks) {
+        if (ticks == 0 || announced) return;
+        announced = true;
+        std::cerr << "glissade run: the glove holds '" << scene.part_name << "'\n";
+      });
   conclude(session, scene, "glissade run: " + scene.part_name, options.json, options.report);
   return 0;
 }

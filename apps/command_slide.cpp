@@ -50,9 +50,8 @@ haptics::Metaphor parse_metaphor(const std::string& name) {
 }
 
 std::vector<std::string> columns() {
-  return {"t_s",  "gx_m", "gy_m", "gz_m", "gqw",  "gqx",  "gqy",   "gqz",   "vx_m",  "vy_m",     "vz_m",
-          "vqw",  "vqx",  "vqy",  "vqz",  "fx_N", "fy_N", "fz_N",  "tx_Nm", "ty_Nm", "tz_Nm",    "contacts",
-          "state"};
+  return {"t_s", "gx_m", "gy_m", "gz_m", "gqw",  "gqx",  "gqy",   "gqz",   "vx_m",  "vy_m",     "vz_m", "vqw",
+          "vqx", "vqy",  "vqz",  "fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm", "contacts", "state"};
 }
 
 void add_pose(CsvWriter& out, const Eigen::Isometry3d& X) {
@@ -72,8 +71,10 @@ void add_row(CsvWriter& out, double time_s, const haptics::Sliding& sliding) {
   add_pose(out, result.X_WG);
   add_pose(out, result.X_WV);
   // Adding zero turns a negative zero into the plain one.
-  for (int i = 0; i < 3; ++i) out.add(wrench.f[i] + 0.0);
-  for (int i = 0; i < 3; ++i) out.add(wrench.t[i] + 0.0);
+  for (int i = 0; i < 3; ++i)
+    out.add(wrench.f[i] + 0.0);
+  for (int i = 0; i < 3; ++i)
+    out.add(wrench.t[i] + 0.0);
   out.add(std::int64_t{result.pushing}).add(haptics::name_of(result.state));
   out.end_row();
 }

@@ -1,7 +1,6 @@
-#include <glissade/apps/haptic_scene.h>
-
 #include <stdexcept>
 
+#include <glissade/apps/haptic_scene.h>
 #include <glissade/collision/mesh_operations.h>
 
 namespace glissade::apps {
@@ -23,8 +22,8 @@ HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name) 
   if (meshes_W.empty()) {
     throw std::invalid_argument(scene.source + ": there is nothing but the part '" + part.name + "' in the scene");
   }
-  result.obstacles_W = std::make_shared<haptics::ContactBody>(
-      std::make_shared<collision::TriangleMesh>(collision::merge(meshes_W)));
+  result.obstacles_W =
+      std::make_shared<haptics::ContactBody>(std::make_shared<collision::TriangleMesh>(collision::merge(meshes_W)));
   return result;
 }
 

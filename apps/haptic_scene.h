@@ -24,8 +24,8 @@ struct HapticScene {
   std::optional<Eigen::Isometry3d> X_WGoal;
 };
 
-/// Takes the object `part_name` as the part. Throws std::invalid_argument, naming the scene and the object, when there is
-/// no such object, nothing else in the scene, or a mesh without area.
+/// Takes the object `part_name` as the part. Throws std::invalid_argument, naming the scene and the object, when there
+/// is no such object, nothing else in the scene, or a mesh without area.
 HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name);
 
 /// The name of the one movable object. Throws std::invalid_argument, naming the scene, when there is none or several.

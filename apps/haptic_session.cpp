@@ -1,10 +1,9 @@
-#include <glissade/apps/haptic_session.h>
-
-
 #include <chrono>
 #include <stdexcept>
 #include <thread>
 
+#include <glissade/apps/haptic_session.h>
+#include <glissade/apps/progress.h>
 #include <glissade/devices/haptic_state_publisher.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/devices/simulated_glove.h>
@@ -57,13 +56,12 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   devices::LcmGlove glove(bus, descriptor);
   realtime::SteadyClock clock;
 
-  haptics::HapticServer server(
-      glove, sliding, coupling, clock,
-      [&](const devices::HapticState& sample) {
-        recorder.record(sample);
-        publisher.push(sample);
-      },
-      {.ticks = ticks, .fifo_priority = kFifoPriority});
+  haptics::HapticServer server(glove, sliding, coupling, clock,
+                               [&](const devices::HapticState& sample) {
+                                 recorder.record(sample);
+                                 publisher.push(sample);
+                               },
+                               {.ticks = ticks, .fifo_priority = kFifoPriority});
   realtime::PeriodicThread bare_timer(clock, {.period = haptics::kTickPeriod, .fifo_priority = kFifoPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
   while (!server.is_done() && !should_stop()) {

@@ -37,8 +37,12 @@ int parse_and_run(int argc, char** argv) {
   app.set_version_flag("--version", "glissade " GLISSADE_VERSION, "Print the version and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
   Command chosen;
+  glissade::apps::add_demo_command(app, chosen);
   glissade::apps::add_info_command(app, chosen);
   glissade::apps::add_collide_command(app, chosen);
+  glissade::apps::add_slide_command(app, chosen);
+  glissade::apps::add_run_command(app, chosen);
+  glissade::apps::add_glove_command(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {

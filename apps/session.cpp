@@ -1,10 +1,9 @@
-#include <glissade/apps/session.h>
-
 #include <algorithm>
 #include <bit>
 #include <numbers>
 
 #include <glissade/apps/progress.h>
+#include <glissade/apps/session.h>
 
 namespace glissade::apps {
 
@@ -22,7 +21,8 @@ class Hash {
     }
   }
   void add(const Eigen::Vector3d& v) {
-    for (int i = 0; i < 3; ++i) add(v[i]);
+    for (int i = 0; i < 3; ++i)
+      add(v[i]);
   }
   std::uint64_t value() const { return state_; }
 
@@ -33,7 +33,8 @@ class Hash {
 std::uint64_t hash_of(const std::vector<devices::HapticState>& samples) {
   Hash hash;
   for (const devices::HapticState& sample : samples) {
-    for (int column = 0; column < 3; ++column) hash.add(Eigen::Vector3d(sample.X_WV.linear().col(column)));
+    for (int column = 0; column < 3; ++column)
+      hash.add(Eigen::Vector3d(sample.X_WV.linear().col(column)));
     hash.add(Eigen::Vector3d(sample.X_WV.translation()));
     hash.add(sample.force_on_hand_W);
     hash.add(sample.torque_on_hand_V_W);
@@ -55,12 +56,13 @@ std::int64_t count_colliding(const std::vector<devices::HapticState>& samples, c
   }
   if (poses.empty()) return 0;
   ProgressBar progress("checking poses", static_cast<std::int64_t>(poses.size()));
-  const std::vector<char> colliding = collision::GridCheck(scene.placed_obstacles)
-                                          .collisions(scene.part_V->tree.mesh(), poses, [&](std::size_t done) {
-                                            progress.update(static_cast<std::int64_t>(done));
-                                          });
+  const std::vector<char> colliding =
+      collision::GridCheck(scene.placed_obstacles).collisions(scene.part_V->tree.mesh(), poses, [&](std::size_t done) {
+        progress.update(static_cast<std::int64_t>(done));
+      });
   std::int64_t count = 0;
-  for (std::size_t i = 0; i < poses.size(); ++i) count += colliding[i] != 0 ? repetitions[i] : 0;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    count += colliding[i] != 0 ? repetitions[i] : 0;
   return count;
 }
 
@@ -71,7 +73,8 @@ std::vector<devices::HapticState> SessionRecorder::samples() const {
   const std::size_t first = static_cast<std::size_t>(total_) - kept;
   std::vector<devices::HapticState> result;
   result.reserve(kept);
-  for (std::size_t i = 0; i < kept; ++i) result.push_back(samples_[(first + i) % samples_.size()]);
+  for (std::size_t i = 0; i < kept; ++i)
+    result.push_back(samples_[(first + i) % samples_.size()]);
   return result;
 }
 

@@ -21,9 +21,13 @@ std::string formatted(const char* format, Values... values) {
   return buffer.data();
 }
 
-double microseconds(std::chrono::nanoseconds duration) { return 1e-3 * static_cast<double>(duration.count()); }
+double microseconds(std::chrono::nanoseconds duration) {
+  return 1e-3 * static_cast<double>(duration.count());
+}
 
-std::string hash_text(std::uint64_t hash) { return formatted("%016llx", static_cast<unsigned long long>(hash)); }
+std::string hash_text(std::uint64_t hash) {
+  return formatted("%016llx", static_cast<unsigned long long>(hash));
+}
 
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
@@ -48,9 +52,9 @@ Rows rows_of(const SessionSummary& summary, const Session& session) {
   Rows rows;
   rows.emplace_back("ticks", std::to_string(summary.ticks));
   if (session.real_time) add_real_time_rows(*session.real_time, rows);
-  rows.emplace_back("colliding poses", formatted("%lld of %lld, by brute force",
-                                                 static_cast<long long>(summary.colliding_poses),
-                                                 static_cast<long long>(summary.samples)));
+  rows.emplace_back("colliding poses",
+                    formatted("%lld of %lld, by brute force", static_cast<long long>(summary.colliding_poses),
+                              static_cast<long long>(summary.samples)));
   rows.emplace_back("time in contact",
                     formatted("%.1f %%, up to %d contacts", 100.0 * summary.contact_fraction, summary.contacts_max));
   rows.emplace_back("greatest force", formatted("%.2f N", summary.force_max_N));
@@ -75,7 +79,9 @@ PlotSeries series_of(const std::vector<devices::HapticState>& samples, const std
 
 std::vector<Plot> plots_of(const std::vector<devices::HapticState>& samples) {
   using devices::HapticState;
-  const auto line = [&](const char* name, double (*value)(const HapticState&)) { return series_of(samples, name, value); };
+  const auto line = [&](const char* name, double (*value)(const HapticState&)) {
+    return series_of(samples, name, value);
+  };
   return {
       {"Force on the hand",
        "time [s]",
@@ -92,10 +98,9 @@ std::vector<Plot> plots_of(const std::vector<devices::HapticState>& samples) {
        "time [s]",
        "contacts",
        {line("contacts", [](const HapticState& s) { return static_cast<double>(s.contact_count); })}},
-      {"Age of the contact set",
-       "time [s]",
-       "age [ms]",
-       {line("age", [](const HapticState& s) { return 1e-6 * static_cast<double>(s.contact_set_age.count()); })}}};
+      {"Age of the contact set", "time [s]", "age [ms]", {line("age", [](const HapticState& s) {
+         return 1e-6 * static_cast<double>(s.contact_set_age.count());
+       })}}};
 }
 
 }  // namespace
@@ -138,7 +143,8 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
 
 std::string to_text(const SessionSummary& summary, const Session& session) {
   std::string text;
-  for (const auto& [name, value] : rows_of(summary, session)) text += formatted("  %-28s %s\n", name.c_str(), value.c_str());
+  for (const auto& [name, value] : rows_of(summary, session))
+    text += formatted("  %-28s %s\n", name.c_str(), value.c_str());
   return text;
 }
 

@@ -1,6 +1,6 @@
-#include <glissade/apps/stop_signal.h>
-
 #include <csignal>
+
+#include <glissade/apps/stop_signal.h>
 
 namespace glissade::apps {
 
@@ -8,7 +8,9 @@ namespace {
 
 volatile std::sig_atomic_t stop_requested = 0;
 
-void on_signal(int) { stop_requested = 1; }
+void on_signal(int) {
+  stop_requested = 1;
+}
 
 }  // namespace
 
@@ -17,6 +19,8 @@ StopSignal::StopSignal() {
   std::signal(SIGTERM, on_signal);
 }
 
-bool StopSignal::requested() { return stop_requested != 0; }
+bool StopSignal::requested() {
+  return stop_requested != 0;
+}
 
 }  // namespace glissade::apps

@@ -1,7 +1,7 @@
-#include <glissade/devices/simulated_glove_service.h>
-
 #include <algorithm>
 #include <utility>
+
+#include <glissade/devices/simulated_glove_service.h>
 
 namespace glissade::devices {
 

@@ -1,5 +1,4 @@
 #include <fstream>
-#include <regex>
 #include <sstream>
 #include <string>
 
@@ -21,6 +20,13 @@ Report small_report() {
   return {"Motor <into> door",
           {{"greatest force", "12.5 N"}, {"seat reached", "yes & held"}},
           {{"Force on the hand", "time [s]", "force [N]", {{"x", {0, 1}, {0, 1}}, {"y", {0, 1}, {1, 0}}}}}};
+}
+
+int count(const std::string& text, const std::string& part) {
+  int result = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++result;
+  return result;
 }
 
 TEST(HtmlReport, ShowsTitleSummaryPlotsAndLegend) {
@@ -45,13 +51,9 @@ TEST(HtmlReport, EveryElementIsClosed) {
   const std::string html = html_report(small_report());
   for (const std::string tag :
        {"html", "head", "body", "main", "section", "table", "tr", "th", "td", "svg", "text", "ul", "li"}) {
-    const std::regex opening("<" + tag + "[ >]");
-    const std::regex closing("</" + tag + ">");
-    const auto count = [&](const std::regex& pattern) {
-      return std::distance(std::sregex_iterator(html.begin(), html.end(), pattern), std::sregex_iterator());
-    };
-    EXPECT_GT(count(opening), 0) << tag;
-    EXPECT_EQ(count(opening), count(closing)) << tag;
+    const int opened = count(html, "<" + tag + ">") + count(html, "<" + tag + " ");
+    EXPECT_GT(opened, 0) << tag;
+    EXPECT_EQ(opened, count(html, "</" + tag + ">")) << tag;
   }
 }
 
