@@ -26,5 +26,5 @@ int main() {
   const haptics::Displacement lag = haptics::displacement_between(sliding.result().X_WV, X_WG, box_V->p_Vref());
   const haptics::Wrench wrench = haptics::spring_wrench(sliding.stiffness(), lag);
   std::cout << "The box lies on it at z = " << sliding.result().X_WV.translation().z() * 1e3 << " mm, "
-            << "and the hand feels " << wrench.f.transpose() << " N.\n";
+            << "and the hand feels " << wrench.f.z() << " N upwards.\n";
 }

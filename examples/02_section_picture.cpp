@@ -1,5 +1,5 @@
-// Draws what the demonstration does: the car door and the window motor, cut by the plane x = -0.02 m and seen along the
-// car, while the motor slides to its seat. Usage: section_picture SCRIPT.csv PICTURE.svg
+// Draws what the demonstration does: a window motor slides to its seat in a car door, seen along the car. The motor is
+// cut through the middle of its drum, the door where the drum ends up. Usage: section_picture SCRIPT.csv PICTURE.svg
 // The script is that of `examples/scenes`: the pose X_WG of the ghost over time.
 
 #include <fstream>
@@ -18,8 +18,8 @@ namespace {
 using namespace glissade;
 using collision::TriangleMesh;
 
-constexpr double kCut_m = -0.02;
-constexpr double kDetail = 0.1;  // no dimension of the parts depends on it
+constexpr double kDrumX_m = 0.04;  // in the motor's frame V
+constexpr double kDetail = 0.4;    // no dimension of the parts depends on it
 
 std::vector<Eigen::Isometry3d> read_poses(const std::string& path) {
   std::ifstream file(path);
@@ -38,16 +38,16 @@ std::vector<Eigen::Isometry3d> read_poses(const std::string& path) {
   return poses;
 }
 
-// The lines in which the plane x = kCut_m cuts the triangles, as an SVG path: y to the right, z up, in millimetres.
-std::string section(const TriangleMesh& mesh_B, const Eigen::Isometry3d& X_WB) {
+// The lines in which the plane x_B = cut cuts the triangles, as an SVG path: y_W to the right, z_W up, in millimetres.
+std::string section(const TriangleMesh& mesh_B, double cut_m, const Eigen::Isometry3d& X_WB) {
   std::ostringstream path;
   path.precision(5);
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh_B.triangles.size()); ++t) {
     std::vector<Eigen::Vector3d> cut;
     for (int c = 0; c < 3; ++c) {
-      const Eigen::Vector3d a = X_WB * mesh_B.corner(t, c);
-      const Eigen::Vector3d b = X_WB * mesh_B.corner(t, (c + 1) % 3);
-      if ((a.x() < kCut_m) != (b.x() < kCut_m)) cut.push_back(a + (kCut_m - a.x()) / (b.x() - a.x()) * (b - a));
+      const Eigen::Vector3d& a = mesh_B.corner(t, c);
+      const Eigen::Vector3d& b = mesh_B.corner(t, (c + 1) % 3);
+      if ((a.x() < cut_m) != (b.x() < cut_m)) cut.push_back(X_WB * (a + (cut_m - a.x()) / (b.x() - a.x()) * (b - a)));
     }
     if (cut.size() != 2) continue;
     path << 'M' << 1e3 * cut[0].y() << ' ' << -1e3 * cut[0].z() << 'L' << 1e3 * cut[1].y() << ' ' << -1e3 * cut[1].z();
@@ -87,18 +87,22 @@ int main(int argc, char** argv) {
   for (std::size_t i = 0; i < poses_WG.size(); ++i) {
     const Eigen::Isometry3d& X_WV = sliding.advance(poses_WG[i]).X_WV;
     track << (i == 0 ? 'M' : 'L') << 1e3 * X_WV.translation().y() << ' ' << -1e3 * X_WV.translation().z();
-    if (i % 70 == 0) draw(svg, section(motor_V->tree.mesh(), X_WV), "stroke:#9fbfe8;stroke-width:1");
+    if (i % 70 == 0) draw(svg, section(motor_V->tree.mesh(), kDrumX_m, X_WV), "stroke:#9fbfe8;stroke-width:1");
   }
   draw(svg, track.str(), "stroke:#d08020;stroke-width:1.5;stroke-dasharray:5 4");
+  const double door_cut_m = (sliding.result().X_WV * Eigen::Vector3d(kDrumX_m, 0.0, 0.0)).x();
   for (const TriangleMesh& mesh : door)
-    draw(svg, section(mesh, Eigen::Isometry3d::Identity()), "stroke:#303030;stroke-width:2.2");
-  draw(svg, section(motor_V->tree.mesh(), sliding.result().X_WV), "stroke:#1050b0;stroke-width:1.8");
+    draw(svg, section(mesh, door_cut_m, Eigen::Isometry3d::Identity()), "stroke:#303030;stroke-width:2.2");
+  draw(svg, section(motor_V->tree.mesh(), kDrumX_m, sliding.result().X_WV), "stroke:#1050b0;stroke-width:1.8");
 
-  label(svg, -320, -300, "Section at x = -20 mm: y to the right, z up");
-  label(svg, -95, 275, "inner panel");
-  label(svg, 150, 275, "outer panel");
-  label(svg, -325, -90, "window motor, start");
-  label(svg, -80, 150, "seat");
+  label(svg, -320, -300, "y outwards to the right, z up");
+  label(svg, -95, 290, "inner panel");
+  label(svg, 100, 290, "outer panel");
+  label(svg, 60, -38, "side-impact tube");
+  label(svg, 128, 20, "hose");
+  label(svg, -85, -90, "access hole");
+  label(svg, -325, -85, "window motor, start");
+  label(svg, -60, 150, "seat");
   svg << "</svg>\n";
   return svg.good() ? 0 : 1;
 }
