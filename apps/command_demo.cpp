@@ -101,7 +101,8 @@ void add_demo_command(CLI::App& app, Command& chosen) {
   command->add_flag("--offline", options->offline, "Deterministic, on a simulated clock, in one thread");
   command->add_flag("--json", options->json, "Print the summary as JSON");
   command->add_option("--lcm", options->lcm_url, "LCM address that glove and server meet at")->capture_default_str();
-  command->add_option("--report", options->report, "Folder for an HTML page with the plots of force and lag");
+  command->add_option("--report", options->report, "Folder for an HTML page with the plots of force and lag")
+      ->take_last();
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -8,6 +8,7 @@ void run_offline(devices::SimulatedGlove& glove, Sliding& sliding, HapticKernel&
   devices::GloveCommand command;
   std::vector<std::int32_t> scratch;
   ContactSet set;
+  set.X_WV = sliding.result().X_WV;
   for (std::int64_t i = 1; i <= ticks; ++i) {
     const std::chrono::nanoseconds now = i * kTickPeriod;
     const devices::GloveState state = glove.step(kTickPeriod, command);

@@ -10,34 +10,20 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "run_program.h"
+#include "glissade_program.h"
 #include "temporary_folder.h"
 
 namespace glissade::apps {
 namespace {
 
+using test_support::expect_refused;
+using test_support::glissade;
 using test_support::ProgramResult;
 using test_support::TemporaryFolder;
 using testing::HasSubstr;
 
 constexpr const char* kTetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 constexpr const char* kPosesHeader = "x_m,y_m,z_m,qw,qx,qy,qz\n";
-
-ProgramResult glissade(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), GLISSADE_PROGRAM);
-  return test_support::run_program(arguments);
-}
-
-/// Expects exit code 2 and one line on standard error that holds every one of `parts`.
-void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& parts) {
-  const ProgramResult result = glissade(arguments);
-  const std::string& message = result.standard_error;
-  EXPECT_EQ(result.exit_code, 2) << message;
-  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
-  EXPECT_TRUE(message.starts_with("glissade: ") && message.ends_with("\n")) << message;
-  for (const std::string& part : parts)
-    EXPECT_THAT(message, HasSubstr(part));
-}
 
 /// A folder with a mesh `a.obj`, to which tests add what is wrong.
 class Cli : public testing::Test {

@@ -48,6 +48,10 @@ TEST(OfflineRun, AHandPressedAgainstAPlateComesToRestWhereTheSpringsBalance) {
   }
 }
 
+TEST(OfflineRun, ShowsThePartWhereItIsFromTheFirstTickOn) {
+  EXPECT_TRUE(press_on_plate().front().X_WV.isApprox(Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.03))));
+}
+
 TEST(OfflineRun, TheForceNeverJumps) {
   const std::vector<HapticState> samples = press_on_plate();
   for (std::size_t i = 1; i < samples.size(); ++i) {

@@ -1,0 +1,115 @@
+/// `glissade demo`: a small scene of the test's own, offline and in real time, and a stretch of the car door.
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "glissade_program.h"
+#include "temporary_folder.h"
+
+namespace glissade::apps {
+namespace {
+
+using test_support::expect_refused;
+using test_support::ProgramResult;
+
+class Demo : public testing::Test {
+ protected:
+  /// A box that is pressed on a plate and pushed to its goal along it, in one second.
+  std::string scene =
+      folder.write("scene.yaml",
+                   "objects:\n"
+                   "  - name: plate\n"
+                   "    shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5, triangles: 200}\n"
+                   "  - name: box\n"
+                   "    movable: true\n"
+                   "    shape: {type: box, size_x_m: 0.1, size_y_m: 0.06, size_z_m: 0.04, triangles: 60}\n"
+                   "    pose: {position_m: [0, 0, 0.03]}\n"
+                   "script: hand.csv\n"
+                   "goal: {position_m: [0.05, 0, 0.02]}\n");
+  std::string script = folder.write("hand.csv",
+                                    "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n"
+                                    "0,0,0,0.03,1,0,0,0\n"
+                                    "0.2,0,0,0.01,1,0,0,0\n"
+                                    "0.8,0.05,0,0.01,1,0,0,0\n"
+                                    "1,0.05,0,0.01,1,0,0,0\n");
+
+  static nlohmann::json run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"demo", "--json"});
+    const ProgramResult result = test_support::glissade(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+    EXPECT_EQ(result.standard_error, "");
+    return nlohmann::json::parse(result.standard_output);
+  }
+
+  test_support::TemporaryFolder& files() { return folder; }
+
+ private:
+  static inline test_support::TemporaryFolder folder;
+};
+
+TEST_F(Demo, OfflineGivesTheSameHashTwiceAndReachesTheSeatThroughContact) {
+  const nlohmann::json first = run({"--scene", scene, "--seconds", "1", "--offline"});
+  const nlohmann::json second = run({"--scene", scene, "--seconds", "1", "--offline"});
+  EXPECT_EQ(first["hash"], second["hash"]);
+  EXPECT_EQ(first["ticks"], 1000);
+  EXPECT_EQ(first["colliding_poses"], 0);
+  EXPECT_EQ(first["checked_poses"], 1000);
+  EXPECT_EQ(first["seat_reached"], true);
+  EXPECT_GT(first["contact_fraction"], 0.7);
+  EXPECT_GT(first["force_max_N"], 2.0);
+  EXPECT_TRUE(first["lateness_us_p50"].is_null());
+}
+
+TEST_F(Demo, InRealTimeGloveAndServerMeetOverLcmAndReachTheSameSeat) {
+  const nlohmann::json summary = run({"--scene", scene, "--seconds", "1.2", "--report", files().path("report")});
+  EXPECT_EQ(summary["ticks"], 1200);
+  EXPECT_EQ(summary["colliding_poses"], 0);
+  EXPECT_EQ(summary["seat_reached"], true);
+  EXPECT_GT(summary["force_max_N"], 1.0);
+  for (const char* figure : {"tick_us_p50", "tick_us_p99", "lateness_us_p50", "bare_lateness_us_p50", "late_ticks"}) {
+    EXPECT_TRUE(summary[figure].is_number()) << figure;
+  }
+  std::ifstream page(files().path("report") + "/index.html");
+  std::stringstream html;
+  html << page.rdbuf();
+  EXPECT_NE(html.str().find("Force on the hand"), std::string::npos);
+  // Nothing is fetched from anywhere.
+  for (const char* reference : {"src=", "href=", "url(", "@import"}) {
+    EXPECT_EQ(html.str().find(reference), std::string::npos) << reference;
+  }
+}
+
+TEST_F(Demo, TheCarDoorRunsOfflineWithoutACollision) {
+  const nlohmann::json summary = run({"--seconds", "0.3", "--offline"});
+  EXPECT_EQ(summary["ticks"], 300);
+  EXPECT_EQ(summary["colliding_poses"], 0);
+  EXPECT_GT(summary["contact_fraction"], 0.3);
+}
+
+TEST_F(Demo, RefusesWhatIsWrong) {
+  expect_refused({"demo", "--seconds", "0"}, {"--seconds", "0.01 and 3600"});
+  expect_refused({"demo", "--lcm", "carrier-pigeon://"}, {"carrier-pigeon://"});
+  expect_refused({"demo", "--scene", files().path("none.yaml")}, {"none.yaml"});
+  const std::string no_script = files().write("no_script.yaml",
+                                              "objects:\n"
+                                              "  - {name: plate, shape: {type: plate}}\n"
+                                              "  - {name: box, movable: true, shape: {type: box}}\n");
+  expect_refused({"demo", "--scene", no_script}, {"no_script.yaml", "script"});
+  const std::string two_parts = files().write("two_parts.yaml",
+                                              "objects:\n"
+                                              "  - {name: a, movable: true, shape: {type: box}}\n"
+                                              "  - {name: b, movable: true, shape: {type: box}}\n"
+                                              "script: hand.csv\n");
+  expect_refused({"demo", "--scene", two_parts}, {"two_parts.yaml", "2 are"});
+  expect_refused({"run", no_script, "--lcm", "udpm://nonsense"}, {"udpm://nonsense"});
+  expect_refused({"glove", "--lcm", "udpm://nonsense"}, {"udpm://nonsense"});
+  expect_refused({"glove", "--side", "middle"}, {"--side", "middle"});
+  expect_refused({"glove", "--script", no_script}, {"no_script.yaml"});
+}
+
+}  // namespace
+}  // namespace glissade::apps

@@ -1,0 +1,39 @@
+#pragma once
+
+/// The built program, run as its users do.
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "run_program.h"
+
+namespace glissade::test_support {
+
+/// Runs `glissade` with the arguments and waits for its end.
+inline ProgramResult glissade(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), GLISSADE_PROGRAM);
+  return run_program(arguments);
+}
+
+/// Expects an exit code and one line on standard error that holds every one of `parts`.
+inline void expect_fails(int exit_code, const std::vector<std::string>& arguments,
+                         const std::vector<std::string>& parts) {
+  const ProgramResult result = glissade(arguments);
+  const std::string& message = result.standard_error;
+  EXPECT_EQ(result.exit_code, exit_code) << message;
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
+  EXPECT_TRUE(message.starts_with("glissade: ") && message.ends_with("\n")) << message;
+  for (const std::string& part : parts)
+    EXPECT_THAT(message, testing::HasSubstr(part));
+}
+
+/// Expects that bad input or usage is refused.
+inline void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& parts) {
+  expect_fails(2, arguments, parts);
+}
+
+}  // namespace glissade::test_support

@@ -1,0 +1,149 @@
+/// `glissade slide`: a box led over a plane, into a groove and into a corner, as files in and a file out.
+
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "glissade_program.h"
+#include "temporary_folder.h"
+
+namespace glissade::apps {
+namespace {
+
+using test_support::expect_fails;
+using test_support::expect_refused;
+using test_support::ProgramResult;
+
+constexpr double kTwoMargins = 20e-6;
+
+/// One row of the answer by column name; the state's text is left out.
+using Row = std::map<std::string, double>;
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');)
+    cells.push_back(cell);
+  return cells;
+}
+
+std::vector<Row> parse(const std::string& csv) {
+  std::istringstream in(csv);
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> header = split(line);
+  std::vector<Row> rows;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> cells = split(line);
+    EXPECT_EQ(cells.size(), header.size());
+    Row& row = rows.emplace_back();
+    for (std::size_t i = 0; i + 1 < header.size(); ++i)
+      row[header[i]] = std::stod(cells[i]);
+  }
+  return rows;
+}
+
+class Slide : public testing::Test {
+ protected:
+  /// A 0.1 × 0.06 × 0.04 m box, finely cut, and sheets in the given poses.
+  std::string scene(const std::vector<std::string>& sheet_poses) const {
+    std::string text =
+        "objects:\n"
+        "  - {name: box, movable: true, shape: {type: box, size_x_m: 0.1, size_y_m: 0.06, size_z_m: 0.04, triangles: "
+        "600}}\n";
+    for (std::size_t i = 0; i < sheet_poses.size(); ++i) {
+      text += "  - {name: sheet" + std::to_string(i) +
+              ", shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5, triangles: 900}, pose: " + sheet_poses[i] + "}\n";
+    }
+    return folder.write("scene.yaml", text);
+  }
+
+  std::string trajectory(const std::string& rows) const {
+    return folder.write("hand.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n" + rows);
+  }
+
+  std::vector<Row> slide(const std::string& scene_file, const std::string& trajectory_file) const {
+    const ProgramResult result =
+        test_support::glissade({"slide", scene_file, "--part", "box", "--trajectory", trajectory_file});
+    EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+    EXPECT_EQ(result.standard_output.substr(0, result.standard_output.find('\n')),
+              "t_s,gx_m,gy_m,gz_m,gqw,gqx,gqy,gqz,vx_m,vy_m,vz_m,vqw,vqx,vqy,vqz,"
+              "fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,contacts,state");
+    return parse(result.standard_output);
+  }
+
+  test_support::TemporaryFolder folder;
+  const std::string floor = "{position_m: [0, 0, 0]}";
+  // Quarter turns about y and x stand a sheet upright.
+  const std::string wall_x = "{position_m: [0, 0, 0], orientation_wxyz: [0.70710678, 0, 0.70710678, 0]}";
+  const std::string wall_y = "{position_m: [0, 0, 0], orientation_wxyz: [0.70710678, 0.70710678, 0, 0]}";
+};
+
+TEST_F(Slide, OverAPlaneTheBoxStaysOnItAndFollowsTheGhost) {
+  const auto rows = slide(scene({floor}), trajectory("0,-0.1,0,0.03,1,0,0,0\n"
+                                                     "0.1,-0.1,0,0.017,1,0,0,0\n"
+                                                     "0.3,0.1,0.02,0.017,1,0,0,0\n"));
+  ASSERT_EQ(rows.size(), 301u);
+  EXPECT_DOUBLE_EQ(rows[150].at("t_s"), 0.15);
+  for (std::size_t i = 100; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    EXPECT_NEAR(row.at("vx_m"), row.at("gx_m"), kTwoMargins);
+    EXPECT_NEAR(row.at("vy_m"), row.at("gy_m"), kTwoMargins);
+    EXPECT_NEAR(row.at("vz_m"), 0.02, kTwoMargins);
+    EXPECT_NEAR(row.at("fz_N"), 1000.0 * 0.003, 1000.0 * kTwoMargins);
+    EXPECT_GE(row.at("contacts"), 1.0);
+  }
+  for (std::size_t i = 0; i < 50; ++i) {
+    for (const char* column : {"fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm"})
+      EXPECT_EQ(rows[i].at(column), 0.0);
+  }
+}
+
+TEST_F(Slide, InAGrooveItFollowsTheGhostAlongIt) {
+  const auto rows = slide(scene({floor, wall_x}), trajectory("0,0.06,-0.1,0.03,1,0,0,0\n"
+                                                             "0.1,0.047,-0.1,0.018,1,0,0,0\n"
+                                                             "0.3,0.047,0.1,0.018,1,0,0,0\n"));
+  for (std::size_t i = 100; i < rows.size(); ++i) {
+    EXPECT_NEAR(rows[i].at("vx_m"), 0.05, kTwoMargins);
+    EXPECT_NEAR(rows[i].at("vy_m"), rows[i].at("gy_m"), kTwoMargins);
+    EXPECT_NEAR(rows[i].at("vz_m"), 0.02, kTwoMargins);
+  }
+}
+
+TEST_F(Slide, InACornerItStops) {
+  const auto rows = slide(scene({floor, wall_x, wall_y}), trajectory("0,0.06,0.04,0.03,1,0,0,0\n"
+                                                                     "0.1,0.047,0.028,0.016,1,0,0,0\n"
+                                                                     "0.2,0.046,0.027,0.018,1,0,0,0\n"));
+  for (std::size_t i = 100; i < rows.size(); ++i) {
+    const double dx = rows[i].at("vx_m") - 0.05;
+    const double dy = rows[i].at("vy_m") - 0.03;
+    const double dz = rows[i].at("vz_m") - 0.02;
+    EXPECT_LT(std::sqrt(dx * dx + dy * dy + dz * dz), kTwoMargins);
+  }
+}
+
+TEST_F(Slide, StartingInsideAnObstacleIsAFailureWithItsReason) {
+  expect_fails(
+      1,
+      {"slide", scene({floor}), "--part", "box", "--trajectory", trajectory("0,0,0,0.01,1,0,0,0\n1,0,0,0.1,1,0,0,0\n")},
+      {"hand.csv", "collides", "first row"});
+}
+
+TEST_F(Slide, RefusesWhatIsWrong) {
+  const std::string good = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n");
+  expect_refused({"slide", scene({floor}), "--part", "motor", "--trajectory", good}, {"motor", "box, sheet0"});
+  expect_refused({"slide", scene({floor}), "--part", "box", "--trajectory", good, "--metaphor", "glue"},
+                 {"--metaphor", "glue", "force-feedback, rubber-band-spring"});
+  expect_refused({"slide", scene({}), "--part", "box", "--trajectory", good}, {"scene.yaml", "nothing but"});
+  const std::string scene_file = scene({floor});
+  expect_refused({"slide", scene_file, "--part", "box", "--trajectory", folder.path("none.csv")}, {"none.csv"});
+  const std::string standing = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n0.01,0,0,0.04,1,0,0,0\n");
+  expect_refused({"slide", scene_file, "--part", "box", "--trajectory", standing}, {"hand.csv:4", "0.01"});
+  const std::string skewed = trajectory("0,0,0,0.03,1,0,0.1,0\n0.01,0,0,0.03,1,0,0,0\n");
+  expect_refused({"slide", scene_file, "--part", "box", "--trajectory", skewed}, {"hand.csv:2"});
+}
+
+}  // namespace
+}  // namespace glissade::apps
