@@ -33,4 +33,8 @@ Displacement displacement_between(const Eigen::Isometry3d& X_WV, const Eigen::Is
 /// `radius` ρ is the largest distance of its points from the reference point.
 double motion_bound(const Displacement& d, double radius);
 
+/// A fraction f in [0, 1] with motion_bound(d.scaled(f), radius) ≤ `longest`: 1 where that holds for d itself. The
+/// bound is not linear in d, so this is not simply their quotient.
+double fraction_within(const Displacement& d, double radius, double longest);
+
 }  // namespace glissade::haptics

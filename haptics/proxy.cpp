@@ -9,9 +9,8 @@ const Eigen::Isometry3d& Proxy::update(const ContactSet& set, const Eigen::Isome
   X_WG_ = X_WG;
   const Eigen::Isometry3d X_WP_new = target(set, X_WG);
   const Displacement change = displacement_between(X_WP_, X_WP_new, p_Vref_);
-  const double length = motion_bound(change, radius_);
-  const double longest = kSlew_m + 2.0 * ghost_motion;
-  X_WP_ = length > longest ? displaced(X_WP_, p_Vref_, change.scaled(longest / length)) : X_WP_new;
+  const double fraction = fraction_within(change, radius_, kSlew_m + 2.0 * ghost_motion);
+  X_WP_ = fraction < 1.0 ? displaced(X_WP_, p_Vref_, change.scaled(fraction)) : X_WP_new;
   return X_WP_;
 }
 
@@ -23,8 +22,7 @@ Eigen::Isometry3d Proxy::target(const ContactSet& set, const Eigen::Isometry3d& 
   // Nothing known is in the way. Beyond the reach of the set something might be; but holding the hand back there would
   // make a late simulation feel like drag, and the visible part is safe whatever the proxy does.
   if (projection.active_count == 0) return X_WG;
-  const double length = motion_bound(projection.displacement, radius_);
-  const double fraction = length > set.reach ? set.reach / length : 1.0;
+  const double fraction = fraction_within(projection.displacement, radius_, set.reach);
   return displaced(set.X_WV_of_rows, p_Vref_, projection.displacement.scaled(fraction));
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
 
@@ -148,20 +149,26 @@ Sliding::Step Sliding::certified_step(const Displacement& wanted, double budget)
     if (projection > 0) add_rows_for_failures();
     const Displacement d = project_on_rows(wanted);
     const double fraction = allowed_fraction(d, budget);
-    step.displacement = d.scaled(fraction);
+    proved = prove(d.scaled(fraction), step);
     step.clipped = fraction < 1.0;
-    step.length = motion_bound(step.displacement, part_V_->radius());
-    proved = certificate_.prove(result_.X_WV, step.displacement, candidates_.within(step.length + floor()), failures_);
   }
   for (int halving = 0; halving < kHalvings && !proved; ++halving) {
-    step.displacement = step.displacement.scaled(0.5);
+    proved = prove(step.displacement.scaled(0.5), step);
     step.clipped = true;
-    step.length = motion_bound(step.displacement, part_V_->radius());
-    proved = certificate_.prove(result_.X_WV, step.displacement, candidates_.within(step.length + floor()), failures_);
   }
   if (!proved) return Step{{}, 0.0, false, true};
   step.arrives = !step.clipped && projection_.active_count == 0;
   return step;
+}
+
+/// Makes `step` that displacement and tells whether it is proved free.
+bool Sliding::prove(const Displacement& displacement, Step& step) {
+  step.displacement = displacement;
+  step.length = motion_bound(displacement, part_V_->radius());
+  // Pairs further away than this keep the floor whatever happens on the way.
+  const double concerned = step.length + floor();
+  assert(candidates_.covers(concerned));
+  return certificate_.prove(result_.X_WV, displacement, candidates_.within(concerned), failures_);
 }
 
 Displacement Sliding::project_on_rows(const Displacement& wanted) {
@@ -178,9 +185,7 @@ Displacement Sliding::project_on_rows(const Displacement& wanted) {
 
 /// How much of a displacement the reach, the slew and the linearisation of rotations allow.
 double Sliding::allowed_fraction(const Displacement& d, double budget) const {
-  const double length = motion_bound(d, part_V_->radius());
-  const double longest = std::min(result_.reach - margin_, budget);
-  double fraction = length > longest ? std::max(0.0, longest) / length : 1.0;
+  double fraction = fraction_within(d, part_V_->radius(), std::min(result_.reach - margin_, budget));
   const double angle = d.w.norm();
   const double largest_angle = std::sqrt(margin_ / part_V_->radius());
   if (!rows_.empty() && angle * fraction > largest_angle) fraction = largest_angle / angle;

@@ -109,6 +109,7 @@ class Sliding {
   void refresh_candidates();
   void find_rows();
   Step certified_step(const Displacement& wanted, double budget);
+  bool prove(const Displacement& displacement, Step& step);
   Displacement project_on_rows(const Displacement& wanted);
   double allowed_fraction(const Displacement& d, double budget) const;
   void add_rows_for_failures();

@@ -55,5 +55,16 @@ TEST_F(Motion, NoPointMovesMoreThanTheBoundAtAnyMoment) {
   EXPECT_DOUBLE_EQ(motion_bound({Eigen::Vector3d::Zero(), {std::numbers::pi, 0, 0}}, radius), 2.0 * radius);
 }
 
+TEST_F(Motion, ShorteningToALengthKeepsToIt) {
+  const double radius = 0.5;
+  for (const double angle : {0.001, 0.1, 1.0, 3.0, std::numbers::pi}) {
+    for (const double longest : {0.0, 1e-4, 0.01, 0.3}) {
+      const Displacement d{Eigen::Vector3d(0.02, 0.0, 0.0), Eigen::Vector3d(0.0, angle, 0.0)};
+      EXPECT_LE(motion_bound(d.scaled(fraction_within(d, radius, longest)), radius), longest * (1.0 + 1e-12));
+    }
+    EXPECT_EQ(fraction_within({Eigen::Vector3d::Zero(), {angle, 0.0, 0.0}}, radius, 1.1), 1.0);
+  }
+}
+
 }  // namespace
 }  // namespace glissade::haptics

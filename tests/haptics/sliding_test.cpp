@@ -167,6 +167,38 @@ TEST(Sliding, AThinSheetAtFiveMetresPerSecondIsNeverCrossed) {
   }
 }
 
+/// The longest way any point of the part goes in one call, beyond twice the ghost's own, when a box that is pressed 5
+/// mm too deep is drawn over the rim of a plate and snaps off it.
+double greatest_catch_up(Metaphor metaphor) {
+  const Tessellation tessellation{12, false};
+  const auto plate =
+      std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(collision::make_plate({0.2, 0.2}, 100)));
+  Sliding sliding(plate, box_part(tessellation), at({0.0, 0.0, 0.03}), {.metaphor = metaphor});
+  lead(sliding, at({0.0, 0.0, 0.015}), 200, [](const SlidingResult&) {});
+  double greatest = 0.0;
+  Isometry3d X_WG = sliding.result().X_WG;
+  Isometry3d X_WV = sliding.result().X_WV;
+  lead(sliding, at({0.17, 0.0, 0.015}), 500, [&](const SlidingResult& result) {
+    const Vector3d& p_Vref = sliding.part().p_Vref();
+    const double radius = sliding.part().radius();
+    const double ghost = motion_bound(displacement_between(X_WG, result.X_WG, p_Vref), radius);
+    const double part = motion_bound(displacement_between(X_WV, result.X_WV, p_Vref), radius);
+    greatest = std::max(greatest, part - 2.0 * ghost);
+    X_WG = result.X_WG;
+    X_WV = result.X_WV;
+  });
+  EXPECT_EQ(sliding.result().state, SlidingState::kFree);  // it has left the plate
+  return greatest;
+}
+
+TEST(Sliding, UnderForceFeedbackThePartCatchesUpNoFasterThanTheSlew) {
+  EXPECT_LE(greatest_catch_up(Metaphor::kForceFeedback), kSlew_m * (1.0 + 1e-9));
+}
+
+TEST(Sliding, OnARubberBandThePartCatchesUpAtOnce) {
+  EXPECT_GT(greatest_catch_up(Metaphor::kRubberBandSpring), 2.0 * kSlew_m);
+}
+
 TEST(Sliding, WillNotStartInsideAnything) {
   const Tessellation tessellation{12, false};
   const auto obstacle = body({sheet(Vector3d::UnitZ(), tessellation)}, tessellation);
