@@ -37,7 +37,6 @@ class DopTree {
   explicit DopTree(std::shared_ptr<const TriangleMesh> mesh);
 
   const TriangleMesh& mesh() const { return *mesh_; }
-  std::shared_ptr<const TriangleMesh> shared_mesh() const { return mesh_; }
 
   /// Node 0 is the root.
   const std::vector<DopNode>& nodes() const { return nodes_; }

@@ -8,8 +8,7 @@ void CandidatePairs::refresh(const Eigen::Isometry3d& X_WV, double radius) {
   collision::pairs_within(obstacles_W_.tree, part_V_.tree, X_WV, radius, workspace_, close_pairs_);
   pairs_.clear();
   for (const collision::ClosePair& pair : close_pairs_) {
-    const Eigen::Vector3d n_W =
-        pair.distance > 0.0 ? ((pair.p_B - pair.p_A) / pair.distance).eval() : Eigen::Vector3d::Zero();
+    const Eigen::Vector3d n_W = (pair.p_B - pair.p_A).normalized();
     const bool has_features = obstacles_W_.topology.answers_for_features(pair.triangles.triangle_A) ||
                               part_V_.topology.answers_for_features(pair.triangles.triangle_B);
     pairs_.push_back({pair.triangles.triangle_A, pair.triangles.triangle_B, has_features, pair.distance, n_W});

@@ -41,9 +41,6 @@ class CandidatePairs {
   /// The candidates that may be within `reach` of the part's present pose, nearest first (by the pose of the query).
   std::span<const CandidatePair> within(double reach) const;
 
-  /// A lower bound, in metres, of the distance of a pair at the part's present pose.
-  double distance_at_least(const CandidatePair& pair) const { return pair.distance - drift_; }
-
   /// Number of candidates.
   std::size_t size() const { return pairs_.size(); }
 

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <span>
-#include <type_traits>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -15,7 +15,8 @@
 
 namespace glissade::haptics {
 
-/// Enough for any one pose: six contacts push at the most, the others are those that may soon.
+/// At most six contacts push at once; the others are the nearest of those that may soon. On finely cut faces that lie
+/// flush there are more than this, and those left out are missing until the next set.
 inline constexpr std::size_t kMaxContactRows = 64;
 
 /// The answer to one ghost pose.

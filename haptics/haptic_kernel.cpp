@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <stdexcept>
 
 #include <glissade/haptics/haptic_kernel.h>
 
@@ -6,6 +7,10 @@ namespace glissade::haptics {
 
 Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted) {
   constexpr double kDampingTime_s = 5e-3;
+  if (!(device.max_stiffness > 0.0 && device.max_rotational_stiffness > 0.0)) {
+    throw std::invalid_argument("device '" + device.name +
+                                "': it must render some stiffness against translation and rotation");
+  }
   Coupling coupling;
   coupling.stiffness.translational = std::min(wanted.translational, device.max_stiffness);
   coupling.stiffness.rotational = std::min(wanted.rotational, device.max_rotational_stiffness);
@@ -20,15 +25,18 @@ HapticKernel::HapticKernel(const SlidingPart& part_V, const Coupling& coupling, 
       coupling_(coupling),
       device_(device),
       X_WV_start_(X_WV_start),
+      X_WG_(X_WV_start),
       proxy_(part_V.p_Vref(), part_V.radius(), coupling.stiffness, X_WV_start) {}
 
 HapticTick HapticKernel::tick(const devices::GloveState& state, const ContactSet& set) noexcept {
+  if (!state.X_WH.matrix().allFinite()) return no_force(state);
   if (!grasped_) {
     X_HG_ = state.X_WH.inverse() * X_WV_start_;
     grasped_ = true;
   }
   HapticTick tick;
   tick.X_WG = state.X_WH * X_HG_;
+  X_WG_ = tick.X_WG;
   tick.X_WP = proxy_.update(set, tick.X_WG);
 
   const Eigen::Vector3d& p_WH = state.X_WH.translation();
@@ -51,6 +59,17 @@ HapticTick HapticKernel::tick(const devices::GloveState& state, const ContactSet
   const devices::LimitedCommand limited = devices::limit_command(command, device_);
   tick.command = limited.command;
   tick.limited = limited.reasons;
+  return tick;
+}
+
+HapticTick HapticKernel::no_force(const devices::GloveState& state) noexcept {
+  HapticTick tick;
+  tick.X_WG = X_WG_;
+  tick.X_WP = X_WG_;
+  tick.command.sequence = ++sequence_;
+  tick.command.state_sequence = state.sequence;
+  tick.command.time = state.time;
+  tick.limited.not_finite = true;
   return tick;
 }
 

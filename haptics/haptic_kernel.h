@@ -21,7 +21,8 @@ struct Coupling {
 };
 
 /// The coupling a device can render without shaking: `wanted` cut to the limits of its descriptor, with a damping of
-/// 5 ms times the stiffness, cut likewise.
+/// 5 ms times the stiffness; that against translation is cut to the descriptor's too. Throws std::invalid_argument,
+/// naming the device, when it cannot render any stiffness against translation or rotation.
 Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted);
 
 /// What one tick computed.
@@ -40,16 +41,20 @@ class HapticKernel {
   HapticKernel(const SlidingPart& part_V, const Coupling& coupling, const devices::DeviceDescriptor& device,
                const Eigen::Isometry3d& X_WV_start);
 
-  /// The tick for the newest state and the newest contact set.
+  /// The tick for the newest state and the newest contact set. A hand pose that is not finite gives no force and leaves
+  /// the ghost where it was.
   HapticTick tick(const devices::GloveState& state, const ContactSet& set) noexcept;
 
  private:
+  HapticTick no_force(const devices::GloveState& state) noexcept;
+
   Eigen::Vector3d p_Vref_;
   Coupling coupling_;
   devices::DeviceDescriptor device_;
   Eigen::Isometry3d X_WV_start_;
   Eigen::Isometry3d X_HG_ = Eigen::Isometry3d::Identity();  // the grasp, fixed by the first state
   bool grasped_ = false;
+  Eigen::Isometry3d X_WG_;  // the last ghost
   Proxy proxy_;
   std::int64_t sequence_ = 0;
 };

@@ -18,7 +18,6 @@ struct Displacement {
 
   Displacement scaled(double factor) const { return {factor * v, factor * w}; }
   Vector6d stacked() const { return (Vector6d() << v, w).finished(); }
-  static Displacement from_stacked(const Vector6d& xi) { return {xi.head<3>(), xi.tail<3>()}; }
 };
 
 /// The pose of a part after a displacement from X_WV; `p_Vref` is the reference point in the part's frame.

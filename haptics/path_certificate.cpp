@@ -21,7 +21,7 @@ Eigen::Vector3d face_normal(const TrianglePoints& triangle) {
 }
 
 Eigen::Vector3d direction(const TriangleDistance& closest) {
-  return closest.distance > 0.0 ? ((closest.p_b - closest.p_a) / closest.distance).eval() : Eigen::Vector3d::Zero();
+  return (closest.p_b - closest.p_a).normalized();
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ bool PathCertificate::prove_pair(const CandidatePair& pair, Eigen::Vector3d& n_s
 
   const TriangleDistance closest = collision::triangle_distance(obstacle_, part_start);
   n_start = direction(closest);
-  if (closest.distance == 0.0) return false;  // nothing can be kept of no distance at all
+  if (!(closest.distance > rounding_)) return false;  // nothing can be kept of no distance at all
   return prove_stretch(pair, 0, kMoments, std::min(floor_, 0.95 * closest.distance));
 }
 
@@ -82,7 +82,8 @@ bool PathCertificate::prove_stretch(const CandidatePair& pair, int begin, int en
 
 bool PathCertificate::separates(const Eigen::Vector3d& n, const TrianglePoints& part_begin,
                                 const TrianglePoints& part_end, double curvature, double floor) const {
-  return std::min(gap_along(n, obstacle_, part_begin), gap_along(n, obstacle_, part_end)) - curvature >= floor;
+  const double needed = floor + curvature;
+  return gap_along(n, obstacle_, part_begin) >= needed && gap_along(n, obstacle_, part_end) >= needed;
 }
 
 collision::TrianglePoints PathCertificate::part_triangle_at(std::int32_t triangle, int moment) {

@@ -5,6 +5,7 @@
 /// that out.
 
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -27,9 +28,13 @@ struct UncertifiedPair {
 class PathCertificate {
  public:
   /// `floor` (metres) is the distance every pair must keep; a pair that starts the step nearer keeps 0.95 of its
-  /// distance.
+  /// distance, and one that touches cannot be proved apart at all.
   PathCertificate(const ContactBody& obstacles_W, const SlidingPart& part_V, double floor)
-      : obstacles_W_(obstacles_W), part_V_(part_V), floor_(floor) {}
+      : obstacles_W_(obstacles_W),
+        part_V_(part_V),
+        floor_(floor),
+        rounding_(64.0 * std::numeric_limits<double>::epsilon() *
+                  (obstacles_W.tree.largest_coordinate() + part_V.tree.largest_coordinate())) {}
 
   /// Tries to prove all of `pairs` apart on the displacement `d` from X_WV; replaces `failures` by those it could not.
   /// A pair is apart over a stretch of the path if one direction separates it at both ends by more than the path's
@@ -54,6 +59,7 @@ class PathCertificate {
   const ContactBody& obstacles_W_;
   const SlidingPart& part_V_;
   double floor_;
+  double rounding_;  // metres: distances below this are not certain
   Eigen::Isometry3d X_WV_start_;
   Displacement displacement_;
   std::array<Eigen::Isometry3d, kMoments + 1> X_WV_at_;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,8 +9,10 @@
 namespace glissade::haptics {
 namespace {
 
-/// Violations below this many metres count as met: far below any margin, far above rounding.
+/// Violations below this many metres, and below this part of what is wanted, count as met: far below any margin, far
+/// above rounding. Whoever takes the displacement proves it free all the same.
 constexpr double kTolerance_m = 1e-12;
+constexpr double kRelativeTolerance = 1e-9;
 /// A normal whose part outside the span of the active ones is below this fraction adds no direction of its own.
 constexpr double kDependent = 1e-9;
 
@@ -22,6 +25,10 @@ class DualActiveSet {
   DualActiveSet(const Displacement& wanted, const CouplingStiffness& stiffness, std::span<const ConstraintRow> rows)
       : rows_(rows), root_t_(std::sqrt(stiffness.translational)), root_r_(std::sqrt(stiffness.rotational)) {
     y_ << root_t_ * wanted.v, root_r_ * wanted.w;
+    double lever = 0.0;
+    for (const ConstraintRow& row : rows)
+      lever = std::max(lever, row.r.squaredNorm());
+    tolerance_ = std::max(kTolerance_m, kRelativeTolerance * (wanted.v.norm() + wanted.w.norm() * std::sqrt(lever)));
   }
 
   Projection solve() noexcept {
@@ -55,7 +62,7 @@ class DualActiveSet {
   std::int32_t most_violated() const {
     const Displacement d = displacement();
     std::int32_t worst = -1;
-    double worst_slack = -kTolerance_m;
+    double worst_slack = -tolerance_;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const double slack = rows_[i].velocity(d) - rows_[i].bound;
       if (slack < worst_slack) {
@@ -127,6 +134,7 @@ class DualActiveSet {
   std::span<const ConstraintRow> rows_;
   double root_t_;
   double root_r_;
+  double tolerance_ = kTolerance_m;  // metres
   Vector6d y_;
   int count_ = 0;
   Eigen::Matrix<double, 6, kMaxActive> normals_;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <stdexcept>
 
@@ -18,6 +17,7 @@ constexpr std::size_t kAffordablePairs = 30'000;
 constexpr int kProjections = 4;  // the first, and three more with rows for what could not be proved
 constexpr int kHalvings = 6;
 constexpr int kDampings = 4;
+constexpr double kLargestDamping = 1e3;
 
 CouplingStiffness default_stiffness(const SlidingPart& part_V) {
   return {kDefaultStiffness_N_per_m, kDefaultStiffness_N_per_m * part_V.radius() * part_V.radius()};
@@ -64,7 +64,10 @@ Sliding::Sliding(std::shared_ptr<const ContactBody> obstacles_W, std::shared_ptr
   result_.X_WV = X_WV_start;
 }
 
+const Sliding::Step Sliding::kNoStep{{}, 0.0, false, true};
+
 const SlidingResult& Sliding::advance(const Eigen::Isometry3d& X_WG) {
+  if (!X_WG.matrix().allFinite()) return result_;
   ghost_motion_ = motion_bound(displacement_between(result_.X_WG, X_WG, part_V_->p_Vref()), part_V_->radius());
   result_.X_WG = X_WG;
   double budget =
@@ -105,11 +108,11 @@ Sliding::Step Sliding::cycle(const Eigen::Isometry3d& X_WG, double budget) {
       apply(step, X_WG);
       return step;
     }
-    damping_ = std::max(0.5, 4.0 * damping_);
+    damping_ = std::clamp(4.0 * damping_, 0.5, kLargestDamping);
   }
-  const Step none{{}, 0.0, false, true};
-  apply(none, X_WG);
-  return none;
+  damping_ = 0.0;
+  apply(kNoStep, X_WG);
+  return kNoStep;
 }
 
 /// A query looks some ticks ahead. Where finely cut surfaces lie flush there are very many pairs, and a part that falls
@@ -143,20 +146,21 @@ void Sliding::find_rows() {
 /// The largest step towards `wanted` that can be proved free.
 Sliding::Step Sliding::certified_step(const Displacement& wanted, double budget) {
   rows_.resize(result_.contacts.size());
+  proof_contacts_.clear();
   Step step;
   bool proved = false;
   for (int projection = 0; projection < kProjections && !proved; ++projection) {
     if (projection > 0) add_rows_for_failures();
-    const Displacement d = project_on_rows(wanted);
-    const double fraction = allowed_fraction(d, budget);
-    proved = prove(d.scaled(fraction), step);
+    if (!project_on_rows(wanted)) return kNoStep;
+    const double fraction = allowed_fraction(projection_.displacement, budget);
+    proved = prove(projection_.displacement.scaled(fraction), step);
     step.clipped = fraction < 1.0;
   }
   for (int halving = 0; halving < kHalvings && !proved; ++halving) {
     proved = prove(step.displacement.scaled(0.5), step);
     step.clipped = true;
   }
-  if (!proved) return Step{{}, 0.0, false, true};
+  if (!proved) return kNoStep;
   step.arrives = !step.clipped && projection_.active_count == 0;
   return step;
 }
@@ -167,11 +171,12 @@ bool Sliding::prove(const Displacement& displacement, Step& step) {
   step.length = motion_bound(displacement, part_V_->radius());
   // Pairs further away than this keep the floor whatever happens on the way.
   const double concerned = step.length + floor();
-  assert(candidates_.covers(concerned));
-  return certificate_.prove(result_.X_WV, displacement, candidates_.within(concerned), failures_);
+  return candidates_.covers(concerned) &&
+         certificate_.prove(result_.X_WV, displacement, candidates_.within(concerned), failures_);
 }
 
-Displacement Sliding::project_on_rows(const Displacement& wanted) {
+/// Projects on all rows; false when the solver finds nothing, which leaves standing still.
+bool Sliding::project_on_rows(const Displacement& wanted) {
   projection_ = project(wanted, stiffness_, rows_);
   if (projection_.status == ProjectionStatus::kInfeasible) {
     // Not every contact can have its margin back. Standing still is always allowed.
@@ -179,8 +184,9 @@ Displacement Sliding::project_on_rows(const Displacement& wanted) {
       row.bound = std::min(row.bound, 0.0);
     projection_ = project(wanted, stiffness_, rows_);
   }
-  if (projection_.status != ProjectionStatus::kSolved) projection_ = Projection{};
-  return projection_.displacement;
+  if (projection_.status == ProjectionStatus::kSolved) return true;
+  projection_ = Projection{};
+  return false;
 }
 
 /// How much of a displacement the reach, the slew and the linearisation of rotations allow.
@@ -205,6 +211,8 @@ void Sliding::add_rows_for_failures() {
       const Eigen::Vector3d x_W = result_.X_WV * part.corner(failure.part_triangle, c);
       const double gap = failure.n_W.dot(x_W) - top;
       rows_.push_back({failure.n_W, x_W - p_Wref, std::min(0.0, margin_ - gap)});
+      proof_contacts_.push_back(
+          {ContactKind::kVertexFace, failure.part_triangle, failure.obstacle_triangle, failure.n_W, x_W, gap});
     }
   }
 }
@@ -214,10 +222,14 @@ double Sliding::energy(const Displacement& error) const {
 }
 
 void Sliding::apply(const Step& step, const Eigen::Isometry3d& X_WG) {
+  const std::size_t found = result_.contacts.size();
   for (int i = 0; i < projection_.active_count; ++i) {
     const auto slot = static_cast<std::size_t>(i);
     const auto row = static_cast<std::size_t>(projection_.active[slot]);
-    if (row < result_.contacts.size()) result_.contacts[row].force = projection_.force[slot];
+    // A row that only a failed proof asked for holds the part like any contact, and is told like one.
+    Contact& contact =
+        row < found ? result_.contacts[row] : result_.contacts.emplace_back(proof_contacts_[row - found]);
+    contact.force = projection_.force[slot];
   }
   result_.pushing = projection_.active_count;
   // An arrival copies the ghost's pose, so that the coupling wrench is zero and not merely small.

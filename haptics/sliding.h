@@ -81,7 +81,8 @@ class Sliding {
   Sliding(const Sliding&) = delete;
   Sliding& operator=(const Sliding&) = delete;
 
-  /// Moves the visible part towards the ghost, once per millisecond of motion.
+  /// Moves the visible part towards the ghost, once per millisecond of motion. A ghost pose with a number that is not
+  /// finite changes nothing.
   const SlidingResult& advance(const Eigen::Isometry3d& X_WG);
 
   const SlidingResult& result() const { return result_; }
@@ -104,13 +105,15 @@ class Sliding {
     bool clipped = false;  ///< shortened by the reach, the slew or a missing proof
   };
 
+  static const Step kNoStep;
+
   Step cycle(const Eigen::Isometry3d& X_WG, double budget);
   double choose_reach(double budget) const;
   void refresh_candidates();
   void find_rows();
   Step certified_step(const Displacement& wanted, double budget);
   bool prove(const Displacement& displacement, Step& step);
-  Displacement project_on_rows(const Displacement& wanted);
+  bool project_on_rows(const Displacement& wanted);
   double allowed_fraction(const Displacement& d, double budget) const;
   void add_rows_for_failures();
   double energy(const Displacement& error) const;
@@ -127,7 +130,8 @@ class Sliding {
   PathCertificate certificate_;
 
   SlidingResult result_;
-  std::vector<ConstraintRow> rows_;  // one for each contact, then those of failed proofs
+  std::vector<ConstraintRow> rows_;      // one for each contact, then those of failed proofs
+  std::vector<Contact> proof_contacts_;  // one for each of the latter
   Projection projection_;
   std::vector<UncertifiedPair> failures_;
   double ghost_motion_ = 0.0;  // metres, of this tick

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -81,11 +82,17 @@ TEST_F(Kernel, NeverExceedsTheDevice) {
   EXPECT_TRUE(tick.limited.force_limited);
 }
 
-TEST_F(Kernel, ABrokenStateGivesNoForce) {
+TEST_F(Kernel, ABrokenStateGivesNoForceAndIsForgotten) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  kernel_.tick(hand_at({nan, 0.0, 0.5}), floor_below(0.0));  // not even grasped by
   kernel_.tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
-  const HapticTick tick = kernel_.tick(hand_at({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()}), floor_below(0.0));
+  const HapticTick tick = kernel_.tick(hand_at({0.0, 0.0, nan}), floor_below(0.0));
   EXPECT_EQ(tick.command.f_H_W, Vector3d::Zero());
   EXPECT_EQ(tick.command.t_H_W, Vector3d::Zero());
+  EXPECT_TRUE(tick.limited.not_finite);
+  EXPECT_TRUE(tick.X_WG.isApprox(kStart));
+  const HapticTick next = settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
+  EXPECT_TRUE(next.command.f_H_W.isApprox(Vector3d(0.0, 0.0, 2.0), 1e-9));
 }
 
 TEST_F(Kernel, CutsTheCouplingToWhatTheDeviceCanRender) {
@@ -97,6 +104,12 @@ TEST_F(Kernel, CutsTheCouplingToWhatTheDeviceCanRender) {
   EXPECT_EQ(coupling.stiffness.translational, 400.0);
   EXPECT_EQ(coupling.stiffness.rotational, 0.3);
   EXPECT_EQ(coupling.damping.translational, 1.0);
+}
+
+TEST_F(Kernel, ADeviceThatRendersNoStiffnessIsRefused) {
+  devices::DeviceDescriptor forceless = device_;
+  forceless.max_rotational_stiffness = 0.0;
+  EXPECT_THROW(coupling_for(forceless, kStiffness), std::invalid_argument);
 }
 
 TEST_F(Kernel, ATickAllocatesNothing) {

@@ -1,7 +1,11 @@
 #include <memory>
+#include <random>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include <glissade/collision/triangle_distance.h>
 #include <glissade/haptics/path_certificate.h>
 
 namespace glissade::haptics {
@@ -54,6 +58,49 @@ TEST_F(TwoTriangles, APairThatStartsNearerThanTheFloorMayStayButHardlyApproach) 
   EXPECT_TRUE(proves(at_height(gap), {{1e-3, 0.0, 0.0}, Eigen::Vector3d::Zero()}));
   EXPECT_TRUE(proves(at_height(gap), {{0.0, 0.0, -0.04 * gap}, Eigen::Vector3d::Zero()}));
   EXPECT_FALSE(proves(at_height(gap), {{0.0, 0.0, -0.06 * gap}, Eigen::Vector3d::Zero()}));
+}
+
+// What was proved must hold at every moment of the way, by the exact predicate and by distance.
+TEST(PathCertificate, WhatIsProvedHoldsAllAlongRandomPaths) {
+  constexpr unsigned kSeed = 13;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937 generator(kSeed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto random_vector = [&] {
+    return Eigen::Vector3d(uniform(generator), uniform(generator), uniform(generator));
+  };
+  const auto random_triangle = [&] {
+    auto mesh = std::make_shared<collision::TriangleMesh>();
+    mesh->vertices = {random_vector(), random_vector(), random_vector()};
+    mesh->triangles = {{0, 1, 2}};
+    return mesh;
+  };
+  int proved = 0;
+  int refused = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const ContactBody obstacle(random_triangle());
+    const SlidingPart part(random_triangle());
+    const Eigen::Isometry3d X_WV(Eigen::Translation3d(0.7 * random_vector()));
+    const Displacement d{0.5 * random_vector(), random_vector()};
+    CandidatePairs candidates(obstacle, part);
+    candidates.refresh(X_WV, 10.0);
+    std::vector<UncertifiedPair> failures;
+    if (!PathCertificate(obstacle, part, kFloor).prove(X_WV, d, candidates.within(10.0), failures)) {
+      ++refused;
+      continue;
+    }
+    ++proved;
+    for (int i = 0; i <= 100; ++i) {
+      const Eigen::Isometry3d X = displaced(X_WV, part.p_Vref(), d.scaled(0.01 * i));
+      const auto corner = [&](int c) -> Eigen::Vector3d { return X * part.tree.mesh().corner(0, c); };
+      const auto& mesh = obstacle.tree.mesh();
+      const collision::TriangleDistance closest = collision::triangle_distance(
+          {mesh.corner(0, 0), mesh.corner(0, 1), mesh.corner(0, 2)}, {corner(0), corner(1), corner(2)});
+      ASSERT_GE(closest.distance, 0.95 * kFloor) << "trial " << trial << " at " << i << " %";
+    }
+  }
+  EXPECT_GT(proved, 200);  // neither answer may be the only one
+  EXPECT_GT(refused, 200);
 }
 
 }  // namespace

@@ -1,10 +1,13 @@
 // Sliding against optima known in closed form: a box pressed against a plane, into a groove and into a corner, and thin
 // sheets at speed.
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <ostream>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -21,6 +24,7 @@ using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
+constexpr unsigned kSeed = 29;
 const Vector3d kBoxSize(0.1, 0.06, 0.04);
 
 /// How finely the faces are cut, and whether their triangles are turned at random.
@@ -47,8 +51,9 @@ std::shared_ptr<const SlidingPart> box_part(const Tessellation& tessellation) {
 
 /// A square sheet of 0.5 m through the origin, with the given normal.
 TriangleMesh sheet(const Vector3d& normal, const Tessellation& tessellation) {
+  const Vector3d axis = Vector3d::UnitZ().cross(normal);
   Isometry3d X = Isometry3d::Identity();
-  X.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal).toRotationMatrix();
+  if (!axis.isZero()) X.linear() = Eigen::AngleAxisd(std::acos(normal.z()), axis.normalized()).toRotationMatrix();
   return collision::transformed(collision::make_plate({0.5, 0.5}, tessellation.triangles), X);
 }
 
@@ -197,6 +202,70 @@ TEST(Sliding, UnderForceFeedbackThePartCatchesUpNoFasterThanTheSlew) {
 
 TEST(Sliding, OnARubberBandThePartCatchesUpAtOnce) {
   EXPECT_GT(greatest_catch_up(Metaphor::kRubberBandSpring), 2.0 * kSlew_m);
+}
+
+TEST(Sliding, AGhostThatTurnsFarInOneCallDoesNotCarryThePartThroughAWall) {
+  // A rod beside a wall, 4 mm away; its ends would sweep through.
+  Isometry3d X_wall = Isometry3d::Identity();
+  X_wall.linear() = Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitX()).toRotationMatrix();
+  X_wall.translation().y() = 9e-3;
+  const auto wall = std::make_shared<ContactBody>(
+      std::make_shared<TriangleMesh>(collision::transformed(collision::make_plate({0.3, 0.3}, 2), X_wall)));
+  const auto rod =
+      std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(collision::make_box({0.2, 0.01, 0.01}, 12)));
+  for (const Metaphor metaphor : {Metaphor::kForceFeedback, Metaphor::kRubberBandSpring}) {
+    for (const double angle : {0.3, 1.5, 3.0}) {
+      Sliding sliding(wall, rod, Isometry3d::Identity(), {.metaphor = metaphor});
+      const Isometry3d X_WG(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
+      bool touched = false;
+      for (int i = 0; i < 50; ++i) {
+        touched = sliding.advance(X_WG).pushing > 0 || touched;
+        for (const Vector3d& x_V : rod->tree.mesh().vertices)
+          ASSERT_LT((sliding.result().X_WV * x_V).y(), 9e-3);
+      }
+      EXPECT_TRUE(touched);
+    }
+  }
+}
+
+TEST(Sliding, AGhostThatJumpsOutOfANarrowSlotLeavesThePartInside) {
+  // A plate-like box between two oblique sheets with half a margin of room on each side.
+  const Eigen::Quaterniond q(Eigen::AngleAxisd(0.7, Vector3d(1.0, 2.0, 0.5).normalized()));
+  const Vector3d normal = q * Vector3d::UnitZ();
+  const Vector3d middle(0.6, -0.4, 0.8);
+  constexpr double kHalfSlot = 2e-3 + 3e-6;
+  const TriangleMesh plate = collision::make_plate({0.5, 0.5}, 2);
+  const auto slot = body({collision::transformed(plate, at(middle + kHalfSlot * normal, q)),
+                          collision::transformed(plate, at(middle - kHalfSlot * normal, q))},
+                         {2, false});
+  const auto part =
+      std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(collision::make_box({0.1, 0.06, 0.004}, 12)));
+  std::mt19937 generator(kSeed);
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto random_vector = [&] { return Vector3d(uniform(generator), uniform(generator), uniform(generator)); };
+  for (const Metaphor metaphor : {Metaphor::kForceFeedback, Metaphor::kRubberBandSpring}) {
+    for (int trial = 0; trial < 10; ++trial) {
+      Sliding sliding(slot, part, at(middle, q), {.metaphor = metaphor});
+      const double distance = trial == 0 ? 1e6 : 0.3;
+      const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.3, random_vector().normalized()));
+      for (int i = 0; i < 5; ++i) {
+        sliding.advance(at(middle + distance * random_vector(), turn * q));
+        for (const Vector3d& x_V : part->tree.mesh().vertices) {
+          ASSERT_LT(std::abs(normal.dot(sliding.result().X_WV * x_V - middle)), kHalfSlot);
+        }
+      }
+    }
+  }
+}
+
+TEST(Sliding, AGhostThatIsNotFiniteChangesNothing) {
+  const Tessellation tessellation{12, false};
+  const auto obstacle = body({sheet(Vector3d::UnitZ(), tessellation)}, tessellation);
+  Sliding sliding(obstacle, box_part(tessellation), at({0.0, 0.0, 0.03}));
+  const Isometry3d X_WV = sliding.advance(at({0.001, 0.0, 0.03})).X_WV;
+  EXPECT_EQ(sliding.advance(at({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()})).X_WV.matrix(), X_WV.matrix());
+  EXPECT_EQ(sliding.advance(at({0.002, 0.0, 0.03})).X_WV.translation().x(), 0.002);
 }
 
 TEST(Sliding, WillNotStartInsideAnything) {
