@@ -33,7 +33,8 @@ class DopTree {
   /// out of the tree and counted.
   ///
   /// Throws std::invalid_argument when the mesh has no triangle of positive area, an index out of range, or a
-  /// coordinate that is not finite or beyond ±1e9. Cost O(n log n).
+  /// coordinate that is not finite or beyond ±1e9. Cost O(n log n). Queries are fastest when
+  /// the mesh lies near its own origin.
   explicit DopTree(std::shared_ptr<const TriangleMesh> mesh);
 
   const TriangleMesh& mesh() const { return *mesh_; }
