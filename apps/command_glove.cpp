@@ -1,5 +1,4 @@
 #include <chrono>
-#include <cstdint>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -46,18 +45,18 @@ int run(const Options& options) {
   devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script), clock);
 
   std::cerr << "glissade glove: the " << options.side << " hand waits for a server at " << options.lcm_url << '\n';
-  const std::int64_t milliseconds = script.duration() / std::chrono::milliseconds(1);
+  const auto milliseconds = [](std::chrono::nanoseconds time) { return time / std::chrono::milliseconds(1); };
   {
-    ProgressBar progress("script", milliseconds);
-    while (glove.steps() < milliseconds && !StopSignal::requested()) {
+    ProgressBar progress("script", milliseconds(script.duration()));
+    while (glove.script_time() < script.duration() && !StopSignal::requested()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
-      progress.update(glove.steps());
+      progress.update(milliseconds(glove.script_time()));
     }
   }
   glove.stop();
   const devices::LinkStatistics link = glove.link_statistics();
-  std::cout << "glissade glove: " << glove.steps() << " ms of the script, " << link.accepted << " commands ("
-            << link.lost << " lost, " << link.rejected() << " refused), greatest force "
+  std::cout << "glissade glove: " << milliseconds(glove.script_time()) << " ms of the script, " << link.accepted
+            << " commands (" << link.lost << " lost, " << link.rejected() << " refused), greatest force "
             << format_number(glove.greatest_force()) << " N\n";
   return 0;
 }

@@ -1,7 +1,6 @@
 # What only a developer of Glissade needs: warnings, and the libraries of the program, the tests and the benchmarks.
 find_package(CLI11 REQUIRED)
 find_package(yaml-cpp REQUIRED)
-find_package(spdlog REQUIRED)
 find_package(GTest REQUIRED)
 
 function(glissade_set_warnings target)

@@ -123,6 +123,14 @@ std::vector<Eigen::Vector3d> even_points(const std::vector<Eigen::Vector3d>& pol
   return points;
 }
 
+/// `across`, perpendicular to `from`, turned by the smallest rotation that takes the direction `from` to `to`: it keeps
+/// a hose free of twist. In closed form, because Eigen's FromTwoVectors brings in an SVD that takes long to compile.
+Eigen::Vector3d carried_along(const Eigen::Vector3d& across, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const double one_plus_cos = 1 + from.dot(to);
+  if (one_plus_cos < 1e-12) return across;  // turned back: half a turn about `across` itself
+  return across - across.dot(to) / one_plus_cos * (from + to);
+}
+
 }  // namespace
 
 TriangleMesh make_revolution(std::span<const Eigen::Vector2d> profile, bool closed, int segments) {
@@ -273,8 +281,7 @@ TriangleMesh make_hose(std::span<const Eigen::Vector3d> points, double radius, s
   for (std::size_t i = 0; i < centers.size(); ++i) {
     const Eigen::Vector3d next_tangent =
         (centers[std::min(i + 1, centers.size() - 1)] - centers[i == 0 ? 0 : i - 1]).normalized();
-    // Carrying the cross direction along by the smallest rotation keeps the hose free of twist.
-    across = Eigen::Quaterniond::FromTwoVectors(tangent, next_tangent) * across;
+    across = carried_along(across, tangent, next_tangent);
     across = (across - across.dot(next_tangent) * next_tangent).normalized();
     tangent = next_tangent;
     const Eigen::Vector3d other = tangent.cross(across);

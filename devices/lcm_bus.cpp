@@ -23,6 +23,7 @@ namespace glissade::devices {
 namespace {
 
 constexpr std::size_t kLongestChannelName = 15;
+constexpr int kRetryMilliseconds = 10;
 
 /// liblcm takes a subscription's channel for a regular expression, so nothing but plain characters may pass.
 void check_channel(const std::string& channel) {
@@ -146,9 +147,14 @@ void LcmBus::Connection::start_receiving() {
 void LcmBus::Connection::receive(int lcm_fd) {
   pollfd files[2] = {{.fd = wake_fd_, .events = POLLIN, .revents = 0}, {.fd = lcm_fd, .events = POLLIN, .revents = 0}};
   for (;;) {
-    if (poll(files, 2, -1) < 0 && errno != EINTR) return;
-    if (files[0].revents != 0) return;
-    if (files[1].revents != 0 && lcm_handle(receiver_.get()) < 0) return;
+    if (poll(files, 2, -1) >= 0) {
+      if (files[0].revents != 0) return;
+      if (files[1].revents == 0 || lcm_handle(receiver_.get()) >= 0) continue;
+    } else if (errno == EINTR) {
+      continue;
+    }
+    // Something failed, perhaps for want of memory. A glove must not fall silent for good because of that.
+    if (poll(files, 1, kRetryMilliseconds) > 0) return;
   }
 }
 

@@ -8,18 +8,30 @@ namespace glissade::devices {
 SimulatedGloveService::SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock)
     : host_(std::move(bus)), glove_(std::move(glove)) {
   thread_ = std::make_unique<realtime::PeriodicThread>(clock, realtime::PeriodicThreadOptions{},
-                                                       [this](const realtime::PeriodicTick&) {
-                                                         tick();
+                                                       [this](const realtime::PeriodicTick& now) {
+                                                         tick(now.deadline);
                                                          return true;
                                                        });
 }
 
-void SimulatedGloveService::tick() {
+void SimulatedGloveService::tick(std::chrono::nanoseconds deadline) noexcept {
   const GloveCommand command = host_.newest_command();
-  const bool has_server = host_.statistics().accepted > 0;
   greatest_force_ = std::max(greatest_force_, command.f_H_W.norm());
-  host_.publish(glove_.step(has_server ? std::chrono::milliseconds(1) : std::chrono::nanoseconds(0), command));
-  if (has_server) steps_.fetch_add(1, std::memory_order_relaxed);
+  std::chrono::nanoseconds passed{0};
+  if (host_.statistics().accepted > 0) {
+    if (last_deadline_) passed = deadline - *last_deadline_;  // more than a period where deadlines were skipped
+    last_deadline_ = deadline;
+  }
+  send(glove_.step(passed, command));
+  script_time_.store(script_time() + passed, std::memory_order_relaxed);
+}
+
+// A state that cannot be encoded or sent is as good as lost on the way: the server sees the gap in the sequence.
+void SimulatedGloveService::send(const GloveState& state) noexcept {
+  try {
+    host_.publish(state);
+  } catch (...) {  // NOLINT(bugprone-empty-catch)
+  }
 }
 
 }  // namespace glissade::devices

@@ -3,8 +3,9 @@
 /// A simulated glove that lives on an LCM bus like a real one: its own thread at 1 kHz, states out, commands in.
 
 #include <atomic>
-#include <cstdint>
+#include <chrono>
 #include <memory>
+#include <optional>
 
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/devices/lcm_glove_host.h>
@@ -15,14 +16,15 @@
 namespace glissade::devices {
 
 /// Starts in its constructor and ends with its destructor. The hand waits at the start of its script until the first
-/// command arrives, so that server and glove may be started in any order.
+/// command arrives, so that server and glove may be started in any order; from then on the script runs by the clock,
+/// whatever ticks the thread misses.
 class SimulatedGloveService {
  public:
   /// Throws std::invalid_argument when the bus cannot receive. The clock must outlive the service.
   SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock);
 
-  /// Milliseconds of the script done so far. Any thread.
-  std::int64_t steps() const noexcept { return steps_.load(std::memory_order_relaxed); }
+  /// How much of the script is done. Any thread.
+  std::chrono::nanoseconds script_time() const noexcept { return script_time_.load(std::memory_order_relaxed); }
 
   /// Ends the thread; afterwards the figures below are final.
   void stop() { thread_->stop(); }
@@ -32,11 +34,13 @@ class SimulatedGloveService {
   LinkStatistics link_statistics() const noexcept { return host_.statistics(); }
 
  private:
-  void tick();
+  void tick(std::chrono::nanoseconds deadline) noexcept;
+  void send(const GloveState& state) noexcept;
 
   LcmGloveHost host_;
   SimulatedGlove glove_;
-  std::atomic<std::int64_t> steps_{0};
+  std::optional<std::chrono::nanoseconds> last_deadline_;  ///< once there is a server
+  std::atomic<std::chrono::nanoseconds> script_time_{std::chrono::nanoseconds(0)};
   double greatest_force_ = 0.0;
   std::unique_ptr<realtime::PeriodicThread> thread_;
 };

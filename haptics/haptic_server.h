@@ -29,7 +29,7 @@ struct HapticServerOptions {
   std::chrono::nanoseconds device_timeout{std::chrono::milliseconds(50)};
 };
 
-/// What the server measured. Complete after `stop` or `join`.
+/// What the server measured. Complete after `stop`.
 struct HapticServerStatistics {
   realtime::PeriodicStatistics haptic;         ///< the haptic thread's ticks, those before the first state included
   realtime::LatencyHistogram simulation;       ///< time one answer of the simulation took

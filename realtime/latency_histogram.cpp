@@ -29,13 +29,6 @@ void LatencyHistogram::record(std::chrono::nanoseconds duration) noexcept {
   max_ = std::max(max_, static_cast<std::int64_t>(duration.count()));
 }
 
-void LatencyHistogram::merge(const LatencyHistogram& other) noexcept {
-  for (std::size_t i = 0; i < kBuckets; ++i)
-    counts_[i] += other.counts_[i];
-  count_ += other.count_;
-  max_ = std::max(max_, other.max_);
-}
-
 std::chrono::nanoseconds LatencyHistogram::quantile(double p) const noexcept {
   const double wanted = std::ceil(std::clamp(p, 0.0, 1.0) * static_cast<double>(count_));
   const auto rank =

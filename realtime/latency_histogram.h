@@ -22,9 +22,6 @@ class LatencyHistogram {
   /// allocation.
   void record(std::chrono::nanoseconds duration) noexcept;
 
-  /// Adds everything that `other` has recorded.
-  void merge(const LatencyHistogram& other) noexcept;
-
   std::uint64_t count() const noexcept { return count_; }
 
   /// The largest recorded duration, exact; 0 when there is none.

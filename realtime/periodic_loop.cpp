@@ -24,9 +24,4 @@ void PeriodicSchedule::finish_tick(std::chrono::nanoseconds started, std::chrono
   }
 }
 
-void run_bare_timer(Clock& clock, std::chrono::nanoseconds period, std::uint64_t ticks,
-                    PeriodicStatistics& statistics) {
-  run_periodic(clock, period, statistics, [ticks](const PeriodicTick& tick) { return tick.index + 1 < ticks; });
-}
-
 }  // namespace glissade::realtime

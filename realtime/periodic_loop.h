@@ -68,8 +68,4 @@ void run_periodic(Clock& clock, std::chrono::nanoseconds period, PeriodicStatist
   }
 }
 
-/// Runs `ticks` (≥ 1) empty ticks: what this machine's timers can do. Interleave slices of it with slices of a real
-/// loop, each into statistics of its own, to tell the loop's lateness from the machine's.
-void run_bare_timer(Clock& clock, std::chrono::nanoseconds period, std::uint64_t ticks, PeriodicStatistics& statistics);
-
 }  // namespace glissade::realtime

@@ -75,19 +75,5 @@ TEST(LatencyHistogram, NegativeCountsAsZeroAndHugeStaysInMax) {
   EXPECT_EQ(histogram.quantile(1.0), std::chrono::hours(10));
 }
 
-TEST(LatencyHistogram, MergingIsRecordingBoth) {
-  LatencyHistogram low;
-  LatencyHistogram high;
-  for (int i = 0; i < 10; ++i) {
-    low.record(nanoseconds(10));
-    high.record(nanoseconds(100));
-  }
-  low.merge(high);
-  EXPECT_EQ(low.count(), 20U);
-  EXPECT_EQ(low.quantile(0.5), nanoseconds(10));
-  EXPECT_EQ(low.quantile(0.51), nanoseconds(100));
-  EXPECT_EQ(low.max(), nanoseconds(100));
-}
-
 }  // namespace
 }  // namespace glissade::realtime

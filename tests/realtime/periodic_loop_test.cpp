@@ -40,6 +40,11 @@ class SluggishClock final : public Clock {
   nanoseconds now_{0};
 };
 
+void run_empty_ticks(Clock& clock, std::uint64_t ticks, PeriodicStatistics& statistics) {
+  run_periodic(clock, milliseconds(1), statistics,
+               [ticks](const PeriodicTick& tick) { return tick.index + 1 < ticks; });
+}
+
 TEST(RunPeriodic, KeepsTheRateWhateverTheTicksTake) {
   PeriodicStatistics statistics;
   const auto starts = starts_us({microseconds(0), microseconds(300), microseconds(999), microseconds(10)}, statistics);
@@ -73,7 +78,7 @@ TEST(RunPeriodic, WakingUpAPeriodAfterTheDeadlineIsLate) {
   for (const auto& [lateness, late_ticks] : {std::pair(microseconds(999), 0U), std::pair(microseconds(1000), 3U)}) {
     SluggishClock clock(lateness);
     PeriodicStatistics statistics;
-    run_bare_timer(clock, milliseconds(1), 5, statistics);
+    run_empty_ticks(clock, 5, statistics);
     EXPECT_EQ(statistics.ticks, 5U);
     // After a late tick the next deadline has come already: that tick needs no sleep and is on time.
     EXPECT_EQ(statistics.late_ticks, late_ticks) << lateness.count();
@@ -84,8 +89,8 @@ TEST(RunPeriodic, WakingUpAPeriodAfterTheDeadlineIsLate) {
 TEST(RunPeriodic, SlicesAddUp) {
   SimulatedClock clock;
   PeriodicStatistics statistics;
-  run_bare_timer(clock, milliseconds(1), 3, statistics);
-  run_bare_timer(clock, milliseconds(1), 4, statistics);
+  run_empty_ticks(clock, 3, statistics);
+  run_empty_ticks(clock, 4, statistics);
   EXPECT_EQ(statistics.ticks, 7U);
   EXPECT_EQ(clock.now(), milliseconds(7));
 }
@@ -93,9 +98,9 @@ TEST(RunPeriodic, SlicesAddUp) {
 TEST(RunPeriodic, RefusesAPeriodThatIsNotPositive) {
   SimulatedClock clock;
   PeriodicStatistics statistics;
-  EXPECT_THROW(run_bare_timer(clock, nanoseconds(0), 1, statistics), std::invalid_argument);
-  EXPECT_THROW(PeriodicThread(clock, {.period = nanoseconds(-1)}, [](const PeriodicTick&) { return false; }),
-               std::invalid_argument);
+  const auto stop_at_once = [](const PeriodicTick&) { return false; };
+  EXPECT_THROW(run_periodic(clock, nanoseconds(0), statistics, stop_at_once), std::invalid_argument);
+  EXPECT_THROW(PeriodicThread(clock, {.period = nanoseconds(-1)}, stop_at_once), std::invalid_argument);
 }
 
 TEST(PeriodicThread, RunsUntilTheTickSaysSo) {

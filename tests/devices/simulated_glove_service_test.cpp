@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glissade/devices/simulated_glove_service.h>
+
+#include "eventually.h"
+#include "glove_messages.h"
+
+namespace glissade::devices {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+/// Oversleeps by 4.5 ms whenever it sleeps, so that a loop of 1 ms has ticks for the deadlines 0, 4, 5, 9, 10, … ms.
+class DrowsyClock final : public realtime::Clock {
+ public:
+  nanoseconds now() const noexcept override { return now_; }
+  void sleep_until(nanoseconds deadline) noexcept override {
+    std::this_thread::sleep_for(microseconds(100));  // leaves the bus time to carry the messages
+    if (deadline > now_) now_ = deadline + microseconds(4500);
+  }
+
+ private:
+  nanoseconds now_{0};
+};
+
+class SimulatedGloveServiceTest : public testing::Test {
+ protected:
+  /// The time of every state that the glove has sent.
+  std::vector<nanoseconds> state_times() {
+    const std::lock_guard lock(mutex_);
+    return times_;
+  }
+
+  std::shared_ptr<LcmBus> bus = std::make_shared<LcmBus>("memq://");
+
+ private:
+  std::mutex mutex_;
+  std::vector<nanoseconds> times_;
+  std::unique_ptr<LcmBus::Subscription> subscription_ =
+      bus->subscribe(kGloveStateChannel, [this](std::span<const std::uint8_t> message) {
+        GloveState state;
+        const std::lock_guard lock(mutex_);
+        if (decode(message, state) == MessageError::kNone) times_.push_back(state.time);
+      });
+};
+
+TEST_F(SimulatedGloveServiceTest, WaitsForTheFirstCommandAndThenRunsByTime) {
+  DrowsyClock clock;
+  SimulatedGloveService service(bus, SimulatedGlove(PoseTrajectory({TimedPose{}})), clock);
+  ASSERT_TRUE(eventually([this] { return state_times().size() >= 20; }));
+  EXPECT_THAT(state_times(), testing::Each(nanoseconds(0)));
+  EXPECT_EQ(service.script_time(), nanoseconds(0));
+
+  bus->publish(kGloveCommandChannel, encode(GloveCommand{}));
+  ASSERT_TRUE(eventually([&] { return service.script_time() >= milliseconds(200); }));
+  service.stop();
+  ASSERT_TRUE(eventually([&] { return state_times().back() == service.script_time(); }));
+
+  std::vector<nanoseconds> times = state_times();
+  times.erase(times.begin(), std::upper_bound(times.begin(), times.end(), nanoseconds(0)));
+  for (std::size_t i = 2; i < times.size(); ++i)
+    EXPECT_EQ(times[i] - times[i - 2], milliseconds(5)) << "at " << times[i].count() << " ns";
+}
+
+}  // namespace
+}  // namespace glissade::devices
