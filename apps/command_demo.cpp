@@ -11,6 +11,7 @@
 #include <glissade/apps/embedded_scene.h>
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/haptic_session.h>
+#include <glissade/apps/html_report.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
@@ -83,6 +84,7 @@ int run(const Options& options) {
   const std::int64_t ticks = checked_ticks(options.seconds);
   const Demo demo = options.scene.empty() ? embedded_demo() : demo_from_file(options.scene);
   const devices::PoseTrajectory script_X_WH = demo.script_X_WH.time_scaled(std::chrono::milliseconds(ticks));
+  if (!options.report.empty()) prepare_report_folder(options.report);
   const Session session = options.offline ? run_session_offline(demo.scene, script_X_WH, ticks)
                                           : run_in_real_time(demo, script_X_WH, ticks, options.lcm_url);
   conclude(session, demo.scene, "glissade demo: " + demo.scene.part_name + (options.offline ? ", offline" : ""),
@@ -98,9 +100,12 @@ void add_demo_command(CLI::App& app, Command& chosen) {
   command->footer(kFooter);
   command->add_option("--seconds", options->seconds, "How long the script takes, in seconds")->capture_default_str();
   command->add_option("--scene", options->scene, "Another scene (YAML) with one movable object and a script");
-  command->add_flag("--offline", options->offline, "Deterministic, on a simulated clock, in one thread");
+  CLI::Option* offline =
+      command->add_flag("--offline", options->offline, "Deterministic, on a simulated clock, in one thread");
   command->add_flag("--json", options->json, "Print the summary as JSON");
-  command->add_option("--lcm", options->lcm_url, "LCM address that glove and server meet at")->capture_default_str();
+  command->add_option("--lcm", options->lcm_url, "LCM address that glove and server meet at")
+      ->capture_default_str()
+      ->excludes(offline);
   command->add_option("--report", options->report, "Folder for an HTML page with the plots of force and lag")
       ->take_last();
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });

@@ -8,6 +8,7 @@
 
 #include <glissade/apps/command.h>
 #include <glissade/apps/embedded_scene.h>
+#include <glissade/apps/lcm_option.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
@@ -36,6 +37,7 @@ struct Options {
 };
 
 int run(const Options& options) {
+  check_reaches_other_processes(options.lcm_url);
   const devices::PoseTrajectory script = options.script.empty()
                                              ? parse_trajectory(embedded_scene_script(), "car_door_script.csv")
                                              : read_trajectory(options.script);

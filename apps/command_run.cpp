@@ -4,12 +4,15 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/command.h>
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/haptic_session.h>
+#include <glissade/apps/html_report.h>
+#include <glissade/apps/lcm_option.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
 
@@ -42,18 +45,25 @@ int run(const Options& options) {
   if (!(options.seconds >= 0.0 && options.seconds <= 86400.0)) {
     throw std::invalid_argument("--seconds: must lie between 0 and 86400, not " + format_number(options.seconds));
   }
+  check_reaches_other_processes(options.lcm_url);
   const Scene file = read_scene(options.scene);
   const HapticScene scene = make_haptic_scene(file, only_movable_object(file));
+  if (!options.report.empty()) prepare_report_folder(options.report);
   const auto bus = std::make_shared<devices::LcmBus>(options.lcm_url);
   const StopSignal stop_signal;
-  bool announced = false;
-  std::cerr << "glissade run: waiting for a glove at " << options.lcm_url << '\n';
+  // Announced from within the session, when nothing can go wrong in setting it up any more.
+  bool said_that_it_waits = false;
+  bool said_that_it_holds = false;
+  const auto watch = [&](std::int64_t ticks) {
+    if (ticks == 0 && !std::exchange(said_that_it_waits, true)) {
+      std::cerr << "glissade run: waiting for a glove at " << options.lcm_url << '\n';
+    }
+    if (ticks > 0 && !std::exchange(said_that_it_holds, true)) {
+      std::cerr << "glissade run: the glove holds '" << scene.part_name << "'\n";
+    }
+  };
   const Session session =
-      run_session(scene, bus, std::llround(options.seconds * 1000.0), &StopSignal::requested, [&](std::int64_t ticks) {
-        if (ticks == 0 || announced) return;
-        announced = true;
-        std::cerr << "glissade run: the glove holds '" << scene.part_name << "'\n";
-      });
+      run_session(scene, bus, std::llround(options.seconds * 1000.0), &StopSignal::requested, watch);
   conclude(session, scene, "glissade run: " + scene.part_name, options.json, options.report);
   return 0;
 }

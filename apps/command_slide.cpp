@@ -10,6 +10,7 @@
 #include <glissade/apps/csv.h>
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
@@ -89,10 +90,19 @@ std::unique_ptr<haptics::Sliding> start(const HapticScene& scene, const Eigen::I
   }
 }
 
+/// At most a day: some 20 GB of rows, and more is a slip of the unit of t_s.
+void check_duration(const devices::PoseTrajectory& trajectory, const std::string& file) {
+  constexpr std::chrono::hours kLongest{24};
+  if (trajectory.duration() <= kLongest) return;
+  const double duration_s = std::chrono::duration<double>(trajectory.duration()).count();
+  throw std::invalid_argument(file + ": lasts " + format_number(duration_s) + " s, longer than a day (86400 s)");
+}
+
 int run(const Options& options) {
   const haptics::Metaphor metaphor = parse_metaphor(options.metaphor);
   const HapticScene scene = make_haptic_scene(read_scene(options.scene), options.part);
   const devices::PoseTrajectory trajectory = read_trajectory(options.trajectory);
+  check_duration(trajectory, options.trajectory);
   const auto sliding = start(scene, trajectory.pose_at(trajectory.first_time()), metaphor, options.trajectory);
 
   using std::chrono::milliseconds;

@@ -16,6 +16,7 @@
 namespace glissade::apps {
 
 struct HapticScene {
+  std::string source;  ///< the scene file's name, for messages
   std::string part_name;
   std::shared_ptr<const haptics::SlidingPart> part_V;
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
@@ -25,7 +26,8 @@ struct HapticScene {
 };
 
 /// Takes the object `part_name` as the part. Throws std::invalid_argument, naming the scene and the object, when there
-/// is no such object, nothing else in the scene, or a mesh without area.
+/// is no such object, nothing else in the scene, or an object that, where it lies, has no area or reaches beyond ±1e9
+/// m.
 HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name);
 
 /// The name of the one movable object. Throws std::invalid_argument, naming the scene, when there is none or several.

@@ -4,6 +4,7 @@
 
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/text.h>
 #include <glissade/devices/haptic_state_publisher.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/devices/simulated_glove.h>
@@ -30,12 +31,21 @@ haptics::SlidingOptions sliding_options(const haptics::Coupling& coupling, int m
   return {.metaphor = haptics::Metaphor::kForceFeedback, .stiffness = coupling.stiffness, .max_cycles = max_cycles};
 }
 
+/// A part that starts inside an obstacle is the scene's fault.
+haptics::Sliding start_sliding(const HapticScene& scene, const haptics::SlidingOptions& options) {
+  try {
+    return haptics::Sliding(scene.obstacles_W, scene.part_V, scene.X_WV_start, options);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(scene.source + ": object " + in_quotes(scene.part_name) + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 Session run_session_offline(const HapticScene& scene, const devices::PoseTrajectory& script_X_WH, std::int64_t ticks) {
   devices::SimulatedGlove glove(script_X_WH);
   const haptics::Coupling coupling = coupling_of(scene, glove.descriptor());
-  haptics::Sliding sliding(scene.obstacles_W, scene.part_V, scene.X_WV_start, sliding_options(coupling, 10));
+  haptics::Sliding sliding = start_sliding(scene, sliding_options(coupling, 10));
   haptics::HapticKernel kernel(*scene.part_V, coupling, glove.descriptor(), scene.X_WV_start);
   SessionRecorder recorder(static_cast<std::size_t>(ticks));
   ProgressBar progress("offline", ticks);
@@ -50,7 +60,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
                     const std::function<bool()>& should_stop, const std::function<void(std::int64_t)>& watch) {
   const devices::DeviceDescriptor descriptor = devices::simulated_glove_descriptor();
   const haptics::Coupling coupling = coupling_of(scene, descriptor);
-  haptics::Sliding sliding(scene.obstacles_W, scene.part_V, scene.X_WV_start, sliding_options(coupling, 3));
+  haptics::Sliding sliding = start_sliding(scene, sliding_options(coupling, 3));
   SessionRecorder recorder(ticks > 0 ? static_cast<std::size_t>(ticks) : kKeptTicks);
   devices::HapticStatePublisher publisher(bus);
   devices::LcmGlove glove(bus, descriptor);

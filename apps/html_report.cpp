@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include <unistd.h>
+
 #include <glissade/apps/html_report.h>
 
 namespace glissade::apps {
@@ -86,10 +88,17 @@ std::string html_report(const Report& report) {
   return html + "</main>\n</body>\n</html>\n";
 }
 
-std::string write_html_report(const Report& report, const std::string& folder) {
+void prepare_report_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw std::invalid_argument(folder + ": cannot make this folder: " + error.message());
+  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw std::invalid_argument(folder + ": nothing can be written there: " + std::generic_category().message(errno));
+  }
+}
+
+std::string write_html_report(const Report& report, const std::string& folder) {
+  prepare_report_folder(folder);
   std::string path = (std::filesystem::path(folder) / "index.html").string();
   std::ofstream file(path, std::ios::binary);
   if (!file) throw std::invalid_argument(path + ": cannot be written: " + std::generic_category().message(errno));

@@ -20,6 +20,10 @@ struct Report {
 /// The page as HTML; texts are plain text and escaped here.
 std::string html_report(const Report& report);
 
+/// Makes `folder` where needed, so that a run need not end before it turns out that its report has no place.
+/// Throws std::invalid_argument, naming the folder, when it cannot be made or nothing can be written there.
+void prepare_report_folder(const std::string& folder);
+
 /// Writes the page to `folder`/index.html, making the folder where needed, and returns that path.
 /// Throws std::invalid_argument when the folder or the file cannot be made, std::runtime_error when writing fails.
 std::string write_html_report(const Report& report, const std::string& folder);

@@ -36,6 +36,7 @@ int parse_and_run(int argc, char** argv) {
   app.footer(kFooter);
   app.set_version_flag("--version", "glissade " GLISSADE_VERSION, "Print the version and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
+  app.require_subcommand(0, 1);  // none has a message of its own below
   Command chosen;
   glissade::apps::add_demo_command(app, chosen);
   glissade::apps::add_info_command(app, chosen);
@@ -54,11 +55,18 @@ int parse_and_run(int argc, char** argv) {
   return chosen();
 }
 
+/// What was printed may still be on its way, and a full disk shows only now.
+int flush_output(int exit_code) {
+  std::cout.flush();
+  if (std::cout || exit_code != 0) return exit_code;
+  return fail(kFailed, "standard output: not everything could be written");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return parse_and_run(argc, argv);
+    return flush_output(parse_and_run(argc, argv));
   } catch (const std::invalid_argument& error) {
     return fail(kBadInput, error.what());
   } catch (const std::exception& error) {

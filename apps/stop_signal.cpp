@@ -1,3 +1,4 @@
+#include <atomic>
 #include <csignal>
 
 #include <glissade/apps/stop_signal.h>
@@ -6,10 +7,14 @@ namespace glissade::apps {
 
 namespace {
 
-volatile std::sig_atomic_t stop_requested = 0;
+// A signal may come on any thread, and a handler may touch nothing that locks.
+std::atomic<bool> stop_requested = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 void on_signal(int) {
-  stop_requested = 1;
+  stop_requested = true;
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
 }
 
 }  // namespace
@@ -20,7 +25,7 @@ StopSignal::StopSignal() {
 }
 
 bool StopSignal::requested() {
-  return stop_requested != 0;
+  return stop_requested;
 }
 
 }  // namespace glissade::apps

@@ -4,7 +4,8 @@
 
 namespace glissade::apps {
 
-/// From its construction on, SIGINT and SIGTERM no longer end the process but make `requested()` true. One per process.
+/// From its construction on, the first SIGINT or SIGTERM does not end the process but makes `requested()` true; the
+/// second ends it, so that a command that does not come to its end can be stopped. One per process.
 class StopSignal {
  public:
   StopSignal();

@@ -54,9 +54,14 @@ std::string one_line(std::string_view text) {
 }
 
 std::string read_text_file(const std::string& path) {
-  // A folder opens like a file and fails only later, with a less helpful reason.
+  if (path.empty()) throw std::invalid_argument("the name of a file is empty");
+  // A folder opens like a file and fails only later, with a less helpful reason; a pipe or a device may never end.
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw std::invalid_argument(path + ": is a folder, not a file");
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_directory(status)) throw std::invalid_argument(path + ": is a folder, not a file");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw std::invalid_argument(path + ": is not a regular file");
+  }
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::invalid_argument(path + ": " + std::generic_category().message(errno));
   std::ostringstream text;

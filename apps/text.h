@@ -32,7 +32,8 @@ std::string joined(const Texts& texts) {
   return result;
 }
 
-/// The file's bytes. Throws std::invalid_argument, naming the file, when it is missing, a folder or cannot be read.
+/// The file's bytes. Throws std::invalid_argument, naming the file, when it is missing, not a regular file or cannot be
+/// read.
 std::string read_text_file(const std::string& path);
 
 }  // namespace glissade::apps

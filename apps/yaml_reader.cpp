@@ -26,11 +26,14 @@ std::string shown(const YAML::Node& node) {
 YamlReader::YamlReader(std::string source) : source_(std::move(source)) {}
 
 YAML::Node YamlReader::parse(const std::string& text) const {
+  std::vector<YAML::Node> documents;
   try {
-    return YAML::Load(text);
+    documents = YAML::LoadAll(text);
   } catch (const YAML::Exception& error) {
     throw std::invalid_argument(at_mark(source_, error.mark) + ": not valid YAML: " + error.msg);
   }
+  if (documents.size() > 1) fail(documents[1], "a second YAML document begins here, but there must be only one");
+  return documents.empty() ? YAML::Node() : documents.front();
 }
 
 std::string YamlReader::where(const YAML::Node& node) const {

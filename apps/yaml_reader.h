@@ -16,7 +16,7 @@ class YamlReader {
   /// `source` is the file's name, for messages.
   explicit YamlReader(std::string source);
 
-  /// The document's root node; throws on a syntax error.
+  /// The root node of the one document; throws on a syntax error and on a second document.
   YAML::Node parse(const std::string& text) const;
 
   /// "file:line" of a node.

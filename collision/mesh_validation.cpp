@@ -22,6 +22,7 @@ void check_coordinate(const std::filesystem::path& path, const std::string& wher
 }
 
 std::string file_content(const std::filesystem::path& path) {
+  if (path.empty()) throw std::invalid_argument("The name of the mesh file is empty.");
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) reject(path, "There is no such file");

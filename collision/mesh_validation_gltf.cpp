@@ -1,6 +1,8 @@
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -21,6 +23,9 @@ constexpr int kByte = 5121;
 constexpr int kShort = 5123;
 constexpr int kInt = 5125;
 constexpr int kFloat = 5126;
+
+/// glTF itself needs about ten; the JSON library's functions recurse.
+constexpr int kDeepestNesting = 100;
 
 /// Reads a glTF document and its buffers and writes the triangles and the nodes that place them anew.
 class GltfReader {
@@ -43,7 +48,9 @@ class GltfReader {
   const json& entry(const char* key, const json& index) const {
     const std::size_t size = document_.contains(key) ? document_.at(key).size() : 0;
     if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= size) {
-      reject(path_, std::string(key) + "[" + index.dump() + "] is out of range, there are " + std::to_string(size));
+      // What is not a number may be of any size.
+      const std::string shown = index.is_number() ? index.dump() : std::string(index.type_name());
+      reject(path_, std::string(key) + "[" + shown + "] is out of range, there are " + std::to_string(size));
     }
     return document_.at(key).at(index.get<std::size_t>());
   }
@@ -199,12 +206,7 @@ class GltfReader {
     const std::string where = "nodes[" + index.dump() + "]";
     if (depth > 200) reject(path_, where + ": the tree of nodes is more than 200 deep");
     if (!visited_.insert(index.get<std::size_t>()).second) reject(path_, where + ": the node is used twice");
-    json copy = json::object();
-    for (const auto& [key, length] :
-         {std::pair<const char*, std::size_t>{"matrix", 16}, {"translation", 3}, {"rotation", 4}, {"scale", 3}}) {
-      if (!node.contains(key)) continue;
-      copy[key] = numbers(node.at(key), length, where + "." + key);
-    }
+    json copy = copied_placement(node, where);
     if (node.contains("mesh")) {
       entry("meshes", node.at("mesh"));
       if (mesh_has_triangles_.at(node.at("mesh").get<std::size_t>())) {
@@ -222,6 +224,39 @@ class GltfReader {
       if (!children.empty()) output_["nodes"][result]["children"] = children;
     }
     return result;
+  }
+
+  /// The node's place in its parent.
+  json copied_placement(const json& node, const std::string& where) const {
+    json copy = json::object();
+    for (const auto& [key, length] :
+         {std::pair<const char*, std::size_t>{"matrix", 16}, {"translation", 3}, {"rotation", 4}, {"scale", 3}}) {
+      if (!node.contains(key)) continue;
+      if (copy.contains("matrix")) reject(path_, where + ": it has both a matrix and a " + key);
+      copy[key] = numbers(node.at(key), length, where + "." + key);
+    }
+    if (copy.contains("matrix")) check_last_row(copy.at("matrix"), where + ".matrix");
+    if (copy.contains("rotation")) copy["rotation"] = unit_quaternion(copy.at("rotation"), where + ".rotation");
+    return copy;
+  }
+
+  /// `matrix` is given column by column.
+  void check_last_row(const json& matrix, const std::string& where) const {
+    const json row{matrix.at(3), matrix.at(7), matrix.at(11), matrix.at(15)};
+    if (row != json{0.0, 0.0, 0.0, 1.0}) reject(path_, where + ": its last row is " + row.dump() + ", not 0, 0, 0, 1");
+  }
+
+  /// Rounding is forgiven, but a quaternion of another length would scale the mesh.
+  std::vector<double> unit_quaternion(const json& given, const std::string& where) const {
+    auto xyzw = given.get<std::vector<double>>();
+    const double length = std::sqrt(std::inner_product(xyzw.begin(), xyzw.end(), xyzw.begin(), 0.0));
+    if (std::abs(length - 1.0) > 1e-3) {
+      reject(path_, where + ": the quaternion " + given.dump() + " has the length " + json(length).dump() + ", not 1");
+    }
+    for (double& number : xyzw) {
+      number /= length;
+    }
+    return xyzw;
   }
 
   std::vector<double> numbers(const json& value, std::size_t length, const std::string& where) const {
@@ -257,8 +292,15 @@ class GltfReader {
 };
 
 json parsed(const std::filesystem::path& path, std::string_view text) {
+  const auto check_depth = [&](int depth, json::parse_event_t event, const json&) {
+    const bool goes_deeper = event == json::parse_event_t::array_start || event == json::parse_event_t::object_start;
+    if (goes_deeper && depth >= kDeepestNesting) {
+      reject(path, "Its JSON is nested more than " + std::to_string(kDeepestNesting) + " deep");
+    }
+    return true;
+  };
   try {
-    return json::parse(text);
+    return json::parse(text, check_depth);
   } catch (const json::parse_error& error) {
     reject(path, "This is not JSON, or truncated: byte " + std::to_string(error.byte) + " makes no sense");
   }

@@ -1,8 +1,10 @@
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -302,9 +304,12 @@ class PlyReader {
       for (std::uint32_t k = 0; k < face_corners_[face]; ++k) {
         const double index = corners_[next++];
         if (index >= 0 && index < static_cast<double>(vertices_.size()) && index == std::floor(index)) continue;
+        // In a text file it may be a fraction, beyond every integer or not a number at all.
+        std::array<char, 32> digits{};
+        const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), index).ptr;
         reject(path_, "face " + std::to_string(face) + ": the vertex index " +
-                          std::to_string(static_cast<std::int64_t>(index)) + " is out of range, the file has " +
-                          std::to_string(vertices_.size()) + " vertices");
+                          std::string(digits.begin(), digits.begin() + (end - digits.data())) +
+                          " is out of range, the file has " + std::to_string(vertices_.size()) + " vertices");
       }
     }
   }

@@ -90,7 +90,21 @@ TEST_F(Cli, AFullDiskIsAFailureWhileRunning) {
   EXPECT_THAT(result.standard_error, HasSubstr("glissade: /dev/full"));
 }
 
+TEST_F(Cli, AFullDiskBehindStandardOutputIsAFailureToo) {
+  const std::vector<std::vector<std::string>> calls{
+      {"info", mesh}, {"info", mesh, "--json"}, {"demo", "--offline", "--seconds", "0.01"}, {"--help"}};
+  for (std::vector<std::string> arguments : calls) {
+    SCOPED_TRACE(arguments.front());
+    arguments.insert(arguments.begin(), {"/bin/sh", "-c", "exec \"$0\" \"$@\" > /dev/full", GLISSADE_PROGRAM});
+    const ProgramResult result = test_support::run_program(arguments);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.standard_error, "glissade: standard output: not everything could be written\n");
+  }
+}
+
 TEST_F(Cli, WrongUsageIsRefused) {
+  expect_refused({"info", mesh, "demo"}, {"demo"});
+  expect_refused({"demo", "--offline", "info", mesh}, {"info"});
   expect_refused({}, {"command"});
   expect_refused({"frobnicate"}, {"frobnicate"});
   expect_refused({"--frobnicate"}, {"--frobnicate"});
@@ -108,6 +122,7 @@ TEST_F(Cli, WrongUsageIsRefused) {
 TEST_F(Cli, FilesThatCannotBeReadAreRefused) {
   expect_refused({"info", folder.path("none.obj")}, {"none.obj"});
   expect_refused({"info", folder.path("")}, {folder.path("")});
+  expect_refused({"info", ""}, {"name", "empty"});
   expect_refused({"info", folder.write("a.doc", "text")}, {"a.doc"});
   expect_refused({"info", folder.write("empty.obj", "")}, {"empty.obj"});
   expect_refused({"info", folder.write("truncated.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0")},
@@ -116,6 +131,8 @@ TEST_F(Cli, FilesThatCannotBeReadAreRefused) {
   expect_refused({"info", folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")}, {"flat.obj"});
   expect_refused({"collide", mesh, mesh, "--poses", folder.path("none.csv")}, {"none.csv"});
   expect_refused({"collide", mesh, mesh, "--poses", folder.path("")}, {"folder"});
+  expect_refused({"collide", mesh, mesh, "--poses", "/dev/zero"}, {"/dev/zero", "not a regular file"});
+  expect_refused({"collide", mesh, mesh, "--poses", ""}, {"name", "empty"});
   expect_refused({"collide", mesh, folder.path("none.obj"), "--poses", poses}, {"none.obj"});
 }
 

@@ -105,10 +105,34 @@ TEST_F(Demo, RefusesWhatIsWrong) {
                                               "  - {name: b, movable: true, shape: {type: box}}\n"
                                               "script: hand.csv\n");
   expect_refused({"demo", "--scene", two_parts}, {"two_parts.yaml", "2 are"});
+  expect_refused({"demo", "--offline", "--lcm", "memq://"}, {"--offline", "--lcm"});
   expect_refused({"run", no_script, "--lcm", "udpm://nonsense"}, {"udpm://nonsense"});
   expect_refused({"glove", "--lcm", "udpm://nonsense"}, {"udpm://nonsense"});
   expect_refused({"glove", "--side", "middle"}, {"--side", "middle"});
   expect_refused({"glove", "--script", no_script}, {"no_script.yaml"});
+}
+
+TEST_F(Demo, GloveAndServerOfTwoProcessesCannotMeetInsideOne) {
+  expect_refused({"run", scene, "--lcm", "memq://"}, {"--lcm", "memq://", "one process"});
+  expect_refused({"glove", "--lcm", "memq://"}, {"--lcm", "memq://", "one process"});
+}
+
+TEST_F(Demo, APartThatStartsInsideAnObstacleIsNamed) {
+  const std::string stuck = files().write("stuck.yaml",
+                                          "objects:\n"
+                                          "  - {name: plate, shape: {type: plate}}\n"
+                                          "  - {name: box, movable: true, shape: {type: box}}\n"
+                                          "script: hand.csv\n");
+  expect_refused({"demo", "--offline", "--scene", stuck}, {"stuck.yaml", "'box'", "collides"});
+  expect_refused({"demo", "--scene", stuck}, {"stuck.yaml", "'box'", "collides"});
+}
+
+TEST_F(Demo, AReportWithoutAPlaceIsRefusedBeforeTheRun) {
+  // An hour in real time: a run that began would not end within this test.
+  const std::string file = files().write("file", "");
+  expect_refused({"demo", "--seconds", "3600", "--report", file}, {file});
+  expect_refused({"demo", "--seconds", "3600", "--report", file + "/report"}, {file + "/report"});
+  expect_refused({"run", scene, "--report", file}, {file});
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <glissade/apps/scene_file.h>
 
@@ -161,8 +162,18 @@ TEST(SceneFile, WhatIsNotASceneIsAnError) {
   expect_bad_input([] { parse("objects:\n  - 7\n"); }, {"scene.yaml:2:", "object", "'7'"});
 }
 
+TEST(SceneFile, ThereIsOneDocument) {
+  expect_bad_input([] { parse_object("---\nobjects: []\n"); }, {"scene.yaml:5:", "second"});
+  expect_bad_input([] { parse_object("---\n"); }, {"scene.yaml:", "second"});
+  EXPECT_EQ(parse("---\nobjects:\n  - {name: a, shape: {type: box}}\n...\n").objects.size(), 1U);
+}
+
 TEST(SceneFile, AFileThatCannotBeReadIsNamed) {
   const TemporaryFolder folder;
+  const std::string pipe = folder.path("pipe.yaml");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  expect_bad_input([&] { read_scene(pipe); }, {"pipe.yaml: is not a regular file"});
+  expect_bad_input([] { read_scene(""); }, {"name", "empty"});
   expect_bad_input([&] { read_scene(folder.path("none.yaml")); }, {"none.yaml: No such file"});
   expect_bad_input([&] { read_scene(folder.path("")); }, {"is a folder"});
 }

@@ -131,6 +131,28 @@ TEST_F(Slide, StartingInsideAnObstacleIsAFailureWithItsReason) {
       {"hand.csv", "collides", "first row"});
 }
 
+TEST_F(Slide, AnObjectThatCannotTakePartIsNamed) {
+  const std::string hand = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n");
+  const std::string far = "{position_m: [0, 1.0e+9, 0]}";
+  const auto slide_part = [&](const std::string& scene_file, const std::string& part) {
+    return std::vector<std::string>{"slide", scene_file, "--part", part, "--trajectory", hand};
+  };
+  for (const char* part : {"box", "sheet1"}) {
+    expect_refused(slide_part(scene({floor, far}), part), {"scene.yaml", "'sheet1'", "beyond ±1e9"});
+  }
+  // So small that its area is rounded to nothing, the sphere has none among obstacles that have.
+  const std::string tiny = folder.write("tiny.yaml",
+                                        "objects:\n"
+                                        "  - {name: box, shape: {type: box}}\n"
+                                        "  - {name: plate, shape: {type: plate}}\n"
+                                        "  - name: dust\n"
+                                        "    shape: {type: sphere, radius_m: 1.0e-9}\n"
+                                        "    pose: {position_m: [1.0e+8, 1.0e+8, 1.0e+8]}\n");
+  for (const char* part : {"box", "dust"}) {
+    expect_refused(slide_part(tiny, part), {"tiny.yaml", "'dust'", "no triangle of positive area"});
+  }
+}
+
 TEST_F(Slide, RefusesWhatIsWrong) {
   const std::string good = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n");
   expect_refused({"slide", scene({floor}), "--part", "motor", "--trajectory", good}, {"motor", "box, sheet0"});
@@ -139,6 +161,8 @@ TEST_F(Slide, RefusesWhatIsWrong) {
   expect_refused({"slide", scene({}), "--part", "box", "--trajectory", good}, {"scene.yaml", "nothing but"});
   const std::string scene_file = scene({floor});
   expect_refused({"slide", scene_file, "--part", "box", "--trajectory", folder.path("none.csv")}, {"none.csv"});
+  const std::string long_one = trajectory("0,0,0,0.03,1,0,0,0\n86401,0,0,0.03,1,0,0,0\n");
+  expect_refused({"slide", scene_file, "--part", "box", "--trajectory", long_one}, {"hand.csv", "86401 s", "a day"});
   const std::string standing = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n0.01,0,0,0.04,1,0,0,0\n");
   expect_refused({"slide", scene_file, "--part", "box", "--trajectory", standing}, {"hand.csv:4", "0.01"});
   const std::string skewed = trajectory("0,0,0,0.03,1,0,0.1,0\n0.01,0,0,0.03,1,0,0,0\n");

@@ -52,5 +52,15 @@ TEST(TwoProcesses, AGloveInOneProcessCarriesThePartInTheOtherToItsSeat) {
   EXPECT_EQ(hand.standard_output.find("greatest force 0 N"), std::string::npos) << hand.standard_output;
 }
 
+TEST(TwoProcesses, AServerThatCannotStartSaysNothingOfWaiting) {
+  ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
+  const test_support::TemporaryFolder folder;
+  const std::string scene = folder.write("stuck.yaml",
+                                         "objects:\n"
+                                         "  - {name: plate, shape: {type: plate}}\n"
+                                         "  - {name: box, movable: true, shape: {type: box}}\n");
+  test_support::expect_refused({"run", scene, "--lcm", kUrl}, {"stuck.yaml", "'box'", "collides"});
+}
+
 }  // namespace
 }  // namespace glissade::apps

@@ -133,7 +133,16 @@ TEST_F(MeshImport, NodesPlaceTheirMeshes) {
   EXPECT_TRUE(r.bounds.max().isApprox(Eigen::Vector3d(5, 2, 9)));
 }
 
+TEST_F(MeshImport, NodesMayTurnByAQuaternionOfNearlyUnitLength) {
+  const std::string text =
+      with(gltf(R"({"byteLength":72})"), R"({"mesh":0})", R"({"mesh":0,"rotation":[0,0,0.7075,0.7075]})");
+  const MeshReport r = report(import_mesh(folder_.write("nodes.glb", glb(text, gltf_binary()))).mesh);
+  EXPECT_NEAR(r.area, 1.5 + std::sqrt(3) / 2, 1e-6) << "the excess length of 6e-4 must not scale the mesh";
+  EXPECT_TRUE(r.bounds.min().isApprox(Eigen::Vector3d(-1, 0, 0), 1e-6));
+}
+
 TEST_F(MeshImport, WhatIsNotAReadableMeshFile) {
+  EXPECT_THROW(import_mesh(""), std::invalid_argument);
   EXPECT_THAT(error_of(folder_.path() / "missing.obj"), testing::HasSubstr("no such file"));
   EXPECT_THAT(error_of(folder_.path()), testing::HasSubstr("folder"));
   EXPECT_THAT(error_of("mesh.step", "anything"),
@@ -226,6 +235,8 @@ TEST_F(BadMeshFile, Ply) {
       {"a.ply", with(kAsciiPly, "property float y", "property quad y"), "line 6", "type"},
       {"a.ply", with(kAsciiPly, "list uchar", "list float"), "line 9", "type"},
       {"a.ply", with(kAsciiPly, "uchar int", "uchar float"), "vertex_indices", "integers"},
+      {"a.ply", with(kAsciiPly, "3 1 2 3", "3 1 nan 3"), "face 3", "index nan is out of range"},
+      {"a.ply", with(kAsciiPly, "3 1 2 3", "3 1 1e300 3"), "face 3", "index 1e+300 is"},
       {"a.ply", with(kAsciiPly, "property float z\n", ""), "header", "x, y and z"},
       {"a.ply", with(kAsciiPly, "vertex_indices", "corners"), "header", "no faces"},
       {"a.ply", with(kAsciiPly, "comment", "remark"), "line 3", "header line"},
@@ -262,6 +273,7 @@ TEST_F(BadMeshFile, Stl) {
 
 TEST_F(BadMeshFile, Gltf) {
   const std::string good = gltf(R"({"byteLength":72})");
+  const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
   const auto file = [&](std::string_view from, std::string_view to) {
     return glb(with(good, from, to), gltf_binary());
   };
@@ -272,7 +284,9 @@ TEST_F(BadMeshFile, Gltf) {
   expect_errors({
       {"a.gltf", "{", "byte", "JSON"},
       {"a.gltf", "[]", "", "wrong kind"},
-      {"a.gltf", std::string(100'000, '['), "", "JSON"},
+      {"a.gltf", std::string(100'000, '['), "", "nested more than 100 deep"},
+      {"a.glb", file(R"("indices":1)", R"("indices":)" + deep), "", "nested more than 100 deep"},
+      {"a.glb", file(R"("indices":1)", R"("indices":[1])"), "accessors[array]", "out of range"},
       {"a.gltf", good, "buffers[0]", "should have 72"},
       {"a.gltf", gltf(R"({"byteLength":72,"uri":"missing.bin"})"), "buffers[0]", "missing.bin"},
       {"a.gltf", gltf(R"({"byteLength":72,"uri":"https://example.org/a.bin"})"), "buffers[0]", "only files"},
@@ -312,6 +326,22 @@ TEST_F(BadMeshFile, Gltf) {
       {"a.glb", tetrahedron_glb().substr(0, 15), "", "header"},
       {"a.glb", tetrahedron_glb() + "x", "", "too long"},
       {"a.glb", with(tetrahedron_glb(), std::string("glTF\2", 5), std::string("glTF\1", 5)), "version", "2"},
+  });
+}
+
+TEST_F(BadMeshFile, GltfNodes) {
+  const auto with_node = [](const std::string& entries) {
+    return glb(with(gltf(R"({"byteLength":72})"), R"({"mesh":0})", R"({"mesh":0,)" + entries + "}"), gltf_binary());
+  };
+  const std::string identity = R"("matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1])";
+  expect_errors({
+      {"a.glb", with_node(R"("rotation":[0,0,0,0])"), "nodes[1].rotation", "[0.0,0.0,0.0,0.0]"},
+      {"a.glb", with_node(R"("rotation":[0,0,0,1.002])"), "nodes[1].rotation", "length 1.002"},
+      {"a.glb", with_node(identity + R"(,"translation":[0,0,0])"), "nodes[1]", "both a matrix and a translation"},
+      {"a.glb", with_node(identity + R"(,"rotation":[0,0,0,1])"), "nodes[1]", "both a matrix and a rotation"},
+      {"a.glb", with_node(identity + R"(,"scale":[1,1,1])"), "nodes[1]", "both a matrix and a scale"},
+      {"a.glb", with_node(with(identity, "0,1]", "0,2]")), "nodes[1].matrix", "last row is [0.0,0.0,0.0,2.0]"},
+      {"a.glb", with_node(with(identity, "[1,0,0,0", "[1,0,0,0.5")), "nodes[1].matrix", "last row is [0.5,"},
   });
 }
 

@@ -1,0 +1,12 @@
+#pragma once
+
+/// The option --lcm of the commands that talk to another process.
+
+#include <string>
+
+namespace glissade::apps {
+
+/// Throws std::invalid_argument, naming the option, when nobody in another process can be met at `lcm_url`.
+void check_reaches_other_processes(const std::string& lcm_url);
+
+}  // namespace glissade::apps
