@@ -82,7 +82,7 @@ bool PathCertificate::prove_stretch(const CandidatePair& pair, int begin, int en
 
 bool PathCertificate::separates(const Eigen::Vector3d& n, const TrianglePoints& part_begin,
                                 const TrianglePoints& part_end, double curvature, double floor) const {
-  const double needed = floor + curvature;
+  const double needed = floor + curvature + rounding_;
   return gap_along(n, obstacle_, part_begin) >= needed && gap_along(n, obstacle_, part_end) >= needed;
 }
 

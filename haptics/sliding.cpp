@@ -86,9 +86,7 @@ const SlidingResult& Sliding::advance(const Eigen::Isometry3d& X_WG) {
 /// One cycle: look around, project, prove, move.
 Sliding::Step Sliding::cycle(const Eigen::Isometry3d& X_WG, double budget) {
   result_.reach = choose_reach(budget);
-  if (!candidates_.covers(result_.reach)) {
-    refresh_candidates();
-  }
+  if (!candidates_.covers(result_.reach)) refresh_candidates();
   find_rows();
 
   const Displacement wanted = displacement_between(result_.X_WV, X_WG, part_V_->p_Vref());
@@ -233,7 +231,12 @@ void Sliding::apply(const Step& step, const Eigen::Isometry3d& X_WG) {
   }
   result_.pushing = projection_.active_count;
   // An arrival copies the ghost's pose, so that the coupling wrench is zero and not merely small.
-  result_.X_WV = step.arrives ? X_WG : displaced(result_.X_WV, part_V_->p_Vref(), step.displacement);
+  // Standing still keeps every bit.
+  if (step.arrives) {
+    result_.X_WV = X_WG;
+  } else if (step.length > 0.0) {
+    result_.X_WV = displaced(result_.X_WV, part_V_->p_Vref(), step.displacement);
+  }
   candidates_.moved(step.length);
   last_step_ = step.length;
   last_clipped_ = step.clipped;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "glissade_program.h"
+#include "sanitizers.h"
 #include "temporary_folder.h"
 
 namespace glissade::apps {
@@ -84,6 +85,7 @@ TEST_F(Demo, InRealTimeGloveAndServerMeetOverLcmAndReachTheSameSeat) {
 }
 
 TEST_F(Demo, TheCarDoorRunsOfflineWithoutACollision) {
+  if (test_support::kSanitized) GTEST_SKIP() << "takes minutes; the small scene runs through the same code";
   const nlohmann::json summary = run({"--seconds", "0.3", "--offline"});
   EXPECT_EQ(summary["ticks"], 300);
   EXPECT_EQ(summary["colliding_poses"], 0);
