@@ -1,8 +1,14 @@
+#include <algorithm>
+
 #include <glissade/haptics/haptic_sample.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/haptics/offline_run.h>
 
 namespace glissade::haptics {
+
+namespace {
+constexpr double kLongestCatchUp_ms = 250.0;
+}  // namespace
 
 HapticServer::HapticServer(devices::GloveDevice& device, Sliding& sliding, const Coupling& coupling,
                            realtime::Clock& clock, Sink sink, const HapticServerOptions& options)
@@ -58,7 +64,10 @@ void HapticServer::simulation_tick() {
   if (!ghosts_.update()) return;
   const Ghost& ghost = ghosts_.value();
   const std::chrono::nanoseconds start = clock_.now();
-  sliding_.advance(ghost.X_WG);
+  // An answer that takes long must not slow the part down: the slew is a speed.
+  const double milliseconds = std::chrono::duration<double, std::milli>(ghost.time - answered_).count();
+  sliding_.advance(ghost.X_WG, std::clamp(milliseconds, 1.0, kLongestCatchUp_ms));
+  answered_ = ghost.time;
   sets_.publish(make_contact_set(sliding_, ++set_sequence_, ghost.time, scratch_));
   statistics_.simulation.record(clock_.now() - start);
 }

@@ -87,6 +87,7 @@ class HapticServer {
 
   // Of the simulation thread.
   std::int64_t set_sequence_ = 0;
+  std::chrono::nanoseconds answered_{0};  // time of the last ghost that was answered
   std::vector<std::int32_t> scratch_;
 
   // Between them.

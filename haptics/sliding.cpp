@@ -66,12 +66,12 @@ Sliding::Sliding(std::shared_ptr<const ContactBody> obstacles_W, std::shared_ptr
 
 const Sliding::Step Sliding::kNoStep{{}, 0.0, false, true};
 
-const SlidingResult& Sliding::advance(const Eigen::Isometry3d& X_WG) {
+const SlidingResult& Sliding::advance(const Eigen::Isometry3d& X_WG, double milliseconds) {
   if (!X_WG.matrix().allFinite()) return result_;
   ghost_motion_ = motion_bound(displacement_between(result_.X_WG, X_WG, part_V_->p_Vref()), part_V_->radius());
   result_.X_WG = X_WG;
-  double budget =
-      metaphor_ == Metaphor::kForceFeedback ? kSlew_m + 2.0 * ghost_motion_ : std::numeric_limits<double>::infinity();
+  double budget = metaphor_ == Metaphor::kForceFeedback ? kSlew_m * milliseconds + 2.0 * ghost_motion_
+                                                        : std::numeric_limits<double>::infinity();
   double moved = 0.0;
   for (result_.cycles = 1;; ++result_.cycles) {
     const Step step = cycle(X_WG, budget);

@@ -83,7 +83,8 @@ class Sliding {
 
   /// Moves the visible part towards the ghost, once per millisecond of motion. A ghost pose with a number that is not
   /// finite changes nothing.
-  const SlidingResult& advance(const Eigen::Isometry3d& X_WG);
+  /// `milliseconds` is how long ago the last call's ghost was; a caller that comes late may catch up for all of it.
+  const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0);
 
   const SlidingResult& result() const { return result_; }
   const SlidingPart& part() const { return *part_V_; }
