@@ -11,7 +11,7 @@ namespace {
 constexpr double kDefaultStiffness_N_per_m = 1000.0;
 constexpr double kSmallestReach_m = 30e-6;
 constexpr double kLargestReach_m = 3e-3;
-constexpr double kSmallestReachLimit_m = 0.5e-3;
+constexpr double kSmallestReachLimit_m = 1e-3;
 constexpr std::size_t kAffordablePairs = 30'000;
 
 constexpr int kProjections = 4;  // the first, and three more with rows for what could not be proved
