@@ -27,7 +27,7 @@ void HapticStatePublisher::publish_all() noexcept {
     HapticState state;
     while (ring_.pop(state))
       bus_->publish(kHapticStateChannel, encode(state));
-  } catch (...) {  // NOLINT(bugprone-empty-catch)
+  } catch (...) {  // NOLINT(bugprone-empty-catch): a lost message is no reason to end the thread
   }
 }
 

@@ -51,7 +51,7 @@ void LcmGlove::send(const GloveCommand& command) noexcept {
     if (bus_->publish(kGloveCommandChannel, encode(limit_command(command, descriptor_).command))) {
       commands_sent_.fetch_add(1, std::memory_order_relaxed);
     }
-  } catch (...) {  // NOLINT(bugprone-empty-catch)
+  } catch (...) {  // NOLINT(bugprone-empty-catch): a lost message is no reason to end the thread
   }
 }
 

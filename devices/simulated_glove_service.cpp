@@ -30,7 +30,7 @@ void SimulatedGloveService::tick(std::chrono::nanoseconds deadline) noexcept {
 void SimulatedGloveService::send(const GloveState& state) noexcept {
   try {
     host_.publish(state);
-  } catch (...) {  // NOLINT(bugprone-empty-catch)
+  } catch (...) {  // NOLINT(bugprone-empty-catch): a lost message is no reason to end the thread
   }
 }
 
