@@ -95,23 +95,35 @@ class DopTraversal {
   QueryWorkspace& workspace_;
 };
 
-bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
-                QueryWorkspace& workspace) {
-  return DopTraversal(tree_A, tree_B, X_AB, 0.0, workspace)
-      .run([](std::int32_t, const TrianglePoints& a, std::int32_t, const TrianglePoints& b) {
-        return triangles_intersect(a, b);
+bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, QueryWorkspace& workspace,
+                double tolerance) {
+  return DopTraversal(tree_A, tree_B, X_AB, tolerance, workspace)
+      .run([&](std::int32_t, const TrianglePoints& a, std::int32_t, const TrianglePoints& b) {
+        return tolerance > 0.0 ? triangle_distance(a, b).distance <= tolerance : triangles_intersect(a, b);
       });
 }
 
+bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                CoherentWorkspace& workspace, double tolerance) {
+  return intersects(tree_A, tree_B, X_AB, workspace.workspace(), tolerance);
+}
+
 void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
-                        QueryWorkspace& workspace, std::vector<TrianglePair>& pairs) {
+                        QueryWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance) {
   pairs.clear();
-  DopTraversal(tree_A, tree_B, X_AB, 0.0, workspace)
+  DopTraversal(tree_A, tree_B, X_AB, tolerance, workspace)
       .run([&](std::int32_t triangle_A, const TrianglePoints& a, std::int32_t triangle_B, const TrianglePoints& b) {
-        if (triangles_intersect(a, b)) pairs.push_back({triangle_A, triangle_B});
+        if (tolerance > 0.0 ? triangle_distance(a, b).distance <= tolerance : triangles_intersect(a, b)) {
+          pairs.push_back({triangle_A, triangle_B});
+        }
         return false;
       });
   std::sort(pairs.begin(), pairs.end());
+}
+
+void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                        CoherentWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance) {
+  intersecting_pairs(tree_A, tree_B, X_AB, workspace.workspace(), pairs, tolerance);
 }
 
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
@@ -127,6 +139,11 @@ void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Iso
       });
   std::sort(pairs.begin(), pairs.end(),
             [](const ClosePair& u, const ClosePair& v) { return u.triangles < v.triangles; });
+}
+
+void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
+                  CoherentWorkspace& workspace, std::vector<ClosePair>& pairs) {
+  pairs_within(tree_A, tree_B, X_AB, distance, workspace.workspace(), pairs);
 }
 
 }  // namespace glissade::collision

@@ -33,17 +33,19 @@ struct ClosePair {
   Eigen::Vector3d p_B;  ///< on triangle B
 };
 
+/// Work of one query.
+struct QueryCounters {
+  std::int64_t node_tests = 0;      ///< pairs of boxes tested
+  std::int64_t realignments = 0;    ///< boxes realigned
+  std::int64_t triangle_tests = 0;  ///< pairs of triangles tested
+};
+
 /// Scratch memory and counters of the queries. Keep one per thread and reuse it: after a few queries nothing is
 /// allocated. Not thread-safe.
 class QueryWorkspace {
  public:
   /// Work of the last query.
-  struct Counters {
-    std::int64_t node_tests = 0;
-    std::int64_t realignments = 0;
-    std::int64_t triangle_tests = 0;
-  };
-  const Counters& counters() const { return counters_; }
+  const QueryCounters& counters() const { return counters_; }
 
  private:
   friend class DopTraversal;
@@ -52,19 +54,44 @@ class QueryWorkspace {
     std::int32_t node_B;
   };
   std::vector<NodePair> stack_;
-  Counters counters_;
+  QueryCounters counters_;
 };
 
-/// Whether any two triangles intersect. (paper §2.1)
-bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, QueryWorkspace& workspace);
+/// A workspace that remembers the last query of one pair of trees, which makes queries of a pair that moves little from
+/// one to the next much cheaper. Answers are the same, bit for bit, as without it. Use one for each pair; a query of
+/// other trees makes it start afresh. Not thread-safe.
+class CoherentWorkspace {
+ public:
+  /// Work of the last query.
+  const QueryCounters& counters() const { return workspace_.counters(); }
 
-/// Replaces `pairs` by every intersecting pair of triangles, in ascending order.
+  /// Starts afresh. Needed after a tree was refitted.
+  void forget() {}
+
+  QueryWorkspace& workspace() { return workspace_; }
+
+ private:
+  QueryWorkspace workspace_;
+};
+
+/// Whether any two triangles are not further apart than `tolerance` (metres, ≥ 0; 0: intersect). (paper §2.1)
+bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, QueryWorkspace& workspace,
+                double tolerance = 0.0);
+bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                CoherentWorkspace& workspace, double tolerance = 0.0);
+
+/// Replaces `pairs` by every pair of triangles not further apart than `tolerance` (metres, ≥ 0; 0: that intersect), in
+/// ascending order.
 void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
-                        QueryWorkspace& workspace, std::vector<TrianglePair>& pairs);
+                        QueryWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance = 0.0);
+void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                        CoherentWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance = 0.0);
 
 /// Replaces `pairs` by every pair of triangles not further apart than `distance` (metres, ≥ 0), in ascending order of
 /// the triangle indices, with their closest points.
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   QueryWorkspace& workspace, std::vector<ClosePair>& pairs);
+void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
+                  CoherentWorkspace& workspace, std::vector<ClosePair>& pairs);
 
 }  // namespace glissade::collision

@@ -38,7 +38,8 @@ void check_indices(const TriangleMesh& mesh) {
 
 }  // namespace
 
-DopTree::DopTree(std::shared_ptr<const TriangleMesh> mesh) : mesh_(std::move(mesh)) {
+DopTree::DopTree(std::shared_ptr<const TriangleMesh> mesh, const DopTreeOptions& options)
+    : mesh_(std::move(mesh)), options_(options) {
   check_vertices(*mesh_);
   check_indices(*mesh_);
 

@@ -24,6 +24,19 @@ struct DopNode {
   bool is_leaf() const { return count > 0; }
 };
 
+/// How the nodes of one tree are brought into the frame of the other.
+enum class Realignment {
+  kAffine,      ///< three old offsets make a new one: O(k) (paper §2.1, eq. 1)
+  kBruteForce,  ///< every vertex of the node is projected on every direction: O(k²) (paper §2.1.1)
+};
+
+/// What to build. The defaults are the fastest; the others are there to be compared with.
+struct DopTreeOptions {
+  int directions = 24;    ///< k: 6, 14, 18, 24 or 26
+  bool thin_slab = true;  ///< an extra slab along a node's own thin direction, where that helps
+  Realignment realignment = Realignment::kAffine;
+};
+
 /// An immutable bounding-volume hierarchy in the object's own frame.
 ///
 /// Thread-safety: immutable after construction, so any number of threads may query it at once.
@@ -35,7 +48,9 @@ class DopTree {
   /// Throws std::invalid_argument when the mesh has no triangle of positive area, an index out of range, or a
   /// coordinate that is not finite or beyond ±1e9. Cost O(n log n). Queries are fastest when
   /// the mesh lies near its own origin.
-  explicit DopTree(std::shared_ptr<const TriangleMesh> mesh);
+  explicit DopTree(std::shared_ptr<const TriangleMesh> mesh, const DopTreeOptions& options = {});
+
+  const DopTreeOptions& options() const { return options_; }
 
   const TriangleMesh& mesh() const { return *mesh_; }
 
@@ -57,6 +72,7 @@ class DopTree {
 
  private:
   std::shared_ptr<const TriangleMesh> mesh_;
+  DopTreeOptions options_;
   std::vector<DopNode> nodes_;
   std::vector<std::int32_t> leaf_triangles_;
   std::int64_t degenerate_triangles_ = 0;
