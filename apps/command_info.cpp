@@ -53,7 +53,7 @@ Info gather(const std::string& path) {
           imported.polygons_triangulated,
           static_cast<std::int64_t>(tree.nodes().size()),
           tree.depth(),
-          static_cast<double>(tree.memory_bytes()) / static_cast<double>(tree.leaf_triangles().size())};
+          static_cast<double>(tree.memory_bytes()) / static_cast<double>(mesh->triangles.size())};
 }
 
 std::vector<double> list(const Eigen::Vector3d& p) {

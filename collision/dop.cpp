@@ -1,11 +1,70 @@
+#include <span>
+#include <stdexcept>
+#include <string>
+
 #include <glissade/collision/dop.h>
 
 namespace glissade::collision {
+namespace {
 
-Eigen::Vector3d dop_direction(int half_space) {
-  const auto& direction = kSlabDirections[static_cast<std::size_t>(half_space % kDopSlabs)];
-  const Eigen::Vector3d b(direction[0], direction[1], direction[2]);
-  return half_space < kDopSlabs ? b : -b;
+using IntegerDirection = std::array<int, 3>;
+
+constexpr std::array<IntegerDirection, kMostSlabs> kCubeAxes{{{1, 0, 0},
+                                                              {0, 1, 0},
+                                                              {0, 0, 1},
+                                                              {1, 1, 0},
+                                                              {1, -1, 0},
+                                                              {1, 0, 1},
+                                                              {1, 0, -1},
+                                                              {0, 1, 1},
+                                                              {0, 1, -1},
+                                                              {1, 1, 1},
+                                                              {1, 1, -1},
+                                                              {1, -1, 1},
+                                                              {-1, 1, 1}}};
+
+void append(DopDirections& directions, std::span<const IntegerDirection> more) {
+  for (const IntegerDirection& b : more) {
+    const auto slot = static_cast<std::size_t>(directions.slabs++);
+    directions.integer[slot] = b;
+    directions.unit[slot] = Eigen::Vector3d(b[0], b[1], b[2]).normalized();
+  }
+}
+
+DopDirections make_directions(int k) {
+  const std::span<const IntegerDirection> all(kCubeAxes);
+  DopDirections directions{};
+  if (k == 14) {
+    append(directions, all.first(3));
+    append(directions, all.last(4));
+  } else {
+    append(directions, all.first(static_cast<std::size_t>(k / 2)));
+  }
+  return directions;
+}
+
+}  // namespace
+
+const DopDirections& dop_directions(int k) {
+  static const DopDirections k6 = make_directions(6);
+  static const DopDirections k14 = make_directions(14);
+  static const DopDirections k18 = make_directions(18);
+  static const DopDirections k24 = make_directions(24);
+  static const DopDirections k26 = make_directions(26);
+  switch (k) {
+    case 6:
+      return k6;
+    case 14:
+      return k14;
+    case 18:
+      return k18;
+    case 24:
+      return k24;
+    case 26:
+      return k26;
+    default:
+      throw std::invalid_argument("a DOP-tree has 6, 14, 18, 24 or 26 directions, not " + std::to_string(k));
+  }
 }
 
 }  // namespace glissade::collision

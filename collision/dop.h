@@ -1,6 +1,6 @@
 #pragma once
 
-/// The discretely oriented polytope (DOP): the intersection of k = 24 half-spaces of fixed directions (paper §2.1).
+/// The discretely oriented polytope (DOP): the intersection of k half-spaces of fixed directions (paper §2.1).
 
 #include <array>
 
@@ -8,38 +8,28 @@
 
 namespace glissade::collision {
 
-/// Number of half-spaces; the paper found 24 to be the best (§2.1.2). They come in 12 opposite pairs.
-inline constexpr int kDopDirections = 24;
-inline constexpr int kDopSlabs = kDopDirections / 2;
+/// Most pairs of opposite half-spaces ("slabs") a DOP of this library may have.
+inline constexpr int kMostSlabs = 13;
 
-/// The twelve slab directions: the axes, the edge directions of a cube and three of its corner directions, as small
-/// integers so that projections on them are nearly exact. Half-space i < 12 has direction i, half-space i + 12 its
-/// opposite.
-inline constexpr std::array<std::array<int, 3>, kDopSlabs> kSlabDirections{{{1, 0, 0},
-                                                                            {0, 1, 0},
-                                                                            {0, 0, 1},
-                                                                            {1, 1, 0},
-                                                                            {1, -1, 0},
-                                                                            {1, 0, 1},
-                                                                            {1, 0, -1},
-                                                                            {0, 1, 1},
-                                                                            {0, 1, -1},
-                                                                            {1, 1, 1},
-                                                                            {1, 1, -1},
-                                                                            {1, -1, 1}}};
+/// The directions of a k-DOP. Half-space i < slabs has direction i, half-space i + slabs its opposite.
+///
+/// All are taken from the 13 symmetry axes of a cube: the 3 axes come first in every set, then the 6 edge directions,
+/// then the corner directions; k = 14 has axes and corners only. Directions optimised by repulsion are no better on
+/// round objects and much worse on machined ones, whose faces are parallel to the axes.
+struct DopDirections {
+  int slabs;                                           ///< k / 2
+  std::array<std::array<int, 3>, kMostSlabs> integer;  ///< not normalised
+  std::array<Eigen::Vector3d, kMostSlabs> unit;
 
-/// Direction of half-space i, 0 ≤ i < 24; not a unit vector.
-Eigen::Vector3d dop_direction(int half_space);
-
-/// The half-space that faces the other way.
-constexpr int opposite(int half_space) {
-  return half_space < kDopSlabs ? half_space + kDopSlabs : half_space - kDopSlabs;
-}
-
-/// Support values: for every point x inside and every half-space i, dop_direction(i)·x ≤ support[i]. Single precision,
-/// rounded outward.
-struct Dop {
-  std::array<float, kDopDirections> support;
+  /// Unit direction of half-space i, 0 ≤ i < 2 · slabs.
+  Eigen::Vector3d half_space(int i) const {
+    return i < slabs ? unit[static_cast<std::size_t>(i)] : Eigen::Vector3d(-unit[static_cast<std::size_t>(i - slabs)]);
+  }
+  /// The half-space that faces the other way.
+  int opposite(int i) const { return i < slabs ? i + slabs : i - slabs; }
 };
+
+/// The set for k = 6, 14, 18, 24 or 26. Throws std::invalid_argument for another k. Thread-safe.
+const DopDirections& dop_directions(int k);
 
 }  // namespace glissade::collision

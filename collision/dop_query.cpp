@@ -1,106 +1,65 @@
 #include <algorithm>
+#include <bit>
+#include <stdexcept>
+#include <string>
 
 #include <glissade/collision/dop_query.h>
 #include <glissade/collision/triangle_distance.h>
 #include <glissade/collision/triangle_intersection.h>
 
-#include "dop_alignment.h"
+#include "dop_traversal.h"
 
 namespace glissade::collision {
 
-/// The simultaneous traversal of both trees, shared by all queries: visits every pair of leaf triangles whose nodes no
-/// slab proves to be further apart than a distance.
-class DopTraversal {
- public:
-  DopTraversal(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-               QueryWorkspace& workspace)
-      : tree_A_(tree_A),
-        tree_B_(tree_B),
-        X_AB_(X_AB),
-        alignment_(X_AB, tree_A.largest_coordinate(), tree_B.largest_coordinate()),
-        separation_(separation_thresholds(distance)),
-        workspace_(workspace) {
-    workspace_.counters_ = {};
-  }
+QueryWorkspace::QueryWorkspace() : memory_(std::make_unique<Memory>()) {}
+QueryWorkspace::~QueryWorkspace() = default;
+QueryWorkspace::QueryWorkspace(QueryWorkspace&&) noexcept = default;
+QueryWorkspace& QueryWorkspace::operator=(QueryWorkspace&&) noexcept = default;
 
-  /// Calls visit(triangle_A, points_A, triangle_B, points_B), all points in A, until it returns true. Returns whether
-  /// it did.
-  template <typename Visit>
-  bool run(const Visit& visit) {
-    workspace_.stack_.clear();
-    if (!disjoint(tree_A_.nodes().front().dop, realigned(0), separation_)) workspace_.stack_.push_back({0, 0});
-    ++workspace_.counters_.node_tests;
-    while (!workspace_.stack_.empty()) {
-      const QueryWorkspace::NodePair pair = workspace_.stack_.back();
-      workspace_.stack_.pop_back();
-      const DopNode& node_A = tree_A_.nodes()[static_cast<std::size_t>(pair.node_A)];
-      const DopNode& node_B = tree_B_.nodes()[static_cast<std::size_t>(pair.node_B)];
-      if (node_A.is_leaf() && node_B.is_leaf()) {
-        if (visit_leaves(node_A, node_B, visit)) return true;
-      } else {
-        descend(pair, node_A, node_B);
-      }
+const QueryCounters& QueryWorkspace::counters() const {
+  return memory_->counters;
+}
+
+namespace {
+
+// Calls visit(pair, corners of A, corners of B in A) for every pair of triangles that may be within `distance`, until
+// it returns true. Returns whether it did.
+template <typename Visit>
+bool visit_near_triangles(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
+                          QueryWorkspace& workspace, const Visit& visit) {
+  QueryWorkspace::Memory& memory = workspace.memory();
+  memory.counters = {};
+  const QueryFrame frame(tree_A, tree_B, X_AB);
+  if (frame.spheres_apart(distance)) return false;
+  const DopTree& base = frame.base_is_A ? tree_A : tree_B;
+  const DopTree& other = frame.base_is_A ? tree_B : tree_A;
+  const DopVisit step(base, other, frame, distance, memory.alignment);
+  return traverse(base, other, step, memory, [&](std::uint32_t leaf_P, std::uint32_t leaf_Q, PairMask near) {
+    for (; near != 0; near &= near - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(near));
+      const std::int32_t triangle_P = base.leaves()[leaf_P].triangle[i / kWidth];
+      const std::int32_t triangle_Q = other.leaves()[leaf_Q].triangle[i % kWidth];
+      const TrianglePair pair =
+          frame.base_is_A ? TrianglePair{triangle_P, triangle_Q} : TrianglePair{triangle_Q, triangle_P};
+      const auto corner_A = [&](int c) { return tree_A.mesh().corner(pair.triangle_A, c); };
+      const auto corner_B = [&](int c) { return X_AB * tree_B.mesh().corner(pair.triangle_B, c); };
+      if (visit(pair, {corner_A(0), corner_A(1), corner_A(2)}, {corner_B(0), corner_B(1), corner_B(2)})) return true;
     }
     return false;
-  }
+  });
+}
 
- private:
-  /// Computing a realigned node again is cheaper than fetching a stored one.
-  Dop realigned(std::int32_t node_B) {
-    ++workspace_.counters_.realignments;
-    return alignment_.realign(tree_B_.nodes()[static_cast<std::size_t>(node_B)].dop);
-  }
+bool near(const TrianglePoints& a, const TrianglePoints& b, double tolerance) {
+  return tolerance > 0.0 ? triangle_distance(a, b).distance <= tolerance : triangles_intersect(a, b);
+}
 
-  /// Opens both nodes at once (a leaf stands for itself) and keeps the pairs that overlap.
-  void descend(const QueryWorkspace::NodePair& pair, const DopNode& node_A, const DopNode& node_B) {
-    const std::int32_t first_A = node_A.is_leaf() ? pair.node_A : node_A.first;
-    const std::int32_t first_B = node_B.is_leaf() ? pair.node_B : node_B.first;
-    const std::int32_t end_A = first_A + (node_A.is_leaf() ? 1 : 2);
-    const std::int32_t end_B = first_B + (node_B.is_leaf() ? 1 : 2);
-    for (std::int32_t b = first_B; b < end_B; ++b) {
-      const Dop dop_B = realigned(b);
-      for (std::int32_t a = first_A; a < end_A; ++a) {
-        ++workspace_.counters_.node_tests;
-        if (!disjoint(tree_A_.nodes()[static_cast<std::size_t>(a)].dop, dop_B, separation_)) {
-          workspace_.stack_.push_back({a, b});
-        }
-      }
-    }
-  }
-
-  template <typename Visit>
-  bool visit_leaves(const DopNode& leaf_A, const DopNode& leaf_B, const Visit& visit) {
-    for (std::int32_t j = leaf_B.first; j < leaf_B.first + leaf_B.count; ++j) {
-      const std::int32_t triangle_B = tree_B_.leaf_triangles()[static_cast<std::size_t>(j)];
-      const TriangleMesh& mesh_B = tree_B_.mesh();
-      const TrianglePoints points_B{X_AB_ * mesh_B.corner(triangle_B, 0), X_AB_ * mesh_B.corner(triangle_B, 1),
-                                    X_AB_ * mesh_B.corner(triangle_B, 2)};
-      for (std::int32_t i = leaf_A.first; i < leaf_A.first + leaf_A.count; ++i) {
-        const std::int32_t triangle_A = tree_A_.leaf_triangles()[static_cast<std::size_t>(i)];
-        const TriangleMesh& mesh_A = tree_A_.mesh();
-        const TrianglePoints points_A{mesh_A.corner(triangle_A, 0), mesh_A.corner(triangle_A, 1),
-                                      mesh_A.corner(triangle_A, 2)};
-        ++workspace_.counters_.triangle_tests;
-        if (visit(triangle_A, points_A, triangle_B, points_B)) return true;
-      }
-    }
-    return false;
-  }
-
-  const DopTree& tree_A_;
-  const DopTree& tree_B_;
-  const Eigen::Isometry3d& X_AB_;
-  DopAlignment alignment_;
-  std::array<float, kDopDirections> separation_;
-  QueryWorkspace& workspace_;
-};
+}  // namespace
 
 bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, QueryWorkspace& workspace,
                 double tolerance) {
-  return DopTraversal(tree_A, tree_B, X_AB, tolerance, workspace)
-      .run([&](std::int32_t, const TrianglePoints& a, std::int32_t, const TrianglePoints& b) {
-        return tolerance > 0.0 ? triangle_distance(a, b).distance <= tolerance : triangles_intersect(a, b);
-      });
+  return visit_near_triangles(
+      tree_A, tree_B, X_AB, tolerance, workspace,
+      [&](const TrianglePair&, const TrianglePoints& a, const TrianglePoints& b) { return near(a, b, tolerance); });
 }
 
 bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
@@ -111,13 +70,11 @@ bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isome
 void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                         QueryWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance) {
   pairs.clear();
-  DopTraversal(tree_A, tree_B, X_AB, tolerance, workspace)
-      .run([&](std::int32_t triangle_A, const TrianglePoints& a, std::int32_t triangle_B, const TrianglePoints& b) {
-        if (tolerance > 0.0 ? triangle_distance(a, b).distance <= tolerance : triangles_intersect(a, b)) {
-          pairs.push_back({triangle_A, triangle_B});
-        }
-        return false;
-      });
+  visit_near_triangles(tree_A, tree_B, X_AB, tolerance, workspace,
+                       [&](const TrianglePair& pair, const TrianglePoints& a, const TrianglePoints& b) {
+                         if (near(a, b, tolerance)) pairs.push_back(pair);
+                         return false;
+                       });
   std::sort(pairs.begin(), pairs.end());
 }
 
@@ -129,14 +86,14 @@ void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eige
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   QueryWorkspace& workspace, std::vector<ClosePair>& pairs) {
   pairs.clear();
-  DopTraversal(tree_A, tree_B, X_AB, distance, workspace)
-      .run([&](std::int32_t triangle_A, const TrianglePoints& a, std::int32_t triangle_B, const TrianglePoints& b) {
-        const TriangleDistance closest = triangle_distance(a, b);
-        if (closest.distance <= distance) {
-          pairs.push_back({{triangle_A, triangle_B}, closest.distance, closest.p_a, closest.p_b});
-        }
-        return false;
-      });
+  visit_near_triangles(tree_A, tree_B, X_AB, distance, workspace,
+                       [&](const TrianglePair& pair, const TrianglePoints& a, const TrianglePoints& b) {
+                         const TriangleDistance closest = triangle_distance(a, b);
+                         if (closest.distance <= distance) {
+                           pairs.push_back({pair, closest.distance, closest.p_a, closest.p_b});
+                         }
+                         return false;
+                       });
   std::sort(pairs.begin(), pairs.end(),
             [](const ClosePair& u, const ClosePair& v) { return u.triangles < v.triangles; });
 }

@@ -4,9 +4,12 @@
 ///
 /// Each takes the pose X_AB of tree B in the frame of tree A. Exact means: the answer is that of real arithmetic for
 /// the vertices of A and the vertices of B after X_AB has been applied to them in double precision. Touching counts as
-/// intersecting. Only triangles of positive area take part.
+/// intersecting. Only triangles of positive area take part. Each throws std::invalid_argument for a pose that is not
+/// finite or whose matrix is not a rotation to 1e-3 (what it lacks to one costs speed, not exactness), and for trees
+/// that were built with different options.
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -44,17 +47,19 @@ struct QueryCounters {
 /// allocated. Not thread-safe.
 class QueryWorkspace {
  public:
+  QueryWorkspace();
+  ~QueryWorkspace();
+  QueryWorkspace(QueryWorkspace&&) noexcept;
+  QueryWorkspace& operator=(QueryWorkspace&&) noexcept;
+
   /// Work of the last query.
-  const QueryCounters& counters() const { return counters_; }
+  const QueryCounters& counters() const;
+
+  struct Memory;
+  Memory& memory() { return *memory_; }
 
  private:
-  friend class DopTraversal;
-  struct NodePair {
-    std::int32_t node_A;
-    std::int32_t node_B;
-  };
-  std::vector<NodePair> stack_;
-  QueryCounters counters_;
+  std::unique_ptr<Memory> memory_;
 };
 
 /// A workspace that remembers the last query of one pair of trees, which makes queries of a pair that moves little from

@@ -1,19 +1,16 @@
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include <Eigen/Geometry>
-
 #include <glissade/collision/dop_tree.h>
-#include <glissade/collision/triangle_intersection.h>
 
 #include "dop_tree_build.h"
+#include "dop_tree_fit.h"
 
 namespace glissade::collision {
 namespace {
 
 constexpr double kLargestCoordinate = 1e9;
+constexpr std::size_t kMostTriangles = 5'000'000;
 
 void check_vertices(const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -24,7 +21,11 @@ void check_vertices(const TriangleMesh& mesh) {
   }
 }
 
-void check_indices(const TriangleMesh& mesh) {
+void check_triangles(const TriangleMesh& mesh) {
+  if (mesh.triangles.size() > kMostTriangles) {
+    throw std::invalid_argument("the mesh has " + std::to_string(mesh.triangles.size()) + " triangles, more than " +
+                                std::to_string(kMostTriangles));
+  }
   const auto vertex_count = static_cast<std::int64_t>(mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (const std::int32_t index : mesh.triangles[i]) {
@@ -40,35 +41,33 @@ void check_indices(const TriangleMesh& mesh) {
 
 DopTree::DopTree(std::shared_ptr<const TriangleMesh> mesh, const DopTreeOptions& options)
     : mesh_(std::move(mesh)), options_(options) {
+  check_triangles(*mesh_);
+  lines_of_node_ = static_cast<std::size_t>(slab_lines(dop_directions(options_.directions).slabs));
+  if (!mesh_->triangles.empty()) {
+    TreeShape shape = build_shape(*mesh_);
+    heads_ = std::move(shape.nodes);
+    leaves_ = std::move(shape.leaves);
+    depth_ = shape.depth;
+    slabs_.resize(heads_.size() * lines_of_node_);
+    refit();
+  }
+  if (degenerate_triangles_ == static_cast<std::int64_t>(mesh_->triangles.size())) {
+    throw std::invalid_argument("the mesh has no triangle of positive area");
+  }
+}
+
+void DopTree::refit() {
   check_vertices(*mesh_);
-  check_indices(*mesh_);
-
-  Eigen::AlignedBox3d bounds;
-  const auto triangle_count = static_cast<std::int32_t>(mesh_->triangles.size());
-  for (std::int32_t t = 0; t < triangle_count; ++t) {
-    const TrianglePoints points{mesh_->corner(t, 0), mesh_->corner(t, 1), mesh_->corner(t, 2)};
-    if (is_degenerate(points)) {
-      ++degenerate_triangles_;
-      continue;
-    }
-    leaf_triangles_.push_back(t);
-    for (const Eigen::Vector3d& point : points)
-      bounds.extend(point);
-  }
-  if (leaf_triangles_.empty()) throw std::invalid_argument("the mesh has no triangle of positive area");
-
-  center_ = bounds.center();
-  radius_ = 0.0;
-  for (const std::int32_t t : leaf_triangles_) {
-    for (int c = 0; c < 3; ++c)
-      radius_ = std::max(radius_, (mesh_->corner(t, c) - center_).norm());
-  }
-  largest_coordinate_ = std::max(bounds.min().cwiseAbs().maxCoeff(), bounds.max().cwiseAbs().maxCoeff());
-  depth_ = build_nodes(*mesh_, leaf_triangles_, nodes_);
+  const TreeGrid grid = grid_of(*mesh_);
+  center_ = grid.center;
+  radius_ = grid.radius;
+  degenerate_triangles_ = fit_leaves(*mesh_, grid, leaves_);
+  fit_nodes(options_, grid, leaves_, heads_, slabs_);
 }
 
 std::size_t DopTree::memory_bytes() const {
-  return sizeof(*this) + nodes_.capacity() * sizeof(DopNode) + leaf_triangles_.capacity() * sizeof(std::int32_t);
+  return sizeof(*this) + heads_.capacity() * sizeof(NodeHead) + slabs_.capacity() * sizeof(SlabLine) +
+         leaves_.capacity() * sizeof(TriangleLeaf);
 }
 
 }  // namespace glissade::collision

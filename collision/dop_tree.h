@@ -5,24 +5,16 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <glissade/collision/dop.h>
+#include <glissade/collision/dop_node.h>
 #include <glissade/collision/triangle_mesh.h>
 
 namespace glissade::collision {
-
-/// One node: its polytope, and either two children or a run of triangles.
-struct DopNode {
-  Dop dop;
-  std::int32_t first =
-      0;  ///< inner node: its first child, the second follows; leaf: the first entry of `leaf_triangles()`
-  std::int32_t count = 0;  ///< 0 for an inner node, otherwise the leaf's number of triangles
-
-  bool is_leaf() const { return count > 0; }
-};
 
 /// How the nodes of one tree are brought into the frame of the other.
 enum class Realignment {
@@ -35,49 +27,56 @@ struct DopTreeOptions {
   int directions = 24;    ///< k: 6, 14, 18, 24 or 26
   bool thin_slab = true;  ///< an extra slab along a node's own thin direction, where that helps
   Realignment realignment = Realignment::kAffine;
+
+  bool operator==(const DopTreeOptions&) const = default;
 };
 
-/// An immutable bounding-volume hierarchy in the object's own frame.
+/// A bounding-volume hierarchy in the object's own frame: nodes of four children, leaves of up to four triangles.
 ///
-/// Thread-safety: immutable after construction, so any number of threads may query it at once.
+/// Thread-safety: any number of threads may query a tree at once; `refit` needs it alone.
 class DopTree {
  public:
-  /// Builds the hierarchy by binned surface-area heuristic; deterministic. Degenerate triangles (zero area) are left
-  /// out of the tree and counted.
+  /// Builds the hierarchy by binned surface-area heuristic, on several threads when the mesh is large; the result does
+  /// not depend on their number. Degenerate triangles (zero area) take part in no query.
   ///
-  /// Throws std::invalid_argument when the mesh has no triangle of positive area, an index out of range, or a
-  /// coordinate that is not finite or beyond ±1e9. Cost O(n log n). Queries are fastest when
-  /// the mesh lies near its own origin.
+  /// Throws std::invalid_argument when the mesh has no triangle of positive area or more than 5 million triangles, an
+  /// index out of range, or a coordinate that is not finite or beyond ±1e9, and for options that do not exist.
+  /// Cost O(n log n).
   explicit DopTree(std::shared_ptr<const TriangleMesh> mesh, const DopTreeOptions& options = {});
 
-  const DopTreeOptions& options() const { return options_; }
+  /// Encloses the vertices where they are now, after the owner of the mesh has moved them; the triangles must be the
+  /// same. Queries stay exact; they get slower the more neighbours have parted. Allocates nothing. Cost O(n log n).
+  /// Throws std::invalid_argument, and leaves the tree as it was, for a coordinate the constructor would refuse.
+  void refit();
 
   const TriangleMesh& mesh() const { return *mesh_; }
+  const DopTreeOptions& options() const { return options_; }
 
-  /// Node 0 is the root.
-  const std::vector<DopNode>& nodes() const { return nodes_; }
-  /// Triangle indices of the mesh in leaf order.
-  const std::vector<std::int32_t>& leaf_triangles() const { return leaf_triangles_; }
+  /// Node 0 is the root; it has at least one child.
+  std::span<const NodeHead> nodes() const { return heads_; }
+  /// The offsets of a node's children.
+  const SlabLine* slabs(std::uint32_t node) const { return &slabs_[node * lines_of_node_]; }
+  std::span<const TriangleLeaf> leaves() const { return leaves_; }
 
   std::int64_t degenerate_triangles() const { return degenerate_triangles_; }
-  /// Levels below the root; a tree of one leaf has depth 0.
+  /// Levels of nodes below the root, leaves not counted.
   int depth() const { return depth_; }
-  /// Largest absolute coordinate of the mesh in metres; the rounding bounds of the queries scale with it.
-  double largest_coordinate() const { return largest_coordinate_; }
-  /// Centre and radius in metres of a sphere about the bounding box that holds every vertex of the tree.
+  /// Centre of the bounding box and radius in metres of a sphere about it that holds every vertex of the tree.
   const Eigen::Vector3d& center() const { return center_; }
   double radius() const { return radius_; }
 
+  /// Bytes of the tree itself, without the mesh it shares.
   std::size_t memory_bytes() const;
 
  private:
   std::shared_ptr<const TriangleMesh> mesh_;
   DopTreeOptions options_;
-  std::vector<DopNode> nodes_;
-  std::vector<std::int32_t> leaf_triangles_;
+  std::vector<NodeHead> heads_;
+  std::vector<SlabLine> slabs_;
+  std::vector<TriangleLeaf> leaves_;
+  std::size_t lines_of_node_ = 0;
   std::int64_t degenerate_triangles_ = 0;
   int depth_ = 0;
-  double largest_coordinate_ = 0.0;
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   double radius_ = 0.0;
 };

@@ -3,183 +3,267 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
+#include <span>
 
-#include <Eigen/Geometry>
-
-#include "round_up.h"
+#include <Eigen/Core>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_group.h>
 
 namespace glissade::collision {
 namespace {
 
-constexpr int kLargestLeaf = 2;
-constexpr int kBins = 16;
+constexpr std::size_t kBins = 32;
+constexpr std::size_t kSweepAtMost = 64;     // so few triangles are sorted rather than binned
+constexpr std::size_t kTaskAtLeast = 4'096;  // triangles worth a task of their own
 
-/// A run of triangles that becomes one node.
-struct Run {
-  std::int32_t node;
-  std::int32_t begin;
-  std::int32_t end;
-  int depth;
+struct Box {
+  Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::infinity());
+  Eigen::Array3f high = -low;
+
+  void extend(const Box& other) {
+    low = low.min(other.low);
+    high = high.max(other.high);
+  }
+  float half_area() const {
+    const Eigen::Array3f size = (high - low).max(0.0F);
+    return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
+  }
 };
 
-struct Bin {
-  Eigen::AlignedBox3d box;
-  std::int32_t count = 0;
+struct Item {
+  Box box;
+  std::int32_t triangle;
+
+  /// Twice the centre of the box.
+  float center(int axis) const { return box.low[axis] + box.high[axis]; }
+};
+using Items = std::span<Item>;
+
+// A split before item `at`, once items are in the order (sweep) or on the sides (bins) that it stands for.
+struct Split {
+  float cost = std::numeric_limits<float>::infinity();
+  int axis = -1;
+  std::size_t at = 0;  // of the sweep: an item; of the bins: the first bin of the upper side
 };
 
-double half_area(const Eigen::AlignedBox3d& box) {
-  if (box.isEmpty()) return 0.0;
-  const Eigen::Vector3d size = box.sizes();
-  return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
+float leaves_of(std::size_t triangles) {
+  return static_cast<float>((triangles + kWidth - 1) / kWidth);
 }
 
-class Builder {
+Box box_of(Items items) {
+  Box box;
+  for (const Item& item : items)
+    box.extend(item.box);
+  return box;
+}
+
+void sort_along(Items items, int axis) {
+  std::sort(items.begin(), items.end(), [axis](const Item& u, const Item& v) {
+    const float cu = u.center(axis);
+    const float cv = v.center(axis);
+    return cu != cv ? cu < cv : u.triangle < v.triangle;
+  });
+}
+
+// The best split of few items, at multiples of a leaf, so that leaves are full.
+std::size_t split_by_sweep(Items items) {
+  std::array<float, kSweepAtMost + 1> area_above{};
+  Split best;
+  for (int axis = 0; axis < 3; ++axis) {
+    sort_along(items, axis);
+    Box above;
+    for (std::size_t i = items.size(); i-- > 1;) {
+      above.extend(items[i].box);
+      area_above[i] = above.half_area();
+    }
+    Box below;
+    for (std::size_t i = 1; i < items.size(); ++i) {
+      below.extend(items[i - 1].box);
+      if (i % kWidth != 0) continue;
+      const float cost = below.half_area() * leaves_of(i) + area_above[i] * leaves_of(items.size() - i);
+      if (cost < best.cost) best = {cost, axis, i};
+    }
+  }
+  if (best.axis != 2) sort_along(items, best.axis);
+  return best.at;
+}
+
+struct Bin {
+  Box box;
+  std::size_t count = 0;
+};
+
+class Binning {
  public:
-  Builder(const TriangleMesh& mesh, std::vector<std::int32_t>& triangles, std::vector<DopNode>& nodes)
-      : mesh_(mesh), triangles_(triangles), nodes_(nodes) {
-    boxes_.resize(mesh.triangles.size());
-    for (const std::int32_t t : triangles) {
-      for (int c = 0; c < 3; ++c)
-        boxes_[static_cast<std::size_t>(t)].extend(mesh.corner(t, c));
+  explicit Binning(Items items) {
+    low_.setConstant(std::numeric_limits<float>::infinity());
+    Eigen::Array3f high = -low_;
+    for (const Item& item : items) {
+      const Eigen::Array3f center = item.box.low + item.box.high;
+      low_ = low_.min(center);
+      high = high.max(center);
     }
-  }
-
-  int build() {
-    nodes_.clear();
-    nodes_.reserve(triangles_.size());
-    nodes_.emplace_back();
-    std::vector<Run> open{{0, 0, static_cast<std::int32_t>(triangles_.size()), 0}};
-    int depth = 0;
-    while (!open.empty()) {
-      const Run run = open.back();
-      open.pop_back();
-      depth = std::max(depth, run.depth);
-      DopNode& node = nodes_[static_cast<std::size_t>(run.node)];
-      if (run.end - run.begin <= kLargestLeaf) {
-        node.first = run.begin;
-        node.count = run.end - run.begin;
-        continue;
+    scale_ = (high > low_).select(static_cast<float>(kBins) * 0.9999F / (high - low_), 0.0F);
+    for (const Item& item : items) {
+      const Eigen::Array3f center = item.box.low + item.box.high;
+      for (int axis = 0; axis < 3; ++axis) {
+        Bin& bin = bins_[static_cast<std::size_t>(axis)][bin_of(center[axis], axis)];
+        bin.box.extend(item.box);
+        ++bin.count;
       }
-      const std::int32_t middle = split(run);
-      const auto child = static_cast<std::int32_t>(nodes_.size());
-      node.first = child;
-      node.count = 0;
-      nodes_.resize(nodes_.size() + 2);
-      open.push_back({child + 1, middle, run.end, run.depth + 1});
-      open.push_back({child, run.begin, middle, run.depth + 1});
     }
-    nodes_.shrink_to_fit();
-    enclose_all();
-    return depth;
   }
 
- private:
-  Eigen::Vector3d centroid(std::int32_t triangle) const { return boxes_[static_cast<std::size_t>(triangle)].center(); }
+  std::size_t bin_of(float center, int axis) const {
+    return std::min(static_cast<std::size_t>((center - low_[axis]) * scale_[axis]), kBins - 1);
+  }
 
-  /// Reorders the run so that its two halves are [begin, result) and [result, end), neither empty.
-  std::int32_t split(const Run& run) {
-    Eigen::AlignedBox3d centroids;
-    for (std::int32_t i = run.begin; i < run.end; ++i)
-      centroids.extend(centroid(triangles_[static_cast<std::size_t>(i)]));
-
-    double best_cost = std::numeric_limits<double>::infinity();
-    int best_axis = -1;
-    int best_bin = 0;
+  Split best_split() const {
+    Split best;
     for (int axis = 0; axis < 3; ++axis) {
-      if (!(centroids.sizes()[axis] > 0.0)) continue;
-      const auto [cost, bin] = best_split_on_axis(run, centroids, axis);
-      if (cost < best_cost) {
-        best_cost = cost;
-        best_axis = axis;
-        best_bin = bin;
+      const auto& bins = bins_[static_cast<std::size_t>(axis)];
+      std::array<float, kBins> cost_above{};
+      Bin above;
+      for (std::size_t i = kBins; i-- > 1;) {
+        add(bins[i], above);
+        cost_above[i] = above.count == 0 ? 0.0F : above.box.half_area() * leaves_of(above.count);
       }
-    }
-
-    const auto first = triangles_.begin() + run.begin;
-    const auto last = triangles_.begin() + run.end;
-    if (best_axis >= 0) {
-      const auto middle = std::stable_partition(
-          first, last, [&](std::int32_t t) { return bin_of(centroid(t), centroids, best_axis) <= best_bin; });
-      if (middle != first && middle != last) return static_cast<std::int32_t>(middle - triangles_.begin());
-    }
-    return run.begin + (run.end - run.begin) / 2;  // all centroids in one place: any split is as good
-  }
-
-  static int bin_of(const Eigen::Vector3d& centroid, const Eigen::AlignedBox3d& centroids, int axis) {
-    const double position = (centroid[axis] - centroids.min()[axis]) / centroids.sizes()[axis];
-    return std::clamp(static_cast<int>(position * kBins), 0, kBins - 1);
-  }
-
-  /// The surface-area cost of the best of the kBins − 1 splits of an axis, and the last bin of its lower side.
-  std::pair<double, int> best_split_on_axis(const Run& run, const Eigen::AlignedBox3d& centroids, int axis) const {
-    std::array<Bin, kBins> bins;
-    for (std::int32_t i = run.begin; i < run.end; ++i) {
-      const std::int32_t t = triangles_[static_cast<std::size_t>(i)];
-      Bin& bin = bins[static_cast<std::size_t>(bin_of(centroid(t), centroids, axis))];
-      bin.box.extend(boxes_[static_cast<std::size_t>(t)]);
-      ++bin.count;
-    }
-
-    std::array<double, kBins> cost_above{};  // of bins i + 1 and up
-    Bin above;
-    for (int i = kBins - 1; i > 0; --i) {
-      const Bin& bin = bins[static_cast<std::size_t>(i)];
-      above.box.extend(bin.box);
-      above.count += bin.count;
-      cost_above[static_cast<std::size_t>(i - 1)] = half_area(above.box) * above.count;
-    }
-
-    std::pair<double, int> best{std::numeric_limits<double>::infinity(), 0};
-    Bin below;
-    for (int i = 0; i + 1 < kBins; ++i) {
-      const Bin& bin = bins[static_cast<std::size_t>(i)];
-      below.box.extend(bin.box);
-      below.count += bin.count;
-      if (below.count == 0 || below.count == run.end - run.begin) continue;
-      const double cost = half_area(below.box) * below.count + cost_above[static_cast<std::size_t>(i)];
-      if (cost < best.first) best = {cost, i};
+      const std::size_t total = above.count + bins[0].count;
+      Bin below;
+      for (std::size_t i = 1; i < kBins; ++i) {
+        add(bins[i - 1], below);
+        if (below.count == 0 || below.count == total) continue;
+        const float cost = below.box.half_area() * leaves_of(below.count) + cost_above[i];
+        if (cost < best.cost) best = {cost, axis, i};
+      }
     }
     return best;
   }
 
-  /// Children follow their parents in the array, so one backward pass sees them first.
-  void enclose_all() {
-    for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
-      if (node->is_leaf()) {
-        enclose_triangles(*node);
-      } else {
-        const Dop& left = nodes_[static_cast<std::size_t>(node->first)].dop;
-        const Dop& right = nodes_[static_cast<std::size_t>(node->first) + 1].dop;
-        for (std::size_t i = 0; i < kDopDirections; ++i) {
-          node->dop.support[i] = std::max(left.support[i], right.support[i]);
-        }
-      }
-    }
+ private:
+  static void add(const Bin& bin, Bin& sum) {
+    sum.box.extend(bin.box);
+    sum.count += bin.count;
   }
 
-  void enclose_triangles(DopNode& leaf) const {
-    for (int i = 0; i < kDopDirections; ++i) {
-      double support = -std::numeric_limits<double>::infinity();
-      for (std::int32_t entry = leaf.first; entry < leaf.first + leaf.count; ++entry) {
-        for (int c = 0; c < 3; ++c) {
-          const Eigen::Vector3d& corner = mesh_.corner(triangles_[static_cast<std::size_t>(entry)], c);
-          support = std::max(support, dop_direction(i).dot(corner));
-        }
-      }
-      leaf.dop.support[static_cast<std::size_t>(i)] = round_up_to_float(support);
-    }
-  }
-
-  const TriangleMesh& mesh_;
-  std::vector<std::int32_t>& triangles_;
-  std::vector<DopNode>& nodes_;
-  std::vector<Eigen::AlignedBox3d> boxes_;
+  Eigen::Array3f low_;
+  Eigen::Array3f scale_;
+  std::array<std::array<Bin, kBins>, 3> bins_;
 };
+
+// Puts the items of one side before those of the other and returns where these begin.
+std::size_t split(Items items) {
+  if (items.size() <= kSweepAtMost) return split_by_sweep(items);
+  const Binning binning(items);
+  const Split best = binning.best_split();
+  if (best.axis < 0) return items.size() / 2 / kWidth * kWidth;  // all centres in one place: any split is as good
+  const auto middle = std::partition(items.begin(), items.end(), [&](const Item& item) {
+    return binning.bin_of(item.center(best.axis), best.axis) < best.at;
+  });
+  return static_cast<std::size_t>(middle - items.begin());
+}
+
+// A node to be, before nodes have numbers.
+struct Part {
+  Items items;
+  std::array<std::unique_ptr<Part>, kWidth> children;
+  int child_count = 0;
+
+  bool is_leaf() const { return items.size() <= kWidth; }
+};
+
+// Splits the part of the largest surface until there are four, then each of them.
+void divide(Part& part) {
+  std::array<Items, kWidth> pieces{part.items};
+  std::array<float, kWidth> areas{box_of(part.items).half_area()};
+  std::size_t count = 1;
+  while (count < kWidth) {
+    std::size_t largest = kWidth;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (pieces[i].size() > kWidth && (largest == kWidth || areas[i] > areas[largest])) largest = i;
+    }
+    if (largest == kWidth) break;
+    const Items whole = pieces[largest];
+    const std::size_t at = split(whole);
+    pieces[largest] = whole.first(at);
+    pieces[count] = whole.subspan(at);
+    areas[largest] = box_of(pieces[largest]).half_area();
+    areas[count] = box_of(pieces[count]).half_area();
+    ++count;
+  }
+
+  tbb::task_group tasks;
+  for (std::size_t i = 0; i < count; ++i) {
+    part.children[i] = std::make_unique<Part>();
+    Part& child = *part.children[i];
+    child.items = pieces[i];
+    if (child.is_leaf()) continue;
+    if (child.items.size() >= kTaskAtLeast) {
+      tasks.run([&child] { divide(child); });
+    } else {
+      divide(child);
+    }
+  }
+  part.child_count = static_cast<int>(count);
+  tasks.wait();
+}
+
+TriangleLeaf leaf_of(Items items) {
+  TriangleLeaf leaf{};
+  leaf.triangle.fill(kNoTriangle);
+  for (std::size_t i = 0; i < items.size(); ++i)
+    leaf.triangle[i] = items[i].triangle;
+  return leaf;
+}
+
+// Numbers the parts in the order of a depth-first walk, the children of a node side by side.
+void number(const Part& part, std::size_t node, int depth, TreeShape& shape) {
+  shape.depth = std::max(shape.depth, depth);
+  std::array<const Part*, kWidth> inner{};
+  std::size_t inner_count = 0;
+  NodeHead head{};
+  head.first_leaf = static_cast<std::uint32_t>(shape.leaves.size());
+  for (int c = 0; c < part.child_count; ++c) {
+    const Part& child = *part.children[static_cast<std::size_t>(c)];
+    if (child.is_leaf()) {
+      shape.leaves.push_back(leaf_of(child.items));
+      ++head.leaf_count;
+    } else {
+      inner[inner_count++] = &child;
+    }
+  }
+  head.node_count = static_cast<std::uint8_t>(inner_count);
+  head.first_node = static_cast<std::uint32_t>(shape.nodes.size());
+  shape.nodes[node] = head;
+  shape.nodes.resize(shape.nodes.size() + inner_count);
+  for (std::size_t i = 0; i < inner_count; ++i)
+    number(*inner[i], head.first_node + i, depth + 1, shape);
+}
 
 }  // namespace
 
-int build_nodes(const TriangleMesh& mesh, std::vector<std::int32_t>& triangles, std::vector<DopNode>& nodes) {
-  return Builder(mesh, triangles, nodes).build();
+TreeShape build_shape(const TriangleMesh& mesh) {
+  std::vector<Item> items(mesh.triangles.size());
+  tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t t) {
+    items[t].triangle = static_cast<std::int32_t>(t);
+    for (int c = 0; c < 3; ++c) {
+      const Eigen::Array3f corner = mesh.corner(items[t].triangle, c).cast<float>().array();
+      items[t].box.extend({corner, corner});
+    }
+  });
+
+  Part root;
+  root.items = items;
+  divide(root);
+
+  TreeShape shape;
+  shape.leaves.reserve(items.size() / 3);
+  shape.nodes.resize(1);
+  number(root, 0, 0, shape);
+  shape.nodes.shrink_to_fit();
+  shape.leaves.shrink_to_fit();
+  return shape;
 }
 
 }  // namespace glissade::collision

@@ -1,14 +1,28 @@
 #pragma once
 
-#include <cstdint>
+/// The shape of a DOP-tree: which triangles share a leaf, and which leaves a node. Where the boxes lie is found by
+/// `dop_tree_fit.h`.
+///
+/// A run of triangles is split in two where a surface-area heuristic says so (Goldsmith and Salmon 1987; binned after
+/// Wald 2007), the larger part again, until there are four. Areas count how often a part is visited, and numbers of
+/// triangles, in whole leaves of four, what that costs.
+
 #include <vector>
 
-#include <glissade/collision/dop_tree.h>
+#include <glissade/collision/dop_node.h>
+#include <glissade/collision/triangle_mesh.h>
 
 namespace glissade::collision {
 
-/// Fills `nodes` with the hierarchy over the given triangles, which it reorders so that each leaf is a run of them.
-/// Returns the depth.
-int build_nodes(const TriangleMesh& mesh, std::vector<std::int32_t>& triangles, std::vector<DopNode>& nodes);
+/// Nodes with their children, leaves with their triangles; nothing else of either is set. The leaves below a node are
+/// consecutive, beginning with its `first_leaf`.
+struct TreeShape {
+  std::vector<NodeHead> nodes;
+  std::vector<TriangleLeaf> leaves;
+  int depth = 0;
+};
+
+/// Runs on several threads when the mesh is large; the result does not depend on their number. Cost O(n log n).
+TreeShape build_shape(const TriangleMesh& mesh);
 
 }  // namespace glissade::collision

@@ -1,5 +1,6 @@
 #include "generic_dop.h"
 
+#include <array>
 #include <cmath>
 
 #include <Eigen/LU>
@@ -11,36 +12,43 @@ namespace {
 
 /// Planes tangent to the unit sphere are all needed, but more than three may meet in a point. A small irregular shift
 /// of the offsets, the same for opposite planes, tears such points apart and keeps every plane needed.
-Eigen::Matrix<double, kDopDirections, 1> generic_offsets() {
+double generic_offset(const DopDirections& directions, int half_space) {
   constexpr double kGoldenRatioFraction = 0.6180339887498949;
-  Eigen::Matrix<double, kDopDirections, 1> offsets;
-  for (int i = 0; i < kDopDirections; ++i) {
-    const double step = (i % kDopSlabs + 1) * kGoldenRatioFraction;
-    offsets[i] = dop_direction(i).norm() * (1.0 + 0.01 * (step - std::floor(step)));
-  }
-  return offsets;
+  const double step = (half_space % directions.slabs + 1) * kGoldenRatioFraction;
+  return 1.0 + 0.01 * (step - std::floor(step));
 }
 
-std::vector<GenericVertex> compute_vertices() {
-  const Eigen::Matrix<double, kDopDirections, 1> offsets = generic_offsets();
-  const auto inside_all_others = [&](const Eigen::Vector3d& x, const std::array<int, 3>& own) {
-    for (int i = 0; i < kDopDirections; ++i) {
-      if (i == own[0] || i == own[1] || i == own[2]) continue;
-      if (dop_direction(i).dot(x) > offsets[i]) return false;
+bool inside_all(const DopDirections& directions, const Eigen::Vector3d& x, const std::array<int, 3>& except) {
+  for (int i = 0; i < 2 * directions.slabs; ++i) {
+    if (i == except[0] || i == except[1] || i == except[2]) continue;
+    if (directions.half_space(i).dot(x) > generic_offset(directions, i)) return false;
+  }
+  return true;
+}
+
+// The first of two mirrored vertices is the one found with the lowest half-space, which then is a positive one.
+std::vector<GenericVertex> compute_vertices(const DopDirections& directions) {
+  const auto seen_mirrored = [&](const std::vector<GenericVertex>& vertices, const Eigen::Vector3d& x) {
+    for (const GenericVertex& vertex : vertices) {
+      if ((vertex.position + x).norm() < 1e-9) return true;
     }
-    return true;
+    return false;
   };
 
   std::vector<GenericVertex> vertices;
-  for (int i = 0; i < kDopDirections; ++i) {
-    for (int j = i + 1; j < kDopDirections; ++j) {
-      for (int k = j + 1; k < kDopDirections; ++k) {
+  const int half_spaces = 2 * directions.slabs;
+  for (int i = 0; i < half_spaces; ++i) {
+    for (int j = i + 1; j < half_spaces; ++j) {
+      for (int l = j + 1; l < half_spaces; ++l) {
         Eigen::Matrix3d planes;  // one direction a row
-        planes << dop_direction(i).transpose(), dop_direction(j).transpose(), dop_direction(k).transpose();
-        if (std::abs(planes.determinant()) < 0.5) continue;  // integer directions: the determinant is 0 or at least 1
-        const Eigen::Vector3d x = planes.inverse() * Eigen::Vector3d(offsets[i], offsets[j], offsets[k]);
-        if (!inside_all_others(x, {i, j, k})) continue;
-        vertices.push_back({x, {i, j, k}, planes.transpose().inverse()});
+        planes << directions.half_space(i).transpose(), directions.half_space(j).transpose(),
+            directions.half_space(l).transpose();
+        if (std::abs(planes.determinant()) < 0.1) continue;  // of such small integers it is 0 or much larger
+        const Eigen::Vector3d x =
+            planes.inverse() * Eigen::Vector3d(generic_offset(directions, i), generic_offset(directions, j),
+                                               generic_offset(directions, l));
+        if (!inside_all(directions, x, {i, j, l}) || seen_mirrored(vertices, x)) continue;
+        vertices.push_back({x, {i, j, l}, planes.transpose().inverse()});
       }
     }
   }
@@ -49,9 +57,24 @@ std::vector<GenericVertex> compute_vertices() {
 
 }  // namespace
 
-const std::vector<GenericVertex>& generic_dop_vertices() {
-  static const std::vector<GenericVertex> vertices = compute_vertices();
-  return vertices;
+const std::vector<GenericVertex>& generic_dop_vertices(int k) {
+  static const auto k6 = compute_vertices(dop_directions(6));
+  static const auto k14 = compute_vertices(dop_directions(14));
+  static const auto k18 = compute_vertices(dop_directions(18));
+  static const auto k24 = compute_vertices(dop_directions(24));
+  static const auto k26 = compute_vertices(dop_directions(26));
+  switch (dop_directions(k).slabs) {
+    case 3:
+      return k6;
+    case 7:
+      return k14;
+    case 9:
+      return k18;
+    case 12:
+      return k24;
+    default:
+      return k26;
+  }
 }
 
 }  // namespace glissade::collision

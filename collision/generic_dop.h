@@ -10,14 +10,15 @@
 
 namespace glissade::collision {
 
-/// A vertex of the generic DOP.
+/// A vertex of the generic DOP. Its mirror image through the origin is one too, on the opposite planes.
 struct GenericVertex {
   Eigen::Vector3d position;
   std::array<int, 3> half_spaces;        ///< the planes it lies on
-  Eigen::Matrix3d weights_of_direction;  ///< maps a direction c to the w with Σ w_l dop_direction(half_spaces[l]) = c
+  Eigen::Matrix3d weights_of_direction;  ///< maps a direction c to the w with Σ w_l b_l = c, b_l of unit length
 };
 
-/// The 44 vertices (a simple polytope of 24 faces has 2·24 − 4), computed once per process. Thread-safe.
-const std::vector<GenericVertex>& generic_dop_vertices();
+/// One of each pair of mirrored vertices: k − 2 of 2k − 4, computed once per k and process. k as for `dop_directions`.
+/// Thread-safe.
+const std::vector<GenericVertex>& generic_dop_vertices(int k);
 
 }  // namespace glissade::collision

@@ -16,10 +16,7 @@ std::string_view name(InstructionSet instruction_set);
 /// Those that this processor and this build have, the best first.
 std::vector<InstructionSet> available_instruction_sets();
 
-/// The one in use.
-InstructionSet instruction_set();
-
-/// Makes all queries of this process use another one. Not to be called while a query runs.
+/// Makes all queries of this process use that one. Not to be called while a query runs.
 /// Throws std::invalid_argument when it is not available.
 void use_instruction_set(InstructionSet instruction_set);
 

@@ -34,7 +34,8 @@ class PathCertificate {
         part_V_(part_V),
         floor_(floor),
         rounding_(64.0 * std::numeric_limits<double>::epsilon() *
-                  (obstacles_W.tree.largest_coordinate() + part_V.tree.largest_coordinate())) {}
+                  (obstacles_W.tree.center().norm() + obstacles_W.tree.radius() + part_V.tree.center().norm() +
+                   part_V.tree.radius())) {}
 
   /// Tries to prove all of `pairs` apart on the displacement `d` from X_WV; replaces `failures` by those it could not.
   /// A pair is apart over a stretch of the path if one direction separates it at both ends by more than the path's

@@ -1,0 +1,30 @@
+#pragma once
+
+/// Encloses the vertices of a mesh by the boxes and thin slabs of a tree, from the leaves up.
+
+#include <cstdint>
+#include <span>
+
+#include <Eigen/Core>
+
+#include <glissade/collision/dop_tree.h>
+
+namespace glissade::collision {
+
+/// Where the grid of a tree lies.
+struct TreeGrid {
+  Eigen::Vector3d center;
+  double radius;
+};
+
+/// Centre of the bounding box of all corners, and the radius about it.
+TreeGrid grid_of(const TriangleMesh& mesh);
+
+/// Fills the corners of all leaves, and marks triangles without area; returns their number. No allocation.
+std::int64_t fit_leaves(const TriangleMesh& mesh, const TreeGrid& grid, std::span<TriangleLeaf> leaves);
+
+/// Fills boxes and thin slabs of all nodes. No allocation. Cost O(n log n).
+void fit_nodes(const DopTreeOptions& options, const TreeGrid& grid, std::span<const TriangleLeaf> leaves,
+               std::span<NodeHead> heads, std::span<SlabLine> slabs);
+
+}  // namespace glissade::collision

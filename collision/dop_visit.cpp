@@ -1,0 +1,67 @@
+#include "dop_visit.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "round_up.h"
+
+namespace glissade::collision {
+namespace {
+
+// Four bits for each child of P that is named in `children_P`, one in each four for each of `children_Q`.
+PairMask product(std::uint32_t children_P, std::uint32_t children_Q) {
+  const PairMask rows =
+      ((children_P & 1U) | (children_P & 2U) << 3 | (children_P & 4U) << 6 | (children_P & 8U) << 9) * 0xfU;
+  return rows & children_Q * 0x1111U;
+}
+
+std::uint32_t all_children(const NodeHead& head) {
+  return (1U << head.child_count()) - 1U;
+}
+
+}  // namespace
+
+DopVisit::DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
+                   DopAlignment& alignment)
+    : base_(base),
+      other_(other),
+      alignment_(alignment),
+      thin_frame_(frame),
+      leaf_frame_(frame),
+      node_kernels_(node_kernels()),
+      leaf_kernels_(leaf_kernels()) {
+  alignment.align(dop_directions(base.options().directions), base.options().directions, frame);
+  const double radii = frame.in_base_radii(distance);
+  const double steps = std::ceil(radii * kGridRadius);
+  always_near_ = steps > 32767.0 ? kAllPairs : 0;
+  least_overlap_ = -static_cast<int>(std::min(steps, 32767.0));
+  distance_ = round_up_to_float(std::min(radii, 1e30));
+}
+
+PairMask DopVisit::nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCounters& counters) const {
+  const NodeHead& head_P = base_.nodes()[pair.node_P];
+  const NodeHead& head_Q = other_.nodes()[pair.node_Q];
+  const SlabLine* slabs_P = base_.slabs(pair.node_P);
+  const SlabLine* slabs_Q = other_.slabs(pair.node_Q);
+  const PairMask pairs = pair.pairs & product(all_children(head_P), all_children(head_Q));
+  counters.realignments += head_Q.child_count();
+  counters.node_tests += std::popcount(pairs);
+
+  AlignedNode aligned;
+  node_kernels_.realign(alignment_, slabs_Q, aligned);
+  PairMask near =
+      pairs & (always_near_ | node_kernels_.test(slabs_P, aligned, alignment_.slabs, least_overlap_, overlaps));
+  const PairMask thin = near & product(head_P.thin, head_Q.thin);
+  if (thin != 0) {
+    near &= ~thin | always_near_ | node_kernels_.test_thin(thin_frame_, head_P, slabs_P, head_Q, slabs_Q, least_overlap_, overlaps);
+  }
+  return near;
+}
+
+PairMask DopVisit::leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q, float& least_gap, QueryCounters& counters) const {
+  counters.triangle_tests += kWidth * kWidth;
+  return leaf_kernels_.test(leaf_frame_, base_.leaves()[leaf_P], other_.leaves()[leaf_Q], distance_, least_gap);
+}
+
+}  // namespace glissade::collision

@@ -1,0 +1,53 @@
+#pragma once
+
+/// One step of a traversal: two nodes, or two leaves, of one pair of trees.
+
+#include <cstdint>
+
+#include <glissade/collision/dop_query.h>
+#include <glissade/collision/dop_tree.h>
+
+#include "dop_alignment.h"
+#include "leaf_kernels.h"
+#include "node_kernels.h"
+#include "query_frame.h"
+#include "thin_slab.h"
+
+namespace glissade::collision {
+
+/// Two nodes to be compared, and which pairs of their children. Where one tree ends above the other, its leaf stays a
+/// child of the node it belongs to, and fewer pairs are of interest.
+struct NodePair {
+  std::uint32_t node_P;
+  std::uint32_t node_Q;
+  PairMask pairs;
+};
+
+/// Compares nodes and leaves of two trees in one frame.
+class DopVisit {
+ public:
+  /// Pairs that are certainly further apart than `distance` (metres) are dropped. `alignment` is scratch memory.
+  DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
+           DopAlignment& alignment);
+
+  /// The pairs of children that may be near; `overlaps` of all pairs, in grid steps of the base.
+  PairMask nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCounters& counters) const;
+
+  /// The pairs of triangles that may be near. Lowers `least_gap` (radii of the base) to the least certified gap of
+  /// those that are not.
+  PairMask leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q, float& least_gap, QueryCounters& counters) const;
+
+ private:
+  const DopTree& base_;
+  const DopTree& other_;
+  const DopAlignment& alignment_;
+  const ThinSlabFrame thin_frame_;
+  const LeafFrame leaf_frame_;
+  const NodeKernels node_kernels_;
+  const LeafKernels leaf_kernels_;
+  int least_overlap_;
+  PairMask always_near_;  ///< all pairs when the distance goes beyond what 16 bits can tell
+  float distance_;
+};
+
+}  // namespace glissade::collision

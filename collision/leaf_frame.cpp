@@ -1,0 +1,27 @@
+#include <cmath>
+
+#include "leaf_kernels.h"
+#include "round_up.h"
+
+namespace glissade::collision {
+
+LeafFrame::LeafFrame(const QueryFrame& frame) {
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      matrix[row][column] = static_cast<float>(
+          frame.ratio * frame.R_PQ(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)));
+    }
+    p_PQ[row] = static_cast<float>(frame.p_PQ[static_cast<Eigen::Index>(row)]);
+  }
+  // In units of 2^-24 and by coordinate: corners of P are rounded once, those of Q once, then multiplied by rounded
+  // factors and summed up in three steps on top of a rounded translation. A unit vector sums up three coordinates (√3),
+  // and a projection rounds three products and sums of either corner once more.
+  const double reach = frame.p_PQ.lpNorm<Eigen::Infinity>();
+  const double corner_P = 1.0;
+  const double corner_Q = 10.0 * frame.ratio + 4.0 * reach;
+  const double projections = 5.0 * (1.0 + frame.ratio + reach);
+  uncertainty =
+      round_up_to_float(std::ldexp(1.75 * (corner_P + corner_Q) + 1.75 * projections, -24) + 2.0 * frame.uncertainty);
+}
+
+}  // namespace glissade::collision

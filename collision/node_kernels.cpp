@@ -1,0 +1,317 @@
+// Compiled once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "glissade/collision/node_kernels.cpp"
+#include "node_kernels.h"
+
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+
+HWY_BEFORE_NAMESPACE();
+namespace glissade::collision::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::size_t kPairs = kWidth * kWidth;
+
+HWY_INLINE const std::int16_t* lanes(const SlabLine* node) {
+  return node->rows[0].above.data();
+}
+
+#if HWY_TARGET == HWY_AVX3
+
+// A node of 12 slabs fills three registers of 32 lanes. Realignment permutes quarter lines of them.
+template <int kRegisters>
+HWY_INLINE __m512i permute_quarters(const __m512i (&node)[kRegisters], const std::uint8_t* source) {
+  const __m512i index = _mm512_cvtepu8_epi64(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(source)));
+  if constexpr (kRegisters == 1) return _mm512_permutexvar_epi64(index, node[0]);
+  if constexpr (kRegisters >= 2) {
+    const __m512i low = _mm512_permutex2var_epi64(node[0], index, node[1]);
+    if constexpr (kRegisters == 2) return low;
+    const __mmask8 from_high = _mm512_test_epi64_mask(index, _mm512_set1_epi64(16));
+    if constexpr (kRegisters == 3) return _mm512_mask_permutexvar_epi64(low, from_high, index, node[2]);
+    if constexpr (kRegisters == 4) {
+      return _mm512_mask_blend_epi64(from_high, low, _mm512_permutex2var_epi64(node[2], index, node[3]));
+    }
+  }
+}
+
+template <int kRegisters>
+void realign_lines(const DopAlignment& alignment, const SlabLine* node_Q, AlignedNode& aligned) {
+  __m512i node[kRegisters];
+  for (int r = 0; r < kRegisters; ++r)
+    node[r] = _mm512_load_si512(node_Q + r);
+  for (int r = 0; r < kRegisters; ++r) {
+    const auto product = [&](std::size_t l) {
+      return _mm512_mulhrs_epi16(permute_quarters<kRegisters>(node, alignment.source[l].data() + 8 * r),
+                                 _mm512_load_si512(alignment.weight[l].data() + 32 * r));
+    };
+    const __m512i sum = _mm512_add_epi16(_mm512_add_epi16(product(0), product(1)), product(2));
+    _mm512_store_si512(aligned.facing.data() + 32 * r,
+                       _mm512_adds_epi16(sum, _mm512_load_si512(alignment.offset.data() + 32 * r)));
+  }
+}
+
+void realign(const DopAlignment& alignment, const SlabLine* node_Q, AlignedNode& aligned) {
+  switch (slab_lines(alignment.slabs)) {
+    case 1:
+      return realign_lines<1>(alignment, node_Q, aligned);
+    case 2:
+      return realign_lines<2>(alignment, node_Q, aligned);
+    case 3:
+      return realign_lines<3>(alignment, node_Q, aligned);
+    default:
+      return realign_lines<4>(alignment, node_Q, aligned);
+  }
+}
+
+// Turning the four children of each quarter by 0 to 3 places brings every pair together.
+template <int kRegisters, int kTurn>
+HWY_INLINE __m512i least_overlaps(const __m512i* node_P, const __m512i* facing) {
+  __m512i least = _mm512_adds_epi16(node_P[0], _mm512_ror_epi64(facing[0], 16 * kTurn));
+  for (int r = 1; r < kRegisters; ++r)
+    least = _mm512_min_epi16(least, _mm512_adds_epi16(node_P[r], _mm512_ror_epi64(facing[r], 16 * kTurn)));
+  return least;
+}
+
+template <int kRegisters>
+HWY_INLINE __m256i all_overlaps(const SlabLine* node_P, const AlignedNode& aligned) {
+  __m512i p[kRegisters];
+  __m512i q[kRegisters];
+  for (int r = 0; r < kRegisters; ++r) {
+    p[r] = _mm512_load_si512(node_P + r);
+    q[r] = _mm512_load_si512(aligned.facing.data() + 32 * r);
+  }
+  const __m512i turn0 = least_overlaps<kRegisters, 0>(p, q);
+  const __m512i turn1 = least_overlaps<kRegisters, 1>(p, q);
+  const __m512i turn2 = least_overlaps<kRegisters, 2>(p, q);
+  const __m512i turn3 = least_overlaps<kRegisters, 3>(p, q);
+  // Eight quarters of each turn become four, two, one.
+  const __m512i turns01 =
+      _mm512_min_epi16(_mm512_shuffle_i64x2(turn0, turn1, 0x44), _mm512_shuffle_i64x2(turn0, turn1, 0xee));
+  const __m512i turns23 =
+      _mm512_min_epi16(_mm512_shuffle_i64x2(turn2, turn3, 0x44), _mm512_shuffle_i64x2(turn2, turn3, 0xee));
+  const __m512i two =
+      _mm512_min_epi16(_mm512_shuffle_i64x2(turns01, turns23, 0x88), _mm512_shuffle_i64x2(turns01, turns23, 0xdd));
+  const __m512i one = _mm512_min_epi16(two, _mm512_shuffle_epi32(two, _MM_PERM_BADC));
+  // Pair (p, q) is lane p of the turn by q − p.
+  alignas(32) static constexpr std::int16_t kLaneOfPair[kPairs] = {0,  8,  16, 24, 25, 1,  9,  17,
+                                                                   18, 26, 2,  10, 11, 19, 27, 3};
+  const __m256i index = _mm256_load_si256(reinterpret_cast<const __m256i*>(kLaneOfPair));
+  return _mm512_castsi512_si256(_mm512_permutexvar_epi16(_mm512_castsi256_si512(index), one));
+}
+
+PairMask test(const SlabLine* node_P, const AlignedNode& aligned, int slabs, int least_overlap,
+              PairOverlaps& overlaps) {
+  __m256i overlap;
+  switch (slab_lines(slabs)) {
+    case 1:
+      overlap = all_overlaps<1>(node_P, aligned);
+      break;
+    case 2:
+      overlap = all_overlaps<2>(node_P, aligned);
+      break;
+    case 3:
+      overlap = all_overlaps<3>(node_P, aligned);
+      break;
+    default:
+      overlap = all_overlaps<4>(node_P, aligned);
+  }
+  _mm256_store_si256(reinterpret_cast<__m256i*>(overlaps.overlap.data()), overlap);
+  return _mm256_cmpge_epi16_mask(overlap, _mm256_set1_epi16(static_cast<std::int16_t>(least_overlap)));
+}
+
+#else
+
+void realign(const DopAlignment& alignment, const SlabLine* node_Q, AlignedNode& aligned) {
+  const hn::FixedTag<std::int16_t, 8> d;
+  const hn::FixedTag<std::uint8_t, 16> d8;
+  // A term of a positive half-space changes the places of `above` and `below`.
+  alignas(16) static constexpr std::uint8_t kPlaces[2][16] = {{8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7},
+                                                              {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}};
+  const auto slabs = static_cast<std::size_t>(alignment.slabs);
+  for (std::size_t i = 0; i < slabs; ++i) {
+    const auto product = [&](std::size_t l) HWY_ATTR {
+      const std::size_t h = alignment.half_space[l][i];
+      const std::size_t positive = h < slabs ? 0 : 1;
+      const auto row = hn::Load(d, lanes(node_Q) + 8 * (h - positive * slabs));
+      const auto placed = hn::BitCast(d, hn::TableLookupBytes(hn::BitCast(d8, row), hn::Load(d8, kPlaces[positive])));
+      return hn::MulFixedPoint15(placed, hn::Load(d, alignment.weight[l].data() + 8 * i));
+    };
+    const auto sum = hn::Add(hn::Add(product(0), product(1)), product(2));
+    hn::Store(hn::SaturatedAdd(sum, hn::Load(d, alignment.offset.data() + 8 * i)), d, aligned.facing.data() + 8 * i);
+  }
+}
+
+PairMask test(const SlabLine* node_P, const AlignedNode& aligned, int slabs, int least_overlap,
+              PairOverlaps& overlaps) {
+  const hn::CappedTag<std::int16_t, kPairs> d;
+  const hn::Repartition<std::uint8_t, decltype(d)> d8;
+  const hn::Repartition<std::uint64_t, decltype(d)> d64;
+  // Bytes of `above` of each child of P, four times; those of `below` are eight further on.
+  alignas(32) static constexpr std::uint8_t kChildOfP[2 * kPairs] = {0, 1, 0, 1, 0, 1, 0, 1, 2, 3, 2, 3, 2, 3, 2, 3,
+                                                                     4, 5, 4, 5, 4, 5, 4, 5, 6, 7, 6, 7, 6, 7, 6, 7};
+  PairMask mask = 0;
+  for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
+    const auto above = hn::Load(d8, kChildOfP + 2 * first);
+    const auto below = hn::Add(above, hn::Set(d8, 8));
+    auto least = hn::Set(d, std::int16_t{32767});
+    for (std::size_t i = 0; i < static_cast<std::size_t>(slabs); ++i) {
+      const auto row_P = hn::BitCast(d8, hn::LoadDup128(d, lanes(node_P) + 8 * i));
+      std::uint64_t facing[2];
+      std::memcpy(facing, aligned.facing.data() + 8 * i, sizeof facing);
+      const auto over =
+          hn::SaturatedAdd(hn::BitCast(d, hn::TableLookupBytes(row_P, above)), hn::BitCast(d, hn::Set(d64, facing[0])));
+      const auto under =
+          hn::SaturatedAdd(hn::BitCast(d, hn::TableLookupBytes(row_P, below)), hn::BitCast(d, hn::Set(d64, facing[1])));
+      least = hn::Min(least, hn::Min(over, under));
+    }
+    hn::Store(least, d, overlaps.overlap.data() + first);
+    const auto kept = hn::Gt(least, hn::Set(d, static_cast<std::int16_t>(least_overlap - 1)));
+    std::uint8_t bits[8] = {};  // StoreMaskBits may write so many
+    hn::StoreMaskBits(d, kept, bits);
+    mask |= static_cast<PairMask>(bits[0] | bits[1] << 8) << first;
+  }
+  return mask;
+}
+
+#endif
+
+// Four lanes of one node's thin slabs, in grid steps of P and its frame.
+struct ThinChildren {
+  alignas(16) float normal[3][kWidth];
+  alignas(16) float center[3][kWidth];
+  alignas(16) float offset[kWidth];
+  alignas(16) float half_width[kWidth];
+  alignas(16) float radius[kWidth];
+};
+
+template <class D4>
+HWY_INLINE hn::Vec<D4> to_float(D4 d, const FourValues& values) {
+  const hn::FixedTag<std::int16_t, kWidth> d16;
+  return hn::ConvertTo(d, hn::PromoteTo(hn::RebindToSigned<D4>(), hn::Load(d16, values.data())));
+}
+
+HWY_INLINE void load_thin(const NodeHead& head, const SlabLine* node, ThinChildren& children) {
+  const hn::FixedTag<float, kWidth> d;
+  const auto half = hn::Set(d, 0.5F);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    hn::Store(hn::Mul(to_float(d, head.normal[axis]), hn::Set(d, 1.0F / 32767.0F)), d, children.normal[axis]);
+    const SlabRow& row = node->rows[axis];
+    hn::Store(hn::Mul(half, hn::Sub(to_float(d, row.above), to_float(d, row.below))), d, children.center[axis]);
+  }
+  hn::Store(to_float(d, head.offset), d, children.offset);
+  hn::Store(to_float(d, head.half_width), d, children.half_width);
+  hn::Store(to_float(d, head.radius), d, children.radius);
+}
+
+HWY_INLINE void move_to_base(const ThinSlabFrame& frame, ThinChildren& children) {
+  const hn::FixedTag<float, kWidth> d;
+  const auto rotated = [&](const float(&v)[3][kWidth], std::size_t row) HWY_ATTR {
+    return hn::MulAdd(hn::Set(d, frame.R_PQ[row][0]), hn::Load(d, v[0]),
+                      hn::MulAdd(hn::Set(d, frame.R_PQ[row][1]), hn::Load(d, v[1]),
+                                 hn::Mul(hn::Set(d, frame.R_PQ[row][2]), hn::Load(d, v[2]))));
+  };
+  const auto ratio = hn::Set(d, frame.ratio);
+  hn::Vec<decltype(d)> normal[3] = {rotated(children.normal, 0), rotated(children.normal, 1),
+                                    rotated(children.normal, 2)};
+  hn::Vec<decltype(d)> center[3] = {rotated(children.center, 0), rotated(children.center, 1),
+                                    rotated(children.center, 2)};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    hn::Store(normal[axis], d, children.normal[axis]);
+    hn::Store(hn::MulAdd(ratio, center[axis], hn::Set(d, frame.p_PQ[axis])), d, children.center[axis]);
+  }
+  hn::Store(hn::Mul(ratio, hn::Load(d, children.offset)), d, children.offset);
+  hn::Store(hn::Mul(ratio, hn::Load(d, children.half_width)), d, children.half_width);
+  hn::Store(hn::Mul(ratio, hn::Load(d, children.radius)), d, children.radius);
+}
+
+// Lanes of a vector that starts at pair `first`: the child of P of each pair, and the child of Q.
+template <class D>
+HWY_INLINE hn::Vec<D> of_P(D d, const float* children, std::size_t first) {
+  if constexpr (hn::MaxLanes(D()) == kWidth) {
+    return hn::Set(d, children[first / kWidth]);
+  } else {
+    alignas(64) static constexpr std::int32_t kChild[kPairs] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+    return hn::TableLookupLanes(hn::LoadDup128(d, children), hn::SetTableIndices(d, kChild + first));
+  }
+}
+
+template <class D>
+HWY_INLINE hn::Vec<D> of_Q(D d, const float* children) {
+  return hn::LoadDup128(d, children);
+}
+
+PairMask test_thin(const ThinSlabFrame& frame, const NodeHead& head_P, const SlabLine* node_P, const NodeHead& head_Q,
+                   const SlabLine* node_Q, int least_overlap, PairOverlaps& overlaps) {
+  ThinChildren p;
+  ThinChildren q;
+  load_thin(head_P, node_P, p);
+  load_thin(head_Q, node_Q, q);
+  move_to_base(frame, q);
+
+  const hn::CappedTag<float, kPairs> d;
+  const hn::Rebind<std::int16_t, decltype(d)> d16;
+  const hn::RebindToSigned<decltype(d)> d32;
+  PairMask mask = 0;
+  for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
+    hn::Vec<decltype(d)> n_P[3];
+    hn::Vec<decltype(d)> n_Q[3];
+    hn::Vec<decltype(d)> between[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      n_P[axis] = of_P(d, p.normal[axis], first);
+      n_Q[axis] = of_Q(d, q.normal[axis]);
+      between[axis] = hn::Sub(of_Q(d, q.center[axis]), of_P(d, p.center[axis], first));
+    }
+    const auto dot = [](const hn::Vec<decltype(d)>(&u)[3], const hn::Vec<decltype(d)>(&v)[3])
+                         HWY_ATTR { return hn::MulAdd(u[0], v[0], hn::MulAdd(u[1], v[1], hn::Mul(u[2], v[2]))); };
+    const auto cosine = dot(n_P, n_Q);
+    // The chord between the normals, turned to the same side, bounds the sine; its error is that of the normals'
+    // length.
+    hn::Vec<decltype(d)> chord[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto turned = hn::Xor(n_Q[axis], hn::And(hn::SignBit(d), cosine));
+      chord[axis] = hn::Sub(n_P[axis], turned);
+    }
+    const auto sine = hn::Add(hn::Sqrt(dot(chord, chord)), hn::Set(d, 3e-4F));
+    const auto abs_cosine = hn::Abs(cosine);
+
+    const auto offset_P = of_P(d, p.offset, first);
+    const auto offset_Q = of_Q(d, q.offset);
+    const auto half_P = of_P(d, p.half_width, first);
+    const auto half_Q = of_Q(d, q.half_width);
+    const auto apart_P = hn::Abs(hn::MulAdd(offset_Q, cosine, hn::Sub(dot(n_P, between), offset_P)));
+    const auto reach_P = hn::MulAdd(half_Q, abs_cosine, hn::MulAdd(of_Q(d, q.radius), sine, half_P));
+    const auto apart_Q = hn::Abs(hn::NegMulAdd(offset_P, cosine, hn::Add(dot(n_Q, between), offset_Q)));
+    const auto reach_Q = hn::MulAdd(half_P, abs_cosine, hn::MulAdd(of_P(d, p.radius, first), sine, half_Q));
+    const auto overlap =
+        hn::Add(hn::Min(hn::Sub(reach_P, apart_P), hn::Sub(reach_Q, apart_Q)), hn::Set(d, frame.padding));
+
+    const auto whole = hn::DemoteTo(d16, hn::ConvertTo(d32, hn::Ceil(overlap)));
+    const auto least = hn::Min(whole, hn::Load(d16, overlaps.overlap.data() + first));
+    hn::Store(least, d16, overlaps.overlap.data() + first);
+    const auto kept = hn::Gt(least, hn::Set(d16, static_cast<std::int16_t>(least_overlap - 1)));
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d16, kept, bits);
+    mask |= static_cast<PairMask>(bits[0] | bits[1] << 8) << first;
+  }
+  return mask;
+}
+
+NodeKernels make_node_kernels() {
+  return {realign, test, test_thin};
+}
+
+}  // namespace glissade::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace glissade::collision {
+
+HWY_EXPORT(make_node_kernels);
+
+NodeKernels node_kernels() {
+  return HWY_DYNAMIC_DISPATCH(make_node_kernels)();
+}
+
+}  // namespace glissade::collision
+#endif

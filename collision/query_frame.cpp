@@ -1,0 +1,43 @@
+#include "query_frame.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace glissade::collision {
+
+QueryFrame::QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB)
+    : base_is_A(tree_A.radius() >= tree_B.radius()) {
+  const Eigen::Matrix3d& R_AB = X_AB.linear();
+  rotation_defect = (R_AB.transpose() * R_AB - Eigen::Matrix3d::Identity()).norm();
+  if (!(rotation_defect < 1e-3) || !X_AB.translation().allFinite()) {
+    throw std::invalid_argument("the pose X_AB of a query is not a finite rotation and translation");
+  }
+  if (!(tree_A.options() == tree_B.options())) {
+    throw std::invalid_argument("the two trees of a query were built with different options");
+  }
+  const DopTree& base = base_is_A ? tree_A : tree_B;
+  const DopTree& other = base_is_A ? tree_B : tree_A;
+  base_radius = base.radius();
+  ratio = other.radius() / base_radius;
+
+  const Eigen::Vector3d centers_A = X_AB * tree_B.center() - tree_A.center();
+  if (base_is_A) {
+    R_PQ = R_AB;
+    p_PQ = centers_A / base_radius;
+  } else {
+    R_PQ = R_AB.transpose();
+    p_PQ = -(R_PQ * centers_A) / base_radius;
+  }
+
+  const double magnitude = X_AB.translation().norm() + tree_A.center().norm() + tree_B.center().norm();
+  const double reach = magnitude / base_radius + 1.0 + ratio + p_PQ.norm();
+  uncertainty = std::ldexp(reach, -48) + 2.0 * rotation_defect * reach;
+}
+
+bool QueryFrame::spheres_apart(double tolerance) const {
+  // The last term covers the sum itself.
+  const double reach = 1.0 + ratio + in_base_radii(tolerance) + uncertainty;
+  return p_PQ.squaredNorm() > reach * reach * (1.0 + 1e-12);
+}
+
+}  // namespace glissade::collision

@@ -1,0 +1,40 @@
+#pragma once
+
+/// How the two trees of a query lie to each other, and how much rounding may have moved what.
+///
+/// The tree of larger radius is the base P; nodes of the other tree, Q, are realigned into its frame. Both are seen
+/// from their centres; lengths are in radii of P.
+
+#include <Eigen/Geometry>
+
+#include <glissade/collision/dop_tree.h>
+
+namespace glissade::collision {
+
+struct QueryFrame {
+  /// X_AB as the queries take it. Throws std::invalid_argument when it is not finite or its matrix not a rotation to
+  /// 1e-3, and for trees of different options.
+  QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB);
+
+  bool base_is_A;
+  Eigen::Matrix3d R_PQ;
+  Eigen::Vector3d p_PQ;  ///< centre of Q seen from the centre of P, in radii of P
+  double ratio;          ///< radius of Q over radius of P, ≤ 1
+  double base_radius;    ///< of P, in metres
+
+  /// How far double precision may have moved a point of Q, in radii of P: rounding of poses and differences, and what
+  /// keeps the matrix from being a rotation.
+  double uncertainty;
+  /// ‖RᵀR − 1‖, which is 0 of a true rotation.
+  double rotation_defect;
+
+  /// The two bounding spheres are certainly further apart than `tolerance` (metres).
+  bool spheres_apart(double tolerance) const;
+
+  /// An upper bound, in radii of P, of distances in P's frame that are `distance` metres in the frame of A.
+  double in_base_radii(double distance) const {
+    return distance / base_radius * (1.0 + 2.0 * rotation_defect) * (1.0 + 1e-12);
+  }
+};
+
+}  // namespace glissade::collision

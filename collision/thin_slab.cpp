@@ -1,0 +1,26 @@
+#include "thin_slab.h"
+
+#include <cmath>
+
+#include <glissade/collision/dop_node.h>
+
+#include "round_up.h"
+
+namespace glissade::collision {
+
+ThinSlabFrame::ThinSlabFrame(const QueryFrame& frame) {
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      R_PQ[row][column] =
+          static_cast<float>(frame.R_PQ(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)));
+    }
+    p_PQ[row] = static_cast<float>(kGridRadius * frame.p_PQ[static_cast<Eigen::Index>(row)]);
+  }
+  ratio = round_up_to_float(frame.ratio);
+  // Single precision: differences of coordinates of at most this size, three products of them with the components of a
+  // normal, and a dozen operations more; each rounding is at most 2^-24 of it.
+  const double largest = kGridRadius * (1.0 + frame.ratio + frame.p_PQ.norm());
+  padding = round_up_to_float(std::ldexp(64.0 * largest, -24) + 4.0 * kGridRadius * frame.uncertainty);
+}
+
+}  // namespace glissade::collision
