@@ -46,22 +46,19 @@ DopDirections make_directions(int k) {
 }  // namespace
 
 const DopDirections& dop_directions(int k) {
-  static const DopDirections k6 = make_directions(6);
-  static const DopDirections k14 = make_directions(14);
-  static const DopDirections k18 = make_directions(18);
-  static const DopDirections k24 = make_directions(24);
-  static const DopDirections k26 = make_directions(26);
+  static const std::array<DopDirections, 5> sets{make_directions(6), make_directions(14), make_directions(18),
+                                                 make_directions(24), make_directions(26)};
   switch (k) {
     case 6:
-      return k6;
+      return sets[0];
     case 14:
-      return k14;
+      return sets[1];
     case 18:
-      return k18;
+      return sets[2];
     case 24:
-      return k24;
+      return sets[3];
     case 26:
-      return k26;
+      return sets[4];
     default:
       throw std::invalid_argument("a DOP-tree has 6, 14, 18, 24 or 26 directions, not " + std::to_string(k));
   }

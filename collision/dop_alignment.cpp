@@ -1,80 +1,151 @@
+// Compiled once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "glissade/collision/dop_alignment.cpp"
 #include "dop_alignment.h"
 
-#include <algorithm>
-#include <cmath>
+#include <bit>
+#include <cstring>
 
-#include "generic_dop.h"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
-namespace glissade::collision {
-namespace {
+#include "alignment_table.h"
 
-constexpr double kWeightUnit = 32768.0;
-constexpr double kLargestOffset = 32767.0;
+HWY_BEFORE_NAMESPACE();
+namespace glissade::collision::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
 
-}  // namespace
+constexpr float kWeightUnit = 32768.0F;
+constexpr float kLargestValue = 32767.0F;
 
-void DopAlignment::align(const DopDirections& directions, int k, const QueryFrame& frame) {
-  slabs = directions.slabs;
-  const auto& vertices = generic_dop_vertices(k);
-  for (int i = 0; i < slabs; ++i) {
-    const Eigen::Vector3d& b = directions.unit[static_cast<std::size_t>(i)];
-    const Eigen::Vector3d direction_Q = frame.R_PQ.transpose() * b;
-    double most = 0.0;
-    const GenericVertex* extremal = &vertices.front();
-    double sign = 1.0;
-    for (const GenericVertex& vertex : vertices) {
-      const double reach = direction_Q.dot(vertex.position);
-      if (std::abs(reach) > most) {
-        most = std::abs(reach);
-        extremal = &vertex;
-        sign = reach < 0.0 ? -1.0 : 1.0;
-      }
-    }
+// Every lane is a slab of the base.
+using Tag = hn::CappedTag<float, kAlignmentLanes>;
+using V = hn::Vec<Tag>;
 
-    const Eigen::Vector3d weights = sign * frame.ratio * (extremal->weights_of_direction * direction_Q);
-    Eigen::Vector3d residual = frame.ratio * direction_Q;  // what the rounded, non-negative weights leave
-    std::array<std::int16_t, 3> rounded{};
-    for (std::size_t l = 0; l < 3; ++l) {
-      const int own = extremal->half_spaces[l];
-      const int h = sign > 0.0 ? own : directions.opposite(own);
-      rounded[l] = static_cast<std::int16_t>(
-          std::clamp(std::round(weights[static_cast<Eigen::Index>(l)] * kWeightUnit), 0.0, kLargestOffset));
-      residual -= rounded[l] / kWeightUnit * directions.half_space(h);
-      half_space[l][static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(h);
-    }
+// The correspondence of some slabs: where it is, and what it weighs.
+struct alignas(64) Correspondence {
+  std::int32_t vertex[kAlignmentLanes];  ///< 2 · vertex + mirrored
+  std::int32_t weight[3][kAlignmentLanes];
+  std::int32_t above[kAlignmentLanes];  ///< offsets of either side
+  std::int32_t below[kAlignmentLanes];
+};
 
-    // In grid steps. Rounding: of the direction, over the whole of Q; of three products, half a step each; of what
-    // double precision did; the rest is for this sum itself.
-    const double padding = kGridRadius * (residual.norm() + frame.uncertainty) + 1.5 + 0.01;
-    const double center = kGridRadius * b.dot(frame.p_PQ);
-    const double above = std::ceil(center + padding);
-    const double below = std::ceil(-center + padding);
-    const bool representable = std::max(above, below) <= kLargestOffset;
-    const auto row = 8 * static_cast<std::size_t>(i);
-    for (std::size_t lane = 0; lane < 8; ++lane) {
-      // A slab too far away to be told from others never separates.
-      offset[row + lane] = static_cast<std::int16_t>(!representable ? kLargestOffset : lane < kWidth ? below : above);
-      for (std::size_t l = 0; l < 3; ++l)
-        weight[l][row + lane] = representable ? rounded[l] : std::int16_t{0};
-    }
-    for (std::size_t l = 0; l < 3; ++l) {
-      const int h = half_space[l][static_cast<std::size_t>(i)];
-      const auto quarter = [&](int half) {
-        return static_cast<std::uint8_t>(half < slabs ? 2 * half : 2 * (half - slabs) + 1);
-      };
-      source[l][2 * static_cast<std::size_t>(i)] = quarter(directions.opposite(h));
-      source[l][2 * static_cast<std::size_t>(i) + 1] = quarter(h);
-    }
+// The vertex of the generic DOP that is furthest along each direction or its opposite, as its number. The number is
+// kept in the lowest bits of the reach, so that one maximum finds both; which of two nearly equal vertices wins is no
+// matter.
+HWY_INLINE hn::Vec<hn::RebindToSigned<Tag>> furthest_vertex(const AlignmentTable& table, const V (&direction)[3]) {
+  const Tag d;
+  const hn::RebindToSigned<Tag> d32;
+  constexpr std::int32_t kNumberBits = 31;
+  const auto reach_bits = hn::Set(d32, 0x7fffffff & ~kNumberBits);
+  auto most = hn::Zero(d);
+  for (int i = 0; i < table.vertex_count; ++i) {
+    const auto& x = table.position[static_cast<std::size_t>(i)];
+    const V reach = hn::MulAdd(direction[0], hn::Set(d, x[0]),
+                               hn::MulAdd(direction[1], hn::Set(d, x[1]), hn::Mul(direction[2], hn::Set(d, x[2]))));
+    const auto tagged = hn::Or(hn::And(hn::BitCast(d32, reach), reach_bits), hn::Set(d32, i));
+    most = hn::Max(most, hn::BitCast(d, tagged));
   }
-  for (auto row = static_cast<std::size_t>(slabs); row < kMostRows; ++row) {
-    for (std::size_t lane = 8 * row; lane < 8 * row + 8; ++lane) {
-      offset[lane] = static_cast<std::int16_t>(kLargestOffset);
-      for (std::size_t l = 0; l < 3; ++l)
-        weight[l][lane] = 0;
-    }
-    for (std::size_t l = 0; l < 3; ++l)
-      source[l][2 * row] = source[l][2 * row + 1] = 0;
+  return hn::And(hn::BitCast(d32, most), hn::Set(d32, kNumberBits));
+}
+
+HWY_INLINE void find_correspondence(const AlignmentTable& table, const QueryFrame& frame, std::size_t first,
+                                    Correspondence& found) {
+  const Tag d;
+  const hn::RebindToSigned<Tag> d32;
+  const auto component = [](double value) { return static_cast<float>(value); };
+  V direction[3];  // of the slabs, seen from Q
+  V slab[3];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    slab[axis] = hn::Load(d, table.direction[axis].data() + first);
+  for (int axis = 0; axis < 3; ++axis) {
+    direction[axis] = hn::MulAdd(slab[0], hn::Set(d, component(frame.R_PQ(0, axis))),
+                                 hn::MulAdd(slab[1], hn::Set(d, component(frame.R_PQ(1, axis))),
+                                            hn::Mul(slab[2], hn::Set(d, component(frame.R_PQ(2, axis))))));
+  }
+  const auto vertex = furthest_vertex(table, direction);
+
+  V weight[3];
+  for (std::size_t term = 0; term < 3; ++term) {
+    const auto entry = [&](std::size_t axis)
+                           HWY_ATTR { return hn::GatherIndex(d, table.weights[3 * term + axis].data(), vertex); };
+    weight[term] =
+        hn::MulAdd(direction[0], entry(0), hn::MulAdd(direction[1], entry(1), hn::Mul(direction[2], entry(2))));
+  }
+  // All weights of a mirrored vertex are of the other sign.
+  const V sum = hn::Add(weight[0], hn::Add(weight[1], weight[2]));
+  const auto mirrored = hn::And(hn::SignBit(d), sum);
+  const V unit = hn::Set(d, kWeightUnit * component(frame.ratio));
+  V residual = hn::Zero(d);  // what the rounded, non-negative weights leave of the direction, at most
+  for (std::size_t term = 0; term < 3; ++term) {
+    const V exact = hn::Mul(hn::Xor(weight[term], mirrored), unit);
+    const V rounded = hn::Round(hn::Max(hn::Zero(d), hn::Min(exact, hn::Set(d, kLargestValue))));
+    residual = hn::Add(residual, hn::Abs(hn::Sub(exact, rounded)));
+    hn::Store(hn::ConvertTo(d32, rounded), d32, found.weight[term] + first);
+  }
+  const auto mirrored_bit = hn::ShiftRight<31>(hn::BitCast(d32, mirrored));  // 0 or −1
+  hn::Store(hn::Sub(hn::Add(vertex, vertex), mirrored_bit), d32, found.vertex + first);
+
+  // Grid steps: the residual, over all of Q; half a step for rounding each of three products; what single precision did
+  // to the weights (their matrices are of norm 3 at most) and to the centre; what double precision did before.
+  const V padding = hn::MulAdd(residual, hn::Set(d, kGridRadius / kWeightUnit * 1.001F),
+                               hn::Set(d, 1.5F + 0.25F + component(kGridRadius * frame.uncertainty * 1.001)));
+  const auto coordinate = [&](int axis) HWY_ATTR { return hn::Set(d, component(kGridRadius * frame.p_PQ[axis])); };
+  const V center =
+      hn::MulAdd(slab[0], coordinate(0), hn::MulAdd(slab[1], coordinate(1), hn::Mul(slab[2], coordinate(2))));
+  const V beyond = hn::Set(d, kLargestValue + 1.0F);
+  const V above = hn::Min(hn::Ceil(hn::Add(padding, center)), beyond);
+  const V below = hn::Min(hn::Ceil(hn::Sub(padding, center)), beyond);
+  // A slab too far away for 16 bits on one side separates nothing on the other either.
+  const auto representable = hn::Lt(hn::Max(above, below), beyond);
+  const V largest = hn::Set(d, kLargestValue);
+  hn::Store(hn::ConvertTo(d32, hn::IfThenElse(representable, above, largest)), d32, found.above + first);
+  hn::Store(hn::ConvertTo(d32, hn::IfThenElse(representable, below, largest)), d32, found.below + first);
+  for (std::size_t term = 0; term < 3; ++term) {
+    const auto kept = hn::RebindMask(d32, representable);
+    hn::Store(hn::IfThenElseZero(kept, hn::Load(d32, found.weight[term] + first)), d32, found.weight[term] + first);
   }
 }
 
+void align(const AlignmentTable& table, const QueryFrame& frame, DopAlignment& alignment) {
+  Correspondence found;
+  for (std::size_t first = 0; first < kAlignmentLanes; first += hn::Lanes(Tag()))
+    find_correspondence(table, frame, first, found);
+
+  // One lane for each child: the same weights for four children and both sides.
+  const hn::FixedTag<std::int16_t, 8> row;
+  const hn::FixedTag<std::int16_t, 4> half;
+  alignment.slabs = table.slabs;
+  const auto rows = static_cast<std::size_t>(4 * slab_lines(table.slabs));
+  for (std::size_t i = 0; i < rows; ++i) {
+    const auto& source = table.source[static_cast<std::size_t>(found.vertex[i])];
+    for (std::size_t term = 0; term < 3; ++term) {
+      hn::Store(hn::Set(row, static_cast<std::int16_t>(found.weight[term][i])), row,
+                alignment.weight[term].data() + 8 * i);
+      std::memcpy(&alignment.source[term][2 * i], &source[2 * term], 2);
+    }
+    hn::Store(hn::Set(half, static_cast<std::int16_t>(found.below[i])), half, alignment.offset.data() + 8 * i);
+    hn::Store(hn::Set(half, static_cast<std::int16_t>(found.above[i])), half, alignment.offset.data() + 8 * i + 4);
+  }
+  // Rows beyond the last slab separate nothing.
+  for (auto i = static_cast<std::size_t>(table.slabs); i < rows; ++i)
+    hn::Store(hn::Set(row, std::int16_t{32767}), row, alignment.offset.data() + 8 * i);
+}
+
+}  // namespace glissade::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace glissade::collision {
+namespace {
+
+HWY_EXPORT(align);
+
+}  // namespace
+
+void align(int k, const QueryFrame& frame, DopAlignment& alignment) {
+  HWY_DYNAMIC_DISPATCH(align)(alignment_table(k), frame, alignment);
+}
+
 }  // namespace glissade::collision
+#endif

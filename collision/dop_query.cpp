@@ -24,7 +24,7 @@ namespace {
 
 // Calls visit(pair, corners of A, corners of B in A) for every pair of triangles that may be within `distance`, until
 // it returns true. Returns whether it did.
-template <typename Visit>
+template <Goal kGoal, typename Visit>
 bool visit_near_triangles(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                           QueryWorkspace& workspace, const Visit& visit) {
   QueryWorkspace::Memory& memory = workspace.memory();
@@ -34,7 +34,7 @@ bool visit_near_triangles(const DopTree& tree_A, const DopTree& tree_B, const Ei
   const DopTree& base = frame.base_is_A ? tree_A : tree_B;
   const DopTree& other = frame.base_is_A ? tree_B : tree_A;
   const DopVisit step(base, other, frame, distance, memory.alignment);
-  return traverse(base, other, step, memory, [&](std::uint32_t leaf_P, std::uint32_t leaf_Q, PairMask near) {
+  return traverse<kGoal>(base, other, step, memory, [&](std::uint32_t leaf_P, std::uint32_t leaf_Q, PairMask near) {
     for (; near != 0; near &= near - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(near));
       const std::int32_t triangle_P = base.leaves()[leaf_P].triangle[i / kWidth];
@@ -57,7 +57,7 @@ bool near(const TrianglePoints& a, const TrianglePoints& b, double tolerance) {
 
 bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, QueryWorkspace& workspace,
                 double tolerance) {
-  return visit_near_triangles(
+  return visit_near_triangles<Goal::kAnyPair>(
       tree_A, tree_B, X_AB, tolerance, workspace,
       [&](const TrianglePair&, const TrianglePoints& a, const TrianglePoints& b) { return near(a, b, tolerance); });
 }
@@ -70,11 +70,12 @@ bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isome
 void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                         QueryWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance) {
   pairs.clear();
-  visit_near_triangles(tree_A, tree_B, X_AB, tolerance, workspace,
-                       [&](const TrianglePair& pair, const TrianglePoints& a, const TrianglePoints& b) {
-                         if (near(a, b, tolerance)) pairs.push_back(pair);
-                         return false;
-                       });
+  visit_near_triangles<Goal::kEveryPair>(
+      tree_A, tree_B, X_AB, tolerance, workspace,
+      [&](const TrianglePair& pair, const TrianglePoints& a, const TrianglePoints& b) {
+        if (near(a, b, tolerance)) pairs.push_back(pair);
+        return false;
+      });
   std::sort(pairs.begin(), pairs.end());
 }
 
@@ -86,14 +87,15 @@ void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eige
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   QueryWorkspace& workspace, std::vector<ClosePair>& pairs) {
   pairs.clear();
-  visit_near_triangles(tree_A, tree_B, X_AB, distance, workspace,
-                       [&](const TrianglePair& pair, const TrianglePoints& a, const TrianglePoints& b) {
-                         const TriangleDistance closest = triangle_distance(a, b);
-                         if (closest.distance <= distance) {
-                           pairs.push_back({pair, closest.distance, closest.p_a, closest.p_b});
-                         }
-                         return false;
-                       });
+  visit_near_triangles<Goal::kEveryPair>(
+      tree_A, tree_B, X_AB, distance, workspace,
+      [&](const TrianglePair& pair, const TrianglePoints& a, const TrianglePoints& b) {
+        const TriangleDistance closest = triangle_distance(a, b);
+        if (closest.distance <= distance) {
+          pairs.push_back({pair, closest.distance, closest.p_a, closest.p_b});
+        }
+        return false;
+      });
   std::sort(pairs.begin(), pairs.end(),
             [](const ClosePair& u, const ClosePair& v) { return u.triangles < v.triangles; });
 }

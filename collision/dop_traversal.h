@@ -1,9 +1,8 @@
 #pragma once
 
-/// The simultaneous traversal of both trees, shared by all queries: from the roots down, opening both nodes of a pair
-/// at once, the pair whose boxes overlap most first.
+/// The simultaneous traversal of both trees, shared by all queries: depth first, opening both nodes of a pair at once,
+/// the pair whose boxes overlap most first.
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -16,65 +15,92 @@
 
 namespace glissade::collision {
 
+/// Two nodes whose children are being looked at.
+struct OpenPair {
+  NodePair nodes;
+  PairMask near;      ///< pairs of children still to be looked at
+  bool thin_pending;  ///< their thin slabs have not been tested
+  PairOverlaps overlaps;
+};
+
 struct QueryWorkspace::Memory {
   DopAlignment alignment;
-  std::vector<NodePair> stack;
+  std::vector<OpenPair> stack;
   QueryCounters counters;
 };
 
+/// The pair of children that overlaps most. `near` is not 0.
+inline int deepest(const OpenPair& open) {
+  int best = std::countr_zero(open.near);
+  for (PairMask rest = open.near & (open.near - 1); rest != 0; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
+    if (open.overlaps.overlap[static_cast<std::size_t>(i)] > open.overlaps.overlap[static_cast<std::size_t>(best)])
+      best = i;
+  }
+  return best;
+}
+
+/// What a traversal is after decides when thin slabs are worth their test.
+enum class Goal {
+  kAnyPair,   ///< some pair of triangles: dive to the first leaves without them, they are of use only if that fails
+  kEveryPair  ///< all of them
+};
+
 /// Calls visit(leaf_P, leaf_Q, pairs of triangles that may be near) until it returns true. Returns whether it did.
-template <typename Visit>
+template <Goal kGoal, typename Visit>
 bool traverse(const DopTree& base, const DopTree& other, const DopVisit& step, QueryWorkspace::Memory& memory,
               const Visit& visit) {
+  bool diving = kGoal == Goal::kAnyPair;
+  const auto open_pair = [&](const NodePair& nodes) {
+    OpenPair& open = memory.stack.emplace_back();
+    open.nodes = nodes;
+    open.near = step.nodes(nodes, open.overlaps, memory.counters);
+    open.thin_pending = true;
+  };
+
   memory.stack.clear();
-  memory.stack.push_back({0, 0, kAllPairs});
-  PairOverlaps overlaps;
+  open_pair({0, 0, kAllPairs});
   float ignored_gap = std::numeric_limits<float>::infinity();
   while (!memory.stack.empty()) {
-    const NodePair pair = memory.stack.back();
-    memory.stack.pop_back();
-    PairMask near = step.nodes(pair, overlaps, memory.counters);
-    if (near == 0) continue;
-    const NodeHead& head_P = base.nodes()[pair.node_P];
-    const NodeHead& head_Q = other.nodes()[pair.node_Q];
+    OpenPair& open = memory.stack.back();
+    if (open.thin_pending && !diving) {
+      open.near = step.thin_slabs(open.nodes, open.near, open.overlaps);
+      open.thin_pending = false;
+    }
+    if (open.near == 0) {
+      diving = false;
+      memory.stack.pop_back();
+      continue;
+    }
 
-    // In the order of overlap, the most last, where the stack begins.
-    std::array<std::int32_t, kWidth * kWidth> order;
-    std::size_t count = 0;
-    for (; near != 0; near &= near - 1) {
-      const int i = std::countr_zero(near);
-      order[count++] = overlaps.overlap[static_cast<std::size_t>(i)] * 16 + i;
-    }
-    std::sort(order.begin(), order.begin() + count);
-
-    // Where a leaf meets a node, the node is opened; all such pairs of one opened node make one entry.
-    std::array<PairMask, kWidth> leaves_P_of{};
-    std::array<PairMask, kWidth> leaves_Q_of{};
-    for (std::size_t n = 0; n < count; ++n) {
-      const int i = order[n] & 15;
-      const int p = i / kWidth;
-      const int q = i % kWidth;
-      if (head_P.is_leaf(p) && !head_Q.is_leaf(q)) {
-        leaves_P_of[static_cast<std::size_t>(q)] |= 0xfU << (kWidth * p);
-      } else if (!head_P.is_leaf(p) && head_Q.is_leaf(q)) {
-        leaves_Q_of[static_cast<std::size_t>(p)] |= 0x1111U << q;
-      }
-    }
-    for (int c = 0; c < kWidth; ++c) {
-      const auto slot = static_cast<std::size_t>(c);
-      if (leaves_P_of[slot] != 0) memory.stack.push_back({pair.node_P, head_Q.child(c), leaves_P_of[slot]});
-      if (leaves_Q_of[slot] != 0) memory.stack.push_back({head_P.child(c), pair.node_Q, leaves_Q_of[slot]});
-    }
-    for (std::size_t n = 0; n < count; ++n) {
-      const int i = order[n] & 15;
-      const int p = i / kWidth;
-      const int q = i % kWidth;
-      if (head_P.is_leaf(p) && head_Q.is_leaf(q)) {
+    const int pair = deepest(open);
+    const int p = pair / kWidth;
+    const int q = pair % kWidth;
+    const NodeHead& head_P = base.nodes()[open.nodes.node_P];
+    const NodeHead& head_Q = other.nodes()[open.nodes.node_Q];
+    const PairMask row = 0xfU << (kWidth * p);
+    const PairMask column = 0x1111U << q;
+    if (head_P.is_leaf(p)) {
+      if (head_Q.is_leaf(q)) {
+        open.near &= ~(row & column);
         const PairMask triangles = step.leaves(head_P.child(p), head_Q.child(q), ignored_gap, memory.counters);
         if (triangles != 0 && visit(head_P.child(p), head_Q.child(q), triangles)) return true;
-      } else if (!head_P.is_leaf(p) && !head_Q.is_leaf(q)) {
-        memory.stack.push_back({head_P.child(p), head_Q.child(q), kAllPairs});
+        diving = false;
+      } else {
+        // Where a leaf meets a node, the node is opened, for all leaves that meet it.
+        const PairMask leaves = open.near & column & (kAllPairs << (kWidth * head_P.node_count));
+        open.near &= ~leaves;
+        PairMask rows = leaves >> q;
+        rows *= 0xfU;
+        open_pair({open.nodes.node_P, head_Q.child(q), rows});
       }
+    } else if (head_Q.is_leaf(q)) {
+      const PairMask leaves = open.near & row & (0xfU >> head_Q.node_count << head_Q.node_count) * 0x1111U;
+      open.near &= ~leaves;
+      open_pair({head_P.child(p), open.nodes.node_Q, (leaves >> (kWidth * p)) * 0x1111U});
+    } else {
+      open.near &= ~(row & column);
+      open_pair({head_P.child(p), head_Q.child(q), kAllPairs});
     }
   }
   return false;

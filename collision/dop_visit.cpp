@@ -1,7 +1,6 @@
 #include "dop_visit.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "round_up.h"
@@ -31,7 +30,7 @@ DopVisit::DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& 
       leaf_frame_(frame),
       node_kernels_(node_kernels()),
       leaf_kernels_(leaf_kernels()) {
-  alignment.align(dop_directions(base.options().directions), base.options().directions, frame);
+  align(base.options().directions, frame, alignment);
   const double radii = frame.in_base_radii(distance);
   const double steps = std::ceil(radii * kGridRadius);
   always_near_ = steps > 32767.0 ? kAllPairs : 0;
@@ -46,17 +45,21 @@ PairMask DopVisit::nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCoun
   const SlabLine* slabs_Q = other_.slabs(pair.node_Q);
   const PairMask pairs = pair.pairs & product(all_children(head_P), all_children(head_Q));
   counters.realignments += head_Q.child_count();
-  counters.node_tests += std::popcount(pairs);
+  counters.node_tests += head_P.child_count() * head_Q.child_count();
 
   AlignedNode aligned;
   node_kernels_.realign(alignment_, slabs_Q, aligned);
-  PairMask near =
-      pairs & (always_near_ | node_kernels_.test(slabs_P, aligned, alignment_.slabs, least_overlap_, overlaps));
+  return pairs & (always_near_ | node_kernels_.test(slabs_P, aligned, alignment_.slabs, least_overlap_, overlaps));
+}
+
+PairMask DopVisit::thin_slabs(const NodePair& pair, PairMask near, PairOverlaps& overlaps) const {
+  const NodeHead& head_P = base_.nodes()[pair.node_P];
+  const NodeHead& head_Q = other_.nodes()[pair.node_Q];
   const PairMask thin = near & product(head_P.thin, head_Q.thin);
-  if (thin != 0) {
-    near &= ~thin | always_near_ | node_kernels_.test_thin(thin_frame_, head_P, slabs_P, head_Q, slabs_Q, least_overlap_, overlaps);
-  }
-  return near;
+  if (thin == 0) return near;
+  return near & (~thin | always_near_ |
+                 node_kernels_.test_thin(thin_frame_, head_P, base_.slabs(pair.node_P), head_Q,
+                                         other_.slabs(pair.node_Q), least_overlap_, overlaps));
 }
 
 PairMask DopVisit::leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q, float& least_gap, QueryCounters& counters) const {

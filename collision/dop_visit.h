@@ -30,8 +30,11 @@ class DopVisit {
   DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
            DopAlignment& alignment);
 
-  /// The pairs of children that may be near; `overlaps` of all pairs, in grid steps of the base.
+  /// The pairs of children whose boxes may be near; `overlaps` of all pairs, in grid steps of the base.
   PairMask nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCounters& counters) const;
+
+  /// Those of the pairs `near` whose thin slabs may be near too, where both have one; lowers their overlaps.
+  PairMask thin_slabs(const NodePair& pair, PairMask near, PairOverlaps& overlaps) const;
 
   /// The pairs of triangles that may be near. Lowers `least_gap` (radii of the base) to the least certified gap of
   /// those that are not.

@@ -8,7 +8,6 @@
 
 #include <glissade/collision/instruction_set.h>
 
-
 namespace glissade::collision {
 namespace {
 

@@ -6,7 +6,6 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-
 HWY_BEFORE_NAMESPACE();
 namespace glissade::collision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;

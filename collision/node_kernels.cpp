@@ -6,7 +6,6 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-
 HWY_BEFORE_NAMESPACE();
 namespace glissade::collision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -125,16 +124,15 @@ PairMask test(const SlabLine* node_P, const AlignedNode& aligned, int slabs, int
 void realign(const DopAlignment& alignment, const SlabLine* node_Q, AlignedNode& aligned) {
   const hn::FixedTag<std::int16_t, 8> d;
   const hn::FixedTag<std::uint8_t, 16> d8;
-  // A term of a positive half-space changes the places of `above` and `below`.
+  // A term that is read from `above` changes the places of `above` and `below`.
   alignas(16) static constexpr std::uint8_t kPlaces[2][16] = {{8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7},
                                                               {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}};
-  const auto slabs = static_cast<std::size_t>(alignment.slabs);
-  for (std::size_t i = 0; i < slabs; ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(alignment.slabs); ++i) {
     const auto product = [&](std::size_t l) HWY_ATTR {
-      const std::size_t h = alignment.half_space[l][i];
-      const std::size_t positive = h < slabs ? 0 : 1;
-      const auto row = hn::Load(d, lanes(node_Q) + 8 * (h - positive * slabs));
-      const auto placed = hn::BitCast(d, hn::TableLookupBytes(hn::BitCast(d8, row), hn::Load(d8, kPlaces[positive])));
+      const std::size_t quarter = alignment.source[l][2 * i + 1];
+      const auto row = hn::Load(d, lanes(node_Q) + 8 * (quarter / 2));
+      const auto placed =
+          hn::BitCast(d, hn::TableLookupBytes(hn::BitCast(d8, row), hn::Load(d8, kPlaces[quarter % 2])));
       return hn::MulFixedPoint15(placed, hn::Load(d, alignment.weight[l].data() + 8 * i));
     };
     const auto sum = hn::Add(hn::Add(product(0), product(1)), product(2));

@@ -3,6 +3,7 @@
 #include <glissade/collision/triangle_intersection.h>
 
 #include "orientation.h"
+#include "triangle_filter.h"
 
 namespace glissade::collision {
 namespace {
@@ -105,6 +106,10 @@ bool is_degenerate(const TrianglePoints& triangle) {
 }
 
 bool triangles_intersect(const TrianglePoints& a, const TrianglePoints& b) {
+  const Verdict verdict = filtered_intersection(a, b);
+  if (verdict != Verdict::kUnsure) {
+    return verdict == Verdict::kIntersect;
+  }
   const Sides sides_a = sides_of_plane(b, a);
   if (sides_a.all_on_one_side()) {
     return false;

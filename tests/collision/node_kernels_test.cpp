@@ -120,7 +120,7 @@ TEST_P(Kernels, RealignedNodesEncloseEveryTransformedPoint) {
         const DopTree& other = frame.base_is_A ? tree_B : tree_A;
         const Isometry3d X_PQ = frame.base_is_A ? X_AB : X_AB.inverse();
         DopAlignment alignment;
-        alignment.align(directions, k, frame);
+        align(k, frame, alignment);
         for (std::uint32_t node = 0; node < other.nodes().size(); ++node) {
           AlignedNode aligned;
           node_kernels().realign(alignment, other.slabs(node), aligned);
@@ -168,7 +168,7 @@ TEST_P(Kernels, OverlapsOfPairsBoundTheirDistance) {
         const DopTree& other = frame.base_is_A ? tree_B : tree_A;
         const Isometry3d X_PQ = frame.base_is_A ? X_AB : X_AB.inverse();
         DopAlignment alignment;
-        alignment.align(dop_directions(24), 24, frame);
+        align(24, frame, alignment);
         for (std::uint32_t p = 0; p < base.nodes().size(); p += 3) {
           for (std::uint32_t q = 0; q < other.nodes().size(); q += 5) {
             AlignedNode aligned;
