@@ -16,7 +16,7 @@ inline constexpr std::size_t kMostGenericVertices = 2 * kMostSlabs - 2;
 struct alignas(64) AlignmentTable {
   int slabs;
   int vertex_count;
-  alignas(64) std::array<std::array<float, kAlignmentLanes>, 3> direction;               ///< of each slab; 0 beyond the last
+  alignas(64) std::array<std::array<float, kAlignmentLanes>, 3> direction;   ///< of each slab; 0 beyond the last
   std::array<std::array<float, 3>, kMostGenericVertices> position;           ///< of each vertex
   std::array<std::array<float, kMostGenericVertices>, 9> weights;            ///< entry 3 · term + axis of each vertex
   std::array<std::array<std::uint8_t, 6>, 2 * kMostGenericVertices> source;  ///< [2 · vertex + mirrored][2 · term]

@@ -22,6 +22,15 @@ const QueryCounters& QueryWorkspace::counters() const {
 
 namespace {
 
+int least_gap(const TriangleGaps& gaps, PairMask pairs) {
+  int least = std::countr_zero(pairs);
+  for (PairMask rest = pairs & (pairs - 1); rest != 0; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
+    if (gaps.gap[static_cast<std::size_t>(i)] < gaps.gap[static_cast<std::size_t>(least)]) least = i;
+  }
+  return least;
+}
+
 // Calls visit(pair, corners of A, corners of B in A) for every pair of triangles that may be within `distance`, until
 // it returns true. Returns whether it did.
 template <Goal kGoal, typename Visit>
@@ -34,19 +43,24 @@ bool visit_near_triangles(const DopTree& tree_A, const DopTree& tree_B, const Ei
   const DopTree& base = frame.base_is_A ? tree_A : tree_B;
   const DopTree& other = frame.base_is_A ? tree_B : tree_A;
   const DopVisit step(base, other, frame, distance, memory.alignment);
-  return traverse<kGoal>(base, other, step, memory, [&](std::uint32_t leaf_P, std::uint32_t leaf_Q, PairMask near) {
-    for (; near != 0; near &= near - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(near));
-      const std::int32_t triangle_P = base.leaves()[leaf_P].triangle[i / kWidth];
-      const std::int32_t triangle_Q = other.leaves()[leaf_Q].triangle[i % kWidth];
-      const TrianglePair pair =
-          frame.base_is_A ? TrianglePair{triangle_P, triangle_Q} : TrianglePair{triangle_Q, triangle_P};
-      const auto corner_A = [&](int c) { return tree_A.mesh().corner(pair.triangle_A, c); };
-      const auto corner_B = [&](int c) { return X_AB * tree_B.mesh().corner(pair.triangle_B, c); };
-      if (visit(pair, {corner_A(0), corner_A(1), corner_A(2)}, {corner_B(0), corner_B(1), corner_B(2)})) return true;
-    }
-    return false;
-  });
+  return traverse<kGoal>(
+      base, other, step, memory,
+      [&](std::uint32_t leaf_P, std::uint32_t leaf_Q, PairMask near, const TriangleGaps& gaps) {
+        while (near != 0) {
+          // Those that cross deepest are the most likely to intersect.
+          const int i = kGoal == Goal::kAnyPair ? least_gap(gaps, near) : std::countr_zero(near);
+          near &= ~(1U << i);
+          const std::int32_t triangle_P = base.leaves()[leaf_P].triangle[static_cast<std::size_t>(i / kWidth)];
+          const std::int32_t triangle_Q = other.leaves()[leaf_Q].triangle[static_cast<std::size_t>(i % kWidth)];
+          const TrianglePair pair =
+              frame.base_is_A ? TrianglePair{triangle_P, triangle_Q} : TrianglePair{triangle_Q, triangle_P};
+          const auto corner_A = [&](int c) { return tree_A.mesh().corner(pair.triangle_A, c); };
+          const auto corner_B = [&](int c) { return X_AB * tree_B.mesh().corner(pair.triangle_B, c); };
+          if (visit(pair, {corner_A(0), corner_A(1), corner_A(2)}, {corner_B(0), corner_B(1), corner_B(2)}))
+            return true;
+        }
+        return false;
+      });
 }
 
 bool near(const TrianglePoints& a, const TrianglePoints& b, double tolerance) {

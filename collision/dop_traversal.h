@@ -3,10 +3,7 @@
 /// The simultaneous traversal of both trees, shared by all queries: depth first, opening both nodes of a pair at once,
 /// the pair whose boxes overlap most first.
 
-#include <array>
-#include <bit>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include <glissade/collision/dop_query.h>
@@ -29,24 +26,14 @@ struct QueryWorkspace::Memory {
   QueryCounters counters;
 };
 
-/// The pair of children that overlaps most. `near` is not 0.
-inline int deepest(const OpenPair& open) {
-  int best = std::countr_zero(open.near);
-  for (PairMask rest = open.near & (open.near - 1); rest != 0; rest &= rest - 1) {
-    const int i = std::countr_zero(rest);
-    if (open.overlaps.overlap[static_cast<std::size_t>(i)] > open.overlaps.overlap[static_cast<std::size_t>(best)])
-      best = i;
-  }
-  return best;
-}
-
 /// What a traversal is after decides when thin slabs are worth their test.
 enum class Goal {
   kAnyPair,   ///< some pair of triangles: dive to the first leaves without them, they are of use only if that fails
   kEveryPair  ///< all of them
 };
 
-/// Calls visit(leaf_P, leaf_Q, pairs of triangles that may be near) until it returns true. Returns whether it did.
+/// Calls visit(leaf_P, leaf_Q, pairs of triangles that may be near, their gaps) until it returns true. Returns whether
+/// it did.
 template <Goal kGoal, typename Visit>
 bool traverse(const DopTree& base, const DopTree& other, const DopVisit& step, QueryWorkspace::Memory& memory,
               const Visit& visit) {
@@ -60,7 +47,7 @@ bool traverse(const DopTree& base, const DopTree& other, const DopVisit& step, Q
 
   memory.stack.clear();
   open_pair({0, 0, kAllPairs});
-  float ignored_gap = std::numeric_limits<float>::infinity();
+  TriangleGaps gaps;
   while (!memory.stack.empty()) {
     OpenPair& open = memory.stack.back();
     if (open.thin_pending && !diving) {
@@ -73,7 +60,7 @@ bool traverse(const DopTree& base, const DopTree& other, const DopVisit& step, Q
       continue;
     }
 
-    const int pair = deepest(open);
+    const int pair = step.deepest(open.overlaps, open.near);
     const int p = pair / kWidth;
     const int q = pair % kWidth;
     const NodeHead& head_P = base.nodes()[open.nodes.node_P];
@@ -83,8 +70,8 @@ bool traverse(const DopTree& base, const DopTree& other, const DopVisit& step, Q
     if (head_P.is_leaf(p)) {
       if (head_Q.is_leaf(q)) {
         open.near &= ~(row & column);
-        const PairMask triangles = step.leaves(head_P.child(p), head_Q.child(q), ignored_gap, memory.counters);
-        if (triangles != 0 && visit(head_P.child(p), head_Q.child(q), triangles)) return true;
+        const PairMask triangles = step.leaves(head_P.child(p), head_Q.child(q), gaps, memory.counters);
+        if (triangles != 0 && visit(head_P.child(p), head_Q.child(q), triangles, gaps)) return true;
         diving = false;
       } else {
         // Where a leaf meets a node, the node is opened, for all leaves that meet it.

@@ -47,9 +47,8 @@ PairMask DopVisit::nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCoun
   counters.realignments += head_Q.child_count();
   counters.node_tests += head_P.child_count() * head_Q.child_count();
 
-  AlignedNode aligned;
-  node_kernels_.realign(alignment_, slabs_Q, aligned);
-  return pairs & (always_near_ | node_kernels_.test(slabs_P, aligned, alignment_.slabs, least_overlap_, overlaps));
+  return pairs &
+         (always_near_ | node_kernels_.realign_and_test(alignment_, slabs_P, slabs_Q, least_overlap_, overlaps));
 }
 
 PairMask DopVisit::thin_slabs(const NodePair& pair, PairMask near, PairOverlaps& overlaps) const {
@@ -62,9 +61,10 @@ PairMask DopVisit::thin_slabs(const NodePair& pair, PairMask near, PairOverlaps&
                                          other_.slabs(pair.node_Q), least_overlap_, overlaps));
 }
 
-PairMask DopVisit::leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q, float& least_gap, QueryCounters& counters) const {
+PairMask DopVisit::leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q, TriangleGaps& gaps,
+                          QueryCounters& counters) const {
   counters.triangle_tests += kWidth * kWidth;
-  return leaf_kernels_.test(leaf_frame_, base_.leaves()[leaf_P], other_.leaves()[leaf_Q], distance_, least_gap);
+  return leaf_kernels_.test(leaf_frame_, base_.leaves()[leaf_P], other_.leaves()[leaf_Q], distance_, gaps);
 }
 
 }  // namespace glissade::collision

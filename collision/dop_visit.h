@@ -36,9 +36,11 @@ class DopVisit {
   /// Those of the pairs `near` whose thin slabs may be near too, where both have one; lowers their overlaps.
   PairMask thin_slabs(const NodePair& pair, PairMask near, PairOverlaps& overlaps) const;
 
-  /// The pairs of triangles that may be near. Lowers `least_gap` (radii of the base) to the least certified gap of
-  /// those that are not.
-  PairMask leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q, float& least_gap, QueryCounters& counters) const;
+  /// Of the pairs of children in the mask, which is not 0, one that overlaps about most.
+  int deepest(const PairOverlaps& overlaps, PairMask pairs) const { return node_kernels_.deepest(overlaps, pairs); }
+
+  /// The pairs of triangles that may be near; `gaps` of all pairs, in radii of the base.
+  PairMask leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q, TriangleGaps& gaps, QueryCounters& counters) const;
 
  private:
   const DopTree& base_;

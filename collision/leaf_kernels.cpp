@@ -17,8 +17,9 @@ using Four = hn::Vec<Tag4>;
 // Four triangles in the frame of P, with what their own normals see of them.
 struct LeafTriangles {
   alignas(64) float corner[3][3][kWidth];  // [axis][corner][triangle]
-  alignas(16) float normal[3][kWidth];     // no longer than 1
-  alignas(16) float low[kWidth];           // least and greatest projection of the own corners on the normal
+  alignas(16) float normal[3][kWidth];     // of any length
+  alignas(16) float inverse_length[kWidth];
+  alignas(16) float low[kWidth];  // least and greatest projection of the own corners on the normal
   alignas(16) float high[kWidth];
 };
 
@@ -41,14 +42,12 @@ HWY_INLINE void find_normals(LeafTriangles& t) {
     n[axis] = hn::NegMulAdd(u[z], v[y], hn::Mul(u[y], v[z]));
   }
   const Four square = hn::MulAdd(n[0], n[0], hn::MulAdd(n[1], n[1], hn::Mul(n[2], n[2])));
-  // Any vector may separate; a little short of 1 because gaps along it are taken for distances. Where the square
-  // underflows, the normal becomes 0 and separates nothing.
+  // Any vector may separate. Its inverse length is a little too short, because gaps along it are taken for distances;
+  // where the square underflows, it is 0, and nothing is separated.
   const auto usable = hn::Ge(square, hn::Set(d, 1e-36F));
-  const Four scale = hn::IfThenElseZero(usable, hn::Div(hn::Set(d, 0.999999F), hn::Sqrt(square)));
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    n[axis] = hn::Mul(n[axis], scale);
+  hn::Store(hn::IfThenElseZero(usable, hn::Div(hn::Set(d, 0.999999F), hn::Sqrt(square))), d, t.inverse_length);
+  for (std::size_t axis = 0; axis < 3; ++axis)
     hn::Store(n[axis], d, t.normal[axis]);
-  }
   const auto project = [&](std::size_t c) HWY_ATTR {
     return hn::MulAdd(n[0], corner(t, 0, c), hn::MulAdd(n[1], corner(t, 1, c), hn::Mul(n[2], corner(t, 2, c))));
   };
@@ -112,7 +111,7 @@ HWY_INLINE hn::Vec<D> gap_along(D, const Normal& n, hn::Vec<D> low, hn::Vec<D> h
 }
 
 PairMask test(const LeafFrame& frame, const TriangleLeaf& leaf_P, const TriangleLeaf& leaf_Q, float distance,
-              float& least_gap) {
+              TriangleGaps& gaps) {
   LeafTriangles p;
   LeafTriangles q;
   load_base(leaf_P, p);
@@ -123,7 +122,6 @@ PairMask test(const LeafFrame& frame, const TriangleLeaf& leaf_P, const Triangle
   const hn::CappedTag<float, kPairs> d;
   using V = hn::Vec<decltype(d)>;
   PairMask mask = 0;
-  auto least = hn::Set(d, least_gap);
   for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
     const auto normal_P = [&](std::size_t axis) HWY_ATTR { return of_P(d, p.normal[axis], first); };
     const auto normal_Q = [&](std::size_t axis) HWY_ATTR { return of_Q(d, q.normal[axis]); };
@@ -131,15 +129,14 @@ PairMask test(const LeafFrame& frame, const TriangleLeaf& leaf_P, const Triangle
     const auto corner_Q = [&](std::size_t axis, std::size_t c) HWY_ATTR { return of_Q(d, q.corner[axis][c]); };
     const V along_P = gap_along(d, normal_P, of_P(d, p.low, first), of_P(d, p.high, first), corner_Q);
     const V along_Q = gap_along(d, normal_Q, of_Q(d, q.low), of_Q(d, q.high), corner_P);
-    const V gap = hn::Sub(hn::Max(along_P, along_Q), hn::Set(d, frame.uncertainty));
-
-    const auto separated = hn::Gt(gap, hn::Set(d, distance));
-    least = hn::Min(least, hn::IfThenElse(separated, gap, least));
+    const V gap = hn::Sub(
+        hn::Max(hn::Mul(along_P, of_P(d, p.inverse_length, first)), hn::Mul(along_Q, of_Q(d, q.inverse_length))),
+        hn::Set(d, frame.uncertainty));
+    hn::Store(gap, d, gaps.gap.data() + first);
     std::uint8_t bits[8] = {};  // StoreMaskBits may write so many
-    hn::StoreMaskBits(d, hn::Not(separated), bits);
+    hn::StoreMaskBits(d, hn::Not(hn::Gt(gap, hn::Set(d, distance))), bits);
     mask |= static_cast<PairMask>(bits[0] | bits[1] << 8) << first;
   }
-  least_gap = hn::GetLane(hn::MinOfLanes(d, least));
 
   const hn::FixedTag<std::int32_t, kWidth> d32;
   const auto present = [&](const TriangleLeaf& leaf) HWY_ATTR {

@@ -21,12 +21,16 @@ struct LeafFrame {
   float uncertainty;  ///< bound on the error of a gap between two triangles along a unit vector, in radii of P
 };
 
+/// For each pair of triangles (4 · triangle_P + triangle_Q), a certain lower bound of its distance in radii of P: how
+/// far the normals of either triangle keep the two apart. Negative when they do not: the more, the deeper they cross.
+struct alignas(64) TriangleGaps {
+  std::array<float, kWidth * kWidth> gap;
+};
+
 struct LeafKernels {
-  /// The pairs (4 · triangle_P + triangle_Q) that no normal of either triangle certainly separates by more than
-  /// `distance` (radii of P). `least_gap` is lowered to the least certified gap of the pairs that are separated, if
-  /// that is less.
+  /// The pairs that are not certainly further apart than `distance` (radii of P).
   PairMask (*test)(const LeafFrame& frame, const TriangleLeaf& leaf_P, const TriangleLeaf& leaf_Q, float distance,
-                   float& least_gap);
+                   TriangleGaps& gaps);
 };
 
 /// Those of the instruction set in use.

@@ -35,31 +35,38 @@ HWY_INLINE __m512i permute_quarters(const __m512i (&node)[kRegisters], const std
 }
 
 template <int kRegisters>
-void realign_lines(const DopAlignment& alignment, const SlabLine* node_Q, AlignedNode& aligned) {
+HWY_INLINE void realign_lines(const DopAlignment& alignment, const SlabLine* node_Q, __m512i (&facing)[kRegisters]) {
   __m512i node[kRegisters];
   for (int r = 0; r < kRegisters; ++r)
     node[r] = _mm512_load_si512(node_Q + r);
   for (int r = 0; r < kRegisters; ++r) {
-    const auto product = [&](std::size_t l) {
+    const auto product = [&](std::size_t l) HWY_ATTR {
       return _mm512_mulhrs_epi16(permute_quarters<kRegisters>(node, alignment.source[l].data() + 8 * r),
                                  _mm512_load_si512(alignment.weight[l].data() + 32 * r));
     };
     const __m512i sum = _mm512_add_epi16(_mm512_add_epi16(product(0), product(1)), product(2));
-    _mm512_store_si512(aligned.facing.data() + 32 * r,
-                       _mm512_adds_epi16(sum, _mm512_load_si512(alignment.offset.data() + 32 * r)));
+    facing[r] = _mm512_adds_epi16(sum, _mm512_load_si512(alignment.offset.data() + 32 * r));
   }
+}
+
+template <int kRegisters>
+void realign_to(const DopAlignment& alignment, const SlabLine* node_Q, AlignedNode& aligned) {
+  __m512i facing[kRegisters];
+  realign_lines<kRegisters>(alignment, node_Q, facing);
+  for (int r = 0; r < kRegisters; ++r)
+    _mm512_store_si512(aligned.facing.data() + 32 * r, facing[r]);
 }
 
 void realign(const DopAlignment& alignment, const SlabLine* node_Q, AlignedNode& aligned) {
   switch (slab_lines(alignment.slabs)) {
     case 1:
-      return realign_lines<1>(alignment, node_Q, aligned);
+      return realign_to<1>(alignment, node_Q, aligned);
     case 2:
-      return realign_lines<2>(alignment, node_Q, aligned);
+      return realign_to<2>(alignment, node_Q, aligned);
     case 3:
-      return realign_lines<3>(alignment, node_Q, aligned);
+      return realign_to<3>(alignment, node_Q, aligned);
     default:
-      return realign_lines<4>(alignment, node_Q, aligned);
+      return realign_to<4>(alignment, node_Q, aligned);
   }
 }
 
@@ -73,13 +80,11 @@ HWY_INLINE __m512i least_overlaps(const __m512i* node_P, const __m512i* facing) 
 }
 
 template <int kRegisters>
-HWY_INLINE __m256i all_overlaps(const SlabLine* node_P, const AlignedNode& aligned) {
+HWY_INLINE PairMask compare(const SlabLine* node_P, const __m512i (&q)[kRegisters], int least_overlap,
+                            PairOverlaps& overlaps) {
   __m512i p[kRegisters];
-  __m512i q[kRegisters];
-  for (int r = 0; r < kRegisters; ++r) {
+  for (int r = 0; r < kRegisters; ++r)
     p[r] = _mm512_load_si512(node_P + r);
-    q[r] = _mm512_load_si512(aligned.facing.data() + 32 * r);
-  }
   const __m512i turn0 = least_overlaps<kRegisters, 0>(p, q);
   const __m512i turn1 = least_overlaps<kRegisters, 1>(p, q);
   const __m512i turn2 = least_overlaps<kRegisters, 2>(p, q);
@@ -96,27 +101,53 @@ HWY_INLINE __m256i all_overlaps(const SlabLine* node_P, const AlignedNode& align
   alignas(32) static constexpr std::int16_t kLaneOfPair[kPairs] = {0,  8,  16, 24, 25, 1,  9,  17,
                                                                    18, 26, 2,  10, 11, 19, 27, 3};
   const __m256i index = _mm256_load_si256(reinterpret_cast<const __m256i*>(kLaneOfPair));
-  return _mm512_castsi512_si256(_mm512_permutexvar_epi16(_mm512_castsi256_si512(index), one));
+  const __m256i overlap = _mm512_castsi512_si256(_mm512_permutexvar_epi16(_mm512_castsi256_si512(index), one));
+  _mm256_store_si256(reinterpret_cast<__m256i*>(overlaps.overlap.data()), overlap);
+  return _mm256_cmpge_epi16_mask(overlap, _mm256_set1_epi16(static_cast<std::int16_t>(least_overlap)));
+}
+
+template <int kRegisters>
+PairMask test_lines(const SlabLine* node_P, const AlignedNode& aligned, int least_overlap, PairOverlaps& overlaps) {
+  __m512i facing[kRegisters];
+  for (int r = 0; r < kRegisters; ++r)
+    facing[r] = _mm512_load_si512(aligned.facing.data() + 32 * r);
+  return compare<kRegisters>(node_P, facing, least_overlap, overlaps);
 }
 
 PairMask test(const SlabLine* node_P, const AlignedNode& aligned, int slabs, int least_overlap,
               PairOverlaps& overlaps) {
-  __m256i overlap;
   switch (slab_lines(slabs)) {
     case 1:
-      overlap = all_overlaps<1>(node_P, aligned);
-      break;
+      return test_lines<1>(node_P, aligned, least_overlap, overlaps);
     case 2:
-      overlap = all_overlaps<2>(node_P, aligned);
-      break;
+      return test_lines<2>(node_P, aligned, least_overlap, overlaps);
     case 3:
-      overlap = all_overlaps<3>(node_P, aligned);
-      break;
+      return test_lines<3>(node_P, aligned, least_overlap, overlaps);
     default:
-      overlap = all_overlaps<4>(node_P, aligned);
+      return test_lines<4>(node_P, aligned, least_overlap, overlaps);
   }
-  _mm256_store_si256(reinterpret_cast<__m256i*>(overlaps.overlap.data()), overlap);
-  return _mm256_cmpge_epi16_mask(overlap, _mm256_set1_epi16(static_cast<std::int16_t>(least_overlap)));
+}
+
+template <int kRegisters>
+PairMask both(const DopAlignment& alignment, const SlabLine* node_P, const SlabLine* node_Q, int least_overlap,
+              PairOverlaps& overlaps) {
+  __m512i facing[kRegisters];
+  realign_lines<kRegisters>(alignment, node_Q, facing);
+  return compare<kRegisters>(node_P, facing, least_overlap, overlaps);
+}
+
+PairMask realign_and_test(const DopAlignment& alignment, const SlabLine* node_P, const SlabLine* node_Q,
+                          int least_overlap, PairOverlaps& overlaps) {
+  switch (slab_lines(alignment.slabs)) {
+    case 1:
+      return both<1>(alignment, node_P, node_Q, least_overlap, overlaps);
+    case 2:
+      return both<2>(alignment, node_P, node_Q, least_overlap, overlaps);
+    case 3:
+      return both<3>(alignment, node_P, node_Q, least_overlap, overlaps);
+    default:
+      return both<4>(alignment, node_P, node_Q, least_overlap, overlaps);
+  }
 }
 
 #else
@@ -172,7 +203,31 @@ PairMask test(const SlabLine* node_P, const AlignedNode& aligned, int slabs, int
   return mask;
 }
 
+PairMask realign_and_test(const DopAlignment& alignment, const SlabLine* node_P, const SlabLine* node_Q,
+                          int least_overlap, PairOverlaps& overlaps) {
+  AlignedNode aligned;
+  realign(alignment, node_Q, aligned);
+  return test(node_P, aligned, alignment.slabs, least_overlap, overlaps);
+}
+
 #endif
+
+// The number of a pair takes the place of the lowest bits of its overlap, so that one maximum finds both.
+int deepest(const PairOverlaps& overlaps, PairMask pairs) {
+  alignas(32) static constexpr std::int16_t kNumber[kPairs] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  alignas(32) static constexpr std::int16_t kBit[kPairs] = {1,   2,   4,    8,    16,   32,   64,    128,
+                                                            256, 512, 1024, 2048, 4096, 8192, 16384, -32768};
+  const hn::CappedTag<std::int16_t, kPairs> d;
+  const auto in_mask = hn::Set(d, static_cast<std::int16_t>(pairs));
+  auto most = hn::Set(d, std::int16_t{-32768});
+  for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
+    const auto bit = hn::Load(d, kBit + first);
+    const auto tagged = hn::Or(hn::And(hn::Load(d, overlaps.overlap.data() + first), hn::Set(d, std::int16_t{~15})),
+                               hn::Load(d, kNumber + first));
+    most = hn::Max(most, hn::IfThenElse(hn::Eq(hn::And(in_mask, bit), bit), tagged, most));
+  }
+  return hn::GetLane(hn::MaxOfLanes(d, most)) & 15;
+}
 
 // Four lanes of one node's thin slabs, in grid steps of P and its frame.
 struct ThinChildren {
@@ -296,7 +351,7 @@ PairMask test_thin(const ThinSlabFrame& frame, const NodeHead& head_P, const Sla
 }
 
 NodeKernels make_node_kernels() {
-  return {realign, test, test_thin};
+  return {realign, test, realign_and_test, test_thin, deepest};
 }
 
 }  // namespace glissade::collision::HWY_NAMESPACE

@@ -37,9 +37,16 @@ struct NodeKernels {
   PairMask (*test)(const SlabLine* node_P, const AlignedNode& aligned, int slabs, int least_overlap,
                    PairOverlaps& overlaps);
 
+  /// Both in one.
+  PairMask (*realign_and_test)(const DopAlignment& alignment, const SlabLine* node_P, const SlabLine* node_Q,
+                               int least_overlap, PairOverlaps& overlaps);
+
   /// Tests the thin slabs of 16 pairs; lowers overlaps and returns the mask as `test` does.
   PairMask (*test_thin)(const ThinSlabFrame& frame, const NodeHead& head_P, const SlabLine* node_P,
                         const NodeHead& head_Q, const SlabLine* node_Q, int least_overlap, PairOverlaps& overlaps);
+
+  /// Of the pairs in the mask, which is not 0, one that overlaps most but for 16 grid steps.
+  int (*deepest)(const PairOverlaps& overlaps, PairMask pairs);
 };
 
 /// Those of the instruction set in use.

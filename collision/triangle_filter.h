@@ -1,7 +1,7 @@
 #pragma once
 
-/// The test of `triangle_intersection.h` in plain double precision, which settles all but a few pairs: nearly degenerate
-/// ones are left to exact arithmetic.
+/// The test of `triangle_intersection.h` in plain double precision, which settles all but a few pairs: nearly
+/// degenerate ones are left to exact arithmetic.
 
 #include <algorithm>
 #include <cmath>

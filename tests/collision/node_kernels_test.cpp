@@ -254,9 +254,9 @@ TEST_P(Kernels, LeavesSeparateOnlyWhatIsFurtherApart) {
       const double rounding = 1e-12 * (base.center().norm() + X_PQ.translation().norm());
       for (const TriangleLeaf& leaf_P : base.leaves()) {
         for (const TriangleLeaf& leaf_Q : other.leaves()) {
-          float least_gap = 100.0F;
+          TriangleGaps gaps;
           const PairMask near =
-              leaf_kernels().test(LeafFrame(frame), leaf_P, leaf_Q, static_cast<float>(tolerance), least_gap);
+              leaf_kernels().test(LeafFrame(frame), leaf_P, leaf_Q, static_cast<float>(tolerance), gaps);
           for (std::size_t i = 0; i < 4; ++i) {
             for (std::size_t j = 0; j < 4; ++j) {
               const bool is_near = (near >> (4 * i + j) & 1U) != 0;
@@ -269,7 +269,7 @@ TEST_P(Kernels, LeavesSeparateOnlyWhatIsFurtherApart) {
               const double distance =
                   least_distance(base, {leaf_P.triangle[i]}, other, {leaf_Q.triangle[j]}, X_PQ) / base.radius();
               ASSERT_GT(distance + rounding, tolerance);
-              ASSERT_LE(static_cast<double>(least_gap), distance + rounding / base.radius());
+              ASSERT_LE(static_cast<double>(gaps.gap[4 * i + j]), distance + rounding / base.radius());
             }
           }
         }
