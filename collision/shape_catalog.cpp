@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include <glissade/collision/benchmark_shapes.h>
 #include <glissade/collision/car_door_parts.h>
 #include <glissade/collision/mesh_generators.h>
 #include <glissade/collision/shape_catalog.h>
@@ -39,6 +40,31 @@ std::int64_t triangles_of(const Values& values) {
 Entry door_part(const std::string& name, const std::string& description, TriangleMesh (*make)(double)) {
   return {{name, description, {{"detail", "1 for the full number of triangles, 0.1 for a tenth", 1.0}}},
           [make](const Values& values) { return make(values.at("detail")); }};
+}
+
+Entry suite_entry(const std::string& name, const std::string& description, TriangleMesh (*make)(std::int64_t)) {
+  return {{name, description, {triangles_parameter(20'000)}},
+          [make](const Values& values) { return make(triangles_of(values)); }};
+}
+
+Entry bumpy_plate_entry() {
+  return {{"bumpy_plate",
+           "sheet without thickness with a smooth field of bumps",
+           {{"size_x_m", "edge along x", 0.2},
+            {"size_y_m", "edge along y", 0.2},
+            {"bump_height_m", "from the lowest to the highest point", 0.01},
+            {"waves", "waves along each edge, rounded", 5},
+            triangles_parameter(5000)}},
+          [](const Values& v) {
+            const double waves = v.at("waves");
+            if (!(waves >= 1 && waves <= 10'000)) {
+              std::ostringstream message;
+              message << "waves must be from 1 to 10000, but is " << waves << ".";
+              throw std::invalid_argument(message.str());
+            }
+            return make_bumpy_plate({v.at("size_x_m"), v.at("size_y_m")}, v.at("bump_height_m"),
+                                    static_cast<int>(std::lround(waves)), triangles_of(v));
+          }};
 }
 
 Entry box_entry() {
@@ -140,10 +166,16 @@ Entry tube_entry() {
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> kEntries{
       box_entry(),
+      bumpy_plate_entry(),
+      suite_entry("car_body", "body of a car, 4 m long, in sheet metal, with its seats", &make_car_body),
       door_part("door_hose", "hose of the car door", &make_door_hose),
       door_part("door_impact_tube", "side-impact tube of the car door", &make_door_impact_tube),
       door_part("door_inner_panel", "inner panel of the car door with its access hole", &make_door_inner_panel),
+      suite_entry("door_lock", "lock of a car door, 0.13 m wide, its mechanism in a housing", &make_door_lock),
       door_part("door_outer_panel", "outer panel of the car door", &make_door_outer_panel),
+      suite_entry("engine_hose", "bellows hose of a car engine, 0.6 m long, with clamps and flanges",
+                  &make_engine_hose),
+      suite_entry("headlight", "car headlight, 0.52 m wide, with its lamps and housing", &make_headlight),
       hose_entry(),
       hyperboloid_entry(),
       plate_entry(),

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The generators of `mesh_generators.h` and `car_door_parts.h` by name, for scene files and command lines.
+/// The generators of `mesh_generators.h`, `benchmark_shapes.h` and `car_door_parts.h` by name, for scene files and
+/// command lines.
 
 #include <map>
 #include <string>
