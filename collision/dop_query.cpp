@@ -1,12 +1,10 @@
 #include <algorithm>
-#include <bit>
-#include <stdexcept>
-#include <string>
 
 #include <glissade/collision/dop_query.h>
 #include <glissade/collision/triangle_distance.h>
 #include <glissade/collision/triangle_intersection.h>
 
+#include "coherent_front.h"
 #include "dop_traversal.h"
 
 namespace glissade::collision {
@@ -20,103 +18,160 @@ const QueryCounters& QueryWorkspace::counters() const {
   return memory_->counters;
 }
 
+CoherentWorkspace::CoherentWorkspace() : front_(std::make_unique<CoherentFront>()) {}
+CoherentWorkspace::~CoherentWorkspace() = default;
+CoherentWorkspace::CoherentWorkspace(CoherentWorkspace&&) noexcept = default;
+CoherentWorkspace& CoherentWorkspace::operator=(CoherentWorkspace&&) noexcept = default;
+
+void CoherentWorkspace::forget() {
+  front_->clear();
+}
+
 namespace {
 
-int least_gap(const TriangleGaps& gaps, PairMask pairs) {
-  int least = std::countr_zero(pairs);
-  for (PairMask rest = pairs & (pairs - 1); rest != 0; rest &= rest - 1) {
-    const int i = std::countr_zero(rest);
-    if (gaps.gap[static_cast<std::size_t>(i)] < gaps.gap[static_cast<std::size_t>(least)]) least = i;
-  }
-  return least;
-}
+// Two trees at a pose, whose triangles are asked for one pair after the other.
+struct Placed {
+  const DopTree& tree_A;
+  const DopTree& tree_B;
+  const Eigen::Isometry3d& X_AB;
+  QueryFrame frame{tree_A, tree_B, X_AB};
 
-// Calls visit(pair, corners of A, corners of B in A) for every pair of triangles that may be within `distance`, until
-// it returns true. Returns whether it did.
-template <Goal kGoal, typename Visit>
-bool visit_near_triangles(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                          QueryWorkspace& workspace, const Visit& visit) {
+  const DopTree& base() const { return frame.base_is_A ? tree_A : tree_B; }
+  const DopTree& other() const { return frame.base_is_A ? tree_B : tree_A; }
+
+  TrianglePair triangles(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) const {
+    const std::int32_t triangle_P = base().leaves()[leaf_P].triangle[static_cast<std::size_t>(pair / kWidth)];
+    const std::int32_t triangle_Q = other().leaves()[leaf_Q].triangle[static_cast<std::size_t>(pair % kWidth)];
+    return frame.base_is_A ? TrianglePair{triangle_P, triangle_Q} : TrianglePair{triangle_Q, triangle_P};
+  }
+  TrianglePoints points_A(const TrianglePair& pair) const {
+    const TriangleMesh& mesh = tree_A.mesh();
+    return {mesh.corner(pair.triangle_A, 0), mesh.corner(pair.triangle_A, 1), mesh.corner(pair.triangle_A, 2)};
+  }
+  TrianglePoints points_B(const TrianglePair& pair) const {
+    const TriangleMesh& mesh = tree_B.mesh();
+    return {X_AB * mesh.corner(pair.triangle_B, 0), X_AB * mesh.corner(pair.triangle_B, 1),
+            X_AB * mesh.corner(pair.triangle_B, 2)};
+  }
+};
+
+// Answers a visit by answer(pair, corners of A, corners of B in A) → PairOutcome.
+template <typename Answer>
+class Visitor final : public TriangleVisitor {
+ public:
+  Visitor(const Placed& placed, const Answer& answer) : placed_(placed), answer_(answer) {}
+
+  PairOutcome visit(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) override {
+    const TrianglePair triangles = placed_.triangles(leaf_P, leaf_Q, pair);
+    return answer_(triangles, placed_.points_A(triangles), placed_.points_B(triangles));
+  }
+  double distance(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) override {
+    const TrianglePair triangles = placed_.triangles(leaf_P, leaf_Q, pair);
+    return triangle_distance(placed_.points_A(triangles), placed_.points_B(triangles)).distance;
+  }
+
+ private:
+  const Placed& placed_;
+  const Answer& answer_;
+};
+
+bool visit_all(Goal goal, const Placed& placed, double distance, QueryWorkspace& workspace, TriangleVisitor& visitor) {
   QueryWorkspace::Memory& memory = workspace.memory();
   memory.counters = {};
-  const QueryFrame frame(tree_A, tree_B, X_AB);
-  if (frame.spheres_apart(distance)) return false;
-  const DopTree& base = frame.base_is_A ? tree_A : tree_B;
-  const DopTree& other = frame.base_is_A ? tree_B : tree_A;
-  const DopVisit step(base, other, frame, distance, memory.alignment);
-  return traverse<kGoal>(
-      base, other, step, memory,
-      [&](std::uint32_t leaf_P, std::uint32_t leaf_Q, PairMask near, const TriangleGaps& gaps) {
-        while (near != 0) {
-          // Those that cross deepest are the most likely to intersect.
-          const int i = kGoal == Goal::kAnyPair ? least_gap(gaps, near) : std::countr_zero(near);
-          near &= ~(1U << i);
-          const std::int32_t triangle_P = base.leaves()[leaf_P].triangle[static_cast<std::size_t>(i / kWidth)];
-          const std::int32_t triangle_Q = other.leaves()[leaf_Q].triangle[static_cast<std::size_t>(i % kWidth)];
-          const TrianglePair pair =
-              frame.base_is_A ? TrianglePair{triangle_P, triangle_Q} : TrianglePair{triangle_Q, triangle_P};
-          const auto corner_A = [&](int c) { return tree_A.mesh().corner(pair.triangle_A, c); };
-          const auto corner_B = [&](int c) { return X_AB * tree_B.mesh().corner(pair.triangle_B, c); };
-          if (visit(pair, {corner_A(0), corner_A(1), corner_A(2)}, {corner_B(0), corner_B(1), corner_B(2)}))
-            return true;
-        }
-        return false;
-      });
+  if (placed.frame.spheres_apart(distance)) return false;
+  const DopVisit step(placed.base(), placed.other(), placed.frame, distance, memory.alignment);
+  return traverse(goal, placed.base(), placed.other(), step, memory, visitor);
 }
 
-bool near(const TrianglePoints& a, const TrianglePoints& b, double tolerance) {
-  return tolerance > 0.0 ? triangle_distance(a, b).distance <= tolerance : triangles_intersect(a, b);
+bool visit_all(Goal, const Placed& placed, double distance, CoherentWorkspace& workspace, TriangleVisitor& visitor) {
+  QueryWorkspace::Memory& memory = workspace.workspace().memory();
+  memory.counters = {};
+  return workspace.front().query(placed.base(), placed.other(), placed.frame, distance, memory.alignment,
+                                 memory.counters, visitor);
+}
+
+// Whether two triangles are within the tolerance, and their distance if that had to be found out.
+struct Nearness {
+  bool near;
+  double distance;
+};
+
+Nearness nearness(const TrianglePoints& a, const TrianglePoints& b, double tolerance) {
+  if (tolerance == 0.0) {
+    const bool meet = triangles_intersect(a, b);
+    return {meet, meet ? 0.0 : -1.0};
+  }
+  const double distance = triangle_distance(a, b).distance;
+  return {distance <= tolerance, distance};
+}
+
+template <typename Workspace>
+bool find_any(const Placed& placed, double tolerance, Workspace& workspace) {
+  const auto answer = [&](const TrianglePair&, const TrianglePoints& a, const TrianglePoints& b) {
+    const Nearness found = nearness(a, b, tolerance);
+    return PairOutcome{found.near, found.distance};
+  };
+  Visitor visitor(placed, answer);
+  return visit_all(Goal::kAnyPair, placed, tolerance, workspace, visitor);
+}
+
+template <typename Workspace>
+void find_pairs(const Placed& placed, double tolerance, Workspace& workspace, std::vector<TrianglePair>& pairs) {
+  pairs.clear();
+  const auto answer = [&](const TrianglePair& pair, const TrianglePoints& a, const TrianglePoints& b) {
+    const Nearness found = nearness(a, b, tolerance);
+    if (found.near) pairs.push_back(pair);
+    return PairOutcome{false, found.distance};
+  };
+  Visitor visitor(placed, answer);
+  visit_all(Goal::kEveryPair, placed, tolerance, workspace, visitor);
+  std::sort(pairs.begin(), pairs.end());
+}
+
+template <typename Workspace>
+void find_close(const Placed& placed, double distance, Workspace& workspace, std::vector<ClosePair>& pairs) {
+  pairs.clear();
+  const auto answer = [&](const TrianglePair& pair, const TrianglePoints& a, const TrianglePoints& b) {
+    const TriangleDistance closest = triangle_distance(a, b);
+    if (closest.distance <= distance) pairs.push_back({pair, closest.distance, closest.p_a, closest.p_b});
+    return PairOutcome{false, closest.distance};
+  };
+  Visitor visitor(placed, answer);
+  visit_all(Goal::kEveryPair, placed, distance, workspace, visitor);
+  std::sort(pairs.begin(), pairs.end(),
+            [](const ClosePair& u, const ClosePair& v) { return u.triangles < v.triangles; });
 }
 
 }  // namespace
 
 bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, QueryWorkspace& workspace,
                 double tolerance) {
-  return visit_near_triangles<Goal::kAnyPair>(
-      tree_A, tree_B, X_AB, tolerance, workspace,
-      [&](const TrianglePair&, const TrianglePoints& a, const TrianglePoints& b) { return near(a, b, tolerance); });
+  return find_any({tree_A, tree_B, X_AB}, tolerance, workspace);
 }
 
 bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                 CoherentWorkspace& workspace, double tolerance) {
-  return intersects(tree_A, tree_B, X_AB, workspace.workspace(), tolerance);
+  return find_any({tree_A, tree_B, X_AB}, tolerance, workspace);
 }
 
 void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                         QueryWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance) {
-  pairs.clear();
-  visit_near_triangles<Goal::kEveryPair>(
-      tree_A, tree_B, X_AB, tolerance, workspace,
-      [&](const TrianglePair& pair, const TrianglePoints& a, const TrianglePoints& b) {
-        if (near(a, b, tolerance)) pairs.push_back(pair);
-        return false;
-      });
-  std::sort(pairs.begin(), pairs.end());
+  find_pairs({tree_A, tree_B, X_AB}, tolerance, workspace, pairs);
 }
 
 void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                         CoherentWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance) {
-  intersecting_pairs(tree_A, tree_B, X_AB, workspace.workspace(), pairs, tolerance);
+  find_pairs({tree_A, tree_B, X_AB}, tolerance, workspace, pairs);
 }
 
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   QueryWorkspace& workspace, std::vector<ClosePair>& pairs) {
-  pairs.clear();
-  visit_near_triangles<Goal::kEveryPair>(
-      tree_A, tree_B, X_AB, distance, workspace,
-      [&](const TrianglePair& pair, const TrianglePoints& a, const TrianglePoints& b) {
-        const TriangleDistance closest = triangle_distance(a, b);
-        if (closest.distance <= distance) {
-          pairs.push_back({pair, closest.distance, closest.p_a, closest.p_b});
-        }
-        return false;
-      });
-  std::sort(pairs.begin(), pairs.end(),
-            [](const ClosePair& u, const ClosePair& v) { return u.triangles < v.triangles; });
+  find_close({tree_A, tree_B, X_AB}, distance, workspace, pairs);
 }
 
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   CoherentWorkspace& workspace, std::vector<ClosePair>& pairs) {
-  pairs_within(tree_A, tree_B, X_AB, distance, workspace.workspace(), pairs);
+  find_close({tree_A, tree_B, X_AB}, distance, workspace, pairs);
 }
 
 }  // namespace glissade::collision

@@ -62,21 +62,30 @@ class QueryWorkspace {
   std::unique_ptr<Memory> memory_;
 };
 
+class CoherentFront;
+
 /// A workspace that remembers the last query of one pair of trees, which makes queries of a pair that moves little from
 /// one to the next much cheaper. Answers are the same, bit for bit, as without it. Use one for each pair; a query of
-/// other trees makes it start afresh. Not thread-safe.
+/// other trees, or of a tree that was refitted, makes it start afresh. Not thread-safe.
 class CoherentWorkspace {
  public:
+  CoherentWorkspace();
+  ~CoherentWorkspace();
+  CoherentWorkspace(CoherentWorkspace&&) noexcept;
+  CoherentWorkspace& operator=(CoherentWorkspace&&) noexcept;
+
   /// Work of the last query.
   const QueryCounters& counters() const { return workspace_.counters(); }
 
-  /// Starts afresh. Needed after a tree was refitted.
-  void forget() {}
+  /// Starts afresh.
+  void forget();
 
   QueryWorkspace& workspace() { return workspace_; }
+  CoherentFront& front() { return *front_; }
 
  private:
   QueryWorkspace workspace_;
+  std::unique_ptr<CoherentFront> front_;
 };
 
 /// Whether any two triangles are not further apart than `tolerance` (metres, ≥ 0; 0: intersect). (paper §2.1)

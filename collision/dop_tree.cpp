@@ -1,3 +1,4 @@
+#include <atomic>
 #include <stdexcept>
 #include <string>
 
@@ -63,6 +64,8 @@ void DopTree::refit() {
   radius_ = grid.radius;
   degenerate_triangles_ = fit_leaves(*mesh_, grid, leaves_);
   fit_nodes(options_, grid, leaves_, heads_, slabs_);
+  static std::atomic<std::uint64_t> ids{0};
+  id_ = ++ids;
 }
 
 std::size_t DopTree::memory_bytes() const {

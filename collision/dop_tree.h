@@ -58,6 +58,9 @@ class DopTree {
   const SlabLine* slabs(std::uint32_t node) const { return &slabs_[node * lines_of_node_]; }
   std::span<const TriangleLeaf> leaves() const { return leaves_; }
 
+  /// Another number for every tree and every refit of this process; 0 is none. Copies have the same.
+  std::uint64_t id() const { return id_; }
+
   std::int64_t degenerate_triangles() const { return degenerate_triangles_; }
   /// Levels of nodes below the root, leaves not counted.
   int depth() const { return depth_; }
@@ -75,6 +78,7 @@ class DopTree {
   std::vector<SlabLine> slabs_;
   std::vector<TriangleLeaf> leaves_;
   std::size_t lines_of_node_ = 0;
+  std::uint64_t id_ = 0;
   std::int64_t degenerate_triangles_ = 0;
   int depth_ = 0;
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();

@@ -38,6 +38,10 @@ DopVisit::DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& 
   distance_ = round_up_to_float(std::min(radii, 1e30));
 }
 
+PairMask DopVisit::pairs_of(const NodePair& pair) const {
+  return pair.pairs & product(all_children(base_.nodes()[pair.node_P]), all_children(other_.nodes()[pair.node_Q]));
+}
+
 PairMask DopVisit::nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCounters& counters) const {
   const NodeHead& head_P = base_.nodes()[pair.node_P];
   const NodeHead& head_Q = other_.nodes()[pair.node_Q];

@@ -23,12 +23,23 @@ struct NodePair {
   PairMask pairs;
 };
 
+/// All pairs of one child of P, and of one of Q.
+constexpr PairMask row_of(int child_P) {
+  return 0xfU << (kWidth * child_P);
+}
+constexpr PairMask column_of(int child_Q) {
+  return 0x1111U << child_Q;
+}
+
 /// Compares nodes and leaves of two trees in one frame.
 class DopVisit {
  public:
   /// Pairs that are certainly further apart than `distance` (metres) are dropped. `alignment` is scratch memory.
   DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
            DopAlignment& alignment);
+
+  /// The pairs of children there are, among those of interest.
+  PairMask pairs_of(const NodePair& pair) const;
 
   /// The pairs of children whose boxes may be near; `overlaps` of all pairs, in grid steps of the base.
   PairMask nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCounters& counters) const;

@@ -1,0 +1,167 @@
+#include "coherent_front.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "front_kernels.h"
+#include "round_up.h"
+
+namespace glissade::collision {
+namespace {
+
+constexpr float kExpired = -1.0F;
+// A front that has grown to this many times its first size is mostly beside the point.
+constexpr std::size_t kMostGrowth = 2;
+constexpr std::size_t kSmallFront = 64;
+// Beyond this share of expired entries, beginning at the roots is no dearer. The sum of motions has a bound too,
+// because it is compared in single precision.
+constexpr std::size_t kMostExpired = 2;
+constexpr double kMostMotion = 0.25;
+
+}  // namespace
+
+void CoherentFront::clear() {
+  base_id_ = 0;
+  other_id_ = 0;
+}
+
+void CoherentFront::start_afresh() {
+  entries_.clear();
+  expiry_.clear();
+  size_at_first_ = 0;
+  moved_ = 0.0;
+  add({0, 0, kAllPairs}, false);
+}
+
+void CoherentFront::add(const NodePair& pair, bool is_leaf) {
+  entries_.push_back({pair, is_leaf ? 0 : kAllPairs & ~pair.pairs, is_leaf});
+  expiry_.push_back(kExpired);
+}
+
+void CoherentFront::holds_for(std::size_t entry, double gap) {
+  // Rounded down. Infinite where nothing is left to be watched.
+  expiry_[entry] = -round_up_to_float(-std::min(moved_ + gap, 1e30));
+}
+
+// Brings the clock up to this pose.
+void CoherentFront::follow(const DopTree& base, const DopTree& other, const QueryFrame& frame) {
+  if (base_id_ != base.id() || other_id_ != other.id()) {
+    base_id_ = base.id();
+    other_id_ = other.id();
+    witness_.reset();
+    start_afresh();
+  } else {
+    // Two rotations by an angle θ apart differ by 2√2 sin(θ/2) in the Frobenius norm and move a point at radius 1 by at
+    // most 2 sin(θ/2).
+    const double turned = (frame.R_PQ - R_PQ_).norm() * std::sqrt(0.5) + 2.0 * frame.rotation_defect;
+    const double moved = (frame.p_PQ - p_PQ_).norm() + frame.ratio * turned;
+    moved_ += moved * (1.0 + 1e-12) + 2.0 * frame.uncertainty;
+    if (!(moved_ < kMostMotion) ||
+        (size_at_first_ > 0 && entries_.size() > kMostGrowth * size_at_first_ + kSmallFront)) {
+      start_afresh();
+    }
+  }
+  R_PQ_ = frame.R_PQ;
+  p_PQ_ = frame.p_PQ;
+}
+
+bool CoherentFront::query(const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
+                          DopAlignment& alignment, QueryCounters& counters, TriangleVisitor& visitor) {
+  follow(base, other, frame);
+  if (frame.spheres_apart(distance)) return false;
+  if (witness_) {
+    if (visitor.visit(witness_->leaf_P, witness_->leaf_Q, witness_->pair).stop) return true;
+    witness_.reset();
+  }
+
+  const float clock = round_up_to_float(std::min(moved_ + frame.in_base_radii(distance), 1e30));
+  find_expired(expiry_, clock, open_);
+  if (open_.empty()) return false;
+  if (entries_.size() > kSmallFront && kMostExpired * open_.size() > entries_.size()) {
+    start_afresh();
+    open_.assign(1, 0);
+  }
+  const DopVisit step(base, other, frame, distance, alignment);
+  while (!open_.empty()) {
+    const std::size_t entry = open_.back();
+    open_.pop_back();
+    if (!entries_[entry].is_leaf) {
+      visit_nodes(entry, base, other, step, counters);
+    } else if (visit_leaves(entry, frame, step, counters, visitor)) {
+      return true;  // what was still open has expired and stays so
+    }
+  }
+  if (size_at_first_ == 0) size_at_first_ = entries_.size();
+  return false;
+}
+
+// Children that have come near get entries of their own; the others set the time.
+void CoherentFront::visit_nodes(std::size_t entry, const DopTree& base, const DopTree& other, const DopVisit& step,
+                                QueryCounters& counters) {
+  const NodePair nodes = entries_[entry].pair;
+  const NodeHead& head_P = base.nodes()[nodes.node_P];
+  const NodeHead& head_Q = other.nodes()[nodes.node_Q];
+  PairOverlaps overlaps;
+  PairMask near = step.nodes(nodes, overlaps, counters);
+  near = step.thin_slabs(nodes, near, overlaps) & ~entries_[entry].opened;
+  entries_[entry].opened |= near;
+
+  const PairMask apart = step.pairs_of(nodes) & ~entries_[entry].opened;
+  int least_gap = std::numeric_limits<int>::max();
+  for (PairMask rest = apart; rest != 0; rest &= rest - 1) {
+    least_gap = std::min(least_gap, -overlaps.overlap[static_cast<std::size_t>(std::countr_zero(rest))]);
+  }
+  holds_for(entry, apart == 0 ? std::numeric_limits<double>::infinity() : least_gap / static_cast<double>(kGridRadius));
+
+  // The pair that overlaps most comes last, which is looked at first.
+  const std::size_t first = open_.size();
+  while (near != 0) {
+    const int pair = step.deepest(overlaps, near);
+    const int p = pair / kWidth;
+    const int q = pair % kWidth;
+    open_.push_back(static_cast<std::uint32_t>(entries_.size()));
+    PairMask taken = 1U << pair;
+    if (head_P.is_leaf(p) && head_Q.is_leaf(q)) {
+      add({head_P.child(p), head_Q.child(q), kAllPairs}, true);
+    } else if (head_P.is_leaf(p)) {
+      taken = near & column_of(q) & (kAllPairs << (kWidth * head_P.node_count));
+      add({nodes.node_P, head_Q.child(q), (taken >> q) * row_of(0)}, false);
+    } else if (head_Q.is_leaf(q)) {
+      taken = near & row_of(p) & ((0xfU >> head_Q.node_count << head_Q.node_count) * column_of(0));
+      add({head_P.child(p), nodes.node_Q, (taken >> (kWidth * p)) * column_of(0)}, false);
+    } else {
+      add({head_P.child(p), head_Q.child(q), kAllPairs}, false);
+    }
+    near &= ~taken;
+  }
+  std::reverse(open_.begin() + static_cast<std::ptrdiff_t>(first), open_.end());
+}
+
+bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, const DopVisit& step,
+                                 QueryCounters& counters, TriangleVisitor& visitor) {
+  const auto [leaf_P, leaf_Q, all] = entries_[entry].pair;
+  TriangleGaps gaps;
+  const PairMask near = step.leaves(leaf_P, leaf_Q, gaps, counters);
+  double least_gap = std::numeric_limits<double>::infinity();
+  for (int pair = 0; pair < kWidth * kWidth; ++pair) {
+    if ((near >> pair & 1U) == 0) {
+      // Not positive only where a triangle has no area.
+      const auto gap = static_cast<double>(gaps.gap[static_cast<std::size_t>(pair)]);
+      if (gap > 0.0) least_gap = std::min(least_gap, gap);
+      continue;
+    }
+    const PairOutcome outcome = visitor.visit(leaf_P, leaf_Q, pair);
+    if (outcome.stop) {
+      witness_ = Witness{leaf_P, leaf_Q, pair};
+      return true;
+    }
+    const double distance = outcome.distance >= 0.0 ? outcome.distance : visitor.distance(leaf_P, leaf_Q, pair);
+    least_gap = std::min(least_gap, distance / frame.base_radius * (1.0 - 1e-9) - 4.0 * frame.uncertainty);
+  }
+  holds_for(entry, least_gap);
+  return false;
+}
+
+}  // namespace glissade::collision

@@ -1,0 +1,68 @@
+#pragma once
+
+/// What a query of two trees remembers for the next query of the same two: the front where its traversal ended.
+///
+/// Every pair of triangles is covered by an entry: a visit of two nodes, for the children that were apart then, or of
+/// two leaves. An entry holds good until the part has moved by the least gap it saw; the sum of all motions is the
+/// clock by which it expires. So a query looks again only at what has expired, and first of all at the pair of
+/// triangles that answered the last one. J. Klosowski et al. (1998, §6) keep such a front; that it need not be visited
+/// is new here.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/collision/dop_query.h>
+
+#include "dop_visit.h"
+#include "triangle_visitor.h"
+
+namespace glissade::collision {
+
+/// The front of one pair of trees. Not thread-safe.
+class CoherentFront {
+ public:
+  /// Forgets everything.
+  void clear();
+
+  /// Shows the visitor every pair of triangles that may be within `distance` (metres), until it says stop; the one that
+  /// made it stop last time comes first. Returns whether it did.
+  bool query(const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
+             DopAlignment& alignment, QueryCounters& counters, TriangleVisitor& visitor);
+
+ private:
+  struct Entry {
+    NodePair pair;    ///< two nodes, or two leaves
+    PairMask opened;  ///< pairs of children that have entries of their own
+    bool is_leaf;
+  };
+  struct Witness {
+    std::uint32_t leaf_P;
+    std::uint32_t leaf_Q;
+    int pair;
+  };
+
+  void follow(const DopTree& base, const DopTree& other, const QueryFrame& frame);
+  void start_afresh();
+  void add(const NodePair& pair, bool is_leaf);
+  void holds_for(std::size_t entry, double gap);
+  void visit_nodes(std::size_t entry, const DopTree& base, const DopTree& other, const DopVisit& step,
+                   QueryCounters& counters);
+  bool visit_leaves(std::size_t entry, const QueryFrame& frame, const DopVisit& step, QueryCounters& counters,
+                    TriangleVisitor& visitor);
+
+  std::uint64_t base_id_ = 0;
+  std::uint64_t other_id_ = 0;
+  Eigen::Matrix3d R_PQ_ = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d p_PQ_ = Eigen::Vector3d::Zero();
+  double moved_ = 0.0;             ///< since the front was begun, at most, in radii of P
+  std::size_t size_at_first_ = 0;  ///< entries once the first query had gone through all; 0 before
+  std::optional<Witness> witness_;
+  std::vector<Entry> entries_;
+  std::vector<float> expiry_;        ///< of each entry: what `moved_` may become
+  std::vector<std::uint32_t> open_;  ///< entries to be looked at
+};
+
+}  // namespace glissade::collision

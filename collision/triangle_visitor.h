@@ -1,0 +1,26 @@
+#pragma once
+
+/// What a query asks of every pair of triangles that a traversal cannot rule out.
+
+#include <cstdint>
+
+namespace glissade::collision {
+
+/// What is known of a pair of triangles after a visit.
+struct PairOutcome {
+  bool stop;        ///< the query is answered
+  double distance;  ///< in metres, no greater than the true one but for rounding; negative when it was not looked for
+};
+
+/// Pair of triangles: 4 · triangle of leaf_P + triangle of leaf_Q.
+class TriangleVisitor {
+ public:
+  virtual PairOutcome visit(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) = 0;
+  /// The distance of a pair in metres; 0 when it intersects.
+  virtual double distance(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) = 0;
+
+ protected:
+  ~TriangleVisitor() = default;
+};
+
+}  // namespace glissade::collision
