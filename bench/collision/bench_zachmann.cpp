@@ -17,10 +17,12 @@ using Eigen::Isometry3d;
 constexpr const char* kName = "zachmann";
 constexpr std::int64_t kSweepTriangles = 20'000;  // where the number of directions is varied
 
+constexpr int kDistances = 10;
+
 std::vector<Isometry3d> zachmann_poses(PoseSource& source, bool quick) {
   const int orientations = quick ? 10 : 20;
   constexpr int kAxes = 5;
-  constexpr int kDistances = 10;
+
   std::vector<Isometry3d> poses;
   for (int i = 0; i < orientations; ++i) {
     const Eigen::Matrix3d R_AB = source.rotation();
@@ -56,7 +58,7 @@ void run(const SuiteMesh& suite_mesh, const std::vector<Subject>& subjects, cons
                   .name = suite_mesh.name,
                   .mesh_A = *mesh,
                   .mesh_B = *mesh,
-                  .poses = {zachmann_poses(source, options.quick)}},
+                  .poses = with_sample(zachmann_poses(source, options.quick), kDistances, options.quick ? 10 : 20)},
                  subjects, pass_limits(options), results);
 }
 

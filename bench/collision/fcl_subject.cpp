@@ -50,8 +50,4 @@ Subject fcl_subject() {
       .query = [](const Model& model_A, const Model& model_B) { return std::make_unique<FclQuery>(model_A, model_B); }};
 }
 
-std::vector<Subject> peers() {
-  return {fcl_subject()};
-}
-
 }  // namespace glissade::bench

@@ -8,13 +8,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using Eigen::Isometry3d;
+using Parts = std::span<const std::vector<Isometry3d>>;
 
 double ns_since(Clock::time_point start) {
   return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
 }
 
 // Total time of each part.
-std::vector<double> pass(Query& query, const PoseParts& parts, Operation operation) {
+std::vector<double> pass(Query& query, Parts parts, Operation operation) {
   query.start();
   std::vector<double> times;
   times.reserve(parts.size());
@@ -35,7 +36,7 @@ std::vector<double> pass(Query& query, const PoseParts& parts, Operation operati
 // Times of one subject, pass by pass.
 class Log {
  public:
-  void add(const std::vector<double>& part_times, const PoseParts& parts) {
+  void add(const std::vector<double>& part_times, Parts parts) {
     part_ns_.resize(parts.size());
     double total = 0.0;
     std::size_t count = 0;
@@ -48,9 +49,9 @@ class Log {
     spent_s_ += 1e-9 * total;
   }
 
-  bool wants_more(const PassLimits& limits) const {
+  bool wants_more(const PassLimits& limits, bool slow) const {
     const int passes = static_cast<int>(all_ns_.size());
-    return passes < limits.least || (passes < limits.most && spent_s_ < limits.seconds);
+    return passes < (slow ? 1 : limits.least) || (passes < limits.most && spent_s_ < limits.seconds);
   }
 
   PassTimes medians() const {
@@ -75,16 +76,22 @@ double median(std::vector<double> values) {
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-std::vector<PassTimes> interleaved_passes(std::span<Query* const> queries, const PoseParts& poses, Operation operation,
-                                          const PassLimits& limits) {
-  for (Query* query : queries)
-    pass(*query, poses, operation);
-  std::vector<Log> logs(queries.size());
+Parts parts_for(const Contestant& contestant, const PoseParts& poses) {
+  return {poses.data(), contestant.slow ? 1 : poses.size()};
+}
+
+std::vector<PassTimes> interleaved_passes(std::span<const Contestant> contestants, const PoseParts& poses,
+                                          Operation operation, const PassLimits& limits) {
+  for (const Contestant& contestant : contestants) {
+    if (!contestant.slow) pass(*contestant.query, poses, operation);
+  }
+  std::vector<Log> logs(contestants.size());
   for (bool more = true; more;) {
     more = false;
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      if (!logs[i].wants_more(limits)) continue;
-      logs[i].add(pass(*queries[i], poses, operation), poses);
+    for (std::size_t i = 0; i < contestants.size(); ++i) {
+      if (!logs[i].wants_more(limits, contestants[i].slow)) continue;
+      const Parts parts = parts_for(contestants[i], poses);
+      logs[i].add(pass(*contestants[i].query, parts, operation), parts);
       more = true;
     }
   }

@@ -1,5 +1,6 @@
 #include "query_case.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -20,16 +21,16 @@ class Contest {
       if (!model_A) model_A = subject.build(query_case.mesh_A);
       if (!model_B && !same) model_B = subject.build(query_case.mesh_B);
       queries_.push_back(subject.query(*model_A, same ? *model_A : *model_B));
-      pointers_.push_back(queries_.back().get());
+      contestants_.push_back({queries_.back().get(), subject.slow});
     }
   }
 
-  const std::vector<Query*>& queries() const { return pointers_; }
+  const std::vector<Contestant>& contestants() const { return contestants_; }
 
  private:
   std::map<std::string, std::pair<std::unique_ptr<Model>, std::unique_ptr<Model>>> models_;
   std::vector<std::unique_ptr<Query>> queries_;
-  std::vector<Query*> pointers_;
+  std::vector<Contestant> contestants_;
 };
 
 struct Answers {
@@ -38,10 +39,11 @@ struct Answers {
   bool counts = false;
 };
 
-Answers answers(Query& query, const QueryCase& query_case) {
+Answers answers(const Contestant& contestant, const QueryCase& query_case) {
+  Query& query = *contestant.query;
   Answers result;
   query.start();
-  for (const std::vector<Isometry3d>& part : query_case.poses) {
+  for (const std::vector<Isometry3d>& part : parts_for(contestant, query_case.poses)) {
     for (const Isometry3d& X_AB : part) {
       result.of_pose.push_back(query_case.operation == Operation::kIntersects ? query.intersects(X_AB)
                                                                               : query.count_pairs(X_AB));
@@ -58,7 +60,7 @@ Answers answers(Query& query, const QueryCase& query_case) {
 
 std::int64_t differences(const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b) {
   std::int64_t count = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
     count += a[i] != b[i] ? 1 : 0;
   return count;
 }
@@ -76,8 +78,8 @@ class Reporter {
   Reporter(const QueryCase& query_case, Results& results) : case_(query_case), results_(results) {}
 
   void add(const Subject& subject, const PassTimes& times, const Answers& ours, const Answers& reference) {
-    row(subject, "time", times.all_ns, "ns");
-    for (std::size_t i = 0; i < case_.part_names.size(); ++i)
+    if (!subject.slow) row(subject, "time", times.all_ns, "ns");
+    for (std::size_t i = 0; i < std::min(times.part_ns.size(), case_.part_names.size()); ++i)
       row(subject, "time_" + case_.part_names[i], times.part_ns[i], "ns");
     const auto poses = static_cast<double>(ours.of_pose.size());
     if (ours.counts) {
@@ -116,7 +118,8 @@ void say(const QueryCase& query_case, const std::vector<Subject>& subjects, cons
   std::fprintf(stderr, "%s %s:", query_case.bench.c_str(), query_case.name.c_str());
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     std::fprintf(stderr, " %s %.3g us", subjects[i].name.c_str(), 1e-3 * times[i].all_ns);
-    if (i > 0) std::fprintf(stderr, " (%.1fx)", times[i].all_ns / times[0].all_ns);
+    const double ours_ns = subjects[i].slow ? times[0].part_ns[0] : times[0].all_ns;
+    if (i > 0) std::fprintf(stderr, " (%.1fx)", times[i].all_ns / ours_ns);
     if (const auto wrong = differences(all[i].of_pose, all[0].of_pose); wrong > 0) {
       std::fprintf(stderr, " [%lld of %zu answers differ]", static_cast<long long>(wrong), all[i].of_pose.size());
     }
@@ -126,14 +129,21 @@ void say(const QueryCase& query_case, const std::vector<Subject>& subjects, cons
 
 }  // namespace
 
+PoseParts with_sample(const std::vector<Isometry3d>& poses, std::size_t series, std::size_t every) {
+  PoseParts parts(2);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    parts[(i / series) % every == 0 ? 0 : 1].push_back(poses[i]);
+  return parts;
+}
+
 void run_query_case(const QueryCase& query_case, const std::vector<Subject>& subjects, const PassLimits& limits,
                     Results& results) {
   const Contest contest(query_case, subjects);
   std::vector<Answers> all;
-  for (Query* query : contest.queries())
-    all.push_back(answers(*query, query_case));
+  for (const Contestant& contestant : contest.contestants())
+    all.push_back(answers(contestant, query_case));
   const std::vector<PassTimes> times =
-      interleaved_passes(contest.queries(), query_case.poses, query_case.operation, limits);
+      interleaved_passes(contest.contestants(), query_case.poses, query_case.operation, limits);
   Reporter reporter(query_case, results);
   for (std::size_t i = 0; i < subjects.size(); ++i)
     reporter.add(subjects[i], times[i], all[i], all[0]);

@@ -37,19 +37,20 @@ double geometric_mean(const std::vector<double>& values) {
 }  // namespace
 
 void Results::add_ratios(const std::string& bench, const std::vector<std::string>& peers) {
-  std::map<std::string, TimeOfCase> times;
+  std::map<std::string, std::map<std::string, TimeOfCase>> times;  // by metric and subject
   for (const Row& row : rows_) {
-    if (row.bench == bench && row.metric == "time") times[row.subject][row.case_name] = row.value;
+    if (row.bench == bench && row.metric.starts_with("time")) times[row.metric][row.subject][row.case_name] = row.value;
   }
-  const std::size_t cases = times["glissade"].size();
-  for (const auto& [subject, ours] : times) {
-    if (!subject.starts_with("glissade") || ours.size() != cases) continue;
-    for (const std::string& peer : peers) {
-      const std::vector<double> all = ratios(ours, times[peer]);
-      if (all.empty()) continue;
-      const std::string metric = "ratio_to_" + peer;
-      add({bench, "geomean", subject, metric, geometric_mean(all), "x"});
-      add({bench, "worst", subject, metric, *std::min_element(all.begin(), all.end()), "x"});
+  for (const std::string& peer : peers) {
+    // Slow ones took a sample of the poses.
+    auto& by_subject = times[times["time"].contains(peer) ? "time" : "time_sample"];
+    const TimeOfCase theirs = by_subject[peer];
+    const std::size_t cases = by_subject["glissade"].size();
+    for (const auto& [subject, ours] : by_subject) {
+      const std::vector<double> all = ratios(ours, theirs);
+      if (!subject.starts_with("glissade") || ours.size() != cases || all.empty()) continue;
+      add({bench, "geomean", subject, "ratio_to_" + peer, geometric_mean(all), "x"});
+      add({bench, "worst", subject, "ratio_to_" + peer, *std::min_element(all.begin(), all.end()), "x"});
     }
   }
 }

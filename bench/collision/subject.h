@@ -42,7 +42,7 @@ struct Subject {
   std::string model;  ///< subjects of the same `model` share what was built
   std::function<std::unique_ptr<Model>(const collision::TriangleMesh&)> build;
   std::function<std::unique_ptr<Query>(const Model& model_A, const Model& model_B)> query;
-  bool counts_pairs = true;  ///< whether `count_pairs` may be called
+  bool slow = false;  ///< takes only a sample of the poses, or the benchmarks would take hours
 };
 
 /// Glissade as users get it; every ratio is that of its time.
@@ -63,5 +63,7 @@ Subject bullet_subject();
 Subject cgal_subject();
 /// All other libraries.
 std::vector<Subject> peers();
+/// Those that can name all intersecting pairs of triangles.
+std::vector<Subject> peers_that_count_pairs();
 
 }  // namespace glissade::bench
