@@ -66,6 +66,16 @@ Subject make_subject(std::string name, const DopTreeOptions& options, Instructio
               }};
 }
 
+template <typename Workspace>
+std::vector<Subject> on_other_instruction_sets(const std::string& prefix) {
+  std::vector<Subject> subjects;
+  const InstructionSet in_use = default_instruction_set();
+  for (const InstructionSet set : collision::available_instruction_sets()) {
+    if (set != in_use) subjects.push_back(make_subject<Workspace>(prefix + std::string(collision::name(set)), {}, set));
+  }
+  return subjects;
+}
+
 }  // namespace
 
 Subject glissade_subject() {
@@ -77,12 +87,11 @@ Subject glissade_coherent() {
 }
 
 std::vector<Subject> glissade_instruction_sets() {
-  std::vector<Subject> subjects;
-  const InstructionSet in_use = default_instruction_set();
-  for (const InstructionSet set : collision::available_instruction_sets()) {
-    if (set != in_use) subjects.push_back(make_subject("glissade-" + std::string(collision::name(set)), {}, set));
-  }
-  return subjects;
+  return on_other_instruction_sets<collision::QueryWorkspace>("glissade-");
+}
+
+std::vector<Subject> glissade_coherent_instruction_sets() {
+  return on_other_instruction_sets<collision::CoherentWorkspace>("glissade-coherent-");
 }
 
 std::vector<Subject> glissade_as_published() {

@@ -138,6 +138,11 @@ PoseParts with_sample(const std::vector<Isometry3d>& poses, std::size_t series, 
 
 void run_query_case(const QueryCase& query_case, const std::vector<Subject>& subjects, const PassLimits& limits,
                     Results& results) {
+  if (query_case.poses.empty() || query_case.poses[0].empty()) {
+    std::fprintf(stderr, "%s %s: left out, no such poses were found\n", query_case.bench.c_str(),
+                 query_case.name.c_str());
+    return;
+  }
   const Contest contest(query_case, subjects);
   std::vector<Answers> all;
   for (const Contestant& contestant : contest.contestants())

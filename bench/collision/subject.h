@@ -51,6 +51,8 @@ Subject glissade_subject();
 Subject glissade_coherent();
 /// The same on the other instruction sets of this machine: `glissade-avx2`.
 std::vector<Subject> glissade_instruction_sets();
+/// Those of `glissade_coherent`: `glissade-coherent-avx2`.
+std::vector<Subject> glissade_coherent_instruction_sets();
 /// Pure DOP-trees as in the founding paper, without the extra slab: `glissade-no-slab`, and `glissade-brute-force` with
 /// its O(k²) realignment.
 std::vector<Subject> glissade_as_published();

@@ -1,5 +1,7 @@
 #include "suite.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -48,10 +50,17 @@ std::vector<std::string> all_shapes() {
   return names;
 }
 
-TriangleMesh make_shape(const std::string& shape, std::int64_t triangles) {
+TriangleMesh make_shape(const std::string& shape, std::int64_t triangles, double size) {
   const auto found = makers().find(shape);
   if (found == makers().end()) throw std::invalid_argument("shape " + shape + " is unknown");
-  return found->second(triangles);
+  return centred(found->second(triangles), size);
+}
+
+TriangleMesh make_plate_with_bumps(std::int64_t triangles, double size) {
+  TriangleMesh mesh = collision::make_plate({size, size}, triangles);
+  for (Eigen::Vector3d& p : mesh.vertices)
+    p.z() = 0.05 * size * std::sin(12.566 * p.x() / size) * std::sin(12.566 * p.y() / size);
+  return mesh;
 }
 
 std::string short_count(std::int64_t count) {
@@ -65,12 +74,14 @@ std::vector<SuiteMesh> suite_meshes(const Suite& suite, const std::vector<std::i
   for (const std::string& shape : suite.shapes) {
     for (const std::int64_t count : triangles) {
       meshes.push_back(
-          {shape + "-" + short_count(count), [shape, count, size] { return centred(make_shape(shape, count), size); }});
+          {shape + "-" + short_count(count), [shape, count, size] { return make_shape(shape, count, size); }});
     }
   }
   for (const std::filesystem::path& file : suite.files) {
     const auto mesh = std::make_shared<const TriangleMesh>(collision::import_mesh(file).mesh);
-    meshes.push_back({file.stem().string(), [mesh, size] { return centred(*mesh, size); }});
+    std::string name = file.stem().string();
+    std::replace(name.begin(), name.end(), ',', '_');  // results.csv knows no quoting
+    meshes.push_back({name, [mesh, size] { return centred(*mesh, size); }});
   }
   return meshes;
 }
