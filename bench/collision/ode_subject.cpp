@@ -1,6 +1,8 @@
 // ODE: triangle mesh against triangle mesh by dCollide. It has no query that only says yes or no: the boolean asks for
 // one contact of any quality, but ODE collects all overlapping pairs of boxes first.
 
+#include <cstdarg>
+
 #include <ode/ode.h>
 
 #include "subject.h"
@@ -12,7 +14,10 @@ using Eigen::Isometry3d;
 
 void keep_ode_alive() {
   struct Session {
-    Session() { dInitODE2(0); }
+    Session() {
+      dInitODE2(0);
+      dSetMessageHandler([](int, const char*, va_list) {});  // warns of every deep overlap
+    }
     ~Session() { dCloseODE(); }
   };
   static const Session session;
