@@ -33,8 +33,10 @@ def panels(path, figures, subjects):
     times = [figures.get(case, who, "time") for sizes in by_shape.values() for _, case in sizes for who, _ in subjects]
     times = [ns / 1000 for ns in times if ns is not None]
     body = f"set multiplot layout {rows},{columns}\nset logscale xy\nset format x '%.0s%c'\n"
-    body += f"set yrange [{0.7 * min(times)}:{3 * max(times)}]\n"
+    counts = [n for sizes in by_shape.values() for n, _ in sizes]
+    body += f"set xrange [{0.7 * min(counts)}:{1.4 * max(counts)}]\nset yrange [{0.7 * min(times)}:{4 * max(times)}]\n"
     body += "set xlabel 'triangles of each object'\nset ylabel 'µs'\n"
+    keys = ["off", 'top left Left reverse samplen 1.5 font ",10"']
     for number, (shape, sizes) in enumerate(by_shape.items()):
         lines = []
         for color, (subject, title) in enumerate(subjects):
@@ -43,7 +45,7 @@ def panels(path, figures, subjects):
             if points:
                 body += data_block(f"d{number}_{color}", points)
                 lines.append(f"$d{number}_{color} " + line(color, title))
-        body += f'set title "{shape}"\nset key {"top left" if number == 0 else "off"}\n'
+        body += f'set title "{shape}"\nset key {keys[number == 0]}\n'
         body += "plot " + ", ".join(lines) + "\n"
     gnuplot(path, (320 * columns, 260 * rows), body)
     return True
