@@ -13,6 +13,7 @@
 #include <glissade/collision/instruction_set.h>
 
 #include "benches.h"
+#include "subject.h"
 
 namespace {
 
@@ -60,10 +61,10 @@ int fail(int exit_code, const std::string& message) {
   return exit_code;
 }
 
-void choose_instruction_set(const std::string& wanted) {
+void choose_instruction_set_named(const std::string& wanted) {
   std::string names;
   for (const auto set : glissade::collision::available_instruction_sets()) {
-    if (glissade::collision::name(set) == wanted) return glissade::collision::use_instruction_set(set);
+    if (glissade::collision::name(set) == wanted) return choose_instruction_set(set);
     names += " " + std::string(glissade::collision::name(set));
   }
   throw std::invalid_argument("--instruction-set: " + wanted + " is not available here, but only" + names);
@@ -122,7 +123,7 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return fail(kBadInput, error.what());
   }
-  if (!instruction_set.empty()) choose_instruction_set(instruction_set);
+  if (!instruction_set.empty()) choose_instruction_set_named(instruction_set);
   run_all(std::move(options));
   return 0;
 }

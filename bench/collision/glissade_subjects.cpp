@@ -47,9 +47,9 @@ class GlissadeQuery : public Query {
   std::vector<collision::TrianglePair> pairs_;
 };
 
-// Called before any query changes it: what the processor is best at, or what was asked for on the command line.
-InstructionSet default_instruction_set() {
-  static const InstructionSet chosen = collision::instruction_set();
+// What the processor is best at, or what was asked for on the command line.
+InstructionSet& default_instruction_set() {
+  static InstructionSet chosen = collision::available_instruction_sets().front();
   return chosen;
 }
 
@@ -77,6 +77,11 @@ std::vector<Subject> on_other_instruction_sets(const std::string& prefix) {
 }
 
 }  // namespace
+
+void choose_instruction_set(InstructionSet set) {
+  collision::use_instruction_set(set);
+  default_instruction_set() = set;
+}
 
 Subject glissade_subject() {
   return make_subject("glissade", {}, default_instruction_set());

@@ -45,6 +45,9 @@ struct Subject {
   bool slow = false;  ///< takes only a sample of the poses, or the benchmarks would take hours
 };
 
+/// What the subjects use that are not named after another one. Throws std::invalid_argument when it is not available.
+void choose_instruction_set(collision::InstructionSet set);
+
 /// Glissade as users get it; every ratio is that of its time.
 Subject glissade_subject();
 /// The same with a workspace that remembers the last query.
