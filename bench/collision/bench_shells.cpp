@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include <glissade/collision/benchmark_shapes.h>
 #include <glissade/collision/mesh_generators.h>
 
 #include "benches.h"
@@ -55,7 +56,7 @@ void run_shells(const BenchOptions& options, Results& results) {
                     .mesh_B = *inner,
                     .poses = with_sample(nested_poses(source, count), 1, 10)},
                    subjects, pass_limits(options), results);
-    const TriangleMesh plate = make_plate_with_bumps(triangles, kSize);
+    const TriangleMesh plate = collision::make_bumpy_plate({kSize, kSize}, 0.1 * kSize, 4, triangles);
     run_query_case({.bench = kName,
                     .name = "bumpy-plates-" + short_count(triangles),
                     .mesh_A = plate,

@@ -1,5 +1,4 @@
 #include <string>
-#include <utility>
 
 #include "subject.h"
 
@@ -54,10 +53,10 @@ InstructionSet& default_instruction_set() {
 }
 
 template <typename Workspace = collision::QueryWorkspace>
-Subject make_subject(std::string name, const DopTreeOptions& options, InstructionSet set) {
+Subject make_subject(const std::string& name, const DopTreeOptions& options, InstructionSet set) {
   const std::string model = "glissade k" + std::to_string(options.directions) + (options.thin_slab ? " slab" : "") +
                             (options.realignment == collision::Realignment::kBruteForce ? " brute force" : "");
-  return {.name = std::move(name),
+  return {.name = name,
           .model = model,
           .build = [options](const TriangleMesh& mesh) { return std::make_unique<GlissadeModel>(mesh, options); },
           .query =

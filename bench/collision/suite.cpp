@@ -1,36 +1,16 @@
 #include "suite.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <memory>
 #include <stdexcept>
 
-#include <glissade/collision/car_door_parts.h>
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/collision/benchmark_shapes.h>
 #include <glissade/collision/mesh_import.h>
 
 namespace glissade::bench {
 namespace {
 
 using collision::TriangleMesh;
-using Maker = TriangleMesh (*)(std::int64_t);
-
-// The parts of the car door have about 50,000 triangles at detail 1.
-double detail(std::int64_t triangles) {
-  return static_cast<double>(triangles) / 50'000.0;
-}
-
-const std::map<std::string, Maker>& makers() {
-  static const std::map<std::string, Maker> all{
-      {"sphere", [](std::int64_t n) { return collision::make_sphere(1.0, n); }},
-      {"torus", [](std::int64_t n) { return collision::make_torus(0.7, 0.3, n); }},
-      {"hyperboloid", [](std::int64_t n) { return collision::make_hyperboloid(0.4, 1.0, 2.0, n); }},
-      {"window-motor", [](std::int64_t n) { return collision::make_window_motor(detail(n)); }},
-  };
-  return all;
-}
-
 TriangleMesh centred(TriangleMesh mesh, double size) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : mesh.vertices)
@@ -45,22 +25,16 @@ TriangleMesh centred(TriangleMesh mesh, double size) {
 
 std::vector<std::string> all_shapes() {
   std::vector<std::string> names;
-  for (const auto& [name, maker] : makers())
-    names.push_back(name);
+  for (const collision::BenchmarkShape& shape : collision::benchmark_shapes())
+    names.push_back(shape.name);
   return names;
 }
 
 TriangleMesh make_shape(const std::string& shape, std::int64_t triangles, double size) {
-  const auto found = makers().find(shape);
-  if (found == makers().end()) throw std::invalid_argument("shape " + shape + " is unknown");
-  return centred(found->second(triangles), size);
-}
-
-TriangleMesh make_plate_with_bumps(std::int64_t triangles, double size) {
-  TriangleMesh mesh = collision::make_plate({size, size}, triangles);
-  for (Eigen::Vector3d& p : mesh.vertices)
-    p.z() = 0.05 * size * std::sin(12.566 * p.x() / size) * std::sin(12.566 * p.y() / size);
-  return mesh;
+  for (const collision::BenchmarkShape& known : collision::benchmark_shapes()) {
+    if (known.name == shape) return centred(known.make(triangles), size);
+  }
+  throw std::invalid_argument("shape " + shape + " is unknown");
 }
 
 std::string short_count(std::int64_t count) {

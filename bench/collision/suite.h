@@ -29,15 +29,12 @@ struct Suite {
   std::vector<std::filesystem::path> files;
 };
 
-/// Names of all shapes that can be generated.
+/// Names of all shapes that can be generated: those of collision/benchmark_shapes.h.
 std::vector<std::string> all_shapes();
 
 /// The shape with about so many triangles, centred on the origin, its largest extent `size`. Throws
 /// std::invalid_argument for an unknown name.
 collision::TriangleMesh make_shape(const std::string& shape, std::int64_t triangles, double size);
-
-/// Two waves each way, bumps of a tenth of the size.
-collision::TriangleMesh make_plate_with_bumps(std::int64_t triangles, double size);
 
 /// Every shape at each of the sizes, then the user's meshes, centred on the origin and scaled to the largest extent
 /// `size`. Throws std::invalid_argument for a file that cannot be used.
