@@ -4,6 +4,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include <Eigen/Geometry>
+
 #include <glissade/collision/benchmark_shapes.h>
 #include <glissade/collision/mesh_import.h>
 
