@@ -39,7 +39,7 @@ void run(const SuiteMesh& suite_mesh, const std::vector<Subject>& subjects, cons
 }  // namespace
 
 PassLimits pass_limits(const BenchOptions& options) {
-  if (options.quick) return {.least = 2, .most = 11, .seconds = 0.1};
+  if (options.quick) return {.least = 2, .most = 41, .seconds = 0.1};
   return {};
 }
 

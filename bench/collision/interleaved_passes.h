@@ -22,7 +22,7 @@ using PoseParts = std::vector<std::vector<Eigen::Isometry3d>>;
 
 struct PassLimits {
   int least = 3;          ///< passes of every subject, however long they take; one for slow subjects
-  int most = 31;          ///< passes of a fast one
+  int most = 101;         ///< passes of a fast one
   double seconds = 0.25;  ///< after which a subject that has made its least passes stops
 };
 
