@@ -15,8 +15,6 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/math/bv/OBBRSS.h>
 #include <fcl/narrowphase/collision.h>
 
 #include <glissade/collision/brute_force.h>
@@ -24,13 +22,15 @@
 #include <glissade/collision/mesh_import.h>
 
 #include "cgal_oracle.h"
+#include "fcl_model.h"
 
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using namespace glissade::collision;
-using FclModel = fcl::BVHModel<fcl::OBBRSS<double>>;
+using glissade::bench::fcl_tree;
+using glissade::bench::FclTree;
 
 struct Arguments {
   std::filesystem::path path_A;
@@ -41,20 +41,7 @@ struct Arguments {
   double scale_B = 1.0;
 };
 
-FclModel fcl_model(const TriangleMesh& mesh) {
-  std::vector<fcl::Triangle> triangles;
-  for (const Triangle& t : mesh.triangles) {
-    triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
-                           static_cast<std::size_t>(t[2]));
-  }
-  FclModel model;
-  model.beginModel();
-  model.addSubModel(mesh.vertices, triangles);
-  model.endModel();
-  return model;
-}
-
-bool fcl_intersects(const FclModel& model_A, const FclModel& model_B, const Isometry3d& X_AB) {
+bool fcl_intersects(const FclTree& model_A, const FclTree& model_B, const Isometry3d& X_AB) {
   const fcl::CollisionRequest<double> request;
   fcl::CollisionResult<double> result;
   return fcl::collide(&model_A, Isometry3d::Identity(), &model_B, X_AB, request, result) > 0;
@@ -190,8 +177,8 @@ void compare(const Arguments& arguments) {
   };
   const DopTree tree_A(load(arguments.path_A, arguments.scale_A));
   const DopTree tree_B(load(arguments.path_B, arguments.scale_B));
-  const FclModel model_A = fcl_model(tree_A.mesh());
-  const FclModel model_B = fcl_model(tree_B.mesh());
+  const FclTree model_A = fcl_tree(tree_A.mesh());
+  const FclTree model_B = fcl_tree(tree_B.mesh());
   PoseSource source(tree_A, tree_B, arguments.seed);
   QueryWorkspace workspace;
   int pose = 0;

@@ -1,0 +1,38 @@
+#pragma once
+
+/// The benchmarks, by the names of the command line. Each adds its rows to the results.
+
+#include "bench_options.h"
+#include "interleaved_passes.h"
+#include "results.h"
+
+namespace glissade::bench {
+
+/// Two copies of an object at Zachmann's poses (paper §2.1.2): for random orientations and axes of approach, distances
+/// from 0 to where the bounding boxes come apart; the time is averaged over all. Figure 3 of the paper.
+void run_zachmann(const BenchOptions& options, Results& results);
+
+/// What belongs to it but not to its ratios: a pair of spheres three radii apart, and, unless quick, Glissade at a
+/// million triangles, with the growth of its time from a thousand on (geometric mean over the shapes).
+void run_extremes(const BenchOptions& options, Results& results);
+
+/// Two copies of an object at distances of 0.1 %, 0.3 % and 1 % of the size.
+void run_close(const BenchOptions& options, Results& results);
+
+/// Parallel surfaces 2 % of half the size apart, the worst case of any hierarchy: nested spheres and stacked bumpy
+/// plates.
+void run_shells(const BenchOptions& options, Results& results);
+
+/// A part of 0.1 m slides along another in steps of 0.01 mm and 0.005 degrees, at several gaps and colliding: queries
+/// that remember the last one beside queries that do not.
+void run_coherent(const BenchOptions& options, Results& results);
+
+/// All intersecting pairs of triangles of two copies of an object that overlap.
+void run_all_pairs(const BenchOptions& options, Results& results);
+
+/// Time and memory of building, including a copy of the mesh; bytes are those that malloc has handed out.
+void run_build(const BenchOptions& options, Results& results);
+
+PassLimits pass_limits(const BenchOptions& options);
+
+}  // namespace glissade::bench

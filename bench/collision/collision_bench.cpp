@@ -1,0 +1,141 @@
+/// The collision benchmarks: parses, runs what was asked for, writes results.csv.
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/collision/instruction_set.h>
+
+#include "benches.h"
+#include "subject.h"
+
+namespace {
+
+using namespace glissade::bench;
+
+constexpr int kFailed = 1;
+constexpr int kBadInput = 2;
+
+constexpr const char* kDescription =
+    "Measures Glissade's collision queries beside FCL, ODE, Bullet and CGAL, in one thread, on the same poses.\n"
+    "\n"
+    "  zachmann   two copies of an object at all distances from 0 to just apart, boolean query\n"
+    "  close      two copies of an object 0.1 %, 0.3 % and 1 % of the size apart, boolean query\n"
+    "  shells     nested spheres and stacked bumpy plates, parallel and 2 % apart, boolean query\n"
+    "  coherent   one part slides along another in steps of 0.01 mm and 0.005 degrees, boolean query\n"
+    "  all-pairs  all intersecting pairs of triangles of two overlapping copies of an object\n"
+    "  build      time and memory of building\n"
+    "\n"
+    "Each subject goes over all poses in turn, again and again; times are medians over these passes. Answers are\n"
+    "compared, too. Progress goes to standard error, the figures to results.csv, whose columns are\n"
+    "bench,case,subject,metric,value,unit.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  collision_bench --quick --only zachmann --out /tmp\n"
+    "  collision_bench --only zachmann,close --mesh gear.stl --mesh housing.obj\n"
+    "scripts/bench builds and runs this and renews docs/benchmarks.md.\n"
+    "Exit code: 0 when done, 1 when a run failed, 2 when the usage or a mesh is wrong.";
+
+using Bench = void (*)(const BenchOptions&, Results&);
+
+const std::vector<std::pair<std::string, Bench>>& benches() {
+  static const std::vector<std::pair<std::string, Bench>> all{{"zachmann", run_zachmann},   {"close", run_close},
+                                                              {"shells", run_shells},       {"coherent", run_coherent},
+                                                              {"all-pairs", run_all_pairs}, {"build", run_build}};
+  return all;
+}
+
+bool exists(const std::string& name) {
+  return std::any_of(benches().begin(), benches().end(), [&](const auto& bench) { return bench.first == name; });
+}
+
+int fail(int exit_code, const std::string& message) {
+  std::fprintf(stderr, "collision_bench: %s\n", message.c_str());
+  return exit_code;
+}
+
+void choose_instruction_set_named(const std::string& wanted) {
+  std::string names;
+  for (const auto set : glissade::collision::available_instruction_sets()) {
+    if (glissade::collision::name(set) == wanted) return choose_instruction_set(set);
+    names += " " + std::string(glissade::collision::name(set));
+  }
+  throw std::invalid_argument("--instruction-set: " + wanted + " is not available here, but only" + names);
+}
+
+void fill_in_suite(Suite& suite, bool quick) {
+  if (suite.shapes.empty()) suite.shapes = all_shapes();
+  if (suite.triangles.empty()) {
+    suite.triangles = {1'000, 5'000, 20'000, 50'000, 100'000};
+    suite.shell_triangles = {100'000};
+    suite.coherent_triangles = 50'000;
+    if (quick) {
+      suite.triangles = {1'000, 20'000};
+      suite.shell_triangles = {20'000};
+      suite.coherent_triangles = 20'000;
+    }
+  } else {
+    suite.shell_triangles = suite.triangles;
+    suite.coherent_triangles = suite.triangles.back();
+  }
+}
+
+void run_all(BenchOptions options) {
+  fill_in_suite(options.suite, options.quick);
+  for (const std::string& name : options.only) {
+    if (!exists(name)) throw std::invalid_argument("--only: there is no bench " + name);
+  }
+  Results results;
+  std::filesystem::create_directories(options.folder);
+  for (const auto& [name, run] : benches()) {
+    if (!options.only.empty() && !options.only.contains(name)) continue;
+    run(options, results);
+    results.write_csv(options.folder / "results.csv");  // after each: a run that is stopped has not been for nothing
+  }
+}
+
+int parse_and_run(int argc, char** argv) {
+  BenchOptions options;
+  std::string instruction_set;
+  CLI::App app{kDescription, "collision_bench"};
+  app.footer(kFooter);
+  app.add_option("--only", options.only, "Run only these, separated by commas")->delimiter(',');
+  app.add_flag("--quick", options.quick, "Fewer meshes and poses: each bench within a minute");
+  app.add_option("--out", options.folder, "Folder for results.csv, made if need be")->capture_default_str();
+  app.add_option("--mesh", options.suite.files, "Another mesh (OBJ, STL, PLY, glTF); may be repeated");
+  app.add_option("--instruction-set", instruction_set, "Glissade's vector instructions (default: the best there are)");
+  app.add_option("--seed", options.seed, "Seed of the poses")->capture_default_str();
+  app.add_option("--shapes", options.suite.shapes, "Only these generated shapes, separated by commas")->delimiter(',');
+  app.add_option("--triangles", options.suite.triangles, "Only these numbers of triangles, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    return fail(kBadInput, error.what());
+  }
+  if (!instruction_set.empty()) choose_instruction_set_named(instruction_set);
+  run_all(std::move(options));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const std::invalid_argument& error) {
+    return fail(kBadInput, error.what());
+  } catch (const std::exception& error) {
+    return fail(kFailed, error.what());
+  }
+}

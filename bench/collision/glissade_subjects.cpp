@@ -1,0 +1,119 @@
+#include <string>
+
+#include "subject.h"
+
+namespace glissade::bench {
+namespace {
+
+using collision::DopTree;
+using collision::DopTreeOptions;
+using collision::InstructionSet;
+using collision::TriangleMesh;
+using Eigen::Isometry3d;
+
+struct GlissadeModel : Model {
+  explicit GlissadeModel(const TriangleMesh& mesh, const DopTreeOptions& options)
+      : tree(std::make_shared<const TriangleMesh>(mesh), options) {}
+  DopTree tree;
+};
+
+const DopTree& tree_of(const Model& model) {
+  return dynamic_cast<const GlissadeModel&>(model).tree;
+}
+
+template <typename Workspace>
+class GlissadeQuery : public Query {
+ public:
+  GlissadeQuery(const Model& model_A, const Model& model_B, InstructionSet set)
+      : tree_A_(tree_of(model_A)), tree_B_(tree_of(model_B)), instruction_set_(set) {}
+
+  void start() override {
+    collision::use_instruction_set(instruction_set_);
+    if constexpr (requires { workspace_.forget(); }) workspace_.forget();
+  }
+  bool intersects(const Isometry3d& X_AB) override { return collision::intersects(tree_A_, tree_B_, X_AB, workspace_); }
+  std::int64_t count_pairs(const Isometry3d& X_AB) override {
+    collision::intersecting_pairs(tree_A_, tree_B_, X_AB, workspace_, pairs_);
+    return static_cast<std::int64_t>(pairs_.size());
+  }
+  std::optional<collision::QueryCounters> counters() const override { return workspace_.counters(); }
+
+ private:
+  const DopTree& tree_A_;
+  const DopTree& tree_B_;
+  InstructionSet instruction_set_;
+  Workspace workspace_;
+  std::vector<collision::TrianglePair> pairs_;
+};
+
+// What the processor is best at, or what was asked for on the command line.
+InstructionSet& default_instruction_set() {
+  static InstructionSet chosen = collision::available_instruction_sets().front();
+  return chosen;
+}
+
+template <typename Workspace = collision::QueryWorkspace>
+Subject make_subject(const std::string& name, const DopTreeOptions& options, InstructionSet set) {
+  const std::string model = "glissade k" + std::to_string(options.directions) + (options.thin_slab ? " slab" : "") +
+                            (options.realignment == collision::Realignment::kBruteForce ? " brute force" : "");
+  return {.name = name,
+          .model = model,
+          .build = [options](const TriangleMesh& mesh) { return std::make_unique<GlissadeModel>(mesh, options); },
+          .query =
+              [set](const Model& model_A, const Model& model_B) {
+                return std::make_unique<GlissadeQuery<Workspace>>(model_A, model_B, set);
+              }};
+}
+
+template <typename Workspace>
+std::vector<Subject> on_other_instruction_sets(const std::string& prefix) {
+  std::vector<Subject> subjects;
+  const InstructionSet in_use = default_instruction_set();
+  for (const InstructionSet set : collision::available_instruction_sets()) {
+    if (set != in_use) subjects.push_back(make_subject<Workspace>(prefix + std::string(collision::name(set)), {}, set));
+  }
+  return subjects;
+}
+
+}  // namespace
+
+void choose_instruction_set(InstructionSet set) {
+  collision::use_instruction_set(set);
+  default_instruction_set() = set;
+}
+
+Subject glissade_subject() {
+  return make_subject("glissade", {}, default_instruction_set());
+}
+
+Subject glissade_coherent() {
+  return make_subject<collision::CoherentWorkspace>("glissade-coherent", {}, default_instruction_set());
+}
+
+std::vector<Subject> glissade_instruction_sets() {
+  return on_other_instruction_sets<collision::QueryWorkspace>("glissade-");
+}
+
+std::vector<Subject> glissade_coherent_instruction_sets() {
+  return on_other_instruction_sets<collision::CoherentWorkspace>("glissade-coherent-");
+}
+
+std::vector<Subject> glissade_as_published() {
+  const DopTreeOptions affine{.thin_slab = false};
+  const DopTreeOptions brute_force{.thin_slab = false, .realignment = collision::Realignment::kBruteForce};
+  return {make_subject("glissade-no-slab", affine, default_instruction_set()),
+          make_subject("glissade-brute-force", brute_force, default_instruction_set())};
+}
+
+std::vector<Subject> glissade_directions() {
+  std::vector<Subject> subjects;
+  for (const int k : {6, 14, 18, 26}) {  // 24 is the default
+    const std::string name = "glissade-k" + std::to_string(k);
+    subjects.push_back(make_subject(name, {.directions = k}, default_instruction_set()));
+    subjects.push_back(
+        make_subject(name + "-no-slab", {.directions = k, .thin_slab = false}, default_instruction_set()));
+  }
+  return subjects;
+}
+
+}  // namespace glissade::bench

@@ -1,0 +1,74 @@
+#pragma once
+
+/// What is measured: Glissade, a variant of it, or another library. Each is made the same by a small adapter.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/collision/dop_query.h>
+#include <glissade/collision/instruction_set.h>
+
+namespace glissade::bench {
+
+/// What a library has built of one mesh, with its own copy of what it needs of it.
+class Model {
+ public:
+  virtual ~Model() = default;
+};
+
+/// Queries of one pair of models.
+class Query {
+ public:
+  virtual ~Query() = default;
+
+  /// Called before each pass over the poses: forget what was learnt, choose global settings.
+  virtual void start() {}
+  /// X_AB is the pose of B in the frame of A.
+  virtual bool intersects(const Eigen::Isometry3d& X_AB) = 0;
+  /// Number of intersecting pairs of triangles. The library must find out which they are.
+  virtual std::int64_t count_pairs(const Eigen::Isometry3d& X_AB) = 0;
+  /// Work of the last query, for subjects that count it.
+  virtual std::optional<collision::QueryCounters> counters() const { return std::nullopt; }
+};
+
+struct Subject {
+  std::string name;
+  std::string model;  ///< subjects of the same `model` share what was built
+  std::function<std::unique_ptr<Model>(const collision::TriangleMesh&)> build;
+  std::function<std::unique_ptr<Query>(const Model& model_A, const Model& model_B)> query;
+  bool slow = false;  ///< takes only a sample of the poses, or the benchmarks would take hours
+};
+
+/// What the subjects use that are not named after another one. Throws std::invalid_argument when it is not available.
+void choose_instruction_set(collision::InstructionSet set);
+
+/// Glissade as users get it; every ratio is that of its time.
+Subject glissade_subject();
+/// The same with a workspace that remembers the last query.
+Subject glissade_coherent();
+/// The same on the other instruction sets of this machine: `glissade-avx2`.
+std::vector<Subject> glissade_instruction_sets();
+/// Those of `glissade_coherent`: `glissade-coherent-avx2`.
+std::vector<Subject> glissade_coherent_instruction_sets();
+/// Pure DOP-trees as in the founding paper, without the extra slab: `glissade-no-slab`, and `glissade-brute-force` with
+/// its O(k²) realignment.
+std::vector<Subject> glissade_as_published();
+/// Other numbers of directions, with and without the extra slab: `glissade-k6`, `glissade-k6-no-slab`.
+std::vector<Subject> glissade_directions();
+
+Subject fcl_subject();
+Subject ode_subject();
+Subject bullet_subject();
+Subject cgal_subject();
+/// All other libraries.
+std::vector<Subject> peers();
+/// Those that can name all intersecting pairs of triangles.
+std::vector<Subject> peers_that_count_pairs();
+
+}  // namespace glissade::bench

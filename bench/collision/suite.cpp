@@ -1,0 +1,65 @@
+#include "suite.h"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include <Eigen/Geometry>
+
+#include <glissade/collision/benchmark_shapes.h>
+#include <glissade/collision/mesh_import.h>
+
+namespace glissade::bench {
+namespace {
+
+using collision::TriangleMesh;
+TriangleMesh centred(TriangleMesh mesh, double size) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : mesh.vertices)
+    box.extend(vertex);
+  const double scale = size / box.sizes().maxCoeff();
+  for (Eigen::Vector3d& vertex : mesh.vertices)
+    vertex = scale * (vertex - box.center());
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<std::string> all_shapes() {
+  std::vector<std::string> names;
+  for (const collision::BenchmarkShape& shape : collision::benchmark_shapes())
+    names.push_back(shape.name);
+  return names;
+}
+
+TriangleMesh make_shape(const std::string& shape, std::int64_t triangles, double size) {
+  for (const collision::BenchmarkShape& known : collision::benchmark_shapes()) {
+    if (known.name == shape) return centred(known.make(triangles), size);
+  }
+  throw std::invalid_argument("shape " + shape + " is unknown");
+}
+
+std::string short_count(std::int64_t count) {
+  if (count >= 1'000'000 && count % 1'000'000 == 0) return std::to_string(count / 1'000'000) + "M";
+  if (count >= 1'000 && count % 1'000 == 0) return std::to_string(count / 1'000) + "k";
+  return std::to_string(count);
+}
+
+std::vector<SuiteMesh> suite_meshes(const Suite& suite, const std::vector<std::int64_t>& triangles, double size) {
+  std::vector<SuiteMesh> meshes;
+  for (const std::string& shape : suite.shapes) {
+    for (const std::int64_t count : triangles) {
+      meshes.push_back(
+          {shape + "-" + short_count(count), [shape, count, size] { return make_shape(shape, count, size); }});
+    }
+  }
+  for (const std::filesystem::path& file : suite.files) {
+    const auto mesh = std::make_shared<const TriangleMesh>(collision::import_mesh(file).mesh);
+    std::string name = file.stem().string();
+    std::replace(name.begin(), name.end(), ',', '_');  // results.csv knows no quoting
+    meshes.push_back({name, [mesh, size] { return centred(*mesh, size); }});
+  }
+  return meshes;
+}
+
+}  // namespace glissade::bench

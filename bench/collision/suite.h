@@ -1,0 +1,47 @@
+#pragma once
+
+/// The meshes of the benchmarks: shapes at several numbers of triangles, and meshes of the user.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <glissade/collision/triangle_mesh.h>
+
+namespace glissade::bench {
+
+/// Largest extent of every mesh but in `coherent`, in metres (Zachmann's procedure: objects of size 2).
+inline constexpr double kSize = 2.0;
+
+/// One mesh of the suite, made when it is needed: a million triangles are not kept for later.
+struct SuiteMesh {
+  std::string name;  ///< "sphere-20k", or the file's stem
+  std::function<collision::TriangleMesh()> make;
+};
+
+struct Suite {
+  std::vector<std::string> shapes;            ///< names of generated shapes
+  std::vector<std::int64_t> triangles;        ///< numbers of triangles of each
+  std::vector<std::int64_t> shell_triangles;  ///< the same for `shells`
+  std::int64_t coherent_triangles = 0;        ///< the same for `coherent`
+  std::vector<std::filesystem::path> files;
+};
+
+/// Names of all shapes that can be generated: those of collision/benchmark_shapes.h.
+std::vector<std::string> all_shapes();
+
+/// The shape with about so many triangles, centred on the origin, its largest extent `size`. Throws
+/// std::invalid_argument for an unknown name.
+collision::TriangleMesh make_shape(const std::string& shape, std::int64_t triangles, double size);
+
+/// Every shape at each of the sizes, then the user's meshes, centred on the origin and scaled to the largest extent
+/// `size`. Throws std::invalid_argument for a file that cannot be used.
+std::vector<SuiteMesh> suite_meshes(const Suite& suite, const std::vector<std::int64_t>& triangles,
+                                    double size = kSize);
+
+/// "20k", "1M", or the number itself.
+std::string short_count(std::int64_t count);
+
+}  // namespace glissade::bench

@@ -1,0 +1,70 @@
+"""The rows of results.csv, by bench, case, subject and metric."""
+
+import csv
+import math
+import re
+
+PEERS = ["fcl", "ode", "bullet", "cgal"]
+PEER_TITLES = {"fcl": "FCL", "ode": "ODE", "bullet": "Bullet", "cgal": "CGAL"}
+
+
+def geometric_mean(values):
+    return math.exp(sum(math.log(value) for value in values) / len(values))
+
+
+class Figures:
+    """The rows of one bench. What was not measured is None."""
+
+    def __init__(self, rows):
+        self.values = {}
+        self.cases = []
+        self.subjects = []
+        for row in rows:
+            key = (row["case"], row["subject"], row["metric"])
+            self.values[key] = float(row["value"])
+            if row["case"] not in self.cases:
+                self.cases.append(row["case"])
+            if row["subject"] not in self.subjects:
+                self.subjects.append(row["subject"])
+
+    def get(self, case, subject, metric):
+        return self.values.get((case, subject, metric))
+
+    def measured_cases(self):
+        """Cases that compare Glissade with others."""
+        return [case for case in self.cases if self.get(case, "fcl", "time") is not None]
+
+    def variants(self):
+        return [subject for subject in self.subjects if subject.startswith("glissade")]
+
+    def count_disagreements(self, subject):
+        """How many answers differ from Glissade's, over all cases; None when none were compared."""
+        found = [value for (_, who, metric), value in self.values.items() if who == subject and metric == "disagreements"]
+        return sum(found) if found else None
+
+
+def read_results(path):
+    """Figures by bench."""
+    rows = {}
+    with open(path, newline="") as file:
+        for row in csv.DictReader(file):
+            rows.setdefault(row["bench"], []).append(row)
+    return {bench: Figures(bench_rows) for bench, bench_rows in rows.items()}
+
+
+def split_case(case):
+    """"sphere-20k" is the shape "sphere" with 20000 triangles; a user's mesh has no number."""
+    match = re.fullmatch(r"(.+)-(\d+)(k|M|)", case)
+    if not match:
+        return case, None
+    return match[1], int(match[2]) * {"k": 1000, "M": 1000000, "": 1}[match[3]]
+
+
+def shapes(figures):
+    """The shapes that were measured at two sizes or more, in order, each with its (triangles, case)."""
+    found = {}
+    for case in figures.cases:
+        shape, triangles = split_case(case)
+        if triangles and figures.get(case, "glissade", "time") is not None:
+            found.setdefault(shape, []).append((triangles, case))
+    return {shape: sorted(sizes) for shape, sizes in found.items() if len(sizes) > 1}

@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+"""Renews the generated parts of a page of benchmarks: bench_report.py RESULTS.csv PAGE.md --command TEXT.
+
+A generated part stands between <!-- begin NAME --> and <!-- end NAME -->. Only those of benches that have rows in the
+results are replaced; everything else is written by hand. Plots go to the folder `images` beside the page.
+"""
+
+import argparse
+import datetime
+import pathlib
+import re
+import subprocess
+import sys
+
+import bench_plots
+from bench_figures import PEERS, PEER_TITLES, read_results
+
+PHASES = ["gap-1%", "gap-0.5%", "gap-0.1%", "touching", "colliding"]
+
+
+def output_of(*command):
+    return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()
+
+
+def machine(command):
+    cpu = re.search(r"model name\s*:\s*(.*)", pathlib.Path("/proc/cpuinfo").read_text())
+    versions = [f"{PEER_TITLES[peer]} {output_of('dpkg-query', '-W', '-f=${Version}', f'lib{peer}-dev')}" for peer in PEERS]
+    return (f"*{datetime.date.today().isoformat()}; {cpu[1] if cpu else 'unknown processor'}; "
+            f"{output_of('c++', '--version').splitlines()[0]}; Debian's {', '.join(versions)}; `{command}`*\n\n")
+
+
+def table(header, rows):
+    lines = ["| " + " | ".join(header) + " |", "|---" + "|--:" * (len(header) - 1) + "|"]
+    lines += ["| " + " | ".join(row) + " |" for row in rows]
+    return "\n".join(lines) + "\n\n"
+
+
+def number(value):
+    if value is None:
+        return ""
+    return f"{value:.0f}" if abs(value) >= 100 else f"{value:.3g}"
+
+
+def ratio_table(figures):
+    """How many times faster than each peer: geometric mean, worst."""
+    peers = [peer for peer in PEERS if figures.get("geomean", "glissade", "ratio_to_" + peer) is not None]
+    header = ["times faster than (geometric mean, worst case)"] + [PEER_TITLES[peer] for peer in peers]
+    rows = []
+    for subject in figures.variants():
+        cells = []
+        for peer in peers:
+            mean = figures.get("geomean", subject, "ratio_to_" + peer)
+            worst = figures.get("worst", subject, "ratio_to_" + peer)
+            cells.append("" if mean is None else f"{mean:.1f}, {worst:.1f}")
+        if any(cells):
+            rows.append([subject] + cells)
+    return table(header, rows)
+
+
+def disagreements(figures):
+    found = []
+    for subject in figures.subjects:
+        count = figures.count_disagreements(subject)
+        if count is not None and (count > 0 or subject in PEERS):
+            found.append(f"{subject} {count:.0f}")
+    return "Answers that differ from Glissade's: " + ", ".join(found) + ".\n\n" if found else ""
+
+
+def time_table(figures, subjects, metric="time", unit="µs", scale=1e-3):
+    """One row for each case."""
+    present = [who for who in subjects if any(figures.get(case, who, metric) is not None for case in figures.cases)]
+    rows = []
+    for case in figures.cases:
+        values = [figures.get(case, who, metric) for who in present]
+        if any(value is not None for value in values):
+            rows.append([case] + [number(None if value is None else scale * value) for value in values])
+    return table([unit] + present, rows)
+
+
+def folded(title, text):
+    return f"<details><summary>{title}</summary>\n\n{text}</details>\n\n"
+
+
+def picture(drawn, name, title):
+    return f"![{title}](images/{name})\n\n" if drawn else ""
+
+
+def query_tables(figures):
+    """What every bench of queries ends with."""
+    text = disagreements(figures)
+    main = ["glissade", "glissade-coherent", "fcl"]
+    text += folded("Mean time of a query, µs", time_table(figures, main))
+    slow = time_table(figures, ["glissade", "ode", "bullet", "cgal"], "time_sample")
+    if "ode" in figures.subjects:
+        text += folded("Mean time of a query on the sample that the slower libraries take, µs", slow)
+    work = [[case] + [number(figures.get(case, "glissade", what)) for what in ("node_tests", "realignments", "triangle_tests")]
+            for case in figures.cases if figures.get(case, "glissade", "node_tests") is not None]
+    return text + folded("Work of a query of Glissade, means", table(["", "node tests", "realignments", "triangle tests"], work))
+
+
+def zachmann(figures, images):
+    text = ratio_table(figures)
+    text += picture(bench_plots.draw_growth(images / "bench_zachmann.svg", figures), "bench_zachmann.svg",
+                    "Time of a query against the number of triangles, Glissade and FCL")
+    text += picture(bench_plots.draw_figure_3(images / "bench_figure3.svg", figures), "bench_figure3.svg",
+                    "Figure 3 of the paper today: pure DOP-trees and OBB-trees")
+    text += picture(bench_plots.draw_directions(images / "bench_directions.svg", figures), "bench_directions.svg",
+                    "Time of a query against the number of directions")
+    far = figures.get("far-spheres", "glissade", "time")
+    if far is not None:
+        text += f"A pair of spheres three radii apart takes {far / 1000:.2g} µs"
+        fcl = figures.get("far-spheres", "fcl", "time")
+        text += f" (FCL: {fcl / 1000:.2g} µs).\n"
+    growth = figures.get("growth", "glissade", "time_1M_by_1k")
+    if growth is not None:
+        text += f"From 1,000 to 1,000,000 triangles the time grows {growth:.2g} times (geometric mean over the shapes).\n"
+    return text + "\n" + query_tables(figures)
+
+
+def queries(figures, _):
+    return ratio_table(figures) + query_tables(figures)
+
+
+def coherent(figures, images):
+    text = ratio_table(figures)
+    text += picture(bench_plots.draw_coherent(images / "bench_coherent.svg", figures, PHASES), "bench_coherent.svg",
+                    "Time of a query while sliding, by gap")
+    return text + query_tables(figures)
+
+
+def all_pairs(figures, _):
+    pairs = time_table(figures, ["glissade", "fcl"], "pairs", "pairs a query", 1)
+    per_pair = time_table(figures, ["glissade", "fcl"], "time_per_pair", "ns a pair", 1)
+    return ratio_table(figures) + query_tables(figures) + folded("Pairs", pairs) + folded("Time a pair", per_pair)
+
+
+def build(figures, images):
+    subjects = ["glissade", "glissade-one-thread"] + PEERS
+    text = ratio_table(figures)
+    text += picture(bench_plots.draw_build(images / "bench_build.svg", figures), "bench_build.svg", "Time to build")
+    text += folded("Time to build, ms", time_table(figures, subjects, "time", "ms", 1e-6))
+    return text + folded("Bytes a triangle", time_table(figures, subjects, "bytes_per_triangle", "B", 1))
+
+
+SECTIONS = {"zachmann": zachmann, "close": queries, "shells": queries, "coherent": coherent, "all-pairs": all_pairs,
+            "build": build}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("results", type=pathlib.Path)
+    parser.add_argument("page", type=pathlib.Path)
+    parser.add_argument("--command", required=True, help="what was typed to get these results")
+    arguments = parser.parse_args()
+
+    text = arguments.page.read_text()
+    images = arguments.page.parent / "images"
+    images.mkdir(exist_ok=True)
+    for bench, figures in read_results(arguments.results).items():
+        begin, end = f"<!-- begin {bench} -->", f"<!-- end {bench} -->"
+        if begin not in text or end not in text:
+            sys.exit(f"{arguments.page}: the markers of {bench} are missing")
+        body = machine(arguments.command) + SECTIONS[bench](figures, images)
+        text = text[:text.index(begin)] + f"{begin}\n{body.rstrip()}\n" + text[text.index(end):]
+    arguments.page.write_text(text)
+
+
+if __name__ == "__main__":
+    main()
