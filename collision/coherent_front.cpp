@@ -142,23 +142,33 @@ void CoherentFront::visit_nodes(std::size_t entry, const DopTree& base, const Do
 bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, const DopVisit& step,
                                  QueryCounters& counters, TriangleVisitor& visitor) {
   const auto [leaf_P, leaf_Q, all] = entries_[entry].pair;
-  TriangleGaps gaps;
-  const PairMask near = step.leaves(leaf_P, leaf_Q, gaps, counters);
+  LeafPair leaves;
+  const PairMask near = step.leaves(leaf_P, leaf_Q, leaves, counters);
+  const CertainPairs certain = near == 0 ? CertainPairs{} : step.cross(leaves);
   double least_gap = std::numeric_limits<double>::infinity();
+  const auto apart_by = [&](double gap) { least_gap = std::min(least_gap, gap); };
   for (int pair = 0; pair < kWidth * kWidth; ++pair) {
     if ((near >> pair & 1U) == 0) {
       // Not positive only where a triangle has no area.
-      const auto gap = static_cast<double>(gaps.gap[static_cast<std::size_t>(pair)]);
-      if (gap > 0.0) least_gap = std::min(least_gap, gap);
+      const auto gap = static_cast<double>(leaves.gaps.gap[static_cast<std::size_t>(pair)]);
+      if (gap > 0.0) apart_by(gap);
       continue;
     }
-    const PairOutcome outcome = visitor.visit(leaf_P, leaf_Q, pair);
+    const bool intersects = (certain.intersect >> pair & 1U) != 0;
+    if (!intersects) {
+      const double gap = step.gap(leaves, pair);
+      if (step.beyond(gap)) {
+        apart_by(gap);
+        continue;
+      }
+    }
+    const PairOutcome outcome = intersects ? visitor.found(leaf_P, leaf_Q, pair) : visitor.visit(leaf_P, leaf_Q, pair);
     if (outcome.stop) {
       witness_ = Witness{leaf_P, leaf_Q, pair};
       return true;
     }
     const double distance = outcome.distance >= 0.0 ? outcome.distance : visitor.distance(leaf_P, leaf_Q, pair);
-    least_gap = std::min(least_gap, distance / frame.base_radius * (1.0 - 1e-9) - 4.0 * frame.uncertainty);
+    apart_by(distance / frame.base_radius * (1.0 - 1e-9) - 4.0 * frame.uncertainty);
   }
   holds_for(entry, least_gap);
   return false;

@@ -55,15 +55,20 @@ struct Placed {
   }
 };
 
-// Answers a visit by answer(pair, corners of A, corners of B in A) → PairOutcome.
-template <typename Answer>
+// Answers a visit by answer(pair, corners of A, corners of B in A) → PairOutcome; of a pair that intersects, by
+// answer_found(pair).
+template <typename Answer, typename AnswerFound>
 class Visitor final : public TriangleVisitor {
  public:
-  Visitor(const Placed& placed, const Answer& answer) : placed_(placed), answer_(answer) {}
+  Visitor(const Placed& placed, const Answer& answer, const AnswerFound& answer_found)
+      : placed_(placed), answer_(answer), answer_found_(answer_found) {}
 
   PairOutcome visit(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) override {
     const TrianglePair triangles = placed_.triangles(leaf_P, leaf_Q, pair);
     return answer_(triangles, placed_.points_A(triangles), placed_.points_B(triangles));
+  }
+  PairOutcome found(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) override {
+    return answer_found_(placed_.triangles(leaf_P, leaf_Q, pair));
   }
   double distance(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) override {
     const TrianglePair triangles = placed_.triangles(leaf_P, leaf_Q, pair);
@@ -73,6 +78,7 @@ class Visitor final : public TriangleVisitor {
  private:
   const Placed& placed_;
   const Answer& answer_;
+  const AnswerFound& answer_found_;
 };
 
 bool visit_all(Goal goal, const Placed& placed, double distance, QueryWorkspace& workspace, TriangleVisitor& visitor) {
@@ -111,7 +117,8 @@ bool find_any(const Placed& placed, double tolerance, Workspace& workspace) {
     const Nearness found = nearness(a, b, tolerance);
     return PairOutcome{found.near, found.distance};
   };
-  Visitor visitor(placed, answer);
+  const auto answer_found = [](const TrianglePair&) { return PairOutcome{true, 0.0}; };
+  Visitor visitor(placed, answer, answer_found);
   return visit_all(Goal::kAnyPair, placed, tolerance, workspace, visitor);
 }
 
@@ -123,7 +130,11 @@ void find_pairs(const Placed& placed, double tolerance, Workspace& workspace, st
     if (found.near) pairs.push_back(pair);
     return PairOutcome{false, found.distance};
   };
-  Visitor visitor(placed, answer);
+  const auto answer_found = [&](const TrianglePair& pair) {
+    pairs.push_back(pair);
+    return PairOutcome{false, 0.0};
+  };
+  Visitor visitor(placed, answer, answer_found);
   visit_all(Goal::kEveryPair, placed, tolerance, workspace, visitor);
   std::sort(pairs.begin(), pairs.end());
 }
@@ -136,7 +147,10 @@ void find_close(const Placed& placed, double distance, Workspace& workspace, std
     if (closest.distance <= distance) pairs.push_back({pair, closest.distance, closest.p_a, closest.p_b});
     return PairOutcome{false, closest.distance};
   };
-  Visitor visitor(placed, answer);
+  const auto answer_found = [&](const TrianglePair& pair) {
+    return answer(pair, placed.points_A(pair), placed.points_B(pair));
+  };
+  Visitor visitor(placed, answer, answer_found);
   visit_all(Goal::kEveryPair, placed, distance, workspace, visitor);
   std::sort(pairs.begin(), pairs.end(),
             [](const ClosePair& u, const ClosePair& v) { return u.triangles < v.triangles; });

@@ -5,26 +5,11 @@
 namespace glissade::collision {
 namespace {
 
-int least_gap(const TriangleGaps& gaps, PairMask pairs) {
-  int least = std::countr_zero(pairs);
-  for (PairMask rest = pairs & (pairs - 1); rest != 0; rest &= rest - 1) {
-    const int i = std::countr_zero(rest);
-    if (gaps.gap[static_cast<std::size_t>(i)] < gaps.gap[static_cast<std::size_t>(least)]) least = i;
-  }
-  return least;
-}
-
 class Traversal {
  public:
   Traversal(Goal goal, const DopTree& base, const DopTree& other, const DopVisit& step, QueryWorkspace::Memory& memory,
             TriangleVisitor& visitor)
-      : goal_(goal),
-        base_(base),
-        other_(other),
-        step_(step),
-        memory_(memory),
-        visitor_(visitor),
-        diving_(goal == Goal::kAnyPair) {}
+      : base_(base), other_(other), step_(step), memory_(memory), visitor_(visitor), diving_(goal == Goal::kAnyPair) {}
 
   bool run() {
     memory_.stack.clear();
@@ -83,18 +68,22 @@ class Traversal {
   }
 
   bool visit_leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q) {
-    TriangleGaps gaps;
-    PairMask near = step_.leaves(leaf_P, leaf_Q, gaps, memory_.counters);
-    while (near != 0) {
-      // Those that cross deepest are the most likely to intersect.
-      const int pair = goal_ == Goal::kAnyPair ? least_gap(gaps, near) : std::countr_zero(near);
+    LeafPair leaves;
+    PairMask near = step_.leaves(leaf_P, leaf_Q, leaves, memory_.counters);
+    if (near == 0) return false;
+    const CertainPairs certain = step_.cross(leaves);
+    near &= ~certain.apart;
+    for (PairMask rest = near & certain.intersect; rest != 0; rest &= rest - 1) {
+      if (visitor_.found(leaf_P, leaf_Q, std::countr_zero(rest)).stop) return true;
+    }
+    for (PairMask rest = near & ~certain.intersect; rest != 0; rest &= rest - 1) {
+      const int pair = std::countr_zero(rest);
+      if (step_.beyond(step_.gap(leaves, pair))) continue;
       if (visitor_.visit(leaf_P, leaf_Q, pair).stop) return true;
-      near &= ~(1U << pair);
     }
     return false;
   }
 
-  const Goal goal_;
   const DopTree& base_;
   const DopTree& other_;
   const DopVisit& step_;

@@ -65,10 +65,18 @@ PairMask DopVisit::thin_slabs(const NodePair& pair, PairMask near, PairOverlaps&
                                          other_.slabs(pair.node_Q), least_overlap_, overlaps));
 }
 
-PairMask DopVisit::leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q, TriangleGaps& gaps,
-                          QueryCounters& counters) const {
+PairMask DopVisit::leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q, LeafPair& leaves, QueryCounters& counters) const {
   counters.triangle_tests += kWidth * kWidth;
-  return leaf_kernels_.test(leaf_frame_, base_.leaves()[leaf_P], other_.leaves()[leaf_Q], distance_, gaps);
+  return leaf_kernels_.test(leaf_frame_, base_.leaves()[leaf_P], other_.leaves()[leaf_Q], distance_, leaves);
+}
+
+CertainPairs DopVisit::cross(const LeafPair& leaves) const {
+  return distance_ > 0.0F ? CertainPairs{} : leaf_kernels_.cross(leaf_frame_, leaves);
+}
+
+double DopVisit::gap(const LeafPair& leaves, int pair) const {
+  const auto along_edges = static_cast<double>(leaf_kernels_.edge_gap(leaf_frame_, leaves, pair));
+  return std::max(along_edges, static_cast<double>(leaves.gaps.gap[static_cast<std::size_t>(pair)]));
 }
 
 }  // namespace glissade::collision

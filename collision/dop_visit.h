@@ -50,8 +50,18 @@ class DopVisit {
   /// Of the pairs of children in the mask, which is not 0, one that overlaps about most.
   int deepest(const PairOverlaps& overlaps, PairMask pairs) const { return node_kernels_.deepest(overlaps, pairs); }
 
-  /// The pairs of triangles that may be near; `gaps` of all pairs, in radii of the base.
-  PairMask leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q, TriangleGaps& gaps, QueryCounters& counters) const;
+  /// The pairs of triangles that their normals may let be near.
+  PairMask leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q, LeafPair& leaves, QueryCounters& counters) const;
+
+  /// Of those, the ones that certainly intersect, and the ones that certainly do not. Nothing is certain when pairs
+  /// within a distance are looked for.
+  CertainPairs cross(const LeafPair& leaves) const;
+
+  /// A certain lower bound of the distance of a pair of triangles, in radii of the base; may be negative.
+  double gap(const LeafPair& leaves, int pair) const;
+
+  /// Whether a gap is more than the distance looked for.
+  bool beyond(double gap) const { return gap > static_cast<double>(distance_); }
 
  private:
   const DopTree& base_;

@@ -20,8 +20,9 @@ LeafFrame::LeafFrame(const QueryFrame& frame) {
   const double corner_P = 1.0;
   const double corner_Q = 10.0 * frame.ratio + 4.0 * reach;
   const double projections = 5.0 * (1.0 + frame.ratio + reach);
-  uncertainty =
-      round_up_to_float(std::ldexp(1.75 * (corner_P + corner_Q) + 1.75 * projections, -24) + 2.0 * frame.uncertainty);
+  corner_uncertainty = round_up_to_float(std::ldexp(corner_P + corner_Q, -24) + frame.uncertainty);
+  uncertainty = round_up_to_float(1.75 * static_cast<double>(corner_uncertainty) + std::ldexp(1.75 * projections, -24) +
+                                  frame.uncertainty);
 }
 
 }  // namespace glissade::collision

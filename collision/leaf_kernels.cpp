@@ -14,27 +14,21 @@ constexpr std::size_t kPairs = kWidth * kWidth;
 using Tag4 = hn::FixedTag<float, kWidth>;
 using Four = hn::Vec<Tag4>;
 
-// Four triangles in the frame of P, with what their own normals see of them.
-struct LeafTriangles {
-  alignas(64) float corner[3][3][kWidth];  // [axis][corner][triangle]
-  alignas(16) float normal[3][kWidth];     // of any length
-  alignas(16) float inverse_length[kWidth];
-  alignas(16) float low[kWidth];  // least and greatest projection of the own corners on the normal
-  alignas(16) float high[kWidth];
-};
-
 HWY_INLINE Four corner(const LeafTriangles& t, std::size_t axis, std::size_t c) {
-  return hn::Load(Tag4(), t.corner[axis][c]);
+  return hn::Load(Tag4(), t.corner[axis][c].data());
 }
 
 HWY_INLINE void find_normals(LeafTriangles& t) {
   const Tag4 d;
   Four u[3];
   Four v[3];
+  Four extent = hn::Zero(d);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     u[axis] = hn::Sub(corner(t, axis, 1), corner(t, axis, 0));
     v[axis] = hn::Sub(corner(t, axis, 2), corner(t, axis, 0));
+    extent = hn::Max(extent, hn::Max(hn::Abs(u[axis]), hn::Abs(v[axis])));
   }
+  hn::Store(extent, d, t.extent.data());
   Four n[3];
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t y = (axis + 1) % 3;
@@ -45,24 +39,24 @@ HWY_INLINE void find_normals(LeafTriangles& t) {
   // Any vector may separate. Its inverse length is a little too short, because gaps along it are taken for distances;
   // where the square underflows, it is 0, and nothing is separated.
   const auto usable = hn::Ge(square, hn::Set(d, 1e-36F));
-  hn::Store(hn::IfThenElseZero(usable, hn::Div(hn::Set(d, 0.999999F), hn::Sqrt(square))), d, t.inverse_length);
+  hn::Store(hn::IfThenElseZero(usable, hn::Div(hn::Set(d, 0.999999F), hn::Sqrt(square))), d, t.inverse_length.data());
   for (std::size_t axis = 0; axis < 3; ++axis)
-    hn::Store(n[axis], d, t.normal[axis]);
+    hn::Store(n[axis], d, t.normal[axis].data());
   const auto project = [&](std::size_t c) HWY_ATTR {
     return hn::MulAdd(n[0], corner(t, 0, c), hn::MulAdd(n[1], corner(t, 1, c), hn::Mul(n[2], corner(t, 2, c))));
   };
   const Four p0 = project(0);
   const Four p1 = project(1);
   const Four p2 = project(2);
-  hn::Store(hn::Min(p0, hn::Min(p1, p2)), d, t.low);
-  hn::Store(hn::Max(p0, hn::Max(p1, p2)), d, t.high);
+  hn::Store(hn::Min(p0, hn::Min(p1, p2)), d, t.low.data());
+  hn::Store(hn::Max(p0, hn::Max(p1, p2)), d, t.high.data());
 }
 
 HWY_INLINE void load_base(const TriangleLeaf& leaf, LeafTriangles& t) {
   const Tag4 d;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t c = 0; c < 3; ++c)
-      hn::Store(hn::Load(d, leaf.corner[axis][c].data()), d, t.corner[axis][c]);
+      hn::Store(hn::Load(d, leaf.corner[axis][c].data()), d, t.corner[axis][c].data());
   }
 }
 
@@ -77,25 +71,25 @@ HWY_INLINE void load_moved(const LeafFrame& frame, const TriangleLeaf& leaf, Lea
       const Four moved = hn::MulAdd(
           x, hn::Set(d, row[0]),
           hn::MulAdd(y, hn::Set(d, row[1]), hn::MulAdd(z, hn::Set(d, row[2]), hn::Set(d, frame.p_PQ[axis]))));
-      hn::Store(moved, d, t.corner[axis][c]);
+      hn::Store(moved, d, t.corner[axis][c].data());
     }
   }
 }
 
 // Lanes of a vector that starts at pair `first`: the triangle of P of each pair, and the triangle of Q.
 template <class D>
-HWY_INLINE hn::Vec<D> of_P(D d, const float* values, std::size_t first) {
+HWY_INLINE hn::Vec<D> of_P(D d, const LeafTriangles::Four& values, std::size_t first) {
   if constexpr (hn::MaxLanes(D()) == kWidth) {
     return hn::Set(d, values[first / kWidth]);
   } else {
     alignas(64) static constexpr std::int32_t kTriangle[kPairs] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-    return hn::TableLookupLanes(hn::LoadDup128(d, values), hn::SetTableIndices(d, kTriangle + first));
+    return hn::TableLookupLanes(hn::LoadDup128(d, values.data()), hn::SetTableIndices(d, kTriangle + first));
   }
 }
 
 template <class D>
-HWY_INLINE hn::Vec<D> of_Q(D d, const float* values) {
-  return hn::LoadDup128(d, values);
+HWY_INLINE hn::Vec<D> of_Q(D d, const LeafTriangles::Four& values) {
+  return hn::LoadDup128(d, values.data());
 }
 
 // How far three corners lie beyond the interval [low, high] along a normal, on either side of it.
@@ -111,9 +105,9 @@ HWY_INLINE hn::Vec<D> gap_along(D, const Normal& n, hn::Vec<D> low, hn::Vec<D> h
 }
 
 PairMask test(const LeafFrame& frame, const TriangleLeaf& leaf_P, const TriangleLeaf& leaf_Q, float distance,
-              TriangleGaps& gaps) {
-  LeafTriangles p;
-  LeafTriangles q;
+              LeafPair& leaves) {
+  LeafTriangles& p = leaves.p;
+  LeafTriangles& q = leaves.q;
   load_base(leaf_P, p);
   load_moved(frame, leaf_Q, q);
   find_normals(p);
@@ -132,7 +126,7 @@ PairMask test(const LeafFrame& frame, const TriangleLeaf& leaf_P, const Triangle
     const V gap = hn::Sub(
         hn::Max(hn::Mul(along_P, of_P(d, p.inverse_length, first)), hn::Mul(along_Q, of_Q(d, q.inverse_length))),
         hn::Set(d, frame.uncertainty));
-    hn::Store(gap, d, gaps.gap.data() + first);
+    hn::Store(gap, d, leaves.gaps.gap.data() + first);
     std::uint8_t bits[8] = {};  // StoreMaskBits may write so many
     hn::StoreMaskBits(d, hn::Not(hn::Gt(gap, hn::Set(d, distance))), bits);
     mask |= static_cast<PairMask>(bits[0] | bits[1] << 8) << first;
@@ -151,8 +145,176 @@ PairMask test(const LeafFrame& frame, const TriangleLeaf& leaf_P, const Triangle
   return mask & kRowsOfP[present(leaf_P)] & (0x1111U * present(leaf_Q));
 }
 
+template <class V>
+struct Vector3 {
+  V x;
+  V y;
+  V z;
+};
+
+template <class V>
+HWY_INLINE Vector3<V> minus(const Vector3<V>& a, const Vector3<V>& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+template <class V>
+HWY_INLINE Vector3<V> times(const Vector3<V>& a, const Vector3<V>& b) {
+  return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
+          hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
+}
+template <class V>
+HWY_INLINE V dot(const Vector3<V>& a, const Vector3<V>& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+template <class M, class V>
+HWY_INLINE Vector3<V> choose(M mask, const Vector3<V>& yes, const Vector3<V>& no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
+}
+
+// The corners of a triangle, first the one that is alone on its side of the other's plane.
+template <class V>
+struct Apex {
+  Vector3<V> apex;
+  Vector3<V> left;
+  Vector3<V> right;
+  V side;  // of the apex
+};
+
+template <class D, class V>
+HWY_INLINE hn::Mask<D> same_sign(D d, V a, V b) {
+  const hn::RebindToSigned<D> d32;
+  return hn::RebindMask(d, hn::Gt(hn::BitCast(d32, hn::Xor(a, b)), hn::Set(d32, -1)));
+}
+
+template <class D, class V>
+HWY_INLINE Apex<V> find_apex(D d, const Vector3<V> (&corner)[3], const V (&side)[3]) {
+  const auto alone0 = same_sign(d, side[1], side[2]);
+  const auto alone1 = same_sign(d, side[0], side[2]);
+  return {choose(alone0, corner[0], choose(alone1, corner[1], corner[2])),
+          choose(alone0, corner[1], choose(alone1, corner[2], corner[0])),
+          choose(alone0, corner[2], choose(alone1, corner[0], corner[1])),
+          hn::IfThenElse(alone0, side[0], hn::IfThenElse(alone1, side[1], side[2]))};
+}
+
+// As `filtered_intersection` in triangle_filter.h, for 16 pairs at once.
+CertainPairs cross(const LeafFrame& frame, const LeafPair& leaves) {
+  const hn::CappedTag<float, kPairs> d;
+  using V = hn::Vec<decltype(d)>;
+  CertainPairs certain{};
+  for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
+    Vector3<V> p[3];
+    Vector3<V> q[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto& corner_P = leaves.p.corner;
+      const auto& corner_Q = leaves.q.corner;
+      p[c] = {of_P(d, corner_P[0][c], first), of_P(d, corner_P[1][c], first), of_P(d, corner_P[2][c], first)};
+      q[c] = {of_Q(d, corner_Q[0][c]), of_Q(d, corner_Q[1][c]), of_Q(d, corner_Q[2][c])};
+    }
+    // No two of the six corners differ by more than `largest` in a coordinate. A determinant of three such differences,
+    // of coordinates that are each off by the uncertainty u, is off by at most 3 · (2√3 u) · (√3 largest)², and
+    // rounding of 48 products, each half an epsilon of largest³, is no more than twice that.
+    const auto between = minus(q[0], p[0]);
+    const V largest = hn::Add(hn::Max(hn::Abs(between.x), hn::Max(hn::Abs(between.y), hn::Abs(between.z))),
+                              hn::Add(of_P(d, leaves.p.extent, first), of_Q(d, leaves.q.extent)));
+    const V error = hn::Add(hn::Mul(hn::Mul(largest, largest), hn::Set(d, 160.0F * frame.corner_uncertainty)),
+                            hn::Set(d, 1e-30F));  // for underflow
+
+    const Vector3<V> normal_p{of_P(d, leaves.p.normal[0], first), of_P(d, leaves.p.normal[1], first),
+                              of_P(d, leaves.p.normal[2], first)};
+    const Vector3<V> normal_q{of_Q(d, leaves.q.normal[0]), of_Q(d, leaves.q.normal[1]), of_Q(d, leaves.q.normal[2])};
+    V side_p[3];
+    V side_q[3];
+    V least_p = hn::Set(d, 1e30F);
+    V least_q = least_p;
+    for (std::size_t c = 0; c < 3; ++c) {
+      side_p[c] = hn::Neg(dot(normal_q, minus(p[c], q[0])));
+      side_q[c] = hn::Neg(dot(normal_p, minus(q[c], p[0])));
+      least_p = hn::Min(least_p, hn::Abs(side_p[c]));
+      least_q = hn::Min(least_q, hn::Abs(side_q[c]));
+    }
+    // Where one plane has all of the other triangle on one side, there is no apex; that is for `test` to find.
+    const auto one_side = [&](const V(&side)[3]) HWY_ATTR {
+      return hn::And(same_sign(d, side[0], side[1]), same_sign(d, side[1], side[2]));
+    };
+    const auto sides_certain =
+        hn::AndNot(hn::Or(one_side(side_p), one_side(side_q)), hn::Gt(hn::Min(least_p, least_q), error));
+
+    const Apex<V> a = find_apex(d, p, side_p);
+    const Apex<V> b = find_apex(d, q, side_q);
+    const auto zero = hn::Zero(d);
+    const auto turn_b = hn::Lt(a.side, zero);
+    const auto turn_a = hn::Lt(b.side, zero);
+    const auto to_b = minus(b.apex, a.apex);
+    const auto orientation = [&](const Vector3<V>& end_a, const Vector3<V>& end_b) HWY_ATTR {
+      return hn::Neg(dot(times(minus(end_a, a.apex), to_b), minus(end_b, a.apex)));
+    };
+    const V left = orientation(choose(turn_a, a.right, a.left), choose(turn_b, b.right, b.left));
+    const V right = orientation(choose(turn_a, a.left, a.right), choose(turn_b, b.left, b.right));
+    const V minus_error = hn::Neg(error);
+    const auto intersect = hn::And(hn::Lt(left, minus_error), hn::Gt(right, error));
+    const auto apart = hn::Or(hn::Gt(left, error), hn::Lt(right, minus_error));
+    const auto bits_of = [&](auto mask) HWY_ATTR {
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(d, hn::And(mask, sides_certain), bits);
+      return static_cast<PairMask>(bits[0] | bits[1] << 8) << first;
+    };
+    certain.intersect |= bits_of(intersect);
+    certain.apart |= bits_of(apart);
+  }
+  return certain;
+}
+
+// Every lane is a pair of edges, nine in all; the last is repeated.
+float edge_gap(const LeafFrame& frame, const LeafPair& leaves, int pair) {
+  constexpr std::size_t kEdgePairs = 9;
+  alignas(64) static constexpr std::int32_t kEdgeOfP[kPairs] = {0, 0, 0, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2};
+  alignas(64) static constexpr std::int32_t kEdgeOfQ[kPairs] = {0, 1, 2, 0, 1, 2, 0, 1, 2, 2, 2, 2, 2, 2, 2, 2};
+  const auto t_P = static_cast<std::size_t>(pair / kWidth);
+  const auto t_Q = static_cast<std::size_t>(pair % kWidth);
+  alignas(16) float edge_P[3][4];
+  alignas(16) float edge_Q[3][4];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto& x = leaves.p.corner[axis];
+    const auto& y = leaves.q.corner[axis];
+    for (std::size_t c = 0; c < 3; ++c) {
+      edge_P[axis][c] = x[(c + 1) % 3][t_P] - x[c][t_P];
+      edge_Q[axis][c] = y[(c + 1) % 3][t_Q] - y[c][t_Q];
+    }
+    edge_P[axis][3] = edge_Q[axis][3] = 0.0F;
+  }
+
+  const hn::CappedTag<float, kPairs> d;
+  using V = hn::Vec<decltype(d)>;
+  V most = hn::Set(d, -1e30F);
+  for (std::size_t first = 0; first < kEdgePairs; first += hn::Lanes(d)) {
+    const auto pick = [&](const float(&edges)[3][4], const std::int32_t* index) HWY_ATTR {
+      const auto lanes = hn::SetTableIndices(d, index + first);
+      return Vector3<V>{hn::TableLookupLanes(hn::LoadDup128(d, edges[0]), lanes),
+                        hn::TableLookupLanes(hn::LoadDup128(d, edges[1]), lanes),
+                        hn::TableLookupLanes(hn::LoadDup128(d, edges[2]), lanes)};
+    };
+    const Vector3<V> n = times(pick(edge_P, kEdgeOfP), pick(edge_Q, kEdgeOfQ));
+    const auto project = [&](const LeafTriangles& leaf, std::size_t c, std::size_t t) HWY_ATTR {
+      return dot(n, Vector3<V>{hn::Set(d, leaf.corner[0][c][t]), hn::Set(d, leaf.corner[1][c][t]),
+                               hn::Set(d, leaf.corner[2][c][t])});
+    };
+    const V p0 = project(leaves.p, 0, t_P);
+    const V p1 = project(leaves.p, 1, t_P);
+    const V p2 = project(leaves.p, 2, t_P);
+    const V q0 = project(leaves.q, 0, t_Q);
+    const V q1 = project(leaves.q, 1, t_Q);
+    const V q2 = project(leaves.q, 2, t_Q);
+    const V gap = hn::Max(hn::Sub(hn::Min(p0, hn::Min(p1, p2)), hn::Max(q0, hn::Max(q1, q2))),
+                          hn::Sub(hn::Min(q0, hn::Min(q1, q2)), hn::Max(p0, hn::Max(p1, p2))));
+    const V square = dot(n, n);
+    const V inverse_length =
+        hn::IfThenElseZero(hn::Ge(square, hn::Set(d, 1e-36F)), hn::Div(hn::Set(d, 0.999999F), hn::Sqrt(square)));
+    most = hn::Max(most, hn::Mul(gap, inverse_length));
+  }
+  return hn::GetLane(hn::MaxOfLanes(d, most)) - frame.uncertainty;
+}
+
 LeafKernels make_leaf_kernels() {
-  return {test};
+  return {test, cross, edge_gap};
 }
 
 }  // namespace glissade::collision::HWY_NAMESPACE

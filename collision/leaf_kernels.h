@@ -18,7 +18,8 @@ struct LeafFrame {
 
   std::array<std::array<float, 3>, 3> matrix;  ///< rotation times ratio
   std::array<float, 3> p_PQ;
-  float uncertainty;  ///< bound on the error of a gap between two triangles along a unit vector, in radii of P
+  float uncertainty;         ///< bound on the error of a gap between two triangles along a unit vector, in radii of P
+  float corner_uncertainty;  ///< bound on the error of a coordinate of a corner
 };
 
 /// For each pair of triangles (4 · triangle_P + triangle_Q), a certain lower bound of its distance in radii of P: how
@@ -27,10 +28,41 @@ struct alignas(64) TriangleGaps {
   std::array<float, kWidth * kWidth> gap;
 };
 
+/// Four triangles in the frame of P, with what their own normals see of them.
+struct alignas(64) LeafTriangles {
+  using Four = std::array<float, kWidth>;
+  std::array<std::array<Four, 3>, 3> corner;  ///< [axis][corner][triangle]
+  std::array<Four, 3> normal;                 ///< of any length
+  Four inverse_length;
+  Four low;  ///< least and greatest projection of the own corners on the normal
+  Four high;
+  Four extent;  ///< largest difference of coordinates between corner 0 and the others
+};
+
+/// Two leaves as `test` has prepared them for the two functions after it.
+struct LeafPair {
+  LeafTriangles p;
+  LeafTriangles q;
+  TriangleGaps gaps;
+};
+
+/// Pairs of triangles that single precision is certain of.
+struct CertainPairs {
+  PairMask intersect;
+  PairMask apart;
+};
+
 struct LeafKernels {
-  /// The pairs that are not certainly further apart than `distance` (radii of P).
+  /// The pairs that the normals do not certainly keep further apart than `distance` (radii of P).
   PairMask (*test)(const LeafFrame& frame, const TriangleLeaf& leaf_P, const TriangleLeaf& leaf_Q, float distance,
-                   TriangleGaps& gaps);
+                   LeafPair& leaves);
+
+  /// For pairs whose planes cross both triangles: whether they do so in the same place.
+  CertainPairs (*cross)(const LeafFrame& frame, const LeafPair& leaves);
+
+  /// A certain lower bound of the distance of one pair, in radii of P: how far the cross product of two edges keeps the
+  /// triangles apart. Negative when none does.
+  float (*edge_gap)(const LeafFrame& frame, const LeafPair& leaves, int pair);
 };
 
 /// Those of the instruction set in use.

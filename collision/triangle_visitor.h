@@ -15,7 +15,10 @@ struct PairOutcome {
 /// Pair of triangles: 4 · triangle of leaf_P + triangle of leaf_Q.
 class TriangleVisitor {
  public:
+  /// Finds out about a pair.
   virtual PairOutcome visit(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) = 0;
+  /// The same for a pair that is known to intersect.
+  virtual PairOutcome found(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) = 0;
   /// The distance of a pair in metres; 0 when it intersects.
   virtual double distance(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) = 0;
 

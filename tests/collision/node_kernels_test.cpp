@@ -254,9 +254,9 @@ TEST_P(Kernels, LeavesSeparateOnlyWhatIsFurtherApart) {
       const double rounding = 1e-12 * (base.center().norm() + X_PQ.translation().norm());
       for (const TriangleLeaf& leaf_P : base.leaves()) {
         for (const TriangleLeaf& leaf_Q : other.leaves()) {
-          TriangleGaps gaps;
+          LeafPair leaves;
           const PairMask near =
-              leaf_kernels().test(LeafFrame(frame), leaf_P, leaf_Q, static_cast<float>(tolerance), gaps);
+              leaf_kernels().test(LeafFrame(frame), leaf_P, leaf_Q, static_cast<float>(tolerance), leaves);
           for (std::size_t i = 0; i < 4; ++i) {
             for (std::size_t j = 0; j < 4; ++j) {
               const bool is_near = (near >> (4 * i + j) & 1U) != 0;
@@ -269,13 +269,56 @@ TEST_P(Kernels, LeavesSeparateOnlyWhatIsFurtherApart) {
               const double distance =
                   least_distance(base, {leaf_P.triangle[i]}, other, {leaf_Q.triangle[j]}, X_PQ) / base.radius();
               ASSERT_GT(distance + rounding, tolerance);
-              ASSERT_LE(static_cast<double>(gaps.gap[4 * i + j]), distance + rounding / base.radius());
+              ASSERT_LE(static_cast<double>(leaves.gaps.gap[4 * i + j]), distance + rounding / base.radius());
             }
           }
         }
       }
     }
     EXPECT_GT(separated, 0);
+  }
+}
+
+TEST_P(Kernels, CertaintiesAboutTrianglesAreTrue) {
+  for (const Setting& s : kSettings) {
+    const DopTree tree_A = tree(soup(40), s.scale_A, s.scale_A * s.offset * random_vector());
+    const DopTree tree_B = tree(soup(40), s.scale_B, s.scale_B * random_vector());
+    int certain_pairs = 0;
+    for (int trial = 0; trial < 5; ++trial) {
+      Isometry3d X_AB = random_pose(0.5 * s.translation * s.scale_A);
+      X_AB.translation() += tree_A.center() - X_AB.linear() * tree_B.center();
+      const QueryFrame frame(tree_A, tree_B, X_AB);
+      const DopTree& base = frame.base_is_A ? tree_A : tree_B;
+      const DopTree& other = frame.base_is_A ? tree_B : tree_A;
+      const LeafFrame leaf_frame(frame);
+      const double rounding = 1e-12 * (tree_A.center().norm() + X_AB.translation().norm());
+      for (const TriangleLeaf& leaf_P : base.leaves()) {
+        for (const TriangleLeaf& leaf_Q : other.leaves()) {
+          LeafPair leaves;
+          const PairMask near = leaf_kernels().test(leaf_frame, leaf_P, leaf_Q, 0.0F, leaves);
+          const CertainPairs certain = leaf_kernels().cross(leaf_frame, leaves);
+          for (int pair = 0; pair < 16; ++pair) {
+            if ((near >> pair & 1U) == 0) continue;
+            const std::int32_t p = leaf_P.triangle[static_cast<std::size_t>(pair / 4)];
+            const std::int32_t q = leaf_Q.triangle[static_cast<std::size_t>(pair % 4)];
+            const double distance = frame.base_is_A ? least_distance(tree_A, {p}, tree_B, {q}, X_AB)
+                                                    : least_distance(tree_A, {q}, tree_B, {p}, X_AB);
+            if ((certain.intersect >> pair & 1U) != 0) {
+              ASSERT_EQ(distance, 0.0);
+            }
+            if ((certain.apart >> pair & 1U) != 0) {
+              ASSERT_GT(distance, 0.0);
+            }
+            certain_pairs += static_cast<int>((certain.intersect | certain.apart) >> pair & 1U);
+            ASSERT_LE(static_cast<double>(leaf_kernels().edge_gap(leaf_frame, leaves, pair)),
+                      (distance + rounding) / base.radius());
+          }
+        }
+      }
+    }
+    if (s.offset < 1e3 && s.scale_A == s.scale_B) {
+      EXPECT_GT(certain_pairs, 15);
+    }
   }
 }
 
