@@ -50,6 +50,7 @@ DopTree::DopTree(std::shared_ptr<const TriangleMesh> mesh, const DopTreeOptions&
     leaves_ = std::move(shape.leaves);
     depth_ = shape.depth;
     slabs_.resize(heads_.size() * lines_of_node_);
+    if (options_.realignment == Realignment::kBruteForce) vertices_ = DopVertices(options_.directions, heads_.size());
     refit();
   }
   if (degenerate_triangles_ == static_cast<std::int64_t>(mesh_->triangles.size())) {
@@ -64,13 +65,14 @@ void DopTree::refit() {
   radius_ = grid.radius;
   degenerate_triangles_ = fit_leaves(*mesh_, grid, leaves_);
   fit_nodes(options_, grid, leaves_, heads_, slabs_);
+  if (options_.realignment == Realignment::kBruteForce) vertices_.fit(heads_, slabs_);
   static std::atomic<std::uint64_t> ids{0};
   id_ = ++ids;
 }
 
 std::size_t DopTree::memory_bytes() const {
   return sizeof(*this) + heads_.capacity() * sizeof(NodeHead) + slabs_.capacity() * sizeof(SlabLine) +
-         leaves_.capacity() * sizeof(TriangleLeaf);
+         leaves_.capacity() * sizeof(TriangleLeaf) + vertices_.memory_bytes();
 }
 
 }  // namespace glissade::collision

@@ -12,6 +12,7 @@
 
 #include <glissade/collision/dop.h>
 #include <glissade/collision/dop_node.h>
+#include <glissade/collision/dop_vertices.h>
 #include <glissade/collision/triangle_mesh.h>
 
 namespace glissade::collision {
@@ -56,6 +57,8 @@ class DopTree {
   std::span<const NodeHead> nodes() const { return heads_; }
   /// The offsets of a node's children.
   const SlabLine* slabs(std::uint32_t node) const { return &slabs_[node * lines_of_node_]; }
+  /// The same as vertices; of trees realigned by brute force only.
+  std::span<const VertexGroup> vertices(std::uint32_t node) const { return vertices_.of(node); }
   std::span<const TriangleLeaf> leaves() const { return leaves_; }
 
   /// Another number for every tree and every refit of this process; 0 is none. Copies have the same.
@@ -76,6 +79,7 @@ class DopTree {
   DopTreeOptions options_;
   std::vector<NodeHead> heads_;
   std::vector<SlabLine> slabs_;
+  DopVertices vertices_;
   std::vector<TriangleLeaf> leaves_;
   std::size_t lines_of_node_ = 0;
   std::uint64_t id_ = 0;

@@ -29,8 +29,14 @@ DopVisit::DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& 
       thin_frame_(frame),
       leaf_frame_(frame),
       node_kernels_(node_kernels()),
+      realign_vertices_(realign_vertices()),
       leaf_kernels_(leaf_kernels()) {
-  align(base.options().directions, frame, alignment);
+  const int k = base.options().directions;
+  if (base.options().realignment == Realignment::kBruteForce) {
+    vertex_alignment_.emplace(dop_directions(k), frame);
+  } else {
+    align(k, frame, alignment);
+  }
   const double radii = frame.in_base_radii(distance);
   const double steps = std::ceil(radii * kGridRadius);
   always_near_ = steps > 32767.0 ? kAllPairs : 0;
@@ -45,14 +51,21 @@ PairMask DopVisit::pairs_of(const NodePair& pair) const {
 PairMask DopVisit::nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCounters& counters) const {
   const NodeHead& head_P = base_.nodes()[pair.node_P];
   const NodeHead& head_Q = other_.nodes()[pair.node_Q];
-  const SlabLine* slabs_P = base_.slabs(pair.node_P);
-  const SlabLine* slabs_Q = other_.slabs(pair.node_Q);
   const PairMask pairs = pair.pairs & product(all_children(head_P), all_children(head_Q));
   counters.realignments += head_Q.child_count();
   counters.node_tests += head_P.child_count() * head_Q.child_count();
 
-  return pairs &
-         (always_near_ | node_kernels_.realign_and_test(alignment_, slabs_P, slabs_Q, least_overlap_, overlaps));
+  return pairs & (always_near_ | realign_and_test(pair, overlaps));
+}
+
+PairMask DopVisit::realign_and_test(const NodePair& pair, PairOverlaps& overlaps) const {
+  const SlabLine* slabs_P = base_.slabs(pair.node_P);
+  if (!vertex_alignment_) {
+    return node_kernels_.realign_and_test(alignment_, slabs_P, other_.slabs(pair.node_Q), least_overlap_, overlaps);
+  }
+  AlignedNode aligned;
+  realign_vertices_(*vertex_alignment_, other_.vertices(pair.node_Q), aligned);
+  return node_kernels_.test(slabs_P, aligned, vertex_alignment_->slabs, least_overlap_, overlaps);
 }
 
 PairMask DopVisit::thin_slabs(const NodePair& pair, PairMask near, PairOverlaps& overlaps) const {

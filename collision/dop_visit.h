@@ -3,6 +3,7 @@
 /// One step of a traversal: two nodes, or two leaves, of one pair of trees.
 
 #include <cstdint>
+#include <optional>
 
 #include <glissade/collision/dop_query.h>
 #include <glissade/collision/dop_tree.h>
@@ -12,6 +13,7 @@
 #include "node_kernels.h"
 #include "query_frame.h"
 #include "thin_slab.h"
+#include "vertex_alignment.h"
 
 namespace glissade::collision {
 
@@ -64,12 +66,16 @@ class DopVisit {
   bool beyond(double gap) const { return gap > static_cast<double>(distance_); }
 
  private:
+  PairMask realign_and_test(const NodePair& pair, PairOverlaps& overlaps) const;
+
   const DopTree& base_;
   const DopTree& other_;
   const DopAlignment& alignment_;
+  std::optional<VertexAlignment> vertex_alignment_;  ///< for realignment by brute force
   const ThinSlabFrame thin_frame_;
   const LeafFrame leaf_frame_;
   const NodeKernels node_kernels_;
+  const RealignVertices realign_vertices_;
   const LeafKernels leaf_kernels_;
   int least_overlap_;
   PairMask always_near_;  ///< all pairs when the distance goes beyond what 16 bits can tell

@@ -12,6 +12,7 @@
 #include <glissade/collision/triangle_distance.h>
 
 #include "leaf_kernels.h"
+#include "vertex_alignment.h"
 
 namespace glissade::collision {
 namespace {
@@ -56,11 +57,11 @@ class Kernels : public ::testing::TestWithParam<InstructionSet> {
     return mesh;
   }
 
-  DopTree tree(const TriangleMesh& mesh, double scale, const Vector3d& offset, int k = 24) {
+  DopTree tree(const TriangleMesh& mesh, double scale, const Vector3d& offset, const DopTreeOptions& options = {}) {
     TriangleMesh placed = mesh;
     for (Vector3d& vertex : placed.vertices)
       vertex = scale * vertex + offset;
-    return DopTree(std::make_shared<const TriangleMesh>(std::move(placed)), {.directions = k});
+    return DopTree(std::make_shared<const TriangleMesh>(std::move(placed)), options);
   }
 
   std::mt19937 generator_{kSeed};
@@ -106,12 +107,29 @@ constexpr Setting kSettings[] = {{1, 1, 0, 0.5},     {1, 1, 0, 1.9},  {1e-6, 1e-
                                  {1e3, 1e3, 0, 1.5}, {1, 1e-3, 0, 1}, {1e-3, 1, 0, 1},
                                  {1, 0.3, 1e6, 1},   {1, 1e-6, 0, 1}, {1e-6, 1e-9, 10, 1}};
 
+void expect_inside(const AlignedNode& aligned, const DopDirections& directions, int c, const Vector3d& x) {
+  for (int i = 0; i < directions.slabs; ++i) {
+    const double height = directions.half_space(i).dot(x);
+    const auto lane = static_cast<std::size_t>(8 * i + c);
+    const double below = aligned.facing[lane];
+    const double above = aligned.facing[lane + 4];
+    // What saturates lies beyond the whole grid of the base, where nothing is to be enclosed.
+    if (above < 32767.0 && height < kGridRadius) {
+      ASSERT_LE(height, above);
+    }
+    if (below < 32767.0 && height > -kGridRadius) {
+      ASSERT_LE(-height, below);
+    }
+  }
+}
+
 TEST_P(Kernels, RealignedNodesEncloseEveryTransformedPoint) {
   for (const int k : {6, 14, 18, 24, 26}) {
     const DopDirections& directions = dop_directions(k);
     for (const Setting& s : kSettings) {
-      const DopTree tree_A = tree(soup(40), s.scale_A, s.scale_A * s.offset * random_vector(), k);
-      const DopTree tree_B = tree(soup(40), s.scale_B, s.scale_B * random_vector(), k);
+      const DopTreeOptions options{.directions = k, .realignment = Realignment::kBruteForce};  // for the vertices, too
+      const DopTree tree_A = tree(soup(40), s.scale_A, s.scale_A * s.offset * random_vector(), options);
+      const DopTree tree_B = tree(soup(40), s.scale_B, s.scale_B * random_vector(), options);
       for (int trial = 0; trial < 10; ++trial) {
         Isometry3d X_AB = random_pose(s.translation * s.scale_A);
         X_AB.translation() += tree_A.center() - X_AB.linear() * tree_B.center();
@@ -122,8 +140,9 @@ TEST_P(Kernels, RealignedNodesEncloseEveryTransformedPoint) {
         DopAlignment alignment;
         align(k, frame, alignment);
         for (std::uint32_t node = 0; node < other.nodes().size(); ++node) {
-          AlignedNode aligned;
-          node_kernels().realign(alignment, other.slabs(node), aligned);
+          AlignedNode aligned[2];
+          node_kernels().realign(alignment, other.slabs(node), aligned[0]);
+          realign_vertices()(VertexAlignment(directions, frame), other.vertices(node), aligned[1]);
           for (int c = 0; c < other.nodes()[node].child_count(); ++c) {
             std::vector<std::int32_t> triangles;
             collect(other, other.nodes()[node], c, triangles);
@@ -131,19 +150,8 @@ TEST_P(Kernels, RealignedNodesEncloseEveryTransformedPoint) {
               for (int corner = 0; corner < 3; ++corner) {
                 const Vector3d x =
                     (X_PQ * other.mesh().corner(t, corner) - base.center()) * (kGridRadius / base.radius());
-                for (int i = 0; i < directions.slabs; ++i) {
-                  const double height = directions.half_space(i).dot(x);
-                  const auto lane = static_cast<std::size_t>(8 * i + c);
-                  const double below = aligned.facing[lane];
-                  const double above = aligned.facing[lane + 4];
-                  // What saturates lies beyond the whole grid of the base, where nothing is to be enclosed.
-                  if (above < 32767.0 && height < kGridRadius) {
-                    ASSERT_LE(height, above) << "k " << k;
-                  }
-                  if (below < 32767.0 && height > -kGridRadius) {
-                    ASSERT_LE(-height, below) << "k " << k;
-                  }
-                }
+                ASSERT_NO_FATAL_FAILURE(expect_inside(aligned[0], directions, c, x)) << "affine, k " << k;
+                ASSERT_NO_FATAL_FAILURE(expect_inside(aligned[1], directions, c, x)) << "brute force, k " << k;
               }
             }
           }
