@@ -126,17 +126,49 @@ Isometry3d pose_on_grid(const SweepPair& pair, double cell, RandomNumbers& rando
   return meeting(random.cube_rotation(), pair.A.center + cell * offset, pair.B.center);
 }
 
+// A rotation that is anything, or takes axes to axes, or makes two faces and their edges parallel.
+Matrix3d touching_rotation(const SweepPair& pair, std::int32_t triangle_A, std::int32_t triangle_B,
+                           RandomNumbers& random) {
+  switch (random.integer(0, 3)) {
+    case 0:
+      return random.rotation();
+    case 1:
+      return random.cube_rotation();
+    default:
+      return frame_of(pair.A.mesh, triangle_A) * random.cube_rotation() * frame_of(pair.B.mesh, triangle_B).transpose();
+  }
+}
+
+Vector3d nudge(const SweepPair& pair, RandomNumbers& random) {
+  if (random.chance(0.5)) return Vector3d::Zero();
+  return random.power_of_ten(-17.0, -6.0) * pair.scale() * random.direction();
+}
+
 Isometry3d pose_touching(const SweepPair& pair, RandomNumbers& random) {
   const std::int32_t triangle_A = any_triangle(pair.A.mesh, random);
   const std::int32_t triangle_B = any_triangle(pair.B.mesh, random);
-  Matrix3d R = random.chance(0.5) ? random.rotation() : random.cube_rotation();
-  if (random.chance(0.5)) {
-    // Flush: faces and edges parallel.
-    R = frame_of(pair.A.mesh, triangle_A) * random.cube_rotation() * frame_of(pair.B.mesh, triangle_B).transpose();
+  const Matrix3d R = touching_rotation(pair, triangle_A, triangle_B, random);
+  const Vector3d p_A = feature_point(pair.A.mesh, triangle_A, random);
+  return meeting(R, p_A + nudge(pair, random), feature_point(pair.B.mesh, triangle_B, random));
+}
+
+const Vector3d& farthest_along(const Vector3d& direction, const TriangleMesh& mesh) {
+  return *std::max_element(mesh.vertices.begin(), mesh.vertices.end(),
+                           [&](const Vector3d& u, const Vector3d& v) { return direction.dot(u) < direction.dot(v); });
+}
+
+// The meshes lie on either side of a plane, mostly one that bounds DOPs.
+Isometry3d pose_side_by_side(const SweepPair& pair, RandomNumbers& random) {
+  const Matrix3d R =
+      touching_rotation(pair, any_triangle(pair.A.mesh, random), any_triangle(pair.B.mesh, random), random);
+  Vector3d direction = random.direction();
+  if (random.chance(0.7)) {
+    const int x = random.integer(-1, 1);
+    const int y = random.integer(-1, 1);
+    direction = Vector3d(x, y, random.integer(-1, 1));
   }
-  Vector3d p_A = feature_point(pair.A.mesh, triangle_A, random);
-  if (random.chance(0.5)) p_A += random.power_of_ten(-17.0, -9.0) * pair.scale() * random.direction();
-  return meeting(R, p_A, feature_point(pair.B.mesh, triangle_B, random));
+  const Vector3d p_A = farthest_along(direction, pair.A.mesh);
+  return meeting(R, p_A + nudge(pair, random), farthest_along(-(R.transpose() * direction), pair.B.mesh));
 }
 
 // Poses on both sides of a contact, as close as double precision allows and up to a millionth of the size away.
@@ -217,7 +249,7 @@ std::vector<Isometry3d> random_poses(const SweepFamily& family, const SweepPair&
       const int wanted = std::min(kPosesPerContact, count - static_cast<int>(poses.size()));
       append_bisected(pair, wanted, collides, on_grid, random, poses);
     } else if (family.approach == Approach::kTouching) {
-      poses.push_back(pose_touching(pair, random));
+      poses.push_back(random.chance(0.5) ? pose_touching(pair, random) : pose_side_by_side(pair, random));
     } else {
       poses.push_back(on_grid ? pose_on_grid(pair, pair.cell, random) : pose_anywhere(pair, random));
     }

@@ -29,7 +29,7 @@ enum class Placement {
 enum class Approach {
   kAnywhere,  ///< random, about half of them colliding; on the integer grid: onto the grid
   kBisected,  ///< about a contact that was found by bisection along a line
-  kTouching,  ///< a corner, or a point of an edge or face, of one on one of the other; often flush
+  kTouching,  ///< a corner, or a point of an edge or face, of one on one of the other; often flush; or side by side
 };
 
 struct SweepFamily {
