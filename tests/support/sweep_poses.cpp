@@ -264,4 +264,11 @@ std::string text(const Isometry3d& X) {
   return stream.str();
 }
 
+std::string text(double number) {
+  std::ostringstream stream;
+  stream.precision(17);
+  stream << number;
+  return stream.str();
+}
+
 }  // namespace glissade::test_support

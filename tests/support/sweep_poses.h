@@ -60,5 +60,6 @@ std::vector<Eigen::Isometry3d> random_poses(const SweepFamily& family, const Swe
 
 /// All digits, as the rows of the matrix [R | p].
 std::string text(const Eigen::Isometry3d& X);
+std::string text(double number);
 
 }  // namespace glissade::test_support
