@@ -1,6 +1,7 @@
 // Queries that remember against queries that do not, bit for bit, on random walks that hover about contact: steps of
 // all sizes, standing still, going back, teleports, other tolerances, other trees and other queries in between.
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>

@@ -1,9 +1,7 @@
 // Boolean queries and sets of pairs against CGAL's exact predicates on small meshes, in as many poses as one likes: for
 // every instruction set, every k, with and without slab, and both realignments. See sweep_poses.h for the poses.
 
-#include <array>
-#include <atomic>
-#include <cstdio>
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,8 +24,6 @@ using Eigen::Isometry3d;
 constexpr int kPosesPerCase = 48;
 constexpr int kCasesPerBatch = 60;
 constexpr std::size_t kVariants = 20;
-constexpr std::size_t kFamilies = 15;
-constexpr std::size_t kInstructionSets = 5;
 
 // Two meshes, their trees, and what CGAL says about some poses.
 struct Case {
@@ -38,13 +34,6 @@ struct Case {
   std::vector<DopTree> trees_B;
   std::vector<Isometry3d> poses;
   std::vector<std::vector<TrianglePair>> expected;
-};
-
-struct Counts {
-  std::array<std::atomic<std::int64_t>, kFamilies> poses{};
-  std::array<std::atomic<std::int64_t>, kFamilies> colliding{};
-  std::array<std::atomic<std::int64_t>, kFamilies> pairs{};
-  std::array<std::array<std::atomic<std::int64_t>, kInstructionSets>, kVariants> checks{};
 };
 
 // Everything depends on the seed and the index alone, if the queries that bisect are right.
@@ -85,7 +74,7 @@ std::string first_difference(const std::vector<TrianglePair>& actual, const std:
 class Sweep {
  public:
   explicit Sweep(const SweepArguments& arguments)
-      : arguments_(arguments), sets_(instruction_sets(arguments.only_instruction_set)) {}
+      : arguments_(arguments), sets_(instruction_sets(arguments.only_instruction_set)), counts_(sets_) {}
 
   bool run() {
     const std::int64_t wanted = (arguments_.count + kPosesPerCase - 1) / kPosesPerCase;
@@ -96,7 +85,8 @@ class Sweep {
       for (std::int64_t first = 0; first < wanted && watch.seconds() < arguments_.seconds; first += kCasesPerBatch)
         run_batch(first, static_cast<int>(std::min<std::int64_t>(kCasesPerBatch, wanted - first)));
     }
-    print(watch.seconds());
+    counts_.print(watch.seconds());
+    differences_.print();
     return differences_.count() == 0;
   }
 
@@ -112,11 +102,8 @@ class Sweep {
       tbb::parallel_for(0, count, [&](int i) { check(cases[static_cast<std::size_t>(i)], set); });
     }
     for (const Case& done : cases) {
-      for (const std::vector<TrianglePair>& pairs : done.expected) {
-        ++counts_.poses[done.family];
-        counts_.colliding[done.family] += pairs.empty() ? 0 : 1;
-        counts_.pairs[done.family] += static_cast<std::int64_t>(pairs.size());
-      }
+      for (const std::vector<TrianglePair>& pairs : done.expected)
+        counts_.add_pose(done.family, pairs.size());
     }
   }
 
@@ -133,7 +120,7 @@ class Sweep {
         report(asked, set, variant, p, expected.empty() ? "collides but should not" : "does not collide but should");
       intersecting_pairs(tree_A, tree_B, asked.poses[p], workspace, pairs);
       if (pairs != expected) report(asked, set, variant, p, first_difference(pairs, expected));
-      ++counts_.checks[variant][set];
+      counts_.add_check(variant, set);
     }
   }
 
@@ -145,32 +132,9 @@ class Sweep {
                      "\n  B: " + asked.pair.B.description + "\n" + text(asked.poses[pose]));
   }
 
-  void print(double seconds) const {
-    std::printf("%-20s %10s %10s %14s\n", "family", "poses", "colliding", "pairs");
-    std::int64_t total = 0;
-    for (std::size_t f = 0; f < kFamilies; ++f) {
-      std::printf("%-20s %10lld %10lld %14lld\n", family_name(sweep_families()[f]).c_str(),
-                  static_cast<long long>(counts_.poses[f]), static_cast<long long>(counts_.colliding[f]),
-                  static_cast<long long>(counts_.pairs[f]));
-      total += counts_.poses[f];
-    }
-    std::printf("\n%-30s", "poses checked");
-    for (const InstructionSet set : sets_)
-      std::printf(" %10s", std::string(name(set)).c_str());
-    std::printf("\n");
-    for (std::size_t v = 0; v < kVariants; ++v) {
-      std::printf("%-30s", variant_name(all_tree_options()[v]).c_str());
-      for (std::size_t s = 0; s < sets_.size(); ++s)
-        std::printf(" %10lld", static_cast<long long>(counts_.checks[v][s]));
-      std::printf("\n");
-    }
-    std::printf("\n%lld poses in %.1f s\n", static_cast<long long>(total), seconds);
-    differences_.print();
-  }
-
   SweepArguments arguments_;
   std::vector<InstructionSet> sets_;
-  Counts counts_;
+  SweepCounts counts_;
   SweepDifferences differences_;
 };
 

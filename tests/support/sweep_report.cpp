@@ -7,9 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include <glissade/collision/instruction_set.h>
-
 #include "sanitizers.h"
+#include "sweep_poses.h"
 #include "sweep_variants.h"
 
 namespace glissade::test_support {
@@ -56,6 +55,34 @@ void SweepDifferences::print() const {
   for (const std::string& description : descriptions_)
     std::printf("DIFFERENCE: %s\n", description.c_str());
   std::printf("%lld differences\n", static_cast<long long>(count_));
+}
+
+void SweepCounts::add_pose(std::size_t family, std::size_t pairs) {
+  ++poses_[family];
+  hits_[family] += pairs == 0 ? 0 : 1;
+  pairs_[family] += static_cast<std::int64_t>(pairs);
+}
+
+void SweepCounts::print(double seconds) const {
+  std::printf("%-20s %10s %10s %14s\n", "family", "poses", "hits", "pairs");
+  std::int64_t total = 0;
+  for (std::size_t f = 0; f < sweep_families().size(); ++f) {
+    std::printf("%-20s %10lld %10lld %14lld\n", family_name(sweep_families()[f]).c_str(),
+                static_cast<long long>(poses_[f]), static_cast<long long>(hits_[f]), static_cast<long long>(pairs_[f]));
+    total += poses_[f];
+  }
+  std::printf("\n%-30s", "poses checked");
+  for (const collision::InstructionSet set : sets_)
+    std::printf(" %10s", std::string(collision::name(set)).c_str());
+  std::printf("\n");
+  const std::vector<collision::DopTreeOptions> variants = all_tree_options();
+  for (std::size_t v = 0; v < variants.size(); ++v) {
+    std::printf("%-30s", variant_name(variants[v]).c_str());
+    for (std::size_t s = 0; s < sets_.size(); ++s)
+      std::printf(" %10lld", static_cast<long long>(checks_[v][s]));
+    std::printf("\n");
+  }
+  std::printf("\n%lld poses in %.1f s\n", static_cast<long long>(total), seconds);
 }
 
 }  // namespace glissade::test_support

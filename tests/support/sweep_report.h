@@ -2,11 +2,15 @@
 
 /// What the sweeps have in common: their command line, their clock, and the account of differences.
 
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <string>
 #include <vector>
+
+#include <glissade/collision/instruction_set.h>
 
 namespace glissade::test_support {
 
@@ -39,6 +43,26 @@ class SweepDifferences {
   std::mutex mutex_;
   std::int64_t count_ = 0;
   std::vector<std::string> descriptions_;
+};
+
+/// How much was compared, by family of poses, and by variant and instruction set. Thread-safe.
+class SweepCounts {
+ public:
+  explicit SweepCounts(const std::vector<collision::InstructionSet>& sets) : sets_(sets) {}
+
+  void add_pose(std::size_t family, std::size_t pairs);
+  void add_check(std::size_t variant, std::size_t set) { ++checks_[variant][set]; }
+  void print(double seconds) const;
+
+ private:
+  static constexpr std::size_t kMost = 32;
+  using Counters = std::array<std::atomic<std::int64_t>, kMost>;
+
+  std::vector<collision::InstructionSet> sets_;
+  Counters poses_{};  ///< by family
+  Counters hits_{};   ///< with any pair
+  Counters pairs_{};
+  std::array<Counters, kMost> checks_{};  ///< by variant and instruction set
 };
 
 /// Runs from its construction on.
