@@ -44,12 +44,16 @@ struct Case {
 Question make_question(const NearPairs& near_pairs, const Isometry3d& X_AB, double scale, RandomNumbers& random) {
   Question question{X_AB, random.chance(0.1) ? 0.0 : random.power_of_ten(-9.0, -1.0) * scale, {}};
   question.expected = near_pairs.within(X_AB, question.limit);
-  if (!question.expected.empty() && random.chance(0.4)) {
-    // As far as one of the pairs, but for a rounding error or so.
-    const auto chosen = random.integer(0, static_cast<int>(question.expected.size()) - 1);
-    const double distance = question.expected[static_cast<std::size_t>(chosen)].distance;
-    question.limit =
-        std::min(question.limit, distance * (1.0 + random.uniform(-1.0, 1.0) * random.power_of_ten(-17, -10)));
+  if (!question.expected.empty() && random.chance(0.5)) {
+    // As far as the closest or any pair, but for a rounding error or so.
+    const auto& any =
+        question.expected[static_cast<std::size_t>(random.integer(0, static_cast<int>(question.expected.size()) - 1))];
+    const auto& closest =
+        *std::min_element(question.expected.begin(), question.expected.end(),
+                          [](const NearPair& u, const NearPair& v) { return u.distance < v.distance; });
+    const double distance = random.chance(0.5) ? any.distance : closest.distance;
+    const double factor = 1.0 + random.uniform(-1.0, 1.0) * random.power_of_ten(-17.0, -10.0);
+    question.limit = std::min(question.limit, distance * factor);
   }
   return question;
 }

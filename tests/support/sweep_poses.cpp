@@ -157,7 +157,7 @@ const Vector3d& farthest_along(const Vector3d& direction, const TriangleMesh& me
                            [&](const Vector3d& u, const Vector3d& v) { return direction.dot(u) < direction.dot(v); });
 }
 
-// The meshes lie on either side of a plane, mostly one that bounds DOPs.
+// The meshes lie on either side of a plane, mostly one that bounds DOPs; now and then with a gap.
 Isometry3d pose_side_by_side(const SweepPair& pair, RandomNumbers& random) {
   const Matrix3d R =
       touching_rotation(pair, any_triangle(pair.A.mesh, random), any_triangle(pair.B.mesh, random), random);
@@ -167,7 +167,9 @@ Isometry3d pose_side_by_side(const SweepPair& pair, RandomNumbers& random) {
     const int y = random.integer(-1, 1);
     direction = Vector3d(x, y, random.integer(-1, 1));
   }
-  const Vector3d p_A = farthest_along(direction, pair.A.mesh);
+  Vector3d p_A = farthest_along(direction, pair.A.mesh);
+  if (random.chance(0.3) && direction.norm() > 0.0)
+    p_A += random.power_of_ten(-6.0, -1.0) * pair.scale() * direction.normalized();
   return meeting(R, p_A + nudge(pair, random), farthest_along(-(R.transpose() * direction), pair.B.mesh));
 }
 
