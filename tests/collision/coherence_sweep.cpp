@@ -144,7 +144,7 @@ class Walk {
       const Vector3d center = X_AB_ * pair_.B.center;
       const Vector3d shift = length * pair_.scale() * ((hit_ ? 1.0 : -1.0) * pull_ + 0.5 * random_.direction());
       const Eigen::AngleAxisd turn(turning.norm(), turning.norm() > 0.0 ? turning.normalized() : Vector3d::UnitX());
-      X_AB_.linear() = (turn * Eigen::Quaterniond(X_AB_.linear())).toRotationMatrix();
+      X_AB_.linear() = (turn * Eigen::Quaterniond(X_AB_.linear())).normalized().toRotationMatrix();
       X_AB_.translation() = center + shift - X_AB_.linear() * pair_.B.center;
     }
   }
@@ -202,14 +202,14 @@ class Walk {
   std::vector<ClosePair> remembered_close_pairs_;
 };
 
-void walk(const SweepArguments& arguments, std::int64_t index, Counts& counts, SweepDifferences& differences) {
+void walk(const SweepArguments& arguments, InstructionSet set, std::int64_t index, Counts& counts,
+          SweepDifferences& differences) {
   Walk walk(arguments.seed, index);
   for (int i = 0; i < kFramesPerWalk; ++i) {
     const std::string difference = walk.frame(counts);
     if (difference.empty()) continue;
     differences.add(difference + "\n  --seed " + std::to_string(arguments.seed) + " --only-case " +
-                    std::to_string(index) + ", frame " + std::to_string(i) + ", " +
-                    std::string(name(instruction_set())));
+                    std::to_string(index) + ", frame " + std::to_string(i) + ", " + std::string(name(set)));
   }
 }
 
@@ -235,9 +235,10 @@ bool sweep(const SweepArguments& arguments) {
   for (std::int64_t first = one ? arguments.only_case : 0;
        (one ? first == arguments.only_case : first < walks) && watch.seconds() < arguments.seconds;
        first += kWalksPerBatch) {
-    use_instruction_set(sets[static_cast<std::size_t>(first / kWalksPerBatch) % sets.size()]);
+    const InstructionSet set = sets[static_cast<std::size_t>(first / kWalksPerBatch) % sets.size()];
+    use_instruction_set(set);
     const std::int64_t end = one ? first + 1 : std::min<std::int64_t>(walks, first + kWalksPerBatch);
-    tbb::parallel_for(first, end, [&](std::int64_t i) { walk(arguments, i, counts, differences); });
+    tbb::parallel_for(first, end, [&](std::int64_t i) { walk(arguments, set, i, counts, differences); });
   }
   print(counts, watch.seconds());
   differences.print();

@@ -106,7 +106,7 @@ std::vector<NearPair> NearPairs::within(const Isometry3d& X_AB, double limit) co
         if (rough_distance(a, b) > reach) continue;
         distance = quad_distance(a, b);
       }
-      const double doubt = 1e-12 * distance + 8.0 * kRounding * extent_of(a, b);
+      const double doubt = 1e-12 * distance + 128.0 * kRounding * extent_of(a, b);
       result.push_back({{i, triangles_B_[j]}, distance, doubt});
     }
   }

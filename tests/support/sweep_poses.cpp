@@ -100,11 +100,12 @@ Vector3d feature_point(const TriangleMesh& mesh, std::int32_t triangle, RandomNu
 
 // Axes along an edge, along the normal and across; the identity if the triangle has no area.
 Matrix3d frame_of(const TriangleMesh& mesh, std::int32_t triangle) {
-  const Vector3d along = mesh.corner(triangle, 1) - mesh.corner(triangle, 0);
+  const Vector3d along = (mesh.corner(triangle, 1) - mesh.corner(triangle, 0)).normalized();
   const Vector3d normal = along.cross(mesh.corner(triangle, 2) - mesh.corner(triangle, 0));
-  if (!(normal.norm() > 0.0)) return Matrix3d::Identity();
+  const Vector3d across = along.cross(normal.normalized()).normalized();
+  if (!(normal.norm() > 0.0) || !(across.norm() > 0.5)) return Matrix3d::Identity();
   Matrix3d R;
-  R << along.normalized(), normal.normalized(), along.cross(normal).normalized();
+  R << along, across.cross(along), across;
   return R;
 }
 
@@ -255,6 +256,12 @@ std::vector<Isometry3d> random_poses(const SweepFamily& family, const SweepPair&
     } else {
       poses.push_back(on_grid ? pose_on_grid(pair, pair.cell, random) : pose_anywhere(pair, random));
     }
+  }
+  if (!on_grid && random.chance(0.1)) {
+    // Matrices that are rotations only nearly, as files and other programs give them.
+    const double error = random.power_of_ten(-16.0, -4.0);
+    for (Isometry3d& X_AB : poses)
+      X_AB.linear() += error * random.rotation();
   }
   return poses;
 }
