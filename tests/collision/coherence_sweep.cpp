@@ -6,6 +6,7 @@
 #include <atomic>
 #include <bit>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -87,6 +88,7 @@ class Walk {
     const bool swapped = random_.chance(0.005);
     if (random_.chance(0.005)) remembering_.forget();
     if (random_.chance(large_ ? 0.0005 : 0.005)) renew_trees();
+    if (random_.chance(large_ ? 0.0005 : 0.005)) refit_trees();
     move(counts);
     const DopTree& tree_A = swapped ? *tree_B_ : *tree_A_;
     const DopTree& tree_B = swapped ? *tree_A_ : *tree_B_;
@@ -104,9 +106,21 @@ class Walk {
   // New trees at the address of the old ones: a workspace must not take them for those.
   void renew_trees() {
     pair_ = walk_pair(family_, large_, random_);
-    tree_A_.emplace(std::make_shared<const TriangleMesh>(pair_.A.mesh), options_);
-    tree_B_.emplace(std::make_shared<const TriangleMesh>(pair_.B.mesh), options_);
+    mesh_A_ = std::make_shared<TriangleMesh>(pair_.A.mesh);
+    mesh_B_ = std::make_shared<TriangleMesh>(pair_.B.mesh);
+    tree_A_.emplace(mesh_A_, options_);
+    tree_B_.emplace(mesh_B_, options_);
     teleport();
+  }
+
+  void refit_trees() {
+    deform(*mesh_A_, 0.1 * pair_.A.size, random_);
+    tree_A_->refit();
+    if (random_.chance(0.5)) {
+      deform(*mesh_B_, 0.1 * pair_.B.size, random_);
+      tree_B_->refit();
+    }
+    remembering_.forget();
   }
 
   void teleport() {
@@ -184,6 +198,8 @@ class Walk {
   DopTreeOptions options_;
   double step_;  // largest step over size
   SweepPair pair_;
+  std::shared_ptr<TriangleMesh> mesh_A_;
+  std::shared_ptr<TriangleMesh> mesh_B_;
   std::optional<DopTree> tree_A_;
   std::optional<DopTree> tree_B_;
   Isometry3d X_AB_;

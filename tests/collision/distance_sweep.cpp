@@ -65,8 +65,8 @@ Case make_case(std::uint64_t seed, std::int64_t index) {
   result.family = static_cast<std::size_t>(index) % sweep_families().size();
   const SweepFamily family = sweep_families()[result.family];
   result.pair = random_pair(family.placement, random);
-  result.trees_A = trees_of_all_options(result.pair.A.mesh);
-  result.trees_B = trees_of_all_options(result.pair.B.mesh);
+  result.trees_A = trees_of_all_options(result.pair.A, random);
+  result.trees_B = trees_of_all_options(result.pair.B, random);
   QueryWorkspace workspace;
   const auto collides = [&](const Isometry3d& X_AB) {
     return intersects(result.trees_A.front(), result.trees_B.front(), X_AB, workspace);

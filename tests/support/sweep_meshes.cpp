@@ -202,6 +202,20 @@ SweepMesh random_grid_mesh(double cell, const Vector3d& center, RandomNumbers& r
   }
 }
 
+void deform(TriangleMesh& mesh, double size, RandomNumbers& random) {
+  const std::vector<Vector3d> vertices = mesh.vertices;
+  const auto any_vertex = [&] {
+    return static_cast<std::size_t>(random.integer(0, static_cast<int>(vertices.size()) - 1));
+  };
+  do {
+    const double reach = size * random.power_of_ten(-6.0, 0.0);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      mesh.vertices[i] = vertices[i] + random.point(reach);
+    for (std::size_t i = 0; i < vertices.size() / 10; ++i)
+      mesh.vertices[any_vertex()] = mesh.vertices[any_vertex()];
+  } while (!has_area(mesh));
+}
+
 TriangleMesh random_surface(int triangles, RandomNumbers& random) {
   switch (random.integer(0, 4)) {
     case 0:

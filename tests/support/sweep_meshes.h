@@ -26,6 +26,10 @@ SweepMesh random_mesh(double size, const Eigen::Vector3d& center, RandomNumbers&
 /// `center` a multiple of it.
 SweepMesh random_grid_mesh(double cell, const Eigen::Vector3d& center, RandomNumbers& random);
 
+/// Moves the vertices by up to their mesh's `size` or a small part of it, and some onto others, so that triangles lose
+/// their area; not all of them.
+void deform(collision::TriangleMesh& mesh, double size, RandomNumbers& random);
+
 /// A smooth sphere, torus or plate of about `triangles` triangles, of radius about 1 and about the origin.
 collision::TriangleMesh random_surface(int triangles, RandomNumbers& random);
 

@@ -24,11 +24,18 @@ std::string variant_name(const DopTreeOptions& options) {
          (options.realignment == Realignment::kAffine ? ", affine" : ", brute force");
 }
 
-std::vector<collision::DopTree> trees_of_all_options(const collision::TriangleMesh& mesh) {
-  const auto shared = std::make_shared<const collision::TriangleMesh>(mesh);
+std::vector<collision::DopTree> trees_of_all_options(const SweepMesh& mesh, RandomNumbers& random) {
+  const auto shared = std::make_shared<collision::TriangleMesh>(mesh.mesh);
+  const bool refitted = random.chance(0.2);
+  if (refitted) deform(*shared, mesh.size, random);
   std::vector<collision::DopTree> trees;
   for (const DopTreeOptions& options : all_tree_options())
     trees.emplace_back(shared, options);
+  if (refitted) {
+    shared->vertices = mesh.mesh.vertices;
+    for (collision::DopTree& tree : trees)
+      tree.refit();
+  }
   return trees;
 }
 
