@@ -23,11 +23,25 @@ typename Kernel::Triangle_3 to_cgal(const TrianglePoints& t) {
   return {to_cgal<Kernel>(t[0]), to_cgal<Kernel>(t[1]), to_cgal<Kernel>(t[2])};
 }
 
+// The triangle `flat` without an area stands for its edges.
+template <typename Kernel>
+bool meets_flat(const typename Kernel::Triangle_3& triangle, const typename Kernel::Triangle_3& flat) {
+  if (flat[0] == flat[1] && flat[1] == flat[2]) return triangle.has_on(flat[0]);
+  for (int i = 0; i < 3; ++i) {
+    const typename Kernel::Segment_3 edge(flat[i], flat[i + 1]);
+    if (!edge.is_degenerate() && CGAL::do_intersect(triangle, edge)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool cgal_intersect(const TrianglePoints& a, const TrianglePoints& b) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  return CGAL::do_intersect(to_cgal<Kernel>(a), to_cgal<Kernel>(b));
+  const Kernel::Triangle_3 triangle_a = to_cgal<Kernel>(a);
+  const Kernel::Triangle_3 triangle_b = to_cgal<Kernel>(b);
+  return triangle_b.is_degenerate() ? meets_flat<Kernel>(triangle_a, triangle_b)
+                                    : CGAL::do_intersect(triangle_a, triangle_b);
 }
 
 bool cgal_is_degenerate(const TrianglePoints& triangle) {

@@ -6,7 +6,8 @@
 
 namespace glissade::test_support {
 
-/// Whether two closed triangles of positive area share a point, decided exactly. Thread-safe.
+/// Whether two closed triangles share a point, decided exactly. The second may have lost its area: it then stands for
+/// the segment or point that is left. Thread-safe.
 bool cgal_intersect(const collision::TrianglePoints& a, const collision::TrianglePoints& b);
 
 /// Whether the triangle has no area, decided exactly. Thread-safe.

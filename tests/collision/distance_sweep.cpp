@@ -1,0 +1,190 @@
+// Pairs within a distance, and queries with a tolerance, against distances in quadruple precision on small meshes, for
+// every instruction set and every kind of tree. Limits lie also within rounding errors of the distance of some pair.
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <glissade/collision/dop_query.h>
+
+#include "near_pairs.h"
+#include "sweep_poses.h"
+#include "sweep_report.h"
+#include "sweep_variants.h"
+
+namespace glissade::collision {
+namespace {
+
+using namespace test_support;
+using Eigen::Isometry3d;
+
+constexpr int kPosesPerCase = 24;
+constexpr int kCasesPerBatch = 60;
+constexpr std::size_t kVariants = 20;
+
+// A pose, the distance asked for, and every pair that can be within it.
+struct Question {
+  Isometry3d X_AB;
+  double limit = 0.0;
+  std::vector<NearPair> expected;
+};
+
+struct Case {
+  std::int64_t index = 0;
+  std::size_t family = 0;
+  SweepPair pair;
+  std::vector<DopTree> trees_A;  // one for each variant
+  std::vector<DopTree> trees_B;
+  std::vector<Question> questions;
+};
+
+Question make_question(const NearPairs& near_pairs, const Isometry3d& X_AB, double scale, RandomNumbers& random) {
+  Question question{X_AB, random.chance(0.1) ? 0.0 : random.power_of_ten(-9.0, -1.0) * scale, {}};
+  question.expected = near_pairs.within(X_AB, question.limit);
+  if (!question.expected.empty() && random.chance(0.5)) {
+    // As far as the closest or any pair, but for a rounding error or so.
+    const auto& any =
+        question.expected[static_cast<std::size_t>(random.integer(0, static_cast<int>(question.expected.size()) - 1))];
+    const auto& closest =
+        *std::min_element(question.expected.begin(), question.expected.end(),
+                          [](const NearPair& u, const NearPair& v) { return u.distance < v.distance; });
+    const double distance = random.chance(0.5) ? any.distance : closest.distance;
+    const double factor = 1.0 + random.uniform(-1.0, 1.0) * random.power_of_ten(-17.0, -10.0);
+    question.limit = std::min(question.limit, distance * factor);
+  }
+  return question;
+}
+
+Case make_case(std::uint64_t seed, std::int64_t index) {
+  RandomNumbers random(seed * 1'000'003 + static_cast<std::uint64_t>(index));
+  Case result;
+  result.index = index;
+  result.family = static_cast<std::size_t>(index) % sweep_families().size();
+  const SweepFamily family = sweep_families()[result.family];
+  result.pair = random_pair(family.placement, random);
+  result.trees_A = trees_of_all_options(result.pair.A, random);
+  result.trees_B = trees_of_all_options(result.pair.B, random);
+  QueryWorkspace workspace;
+  const auto collides = [&](const Isometry3d& X_AB) {
+    return intersects(result.trees_A.front(), result.trees_B.front(), X_AB, workspace);
+  };
+  const NearPairs near_pairs(result.pair.A.mesh, result.pair.B.mesh);
+  for (const Isometry3d& X_AB : random_poses(family, result.pair, kPosesPerCase, collides, random))
+    result.questions.push_back(make_question(near_pairs, X_AB, result.pair.scale(), random));
+  return result;
+}
+
+// What is wrong with the set of `triangles_of` the elements.
+template <typename Pair, typename TrianglesOf>
+std::string fault_of_set(const std::vector<Pair>& actual, const Question& question, const TrianglesOf& triangles_of) {
+  auto next = actual.begin();
+  for (const NearPair& near_pair : question.expected) {
+    const bool found = next != actual.end() && triangles_of(*next) == near_pair.triangles;
+    if (found) ++next;
+    const double distance = near_pair.distance;
+    const bool required = distance == 0.0 || distance <= question.limit - near_pair.doubt;
+    const bool forbidden = distance > 0.0 && (question.limit == 0.0 || distance > question.limit + near_pair.doubt);
+    if (required && !found) return "misses " + near_pair.text();
+    if (forbidden && found) return "invents " + near_pair.text();
+  }
+  return next == actual.end() ? "" : "invents a pair, or is not in ascending order";
+}
+
+class Sweep {
+ public:
+  explicit Sweep(const SweepArguments& arguments)
+      : arguments_(arguments), sets_(instruction_sets(arguments.only_instruction_set)), counts_(sets_) {}
+
+  bool run() {
+    const std::int64_t wanted = (arguments_.count + kPosesPerCase - 1) / kPosesPerCase;
+    const Stopwatch watch;
+    if (arguments_.only_case >= 0) {
+      run_batch(arguments_.only_case, 1);
+    } else {
+      for (std::int64_t first = 0; first < wanted && watch.seconds() < arguments_.seconds; first += kCasesPerBatch)
+        run_batch(first, static_cast<int>(std::min<std::int64_t>(kCasesPerBatch, wanted - first)));
+    }
+    counts_.print(watch.seconds());
+    errors_.print();
+    differences_.print();
+    return differences_.count() == 0;
+  }
+
+ private:
+  void run_batch(std::int64_t first, int count) {
+    use_instruction_set(sets_[static_cast<std::size_t>(first / kCasesPerBatch) % sets_.size()]);
+    std::vector<Case> cases(static_cast<std::size_t>(count));
+    tbb::parallel_for(0, count,
+                      [&](int i) { cases[static_cast<std::size_t>(i)] = make_case(arguments_.seed, first + i); });
+    for (std::size_t set = 0; set < sets_.size(); ++set) {
+      use_instruction_set(sets_[set]);
+      tbb::parallel_for(0, count, [&](int i) { check(cases[static_cast<std::size_t>(i)], set); });
+    }
+    for (const Case& done : cases) {
+      for (const Question& question : done.questions)
+        counts_.add_pose(done.family, question.expected.size());
+    }
+  }
+
+  void check(const Case& asked, std::size_t set) {
+    const NearPairs near_pairs(asked.pair.A.mesh, asked.pair.B.mesh);
+    for (std::size_t q = 0; q < asked.questions.size(); ++q) {
+      const std::size_t variant = (static_cast<std::size_t>(asked.index) + 3 * q + 7 * set) % kVariants;
+      const std::string fault =
+          fault_of(asked.trees_A[variant], asked.trees_B[variant], asked.questions[q], near_pairs);
+      if (!fault.empty()) report(asked, set, variant, q, fault);
+      counts_.add_check(variant, set);
+    }
+  }
+
+  std::string fault_of(const DopTree& tree_A, const DopTree& tree_B, const Question& question,
+                       const NearPairs& near_pairs) {
+    QueryWorkspace workspace;
+    std::vector<ClosePair> close_pairs;
+    pairs_within(tree_A, tree_B, question.X_AB, question.limit, workspace, close_pairs);
+    std::string fault = fault_of_set(close_pairs, question, [](const ClosePair& pair) { return pair.triangles; });
+    if (!fault.empty()) return "pairs_within " + fault;
+    auto expected = question.expected.begin();
+    for (const ClosePair& pair : close_pairs) {
+      while (expected->triangles != pair.triangles)
+        ++expected;
+      fault = near_pairs.fault_of(pair, *expected, question.X_AB, errors_);
+      if (!fault.empty()) return fault;
+    }
+    std::vector<TrianglePair> pairs;
+    intersecting_pairs(tree_A, tree_B, question.X_AB, workspace, pairs, question.limit);
+    fault = fault_of_set(pairs, question, [](const TrianglePair& pair) { return pair; });
+    if (!fault.empty()) return "intersecting_pairs with tolerance " + fault;
+    if (intersects(tree_A, tree_B, question.X_AB, workspace, question.limit) != !pairs.empty())
+      return "intersects and intersecting_pairs disagree with a tolerance";
+    return "";
+  }
+
+  void report(const Case& asked, std::size_t set, std::size_t variant, std::size_t pose, const std::string& what) {
+    const Question& question = asked.questions[pose];
+    differences_.add(
+        what + "\n  --seed " + std::to_string(arguments_.seed) + " --only-case " + std::to_string(asked.index) +
+        ", pose " + std::to_string(pose) + ", limit " + text(question.limit) + ", " + std::string(name(sets_[set])) +
+        ", " + variant_name(all_tree_options()[variant]) + ", " + family_name(sweep_families()[asked.family]) +
+        "\n  A: " + asked.pair.A.description + "\n  B: " + asked.pair.B.description + "\n" + text(question.X_AB));
+  }
+
+  SweepArguments arguments_;
+  std::vector<InstructionSet> sets_;
+  SweepCounts counts_;
+  DistanceErrors errors_;
+  SweepDifferences differences_;
+};
+
+}  // namespace
+}  // namespace glissade::collision
+
+int main(int argc, char** argv) {
+  using glissade::test_support::SweepArguments;
+  return glissade::test_support::run_sweep(
+      argc, argv, "Compares distances and tolerances with quadruple precision", "poses", 200'000,
+      [](const SweepArguments& arguments) { return glissade::collision::Sweep(arguments).run(); });
+}

@@ -1,0 +1,36 @@
+#pragma once
+
+/// Small meshes that are hard on collision queries: soups, needles, ribs, layers, duplicates, triangles without area,
+/// and meshes on an integer grid, where touching and coplanar triangles are the rule.
+
+#include <string>
+
+#include <glissade/collision/triangle_mesh.h>
+
+#include "random_numbers.h"
+
+namespace glissade::test_support {
+
+/// A mesh somewhere in its own frame.
+struct SweepMesh {
+  collision::TriangleMesh mesh;
+  double size;             ///< about its radius, metres
+  Eigen::Vector3d center;  ///< of its bounding box
+  std::string description;
+};
+
+/// About `size` large and about `center`, of a random kind, 10 to 200 triangles; at least one of them has an area.
+SweepMesh random_mesh(double size, const Eigen::Vector3d& center, RandomNumbers& random);
+
+/// The same with all vertices on a grid of spacing `cell` through the origin; exact if `cell` is a power of two and
+/// `center` a multiple of it.
+SweepMesh random_grid_mesh(double cell, const Eigen::Vector3d& center, RandomNumbers& random);
+
+/// Moves the vertices by up to their mesh's `size` or a small part of it, and some onto others, so that triangles lose
+/// their area; not all of them.
+void deform(collision::TriangleMesh& mesh, double size, RandomNumbers& random);
+
+/// A smooth sphere, torus or plate of about `triangles` triangles, of radius about 1 and about the origin.
+collision::TriangleMesh random_surface(int triangles, RandomNumbers& random);
+
+}  // namespace glissade::test_support

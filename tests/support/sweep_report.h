@@ -1,0 +1,77 @@
+#pragma once
+
+/// What the sweeps have in common: their command line, their clock, and the account of differences.
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <glissade/collision/instruction_set.h>
+
+namespace glissade::test_support {
+
+/// The command line of a sweep.
+struct SweepArguments {
+  std::int64_t count = 0;  ///< poses or frames to try
+  double seconds = 1e9;    ///< to stop after, if earlier
+  std::uint64_t seed = 1;
+  std::string only_instruction_set;
+  std::int64_t only_case = -1;  ///< to repeat what a difference was found in
+};
+
+/// Parses the command line and runs the sweep, which returns whether it found no difference. The result is what main
+/// returns: 0, 1 after a difference or failure, 2 after bad usage. `unit` is what is counted ("poses").
+int run_sweep(int argc, char** argv, const std::string& description, const std::string& unit,
+              std::int64_t default_count, bool (*sweep)(const SweepArguments&));
+
+/// Counts and describes differences. Thread-safe.
+class SweepDifferences {
+ public:
+  void add(const std::string& description);
+
+  std::int64_t count() const { return count_; }
+
+  /// Prints the first few and the number of all.
+  void print() const;
+
+ private:
+  static constexpr std::size_t kPrinted = 10;
+  std::mutex mutex_;
+  std::int64_t count_ = 0;
+  std::vector<std::string> descriptions_;
+};
+
+/// How much was compared, by family of poses, and by variant and instruction set. Thread-safe.
+class SweepCounts {
+ public:
+  explicit SweepCounts(const std::vector<collision::InstructionSet>& sets) : sets_(sets) {}
+
+  void add_pose(std::size_t family, std::size_t pairs);
+  void add_check(std::size_t variant, std::size_t set) { ++checks_[variant][set]; }
+  void print(double seconds) const;
+
+ private:
+  static constexpr std::size_t kMost = 32;
+  using Counters = std::array<std::atomic<std::int64_t>, kMost>;
+
+  std::vector<collision::InstructionSet> sets_;
+  Counters poses_{};  ///< by family
+  Counters hits_{};   ///< with any pair
+  Counters pairs_{};
+  std::array<Counters, kMost> checks_{};  ///< by variant and instruction set
+};
+
+/// Runs from its construction on.
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace glissade::test_support
