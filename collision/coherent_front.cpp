@@ -67,11 +67,11 @@ void CoherentFront::follow(const DopTree& base, const DopTree& other, const Quer
   p_PQ_ = frame.p_PQ;
 }
 
-bool CoherentFront::query(const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
-                          DopAlignment& alignment, QueryCounters& counters, TriangleVisitor& visitor) {
+bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, const QueryFrame& frame,
+                          double distance, DopAlignment& alignment, QueryCounters& counters, TriangleVisitor& visitor) {
   follow(base, other, frame);
   if (frame.spheres_apart(distance)) return false;
-  if (witness_) {
+  if (goal == Goal::kAnyPair && witness_) {
     if (visitor.visit(witness_->leaf_P, witness_->leaf_Q, witness_->pair).stop) return true;
     witness_.reset();
   }

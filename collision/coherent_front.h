@@ -16,6 +16,7 @@
 
 #include <glissade/collision/dop_query.h>
 
+#include "dop_traversal.h"
 #include "dop_visit.h"
 #include "triangle_visitor.h"
 
@@ -27,9 +28,9 @@ class CoherentFront {
   /// Forgets everything.
   void clear();
 
-  /// Shows the visitor every pair of triangles that may be within `distance` (metres), until it says stop; the one that
-  /// made it stop last time comes first. Returns whether it did.
-  bool query(const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
+  /// Shows the visitor every pair of triangles that may be within `distance` (metres), until it says stop; when any
+  /// pair will do, the one that made it stop last time comes first. Returns whether it did.
+  bool query(Goal goal, const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
              DopAlignment& alignment, QueryCounters& counters, TriangleVisitor& visitor);
 
  private:

@@ -89,10 +89,11 @@ bool visit_all(Goal goal, const Placed& placed, double distance, QueryWorkspace&
   return traverse(goal, placed.base(), placed.other(), step, memory, visitor);
 }
 
-bool visit_all(Goal, const Placed& placed, double distance, CoherentWorkspace& workspace, TriangleVisitor& visitor) {
+bool visit_all(Goal goal, const Placed& placed, double distance, CoherentWorkspace& workspace,
+               TriangleVisitor& visitor) {
   QueryWorkspace::Memory& memory = workspace.workspace().memory();
   memory.counters = {};
-  return workspace.front().query(placed.base(), placed.other(), placed.frame, distance, memory.alignment,
+  return workspace.front().query(goal, placed.base(), placed.other(), placed.frame, distance, memory.alignment,
                                  memory.counters, visitor);
 }
 
