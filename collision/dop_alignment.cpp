@@ -23,11 +23,14 @@ using Tag = hn::CappedTag<float, kAlignmentLanes>;
 using V = hn::Vec<Tag>;
 
 // The correspondence of some slabs: where it is, and what it weighs.
+struct alignas(64) Side {
+  std::int32_t weight[3][kAlignmentLanes];
+  std::int32_t offset[kAlignmentLanes];
+};
 struct alignas(64) Correspondence {
   std::int32_t vertex[kAlignmentLanes];  ///< 2 · vertex + mirrored
-  std::int32_t weight[3][kAlignmentLanes];
-  std::int32_t above[kAlignmentLanes];  ///< offsets of either side
-  std::int32_t below[kAlignmentLanes];
+  Side above;
+  Side below;
 };
 
 // The vertex of the generic DOP that is furthest along each direction or its opposite, as its number. The number is
@@ -76,12 +79,13 @@ HWY_INLINE void find_correspondence(const AlignmentTable& table, const QueryFram
   const V sum = hn::Add(weight[0], hn::Add(weight[1], weight[2]));
   const auto mirrored = hn::And(hn::SignBit(d), sum);
   const V unit = hn::Set(d, kWeightUnit * component(frame.ratio));
+  hn::Vec<decltype(d32)> weight_of[3];
   V residual = hn::Zero(d);  // what the rounded, non-negative weights leave of the direction, at most
   for (std::size_t term = 0; term < 3; ++term) {
     const V exact = hn::Mul(hn::Xor(weight[term], mirrored), unit);
     const V rounded = hn::Round(hn::Max(hn::Zero(d), hn::Min(exact, hn::Set(d, kLargestValue))));
     residual = hn::Add(residual, hn::Abs(hn::Sub(exact, rounded)));
-    hn::Store(hn::ConvertTo(d32, rounded), d32, found.weight[term] + first);
+    weight_of[term] = hn::ConvertTo(d32, rounded);
   }
   const auto mirrored_bit = hn::ShiftRight<31>(hn::BitCast(d32, mirrored));  // 0 or −1
   hn::Store(hn::Sub(hn::Add(vertex, vertex), mirrored_bit), d32, found.vertex + first);
@@ -93,17 +97,16 @@ HWY_INLINE void find_correspondence(const AlignmentTable& table, const QueryFram
   const auto coordinate = [&](int axis) HWY_ATTR { return hn::Set(d, component(kGridRadius * frame.p_PQ[axis])); };
   const V center =
       hn::MulAdd(slab[0], coordinate(0), hn::MulAdd(slab[1], coordinate(1), hn::Mul(slab[2], coordinate(2))));
-  const V beyond = hn::Set(d, kLargestValue + 1.0F);
-  const V above = hn::Min(hn::Ceil(hn::Add(padding, center)), beyond);
-  const V below = hn::Min(hn::Ceil(hn::Sub(padding, center)), beyond);
-  // A slab too far away for 16 bits on one side separates nothing on the other either.
-  const auto representable = hn::Lt(hn::Max(above, below), beyond);
-  const V largest = hn::Set(d, kLargestValue);
-  hn::Store(hn::ConvertTo(d32, hn::IfThenElse(representable, above, largest)), d32, found.above + first);
-  hn::Store(hn::ConvertTo(d32, hn::IfThenElse(representable, below, largest)), d32, found.below + first);
-  for (std::size_t term = 0; term < 3; ++term) {
-    const auto kept = hn::RebindMask(d32, representable);
-    hn::Store(hn::IfThenElseZero(kept, hn::Load(d32, found.weight[term] + first)), d32, found.weight[term] + first);
+  for (const bool is_above : {true, false}) {
+    const V exact = hn::Ceil(is_above ? hn::Add(padding, center) : hn::Sub(padding, center));
+    // An offset beyond 16 bits: on the far side it means that nothing is separated there, which no weight must change;
+    // on the near side a smaller offset is safe.
+    const auto is_far = hn::Gt(exact, hn::Set(d, kLargestValue));
+    const V kept = hn::Max(hn::Min(exact, hn::Set(d, kLargestValue)), hn::Set(d, -kLargestValue));
+    Side& side = is_above ? found.above : found.below;
+    hn::Store(hn::ConvertTo(d32, kept), d32, side.offset + first);
+    for (std::size_t term = 0; term < 3; ++term)
+      hn::Store(hn::IfThenZeroElse(hn::RebindMask(d32, is_far), weight_of[term]), d32, side.weight[term] + first);
   }
 }
 
@@ -112,20 +115,22 @@ void align(const AlignmentTable& table, const QueryFrame& frame, DopAlignment& a
   for (std::size_t first = 0; first < kAlignmentLanes; first += hn::Lanes(Tag()))
     find_correspondence(table, frame, first, found);
 
-  // One lane for each child: the same weights for four children and both sides.
+  // One lane for each child: the same weights for four children, of what faces `above` and what faces `below`.
   const hn::FixedTag<std::int16_t, 8> row;
   const hn::FixedTag<std::int16_t, 4> half;
+  const auto store = [&](std::int32_t below, std::int32_t above, std::int16_t* lanes) HWY_ATTR {
+    hn::Store(hn::Set(half, static_cast<std::int16_t>(below)), half, lanes);
+    hn::Store(hn::Set(half, static_cast<std::int16_t>(above)), half, lanes + 4);
+  };
   alignment.slabs = table.slabs;
   const auto rows = static_cast<std::size_t>(4 * slab_lines(table.slabs));
   for (std::size_t i = 0; i < rows; ++i) {
     const auto& source = table.source[static_cast<std::size_t>(found.vertex[i])];
     for (std::size_t term = 0; term < 3; ++term) {
-      hn::Store(hn::Set(row, static_cast<std::int16_t>(found.weight[term][i])), row,
-                alignment.weight[term].data() + 8 * i);
+      store(found.below.weight[term][i], found.above.weight[term][i], alignment.weight[term].data() + 8 * i);
       std::memcpy(&alignment.source[term][2 * i], &source[2 * term], 2);
     }
-    hn::Store(hn::Set(half, static_cast<std::int16_t>(found.below[i])), half, alignment.offset.data() + 8 * i);
-    hn::Store(hn::Set(half, static_cast<std::int16_t>(found.above[i])), half, alignment.offset.data() + 8 * i + 4);
+    store(found.below.offset[i], found.above.offset[i], alignment.offset.data() + 8 * i);
   }
   // Rows beyond the last slab separate nothing.
   for (auto i = static_cast<std::size_t>(table.slabs); i < rows; ++i)

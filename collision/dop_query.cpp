@@ -6,6 +6,7 @@
 
 #include "coherent_front.h"
 #include "dop_traversal.h"
+#include "placed_trees.h"
 
 namespace glissade::collision {
 
@@ -29,38 +30,12 @@ void CoherentWorkspace::forget() {
 
 namespace {
 
-// Two trees at a pose, whose triangles are asked for one pair after the other.
-struct Placed {
-  const DopTree& tree_A;
-  const DopTree& tree_B;
-  const Eigen::Isometry3d& X_AB;
-  QueryFrame frame{tree_A, tree_B, X_AB};
-
-  const DopTree& base() const { return frame.base_is_A ? tree_A : tree_B; }
-  const DopTree& other() const { return frame.base_is_A ? tree_B : tree_A; }
-
-  TrianglePair triangles(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) const {
-    const std::int32_t triangle_P = base().leaves()[leaf_P].triangle[static_cast<std::size_t>(pair / kWidth)];
-    const std::int32_t triangle_Q = other().leaves()[leaf_Q].triangle[static_cast<std::size_t>(pair % kWidth)];
-    return frame.base_is_A ? TrianglePair{triangle_P, triangle_Q} : TrianglePair{triangle_Q, triangle_P};
-  }
-  TrianglePoints points_A(const TrianglePair& pair) const {
-    const TriangleMesh& mesh = tree_A.mesh();
-    return {mesh.corner(pair.triangle_A, 0), mesh.corner(pair.triangle_A, 1), mesh.corner(pair.triangle_A, 2)};
-  }
-  TrianglePoints points_B(const TrianglePair& pair) const {
-    const TriangleMesh& mesh = tree_B.mesh();
-    return {X_AB * mesh.corner(pair.triangle_B, 0), X_AB * mesh.corner(pair.triangle_B, 1),
-            X_AB * mesh.corner(pair.triangle_B, 2)};
-  }
-};
-
 // Answers a visit by answer(pair, corners of A, corners of B in A) → PairOutcome; of a pair that intersects, by
 // answer_found(pair).
 template <typename Answer, typename AnswerFound>
 class Visitor final : public TriangleVisitor {
  public:
-  Visitor(const Placed& placed, const Answer& answer, const AnswerFound& answer_found)
+  Visitor(const PlacedTrees& placed, const Answer& answer, const AnswerFound& answer_found)
       : placed_(placed), answer_(answer), answer_found_(answer_found) {}
 
   PairOutcome visit(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) override {
@@ -76,12 +51,13 @@ class Visitor final : public TriangleVisitor {
   }
 
  private:
-  const Placed& placed_;
+  const PlacedTrees& placed_;
   const Answer& answer_;
   const AnswerFound& answer_found_;
 };
 
-bool visit_all(Goal goal, const Placed& placed, double distance, QueryWorkspace& workspace, TriangleVisitor& visitor) {
+bool visit_all(Goal goal, const PlacedTrees& placed, double distance, QueryWorkspace& workspace,
+               TriangleVisitor& visitor) {
   QueryWorkspace::Memory& memory = workspace.memory();
   memory.counters = {};
   if (placed.frame.spheres_apart(distance)) return false;
@@ -89,7 +65,7 @@ bool visit_all(Goal goal, const Placed& placed, double distance, QueryWorkspace&
   return traverse(goal, placed.base(), placed.other(), step, memory, visitor);
 }
 
-bool visit_all(Goal goal, const Placed& placed, double distance, CoherentWorkspace& workspace,
+bool visit_all(Goal goal, const PlacedTrees& placed, double distance, CoherentWorkspace& workspace,
                TriangleVisitor& visitor) {
   QueryWorkspace::Memory& memory = workspace.workspace().memory();
   memory.counters = {};
@@ -112,8 +88,14 @@ Nearness nearness(const TrianglePoints& a, const TrianglePoints& b, double toler
   return {distance <= tolerance, distance};
 }
 
+// Orders pairs as their own comparison does, in one step.
+std::uint64_t place_of(const TrianglePair& pair) {
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(pair.triangle_A)) << 32 |
+         static_cast<std::uint32_t>(pair.triangle_B);
+}
+
 template <typename Workspace>
-bool find_any(const Placed& placed, double tolerance, Workspace& workspace) {
+bool find_any(const PlacedTrees& placed, double tolerance, Workspace& workspace) {
   const auto answer = [&](const TrianglePair&, const TrianglePoints& a, const TrianglePoints& b) {
     const Nearness found = nearness(a, b, tolerance);
     return PairOutcome{found.near, found.distance};
@@ -124,7 +106,7 @@ bool find_any(const Placed& placed, double tolerance, Workspace& workspace) {
 }
 
 template <typename Workspace>
-void find_pairs(const Placed& placed, double tolerance, Workspace& workspace, std::vector<TrianglePair>& pairs) {
+void find_pairs(const PlacedTrees& placed, double tolerance, Workspace& workspace, std::vector<TrianglePair>& pairs) {
   pairs.clear();
   const auto answer = [&](const TrianglePair& pair, const TrianglePoints& a, const TrianglePoints& b) {
     const Nearness found = nearness(a, b, tolerance);
@@ -137,11 +119,12 @@ void find_pairs(const Placed& placed, double tolerance, Workspace& workspace, st
   };
   Visitor visitor(placed, answer, answer_found);
   visit_all(Goal::kEveryPair, placed, tolerance, workspace, visitor);
-  std::sort(pairs.begin(), pairs.end());
+  std::sort(pairs.begin(), pairs.end(),
+            [](const TrianglePair& u, const TrianglePair& v) { return place_of(u) < place_of(v); });
 }
 
 template <typename Workspace>
-void find_close(const Placed& placed, double distance, Workspace& workspace, std::vector<ClosePair>& pairs) {
+void find_close(const PlacedTrees& placed, double distance, Workspace& workspace, std::vector<ClosePair>& pairs) {
   pairs.clear();
   const auto answer = [&](const TrianglePair& pair, const TrianglePoints& a, const TrianglePoints& b) {
     const TriangleDistance closest = triangle_distance(a, b);
@@ -154,7 +137,7 @@ void find_close(const Placed& placed, double distance, Workspace& workspace, std
   Visitor visitor(placed, answer, answer_found);
   visit_all(Goal::kEveryPair, placed, distance, workspace, visitor);
   std::sort(pairs.begin(), pairs.end(),
-            [](const ClosePair& u, const ClosePair& v) { return u.triangles < v.triangles; });
+            [](const ClosePair& u, const ClosePair& v) { return place_of(u.triangles) < place_of(v.triangles); });
 }
 
 }  // namespace

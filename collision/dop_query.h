@@ -9,6 +9,7 @@
 /// that were built with different options.
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -107,5 +108,11 @@ void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Iso
                   QueryWorkspace& workspace, std::vector<ClosePair>& pairs);
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   CoherentWorkspace& workspace, std::vector<ClosePair>& pairs);
+
+/// A certain lower bound of the distance of the two meshes in metres: the distance itself but for a few units in the
+/// last place of the coordinates, 0 when they intersect; that of their bounding spheres when those are further apart
+/// than the larger radius; `limit` when it is less.
+double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                       QueryWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
 
 }  // namespace glissade::collision

@@ -78,7 +78,7 @@ class Traversal {
     }
     for (PairMask rest = near & ~certain.intersect; rest != 0; rest &= rest - 1) {
       const int pair = std::countr_zero(rest);
-      if (step_.beyond(step_.gap(leaves, pair))) continue;
+      if (step_.edges_part(leaves, pair)) continue;
       if (visitor_.visit(leaf_P, leaf_Q, pair).stop) return true;
     }
     return false;

@@ -20,9 +20,16 @@ struct OpenPair {
   PairOverlaps overlaps;
 };
 
+/// Two nodes that are at least so far apart, in metres.
+struct PromisingPair {
+  NodePair nodes;
+  double gap;
+};
+
 struct QueryWorkspace::Memory {
   DopAlignment alignment;
   std::vector<OpenPair> stack;
+  std::vector<PromisingPair> promising;
   QueryCounters counters;
 };
 

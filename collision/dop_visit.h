@@ -62,6 +62,10 @@ class DopVisit {
   /// A certain lower bound of the distance of a pair of triangles, in radii of the base; may be negative.
   double gap(const LeafPair& leaves, int pair) const;
 
+  /// Whether edges certainly keep a pair further apart than the distance looked for. Not tried when that is 0, where
+  /// the predicate costs no more.
+  bool edges_part(const LeafPair& leaves, int pair) const { return distance_ > 0.0F && beyond(gap(leaves, pair)); }
+
   /// Whether a gap is more than the distance looked for.
   bool beyond(double gap) const { return gap > static_cast<double>(distance_); }
 

@@ -18,7 +18,7 @@ LeafFrame::LeafFrame(const QueryFrame& frame) {
   // and a projection rounds three products and sums of either corner once more.
   const double reach = frame.p_PQ.lpNorm<Eigen::Infinity>();
   const double corner_P = 1.0;
-  const double corner_Q = 10.0 * frame.ratio + 4.0 * reach;
+  const double corner_Q = 7.0 * frame.ratio + 4.0 * reach;
   const double projections = 5.0 * (1.0 + frame.ratio + reach);
   corner_uncertainty = round_up_to_float(std::ldexp(corner_P + corner_Q, -24) + frame.uncertainty);
   uncertainty = round_up_to_float(1.75 * static_cast<double>(corner_uncertainty) + std::ldexp(1.75 * projections, -24) +

@@ -209,14 +209,25 @@ CertainPairs cross(const LeafFrame& frame, const LeafPair& leaves) {
       p[c] = {of_P(d, corner_P[0][c], first), of_P(d, corner_P[1][c], first), of_P(d, corner_P[2][c], first)};
       q[c] = {of_Q(d, corner_Q[0][c]), of_Q(d, corner_Q[1][c]), of_Q(d, corner_Q[2][c])};
     }
-    // No two of the six corners differ by more than `largest` in a coordinate. A determinant of three such differences,
-    // of coordinates that are each off by the uncertainty u, is off by at most 3 · (2√3 u) · (√3 largest)², and
-    // rounding of 48 products, each half an epsilon of largest³, is no more than twice that.
+    // No two of the six corners differ by more than `largest` in a coordinate, none of one triangle from its first by
+    // more than its extent. A determinant of three such differences u, v, w, each coordinate off by 2 ε, is off by
+    // 2√3 ε (|u||v| + |v||w| + |w||u|) and half as much again for products of errors, where |u| ≤ √3 extent and so on:
+    // 16 ε (uv + vw + wu). 48 roundings add half an epsilon of uvw each.
+    const V extent_p = of_P(d, leaves.p.extent, first);
+    const V extent_q = of_Q(d, leaves.q.extent);
     const auto between = minus(q[0], p[0]);
     const V largest = hn::Add(hn::Max(hn::Abs(between.x), hn::Max(hn::Abs(between.y), hn::Abs(between.z))),
-                              hn::Add(of_P(d, leaves.p.extent, first), of_Q(d, leaves.q.extent)));
-    const V error = hn::Add(hn::Mul(hn::Mul(largest, largest), hn::Set(d, 160.0F * frame.corner_uncertainty)),
-                            hn::Set(d, 1e-30F));  // for underflow
+                              hn::Add(extent_p, extent_q));
+    const V of_corner = hn::Set(d, 16.0F * frame.corner_uncertainty);
+    const V of_rounding = hn::Set(d, 4e-6F);
+    const V smallest = hn::Set(d, 1e-30F);  // for underflow
+    const auto error_of = [&](V u, V v, V w) HWY_ATTR {
+      const V products = hn::MulAdd(u, v, hn::MulAdd(v, w, hn::Mul(w, u)));
+      return hn::MulAdd(of_corner, products, hn::MulAdd(hn::Mul(of_rounding, u), hn::Mul(v, w), smallest));
+    };
+    const V error_of_sides_p = error_of(extent_q, extent_q, largest);
+    const V error_of_sides_q = error_of(extent_p, extent_p, largest);
+    const V error = error_of(hn::Add(extent_p, extent_p), largest, largest);
 
     const Vector3<V> normal_p{of_P(d, leaves.p.normal[0], first), of_P(d, leaves.p.normal[1], first),
                               of_P(d, leaves.p.normal[2], first)};
@@ -236,7 +247,8 @@ CertainPairs cross(const LeafFrame& frame, const LeafPair& leaves) {
       return hn::And(same_sign(d, side[0], side[1]), same_sign(d, side[1], side[2]));
     };
     const auto sides_certain =
-        hn::AndNot(hn::Or(one_side(side_p), one_side(side_q)), hn::Gt(hn::Min(least_p, least_q), error));
+        hn::AndNot(hn::Or(one_side(side_p), one_side(side_q)),
+                   hn::And(hn::Gt(least_p, error_of_sides_p), hn::Gt(least_q, error_of_sides_q)));
 
     const Apex<V> a = find_apex(d, p, side_p);
     const Apex<V> b = find_apex(d, q, side_q);

@@ -28,6 +28,9 @@ struct QueryFrame {
   /// ‖RᵀR − 1‖, which is 0 of a true rotation.
   double rotation_defect;
 
+  /// A lower bound of the gap between the two bounding spheres, in radii of P; negative when they overlap.
+  double gap_of_spheres() const { return (p_PQ.norm() - 1.0 - ratio) * (1.0 - 1e-12) - uncertainty; }
+
   /// The two bounding spheres are certainly further apart than `tolerance` (metres).
   bool spheres_apart(double tolerance) const;
 

@@ -1,0 +1,100 @@
+// The least distance of two trees, by branch and bound: pairs of nodes in the order of what they promise, as long as
+// that is less than what has been found.
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include <glissade/collision/triangle_distance.h>
+
+#include "dop_traversal.h"
+#include "placed_trees.h"
+
+namespace glissade::collision {
+namespace {
+
+class GapSearch {
+ public:
+  GapSearch(const PlacedTrees& placed, double limit, QueryWorkspace::Memory& memory)
+      : placed_(placed),
+        memory_(memory),
+        step_(placed.base(), placed.other(), placed.frame, std::numeric_limits<double>::infinity(), memory.alignment),
+        least_(limit) {}
+
+  double run() {
+    memory_.promising.assign(1, {{0, 0, kAllPairs}, 0.0});
+    while (!memory_.promising.empty()) {
+      const PromisingPair top = memory_.promising.back();
+      memory_.promising.pop_back();
+      if (top.gap < least_) expand(top.nodes);
+    }
+    return least_;
+  }
+
+ private:
+  double in_metres(double radii) const { return radii * placed_.frame.base_radius; }
+
+  void expand(const NodePair& nodes) {
+    PairOverlaps overlaps;
+    const PairMask all = step_.nodes(nodes, overlaps, memory_.counters);
+    step_.thin_slabs(nodes, all, overlaps);
+    const NodeHead& head_P = placed_.base().nodes()[nodes.node_P];
+    const NodeHead& head_Q = placed_.other().nodes()[nodes.node_Q];
+    const std::size_t first = memory_.promising.size();
+    for (PairMask rest = all; rest != 0; rest &= rest - 1) {
+      const int pair = std::countr_zero(rest);
+      const double gap =
+          in_metres(-overlaps.overlap[static_cast<std::size_t>(pair)] / static_cast<double>(kGridRadius));
+      if (gap >= least_) continue;
+      const int p = pair / kWidth;
+      const int q = pair % kWidth;
+      if (head_P.is_leaf(p) && head_Q.is_leaf(q)) {
+        compare_leaves(head_P.child(p), head_Q.child(q));
+      } else if (head_P.is_leaf(p)) {
+        memory_.promising.push_back({{nodes.node_P, head_Q.child(q), row_of(p)}, gap});
+      } else if (head_Q.is_leaf(q)) {
+        memory_.promising.push_back({{head_P.child(p), nodes.node_Q, column_of(q)}, gap});
+      } else {
+        memory_.promising.push_back({{head_P.child(p), head_Q.child(q), kAllPairs}, gap});
+      }
+    }
+    std::sort(memory_.promising.begin() + static_cast<std::ptrdiff_t>(first), memory_.promising.end(),
+              [](const PromisingPair& u, const PromisingPair& v) { return u.gap > v.gap; });
+  }
+
+  void compare_leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q) {
+    LeafPair leaves;
+    for (PairMask rest = step_.leaves(leaf_P, leaf_Q, leaves, memory_.counters); rest != 0; rest &= rest - 1) {
+      const int pair = std::countr_zero(rest);
+      if (in_metres(static_cast<double>(leaves.gaps.gap[static_cast<std::size_t>(pair)])) >= least_ ||
+          in_metres(step_.gap(leaves, pair)) >= least_) {
+        continue;
+      }
+      const TrianglePair triangles = placed_.triangles(leaf_P, leaf_Q, pair);
+      least_ = std::min(least_, triangle_distance(placed_.points_A(triangles), placed_.points_B(triangles)).distance);
+    }
+  }
+
+  const PlacedTrees& placed_;
+  QueryWorkspace::Memory& memory_;
+  const DopVisit step_;
+  double least_;  ///< metres
+};
+
+}  // namespace
+
+double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                       QueryWorkspace& workspace, double limit) {
+  const PlacedTrees placed{tree_A, tree_B, X_AB};
+  QueryWorkspace::Memory& memory = workspace.memory();
+  memory.counters = {};
+  const double rounding = 4.0 * placed.frame.uncertainty * placed.frame.base_radius;
+  if (limit < std::numeric_limits<double>::infinity() && placed.frame.spheres_apart(limit)) return limit;
+  // So far off boxes cannot be told apart.
+  const double between_spheres = placed.frame.base_radius * placed.frame.gap_of_spheres();
+  if (between_spheres > placed.frame.base_radius) return std::min(between_spheres, limit);
+  const double least = GapSearch(placed, limit, memory).run();
+  return least == limit ? limit : std::max(0.0, least * (1.0 - 1e-12) - rounding);
+}
+
+}  // namespace glissade::collision

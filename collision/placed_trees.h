@@ -1,0 +1,40 @@
+#pragma once
+
+/// The two trees of a query where they lie. All corners are in the frame of A.
+
+#include <Eigen/Geometry>
+
+#include <glissade/collision/dop_query.h>
+#include <glissade/collision/triangle_intersection.h>
+
+#include "query_frame.h"
+
+namespace glissade::collision {
+
+/// Two trees at a pose, and their triangles one pair at a time.
+struct PlacedTrees {
+  const DopTree& tree_A;
+  const DopTree& tree_B;
+  const Eigen::Isometry3d& X_AB;
+  QueryFrame frame{tree_A, tree_B, X_AB};
+
+  const DopTree& base() const { return frame.base_is_A ? tree_A : tree_B; }
+  const DopTree& other() const { return frame.base_is_A ? tree_B : tree_A; }
+
+  TrianglePair triangles(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) const {
+    const std::int32_t triangle_P = base().leaves()[leaf_P].triangle[static_cast<std::size_t>(pair / kWidth)];
+    const std::int32_t triangle_Q = other().leaves()[leaf_Q].triangle[static_cast<std::size_t>(pair % kWidth)];
+    return frame.base_is_A ? TrianglePair{triangle_P, triangle_Q} : TrianglePair{triangle_Q, triangle_P};
+  }
+  TrianglePoints points_A(const TrianglePair& pair) const {
+    const TriangleMesh& mesh = tree_A.mesh();
+    return {mesh.corner(pair.triangle_A, 0), mesh.corner(pair.triangle_A, 1), mesh.corner(pair.triangle_A, 2)};
+  }
+  TrianglePoints points_B(const TrianglePair& pair) const {
+    const TriangleMesh& mesh = tree_B.mesh();
+    return {X_AB * mesh.corner(pair.triangle_B, 0), X_AB * mesh.corner(pair.triangle_B, 1),
+            X_AB * mesh.corner(pair.triangle_B, 2)};
+  }
+};
+
+}  // namespace glissade::collision
