@@ -2,6 +2,7 @@
 #include <utility>
 
 #include <glissade/apps/collide_method.h>
+#include <glissade/apps/kept_tree.h>
 #include <glissade/apps/text.h>
 #include <glissade/collision/brute_force.h>
 #include <glissade/collision/dop_query.h>
@@ -23,10 +24,10 @@ constexpr const char* kBruteForce = "brute-force";
 /// The trees of two meshes and room for their queries.
 class TreeMethod {
  public:
-  TreeMethod(std::shared_ptr<const TriangleMesh> mesh_A, std::shared_ptr<const TriangleMesh> mesh_B,
-             const CollideQuestion& question)
-      : tree_A_(std::make_shared<const DopTree>(std::move(mesh_A))),
-        tree_B_(std::make_shared<const DopTree>(std::move(mesh_B))),
+  TreeMethod(const std::shared_ptr<const TriangleMesh>& mesh_A, const std::shared_ptr<const TriangleMesh>& mesh_B,
+             const CollideQuestion& question, const TreeFiles& files)
+      : tree_A_(std::make_shared<const DopTree>(kept_tree(mesh_A, files.mesh_A))),
+        tree_B_(std::make_shared<const DopTree>(kept_tree(mesh_B, files.mesh_B))),
         question_(question) {}
 
   CollideAnswer operator()(const Eigen::Isometry3d& X_AB) {
@@ -101,9 +102,10 @@ const std::vector<std::string>& collide_method_names() {
 }
 
 CollideMethod make_collide_method(const std::string& name, std::shared_ptr<const TriangleMesh> mesh_A,
-                                  std::shared_ptr<const TriangleMesh> mesh_B, const CollideQuestion& question) {
+                                  std::shared_ptr<const TriangleMesh> mesh_B, const CollideQuestion& question,
+                                  const TreeFiles& files) {
   if (name == kBruteForce) return BruteForceMethod(std::move(mesh_A), std::move(mesh_B), question);
-  if (name == kDopTree) return TreeMethod(std::move(mesh_A), std::move(mesh_B), question);
+  if (name == kDopTree) return TreeMethod(mesh_A, mesh_B, question, files);
   throw std::invalid_argument("unknown method " + in_quotes(name) + " (known: " + joined(collide_method_names()) + ")");
 }
 

@@ -126,6 +126,7 @@ TEST(DopTreeRefit, TrianglesLoseTheirAreaAndGetItBack) {
     for (std::size_t i = 0; i < flat.size(); ++i)
       plate->vertices[i] = flat[i].cwiseProduct(direction);
     tree.refit();
+    EXPECT_GT(tree.radius(), 0.0);  // a length to measure by
     EXPECT_EQ(tree.degenerate_triangles(), static_cast<std::int64_t>(plate->triangles.size()));
     EXPECT_EQ(expect_right_answers(tree, ball, 5), 0U);
     EXPECT_EQ(expect_right_answers(tree, tree, 5), 0U);
