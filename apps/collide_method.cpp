@@ -32,11 +32,11 @@ class TreeMethod {
 
   CollideAnswer operator()(const Eigen::Isometry3d& X_AB) {
     if (question_.tolerance > 0.0) {
-      pairs_within(*tree_A_, *tree_B_, X_AB, question_.tolerance, workspace_, close_pairs_);
+      pairs_within(*tree_A_, *tree_B_, X_AB, question_.tolerance, *workspace_, close_pairs_);
       return {!close_pairs_.empty(), static_cast<std::int64_t>(close_pairs_.size())};
     }
-    if (!question_.count_pairs) return {intersects(*tree_A_, *tree_B_, X_AB, workspace_), 0};
-    intersecting_pairs(*tree_A_, *tree_B_, X_AB, workspace_, pairs_);
+    if (!question_.count_pairs) return {intersects(*tree_A_, *tree_B_, X_AB, *workspace_), 0};
+    intersecting_pairs(*tree_A_, *tree_B_, X_AB, *workspace_, pairs_);
     return {!pairs_.empty(), static_cast<std::int64_t>(pairs_.size())};
   }
 
@@ -44,7 +44,8 @@ class TreeMethod {
   std::shared_ptr<const DopTree> tree_A_;
   std::shared_ptr<const DopTree> tree_B_;
   CollideQuestion question_;
-  collision::QueryWorkspace workspace_;
+  // Shared, because a std::function must be copyable and a workspace is not.
+  std::shared_ptr<collision::QueryWorkspace> workspace_ = std::make_shared<collision::QueryWorkspace>();
   std::vector<collision::TrianglePair> pairs_;
   std::vector<collision::ClosePair> close_pairs_;
 };
