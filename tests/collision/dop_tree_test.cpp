@@ -105,12 +105,17 @@ TEST(DopTreeRefit, EnclosesWhereverARandomWalkLeads) {
   DopTree tree(plate);
   const DopTree ball(shared(make_sphere(0.1, 100)));
   std::mt19937 random(20);
+  CoherentWorkspace memory;  // of the tree as it was a step before
+  std::vector<TrianglePair> pairs;
+  const Eigen::Isometry3d X_AB = Eigen::Isometry3d::Identity();
   for (int step = 0; step < std::max(2, test_support::affordable(40)); ++step) {
     SCOPED_TRACE(testing::Message() << "step " << step);
     for (Vector3d& vertex : plate->vertices)
       vertex += 0.02 * Vector3d(uniform(random), uniform(random), uniform(random));
     tree.refit();
     expect_right_answers(tree, ball, 5);
+    intersecting_pairs(tree, ball, X_AB, memory, pairs);
+    EXPECT_EQ(pairs, brute_force_pairs(*plate, ball.mesh(), X_AB));
   }
 }
 
