@@ -79,15 +79,17 @@ void move(TriangleMesh& mesh, const std::vector<Vector3d>& vertices, const Motio
 }
 
 TEST(DopTreeRefit, AnswersStayExactWhateverTheVerticesDo) {
-  for (const int k : kDirections) {
-    const DopTreeOptions options{.directions = k};
+  std::vector<DopTreeOptions> all_options{{.thin_slab = false}, {.realignment = Realignment::kBruteForce}};
+  for (const int k : kDirections)
+    all_options.push_back({.directions = k});
+  for (const DopTreeOptions& options : all_options) {
     const auto plate = shared(make_plate({0.4, 0.3}, 200));
     const std::vector<Vector3d> flat = plate->vertices;
     DopTree tree(plate, options);
     const DopTree original = tree;
     const DopTree ball(shared(make_sphere(0.1, 100)), options);
     for (const Motion& motion : kMotions) {
-      SCOPED_TRACE(testing::Message() << "k " << k << ", " << motion.name);
+      SCOPED_TRACE(testing::Message() << "k " << options.directions << ", " << motion.name);
       move(*plate, flat, motion);
       tree.refit();
       std::size_t pairs = expect_right_answers(tree, ball, std::max(2, test_support::affordable(20)));
@@ -145,13 +147,15 @@ TEST(DopTreeRefit, TrianglesLoseTheirAreaAndGetItBack) {
 
 TEST(DopTreeRefit, AllocatesNothing) {
   if (!test_support::allocations_are_counted()) GTEST_SKIP() << "allocations cannot be counted here";
-  const auto plate = shared(make_plate({0.4, 0.3}, 2000));
-  DopTree tree(plate);
-  for (Vector3d& vertex : plate->vertices)
-    vertex.z() = vertex.x() * vertex.y();
-  const std::int64_t before = test_support::allocations_of_this_thread();
-  tree.refit();
-  EXPECT_EQ(test_support::allocations_of_this_thread(), before);
+  for (const Realignment realignment : {Realignment::kAffine, Realignment::kBruteForce}) {
+    const auto plate = shared(make_plate({0.4, 0.3}, 2000));
+    DopTree tree(plate, {.realignment = realignment});
+    for (Vector3d& vertex : plate->vertices)
+      vertex.z() = vertex.x() * vertex.y();
+    const std::int64_t before = test_support::allocations_of_this_thread();
+    tree.refit();
+    EXPECT_EQ(test_support::allocations_of_this_thread(), before);
+  }
 }
 
 TEST(DopTreeRefit, LeavesTheTreeAsItWasWhenAVertexIsRefused) {
