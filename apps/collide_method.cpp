@@ -2,6 +2,7 @@
 #include <utility>
 
 #include <glissade/apps/collide_method.h>
+#include <glissade/apps/kept_tree.h>
 #include <glissade/apps/text.h>
 #include <glissade/collision/brute_force.h>
 #include <glissade/collision/dop_query.h>
@@ -23,19 +24,19 @@ constexpr const char* kBruteForce = "brute-force";
 /// The trees of two meshes and room for their queries.
 class TreeMethod {
  public:
-  TreeMethod(std::shared_ptr<const TriangleMesh> mesh_A, std::shared_ptr<const TriangleMesh> mesh_B,
-             const CollideQuestion& question)
-      : tree_A_(std::make_shared<const DopTree>(std::move(mesh_A))),
-        tree_B_(std::make_shared<const DopTree>(std::move(mesh_B))),
+  TreeMethod(const std::shared_ptr<const TriangleMesh>& mesh_A, const std::shared_ptr<const TriangleMesh>& mesh_B,
+             const CollideQuestion& question, const TreeFiles& files)
+      : tree_A_(std::make_shared<const DopTree>(kept_tree(mesh_A, files.mesh_A))),
+        tree_B_(std::make_shared<const DopTree>(kept_tree(mesh_B, files.mesh_B))),
         question_(question) {}
 
   CollideAnswer operator()(const Eigen::Isometry3d& X_AB) {
     if (question_.tolerance > 0.0) {
-      pairs_within(*tree_A_, *tree_B_, X_AB, question_.tolerance, workspace_, close_pairs_);
+      pairs_within(*tree_A_, *tree_B_, X_AB, question_.tolerance, *workspace_, close_pairs_);
       return {!close_pairs_.empty(), static_cast<std::int64_t>(close_pairs_.size())};
     }
-    if (!question_.count_pairs) return {intersects(*tree_A_, *tree_B_, X_AB, workspace_), 0};
-    intersecting_pairs(*tree_A_, *tree_B_, X_AB, workspace_, pairs_);
+    if (!question_.count_pairs) return {intersects(*tree_A_, *tree_B_, X_AB, *workspace_), 0};
+    intersecting_pairs(*tree_A_, *tree_B_, X_AB, *workspace_, pairs_);
     return {!pairs_.empty(), static_cast<std::int64_t>(pairs_.size())};
   }
 
@@ -43,7 +44,8 @@ class TreeMethod {
   std::shared_ptr<const DopTree> tree_A_;
   std::shared_ptr<const DopTree> tree_B_;
   CollideQuestion question_;
-  collision::QueryWorkspace workspace_;
+  // Shared, because a std::function must be copyable and a workspace is not.
+  std::shared_ptr<collision::QueryWorkspace> workspace_ = std::make_shared<collision::QueryWorkspace>();
   std::vector<collision::TrianglePair> pairs_;
   std::vector<collision::ClosePair> close_pairs_;
 };
@@ -101,9 +103,10 @@ const std::vector<std::string>& collide_method_names() {
 }
 
 CollideMethod make_collide_method(const std::string& name, std::shared_ptr<const TriangleMesh> mesh_A,
-                                  std::shared_ptr<const TriangleMesh> mesh_B, const CollideQuestion& question) {
+                                  std::shared_ptr<const TriangleMesh> mesh_B, const CollideQuestion& question,
+                                  const TreeFiles& files) {
   if (name == kBruteForce) return BruteForceMethod(std::move(mesh_A), std::move(mesh_B), question);
-  if (name == kDopTree) return TreeMethod(std::move(mesh_A), std::move(mesh_B), question);
+  if (name == kDopTree) return TreeMethod(mesh_A, mesh_B, question, files);
   throw std::invalid_argument("unknown method " + in_quotes(name) + " (known: " + joined(collide_method_names()) + ")");
 }
 

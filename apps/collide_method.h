@@ -26,6 +26,12 @@ struct CollideAnswer {
   std::int64_t pairs;  ///< pairs of triangles within the tolerance; meaningless unless they were to be counted
 };
 
+/// The mesh files next to which trees are kept (`kept_tree.h`); empty: they are not.
+struct TreeFiles {
+  std::string mesh_A;
+  std::string mesh_B;
+};
+
 /// Answers for the pose X_AB of mesh B in the frame of mesh A. Keeps scratch memory: one per thread.
 using CollideMethod = std::function<CollideAnswer(const Eigen::Isometry3d& X_AB)>;
 
@@ -36,6 +42,6 @@ const std::vector<std::string>& collide_method_names();
 /// refuses.
 CollideMethod make_collide_method(const std::string& name, std::shared_ptr<const collision::TriangleMesh> mesh_A,
                                   std::shared_ptr<const collision::TriangleMesh> mesh_B,
-                                  const CollideQuestion& question);
+                                  const CollideQuestion& question, const TreeFiles& files = {});
 
 }  // namespace glissade::apps

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <glissade/apps/command.h>
+#include <glissade/apps/kept_tree.h>
 #include <glissade/collision/dop_tree.h>
 #include <glissade/collision/mesh_import.h>
 #include <glissade/collision/mesh_report.h>
@@ -32,6 +33,7 @@ constexpr const char* kFooter =
 struct Options {
   std::string mesh;
   bool json = false;
+  bool cache = false;
 };
 
 /// What the command tells.
@@ -44,10 +46,10 @@ struct Info {
   double tree_bytes_per_triangle;
 };
 
-Info gather(const std::string& path) {
-  collision::ImportedMesh imported = collision::import_mesh(path);
+Info gather(const Options& options) {
+  collision::ImportedMesh imported = collision::import_mesh(options.mesh);
   const auto mesh = std::make_shared<const collision::TriangleMesh>(std::move(imported.mesh));
-  const collision::DopTree tree(mesh);
+  const collision::DopTree tree = kept_tree(mesh, options.cache ? options.mesh : "");
   return {collision::report(*mesh),
           imported.degenerate_triangles,
           imported.polygons_triangulated,
@@ -111,7 +113,7 @@ void print_text(const Info& info) {
 }
 
 int run(const Options& options) {
-  const Info info = gather(options.mesh);
+  const Info info = gather(options);
   if (options.json) {
     print_json(info);
   } else {
@@ -128,6 +130,7 @@ void add_info_command(CLI::App& app, Command& chosen) {
   command->footer(kFooter);
   command->add_option("MESH", options->mesh, "Mesh file: OBJ, STL, PLY or glTF, in metres")->required();
   command->add_flag("--json", options->json, "Print one JSON object instead of a table");
+  command->add_flag("--cache", options->cache, kCacheHelp);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

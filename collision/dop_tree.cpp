@@ -15,7 +15,7 @@ constexpr std::size_t kMostTriangles = 5'000'000;
 
 void check_vertices(const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (!(mesh.vertices[i].cwiseAbs().maxCoeff() <= kLargestCoordinate)) {
+    if (!(mesh.vertices[i].array().abs() <= kLargestCoordinate).all()) {
       throw std::invalid_argument("vertex " + std::to_string(i) +
                                   " has a coordinate that is not finite or beyond ±1e9");
     }
@@ -38,24 +38,37 @@ void check_triangles(const TriangleMesh& mesh) {
   }
 }
 
+TreeShape checked_shape(const TriangleMesh& mesh) {
+  check_triangles(mesh);
+  check_vertices(mesh);
+  return mesh.triangles.empty() ? TreeShape{} : build_shape(mesh);
+}
+
 }  // namespace
 
-DopTree::DopTree(std::shared_ptr<const TriangleMesh> mesh, const DopTreeOptions& options)
-    : mesh_(std::move(mesh)), options_(options) {
-  check_triangles(*mesh_);
-  lines_of_node_ = static_cast<std::size_t>(slab_lines(dop_directions(options_.directions).slabs));
-  if (!mesh_->triangles.empty()) {
-    TreeShape shape = build_shape(*mesh_);
-    heads_ = std::move(shape.nodes);
-    leaves_ = std::move(shape.leaves);
-    depth_ = shape.depth;
-    slabs_.resize(heads_.size() * lines_of_node_);
+DopTree::DopTree(const std::shared_ptr<const TriangleMesh>& mesh, const DopTreeOptions& options)
+    : DopTree(mesh, options, checked_shape(*mesh)) {}
+
+DopTree::DopTree(std::shared_ptr<const TriangleMesh> mesh, const DopTreeOptions& options, TreeShape&& shape)
+    : mesh_(std::move(mesh)),
+      options_(options),
+      heads_(std::move(shape.nodes)),
+      leaves_(std::move(shape.leaves)),
+      lines_of_node_(static_cast<std::size_t>(slab_lines(dop_directions(options.directions).slabs))),
+      depth_(shape.depth) {
+  slabs_.resize(heads_.size() * lines_of_node_);
+  if (!heads_.empty()) {
     if (options_.realignment == Realignment::kBruteForce) vertices_ = DopVertices(options_.directions, heads_.size());
     refit();
   }
   if (degenerate_triangles_ == static_cast<std::int64_t>(mesh_->triangles.size())) {
     throw std::invalid_argument("the mesh has no triangle of positive area");
   }
+}
+
+DopTree tree_of_shape(std::shared_ptr<const TriangleMesh> mesh, const DopTreeOptions& options, TreeShape&& shape) {
+  check_triangles(*mesh);
+  return {std::move(mesh), options, std::move(shape)};
 }
 
 void DopTree::refit() {

@@ -17,6 +17,8 @@
 
 namespace glissade::collision {
 
+struct TreeShape;
+
 /// How the nodes of one tree are brought into the frame of the other.
 enum class Realignment {
   kAffine,      ///< three old offsets make a new one: O(k) (paper §2.1, eq. 1)
@@ -43,7 +45,7 @@ class DopTree {
   /// Throws std::invalid_argument when the mesh has no triangle of positive area or more than 5 million triangles, an
   /// index out of range, or a coordinate that is not finite or beyond ±1e9, and for options that do not exist.
   /// Cost O(n log n).
-  explicit DopTree(std::shared_ptr<const TriangleMesh> mesh, const DopTreeOptions& options = {});
+  explicit DopTree(const std::shared_ptr<const TriangleMesh>& mesh, const DopTreeOptions& options = {});
 
   /// Encloses the vertices where they are now, after the owner of the mesh has moved them; the triangles must be the
   /// same. Queries stay exact; they get slower the more neighbours have parted. Allocates nothing. Cost O(n log n).
@@ -75,6 +77,10 @@ class DopTree {
   std::size_t memory_bytes() const;
 
  private:
+  friend DopTree tree_of_shape(std::shared_ptr<const TriangleMesh> mesh, const DopTreeOptions& options,
+                               TreeShape&& shape);
+  DopTree(std::shared_ptr<const TriangleMesh> mesh, const DopTreeOptions& options, TreeShape&& shape);
+
   std::shared_ptr<const TriangleMesh> mesh_;
   DopTreeOptions options_;
   std::vector<NodeHead> heads_;

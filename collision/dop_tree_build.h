@@ -7,9 +7,11 @@
 /// Wald 2007), the larger part again, until there are four. Areas count how often a part is visited, and numbers of
 /// triangles, in whole leaves of four, what that costs.
 
+#include <memory>
 #include <vector>
 
 #include <glissade/collision/dop_node.h>
+#include <glissade/collision/dop_tree.h>
 #include <glissade/collision/triangle_mesh.h>
 
 namespace glissade::collision {
@@ -24,5 +26,8 @@ struct TreeShape {
 
 /// Runs on several threads when the mesh is large; the result does not depend on their number. Cost O(n log n).
 TreeShape build_shape(const TriangleMesh& mesh);
+
+/// The tree of a shape that was built before, for the same number of triangles. Throws as DopTree does.
+DopTree tree_of_shape(std::shared_ptr<const TriangleMesh> mesh, const DopTreeOptions& options, TreeShape&& shape);
 
 }  // namespace glissade::collision

@@ -188,6 +188,7 @@ TreeGrid grid_of(const TriangleMesh& mesh) {
   TreeGrid grid{0.5 * (low + high).matrix(), 0.0};
   for_each_vertex([&](const Vector3d& x) { grid.radius = std::max(grid.radius, (x - grid.center).squaredNorm()); });
   grid.radius = std::sqrt(grid.radius) * (1.0 + 1e-12);
+  if (!(grid.radius > 0.0)) grid.radius = 1.0;  // all in one point: no length of its own, but there must be one
   return grid;
 }
 

@@ -84,6 +84,59 @@ TEST_F(Cli, CollideWritesTheSameToAFile) {
   EXPECT_EQ(std::filesystem::file_size(out), std::string("pose,colliding\n0,1\n1,0\n").size());
 }
 
+TEST_F(Cli, CacheKeepsTheTreesNextToTheMeshes) {
+  const std::string other = folder.write("b.obj", kTetrahedron);
+  const std::vector<std::string> collide{"collide", mesh, other, "--poses", poses, "--pairs"};
+  std::vector<std::string> cached_collide = collide;
+  cached_collide.emplace_back("--cache");
+  const std::string expected = glissade(collide).standard_output;
+  EXPECT_FALSE(std::filesystem::exists(mesh + ".dop-tree"));
+  const auto expect_answer = [&](const std::string& standard_error) {
+    const ProgramResult result = glissade(cached_collide);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.standard_output, expected);
+    EXPECT_EQ(result.standard_error, standard_error);
+  };
+
+  expect_answer("");
+  const auto written = std::filesystem::last_write_time(mesh + ".dop-tree");
+  EXPECT_TRUE(std::filesystem::exists(other + ".dop-tree"));
+  expect_answer("");
+  EXPECT_EQ(std::filesystem::last_write_time(mesh + ".dop-tree"), written);
+
+  // The mesh moves away, and then its tree is damaged.
+  folder.write("b.obj", "v 9 0 0\nv 9 1 0\nv 9 0 1\nf 1 2 3\n");
+  const ProgramResult stale = glissade(cached_collide);
+  EXPECT_EQ(stale.standard_output, "pose,colliding,pairs\n0,0,0\n1,0,0\n");
+  EXPECT_EQ(stale.standard_error, "glissade: " + other + ".dop-tree: of another mesh; built anew\n");
+  folder.write("b.obj", kTetrahedron);
+  folder.write("b.obj.dop-tree", "DOP-tr");
+  expect_answer("glissade: " + other + ".dop-tree: not a kept tree; built anew\n");
+  expect_answer("");
+}
+
+TEST_F(Cli, ATreeThatCannotBeKeptIsNoFailure) {
+  std::filesystem::create_directories(mesh + ".dop-tree/occupied");
+  const ProgramResult expected = glissade({"info", mesh});
+  const ProgramResult result = glissade({"info", mesh, "--cache"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.standard_output, expected.standard_output);
+  EXPECT_EQ(std::count(result.standard_error.begin(), result.standard_error.end(), '\n'), 1);
+  EXPECT_THAT(result.standard_error,
+              testing::StartsWith("glissade: " + mesh + ".dop-tree: not a regular file; built "));
+  EXPECT_THAT(result.standard_error, HasSubstr("cannot be kept: " + mesh + ".dop-tree: "));
+}
+
+TEST_F(Cli, InfoTellsTheSameOfATreeThatWasKept) {
+  const std::string expected = glissade({"info", mesh, "--json"}).standard_output;
+  for (int run = 0; run < 2; ++run) {
+    const ProgramResult result = glissade({"info", mesh, "--json", "--cache"});
+    EXPECT_EQ(result.standard_output, expected);
+    EXPECT_EQ(result.standard_error, "");
+    EXPECT_TRUE(std::filesystem::exists(mesh + ".dop-tree"));
+  }
+}
+
 TEST_F(Cli, AFullDiskIsAFailureWhileRunning) {
   const ProgramResult result = glissade({"collide", mesh, mesh, "--poses", poses, "--out", "/dev/full"});
   EXPECT_EQ(result.exit_code, 1);

@@ -1,0 +1,17 @@
+#include <iostream>
+#include <utility>
+
+#include <glissade/apps/kept_tree.h>
+#include <glissade/apps/text.h>
+#include <glissade/collision/dop_tree_cache.h>
+
+namespace glissade::apps {
+
+collision::DopTree kept_tree(const std::shared_ptr<const collision::TriangleMesh>& mesh, const std::string& mesh_path) {
+  if (mesh_path.empty()) return collision::DopTree(mesh);
+  collision::LoadedTree loaded = collision::load_or_build_tree(mesh_path, mesh);
+  if (!loaded.note.empty()) std::cerr << "glissade: " << one_line(loaded.note) << '\n';
+  return std::move(loaded.tree);
+}
+
+}  // namespace glissade::apps
