@@ -30,6 +30,16 @@ function(glissade_add_component name)
   if(COMMAND glissade_set_warnings)
     glissade_set_warnings(${target})
   endif()
+  if(GLISSADE_COMPILE_IN_BULK)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 20)
+    # Highway's kernels include themselves once for each instruction set.
+    foreach(source IN LISTS ARG_SOURCES)
+      file(STRINGS ${source} is_kernel REGEX "foreach_target\\.h")
+      if(is_kernel)
+        set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      endif()
+    endforeach()
+  endif()
 
   install(TARGETS ${target} EXPORT glissadeTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}

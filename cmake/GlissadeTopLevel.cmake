@@ -15,3 +15,12 @@ function(glissade_set_warnings target)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
 endfunction()
+
+# Compiles the headers once for the whole target where GLISSADE_COMPILE_IN_BULK is on. Elsewhere every file must compile
+# with what it includes itself. The option is ccache's wish.
+function(glissade_precompile target)
+  if(GLISSADE_COMPILE_IN_BULK AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+    target_compile_options(${target} PRIVATE -fpch-preprocess)
+  endif()
+endfunction()

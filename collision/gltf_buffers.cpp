@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "gltf_numbers.h"
 #include "mesh_validation.h"
 
 namespace glissade::collision {
@@ -70,7 +71,7 @@ std::vector<std::string> gltf_buffers(const std::filesystem::path& path, const n
   if (!document.contains("buffers")) return contents;
   for (const nlohmann::json& buffer : document.at("buffers")) {
     const std::string where = "buffers[" + std::to_string(contents.size()) + "]";
-    const auto length = buffer.at("byteLength").get<std::uint64_t>();
+    const std::uint64_t length = natural_at(path, buffer, "byteLength", where);
     // Only the first buffer may be the binary chunk.
     std::string content = buffer.contains("uri") ? buffer_content(path, where, buffer.at("uri").get<std::string>())
                           : contents.empty()     ? std::string(binary)

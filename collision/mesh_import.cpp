@@ -50,10 +50,7 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::pat
   } catch (const std::exception& error) {
     problem = error.what();
   }
-  if (scene == nullptr || scene->mRootNode == nullptr) {
-    std::replace(problem.begin(), problem.end(), '\n', ' ');
-    reject(path, "The file cannot be imported: " + problem);
-  }
+  if (scene == nullptr || scene->mRootNode == nullptr) reject(path, "The file cannot be imported: " + problem);
   return *scene;
 }
 

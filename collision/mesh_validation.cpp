@@ -1,5 +1,6 @@
 #include "mesh_validation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -10,7 +11,12 @@
 namespace glissade::collision {
 
 void reject(const std::filesystem::path& path, const std::string& what) {
-  throw std::invalid_argument(path.string() + ": " + what + (what.ends_with('.') ? "" : "."));
+  // Names from the file may be of any length and hold anything; the message is one line.
+  constexpr std::size_t kLongest = 1000;
+  std::string line = what.size() > kLongest ? what.substr(0, kLongest) + " ..." : what;
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }, '?');
+  throw std::invalid_argument(path.string() + ": " + line + (line.ends_with('.') ? "" : "."));
 }
 
 void check_coordinate(const std::filesystem::path& path, const std::string& where, double value) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +11,7 @@
 
 #include "byte_order.h"
 #include "gltf_buffers.h"
+#include "gltf_numbers.h"
 #include "mesh_validation.h"
 
 namespace glissade::collision {
@@ -17,12 +19,16 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kTriangles = 4;
-constexpr int kTriangleFan = 6;
-constexpr int kByte = 5121;
-constexpr int kShort = 5123;
-constexpr int kInt = 5125;
-constexpr int kFloat = 5126;
+constexpr std::uint64_t kTriangles = 4;
+constexpr std::uint64_t kTriangleFan = 6;
+constexpr std::uint64_t kByte = 5121;
+constexpr std::uint64_t kShort = 5123;
+constexpr std::uint64_t kInt = 5125;
+constexpr std::uint64_t kFloat = 5126;
+
+/// Points and corners of all triangles, in the file and after its nodes have placed them: a few bytes may ask for the
+/// same ones again and again. So many, of 12 and 4 bytes, still fit the lengths of 32 bits in a GLB.
+constexpr std::uint64_t kMostPointsAndCorners = 200'000'000;
 
 /// glTF itself needs about ten; the JSON library's functions recurse.
 constexpr int kDeepestNesting = 100;
@@ -37,7 +43,7 @@ class GltfReader {
     check_version();
     read_meshes();
     read_nodes();
-    if (!has_triangles_) reject(path_, "The scene has no triangles");
+    if (placed_ == 0) reject(path_, "The scene has no triangles");
     output_["asset"] = {{"version", "2.0"}};
     output_["buffers"] = json::array({{{"byteLength", binary_.size()}}});
     return written();
@@ -55,8 +61,14 @@ class GltfReader {
     return document_.at(key).at(index.get<std::size_t>());
   }
 
-  static std::uint64_t unsigned_or(const json& object, const char* key, std::uint64_t otherwise) {
-    return object.contains(key) ? object.at(key).get<std::uint64_t>() : otherwise;
+  std::uint64_t natural_or(const json& object, const char* key, std::uint64_t otherwise,
+                           const std::string& where) const {
+    return object.contains(key) ? natural_at(path_, object, key, where) : otherwise;
+  }
+
+  /// The componentType of the accessor `index`.
+  std::uint64_t component(const json& index) const {
+    return natural_at(path_, entry("accessors", index), "componentType", "accessors[" + index.dump() + "]");
   }
 
   void check_version() const {
@@ -87,17 +99,17 @@ class GltfReader {
     }
     if (accessor.at("type").get<std::string>() != type) reject(path_, where + ": its type should be " + type);
     const json& view = entry("bufferViews", accessor.at("bufferView"));
+    const std::string where_of_view = "bufferViews[" + accessor.at("bufferView").dump() + "]";
     entry("buffers", view.at("buffer"));
     const std::string& buffer = buffers_.at(view.at("buffer").get<std::size_t>());
-    const std::uint64_t view_begin = unsigned_or(view, "byteOffset", 0);
-    const std::uint64_t view_size = view.at("byteLength").get<std::uint64_t>();
+    const std::uint64_t view_begin = natural_or(view, "byteOffset", 0, where_of_view);
+    const std::uint64_t view_size = natural_at(path_, view, "byteLength", where_of_view);
     if (view_begin > buffer.size() || view_size > buffer.size() - view_begin) {
-      reject(path_, "bufferViews[" + accessor.at("bufferView").dump() + "] reaches beyond its buffer of " +
-                        std::to_string(buffer.size()) + " bytes");
+      reject(path_, where_of_view + " reaches beyond its buffer of " + std::to_string(buffer.size()) + " bytes");
     }
-    const std::uint64_t begin = unsigned_or(accessor, "byteOffset", 0);
-    const std::uint64_t stride = unsigned_or(view, "byteStride", element_size);
-    const std::uint64_t count = accessor.at("count").get<std::uint64_t>();
+    const std::uint64_t begin = natural_or(accessor, "byteOffset", 0, where);
+    const std::uint64_t stride = natural_or(view, "byteStride", element_size, where_of_view);
+    const std::uint64_t count = natural_at(path_, accessor, "count", where);
     if (stride < element_size || stride > 252) reject(path_, where + ": its byteStride is out of range");
     const bool fits = count >= 1 && begin <= view_size && element_size <= view_size - begin &&
                       (count - 1) <= (view_size - begin - element_size) / stride;
@@ -109,30 +121,39 @@ class GltfReader {
             static_cast<std::size_t>(count)};
   }
 
+  void count(std::uint64_t& sum, std::uint64_t number, const std::string& where) const {
+    sum += number;
+    if (sum > kMostPointsAndCorners) {
+      reject(path_, where + ": up to here there are more than " + std::to_string(kMostPointsAndCorners) +
+                        " points and corners of triangles");
+    }
+  }
+
   void read_meshes() {
     output_["meshes"] = json::array();
     if (!document_.contains("meshes")) reject(path_, "The file has no meshes");
     const json& meshes = document_.at("meshes");
     for (std::size_t m = 0; m < meshes.size(); ++m) {
+      const std::uint64_t read_before = read_;
       json primitives = json::array();
       const json& given = meshes.at(m).at("primitives");
       for (std::size_t p = 0; p < given.size(); ++p) {
-        const std::uint64_t mode = unsigned_or(given.at(p), "mode", kTriangles);
         const std::string where = "meshes[" + std::to_string(m) + "].primitives[" + std::to_string(p) + "]";
+        const std::uint64_t mode = natural_or(given.at(p), "mode", kTriangles, where);
         if (mode > kTriangleFan) reject(path_, where + ": the mode " + std::to_string(mode) + " is not known");
-        if (mode >= kTriangles) primitives.push_back(read_primitive(given.at(p), static_cast<int>(mode), where));
+        if (mode >= kTriangles) primitives.push_back(read_primitive(given.at(p), mode, where));
       }
       // A mesh of lines and points only stays in its place, so that indices of meshes remain valid.
-      mesh_has_triangles_.push_back(!primitives.empty());
+      mesh_sizes_.push_back(read_ - read_before);
       output_["meshes"].push_back({{"primitives", primitives}});
     }
   }
 
-  json read_primitive(const json& primitive, int mode, const std::string& where) {
+  json read_primitive(const json& primitive, std::uint64_t mode, const std::string& where) {
     const json& positions = primitive.at("attributes").at("POSITION");
-    const int component = entry("accessors", positions).at("componentType").get<int>();
-    if (component != kFloat) reject(path_, where + ": POSITION must be of componentType 5126 (float)");
+    if (component(positions) != kFloat) reject(path_, where + ": POSITION must be of componentType 5126 (float)");
     const Elements points = elements(positions, "VEC3", 12);
+    count(read_, points.count, where);
     std::string bytes;
     for (std::size_t i = 0; i < points.count; ++i) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -154,18 +175,19 @@ class GltfReader {
     return result;
   }
 
-  std::size_t read_indices(const json& index, std::size_t points, const std::string& where, std::string& bytes) const {
-    const int component = entry("accessors", index).at("componentType").get<int>();
-    if (component != kByte && component != kShort && component != kInt) {
+  std::size_t read_indices(const json& index, std::size_t points, const std::string& where, std::string& bytes) {
+    const std::uint64_t type = component(index);
+    if (type != kByte && type != kShort && type != kInt) {
       reject(path_, where + ": indices must be of componentType 5121, 5123 or 5125");
     }
-    const std::size_t size = component == kByte ? 1 : component == kShort ? 2 : 4;
+    const std::size_t size = type == kByte ? 1 : type == kShort ? 2 : 4;
     const Elements items = elements(index, "SCALAR", size);
+    count(read_, items.count, where);
     for (std::size_t i = 0; i < items.count; ++i) {
       const std::size_t at = items.begin + i * items.stride;
-      const std::uint32_t value = component == kByte    ? number_at<std::uint8_t>(items.bytes, at)
-                                  : component == kShort ? number_at<std::uint16_t>(items.bytes, at)
-                                                        : number_at<std::uint32_t>(items.bytes, at);
+      const std::uint32_t value = type == kByte    ? number_at<std::uint8_t>(items.bytes, at)
+                                  : type == kShort ? number_at<std::uint16_t>(items.bytes, at)
+                                                   : number_at<std::uint32_t>(items.bytes, at);
       if (value >= points) {
         reject(path_, where + ": index " + std::to_string(i) + " is " + std::to_string(value) + ", but there are " +
                           std::to_string(points) + " positions");
@@ -175,7 +197,7 @@ class GltfReader {
     return items.count;
   }
 
-  std::size_t add_accessor(const std::string& bytes, int component, const char* type, std::size_t count) {
+  std::size_t add_accessor(const std::string& bytes, std::uint64_t component, const char* type, std::size_t count) {
     output_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}});
     const std::size_t view = output_["bufferViews"].size() - 1;
     output_["accessors"].push_back(
@@ -209,10 +231,9 @@ class GltfReader {
     json copy = copied_placement(node, where);
     if (node.contains("mesh")) {
       entry("meshes", node.at("mesh"));
-      if (mesh_has_triangles_.at(node.at("mesh").get<std::size_t>())) {
-        copy["mesh"] = node.at("mesh");
-        has_triangles_ = true;
-      }
+      const std::uint64_t size = mesh_sizes_.at(node.at("mesh").get<std::size_t>());
+      if (size > 0) copy["mesh"] = node.at("mesh");
+      count(placed_, size, where);
     }
     const std::size_t result = output_["nodes"].size();
     output_["nodes"].push_back(copy);
@@ -260,8 +281,11 @@ class GltfReader {
   }
 
   std::vector<double> numbers(const json& value, std::size_t length, const std::string& where) const {
+    // The JSON library's own conversion takes truth values too.
+    const bool are_numbers = std::all_of(value.begin(), value.end(), [](const json& v) { return v.is_number(); });
+    if (!value.is_array() || !are_numbers || value.size() != length)
+      reject(path_, where + " must have " + std::to_string(length) + " numbers");
     auto result = value.get<std::vector<double>>();
-    if (result.size() != length) reject(path_, where + " must have " + std::to_string(length) + " numbers");
     for (const double number : result) {
       check_coordinate(path_, where, number);
     }
@@ -286,9 +310,10 @@ class GltfReader {
   std::vector<std::string> buffers_;
   json output_ = json::object();
   std::string binary_;
-  std::vector<bool> mesh_has_triangles_;
+  std::uint64_t read_ = 0;                 // points and corners in the clean file
+  std::uint64_t placed_ = 0;               // and after the nodes have placed them
+  std::vector<std::uint64_t> mesh_sizes_;  // the same for each mesh; 0 where it has lines and points only
   std::set<std::size_t> visited_;
-  bool has_triangles_ = false;
 };
 
 json parsed(const std::filesystem::path& path, std::string_view text) {
@@ -303,6 +328,8 @@ json parsed(const std::filesystem::path& path, std::string_view text) {
     return json::parse(text, check_depth);
   } catch (const json::parse_error& error) {
     reject(path, "This is not JSON, or truncated: byte " + std::to_string(error.byte) + " makes no sense");
+  } catch (const json::out_of_range&) {
+    reject(path, "A number in its JSON is beyond every double");
   }
 }
 

@@ -323,6 +323,17 @@ TEST_F(BadMeshFile, Gltf) {
       {"a.glb", file(R"("version":"2.0")", R"("version":"1.0")"), "version", "2"},
       {"a.glb", file(R"("scene":0)", R"("extensionsRequired":["KHR_draco_mesh_compression"],"scene":0)"), "",
        "KHR_draco_mesh_compression"},
+      {"a.glb", file(R"("count":12)", R"("count":12.0)"), "accessors[1].count", "12.0 is not a whole number"},
+      {"a.glb", file(R"("count":12)", R"("count":true)"), "accessors[1].count", "wrong kind"},
+      {"a.glb", file(R"("componentType":5123)", R"("componentType":5123e99)"), "accessors[1].componentType",
+       "wrong kind"},
+      {"a.glb", file(R"("byteLength":48)", R"("byteLength":48,"byteStride":-1)"), "bufferViews[0].byteStride", "-1"},
+      {"a.glb", file(R"("byteOffset":48)", R"("byteOffset":-1)"), "bufferViews[1].byteOffset", "-1"},
+      {"a.glb", file(R"("indices":1)", R"("indices":1,"mode":4.5)"), "primitives[0].mode", "4.5"},
+      {"a.gltf", gltf(R"({"byteLength":7e99})"), "buffers[0].byteLength", "wrong kind"},
+      {"a.glb", file(R"([0,0,0]},)", R"([0,0,1e999]},)"), "", "beyond every double"},
+      {"a.glb", file(R"([0,0,0]},)", R"([0,0,true]},)"), "nodes[0].translation", "3 numbers"},
+      {"a.gltf", gltf(R"({"byteLength":72,"uri":"two\nlines\t.bin"})"), "buffers[0]", "two?lines?.bin"},
       {"a.glb", tetrahedron_glb().substr(0, 15), "", "header"},
       {"a.glb", tetrahedron_glb() + "x", "", "too long"},
       {"a.glb", with(tetrahedron_glb(), std::string("glTF\2", 5), std::string("glTF\1", 5)), "version", "2"},
@@ -343,6 +354,32 @@ TEST_F(BadMeshFile, GltfNodes) {
       {"a.glb", with_node(with(identity, "0,1]", "0,2]")), "nodes[1].matrix", "last row is [0.0,0.0,0.0,2.0]"},
       {"a.glb", with_node(with(identity, "[1,0,0,0", "[1,0,0,0.5")), "nodes[1].matrix", "last row is [0.5,"},
   });
+}
+
+/// A few bytes may place the same triangles again and again: 9000 nodes of 1500 times the tetrahedron.
+TEST_F(BadMeshFile, GltfThatMultipliesItself) {
+  const std::string primitive = R"({"attributes":{"POSITION":0},"indices":1})";
+  std::string primitives;
+  for (int i = 0; i < 1500; ++i) {
+    primitives += primitive + ",";
+  }
+  std::string nodes;
+  std::string children;
+  for (int i = 0; i < 9000; ++i) {
+    nodes += R"(,{"mesh":0})";
+    children += "," + std::to_string(i + 2);
+  }
+  std::string text = gltf(R"({"byteLength":72})");
+  text = with(text, R"("primitives":[)", R"("primitives":[)" + primitives);
+  text = with(text, R"("children":[1)", R"("children":[1)" + children);
+  text = with(text, R"({"mesh":0})", R"({"mesh":0})" + nodes);
+  EXPECT_THAT(error_of("a.glb", glb(text, gltf_binary())),
+              testing::AllOf(testing::HasSubstr("nodes[8"), testing::HasSubstr("more than 200000000 points")));
+}
+
+TEST_F(BadMeshFile, WordsOfAnyLengthMakeShortMessages) {
+  const std::string name(50'000, 'x');
+  EXPECT_LT(error_of("a.ply", with(kAsciiPly, "vertex 4", name + " 4")).size(), 2000U);
 }
 
 /// Files that end too early are the importer library's weak spot. Beginnings of every 11th length are tried,
