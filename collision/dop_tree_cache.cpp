@@ -168,13 +168,13 @@ CachedTree read_tree_cache(const std::filesystem::path& path, std::shared_ptr<co
   return read_bytes(bytes, std::move(mesh), options);
 }
 
-LoadedTree load_or_build_tree(const std::filesystem::path& mesh_path, std::shared_ptr<const TriangleMesh> mesh,
+LoadedTree load_or_build_tree(const std::filesystem::path& mesh_path, const std::shared_ptr<const TriangleMesh>& mesh,
                               const DopTreeOptions& options) {
   const std::filesystem::path path = tree_cache_path(mesh_path);
   CachedTree cached = read_tree_cache(path, mesh, options);
   if (cached) return {*std::move(cached.tree), ""};
 
-  LoadedTree built{DopTree(std::move(mesh), options), ""};
+  LoadedTree built{DopTree(mesh, options), ""};
   if (cached.state != CacheState::kMissing) built.note = path.string() + ": " + cached.reason + "; built anew";
   try {
     write_tree_cache(path, built.tree);

@@ -65,7 +65,7 @@ struct LoadedTree {
 
 /// Reads the tree from the file that belongs to `mesh_path`. Where that is missing or of no use, builds the tree and
 /// writes the file; one that cannot be written is told in the note. Throws as DopTree does.
-LoadedTree load_or_build_tree(const std::filesystem::path& mesh_path, std::shared_ptr<const TriangleMesh> mesh,
+LoadedTree load_or_build_tree(const std::filesystem::path& mesh_path, const std::shared_ptr<const TriangleMesh>& mesh,
                               const DopTreeOptions& options = {});
 
 }  // namespace glissade::collision
