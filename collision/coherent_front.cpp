@@ -168,7 +168,7 @@ bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, con
       return true;
     }
     const double distance = outcome.distance >= 0.0 ? outcome.distance : visitor.distance(leaf_P, leaf_Q, pair);
-    apart_by(distance / frame.base_radius * (1.0 - 1e-9) - 4.0 * frame.uncertainty);
+    apart_by(std::isfinite(distance) ? distance / frame.base_radius * (1.0 - 1e-9) - 4.0 * frame.uncertainty : 0.0);
   }
   holds_for(entry, least_gap);
   return false;

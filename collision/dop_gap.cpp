@@ -94,7 +94,7 @@ double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen
   const double between_spheres = placed.frame.base_radius * placed.frame.gap_of_spheres();
   if (between_spheres > placed.frame.base_radius) return std::min(between_spheres, limit);
   const double least = GapSearch(placed, limit, memory).run();
-  return least == limit ? limit : std::max(0.0, least * (1.0 - 1e-12) - rounding);
+  return least == limit ? limit : std::min(limit, std::max(0.0, least * (1.0 - 1e-12) - rounding));
 }
 
 }  // namespace glissade::collision

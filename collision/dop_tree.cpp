@@ -77,7 +77,7 @@ void DopTree::refit() {
   center_ = grid.center;
   radius_ = grid.radius;
   degenerate_triangles_ = fit_leaves(*mesh_, grid, leaves_);
-  fit_nodes(options_, grid, leaves_, heads_, slabs_);
+  fit_nodes(options_, leaves_, heads_, slabs_);
   if (options_.realignment == Realignment::kBruteForce) vertices_.fit(heads_, slabs_);
   static std::atomic<std::uint64_t> ids{0};
   id_ = ++ids;

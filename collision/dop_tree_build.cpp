@@ -48,7 +48,8 @@ struct Split {
 };
 
 float leaves_of(std::size_t triangles) {
-  return static_cast<float>((triangles + kWidth - 1) / kWidth);
+  const std::size_t leaves = (triangles + kWidth - 1) / kWidth;
+  return static_cast<float>(leaves);
 }
 
 Box box_of(Items items) {
@@ -104,7 +105,9 @@ class Binning {
       low_ = low_.min(center);
       high = high.max(center);
     }
-    scale_ = (high > low_).select(static_cast<float>(kBins) * 0.9999F / (high - low_), 0.0F);
+    const Eigen::Array3f scale = static_cast<float>(kBins) * 0.9999F / (high - low_);
+    // All centres in one place, or as good as: one bin for all.
+    scale_ = scale.isFinite().select(scale, 0.0F);
     for (const Item& item : items) {
       const Eigen::Array3f center = item.box.low + item.box.high;
       for (int axis = 0; axis < 3; ++axis) {

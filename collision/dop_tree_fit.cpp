@@ -218,11 +218,9 @@ std::int64_t fit_leaves(const TriangleMesh& mesh, const TreeGrid& grid, std::spa
   return degenerate;
 }
 
-void fit_nodes(const DopTreeOptions& options, const TreeGrid& grid, std::span<const TriangleLeaf> leaves,
-               std::span<NodeHead> heads, std::span<SlabLine> slabs) {
-  // The last term is what the difference to the centre lost in double precision.
-  const double padding = kCornerRounding + kGridRadius * std::ldexp(1.0 + grid.center.norm() / grid.radius, -50);
-  Fitting(options, padding, leaves, heads, slabs).fit(0, leaves.size());
+void fit_nodes(const DopTreeOptions& options, std::span<const TriangleLeaf> leaves, std::span<NodeHead> heads,
+               std::span<SlabLine> slabs) {
+  Fitting(options, kCornerRounding, leaves, heads, slabs).fit(0, leaves.size());
 }
 
 }  // namespace glissade::collision

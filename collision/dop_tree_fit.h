@@ -24,7 +24,7 @@ TreeGrid grid_of(const TriangleMesh& mesh);
 std::int64_t fit_leaves(const TriangleMesh& mesh, const TreeGrid& grid, std::span<TriangleLeaf> leaves);
 
 /// Fills boxes and thin slabs of all nodes. No allocation. Cost O(n log n).
-void fit_nodes(const DopTreeOptions& options, const TreeGrid& grid, std::span<const TriangleLeaf> leaves,
-               std::span<NodeHead> heads, std::span<SlabLine> slabs);
+void fit_nodes(const DopTreeOptions& options, std::span<const TriangleLeaf> leaves, std::span<NodeHead> heads,
+               std::span<SlabLine> slabs);
 
 }  // namespace glissade::collision

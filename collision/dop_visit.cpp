@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "round_up.h"
 
@@ -37,6 +38,7 @@ DopVisit::DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& 
   } else {
     align(k, frame, alignment);
   }
+  if (!(distance >= 0.0)) throw std::invalid_argument("a query's tolerance or distance is negative or not a number");
   const double radii = frame.in_base_radii(distance);
   const double steps = std::ceil(radii * kGridRadius);
   always_near_ = steps > 32767.0 ? kAllPairs : 0;

@@ -9,7 +9,7 @@ QueryFrame::QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen
     : base_is_A(tree_A.radius() >= tree_B.radius()) {
   const Eigen::Matrix3d& R_AB = X_AB.linear();
   rotation_defect = (R_AB.transpose() * R_AB - Eigen::Matrix3d::Identity()).norm();
-  if (!(rotation_defect < 1e-3) || !X_AB.translation().allFinite()) {
+  if (!(rotation_defect < 1e-3) || !(R_AB.determinant() > 0.0) || !X_AB.translation().allFinite()) {
     throw std::invalid_argument("the pose X_AB of a query is not a finite rotation and translation");
   }
   if (!(tree_A.options() == tree_B.options())) {

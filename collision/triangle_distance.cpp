@@ -35,8 +35,9 @@ struct Face {
   double squared_normal;
 };
 
+// 0 for what is not a number, which is the parameter along an edge without length.
 double clamp_to_unit(double parameter) {
-  return std::clamp(parameter, 0.0, 1.0);
+  return parameter > 0.0 ? std::min(parameter, 1.0) : 0.0;
 }
 
 // Closest points of edge i of a and edge j of b: the parameters along the edges and the vector between the points.

@@ -17,7 +17,7 @@ struct TriangleDistance {
 
 /// Closest points of two closed triangles. Distance is exactly 0 if and only if `triangles_intersect(a, b)`; the points
 /// are then (nearly) one point of the intersection. Otherwise accurate to a few units in the last place of the largest
-/// coordinate. Neither triangle may be degenerate.
+/// coordinate. `a` must have an area; `b` may have lost its own.
 TriangleDistance triangle_distance(const TrianglePoints& a, const TrianglePoints& b);
 
 }  // namespace glissade::collision

@@ -97,6 +97,59 @@ bool coplanar_triangles_intersect(const TrianglePoints& a, const TrianglePoints&
   return false;
 }
 
+bool between(const Vector3d& p, const Vector3d& q, const Vector3d& x) {
+  return (p.cwiseMin(q).array() <= x.array()).all() && (x.array() <= p.cwiseMax(q).array()).all();
+}
+
+// A triangle without area is a segment: two of its corners have the third between them.
+std::array<Vector3d, 2> ends_of(const TrianglePoints& flat) {
+  if (between(flat[0], flat[1], flat[2])) {
+    return {flat[0], flat[1]};
+  }
+  if (between(flat[1], flat[2], flat[0])) {
+    return {flat[1], flat[2]};
+  }
+  return {flat[2], flat[0]};
+}
+
+// As `coplanar_triangles_intersect`, for a segment in the plane of a triangle.
+bool coplanar_segment_meets(const std::array<Vector3d, 2>& s, const TrianglePoints& t) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int turn = orient2d_sign(t[0], t[1], t[2], axis);
+    if (turn == 0) {
+      continue;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector3d& from = t[i];
+      const Vector3d& to = t[(i + 1) % 3];
+      if (turn * orient2d_sign(from, to, s[0], axis) < 0 && turn * orient2d_sign(from, to, s[1], axis) < 0) {
+        return false;
+      }
+    }
+    const int side0 = orient2d_sign(s[0], s[1], t[0], axis);
+    const int side1 = orient2d_sign(s[0], s[1], t[1], axis);
+    const int side2 = orient2d_sign(s[0], s[1], t[2], axis);
+    return !Sides{side0, side1, side2}.all_on_one_side();
+  }
+  return false;
+}
+
+bool segment_meets(const std::array<Vector3d, 2>& s, const TrianglePoints& t) {
+  const int start = orient3d_sign(t[0], t[1], t[2], s[0]);
+  const int end = orient3d_sign(t[0], t[1], t[2], s[1]);
+  if (start == 0 && end == 0) {
+    return coplanar_segment_meets(s, t);
+  }
+  if (start * end > 0) {
+    return false;
+  }
+  // The segment crosses the plane; its line passes all edges on the same side, if it passes through the triangle.
+  const int edge0 = orient3d_sign(s[0], s[1], t[0], t[1]);
+  const int edge1 = orient3d_sign(s[0], s[1], t[1], t[2]);
+  const int edge2 = orient3d_sign(s[0], s[1], t[2], t[0]);
+  return (edge0 >= 0 && edge1 >= 0 && edge2 >= 0) || (edge0 <= 0 && edge1 <= 0 && edge2 <= 0);
+}
+
 }  // namespace
 
 bool is_degenerate(const TrianglePoints& triangle) {
@@ -109,6 +162,9 @@ bool triangles_intersect(const TrianglePoints& a, const TrianglePoints& b) {
   const Verdict verdict = filtered_intersection(a, b);
   if (verdict != Verdict::kUnsure) {
     return verdict == Verdict::kIntersect;
+  }
+  if (is_degenerate(b)) {
+    return segment_meets(ends_of(b), a);
   }
   const Sides sides_a = sides_of_plane(b, a);
   if (sides_a.all_on_one_side()) {

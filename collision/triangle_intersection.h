@@ -15,7 +15,8 @@ using TrianglePoints = std::array<Eigen::Vector3d, 3>;
 bool is_degenerate(const TrianglePoints& triangle);
 
 /// Whether two closed triangles share a point, decided exactly for these coordinates; touching counts. Coplanar pairs,
-/// shared edges and shared vertices are ordinary cases. Neither triangle may be degenerate.
+/// shared edges and shared vertices are ordinary cases. `a` must have an area; `b` may have lost its own to rounding
+/// when it was placed, and is then the segment or point that is left.
 bool triangles_intersect(const TrianglePoints& a, const TrianglePoints& b);
 
 }  // namespace glissade::collision

@@ -92,6 +92,9 @@ TEST(DopQuery, RefusesPosesThatAreNone) {
     Isometry3d stretched = Isometry3d::Identity();
     stretched.linear() *= 1.001;
     expect_pose_refused(stretched);
+    Isometry3d mirrored = Isometry3d::Identity();
+    mirrored.linear()(2, 2) = -1.0;
+    expect_pose_refused(mirrored);
     Isometry3d flat = Isometry3d::Identity();
     flat.linear().setZero();
     expect_pose_refused(flat);

@@ -148,5 +148,16 @@ TEST(TriangleDistanceAgainstCgal, AgreesOnPairsThatAreNearlyCoplanar) {
   expect_agreement_with_cgal(affordable(2'000), 14, [](RandomTriangles& random) { return random.nearly_coplanar(); });
 }
 
+TEST(TriangleDistance, OfATriangleThatIsFlattenedIsThatOfWhatIsLeft) {
+  const TrianglePoints triangle{Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)};
+  const Eigen::Vector3d p(-0.1, 0.5, 0);
+  EXPECT_NEAR(triangle_distance(triangle, {p, p, p}).distance, 0.1, 1e-15);
+  EXPECT_NEAR(triangle_distance(triangle, {p, p, Eigen::Vector3d(-0.1, 0.7, 0)}).distance, 0.1, 1e-15);
+  EXPECT_NEAR(triangle_distance(
+                  triangle, {Eigen::Vector3d(0.2, 0.2, 3), Eigen::Vector3d(0.2, 0.2, 1), Eigen::Vector3d(0.2, 0.2, 2)})
+                  .distance,
+              1.0, 1e-15);
+}
+
 }  // namespace
 }  // namespace glissade::collision

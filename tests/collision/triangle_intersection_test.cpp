@@ -200,5 +200,28 @@ TEST(TriangleIntersectionAgainstCgal, AgreesOnPairsThatAreNearlyCoplanar) {
   expect_agreement_with_cgal(affordable(30'000), 5, [](RandomTriangles& random) { return random.nearly_coplanar(); });
 }
 
+TEST(TrianglesIntersect, ATriangleThatIsFlattenedIsTheSegmentThatIsLeft) {
+  const TrianglePoints triangle{Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)};
+  const auto meets = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+    const Eigen::Vector3d middle = 0.5 * (p + q);
+    const bool first = triangles_intersect(triangle, {p, q, middle});
+    EXPECT_EQ(triangles_intersect(triangle, {middle, p, q}), first);
+    EXPECT_EQ(triangles_intersect(triangle, {q, middle, p}), first);
+    return first;
+  };
+  EXPECT_TRUE(meets({0.25, 0.25, -1}, {0.25, 0.25, 1}));    // through the face
+  EXPECT_TRUE(meets({0.25, 0.25, 0}, {0.25, 0.25, 1}));     // ends on it
+  EXPECT_TRUE(meets({1, 0, -1}, {1, 0, 1}));                // through a corner
+  EXPECT_FALSE(meets({0.75, 0.75, -1}, {0.75, 0.75, 1}));   // past it
+  EXPECT_FALSE(meets({0.25, 0.25, 0.5}, {0.25, 0.25, 1}));  // above it
+  EXPECT_TRUE(meets({-1, 0.25, 0}, {2, 0.25, 0}));          // within its plane, across
+  EXPECT_FALSE(meets({-1, 1.5, 0}, {2, 1.5, 0}));           // within its plane, past it
+  EXPECT_FALSE(meets({-1, 0.25, 0}, {-0.5, 0.25, 0}));      // within its plane, too short
+  EXPECT_FALSE(meets({-0.75, 0.3, -0.0625}, {0.5, 0.3, 0.25}));
+  EXPECT_TRUE(meets({0.25, 0.25, 0}, {0.25, 0.25, 0}));  // a point
+  EXPECT_FALSE(meets({0.25, 0.25, 1}, {0.25, 0.25, 1}));
+  EXPECT_FALSE(meets({0.75, 0.75, 0}, {0.75, 0.75, 0}));
+}
+
 }  // namespace
 }  // namespace glissade::collision
