@@ -1,6 +1,6 @@
 #pragma once
 
-// Numbers as bytes in files. Private to the mesh readers.
+// Numbers as bytes in files. Private to what reads and writes them.
 
 #include <algorithm>
 #include <array>
