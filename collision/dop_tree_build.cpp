@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
 namespace glissade::collision {
@@ -16,6 +17,13 @@ namespace {
 constexpr std::size_t kBins = 32;
 constexpr std::size_t kSweepAtMost = 64;     // so few triangles are sorted rather than binned
 constexpr std::size_t kTaskAtLeast = 4'096;  // triangles worth a task of their own
+
+// oneTBB's hand-over of tasks is not visible to the thread sanitizer, which would see a race in every triangle.
+#ifdef __SANITIZE_THREAD__
+constexpr int kThreads = 1;
+#else
+constexpr int kThreads = tbb::task_arena::automatic;
+#endif
 
 struct Box {
   Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::infinity());
@@ -248,17 +256,20 @@ void number(const Part& part, std::size_t node, int depth, TreeShape& shape) {
 
 TreeShape build_shape(const TriangleMesh& mesh) {
   std::vector<Item> items(mesh.triangles.size());
-  tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t t) {
-    items[t].triangle = static_cast<std::int32_t>(t);
-    for (int c = 0; c < 3; ++c) {
-      const Eigen::Array3f corner = mesh.corner(items[t].triangle, c).cast<float>().array();
-      items[t].box.extend({corner, corner});
-    }
+  tbb::task_arena arena(kThreads);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t t) {
+      items[t].triangle = static_cast<std::int32_t>(t);
+      for (int c = 0; c < 3; ++c) {
+        const Eigen::Array3f corner = mesh.corner(items[t].triangle, c).cast<float>().array();
+        items[t].box.extend({corner, corner});
+      }
+    });
   });
 
   Part root;
   root.items = items;
-  divide(root);
+  arena.execute([&] { divide(root); });
 
   TreeShape shape;
   shape.leaves.reserve(items.size() / 3);
