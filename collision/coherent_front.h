@@ -5,8 +5,8 @@
 /// Every pair of triangles is covered by an entry: a visit of two nodes, for the children that were apart then, or of
 /// two leaves. An entry holds good until the part has moved by the least gap it saw; the sum of all motions is the
 /// clock by which it expires. So a query looks again only at what has expired, and first of all at the pair of
-/// triangles that answered the last one. J. Klosowski et al. (1998, §6) keep such a front; that it need not be visited
-/// is new here.
+/// triangles that answered the last one. J. Klosowski et al. (1998)
+/// begin at such a front too, and visit all of it.
 
 #include <cstdint>
 #include <optional>

@@ -14,8 +14,8 @@ inline constexpr int kMostSlabs = 13;
 /// The directions of a k-DOP. Half-space i < slabs has direction i, half-space i + slabs its opposite.
 ///
 /// All are taken from the 13 symmetry axes of a cube: the 3 axes come first in every set, then the 6 edge directions,
-/// then the corner directions; k = 14 has axes and corners only. Directions optimised by repulsion are no better on
-/// round objects and much worse on machined ones, whose faces are parallel to the axes.
+/// then the corner directions; k = 14 has axes and corners only. Directions spread by repulsion lose on
+/// machined objects, whose faces are parallel to the axes.
 struct DopDirections {
   int slabs;                                           ///< k / 2
   std::array<std::array<int, 3>, kMostSlabs> integer;  ///< not normalised
