@@ -45,20 +45,9 @@ AlignmentTable make_table(int k) {
 }  // namespace
 
 const AlignmentTable& alignment_table(int k) {
-  static const std::array<AlignmentTable, 5> tables{make_table(6), make_table(14), make_table(18), make_table(24),
-                                                    make_table(26)};
-  switch (dop_directions(k).slabs) {
-    case 3:
-      return tables[0];
-    case 7:
-      return tables[1];
-    case 9:
-      return tables[2];
-    case 12:
-      return tables[3];
-    default:
-      return tables[4];
-  }
+  static const std::array<AlignmentTable, kDopSizes.size()> tables{make_table(6), make_table(14), make_table(18),
+                                                                   make_table(24), make_table(26)};
+  return tables[dop_size_index(k)];
 }
 
 }  // namespace glissade::collision

@@ -88,7 +88,7 @@ bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, 
     const std::size_t entry = open_.back();
     open_.pop_back();
     if (!entries_[entry].is_leaf) {
-      visit_nodes(entry, base, other, step, counters);
+      visit_nodes(entry, step, counters);
     } else if (visit_leaves(entry, frame, step, counters, visitor)) {
       return true;  // what was still open has expired and stays so
     }
@@ -98,11 +98,8 @@ bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, 
 }
 
 // Children that have come near get entries of their own; the others set the time.
-void CoherentFront::visit_nodes(std::size_t entry, const DopTree& base, const DopTree& other, const DopVisit& step,
-                                QueryCounters& counters) {
+void CoherentFront::visit_nodes(std::size_t entry, const DopVisit& step, QueryCounters& counters) {
   const NodePair nodes = entries_[entry].pair;
-  const NodeHead& head_P = base.nodes()[nodes.node_P];
-  const NodeHead& head_Q = other.nodes()[nodes.node_Q];
   PairOverlaps overlaps;
   PairMask near = step.nodes(nodes, overlaps, counters);
   near = step.thin_slabs(nodes, near, overlaps) & ~entries_[entry].opened;
@@ -119,22 +116,10 @@ void CoherentFront::visit_nodes(std::size_t entry, const DopTree& base, const Do
   const std::size_t first = open_.size();
   while (near != 0) {
     const int pair = step.deepest(overlaps, near);
-    const int p = pair / kWidth;
-    const int q = pair % kWidth;
+    const Descent descent = step.descend(nodes, near, pair);
     open_.push_back(static_cast<std::uint32_t>(entries_.size()));
-    PairMask taken = 1U << pair;
-    if (head_P.is_leaf(p) && head_Q.is_leaf(q)) {
-      add({head_P.child(p), head_Q.child(q), kAllPairs}, true);
-    } else if (head_P.is_leaf(p)) {
-      taken = near & column_of(q) & (kAllPairs << (kWidth * head_P.node_count));
-      add({nodes.node_P, head_Q.child(q), (taken >> q) * row_of(0)}, false);
-    } else if (head_Q.is_leaf(q)) {
-      taken = near & row_of(p) & ((0xfU >> head_Q.node_count << head_Q.node_count) * column_of(0));
-      add({head_P.child(p), nodes.node_Q, (taken >> (kWidth * p)) * column_of(0)}, false);
-    } else {
-      add({head_P.child(p), head_Q.child(q), kAllPairs}, false);
-    }
-    near &= ~taken;
+    add(descent.next, descent.is_leaf);
+    near &= ~descent.including;
   }
   std::reverse(open_.begin() + static_cast<std::ptrdiff_t>(first), open_.end());
 }

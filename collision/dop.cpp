@@ -45,23 +45,17 @@ DopDirections make_directions(int k) {
 
 }  // namespace
 
-const DopDirections& dop_directions(int k) {
-  static const std::array<DopDirections, 5> sets{make_directions(6), make_directions(14), make_directions(18),
-                                                 make_directions(24), make_directions(26)};
-  switch (k) {
-    case 6:
-      return sets[0];
-    case 14:
-      return sets[1];
-    case 18:
-      return sets[2];
-    case 24:
-      return sets[3];
-    case 26:
-      return sets[4];
-    default:
-      throw std::invalid_argument("a DOP-tree has 6, 14, 18, 24 or 26 directions, not " + std::to_string(k));
+std::size_t dop_size_index(int k) {
+  for (std::size_t i = 0; i < kDopSizes.size(); ++i) {
+    if (kDopSizes[i] == k) return i;
   }
+  throw std::invalid_argument("a DOP-tree has 6, 14, 18, 24 or 26 directions, not " + std::to_string(k));
+}
+
+const DopDirections& dop_directions(int k) {
+  static const std::array<DopDirections, kDopSizes.size()> sets{
+      make_directions(6), make_directions(14), make_directions(18), make_directions(24), make_directions(26)};
+  return sets[dop_size_index(k)];
 }
 
 }  // namespace glissade::collision

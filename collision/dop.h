@@ -29,6 +29,12 @@ struct DopDirections {
   int opposite(int i) const { return i < slabs ? i + slabs : i - slabs; }
 };
 
+/// The sets there are: k = 6, 14, 18, 24 and 26.
+inline constexpr std::array<int, 5> kDopSizes{6, 14, 18, 24, 26};
+
+/// Place of k in kDopSizes. Throws std::invalid_argument for another k.
+std::size_t dop_size_index(int k);
+
 /// The set for k = 6, 14, 18, 24 or 26. Throws std::invalid_argument for another k. Thread-safe.
 const DopDirections& dop_directions(int k);
 

@@ -38,24 +38,18 @@ class GapSearch {
     PairOverlaps overlaps;
     const PairMask all = step_.nodes(nodes, overlaps, memory_.counters);
     step_.thin_slabs(nodes, all, overlaps);
-    const NodeHead& head_P = placed_.base().nodes()[nodes.node_P];
-    const NodeHead& head_Q = placed_.other().nodes()[nodes.node_Q];
     const std::size_t first = memory_.promising.size();
     for (PairMask rest = all; rest != 0; rest &= rest - 1) {
       const int pair = std::countr_zero(rest);
       const double gap =
           in_metres(-overlaps.overlap[static_cast<std::size_t>(pair)] / static_cast<double>(kGridRadius));
       if (gap >= least_) continue;
-      const int p = pair / kWidth;
-      const int q = pair % kWidth;
-      if (head_P.is_leaf(p) && head_Q.is_leaf(q)) {
-        compare_leaves(head_P.child(p), head_Q.child(q));
-      } else if (head_P.is_leaf(p)) {
-        memory_.promising.push_back({{nodes.node_P, head_Q.child(q), row_of(p)}, gap});
-      } else if (head_Q.is_leaf(q)) {
-        memory_.promising.push_back({{head_P.child(p), nodes.node_Q, column_of(q)}, gap});
+      // One pair at a time, because each has a gap of its own.
+      const Descent descent = step_.descend(nodes, 1U << pair, pair);
+      if (descent.is_leaf) {
+        compare_leaves(descent.next.node_P, descent.next.node_Q);
       } else {
-        memory_.promising.push_back({{head_P.child(p), head_Q.child(q), kAllPairs}, gap});
+        memory_.promising.push_back({descent.next, gap});
       }
     }
     std::sort(memory_.promising.begin() + static_cast<std::ptrdiff_t>(first), memory_.promising.end(),

@@ -62,7 +62,7 @@ bool visit_all(Goal goal, const PlacedTrees& placed, double distance, QueryWorks
   memory.counters = {};
   if (placed.frame.spheres_apart(distance)) return false;
   const DopVisit step(placed.base(), placed.other(), placed.frame, distance, memory.alignment);
-  return traverse(goal, placed.base(), placed.other(), step, memory, visitor);
+  return traverse(goal, step, memory, visitor);
 }
 
 bool visit_all(Goal goal, const PlacedTrees& placed, double distance, CoherentWorkspace& workspace,

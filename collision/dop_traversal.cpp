@@ -7,9 +7,8 @@ namespace {
 
 class Traversal {
  public:
-  Traversal(Goal goal, const DopTree& base, const DopTree& other, const DopVisit& step, QueryWorkspace::Memory& memory,
-            TriangleVisitor& visitor)
-      : base_(base), other_(other), step_(step), memory_(memory), visitor_(visitor), diving_(goal == Goal::kAnyPair) {}
+  Traversal(Goal goal, const DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor)
+      : goal_(goal), step_(step), memory_(memory), visitor_(visitor), diving_(goal == Goal::kAnyPair) {}
 
   bool run() {
     memory_.stack.clear();
@@ -23,7 +22,7 @@ class Traversal {
       if (top.near == 0) {
         diving_ = false;
         memory_.stack.pop_back();
-      } else if (follow(top, step_.deepest(top.overlaps, top.near))) {
+      } else if (follow(top)) {
         return true;
       }
     }
@@ -39,32 +38,17 @@ class Traversal {
   }
 
   // Looks at one pair of children. `top` is not valid any more once something was opened.
-  bool follow(OpenPair& top, int pair) {
-    const int p = pair / kWidth;
-    const int q = pair % kWidth;
-    const NodeHead& head_P = base_.nodes()[top.nodes.node_P];
-    const NodeHead& head_Q = other_.nodes()[top.nodes.node_Q];
-    const PairMask row = row_of(p);
-    const PairMask column = column_of(q);
-    if (head_P.is_leaf(p) && head_Q.is_leaf(q)) {
-      top.near &= ~(row & column);
-      diving_ = false;
-      return visit_leaves(head_P.child(p), head_Q.child(q));
+  bool follow(OpenPair& top) {
+    // The order is of use only to a query that may end early.
+    const int pair = goal_ == Goal::kAnyPair ? step_.deepest(top.overlaps, top.near) : std::countr_zero(top.near);
+    const Descent descent = step_.descend(top.nodes, top.near, pair);
+    top.near &= ~descent.including;
+    if (!descent.is_leaf) {
+      open(descent.next);
+      return false;
     }
-    // Where a leaf meets a node, the node is opened, for all leaves that meet it.
-    if (head_P.is_leaf(p)) {
-      const PairMask leaves = top.near & column & (kAllPairs << (kWidth * head_P.node_count));
-      top.near &= ~leaves;
-      open({top.nodes.node_P, head_Q.child(q), (leaves >> q) * row_of(0)});
-    } else if (head_Q.is_leaf(q)) {
-      const PairMask leaves = top.near & row & ((0xfU >> head_Q.node_count << head_Q.node_count) * column_of(0));
-      top.near &= ~leaves;
-      open({head_P.child(p), top.nodes.node_Q, (leaves >> (kWidth * p)) * column_of(0)});
-    } else {
-      top.near &= ~(row & column);
-      open({head_P.child(p), head_Q.child(q), kAllPairs});
-    }
-    return false;
+    diving_ = false;
+    return visit_leaves(descent.next.node_P, descent.next.node_Q);
   }
 
   bool visit_leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q) {
@@ -84,8 +68,7 @@ class Traversal {
     return false;
   }
 
-  const DopTree& base_;
-  const DopTree& other_;
+  const Goal goal_;
   const DopVisit& step_;
   QueryWorkspace::Memory& memory_;
   TriangleVisitor& visitor_;
@@ -94,9 +77,8 @@ class Traversal {
 
 }  // namespace
 
-bool traverse(Goal goal, const DopTree& base, const DopTree& other, const DopVisit& step,
-              QueryWorkspace::Memory& memory, TriangleVisitor& visitor) {
-  return Traversal(goal, base, other, step, memory, visitor).run();
+bool traverse(Goal goal, const DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor) {
+  return Traversal(goal, step, memory, visitor).run();
 }
 
 }  // namespace glissade::collision

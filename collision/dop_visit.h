@@ -33,6 +33,13 @@ constexpr PairMask column_of(int child_Q) {
   return 0x1111U << child_Q;
 }
 
+/// Where a traversal goes from a pair of children.
+struct Descent {
+  NodePair next;       ///< nodes, or leaves if both children are
+  bool is_leaf;        ///< both are
+  PairMask including;  ///< the pairs of children that this takes care of
+};
+
 /// Compares nodes and leaves of two trees in one frame.
 class DopVisit {
  public:
@@ -51,6 +58,10 @@ class DopVisit {
 
   /// Of the pairs of children in the mask, which is not 0, one that overlaps about most.
   int deepest(const PairOverlaps& overlaps, PairMask pairs) const { return node_kernels_.deepest(overlaps, pairs); }
+
+  /// The descent from one pair of children. Where a leaf meets a node, the node is opened, for all leaves that meet it
+  /// according to `near`.
+  Descent descend(const NodePair& nodes, PairMask near, int pair) const;
 
   /// The pairs of triangles that their normals may let be near.
   PairMask leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q, LeafPair& leaves, QueryCounters& counters) const;

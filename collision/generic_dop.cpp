@@ -58,23 +58,13 @@ std::vector<GenericVertex> compute_vertices(const DopDirections& directions) {
 }  // namespace
 
 const std::vector<GenericVertex>& generic_dop_vertices(int k) {
-  static const auto k6 = compute_vertices(dop_directions(6));
-  static const auto k14 = compute_vertices(dop_directions(14));
-  static const auto k18 = compute_vertices(dop_directions(18));
-  static const auto k24 = compute_vertices(dop_directions(24));
-  static const auto k26 = compute_vertices(dop_directions(26));
-  switch (dop_directions(k).slabs) {
-    case 3:
-      return k6;
-    case 7:
-      return k14;
-    case 9:
-      return k18;
-    case 12:
-      return k24;
-    default:
-      return k26;
-  }
+  static const auto sets = [] {
+    std::array<std::vector<GenericVertex>, kDopSizes.size()> all;
+    for (std::size_t i = 0; i < kDopSizes.size(); ++i)
+      all[i] = compute_vertices(dop_directions(kDopSizes[i]));
+    return all;
+  }();
+  return sets[dop_size_index(k)];
 }
 
 }  // namespace glissade::collision
