@@ -6,11 +6,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "pair_lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace glissade::collision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kPairs = kWidth * kWidth;
 using Tag4 = hn::FixedTag<float, kWidth>;
 using Four = hn::Vec<Tag4>;
 
@@ -76,22 +77,6 @@ HWY_INLINE void load_moved(const LeafFrame& frame, const TriangleLeaf& leaf, Lea
   }
 }
 
-// Lanes of a vector that starts at pair `first`: the triangle of P of each pair, and the triangle of Q.
-template <class D>
-HWY_INLINE hn::Vec<D> of_P(D d, const LeafTriangles::Four& values, std::size_t first) {
-  if constexpr (hn::MaxLanes(D()) == kWidth) {
-    return hn::Set(d, values[first / kWidth]);
-  } else {
-    alignas(64) static constexpr std::int32_t kTriangle[kPairs] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-    return hn::TableLookupLanes(hn::LoadDup128(d, values.data()), hn::SetTableIndices(d, kTriangle + first));
-  }
-}
-
-template <class D>
-HWY_INLINE hn::Vec<D> of_Q(D d, const LeafTriangles::Four& values) {
-  return hn::LoadDup128(d, values.data());
-}
-
 // How far three corners lie beyond the interval [low, high] along a normal, on either side of it.
 template <class D, class Normal, class Corner>
 HWY_INLINE hn::Vec<D> gap_along(D, const Normal& n, hn::Vec<D> low, hn::Vec<D> high, const Corner& corner_of) {
@@ -117,15 +102,16 @@ PairMask test(const LeafFrame& frame, const TriangleLeaf& leaf_P, const Triangle
   using V = hn::Vec<decltype(d)>;
   PairMask mask = 0;
   for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
-    const auto normal_P = [&](std::size_t axis) HWY_ATTR { return of_P(d, p.normal[axis], first); };
-    const auto normal_Q = [&](std::size_t axis) HWY_ATTR { return of_Q(d, q.normal[axis]); };
-    const auto corner_P = [&](std::size_t axis, std::size_t c) HWY_ATTR { return of_P(d, p.corner[axis][c], first); };
-    const auto corner_Q = [&](std::size_t axis, std::size_t c) HWY_ATTR { return of_Q(d, q.corner[axis][c]); };
-    const V along_P = gap_along(d, normal_P, of_P(d, p.low, first), of_P(d, p.high, first), corner_Q);
-    const V along_Q = gap_along(d, normal_Q, of_Q(d, q.low), of_Q(d, q.high), corner_P);
-    const V gap = hn::Sub(
-        hn::Max(hn::Mul(along_P, of_P(d, p.inverse_length, first)), hn::Mul(along_Q, of_Q(d, q.inverse_length))),
-        hn::Set(d, frame.uncertainty));
+    const auto normal_P = [&](std::size_t axis) HWY_ATTR { return of_P(d, p.normal[axis].data(), first); };
+    const auto normal_Q = [&](std::size_t axis) HWY_ATTR { return of_Q(d, q.normal[axis].data()); };
+    const auto corner_P = [&](std::size_t axis, std::size_t c)
+                              HWY_ATTR { return of_P(d, p.corner[axis][c].data(), first); };
+    const auto corner_Q = [&](std::size_t axis, std::size_t c) HWY_ATTR { return of_Q(d, q.corner[axis][c].data()); };
+    const V along_P = gap_along(d, normal_P, of_P(d, p.low.data(), first), of_P(d, p.high.data(), first), corner_Q);
+    const V along_Q = gap_along(d, normal_Q, of_Q(d, q.low.data()), of_Q(d, q.high.data()), corner_P);
+    const V gap = hn::Sub(hn::Max(hn::Mul(along_P, of_P(d, p.inverse_length.data(), first)),
+                                  hn::Mul(along_Q, of_Q(d, q.inverse_length.data()))),
+                          hn::Set(d, frame.uncertainty));
     hn::Store(gap, d, leaves.gaps.gap.data() + first);
     std::uint8_t bits[8] = {};  // StoreMaskBits may write so many
     hn::StoreMaskBits(d, hn::Not(hn::Gt(gap, hn::Set(d, distance))), bits);
@@ -206,15 +192,16 @@ CertainPairs cross(const LeafFrame& frame, const LeafPair& leaves) {
     for (std::size_t c = 0; c < 3; ++c) {
       const auto& corner_P = leaves.p.corner;
       const auto& corner_Q = leaves.q.corner;
-      p[c] = {of_P(d, corner_P[0][c], first), of_P(d, corner_P[1][c], first), of_P(d, corner_P[2][c], first)};
-      q[c] = {of_Q(d, corner_Q[0][c]), of_Q(d, corner_Q[1][c]), of_Q(d, corner_Q[2][c])};
+      p[c] = {of_P(d, corner_P[0][c].data(), first), of_P(d, corner_P[1][c].data(), first),
+              of_P(d, corner_P[2][c].data(), first)};
+      q[c] = {of_Q(d, corner_Q[0][c].data()), of_Q(d, corner_Q[1][c].data()), of_Q(d, corner_Q[2][c].data())};
     }
     // No two of the six corners differ by more than `largest` in a coordinate, none of one triangle from its first by
     // more than its extent. A determinant of three such differences u, v, w, each coordinate off by 2 ε, is off by
     // 2√3 ε (|u||v| + |v||w| + |w||u|) and half as much again for products of errors, where |u| ≤ √3 extent and so on:
     // 16 ε (uv + vw + wu). 48 roundings add half an epsilon of uvw each.
-    const V extent_p = of_P(d, leaves.p.extent, first);
-    const V extent_q = of_Q(d, leaves.q.extent);
+    const V extent_p = of_P(d, leaves.p.extent.data(), first);
+    const V extent_q = of_Q(d, leaves.q.extent.data());
     const auto between = minus(q[0], p[0]);
     const V largest = hn::Add(hn::Max(hn::Abs(between.x), hn::Max(hn::Abs(between.y), hn::Abs(between.z))),
                               hn::Add(extent_p, extent_q));
@@ -229,9 +216,10 @@ CertainPairs cross(const LeafFrame& frame, const LeafPair& leaves) {
     const V error_of_sides_q = error_of(extent_p, extent_p, largest);
     const V error = error_of(hn::Add(extent_p, extent_p), largest, largest);
 
-    const Vector3<V> normal_p{of_P(d, leaves.p.normal[0], first), of_P(d, leaves.p.normal[1], first),
-                              of_P(d, leaves.p.normal[2], first)};
-    const Vector3<V> normal_q{of_Q(d, leaves.q.normal[0]), of_Q(d, leaves.q.normal[1]), of_Q(d, leaves.q.normal[2])};
+    const Vector3<V> normal_p{of_P(d, leaves.p.normal[0].data(), first), of_P(d, leaves.p.normal[1].data(), first),
+                              of_P(d, leaves.p.normal[2].data(), first)};
+    const Vector3<V> normal_q{of_Q(d, leaves.q.normal[0].data()), of_Q(d, leaves.q.normal[1].data()),
+                              of_Q(d, leaves.q.normal[2].data())};
     V side_p[3];
     V side_q[3];
     V least_p = hn::Set(d, 1e30F);

@@ -6,11 +6,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "pair_lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace glissade::collision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr std::size_t kPairs = kWidth * kWidth;
 
 HWY_INLINE const std::int16_t* lanes(const SlabLine* node) {
   return node->rows[0].above.data();
@@ -276,22 +276,6 @@ HWY_INLINE void move_to_base(const ThinSlabFrame& frame, ThinChildren& children)
   hn::Store(hn::Mul(ratio, hn::Load(d, children.offset)), d, children.offset);
   hn::Store(hn::Mul(ratio, hn::Load(d, children.half_width)), d, children.half_width);
   hn::Store(hn::Mul(ratio, hn::Load(d, children.radius)), d, children.radius);
-}
-
-// Lanes of a vector that starts at pair `first`: the child of P of each pair, and the child of Q.
-template <class D>
-HWY_INLINE hn::Vec<D> of_P(D d, const float* children, std::size_t first) {
-  if constexpr (hn::MaxLanes(D()) == kWidth) {
-    return hn::Set(d, children[first / kWidth]);
-  } else {
-    alignas(64) static constexpr std::int32_t kChild[kPairs] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-    return hn::TableLookupLanes(hn::LoadDup128(d, children), hn::SetTableIndices(d, kChild + first));
-  }
-}
-
-template <class D>
-HWY_INLINE hn::Vec<D> of_Q(D d, const float* children) {
-  return hn::LoadDup128(d, children);
 }
 
 PairMask test_thin(const ThinSlabFrame& frame, const NodeHead& head_P, const SlabLine* node_P, const NodeHead& head_Q,

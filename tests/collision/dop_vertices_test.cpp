@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include <glissade/collision/mesh_generators.h>
 
 #include "node_kernels.h"
+#include "random_numbers.h"
 #include "vertex_alignment.h"
 
 namespace glissade::collision {
@@ -45,16 +45,12 @@ class Vertices : public ::testing::Test {
 
   Isometry3d random_pose(double translation) {
     Isometry3d X = Isometry3d::Identity();
-    X.linear() =
-        Eigen::Quaterniond(uniform_(generator_), uniform_(generator_), uniform_(generator_), uniform_(generator_))
-            .normalized()
-            .toRotationMatrix();
-    X.translation() = translation * Vector3d(uniform_(generator_), uniform_(generator_), uniform_(generator_));
+    X.linear() = random_.rotation();
+    X.translation() = translation * random_.point(1.0);
     return X;
   }
 
-  std::mt19937 generator_{kSeed};
-  std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
+  test_support::RandomNumbers random_{kSeed};
 };
 
 TEST_F(Vertices, OfABoxOfThreeSlabsAreItsCorners) {

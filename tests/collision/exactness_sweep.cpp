@@ -77,14 +77,9 @@ class Sweep {
       : arguments_(arguments), sets_(instruction_sets(arguments.only_instruction_set)), counts_(sets_) {}
 
   bool run() {
-    const std::int64_t wanted = (arguments_.count + kPosesPerCase - 1) / kPosesPerCase;
     const Stopwatch watch;
-    if (arguments_.only_case >= 0) {
-      run_batch(arguments_.only_case, 1);
-    } else {
-      for (std::int64_t first = 0; first < wanted && watch.seconds() < arguments_.seconds; first += kCasesPerBatch)
-        run_batch(first, static_cast<int>(std::min<std::int64_t>(kCasesPerBatch, wanted - first)));
-    }
+    run_batches(arguments_, kPosesPerCase, kCasesPerBatch,
+                [this](std::int64_t first, int count) { run_batch(first, count); });
     counts_.print(watch.seconds());
     differences_.print();
     return differences_.count() == 0;

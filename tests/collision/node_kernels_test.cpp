@@ -1,7 +1,5 @@
 #include "node_kernels.h"
 
-#include <random>
-
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
@@ -12,6 +10,7 @@
 #include <glissade/collision/triangle_distance.h>
 
 #include "leaf_kernels.h"
+#include "random_numbers.h"
 #include "vertex_alignment.h"
 
 namespace glissade::collision {
@@ -31,14 +30,11 @@ class Kernels : public ::testing::TestWithParam<InstructionSet> {
   }
   ~Kernels() override { use_instruction_set(available_instruction_sets().front()); }
 
-  Vector3d random_vector() { return {uniform_(generator_), uniform_(generator_), uniform_(generator_)}; }
+  Vector3d random_vector() { return random_.point(1.0); }
 
   Isometry3d random_pose(double translation) {
     Isometry3d X = Isometry3d::Identity();
-    X.linear() =
-        Eigen::Quaterniond(uniform_(generator_), uniform_(generator_), uniform_(generator_), uniform_(generator_))
-            .normalized()
-            .toRotationMatrix();
+    X.linear() = random_.rotation();
     X.translation() = translation * random_vector();
     return X;
   }
@@ -64,8 +60,7 @@ class Kernels : public ::testing::TestWithParam<InstructionSet> {
     return DopTree(std::make_shared<const TriangleMesh>(std::move(placed)), options);
   }
 
-  std::mt19937 generator_{kSeed};
-  std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
+  test_support::RandomNumbers random_{kSeed};
 };
 
 // Triangles below child c of a node.
@@ -213,20 +208,19 @@ TEST_P(Kernels, OverlapsOfPairsBoundTheirDistance) {
 }
 
 TEST_P(Kernels, TestFindsTheLeastOverlapOfEverySlab) {
-  std::uniform_int_distribution<int> any(-20000, 20000);
   for (int trial = 0; trial < 200; ++trial) {
     alignas(64) std::array<SlabLine, 4> node;
     AlignedNode aligned;
     for (SlabLine& line : node) {
       for (SlabRow& row : line.rows) {
         for (std::size_t c = 0; c < 4; ++c) {
-          row.above[c] = static_cast<std::int16_t>(any(generator_));
-          row.below[c] = static_cast<std::int16_t>(any(generator_));
+          row.above[c] = static_cast<std::int16_t>(random_.integer(-20000, 20000));
+          row.below[c] = static_cast<std::int16_t>(random_.integer(-20000, 20000));
         }
       }
     }
     for (std::int16_t& value : aligned.facing)
-      value = static_cast<std::int16_t>(any(generator_));
+      value = static_cast<std::int16_t>(random_.integer(-20000, 20000));
     for (const int slabs : {4, 8, 12, 16}) {
       PairOverlaps overlaps;
       const PairMask near = node_kernels().test(node.data(), aligned, slabs, -9000, overlaps);

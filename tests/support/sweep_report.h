@@ -2,6 +2,7 @@
 
 /// What the sweeps have in common: their command line, their clock, and the account of differences.
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -65,6 +66,11 @@ class SweepCounts {
   std::array<Counters, kMost> checks_{};  ///< by variant and instruction set
 };
 
+/// Calls run_batch(first case, number of cases) for as many poses as were asked for, or for the one case; stops when
+/// the time is up.
+template <typename RunBatch>
+void run_batches(const SweepArguments& arguments, int poses_per_case, int cases_per_batch, const RunBatch& run_batch);
+
 /// Runs from its construction on.
 class Stopwatch {
  public:
@@ -73,5 +79,17 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+template <typename RunBatch>
+void run_batches(const SweepArguments& arguments, int poses_per_case, int cases_per_batch, const RunBatch& run_batch) {
+  if (arguments.only_case >= 0) {
+    run_batch(arguments.only_case, 1);
+    return;
+  }
+  const std::int64_t wanted = (arguments.count + poses_per_case - 1) / poses_per_case;
+  const Stopwatch watch;
+  for (std::int64_t first = 0; first < wanted && watch.seconds() < arguments.seconds; first += cases_per_batch)
+    run_batch(first, static_cast<int>(std::min<std::int64_t>(cases_per_batch, wanted - first)));
+}
 
 }  // namespace glissade::test_support

@@ -1,0 +1,43 @@
+// Vectors whose lanes are pairs of children or of triangles, 4 · of_P + of_Q. Compiled once for each instruction set,
+// with the file that includes it.
+#if defined(GLISSADE_COLLISION_PAIR_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef GLISSADE_COLLISION_PAIR_LANES_INL_H_
+#undef GLISSADE_COLLISION_PAIR_LANES_INL_H_
+#else
+#define GLISSADE_COLLISION_PAIR_LANES_INL_H_
+#endif
+
+#include <cstddef>
+#include <cstdint>
+
+#include <hwy/highway.h>
+
+#include <glissade/collision/dop_node.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace glissade::collision::HWY_NAMESPACE {
+
+constexpr std::size_t kPairs = kWidth * kWidth;
+
+// Of a vector that starts at pair `first`: the value of P of each pair.
+template <class D>
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> of_P(D d, const float* values, std::size_t first) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  if constexpr (hn::MaxLanes(D()) == kWidth) {
+    return hn::Set(d, values[first / kWidth]);
+  } else {
+    alignas(64) static constexpr std::int32_t kOfP[kPairs] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+    return hn::TableLookupLanes(hn::LoadDup128(d, values), hn::SetTableIndices(d, kOfP + first));
+  }
+}
+
+// The value of Q of each pair, wherever the vector starts.
+template <class D>
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> of_Q(D d, const float* values) {
+  return hwy::HWY_NAMESPACE::LoadDup128(d, values);
+}
+
+}  // namespace glissade::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
