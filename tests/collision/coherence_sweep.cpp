@@ -120,7 +120,7 @@ class Walk {
       deform(*mesh_B_, 0.1 * pair_.B.size, random_);
       tree_B_->refit();
     }
-    remembering_.forget();
+    // The workspace must notice by itself.
   }
 
   void teleport() {
