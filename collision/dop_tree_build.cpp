@@ -7,22 +7,22 @@
 #include <span>
 
 #include <Eigen/Core>
+#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
 namespace glissade::collision {
 namespace {
 
 constexpr std::size_t kBins = 32;
-constexpr std::size_t kSweepAtMost = 64;     // so few triangles are sorted rather than binned
-constexpr std::size_t kTaskAtLeast = 4'096;  // triangles worth a task of their own
+constexpr std::size_t kSweepAtMost = 64;  // so few triangles are sorted rather than binned
 
-// oneTBB's hand-over of tasks is not visible to the thread sanitizer, which would see a race in every triangle.
+// Triangles worth a task of their own. oneTBB's hand-over of tasks is not visible to the thread sanitizer, which would
+// see a race in every triangle.
 #ifdef __SANITIZE_THREAD__
-constexpr int kThreads = 1;
+constexpr std::size_t kTaskAtLeast = std::numeric_limits<std::size_t>::max();
 #else
-constexpr int kThreads = tbb::task_arena::automatic;
+constexpr std::size_t kTaskAtLeast = 4'096;
 #endif
 
 struct Box {
@@ -256,20 +256,20 @@ void number(const Part& part, std::size_t node, int depth, TreeShape& shape) {
 
 TreeShape build_shape(const TriangleMesh& mesh) {
   std::vector<Item> items(mesh.triangles.size());
-  tbb::task_arena arena(kThreads);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t t) {
+  const auto measure = [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t t = range.begin(); t < range.end(); ++t) {
       items[t].triangle = static_cast<std::int32_t>(t);
       for (int c = 0; c < 3; ++c) {
         const Eigen::Array3f corner = mesh.corner(items[t].triangle, c).cast<float>().array();
         items[t].box.extend({corner, corner});
       }
-    });
-  });
+    }
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, items.size(), kTaskAtLeast), measure);
 
   Part root;
   root.items = items;
-  arena.execute([&] { divide(root); });
+  divide(root);
 
   TreeShape shape;
   shape.leaves.reserve(items.size() / 3);
