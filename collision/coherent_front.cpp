@@ -106,11 +106,7 @@ void CoherentFront::visit_nodes(std::size_t entry, const DopVisit& step, QueryCo
   entries_[entry].opened |= near;
 
   const PairMask apart = step.pairs_of(nodes) & ~entries_[entry].opened;
-  int least_gap = std::numeric_limits<int>::max();
-  for (PairMask rest = apart; rest != 0; rest &= rest - 1) {
-    least_gap = std::min(least_gap, -overlaps.overlap[static_cast<std::size_t>(std::countr_zero(rest))]);
-  }
-  holds_for(entry, apart == 0 ? std::numeric_limits<double>::infinity() : least_gap / static_cast<double>(kGridRadius));
+  holds_for(entry, apart == 0 ? std::numeric_limits<double>::infinity() : step.least_gap(overlaps, apart));
 
   // The pair that overlaps most comes last, which is looked at first.
   const std::size_t first = open_.size();
@@ -128,32 +124,27 @@ bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, con
                                  QueryCounters& counters, TriangleVisitor& visitor) {
   const auto [leaf_P, leaf_Q, all] = entries_[entry].pair;
   LeafPair leaves;
-  const PairMask near = step.leaves(leaf_P, leaf_Q, leaves, counters);
+  step.prepare(leaf_P, leaf_Q, leaves);
+  const double gap_of_all = step.leaf_gap(leaves);
+  if (step.beyond(gap_of_all)) {
+    holds_for(entry, gap_of_all);
+    return false;
+  }
+  PairMask near = step.leaves(leaves, counters);
   const CertainPairs certain = near == 0 ? CertainPairs{} : step.cross(leaves);
-  double least_gap = std::numeric_limits<double>::infinity();
-  const auto apart_by = [&](double gap) { least_gap = std::min(least_gap, gap); };
-  for (int pair = 0; pair < kWidth * kWidth; ++pair) {
-    if ((near >> pair & 1U) == 0) {
-      // Not positive only where a triangle has no area.
-      const auto gap = static_cast<double>(leaves.gaps.gap[static_cast<std::size_t>(pair)]);
-      if (gap > 0.0) apart_by(gap);
-      continue;
-    }
+  near = step.edges(leaves, near & ~certain.intersect) | (near & certain.intersect);
+  double least_gap = step.least_gap(leaves, leaves.present & ~near);
+  for (PairMask rest = near; rest != 0; rest &= rest - 1) {
+    const int pair = std::countr_zero(rest);
     const bool intersects = (certain.intersect >> pair & 1U) != 0;
-    if (!intersects) {
-      const double gap = step.gap(leaves, pair);
-      if (step.beyond(gap)) {
-        apart_by(gap);
-        continue;
-      }
-    }
     const PairOutcome outcome = intersects ? visitor.found(leaf_P, leaf_Q, pair) : visitor.visit(leaf_P, leaf_Q, pair);
     if (outcome.stop) {
       witness_ = Witness{leaf_P, leaf_Q, pair};
       return true;
     }
     const double distance = outcome.distance >= 0.0 ? outcome.distance : visitor.distance(leaf_P, leaf_Q, pair);
-    apart_by(std::isfinite(distance) ? distance / frame.base_radius * (1.0 - 1e-9) - 4.0 * frame.uncertainty : 0.0);
+    const double gap = std::isfinite(distance) ? distance / frame.base_radius * (1.0 - 1e-9) - 4.0 * frame.uncertainty : 0.0;
+    least_gap = std::min(least_gap, gap);
   }
   holds_for(entry, least_gap);
   return false;

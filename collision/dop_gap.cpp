@@ -58,12 +58,11 @@ class GapSearch {
 
   void compare_leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q) {
     LeafPair leaves;
-    for (PairMask rest = step_.leaves(leaf_P, leaf_Q, leaves, memory_.counters); rest != 0; rest &= rest - 1) {
+    step_.prepare(leaf_P, leaf_Q, leaves);
+    if (in_metres(step_.leaf_gap(leaves)) >= least_) return;
+    for (PairMask rest = step_.edges(leaves, step_.leaves(leaves, memory_.counters)); rest != 0; rest &= rest - 1) {
       const int pair = std::countr_zero(rest);
-      if (in_metres(static_cast<double>(leaves.gaps.gap[static_cast<std::size_t>(pair)])) >= least_ ||
-          in_metres(step_.gap(leaves, pair)) >= least_) {
-        continue;
-      }
+      if (in_metres(static_cast<double>(leaves.gaps.gap[static_cast<std::size_t>(pair)])) >= least_) continue;
       const TrianglePair triangles = placed_.triangles(leaf_P, leaf_Q, pair);
       least_ = std::min(least_, triangle_distance(placed_.points_A(triangles), placed_.points_B(triangles)).distance);
     }

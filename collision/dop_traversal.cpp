@@ -53,17 +53,18 @@ class Traversal {
 
   bool visit_leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q) {
     LeafPair leaves;
-    PairMask near = step_.leaves(leaf_P, leaf_Q, leaves, memory_.counters);
+    step_.prepare(leaf_P, leaf_Q, leaves);
+    PairMask near = step_.leaves(leaves, memory_.counters);
     if (near == 0) return false;
     const CertainPairs certain = step_.cross(leaves);
     near &= ~certain.apart;
     for (PairMask rest = near & certain.intersect; rest != 0; rest &= rest - 1) {
       if (visitor_.found(leaf_P, leaf_Q, std::countr_zero(rest)).stop) return true;
     }
-    for (PairMask rest = near & ~certain.intersect; rest != 0; rest &= rest - 1) {
-      const int pair = std::countr_zero(rest);
-      if (step_.edges_part(leaves, pair)) continue;
-      if (visitor_.visit(leaf_P, leaf_Q, pair).stop) return true;
+    near &= ~certain.intersect;
+    if (near != 0 && step_.has_distance()) near = step_.edges(leaves, near);
+    for (PairMask rest = near; rest != 0; rest &= rest - 1) {
+      if (visitor_.visit(leaf_P, leaf_Q, std::countr_zero(rest)).stop) return true;
     }
     return false;
   }

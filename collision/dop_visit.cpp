@@ -96,18 +96,33 @@ Descent DopVisit::descend(const NodePair& nodes, PairMask near, int pair) const 
   return {{head_P.child(p), nodes.node_Q, (leaves >> (kWidth * p)) * column_of(0)}, false, leaves};
 }
 
-PairMask DopVisit::leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q, LeafPair& leaves, QueryCounters& counters) const {
+void DopVisit::prepare(std::uint32_t leaf_P, std::uint32_t leaf_Q, LeafPair& leaves) const {
+  leaf_kernels_.prepare(leaf_frame_, base_.leaves()[leaf_P], other_.leaves()[leaf_Q], leaves);
+}
+
+double DopVisit::leaf_gap(const LeafPair& leaves) const {
+  return static_cast<double>(leaf_kernels_.leaf_gap(leaf_frame_, leaves));
+}
+
+PairMask DopVisit::leaves(LeafPair& leaves, QueryCounters& counters) const {
   counters.triangle_tests += kWidth * kWidth;
-  return leaf_kernels_.test(leaf_frame_, base_.leaves()[leaf_P], other_.leaves()[leaf_Q], distance_, leaves);
+  return leaf_kernels_.test(leaf_frame_, distance_, leaves);
 }
 
 CertainPairs DopVisit::cross(const LeafPair& leaves) const {
-  return distance_ > 0.0F ? CertainPairs{} : leaf_kernels_.cross(leaf_frame_, leaves);
+  return has_distance() ? CertainPairs{} : leaf_kernels_.cross(leaf_frame_, leaves);
 }
 
-double DopVisit::gap(const LeafPair& leaves, int pair) const {
-  const auto along_edges = static_cast<double>(leaf_kernels_.edge_gap(leaf_frame_, leaves, pair));
-  return std::max(along_edges, static_cast<double>(leaves.gaps.gap[static_cast<std::size_t>(pair)]));
+PairMask DopVisit::edges(LeafPair& leaves, PairMask pairs) const {
+  return leaf_kernels_.edges(leaf_frame_, distance_, pairs, leaves);
+}
+
+double DopVisit::least_gap(const LeafPair& leaves, PairMask pairs) const {
+  return static_cast<double>(leaf_kernels_.least_gap(leaves, pairs));
+}
+
+double DopVisit::least_gap(const PairOverlaps& overlaps, PairMask pairs) const {
+  return -node_kernels_.most_overlap(overlaps, pairs) / static_cast<double>(kGridRadius);
 }
 
 }  // namespace glissade::collision

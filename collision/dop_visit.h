@@ -63,19 +63,31 @@ class DopVisit {
   /// according to `near`.
   Descent descend(const NodePair& nodes, PairMask near, int pair) const;
 
+  /// Brings two leaves together for the functions below.
+  void prepare(std::uint32_t leaf_P, std::uint32_t leaf_Q, LeafPair& leaves) const;
+
+  /// A certain lower bound of the distance of two leaves as a whole, in radii of the base; may be negative.
+  double leaf_gap(const LeafPair& leaves) const;
+
   /// The pairs of triangles that their normals may let be near.
-  PairMask leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q, LeafPair& leaves, QueryCounters& counters) const;
+  PairMask leaves(LeafPair& leaves, QueryCounters& counters) const;
 
   /// Of those, the ones that certainly intersect, and the ones that certainly do not. Nothing is certain when pairs
   /// within a distance are looked for.
   CertainPairs cross(const LeafPair& leaves) const;
 
-  /// A certain lower bound of the distance of a pair of triangles, in radii of the base; may be negative.
-  double gap(const LeafPair& leaves, int pair) const;
+  /// Of the pairs in the mask, those that cross products of edges do not certainly keep further apart than the distance
+  /// looked for; raises their gaps.
+  PairMask edges(LeafPair& leaves, PairMask pairs) const;
 
-  /// Whether edges certainly keep a pair further apart than the distance looked for. Not tried when that is 0, where
-  /// the predicate costs no more.
-  bool edges_part(const LeafPair& leaves, int pair) const { return distance_ > 0.0F && beyond(gap(leaves, pair)); }
+  /// The least gap that is known of some pairs of triangles, in radii of the base; 1e30 of none.
+  double least_gap(const LeafPair& leaves, PairMask pairs) const;
+
+  /// The same of some pairs of children, which must not be none, in radii of the base.
+  double least_gap(const PairOverlaps& overlaps, PairMask pairs) const;
+
+  /// Whether pairs further apart than 0 are looked for. If not, the predicate costs no more than the edges.
+  bool has_distance() const { return distance_ > 0.0F; }
 
   /// Whether a gap is more than the distance looked for.
   bool beyond(double gap) const { return gap > static_cast<double>(distance_); }

@@ -77,6 +77,67 @@ HWY_INLINE void load_moved(const LeafFrame& frame, const TriangleLeaf& leaf, Lea
   }
 }
 
+void prepare(const LeafFrame& frame, const TriangleLeaf& leaf_P, const TriangleLeaf& leaf_Q, LeafPair& leaves) {
+  load_base(leaf_P, leaves.p);
+  load_moved(frame, leaf_Q, leaves.q);
+  find_normals(leaves.p);
+  find_normals(leaves.q);
+
+  const hn::FixedTag<std::int32_t, kWidth> d32;
+  const auto present = [&](const TriangleLeaf& leaf) HWY_ATTR {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d32, hn::Gt(hn::Load(d32, leaf.triangle.data()), hn::Set(d32, -1)), bits);
+    return static_cast<PairMask>(bits[0]);
+  };
+  // Four bits of Q, for each of P.
+  alignas(32) static constexpr std::uint16_t kRowsOfP[16] = {0x0000, 0x000f, 0x00f0, 0x00ff, 0x0f00, 0x0f0f,
+                                                             0x0ff0, 0x0fff, 0xf000, 0xf00f, 0xf0f0, 0xf0ff,
+                                                             0xff00, 0xff0f, 0xfff0, 0xffff};
+  leaves.present = kRowsOfP[present(leaf_P)] & (0x1111U * present(leaf_Q));
+}
+
+// Values of four triangles of P and four of Q, as many as fit.
+template <class D>
+HWY_INLINE hn::Vec<D> of_both(D d, const float* values_P, const float* values_Q, std::size_t first) {
+  if constexpr (hn::MaxLanes(D()) == kWidth) {
+    return hn::Load(d, first == 0 ? values_P : values_Q);
+  } else {
+    return hn::Combine(d, hn::Load(Tag4(), values_Q), hn::Load(Tag4(), values_P));
+  }
+}
+
+float leaf_gap(const LeafFrame& frame, const LeafPair& leaves) {
+  const hn::CappedTag<float, 2 * kWidth> d;
+  using V = hn::Vec<decltype(d)>;
+  V most = hn::Set(d, -1e30F);
+  for (std::size_t first = 0; first < 2 * kWidth; first += hn::Lanes(d)) {
+    V normal[3];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      normal[axis] = of_both(d, leaves.p.normal[axis].data(), leaves.q.normal[axis].data(), first);
+    const auto project = [&](const LeafTriangles& leaf, V& low, V& high) HWY_ATTR {
+      for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t t = 0; t < kWidth; ++t) {
+          const auto coordinate = [&](std::size_t axis) HWY_ATTR { return hn::Set(d, leaf.corner[axis][c][t]); };
+          const V at = hn::MulAdd(normal[0], coordinate(0),
+                                  hn::MulAdd(normal[1], coordinate(1), hn::Mul(normal[2], coordinate(2))));
+          low = c + t == 0 ? at : hn::Min(low, at);
+          high = c + t == 0 ? at : hn::Max(high, at);
+        }
+      }
+    };
+    V low_P;
+    V high_P;
+    V low_Q;
+    V high_Q;
+    project(leaves.p, low_P, high_P);
+    project(leaves.q, low_Q, high_Q);
+    const V gap = hn::Max(hn::Sub(low_P, high_Q), hn::Sub(low_Q, high_P));
+    const V inverse_length = of_both(d, leaves.p.inverse_length.data(), leaves.q.inverse_length.data(), first);
+    most = hn::Max(most, hn::Mul(gap, inverse_length));
+  }
+  return hn::GetLane(hn::MaxOfLanes(d, most)) - frame.uncertainty;
+}
+
 // How far three corners lie beyond the interval [low, high] along a normal, on either side of it.
 template <class D, class Normal, class Corner>
 HWY_INLINE hn::Vec<D> gap_along(D, const Normal& n, hn::Vec<D> low, hn::Vec<D> high, const Corner& corner_of) {
@@ -89,15 +150,9 @@ HWY_INLINE hn::Vec<D> gap_along(D, const Normal& n, hn::Vec<D> low, hn::Vec<D> h
   return hn::Max(hn::Sub(hn::Min(p0, hn::Min(p1, p2)), high), hn::Sub(low, hn::Max(p0, hn::Max(p1, p2))));
 }
 
-PairMask test(const LeafFrame& frame, const TriangleLeaf& leaf_P, const TriangleLeaf& leaf_Q, float distance,
-              LeafPair& leaves) {
-  LeafTriangles& p = leaves.p;
-  LeafTriangles& q = leaves.q;
-  load_base(leaf_P, p);
-  load_moved(frame, leaf_Q, q);
-  find_normals(p);
-  find_normals(q);
-
+PairMask test(const LeafFrame& frame, float distance, LeafPair& leaves) {
+  const LeafTriangles& p = leaves.p;
+  const LeafTriangles& q = leaves.q;
   const hn::CappedTag<float, kPairs> d;
   using V = hn::Vec<decltype(d)>;
   PairMask mask = 0;
@@ -113,22 +168,10 @@ PairMask test(const LeafFrame& frame, const TriangleLeaf& leaf_P, const Triangle
                                   hn::Mul(along_Q, of_Q(d, q.inverse_length.data()))),
                           hn::Set(d, frame.uncertainty));
     hn::Store(gap, d, leaves.gaps.gap.data() + first);
-    std::uint8_t bits[8] = {};  // StoreMaskBits may write so many
-    hn::StoreMaskBits(d, hn::Not(hn::Gt(gap, hn::Set(d, distance))), bits);
-    mask |= static_cast<PairMask>(bits[0] | bits[1] << 8) << first;
+    mask |= bits_of(d, hn::Not(hn::Gt(gap, hn::Set(d, distance)))) << first;
   }
 
-  const hn::FixedTag<std::int32_t, kWidth> d32;
-  const auto present = [&](const TriangleLeaf& leaf) HWY_ATTR {
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d32, hn::Gt(hn::Load(d32, leaf.triangle.data()), hn::Set(d32, -1)), bits);
-    return static_cast<PairMask>(bits[0]);
-  };
-  // Four bits of Q, for each of P.
-  alignas(32) static constexpr std::uint16_t kRowsOfP[16] = {0x0000, 0x000f, 0x00f0, 0x00ff, 0x0f00, 0x0f0f,
-                                                             0x0ff0, 0x0fff, 0xf000, 0xf00f, 0xf0f0, 0xf0ff,
-                                                             0xff00, 0xff0f, 0xfff0, 0xffff};
-  return mask & kRowsOfP[present(leaf_P)] & (0x1111U * present(leaf_Q));
+  return mask & leaves.present;
 }
 
 template <class V>
@@ -137,6 +180,18 @@ struct Vector3 {
   V y;
   V z;
 };
+
+// The corners of both triangles of each pair.
+template <class D>
+HWY_INLINE void load_corners(D d, const LeafPair& leaves, std::size_t first, Vector3<hn::Vec<D>> (&p)[3],
+                             Vector3<hn::Vec<D>> (&q)[3]) {
+  const auto& of_p = leaves.p.corner;
+  const auto& of_q = leaves.q.corner;
+  for (std::size_t c = 0; c < 3; ++c) {
+    p[c] = {of_P(d, of_p[0][c].data(), first), of_P(d, of_p[1][c].data(), first), of_P(d, of_p[2][c].data(), first)};
+    q[c] = {of_Q(d, of_q[0][c].data()), of_Q(d, of_q[1][c].data()), of_Q(d, of_q[2][c].data())};
+  }
+}
 
 template <class V>
 HWY_INLINE Vector3<V> minus(const Vector3<V>& a, const Vector3<V>& b) {
@@ -189,13 +244,7 @@ CertainPairs cross(const LeafFrame& frame, const LeafPair& leaves) {
   for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
     Vector3<V> p[3];
     Vector3<V> q[3];
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto& corner_P = leaves.p.corner;
-      const auto& corner_Q = leaves.q.corner;
-      p[c] = {of_P(d, corner_P[0][c].data(), first), of_P(d, corner_P[1][c].data(), first),
-              of_P(d, corner_P[2][c].data(), first)};
-      q[c] = {of_Q(d, corner_Q[0][c].data()), of_Q(d, corner_Q[1][c].data()), of_Q(d, corner_Q[2][c].data())};
-    }
+    load_corners(d, leaves, first, p, q);
     // No two of the six corners differ by more than `largest` in a coordinate, none of one triangle from its first by
     // more than its extent. A determinant of three such differences u, v, w, each coordinate off by 2 ε, is off by
     // 2√3 ε (|u||v| + |v||w| + |w||u|) and half as much again for products of errors, where |u| ≤ √3 extent and so on:
@@ -252,69 +301,70 @@ CertainPairs cross(const LeafFrame& frame, const LeafPair& leaves) {
     const V minus_error = hn::Neg(error);
     const auto intersect = hn::And(hn::Lt(left, minus_error), hn::Gt(right, error));
     const auto apart = hn::Or(hn::Gt(left, error), hn::Lt(right, minus_error));
-    const auto bits_of = [&](auto mask) HWY_ATTR {
-      std::uint8_t bits[8] = {};
-      hn::StoreMaskBits(d, hn::And(mask, sides_certain), bits);
-      return static_cast<PairMask>(bits[0] | bits[1] << 8) << first;
-    };
-    certain.intersect |= bits_of(intersect);
-    certain.apart |= bits_of(apart);
+    certain.intersect |= bits_of(d, hn::And(intersect, sides_certain)) << first;
+    certain.apart |= bits_of(d, hn::And(apart, sides_certain)) << first;
   }
   return certain;
 }
 
-// Every lane is a pair of edges, nine in all; the last is repeated.
-float edge_gap(const LeafFrame& frame, const LeafPair& leaves, int pair) {
-  constexpr std::size_t kEdgePairs = 9;
-  alignas(64) static constexpr std::int32_t kEdgeOfP[kPairs] = {0, 0, 0, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2};
-  alignas(64) static constexpr std::int32_t kEdgeOfQ[kPairs] = {0, 1, 2, 0, 1, 2, 0, 1, 2, 2, 2, 2, 2, 2, 2, 2};
-  const auto t_P = static_cast<std::size_t>(pair / kWidth);
-  const auto t_Q = static_cast<std::size_t>(pair % kWidth);
-  alignas(16) float edge_P[3][4];
-  alignas(16) float edge_Q[3][4];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto& x = leaves.p.corner[axis];
-    const auto& y = leaves.q.corner[axis];
-    for (std::size_t c = 0; c < 3; ++c) {
-      edge_P[axis][c] = x[(c + 1) % 3][t_P] - x[c][t_P];
-      edge_Q[axis][c] = y[(c + 1) % 3][t_Q] - y[c][t_Q];
-    }
-    edge_P[axis][3] = edge_Q[axis][3] = 0.0F;
-  }
+// The square of the gap along a vector of any length, with its sign.
+template <class V>
+HWY_INLINE V signed_square_of_gap(const Vector3<V>& n, const Vector3<V> (&p)[3], const Vector3<V> (&q)[3]) {
+  const hn::DFromV<V> d;
+  const V p0 = dot(n, p[0]);
+  const V p1 = dot(n, p[1]);
+  const V p2 = dot(n, p[2]);
+  const V q0 = dot(n, q[0]);
+  const V q1 = dot(n, q[1]);
+  const V q2 = dot(n, q[2]);
+  const V gap = hn::Max(hn::Sub(hn::Min(p0, hn::Min(p1, p2)), hn::Max(q0, hn::Max(q1, q2))),
+                        hn::Sub(hn::Min(q0, hn::Min(q1, q2)), hn::Max(p0, hn::Max(p1, p2))));
+  const V square = dot(n, n);
+  return hn::IfThenElseZero(hn::Ge(square, hn::Set(d, 1e-36F)), hn::Div(hn::Mul(gap, hn::Abs(gap)), square));
+}
 
+PairMask edges(const LeafFrame& frame, float distance, PairMask pairs, LeafPair& leaves) {
   const hn::CappedTag<float, kPairs> d;
   using V = hn::Vec<decltype(d)>;
-  V most = hn::Set(d, -1e30F);
-  for (std::size_t first = 0; first < kEdgePairs; first += hn::Lanes(d)) {
-    const auto pick = [&](const float(&edges)[3][4], const std::int32_t* index) HWY_ATTR {
-      const auto lanes = hn::SetTableIndices(d, index + first);
-      return Vector3<V>{hn::TableLookupLanes(hn::LoadDup128(d, edges[0]), lanes),
-                        hn::TableLookupLanes(hn::LoadDup128(d, edges[1]), lanes),
-                        hn::TableLookupLanes(hn::LoadDup128(d, edges[2]), lanes)};
-    };
-    const Vector3<V> n = times(pick(edge_P, kEdgeOfP), pick(edge_Q, kEdgeOfQ));
-    const auto project = [&](const LeafTriangles& leaf, std::size_t c, std::size_t t) HWY_ATTR {
-      return dot(n, Vector3<V>{hn::Set(d, leaf.corner[0][c][t]), hn::Set(d, leaf.corner[1][c][t]),
-                               hn::Set(d, leaf.corner[2][c][t])});
-    };
-    const V p0 = project(leaves.p, 0, t_P);
-    const V p1 = project(leaves.p, 1, t_P);
-    const V p2 = project(leaves.p, 2, t_P);
-    const V q0 = project(leaves.q, 0, t_Q);
-    const V q1 = project(leaves.q, 1, t_Q);
-    const V q2 = project(leaves.q, 2, t_Q);
-    const V gap = hn::Max(hn::Sub(hn::Min(p0, hn::Min(p1, p2)), hn::Max(q0, hn::Max(q1, q2))),
-                          hn::Sub(hn::Min(q0, hn::Min(q1, q2)), hn::Max(p0, hn::Max(p1, p2))));
-    const V square = dot(n, n);
-    const V inverse_length =
-        hn::IfThenElseZero(hn::Ge(square, hn::Set(d, 1e-36F)), hn::Div(hn::Set(d, 0.999999F), hn::Sqrt(square)));
-    most = hn::Max(most, hn::Mul(gap, inverse_length));
+  PairMask mask = 0;
+  for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
+    const PairMask asked = pairs >> first & ((1U << hn::Lanes(d)) - 1U);
+    if (asked == 0) continue;
+    Vector3<V> p[3];
+    Vector3<V> q[3];
+    load_corners(d, leaves, first, p, q);
+    V most = hn::Zero(d);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector3<V> edge_P = minus(p[(i + 1) % 3], p[i]);
+      for (std::size_t j = 0; j < 3; ++j)
+        most = hn::Max(most, signed_square_of_gap(times(edge_P, minus(q[(j + 1) % 3], q[j])), p, q));
+    }
+    const V along_edges = hn::MulSub(hn::Sqrt(most), hn::Set(d, 0.999999F), hn::Set(d, frame.uncertainty));
+    float* const gaps = leaves.gaps.gap.data() + first;
+    const V gap = hn::Max(along_edges, hn::Load(d, gaps));
+    hn::Store(gap, d, gaps);
+    mask |= bits_of(d, hn::Not(hn::Gt(gap, hn::Set(d, distance)))) << first;
   }
-  return hn::GetLane(hn::MaxOfLanes(d, most)) - frame.uncertainty;
+  return mask & pairs;
+}
+
+// Gaps of other pairs are infinite.
+float least_gap(const LeafPair& leaves, PairMask pairs) {
+  alignas(64) static constexpr std::int32_t kBit[kPairs] = {1,   2,   4,    8,    16,   32,   64,    128,
+                                                            256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
+  const hn::CappedTag<float, kPairs> d;
+  const hn::RebindToSigned<decltype(d)> d32;
+  const auto in_mask = hn::Set(d32, static_cast<std::int32_t>(pairs));
+  auto least = hn::Set(d, 1e30F);
+  for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
+    const auto asked = hn::RebindMask(d, hn::TestBit(in_mask, hn::Load(d32, kBit + first)));
+    least = hn::Min(least, hn::IfThenElse(asked, hn::Load(d, leaves.gaps.gap.data() + first), least));
+  }
+  return hn::GetLane(hn::MinOfLanes(d, least));
 }
 
 LeafKernels make_leaf_kernels() {
-  return {test, cross, edge_gap};
+  return {prepare, leaf_gap, test, cross, edges, least_gap};
 }
 
 }  // namespace glissade::collision::HWY_NAMESPACE

@@ -23,7 +23,7 @@ struct LeafFrame {
 };
 
 /// For each pair of triangles (4 · triangle_P + triangle_Q), a certain lower bound of its distance in radii of P: how
-/// far the normals of either triangle keep the two apart. Negative when they do not: the more, the deeper they cross.
+/// far the normals of either triangle keep the two apart. Negative when they do not.
 struct alignas(64) TriangleGaps {
   std::array<float, kWidth * kWidth> gap;
 };
@@ -39,11 +39,12 @@ struct alignas(64) LeafTriangles {
   Four extent;  ///< largest difference of coordinates between corner 0 and the others
 };
 
-/// Two leaves as `test` has prepared them for the two functions after it.
+/// Two leaves in one frame.
 struct LeafPair {
   LeafTriangles p;
   LeafTriangles q;
-  TriangleGaps gaps;
+  PairMask present;   ///< pairs of triangles that there are and that have an area
+  TriangleGaps gaps;  ///< once they were tested
 };
 
 /// Pairs of triangles that single precision is certain of.
@@ -53,16 +54,25 @@ struct CertainPairs {
 };
 
 struct LeafKernels {
+  /// Brings two leaves into the frame of P for the functions below.
+  void (*prepare)(const LeafFrame& frame, const TriangleLeaf& leaf_P, const TriangleLeaf& leaf_Q, LeafPair& leaves);
+
+  /// A certain lower bound of the distance of the leaves, in radii of P: how far the normal of one triangle keeps all
+  /// of the one from all of the other. Negative when none does.
+  float (*leaf_gap)(const LeafFrame& frame, const LeafPair& leaves);
+
   /// The pairs that the normals do not certainly keep further apart than `distance` (radii of P).
-  PairMask (*test)(const LeafFrame& frame, const TriangleLeaf& leaf_P, const TriangleLeaf& leaf_Q, float distance,
-                   LeafPair& leaves);
+  PairMask (*test)(const LeafFrame& frame, float distance, LeafPair& leaves);
 
   /// For pairs whose planes cross both triangles: whether they do so in the same place.
   CertainPairs (*cross)(const LeafFrame& frame, const LeafPair& leaves);
 
-  /// A certain lower bound of the distance of one pair, in radii of P: how far the cross product of two edges keeps the
-  /// triangles apart. Negative when none does.
-  float (*edge_gap)(const LeafFrame& frame, const LeafPair& leaves, int pair);
+  /// Raises the gaps of the pairs in the mask, and perhaps of others, by what cross products of two edges tell. Returns
+  /// those of the mask that are not certainly further apart than `distance` (radii of P).
+  PairMask (*edges)(const LeafFrame& frame, float distance, PairMask pairs, LeafPair& leaves);
+
+  /// The least gap of the pairs in the mask; 1e30 if that is empty.
+  float (*least_gap)(const LeafPair& leaves, PairMask pairs);
 };
 
 /// Those of the instruction set in use.

@@ -196,9 +196,7 @@ PairMask test(const SlabLine* node_P, const AlignedNode& aligned, int slabs, int
     }
     hn::Store(least, d, overlaps.overlap.data() + first);
     const auto kept = hn::Gt(least, hn::Set(d, static_cast<std::int16_t>(least_overlap - 1)));
-    std::uint8_t bits[8] = {};  // StoreMaskBits may write so many
-    hn::StoreMaskBits(d, kept, bits);
-    mask |= static_cast<PairMask>(bits[0] | bits[1] << 8) << first;
+    mask |= bits_of(d, kept) << first;
   }
   return mask;
 }
@@ -212,21 +210,33 @@ PairMask realign_and_test(const DopAlignment& alignment, const SlabLine* node_P,
 
 #endif
 
-// The number of a pair takes the place of the lowest bits of its overlap, so that one maximum finds both.
-int deepest(const PairOverlaps& overlaps, PairMask pairs) {
-  alignas(32) static constexpr std::int16_t kNumber[kPairs] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+// The greatest value of the pairs in the mask, which is not 0, where value_of(tag, overlaps, first pair).
+template <class Value>
+HWY_INLINE int greatest(const PairOverlaps& overlaps, PairMask pairs, const Value& value_of) {
   alignas(32) static constexpr std::int16_t kBit[kPairs] = {1,   2,   4,    8,    16,   32,   64,    128,
                                                             256, 512, 1024, 2048, 4096, 8192, 16384, -32768};
   const hn::CappedTag<std::int16_t, kPairs> d;
   const auto in_mask = hn::Set(d, static_cast<std::int16_t>(pairs));
   auto most = hn::Set(d, std::int16_t{-32768});
   for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
-    const auto bit = hn::Load(d, kBit + first);
-    const auto tagged = hn::Or(hn::And(hn::Load(d, overlaps.overlap.data() + first), hn::Set(d, std::int16_t{~15})),
-                               hn::Load(d, kNumber + first));
-    most = hn::Max(most, hn::IfThenElse(hn::Eq(hn::And(in_mask, bit), bit), tagged, most));
+    const auto asked = hn::TestBit(in_mask, hn::Load(d, kBit + first));
+    const auto value = value_of(d, hn::Load(d, overlaps.overlap.data() + first), first);
+    most = hn::Max(most, hn::IfThenElse(asked, value, most));
   }
-  return hn::GetLane(hn::MaxOfLanes(d, most)) & 15;
+  return hn::GetLane(hn::MaxOfLanes(d, most));
+}
+
+int most_overlap(const PairOverlaps& overlaps, PairMask pairs) {
+  return greatest(overlaps, pairs, [](auto, auto overlap, std::size_t) HWY_ATTR { return overlap; });
+}
+
+// The number of a pair takes the place of the lowest bits of its overlap, so that one maximum finds both.
+int deepest(const PairOverlaps& overlaps, PairMask pairs) {
+  alignas(32) static constexpr std::int16_t kNumber[kPairs] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const auto tagged = [](auto d, auto overlap, std::size_t first) HWY_ATTR {
+    return hn::Or(hn::And(overlap, hn::Set(d, std::int16_t{~15})), hn::Load(d, kNumber + first));
+  };
+  return greatest(overlaps, pairs, tagged) & 15;
 }
 
 // Four lanes of one node's thin slabs, in grid steps of P and its frame.
@@ -327,15 +337,13 @@ PairMask test_thin(const ThinSlabFrame& frame, const NodeHead& head_P, const Sla
     const auto least = hn::Min(whole, hn::Load(d16, overlaps.overlap.data() + first));
     hn::Store(least, d16, overlaps.overlap.data() + first);
     const auto kept = hn::Gt(least, hn::Set(d16, static_cast<std::int16_t>(least_overlap - 1)));
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d16, kept, bits);
-    mask |= static_cast<PairMask>(bits[0] | bits[1] << 8) << first;
+    mask |= bits_of(d16, kept) << first;
   }
   return mask;
 }
 
 NodeKernels make_node_kernels() {
-  return {realign, test, realign_and_test, test_thin, deepest};
+  return {realign, test, realign_and_test, test_thin, most_overlap, deepest};
 }
 
 }  // namespace glissade::collision::HWY_NAMESPACE

@@ -45,6 +45,9 @@ struct NodeKernels {
   PairMask (*test_thin)(const ThinSlabFrame& frame, const NodeHead& head_P, const SlabLine* node_P,
                         const NodeHead& head_Q, const SlabLine* node_Q, int least_overlap, PairOverlaps& overlaps);
 
+  /// The greatest overlap of the pairs in the mask, which is not 0.
+  int (*most_overlap)(const PairOverlaps& overlaps, PairMask pairs);
+
   /// Of the pairs in the mask, which is not 0, one that overlaps most but for 16 grid steps.
   int (*deepest)(const PairOverlaps& overlaps, PairMask pairs);
 };

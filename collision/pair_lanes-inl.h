@@ -37,6 +37,14 @@ HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> of_Q(D d, const float* values) {
   return hwy::HWY_NAMESPACE::LoadDup128(d, values);
 }
 
+// One bit for each lane.
+template <class D>
+HWY_INLINE std::uint32_t bits_of(D d, hwy::HWY_NAMESPACE::Mask<D> mask) {
+  std::uint8_t bits[8] = {};  // StoreMaskBits may write so many
+  hwy::HWY_NAMESPACE::StoreMaskBits(d, mask, bits);
+  return static_cast<std::uint32_t>(bits[0] | bits[1] << 8);
+}
+
 }  // namespace glissade::collision::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
