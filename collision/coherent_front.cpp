@@ -12,6 +12,7 @@ namespace glissade::collision {
 namespace {
 
 constexpr float kExpired = -1.0F;
+constexpr float kNever = 1e30F;
 // A front that has grown to this many times its first size is mostly beside the point.
 constexpr std::size_t kMostGrowth = 2;
 constexpr std::size_t kSmallFront = 64;
@@ -36,13 +37,13 @@ void CoherentFront::start_afresh() {
 }
 
 void CoherentFront::add(const NodePair& pair, bool is_leaf) {
+  if (entries_.size() == expiry_.size()) expiry_.resize(expiry_.size() + kFrontPadding, kNever);
+  expiry_[entries_.size()] = kExpired;
   entries_.push_back({pair, is_leaf ? 0 : kAllPairs & ~pair.pairs, is_leaf});
-  expiry_.push_back(kExpired);
 }
 
 void CoherentFront::holds_for(std::size_t entry, double gap) {
-  // Rounded down. Infinite where nothing is left to be watched.
-  expiry_[entry] = -round_up_to_float(-std::min(moved_ + gap, 1e30));
+  expiry_[entry] = static_cast<float>((moved_ + gap) * (1.0 - 0x1p-23));  // rounded down if positive
 }
 
 // Brings the clock up to this pose.
@@ -106,7 +107,7 @@ void CoherentFront::visit_nodes(std::size_t entry, const DopVisit& step, QueryCo
   entries_[entry].opened |= near;
 
   const PairMask apart = step.pairs_of(nodes) & ~entries_[entry].opened;
-  holds_for(entry, apart == 0 ? std::numeric_limits<double>::infinity() : step.least_gap(overlaps, apart));
+  holds_for(entry, apart == 0 ? kNever : step.least_gap(overlaps, apart));
 
   // The pair that overlaps most comes last, which is looked at first.
   const std::size_t first = open_.size();

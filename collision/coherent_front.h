@@ -61,7 +61,7 @@ class CoherentFront {
   std::size_t size_at_first_ = 0;  ///< entries once the first query had gone through all; 0 before
   std::optional<Witness> witness_;
   std::vector<Entry> entries_;
-  std::vector<float> expiry_;        ///< of each entry: what `moved_` may become
+  std::vector<float> expiry_;        ///< of each entry: what `moved_` may become; padded by what never expires
   std::vector<std::uint32_t> open_;  ///< entries to be looked at
 };
 

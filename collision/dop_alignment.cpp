@@ -110,28 +110,40 @@ HWY_INLINE void find_correspondence(const AlignmentTable& table, const QueryFram
   }
 }
 
+// Four rows of eight lanes: of each of the four values, one lane for each child that it faces `below`, then `above`.
+HWY_INLINE void spread(const std::int32_t* below, const std::int32_t* above, std::int16_t* lanes) {
+  const hn::FixedTag<std::int32_t, 4> d32;
+  const hn::FixedTag<std::int16_t, 4> d16;
+  const hn::FixedTag<std::int16_t, 8> row;
+  const hn::FixedTag<std::uint8_t, 16> d8;
+  alignas(16) static constexpr std::uint8_t kFirstRow[16] = {0, 1, 0, 1, 0, 1, 0, 1, 8, 9, 8, 9, 8, 9, 8, 9};
+  const auto values = hn::BitCast(d8, hn::Combine(row, hn::DemoteTo(d16, hn::Load(d32, above)),
+                                                  hn::DemoteTo(d16, hn::Load(d32, below))));
+  auto place = hn::Load(d8, kFirstRow);
+  for (std::size_t i = 0; i < 4; ++i) {
+    hn::Store(hn::BitCast(row, hn::TableLookupBytes(values, place)), row, lanes + 8 * i);
+    place = hn::Add(place, hn::Set(d8, 2));
+  }
+}
+
 void align(const AlignmentTable& table, const QueryFrame& frame, DopAlignment& alignment) {
   Correspondence found;
   for (std::size_t first = 0; first < kAlignmentLanes; first += hn::Lanes(Tag()))
     find_correspondence(table, frame, first, found);
 
-  // One lane for each child: the same weights for four children, of what faces `above` and what faces `below`.
-  const hn::FixedTag<std::int16_t, 8> row;
-  const hn::FixedTag<std::int16_t, 4> half;
-  const auto store = [&](std::int32_t below, std::int32_t above, std::int16_t* lanes) HWY_ATTR {
-    hn::Store(hn::Set(half, static_cast<std::int16_t>(below)), half, lanes);
-    hn::Store(hn::Set(half, static_cast<std::int16_t>(above)), half, lanes + 4);
-  };
   alignment.slabs = table.slabs;
   const auto rows = static_cast<std::size_t>(4 * slab_lines(table.slabs));
+  for (std::size_t first = 0; first < rows; first += 4) {
+    for (std::size_t term = 0; term < 3; ++term)
+      spread(found.below.weight[term] + first, found.above.weight[term] + first, alignment.weight[term].data() + 8 * first);
+    spread(found.below.offset + first, found.above.offset + first, alignment.offset.data() + 8 * first);
+  }
   for (std::size_t i = 0; i < rows; ++i) {
     const auto& source = table.source[static_cast<std::size_t>(found.vertex[i])];
-    for (std::size_t term = 0; term < 3; ++term) {
-      store(found.below.weight[term][i], found.above.weight[term][i], alignment.weight[term].data() + 8 * i);
+    for (std::size_t term = 0; term < 3; ++term)
       std::memcpy(&alignment.source[term][2 * i], &source[2 * term], 2);
-    }
-    store(found.below.offset[i], found.above.offset[i], alignment.offset.data() + 8 * i);
   }
+  const hn::FixedTag<std::int16_t, 8> row;
   // Rows beyond the last slab separate nothing.
   for (auto i = static_cast<std::size_t>(table.slabs); i < rows; ++i)
     hn::Store(hn::Set(row, std::int16_t{32767}), row, alignment.offset.data() + 8 * i);

@@ -11,20 +11,18 @@ namespace glissade::collision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 void find_expired(std::span<const float> expiry, float clock, std::vector<std::uint32_t>& expired) {
-  expired.clear();
-  const hn::ScalableTag<float> d;
+  const hn::CappedTag<float, kFrontPadding> d;
+  const hn::RebindToUnsigned<decltype(d)> d32;
   const std::size_t lanes = hn::Lanes(d);
   const auto limit = hn::Set(d, clock);
-  std::size_t first = 0;
-  for (; first + lanes <= expiry.size(); first += lanes) {
-    if (hn::AllTrue(d, hn::Gt(hn::LoadU(d, expiry.data() + first), limit))) continue;
-    for (std::size_t i = first; i < first + lanes; ++i) {
-      if (!(expiry[i] > clock)) expired.push_back(static_cast<std::uint32_t>(i));
-    }
+  expired.resize(expiry.size() + lanes);  // a whole vector is stored each time
+  std::size_t count = 0;
+  for (std::size_t first = 0; first < expiry.size(); first += lanes) {
+    const auto kept = hn::Gt(hn::LoadU(d, expiry.data() + first), limit);
+    const auto place = hn::Iota(d32, static_cast<std::uint32_t>(first));
+    count += hn::CompressStore(place, hn::RebindMask(d32, hn::Not(kept)), d32, expired.data() + count);
   }
-  for (; first < expiry.size(); ++first) {
-    if (!(expiry[first] > clock)) expired.push_back(static_cast<std::uint32_t>(first));
-  }
+  expired.resize(count);
 }
 
 }  // namespace glissade::collision::HWY_NAMESPACE

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "leaf_kernels.h"
 #include "round_up.h"
 
@@ -20,8 +18,8 @@ LeafFrame::LeafFrame(const QueryFrame& frame) {
   const double corner_P = 1.0;
   const double corner_Q = 7.0 * frame.ratio + 4.0 * reach;
   const double projections = 5.0 * (1.0 + frame.ratio + reach);
-  corner_uncertainty = round_up_to_float(std::ldexp(corner_P + corner_Q, -24) + frame.uncertainty);
-  uncertainty = round_up_to_float(1.75 * static_cast<double>(corner_uncertainty) + std::ldexp(1.75 * projections, -24) +
+  corner_uncertainty = round_up_to_float(0x1p-24 * (corner_P + corner_Q) + frame.uncertainty);
+  uncertainty = round_up_to_float(1.75 * static_cast<double>(corner_uncertainty) + 0x1p-24 * 1.75 * projections +
                                   frame.uncertainty);
 }
 

@@ -1,6 +1,5 @@
 #include "query_frame.h"
 
-#include <cmath>
 #include <stdexcept>
 
 namespace glissade::collision {
@@ -8,7 +7,7 @@ namespace glissade::collision {
 QueryFrame::QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB)
     : base_is_A(tree_A.radius() >= tree_B.radius()) {
   const Eigen::Matrix3d& R_AB = X_AB.linear();
-  rotation_defect = (R_AB.transpose() * R_AB - Eigen::Matrix3d::Identity()).norm();
+  rotation_defect = (R_AB.transpose() * R_AB - Eigen::Matrix3d::Identity()).lpNorm<1>();
   if (!(rotation_defect < 1e-3) || !(R_AB.determinant() > 0.0) || !X_AB.translation().allFinite()) {
     throw std::invalid_argument("the pose X_AB of a query is not a finite rotation and translation");
   }
@@ -29,9 +28,11 @@ QueryFrame::QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen
     p_PQ = -(R_PQ * centers_A) / base_radius;
   }
 
-  const double magnitude = X_AB.translation().norm() + tree_A.center().norm() + tree_B.center().norm();
-  const double reach = magnitude / base_radius + 1.0 + ratio + p_PQ.norm();
-  uncertainty = std::ldexp(reach, -48) + 2.0 * rotation_defect * reach;
+  // Sums of coordinates bound lengths.
+  const double magnitude =
+      X_AB.translation().lpNorm<1>() + tree_A.center().lpNorm<1>() + tree_B.center().lpNorm<1>();
+  const double reach = magnitude / base_radius + 1.0 + ratio + p_PQ.lpNorm<1>();
+  uncertainty = (0x1p-48 + 2.0 * rotation_defect) * reach;
 }
 
 bool QueryFrame::spheres_apart(double tolerance) const {

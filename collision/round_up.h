@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cmath>
-#include <limits>
+#include <bit>
+#include <cstdint>
 
 namespace glissade::collision {
 
@@ -9,7 +9,7 @@ namespace glissade::collision {
 inline float round_up_to_float(double value) {
   const auto nearest = static_cast<float>(value);
   if (static_cast<double>(nearest) >= value) return nearest;
-  return std::nextafter(nearest, std::numeric_limits<float>::infinity());
+  return std::bit_cast<float>(std::bit_cast<std::int32_t>(nearest) + (nearest >= 0.0F ? 1 : -1));
 }
 
 }  // namespace glissade::collision

@@ -1,7 +1,5 @@
 #include "thin_slab.h"
 
-#include <cmath>
-
 #include <glissade/collision/dop_node.h>
 
 #include "round_up.h"
@@ -20,7 +18,7 @@ ThinSlabFrame::ThinSlabFrame(const QueryFrame& frame) {
   // Single precision: differences of coordinates of at most this size, three products of them with the components of a
   // normal, and a dozen operations more; each rounding is at most 2^-24 of it.
   const double largest = kGridRadius * (1.0 + frame.ratio + frame.p_PQ.norm());
-  padding = round_up_to_float(std::ldexp(64.0 * largest, -24) + 4.0 * kGridRadius * frame.uncertainty);
+  padding = round_up_to_float(0x1p-24 * 64.0 * largest + 4.0 * kGridRadius * frame.uncertainty);
 }
 
 }  // namespace glissade::collision
