@@ -124,7 +124,7 @@ void CoherentFront::visit_nodes(std::size_t entry, const DopVisit& step, QueryCo
 bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, const DopVisit& step,
                                  QueryCounters& counters, TriangleVisitor& visitor) {
   const auto [leaf_P, leaf_Q, all] = entries_[entry].pair;
-  LeafPair leaves;
+  VisitedLeaves leaves;
   step.prepare(leaf_P, leaf_Q, leaves);
   const double gap_of_all = step.leaf_gap(leaves);
   if (step.beyond(gap_of_all)) {
@@ -134,7 +134,7 @@ bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, con
   PairMask near = step.leaves(leaves, counters);
   const CertainPairs certain = near == 0 ? CertainPairs{} : step.cross(leaves);
   near = step.edges(leaves, near & ~certain.intersect) | (near & certain.intersect);
-  double least_gap = step.least_gap(leaves, leaves.present & ~near);
+  double least_gap = step.least_gap(leaves, leaves.present() & ~near);
   for (PairMask rest = near; rest != 0; rest &= rest - 1) {
     const int pair = std::countr_zero(rest);
     const bool intersects = (certain.intersect >> pair & 1U) != 0;

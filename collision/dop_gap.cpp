@@ -57,12 +57,11 @@ class GapSearch {
   }
 
   void compare_leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q) {
-    LeafPair leaves;
-    step_.prepare(leaf_P, leaf_Q, leaves);
-    if (in_metres(step_.leaf_gap(leaves)) >= least_) return;
-    for (PairMask rest = step_.edges(leaves, step_.leaves(leaves, memory_.counters)); rest != 0; rest &= rest - 1) {
+    step_.prepare(leaf_P, leaf_Q, leaves_);
+    if (in_metres(step_.leaf_gap(leaves_)) >= least_) return;
+    for (PairMask rest = step_.edges(leaves_, step_.leaves(leaves_, memory_.counters)); rest != 0; rest &= rest - 1) {
       const int pair = std::countr_zero(rest);
-      if (in_metres(static_cast<double>(leaves.gaps.gap[static_cast<std::size_t>(pair)])) >= least_) continue;
+      if (in_metres(static_cast<double>(leaves_.gaps.gap[static_cast<std::size_t>(pair)])) >= least_) continue;
       const TrianglePair triangles = placed_.triangles(leaf_P, leaf_Q, pair);
       least_ = std::min(least_, triangle_distance(placed_.points_A(triangles), placed_.points_B(triangles)).distance);
     }
@@ -72,6 +71,7 @@ class GapSearch {
   QueryWorkspace::Memory& memory_;
   const DopVisit step_;
   double least_;  ///< metres
+  VisitedLeaves leaves_;
 };
 
 }  // namespace

@@ -52,17 +52,16 @@ class Traversal {
   }
 
   bool visit_leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q) {
-    LeafPair leaves;
-    step_.prepare(leaf_P, leaf_Q, leaves);
-    PairMask near = step_.leaves(leaves, memory_.counters);
+    step_.prepare(leaf_P, leaf_Q, leaves_);
+    PairMask near = step_.leaves(leaves_, memory_.counters);
     if (near == 0) return false;
-    const CertainPairs certain = step_.cross(leaves);
+    const CertainPairs certain = step_.cross(leaves_);
     near &= ~certain.apart;
     for (PairMask rest = near & certain.intersect; rest != 0; rest &= rest - 1) {
       if (visitor_.found(leaf_P, leaf_Q, std::countr_zero(rest)).stop) return true;
     }
     near &= ~certain.intersect;
-    if (near != 0 && step_.has_distance()) near = step_.edges(leaves, near);
+    if (near != 0 && step_.has_distance()) near = step_.edges(leaves_, near);
     for (PairMask rest = near; rest != 0; rest &= rest - 1) {
       if (visitor_.visit(leaf_P, leaf_Q, std::countr_zero(rest)).stop) return true;
     }
@@ -74,6 +73,7 @@ class Traversal {
   QueryWorkspace::Memory& memory_;
   TriangleVisitor& visitor_;
   bool diving_;
+  VisitedLeaves leaves_;
 };
 
 }  // namespace

@@ -80,24 +80,11 @@ PairMask DopVisit::thin_slabs(const NodePair& pair, PairMask near, PairOverlaps&
                                          other_.slabs(pair.node_Q), least_overlap_, overlaps));
 }
 
-Descent DopVisit::descend(const NodePair& nodes, PairMask near, int pair) const {
-  const NodeHead& head_P = base_.nodes()[nodes.node_P];
-  const NodeHead& head_Q = other_.nodes()[nodes.node_Q];
-  const int p = pair / kWidth;
-  const int q = pair % kWidth;
-  if (head_P.is_leaf(p) == head_Q.is_leaf(q)) {
-    return {{head_P.child(p), head_Q.child(q), kAllPairs}, head_P.is_leaf(p), row_of(p) & column_of(q)};
-  }
-  if (head_P.is_leaf(p)) {
-    const PairMask leaves = near & column_of(q) & (kAllPairs << (kWidth * head_P.node_count));
-    return {{nodes.node_P, head_Q.child(q), (leaves >> q) * row_of(0)}, false, leaves};
-  }
-  const PairMask leaves = near & row_of(p) & ((0xfU >> head_Q.node_count << head_Q.node_count) * column_of(0));
-  return {{head_P.child(p), nodes.node_Q, (leaves >> (kWidth * p)) * column_of(0)}, false, leaves};
-}
-
-void DopVisit::prepare(std::uint32_t leaf_P, std::uint32_t leaf_Q, LeafPair& leaves) const {
-  leaf_kernels_.prepare(leaf_frame_, base_.leaves()[leaf_P], other_.leaves()[leaf_Q], leaves);
+void DopVisit::prepare(std::uint32_t leaf_P, std::uint32_t leaf_Q, VisitedLeaves& leaves) const {
+  if (leaves.leaf_P != leaf_P) leaf_kernels_.prepare_P(base_.leaves()[leaf_P], leaves);
+  if (leaves.leaf_Q != leaf_Q) leaf_kernels_.prepare_Q(leaf_frame_, other_.leaves()[leaf_Q], leaves);
+  leaves.leaf_P = leaf_P;
+  leaves.leaf_Q = leaf_Q;
 }
 
 double DopVisit::leaf_gap(const LeafPair& leaves) const {

@@ -40,6 +40,13 @@ struct Descent {
   PairMask including;  ///< the pairs of children that this takes care of
 };
 
+/// The two leaves of the last visit; often the next one has one of them again. Of one query only.
+struct VisitedLeaves : LeafPair {
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+  std::uint32_t leaf_P = kNone;
+  std::uint32_t leaf_Q = kNone;
+};
+
 /// Compares nodes and leaves of two trees in one frame.
 class DopVisit {
  public:
@@ -64,7 +71,7 @@ class DopVisit {
   Descent descend(const NodePair& nodes, PairMask near, int pair) const;
 
   /// Brings two leaves together for the functions below.
-  void prepare(std::uint32_t leaf_P, std::uint32_t leaf_Q, LeafPair& leaves) const;
+  void prepare(std::uint32_t leaf_P, std::uint32_t leaf_Q, VisitedLeaves& leaves) const;
 
   /// A certain lower bound of the distance of two leaves as a whole, in radii of the base; may be negative.
   double leaf_gap(const LeafPair& leaves) const;
@@ -108,5 +115,21 @@ class DopVisit {
   PairMask always_near_;  ///< all pairs when the distance goes beyond what 16 bits can tell
   float distance_;
 };
+
+inline Descent DopVisit::descend(const NodePair& nodes, PairMask near, int pair) const {
+  const NodeHead& head_P = base_.nodes()[nodes.node_P];
+  const NodeHead& head_Q = other_.nodes()[nodes.node_Q];
+  const int p = pair / kWidth;
+  const int q = pair % kWidth;
+  if (head_P.is_leaf(p) == head_Q.is_leaf(q)) {
+    return {{head_P.child(p), head_Q.child(q), kAllPairs}, head_P.is_leaf(p), row_of(p) & column_of(q)};
+  }
+  if (head_P.is_leaf(p)) {
+    const PairMask leaves = near & column_of(q) & (kAllPairs << (kWidth * head_P.node_count));
+    return {{nodes.node_P, head_Q.child(q), (leaves >> q) * row_of(0)}, false, leaves};
+  }
+  const PairMask leaves = near & row_of(p) & ((0xfU >> head_Q.node_count << head_Q.node_count) * column_of(0));
+  return {{head_P.child(p), nodes.node_Q, (leaves >> (kWidth * p)) * column_of(0)}, false, leaves};
+}
 
 }  // namespace glissade::collision

@@ -11,12 +11,14 @@ LeafFrame::LeafFrame(const QueryFrame& frame) {
     }
     p_PQ[row] = static_cast<float>(frame.p_PQ[static_cast<Eigen::Index>(row)]);
   }
-  // In units of 2^-24 and by coordinate: corners of P are rounded once, those of Q once, then multiplied by rounded
-  // factors and summed up in three steps on top of a rounded translation. A unit vector sums up three coordinates (√3),
-  // and a projection rounds three products and sums of either corner once more.
+  // In units of 2^-24, which is the spacing of single precision below 1, and by coordinate. Corners lie within the unit
+  // sphere and are rounded once: half a unit, for Q of each coordinate, of which a row of the rotation sums up √3. Then
+  // corners of Q are multiplied by rounded factors, one unit of the length, and summed up in three steps on top of a
+  // rounded translation. A unit vector sums up three coordinates (√3), and a projection rounds three products and sums
+  // of either corner once more.
   const double reach = frame.p_PQ.lpNorm<Eigen::Infinity>();
-  const double corner_P = 1.0;
-  const double corner_Q = 7.0 * frame.ratio + 4.0 * reach;
+  const double corner_P = 0.5;
+  const double corner_Q = 5.0 * frame.ratio + 4.0 * reach;
   const double projections = 5.0 * (1.0 + frame.ratio + reach);
   corner_uncertainty = round_up_to_float(0x1p-24 * (corner_P + corner_Q) + frame.uncertainty);
   uncertainty = round_up_to_float(1.75 * static_cast<double>(corner_uncertainty) + 0x1p-24 * 1.75 * projections +

@@ -53,47 +53,42 @@ HWY_INLINE void find_normals(LeafTriangles& t) {
   hn::Store(hn::Max(p0, hn::Max(p1, p2)), d, t.high.data());
 }
 
-HWY_INLINE void load_base(const TriangleLeaf& leaf, LeafTriangles& t) {
+// One bit for each triangle.
+HWY_INLINE PairMask present(const TriangleLeaf& leaf) {
+  const hn::FixedTag<std::int32_t, kWidth> d;
+  return bits_of(d, hn::Gt(hn::Load(d, leaf.triangle.data()), hn::Set(d, -1)));
+}
+
+void prepare_P(const TriangleLeaf& leaf_P, LeafPair& leaves) {
   const Tag4 d;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t c = 0; c < 3; ++c)
-      hn::Store(hn::Load(d, leaf.corner[axis][c].data()), d, t.corner[axis][c].data());
+      hn::Store(hn::Load(d, leaf_P.corner[axis][c].data()), d, leaves.p.corner[axis][c].data());
   }
+  find_normals(leaves.p);
+  // Four bits for each.
+  alignas(32) static constexpr std::uint16_t kRows[16] = {0x0000, 0x000f, 0x00f0, 0x00ff, 0x0f00, 0x0f0f,
+                                                          0x0ff0, 0x0fff, 0xf000, 0xf00f, 0xf0f0, 0xf0ff,
+                                                          0xff00, 0xff0f, 0xfff0, 0xffff};
+  leaves.present_P = kRows[present(leaf_P)];
 }
 
-HWY_INLINE void load_moved(const LeafFrame& frame, const TriangleLeaf& leaf, LeafTriangles& t) {
+void prepare_Q(const LeafFrame& frame, const TriangleLeaf& leaf_Q, LeafPair& leaves) {
   const Tag4 d;
   for (std::size_t c = 0; c < 3; ++c) {
-    const Four x = hn::Load(d, leaf.corner[0][c].data());
-    const Four y = hn::Load(d, leaf.corner[1][c].data());
-    const Four z = hn::Load(d, leaf.corner[2][c].data());
+    const Four x = hn::Load(d, leaf_Q.corner[0][c].data());
+    const Four y = hn::Load(d, leaf_Q.corner[1][c].data());
+    const Four z = hn::Load(d, leaf_Q.corner[2][c].data());
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto& row = frame.matrix[axis];
       const Four moved = hn::MulAdd(
           x, hn::Set(d, row[0]),
           hn::MulAdd(y, hn::Set(d, row[1]), hn::MulAdd(z, hn::Set(d, row[2]), hn::Set(d, frame.p_PQ[axis]))));
-      hn::Store(moved, d, t.corner[axis][c].data());
+      hn::Store(moved, d, leaves.q.corner[axis][c].data());
     }
   }
-}
-
-void prepare(const LeafFrame& frame, const TriangleLeaf& leaf_P, const TriangleLeaf& leaf_Q, LeafPair& leaves) {
-  load_base(leaf_P, leaves.p);
-  load_moved(frame, leaf_Q, leaves.q);
-  find_normals(leaves.p);
   find_normals(leaves.q);
-
-  const hn::FixedTag<std::int32_t, kWidth> d32;
-  const auto present = [&](const TriangleLeaf& leaf) HWY_ATTR {
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d32, hn::Gt(hn::Load(d32, leaf.triangle.data()), hn::Set(d32, -1)), bits);
-    return static_cast<PairMask>(bits[0]);
-  };
-  // Four bits of Q, for each of P.
-  alignas(32) static constexpr std::uint16_t kRowsOfP[16] = {0x0000, 0x000f, 0x00f0, 0x00ff, 0x0f00, 0x0f0f,
-                                                             0x0ff0, 0x0fff, 0xf000, 0xf00f, 0xf0f0, 0xf0ff,
-                                                             0xff00, 0xff0f, 0xfff0, 0xffff};
-  leaves.present = kRowsOfP[present(leaf_P)] & (0x1111U * present(leaf_Q));
+  leaves.present_Q = 0x1111U * present(leaf_Q);
 }
 
 // Values of four triangles of P and four of Q, as many as fit.
@@ -171,7 +166,7 @@ PairMask test(const LeafFrame& frame, float distance, LeafPair& leaves) {
     mask |= bits_of(d, hn::Not(hn::Gt(gap, hn::Set(d, distance)))) << first;
   }
 
-  return mask & leaves.present;
+  return mask & leaves.present();
 }
 
 template <class V>
@@ -364,7 +359,7 @@ float least_gap(const LeafPair& leaves, PairMask pairs) {
 }
 
 LeafKernels make_leaf_kernels() {
-  return {prepare, leaf_gap, test, cross, edges, least_gap};
+  return {prepare_P, prepare_Q, leaf_gap, test, cross, edges, least_gap};
 }
 
 }  // namespace glissade::collision::HWY_NAMESPACE

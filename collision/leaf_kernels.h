@@ -43,8 +43,11 @@ struct alignas(64) LeafTriangles {
 struct LeafPair {
   LeafTriangles p;
   LeafTriangles q;
-  PairMask present;   ///< pairs of triangles that there are and that have an area
-  TriangleGaps gaps;  ///< once they were tested
+  TriangleGaps gaps;       ///< once they were tested
+  PairMask present_P = 0;  ///< pairs whose triangle of P is there and has an area
+  PairMask present_Q = 0;  ///< and whose triangle of Q
+
+  PairMask present() const { return present_P & present_Q; }
 };
 
 /// Pairs of triangles that single precision is certain of.
@@ -54,8 +57,9 @@ struct CertainPairs {
 };
 
 struct LeafKernels {
-  /// Brings two leaves into the frame of P for the functions below.
-  void (*prepare)(const LeafFrame& frame, const TriangleLeaf& leaf_P, const TriangleLeaf& leaf_Q, LeafPair& leaves);
+  /// Bring a leaf of either tree into the frame of P for the functions below, which need both.
+  void (*prepare_P)(const TriangleLeaf& leaf_P, LeafPair& leaves);
+  void (*prepare_Q)(const LeafFrame& frame, const TriangleLeaf& leaf_Q, LeafPair& leaves);
 
   /// A certain lower bound of the distance of the leaves, in radii of P: how far the normal of one triangle keeps all
   /// of the one from all of the other. Negative when none does.
