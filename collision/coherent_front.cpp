@@ -84,7 +84,7 @@ bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, 
     start_afresh();
     open_.assign(1, 0);
   }
-  const DopVisit step(base, other, frame, distance, alignment);
+  DopVisit step(base, other, frame, distance, alignment);
   while (!open_.empty()) {
     const std::size_t entry = open_.back();
     open_.pop_back();
@@ -99,7 +99,7 @@ bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, 
 }
 
 // Children that have come near get entries of their own; the others set the time.
-void CoherentFront::visit_nodes(std::size_t entry, const DopVisit& step, QueryCounters& counters) {
+void CoherentFront::visit_nodes(std::size_t entry, DopVisit& step, QueryCounters& counters) {
   const NodePair nodes = entries_[entry].pair;
   PairOverlaps overlaps;
   PairMask near = step.nodes(nodes, overlaps, counters);

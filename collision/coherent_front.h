@@ -49,7 +49,7 @@ class CoherentFront {
   void start_afresh();
   void add(const NodePair& pair, bool is_leaf);
   void holds_for(std::size_t entry, double gap);
-  void visit_nodes(std::size_t entry, const DopVisit& step, QueryCounters& counters);
+  void visit_nodes(std::size_t entry, DopVisit& step, QueryCounters& counters);
   bool visit_leaves(std::size_t entry, const QueryFrame& frame, const DopVisit& step, QueryCounters& counters,
                     TriangleVisitor& visitor);
 

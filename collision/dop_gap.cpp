@@ -69,7 +69,7 @@ class GapSearch {
 
   const PlacedTrees& placed_;
   QueryWorkspace::Memory& memory_;
-  const DopVisit step_;
+  DopVisit step_;
   double least_;  ///< metres
   VisitedLeaves leaves_;
 };

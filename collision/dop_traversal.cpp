@@ -7,7 +7,7 @@ namespace {
 
 class Traversal {
  public:
-  Traversal(Goal goal, const DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor)
+  Traversal(Goal goal, DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor)
       : goal_(goal), step_(step), memory_(memory), visitor_(visitor), diving_(goal == Goal::kAnyPair) {}
 
   bool run() {
@@ -69,7 +69,7 @@ class Traversal {
   }
 
   const Goal goal_;
-  const DopVisit& step_;
+  DopVisit& step_;
   QueryWorkspace::Memory& memory_;
   TriangleVisitor& visitor_;
   bool diving_;
@@ -78,7 +78,7 @@ class Traversal {
 
 }  // namespace
 
-bool traverse(Goal goal, const DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor) {
+bool traverse(Goal goal, DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor) {
   return Traversal(goal, step, memory, visitor).run();
 }
 

@@ -41,6 +41,6 @@ enum class Goal {
 };
 
 /// Shows the visitor every pair of triangles that may be near, until it says stop. Returns whether it did.
-bool traverse(Goal goal, const DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor);
+bool traverse(Goal goal, DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor);
 
 }  // namespace glissade::collision

@@ -26,18 +26,11 @@ DopVisit::DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& 
                    DopAlignment& alignment)
     : base_(base),
       other_(other),
+      frame_(frame),
       alignment_(alignment),
-      thin_frame_(frame),
       leaf_frame_(frame),
       node_kernels_(node_kernels()),
-      realign_vertices_(realign_vertices()),
       leaf_kernels_(leaf_kernels()) {
-  const int k = base.options().directions;
-  if (base.options().realignment == Realignment::kBruteForce) {
-    vertex_alignment_.emplace(dop_directions(k), frame);
-  } else {
-    align(k, frame, alignment);
-  }
   if (!(distance >= 0.0)) throw std::invalid_argument("a query's tolerance or distance is negative or not a number");
   const double radii = frame.in_base_radii(distance);
   const double steps = std::ceil(radii * kGridRadius);
@@ -46,11 +39,22 @@ DopVisit::DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& 
   distance_ = round_up_to_float(std::min(radii, 1e30));
 }
 
+void DopVisit::begin_nodes() {
+  thin_frame_.emplace(frame_);
+  const int k = base_.options().directions;
+  if (base_.options().realignment == Realignment::kBruteForce) {
+    vertex_alignment_.emplace(dop_directions(k), frame_);
+  } else {
+    align(k, frame_, alignment_);
+  }
+}
+
 PairMask DopVisit::pairs_of(const NodePair& pair) const {
   return pair.pairs & product(all_children(base_.nodes()[pair.node_P]), all_children(other_.nodes()[pair.node_Q]));
 }
 
-PairMask DopVisit::nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCounters& counters) const {
+PairMask DopVisit::nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCounters& counters) {
+  if (!thin_frame_) begin_nodes();
   const NodeHead& head_P = base_.nodes()[pair.node_P];
   const NodeHead& head_Q = other_.nodes()[pair.node_Q];
   const PairMask pairs = pair.pairs & product(all_children(head_P), all_children(head_Q));
@@ -66,7 +70,7 @@ PairMask DopVisit::realign_and_test(const NodePair& pair, PairOverlaps& overlaps
     return node_kernels_.realign_and_test(alignment_, slabs_P, other_.slabs(pair.node_Q), least_overlap_, overlaps);
   }
   AlignedNode aligned;
-  realign_vertices_(*vertex_alignment_, other_.vertices(pair.node_Q), aligned);
+  realign_vertices()(*vertex_alignment_, other_.vertices(pair.node_Q), aligned);
   return node_kernels_.test(slabs_P, aligned, vertex_alignment_->slabs, least_overlap_, overlaps);
 }
 
@@ -76,7 +80,7 @@ PairMask DopVisit::thin_slabs(const NodePair& pair, PairMask near, PairOverlaps&
   const PairMask thin = near & product(head_P.thin, head_Q.thin);
   if (thin == 0) return near;
   return near & (~thin | always_near_ |
-                 node_kernels_.test_thin(thin_frame_, head_P, base_.slabs(pair.node_P), head_Q,
+                 node_kernels_.test_thin(*thin_frame_, head_P, base_.slabs(pair.node_P), head_Q,
                                          other_.slabs(pair.node_Q), least_overlap_, overlaps));
 }
 

@@ -58,7 +58,7 @@ class DopVisit {
   PairMask pairs_of(const NodePair& pair) const;
 
   /// The pairs of children whose boxes may be near; `overlaps` of all pairs, in grid steps of the base.
-  PairMask nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCounters& counters) const;
+  PairMask nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCounters& counters);
 
   /// Those of the pairs `near` whose thin slabs may be near too, where both have one; lowers their overlaps.
   PairMask thin_slabs(const NodePair& pair, PairMask near, PairOverlaps& overlaps) const;
@@ -102,15 +102,17 @@ class DopVisit {
  private:
   PairMask realign_and_test(const NodePair& pair, PairOverlaps& overlaps) const;
 
+  void begin_nodes();
+
   const DopTree& base_;
   const DopTree& other_;
-  const DopAlignment& alignment_;
-  std::optional<VertexAlignment> vertex_alignment_;  ///< for realignment by brute force
-  const ThinSlabFrame thin_frame_;
+  const QueryFrame& frame_;
+  DopAlignment& alignment_;
+  std::optional<ThinSlabFrame> thin_frame_;          ///< once a node is visited: some coherent queries see leaves only
+  std::optional<VertexAlignment> vertex_alignment_;  ///< the same, for realignment by brute force
   const LeafFrame leaf_frame_;
-  const NodeKernels node_kernels_;
-  const RealignVertices realign_vertices_;
-  const LeafKernels leaf_kernels_;
+  const NodeKernels& node_kernels_;
+  const LeafKernels& leaf_kernels_;
   int least_overlap_;
   PairMask always_near_;  ///< all pairs when the distance goes beyond what 16 bits can tell
   float distance_;

@@ -358,8 +358,9 @@ float least_gap(const LeafPair& leaves, PairMask pairs) {
   return hn::GetLane(hn::MinOfLanes(d, least));
 }
 
-LeafKernels make_leaf_kernels() {
-  return {prepare_P, prepare_Q, leaf_gap, test, cross, edges, least_gap};
+const LeafKernels& leaf_kernels_of_target() {
+  static constexpr LeafKernels kKernels = {prepare_P, prepare_Q, leaf_gap, test, cross, edges, least_gap};
+  return kKernels;
 }
 
 }  // namespace glissade::collision::HWY_NAMESPACE
@@ -368,10 +369,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace glissade::collision {
 
-HWY_EXPORT(make_leaf_kernels);
+namespace {
 
-LeafKernels leaf_kernels() {
-  return HWY_DYNAMIC_DISPATCH(make_leaf_kernels)();
+HWY_EXPORT(leaf_kernels_of_target);
+
+}  // namespace
+
+const LeafKernels& leaf_kernels() {
+  return HWY_DYNAMIC_DISPATCH(leaf_kernels_of_target)();
 }
 
 }  // namespace glissade::collision

@@ -80,6 +80,6 @@ struct LeafKernels {
 };
 
 /// Those of the instruction set in use.
-LeafKernels leaf_kernels();
+const LeafKernels& leaf_kernels();
 
 }  // namespace glissade::collision

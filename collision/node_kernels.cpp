@@ -342,8 +342,9 @@ PairMask test_thin(const ThinSlabFrame& frame, const NodeHead& head_P, const Sla
   return mask;
 }
 
-NodeKernels make_node_kernels() {
-  return {realign, test, realign_and_test, test_thin, most_overlap, deepest};
+const NodeKernels& node_kernels_of_target() {
+  static constexpr NodeKernels kKernels = {realign, test, realign_and_test, test_thin, most_overlap, deepest};
+  return kKernels;
 }
 
 }  // namespace glissade::collision::HWY_NAMESPACE
@@ -352,10 +353,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace glissade::collision {
 
-HWY_EXPORT(make_node_kernels);
+namespace {
 
-NodeKernels node_kernels() {
-  return HWY_DYNAMIC_DISPATCH(make_node_kernels)();
+HWY_EXPORT(node_kernels_of_target);
+
+}  // namespace
+
+const NodeKernels& node_kernels() {
+  return HWY_DYNAMIC_DISPATCH(node_kernels_of_target)();
 }
 
 }  // namespace glissade::collision

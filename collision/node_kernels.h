@@ -53,6 +53,6 @@ struct NodeKernels {
 };
 
 /// Those of the instruction set in use.
-NodeKernels node_kernels();
+const NodeKernels& node_kernels();
 
 }  // namespace glissade::collision

@@ -1,5 +1,6 @@
 #include "query_frame.h"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace glissade::collision {
@@ -7,8 +8,13 @@ namespace glissade::collision {
 QueryFrame::QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB)
     : base_is_A(tree_A.radius() >= tree_B.radius()) {
   const Eigen::Matrix3d& R_AB = X_AB.linear();
-  rotation_defect = (R_AB.transpose() * R_AB - Eigen::Matrix3d::Identity()).lpNorm<1>();
-  if (!(rotation_defect < 1e-3) || !(R_AB.determinant() > 0.0) || !X_AB.translation().allFinite()) {
+  const Eigen::Vector3d x = R_AB.col(0);
+  const Eigen::Vector3d y = R_AB.col(1);
+  const Eigen::Vector3d z = R_AB.col(2);
+  rotation_defect = std::abs(x.squaredNorm() - 1.0) + std::abs(y.squaredNorm() - 1.0) +
+                    std::abs(z.squaredNorm() - 1.0) +
+                    2.0 * (std::abs(x.dot(y)) + std::abs(y.dot(z)) + std::abs(z.dot(x)));
+  if (!(rotation_defect < 1e-3) || !(x.cross(y).dot(z) > 0.0) || !X_AB.translation().allFinite()) {
     throw std::invalid_argument("the pose X_AB of a query is not a finite rotation and translation");
   }
   if (!(tree_A.options() == tree_B.options())) {
@@ -19,13 +25,13 @@ QueryFrame::QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen
   base_radius = base.radius();
   ratio = other.radius() / base_radius;
 
-  const Eigen::Vector3d centers_A = X_AB * tree_B.center() - tree_A.center();
+  const Eigen::Vector3d centers = (X_AB * tree_B.center() - tree_A.center()) * (1.0 / base_radius);
   if (base_is_A) {
     R_PQ = R_AB;
-    p_PQ = centers_A / base_radius;
+    p_PQ = centers;
   } else {
     R_PQ = R_AB.transpose();
-    p_PQ = -(R_PQ * centers_A) / base_radius;
+    p_PQ = -(R_PQ * centers);
   }
 
   // Sums of coordinates bound lengths.

@@ -25,7 +25,7 @@ struct QueryFrame {
   /// How far double precision may have moved a point of Q, in radii of P: rounding of poses and differences, and what
   /// keeps the matrix from being a rotation.
   double uncertainty;
-  /// A bound of ‖RᵀR − 1‖, which is 0 of a true rotation.
+  /// The entries of RᵀR − 1, added up: 0 of a true rotation, and a bound of any norm.
   double rotation_defect;
 
   /// A lower bound of the gap between the two bounding spheres, in radii of P; negative when they overlap.
