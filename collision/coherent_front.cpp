@@ -107,7 +107,11 @@ void CoherentFront::visit_nodes(std::size_t entry, DopVisit& step, QueryCounters
   entries_[entry].opened |= near;
 
   const PairMask apart = step.pairs_of(nodes) & ~entries_[entry].opened;
-  holds_for(entry, apart == 0 ? kNever : step.least_gap(overlaps, apart));
+  if (apart == 0) {
+    expiry_[entry] = kNever;
+  } else {
+    holds_for(entry, step.least_gap(overlaps, apart));
+  }
 
   // The pair that overlaps most comes last, which is looked at first.
   const std::size_t first = open_.size();
@@ -144,7 +148,8 @@ bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, con
       return true;
     }
     const double distance = outcome.distance >= 0.0 ? outcome.distance : visitor.distance(leaf_P, leaf_Q, pair);
-    const double gap = std::isfinite(distance) ? distance / frame.base_radius * (1.0 - 1e-9) - 4.0 * frame.uncertainty : 0.0;
+    const double gap =
+        std::isfinite(distance) ? distance / frame.base_radius * (1.0 - 1e-9) - 4.0 * frame.uncertainty : 0.0;
     least_gap = std::min(least_gap, gap);
   }
   holds_for(entry, least_gap);

@@ -117,8 +117,8 @@ HWY_INLINE void spread(const std::int32_t* below, const std::int32_t* above, std
   const hn::FixedTag<std::int16_t, 8> row;
   const hn::FixedTag<std::uint8_t, 16> d8;
   alignas(16) static constexpr std::uint8_t kFirstRow[16] = {0, 1, 0, 1, 0, 1, 0, 1, 8, 9, 8, 9, 8, 9, 8, 9};
-  const auto values = hn::BitCast(d8, hn::Combine(row, hn::DemoteTo(d16, hn::Load(d32, above)),
-                                                  hn::DemoteTo(d16, hn::Load(d32, below))));
+  const auto values = hn::BitCast(
+      d8, hn::Combine(row, hn::DemoteTo(d16, hn::Load(d32, above)), hn::DemoteTo(d16, hn::Load(d32, below))));
   auto place = hn::Load(d8, kFirstRow);
   for (std::size_t i = 0; i < 4; ++i) {
     hn::Store(hn::BitCast(row, hn::TableLookupBytes(values, place)), row, lanes + 8 * i);
@@ -135,7 +135,8 @@ void align(const AlignmentTable& table, const QueryFrame& frame, DopAlignment& a
   const auto rows = static_cast<std::size_t>(4 * slab_lines(table.slabs));
   for (std::size_t first = 0; first < rows; first += 4) {
     for (std::size_t term = 0; term < 3; ++term)
-      spread(found.below.weight[term] + first, found.above.weight[term] + first, alignment.weight[term].data() + 8 * first);
+      spread(found.below.weight[term] + first, found.above.weight[term] + first,
+             alignment.weight[term].data() + 8 * first);
     spread(found.below.offset + first, found.above.offset + first, alignment.offset.data() + 8 * first);
   }
   for (std::size_t i = 0; i < rows; ++i) {

@@ -35,8 +35,7 @@ QueryFrame::QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen
   }
 
   // Sums of coordinates bound lengths.
-  const double magnitude =
-      X_AB.translation().lpNorm<1>() + tree_A.center().lpNorm<1>() + tree_B.center().lpNorm<1>();
+  const double magnitude = X_AB.translation().lpNorm<1>() + tree_A.center().lpNorm<1>() + tree_B.center().lpNorm<1>();
   const double reach = magnitude / base_radius + 1.0 + ratio + p_PQ.lpNorm<1>();
   uncertainty = (0x1p-48 + 2.0 * rotation_defect) * reach;
 }

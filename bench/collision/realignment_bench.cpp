@@ -106,7 +106,7 @@ void run(const Bench& bench, InstructionSet instruction_set) {
   DopAlignment affine;
   align(bench.k, frame, affine);
   const VertexAlignment brute_force(directions, frame);
-  const NodeKernels kernels = node_kernels();
+  const NodeKernels& kernels = node_kernels();
   const RealignVertices realign_by_vertices = realign_vertices();
 
   Stopwatch by_offsets(bench, [&](std::uint32_t node, AlignedNode& aligned) {

@@ -3,14 +3,10 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <glissade/collision/dop_tree.h>
-#include <glissade/collision/instruction_set.h>
 #include <glissade/collision/mesh_generators.h>
 #include <glissade/collision/mesh_operations.h>
-#include <glissade/collision/triangle_distance.h>
 
-#include "leaf_kernels.h"
-#include "random_numbers.h"
+#include "kernel_fixture.h"
 #include "vertex_alignment.h"
 
 namespace glissade::collision {
@@ -18,50 +14,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-constexpr unsigned kSeed = 20;
-
-// Two trees at random poses of many scales, for every instruction set.
-class Kernels : public ::testing::TestWithParam<InstructionSet> {
- protected:
-  Kernels() {
-    use_instruction_set(GetParam());
-    ::testing::Test::RecordProperty("seed", static_cast<int>(kSeed));
-  }
-  ~Kernels() override { use_instruction_set(available_instruction_sets().front()); }
-
-  Vector3d random_vector() { return random_.point(1.0); }
-
-  Isometry3d random_pose(double translation) {
-    Isometry3d X = Isometry3d::Identity();
-    X.linear() = random_.rotation();
-    X.translation() = translation * random_vector();
-    return X;
-  }
-
-  // Small thin triangles scattered over a sphere of radius 1, some large ones among them.
-  TriangleMesh soup(int triangles) {
-    TriangleMesh mesh;
-    for (std::int32_t t = 0; t < triangles; ++t) {
-      const Vector3d middle = random_vector().normalized();
-      const double size = t % 10 == 0 ? 1.0 : 0.1;
-      for (std::int32_t c = 0; c < 3; ++c) {
-        mesh.vertices.push_back(middle + size * random_vector());
-      }
-      mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
-    }
-    return mesh;
-  }
-
-  DopTree tree(const TriangleMesh& mesh, double scale, const Vector3d& offset, const DopTreeOptions& options = {}) {
-    TriangleMesh placed = mesh;
-    for (Vector3d& vertex : placed.vertices)
-      vertex = scale * vertex + offset;
-    return DopTree(std::make_shared<const TriangleMesh>(std::move(placed)), options);
-  }
-
-  test_support::RandomNumbers random_{kSeed};
-};
 
 // Triangles below child c of a node.
 void collect(const DopTree& tree, const NodeHead& head, int c, std::vector<std::int32_t>& triangles) {
@@ -75,32 +27,6 @@ void collect(const DopTree& tree, const NodeHead& head, int c, std::vector<std::
   for (int grandchild = 0; grandchild < child.child_count(); ++grandchild)
     collect(tree, child, grandchild, triangles);
 }
-
-double least_distance(const DopTree& tree_A, const std::vector<std::int32_t>& triangles_A, const DopTree& tree_B,
-                      const std::vector<std::int32_t>& triangles_B, const Isometry3d& X_AB) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const std::int32_t a : triangles_A) {
-    for (const std::int32_t b : triangles_B) {
-      const auto corner_A = [&](int c) { return tree_A.mesh().corner(a, c); };
-      const auto corner_B = [&](int c) { return X_AB * tree_B.mesh().corner(b, c); };
-      least = std::min(
-          least,
-          triangle_distance({corner_A(0), corner_A(1), corner_A(2)}, {corner_B(0), corner_B(1), corner_B(2)}).distance);
-    }
-  }
-  return least;
-}
-
-struct Setting {
-  double scale_A;
-  double scale_B;
-  double offset;       ///< of the mesh of A from its own origin, in its radii
-  double translation;  ///< of B from the middle of A, in radii of A
-};
-
-constexpr Setting kSettings[] = {{1, 1, 0, 0.5},     {1, 1, 0, 1.9},  {1e-6, 1e-6, 0, 1},
-                                 {1e3, 1e3, 0, 1.5}, {1, 1e-3, 0, 1}, {1e-3, 1, 0, 1},
-                                 {1, 0.3, 1e6, 1},   {1, 1e-6, 0, 1}, {1e-6, 1e-9, 10, 1}};
 
 void expect_inside(const AlignedNode& aligned, const DopDirections& directions, int c, const Vector3d& x) {
   for (int i = 0; i < directions.slabs; ++i) {
@@ -241,86 +167,20 @@ TEST_P(Kernels, TestFindsTheLeastOverlapOfEverySlab) {
   }
 }
 
-TEST_P(Kernels, LeavesSeparateOnlyWhatIsFurtherApart) {
-  for (const Setting& s : kSettings) {
-    const DopTree tree_A = tree(soup(40), s.scale_A, s.scale_A * s.offset * random_vector());
-    const DopTree tree_B = tree(soup(40), s.scale_B, s.scale_B * random_vector());
-    int separated = 0;
-    for (const double tolerance : {0.0, 0.01, 0.3}) {
-      Isometry3d X_AB = random_pose(s.translation * s.scale_A);
-      X_AB.translation() += tree_A.center() - X_AB.linear() * tree_B.center();
-      const QueryFrame frame(tree_A, tree_B, X_AB);
-      const DopTree& base = frame.base_is_A ? tree_A : tree_B;
-      const DopTree& other = frame.base_is_A ? tree_B : tree_A;
-      const Isometry3d X_PQ = frame.base_is_A ? X_AB : X_AB.inverse();
-      const double rounding = 1e-12 * (base.center().norm() + X_PQ.translation().norm());
-      for (const TriangleLeaf& leaf_P : base.leaves()) {
-        for (const TriangleLeaf& leaf_Q : other.leaves()) {
-          LeafPair leaves;
-          const PairMask near =
-              leaf_kernels().test(LeafFrame(frame), leaf_P, leaf_Q, static_cast<float>(tolerance), leaves);
-          for (std::size_t i = 0; i < 4; ++i) {
-            for (std::size_t j = 0; j < 4; ++j) {
-              const bool is_near = (near >> (4 * i + j) & 1U) != 0;
-              if (leaf_P.triangle[i] < 0 || leaf_Q.triangle[j] < 0) {
-                ASSERT_FALSE(is_near);
-                continue;
-              }
-              if (is_near) continue;
-              ++separated;
-              const double distance =
-                  least_distance(base, {leaf_P.triangle[i]}, other, {leaf_Q.triangle[j]}, X_PQ) / base.radius();
-              ASSERT_GT(distance + rounding, tolerance);
-              ASSERT_LE(static_cast<double>(leaves.gaps.gap[4 * i + j]), distance + rounding / base.radius());
-            }
-          }
-        }
-      }
+TEST_P(Kernels, TheDeepestPairOverlapsMostButForSixteenSteps) {
+  for (int trial = 0; trial < 200; ++trial) {
+    PairOverlaps overlaps;
+    for (std::int16_t& overlap : overlaps.overlap)
+      overlap = static_cast<std::int16_t>(random_.integer(-30000, 30000));
+    const auto pairs = static_cast<PairMask>(random_.integer(1, 0xffff));
+    int most = -32768;
+    for (std::size_t pair = 0; pair < 16; ++pair) {
+      if ((pairs >> pair & 1U) != 0) most = std::max<int>(most, overlaps.overlap[pair]);
     }
-    EXPECT_GT(separated, 0);
-  }
-}
-
-TEST_P(Kernels, CertaintiesAboutTrianglesAreTrue) {
-  for (const Setting& s : kSettings) {
-    const DopTree tree_A = tree(soup(40), s.scale_A, s.scale_A * s.offset * random_vector());
-    const DopTree tree_B = tree(soup(40), s.scale_B, s.scale_B * random_vector());
-    int certain_pairs = 0;
-    for (int trial = 0; trial < 5; ++trial) {
-      Isometry3d X_AB = random_pose(0.5 * s.translation * s.scale_A);
-      X_AB.translation() += tree_A.center() - X_AB.linear() * tree_B.center();
-      const QueryFrame frame(tree_A, tree_B, X_AB);
-      const DopTree& base = frame.base_is_A ? tree_A : tree_B;
-      const DopTree& other = frame.base_is_A ? tree_B : tree_A;
-      const LeafFrame leaf_frame(frame);
-      const double rounding = 1e-12 * (tree_A.center().norm() + X_AB.translation().norm());
-      for (const TriangleLeaf& leaf_P : base.leaves()) {
-        for (const TriangleLeaf& leaf_Q : other.leaves()) {
-          LeafPair leaves;
-          const PairMask near = leaf_kernels().test(leaf_frame, leaf_P, leaf_Q, 0.0F, leaves);
-          const CertainPairs certain = leaf_kernels().cross(leaf_frame, leaves);
-          for (int pair = 0; pair < 16; ++pair) {
-            if ((near >> pair & 1U) == 0) continue;
-            const std::int32_t p = leaf_P.triangle[static_cast<std::size_t>(pair / 4)];
-            const std::int32_t q = leaf_Q.triangle[static_cast<std::size_t>(pair % 4)];
-            const double distance = frame.base_is_A ? least_distance(tree_A, {p}, tree_B, {q}, X_AB)
-                                                    : least_distance(tree_A, {q}, tree_B, {p}, X_AB);
-            if ((certain.intersect >> pair & 1U) != 0) {
-              ASSERT_EQ(distance, 0.0);
-            }
-            if ((certain.apart >> pair & 1U) != 0) {
-              ASSERT_GT(distance, 0.0);
-            }
-            certain_pairs += static_cast<int>((certain.intersect | certain.apart) >> pair & 1U);
-            ASSERT_LE(static_cast<double>(leaf_kernels().edge_gap(leaf_frame, leaves, pair)),
-                      (distance + rounding) / base.radius());
-          }
-        }
-      }
-    }
-    if (s.offset < 1e3 && s.scale_A == s.scale_B) {
-      EXPECT_GT(certain_pairs, 15);
-    }
+    EXPECT_EQ(node_kernels().most_overlap(overlaps, pairs), most);
+    const int deepest = node_kernels().deepest(overlaps, pairs);
+    ASSERT_NE(pairs >> deepest & 1U, 0U);
+    EXPECT_GT(overlaps.overlap[static_cast<std::size_t>(deepest)], most - 16);
   }
 }
 

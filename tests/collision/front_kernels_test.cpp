@@ -1,0 +1,33 @@
+#include "front_kernels.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "kernel_fixture.h"
+
+namespace glissade::collision {
+namespace {
+
+class FrontKernels : public Kernels {};
+
+TEST_P(FrontKernels, FindsWhatTheClockHasReachedInOrder) {
+  for (int trial = 0; trial < 200; ++trial) {
+    const float clock = 0.5F;
+    std::vector<float> expiry(kFrontPadding * static_cast<std::size_t>(random_.integer(0, 9)));
+    std::vector<std::uint32_t> expected;
+    for (std::size_t i = 0; i < expiry.size(); ++i) {
+      expiry[i] = random_.integer(0, 3) == 0 ? clock : static_cast<float>(random_.uniform(0.0, 1.0));
+      if (expiry[i] <= clock) expected.push_back(static_cast<std::uint32_t>(i));
+    }
+    std::vector<std::uint32_t> expired{7};
+    find_expired(expiry, clock, expired);
+    EXPECT_EQ(expired, expected);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(InstructionSets, FrontKernels, ::testing::ValuesIn(available_instruction_sets()),
+                         [](const auto& test) { return std::string(name(test.param)); });
+
+}  // namespace
+}  // namespace glissade::collision

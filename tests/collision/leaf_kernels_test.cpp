@@ -1,0 +1,156 @@
+#include "leaf_kernels.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "kernel_fixture.h"
+#include "placed_trees.h"
+
+namespace glissade::collision {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// Every leaf of one tree with every leaf of another, somewhere.
+class LeafKernelsTest : public Kernels {
+ protected:
+  struct Visit {
+    const LeafFrame& frame;
+    LeafPair& leaves;                        ///< prepared
+    const std::array<double, 16>& distance;  ///< of each pair, in radii of the base; negative where there is none
+    double rounding;                         ///< of the distances
+  };
+
+  // check(Visit)
+  template <typename Check>
+  void for_all_leaves(const Setting& s, const Check& check) {
+    const DopTree tree_A = tree(soup(40), s.scale_A, s.scale_A * s.offset * random_vector());
+    const DopTree tree_B = tree(soup(40), s.scale_B, s.scale_B * random_vector());
+    Isometry3d X_AB = random_pose(s.translation * s.scale_A);
+    X_AB.translation() += tree_A.center() - X_AB.linear() * tree_B.center();
+    const PlacedTrees placed{tree_A, tree_B, X_AB};
+    const double radius = placed.frame.base_radius;
+    const double rounding = 1e-12 * (tree_A.center().norm() + X_AB.translation().norm()) / radius;
+    const LeafFrame frame(placed.frame);
+    for (std::uint32_t leaf_P = 0; leaf_P < placed.base().leaves().size(); ++leaf_P) {
+      for (std::uint32_t leaf_Q = 0; leaf_Q < placed.other().leaves().size(); ++leaf_Q) {
+        std::array<double, 16> distance;
+        for (int pair = 0; pair < 16; ++pair) {
+          const TrianglePair triangles = placed.triangles(leaf_P, leaf_Q, pair);
+          const bool exists = triangles.triangle_A >= 0 && triangles.triangle_B >= 0;
+          distance[static_cast<std::size_t>(pair)] =
+              exists ? triangle_distance(placed.points_A(triangles), placed.points_B(triangles)).distance / radius
+                     : -1.0;
+        }
+        LeafPair leaves;
+        leaf_kernels().prepare_P(placed.base().leaves()[leaf_P], leaves);
+        leaf_kernels().prepare_Q(frame, placed.other().leaves()[leaf_Q], leaves);
+        check(Visit{frame, leaves, distance, rounding});
+      }
+    }
+  }
+};
+
+bool has(PairMask pairs, std::size_t pair) {
+  return (pairs >> pair & 1U) != 0;
+}
+
+TEST_P(LeafKernelsTest, NormalsAndEdgesSeparateOnlyWhatIsFurtherApart) {
+  for (const Setting& s : kSettings) {
+    int by_normals = 0;
+    int by_edges = 0;
+    for (const double tolerance : {0.0, 0.01, 0.3}) {
+      for_all_leaves(s, [&](const Visit& visit) {
+        const auto limit = static_cast<float>(tolerance);
+        const PairMask near = leaf_kernels().test(visit.frame, limit, visit.leaves);
+        const TriangleGaps along_normals = visit.leaves.gaps;
+        const PairMask nearer = leaf_kernels().edges(visit.frame, limit, near, visit.leaves);
+        ASSERT_EQ(nearer & ~near, 0U);
+        for (std::size_t pair = 0; pair < 16; ++pair) {
+          if (visit.distance[pair] < 0.0) {
+            ASSERT_FALSE(has(near, pair));
+            continue;
+          }
+          const double at_most = visit.distance[pair] + visit.rounding;
+          ASSERT_LE(static_cast<double>(visit.leaves.gaps.gap[pair]), at_most);
+          ASSERT_GE(visit.leaves.gaps.gap[pair], along_normals.gap[pair]);
+          if (!has(nearer, pair)) {
+            ASSERT_GT(at_most, tolerance);
+          }
+          by_normals += has(near, pair) ? 0 : 1;
+          by_edges += has(near & ~nearer, pair) ? 1 : 0;
+        }
+      });
+    }
+    EXPECT_GT(by_normals, 0);
+    // Far from a small object nothing is certain.
+    if (s.offset < 1e3) {
+      EXPECT_GT(by_edges, 0);
+    }
+  }
+}
+
+TEST_P(LeafKernelsTest, NoTwoTrianglesAreNearerThanTheirLeaves) {
+  int separated = 0;
+  for (const Setting& s : kSettings) {
+    for_all_leaves(s, [&](const Visit& visit) {
+      double least = 1e30;
+      for (const double distance : visit.distance) {
+        if (distance >= 0.0) least = std::min(least, distance);
+      }
+      const auto gap = static_cast<double>(leaf_kernels().leaf_gap(visit.frame, visit.leaves));
+      ASSERT_LE(gap, least + visit.rounding);
+      separated += gap > 0.0 ? 1 : 0;
+    });
+  }
+  EXPECT_GT(separated, 50);
+}
+
+TEST_P(LeafKernelsTest, CertaintiesAboutTrianglesAreTrue) {
+  for (const Setting& s : kSettings) {
+    int certain_pairs = 0;
+    for (int trial = 0; trial < 5; ++trial) {
+      for_all_leaves(s, [&](const Visit& visit) {
+        const PairMask near = leaf_kernels().test(visit.frame, 0.0F, visit.leaves);
+        const CertainPairs certain = leaf_kernels().cross(visit.frame, visit.leaves);
+        for (std::size_t pair = 0; pair < 16; ++pair) {
+          if (!has(near, pair)) continue;
+          if (has(certain.intersect, pair)) {
+            ASSERT_EQ(visit.distance[pair], 0.0);
+          }
+          if (has(certain.apart, pair)) {
+            ASSERT_GT(visit.distance[pair], 0.0);
+          }
+          certain_pairs += has(certain.intersect | certain.apart, pair) ? 1 : 0;
+        }
+      });
+    }
+    if (s.offset < 1e3 && s.scale_A == s.scale_B) {
+      EXPECT_GT(certain_pairs, 15);
+    }
+  }
+}
+
+TEST_P(LeafKernelsTest, TheLeastGapIsOfThePairsAskedFor) {
+  LeafPair leaves;
+  for (int trial = 0; trial < 200; ++trial) {
+    for (float& gap : leaves.gaps.gap)
+      gap = static_cast<float>(random_.uniform(-1.0, 1.0));
+    const auto pairs = static_cast<PairMask>(random_.integer(0, 0xffff));
+    float least = 1e30F;
+    for (std::size_t pair = 0; pair < 16; ++pair) {
+      if (has(pairs, pair)) least = std::min(least, leaves.gaps.gap[pair]);
+    }
+    EXPECT_EQ(leaf_kernels().least_gap(leaves, pairs), least);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(InstructionSets, LeafKernelsTest, ::testing::ValuesIn(available_instruction_sets()),
+                         [](const auto& test) { return std::string(name(test.param)); });
+
+}  // namespace
+}  // namespace glissade::collision
