@@ -18,6 +18,7 @@ class Traversal {
       if (top.thin_pending && !diving_) {
         top.near = step_.thin_slabs(top.nodes, top.near, top.overlaps);
         top.thin_pending = false;
+        step_.prefetch(top.nodes, top.near);
       }
       if (top.near == 0) {
         diving_ = false;

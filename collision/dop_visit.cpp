@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <hwy/cache_control.h>
+
 #include "round_up.h"
 
 namespace glissade::collision {
@@ -14,6 +16,22 @@ PairMask product(std::uint32_t children_P, std::uint32_t children_Q) {
   const PairMask rows =
       ((children_P & 1U) | (children_P & 2U) << 3 | (children_P & 4U) << 6 | (children_P & 8U) << 9) * 0xfU;
   return rows & children_Q * 0x1111U;
+}
+
+template <typename Value>
+void prefetch_lines(const Value* values, int lines) {
+  for (int line = 0; line < lines; ++line)
+    hwy::Prefetch(reinterpret_cast<const char*>(values) + 64 * line);
+}
+
+void prefetch_child(const DopTree& tree, std::uint32_t node, int c) {
+  const NodeHead& head = tree.nodes()[node];
+  if (head.is_leaf(c)) {
+    prefetch_lines(&tree.leaves()[head.child(c)], 3);
+  } else {
+    prefetch_lines(&tree.nodes()[head.child(c)], 1);
+    prefetch_lines(tree.slabs(head.child(c)), 3);
+  }
 }
 
 std::uint32_t all_children(const NodeHead& head) {
@@ -82,6 +100,13 @@ PairMask DopVisit::thin_slabs(const NodePair& pair, PairMask near, PairOverlaps&
   return near & (~thin | always_near_ |
                  node_kernels_.test_thin(*thin_frame_, head_P, base_.slabs(pair.node_P), head_Q,
                                          other_.slabs(pair.node_Q), least_overlap_, overlaps));
+}
+
+void DopVisit::prefetch(const NodePair& pair, PairMask near) const {
+  for (int c = 0; c < kWidth; ++c) {
+    if ((near & row_of(c)) != 0) prefetch_child(base_, pair.node_P, c);
+    if ((near & column_of(c)) != 0) prefetch_child(other_, pair.node_Q, c);
+  }
 }
 
 void DopVisit::prepare(std::uint32_t leaf_P, std::uint32_t leaf_Q, VisitedLeaves& leaves) const {

@@ -63,6 +63,9 @@ class DopVisit {
   /// Those of the pairs `near` whose thin slabs may be near too, where both have one; lowers their overlaps.
   PairMask thin_slabs(const NodePair& pair, PairMask near, PairOverlaps& overlaps) const;
 
+  /// Has the memory ready soon of all children with a pair in the mask: they would be waited for one by one.
+  void prefetch(const NodePair& pair, PairMask near) const;
+
   /// Of the pairs of children in the mask, which is not 0, one that overlaps about most.
   int deepest(const PairOverlaps& overlaps, PairMask pairs) const { return node_kernels_.deepest(overlaps, pairs); }
 
