@@ -1,0 +1,161 @@
+// Whether triangles cross, for 16 pairs at once, where single precision is certain of it. Compiled once for each
+// instruction set.
+#if defined(GLISSADE_COLLISION_LEAF_CROSSING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef GLISSADE_COLLISION_LEAF_CROSSING_INL_H_
+#undef GLISSADE_COLLISION_LEAF_CROSSING_INL_H_
+#else
+#define GLISSADE_COLLISION_LEAF_CROSSING_INL_H_
+#endif
+
+#include <cstddef>
+
+#include <hwy/highway.h>
+
+#include "triangle_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace glissade::collision::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// The corners of a triangle, first the one that is alone on its side of the other's plane.
+template <class V>
+struct Apex {
+  Vector3<V> apex;
+  Vector3<V> left;
+  Vector3<V> right;
+  V side;  // of the apex
+};
+
+template <class D, class V>
+HWY_INLINE hn::Mask<D> same_sign(D d, V a, V b) {
+  const hn::RebindToSigned<D> d32;
+  return hn::RebindMask(d, hn::Gt(hn::BitCast(d32, hn::Xor(a, b)), hn::Set(d32, -1)));
+}
+
+template <class D, class V>
+HWY_INLINE Apex<V> find_apex(D d, const Vector3<V> (&corner)[3], const V (&side)[3]) {
+  const auto alone0 = same_sign(d, side[1], side[2]);
+  const auto alone1 = same_sign(d, side[0], side[2]);
+  return {choose(alone0, corner[0], choose(alone1, corner[1], corner[2])),
+          choose(alone0, corner[1], choose(alone1, corner[2], corner[0])),
+          choose(alone0, corner[2], choose(alone1, corner[0], corner[1])),
+          hn::IfThenElse(alone0, side[0], hn::IfThenElse(alone1, side[1], side[2]))};
+}
+
+// Three corners of each of two triangles, as seen by single precision.
+template <class V>
+struct TwoTriangles {
+  Vector3<V> p[3];
+  Vector3<V> q[3];
+};
+
+template <class V>
+struct DeterminantErrors {
+  V of_sides_p;  // of the corners of P and the plane of Q
+  V of_sides_q;
+  V of_orientation;
+};
+
+// No two of the six corners differ by more than `largest` in a coordinate, none of one triangle from its first by more
+// than its extent. A determinant of three such differences u, v, w, each coordinate off by 2 ε, is off by
+// 2√3 ε (|u||v| + |v||w| + |w||u|) and half as much again for products of errors, where |u| ≤ √3 extent and so on:
+// 16 ε (uv + vw + wu). 48 roundings add half an epsilon of uvw each.
+template <class D, class V>
+HWY_INLINE DeterminantErrors<V> determinant_errors(D d, const LeafFrame& frame, const TwoTriangles<V>& t, V extent_p,
+                                                   V extent_q) {
+  const Vector3<V> between = minus(t.q[0], t.p[0]);
+  const V largest = hn::Add(hn::Max(hn::Abs(between.x), hn::Max(hn::Abs(between.y), hn::Abs(between.z))),
+                            hn::Add(extent_p, extent_q));
+  const V of_corner = hn::Set(d, 16.0F * frame.corner_uncertainty);
+  const V of_rounding = hn::Set(d, 4e-6F);
+  const V smallest = hn::Set(d, 1e-30F);  // for underflow
+  const auto error_of = [&](V u, V v, V w) HWY_ATTR {
+    const V products = hn::MulAdd(u, v, hn::MulAdd(v, w, hn::Mul(w, u)));
+    return hn::MulAdd(of_corner, products, hn::MulAdd(hn::Mul(of_rounding, u), hn::Mul(v, w), smallest));
+  };
+  return {error_of(extent_q, extent_q, largest), error_of(extent_p, extent_p, largest),
+          error_of(hn::Add(extent_p, extent_p), largest, largest)};
+}
+
+// On which side of a plane three corners lie.
+template <class V>
+struct Sides {
+  V side[3];
+  V least;  // of their absolute values
+};
+
+template <class V>
+HWY_INLINE Sides<V> sides_of(const Vector3<V> (&corner)[3], const Vector3<V>& normal, const Vector3<V>& on_plane) {
+  Sides<V> sides;
+  for (std::size_t c = 0; c < 3; ++c)
+    sides.side[c] = hn::Neg(dot(normal, minus(corner[c], on_plane)));
+  sides.least = hn::Min(hn::Abs(sides.side[0]), hn::Min(hn::Abs(sides.side[1]), hn::Abs(sides.side[2])));
+  return sides;
+}
+
+template <class D, class V>
+HWY_INLINE hn::Mask<D> all_on_one_side(D d, const Sides<V>& sides) {
+  return hn::And(same_sign(d, sides.side[0], sides.side[1]), same_sign(d, sides.side[1], sides.side[2]));
+}
+
+// The two orientations that tell whether the triangles cut the line where their planes meet in the same place: they do
+// if `left` is negative and `right` positive.
+template <class V>
+struct Orientations {
+  V left;
+  V right;
+};
+
+template <class D, class V>
+HWY_INLINE Orientations<V> orientations(D d, const TwoTriangles<V>& t, const Sides<V>& sides_p,
+                                        const Sides<V>& sides_q) {
+  const Apex<V> a = find_apex(d, t.p, sides_p.side);
+  const Apex<V> b = find_apex(d, t.q, sides_q.side);
+  const auto turn_b = hn::Lt(a.side, hn::Zero(d));
+  const auto turn_a = hn::Lt(b.side, hn::Zero(d));
+  const Vector3<V> to_b = minus(b.apex, a.apex);
+  const auto orientation = [&](const Vector3<V>& end_a, const Vector3<V>& end_b) HWY_ATTR {
+    return hn::Neg(dot(times(minus(end_a, a.apex), to_b), minus(end_b, a.apex)));
+  };
+  return {orientation(choose(turn_a, a.right, a.left), choose(turn_b, b.right, b.left)),
+          orientation(choose(turn_a, a.left, a.right), choose(turn_b, b.left, b.right))};
+}
+
+// As `filtered_intersection` in triangle_filter.h, for 16 pairs at once.
+CertainPairs cross(const LeafFrame& frame, const LeafPair& leaves) {
+  const hn::CappedTag<float, kPairs> d;
+  using V = hn::Vec<decltype(d)>;
+  CertainPairs certain{};
+  for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
+    TwoTriangles<V> t;
+    load_corners(d, leaves, first, t.p, t.q);
+    const DeterminantErrors<V> errors =
+        determinant_errors(d, frame, t, of_P(d, leaves.p.extent.data(), first), of_Q(d, leaves.q.extent.data()));
+    const auto& normal_P = leaves.p.normal;
+    const auto& normal_Q = leaves.q.normal;
+    const Sides<V> sides_p =
+        sides_of(t.p, {of_Q(d, normal_Q[0].data()), of_Q(d, normal_Q[1].data()), of_Q(d, normal_Q[2].data())}, t.q[0]);
+    const Sides<V> sides_q = sides_of(
+        t.q,
+        {of_P(d, normal_P[0].data(), first), of_P(d, normal_P[1].data(), first), of_P(d, normal_P[2].data(), first)},
+        t.p[0]);
+    // Where one plane has all of the other triangle on one side, there is no apex; that is for `test` to find.
+    const auto sides_certain =
+        hn::AndNot(hn::Or(all_on_one_side(d, sides_p), all_on_one_side(d, sides_q)),
+                   hn::And(hn::Gt(sides_p.least, errors.of_sides_p), hn::Gt(sides_q.least, errors.of_sides_q)));
+
+    const auto [left, right] = orientations(d, t, sides_p, sides_q);
+    const V error = errors.of_orientation;
+    const V minus_error = hn::Neg(error);
+    const auto intersect = hn::And(hn::Lt(left, minus_error), hn::Gt(right, error));
+    const auto apart = hn::Or(hn::Gt(left, error), hn::Lt(right, minus_error));
+    certain.intersect |= bits_of(d, hn::And(intersect, sides_certain)) << first;
+    certain.apart |= bits_of(d, hn::And(apart, sides_certain)) << first;
+  }
+  return certain;
+}
+
+}  // namespace glissade::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
