@@ -13,8 +13,10 @@ namespace {
 
 constexpr float kExpired = -1.0F;
 constexpr float kNever = 1e30F;
-// A front that has grown to this many times its first size is mostly beside the point.
+// A front that has grown to this many times its first size is mostly beside the point. Until the first size is known,
+// because all queries ended early, it may grow to that of a front without a hit.
 constexpr std::size_t kMostGrowth = 2;
+constexpr std::size_t kMostWhileIncomplete = 4096;
 constexpr std::size_t kSmallFront = 64;
 // Beyond this share of expired entries, beginning at the roots is no dearer. The sum of motions has a bound too,
 // because it is compared in single precision.
@@ -26,12 +28,14 @@ constexpr double kMostMotion = 0.25;
 void CoherentFront::clear() {
   base_id_ = 0;
   other_id_ = 0;
+  nearest_.reset();
 }
 
 void CoherentFront::start_afresh() {
   entries_.clear();
   expiry_.clear();
-  size_at_first_ = 0;
+  complete_ = false;
+  most_entries_ = kMostWhileIncomplete;
   moved_ = 0.0;
   add({0, 0, kAllPairs}, false);
 }
@@ -59,10 +63,7 @@ void CoherentFront::follow(const DopTree& base, const DopTree& other, const Quer
     const double turned = (frame.R_PQ - R_PQ_).norm() * std::sqrt(0.5) + 2.0 * frame.rotation_defect;
     const double moved = (frame.p_PQ - p_PQ_).norm() + frame.ratio * turned;
     moved_ += moved * (1.0 + 1e-12) + 2.0 * frame.uncertainty;
-    if (!(moved_ < kMostMotion) ||
-        (size_at_first_ > 0 && entries_.size() > kMostGrowth * size_at_first_ + kSmallFront)) {
-      start_afresh();
-    }
+    if (!(moved_ < kMostMotion) || entries_.size() > most_entries_) start_afresh();
   }
   R_PQ_ = frame.R_PQ;
   p_PQ_ = frame.p_PQ;
@@ -94,7 +95,8 @@ bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, 
       return true;  // what was still open has expired and stays so
     }
   }
-  if (size_at_first_ == 0) size_at_first_ = entries_.size();
+  if (!complete_) most_entries_ = kMostGrowth * entries_.size() + kSmallFront;
+  complete_ = true;
   return false;
 }
 

@@ -22,6 +22,15 @@
 
 namespace glissade::collision {
 
+/// The pair of triangles that was nearest.
+struct NearestPair {
+  std::uint64_t base_id;
+  std::uint64_t other_id;
+  std::uint32_t leaf_P;
+  std::uint32_t leaf_Q;
+  int pair;
+};
+
 /// The front of one pair of trees. Not thread-safe.
 class CoherentFront {
  public:
@@ -32,6 +41,9 @@ class CoherentFront {
   /// pair will do, the one that made it stop last time comes first. Returns whether it did.
   bool query(Goal goal, const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
              DopAlignment& alignment, QueryCounters& counters, TriangleVisitor& visitor);
+
+  /// For queries of the gap, which begin with what answered the last one and need no front.
+  std::optional<NearestPair>& nearest() { return nearest_; }
 
  private:
   struct Entry {
@@ -57,9 +69,11 @@ class CoherentFront {
   std::uint64_t other_id_ = 0;
   Eigen::Matrix3d R_PQ_ = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_PQ_ = Eigen::Vector3d::Zero();
-  double moved_ = 0.0;             ///< since the front was begun, at most, in radii of P
-  std::size_t size_at_first_ = 0;  ///< entries once the first query had gone through all; 0 before
+  double moved_ = 0.0;            ///< since the front was begun, at most, in radii of P
+  bool complete_ = false;         ///< a query has gone through all entries
+  std::size_t most_entries_ = 0;  ///< more, and the front is begun anew
   std::optional<Witness> witness_;
+  std::optional<NearestPair> nearest_;
   std::vector<Entry> entries_;
   std::vector<float> expiry_;        ///< of each entry: what `moved_` may become; padded by what never expires
   std::vector<std::uint32_t> open_;  ///< entries to be looked at

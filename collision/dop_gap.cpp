@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <optional>
 
 #include <glissade/collision/triangle_distance.h>
 
+#include "coherent_front.h"
 #include "dop_traversal.h"
 #include "placed_trees.h"
 
@@ -20,6 +22,12 @@ class GapSearch {
         memory_(memory),
         step_(placed.base(), placed.other(), placed.frame, std::numeric_limits<double>::infinity(), memory.alignment),
         least_(limit) {}
+
+  /// Begins with this pair of triangles, which is of no consequence but for the work.
+  void begin_with(const NearestPair& pair) { compare(pair.leaf_P, pair.leaf_Q, pair.pair); }
+
+  /// The pair that was nearest, if any is nearer than the limit.
+  const std::optional<NearestPair>& nearest() const { return nearest_; }
 
   double run() {
     memory_.promising.assign(1, {{0, 0, kAllPairs}, 0.0});
@@ -62,9 +70,16 @@ class GapSearch {
     for (PairMask rest = step_.edges(leaves_, step_.leaves(leaves_, memory_.counters)); rest != 0; rest &= rest - 1) {
       const int pair = std::countr_zero(rest);
       if (in_metres(static_cast<double>(leaves_.gaps.gap[static_cast<std::size_t>(pair)])) >= least_) continue;
-      const TrianglePair triangles = placed_.triangles(leaf_P, leaf_Q, pair);
-      least_ = std::min(least_, triangle_distance(placed_.points_A(triangles), placed_.points_B(triangles)).distance);
+      compare(leaf_P, leaf_Q, pair);
     }
+  }
+
+  void compare(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) {
+    const TrianglePair triangles = placed_.triangles(leaf_P, leaf_Q, pair);
+    const double distance = triangle_distance(placed_.points_A(triangles), placed_.points_B(triangles)).distance;
+    if (!(distance < least_)) return;
+    least_ = distance;
+    nearest_ = NearestPair{placed_.base().id(), placed_.other().id(), leaf_P, leaf_Q, pair};
   }
 
   const PlacedTrees& placed_;
@@ -72,22 +87,39 @@ class GapSearch {
   DopVisit step_;
   double least_;  ///< metres
   VisitedLeaves leaves_;
+  std::optional<NearestPair> nearest_;
 };
 
-}  // namespace
-
-double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
-                       QueryWorkspace& workspace, double limit) {
-  const PlacedTrees placed{tree_A, tree_B, X_AB};
-  QueryWorkspace::Memory& memory = workspace.memory();
+// What the search finds is the least of all distances as they are computed, wherever it begins: boxes and normals never
+// promise more than that, by far more than distances are rounded.
+double bound(const PlacedTrees& placed, double limit, QueryWorkspace::Memory& memory,
+             std::optional<NearestPair>& nearest) {
   memory.counters = {};
   const double rounding = 4.0 * placed.frame.uncertainty * placed.frame.base_radius;
   if (limit < std::numeric_limits<double>::infinity() && placed.frame.spheres_apart(limit)) return limit;
   // So far off boxes cannot be told apart.
   const double between_spheres = placed.frame.base_radius * placed.frame.gap_of_spheres();
   if (between_spheres > placed.frame.base_radius) return std::min(between_spheres, limit);
-  const double least = GapSearch(placed, limit, memory).run();
+  GapSearch search(placed, limit, memory);
+  if (nearest && nearest->base_id == placed.base().id() && nearest->other_id == placed.other().id()) {
+    search.begin_with(*nearest);
+  }
+  const double least = search.run();
+  nearest = search.nearest();
   return least == limit ? limit : std::min(limit, std::max(0.0, least * (1.0 - 1e-12) - rounding));
+}
+
+}  // namespace
+
+double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                       QueryWorkspace& workspace, double limit) {
+  std::optional<NearestPair> nearest;
+  return bound({tree_A, tree_B, X_AB}, limit, workspace.memory(), nearest);
+}
+
+double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                       CoherentWorkspace& workspace, double limit) {
+  return bound({tree_A, tree_B, X_AB}, limit, workspace.workspace().memory(), workspace.front().nearest());
 }
 
 }  // namespace glissade::collision

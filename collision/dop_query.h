@@ -114,5 +114,7 @@ void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Iso
 /// than the larger radius; `limit` when it is less.
 double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                        QueryWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
+double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                       CoherentWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
 
 }  // namespace glissade::collision

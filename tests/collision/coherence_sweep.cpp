@@ -6,6 +6,7 @@
 #include <atomic>
 #include <bit>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,7 +30,7 @@ using Eigen::Vector3d;
 
 constexpr int kFramesPerWalk = 1000;
 constexpr int kWalksPerBatch = 16;
-constexpr std::array<const char*, 3> kQueries{"intersects", "intersecting_pairs", "pairs_within"};
+constexpr std::array<const char*, 4> kQueries{"intersects", "intersecting_pairs", "pairs_within", "gap_lower_bound"};
 
 bool same_bits(double u, double v) {
   return std::bit_cast<std::uint64_t>(u) == std::bit_cast<std::uint64_t>(v);
@@ -45,9 +46,9 @@ bool same_bits(const ClosePair& u, const ClosePair& v) {
 }
 
 struct Counts {
-  std::array<std::atomic<std::int64_t>, 3> frames{};  // by query
-  std::array<std::atomic<std::int64_t>, 3> hits{};    // with an answer other than "no" and "none"
-  std::atomic<std::int64_t> changes = 0;              // from free to colliding or back since the frame before
+  std::array<std::atomic<std::int64_t>, kQueries.size()> frames{};  // by query
+  std::array<std::atomic<std::int64_t>, kQueries.size()> hits{};    // with an answer other than "no", "none" and limit
+  std::atomic<std::int64_t> changes = 0;  // from free to colliding or back since the frame before
   std::atomic<std::int64_t> teleports = 0;
 };
 
@@ -136,7 +137,7 @@ class Walk {
 
   void change_question() {
     if (random_.chance(0.02))
-      query_ = large_ && random_.chance(0.6) ? 0 : static_cast<std::size_t>(random_.integer(0, 2));
+      query_ = large_ && random_.chance(0.6) ? 0 : static_cast<std::size_t>(random_.integer(0, 3));
     if (random_.chance(0.05)) {
       const double reach = large_ && query_ != 0 ? -2.5 : -0.5;
       tolerance_ = random_.chance(0.5) ? 0.0 : random_.power_of_ten(-9.0, reach) * pair_.scale();
@@ -175,6 +176,12 @@ class Walk {
       intersecting_pairs(tree_A, tree_B, X_AB, remembering_, remembered_pairs_, tolerance_);
       if (pairs_ != remembered_pairs_) difference_ = "other pairs";
       return !pairs_.empty();
+    }
+    if (query_ == 3) {
+      const double limit = tolerance_ > 0.0 ? tolerance_ : std::numeric_limits<double>::infinity();
+      const double gap = gap_lower_bound(tree_A, tree_B, X_AB, fresh_, limit);
+      if (!same_bits(gap_lower_bound(tree_A, tree_B, X_AB, remembering_, limit), gap)) difference_ = "another gap";
+      return gap < limit;
     }
     pairs_within(tree_A, tree_B, X_AB, tolerance_, fresh_, close_pairs_);
     pairs_within(tree_A, tree_B, X_AB, tolerance_, remembering_, remembered_close_pairs_);

@@ -60,5 +60,23 @@ TEST(GapLowerBound, AgreesWithEveryPairOfTriangles) {
   EXPECT_LT(apart, 60);
 }
 
+TEST(GapLowerBound, IsTheSameFromWhereverItBeginsButCheaperWhereTheLastOneEnded) {
+  const auto sphere = std::make_shared<const TriangleMesh>(make_sphere(1.0, 5'000));
+  const DopTree tree(sphere);
+  QueryWorkspace fresh;
+  CoherentWorkspace remembering;
+  std::int64_t fresh_tests = 0;
+  std::int64_t remembering_tests = 0;
+  for (int frame = 0; frame < 100; ++frame) {
+    Isometry3d X_AB = Isometry3d::Identity();
+    X_AB.rotate(Eigen::AngleAxisd(1e-4 * frame, Vector3d(1, 2, 3).normalized()));
+    X_AB.translation() = Vector3d(2.1 + 1e-4 * frame, 1e-4 * frame, 0.0);
+    EXPECT_EQ(gap_lower_bound(tree, tree, X_AB, remembering), gap_lower_bound(tree, tree, X_AB, fresh));
+    fresh_tests += fresh.counters().triangle_tests;
+    remembering_tests += remembering.counters().triangle_tests;
+  }
+  EXPECT_LT(remembering_tests, fresh_tests);
+}
+
 }  // namespace
 }  // namespace glissade::collision
