@@ -64,15 +64,15 @@ Isometry3d at(const Vector3d& p, const Eigen::Quaterniond& q = Eigen::Quaternion
   return X;
 }
 
-/// Leads the ghost in a straight line for some milliseconds, and lets `check` see every one of them.
+/// Leads the ghost in a straight line through some calls, and lets `check` see every one of them.
 template <typename Check>
-void lead(Sliding& sliding, const Isometry3d& X_WG_to, int milliseconds, const Check& check) {
+void lead(Sliding& sliding, const Isometry3d& X_WG_to, int calls, const Check& check, double milliseconds = 1.0) {
   const Isometry3d X_WG_from = sliding.result().X_WG;
   const Eigen::Quaterniond q_from(X_WG_from.linear());
-  for (int i = 1; i <= milliseconds; ++i) {
-    const double t = static_cast<double>(i) / milliseconds;
+  for (int i = 1; i <= calls; ++i) {
+    const double t = static_cast<double>(i) / calls;
     const Vector3d p = (1.0 - t) * X_WG_from.translation() + t * X_WG_to.translation();
-    check(sliding.advance(at(p, q_from.slerp(t, Eigen::Quaterniond(X_WG_to.linear())))));
+    check(sliding.advance(at(p, q_from.slerp(t, Eigen::Quaterniond(X_WG_to.linear()))), milliseconds));
   }
 }
 
@@ -174,7 +174,7 @@ TEST(Sliding, AThinSheetAtFiveMetresPerSecondIsNeverCrossed) {
 
 /// The longest way any point of the part goes in one call, beyond twice the ghost's own, when a box that is pressed 5
 /// mm too deep is drawn over the rim of a plate and snaps off it.
-double greatest_catch_up(Metaphor metaphor) {
+double greatest_catch_up(Metaphor metaphor, double milliseconds = 1.0) {
   const Tessellation tessellation{12, false};
   const auto plate =
       std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(collision::make_plate({0.2, 0.2}, 100)));
@@ -183,21 +183,30 @@ double greatest_catch_up(Metaphor metaphor) {
   double greatest = 0.0;
   Isometry3d X_WG = sliding.result().X_WG;
   Isometry3d X_WV = sliding.result().X_WV;
-  lead(sliding, at({0.17, 0.0, 0.015}), 500, [&](const SlidingResult& result) {
-    const Vector3d& p_Vref = sliding.part().p_Vref();
-    const double radius = sliding.part().radius();
-    const double ghost = motion_bound(displacement_between(X_WG, result.X_WG, p_Vref), radius);
-    const double part = motion_bound(displacement_between(X_WV, result.X_WV, p_Vref), radius);
-    greatest = std::max(greatest, part - 2.0 * ghost);
-    X_WG = result.X_WG;
-    X_WV = result.X_WV;
-  });
+  lead(
+      sliding, at({0.17, 0.0, 0.015}), 500,
+      [&](const SlidingResult& result) {
+        const Vector3d& p_Vref = sliding.part().p_Vref();
+        const double radius = sliding.part().radius();
+        const double ghost = motion_bound(displacement_between(X_WG, result.X_WG, p_Vref), radius);
+        const double part = motion_bound(displacement_between(X_WV, result.X_WV, p_Vref), radius);
+        greatest = std::max(greatest, part - 2.0 * ghost);
+        X_WG = result.X_WG;
+        X_WV = result.X_WV;
+      },
+      milliseconds);
   EXPECT_EQ(sliding.result().state, SlidingState::kFree);  // it has left the plate
   return greatest;
 }
 
 TEST(Sliding, UnderForceFeedbackThePartCatchesUpNoFasterThanTheSlew) {
   EXPECT_LE(greatest_catch_up(Metaphor::kForceFeedback), kSlew_m * (1.0 + 1e-9));
+}
+
+TEST(Sliding, ACallThatComesLateCatchesUpForAllOfItsTime) {
+  const double catch_up = greatest_catch_up(Metaphor::kForceFeedback, 3.0);
+  EXPECT_LE(catch_up, 3.0 * kSlew_m * (1.0 + 1e-9));
+  EXPECT_GT(catch_up, 2.0 * kSlew_m);
 }
 
 TEST(Sliding, OnARubberBandThePartCatchesUpAtOnce) {
