@@ -140,7 +140,7 @@ class BodyReader {
       : path_(path),
         byte_order_(header.byte_order),
         bytes_(header.body),
-        lines_(header.body),
+        words_(header.body),
         header_lines_(header.lines) {}
 
   /// The next number; `where` is the element it belongs to.
@@ -151,7 +151,7 @@ class BodyReader {
   /// Rejects what is left, but for blanks.
   void expect_end() {
     const bool has_more =
-        byte_order_ ? bytes_.find_first_not_of(" \t\r\n", offset_) != std::string_view::npos : has_word();
+        byte_order_ ? bytes_.find_first_not_of(" \t\r\n", offset_) != std::string_view::npos : words_.has_word();
     if (has_more) reject(path_, "The file is longer than its header says");
   }
 
@@ -186,21 +186,12 @@ class BodyReader {
     return number<double>(where);
   }
 
-  bool has_word() {
-    while (next_ >= words_.size()) {
-      if (!lines_.next()) return false;
-      split(lines_.line(), words_);
-      next_ = 0;
-    }
-    return true;
-  }
-
   double next_word(const std::string& where) {
-    if (!has_word()) reject(path_, where + ": the file is truncated here");
-    const auto value = parse_number(words_[next_++]);
+    if (!words_.has_word()) reject(path_, where + ": the file is truncated here");
+    const auto value = parse_number(words_.word());
     if (!value) {
-      reject(path_,
-             "line " + std::to_string(header_lines_ + lines_.number()) + ", " + where + ": this is not a number");
+      reject(path_, "line " + std::to_string(header_lines_ + words_.lines().number()) + ", " + where +
+                        ": this is not a number");
     }
     return *value;
   }
@@ -209,10 +200,8 @@ class BodyReader {
   std::optional<std::endian> byte_order_;
   std::string_view bytes_;
   std::size_t offset_ = 0;
-  LineScanner lines_;
+  WordScanner words_;
   std::int64_t header_lines_;
-  std::vector<std::string_view> words_;
-  std::size_t next_ = 0;
 };
 
 /// Collects the vertices and faces of a PLY file.

@@ -52,10 +52,10 @@ std::string vetted_binary(const std::filesystem::path& path, std::string_view by
 /// Reads a text STL file word by word.
 class TextStlReader {
  public:
-  TextStlReader(const std::filesystem::path& path, std::string_view bytes) : path_(path), lines_(bytes) {}
+  TextStlReader(const std::filesystem::path& path, std::string_view bytes) : path_(path), words_(bytes) {}
 
   std::string clean() {
-    while (has_word()) {
+    while (words_.has_word()) {
       read_solid();
     }
     if (coordinates_.empty()) reject(path_, "The file has no triangles");
@@ -63,21 +63,11 @@ class TextStlReader {
   }
 
  private:
-  /// Whether another word is there; makes it the current one.
-  bool has_word() {
-    while (next_ >= words_.size()) {
-      if (!lines_.next()) return false;
-      split(lines_.line(), words_);
-      next_ = 0;
-    }
-    return true;
-  }
-
   std::string_view word(const std::string& expected) {
-    if (!has_word()) {
-      reject(path_, lines_.where() + ": the file is truncated, '" + expected + "' should follow");
+    if (!words_.has_word()) {
+      reject(path_, words_.lines().where() + ": the file is truncated, '" + expected + "' should follow");
     }
-    return words_[next_++];
+    return words_.word();
   }
 
   static bool equal(std::string_view a, std::string_view lower_case) {
@@ -87,19 +77,20 @@ class TextStlReader {
   }
 
   void expect(const std::string& expected) {
-    if (!equal(word(expected), expected)) reject(path_, lines_.where() + ": '" + expected + "' should stand here");
+    if (!equal(word(expected), expected))
+      reject(path_, words_.lines().where() + ": '" + expected + "' should stand here");
   }
 
   void read_solid() {
     expect("solid");
-    next_ = words_.size();  // the rest of the line is a name
+    words_.skip_line();  // the rest of the line is a name
     while (true) {
       const std::string_view keyword = word("endsolid");
       if (equal(keyword, "endsolid")) break;
-      if (!equal(keyword, "facet")) reject(path_, lines_.where() + ": 'facet' or 'endsolid' should stand here");
+      if (!equal(keyword, "facet")) reject(path_, words_.lines().where() + ": 'facet' or 'endsolid' should stand here");
       read_facet();
     }
-    next_ = words_.size();
+    words_.skip_line();
   }
 
   void read_facet() {
@@ -114,8 +105,8 @@ class TextStlReader {
       for (int k = 0; k < 3; ++k) {
         const std::string_view text = word("a coordinate");
         const auto value = parse_number(text);
-        if (!value) reject(path_, lines_.where() + ": a coordinate is not a number");
-        check_coordinate(path_, lines_.where(), *value);
+        if (!value) reject(path_, words_.lines().where() + ": a coordinate is not a number");
+        check_coordinate(path_, words_.lines().where(), *value);
         coordinates_.push_back(static_cast<float>(*value));
       }
     }
@@ -124,9 +115,7 @@ class TextStlReader {
   }
 
   const std::filesystem::path& path_;
-  LineScanner lines_;
-  std::vector<std::string_view> words_;
-  std::size_t next_ = 0;
+  WordScanner words_;
   std::vector<float> coordinates_;
 };
 

@@ -54,6 +54,31 @@ inline void split(std::string_view line, std::vector<std::string_view>& words) {
   }
 }
 
+// The words of a text, wherever its lines end.
+class WordScanner {
+ public:
+  explicit WordScanner(std::string_view text) : lines_(text) {}
+
+  // Whether another word is there; if so, the line is the one that it stands in.
+  bool has_word() {
+    while (next_ >= words_.size()) {
+      if (!lines_.next()) return false;
+      split(lines_.line(), words_);
+      next_ = 0;
+    }
+    return true;
+  }
+  // Only after has_word().
+  std::string_view word() { return words_[next_++]; }
+  void skip_line() { next_ = words_.size(); }
+  const LineScanner& lines() const { return lines_; }
+
+ private:
+  LineScanner lines_;
+  std::vector<std::string_view> words_;
+  std::size_t next_ = 0;
+};
+
 // The whole word as a number, "nan" and "inf" included; nothing if it is not one. A value too large for a double counts
 // as infinite, one too small as zero.
 inline std::optional<double> parse_number(std::string_view word) {

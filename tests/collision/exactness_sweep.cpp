@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <glissade/collision/dop_query.h>
 
 #include "mesh_oracle.h"
@@ -87,15 +85,10 @@ class Sweep {
 
  private:
   void run_batch(std::int64_t first, int count) {
-    // The instruction set that bisects takes turns.
-    use_instruction_set(sets_[static_cast<std::size_t>(first / kCasesPerBatch) % sets_.size()]);
-    std::vector<Case> cases(static_cast<std::size_t>(count));
-    tbb::parallel_for(0, count,
-                      [&](int i) { cases[static_cast<std::size_t>(i)] = make_case(arguments_.seed, first + i); });
-    for (std::size_t set = 0; set < sets_.size(); ++set) {
-      use_instruction_set(sets_[set]);
-      tbb::parallel_for(0, count, [&](int i) { check(cases[static_cast<std::size_t>(i)], set); });
-    }
+    const std::vector<Case> cases = run_cases(
+        sets_, first / kCasesPerBatch, first, count,
+        [this](std::int64_t index) { return make_case(arguments_.seed, index); },
+        [this](const Case& asked, std::size_t set) { check(asked, set); });
     for (const Case& done : cases) {
       for (const std::vector<TrianglePair>& pairs : done.expected)
         counts_.add_pose(done.family, pairs.size());

@@ -31,11 +31,12 @@ class Kernels : public ::testing::TestWithParam<InstructionSet> {
 
   Eigen::Vector3d random_vector() { return random_.point(1.0); }
 
-  Eigen::Isometry3d random_pose(double translation) {
-    Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-    X.linear() = random_.rotation();
-    X.translation() = translation * random_vector();
-    return X;
+  // Of B, whose middle lies at random within the cube of this half edge (metres) about the middle of A.
+  Eigen::Isometry3d random_pose(const DopTree& tree_A, const DopTree& tree_B, double half_edge) {
+    Eigen::Isometry3d X_AB = Eigen::Isometry3d::Identity();
+    X_AB.linear() = random_.rotation();
+    X_AB.translation() = half_edge * random_vector() + tree_A.center() - X_AB.linear() * tree_B.center();
+    return X_AB;
   }
 
   // Small thin triangles scattered over a sphere of radius 1, some large ones among them.

@@ -30,8 +30,7 @@ class LeafKernelsTest : public Kernels {
   void for_all_leaves(const Setting& s, const Check& check) {
     const DopTree tree_A = tree(soup(40), s.scale_A, s.scale_A * s.offset * random_vector());
     const DopTree tree_B = tree(soup(40), s.scale_B, s.scale_B * random_vector());
-    Isometry3d X_AB = random_pose(s.translation * s.scale_A);
-    X_AB.translation() += tree_A.center() - X_AB.linear() * tree_B.center();
+    const Isometry3d X_AB = random_pose(tree_A, tree_B, s.translation * s.scale_A);
     const PlacedTrees placed{tree_A, tree_B, X_AB};
     const double radius = placed.frame.base_radius;
     const double rounding = 1e-12 * (tree_A.center().norm() + X_AB.translation().norm()) / radius;

@@ -7,6 +7,7 @@
 #include <glissade/collision/mesh_operations.h>
 
 #include "kernel_fixture.h"
+#include "placed_trees.h"
 #include "vertex_alignment.h"
 
 namespace glissade::collision {
@@ -52,11 +53,11 @@ TEST_P(Kernels, RealignedNodesEncloseEveryTransformedPoint) {
       const DopTree tree_A = tree(soup(40), s.scale_A, s.scale_A * s.offset * random_vector(), options);
       const DopTree tree_B = tree(soup(40), s.scale_B, s.scale_B * random_vector(), options);
       for (int trial = 0; trial < 10; ++trial) {
-        Isometry3d X_AB = random_pose(s.translation * s.scale_A);
-        X_AB.translation() += tree_A.center() - X_AB.linear() * tree_B.center();
-        const QueryFrame frame(tree_A, tree_B, X_AB);
-        const DopTree& base = frame.base_is_A ? tree_A : tree_B;
-        const DopTree& other = frame.base_is_A ? tree_B : tree_A;
+        const Isometry3d X_AB = random_pose(tree_A, tree_B, s.translation * s.scale_A);
+        const PlacedTrees placed{tree_A, tree_B, X_AB};
+        const QueryFrame& frame = placed.frame;
+        const DopTree& base = placed.base();
+        const DopTree& other = placed.other();
         const Isometry3d X_PQ = frame.base_is_A ? X_AB : X_AB.inverse();
         DopAlignment alignment;
         align(k, frame, alignment);
@@ -90,11 +91,11 @@ TEST_P(Kernels, OverlapsOfPairsBoundTheirDistance) {
       const DopTree tree_B = tree(make_torus(0.7, 0.3, 200), s.scale_B, s.scale_B * random_vector());
       int separated = 0;
       for (int trial = 0; trial < 3; ++trial) {
-        Isometry3d X_AB = random_pose(s.translation * s.scale_A);
-        X_AB.translation() += tree_A.center() - X_AB.linear() * tree_B.center();
-        const QueryFrame frame(tree_A, tree_B, X_AB);
-        const DopTree& base = frame.base_is_A ? tree_A : tree_B;
-        const DopTree& other = frame.base_is_A ? tree_B : tree_A;
+        const Isometry3d X_AB = random_pose(tree_A, tree_B, s.translation * s.scale_A);
+        const PlacedTrees placed{tree_A, tree_B, X_AB};
+        const QueryFrame& frame = placed.frame;
+        const DopTree& base = placed.base();
+        const DopTree& other = placed.other();
         const Isometry3d X_PQ = frame.base_is_A ? X_AB : X_AB.inverse();
         DopAlignment alignment;
         align(24, frame, alignment);

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <glissade/collision/instruction_set.h>
 
 namespace glissade::test_support {
@@ -71,6 +73,12 @@ class SweepCounts {
 template <typename RunBatch>
 void run_batches(const SweepArguments& arguments, int poses_per_case, int cases_per_batch, const RunBatch& run_batch);
 
+/// One batch on all processors: make(index) → Case for each, with the instruction set whose turn it is, then
+/// check(case, place of the instruction set) for each with every instruction set. Returns the cases.
+template <typename Make, typename Check>
+auto run_cases(const std::vector<collision::InstructionSet>& sets, std::int64_t turn, std::int64_t first, int count,
+               const Make& make, const Check& check);
+
 /// Runs from its construction on.
 class Stopwatch {
  public:
@@ -90,6 +98,20 @@ void run_batches(const SweepArguments& arguments, int poses_per_case, int cases_
   const Stopwatch watch;
   for (std::int64_t first = 0; first < wanted && watch.seconds() < arguments.seconds; first += cases_per_batch)
     run_batch(first, static_cast<int>(std::min<std::int64_t>(cases_per_batch, wanted - first)));
+}
+
+template <typename Make, typename Check>
+auto run_cases(const std::vector<collision::InstructionSet>& sets, std::int64_t turn, std::int64_t first, int count,
+               const Make& make, const Check& check) {
+  std::vector<decltype(make(first))> cases(static_cast<std::size_t>(count));
+  collision::use_instruction_set(sets[static_cast<std::size_t>(turn) % sets.size()]);
+  tbb::parallel_for(std::size_t{0}, cases.size(),
+                    [&](std::size_t i) { cases[i] = make(first + static_cast<std::int64_t>(i)); });
+  for (std::size_t set = 0; set < sets.size(); ++set) {
+    collision::use_instruction_set(sets[set]);
+    tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) { check(cases[i], set); });
+  }
+  return cases;
 }
 
 }  // namespace glissade::test_support
