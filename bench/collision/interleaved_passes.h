@@ -1,8 +1,8 @@
 #pragma once
 
 /// The clock of all benchmarks: a pass goes over all poses with one subject; subjects take turns, pass by pass, so that
-/// a slow moment of the machine hits all of them alike. The first round, which warms the caches, does not count. What
-/// is reported are medians over passes.
+/// a slow moment of the machine hits all of them alike. The first round does not count, nor do the first two
+/// milliseconds of each turn, which warm the caches. What is reported are medians over passes.
 
 #include <cstdint>
 #include <functional>
