@@ -12,11 +12,10 @@ namespace glissade::collision {
 namespace {
 
 constexpr float kExpired = -1.0F;
-constexpr float kNever = 1e30F;
-// A front that has grown to this many times its first size is mostly beside the point. Until the first size is known,
-// because all queries ended early, it may grow to that of a front without a hit.
+constexpr float kNever = std::numeric_limits<float>::infinity();  // beyond any clock, which has a bound
+// A front that has grown to this many times its first size is mostly beside the point. Until that is known, because all
+// queries ended early, it may have as many entries as the trees have leaves.
 constexpr std::size_t kMostGrowth = 2;
-constexpr std::size_t kMostWhileIncomplete = 4096;
 constexpr std::size_t kSmallFront = 64;
 // Beyond this share of expired entries, beginning at the roots is no dearer. The sum of motions has a bound too,
 // because it is compared in single precision.
@@ -31,11 +30,11 @@ void CoherentFront::clear() {
   nearest_.reset();
 }
 
-void CoherentFront::start_afresh() {
+void CoherentFront::start_afresh(const DopTree& base, const DopTree& other) {
   entries_.clear();
   expiry_.clear();
   complete_ = false;
-  most_entries_ = kMostWhileIncomplete;
+  most_entries_ = base.leaves().size() + other.leaves().size();
   moved_ = 0.0;
   add({0, 0, kAllPairs}, false);
 }
@@ -56,14 +55,14 @@ void CoherentFront::follow(const DopTree& base, const DopTree& other, const Quer
     base_id_ = base.id();
     other_id_ = other.id();
     witness_.reset();
-    start_afresh();
+    start_afresh(base, other);
   } else {
     // Two rotations by an angle θ apart differ by 2√2 sin(θ/2) in the Frobenius norm and move a point at radius 1 by at
     // most 2 sin(θ/2).
     const double turned = (frame.R_PQ - R_PQ_).norm() * std::sqrt(0.5) + 2.0 * frame.rotation_defect;
     const double moved = (frame.p_PQ - p_PQ_).norm() + frame.ratio * turned;
     moved_ += moved * (1.0 + 1e-12) + 2.0 * frame.uncertainty;
-    if (!(moved_ < kMostMotion) || entries_.size() > most_entries_) start_afresh();
+    if (!(moved_ < kMostMotion) || entries_.size() > most_entries_) start_afresh(base, other);
   }
   R_PQ_ = frame.R_PQ;
   p_PQ_ = frame.p_PQ;
@@ -82,7 +81,7 @@ bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, 
   find_expired(expiry_, clock, open_);
   if (open_.empty()) return false;
   if (entries_.size() > kSmallFront && kMostExpired * open_.size() > entries_.size()) {
-    start_afresh();
+    start_afresh(base, other);
     open_.assign(1, 0);
   }
   DopVisit step(base, other, frame, distance, alignment);
@@ -132,7 +131,7 @@ bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, con
   const auto [leaf_P, leaf_Q, all] = entries_[entry].pair;
   VisitedLeaves leaves;
   step.prepare(leaf_P, leaf_Q, leaves);
-  const double gap_of_all = step.leaf_gap(leaves);
+  const double gap_of_all = step.leaf_gap(leaves, counters);
   if (step.beyond(gap_of_all)) {
     holds_for(entry, gap_of_all);
     return false;

@@ -58,7 +58,7 @@ class CoherentFront {
   };
 
   void follow(const DopTree& base, const DopTree& other, const QueryFrame& frame);
-  void start_afresh();
+  void start_afresh(const DopTree& base, const DopTree& other);
   void add(const NodePair& pair, bool is_leaf);
   void holds_for(std::size_t entry, double gap);
   void visit_nodes(std::size_t entry, DopVisit& step, QueryCounters& counters);

@@ -3,7 +3,6 @@
 #define HWY_TARGET_INCLUDE "glissade/collision/dop_alignment.cpp"
 #include "dop_alignment.h"
 
-#include <bit>
 #include <cstring>
 
 #include <hwy/foreach_target.h>

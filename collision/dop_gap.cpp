@@ -66,7 +66,7 @@ class GapSearch {
 
   void compare_leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q) {
     step_.prepare(leaf_P, leaf_Q, leaves_);
-    if (in_metres(step_.leaf_gap(leaves_)) >= least_) return;
+    if (in_metres(step_.leaf_gap(leaves_, memory_.counters)) >= least_) return;
     for (PairMask rest = step_.edges(leaves_, step_.leaves(leaves_, memory_.counters)); rest != 0; rest &= rest - 1) {
       const int pair = std::countr_zero(rest);
       if (in_metres(static_cast<double>(leaves_.gaps.gap[static_cast<std::size_t>(pair)])) >= least_) continue;
@@ -96,7 +96,7 @@ double bound(const PlacedTrees& placed, double limit, QueryWorkspace::Memory& me
              std::optional<NearestPair>& nearest) {
   memory.counters = {};
   const double rounding = 4.0 * placed.frame.uncertainty * placed.frame.base_radius;
-  if (limit < std::numeric_limits<double>::infinity() && placed.frame.spheres_apart(limit)) return limit;
+  if (placed.frame.spheres_apart(limit)) return limit;
   // So far off boxes cannot be told apart.
   const double between_spheres = placed.frame.base_radius * placed.frame.gap_of_spheres();
   if (between_spheres > placed.frame.base_radius) return std::min(between_spheres, limit);

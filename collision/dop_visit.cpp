@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <hwy/cache_control.h>
 
@@ -30,7 +29,7 @@ void prefetch_child(const DopTree& tree, std::uint32_t node, int c) {
     prefetch_lines(&tree.leaves()[head.child(c)], 3);
   } else {
     prefetch_lines(&tree.nodes()[head.child(c)], 1);
-    prefetch_lines(tree.slabs(head.child(c)), 3);
+    prefetch_lines(tree.slabs(head.child(c)), slab_lines(tree.options().directions / 2));
   }
 }
 
@@ -49,7 +48,6 @@ DopVisit::DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& 
       leaf_frame_(frame),
       node_kernels_(node_kernels()),
       leaf_kernels_(leaf_kernels()) {
-  if (!(distance >= 0.0)) throw std::invalid_argument("a query's tolerance or distance is negative or not a number");
   const double radii = frame.in_base_radii(distance);
   const double steps = std::ceil(radii * kGridRadius);
   always_near_ = steps > 32767.0 ? kAllPairs : 0;
@@ -116,7 +114,8 @@ void DopVisit::prepare(std::uint32_t leaf_P, std::uint32_t leaf_Q, VisitedLeaves
   leaves.leaf_Q = leaf_Q;
 }
 
-double DopVisit::leaf_gap(const LeafPair& leaves) const {
+double DopVisit::leaf_gap(const LeafPair& leaves, QueryCounters& counters) const {
+  counters.triangle_tests += kWidth * kWidth;
   return static_cast<double>(leaf_kernels_.leaf_gap(leaf_frame_, leaves));
 }
 

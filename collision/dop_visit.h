@@ -77,7 +77,7 @@ class DopVisit {
   void prepare(std::uint32_t leaf_P, std::uint32_t leaf_Q, VisitedLeaves& leaves) const;
 
   /// A certain lower bound of the distance of two leaves as a whole, in radii of the base; may be negative.
-  double leaf_gap(const LeafPair& leaves) const;
+  double leaf_gap(const LeafPair& leaves, QueryCounters& counters) const;
 
   /// The pairs of triangles that their normals may let be near.
   PairMask leaves(LeafPair& leaves, QueryCounters& counters) const;

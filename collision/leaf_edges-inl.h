@@ -17,8 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace glissade::collision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Shorter vectors separate nothing. A gap so small that its square underflows is off by less than kUnderflow for all
-// others: by the root of 2^-149 over this.
+// Shorter vectors separate nothing, because the square of a gap may underflow. It is then off by 2^-149 at most, which
+// makes the gap along a vector of this length or more too large by less than kUnderflow, the root of 2^-149 over it.
 constexpr float kLeastSquare = 1e-28F;
 constexpr float kUnderflow = 4e-9F;
 

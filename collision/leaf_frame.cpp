@@ -13,12 +13,12 @@ LeafFrame::LeafFrame(const QueryFrame& frame) {
   }
   // In units of 2^-24, which is the spacing of single precision below 1, and by coordinate. Corners lie within the unit
   // sphere and are rounded once: half a unit, for Q of each coordinate, of which a row of the rotation sums up √3. Then
-  // corners of Q are multiplied by rounded factors, one unit of the length, and summed up in three steps on top of a
-  // rounded translation. A unit vector sums up three coordinates (√3), and a projection rounds three products and sums
-  // of either corner once more.
+  // corners of Q are multiplied by rounded factors, one unit of the length, and the products rounded where there is no
+  // fused multiplication, another one, and summed up in three steps on top of a rounded translation. A unit vector sums
+  // up three coordinates (√3), and a projection rounds three products and sums of either corner once more.
   const double reach = frame.p_PQ.lpNorm<Eigen::Infinity>();
   const double corner_P = 0.5;
-  const double corner_Q = 5.0 * frame.ratio + 4.0 * reach;
+  const double corner_Q = 6.0 * frame.ratio + 4.0 * reach;
   const double projections = 5.0 * (1.0 + frame.ratio + reach);
   corner_uncertainty = round_up_to_float(0x1p-24 * (corner_P + corner_Q) + frame.uncertainty);
   uncertainty = round_up_to_float(1.75 * static_cast<double>(corner_uncertainty) + 0x1p-24 * 1.75 * projections +

@@ -12,8 +12,8 @@
 namespace glissade::collision {
 
 struct QueryFrame {
-  /// X_AB as the queries take it. Throws std::invalid_argument when it is not finite or its matrix not a rotation to
-  /// 1e-3, and for trees of different options.
+  /// X_AB as the queries take it. Throws std::invalid_argument when it is not finite or its matrix not a rotation
+  /// (`rotation_defect` below 1e-3), and for trees of different options.
   QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB);
 
   bool base_is_A;
@@ -25,13 +25,14 @@ struct QueryFrame {
   /// How far double precision may have moved a point of Q, in radii of P: rounding of poses and differences, and what
   /// keeps the matrix from being a rotation.
   double uncertainty;
-  /// The entries of RᵀR − 1, added up: 0 of a true rotation, and a bound of any norm.
+  /// The absolute values of the entries of RᵀR − 1, added up: 0 of a true rotation, and a bound of any norm.
   double rotation_defect;
 
   /// A lower bound of the gap between the two bounding spheres, in radii of P; negative when they overlap.
   double gap_of_spheres() const { return (p_PQ.norm() - 1.0 - ratio) * (1.0 - 1e-12) - uncertainty; }
 
-  /// The two bounding spheres are certainly further apart than `tolerance` (metres).
+  /// The two bounding spheres are certainly further apart than `tolerance` (metres). Throws std::invalid_argument when
+  /// that is negative or not a number.
   bool spheres_apart(double tolerance) const;
 
   /// An upper bound, in radii of P, of distances in P's frame that are `distance` metres in the frame of A.

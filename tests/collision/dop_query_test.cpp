@@ -47,6 +47,9 @@ std::vector<Query> queries_with() {
     queries.push_back({"pairs_within" + suffix, [=](const auto& tree_A, const auto& tree_B, const Isometry3d& X_AB) {
                          pairs_within(tree_A, tree_B, X_AB, tolerance, *workspace, *close_pairs);
                        }});
+    queries.push_back({"gap_lower_bound" + suffix, [=](const auto& tree_A, const auto& tree_B, const Isometry3d& X_AB) {
+                         gap_lower_bound(tree_A, tree_B, X_AB, *workspace, 1.0 + tolerance);
+                       }});
   }
   return queries;
 }
@@ -102,19 +105,64 @@ TEST(DopQuery, RefusesPosesThatAreNone) {
   }
 }
 
+TEST(DopQuery, RefusesDistancesThatAreNone) {
+  const DopTree tree = torus();
+  Isometry3d X_AB = Isometry3d::Identity();
+  for (const double shift : {0.0, 100.0}) {
+    X_AB.translation().x() = shift;
+    const auto expect_refused = [&](auto&& workspace) {
+      std::vector<TrianglePair> pairs;
+      std::vector<ClosePair> close_pairs;
+      for (const double bad : {-1e-9, std::numeric_limits<double>::quiet_NaN()}) {
+        const auto expect_complaint = [](const auto& ask) { test_support::expect_bad_input(ask, {"negative"}); };
+        expect_complaint([&] { intersects(tree, tree, X_AB, workspace, bad); });
+        expect_complaint([&] { intersecting_pairs(tree, tree, X_AB, workspace, pairs, bad); });
+        expect_complaint([&] { pairs_within(tree, tree, X_AB, bad, workspace, close_pairs); });
+        expect_complaint([&] { gap_lower_bound(tree, tree, X_AB, workspace, bad); });
+      }
+    };
+    expect_refused(QueryWorkspace());
+    expect_refused(CoherentWorkspace());
+  }
+}
+
+TEST(DopQuery, AnInfiniteDistanceFindsEveryPair) {
+  const DopTree tree = torus();
+  const std::size_t triangles = tree.mesh().triangles.size();
+  const double everything = std::numeric_limits<double>::infinity();
+  QueryWorkspace fresh;
+  CoherentWorkspace remembering;
+  std::vector<TrianglePair> pairs;
+  for (const double shift : {0.0, 0.1, 0.2}) {
+    Isometry3d X_AB = Isometry3d::Identity();
+    X_AB.translation().x() = shift;
+    intersecting_pairs(tree, tree, X_AB, fresh, pairs, everything);
+    EXPECT_EQ(pairs.size(), triangles * triangles);
+    intersecting_pairs(tree, tree, X_AB, remembering, pairs, everything);
+    EXPECT_EQ(pairs.size(), triangles * triangles);
+  }
+}
+
 TEST(DopQuery, AllocatesNothingOnceMemoryIsThere) {
   if (!test_support::allocations_are_counted()) GTEST_SKIP() << "allocations cannot be counted here";
   const DopTree tree_A = torus();
   const DopTree tree_B = torus();
-  Isometry3d X_AB = Isometry3d::Identity();
-  X_AB.linear() = Eigen::AngleAxisd(1.0, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
-  X_AB.translation().x() = 0.1;
   for (const Query& query : all_queries()) {
+    const auto slide_to_and_fro = [&] {
+      for (int frame = 0; frame < 60; ++frame) {
+        const double way = 0.01 * std::abs(frame - 30);
+        Isometry3d X_AB = Isometry3d::Identity();
+        X_AB.linear() =
+            Eigen::AngleAxisd(1.0 + 0.1 * way, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
+        X_AB.translation().x() = 0.1 + way;
+        query.ask(tree_A, tree_B, X_AB);
+      }
+    };
     // Those that remember go another way the second time.
     for (int i = 0; i < 3; ++i)
-      query.ask(tree_A, tree_B, X_AB);
+      slide_to_and_fro();
     const std::int64_t before = test_support::allocations_of_this_thread();
-    query.ask(tree_A, tree_B, X_AB);
+    slide_to_and_fro();
     EXPECT_EQ(test_support::allocations_of_this_thread(), before) << query.name;
   }
 }

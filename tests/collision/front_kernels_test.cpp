@@ -1,5 +1,6 @@
 #include "front_kernels.h"
 
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,11 +14,13 @@ class FrontKernels : public Kernels {};
 
 TEST_P(FrontKernels, FindsWhatTheClockHasReachedInOrder) {
   for (int trial = 0; trial < 200; ++trial) {
-    const float clock = 0.5F;
+    const float clock = random_.chance(0.5) ? 0.5F : 1e30F;
     std::vector<float> expiry(kFrontPadding * static_cast<std::size_t>(random_.integer(0, 9)));
     std::vector<std::uint32_t> expected;
     for (std::size_t i = 0; i < expiry.size(); ++i) {
-      expiry[i] = random_.integer(0, 3) == 0 ? clock : static_cast<float>(random_.uniform(0.0, 1.0));
+      expiry[i] = static_cast<float>(random_.uniform(0.0, 1.0));
+      if (random_.chance(0.2)) expiry[i] = clock;
+      if (random_.chance(0.2)) expiry[i] = std::numeric_limits<float>::infinity();
       if (expiry[i] <= clock) expected.push_back(static_cast<std::uint32_t>(i));
     }
     std::vector<std::uint32_t> expired{7};
