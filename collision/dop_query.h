@@ -6,8 +6,8 @@
 /// the vertices of A and the vertices of B after X_AB has been applied to them in double precision. Touching counts as
 /// intersecting. Only triangles of positive area take part. Each throws std::invalid_argument for trees that were built
 /// with different options, for a distance that is negative or not a number, and for a pose that is not finite or whose
-/// matrix is not a rotation: the entries of RᵀR − 1 must add up to less than 1e-3. What is lacking to 0 costs speed, not
-/// exactness.
+/// matrix is not a rotation: the entries of RᵀR − 1 must add up to less than 1e-3. What is lacking to 0 costs speed,
+/// not exactness.
 
 #include <cstdint>
 #include <limits>
