@@ -24,19 +24,20 @@ def data_block(name, points):
 
 
 def panels(path, figures, subjects):
-    """Time against the number of triangles, one panel for each shape; `subjects`: name and title of each line."""
+    """Time against the number of triangles, one panel for each shape, and one for the names of the lines.
+
+    `subjects`: name and title of each line."""
     by_shape = shapes(figures)
     if not by_shape:
         return False
     columns = 3
-    rows = -(-len(by_shape) // columns)
+    rows = -(-(len(by_shape) + 1) // columns)
     times = [figures.get(case, who, "time") for sizes in by_shape.values() for _, case in sizes for who, _ in subjects]
     times = [ns / 1000 for ns in times if ns is not None]
     body = f"set multiplot layout {rows},{columns}\nset logscale xy\nset format x '%.0s%c'\n"
     counts = [n for sizes in by_shape.values() for n, _ in sizes]
     body += f"set xrange [{0.7 * min(counts)}:{1.4 * max(counts)}]\nset yrange [{0.7 * min(times)}:{4 * max(times)}]\n"
-    body += "set xlabel 'triangles of each object'\nset ylabel 'µs'\n"
-    keys = ["off", 'top left Left reverse samplen 1.5 font ",10"']
+    body += "set xlabel 'triangles of each object'\nset ylabel 'µs'\nset key off\n"
     for number, (shape, sizes) in enumerate(by_shape.items()):
         lines = []
         for color, (subject, title) in enumerate(subjects):
@@ -45,8 +46,10 @@ def panels(path, figures, subjects):
             if points:
                 body += data_block(f"d{number}_{color}", points)
                 lines.append(f"$d{number}_{color} " + line(color, title))
-        body += f'set title "{shape}"\nset key {keys[number == 0]}\n'
-        body += "plot " + ", ".join(lines) + "\n"
+        body += f'set title "{shape}"\nplot ' + ", ".join(lines) + "\n"
+    # The last panel names the lines.
+    body += "unset title\nunset border\nunset tics\nunset grid\nunset xlabel\nunset ylabel\nset key center Left reverse\n"
+    body += "plot " + ", ".join("NaN " + line(color, title) for color, (_, title) in enumerate(subjects)) + "\n"
     gnuplot(path, (320 * columns, 260 * rows), body)
     return True
 
