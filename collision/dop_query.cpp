@@ -1,4 +1,5 @@
 #include <boost/sort/pdqsort/pdqsort.hpp>
+#include <hwy/contrib/sort/vqsort.h>
 
 #include <glissade/collision/dop_query.h>
 #include <glissade/collision/triangle_distance.h>
@@ -93,15 +94,35 @@ std::uint64_t place_of(const TrianglePair& pair) {
   return static_cast<std::uint64_t>(static_cast<std::uint32_t>(pair.triangle_A)) << 32 |
          static_cast<std::uint32_t>(pair.triangle_B);
 }
-std::uint64_t place_of(const ClosePair& pair) {
-  return place_of(pair.triangles);
+TrianglePair pair_at(std::uint64_t place) {
+  return {static_cast<std::int32_t>(place >> 32), static_cast<std::int32_t>(place)};
+}
+
+// Numbers can be sorted by vectors, in a third of the time.
+void sort_pairs(std::vector<TrianglePair>& pairs, QueryWorkspace::Memory& memory) {
+  constexpr std::size_t kWorthVectors = 64;
+  if (pairs.size() < kWorthVectors) {
+    std::sort(pairs.begin(), pairs.end());
+    return;
+  }
+  memory.places.resize(pairs.size());
+  std::transform(pairs.begin(), pairs.end(), memory.places.begin(), place_of);
+  memory.sort_places(memory.places.data(), memory.places.size(), hwy::SortAscending());
+  std::transform(memory.places.begin(), memory.places.end(), pairs.begin(), pair_at);
 }
 
 // In place and about twice as fast as std::sort here: comparing two numbers needs no branch.
-template <typename Pair>
-void sort_pairs(std::vector<Pair>& pairs) {
-  boost::sort::pdqsort_branchless(pairs.begin(), pairs.end(),
-                                  [](const Pair& u, const Pair& v) { return place_of(u) < place_of(v); });
+void sort_pairs(std::vector<ClosePair>& pairs) {
+  boost::sort::pdqsort_branchless(pairs.begin(), pairs.end(), [](const ClosePair& u, const ClosePair& v) {
+    return place_of(u.triangles) < place_of(v.triangles);
+  });
+}
+
+QueryWorkspace::Memory& memory_of(QueryWorkspace& workspace) {
+  return workspace.memory();
+}
+QueryWorkspace::Memory& memory_of(CoherentWorkspace& workspace) {
+  return workspace.workspace().memory();
 }
 
 template <typename Workspace>
@@ -129,7 +150,7 @@ void find_pairs(const PlacedTrees& placed, double tolerance, Workspace& workspac
   };
   Visitor visitor(placed, answer, answer_found);
   visit_all(Goal::kEveryPair, placed, tolerance, workspace, visitor);
-  sort_pairs(pairs);
+  sort_pairs(pairs, memory_of(workspace));
 }
 
 template <typename Workspace>

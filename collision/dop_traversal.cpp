@@ -1,5 +1,6 @@
 #include "dop_traversal.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace glissade::collision {
@@ -8,48 +9,78 @@ namespace {
 class Traversal {
  public:
   Traversal(Goal goal, DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor)
-      : goal_(goal), step_(step), memory_(memory), visitor_(visitor), diving_(goal == Goal::kAnyPair) {}
+      : goal_(goal), step_(step), memory_(memory), visitor_(visitor) {}
 
   bool run() {
     memory_.stack.clear();
-    open({0, 0, kAllPairs});
+    if (goal_ == Goal::kAnyPair) {
+      if (dive()) return true;
+    } else {
+      open({0, 0, kAllPairs});
+    }
     while (!memory_.stack.empty()) {
-      OpenPair& top = memory_.stack.back();
-      if (top.thin_pending && !diving_) {
-        top.near = step_.thin_slabs(top.nodes, top.near, top.overlaps);
-        top.thin_pending = false;
-        step_.prefetch(top.nodes, top.near);
-      }
-      if (top.near == 0) {
-        diving_ = false;
-        memory_.stack.pop_back();
-      } else if (follow(top)) {
-        return true;
-      }
+      const OpenPair top = memory_.stack.back();
+      memory_.stack.pop_back();
+      if (expand(top)) return true;
     }
     return false;
   }
 
  private:
+  bool dive() {
+    NodePair nodes{0, 0, kAllPairs};
+    while (true) {
+      OpenPair& open = memory_.stack.emplace_back();
+      open.nodes = nodes;
+      open.near = step_.nodes(nodes, open.overlaps, memory_.counters);
+      if (open.near == 0) {
+        memory_.stack.pop_back();
+        break;
+      }
+      const int pair = step_.deepest(open.overlaps, open.near);
+      const Descent descent = step_.descend(open.nodes, open.near, pair);
+      open.near &= ~descent.including;
+      if (descent.is_leaf) {
+        if (visit_leaves(descent.next.node_P, descent.next.node_Q)) return true;
+        break;
+      }
+      nodes = descent.next;
+    }
+    for (OpenPair& open : memory_.stack) {
+      open.near = step_.thin_slabs(open.nodes, open.near, open.overlaps);
+    }
+    return false;
+  }
+
+  // Looks at the children of two nodes.
   void open(const NodePair& nodes) {
     OpenPair& open = memory_.stack.emplace_back();
     open.nodes = nodes;
     open.near = step_.nodes(nodes, open.overlaps, memory_.counters);
-    open.thin_pending = true;
+    open.near = step_.thin_slabs(nodes, open.near, open.overlaps);
+    if (open.near == 0) {
+      memory_.stack.pop_back();
+    } else {
+      step_.prefetch(nodes, open.near);
+    }
   }
 
-  // Looks at one pair of children. `top` is not valid any more once something was opened.
-  bool follow(OpenPair& top) {
-    // The order is of use only to a query that may end early.
-    const int pair = goal_ == Goal::kAnyPair ? step_.deepest(top.overlaps, top.near) : std::countr_zero(top.near);
-    const Descent descent = step_.descend(top.nodes, top.near, pair);
-    top.near &= ~descent.including;
-    if (!descent.is_leaf) {
-      open(descent.next);
-      return false;
+  bool expand(const OpenPair& top) {
+    const std::size_t first = memory_.stack.size();
+    for (PairMask near = top.near; near != 0;) {
+      const int pair = goal_ == Goal::kAnyPair ? step_.deepest(top.overlaps, near) : std::countr_zero(near);
+      const Descent descent = step_.descend(top.nodes, near, pair);
+      near &= ~descent.including;
+      if (!descent.is_leaf) {
+        open(descent.next);
+      } else if (visit_leaves(descent.next.node_P, descent.next.node_Q)) {
+        return true;
+      }
     }
-    diving_ = false;
-    return visit_leaves(descent.next.node_P, descent.next.node_Q);
+    if (goal_ == Goal::kAnyPair) {
+      std::reverse(memory_.stack.begin() + static_cast<std::ptrdiff_t>(first), memory_.stack.end());
+    }
+    return false;
   }
 
   bool visit_leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q) {
@@ -73,7 +104,6 @@ class Traversal {
   DopVisit& step_;
   QueryWorkspace::Memory& memory_;
   TriangleVisitor& visitor_;
-  bool diving_;
   VisitedLeaves leaves_;
 };
 

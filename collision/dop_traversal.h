@@ -3,7 +3,10 @@
 /// The simultaneous traversal of both trees from the roots, shared by all queries: depth first, opening both nodes of a
 /// pair at once, the pair whose boxes overlap most first.
 
+#include <cstdint>
 #include <vector>
+
+#include <hwy/contrib/sort/vqsort.h>
 
 #include <glissade/collision/dop_query.h>
 
@@ -16,7 +19,6 @@ namespace glissade::collision {
 struct OpenPair {
   NodePair nodes;
   PairMask near;      ///< pairs of children still to be looked at
-  bool thin_pending;  ///< their thin slabs have not been tested
   PairOverlaps overlaps;
 };
 
@@ -30,6 +32,8 @@ struct QueryWorkspace::Memory {
   DopAlignment alignment;
   std::vector<OpenPair> stack;
   std::vector<PromisingPair> promising;
+  std::vector<std::uint64_t> places;  ///< of pairs of triangles in the order of answers
+  hwy::Sorter sort_places;
   QueryCounters counters;
 };
 
