@@ -1,6 +1,5 @@
 #include "dop_traversal.h"
 
-#include <algorithm>
 #include <bit>
 
 namespace glissade::collision {
@@ -8,79 +7,78 @@ namespace {
 
 class Traversal {
  public:
-  Traversal(Goal goal, DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor)
-      : goal_(goal), step_(step), memory_(memory), visitor_(visitor) {}
+  Traversal(DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor)
+      : step_(step), memory_(memory), visitor_(visitor) {}
 
-  bool run() {
+  /// Stops at the first answer: one pair of children after the other, what overlaps most first.
+  bool find_any() {
     memory_.stack.clear();
-    if (goal_ == Goal::kAnyPair) {
-      if (dive()) return true;
-    } else {
-      open({0, 0, kAllPairs});
-    }
+    open({0, 0, kAllPairs});
     while (!memory_.stack.empty()) {
-      const OpenPair top = memory_.stack.back();
+      OpenPair& top = memory_.stack.back();
+      if (top.thin_pending && !diving_) test_thin_slabs(top);
+      if (top.near == 0) {
+        diving_ = false;
+        memory_.stack.pop_back();
+      } else if (follow(top)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// All children of two nodes are opened before any goes on: so their tests overlap in time.
+  bool visit_all() {
+    memory_.stack.clear();
+    open_if_near({0, 0, kAllPairs});
+    while (!memory_.stack.empty()) {
+      const NodePair nodes = memory_.stack.back().nodes;
+      const PairMask all = memory_.stack.back().near;
       memory_.stack.pop_back();
-      if (expand(top)) return true;
+      for (PairMask near = all; near != 0;) {
+        const Descent descent = step_.descend(nodes, near, std::countr_zero(near));
+        near &= ~descent.including;
+        if (!descent.is_leaf) {
+          open_if_near(descent.next);
+        } else if (visit_leaves(descent.next.node_P, descent.next.node_Q)) {
+          return true;
+        }
+      }
     }
     return false;
   }
 
  private:
-  bool dive() {
-    NodePair nodes{0, 0, kAllPairs};
-    while (true) {
-      OpenPair& open = memory_.stack.emplace_back();
-      open.nodes = nodes;
-      open.near = step_.nodes(nodes, open.overlaps, memory_.counters);
-      if (open.near == 0) {
-        memory_.stack.pop_back();
-        break;
-      }
-      const int pair = step_.deepest(open.overlaps, open.near);
-      const Descent descent = step_.descend(open.nodes, open.near, pair);
-      open.near &= ~descent.including;
-      if (descent.is_leaf) {
-        if (visit_leaves(descent.next.node_P, descent.next.node_Q)) return true;
-        break;
-      }
-      nodes = descent.next;
-    }
-    for (OpenPair& open : memory_.stack) {
-      open.near = step_.thin_slabs(open.nodes, open.near, open.overlaps);
-    }
-    return false;
+  void test_thin_slabs(OpenPair& open) {
+    open.near = step_.thin_slabs(open.nodes, open.near, open.overlaps);
+    open.thin_pending = false;
+    step_.prefetch(open.nodes, open.near);
   }
 
-  // Looks at the children of two nodes.
+  void open_if_near(const NodePair& nodes) {
+    open(nodes);
+    test_thin_slabs(memory_.stack.back());
+    if (memory_.stack.back().near == 0) memory_.stack.pop_back();
+  }
+
   void open(const NodePair& nodes) {
     OpenPair& open = memory_.stack.emplace_back();
     open.nodes = nodes;
     open.near = step_.nodes(nodes, open.overlaps, memory_.counters);
-    open.near = step_.thin_slabs(nodes, open.near, open.overlaps);
-    if (open.near == 0) {
-      memory_.stack.pop_back();
-    } else {
-      step_.prefetch(nodes, open.near);
-    }
+    open.thin_pending = true;
   }
 
-  bool expand(const OpenPair& top) {
-    const std::size_t first = memory_.stack.size();
-    for (PairMask near = top.near; near != 0;) {
-      const int pair = goal_ == Goal::kAnyPair ? step_.deepest(top.overlaps, near) : std::countr_zero(near);
-      const Descent descent = step_.descend(top.nodes, near, pair);
-      near &= ~descent.including;
-      if (!descent.is_leaf) {
-        open(descent.next);
-      } else if (visit_leaves(descent.next.node_P, descent.next.node_Q)) {
-        return true;
-      }
+  // Looks at one pair of children. `top` is not valid any more once something was opened.
+  bool follow(OpenPair& top) {
+    const int pair = step_.deepest(top.overlaps, top.near);
+    const Descent descent = step_.descend(top.nodes, top.near, pair);
+    top.near &= ~descent.including;
+    if (!descent.is_leaf) {
+      open(descent.next);
+      return false;
     }
-    if (goal_ == Goal::kAnyPair) {
-      std::reverse(memory_.stack.begin() + static_cast<std::ptrdiff_t>(first), memory_.stack.end());
-    }
-    return false;
+    diving_ = false;
+    return visit_leaves(descent.next.node_P, descent.next.node_Q);
   }
 
   bool visit_leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q) {
@@ -100,17 +98,18 @@ class Traversal {
     return false;
   }
 
-  const Goal goal_;
   DopVisit& step_;
   QueryWorkspace::Memory& memory_;
   TriangleVisitor& visitor_;
+  bool diving_ = true;  // to the first leaves
   VisitedLeaves leaves_;
 };
 
 }  // namespace
 
 bool traverse(Goal goal, DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor) {
-  return Traversal(goal, step, memory, visitor).run();
+  Traversal traversal(step, memory, visitor);
+  return goal == Goal::kAnyPair ? traversal.find_any() : traversal.visit_all();
 }
 
 }  // namespace glissade::collision

@@ -19,6 +19,7 @@ namespace glissade::collision {
 struct OpenPair {
   NodePair nodes;
   PairMask near;      ///< pairs of children still to be looked at
+  bool thin_pending;  ///< their thin slabs have not been tested
   PairOverlaps overlaps;
 };
 
