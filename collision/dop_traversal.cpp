@@ -62,15 +62,14 @@ class Traversal {
   }
 
   void open(const NodePair& nodes) {
-    OpenPair& open = memory_.stack.emplace_back();
-    open.nodes = nodes;
+    OpenPair& open = memory_.stack.emplace_back(nodes);
     open.near = step_.nodes(nodes, open.overlaps, memory_.counters);
-    open.thin_pending = true;
   }
 
   // Looks at one pair of children. `top` is not valid any more once something was opened.
   bool follow(OpenPair& top) {
-    const int pair = step_.deepest(top.overlaps, top.near);
+    const bool is_only = (top.near & (top.near - 1)) == 0;
+    const int pair = is_only ? std::countr_zero(top.near) : step_.deepest(top.overlaps, top.near);
     const Descent descent = step_.descend(top.nodes, top.near, pair);
     top.near &= ~descent.including;
     if (!descent.is_leaf) {

@@ -10,11 +10,19 @@
 namespace glissade::collision {
 namespace {
 
+// The pairs of some children of P, of all that can be, and of some of Q.
+constexpr auto kRows = [] {
+  std::array<std::uint16_t, 1U << kWidth> rows{};
+  for (std::uint32_t children = 0; children < rows.size(); ++children) {
+    for (int c = 0; c < kWidth; ++c)
+      rows[children] |= static_cast<std::uint16_t>((children >> c & 1U) != 0 ? row_of(c) : 0);
+  }
+  return rows;
+}();
+
 // Four bits for each child of P that is named in `children_P`, one in each four for each of `children_Q`.
 PairMask product(std::uint32_t children_P, std::uint32_t children_Q) {
-  const PairMask rows =
-      ((children_P & 1U) | (children_P & 2U) << 3 | (children_P & 4U) << 6 | (children_P & 8U) << 9) * 0xfU;
-  return rows & children_Q * 0x1111U;
+  return kRows[children_P] & children_Q * 0x1111U;
 }
 
 template <typename Value>
