@@ -13,14 +13,17 @@ class Traversal {
   /// Stops at the first answer: one pair of children after the other, what overlaps most first.
   bool find_any() {
     memory_.stack.clear();
-    open({0, 0, kAllPairs});
+    if (dive()) return true;
     while (!memory_.stack.empty()) {
       OpenPair& top = memory_.stack.back();
-      if (top.thin_pending && !diving_) test_thin_slabs(top);
       if (top.near == 0) {
-        diving_ = false;
         memory_.stack.pop_back();
-      } else if (follow(top)) {
+        continue;
+      }
+      const Descent descent = next_of(top);
+      if (!descent.is_leaf) {
+        open_if_near(descent.next);
+      } else if (visit_leaves(descent.next.node_P, descent.next.node_Q)) {
         return true;
       }
     }
@@ -33,9 +36,9 @@ class Traversal {
     open_if_near({0, 0, kAllPairs});
     while (!memory_.stack.empty()) {
       const NodePair nodes = memory_.stack.back().nodes;
-      const PairMask all = memory_.stack.back().near;
+      PairMask near = memory_.stack.back().near;
       memory_.stack.pop_back();
-      for (PairMask near = all; near != 0;) {
+      while (near != 0) {
         const Descent descent = step_.descend(nodes, near, std::countr_zero(near));
         near &= ~descent.including;
         if (!descent.is_leaf) {
@@ -49,35 +52,41 @@ class Traversal {
   }
 
  private:
-  void test_thin_slabs(OpenPair& open) {
-    open.near = step_.thin_slabs(open.nodes, open.near, open.overlaps);
-    open.thin_pending = false;
-    step_.prefetch(open.nodes, open.near);
+  // Follows what overlaps most down to two leaves. Only if these do not answer are thin slabs of use.
+  bool dive() {
+    bool found = false;
+    for (Descent descent{{0, 0, kAllPairs}, false, 0}; !descent.is_leaf;) {
+      OpenPair open{descent.next, 0, {}};
+      open.near = step_.nodes(open.nodes, open.overlaps, memory_.counters);
+      if (open.near == 0) break;
+      descent = next_of(open);
+      memory_.stack.push_back(open);
+      if (descent.is_leaf) found = visit_leaves(descent.next.node_P, descent.next.node_Q);
+    }
+    if (found) return true;
+    for (OpenPair& open : memory_.stack) {
+      open.near = step_.thin_slabs(open.nodes, open.near, open.overlaps);
+      step_.prefetch(open.nodes, open.near);
+    }
+    return false;
+  }
+
+  // Takes the pair of children that overlaps most from those that are still to be looked at.
+  Descent next_of(OpenPair& open) const {
+    const bool is_only = (open.near & (open.near - 1)) == 0;
+    const int pair = is_only ? std::countr_zero(open.near) : step_.deepest(open.overlaps, open.near);
+    const Descent descent = step_.descend(open.nodes, open.near, pair);
+    open.near &= ~descent.including;
+    return descent;
   }
 
   void open_if_near(const NodePair& nodes) {
-    open(nodes);
-    test_thin_slabs(memory_.stack.back());
-    if (memory_.stack.back().near == 0) memory_.stack.pop_back();
-  }
-
-  void open(const NodePair& nodes) {
-    OpenPair& open = memory_.stack.emplace_back(nodes);
-    open.near = step_.nodes(nodes, open.overlaps, memory_.counters);
-  }
-
-  // Looks at one pair of children. `top` is not valid any more once something was opened.
-  bool follow(OpenPair& top) {
-    const bool is_only = (top.near & (top.near - 1)) == 0;
-    const int pair = is_only ? std::countr_zero(top.near) : step_.deepest(top.overlaps, top.near);
-    const Descent descent = step_.descend(top.nodes, top.near, pair);
-    top.near &= ~descent.including;
-    if (!descent.is_leaf) {
-      open(descent.next);
-      return false;
-    }
-    diving_ = false;
-    return visit_leaves(descent.next.node_P, descent.next.node_Q);
+    PairOverlaps overlaps;
+    PairMask near = step_.nodes(nodes, overlaps, memory_.counters);
+    near = step_.thin_slabs(nodes, near, overlaps);
+    if (near == 0) return;
+    memory_.stack.push_back({nodes, near, overlaps});
+    step_.prefetch(nodes, near);
   }
 
   bool visit_leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q) {
@@ -100,7 +109,6 @@ class Traversal {
   DopVisit& step_;
   QueryWorkspace::Memory& memory_;
   TriangleVisitor& visitor_;
-  bool diving_ = true;  // to the first leaves
   VisitedLeaves leaves_;
 };
 

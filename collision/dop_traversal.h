@@ -17,11 +17,8 @@ namespace glissade::collision {
 
 /// Two nodes whose children are being looked at.
 struct OpenPair {
-  explicit OpenPair(const NodePair& pair) : nodes(pair) {}
-
   NodePair nodes;
-  PairMask near = 0;      ///< pairs of children still to be looked at
-  bool thin_pending = true;  ///< their thin slabs have not been tested
+  PairMask near;  ///< pairs of children still to be looked at
   PairOverlaps overlaps;
 };
 
