@@ -17,7 +17,8 @@ AlignmentTable make_table(int k) {
   // The quarter line of a node that holds the offsets of a half-space.
   const auto quarter = [&](int half_space) {
     const bool is_above = half_space < directions.slabs;
-    return static_cast<std::uint8_t>(is_above ? 2 * half_space : 2 * (half_space - directions.slabs) + 1);
+    const int number = is_above ? 2 * half_space : 2 * (half_space - directions.slabs) + 1;
+    return quarter_line(static_cast<std::size_t>(number));
   };
   std::size_t slot = 0;
   for (const GenericVertex& vertex : generic_dop_vertices(k)) {
@@ -29,8 +30,8 @@ AlignmentTable make_table(int k) {
             static_cast<float>(vertex.weights_of_direction(row, static_cast<Eigen::Index>(axis)));
       }
       // What faces `above` is bounded the other way.
-      const std::uint8_t own = quarter(vertex.half_spaces[term]);
-      const std::uint8_t opposite = quarter(directions.opposite(vertex.half_spaces[term]));
+      const QuarterLine own = quarter(vertex.half_spaces[term]);
+      const QuarterLine opposite = quarter(directions.opposite(vertex.half_spaces[term]));
       table.source[2 * slot][2 * term] = opposite;
       table.source[2 * slot][2 * term + 1] = own;
       table.source[2 * slot + 1][2 * term] = own;

@@ -7,6 +7,8 @@
 
 #include <glissade/collision/dop.h>
 
+#include "dop_alignment.h"
+
 namespace glissade::collision {
 
 inline constexpr std::size_t kAlignmentLanes = 16;
@@ -19,7 +21,7 @@ struct alignas(64) AlignmentTable {
   alignas(64) std::array<std::array<float, kAlignmentLanes>, 3> direction;   ///< of each slab; 0 beyond the last
   std::array<std::array<float, 3>, kMostGenericVertices> position;           ///< of each vertex
   std::array<std::array<float, kMostGenericVertices>, 9> weights;            ///< entry 3 · term + axis of each vertex
-  std::array<std::array<std::uint8_t, 6>, 2 * kMostGenericVertices> source;  ///< [2 · vertex + mirrored][2 · term]
+  std::array<std::array<QuarterLine, 6>, 2 * kMostGenericVertices> source;  ///< [2 · vertex + mirrored][2 · term]
 };
 
 /// k as for `dop_directions`. Thread-safe.

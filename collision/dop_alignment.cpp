@@ -141,7 +141,7 @@ void align(const AlignmentTable& table, const QueryFrame& frame, DopAlignment& a
   for (std::size_t i = 0; i < rows; ++i) {
     const auto& source = table.source[static_cast<std::size_t>(found.vertex[i])];
     for (std::size_t term = 0; term < 3; ++term)
-      std::memcpy(&alignment.source[term][2 * i], &source[2 * term], 2);
+      std::memcpy(&alignment.source[term][2 * i], &source[2 * term], 2 * sizeof(QuarterLine));
   }
   const hn::FixedTag<std::int16_t, 8> row;
   // Rows beyond the last slab separate nothing.

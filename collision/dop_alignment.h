@@ -5,6 +5,7 @@
 /// a node then costs O(k) (`node_kernels.h`).
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include <glissade/collision/dop.h>
@@ -17,6 +18,16 @@ namespace glissade::collision {
 /// Rows of a node, rounded up to whole lines.
 inline constexpr int kMostRows = 4 * slab_lines(kMostSlabs);
 
+/// A quarter line (FourValues) of a node, two for each row: its number, and in the sign bit whether that is 16 or more,
+/// for vector code that looks up 16 at once.
+using QuarterLine = std::uint64_t;
+constexpr QuarterLine quarter_line(std::size_t number) {
+  return number | (number >= 16 ? std::uint64_t{1} << 63 : 0);
+}
+constexpr std::size_t number_of(QuarterLine quarter) {
+  return quarter & 0xff;
+}
+
 /// Three weights each and an offset for every half-space, in the layout of the vector code.
 ///
 /// It cannot make a DOP too small: for weights w ≥ 0 with Σ w_l b_l = c, the sum Σ w_l s_l bounds c·x over every DOP
@@ -28,8 +39,7 @@ struct alignas(64) DopAlignment {
 
   std::array<Lanes, 3> weight;  ///< of each term, in 2^-15
   Lanes offset;                 ///< in grid steps of the base
-  /// Where each term is read: the quarter line (FourValues) of the node, two for each row.
-  std::array<std::array<std::uint8_t, 2 * kMostRows>, 3> source;
+  std::array<std::array<QuarterLine, 2 * kMostRows>, 3> source;  ///< where each term is read
   int slabs;
 };
 

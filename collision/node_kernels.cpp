@@ -21,13 +21,13 @@ HWY_INLINE const std::int16_t* lanes(const SlabLine* node) {
 
 // A node of 12 slabs fills three registers of 32 lanes. Realignment permutes quarter lines of them.
 template <int kRegisters>
-HWY_INLINE __m512i permute_quarters(const __m512i (&node)[kRegisters], const std::uint8_t* source) {
-  const __m512i index = _mm512_cvtepu8_epi64(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(source)));
+HWY_INLINE __m512i permute_quarters(const __m512i (&node)[kRegisters], const QuarterLine* source) {
+  const __m512i index = _mm512_load_si512(source);
   if constexpr (kRegisters == 1) return _mm512_permutexvar_epi64(index, node[0]);
   if constexpr (kRegisters >= 2) {
     const __m512i low = _mm512_permutex2var_epi64(node[0], index, node[1]);
     if constexpr (kRegisters == 2) return low;
-    const __mmask8 from_high = _mm512_test_epi64_mask(index, _mm512_set1_epi64(16));
+    const __mmask8 from_high = _mm512_movepi64_mask(index);
     if constexpr (kRegisters == 3) return _mm512_mask_permutexvar_epi64(low, from_high, index, node[2]);
     if constexpr (kRegisters == 4) {
       return _mm512_mask_blend_epi64(from_high, low, _mm512_permutex2var_epi64(node[2], index, node[3]));
@@ -161,7 +161,7 @@ void realign(const DopAlignment& alignment, const SlabLine* node_Q, AlignedNode&
                                                               {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}};
   for (std::size_t i = 0; i < static_cast<std::size_t>(alignment.slabs); ++i) {
     const auto product = [&](std::size_t l) HWY_ATTR {
-      const std::size_t quarter = alignment.source[l][2 * i + 1];
+      const std::size_t quarter = number_of(alignment.source[l][2 * i + 1]);
       const auto row = hn::Load(d, lanes(node_Q) + 8 * (quarter / 2));
       const auto placed =
           hn::BitCast(d, hn::TableLookupBytes(hn::BitCast(d8, row), hn::Load(d8, kPlaces[quarter % 2])));

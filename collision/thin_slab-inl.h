@@ -18,111 +18,184 @@ HWY_BEFORE_NAMESPACE();
 namespace glissade::collision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Four lanes of one node's thin slabs, in grid steps of P and its frame.
-struct ThinChildren {
-  alignas(16) float normal[3][kWidth];
-  alignas(16) float center[3][kWidth];
-  alignas(16) float offset[kWidth];
-  alignas(16) float half_width[kWidth];
-  alignas(16) float radius[kWidth];
+// Thin slabs of some children, in grid steps of their own tree or of P.
+template <class V>
+struct ThinLanes {
+  V normal[3];
+  V center[3];
+  V offset;
+  V half_width;
+  V radius;
 };
 
-template <class D4>
-HWY_INLINE hn::Vec<D4> to_float(D4 d, const FourValues& values) {
-  const hn::FixedTag<std::int16_t, kWidth> d16;
-  return hn::ConvertTo(d, hn::PromoteTo(hn::RebindToSigned<D4>(), hn::Load(d16, values.data())));
+template <class D, class V>
+HWY_INLINE V rotated(D d, const ThinSlabFrame& frame, const V (&v)[3], std::size_t row) {
+  return hn::MulAdd(hn::Set(d, frame.R_PQ[row][0]), v[0],
+                    hn::MulAdd(hn::Set(d, frame.R_PQ[row][1]), v[1], hn::Mul(hn::Set(d, frame.R_PQ[row][2]), v[2])));
 }
 
-HWY_INLINE void load_thin(const NodeHead& head, const SlabLine* node, ThinChildren& children) {
-  const hn::FixedTag<float, kWidth> d;
-  const auto half = hn::Set(d, 0.5F);
+template <class D, class V>
+HWY_INLINE ThinLanes<V> moved_to_base(D d, const ThinSlabFrame& frame, const ThinLanes<V>& q) {
+  const V ratio = hn::Set(d, frame.ratio);
+  ThinLanes<V> moved;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    hn::Store(hn::Mul(to_float(d, head.normal[axis]), hn::Set(d, 1.0F / 32767.0F)), d, children.normal[axis]);
-    const SlabRow& row = node->rows[axis];
-    hn::Store(hn::Mul(half, hn::Sub(to_float(d, row.above), to_float(d, row.below))), d, children.center[axis]);
+    moved.normal[axis] = rotated(d, frame, q.normal, axis);
+    moved.center[axis] = hn::MulAdd(ratio, rotated(d, frame, q.center, axis), hn::Set(d, frame.p_PQ[axis]));
   }
-  hn::Store(to_float(d, head.offset), d, children.offset);
-  hn::Store(to_float(d, head.half_width), d, children.half_width);
-  hn::Store(to_float(d, head.radius), d, children.radius);
+  moved.offset = hn::Mul(ratio, q.offset);
+  moved.half_width = hn::Mul(ratio, q.half_width);
+  moved.radius = hn::Mul(ratio, q.radius);
+  return moved;
 }
 
-HWY_INLINE void move_to_base(const ThinSlabFrame& frame, ThinChildren& children) {
-  const hn::FixedTag<float, kWidth> d;
-  const auto rotated = [&](const float(&v)[3][kWidth], std::size_t row) HWY_ATTR {
-    return hn::MulAdd(hn::Set(d, frame.R_PQ[row][0]), hn::Load(d, v[0]),
-                      hn::MulAdd(hn::Set(d, frame.R_PQ[row][1]), hn::Load(d, v[1]),
-                                 hn::Mul(hn::Set(d, frame.R_PQ[row][2]), hn::Load(d, v[2]))));
-  };
-  const auto ratio = hn::Set(d, frame.ratio);
-  hn::Vec<decltype(d)> normal[3] = {rotated(children.normal, 0), rotated(children.normal, 1),
-                                    rotated(children.normal, 2)};
-  hn::Vec<decltype(d)> center[3] = {rotated(children.center, 0), rotated(children.center, 1),
-                                    rotated(children.center, 2)};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    hn::Store(normal[axis], d, children.normal[axis]);
-    hn::Store(hn::MulAdd(ratio, center[axis], hn::Set(d, frame.p_PQ[axis])), d, children.center[axis]);
-  }
-  hn::Store(hn::Mul(ratio, hn::Load(d, children.offset)), d, children.offset);
-  hn::Store(hn::Mul(ratio, hn::Load(d, children.half_width)), d, children.half_width);
-  hn::Store(hn::Mul(ratio, hn::Load(d, children.radius)), d, children.radius);
-}
-
-// How far pairs overlap along the thinner of their two slabs, from pair `first` on.
 template <class D>
-HWY_INLINE hn::Vec<D> thin_overlap(D d, const ThinChildren& p, const ThinChildren& q, std::size_t first) {
-  using V = hn::Vec<D>;
-  V n_P[3];
-  V n_Q[3];
-  V between[3];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    n_P[axis] = of_P(d, p.normal[axis], first);
-    n_Q[axis] = of_Q(d, q.normal[axis]);
-    between[axis] = hn::Sub(of_Q(d, q.center[axis]), of_P(d, p.center[axis], first));
-  }
+HWY_INLINE hn::Vec<D> to_float(D d, hn::Vec<hn::Rebind<std::int16_t, D>> values) {
+  return hn::ConvertTo(d, hn::PromoteTo(hn::RebindToSigned<D>(), values));
+}
+
+// How far pairs overlap along the thinner of their two slabs.
+template <class D, class V>
+HWY_INLINE V thin_overlap(D d, const ThinLanes<V>& p, const ThinLanes<V>& q) {
   const auto dot = [](const V(&u)[3], const V(&v)[3])
                        HWY_ATTR { return hn::MulAdd(u[0], v[0], hn::MulAdd(u[1], v[1], hn::Mul(u[2], v[2]))); };
-  const V cosine = dot(n_P, n_Q);
+  const V cosine = dot(p.normal, q.normal);
   // The chord between the normals, turned to the same side, bounds the sine; its error is that of the normals' length.
+  V between[3];
   V chord[3];
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const V turned = hn::Xor(n_Q[axis], hn::And(hn::SignBit(d), cosine));
-    chord[axis] = hn::Sub(n_P[axis], turned);
+    between[axis] = hn::Sub(q.center[axis], p.center[axis]);
+    const V turned = hn::Xor(q.normal[axis], hn::And(hn::SignBit(d), cosine));
+    chord[axis] = hn::Sub(p.normal[axis], turned);
   }
   const V sine = hn::Add(hn::Sqrt(dot(chord, chord)), hn::Set(d, 3e-4F));
   const V abs_cosine = hn::Abs(cosine);
 
-  const V offset_P = of_P(d, p.offset, first);
-  const V offset_Q = of_Q(d, q.offset);
-  const V half_P = of_P(d, p.half_width, first);
-  const V half_Q = of_Q(d, q.half_width);
-  const V apart_P = hn::Abs(hn::MulAdd(offset_Q, cosine, hn::Sub(dot(n_P, between), offset_P)));
-  const V reach_P = hn::MulAdd(half_Q, abs_cosine, hn::MulAdd(of_Q(d, q.radius), sine, half_P));
-  const V apart_Q = hn::Abs(hn::NegMulAdd(offset_P, cosine, hn::Add(dot(n_Q, between), offset_Q)));
-  const V reach_Q = hn::MulAdd(half_P, abs_cosine, hn::MulAdd(of_P(d, p.radius, first), sine, half_Q));
+  const V apart_P = hn::Abs(hn::MulAdd(q.offset, cosine, hn::Sub(dot(p.normal, between), p.offset)));
+  const V reach_P = hn::MulAdd(q.half_width, abs_cosine, hn::MulAdd(q.radius, sine, p.half_width));
+  const V apart_Q = hn::Abs(hn::NegMulAdd(p.offset, cosine, hn::Add(dot(q.normal, between), q.offset)));
+  const V reach_Q = hn::MulAdd(p.half_width, abs_cosine, hn::MulAdd(p.radius, sine, q.half_width));
   return hn::Min(hn::Sub(reach_P, apart_P), hn::Sub(reach_Q, apart_Q));
+}
+
+// What to add for the nearest integer to be no less: a half, and more than single precision loses of that.
+constexpr float kRoundUp = 0.51F;
+
+// Lowers the overlaps from pair `first` on, and says which are enough.
+template <class D, class V>
+HWY_INLINE PairMask lower_overlaps(D d, const ThinSlabFrame& frame, const ThinLanes<V>& p, const ThinLanes<V>& q,
+                                   int least_overlap, std::size_t first, PairOverlaps& overlaps) {
+  const hn::Rebind<std::int16_t, D> d16;
+  std::int16_t* const lanes = overlaps.overlap.data() + first;
+  const V overlap = hn::Add(thin_overlap(d, p, q), hn::Set(d, frame.padding + kRoundUp));
+  const auto least = hn::Min(hn::DemoteTo(d16, hn::NearestInt(overlap)), hn::Load(d16, lanes));
+  hn::Store(least, d16, lanes);
+  return bits_of(d16, hn::Gt(least, hn::Set(d16, static_cast<std::int16_t>(least_overlap - 1)))) << first;
+}
+
+constexpr float kNormalStep = 1.0F / 32767.0F;
+
+// In registers of 16 lanes: what a node says fits three of them, from which each pair takes the values of its child.
+template <class D>
+HWY_INLINE ThinLanes<hn::Vec<D>> thin_of_pairs(D d, const NodeHead& head, const SlabLine* node,
+                                               const std::int32_t (&child_of_pair)[kPairs]) {
+  using V = hn::Vec<D>;
+  const hn::Rebind<std::int16_t, D> d16;
+  const hn::Half<decltype(d16)> half;
+  alignas(64) static constexpr float kUnits[kPairs] = {
+      kNormalStep, kNormalStep, kNormalStep, kNormalStep, kNormalStep, kNormalStep, kNormalStep, kNormalStep,
+      kNormalStep, kNormalStep, kNormalStep, kNormalStep, 1.0F,        1.0F,        1.0F,        1.0F};
+  alignas(64) static constexpr std::int32_t kBelow[kPairs] = {4, 5, 6, 7, 4, 5, 6, 7, 12, 13, 14, 15, 12, 13, 14, 15};
+  const auto middle = [&](V above_and_below) HWY_ATTR {
+    const V below = hn::TableLookupLanes(above_and_below, hn::SetTableIndices(d, kBelow));
+    return hn::Mul(hn::Sub(above_and_below, below), hn::Set(d, 0.5F));
+  };
+  const V normals_and_offset = hn::Mul(to_float(d, hn::Load(d16, head.normal[0].data())), hn::Load(d, kUnits));
+  const V centers_xy = middle(to_float(d, hn::Load(d16, node->rows[0].above.data())));
+  const V bounds_z_and_sizes = to_float(
+      d, hn::Combine(d16, hn::Load(half, head.half_width.data()), hn::Load(half, node->rows[2].above.data())));
+  const V center_z = middle(bounds_z_and_sizes);
+
+  const hn::RebindToSigned<D> d32;
+  const auto child = hn::Load(d32, child_of_pair);
+  const auto spread = [&](V values, std::int32_t quarter) HWY_ATTR {
+    return hn::TableLookupLanes(values, hn::IndicesFromVec(d, hn::Add(child, hn::Set(d32, 4 * quarter))));
+  };
+  return {{spread(normals_and_offset, 0), spread(normals_and_offset, 1), spread(normals_and_offset, 2)},
+          {spread(centers_xy, 0), spread(centers_xy, 2), spread(center_z, 0)},
+          spread(normals_and_offset, 3),
+          spread(bounds_z_and_sizes, 2),
+          spread(bounds_z_and_sizes, 3)};
+}
+
+// In shorter registers: a lane for each child.
+using Four = hn::Vec<hn::FixedTag<float, kWidth>>;
+HWY_INLINE ThinLanes<Four> thin_of_children(const NodeHead& head, const SlabLine* node) {
+  const hn::FixedTag<float, kWidth> d;
+  const hn::FixedTag<std::int16_t, kWidth> d16;
+  const auto floats = [&](const FourValues& values) HWY_ATTR { return to_float(d, hn::Load(d16, values.data())); };
+  const auto unit = [&](const FourValues& v) HWY_ATTR { return hn::Mul(floats(v), hn::Set(d, kNormalStep)); };
+  const auto middle = [&](const SlabRow& row)
+                          HWY_ATTR { return hn::Mul(hn::Sub(floats(row.above), floats(row.below)), hn::Set(d, 0.5F)); };
+  return {{unit(head.normal[0]), unit(head.normal[1]), unit(head.normal[2])},
+          {middle(node->rows[0]), middle(node->rows[1]), middle(node->rows[2])},
+          floats(head.offset),
+          floats(head.half_width),
+          floats(head.radius)};
+}
+
+// Pairs from `first` on take the values of their child.
+template <class D>
+HWY_INLINE ThinLanes<hn::Vec<D>> spread_P(D d, const ThinLanes<Four>& p, std::size_t first) {
+  const auto spread = [&](Four values) HWY_ATTR {
+    alignas(16) float four[kWidth];
+    hn::Store(values, hn::FixedTag<float, kWidth>(), four);
+    return of_P(d, four, first);
+  };
+  return {{spread(p.normal[0]), spread(p.normal[1]), spread(p.normal[2])},
+          {spread(p.center[0]), spread(p.center[1]), spread(p.center[2])},
+          spread(p.offset),
+          spread(p.half_width),
+          spread(p.radius)};
+}
+template <class D>
+HWY_INLINE ThinLanes<hn::Vec<D>> spread_Q(D d, const ThinLanes<Four>& q) {
+  const auto spread = [&](Four values) HWY_ATTR {
+    alignas(16) float four[kWidth];
+    hn::Store(values, hn::FixedTag<float, kWidth>(), four);
+    return of_Q(d, four);
+  };
+  return {{spread(q.normal[0]), spread(q.normal[1]), spread(q.normal[2])},
+          {spread(q.center[0]), spread(q.center[1]), spread(q.center[2])},
+          spread(q.offset),
+          spread(q.half_width),
+          spread(q.radius)};
+}
+
+template <class D>
+HWY_INLINE PairMask test_thin_in(D d, const ThinSlabFrame& frame, const NodeHead& head_P, const SlabLine* node_P,
+                                 const NodeHead& head_Q, const SlabLine* node_Q, int least_overlap,
+                                 PairOverlaps& overlaps) {
+  if constexpr (hn::MaxLanes(D()) == kPairs) {
+    alignas(64) static constexpr std::int32_t kOfP[kPairs] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+    alignas(64) static constexpr std::int32_t kOfQ[kPairs] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+    const auto p = thin_of_pairs(d, head_P, node_P, kOfP);
+    const auto q = moved_to_base(d, frame, thin_of_pairs(d, head_Q, node_Q, kOfQ));
+    return lower_overlaps(d, frame, p, q, least_overlap, 0, overlaps);
+  } else {
+    const hn::FixedTag<float, kWidth> d4;
+    const ThinLanes<Four> p = thin_of_children(head_P, node_P);
+    const auto q = spread_Q(d, moved_to_base(d4, frame, thin_of_children(head_Q, node_Q)));
+    PairMask mask = 0;
+    for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d))
+      mask |= lower_overlaps(d, frame, spread_P(d, p, first), q, least_overlap, first, overlaps);
+    return mask;
+  }
 }
 
 PairMask test_thin(const ThinSlabFrame& frame, const NodeHead& head_P, const SlabLine* node_P, const NodeHead& head_Q,
                    const SlabLine* node_Q, int least_overlap, PairOverlaps& overlaps) {
-  ThinChildren p;
-  ThinChildren q;
-  load_thin(head_P, node_P, p);
-  load_thin(head_Q, node_Q, q);
-  move_to_base(frame, q);
-
   const hn::CappedTag<float, kPairs> d;
-  const hn::Rebind<std::int16_t, decltype(d)> d16;
-  const hn::RebindToSigned<decltype(d)> d32;
-  PairMask mask = 0;
-  for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
-    const auto overlap = hn::Add(thin_overlap(d, p, q, first), hn::Set(d, frame.padding));
-    const auto whole = hn::DemoteTo(d16, hn::ConvertTo(d32, hn::Ceil(overlap)));
-    const auto least = hn::Min(whole, hn::Load(d16, overlaps.overlap.data() + first));
-    hn::Store(least, d16, overlaps.overlap.data() + first);
-    const auto kept = hn::Gt(least, hn::Set(d16, static_cast<std::int16_t>(least_overlap - 1)));
-    mask |= bits_of(d16, kept) << first;
-  }
-  return mask;
+  return test_thin_in(d, frame, head_P, node_P, head_Q, node_Q, least_overlap, overlaps);
 }
 
 }  // namespace glissade::collision::HWY_NAMESPACE
