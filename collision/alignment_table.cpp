@@ -1,5 +1,7 @@
 #include "alignment_table.h"
 
+#include <numeric>
+
 #include "generic_dop.h"
 
 namespace glissade::collision {
@@ -20,6 +22,7 @@ AlignmentTable make_table(int k) {
     const int number = is_above ? 2 * half_space : 2 * (half_space - directions.slabs) + 1;
     return quarter_line(static_cast<std::size_t>(number));
   };
+  std::iota(table.number.begin(), table.number.end(), 0);
   std::size_t slot = 0;
   for (const GenericVertex& vertex : generic_dop_vertices(k)) {
     for (std::size_t term = 0; term < 3; ++term) {

@@ -32,23 +32,37 @@ struct alignas(64) Correspondence {
   Side below;
 };
 
+using Indices = hn::Vec<hn::RebindToSigned<Tag>>;
+
 // The vertex of the generic DOP that is furthest along each direction or its opposite, as its number. The number is
 // kept in the lowest bits of the reach, so that one maximum finds both; which of two nearly equal vertices wins is no
 // matter.
-HWY_INLINE hn::Vec<hn::RebindToSigned<Tag>> furthest_vertex(const AlignmentTable& table, const V (&direction)[3]) {
+HWY_INLINE Indices furthest_vertex(const AlignmentTable& table, const V (&direction)[3]) {
   const Tag d;
   const hn::RebindToSigned<Tag> d32;
-  constexpr std::int32_t kNumberBits = 31;
-  const auto reach_bits = hn::Set(d32, 0x7fffffff & ~kNumberBits);
-  auto most = hn::Zero(d);
-  for (int i = 0; i < table.vertex_count; ++i) {
-    const auto& x = table.position[static_cast<std::size_t>(i)];
-    const V reach = hn::MulAdd(direction[0], hn::Set(d, x[0]),
+  const auto number_bits = hn::Set(d32, kVertexEntries - 1);
+  const auto reach_bits = hn::AndNot(number_bits, hn::Set(d32, 0x7fffffff));
+  const auto reach = [&](std::size_t i) HWY_ATTR {
+    const auto& x = table.position[i];
+    const V exact = hn::MulAdd(direction[0], hn::Set(d, x[0]),
                                hn::MulAdd(direction[1], hn::Set(d, x[1]), hn::Mul(direction[2], hn::Set(d, x[2]))));
-    const auto tagged = hn::Or(hn::And(hn::BitCast(d32, reach), reach_bits), hn::Set(d32, i));
-    most = hn::Max(most, hn::BitCast(d, tagged));
+    return hn::BitCast(d, hn::OrAnd(hn::Set(d32, table.number[i]), hn::BitCast(d32, exact), reach_bits));
+  };
+  // Every other vertex on its own, so that maxima do not wait for each other. The number of vertices is even.
+  V most[2] = {hn::Zero(d), hn::Zero(d)};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table.vertex_count); i += 2) {
+    most[0] = hn::Max(most[0], reach(i));
+    most[1] = hn::Max(most[1], reach(i + 1));
   }
-  return hn::And(hn::BitCast(d32, most), hn::Set(d32, kNumberBits));
+  return hn::And(hn::BitCast(d32, hn::Max(most[0], most[1])), number_bits);
+}
+
+HWY_INLINE V look_up(const std::array<float, kVertexEntries>& entries, Indices vertex) {
+#if HWY_TARGET == HWY_AVX3
+  return V{_mm512_permutex2var_ps(_mm512_load_ps(entries.data()), vertex.raw, _mm512_load_ps(entries.data() + 16))};
+#else
+  return hn::GatherIndex(Tag(), entries.data(), vertex);
+#endif
 }
 
 HWY_INLINE void find_correspondence(const AlignmentTable& table, const QueryFrame& frame, std::size_t first,
@@ -69,8 +83,7 @@ HWY_INLINE void find_correspondence(const AlignmentTable& table, const QueryFram
 
   V weight[3];
   for (std::size_t term = 0; term < 3; ++term) {
-    const auto entry = [&](std::size_t axis)
-                           HWY_ATTR { return hn::GatherIndex(d, table.weights[3 * term + axis].data(), vertex); };
+    const auto entry = [&](std::size_t axis) HWY_ATTR { return look_up(table.weights[3 * term + axis], vertex); };
     weight[term] =
         hn::MulAdd(direction[0], entry(0), hn::MulAdd(direction[1], entry(1), hn::Mul(direction[2], entry(2))));
   }
@@ -109,21 +122,42 @@ HWY_INLINE void find_correspondence(const AlignmentTable& table, const QueryFram
   }
 }
 
-// Four rows of eight lanes: of each of the four values, one lane for each child that it faces `below`, then `above`.
-HWY_INLINE void spread(const std::int32_t* below, const std::int32_t* above, std::int16_t* lanes) {
+// Eight lanes for each of four values and more: one for each child that it faces `below`, then `above`.
+#if HWY_TARGET == HWY_AVX3
+
+HWY_INLINE void spread(const std::int32_t* below, const std::int32_t* above, std::size_t rows, std::int16_t* lanes) {
+  alignas(64) static constexpr std::int16_t kFirstRows[32] = {0, 0, 0, 0, 16, 16, 16, 16, 1, 1, 1, 1, 17, 17, 17, 17,
+                                                              2, 2, 2, 2, 18, 18, 18, 18, 3, 3, 3, 3, 19, 19, 19, 19};
+  const __m512i values = _mm512_inserti64x4(_mm512_castsi256_si512(_mm512_cvtepi32_epi16(_mm512_load_si512(below))),
+                                            _mm512_cvtepi32_epi16(_mm512_load_si512(above)), 1);
+  __m512i place = _mm512_load_si512(kFirstRows);
+  for (std::size_t first = 0; first < rows; first += 4) {
+    _mm512_store_si512(lanes + 8 * first, _mm512_permutexvar_epi16(place, values));
+    place = _mm512_add_epi16(place, _mm512_set1_epi16(4));
+  }
+}
+
+#else
+
+HWY_INLINE void spread(const std::int32_t* below, const std::int32_t* above, std::size_t rows, std::int16_t* lanes) {
   const hn::FixedTag<std::int32_t, 4> d32;
   const hn::FixedTag<std::int16_t, 4> d16;
   const hn::FixedTag<std::int16_t, 8> row;
   const hn::FixedTag<std::uint8_t, 16> d8;
   alignas(16) static constexpr std::uint8_t kFirstRow[16] = {0, 1, 0, 1, 0, 1, 0, 1, 8, 9, 8, 9, 8, 9, 8, 9};
-  const auto values = hn::BitCast(
-      d8, hn::Combine(row, hn::DemoteTo(d16, hn::Load(d32, above)), hn::DemoteTo(d16, hn::Load(d32, below))));
-  auto place = hn::Load(d8, kFirstRow);
-  for (std::size_t i = 0; i < 4; ++i) {
-    hn::Store(hn::BitCast(row, hn::TableLookupBytes(values, place)), row, lanes + 8 * i);
-    place = hn::Add(place, hn::Set(d8, 2));
+  for (std::size_t first = 0; first < rows; first += 4) {
+    const auto values =
+        hn::BitCast(d8, hn::Combine(row, hn::DemoteTo(d16, hn::Load(d32, above + first)),
+                                    hn::DemoteTo(d16, hn::Load(d32, below + first))));
+    auto place = hn::Load(d8, kFirstRow);
+    for (std::size_t i = 0; i < 4; ++i) {
+      hn::Store(hn::BitCast(row, hn::TableLookupBytes(values, place)), row, lanes + 8 * (first + i));
+      place = hn::Add(place, hn::Set(d8, 2));
+    }
   }
 }
+
+#endif
 
 void align(const AlignmentTable& table, const QueryFrame& frame, DopAlignment& alignment) {
   Correspondence found;
@@ -132,12 +166,9 @@ void align(const AlignmentTable& table, const QueryFrame& frame, DopAlignment& a
 
   alignment.slabs = table.slabs;
   const auto rows = static_cast<std::size_t>(4 * slab_lines(table.slabs));
-  for (std::size_t first = 0; first < rows; first += 4) {
-    for (std::size_t term = 0; term < 3; ++term)
-      spread(found.below.weight[term] + first, found.above.weight[term] + first,
-             alignment.weight[term].data() + 8 * first);
-    spread(found.below.offset + first, found.above.offset + first, alignment.offset.data() + 8 * first);
-  }
+  for (std::size_t term = 0; term < 3; ++term)
+    spread(found.below.weight[term], found.above.weight[term], rows, alignment.weight[term].data());
+  spread(found.below.offset, found.above.offset, rows, alignment.offset.data());
   for (std::size_t i = 0; i < rows; ++i) {
     const auto& source = table.source[static_cast<std::size_t>(found.vertex[i])];
     for (std::size_t term = 0; term < 3; ++term)
