@@ -14,6 +14,7 @@ class Traversal {
   bool find_any() {
     memory_.stack.clear();
     if (dive()) return true;
+    if (step_.boxes_apart()) return false;
     while (!memory_.stack.empty()) {
       OpenPair& top = memory_.stack.back();
       if (top.near == 0) {
@@ -32,6 +33,7 @@ class Traversal {
 
   /// All children of two nodes are opened before any goes on: so their tests overlap in time.
   bool visit_all() {
+    if (step_.boxes_apart()) return false;
     memory_.stack.clear();
     open_if_near({0, 0, kAllPairs});
     while (!memory_.stack.empty()) {

@@ -75,6 +75,7 @@ void DopTree::refit() {
   check_vertices(*mesh_);
   const TreeGrid grid = grid_of(*mesh_);
   center_ = grid.center;
+  half_size_ = grid.half_size;
   radius_ = grid.radius;
   degenerate_triangles_ = fit_leaves(*mesh_, grid, leaves_);
   fit_nodes(options_, leaves_, heads_, slabs_);

@@ -72,6 +72,8 @@ class DopTree {
   /// Centre of the bounding box and radius in metres of a sphere about it that holds every vertex of the tree.
   const Eigen::Vector3d& center() const { return center_; }
   double radius() const { return radius_; }
+  /// Half the edges of the bounding box in metres, rounded up.
+  const Eigen::Vector3d& half_size() const { return half_size_; }
 
   /// Bytes of the tree itself, without the mesh it shares.
   std::size_t memory_bytes() const;
@@ -92,6 +94,7 @@ class DopTree {
   std::int64_t degenerate_triangles_ = 0;
   int depth_ = 0;
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d half_size_ = Eigen::Vector3d::Zero();
   double radius_ = 0.0;
 };
 

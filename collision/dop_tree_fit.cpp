@@ -185,8 +185,9 @@ TreeGrid grid_of(const TriangleMesh& mesh) {
     low = low.min(x.array());
     high = high.max(x.array());
   });
-  TreeGrid grid{0.5 * (low + high).matrix(), 0.0};
+  TreeGrid grid{0.5 * (low + high).matrix(), Eigen::Vector3d::Zero(), 0.0};
   for_each_vertex([&](const Vector3d& x) { grid.radius = std::max(grid.radius, (x - grid.center).squaredNorm()); });
+  grid.half_size = ((high - grid.center.array()).max(grid.center.array() - low) * (1.0 + 1e-12)).matrix();
   grid.radius = std::sqrt(grid.radius) * (1.0 + 1e-12);
   if (!(grid.radius > 0.0)) grid.radius = 1.0;  // all in one point: no length of its own, but there must be one
   return grid;

@@ -14,10 +14,11 @@ namespace glissade::collision {
 /// Where the grid of a tree lies.
 struct TreeGrid {
   Eigen::Vector3d center;
+  Eigen::Vector3d half_size;
   double radius;
 };
 
-/// Centre of the bounding box of all corners, and the radius about it.
+/// The bounding box of all corners, rounded outward, and the radius about its centre.
 TreeGrid grid_of(const TriangleMesh& mesh);
 
 /// Fills the corners of all leaves, and marks triangles without area; returns their number. No allocation.

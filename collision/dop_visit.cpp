@@ -5,6 +5,7 @@
 
 #include <hwy/cache_control.h>
 
+#include "oriented_boxes.h"
 #include "round_up.h"
 
 namespace glissade::collision {
@@ -71,6 +72,10 @@ void DopVisit::begin_nodes() {
   } else {
     align(k, frame_, alignment_);
   }
+}
+
+bool DopVisit::boxes_apart() const {
+  return collision::boxes_apart(base_, other_, frame_, static_cast<double>(distance_));
 }
 
 PairMask DopVisit::pairs_of(const NodePair& pair) const {

@@ -54,6 +54,9 @@ class DopVisit {
   DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
            DopAlignment& alignment);
 
+  /// The bounding boxes of both trees, turned as these are, are certainly further apart than the distance.
+  bool boxes_apart() const;
+
   /// The pairs of children there are, among those of interest.
   PairMask pairs_of(const NodePair& pair) const;
 

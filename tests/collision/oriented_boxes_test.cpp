@@ -1,0 +1,109 @@
+#include "oriented_boxes.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <glissade/collision/mesh_generators.h>
+#include <glissade/collision/triangle_distance.h>
+
+#include "random_numbers.h"
+
+namespace glissade::collision {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// Two solid boxes at a random pose, somewhere about touching.
+class TwoBoxes {
+ public:
+  explicit TwoBoxes(test_support::RandomNumbers& random)
+      : size_A_(random_size(random)), size_B_(random_size(random)), tree_A_(tree(size_A_)), tree_B_(tree(size_B_)) {
+    X_AB_.linear() = random.rotation();
+    X_AB_.translation() = random.point(0.35 * (size_A_.norm() + size_B_.norm()));
+  }
+
+  // Of the surfaces; 0 when they meet.
+  double distance() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const TrianglePoints& a : triangles(tree_A_, Isometry3d::Identity())) {
+      for (const TrianglePoints& b : triangles(tree_B_, X_AB_))
+        least = std::min(least, triangle_distance(a, b).distance);
+    }
+    return least;
+  }
+
+  bool one_is_inside_the_other() const {
+    const Vector3d p_AB = X_AB_.translation();
+    const Vector3d p_BA = X_AB_.inverse().translation();
+    return (2.0 * p_AB.cwiseAbs() - size_A_).maxCoeff() < 0.0 || (2.0 * p_BA.cwiseAbs() - size_B_).maxCoeff() < 0.0;
+  }
+
+  bool apart(double distance) const {
+    const QueryFrame frame(tree_A_, tree_B_, X_AB_);
+    const DopTree& base = frame.base_is_A ? tree_A_ : tree_B_;
+    const DopTree& other = frame.base_is_A ? tree_B_ : tree_A_;
+    return boxes_apart(base, other, frame, frame.in_base_radii(distance));
+  }
+
+ private:
+  static Vector3d random_size(test_support::RandomNumbers& random) {
+    return {random.uniform(0.01, 2.0), random.uniform(0.01, 2.0), random.uniform(0.01, 2.0)};
+  }
+  static DopTree tree(const Vector3d& size) { return DopTree(std::make_shared<const TriangleMesh>(make_box(size, 12))); }
+
+  static std::vector<TrianglePoints> triangles(const DopTree& tree, const Isometry3d& X) {
+    std::vector<TrianglePoints> result;
+    const TriangleMesh& mesh = tree.mesh();
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.triangles.size()); ++t)
+      result.push_back({X * mesh.corner(t, 0), X * mesh.corner(t, 1), X * mesh.corner(t, 2)});
+    return result;
+  }
+
+  Vector3d size_A_;
+  Vector3d size_B_;
+  DopTree tree_A_;
+  DopTree tree_B_;
+  Isometry3d X_AB_ = Isometry3d::Identity();
+};
+
+TEST(OrientedBoxes, AreApartWhenAndOnlyWhenTheSolidsAre) {
+  constexpr unsigned kSeed = 23;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  test_support::RandomNumbers random(kSeed);
+  int apart = 0;
+  int meeting = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const TwoBoxes boxes(random);
+    const double distance = boxes.distance();
+    if (distance > 1e-9 && !boxes.one_is_inside_the_other()) {
+      ++apart;
+      ASSERT_TRUE(boxes.apart(0.0)) << "trial " << trial << ", seed " << kSeed;
+    } else {
+      ++meeting;
+      ASSERT_FALSE(boxes.apart(0.0)) << "trial " << trial << ", seed " << kSeed;
+    }
+  }
+  EXPECT_GT(apart, 1000);
+  EXPECT_GT(meeting, 1000);
+}
+
+TEST(OrientedBoxes, AGapAlongAnEdgeIsNotOverrated) {
+  test_support::RandomNumbers random(24);
+  int told_apart = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const TwoBoxes boxes(random);
+    const double distance = boxes.distance();
+    ASSERT_FALSE(boxes.apart(distance)) << "trial " << trial;
+    told_apart += boxes.apart(0.7 * distance) ? 1 : 0;
+  }
+  EXPECT_GT(told_apart, 500);
+}
+
+}  // namespace
+}  // namespace glissade::collision
