@@ -55,9 +55,11 @@ struct Split {
   std::size_t at = 0;  // of the sweep: an item; of the bins: the first bin of the upper side
 };
 
-float leaves_of(std::size_t triangles) {
+// What it costs to visit so many triangles: as many leaves, and a node for each four of them.
+float cost_of(std::size_t triangles) {
   const std::size_t leaves = (triangles + kWidth - 1) / kWidth;
-  return static_cast<float>(leaves);
+  const std::size_t nodes = (leaves + kWidth - 1) / kWidth;
+  return static_cast<float>(leaves + nodes);
 }
 
 Box box_of(Items items) {
@@ -90,7 +92,7 @@ std::size_t split_by_sweep(Items items) {
     for (std::size_t i = 1; i < items.size(); ++i) {
       below.extend(items[i - 1].box);
       if (i % kWidth != 0) continue;
-      const float cost = below.half_area() * leaves_of(i) + area_above[i] * leaves_of(items.size() - i);
+      const float cost = below.half_area() * cost_of(i) + area_above[i] * cost_of(items.size() - i);
       if (cost < best.cost) best = {cost, axis, i};
     }
   }
@@ -138,14 +140,14 @@ class Binning {
       Bin above;
       for (std::size_t i = kBins; i-- > 1;) {
         add(bins[i], above);
-        cost_above[i] = above.count == 0 ? 0.0F : above.box.half_area() * leaves_of(above.count);
+        cost_above[i] = above.count == 0 ? 0.0F : above.box.half_area() * cost_of(above.count);
       }
       const std::size_t total = above.count + bins[0].count;
       Bin below;
       for (std::size_t i = 1; i < kBins; ++i) {
         add(bins[i - 1], below);
         if (below.count == 0 || below.count == total) continue;
-        const float cost = below.box.half_area() * leaves_of(below.count) + cost_above[i];
+        const float cost = below.box.half_area() * cost_of(below.count) + cost_above[i];
         if (cost < best.cost) best = {cost, axis, i};
       }
     }

@@ -5,7 +5,7 @@
 ///
 /// A run of triangles is split in two where a surface-area heuristic says so (Goldsmith and Salmon 1987; binned after
 /// Wald 2007), the larger part again, until there are four. Areas count how often a part is visited, and numbers of
-/// triangles, in whole leaves of four, what that costs.
+/// triangles, in whole leaves of four and whole nodes of four leaves, what that costs.
 
 #include <memory>
 #include <vector>
