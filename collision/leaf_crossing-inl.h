@@ -56,25 +56,38 @@ struct DeterminantErrors {
   V of_orientation;
 };
 
-// No two of the six corners differ by more than `largest` in a coordinate, none of one triangle from its first by more
-// than its extent. A determinant of three such differences u, v, w, each coordinate off by 2 ε, is off by
-// 2√3 ε (|u||v| + |v||w| + |w||u|) and half as much again for products of errors, where |u| ≤ √3 extent and so on:
-// 16 ε (uv + vw + wu). 48 roundings add half an epsilon of uvw each.
+// A determinant of three differences u, v, w of corners, each component of which is off by e_u, e_v, e_w, is off by
+// √3 (e_u |v||w| + e_v |u||w| + e_w |u||v|), where lengths are those after an error. Corners of Q differ by 2 ε, a corner
+// of Q and one of P by ε; those of P were only rounded when they were stored, to half a unit of 2^-24 each. No difference
+// between the triangles is longer than the one of their first corners and both extents together, none within a triangle
+// longer than two extents. Nine roundings on the way of each product add 2^-24 of it at most, and the products of all
+// components add up to less than 1.16 times |u||v||w|.
 template <class D, class V>
 HWY_INLINE DeterminantErrors<V> determinant_errors(D d, const LeafFrame& frame, const TwoTriangles<V>& t, V extent_p,
                                                    V extent_q) {
-  const Vector3<V> between = minus(t.q[0], t.p[0]);
-  const V largest = hn::Add(hn::Max(hn::Abs(between.x), hn::Max(hn::Abs(between.y), hn::Abs(between.z))),
-                            hn::Add(extent_p, extent_q));
-  const V of_corner = hn::Set(d, 16.0F * frame.corner_uncertainty);
-  const V of_rounding = hn::Set(d, 4e-6F);
+  constexpr float kRoot3 = 1.7321F;
+  const float of_both = kRoot3 * frame.corner_uncertainty;
+  const V rounding = hn::Set(d, 1e-6F);
   const V smallest = hn::Set(d, 1e-30F);  // for underflow
-  const auto error_of = [&](V u, V v, V w) HWY_ATTR {
-    const V products = hn::MulAdd(u, v, hn::MulAdd(v, w, hn::Mul(w, u)));
-    return hn::MulAdd(of_corner, products, hn::MulAdd(hn::Mul(of_rounding, u), hn::Mul(v, w), smallest));
+  const V p = hn::Add(extent_p, hn::Set(d, 4.0F * frame.corner_uncertainty));
+  const V q = hn::Add(extent_q, hn::Set(d, 4.0F * frame.corner_uncertainty));
+  const Vector3<V> between = minus(t.q[0], t.p[0]);
+  const V most = hn::MulAdd(hn::Sqrt(dot(between, between)), hn::Set(d, 1.000001F), hn::Add(p, q));
+
+  const V four_of_both = hn::Set(d, 4.0F * of_both);
+  const V one_of_both = hn::Set(d, of_both);
+  const V of_p = hn::Set(d, kRoot3 * 0x1p-24F);
+  const V two_of_p = hn::Set(d, 2.0F * kRoot3 * 0x1p-24F);
+  // e: an error that stands beside two lengths; `whole`: |u||v||w|.
+  const auto error_of = [&](V products, V whole) HWY_ATTR {
+    return hn::Add(products, hn::MulAdd(rounding, whole, smallest));
   };
-  return {error_of(extent_q, extent_q, largest), error_of(extent_p, extent_p, largest),
-          error_of(hn::Add(extent_p, extent_p), largest, largest)};
+  const V q_most = hn::Mul(q, most);
+  const V p_most = hn::Mul(p, most);
+  return {error_of(hn::MulAdd(four_of_both, q_most, hn::Mul(one_of_both, hn::Mul(q, q))), hn::Mul(q, q_most)),
+          error_of(hn::MulAdd(two_of_p, p_most, hn::Mul(one_of_both, hn::Mul(p, p))), hn::Mul(p, p_most)),
+          error_of(hn::MulAdd(four_of_both, p_most, hn::Mul(of_p, hn::Mul(most, most))),
+                   hn::Mul(hn::Add(p, p), hn::Mul(most, most)))};
 }
 
 // On which side of a plane three corners lie.

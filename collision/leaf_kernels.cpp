@@ -25,20 +25,21 @@ HWY_INLINE void find_normals(LeafTriangles& t) {
   const Tag4 d;
   Four u[3];
   Four v[3];
-  Four extent = hn::Zero(d);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     u[axis] = hn::Sub(corner(t, axis, 1), corner(t, axis, 0));
     v[axis] = hn::Sub(corner(t, axis, 2), corner(t, axis, 0));
-    extent = hn::Max(extent, hn::Max(hn::Abs(u[axis]), hn::Abs(v[axis])));
   }
-  hn::Store(extent, d, t.extent.data());
+  const auto square_of = [](const Four(&e)[3])
+                             HWY_ATTR { return hn::MulAdd(e[0], e[0], hn::MulAdd(e[1], e[1], hn::Mul(e[2], e[2]))); };
+  const Four longer = hn::Sqrt(hn::Max(square_of(u), square_of(v)));
+  hn::Store(hn::Mul(longer, hn::Set(d, 1.000001F)), d, t.extent.data());
   Four n[3];
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t y = (axis + 1) % 3;
     const std::size_t z = (axis + 2) % 3;
     n[axis] = hn::NegMulAdd(u[z], v[y], hn::Mul(u[y], v[z]));
   }
-  const Four square = hn::MulAdd(n[0], n[0], hn::MulAdd(n[1], n[1], hn::Mul(n[2], n[2])));
+  const Four square = square_of(n);
   // Any vector may separate. Its inverse length is a little too short, because gaps along it are taken for distances;
   // where the square underflows, it is 0, and nothing is separated.
   const auto usable = hn::Ge(square, hn::Set(d, 1e-36F));

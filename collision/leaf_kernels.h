@@ -19,7 +19,7 @@ struct LeafFrame {
   std::array<std::array<float, 3>, 3> matrix;  ///< rotation times ratio
   std::array<float, 3> p_PQ;
   float uncertainty;         ///< bound on the error of a gap between two triangles along a unit vector, in radii of P
-  float corner_uncertainty;  ///< bound on the error of a coordinate of a corner
+  float corner_uncertainty;  ///< bounds the error of a coordinate of a corner of P and one of Q together
 };
 
 /// For each pair of triangles (4 · triangle_P + triangle_Q), a certain lower bound of its distance in radii of P: how
@@ -36,7 +36,7 @@ struct alignas(64) LeafTriangles {
   Four inverse_length;
   Four low;  ///< least and greatest projection of the own corners on the normal
   Four high;
-  Four extent;  ///< largest difference of coordinates between corner 0 and the others
+  Four extent;  ///< the longer of the two edges at corner 0, rounded up
 };
 
 /// Two leaves in one frame.
