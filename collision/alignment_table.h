@@ -21,10 +21,10 @@ static_assert(kMostGenericVertices <= kVertexEntries);
 struct alignas(64) AlignmentTable {
   int slabs;
   int vertex_count;
-  alignas(64) std::array<std::array<float, kAlignmentLanes>, 3> direction;   ///< of each slab; 0 beyond the last
-  std::array<std::array<float, 3>, kMostGenericVertices> position;           ///< of each vertex
-  std::array<std::int32_t, kMostGenericVertices> number;                     ///< 0, 1, 2 ...: it is quicker to load
-  alignas(64) std::array<std::array<float, kVertexEntries>, 9> weights;      ///< entry 3 · term + axis of each vertex
+  alignas(64) std::array<std::array<float, kAlignmentLanes>, 3> direction;  ///< of each slab; 0 beyond the last
+  std::array<std::array<float, 3>, kMostGenericVertices> position;          ///< of each vertex
+  std::array<std::int32_t, kMostGenericVertices> number;                    ///< 0, 1, 2 ...: it is quicker to load
+  alignas(64) std::array<std::array<float, kVertexEntries>, 9> weights;     ///< entry 3 · term + axis of each vertex
   std::array<std::array<QuarterLine, 6>, 2 * kMostGenericVertices> source;  ///< [2 · vertex + mirrored][2 · term]
 };
 

@@ -40,7 +40,10 @@ void CoherentFront::start_afresh(const DopTree& base, const DopTree& other) {
 }
 
 void CoherentFront::add(const NodePair& pair, bool is_leaf) {
-  if (entries_.size() == expiry_.size()) expiry_.resize(expiry_.size() + kFrontPadding, kNever);
+  if (entries_.size() == expiry_.size()) {
+    expiry_.resize(expiry_.size() + kFrontPadding, kNever);
+    expired_.resize(expiry_.size() + kFrontPadding);
+  }
   expiry_[entries_.size()] = kExpired;
   entries_.push_back({pair, is_leaf ? 0 : kAllPairs & ~pair.pairs, is_leaf});
 }
@@ -78,11 +81,13 @@ bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, 
   }
 
   const float clock = round_up_to_float(std::min(moved_ + frame.in_base_radii(distance), 1e30));
-  find_expired(expiry_, clock, open_);
-  if (open_.empty()) return false;
-  if (entries_.size() > kSmallFront && kMostExpired * open_.size() > entries_.size()) {
+  const std::size_t expired = find_expired(expiry_, clock, expired_);
+  if (expired == 0) return false;
+  if (entries_.size() > kSmallFront && kMostExpired * expired > entries_.size()) {
     start_afresh(base, other);
     open_.assign(1, 0);
+  } else {
+    open_.assign(expired_.begin(), expired_.begin() + static_cast<std::ptrdiff_t>(expired));
   }
   DopVisit step(base, other, frame, distance, alignment);
   while (!open_.empty()) {
@@ -126,8 +131,8 @@ void CoherentFront::visit_nodes(std::size_t entry, DopVisit& step, QueryCounters
   std::reverse(open_.begin() + static_cast<std::ptrdiff_t>(first), open_.end());
 }
 
-bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, const DopVisit& step,
-                                 QueryCounters& counters, TriangleVisitor& visitor) {
+bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, DopVisit& step, QueryCounters& counters,
+                                 TriangleVisitor& visitor) {
   const auto [leaf_P, leaf_Q, all] = entries_[entry].pair;
   VisitedLeaves leaves;
   step.prepare(leaf_P, leaf_Q, leaves);

@@ -62,7 +62,7 @@ class CoherentFront {
   void add(const NodePair& pair, bool is_leaf);
   void holds_for(std::size_t entry, double gap);
   void visit_nodes(std::size_t entry, DopVisit& step, QueryCounters& counters);
-  bool visit_leaves(std::size_t entry, const QueryFrame& frame, const DopVisit& step, QueryCounters& counters,
+  bool visit_leaves(std::size_t entry, const QueryFrame& frame, DopVisit& step, QueryCounters& counters,
                     TriangleVisitor& visitor);
 
   std::uint64_t base_id_ = 0;
@@ -75,8 +75,9 @@ class CoherentFront {
   std::optional<Witness> witness_;
   std::optional<NearestPair> nearest_;
   std::vector<Entry> entries_;
-  std::vector<float> expiry_;        ///< of each entry: what `moved_` may become; padded by what never expires
-  std::vector<std::uint32_t> open_;  ///< entries to be looked at
+  std::vector<float> expiry_;           ///< of each entry: what `moved_` may become; padded by what never expires
+  std::vector<std::uint32_t> expired_;  ///< by the clock; room for all
+  std::vector<std::uint32_t> open_;     ///< entries to be looked at
 };
 
 }  // namespace glissade::collision

@@ -146,9 +146,8 @@ HWY_INLINE void spread(const std::int32_t* below, const std::int32_t* above, std
   const hn::FixedTag<std::uint8_t, 16> d8;
   alignas(16) static constexpr std::uint8_t kFirstRow[16] = {0, 1, 0, 1, 0, 1, 0, 1, 8, 9, 8, 9, 8, 9, 8, 9};
   for (std::size_t first = 0; first < rows; first += 4) {
-    const auto values =
-        hn::BitCast(d8, hn::Combine(row, hn::DemoteTo(d16, hn::Load(d32, above + first)),
-                                    hn::DemoteTo(d16, hn::Load(d32, below + first))));
+    const auto values = hn::BitCast(d8, hn::Combine(row, hn::DemoteTo(d16, hn::Load(d32, above + first)),
+                                                    hn::DemoteTo(d16, hn::Load(d32, below + first))));
     auto place = hn::Load(d8, kFirstRow);
     for (std::size_t i = 0; i < 4; ++i) {
       hn::Store(hn::BitCast(row, hn::TableLookupBytes(values, place)), row, lanes + 8 * (first + i));

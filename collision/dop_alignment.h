@@ -37,8 +37,8 @@ struct alignas(64) DopAlignment {
   // Eight lanes a row: what faces `above` of four children, what faces their `below`.
   using Lanes = std::array<std::int16_t, 8 * kMostRows>;
 
-  std::array<Lanes, 3> weight;  ///< of each term, in 2^-15
-  Lanes offset;                 ///< in grid steps of the base
+  std::array<Lanes, 3> weight;                                   ///< of each term, in 2^-15
+  Lanes offset;                                                  ///< in grid steps of the base
   std::array<std::array<QuarterLine, 2 * kMostRows>, 3> source;  ///< where each term is read
   int slabs;
 };

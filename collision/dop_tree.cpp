@@ -77,6 +77,7 @@ void DopTree::refit() {
   center_ = grid.center;
   half_size_ = grid.half_size;
   radius_ = grid.radius;
+  inverse_radius_ = 1.0 / grid.radius;
   degenerate_triangles_ = fit_leaves(*mesh_, grid, leaves_);
   fit_nodes(options_, leaves_, heads_, slabs_);
   if (options_.realignment == Realignment::kBruteForce) vertices_.fit(heads_, slabs_);

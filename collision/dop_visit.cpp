@@ -1,7 +1,6 @@
 #include "dop_visit.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <hwy/cache_control.h>
 
@@ -54,13 +53,13 @@ DopVisit::DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& 
       other_(other),
       frame_(frame),
       alignment_(alignment),
-      leaf_frame_(frame),
       node_kernels_(node_kernels()),
       leaf_kernels_(leaf_kernels()) {
   const double radii = frame.in_base_radii(distance);
-  const double steps = std::ceil(radii * kGridRadius);
-  always_near_ = steps > 32767.0 ? kAllPairs : 0;
-  least_overlap_ = -static_cast<int>(std::min(steps, 32767.0));
+  const double steps = std::min(radii * kGridRadius, 32768.0);
+  const int whole_steps = static_cast<int>(steps) + (static_cast<int>(steps) < steps ? 1 : 0);
+  always_near_ = whole_steps > 32767 ? kAllPairs : 0;
+  least_overlap_ = -std::min(whole_steps, 32767);
   distance_ = round_up_to_float(std::min(radii, 1e30));
 }
 
@@ -120,29 +119,30 @@ void DopVisit::prefetch(const NodePair& pair, PairMask near) const {
   }
 }
 
-void DopVisit::prepare(std::uint32_t leaf_P, std::uint32_t leaf_Q, VisitedLeaves& leaves) const {
+void DopVisit::prepare(std::uint32_t leaf_P, std::uint32_t leaf_Q, VisitedLeaves& leaves) {
+  if (!leaf_frame_) leaf_frame_.emplace(frame_);
   if (leaves.leaf_P != leaf_P) leaf_kernels_.prepare_P(base_.leaves()[leaf_P], leaves);
-  if (leaves.leaf_Q != leaf_Q) leaf_kernels_.prepare_Q(leaf_frame_, other_.leaves()[leaf_Q], leaves);
+  if (leaves.leaf_Q != leaf_Q) leaf_kernels_.prepare_Q(*leaf_frame_, other_.leaves()[leaf_Q], leaves);
   leaves.leaf_P = leaf_P;
   leaves.leaf_Q = leaf_Q;
 }
 
 double DopVisit::leaf_gap(const LeafPair& leaves, QueryCounters& counters) const {
   counters.triangle_tests += kWidth * kWidth;
-  return static_cast<double>(leaf_kernels_.leaf_gap(leaf_frame_, leaves));
+  return static_cast<double>(leaf_kernels_.leaf_gap(*leaf_frame_, leaves));
 }
 
 PairMask DopVisit::leaves(LeafPair& leaves, QueryCounters& counters) const {
   counters.triangle_tests += kWidth * kWidth;
-  return leaf_kernels_.test(leaf_frame_, distance_, leaves);
+  return leaf_kernels_.test(*leaf_frame_, distance_, leaves);
 }
 
 CertainPairs DopVisit::cross(const LeafPair& leaves) const {
-  return has_distance() ? CertainPairs{} : leaf_kernels_.cross(leaf_frame_, leaves);
+  return has_distance() ? CertainPairs{} : leaf_kernels_.cross(*leaf_frame_, leaves);
 }
 
 PairMask DopVisit::edges(LeafPair& leaves, PairMask pairs) const {
-  return leaf_kernels_.edges(leaf_frame_, distance_, pairs, leaves);
+  return leaf_kernels_.edges(*leaf_frame_, distance_, pairs, leaves);
 }
 
 double DopVisit::least_gap(const LeafPair& leaves, PairMask pairs) const {

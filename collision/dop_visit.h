@@ -77,7 +77,7 @@ class DopVisit {
   Descent descend(const NodePair& nodes, PairMask near, int pair) const;
 
   /// Brings two leaves together for the functions below.
-  void prepare(std::uint32_t leaf_P, std::uint32_t leaf_Q, VisitedLeaves& leaves) const;
+  void prepare(std::uint32_t leaf_P, std::uint32_t leaf_Q, VisitedLeaves& leaves);
 
   /// A certain lower bound of the distance of two leaves as a whole, in radii of the base; may be negative.
   double leaf_gap(const LeafPair& leaves, QueryCounters& counters) const;
@@ -116,7 +116,7 @@ class DopVisit {
   DopAlignment& alignment_;
   std::optional<ThinSlabFrame> thin_frame_;          ///< once a node is visited: some coherent queries see leaves only
   std::optional<VertexAlignment> vertex_alignment_;  ///< the same, for realignment by brute force
-  const LeafFrame leaf_frame_;
+  std::optional<LeafFrame> leaf_frame_;              ///< once a leaf is
   const NodeKernels& node_kernels_;
   const LeafKernels& leaf_kernels_;
   int least_overlap_;

@@ -10,21 +10,21 @@ HWY_BEFORE_NAMESPACE();
 namespace glissade::collision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-void find_expired(std::span<const float> expiry, float clock, std::vector<std::uint32_t>& expired) {
+std::size_t find_expired(std::span<const float> expiry, float clock, std::span<std::uint32_t> expired) {
   const hn::CappedTag<float, kFrontPadding> d;
   const hn::RebindToUnsigned<decltype(d)> d32;
   const std::size_t lanes = hn::Lanes(d);
   const auto limit = hn::Set(d, clock);
-  expired.resize(expiry.size() + lanes);  // a whole vector is stored each time
   std::size_t count = 0;
   for (std::size_t first = 0; first < expiry.size(); first += lanes) {
     const auto kept = hn::Gt(hn::LoadU(d, expiry.data() + first), limit);
     const auto chosen = hn::RebindMask(d32, hn::Not(kept));
     const auto place = hn::Iota(d32, static_cast<std::uint32_t>(first));
-    hn::StoreU(hn::Compress(place, chosen), d32, expired.data() + count);  // in registers: to memory it is slow
+    // A whole vector is stored each time. Compressed in registers: to memory it is slow.
+    hn::StoreU(hn::Compress(place, chosen), d32, expired.data() + count);
     count += hn::CountTrue(d32, chosen);
   }
-  expired.resize(count);
+  return count;
 }
 
 }  // namespace glissade::collision::HWY_NAMESPACE
@@ -38,8 +38,8 @@ HWY_EXPORT(find_expired);
 
 }  // namespace
 
-void find_expired(std::span<const float> expiry, float clock, std::vector<std::uint32_t>& expired) {
-  HWY_DYNAMIC_DISPATCH(find_expired)(expiry, clock, expired);
+std::size_t find_expired(std::span<const float> expiry, float clock, std::span<std::uint32_t> expired) {
+  return HWY_DYNAMIC_DISPATCH(find_expired)(expiry, clock, expired);
 }
 
 }  // namespace glissade::collision

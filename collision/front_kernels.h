@@ -5,14 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace glissade::collision {
 
 /// Values come in multiples of it.
 inline constexpr std::size_t kFrontPadding = 16;
 
-/// Replaces `expired` by the places of all values that are not greater than `clock`, in ascending order.
-void find_expired(std::span<const float> expiry, float clock, std::vector<std::uint32_t>& expired);
+/// Writes the places of all values that are not greater than `clock` to `expired`, in ascending order, and returns how
+/// many there are. `expired` has room for as many as there are values and kFrontPadding more.
+std::size_t find_expired(std::span<const float> expiry, float clock, std::span<std::uint32_t> expired);
 
 }  // namespace glissade::collision

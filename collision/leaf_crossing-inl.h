@@ -57,11 +57,11 @@ struct DeterminantErrors {
 };
 
 // A determinant of three differences u, v, w of corners, each component of which is off by e_u, e_v, e_w, is off by
-// √3 (e_u |v||w| + e_v |u||w| + e_w |u||v|), where lengths are those after an error. Corners of Q differ by 2 ε, a corner
-// of Q and one of P by ε; those of P were only rounded when they were stored, to half a unit of 2^-24 each. No difference
-// between the triangles is longer than the one of their first corners and both extents together, none within a triangle
-// longer than two extents. Nine roundings on the way of each product add 2^-24 of it at most, and the products of all
-// components add up to less than 1.16 times |u||v||w|.
+// √3 (e_u |v||w| + e_v |u||w| + e_w |u||v|), where lengths are those after an error. Corners of Q differ by 2 ε, a
+// corner of Q and one of P by ε; those of P were only rounded when they were stored, to half a unit of 2^-24 each. No
+// difference between the triangles is longer than the one of their first corners and both extents together, none within
+// a triangle longer than two extents. Nine roundings on the way of each product add 2^-24 of it at most, and the
+// products of all components add up to less than 1.16 times |u||v||w|.
 template <class D, class V>
 HWY_INLINE DeterminantErrors<V> determinant_errors(D d, const LeafFrame& frame, const TwoTriangles<V>& t, V extent_p,
                                                    V extent_q) {
@@ -79,9 +79,8 @@ HWY_INLINE DeterminantErrors<V> determinant_errors(D d, const LeafFrame& frame, 
   const V of_p = hn::Set(d, kRoot3 * 0x1p-24F);
   const V two_of_p = hn::Set(d, 2.0F * kRoot3 * 0x1p-24F);
   // e: an error that stands beside two lengths; `whole`: |u||v||w|.
-  const auto error_of = [&](V products, V whole) HWY_ATTR {
-    return hn::Add(products, hn::MulAdd(rounding, whole, smallest));
-  };
+  const auto error_of = [&](V products, V whole)
+                            HWY_ATTR { return hn::Add(products, hn::MulAdd(rounding, whole, smallest)); };
   const V q_most = hn::Mul(q, most);
   const V p_most = hn::Mul(p, most);
   return {error_of(hn::MulAdd(four_of_both, q_most, hn::Mul(one_of_both, hn::Mul(q, q))), hn::Mul(q, q_most)),

@@ -25,8 +25,8 @@ bool boxes_apart(const DopTree& base, const DopTree& other, const QueryFrame& fr
       const int b = (a + 1) % 3;
       const int c = (a + 2) % 3;
       const double between = std::abs(p[k] * R(j, a) - p[j] * R(k, a));
-      const double reach = half_P[j] * abs_R(k, a) + half_P[k] * abs_R(j, a) + half_Q[b] * abs_R(i, c) +
-                           half_Q[c] * abs_R(i, b);
+      const double reach =
+          half_P[j] * abs_R(k, a) + half_P[k] * abs_R(j, a) + half_Q[b] * abs_R(i, c) + half_Q[c] * abs_R(i, b);
       if (between - reach > margin) return true;
     }
   }

@@ -23,9 +23,10 @@ QueryFrame::QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen
   const DopTree& base = base_is_A ? tree_A : tree_B;
   const DopTree& other = base_is_A ? tree_B : tree_A;
   base_radius = base.radius();
-  ratio = other.radius() / base_radius;
+  const double scale = base.inverse_radius();
+  ratio = other.radius() * scale;
 
-  const Eigen::Vector3d centers = (X_AB * tree_B.center() - tree_A.center()) * (1.0 / base_radius);
+  const Eigen::Vector3d centers = (X_AB * tree_B.center() - tree_A.center()) * scale;
   if (base_is_A) {
     R_PQ = R_AB;
     p_PQ = centers;
@@ -36,7 +37,7 @@ QueryFrame::QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen
 
   // Sums of coordinates bound lengths.
   const double magnitude = X_AB.translation().lpNorm<1>() + tree_A.center().lpNorm<1>() + tree_B.center().lpNorm<1>();
-  const double reach = magnitude / base_radius + 1.0 + ratio + p_PQ.lpNorm<1>();
+  const double reach = magnitude * scale + 1.0 + ratio + p_PQ.lpNorm<1>();
   uncertainty = (0x1p-48 + 2.0 * rotation_defect) * reach;
 }
 

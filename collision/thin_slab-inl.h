@@ -111,8 +111,8 @@ HWY_INLINE ThinLanes<hn::Vec<D>> thin_of_pairs(D d, const NodeHead& head, const 
   };
   const V normals_and_offset = hn::Mul(to_float(d, hn::Load(d16, head.normal[0].data())), hn::Load(d, kUnits));
   const V centers_xy = middle(to_float(d, hn::Load(d16, node->rows[0].above.data())));
-  const V bounds_z_and_sizes = to_float(
-      d, hn::Combine(d16, hn::Load(half, head.half_width.data()), hn::Load(half, node->rows[2].above.data())));
+  const V bounds_z_and_sizes =
+      to_float(d, hn::Combine(d16, hn::Load(half, head.half_width.data()), hn::Load(half, node->rows[2].above.data())));
   const V center_z = middle(bounds_z_and_sizes);
 
   const hn::RebindToSigned<D> d32;

@@ -55,7 +55,9 @@ class TwoBoxes {
   static Vector3d random_size(test_support::RandomNumbers& random) {
     return {random.uniform(0.01, 2.0), random.uniform(0.01, 2.0), random.uniform(0.01, 2.0)};
   }
-  static DopTree tree(const Vector3d& size) { return DopTree(std::make_shared<const TriangleMesh>(make_box(size, 12))); }
+  static DopTree tree(const Vector3d& size) {
+    return DopTree(std::make_shared<const TriangleMesh>(make_box(size, 12)));
+  }
 
   static std::vector<TrianglePoints> triangles(const DopTree& tree, const Isometry3d& X) {
     std::vector<TrianglePoints> result;
