@@ -98,7 +98,8 @@ TrianglePair pair_at(std::uint64_t place) {
   return {static_cast<std::int32_t>(place >> 32), static_cast<std::int32_t>(place)};
 }
 
-// Numbers can be sorted by vectors, in a third of the time.
+// Numbers can be sorted by vectors, in a third of the time. Highway asks the system for random numbers to do so: this
+// allocates nothing, but it is a system call.
 void sort_pairs(std::vector<TrianglePair>& pairs, QueryWorkspace::Memory& memory) {
   constexpr std::size_t kWorthVectors = 64;
   if (pairs.size() < kWorthVectors) {

@@ -1,7 +1,8 @@
 #pragma once
 
-/// The simultaneous traversal of both trees from the roots, shared by all queries: depth first, opening both nodes of a
-/// pair at once, the pair whose boxes overlap most first.
+/// The simultaneous traversal of both trees from the roots (paper §2.1), for queries that remember nothing: depth
+/// first, opening both nodes of a pair at once. Whoever looks for any pair follows what overlaps most first; whoever
+/// looks for all pairs goes in the order of memory.
 
 #include <cstdint>
 #include <vector>

@@ -10,7 +10,7 @@
 namespace glissade::collision {
 namespace {
 
-// The pairs of some children of P, of all that can be, and of some of Q.
+// For each set of children of P, its pairs with any child of Q.
 constexpr auto kRows = [] {
   std::array<std::uint16_t, 1U << kWidth> rows{};
   for (std::uint32_t children = 0; children < rows.size(); ++children) {

@@ -57,8 +57,8 @@ struct DeterminantErrors {
 };
 
 // A determinant of three differences u, v, w of corners, each component of which is off by e_u, e_v, e_w, is off by
-// √3 (e_u |v||w| + e_v |u||w| + e_w |u||v|), where lengths are those after an error. Corners of Q differ by 2 ε, a
-// corner of Q and one of P by ε; those of P were only rounded when they were stored, to half a unit of 2^-24 each. No
+// √3 (e_u |v||w| + e_v |u||w| + e_w |u||v|), where lengths are those after an error. Differences of two corners of Q
+// are off by 2 ε, those between P and Q by ε, and those within P, which is not moved, by `edge_uncertainty_P`. No
 // difference between the triangles is longer than the one of their first corners and both extents together, none within
 // a triangle longer than two extents. Nine roundings on the way of each product add 2^-24 of it at most, and the
 // products of all components add up to less than 1.16 times |u||v||w|.
@@ -76,11 +76,11 @@ HWY_INLINE DeterminantErrors<V> determinant_errors(D d, const LeafFrame& frame, 
 
   const V four_of_both = hn::Set(d, 4.0F * of_both);
   const V one_of_both = hn::Set(d, of_both);
-  const V of_p = hn::Set(d, kRoot3 * 0x1p-24F);
-  const V two_of_p = hn::Set(d, 2.0F * kRoot3 * 0x1p-24F);
-  // e: an error that stands beside two lengths; `whole`: |u||v||w|.
-  const auto error_of = [&](V products, V whole)
-                            HWY_ATTR { return hn::Add(products, hn::MulAdd(rounding, whole, smallest)); };
+  const V of_p = hn::Set(d, kRoot3 * frame.edge_uncertainty_P);
+  const V two_of_p = hn::Set(d, 2.0F * kRoot3 * frame.edge_uncertainty_P);
+  // `of_corners`: what the errors of corners do; `whole`: |u||v||w|.
+  const auto error_of = [&](V of_corners, V whole)
+                            HWY_ATTR { return hn::Add(of_corners, hn::MulAdd(rounding, whole, smallest)); };
   const V q_most = hn::Mul(q, most);
   const V p_most = hn::Mul(p, most);
   return {error_of(hn::MulAdd(four_of_both, q_most, hn::Mul(one_of_both, hn::Mul(q, q))), hn::Mul(q, q_most)),

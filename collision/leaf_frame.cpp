@@ -21,6 +21,7 @@ LeafFrame::LeafFrame(const QueryFrame& frame) {
   const double corner_Q = 6.0 * frame.ratio + 4.0 * reach;
   const double projections = 5.0 * (1.0 + frame.ratio + reach);
   corner_uncertainty = round_up_to_float(0x1p-24 * (corner_P + corner_Q) + frame.uncertainty);
+  edge_uncertainty_P = round_up_to_float(0x1p-24 * (2.0 * corner_P) + 2.0 * frame.uncertainty);
   uncertainty = round_up_to_float(1.75 * static_cast<double>(corner_uncertainty) + 0x1p-24 * 1.75 * projections +
                                   frame.uncertainty);
 }

@@ -20,6 +20,7 @@ struct LeafFrame {
   std::array<float, 3> p_PQ;
   float uncertainty;         ///< bound on the error of a gap between two triangles along a unit vector, in radii of P
   float corner_uncertainty;  ///< bounds the error of a coordinate of a corner of P and one of Q together
+  float edge_uncertainty_P;  ///< and that of the difference of two corners of P
 };
 
 /// For each pair of triangles (4 · triangle_P + triangle_Q), a certain lower bound of its distance in radii of P: how

@@ -12,12 +12,12 @@ bool boxes_apart(const DopTree& base, const DopTree& other, const QueryFrame& fr
   const double scale = 1.0 / frame.base_radius;
   const Vector3d half_P = scale * base.half_size();
   const Vector3d half_Q = scale * other.half_size();
-  const double margin = distance + 4.0 * frame.uncertainty;
+  const double margin = distance + 4.0 * frame.uncertainty;  // see docs/collision.md
 
   if (((p.cwiseAbs() - half_P - abs_R * half_Q).array() > margin).any()) return true;
   const Vector3d seen_from_Q = R.transpose() * p;
   if (((seen_from_Q.cwiseAbs() - half_Q - abs_R.transpose() * half_P).array() > margin).any()) return true;
-  // Cross products of edges are shorter than 1, so that gaps along them are not overrated.
+  // Cross products of edges are hardly longer than 1, so that gaps along them are overrated within the margin at most.
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const int k = (i + 2) % 3;

@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <glissade/collision/brute_force.h>
+
 #include "kernel_fixture.h"
 #include "placed_trees.h"
 
@@ -132,6 +134,45 @@ TEST_P(LeafKernelsTest, CertaintiesAboutTrianglesAreTrue) {
       EXPECT_GT(certain_pairs, 15);
     }
   }
+}
+
+// Two triangles, moved to where they just meet or just do not: there single precision must not be too sure.
+TEST_P(LeafKernelsTest, CertaintiesHoldWhereTrianglesBarelyMeet) {
+  int certain_pairs = 0;
+  for (int trial = 0; trial < 1500; ++trial) {
+    const auto triangle = [&] {
+      const TriangleMesh mesh{{random_vector(), random_vector(), random_vector()}, {{0, 1, 2}}};
+      return tree(mesh, trial % 2 == 0 ? 1.0 : 0.3, Vector3d::Zero());
+    };
+    const DopTree tree_A = triangle();
+    const DopTree tree_B = triangle();
+    Isometry3d X_AB = random_pose(tree_A, tree_B, 0.1);
+    const Vector3d start = X_AB.translation();
+    const Vector3d way = 4.0 * random_.direction();
+    const auto meet = [&](double along) {
+      X_AB.translation() = start + along * way;
+      return brute_force_intersects(tree_A.mesh(), tree_B.mesh(), X_AB);
+    };
+    if (!meet(0.0)) continue;
+    double meeting = 0.0;
+    double apart = 1.0;
+    for (int step = 0; step < 60; ++step) {
+      const double middle = 0.5 * (meeting + apart);
+      (meet(middle) ? meeting : apart) = middle;
+    }
+    const double off = random_.power_of_ten(-10.0, -4.0);
+    const bool intersect = meet(random_.chance(0.5) ? meeting - off : apart + off);
+    const PlacedTrees placed{tree_A, tree_B, X_AB};
+    const LeafFrame frame(placed.frame);
+    LeafPair leaves;
+    leaf_kernels().prepare_P(placed.base().leaves()[0], leaves);
+    leaf_kernels().prepare_Q(frame, placed.other().leaves()[0], leaves);
+    ASSERT_TRUE(!intersect || has(leaf_kernels().test(frame, 0.0F, leaves), 0)) << "trial " << trial;
+    const CertainPairs certain = leaf_kernels().cross(frame, leaves);
+    ASSERT_FALSE(has(intersect ? certain.apart : certain.intersect, 0)) << "trial " << trial << ", off " << off;
+    certain_pairs += has(certain.apart | certain.intersect, 0) ? 1 : 0;
+  }
+  EXPECT_GT(certain_pairs, 50);
 }
 
 TEST_P(LeafKernelsTest, TheLeastGapIsOfThePairsAskedFor) {

@@ -22,10 +22,31 @@ using Eigen::Vector3d;
 // Two solid boxes at a random pose, somewhere about touching.
 class TwoBoxes {
  public:
-  explicit TwoBoxes(test_support::RandomNumbers& random)
-      : size_A_(random_size(random)), size_B_(random_size(random)), tree_A_(tree(size_A_)), tree_B_(tree(size_B_)) {
+  explicit TwoBoxes(test_support::RandomNumbers& random, const Vector3d& center = Vector3d::Zero(), double defect = 0.0)
+      : size_A_(random_size(random)),
+        size_B_(random_size(random)),
+        tree_A_(tree(size_A_, center)),
+        tree_B_(tree(size_B_, -center)) {
     X_AB_.linear() = random.rotation();
-    X_AB_.translation() = random.point(0.35 * (size_A_.norm() + size_B_.norm()));
+    for (int column = 0; column < 3; ++column)
+      X_AB_.linear().col(column) += random.point(defect);
+    X_AB_.translation() = center + X_AB_.linear() * center + random.point(0.35 * (size_A_.norm() + size_B_.norm()));
+  }
+
+  // Moves B from where the surfaces meet along a direction, as far as they do.
+  bool move_to_contact(const Vector3d& direction) {
+    if (distance() > 0.0) return false;
+    const Vector3d start = X_AB_.translation();
+    const auto move = [&](double along) { X_AB_.translation() = start + along * direction; };
+    double meeting = 0.0;
+    double apart = 8.0;
+    for (int step = 0; step < 60; ++step) {
+      const double middle = 0.5 * (meeting + apart);
+      move(middle);
+      (distance() > 0.0 ? apart : meeting) = middle;
+    }
+    move(meeting);
+    return true;
   }
 
   // Of the surfaces; 0 when they meet.
@@ -55,8 +76,11 @@ class TwoBoxes {
   static Vector3d random_size(test_support::RandomNumbers& random) {
     return {random.uniform(0.01, 2.0), random.uniform(0.01, 2.0), random.uniform(0.01, 2.0)};
   }
-  static DopTree tree(const Vector3d& size) {
-    return DopTree(std::make_shared<const TriangleMesh>(make_box(size, 12)));
+  static DopTree tree(const Vector3d& size, const Vector3d& center) {
+    TriangleMesh mesh = make_box(size, 12);
+    for (Vector3d& vertex : mesh.vertices)
+      vertex += center;
+    return DopTree(std::make_shared<const TriangleMesh>(std::move(mesh)));
   }
 
   static std::vector<TrianglePoints> triangles(const DopTree& tree, const Isometry3d& X) {
@@ -93,6 +117,20 @@ TEST(OrientedBoxes, AreApartWhenAndOnlyWhenTheSolidsAre) {
   }
   EXPECT_GT(apart, 1000);
   EXPECT_GT(meeting, 1000);
+}
+
+// The matrix is a rotation but for up to a thousandth, and the meshes lie far from their origins; the boxes just meet.
+TEST(OrientedBoxes, ThatMeetAreNotApartWhateverTheMatrixAndThePlace) {
+  test_support::RandomNumbers random(25);
+  int compared = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    const double offset = trial % 3 == 0 ? 0.0 : random.power_of_ten(0.0, 6.0);
+    TwoBoxes boxes(random, offset * random.direction(), random.power_of_ten(-9.0, -4.0));
+    if (!boxes.move_to_contact(random.direction())) continue;
+    ++compared;
+    ASSERT_FALSE(boxes.apart(0.0)) << "trial " << trial;
+  }
+  EXPECT_GT(compared, 200);
 }
 
 TEST(OrientedBoxes, AGapAlongAnEdgeIsNotOverrated) {
