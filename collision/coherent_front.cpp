@@ -42,7 +42,7 @@ void CoherentFront::start_afresh(const DopTree& base, const DopTree& other) {
 void CoherentFront::add(const NodePair& pair, bool is_leaf) {
   if (entries_.size() == expiry_.size()) {
     expiry_.resize(expiry_.size() + kFrontPadding, kNever);
-    expired_.resize(expiry_.size() + kFrontPadding);
+    expired_.resize(expiry_.size());
   }
   expiry_[entries_.size()] = kExpired;
   entries_.push_back({pair, is_leaf ? 0 : kAllPairs & ~pair.pairs, is_leaf});

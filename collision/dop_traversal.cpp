@@ -56,16 +56,14 @@ class Traversal {
  private:
   // Follows what overlaps most down to two leaves. Only if these do not answer are thin slabs of use.
   bool dive() {
-    bool found = false;
     for (Descent descent{{0, 0, kAllPairs}, false, 0}; !descent.is_leaf;) {
       OpenPair open{descent.next, 0, {}};
       open.near = step_.nodes(open.nodes, open.overlaps, memory_.counters);
       if (open.near == 0) break;
       descent = next_of(open);
       memory_.stack.push_back(open);
-      if (descent.is_leaf) found = visit_leaves(descent.next.node_P, descent.next.node_Q);
+      if (descent.is_leaf && visit_leaves(descent.next.node_P, descent.next.node_Q)) return true;
     }
-    if (found) return true;
     for (OpenPair& open : memory_.stack) {
       open.near = step_.thin_slabs(open.nodes, open.near, open.overlaps);
       step_.prefetch(open.nodes, open.near);

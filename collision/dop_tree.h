@@ -72,6 +72,7 @@ class DopTree {
   /// Centre of the bounding box and radius in metres of a sphere about it that holds every vertex of the tree.
   const Eigen::Vector3d& center() const { return center_; }
   double radius() const { return radius_; }
+  /// One over it, for those who would divide often.
   double inverse_radius() const { return inverse_radius_; }
   /// Half the edges of the bounding box in metres, rounded up.
   const Eigen::Vector3d& half_size() const { return half_size_; }

@@ -12,7 +12,7 @@ namespace glissade::collision {
 inline constexpr std::size_t kFrontPadding = 16;
 
 /// Writes the places of all values that are not greater than `clock` to `expired`, in ascending order, and returns how
-/// many there are. `expired` has room for as many as there are values and kFrontPadding more.
+/// many there are. `expired` has room for all of them.
 std::size_t find_expired(std::span<const float> expiry, float clock, std::span<std::uint32_t> expired);
 
 }  // namespace glissade::collision

@@ -1,5 +1,7 @@
 #include "oriented_boxes.h"
 
+#include <cmath>
+
 namespace glissade::collision {
 
 using Eigen::Matrix3d;
@@ -9,7 +11,7 @@ bool boxes_apart(const DopTree& base, const DopTree& other, const QueryFrame& fr
   const Matrix3d& R = frame.R_PQ;
   const Matrix3d abs_R = R.cwiseAbs();
   const Vector3d& p = frame.p_PQ;
-  const double scale = 1.0 / frame.base_radius;
+  const double scale = base.inverse_radius();
   const Vector3d half_P = scale * base.half_size();
   const Vector3d half_Q = scale * other.half_size();
   const double margin = distance + 4.0 * frame.uncertainty;  // see docs/collision.md

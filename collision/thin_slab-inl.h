@@ -143,32 +143,20 @@ HWY_INLINE ThinLanes<Four> thin_of_children(const NodeHead& head, const SlabLine
           floats(head.radius)};
 }
 
-// Pairs from `first` on take the values of their child.
-template <class D>
-HWY_INLINE ThinLanes<hn::Vec<D>> spread_P(D d, const ThinLanes<Four>& p, std::size_t first) {
+// All nine values, each changed by change(array of four) to a lane for each pair.
+template <class V, class Change>
+HWY_INLINE ThinLanes<V> spread_to_pairs(const ThinLanes<Four>& children, const Change& change) {
   const auto spread = [&](Four values) HWY_ATTR {
     alignas(16) float four[kWidth];
     hn::Store(values, hn::FixedTag<float, kWidth>(), four);
-    return of_P(d, four, first);
+    return change(four);
   };
-  return {{spread(p.normal[0]), spread(p.normal[1]), spread(p.normal[2])},
-          {spread(p.center[0]), spread(p.center[1]), spread(p.center[2])},
-          spread(p.offset),
-          spread(p.half_width),
-          spread(p.radius)};
-}
-template <class D>
-HWY_INLINE ThinLanes<hn::Vec<D>> spread_Q(D d, const ThinLanes<Four>& q) {
-  const auto spread = [&](Four values) HWY_ATTR {
-    alignas(16) float four[kWidth];
-    hn::Store(values, hn::FixedTag<float, kWidth>(), four);
-    return of_Q(d, four);
-  };
-  return {{spread(q.normal[0]), spread(q.normal[1]), spread(q.normal[2])},
-          {spread(q.center[0]), spread(q.center[1]), spread(q.center[2])},
-          spread(q.offset),
-          spread(q.half_width),
-          spread(q.radius)};
+  const auto& [normal, center, offset, half_width, radius] = children;
+  return {{spread(normal[0]), spread(normal[1]), spread(normal[2])},
+          {spread(center[0]), spread(center[1]), spread(center[2])},
+          spread(offset),
+          spread(half_width),
+          spread(radius)};
 }
 
 template <class D>
@@ -184,10 +172,14 @@ HWY_INLINE PairMask test_thin_in(D d, const ThinSlabFrame& frame, const NodeHead
   } else {
     const hn::FixedTag<float, kWidth> d4;
     const ThinLanes<Four> p = thin_of_children(head_P, node_P);
-    const auto q = spread_Q(d, moved_to_base(d4, frame, thin_of_children(head_Q, node_Q)));
+    using V = hn::Vec<D>;
+    const auto q = spread_to_pairs<V>(moved_to_base(d4, frame, thin_of_children(head_Q, node_Q)),
+                                      [&](const float* four) HWY_ATTR { return of_Q(d, four); });
     PairMask mask = 0;
-    for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d))
-      mask |= lower_overlaps(d, frame, spread_P(d, p, first), q, least_overlap, first, overlaps);
+    for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
+      const auto of_pairs = spread_to_pairs<V>(p, [&](const float* four) HWY_ATTR { return of_P(d, four, first); });
+      mask |= lower_overlaps(d, frame, of_pairs, q, least_overlap, first, overlaps);
+    }
     return mask;
   }
 }

@@ -23,7 +23,7 @@ TEST_P(FrontKernels, FindsWhatTheClockHasReachedInOrder) {
       if (random_.chance(0.2)) expiry[i] = std::numeric_limits<float>::infinity();
       if (expiry[i] <= clock) expected.push_back(static_cast<std::uint32_t>(i));
     }
-    std::vector<std::uint32_t> expired(expiry.size() + kFrontPadding, 7);
+    std::vector<std::uint32_t> expired(expiry.size(), 7);
     expired.resize(find_expired(expiry, clock, expired));
     EXPECT_EQ(expired, expected);
   }
