@@ -1,6 +1,7 @@
 #include "dop_traversal.h"
 
 #include <bit>
+#include <limits>
 
 namespace glissade::collision {
 namespace {
@@ -31,12 +32,19 @@ class Traversal {
     return false;
   }
 
+  void open_if_near(const NodePair& nodes) {
+    PairOverlaps overlaps;
+    PairMask near = step_.nodes(nodes, overlaps, memory_.counters);
+    near = step_.thin_slabs(nodes, near, overlaps);
+    if (near == 0) return;
+    memory_.stack.push_back({nodes, near, overlaps});
+    step_.prefetch(nodes, near);
+  }
+
   /// All children of two nodes are opened before any goes on: so their tests overlap in time.
-  bool visit_all() {
-    if (step_.boxes_apart()) return false;
-    memory_.stack.clear();
-    open_if_near({0, 0, kAllPairs});
+  bool continue_all(std::int64_t node_tests) {
     while (!memory_.stack.empty()) {
+      if (memory_.counters.node_tests > node_tests) return false;
       const NodePair nodes = memory_.stack.back().nodes;
       PairMask near = memory_.stack.back().near;
       memory_.stack.pop_back();
@@ -45,12 +53,12 @@ class Traversal {
         near &= ~descent.including;
         if (!descent.is_leaf) {
           open_if_near(descent.next);
-        } else if (visit_leaves(descent.next.node_P, descent.next.node_Q)) {
-          return true;
+        } else {
+          visit_leaves(descent.next.node_P, descent.next.node_Q);
         }
       }
     }
-    return false;
+    return true;
   }
 
  private:
@@ -80,15 +88,6 @@ class Traversal {
     return descent;
   }
 
-  void open_if_near(const NodePair& nodes) {
-    PairOverlaps overlaps;
-    PairMask near = step_.nodes(nodes, overlaps, memory_.counters);
-    near = step_.thin_slabs(nodes, near, overlaps);
-    if (near == 0) return;
-    memory_.stack.push_back({nodes, near, overlaps});
-    step_.prefetch(nodes, near);
-  }
-
   bool visit_leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q) {
     step_.prepare(leaf_P, leaf_Q, leaves_);
     PairMask near = step_.leaves(leaves_, memory_.counters);
@@ -115,8 +114,19 @@ class Traversal {
 }  // namespace
 
 bool traverse(Goal goal, DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor) {
-  Traversal traversal(step, memory, visitor);
-  return goal == Goal::kAnyPair ? traversal.find_any() : traversal.visit_all();
+  if (goal == Goal::kAnyPair) return Traversal(step, memory, visitor).find_any();
+  begin_all(step, memory, visitor);
+  continue_all(step, memory, visitor, std::numeric_limits<std::int64_t>::max());
+  return false;
+}
+
+void begin_all(DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor) {
+  memory.stack.clear();
+  if (!step.boxes_apart()) Traversal(step, memory, visitor).open_if_near({0, 0, kAllPairs});
+}
+
+bool continue_all(DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor, std::int64_t node_tests) {
+  return Traversal(step, memory, visitor).continue_all(node_tests);
 }
 
 }  // namespace glissade::collision

@@ -48,4 +48,11 @@ enum class Goal {
 /// Shows the visitor every pair of triangles that may be near, until it says stop. Returns whether it did.
 bool traverse(Goal goal, DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor);
 
+/// The same for a visitor that never says stop, in pieces. First, the stack is made to hold the roots.
+void begin_all(DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor);
+
+/// Goes on with what is on the stack, until the counter of node tests exceeds `node_tests`. Returns whether nothing is
+/// left. What is left may be divided: the pairs on the stack have nothing to do with each other.
+bool continue_all(DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor, std::int64_t node_tests);
+
 }  // namespace glissade::collision

@@ -1,0 +1,291 @@
+#include <glissade/collision/collision_pipeline.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <glissade/collision/broad_phase.h>
+#include <glissade/collision/world_box.h>
+
+#include "pair_checks.h"
+#include "pair_table.h"
+#include "placed_objects.h"
+#include "work_crew.h"
+
+namespace glissade::collision {
+namespace {
+
+const PipelineOptions& checked(const PipelineOptions& options) {
+  if (!(options.greatest_distance >= 0.0 && std::isfinite(options.greatest_distance))) {
+    throw std::invalid_argument("the greatest distance of a collision pipeline must be finite and not negative, not " +
+                                std::to_string(options.greatest_distance) + " m");
+  }
+  if (options.threads < 0) {
+    throw std::invalid_argument("a collision pipeline cannot have " + std::to_string(options.threads) + " threads");
+  }
+  return options;
+}
+
+// What looking at a pair takes, before anything is known about it.
+constexpr double kHullTest_ns = 50.0;
+constexpr double kFirstQuery_ns = 5'000.0;
+// Work that is handed out at a time: large beside the cost of that, small beside a frame.
+constexpr double kChunk_ns = 4'000.0;
+// A pair that takes so long is begun with.
+constexpr double kLong_ns = 20'000.0;
+
+std::size_t chunk_of(std::size_t count, double expected_ns) {
+  const double each = std::max(expected_ns / static_cast<double>(std::max<std::size_t>(count, 1)), 1.0);
+  return static_cast<std::size_t>(std::max(1.0, kChunk_ns / each));
+}
+
+}  // namespace
+
+class CollisionPipeline::Frame {
+ public:
+  Frame(World& world, const realtime::Clock& clock, const PipelineOptions& options)
+      : world_(world),
+        clock_(clock),
+        options_(checked(options)),
+        crew_(options.threads),
+        placed_(static_cast<std::size_t>(world.capacity())),
+        broad_phase_(static_cast<std::size_t>(world.capacity()), options.greatest_distance),
+        checks_(world_, placed_, options_, crew_) {}
+
+  const FrameResult& step(double distance) {
+    if (!(distance >= 0.0 && distance <= options_.greatest_distance)) {
+      throw std::invalid_argument("the distance of a frame must be 0 to the greatest of the pipeline, " +
+                                  std::to_string(options_.greatest_distance) + " m, not " + std::to_string(distance));
+    }
+    const bool is_other_distance = distance != distance_;
+    distance_ = distance;
+    ++result_.frame;
+    result_.report = {};
+    result_.time_of_poses = clock_.now();
+    lap_ = result_.time_of_poses;
+
+    take_changes();
+    end_stage(result_.report.queue);
+    find_neighbors(is_other_distance);
+    end_stage(result_.report.neighbor_finding);
+    test_hulls();
+    end_stage(result_.report.separating_planes);
+    test_exactly();
+    end_stage(result_.report.exact);
+    update_result();
+    result_.report.neighbors = static_cast<std::int64_t>(pairs_.size());
+    result_.report.objects = objects_;
+    result_.report.total = clock_.now() - result_.time_of_poses;
+    return result_;
+  }
+
+  const FrameResult& result() const { return result_; }
+
+ private:
+  using Numbers = std::vector<PairTable::Number>;
+
+  void end_stage(StageReport& stage) {
+    const std::chrono::nanoseconds now = clock_.now();
+    stage.time = now - lap_;
+    lap_ = now;
+  }
+
+  // Stage 0: who is where.
+  void take_changes() {
+    const WorldChanges& changes = world_.take_changes();
+    for (const std::uint32_t slot : changes.removed)
+      broad_phase_.remove(slot);
+    for (const std::uint32_t slot : changes.added) {
+      placed_.place(slot, world_.objects()[slot]);
+      set_box(slot);
+    }
+    for (const std::uint32_t slot : changes.moved) {
+      placed_.move(slot, world_.objects()[slot]);
+      set_box(slot);
+    }
+    objects_ += std::ssize(changes.added) - std::ssize(changes.removed);
+    interest_changed_ = changes.interest;
+    changed_.clear();
+    std::merge(changes.added.begin(), changes.added.end(), changes.moved.begin(), changes.moved.end(),
+               std::back_inserter(changed_));
+    result_.report.queue.in = std::ssize(changed_) + std::ssize(changes.removed);
+    result_.report.queue.out = std::ssize(changed_);
+  }
+
+  void set_box(std::uint32_t slot) {
+    const WorldObject& object = world_.objects()[slot];
+    broad_phase_.set(slot, world_box(*object.tree, object.X_WO));
+  }
+
+  // Stage 1: which pairs may have become near or met, or parted again.
+  void find_neighbors(bool all) {
+    broad_phase_.update();
+    candidates_.clear();
+    for (const SlotPair& slots : broad_phase_.ended())
+      forget(slots);
+    for (const SlotPair& slots : broad_phase_.began())
+      track(slots);
+    if (interest_changed_) pairs_.for_each([&](PairTable::Number number) { renew_interest(number); });
+    if (all || interest_changed_) {
+      pairs_.for_each([&](PairTable::Number number) { consider(number); });
+    } else {
+      for (const std::uint32_t slot : changed_) {
+        for (const PairTable::Number number : pairs_.of_object(slot))
+          consider(number);
+      }
+    }
+    result_.report.neighbor_finding.in = result_.report.queue.out;
+  }
+
+  void track(const SlotPair& slots) {
+    const PairTable::Number number = pairs_.add(slots);
+    pairs_[number].is_of_interest = world_.attends(slots.a, slots.b);
+    pairs_[number].expected_ns = kFirstQuery_ns;
+  }
+
+  void forget(const SlotPair& slots) {
+    const PairTable::Number number = pairs_.number_of(slots);
+    if (pairs_[number].meets) parted_.push_back(slots);
+    pairs_.remove(number);
+  }
+
+  void renew_interest(PairTable::Number number) {
+    TrackedPair& pair = pairs_[number];
+    pair.is_of_interest = world_.attends(pair.slots.a, pair.slots.b);
+    if (!pair.is_of_interest) set_meets(pair, false);
+  }
+
+  void consider(PairTable::Number number) {
+    TrackedPair& pair = pairs_[number];
+    if (!pair.is_of_interest || pair.frame == result_.frame) return;
+    pair.frame = result_.frame;
+    ++result_.report.neighbor_finding.out;
+    if (placed_.motion(pair.slots.a, pair.slots.b) + distance_ < pair.apart_until) return;
+    candidates_.push_back(number);
+  }
+
+  // Stage 2: those that planes separate, and for how long.
+  void test_hulls() {
+    StageReport& report = result_.report.separating_planes;
+    report.in = std::ssize(candidates_);
+    is_near_.resize(candidates_.size());
+    const double expected_ns = kHullTest_ns * static_cast<double>(candidates_.size());
+    crew_.for_each(candidates_.size(), chunk_of(candidates_.size(), expected_ns), expected_ns,
+                   [&](std::size_t i, int) { is_near_[i] = !checks_.are_separated(pairs_[candidates_[i]], distance_); });
+    near_.clear();
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      if (is_near_[i] != 0) {
+        near_.push_back(candidates_[i]);
+      } else {
+        set_meets(pairs_[candidates_[i]], false);
+      }
+    }
+    report.out = std::ssize(near_);
+  }
+
+  // Stage 3: the others. What takes long comes first, so that the threads end together.
+  void test_exactly() {
+    StageReport& report = result_.report.exact;
+    report.in = std::ssize(near_);
+    double expected_ns = 0.0;
+    for (const PairTable::Number number : near_)
+      expected_ns += pairs_[number].expected_ns;
+    const auto end_of_long = std::partition(near_.begin(), near_.end(), [&](PairTable::Number number) {
+      return pairs_[number].expected_ns > kLong_ns;
+    });
+    std::sort(near_.begin(), end_of_long, [&](PairTable::Number m, PairTable::Number n) {
+      return pairs_[m].expected_ns > pairs_[n].expected_ns;
+    });
+    met_before_.resize(near_.size());
+    crew_.for_each(near_.size(), chunk_of(near_.size(), expected_ns), expected_ns, [&](std::size_t i, int worker) {
+      TrackedPair& pair = pairs_[near_[i]];
+      met_before_[i] = pair.meets;
+      checks_.find_out(pair, distance_, worker);
+    });
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+      const TrackedPair& pair = pairs_[near_[i]];
+      report.out += pair.meets ? 1 : 0;
+      if (pair.meets != (met_before_[i] != 0)) (pair.meets ? met_ : parted_).push_back(pair.slots);
+    }
+  }
+
+  void set_meets(TrackedPair& pair, bool meets) {
+    if (pair.meets == meets) return;
+    pair.meets = meets;
+    (meets ? met_ : parted_).push_back(pair.slots);
+  }
+
+  // Those that meet, from the ones of the frame before.
+  void update_result() {
+    if (!met_.empty() || !parted_.empty()) {
+      std::sort(met_.begin(), met_.end());
+      std::sort(parted_.begin(), parted_.end());
+      kept_.clear();
+      std::set_difference(meeting_.begin(), meeting_.end(), parted_.begin(), parted_.end(), std::back_inserter(kept_));
+      meeting_.clear();
+      std::merge(kept_.begin(), kept_.end(), met_.begin(), met_.end(), std::back_inserter(meeting_));
+      met_.clear();
+      parted_.clear();
+      result_.meeting.clear();
+      for (const SlotPair& slots : meeting_)
+        result_.meeting.push_back({world_.objects()[slots.a].id, world_.objects()[slots.b].id});
+    }
+    if (options_.query != PairQuery::kVerdict) copy_details();
+  }
+
+  void copy_details() {
+    result_.ends.clear();
+    result_.all_triangle_pairs.clear();
+    result_.all_close_pairs.clear();
+    for (const SlotPair& slots : meeting_) {
+      const MeetingDetails& details = *pairs_[pairs_.number_of(slots)].details;
+      result_.all_triangle_pairs.insert(result_.all_triangle_pairs.end(), details.triangle_pairs.begin(),
+                                        details.triangle_pairs.end());
+      result_.all_close_pairs.insert(result_.all_close_pairs.end(), details.close_pairs.begin(),
+                                     details.close_pairs.end());
+      result_.ends.push_back(result_.all_triangle_pairs.size() + result_.all_close_pairs.size());
+    }
+  }
+
+  World& world_;
+  const realtime::Clock& clock_;
+  const PipelineOptions options_;
+  WorkCrew crew_;
+  PlacedObjects placed_;
+  BroadPhase broad_phase_;
+  PairTable pairs_;
+  PairChecks checks_;
+
+  double distance_ = 0.0;
+  std::int64_t objects_ = 0;
+  bool interest_changed_ = false;
+  std::chrono::nanoseconds lap_{0};
+  std::vector<std::uint32_t> changed_;  ///< slots
+  Numbers candidates_;                  ///< that may be near
+  std::vector<std::uint8_t> is_near_;
+  Numbers near_;
+  std::vector<std::uint8_t> met_before_;
+  std::vector<SlotPair> met_;     ///< in this frame
+  std::vector<SlotPair> parted_;  ///< in this frame
+  std::vector<SlotPair> meeting_;
+  std::vector<SlotPair> kept_;
+  FrameResult result_;
+};
+
+CollisionPipeline::CollisionPipeline(World& world, const realtime::Clock& clock, const PipelineOptions& options)
+    : frame_(std::make_unique<Frame>(world, clock, options)) {}
+
+CollisionPipeline::~CollisionPipeline() = default;
+
+const FrameResult& CollisionPipeline::step(double distance) {
+  return frame_->step(distance);
+}
+
+const FrameResult& CollisionPipeline::result() const {
+  return frame_->result();
+}
+
+}  // namespace glissade::collision

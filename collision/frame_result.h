@@ -1,0 +1,69 @@
+#pragma once
+
+/// What the collision pipeline finds out in one frame, and where the time went.
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glissade/collision/dop_query.h>
+#include <glissade/collision/world.h>
+
+namespace glissade::collision {
+
+/// Two objects of a world, the one of lower index first: that is A of the query, the other B.
+struct ObjectPair {
+  ObjectId object_A;
+  ObjectId object_B;
+
+  auto operator<=>(const ObjectPair&) const = default;
+};
+
+/// How many pairs came to a stage of the pipeline and how many it passed on, and what that took.
+struct StageReport {
+  std::int64_t in = 0;
+  std::int64_t out = 0;
+  std::chrono::nanoseconds time{0};
+};
+
+/// The account of one frame. Objects that rest cost nothing, so the stages see only pairs with an object that moved.
+struct FrameReport {
+  std::int64_t objects = 0;        ///< in the world
+  std::int64_t neighbors = 0;      ///< pairs of them whose boxes overlap, at rest or not
+  StageReport queue;               ///< objects that somebody moved, added or removed; the objects that have a new pose
+  StageReport neighbor_finding;    ///< those; pairs whose boxes overlap, and which are of interest
+  StageReport separating_planes;   ///< those that may have come together since their gap was last known; not separated
+  StageReport exact;               ///< those; pairs that meet
+  std::chrono::nanoseconds total{0};
+};
+
+/// One frame: which objects meet. What else there is depends on the pipeline's `PairQuery`.
+struct FrameResult {
+  std::uint64_t frame = 0;  ///< number of the frame, from 1; 0: none yet
+  /// When the poses were taken, by the pipeline's clock: now less this is the age of the result.
+  std::chrono::nanoseconds time_of_poses{0};
+
+  std::vector<ObjectPair> meeting;  ///< ascending
+
+  /// Of `meeting[i]`, in ascending order of triangles.
+  std::span<const TrianglePair> triangle_pairs(std::size_t i) const { return part_of(all_triangle_pairs, i); }
+  std::span<const ClosePair> close_pairs(std::size_t i) const { return part_of(all_close_pairs, i); }
+
+  std::vector<TrianglePair> all_triangle_pairs;  ///< of PairQuery::kTrianglePairs
+  std::vector<ClosePair> all_close_pairs;        ///< of PairQuery::kClosePairs
+  std::vector<std::size_t> ends;                 ///< where those of `meeting[i]` end, unless only verdicts are asked for
+
+  FrameReport report;
+
+ private:
+  template <typename Pair>
+  std::span<const Pair> part_of(const std::vector<Pair>& all, std::size_t i) const {
+    if (all.empty()) return {};
+    const std::size_t begin = i == 0 ? 0 : ends[i - 1];
+    return std::span(all).subspan(begin, ends[i] - begin);
+  }
+};
+
+}  // namespace glissade::collision

@@ -1,0 +1,90 @@
+#include "pair_checks.h"
+
+#include <algorithm>
+
+#include "coherent_query.h"
+
+namespace glissade::collision {
+namespace {
+
+// Of the smaller radius. Pairs further apart than that are not near any more, and their memory goes to others.
+constexpr double kNear = 0.25;
+
+// Where more pairs of triangles than this meet, looking at all of them is most of the work, and a front that remembers
+// what was apart costs more than it saves.
+constexpr std::size_t kManyPairs = 100;
+
+// What the work of a query takes, roughly; only the order of pairs and the number of threads depend on it.
+double expected_ns(const QueryCounters& counters, std::size_t found) {
+  return 150.0 + 5.0 * static_cast<double>(counters.node_tests) + 2.0 * static_cast<double>(counters.triangle_tests) +
+         20.0 * static_cast<double>(found);
+}
+
+template <typename Workspace>
+void query(const PlacedPair& placed, double distance, Workspace&& workspace, std::vector<TrianglePair>& found) {
+  intersecting_pairs(placed.tree_A, placed.tree_B, placed.X_AB, workspace, found, distance);
+}
+template <typename Workspace>
+void query(const PlacedPair& placed, double distance, Workspace&& workspace, std::vector<ClosePair>& found) {
+  pairs_within(placed.tree_A, placed.tree_B, placed.X_AB, distance, workspace, found);
+}
+
+}  // namespace
+
+Eigen::Isometry3d relative_pose(const WorldObject& object_A, const WorldObject& object_B) {
+  return object_A.X_WO.inverse(Eigen::Isometry) * object_B.X_WO;
+}
+
+bool PairChecks::are_separated(TrackedPair& pair, double distance) const {
+  const WorldObject& a = world_.objects()[pair.slots.a];
+  const WorldObject& b = world_.objects()[pair.slots.b];
+  if (!a.hull || !b.hull) return false;
+  if (!hulls_apart(*a.hull, *b.hull, relative_pose(a, b), pair.hulls, options_.hull_test)) return false;
+  if (!(pair.hulls.gap > distance)) return false;
+  pair.apart_until = placed_.apart_until(pair.slots.a, pair.slots.b, pair.hulls.gap);
+  if (pair.hulls.gap - distance > kNear * std::min(a.hull->radius(), b.hull->radius())) {
+    pair.front.reset();
+    pair.details.reset();
+  }
+  return true;
+}
+
+void PairChecks::find_out(TrackedPair& pair, double distance, int worker) {
+  const WorldObject& a = world_.objects()[pair.slots.a];
+  const WorldObject& b = world_.objects()[pair.slots.b];
+  const PlacedPair placed{*a.tree, *b.tree, relative_pose(a, b)};
+  QueryWorkspace& scratch = scratch_[static_cast<std::size_t>(worker)];
+  if (!pair.front) pair.front = std::make_unique<CoherentFront>();
+  if (options_.query == PairQuery::kVerdict) {
+    pair.meets = intersects(placed.tree_A, placed.tree_B, placed.X_AB, CoherentMemory{scratch, *pair.front}, distance);
+    pair.expected_ns = expected_ns(scratch.counters(), 0);
+    return;
+  }
+  if (!pair.details) pair.details = std::make_unique<MeetingDetails>();
+  if (options_.query == PairQuery::kTrianglePairs) {
+    find_pairs(pair, placed, distance, scratch, pair.details->triangle_pairs);
+  } else {
+    find_pairs(pair, placed, distance, scratch, pair.details->close_pairs);
+  }
+}
+
+template <typename Pair>
+void PairChecks::find_pairs(TrackedPair& pair, const PlacedPair& placed, double distance, QueryWorkspace& scratch,
+                            std::vector<Pair>& found) {
+  QueryCounters counters;
+  if (found.size() <= kManyPairs) {
+    query(placed, distance, CoherentMemory{scratch, *pair.front}, found);
+    counters = scratch.counters();
+  } else if (crew_.threads() == 1) {
+    query(placed, distance, scratch, found);
+    counters = scratch.counters();
+  } else {
+    ParallelWorkspace& workspace = pair.details->workspace;
+    crew_.run([&] { query(placed, distance, workspace, found); });
+    counters = workspace.counters();
+  }
+  pair.expected_ns = expected_ns(counters, found.size());
+  pair.meets = !found.empty();
+}
+
+}  // namespace glissade::collision

@@ -1,0 +1,51 @@
+#pragma once
+
+/// Private: the two stages of the pipeline that look at one pair at a time: separating planes and the exact test.
+/// Different pairs may be looked at by different threads at once.
+
+#include <vector>
+
+#include <glissade/collision/collision_pipeline.h>
+
+#include "placed_objects.h"
+#include "tracked_pair.h"
+#include "work_crew.h"
+
+namespace glissade::collision {
+
+/// Two trees, and the pose of B in the frame of A.
+struct PlacedPair {
+  const DopTree& tree_A;
+  const DopTree& tree_B;
+  Eigen::Isometry3d X_AB;
+};
+
+class PairChecks {
+ public:
+  PairChecks(const World& world, const PlacedObjects& placed, const PipelineOptions& options, WorkCrew& crew)
+      : world_(world),
+        placed_(placed),
+        options_(options),
+        crew_(crew),
+        scratch_(static_cast<std::size_t>(crew.threads())) {}
+
+  /// Whether the hulls are certainly further apart than `distance` (metres). Notes for how long.
+  bool are_separated(TrackedPair& pair, double distance) const;
+
+  /// Finds out whether the objects are not further apart than `distance`, and all else that is asked for. `worker` is
+  /// the crew's.
+  void find_out(TrackedPair& pair, double distance, int worker);
+
+ private:
+  template <typename Pair>
+  void find_pairs(TrackedPair& pair, const PlacedPair& placed, double distance, QueryWorkspace& scratch,
+                  std::vector<Pair>& found);
+
+  const World& world_;
+  const PlacedObjects& placed_;
+  const PipelineOptions& options_;
+  WorkCrew& crew_;
+  std::vector<QueryWorkspace> scratch_;
+};
+
+}  // namespace glissade::collision

@@ -1,0 +1,40 @@
+#pragma once
+
+/// Private: two objects whose boxes overlap, and what the pipeline knows of them from frame to frame.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glissade/collision/broad_phase.h>
+#include <glissade/collision/dop_query.h>
+#include <glissade/collision/parallel_query.h>
+#include <glissade/collision/separating_plane.h>
+
+#include "coherent_front.h"
+
+namespace glissade::collision {
+
+/// What only pairs have that meet in more than a verdict.
+struct MeetingDetails {
+  ParallelWorkspace workspace;
+  std::vector<TrianglePair> triangle_pairs;
+  std::vector<ClosePair> close_pairs;
+
+  std::size_t size() const { return triangle_pairs.size() + close_pairs.size(); }
+};
+
+struct TrackedPair {
+  SlotPair slots{0, 0};  ///< of the world; object a is A of every query
+  /// The objects are certainly apart until the sum of their motions (metres) exceeds this.
+  double apart_until = -1.0;
+  std::uint64_t frame = 0;  ///< the last that looked at it
+  bool is_of_interest = false;
+  bool meets = false;
+  HullMemory hulls;
+  std::unique_ptr<CoherentFront> front;     ///< while the pair is near
+  std::unique_ptr<MeetingDetails> details;  ///< the same, if they are asked for
+  double expected_ns = 0.0;                 ///< of the exact query, by what the last one did
+};
+
+}  // namespace glissade::collision
