@@ -70,17 +70,17 @@ TEST_F(SeparatingPlanes, AreRightWhateverIsRemembered) {
         const double stride = random_.power_of_ten(-4.0, -0.5);
         X_AB.translation() = 0.98 * X_AB.translation() + stride * random_.point(1.0);
         X_AB.linear() = (X_AB.linear() * Eigen::AngleAxisd(stride, random_.direction())).eval();
-        const HullOracle truth(hull_A, hull_B, X_AB);
+        const double distance = HullOracle(hull_A.vertices(), hull_B.vertices(), X_AB).distance();
         const bool answer = hulls_apart(hull_A, hull_B, X_AB, remembering);
         HullMemory blank;
         ASSERT_EQ(answer, hulls_apart(hull_A, hull_B, X_AB, blank));
-        ASSERT_EQ(answer, truth.apart()) << "step " << step << ", seed " << kSeed;
+        ASSERT_EQ(answer, distance > 0.0) << "step " << step << ", seed " << kSeed;
         if (hulls_apart(hull_A, hull_B, X_AB, perceptron, HullTest::kPerceptron)) {
           ASSERT_TRUE(answer);
         }
         (answer ? apart : meeting)++;
         if (answer) {
-          ASSERT_LE(remembering.gap, truth.distance() + 1e-12);
+          ASSERT_LE(remembering.gap, distance + 1e-12);
         }
       }
     }

@@ -1,25 +1,40 @@
 #pragma once
 
-/// The distance of two convex hulls by CGAL's quadratic programming in exact arithmetic: slow, and independent of
-/// `separating_plane.h`.
+/// Whether the hulls of two sets of points meet, in exact arithmetic and independent of `separating_plane.h`: by CGAL's
+/// quadratic programming, which is slow, or by proofs that somebody claims and that are verified here.
+
+#include <array>
+#include <span>
+#include <vector>
 
 #include <Eigen/Geometry>
 
-#include <glissade/collision/convex_hull.h>
-
 namespace glissade::test_support {
 
-/// The corners of B are transformed in double precision; from there on all is exact.
+/// The points of B are transformed in double precision; from there on nothing is rounded.
 class HullOracle {
  public:
-  HullOracle(const collision::ConvexHull& hull_A, const collision::ConvexHull& hull_B, const Eigen::Isometry3d& X_AB);
+  HullOracle(std::span<const Eigen::Vector3d> points_A, std::span<const Eigen::Vector3d> points_B,
+             const Eigen::Isometry3d& X_AB);
 
-  bool apart() const { return apart_; }
-  double distance() const { return distance_; }  ///< metres; the exact one, rounded
+  /// A point of A and one of B, each in its own frame.
+  using PointPair = std::array<Eigen::Vector3d, 2>;
+
+  /// Whether a plane with this normal certainly separates A from B: quadruple precision with a bound of its error.
+  bool proves_apart(const Eigen::Vector3d& n_A) const;
+
+  /// Whether the origin is inside of four differences of points, which proves that the hulls meet.
+  /// Pairs that are not of the points prove nothing.
+  bool proves_meeting(const std::array<PointPair, 4>& pairs) const;
+
+  /// The distance in metres; it is rounded, but it is 0 only if the hulls meet. For hundreds of points about a
+  /// millisecond.
+  double distance() const;
 
  private:
-  bool apart_;
-  double distance_;
+  std::vector<Eigen::Vector3d> points_A_;
+  std::vector<Eigen::Vector3d> points_B_;  ///< in the frame of A
+  Eigen::Isometry3d X_AB_;
 };
 
 }  // namespace glissade::test_support
