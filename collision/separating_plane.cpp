@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glissade/collision/separating_plane.h>
+
+#include "gjk_simplex.h"
+
+namespace glissade::collision {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr int kPerceptronLoops = 300;  // paper §2.2
+constexpr int kLearningSteps = 6;      // before GJK, which costs more a round and never needs many
+constexpr int kGjkRounds = 128;
+
+// Of all coordinates that take part: each is rounded a few times, and climbing may stop where it sees no difference.
+constexpr double kRounding = 1e-14;
+
+// One question about two hulls.
+class HullQuery {
+ public:
+  HullQuery(const ConvexHull& hull_A, const ConvexHull& hull_B, const Isometry3d& X_AB, HullMemory& memory)
+      : hull_A_(hull_A), hull_B_(hull_B), R_AB_(X_AB.linear()), p_AB_(X_AB.translation()), memory_(memory) {
+    const double reach = hull_A.reach() + hull_B.reach() + p_AB_.lpNorm<1>();
+    margin_ = hull_A.outside() + hull_B.outside() + kRounding * reach;
+    climbing_margin_ = margin_ + hull_A.climbing_error() + hull_B.climbing_error();
+    memory_.gap = 0.0;
+    memory_.loops = 0;
+  }
+
+  // The plane as it is fixed to A, then to B: only the other hull has to be looked at.
+  bool old_plane_separates() {
+    if (!memory_.has_plane) return false;
+    const Vector3d against_B = -(R_AB_.transpose() * memory_.n_A);
+    memory_.corner_B = hull_B_.support(against_B, memory_.corner_B);
+    const double gap_A = memory_.n_A.dot(p_AB_) - against_B.dot(vertex_B(memory_.corner_B)) - memory_.reach_A;
+    if (gap_A > climbing_margin_) {
+      memory_.gap = gap_A - climbing_margin_;
+      return true;
+    }
+    const Vector3d n = R_AB_ * memory_.n_B;
+    memory_.corner_A = hull_A_.support(n, memory_.corner_A);
+    const double gap_B = n.dot(p_AB_) - memory_.reach_B - n.dot(vertex_A(memory_.corner_A));
+    if (!(gap_B > climbing_margin_)) return false;
+    memory_.gap = gap_B - climbing_margin_;
+    return true;
+  }
+
+  // The corners that GJK enclosed the origin with last time.
+  bool old_corners_meet() const {
+    if (memory_.simplex_count < 4) return false;
+    return simplex_of_memory().encloses_origin();
+  }
+
+  // From the centres, if nothing is remembered.
+  Vector3d first_normal() const {
+    if (memory_.has_plane) return memory_.n_A;
+    const Vector3d between = R_AB_ * hull_B_.center() + p_AB_ - hull_A_.center();
+    const double length = between.norm();
+    return length > 0.0 ? Vector3d(between / length) : Vector3d::UnitX();
+  }
+
+  // The learning rule of the perceptron, for the two corners that are most on the wrong side: both are added to the
+  // plane at once, which leaves its distance from the origin out of account. Steps get smaller, so that it settles.
+  bool learn(Vector3d n, int most_loops) {
+    for (int loop = 0; loop < most_loops; ++loop) {
+      ++memory_.loops;
+      const Vector3d w = extreme(n);
+      const double gap = n.dot(w);
+      if (gap > margin_) return separated_by(n, gap);
+      const double square = w.squaredNorm();
+      if (!(square > 0.0)) return false;
+      // Far enough to put these two on their sides, and a share of the step beyond.
+      const double temperature = 1.0 - static_cast<double>(loop) / most_loops;
+      n += (1.0 + temperature) * ((margin_ - gap) / square) * w;
+      const double length = n.norm();
+      if (!(length > 1e-6)) return false;
+      n /= length;
+    }
+    return false;
+  }
+
+  // To the end, from what it had in hand last time.
+  bool gjk() {
+    GjkSimplex simplex = simplex_of_memory();
+    if (simplex.count() == 0) simplex.add(point(memory_.corner_A, memory_.corner_B));
+    bool apart = false;
+    double square = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < kGjkRounds && !simplex.encloses_origin(); ++round) {
+      ++memory_.loops;
+      const Vector3d nearest = simplex.reduce_to_nearest();
+      const double length = nearest.norm();
+      if (!(length > margin_) || !(length * length < square))
+        break;  // touching, or no progress that rounding would show
+      square = length * length;
+      const Vector3d n = nearest / length;
+      const double gap = n.dot(extreme(n));
+      if (gap > margin_) {
+        apart = separated_by(n, gap);
+        break;
+      }
+      if (simplex.has(memory_.corner_A, memory_.corner_B)) break;
+      simplex.add(point(memory_.corner_A, memory_.corner_B));
+    }
+    remember(simplex);
+    return apart;
+  }
+
+ private:
+  const Vector3d& vertex_A(std::int32_t corner) const { return hull_A_.vertices()[static_cast<std::size_t>(corner)]; }
+  const Vector3d& vertex_B(std::int32_t corner) const { return hull_B_.vertices()[static_cast<std::size_t>(corner)]; }
+
+  GjkPoint point(std::int32_t corner_A, std::int32_t corner_B) const {
+    return {R_AB_ * vertex_B(corner_B) + p_AB_ - vertex_A(corner_A), corner_A, corner_B};
+  }
+
+  // The point of B − A that is least along n: surely, if it lies beyond the margin. What climbing may have missed is
+  // looked for only where it matters.
+  Vector3d extreme(const Vector3d& n) {
+    const Vector3d against_B = -(R_AB_.transpose() * n);
+    memory_.corner_A = hull_A_.support(n, memory_.corner_A);
+    memory_.corner_B = hull_B_.support(against_B, memory_.corner_B);
+    const Vector3d w = point(memory_.corner_A, memory_.corner_B).w;
+    const double gap = n.dot(w);
+    if (!(gap > margin_) || gap > climbing_margin_) return w;
+    memory_.corner_A = hull_A_.furthest(n);
+    memory_.corner_B = hull_B_.furthest(against_B);
+    return point(memory_.corner_A, memory_.corner_B).w;
+  }
+
+  bool separated_by(const Vector3d& n, double gap) {
+    memory_.n_A = n;
+    memory_.n_B = R_AB_.transpose() * n;
+    memory_.reach_A = n.dot(vertex_A(memory_.corner_A));
+    memory_.reach_B = -memory_.n_B.dot(vertex_B(memory_.corner_B));
+    memory_.has_plane = true;
+    memory_.gap = gap > climbing_margin_ ? gap - climbing_margin_ : gap - margin_;
+    return true;
+  }
+
+  GjkSimplex simplex_of_memory() const {
+    GjkSimplex simplex;
+    for (int i = 0; i < memory_.simplex_count; ++i) {
+      const auto& corners = memory_.simplex[static_cast<std::size_t>(i)];
+      simplex.add(point(corners[0], corners[1]));
+    }
+    return simplex;
+  }
+
+  void remember(const GjkSimplex& simplex) {
+    memory_.simplex_count = static_cast<std::int8_t>(simplex.count());
+    for (int i = 0; i < simplex.count(); ++i)
+      memory_.simplex[static_cast<std::size_t>(i)] = {simplex[i].corner_A, simplex[i].corner_B};
+  }
+
+  const ConvexHull& hull_A_;
+  const ConvexHull& hull_B_;
+  const Eigen::Matrix3d R_AB_;
+  const Vector3d p_AB_;
+  HullMemory& memory_;
+  double margin_;           ///< for what is certain but for rounding
+  double climbing_margin_;  ///< the same, if climbing may have stopped too early
+};
+
+}  // namespace
+
+bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Isometry3d& X_AB, HullMemory& memory,
+                 HullTest test) noexcept {
+  HullQuery query(hull_A, hull_B, X_AB, memory);
+  const bool is_exact = test == HullTest::kExact;
+  if (is_exact && memory.met && query.old_corners_meet()) return false;
+  const bool apart = query.old_plane_separates() ||
+                     query.learn(query.first_normal(), is_exact ? kLearningSteps : kPerceptronLoops) ||
+                     (is_exact && query.gjk());
+  memory.met = !apart;
+  return apart;
+}
+
+}  // namespace glissade::collision
