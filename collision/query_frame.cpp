@@ -1,20 +1,16 @@
 #include "query_frame.h"
 
-#include <cmath>
 #include <stdexcept>
+
+#include "rotation_defect.h"
 
 namespace glissade::collision {
 
 QueryFrame::QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB)
     : base_is_A(tree_A.radius() >= tree_B.radius()) {
   const Eigen::Matrix3d& R_AB = X_AB.linear();
-  const Eigen::Vector3d x = R_AB.col(0);
-  const Eigen::Vector3d y = R_AB.col(1);
-  const Eigen::Vector3d z = R_AB.col(2);
-  rotation_defect = std::abs(x.squaredNorm() - 1.0) + std::abs(y.squaredNorm() - 1.0) +
-                    std::abs(z.squaredNorm() - 1.0) +
-                    2.0 * (std::abs(x.dot(y)) + std::abs(y.dot(z)) + std::abs(z.dot(x)));
-  if (!(rotation_defect < 1e-3) || !(x.cross(y).dot(z) > 0.0) || !X_AB.translation().allFinite()) {
+  rotation_defect = collision::rotation_defect(R_AB);
+  if (!(rotation_defect < 1e-3) || !is_right_handed(R_AB) || !X_AB.translation().allFinite()) {
     throw std::invalid_argument("the pose X_AB of a query is not a finite rotation and translation");
   }
   if (!(tree_A.options() == tree_B.options())) {

@@ -1,0 +1,159 @@
+#pragma once
+
+/// The objects of a scene, their poses, and which pairs of them matter: the front end of the collision pipeline (paper
+/// §2, §2.3). Any number of threads add, remove and move objects while one, the consumer, computes; the consumer takes
+/// what has changed at the beginning of its next frame, and only that.
+
+#include <atomic>
+#include <compare>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/collision/dop_tree.h>
+#include <glissade/collision/interest_matrix.h>
+#include <glissade/realtime/triple_buffer.h>
+
+namespace glissade::collision {
+
+class ConvexHull;
+
+/// Names one object for ever: an object that comes to the same slot later has another generation.
+struct ObjectId {
+  std::uint32_t index = 0;       ///< the slot
+  std::uint32_t generation = 0;  ///< 0: no object
+
+  auto operator<=>(const ObjectId&) const = default;
+};
+
+struct ObjectDescription {
+  std::shared_ptr<const DopTree> tree;
+  std::shared_ptr<const ConvexHull> hull;  ///< of the same mesh; null: no filter by hulls
+  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+  int group = 0;  ///< row and column of the interest matrix, 0 to 63
+};
+
+/// What a slot holds. Without an object: the default.
+struct WorldObject {
+  ObjectId id;
+  std::shared_ptr<const DopTree> tree;
+  std::shared_ptr<const ConvexHull> hull;
+  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+  int group = 0;
+};
+
+/// What is not as it was at the take before. Slot numbers ascend.
+struct WorldChanges {
+  std::vector<std::uint32_t> removed;  ///< slots whose former object is gone
+  std::vector<std::uint32_t> added;    ///< slots with an object that is new; may have been freed before, see `removed`
+  std::vector<std::uint32_t> moved;    ///< slots whose object was there before, with another pose
+  bool interest = false;               ///< answers of `attends` may differ for pairs that were there before
+};
+
+/// Thread-safety: editors and movers may be any threads at any time; the consumer is one thread. A default-constructed
+/// id, one of an object that was removed, and one of another world count as stale.
+class World {
+ public:
+  /// Room for `capacity` objects; takes about 1.2 kB for each. Throws std::invalid_argument unless 1 to 1,000,000.
+  explicit World(int capacity = 4096);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  int capacity() const { return static_cast<int>(slots_.size()); }
+
+  // Editors: any thread; may block on each other and, for as long as it copies edits, on the consumer.
+
+  /// Throws std::invalid_argument for a null tree, one with other options than those of the objects here, a group
+  /// beyond 0 to 63, or a pose `move` would refuse; std::length_error when the world is full.
+  ObjectId add(const ObjectDescription& object);
+
+  /// Throws std::invalid_argument for a stale id. Pairs of this object need no more be ignored. The tree may live until
+  /// the consumer's next take.
+  void remove(ObjectId id);
+
+  /// As in `InterestMatrix`; `ignore` and `attend` throw std::invalid_argument for a stale id. A frame may fall between
+  /// `add` and `ignore`: what must never be compared goes into groups.
+  void attend_groups(int group_a, int group_b);
+  void ignore_groups(int group_a, int group_b);
+  void attend(ObjectId a, ObjectId b);
+  void ignore(ObjectId a, ObjectId b);
+
+  // Movers: any thread, one at a time for each object. Wait-free, and allocates nothing.
+
+  /// The pose of the object in the world. The consumer's next take has this one or one that was newer. Returns false,
+  /// and does nothing, for a stale id, while another thread is moving the same object, and for a pose that is not a
+  /// rotation and translation: the entries of RᵀR − 1 must add up to less than 1e-4, and coordinates stay within
+  /// ±1e9 m. So no query refuses the pose of one object seen from another. True may also mean that the object was
+  /// removed at the same time.
+  bool move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept;
+
+  // The consumer: one thread.
+
+  /// Makes `objects` what editors and movers have made of it by now, and says what is different. Blocks on editors for
+  /// the length of one edit, never on movers. Cost O(changes + capacity / 64). Objects that were removed are
+  /// destroyed here, if nobody else holds them. The result is overwritten by the next call.
+  const WorldChanges& take_changes();
+
+  /// By slot, as of the last take; `capacity` of them.
+  std::span<const WorldObject> objects() const { return objects_; }
+
+  /// Whether the pair matters, as of the last take. Both slots must have objects. Cost O(1).
+  bool attends(std::uint32_t slot_a, std::uint32_t slot_b) const {
+    return interest_taken_.attends(slot_a, objects_[slot_a].group, slot_b, objects_[slot_b].group);
+  }
+
+ private:
+  struct NewestPose {
+    Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+    std::uint32_t generation = 0;  ///< of the object it was meant for
+  };
+
+  struct Slot {
+    std::atomic<std::uint64_t> state{0};  ///< generation, kAlive, kMoving
+    realtime::TripleBuffer<NewestPose> pose;
+  };
+
+  bool is_alive(ObjectId id) const;
+  void require_alive(ObjectId id) const;
+  std::uint32_t take_free_slot();
+  void mark_edited(std::uint32_t slot);
+  void take_edits();
+  void take_edit(std::uint32_t slot);
+  void take_poses();
+
+  // What movers write.
+  std::vector<Slot> slots_;
+  std::vector<std::atomic<std::uint64_t>> moved_;  ///< a bit for each slot whose pose the consumer has not taken
+
+  // What editors write, under the mutex.
+  std::mutex edits_;
+  std::vector<WorldObject> registered_;
+  std::vector<std::uint32_t> free_;
+  std::vector<std::uint32_t> edited_;  ///< slots that differ from `objects_`, each once
+  std::vector<std::uint8_t> is_edited_;
+  std::optional<DopTreeOptions> options_;  ///< of all trees here
+  InterestMatrix interest_;
+  bool interest_edited_ = false;
+
+  // What the consumer has.
+  std::vector<WorldObject> objects_;
+  std::vector<WorldObject> retired_;
+  InterestMatrix interest_taken_;
+  WorldChanges changes_;
+};
+
+}  // namespace glissade::collision
+
+template <>
+struct std::hash<glissade::collision::ObjectId> {
+  std::size_t operator()(const glissade::collision::ObjectId& id) const noexcept {
+    return std::hash<std::uint64_t>{}(std::uint64_t{id.generation} << 32 | id.index);
+  }
+};
