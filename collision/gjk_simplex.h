@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -39,6 +40,7 @@ class GjkSimplex {
     int count;
   };
   Nearest nearest_of_segment(int a, int b) const;
+  std::optional<Eigen::Vector3d> nearest_inside(int a, int b, int c) const;
   Nearest nearest_of_triangle(int a, int b, int c) const;
   const Eigen::Vector3d& w(int i) const { return points_[static_cast<std::size_t>(i)].w; }
 

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include <glissade/collision/separating_plane.h>
 
@@ -87,20 +89,18 @@ class HullQuery {
     GjkSimplex simplex = simplex_of_memory();
     if (simplex.count() == 0) simplex.add(point(memory_.corner_A, memory_.corner_B));
     bool apart = false;
-    double square = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kGjkRounds && !simplex.encloses_origin(); ++round) {
       ++memory_.loops;
       const Vector3d nearest = simplex.reduce_to_nearest();
       const double length = nearest.norm();
-      if (!(length > margin_) || !(length * length < square))
-        break;  // touching, or no progress that rounding would show
-      square = length * length;
+      if (!(length > margin_)) break;  // touching
       const Vector3d n = nearest / length;
       const double gap = n.dot(extreme(n));
       if (gap > margin_) {
         apart = separated_by(n, gap);
         break;
       }
+      if (getenv("DBG")) {std::printf("round %d count %d length %.3e gap %.3e has %d\n",round,simplex.count(),length,gap,simplex.has(memory_.corner_A, memory_.corner_B)); for(int i=0;i<simplex.count();++i){auto&w=simplex[i].w;std::printf("   %.17g %.17g %.17g  n.w %.3e\n",w.x(),w.y(),w.z(),n.dot(w));}}
       if (simplex.has(memory_.corner_A, memory_.corner_B)) break;
       simplex.add(point(memory_.corner_A, memory_.corner_B));
     }
