@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 namespace {
 
 // The faces of four points, each with the point that is not part of it last.
-constexpr int kFaces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};
+constexpr std::array<std::array<int, 4>, 4> kFaces{{{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}}};
 
 // A triangle so narrow, in squares of its width by its length, is a segment but for rounding.
 constexpr double kNarrowest = 1e-30;
@@ -54,6 +54,17 @@ bool GjkSimplex::encloses_origin() const {
   return positive == 4 || negative == 4;
 }
 
+// Whether the origin lies on that side of a face where the fourth point is.
+bool GjkSimplex::surely_sees_no_origin(const Face& face) const {
+  const Vector3d ab = w(face[1]) - w(face[0]);
+  const Vector3d ac = w(face[2]) - w(face[0]);
+  const Vector3d to_last = w(face[3]) - w(face[0]);
+  const Vector3d n = ab.cross(ac);
+  const double side_of_last = n.dot(to_last);
+  if (std::abs(side_of_last) <= rounding_of_volume(ab, ac, to_last)) return false;
+  return (side_of_last > 0.0) == (n.dot(w(face[0])) < 0.0);
+}
+
 GjkSimplex::Nearest GjkSimplex::nearest_of_segment(int a, int b) const {
   const Vector3d along = w(b) - w(a);
   const double length = along.squaredNorm();
@@ -63,8 +74,8 @@ GjkSimplex::Nearest GjkSimplex::nearest_of_segment(int a, int b) const {
   return {across(w(a), along, length), {a, b, 0}, 2};
 }
 
-// Measured along the longest edge and across, where narrow triangles keep their precision: u is that edge, v the way from
-// its line to the third corner, q the way from the origin to its line.
+// Measured along the longest edge and across, where narrow triangles keep their precision: u is that edge, v the way
+// from its line to the third corner, q the way from the origin to its line.
 std::optional<Vector3d> GjkSimplex::nearest_inside(int a, int b, int c) const {
   const Vector3d u = w(b) - w(a);
   const double u_u = u.squaredNorm();
@@ -98,29 +109,25 @@ GjkSimplex::Nearest GjkSimplex::nearest_of_triangle(int a, int b, int c) const {
   return best;
 }
 
+GjkSimplex::Nearest GjkSimplex::nearest_of_tetrahedron() const {
+  // Of the faces that see the origin from outside, or, if rounding hides which, of all.
+  Nearest nearest{Vector3d::Constant(std::numeric_limits<double>::infinity()), {0, 0, 0}, 0};
+  for (const bool any_face : {false, true}) {
+    for (const auto& face : kFaces) {
+      if (!any_face && surely_sees_no_origin(face)) continue;
+      const Nearest of_face = nearest_of_triangle(face[0], face[1], face[2]);
+      if (of_face.point.squaredNorm() < nearest.point.squaredNorm()) nearest = of_face;
+    }
+    if (nearest.count > 0) break;
+  }
+  return nearest;
+}
+
 Vector3d GjkSimplex::reduce_to_nearest() {
   Nearest nearest{w(0), {0, 0, 0}, 1};
   if (count_ == 2) nearest = nearest_of_segment(0, 1);
   if (count_ == 3) nearest = nearest_of_triangle(0, 1, 2);
-  if (count_ == 4) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& face : kFaces) {
-      const Vector3d ab = w(face[1]) - w(face[0]);
-      const Vector3d ac = w(face[2]) - w(face[0]);
-      const Vector3d n = ab.cross(ac);
-      const Vector3d to_last = w(face[3]) - w(face[0]);
-      const double side_of_origin = -n.dot(w(face[0]));
-      const double side_of_last = n.dot(to_last);
-      const bool is_flat = std::abs(side_of_last) <= rounding_of_volume(ab, ac, to_last);
-      if (!is_flat && side_of_origin * side_of_last > 0.0) continue;  // it does not see this face from outside
-      const Nearest of_face = nearest_of_triangle(face[0], face[1], face[2]);
-      if (of_face.point.squaredNorm() < least) {
-        least = of_face.point.squaredNorm();
-        nearest = of_face;
-      }
-    }
-    if (least == std::numeric_limits<double>::infinity()) return Vector3d::Zero();
-  }
+  if (count_ == 4) nearest = nearest_of_tetrahedron();
   std::array<bool, 4> is_kept{};
   for (int i = 0; i < nearest.count; ++i)
     is_kept[static_cast<std::size_t>(nearest.of[static_cast<std::size_t>(i)])] = true;
