@@ -40,6 +40,17 @@ haptics::Sliding start_sliding(const HapticScene& scene, const haptics::SlidingO
   }
 }
 
+Session finished(std::int64_t ticks, const haptics::Sliding& sliding, const SessionRecorder& recorder,
+                 std::optional<RealTimeFigures> real_time) {
+  const haptics::Surroundings& surroundings = sliding.surroundings();
+  return {ticks,
+          std::ssize(surroundings.obstacles()) + 1,
+          surroundings.frames(),
+          surroundings.sum_of_reports(),
+          recorder.samples(),
+          std::move(real_time)};
+}
+
 }  // namespace
 
 Session run_session_offline(const HapticScene& scene, const devices::PoseTrajectory& script_X_WH, std::int64_t ticks) {
@@ -53,7 +64,7 @@ Session run_session_offline(const HapticScene& scene, const devices::PoseTraject
     recorder.record(sample);
     progress.update(recorder.total());
   });
-  return {ticks, recorder.samples(), std::nullopt};
+  return finished(ticks, sliding, recorder, std::nullopt);
 }
 
 Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, std::int64_t ticks,
@@ -80,7 +91,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   }
   server.stop();
   bare_timer.stop();
-  return {server.ticks(), recorder.samples(), RealTimeFigures{server.statistics(), bare_timer.statistics()}};
+  return finished(server.ticks(), sliding, recorder, RealTimeFigures{server.statistics(), bare_timer.statistics()});
 }
 
 }  // namespace glissade::apps

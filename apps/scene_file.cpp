@@ -22,7 +22,7 @@ class SceneReader {
   SceneReader(std::string source, std::filesystem::path base_folder)
       : yaml_(source), source_(std::move(source)), base_folder_(std::move(base_folder)) {}
 
-  Scene read(const std::string& text) const {
+  Scene read(const std::string& text) {
     const YAML::Node root = yaml_.parse(text);
     yaml_.check_keys(root, "scene", {"objects", "script", "goal"});
     const YAML::Node objects = yaml_.required(root, "scene", "objects");
@@ -41,40 +41,50 @@ class SceneReader {
   }
 
  private:
-  SceneObject read_object(const YAML::Node& node) const {
+  /// What objects may share: those of the same file or of the same shape do.
+  struct Geometry {
+    std::shared_ptr<const TriangleMesh> mesh;
+    std::int64_t degenerate_triangles = 0;
+  };
+
+  SceneObject read_object(const YAML::Node& node) {
     yaml_.check_keys(node, "object", {"name", "mesh", "shape", "scale", "pose", "movable"});
     SceneObject object;
     object.name = yaml_.text(yaml_.required(node, "object", "name"), "name");
-    collision::ImportedMesh imported = read_geometry(node, object.name);
-    object.degenerate_triangles = imported.degenerate_triangles;
-    object.mesh = std::make_shared<const TriangleMesh>(std::move(imported.mesh));
+    const Geometry geometry = read_geometry(node, object.name);
+    object.degenerate_triangles = geometry.degenerate_triangles;
+    object.mesh = geometry.mesh;
     if (node["pose"]) object.X_WB = read_pose(node["pose"], "pose");
     if (node["movable"]) object.movable = yaml_.boolean(node["movable"], "movable");
     return object;
   }
 
-  collision::ImportedMesh read_geometry(const YAML::Node& object, const std::string& name) const {
+  Geometry read_geometry(const YAML::Node& object, const std::string& name) {
     const YAML::Node mesh = object["mesh"];
     const YAML::Node shape = object["shape"];
     if (mesh && shape) yaml_.fail(shape, "object " + in_quotes(name) + " has both a mesh and a shape");
     if (!mesh && !shape) yaml_.fail(object, "object " + in_quotes(name) + " has neither a mesh nor a shape");
     if (mesh) return read_mesh(mesh, object["scale"]);
     if (object["scale"]) yaml_.fail(object["scale"], "scale: is for meshes; the parameters of a shape are in metres");
-    return {read_shape(shape)};
+    return read_shape(shape);
   }
 
-  collision::ImportedMesh read_mesh(const YAML::Node& mesh, const YAML::Node& scale_node) const {
+  Geometry read_mesh(const YAML::Node& mesh, const YAML::Node& scale_node) {
     const std::string path = full_path(yaml_.text(mesh, "mesh"));
     const double scale = scale_node ? yaml_.number(scale_node, "scale") : 1.0;
     if (scale <= 0.0) yaml_.fail(scale_node, "scale: must be positive, not " + in_quotes(scale_node.Scalar()));
+    Geometry& geometry = files_[{path, scale}];
+    if (geometry.mesh) return geometry;
     try {
-      return collision::import_mesh(path, scale);
+      collision::ImportedMesh imported = collision::import_mesh(path, scale);
+      geometry = {std::make_shared<const TriangleMesh>(std::move(imported.mesh)), imported.degenerate_triangles};
+      return geometry;
     } catch (const std::invalid_argument& error) {
       yaml_.fail(mesh, std::string("mesh: ") + error.what());
     }
   }
 
-  TriangleMesh read_shape(const YAML::Node& shape) const {
+  Geometry read_shape(const YAML::Node& shape) {
     yaml_.check_map(shape, "shape");
     const std::string type = yaml_.text(yaml_.required(shape, "shape", "type"), "type");
     std::map<std::string, double> parameters;
@@ -82,8 +92,11 @@ class SceneReader {
       const std::string& key = entry.first.Scalar();
       if (key != "type") parameters.emplace(key, yaml_.number(entry.second, key));
     }
+    Geometry& geometry = shapes_[{type, parameters}];
+    if (geometry.mesh) return geometry;
     try {
-      return collision::make_shape(type, parameters);
+      geometry.mesh = std::make_shared<const TriangleMesh>(collision::make_shape(type, parameters));
+      return geometry;
     } catch (const std::invalid_argument& error) {
       yaml_.fail(shape, std::string("shape: ") + error.what());
     }
@@ -108,6 +121,8 @@ class SceneReader {
   YamlReader yaml_;
   std::string source_;
   std::filesystem::path base_folder_;
+  std::map<std::pair<std::string, double>, Geometry> files_;                          // by path and scale
+  std::map<std::pair<std::string, std::map<std::string, double>>, Geometry> shapes_;  // by type and parameters
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ namespace glissade::apps {
 /// One object at its initial pose.
 struct SceneObject {
   std::string name;
-  std::shared_ptr<const collision::TriangleMesh> mesh;  ///< in metres, in the object's frame B
+  std::shared_ptr<const collision::TriangleMesh> mesh;  ///< in metres, in the object's frame B; equal ones are shared
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   bool movable = false;
   std::int64_t degenerate_triangles = 0;  ///< left out of the mesh, see `import_mesh`

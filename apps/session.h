@@ -11,6 +11,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <glissade/apps/haptic_scene.h>
+#include <glissade/collision/frame_result.h>
 #include <glissade/devices/haptic_state.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/realtime/periodic_loop.h>
@@ -47,6 +48,9 @@ struct RealTimeFigures {
 /// A finished run.
 struct Session {
   std::int64_t ticks = 0;
+  std::int64_t objects = 0;           ///< of the scene, the part among them
+  std::int64_t collision_frames = 0;  ///< how often the simulation looked around
+  collision::FrameReport collision;   ///< the sum of the accounts of these
   std::vector<devices::HapticState> samples;
   std::optional<RealTimeFigures> real_time;  ///< none for an offline run
 };

@@ -48,8 +48,26 @@ void add_real_time_rows(const RealTimeFigures& figures, Rows& rows) {
                                                                      : "ordinary (SCHED_FIFO was refused)");
 }
 
+std::string stage_text(const collision::StageReport& stage, std::int64_t frames) {
+  const auto each = [&](auto sum) { return static_cast<double>(sum) / static_cast<double>(frames); };
+  return formatted("%.1f in, %.1f out, %.1f us", each(stage.in), each(stage.out), each(microseconds(stage.time)));
+}
+
+// What looking around cost, a frame of the collision pipeline each time.
+void add_collision_rows(const Session& session, Rows& rows) {
+  const std::int64_t frames = session.collision_frames;
+  const collision::FrameReport& sum = session.collision;
+  rows.emplace_back("collision frames", formatted("%lld, %.1f us each", static_cast<long long>(frames),
+                                                  microseconds(sum.total) / static_cast<double>(frames)));
+  rows.emplace_back("  moved objects", stage_text(sum.queue, frames));
+  rows.emplace_back("  neighbouring pairs", stage_text(sum.neighbor_finding, frames));
+  rows.emplace_back("  pairs at hull planes", stage_text(sum.separating_planes, frames));
+  rows.emplace_back("  pairs at DOP-trees", stage_text(sum.exact, frames));
+}
+
 Rows rows_of(const SessionSummary& summary, const Session& session) {
   Rows rows;
+  rows.emplace_back("objects", std::to_string(session.objects));
   rows.emplace_back("ticks", std::to_string(summary.ticks));
   if (session.real_time) add_real_time_rows(*session.real_time, rows);
   rows.emplace_back("colliding poses",
@@ -62,6 +80,7 @@ Rows rows_of(const SessionSummary& summary, const Session& session) {
     rows.emplace_back("seat reached", formatted("%s, %.3f mm from it", *summary.seat_reached ? "yes" : "no",
                                                 1e3 * summary.seat_distance_m));
   }
+  add_collision_rows(session, rows);
   rows.emplace_back("hash", hash_text(summary.hash));
   return rows;
 }
@@ -106,7 +125,20 @@ std::vector<Plot> plots_of(const std::vector<devices::HapticState>& samples) {
 }  // namespace
 
 nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
+  const auto stage = [&](const collision::StageReport& sum) {
+    const auto each = [&](auto value) {
+      return static_cast<double>(value) / static_cast<double>(session.collision_frames);
+    };
+    return nlohmann::json{{"in", each(sum.in)}, {"out", each(sum.out)}, {"us", each(microseconds(sum.time))}};
+  };
   nlohmann::json json = {{"ticks", summary.ticks},
+                         {"objects", session.objects},
+                         {"collision_frames", session.collision_frames},
+                         {"collision_stages",
+                          {{"queue", stage(session.collision.queue)},
+                           {"neighbor_finding", stage(session.collision.neighbor_finding)},
+                           {"separating_planes", stage(session.collision.separating_planes)},
+                           {"exact", stage(session.collision.exact)}}},
                          {"late_ticks", 0},
                          {"colliding_poses", summary.colliding_poses},
                          {"checked_poses", summary.samples},

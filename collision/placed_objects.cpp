@@ -16,8 +16,9 @@ bool is_rotation(const Eigen::Matrix3d& R) {
 
 void PlacedObjects::place(std::uint32_t slot, const WorldObject& object) {
   const DopTree& tree = *object.tree;
-  objects_[slot] = {object.X_WO, object.X_WO * tree.center(),      tree.radius(), tree.center().norm() + tree.radius(),
-                    0.0,         is_rotation(object.X_WO.linear())};
+  objects_[slot] = {object.X_WO, object.X_WO * tree.center(), tree.radius(), tree.center().norm() + tree.radius(),
+                    is_rotation(object.X_WO.linear())};
+  travel_[slot] = 0.0;
 }
 
 void PlacedObjects::move(std::uint32_t slot, const WorldObject& object) {
@@ -26,7 +27,7 @@ void PlacedObjects::move(std::uint32_t slot, const WorldObject& object) {
   // The matrix norm of a difference is no greater than Frobenius'.
   const double turned = (object.X_WO.linear() - placed.X_WO.linear()).norm();
   const double moved = (c_W - placed.c_W).norm() + placed.radius * turned;
-  placed.travel += moved * (1.0 + kRounding) + kRounding * 0.1 * (c_W.lpNorm<1>() + placed.reach);
+  travel_[slot] += moved * (1.0 + kRounding) + kRounding * 0.1 * (c_W.lpNorm<1>() + placed.reach);
   placed.X_WO = object.X_WO;
   placed.c_W = c_W;
   placed.is_rotation = is_rotation(object.X_WO.linear());
@@ -40,7 +41,7 @@ double PlacedObjects::apart_until(std::uint32_t slot_a, std::uint32_t slot_b, do
   const Eigen::Vector3d& p_a = a.X_WO.translation();
   const Eigen::Vector3d& p_b = b.X_WO.translation();
   const double span = (p_a - p_b).norm() + a.reach + b.reach;
-  const double now = a.travel + b.travel;
+  const double now = motion(slot_a, slot_b);
   return now + gap - 8.0 * kRotation * span - kRounding * (p_a.lpNorm<1>() + p_b.lpNorm<1>() + now);
 }
 

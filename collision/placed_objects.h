@@ -13,7 +13,7 @@ namespace glissade::collision {
 
 class PlacedObjects {
  public:
-  explicit PlacedObjects(std::size_t capacity) : objects_(capacity) {}
+  explicit PlacedObjects(std::size_t capacity) : objects_(capacity), travel_(capacity, 0.0) {}
 
   /// A new object has come to a slot.
   void place(std::uint32_t slot, const WorldObject& object);
@@ -22,9 +22,7 @@ class PlacedObjects {
   void move(std::uint32_t slot, const WorldObject& object);
 
   /// The sum of the motions of two objects, metres: their distance has not changed by more than the difference of this.
-  double motion(std::uint32_t slot_a, std::uint32_t slot_b) const {
-    return objects_[slot_a].travel + objects_[slot_b].travel;
-  }
+  double motion(std::uint32_t slot_a, std::uint32_t slot_b) const { return travel_[slot_a] + travel_[slot_b]; }
 
   /// What `motion` may become while two objects stay apart whose gap is now, in their frames, at least `gap` metres.
   /// Never, that is −1, for poses too far from rotations to say.
@@ -36,11 +34,11 @@ class PlacedObjects {
     Eigen::Vector3d c_W = Eigen::Vector3d::Zero();  ///< centre of the tree
     double radius = 0.0;                            ///< about it
     double reach = 0.0;                             ///< of the object from the origin of its frame
-    double travel = 0.0;                            ///< no point has moved further, all told
     bool is_rotation = true;                        ///< but for rounding
   };
 
   std::vector<Placed> objects_;
+  std::vector<double> travel_;  ///< metres: no point of the object has moved further, all told
 };
 
 }  // namespace glissade::collision
