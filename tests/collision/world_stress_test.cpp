@@ -14,6 +14,10 @@
 namespace glissade::collision {
 namespace {
 
+std::shared_ptr<const DopTree> make_tree() {
+  return std::make_shared<DopTree>(std::make_shared<TriangleMesh>(make_box({1.0, 1.0, 1.0}, 12)));
+}
+
 // A pose that says whose it is and the how-manieth, twice over: a torn one contradicts itself.
 Eigen::Isometry3d pose(ObjectId id, std::uint32_t count) {
   Eigen::Isometry3d X(Eigen::AngleAxisd(1e-3 * count, Eigen::Vector3d::UnitZ()));
@@ -68,41 +72,46 @@ class Witness {
   std::vector<Seen> seen_;
 };
 
-// An editor's objects come and go, and a mover learns of them in its own time: it moves what may be gone, and whose
-// slot may have another object.
-struct ShortLived {
-  std::atomic<std::uint64_t> newest{0};
-  std::atomic<bool> is_over = false;
-
+// An editor's objects come and go, and movers learn of them in their own time: they move what may be gone, and whose
+// slot may have another object. Objects that follow each other in a slot have different movers.
+class ShortLived {
+ public:
   void edit(World& world, const std::shared_ptr<const DopTree>& tree, int objects) {
     for (int i = 0; i < objects; ++i) {
       const ObjectId id = world.add({.tree = tree});
-      newest.store(std::uint64_t{id.generation} << 32 | id.index);
+      newest_ = std::uint64_t{id.generation} << 32 | id.index;
       if (i % 4 != 0) std::this_thread::yield();
       world.remove(id);
     }
-    is_over = true;
+    is_over_ = true;
   }
 
-  void move(World& world) {
-    ObjectId last;
+  /// One thread for each `parity`, 0 and 1.
+  void move(World& world, std::uint32_t parity) {
+    ObjectId id;
     std::uint32_t count = 0;
-    for (; !is_over; std::this_thread::yield()) {
-      const std::uint64_t id = newest;
-      const ObjectId object{static_cast<std::uint32_t>(id), static_cast<std::uint32_t>(id >> 32)};
-      count = object == last ? count : 0;
-      last = object;
+    for (; !is_over_; std::this_thread::yield()) {
+      const std::uint64_t newest = newest_;
+      const ObjectId newest_id{static_cast<std::uint32_t>(newest), static_cast<std::uint32_t>(newest >> 32)};
+      if (newest_id != id && newest_id.generation % 2 == parity) {
+        id = newest_id;
+        count = 0;
+      }
       for (int i = 0; i < 16; ++i)
-        world.move(object, pose(object, ++count));
+        world.move(id, pose(id, ++count));
     }
   }
+
+ private:
+  std::atomic<std::uint64_t> newest_ = 0;
+  std::atomic<bool> is_over_ = false;
 };
 
 // Movers, editors and the consumer at full speed, with so few slots that objects follow each other closely.
 TEST(WorldStress, NoPoseIsTornLostOrMeantForAnother) {
   constexpr std::uint32_t kMoves = 10000;
   constexpr int kShortLives = 10000;
-  const auto tree = std::make_shared<const DopTree>(std::make_shared<TriangleMesh>(make_box({1.0, 1.0, 1.0}, 12)));
+  const auto tree = make_tree();
   World world(7);
   std::array<ObjectId, 3> own;
   for (ObjectId& id : own)
@@ -127,7 +136,8 @@ TEST(WorldStress, NoPoseIsTornLostOrMeantForAnother) {
   }
   for (ShortLived& lives : short_lived) {
     start([&] { lives.edit(world, tree, kShortLives); });
-    start([&] { lives.move(world); });
+    start([&] { lives.move(world, 0); });
+    start([&] { lives.move(world, 1); });
   }
 
   Witness witness(world);
@@ -147,6 +157,43 @@ TEST(WorldStress, NoPoseIsTornLostOrMeantForAnother) {
     EXPECT_EQ(count_of(world.objects()[id.index]), kMoves) << "the newest pose has not arrived";
   for (const WorldObject& object : world.objects())
     EXPECT_EQ(object.id != ObjectId{}, std::find(own.begin(), own.end(), object.id) != own.end());
+}
+
+// An object that is added and moved while the consumer is taking poses: the take may come upon the pose of an object it
+// does not know yet. Others that have moved as well make takes long enough for that.
+TEST(WorldStress, AnObjectAddedAndMovedDuringATakeIsWhereItWasMoved) {
+  constexpr int kObjects = 1000;
+  const auto tree = make_tree();
+  World world(512);
+  std::vector<ObjectId> others(500);
+  for (ObjectId& id : others)
+    id = world.add({.tree = tree});
+  std::atomic<bool> is_waiting = false;
+  std::atomic<bool> is_over = false;
+  ObjectId id;
+  std::thread editor([&] {
+    for (int i = 0; i < kObjects; ++i) {
+      id = world.add({.tree = tree});
+      world.move(id, pose(id, 1));
+      is_waiting = true;
+      while (is_waiting)
+        std::this_thread::yield();
+      world.remove(id);
+    }
+    is_over = true;
+  });
+  for (std::uint32_t count = 1; !is_over; ++count) {
+    const bool is_moved = is_waiting;
+    for (const ObjectId other : others)
+      world.move(other, pose(other, count));
+    world.take_changes();
+    if (!is_moved) continue;
+    EXPECT_EQ(world.objects()[id.index].id, id);
+    EXPECT_EQ(count_of(world.objects()[id.index]), 1U);
+    is_waiting = false;
+    std::this_thread::yield();
+  }
+  editor.join();
 }
 
 }  // namespace
