@@ -123,6 +123,11 @@ GjkSimplex::Nearest GjkSimplex::nearest_of_tetrahedron() const {
   return nearest;
 }
 
+Vector3d GjkSimplex::nearest_of_plane() const {
+  const Vector3d n = (w(1) - w(0)).cross(w(2) - w(0));
+  return n.dot(w(0)) / n.squaredNorm() * n;
+}
+
 Vector3d GjkSimplex::reduce_to_nearest() {
   Nearest nearest{w(0), {0, 0, 0}, 1};
   if (count_ == 2) nearest = nearest_of_segment(0, 1);

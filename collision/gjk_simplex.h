@@ -33,6 +33,9 @@ class GjkSimplex {
   /// may call the origin outside of four points that barely enclose it.
   Eigen::Vector3d reduce_to_nearest();
 
+  /// Of the plane of three points, the point that is nearest to the origin. Not finite if there is no such plane.
+  Eigen::Vector3d nearest_of_plane() const;
+
  private:
   struct Nearest {
     Eigen::Vector3d point;

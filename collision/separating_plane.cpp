@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <glissade/collision/separating_plane.h>
 
@@ -12,9 +13,13 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kPerceptronLoops = 300;  // paper §2.2
-constexpr int kLearningSteps = 6;      // before GJK, which costs more a round and never needs many
 constexpr int kGjkRounds = 128;
 constexpr int kGjkAttempts = 3;
+
+// Radians, about. A pair that moves little has its new plane within the first of the old one; what three old points
+// span is worth a look within the second.
+constexpr double kFirstTurn = 0.06;
+constexpr double kSmallTurn = 0.02;
 
 // Of all coordinates that take part: each is rounded a few times, and climbing may stop where it sees no difference.
 constexpr double kRounding = 1e-14;
@@ -65,8 +70,9 @@ class HullQuery {
 
   // The learning rule of the perceptron, for the two corners that are most on the wrong side: both are added to the
   // plane at once, which leaves its distance from the origin out of account. Steps get smaller, so that it settles.
-  bool learn(Vector3d n, int most_loops) {
-    for (int loop = 0; loop < most_loops; ++loop) {
+  bool learn() {
+    Vector3d n = first_normal();
+    for (int loop = 0; loop < kPerceptronLoops; ++loop) {
       ++memory_.loops;
       const Vector3d w = extreme(n);
       const double gap = n.dot(w);
@@ -74,7 +80,7 @@ class HullQuery {
       const double square = w.squaredNorm();
       if (!(square > 0.0)) return false;
       // Far enough to put these two on their sides, and a share of the step beyond.
-      const double temperature = 1.0 - static_cast<double>(loop) / most_loops;
+      const double temperature = 1.0 - static_cast<double>(loop) / kPerceptronLoops;
       n += (1.0 + temperature) * ((margin_ - gap) / square) * w;
       const double length = n.norm();
       if (!(length > 1e-6)) return false;
@@ -86,6 +92,7 @@ class HullQuery {
   // To the end, from what it had in hand last time. What rounding has led astray begins anew.
   bool gjk() {
     GjkSimplex simplex = simplex_of_memory();
+    if (simplex.count() == 0) extreme(first_normal());
     for (int attempt = 0; attempt < kGjkAttempts; ++attempt) {
       if (simplex.count() == 0) simplex.add(point(memory_.corner_A, memory_.corner_B));
       const bool apart = run_gjk(simplex);
@@ -106,18 +113,62 @@ class HullQuery {
 
   // Whether a plane separates them; if not, the simplex encloses the origin, or rounding prevents a decision.
   bool run_gjk(GjkSimplex& simplex) {
+    double turn = kFirstTurn;
+    if (old_points_separate(simplex)) return true;
     for (int round = 0; round < kGjkRounds && !simplex.encloses_origin(); ++round) {
       ++memory_.loops;
       const Vector3d nearest = simplex.reduce_to_nearest();
       const double length = nearest.norm();
       if (!(length > margin_)) return false;
       const Vector3d n = nearest / length;
-      const double gap = n.dot(extreme(n));
-      if (gap > margin_) return separated_by(n, gap);
-      if (simplex.has(memory_.corner_A, memory_.corner_B)) return false;
-      simplex.add(point(memory_.corner_A, memory_.corner_B));
+      Step step = Step::kStuck;
+      if (const std::optional<Vector3d> on_the_way = turned_toward(n, turn)) {
+        turn *= 4.0;
+        step = look_along(*on_the_way, nearest, simplex);
+      }
+      if (step == Step::kStuck) step = look_along(n, nearest, simplex);
+      if (step != Step::kNearer) return step == Step::kApart;
     }
     return false;
+  }
+
+  // Three points that were nearest to the origin last time mostly still span the plane that it needs, even if the
+  // nearest point of that plane is now a little beside them.
+  bool old_points_separate(GjkSimplex& simplex) {
+    if (simplex.count() != 3 || !memory_.has_plane) return false;
+    const Vector3d nearest = simplex.nearest_of_plane();
+    const Vector3d n = nearest.normalized();
+    if (!((n - memory_.n_A).squaredNorm() < kSmallTurn * kSmallTurn)) return false;
+    ++memory_.loops;
+    return look_along(n, nearest, simplex) == Step::kApart;
+  }
+
+  // The old normal turned so far toward n, if that is not far enough. Where hulls nearly touch, the nearest point of a
+  // few corners lies in a direction far from the normal, and the way there and back over thousands of corners takes
+  // long.
+  std::optional<Vector3d> turned_toward(const Vector3d& n, double turn) const {
+    if (!memory_.has_plane || turn > 1.0) return std::nullopt;
+    const Vector3d difference = n - memory_.n_A;
+    const double angle = difference.norm();
+    if (!(angle > turn)) return std::nullopt;
+    return (memory_.n_A + turn / angle * difference).normalized();
+  }
+
+  enum class Step : std::uint8_t { kApart, kNearer, kStuck };
+
+  // Whether the plane along n separates; else the simplex gets the extreme point, if that brings it nearer to the
+  // origin.
+  Step look_along(const Vector3d& n, const Vector3d& nearest, GjkSimplex& simplex) {
+    const Vector3d w = extreme(n);
+    const double gap = n.dot(w);
+    if (gap > margin_) {
+      separated_by(n, gap);
+      return Step::kApart;
+    }
+    if (!(nearest.dot(w) < nearest.squaredNorm())) return Step::kStuck;
+    if (simplex.has(memory_.corner_A, memory_.corner_B)) return Step::kStuck;
+    simplex.add(point(memory_.corner_A, memory_.corner_B));
+    return Step::kNearer;
   }
 
   // The point of B − A that is least along n: surely, if it lies beyond the margin. What climbing may have missed is
@@ -173,11 +224,14 @@ class HullQuery {
 bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Isometry3d& X_AB, HullMemory& memory,
                  HullTest test) noexcept {
   HullQuery query(hull_A, hull_B, X_AB, memory);
-  const bool is_exact = test == HullTest::kExact;
-  if (is_exact && memory.met && query.old_corners_meet()) return false;
-  const bool apart = query.old_plane_separates() ||
-                     query.learn(query.first_normal(), is_exact ? kLearningSteps : kPerceptronLoops) ||
-                     (is_exact && query.gjk());
+  bool apart = false;
+  if (test == HullTest::kPerceptron) {
+    apart = query.old_plane_separates() || query.learn();
+  } else if (memory.met) {
+    apart = !query.old_corners_meet() && query.gjk();
+  } else {
+    apart = query.old_plane_separates() || query.gjk();
+  }
   memory.met = !apart;
   return apart;
 }

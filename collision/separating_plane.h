@@ -16,7 +16,7 @@ namespace glissade::collision {
 
 /// How hulls are told apart once the plane of the last query does not separate them any more.
 enum class HullTest : std::uint8_t {
-  kExact,       ///< a few learning steps, then GJK to the end
+  kExact,       ///< GJK from where it was last time, to the end
   kPerceptron,  ///< the paper's: up to 300 learning steps; it may miss that hulls are apart, never that they meet
 };
 

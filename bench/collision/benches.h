@@ -27,6 +27,10 @@ void run_shells(const BenchOptions& options, Results& results);
 /// that remember the last one beside queries that do not.
 void run_coherent(const BenchOptions& options, Results& results);
 
+/// Whether two convex hulls are apart: one turns and goes round the other in steps of 0.05 to 5 degrees, at gaps of
+/// 1e-2 to 1e-6 of the size and at a depth of 1e-3.
+void run_hull(const BenchOptions& options, Results& results);
+
 /// All intersecting pairs of triangles of two copies of an object that overlap.
 void run_all_pairs(const BenchOptions& options, Results& results);
 

@@ -31,6 +31,7 @@ constexpr const char* kDescription =
     "  coherent   one part slides along another in steps of 0.01 mm and 0.005 degrees, boolean query\n"
     "  all-pairs  all intersecting pairs of triangles of two overlapping copies of an object\n"
     "  build      time and memory of building\n"
+    "  hull       one convex hull turns and goes round another in small steps, boolean query\n"
     "\n"
     "Each subject goes over all poses in turn, again and again; times are medians over these passes. Answers are\n"
     "compared, too. Progress goes to standard error, the figures to results.csv, whose columns are\n"
@@ -46,9 +47,9 @@ constexpr const char* kFooter =
 using Bench = void (*)(const BenchOptions&, Results&);
 
 const std::vector<std::pair<std::string, Bench>>& benches() {
-  static const std::vector<std::pair<std::string, Bench>> all{{"zachmann", run_zachmann},   {"close", run_close},
-                                                              {"shells", run_shells},       {"coherent", run_coherent},
-                                                              {"all-pairs", run_all_pairs}, {"build", run_build}};
+  static const std::vector<std::pair<std::string, Bench>> all{
+      {"zachmann", run_zachmann},   {"close", run_close}, {"shells", run_shells}, {"coherent", run_coherent},
+      {"all-pairs", run_all_pairs}, {"build", run_build}, {"hull", run_hull}};
   return all;
 }
 

@@ -55,6 +55,25 @@ void Results::add_ratios(const std::string& bench, const std::vector<std::string
   }
 }
 
+void Results::add_group_ratios(const std::string& bench, const std::string& group,
+                               const std::vector<std::string>& endings, const std::vector<std::string>& peers) {
+  std::map<std::string, TimeOfCase> times;  // by subject
+  for (const Row& row : rows_) {
+    const bool is_in_group = std::any_of(endings.begin(), endings.end(),
+                                         [&](const std::string& ending) { return row.case_name.ends_with(ending); });
+    if (row.bench == bench && row.metric == "time" && is_in_group) times[row.subject][row.case_name] = row.value;
+  }
+  for (const auto& [subject, ours] : times) {
+    if (!subject.starts_with("glissade")) continue;
+    for (const std::string& peer : peers) {
+      const std::vector<double> all = ratios(ours, times[peer]);
+      if (all.empty()) continue;
+      add({bench, group + "-geomean", subject, "ratio_to_" + peer, geometric_mean(all), "x"});
+      add({bench, group + "-worst", subject, "ratio_to_" + peer, *std::min_element(all.begin(), all.end()), "x"});
+    }
+  }
+}
+
 void Results::write_csv(const std::filesystem::path& path) const {
   std::ofstream file(path);
   file << "bench,case,subject,metric,value,unit\n";

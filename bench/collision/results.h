@@ -26,6 +26,10 @@ class Results {
   /// is better) Glissade is, and each variant of it that ran in all of the cases.
   void add_ratios(const std::string& bench, const std::vector<std::string>& peers);
 
+  /// The same for some cases, those that end so, as the cases `GROUP-geomean` and `GROUP-worst`; only of `time`.
+  void add_group_ratios(const std::string& bench, const std::string& group, const std::vector<std::string>& endings,
+                        const std::vector<std::string>& peers);
+
   /// Throws std::runtime_error when the file cannot be written.
   void write_csv(const std::filesystem::path& path) const;
 
