@@ -128,7 +128,7 @@ class CollisionPipeline::Frame {
     for (const SlotPair& slots : broad_phase_.began())
       track(slots);
     if (interest_changed_) pairs_.for_each([&](PairTable::Number number) { renew_interest(number); });
-    if (all || interest_changed_) {
+    if (all) {
       pairs_.for_each([&](PairTable::Number number) { consider(number); });
     } else {
       for (const std::uint32_t slot : changed_) {
@@ -153,8 +153,10 @@ class CollisionPipeline::Frame {
 
   void renew_interest(PairTable::Number number) {
     TrackedPair& pair = pairs_[number];
+    const bool was_of_interest = pair.is_of_interest;
     pair.is_of_interest = world_.attends(pair.slots.a, pair.slots.b);
     if (!pair.is_of_interest) set_meets(pair, false);
+    if (pair.is_of_interest && !was_of_interest) consider(number);
   }
 
   void consider(PairTable::Number number) {
@@ -162,8 +164,11 @@ class CollisionPipeline::Frame {
     if (!pair.is_of_interest || pair.frame == result_.frame) return;
     pair.frame = result_.frame;
     ++result_.report.neighbor_finding.out;
-    if (placed_.motion(pair.slots.a, pair.slots.b) + distance_ < pair.apart_until) return;
-    candidates_.push_back(number);
+    if (placed_.motion(pair.slots.a, pair.slots.b) + distance_ < pair.apart_until) {
+      set_meets(pair, false);  // it may have met at a greater distance
+    } else {
+      candidates_.push_back(number);
+    }
   }
 
   // Stage 2: those that planes separate, and for how long.

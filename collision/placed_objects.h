@@ -13,7 +13,7 @@ namespace glissade::collision {
 
 class PlacedObjects {
  public:
-  explicit PlacedObjects(std::size_t capacity) : objects_(capacity), travel_(capacity, 0.0) {}
+  explicit PlacedObjects(std::size_t capacity) : objects_(capacity), travels_(capacity) {}
 
   /// A new object has come to a slot.
   void place(std::uint32_t slot, const WorldObject& object);
@@ -21,11 +21,16 @@ class PlacedObjects {
   /// The object of a slot has another pose.
   void move(std::uint32_t slot, const WorldObject& object);
 
-  /// The sum of the motions of two objects, metres: their distance has not changed by more than the difference of this.
-  double motion(std::uint32_t slot_a, std::uint32_t slot_b) const { return travel_[slot_a] + travel_[slot_b]; }
+  /// The sum of the motions of two objects, metres: their distance has not changed by more than the difference
+  /// of this. Infinite while one of the poses is not a rotation: then frames tell nothing of each other.
+  double motion(std::uint32_t slot_a, std::uint32_t slot_b) const {
+    const Travel& a = travels_[slot_a];
+    const Travel& b = travels_[slot_b];
+    return a.length + b.length + a.doubt + b.doubt;
+  }
 
   /// What `motion` may become while two objects stay apart whose gap is now, in their frames, at least `gap` metres.
-  /// Never, that is −1, for poses too far from rotations to say.
+  /// Less than it is if a pose is too far from a rotation to say.
   double apart_until(std::uint32_t slot_a, std::uint32_t slot_b, double gap) const;
 
  private:
@@ -34,11 +39,16 @@ class PlacedObjects {
     Eigen::Vector3d c_W = Eigen::Vector3d::Zero();  ///< centre of the tree
     double radius = 0.0;                            ///< about it
     double reach = 0.0;                             ///< of the object from the origin of its frame
-    bool is_rotation = true;                        ///< but for rounding
+  };
+
+  /// Apart from the rest because it is looked at for every pair.
+  struct Travel {
+    double length = 0.0;  ///< metres: no point of the object has moved further, all told
+    double doubt = 0.0;   ///< infinite while the pose is not a rotation but for rounding
   };
 
   std::vector<Placed> objects_;
-  std::vector<double> travel_;  ///< metres: no point of the object has moved further, all told
+  std::vector<Travel> travels_;
 };
 
 }  // namespace glissade::collision

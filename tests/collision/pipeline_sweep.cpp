@@ -83,7 +83,8 @@ class Scene {
     for (std::size_t i = 0; i < objects_.size(); ++i) {
       if (everybody_moves || random_.chance(0.1)) move(i);
     }
-    distance_ = random_.chance(0.8) ? distance_ : random_.uniform(0.0, 1.0) * options_.greatest_distance;
+    if (random_.chance(0.2))
+      distance_ = random_.chance(0.3) ? 0.0 : random_.uniform(0.0, 1.0) * options_.greatest_distance;
     const std::vector<Answer> expected = brute_force();
     ++counts.frames;
     counts.objects += std::ssize(objects_);
@@ -195,6 +196,8 @@ class Scene {
       object.X_WO.linear() = (turn * Eigen::Quaterniond(object.X_WO.linear())).normalized().toRotationMatrix();
       object.X_WO.translation() += random_.point(object.step);
     }
+    // Poses that have come through a file in single precision, say.
+    if (random_.chance(0.01)) object.X_WO.linear() *= 1.0 + random_.uniform(-1e-5, 1e-5);
     for (const auto& copy : copies_)
       copy->world.move(object.id, object.X_WO);
   }

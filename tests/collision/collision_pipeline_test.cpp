@@ -1,0 +1,238 @@
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glissade/collision/collision_pipeline.h>
+#include <glissade/collision/mesh_generators.h>
+#include <glissade/collision/mesh_operations.h>
+
+namespace glissade::collision {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+Isometry3d at(double x, double y = 0.0, double z = 0.0) {
+  return Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
+// Boxes of one metre on a long shelf.
+class Pipeline : public testing::Test {
+ protected:
+  struct Shape {
+    explicit Shape(const TriangleMesh& m)
+        : tree(std::make_shared<DopTree>(std::make_shared<TriangleMesh>(m))), hull(std::make_shared<ConvexHull>(m)) {}
+    std::shared_ptr<const DopTree> tree;
+    std::shared_ptr<const ConvexHull> hull;
+  };
+
+  ObjectId add(const Isometry3d& X_WO, int group = 0) { return add(box_, X_WO, group); }
+  ObjectId add(const Shape& shape, const Isometry3d& X_WO, int group = 0) {
+    return world_.add({shape.tree, shape.hull, X_WO, group});
+  }
+
+  const Shape box_{make_box({1.0, 1.0, 1.0}, 48)};
+  realtime::SteadyClock clock_;
+  World world_{64};
+};
+
+TEST_F(Pipeline, TellsWhichObjectsMeet) {
+  CollisionPipeline pipeline(world_, clock_);
+  EXPECT_EQ(pipeline.result().frame, 0U);
+  const ObjectId left = add(at(0.0));
+  const ObjectId middle = add(at(0.9));
+  const ObjectId right = add(at(2.0));
+  EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{left, middle}));
+  EXPECT_EQ(pipeline.result().frame, 1U);
+
+  ASSERT_TRUE(world_.move(middle, at(1.1)));
+  EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{middle, right}));
+  ASSERT_TRUE(world_.move(middle, at(1.0)));
+  EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{left, middle}, ObjectPair{middle, right}))
+      << "touching counts";
+  EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{left, middle}, ObjectPair{middle, right}))
+      << "nobody has moved";
+}
+
+TEST_F(Pipeline, ForgetsWhatIsRemovedAndKnowsItsSuccessorForAnother) {
+  CollisionPipeline pipeline(world_, clock_);
+  const ObjectId a = add(at(0.0));
+  const ObjectId b = add(at(0.5));
+  pipeline.step();
+  world_.remove(b);
+  EXPECT_THAT(pipeline.step().meeting, IsEmpty());
+
+  const ObjectId c = add(at(0.5));
+  ASSERT_EQ(c.index, b.index);
+  EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{a, c}));
+  world_.remove(c);
+  const ObjectId d = add(at(-0.5));
+  ASSERT_EQ(d.index, c.index);
+  EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{a, d})) << "in the same frame";
+}
+
+TEST_F(Pipeline, LeavesOutPairsOfNoInterest) {
+  CollisionPipeline pipeline(world_, clock_);
+  const ObjectId finger = add(at(0.0), 1);
+  const ObjectId next_finger = add(at(0.8), 1);
+  const ObjectId part = add(at(0.4), 2);
+  world_.ignore_groups(1, 1);
+  EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{finger, part}, ObjectPair{next_finger, part}));
+  world_.ignore(part, finger);
+  EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{next_finger, part}));
+  EXPECT_EQ(pipeline.result().report.exact.in, 0) << "an answer that is known needs no query";
+  world_.attend(finger, part);
+  world_.attend_groups(1, 1);
+  EXPECT_THAT(pipeline.step().meeting,
+              ElementsAre(ObjectPair{finger, next_finger}, ObjectPair{finger, part}, ObjectPair{next_finger, part}));
+}
+
+TEST_F(Pipeline, ChargesAFrameForWhatHasMovedOnly) {
+  CollisionPipeline pipeline(world_, clock_);
+  for (int i = 0; i < 20; ++i)
+    add(at(0.9 * i));
+  const ObjectId last = add(at(0.9 * 20));
+  const FrameReport first = pipeline.step().report;
+  EXPECT_EQ(first.objects, 21);
+  EXPECT_EQ(first.queue.in, 21);
+  EXPECT_EQ(first.exact.out, 20);
+
+  const FrameReport at_rest = pipeline.step().report;
+  EXPECT_EQ(at_rest.queue.in, 0);
+  EXPECT_EQ(at_rest.neighbor_finding.out, 0);
+  EXPECT_EQ(at_rest.exact.in, 0);
+  EXPECT_EQ(at_rest.neighbors, first.neighbors) << "they are still remembered";
+  EXPECT_EQ(pipeline.result().meeting.size(), 20U);
+
+  ASSERT_TRUE(world_.move(last, at(0.9 * 20 + 0.01)));
+  const FrameReport one_moved = pipeline.step().report;
+  EXPECT_EQ(one_moved.queue.out, 1);
+  EXPECT_EQ(one_moved.exact.in, 1);
+  EXPECT_EQ(one_moved.exact.out, 1);
+}
+
+TEST_F(Pipeline, LooksAtASeparatedPairAgainOnlyWhenItsGapMayBeUsedUp) {
+  CollisionPipeline pipeline(world_, clock_);
+  const ObjectId a = add(at(0.0));
+  const ObjectId b = add(at(1.1));
+  pipeline.step();
+  ASSERT_EQ(pipeline.result().report.separating_planes.in, 1);
+  int looked = 0;
+  for (int i = 1; i <= 100; ++i) {
+    ASSERT_TRUE(world_.move(b, at(1.1, 0.001 * i)));
+    pipeline.step();
+    EXPECT_EQ(pipeline.result().report.neighbor_finding.out, 1);
+    looked += static_cast<int>(pipeline.result().report.separating_planes.in);
+  }
+  EXPECT_LE(looked, 2) << "a gap of 100 mm lasts for 100 steps of 1 mm";
+  // Straight on, and it is found out in time.
+  ASSERT_TRUE(world_.move(b, at(1.0000001, 0.1)));
+  EXPECT_THAT(pipeline.step().meeting, IsEmpty());
+  ASSERT_TRUE(world_.move(b, at(0.9999999, 0.1)));
+  EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{a, b}));
+}
+
+// Its matrix makes an object a little larger in its own frame than in the world: no motion there tells of it.
+TEST_F(Pipeline, TakesPosesThatAreNotQuiteRotationsAtTheirWord) {
+  const double c = 10.0;
+  const Shape far_from_its_origin(transformed(make_box({1.0, 1.0, 1.0}, 48), at(c)));
+  CollisionPipeline pipeline(world_, clock_);
+  const ObjectId a = add(far_from_its_origin, at(-c));
+  const ObjectId b = add(at(-1.0001));
+  EXPECT_THAT(pipeline.step().meeting, IsEmpty());
+  const double grown = 1.0 - 1.5e-5;
+  Isometry3d X_WA = at(-grown * c);  // the middle of the box stays where it is
+  X_WA.linear() *= grown;
+  ASSERT_TRUE(world_.move(a, X_WA));
+  QueryWorkspace workspace;
+  const bool expected =
+      intersects(*far_from_its_origin.tree, *box_.tree, X_WA.inverse(Eigen::Isometry) * at(-1.0001), workspace);
+  EXPECT_EQ(pipeline.step().meeting.size(), expected ? 1U : 0U);
+  X_WA.linear() *= (2.0 - grown) / grown;
+  X_WA.translation().x() = -(2.0 - grown) * c;
+  ASSERT_TRUE(world_.move(a, X_WA));
+  const bool expected_next =
+      intersects(*far_from_its_origin.tree, *box_.tree, X_WA.inverse(Eigen::Isometry) * at(-1.0001), workspace);
+  EXPECT_EQ(pipeline.step().meeting.size(), expected_next ? 1U : 0U);
+  EXPECT_NE(expected, expected_next) << "one of them meets, or this is a test of nothing";
+  EXPECT_TRUE(b != a);
+}
+
+TEST_F(Pipeline, GivesTheTrianglesThatMeet) {
+  PipelineOptions options{.query = PairQuery::kTrianglePairs, .threads = 1};
+  CollisionPipeline pipeline(world_, clock_, options);
+  add(at(0.0));
+  add(at(0.9));
+  add(at(0.95, 0.9));
+  const FrameResult& result = pipeline.step();
+  ASSERT_EQ(result.meeting.size(), 3U);
+  QueryWorkspace workspace;
+  std::vector<TrianglePair> expected;
+  for (std::size_t i = 0; i < result.meeting.size(); ++i) {
+    const auto [a, b] = result.meeting[i];
+    intersecting_pairs(*box_.tree, *box_.tree, relative_pose(world_.objects()[a.index], world_.objects()[b.index]),
+                       workspace, expected);
+    EXPECT_FALSE(expected.empty());
+    EXPECT_EQ(std::vector(result.triangle_pairs(i).begin(), result.triangle_pairs(i).end()), expected);
+    EXPECT_THAT(result.close_pairs(i), IsEmpty());
+  }
+}
+
+TEST_F(Pipeline, GivesTheTrianglesWithinADistanceThatMayDifferFromFrameToFrame) {
+  CollisionPipeline pipeline(world_, clock_, {.query = PairQuery::kClosePairs, .greatest_distance = 0.2, .threads = 1});
+  add(at(0.0));
+  add(at(1.15));
+  EXPECT_THAT(pipeline.step(0.14).meeting, IsEmpty());
+  const FrameResult& result = pipeline.step(0.16);
+  ASSERT_EQ(result.meeting.size(), 1U);
+  ASSERT_FALSE(result.close_pairs(0).empty());
+  for (const ClosePair& pair : result.close_pairs(0)) {
+    EXPECT_GE(pair.distance, 0.15 - 1e-12);
+    EXPECT_LE(pair.distance, 0.16);
+  }
+  EXPECT_THAT(pipeline.step(0.1).meeting, IsEmpty());
+  EXPECT_THAT(pipeline.step(0.2).meeting.size(), 1U);
+}
+
+TEST_F(Pipeline, NeedsNoHulls) {
+  CollisionPipeline pipeline(world_, clock_);
+  const ObjectId a = world_.add({box_.tree, nullptr, at(0.0), 0});
+  const ObjectId b = add(at(1.01));
+  EXPECT_THAT(pipeline.step().meeting, IsEmpty());
+  ASSERT_TRUE(world_.move(a, at(0.05)));
+  EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{a, b}));
+}
+
+TEST_F(Pipeline, SaysWhereTheTimeWent) {
+  realtime::SimulatedClock clock;
+  clock.advance(std::chrono::seconds(7));
+  CollisionPipeline pipeline(world_, clock);
+  const FrameResult& result = pipeline.step();
+  EXPECT_EQ(result.time_of_poses, std::chrono::seconds(7)) << "by the clock it was given";
+  EXPECT_EQ(result.age(std::chrono::seconds(9)), std::chrono::seconds(2));
+  FrameReport sum;
+  sum += result.report;
+  sum += result.report;
+  EXPECT_EQ(sum.total, 2 * result.report.total);
+}
+
+TEST_F(Pipeline, RefusesWhatMakesNoSense) {
+  EXPECT_THROW(CollisionPipeline(world_, clock_, {.greatest_distance = -1.0}), std::invalid_argument);
+  EXPECT_THROW(CollisionPipeline(world_, clock_, {.greatest_distance = std::nan("")}), std::invalid_argument);
+  EXPECT_THROW(CollisionPipeline(world_, clock_, {.threads = -1}), std::invalid_argument);
+  CollisionPipeline pipeline(world_, clock_, {.greatest_distance = 0.1});
+  EXPECT_THROW(pipeline.step(0.11), std::invalid_argument);
+  EXPECT_THROW(pipeline.step(-0.01), std::invalid_argument);
+  EXPECT_THROW(pipeline.step(std::nan("")), std::invalid_argument);
+  EXPECT_NO_THROW(pipeline.step(0.1));
+}
+
+}  // namespace
+}  // namespace glissade::collision
