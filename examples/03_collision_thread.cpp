@@ -1,0 +1,55 @@
+// A hundred balls swing about their places while the collision thread says which of them meet. The loop that moves them
+// never waits for it.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include <glissade/collision/collision_thread.h>
+#include <glissade/collision/mesh_generators.h>
+
+int main() {
+  using namespace glissade;
+  const auto mesh = std::make_shared<collision::TriangleMesh>(collision::make_sphere(0.05, 2000));
+  const auto tree = std::make_shared<collision::DopTree>(mesh);  // one for all balls
+  const auto hull = std::make_shared<collision::ConvexHull>(*mesh);
+
+  collision::World world;
+  std::vector<collision::ObjectId> balls;
+  for (int i = 0; i < 100; ++i)
+    balls.push_back(world.add({tree, hull, Eigen::Isometry3d::Identity()}));
+  world.ignore(balls[0], balls[1]);  // these two are glued together
+
+  realtime::SteadyClock clock;
+  collision::CollisionThread thread(world, clock);
+  std::size_t most = 0;
+  collision::FrameReport sum;
+  std::int64_t frames = 0;
+  for (int millisecond = 0; millisecond < 500; ++millisecond) {
+    for (int i = 0; i < 100; ++i) {
+      const double swing = 0.03 * std::sin(0.02 * millisecond + i);
+      world.move(balls[static_cast<std::size_t>(i)],
+                 Eigen::Isometry3d(Eigen::Translation3d(0.12 * (i % 10) + swing, 0.12 * (i / 10), 0.0)));
+    }
+    if (thread.reader().update()) {  // a frame that is new to us
+      const collision::FrameResult& frame = thread.reader().frame();
+      most = std::max(most, frame.meeting.size());
+      sum += frame.report;
+      ++frames;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const auto us_each = [&](std::chrono::nanoseconds time) {
+    return 1e-3 * static_cast<double>(time.count()) / static_cast<double>(frames);
+  };
+  std::cout << "Up to " << most << " pairs of balls meet at once. A frame took " << us_each(sum.total) << " us:\n"
+            << "  who has moved        " << us_each(sum.queue.time) << " us\n"
+            << "  who is near          " << us_each(sum.neighbor_finding.time) << " us\n"
+            << "  separating planes    " << us_each(sum.separating_planes.time) << " us\n"
+            << "  triangles            " << us_each(sum.exact.time) << " us\n";
+  return most > 0 ? 0 : 1;
+}
