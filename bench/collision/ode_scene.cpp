@@ -1,0 +1,63 @@
+// ODE: a space of geoms, and in its callback dCollide of two trimeshes as in the other benches. Of its spaces the hash
+// table is the one here, with cells of the size of the objects.
+
+#include "ode_model.h"
+#include "scene_subject.h"
+
+namespace glissade::bench {
+namespace {
+
+// Cells of 2^-4 m to 2^-2 m: objects are about 2^-3 m.
+constexpr int kSmallestCell = -4;
+constexpr int kLargestCell = -2;
+
+class OdeScene : public SceneSubject {
+ public:
+  explicit OdeScene(std::span<const SceneObject> objects)
+      : space_(dHashSpaceCreate(nullptr)), numbers_(objects.size()) {
+    dHashSpaceSetLevels(space_, kSmallestCell, kLargestCell);
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      numbers_[i] = i;
+      geoms_.push_back(ode_geom(*objects[i].model));
+      dGeomSetData(geoms_[i], &numbers_[i]);
+      place(geoms_[i], objects[i].X_WO);
+      dSpaceAdd(space_, geoms_[i]);
+    }
+  }
+  ~OdeScene() override { dSpaceDestroy(space_); }  // and its geoms
+  OdeScene(const OdeScene&) = delete;
+  OdeScene& operator=(const OdeScene&) = delete;
+
+  void step(std::span<const MovedObject> moved) override {
+    meeting_.clear();
+    for (const MovedObject& object : moved)
+      place(geoms_[object.object], object.X_WO);
+    dSpaceCollide(space_, this, [](void* scene, dGeomID a, dGeomID b) { static_cast<OdeScene*>(scene)->look_at(a, b); });
+  }
+
+  std::vector<NumberPair> meeting() const override { return meeting_; }
+
+ private:
+  static std::size_t number_of(dGeomID geom) { return *static_cast<const std::size_t*>(dGeomGetData(geom)); }
+
+  void look_at(dGeomID a, dGeomID b) {
+    dContactGeom contact;
+    if (dCollide(a, b, static_cast<int>(CONTACTS_UNIMPORTANT | 1U), &contact, sizeof(dContactGeom)) > 0)
+      meeting_.emplace_back(number_of(a), number_of(b));
+  }
+
+  dSpaceID space_;
+  std::vector<std::size_t> numbers_;
+  std::vector<dGeomID> geoms_;
+  std::vector<NumberPair> meeting_;
+};
+
+}  // namespace
+
+SceneLibrary ode_scenes() {
+  return {.name = "ode",
+          .build = [](const collision::TriangleMesh& mesh) { return std::make_unique<OdeModel>(mesh); },
+          .start = [](std::span<const SceneObject> objects) { return std::make_unique<OdeScene>(objects); }};
+}
+
+}  // namespace glissade::bench
