@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <BulletCollision/Gimpact/btGImpactShape.h>
-
 #include <Eigen/Geometry>
 
 #include <glissade/collision/triangle_mesh.h>
@@ -24,7 +23,7 @@ inline btTransform transform(const Eigen::Isometry3d& X_WO) {
   btMatrix3x3 rotation;
   for (int row = 0; row < 3; ++row)
     rotation[row] = vector(X_WO.linear().row(row).transpose());
-  return {rotation, vector(X_WO.translation())};
+  return btTransform(rotation, vector(X_WO.translation()));
 }
 
 // Bullet refers to the arrays it is given.

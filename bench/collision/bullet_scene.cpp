@@ -1,5 +1,5 @@
-// Bullet: its dynamic trees of boxes, and GImpact for the pairs that they give, as in the other benches. What a collision
-// world does beside that, keeping contacts from frame to frame, is left out.
+// Bullet: its dynamic trees of boxes, and GImpact for the pairs that they give, as in the other benches. What a
+// collision world does beside that, keeping contacts from frame to frame, is left out.
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
@@ -34,9 +34,9 @@ class BulletScene : public SceneSubject {
       object.setWorldTransform(transform(objects[i].X_WO));
       object.setUserIndex(static_cast<int>(i));
       const Box box = box_of(object);
-      object.setBroadphaseHandle(broad_phase_.createProxy(
-          box.low, box.high, object.getCollisionShape()->getShapeType(), &object, btBroadphaseProxy::DefaultFilter,
-          btBroadphaseProxy::AllFilter, &dispatcher_));
+      object.setBroadphaseHandle(broad_phase_.createProxy(box.low, box.high, object.getCollisionShape()->getShapeType(),
+                                                          &object, btBroadphaseProxy::DefaultFilter,
+                                                          btBroadphaseProxy::AllFilter, &dispatcher_));
     }
   }
   ~BulletScene() override {
@@ -99,6 +99,7 @@ class BulletScene : public SceneSubject {
 
 SceneLibrary bullet_scenes() {
   return {.name = "bullet",
+          .model = "bullet",
           .build = [](const collision::TriangleMesh& mesh) { return std::make_unique<BulletModel>(mesh); },
           .start = [](std::span<const SceneObject> objects) { return std::make_unique<BulletScene>(objects); }};
 }

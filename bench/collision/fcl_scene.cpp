@@ -1,4 +1,5 @@
-// FCL: a dynamic tree of boxes over the objects, and the test of two meshes that the other benches use, in its callback.
+// FCL: a dynamic tree of boxes over the objects, and the test of two meshes that the other benches use, in its
+// callback.
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/narrowphase/collision.h>
@@ -47,7 +48,9 @@ class FclScene : public SceneSubject {
   std::vector<NumberPair> meeting() const override { return meeting_; }
 
  private:
-  static std::size_t number_of(const FclObject& object) { return *static_cast<const std::size_t*>(object.getUserData()); }
+  static std::size_t number_of(const FclObject& object) {
+    return *static_cast<const std::size_t*>(object.getUserData());
+  }
 
   void look_at(const FclObject& a, const FclObject& b) {
     result_.clear();
@@ -66,6 +69,7 @@ class FclScene : public SceneSubject {
 
 SceneLibrary fcl_scenes() {
   return {.name = "fcl",
+          .model = "fcl",
           .build = [](const collision::TriangleMesh& mesh) { return std::make_unique<FclSceneModel>(mesh); },
           .start = [](std::span<const SceneObject> objects) { return std::make_unique<FclScene>(objects); }};
 }

@@ -59,9 +59,10 @@ class GlissadeScene : public SceneSubject {
 
 }  // namespace
 
-SceneLibrary glissade_scenes(const std::string& name, int threads) {
+SceneLibrary glissade_scenes(int threads) {
   return {
-      .name = name,
+      .name = threads == 1 ? "glissade" : "glissade-" + std::to_string(threads) + "-threads",
+      .model = "glissade",
       .build = [](const collision::TriangleMesh& mesh) { return std::make_unique<GlissadeSceneModel>(mesh); },
       .start = [threads](
                    std::span<const SceneObject> objects) { return std::make_unique<GlissadeScene>(objects, threads); }};

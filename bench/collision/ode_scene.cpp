@@ -32,7 +32,8 @@ class OdeScene : public SceneSubject {
     meeting_.clear();
     for (const MovedObject& object : moved)
       place(geoms_[object.object], object.X_WO);
-    dSpaceCollide(space_, this, [](void* scene, dGeomID a, dGeomID b) { static_cast<OdeScene*>(scene)->look_at(a, b); });
+    dSpaceCollide(space_, this,
+                  [](void* scene, dGeomID a, dGeomID b) { static_cast<OdeScene*>(scene)->look_at(a, b); });
   }
 
   std::vector<NumberPair> meeting() const override { return meeting_; }
@@ -56,6 +57,7 @@ class OdeScene : public SceneSubject {
 
 SceneLibrary ode_scenes() {
   return {.name = "ode",
+          .model = "ode",
           .build = [](const collision::TriangleMesh& mesh) { return std::make_unique<OdeModel>(mesh); },
           .start = [](std::span<const SceneObject> objects) { return std::make_unique<OdeScene>(objects); }};
 }

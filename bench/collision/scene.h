@@ -1,7 +1,7 @@
 #pragma once
 
-/// Objects that fly about in a box, bounce off its walls and pass through each other (paper, figure 5). Where each is at
-/// any time is known in advance, so that all subjects see the same frames. Lengths in metres, times in seconds; the
+/// Objects that fly about in a box, bounce off its walls and pass through each other (paper, figure 5). Where each is
+/// at any time is known in advance, so that all subjects see the same frames. Lengths in metres, times in seconds; the
 /// origin of an object's frame O is the centre of its bounding sphere, that of the world W is a corner of the box.
 
 #include <cstdint>

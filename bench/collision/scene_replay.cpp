@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <utility>
 
 #include "interleaved_passes.h"
 
@@ -12,8 +13,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 std::vector<NumberPair> in_order(std::vector<NumberPair> pairs) {
-  for (NumberPair& pair : pairs)
-    pair = std::minmax(pair.first, pair.second);
+  for (NumberPair& pair : pairs) {
+    if (pair.second < pair.first) std::swap(pair.first, pair.second);
+  }
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
@@ -76,7 +78,8 @@ void for_common_frames(std::span<const FrameRecord> frames, std::span<const Fram
 
 }  // namespace
 
-std::vector<std::vector<FrameRecord>> replay(const Scene& scene, std::span<const std::unique_ptr<SceneSubject>> subjects,
+std::vector<std::vector<FrameRecord>> replay(const Scene& scene,
+                                             std::span<const std::unique_ptr<SceneSubject>> subjects,
                                              const ReplayLimits& limits) {
   std::vector<Player> players;
   for (const auto& subject : subjects)

@@ -30,7 +30,8 @@ struct FrameRecord {
 };
 
 /// The frames of each subject that count, in order.
-std::vector<std::vector<FrameRecord>> replay(const Scene& scene, std::span<const std::unique_ptr<SceneSubject>> subjects,
+std::vector<std::vector<FrameRecord>> replay(const Scene& scene,
+                                             std::span<const std::unique_ptr<SceneSubject>> subjects,
                                              const ReplayLimits& limits);
 
 /// Median time of the frames that `others` took, too.

@@ -44,12 +44,13 @@ struct SceneObject {
 
 struct SceneLibrary {
   std::string name;
+  std::string model;  ///< libraries of the same `model` share what was built
   std::function<std::unique_ptr<Model>(const collision::TriangleMesh&)> build;
   std::function<std::unique_ptr<SceneSubject>(std::span<const SceneObject> objects)> start;
 };
 
-/// `name` tells apart those with other numbers of threads.
-SceneLibrary glissade_scenes(const std::string& name, int threads);
+/// "glissade"; on more than one thread "glissade-2-threads".
+SceneLibrary glissade_scenes(int threads);
 SceneLibrary fcl_scenes();
 SceneLibrary ode_scenes();
 SceneLibrary bullet_scenes();
