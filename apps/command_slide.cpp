@@ -83,7 +83,7 @@ void add_row(CsvWriter& out, double time_s, const haptics::Sliding& sliding) {
 std::unique_ptr<haptics::Sliding> start(const HapticScene& scene, const Eigen::Isometry3d& X_WV_start,
                                         haptics::Metaphor metaphor, const std::string& trajectory) {
   try {
-    return std::make_unique<haptics::Sliding>(scene.obstacles_W, scene.part_V, X_WV_start,
+    return std::make_unique<haptics::Sliding>(scene.obstacles, scene.part_V, X_WV_start,
                                               haptics::SlidingOptions{.metaphor = metaphor});
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(trajectory + ": " + error.what() + ", the pose of the first row");

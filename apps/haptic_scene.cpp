@@ -1,10 +1,10 @@
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <stdexcept>
 
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/text.h>
-#include <glissade/collision/mesh_operations.h>
 #include <glissade/collision/triangle_intersection.h>
 
 namespace glissade::apps {
@@ -20,26 +20,41 @@ bool has_area(const collision::TriangleMesh& mesh) {
   return false;
 }
 
-/// The object's mesh where it lies, checked: later, in the merged mesh, nobody could tell which object is to blame.
-collision::TriangleMesh placed_mesh(const Scene& scene, const SceneObject& object) {
-  const std::string where = scene.source + ": object " + in_quotes(object.name);
-  collision::TriangleMesh mesh_W = collision::transformed(*object.mesh, object.X_WB);
-  for (std::size_t i = 0; i < mesh_W.vertices.size(); ++i) {
-    if ((mesh_W.vertices[i].array().abs() <= kLargestCoordinate).all()) continue;
-    throw std::invalid_argument(where + ": vertex " + std::to_string(i) + " lies beyond ±1e9 m");
+/// Throws when an object, where it lies, is of no use.
+void check(const SceneObject& object) {
+  for (std::size_t i = 0; i < object.mesh->vertices.size(); ++i) {
+    if (((object.X_WB * object.mesh->vertices[i]).array().abs() <= kLargestCoordinate).all()) continue;
+    throw std::invalid_argument("vertex " + std::to_string(i) + " lies beyond ±1e9 m");
   }
-  if (!has_area(mesh_W)) throw std::invalid_argument(where + ": the mesh has no triangle of positive area");
-  return mesh_W;
+  if (!has_area(*object.mesh)) throw std::invalid_argument("the mesh has no triangle of positive area");
 }
 
-std::shared_ptr<const haptics::SlidingPart> make_part(const Scene& scene, const SceneObject& object) {
-  placed_mesh(scene, object);
+/// A body of the object, or an error that names it.
+template <typename Body>
+std::shared_ptr<const Body> make_body(const Scene& scene, const SceneObject& object) {
   try {
-    return std::make_shared<haptics::SlidingPart>(object.mesh);
+    check(object);
+    return std::make_shared<Body>(object.mesh);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(scene.source + ": object " + in_quotes(object.name) + ": " + error.what());
   }
 }
+
+/// Objects of one mesh share their body.
+class Bodies {
+ public:
+  explicit Bodies(const Scene& scene) : scene_(scene) {}
+
+  std::shared_ptr<const haptics::ContactBody> of(const SceneObject& object) {
+    std::shared_ptr<const haptics::ContactBody>& body = bodies_[object.mesh.get()];
+    if (!body) body = make_body<haptics::ContactBody>(scene_, object);
+    return body;
+  }
+
+ private:
+  const Scene& scene_;
+  std::map<const collision::TriangleMesh*, std::shared_ptr<const haptics::ContactBody>> bodies_;
+};
 
 }  // namespace
 
@@ -48,21 +63,19 @@ HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name) 
   HapticScene result;
   result.source = scene.source;
   result.part_name = part.name;
-  result.part_V = make_part(scene, part);
+  result.part_V = make_body<haptics::SlidingPart>(scene, part);
   result.X_WV_start = part.X_WB;
   result.X_WGoal = scene.X_WGoal;
 
-  std::vector<collision::TriangleMesh> meshes_W;
+  Bodies bodies(scene);
   for (const SceneObject& object : scene.objects) {
     if (object.name == part.name) continue;
-    meshes_W.push_back(placed_mesh(scene, object));
+    result.obstacles.push_back({bodies.of(object), object.X_WB, in_quotes(object.name)});
     result.placed_obstacles.push_back({object.mesh, object.X_WB});
   }
-  if (meshes_W.empty()) {
+  if (result.obstacles.empty()) {
     throw std::invalid_argument(scene.source + ": there is nothing but the part '" + part.name + "' in the scene");
   }
-  result.obstacles_W =
-      std::make_shared<haptics::ContactBody>(std::make_shared<collision::TriangleMesh>(collision::merge(meshes_W)));
   return result;
 }
 

@@ -11,7 +11,7 @@
 
 #include <glissade/apps/scene_file.h>
 #include <glissade/collision/grid_check.h>
-#include <glissade/haptics/contact_body.h>
+#include <glissade/haptics/surroundings.h>
 
 namespace glissade::apps {
 
@@ -20,7 +20,7 @@ struct HapticScene {
   std::string part_name;
   std::shared_ptr<const haptics::SlidingPart> part_V;
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
-  std::shared_ptr<const haptics::ContactBody> obstacles_W;  ///< all of them as one mesh in world coordinates
+  std::vector<haptics::Obstacle> obstacles;
   std::vector<collision::PlacedMesh> placed_obstacles;      ///< the same, for the independent check
   std::optional<Eigen::Isometry3d> X_WGoal;
 };

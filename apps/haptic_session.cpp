@@ -34,7 +34,7 @@ haptics::SlidingOptions sliding_options(const haptics::Coupling& coupling, int m
 /// A part that starts inside an obstacle is the scene's fault.
 haptics::Sliding start_sliding(const HapticScene& scene, const haptics::SlidingOptions& options) {
   try {
-    return haptics::Sliding(scene.obstacles_W, scene.part_V, scene.X_WV_start, options);
+    return haptics::Sliding(scene.obstacles, scene.part_V, scene.X_WV_start, options);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(scene.source + ": object " + in_quotes(scene.part_name) + ": " + error.what());
   }

@@ -1,10 +1,15 @@
 #pragma once
 
-/// Which objects are near each other: the first stage of neighbour finding (paper §2). Objects are slots with boxes;
-/// the broad phase keeps the set of pairs whose boxes may overlap, and says how it changes.
+/// Which objects are near each other: the first stage of neighbour finding (paper §2). Objects are slots with boxes in
+/// the world; the broad phase keeps the set of pairs whose boxes may overlap, and says how it changes.
+///
+/// Boxes are fattened: by a share of their size, and to where they will be soon if they go on as they did last. While a
+/// box stays in its fat one, nothing needs to be done for it, so a frame costs what has moved, and pairs do not
+/// come and go with every tremor. A pair is two fat boxes that overlap; `boxes_overlap` looks at those within.
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,32 +18,75 @@
 namespace glissade::collision {
 
 struct SlotPair {
-  std::uint32_t a;
-  std::uint32_t b;  ///< a < b
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;  ///< a < b
+
   auto operator<=>(const SlotPair&) const = default;
 };
 
+/// Deterministic: the same calls give the same pairs in the same order.
+///
+/// Thread-safety: that of a standard container. Allocates as the set of pairs changes.
 class BroadPhase {
  public:
-  /// Slots are 0 to `capacity` − 1. Two boxes are a pair at the latest when they are `margin` metres apart.
+  /// Slots are 0 to `capacity` − 1; all are empty. Objects are also near each other when their boxes are not more than
+  /// `margin` metres apart. Throws std::invalid_argument when that is negative or not finite, or there is no slot.
   explicit BroadPhase(std::size_t capacity, double margin = 0.0);
+  ~BroadPhase();
+  BroadPhase(BroadPhase&&) noexcept;
+  BroadPhase& operator=(BroadPhase&&) noexcept;
 
-  /// Gives the slot a box: a new one, or the one it has moved to.
+  /// Where the object in this slot is from now on, whether there was one or not. The box must be finite and not empty.
+  /// Cost: nothing much while the fat box holds; else O(log n).
   void set(std::uint32_t slot, const Eigen::AlignedBox3d& box);
+
+  /// Empties the slot, which must have an object. All its pairs end, also when it is set again before the next
+  /// `update`.
   void remove(std::uint32_t slot);
 
-  /// Brings the set of pairs up to date. After it, and until the next call: `ended`, then `began` make the new set of
-  /// the former one. A pair may be in both, when a slot was removed and set again.
+  /// Finds the pairs of what has left its fat box since the last call. Cost: O(log n + neighbours) for each of those;
+  /// nothing for all others.
   void update();
-  std::span<const SlotPair> began() const { return began_; }
-  std::span<const SlotPair> ended() const { return ended_; }
 
-  /// The slots this one is a pair with, ascending.
-  std::span<const std::uint32_t> neighbours(std::uint32_t slot) const;
-  std::size_t pair_count() const;
+  /// What the last update has changed, ascending: first `ended` left the set of pairs, then `began` joined it. A pair
+  /// is in both when an object was removed and its successor in the slot is near as well.
+  std::span<const SlotPair> ended() const { return ended_; }
+  std::span<const SlotPair> began() const { return began_; }
+
+  /// As of the last update, the slots that this one is in a pair with, ascending.
+  std::span<const std::uint32_t> neighbours(std::uint32_t slot) const { return slots_[slot].neighbours; }
+  std::size_t pair_count() const { return pair_count_; }
+  /// All pairs, ascending. Cost O(capacity + pairs).
+  std::vector<SlotPair> pairs() const;
+
+  /// Whether the boxes of two objects overlap or are not more than the margin apart: true of every two that are, now;
+  /// false of most pairs that are not. Cost: a few nanoseconds.
+  bool boxes_overlap(std::uint32_t slot_a, std::uint32_t slot_b) const {
+    return slots_[slot_a].box.intersects(slots_[slot_b].box);
+  }
 
  private:
-  std::vector<SlotPair> began_, ended_;
+  struct Slot {
+    Eigen::AlignedBox3d box;  ///< grown by half the margin; empty: no object
+    Eigen::AlignedBox3d fat_box;
+    std::vector<std::uint32_t> neighbours;
+    bool is_stale = false;  ///< its pairs are not those of its fat box
+  };
+  class BoxTree;
+
+  void find_pairs(std::uint32_t slot);
+  void join(std::uint32_t slot, std::uint32_t neighbour);
+  void part(std::uint32_t slot, std::uint32_t neighbour, std::vector<SlotPair>& list);
+
+  double half_margin_;
+  std::vector<Slot> slots_;
+  std::unique_ptr<BoxTree> fat_boxes_;
+  std::vector<std::uint32_t> stale_;
+  std::vector<std::uint32_t> found_;
+  std::vector<SlotPair> removed_;  ///< pairs of slots that were removed since the last update
+  std::vector<SlotPair> ended_;
+  std::vector<SlotPair> began_;
+  std::size_t pair_count_ = 0;
 };
 
 }  // namespace glissade::collision

@@ -1,5 +1,3 @@
-#include <glissade/collision/collision_pipeline.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include <glissade/collision/broad_phase.h>
+#include <glissade/collision/collision_pipeline.h>
 #include <glissade/collision/world_box.h>
 
 #include "pair_checks.h"
@@ -173,8 +172,9 @@ class CollisionPipeline::Frame {
     report.in = std::ssize(candidates_);
     is_near_.resize(candidates_.size());
     const double expected_ns = kHullTest_ns * static_cast<double>(candidates_.size());
-    crew_.for_each(candidates_.size(), chunk_of(candidates_.size(), expected_ns), expected_ns,
-                   [&](std::size_t i, int) { is_near_[i] = !checks_.are_separated(pairs_[candidates_[i]], distance_); });
+    crew_.for_each(candidates_.size(), chunk_of(candidates_.size(), expected_ns), expected_ns, [&](std::size_t i, int) {
+      is_near_[i] = !checks_.are_separated(pairs_[candidates_[i]], distance_);
+    });
     near_.clear();
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       if (is_near_[i] != 0) {
@@ -193,12 +193,10 @@ class CollisionPipeline::Frame {
     double expected_ns = 0.0;
     for (const PairTable::Number number : near_)
       expected_ns += pairs_[number].expected_ns;
-    const auto end_of_long = std::partition(near_.begin(), near_.end(), [&](PairTable::Number number) {
-      return pairs_[number].expected_ns > kLong_ns;
-    });
-    std::sort(near_.begin(), end_of_long, [&](PairTable::Number m, PairTable::Number n) {
-      return pairs_[m].expected_ns > pairs_[n].expected_ns;
-    });
+    const auto end_of_long = std::partition(
+        near_.begin(), near_.end(), [&](PairTable::Number number) { return pairs_[number].expected_ns > kLong_ns; });
+    std::sort(near_.begin(), end_of_long,
+              [&](PairTable::Number m, PairTable::Number n) { return pairs_[m].expected_ns > pairs_[n].expected_ns; });
     met_before_.resize(near_.size());
     crew_.for_each(near_.size(), chunk_of(near_.size(), expected_ns), expected_ns, [&](std::size_t i, int worker) {
       TrackedPair& pair = pairs_[near_[i]];

@@ -26,24 +26,45 @@ struct StageReport {
   std::int64_t in = 0;
   std::int64_t out = 0;
   std::chrono::nanoseconds time{0};
+
+  StageReport& operator+=(const StageReport& other) {
+    in += other.in;
+    out += other.out;
+    time += other.time;
+    return *this;
+  }
 };
 
 /// The account of one frame. Objects that rest cost nothing, so the stages see only pairs with an object that moved.
 struct FrameReport {
-  std::int64_t objects = 0;        ///< in the world
-  std::int64_t neighbors = 0;      ///< pairs of them whose boxes overlap, at rest or not
-  StageReport queue;               ///< objects that somebody moved, added or removed; the objects that have a new pose
-  StageReport neighbor_finding;    ///< those; pairs whose boxes overlap, and which are of interest
-  StageReport separating_planes;   ///< those that may have come together since their gap was last known; not separated
-  StageReport exact;               ///< those; pairs that meet
+  std::int64_t objects = 0;       ///< in the world
+  std::int64_t neighbors = 0;     ///< pairs of them whose boxes overlap, at rest or not
+  StageReport queue;              ///< objects that somebody moved, added or removed; the objects that have a new pose
+  StageReport neighbor_finding;   ///< those; pairs whose boxes overlap, and which are of interest
+  StageReport separating_planes;  ///< those that may have come together since their gap was last known; not separated
+  StageReport exact;              ///< those; pairs that meet
   std::chrono::nanoseconds total{0};
+
+  /// The account of both: divide by the number of frames for means.
+  FrameReport& operator+=(const FrameReport& other) {
+    objects += other.objects;
+    neighbors += other.neighbors;
+    queue += other.queue;
+    neighbor_finding += other.neighbor_finding;
+    separating_planes += other.separating_planes;
+    exact += other.exact;
+    total += other.total;
+    return *this;
+  }
 };
 
 /// One frame: which objects meet. What else there is depends on the pipeline's `PairQuery`.
 struct FrameResult {
-  std::uint64_t frame = 0;  ///< number of the frame, from 1; 0: none yet
-  /// When the poses were taken, by the pipeline's clock: now less this is the age of the result.
-  std::chrono::nanoseconds time_of_poses{0};
+  std::uint64_t frame = 0;                    ///< number of the frame, from 1; 0: none yet
+  std::chrono::nanoseconds time_of_poses{0};  ///< when the poses were taken, by the pipeline's clock
+
+  /// How old the poses are at the time `now` of that clock. What the frame took is in the report.
+  std::chrono::nanoseconds age(std::chrono::nanoseconds now) const { return now - time_of_poses; }
 
   std::vector<ObjectPair> meeting;  ///< ascending
 
@@ -53,7 +74,7 @@ struct FrameResult {
 
   std::vector<TrianglePair> all_triangle_pairs;  ///< of PairQuery::kTrianglePairs
   std::vector<ClosePair> all_close_pairs;        ///< of PairQuery::kClosePairs
-  std::vector<std::size_t> ends;                 ///< where those of `meeting[i]` end, unless only verdicts are asked for
+  std::vector<std::size_t> ends;  ///< where those of `meeting[i]` end, unless only verdicts are asked for
 
   FrameReport report;
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -38,8 +39,12 @@ class GjkSimplex {
     std::array<int, 3> of;  ///< the points it depends on
     int count;
   };
+  using Face = std::array<int, 4>;  ///< three points, and the fourth that is not part of it
+  bool surely_sees_no_origin(const Face& face) const;
   Nearest nearest_of_segment(int a, int b) const;
+  std::optional<Eigen::Vector3d> nearest_inside(int a, int b, int c) const;
   Nearest nearest_of_triangle(int a, int b, int c) const;
+  Nearest nearest_of_tetrahedron() const;
   const Eigen::Vector3d& w(int i) const { return points_[static_cast<std::size_t>(i)].w; }
 
   std::array<GjkPoint, 4> points_;

@@ -16,12 +16,8 @@ bool is_rotation(const Eigen::Matrix3d& R) {
 
 void PlacedObjects::place(std::uint32_t slot, const WorldObject& object) {
   const DopTree& tree = *object.tree;
-  objects_[slot] = {object.X_WO,
-                    object.X_WO * tree.center(),
-                    tree.radius(),
-                    tree.center().norm() + tree.radius(),
-                    0.0,
-                    is_rotation(object.X_WO.linear())};
+  objects_[slot] = {object.X_WO, object.X_WO * tree.center(),      tree.radius(), tree.center().norm() + tree.radius(),
+                    0.0,         is_rotation(object.X_WO.linear())};
 }
 
 void PlacedObjects::move(std::uint32_t slot, const WorldObject& object) {

@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 constexpr int kPerceptronLoops = 300;  // paper §2.2
 constexpr int kLearningSteps = 6;      // before GJK, which costs more a round and never needs many
 constexpr int kGjkRounds = 128;
+constexpr int kGjkAttempts = 3;
 
 // Of all coordinates that take part: each is rounded a few times, and climbing may stop where it sees no difference.
 constexpr double kRounding = 1e-14;
@@ -82,30 +83,17 @@ class HullQuery {
     return false;
   }
 
-  // To the end, from what it had in hand last time.
+  // To the end, from what it had in hand last time. What rounding has led astray begins anew.
   bool gjk() {
     GjkSimplex simplex = simplex_of_memory();
-    if (simplex.count() == 0) simplex.add(point(memory_.corner_A, memory_.corner_B));
-    bool apart = false;
-    double square = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < kGjkRounds && !simplex.encloses_origin(); ++round) {
-      ++memory_.loops;
-      const Vector3d nearest = simplex.reduce_to_nearest();
-      const double length = nearest.norm();
-      if (!(length > margin_) || !(length * length < square))
-        break;  // touching, or no progress that rounding would show
-      square = length * length;
-      const Vector3d n = nearest / length;
-      const double gap = n.dot(extreme(n));
-      if (gap > margin_) {
-        apart = separated_by(n, gap);
-        break;
-      }
-      if (simplex.has(memory_.corner_A, memory_.corner_B)) break;
-      simplex.add(point(memory_.corner_A, memory_.corner_B));
+    for (int attempt = 0; attempt < kGjkAttempts; ++attempt) {
+      if (simplex.count() == 0) simplex.add(point(memory_.corner_A, memory_.corner_B));
+      const bool apart = run_gjk(simplex);
+      remember(simplex);
+      if (apart || simplex.encloses_origin()) return apart;
+      simplex = GjkSimplex();
     }
-    remember(simplex);
-    return apart;
+    return false;
   }
 
  private:
@@ -114,6 +102,22 @@ class HullQuery {
 
   GjkPoint point(std::int32_t corner_A, std::int32_t corner_B) const {
     return {R_AB_ * vertex_B(corner_B) + p_AB_ - vertex_A(corner_A), corner_A, corner_B};
+  }
+
+  // Whether a plane separates them; if not, the simplex encloses the origin, or rounding prevents a decision.
+  bool run_gjk(GjkSimplex& simplex) {
+    for (int round = 0; round < kGjkRounds && !simplex.encloses_origin(); ++round) {
+      ++memory_.loops;
+      const Vector3d nearest = simplex.reduce_to_nearest();
+      const double length = nearest.norm();
+      if (!(length > margin_)) return false;
+      const Vector3d n = nearest / length;
+      const double gap = n.dot(extreme(n));
+      if (gap > margin_) return separated_by(n, gap);
+      if (simplex.has(memory_.corner_A, memory_.corner_B)) return false;
+      simplex.add(point(memory_.corner_A, memory_.corner_B));
+    }
+    return false;
   }
 
   // The point of B − A that is least along n: surely, if it lies beyond the margin. What climbing may have missed is

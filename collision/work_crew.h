@@ -1,6 +1,7 @@
 #pragma once
 
-/// Private: independent pieces of work done by several threads, each piece by whoever is free (paper §2.3, coarse grain).
+/// Private: independent pieces of work done by several threads, each piece by whoever is free (paper §2.3, coarse
+/// grain).
 
 #include <algorithm>
 #include <atomic>

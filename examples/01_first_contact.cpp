@@ -20,7 +20,7 @@ int main() {
   collision::intersecting_pairs(plate_W->tree, box_V->tree, X_WG, workspace, pairs);
   std::cout << "The hand's pose is inside the plate: " << pairs.size() << " pairs of triangles intersect.\n";
 
-  haptics::Sliding sliding(plate_W, box_V, X_WV_start);
+  haptics::Sliding sliding({{plate_W}}, box_V, X_WV_start);
   for (int millisecond = 0; millisecond < 1000; ++millisecond)
     sliding.advance(X_WG);
   const haptics::Displacement lag = haptics::displacement_between(sliding.result().X_WV, X_WG, box_V->p_Vref());

@@ -73,8 +73,9 @@ int main(int argc, char** argv) {
   const std::vector<TriangleMesh> door{collision::make_door_inner_panel(kDetail),
                                        collision::make_door_outer_panel(kDetail),
                                        collision::make_door_impact_tube(kDetail), collision::make_door_hose(kDetail)};
-  const auto door_W =
-      std::make_shared<haptics::ContactBody>(std::make_shared<const TriangleMesh>(collision::merge(door)));
+  std::vector<haptics::Obstacle> obstacles;
+  for (const TriangleMesh& mesh : door)
+    obstacles.push_back({std::make_shared<haptics::ContactBody>(std::make_shared<const TriangleMesh>(mesh))});
   const auto motor_V = std::make_shared<haptics::SlidingPart>(
       std::make_shared<const TriangleMesh>(collision::make_window_motor(kDetail)));
   const std::vector<Eigen::Isometry3d> poses_WG = read_poses(argv[1]);
@@ -82,7 +83,7 @@ int main(int argc, char** argv) {
   std::ofstream svg(argv[2]);
   svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-330 -320 560 640\" font-family=\"sans-serif\" "
          "font-size=\"13\">\n<rect x=\"-330\" y=\"-320\" width=\"560\" height=\"640\" fill=\"#ffffff\"/>\n";
-  haptics::Sliding sliding(door_W, motor_V, poses_WG.at(0));
+  haptics::Sliding sliding(obstacles, motor_V, poses_WG.at(0));
   std::ostringstream track;
   for (std::size_t i = 0; i < poses_WG.size(); ++i) {
     const Eigen::Isometry3d& X_WV = sliding.advance(poses_WG[i]).X_WV;

@@ -8,13 +8,13 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/collision/dop_query.h>
-#include <glissade/haptics/contact_body.h>
+#include <glissade/haptics/surroundings.h>
 
 namespace glissade::haptics {
 
 /// A pair of triangles as it was at the pose of the query.
 struct CandidatePair {
+  std::int32_t obstacle;  ///< number among the surroundings
   std::int32_t obstacle_triangle;
   std::int32_t part_triangle;
   bool has_features;    ///< either triangle answers for an edge or vertex that can stop the part
@@ -25,11 +25,11 @@ struct CandidatePair {
 /// Not thread-safe.
 class CandidatePairs {
  public:
-  /// Both must outlive this object. `obstacles_W` is in world coordinates.
-  CandidatePairs(const ContactBody& obstacles_W, const SlidingPart& part_V)
-      : obstacles_W_(obstacles_W), part_V_(part_V) {}
+  /// Both must outlive this object.
+  CandidatePairs(Surroundings& surroundings, const SlidingPart& part_V)
+      : surroundings_(surroundings), part_V_(part_V) {}
 
-  /// Queries the tree at X_WV for all pairs within `radius` (metres).
+  /// Looks around at X_WV for all pairs within `radius` (metres).
   void refresh(const Eigen::Isometry3d& X_WV, double radius);
 
   /// Tells that no point of the part has moved more than `bound` (metres) since the last call.
@@ -44,17 +44,12 @@ class CandidatePairs {
   /// Number of candidates.
   std::size_t size() const { return pairs_.size(); }
 
-  std::int64_t queries() const { return queries_; }
-
  private:
-  const ContactBody& obstacles_W_;
+  Surroundings& surroundings_;
   const SlidingPart& part_V_;
   std::vector<CandidatePair> pairs_;
   double radius_ = -1.0;  // covers nothing until the first query
   double drift_ = 0.0;
-  std::int64_t queries_ = 0;
-  collision::QueryWorkspace workspace_;
-  std::vector<collision::ClosePair> close_pairs_;
 };
 
 }  // namespace glissade::haptics

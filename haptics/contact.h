@@ -21,6 +21,7 @@ enum class ContactKind : std::uint8_t {
 struct Contact {
   ContactKind kind;
   std::int32_t part_triangle;
+  std::int32_t obstacle;  ///< number among the surroundings
   std::int32_t obstacle_triangle;
   Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part
   Eigen::Vector3d p_W;  ///< the contact point on the part, metres

@@ -1,9 +1,10 @@
 #pragma once
 
-/// A mesh made ready for sliding contact: its DOP-tree and its topology.
+/// A mesh made ready for sliding contact: its DOP-tree, its convex hull and its topology.
 
 #include <memory>
 
+#include <glissade/collision/convex_hull.h>
 #include <glissade/collision/dop_tree.h>
 #include <glissade/collision/mesh_topology.h>
 
@@ -12,9 +13,11 @@ namespace glissade::haptics {
 /// Immutable after construction, so safe to share between threads.
 struct ContactBody {
   /// Throws std::invalid_argument as DopTree does. Cost O(n log n).
-  explicit ContactBody(const std::shared_ptr<const collision::TriangleMesh>& mesh) : tree(mesh), topology(*mesh) {}
+  explicit ContactBody(const std::shared_ptr<const collision::TriangleMesh>& mesh)
+      : tree(mesh), hull(*mesh), topology(*mesh) {}
 
   collision::DopTree tree;
+  collision::ConvexHull hull;
   collision::MeshTopology topology;
 };
 

@@ -12,13 +12,16 @@ using collision::TrianglePoints;
 /// One side of a pair, part or obstacle: its mesh in world coordinates and what its triangle answers for.
 class Side {
  public:
-  Side(const ContactBody& body, const Eigen::Isometry3d& X_WB, double sign)
-      : mesh_(body.tree.mesh()), topology_(body.topology), X_WB_(X_WB), sign_(sign) {}
+  explicit Side(double sign) : sign_(sign) {}
 
-  void select(std::int32_t triangle) {
+  /// Body and pose must stay where they are until the next call.
+  void select(const ContactBody& body, const Eigen::Isometry3d& X_WB, std::int32_t triangle) {
+    mesh_ = &body.tree.mesh();
+    topology_ = &body.topology;
+    X_WB_ = &X_WB;
     triangle_ = triangle;
     for (int c = 0; c < 3; ++c)
-      points_[static_cast<std::size_t>(c)] = X_WB_ * mesh_.corner(triangle, c);
+      points_[static_cast<std::size_t>(c)] = X_WB * mesh_->corner(triangle, c);
   }
 
   std::int32_t triangle() const { return triangle_; }
@@ -28,39 +31,39 @@ class Side {
   /// Whether the selected triangle answers for its corner / edge i, and that feature can stop anything.
   bool owns_corner(int i) const {
     const std::int32_t v = vertex(i);
-    return topology_.owner_of(v) == triangle_ && !topology_.is_flat(v);
+    return topology_->owner_of(v) == triangle_ && !topology_->is_flat(v);
   }
   bool owns_edge(int i) const {
-    const MeshTopology::Edge& e = topology_.edges()[static_cast<std::size_t>(edge(i))];
+    const MeshTopology::Edge& e = topology_->edges()[static_cast<std::size_t>(edge(i))];
     return e.owner == triangle_ && !e.flat;
   }
   /// Whether no neighbour of corner / edge i lies nearer to the other side than it by more than `tolerance`, along the
   /// normal n (from obstacle to part).
   bool corner_is_nearest(int i, const Eigen::Vector3d& n, double tolerance) const {
-    return none_nearer(topology_.neighbours_of(vertex(i)), corner(i), n, tolerance);
+    return none_nearer(topology_->neighbours_of(vertex(i)), corner(i), n, tolerance);
   }
   bool edge_is_nearest(int i, const Eigen::Vector3d& n, double tolerance) const {
-    return none_nearer(topology_.apexes_of(edge(i)), corner(i), n, tolerance);
+    return none_nearer(topology_->apexes_of(edge(i)), corner(i), n, tolerance);
   }
 
  private:
   std::int32_t vertex(int i) const {
-    return mesh_.triangles[static_cast<std::size_t>(triangle_)][static_cast<std::size_t>(i)];
+    return mesh_->triangles[static_cast<std::size_t>(triangle_)][static_cast<std::size_t>(i)];
   }
-  std::int32_t edge(int i) const { return topology_.edges_of(triangle_)[static_cast<std::size_t>(i)]; }
+  std::int32_t edge(int i) const { return topology_->edges_of(triangle_)[static_cast<std::size_t>(i)]; }
 
   bool none_nearer(std::span<const std::int32_t> vertices, const Eigen::Vector3d& x_W, const Eigen::Vector3d& n,
                    double tolerance) const {
     for (const std::int32_t v : vertices) {
-      const Eigen::Vector3d y_W = X_WB_ * mesh_.vertices[static_cast<std::size_t>(v)];
+      const Eigen::Vector3d y_W = *X_WB_ * mesh_->vertices[static_cast<std::size_t>(v)];
       if (sign_ * n.dot(y_W - x_W) < -tolerance) return false;
     }
     return true;
   }
 
-  const TriangleMesh& mesh_;
-  const MeshTopology& topology_;
-  Eigen::Isometry3d X_WB_;
+  const TriangleMesh* mesh_ = nullptr;
+  const MeshTopology* topology_ = nullptr;
+  const Eigen::Isometry3d* X_WB_ = nullptr;
   double sign_;  // +1 for the part, from which the normal points away; −1 for the obstacle
   std::int32_t triangle_ = -1;
   TrianglePoints points_;
@@ -68,18 +71,16 @@ class Side {
 
 class ContactSearch {
  public:
-  ContactSearch(const ContactBody& obstacles_W, const SlidingPart& part_V, const Eigen::Isometry3d& X_WV, double reach,
-                double margin, std::vector<Contact>& contacts)
-      : part_(part_V, X_WV, 1.0),
-        obstacle_(obstacles_W, Eigen::Isometry3d::Identity(), -1.0),
-        reach_(reach),
-        margin_(margin),
-        contacts_(contacts) {}
+  ContactSearch(std::span<const Obstacle> obstacles, const SlidingPart& part_V, const Eigen::Isometry3d& X_WV,
+                double reach, double margin, std::vector<Contact>& contacts)
+      : obstacles_(obstacles), part_V_(part_V), X_WV_(X_WV), reach_(reach), margin_(margin), contacts_(contacts) {}
 
   void search(const CandidatePair& pair) {
     if (!pair.has_features) return;
-    part_.select(pair.part_triangle);
-    obstacle_.select(pair.obstacle_triangle);
+    const Obstacle& obstacle = obstacles_[static_cast<std::size_t>(pair.obstacle)];
+    obstacle_number_ = pair.obstacle;
+    part_.select(part_V_, X_WV_, pair.part_triangle);
+    obstacle_.select(*obstacle.body, obstacle.X_WO, pair.obstacle_triangle);
     for (int i = 0; i < 3; ++i) {
       if (part_.owns_corner(i)) search_part_corner(i);
       if (obstacle_.owns_corner(i)) search_obstacle_corner(i);
@@ -152,11 +153,15 @@ class ContactSearch {
   }
 
   void add(ContactKind kind, const Eigen::Vector3d& n, const Eigen::Vector3d& p, double gap) {
-    contacts_.push_back({kind, part_.triangle(), obstacle_.triangle(), n, p, gap});
+    contacts_.push_back({kind, part_.triangle(), obstacle_number_, obstacle_.triangle(), n, p, gap});
   }
 
-  Side part_;
-  Side obstacle_;
+  std::span<const Obstacle> obstacles_;
+  const SlidingPart& part_V_;
+  const Eigen::Isometry3d& X_WV_;
+  Side part_{1.0};
+  Side obstacle_{-1.0};
+  std::int32_t obstacle_number_ = -1;
   double reach_;
   double margin_;
   std::vector<Contact>& contacts_;
@@ -164,11 +169,11 @@ class ContactSearch {
 
 }  // namespace
 
-void find_contacts(const ContactBody& obstacles_W, const SlidingPart& part_V, const Eigen::Isometry3d& X_WV,
+void find_contacts(std::span<const Obstacle> obstacles, const SlidingPart& part_V, const Eigen::Isometry3d& X_WV,
                    std::span<const CandidatePair> candidates, double reach, double margin,
                    std::vector<Contact>& contacts) {
   contacts.clear();
-  ContactSearch search(obstacles_W, part_V, X_WV, reach, margin, contacts);
+  ContactSearch search(obstacles, part_V, X_WV, reach, margin, contacts);
   for (const CandidatePair& pair : candidates)
     search.search(pair);
 }

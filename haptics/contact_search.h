@@ -18,7 +18,7 @@ namespace glissade::haptics {
 ///   minimum of distance over the neighbouring features (within `margin`), so that a seam never acts like a wall.
 /// Edges and vertices inside plane patches are left out: others bound the patch. Each edge and vertex is considered for
 /// one of its triangles only, which is among the candidates whenever the feature is within reach.
-void find_contacts(const ContactBody& obstacles_W, const SlidingPart& part_V, const Eigen::Isometry3d& X_WV,
+void find_contacts(std::span<const Obstacle> obstacles, const SlidingPart& part_V, const Eigen::Isometry3d& X_WV,
                    std::span<const CandidatePair> candidates, double reach, double margin,
                    std::vector<Contact>& contacts);
 

@@ -26,6 +26,17 @@ Eigen::Vector3d direction(const TriangleDistance& closest) {
 
 }  // namespace
 
+PathCertificate::PathCertificate(std::span<const Obstacle> obstacles, const SlidingPart& part_V, double floor)
+    : obstacles_(obstacles), part_V_(part_V), floor_(floor) {
+  double reach = 0.0;
+  for (const Obstacle& obstacle : obstacles) {
+    const collision::DopTree& tree = obstacle.body->tree;
+    reach = std::max(reach, obstacle.X_WO.translation().norm() + tree.center().norm() + tree.radius());
+  }
+  rounding_ =
+      64.0 * std::numeric_limits<double>::epsilon() * (reach + part_V.tree.center().norm() + part_V.tree.radius());
+}
+
 bool PathCertificate::prove(const Eigen::Isometry3d& X_WV, const Displacement& d, std::span<const CandidatePair> pairs,
                             std::vector<UncertifiedPair>& failures) {
   failures.clear();
@@ -34,15 +45,14 @@ bool PathCertificate::prove(const Eigen::Isometry3d& X_WV, const Displacement& d
   known_.fill(false);
   for (const CandidatePair& pair : pairs) {
     Eigen::Vector3d n_start;
-    if (!prove_pair(pair, n_start)) failures.push_back({pair.obstacle_triangle, pair.part_triangle, n_start});
+    if (!prove_pair(pair, n_start))
+      failures.push_back({pair.obstacle, pair.obstacle_triangle, pair.part_triangle, n_start});
   }
   return failures.empty();
 }
 
 bool PathCertificate::prove_pair(const CandidatePair& pair, Eigen::Vector3d& n_start) {
-  const auto& mesh = obstacles_W_.tree.mesh();
-  obstacle_ = {mesh.corner(pair.obstacle_triangle, 0), mesh.corner(pair.obstacle_triangle, 1),
-               mesh.corner(pair.obstacle_triangle, 2)};
+  obstacle_ = obstacles_[static_cast<std::size_t>(pair.obstacle)].triangle_W(pair.obstacle_triangle);
   const TrianglePoints part_start = part_triangle_at(pair.part_triangle, 0);
   const TrianglePoints part_end = part_triangle_at(pair.part_triangle, kMoments);
   // The direction found by the query still separates most pairs; of flush faces that slide over each other, where the

@@ -19,6 +19,7 @@ namespace glissade::haptics {
 
 /// A pair that could not be proved apart, and the direction that held it apart at the start of the step.
 struct UncertifiedPair {
+  std::int32_t obstacle;
   std::int32_t obstacle_triangle;
   std::int32_t part_triangle;
   Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part
@@ -29,13 +30,8 @@ class PathCertificate {
  public:
   /// `floor` (metres) is the distance every pair must keep; a pair that starts the step nearer keeps 0.95 of its
   /// distance, and one that touches cannot be proved apart at all.
-  PathCertificate(const ContactBody& obstacles_W, const SlidingPart& part_V, double floor)
-      : obstacles_W_(obstacles_W),
-        part_V_(part_V),
-        floor_(floor),
-        rounding_(64.0 * std::numeric_limits<double>::epsilon() *
-                  (obstacles_W.tree.center().norm() + obstacles_W.tree.radius() + part_V.tree.center().norm() +
-                   part_V.tree.radius())) {}
+  /// Obstacles and part must outlive this object.
+  PathCertificate(std::span<const Obstacle> obstacles, const SlidingPart& part_V, double floor);
 
   /// Tries to prove all of `pairs` apart on the displacement `d` from X_WV; replaces `failures` by those it could not.
   /// A pair is apart over a stretch of the path if one direction separates it at both ends by more than the path's
@@ -57,7 +53,7 @@ class PathCertificate {
   /// The path is cut into 2^5 parts; a moment is the number of one of their ends.
   static constexpr int kMoments = 32;
 
-  const ContactBody& obstacles_W_;
+  std::span<const Obstacle> obstacles_;
   const SlidingPart& part_V_;
   double floor_;
   double rounding_;  // metres: distances below this are not certain

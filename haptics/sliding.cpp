@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include <glissade/haptics/contact_search.h>
 #include <glissade/haptics/sliding.h>
@@ -9,8 +10,10 @@ namespace glissade::haptics {
 namespace {
 
 constexpr double kDefaultStiffness_N_per_m = 1000.0;
+constexpr double kLargestCoordinate = 1e9;
 constexpr double kSmallestReach_m = 30e-6;
 constexpr double kLargestReach_m = 3e-3;
+constexpr double kMostLookAhead_m = 0.5e-3;
 constexpr double kSmallestReachLimit_m = 1e-3;
 constexpr std::size_t kAffordablePairs = 30'000;
 
@@ -45,20 +48,21 @@ std::string_view name_of(SlidingState state) {
   return "unknown";
 }
 
-Sliding::Sliding(std::shared_ptr<const ContactBody> obstacles_W, std::shared_ptr<const SlidingPart> part_V,
+Sliding::Sliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,
                  const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options)
-    : obstacles_W_(std::move(obstacles_W)),
-      part_V_(std::move(part_V)),
+    : part_V_(std::move(part_V)),
+      surroundings_(std::move(obstacles), part_V_, kLargestReach_m + kMostLookAhead_m),
       stiffness_(options.stiffness.value_or(default_stiffness(*part_V_))),
       metaphor_(options.metaphor),
       max_cycles_(options.max_cycles),
       margin_(std::clamp(1e-4 * part_V_->radius(), 2e-6, 10e-6)),
-      candidates_(*obstacles_W_, *part_V_),
-      certificate_(*obstacles_W_, *part_V_, kFloorOfMargin * margin_),
+      candidates_(surroundings_, *part_V_),
+      certificate_(surroundings_.obstacles(), *part_V_, kFloorOfMargin * margin_),
       reach_limit_(kLargestReach_m) {
-  collision::QueryWorkspace workspace;
-  if (collision::intersects(obstacles_W_->tree, part_V_->tree, X_WV_start, workspace)) {
-    throw std::invalid_argument("the part collides with an obstacle at its start pose");
+  const collision::FrameResult& start = surroundings_.look_around(X_WV_start, 0.0);
+  if (!start.meeting.empty()) {
+    const std::string& name = surroundings_.obstacles()[start.meeting.front().object_A.index].name;
+    throw std::invalid_argument("the part collides with " + name + " at its start pose");
   }
   result_.X_WG = X_WV_start;
   result_.X_WV = X_WV_start;
@@ -67,7 +71,7 @@ Sliding::Sliding(std::shared_ptr<const ContactBody> obstacles_W, std::shared_ptr
 const Sliding::Step Sliding::kNoStep{{}, 0.0, false, true};
 
 const SlidingResult& Sliding::advance(const Eigen::Isometry3d& X_WG, double milliseconds) {
-  if (!X_WG.matrix().allFinite()) return result_;
+  if (!(X_WG.matrix().array().abs() <= kLargestCoordinate).all()) return result_;
   ghost_motion_ = motion_bound(displacement_between(result_.X_WG, X_WG, part_V_->p_Vref()), part_V_->radius());
   result_.X_WG = X_WG;
   double budget = metaphor_ == Metaphor::kForceFeedback ? kSlew_m * milliseconds + 2.0 * ghost_motion_
@@ -116,7 +120,7 @@ Sliding::Step Sliding::cycle(const Eigen::Isometry3d& X_WG, double budget) {
 /// A query looks some ticks ahead. Where finely cut surfaces lie flush there are very many pairs, and a part that falls
 /// behind would look further with every query and so fall behind more; the limit on the reach ends that.
 void Sliding::refresh_candidates() {
-  candidates_.refresh(result_.X_WV, result_.reach + std::clamp(4.0 * ghost_motion_, 30e-6, 0.5e-3));
+  candidates_.refresh(result_.X_WV, result_.reach + std::clamp(4.0 * ghost_motion_, 30e-6, kMostLookAhead_m));
   const bool too_many = candidates_.size() > kAffordablePairs;
   reach_limit_ = std::clamp((too_many ? 0.5 : 1.25) * reach_limit_, kSmallestReachLimit_m, kLargestReach_m);
 }
@@ -128,8 +132,8 @@ double Sliding::choose_reach(double budget) const {
 }
 
 void Sliding::find_rows() {
-  find_contacts(*obstacles_W_, *part_V_, result_.X_WV, candidates_.within(result_.reach), result_.reach, margin_,
-                result_.contacts);
+  find_contacts(surroundings_.obstacles(), *part_V_, result_.X_WV, candidates_.within(result_.reach), result_.reach,
+                margin_, result_.contacts);
   result_.X_WV_of_contacts = result_.X_WV;
   const Eigen::Vector3d p_Wref = result_.X_WV * part_V_->p_Vref();
   rows_.clear();
@@ -198,19 +202,19 @@ double Sliding::allowed_fraction(const Displacement& d, double budget) const {
 
 /// Keeps each triangle of the part that could not be proved apart on its side of the plane that separated it.
 void Sliding::add_rows_for_failures() {
-  const auto& obstacles = obstacles_W_->tree.mesh();
   const auto& part = part_V_->tree.mesh();
   const Eigen::Vector3d p_Wref = result_.X_WV * part_V_->p_Vref();
   for (const UncertifiedPair& failure : failures_) {
+    const Obstacle& obstacle = surroundings_.obstacles()[static_cast<std::size_t>(failure.obstacle)];
     double top = -std::numeric_limits<double>::infinity();
-    for (int c = 0; c < 3; ++c)
-      top = std::max(top, failure.n_W.dot(obstacles.corner(failure.obstacle_triangle, c)));
+    for (const Eigen::Vector3d& y_W : obstacle.triangle_W(failure.obstacle_triangle))
+      top = std::max(top, failure.n_W.dot(y_W));
     for (int c = 0; c < 3; ++c) {
       const Eigen::Vector3d x_W = result_.X_WV * part.corner(failure.part_triangle, c);
       const double gap = failure.n_W.dot(x_W) - top;
       rows_.push_back({failure.n_W, x_W - p_Wref, std::min(0.0, margin_ - gap)});
-      proof_contacts_.push_back(
-          {ContactKind::kVertexFace, failure.part_triangle, failure.obstacle_triangle, failure.n_W, x_W, gap});
+      proof_contacts_.push_back({ContactKind::kVertexFace, failure.part_triangle, failure.obstacle,
+                                 failure.obstacle_triangle, failure.n_W, x_W, gap});
     }
   }
 }

@@ -24,6 +24,7 @@
 #include <glissade/haptics/motion.h>
 #include <glissade/haptics/path_certificate.h>
 #include <glissade/haptics/projection.h>
+#include <glissade/haptics/surroundings.h>
 
 namespace glissade::haptics {
 
@@ -74,15 +75,15 @@ struct SlidingResult {
 /// Not thread-safe; several simulations may share bodies.
 class Sliding {
  public:
-  /// `obstacles_W` in world coordinates. Throws std::invalid_argument when the part collides at X_WV_start.
-  Sliding(std::shared_ptr<const ContactBody> obstacles_W, std::shared_ptr<const SlidingPart> part_V,
+  /// Throws std::invalid_argument when there is no obstacle, and when the part collides with one at X_WV_start.
+  Sliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,
           const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options = {});
 
   Sliding(const Sliding&) = delete;
   Sliding& operator=(const Sliding&) = delete;
 
   /// Moves the visible part towards the ghost, once per millisecond of motion. A ghost pose with a number that is not
-  /// finite changes nothing.
+  /// finite or beyond ±1e9 changes nothing.
   /// `milliseconds` is how long ago the last call's ghost was; a caller that comes late may catch up for all of it.
   const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0);
 
@@ -93,7 +94,8 @@ class Sliding {
   double margin() const { return margin_; }
   /// Metres that every certified path keeps away from everything.
   double floor() const { return kFloorOfMargin * margin_; }
-  std::int64_t tree_queries() const { return candidates_.queries(); }
+  /// What is around the part, and what looking for it took.
+  const Surroundings& surroundings() const { return surroundings_; }
 
   static constexpr double kFloorOfMargin = 0.3;
 
@@ -121,8 +123,8 @@ class Sliding {
   void apply(const Step& step, const Eigen::Isometry3d& X_WG);
   SlidingState classify(double moved) const;
 
-  std::shared_ptr<const ContactBody> obstacles_W_;
   std::shared_ptr<const SlidingPart> part_V_;
+  Surroundings surroundings_;
   CouplingStiffness stiffness_;
   Metaphor metaphor_;
   int max_cycles_;

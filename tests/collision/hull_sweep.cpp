@@ -1,6 +1,6 @@
 // Hulls told apart, against exact arithmetic on all points that they were made of, where they nearly touch: gaps and
-// depths of 1e-12 to 1e-3 of the size and none at all, of smooth, flat-faced, thin and degenerate bodies, which roll about
-// each other, so that what a query remembers is put to the test as well.
+// depths of 1e-12 to 1e-3 of the size and none at all, of smooth, flat-faced, thin and degenerate bodies, which roll
+// about each other, so that what a query remembers is put to the test as well.
 
 #include <algorithm>
 #include <array>
@@ -63,16 +63,26 @@ Body random_body(RandomNumbers& random) {
   const Vector3d size(1.0, random.uniform(0.2, 1.0), random.uniform(0.2, 1.0));
   const double thin = random.power_of_ten(-13.0, -2.0);
   switch (random.integer(0, 9)) {
-    case 0: return {"sphere", ellipsoid(Vector3d::Ones(), random)};
-    case 1: return {"ellipsoid", ellipsoid({1.0, 0.6, 0.3}, random)};
-    case 2: return {"box", make_box(size, random.integer(12, 300)).vertices};
-    case 3: return {"cloud", cloud(random.integer(4, 200), size, random)};
-    case 4: return {"slab", cloud(random.integer(4, 60), {1.0, 0.7, thin}, random)};
-    case 5: return {"needle", cloud(random.integer(4, 60), {1.0, thin, thin * random.power_of_ten(-3.0, 0.0)}, random)};
-    case 6: return {"blunt corners", blunt_corners(random)};
-    case 7: return {"polygon", cloud(random.integer(3, 40), {1.0, 0.7, 0.0}, random)};
-    case 8: return {"segment", cloud(random.integer(2, 5), {1.0, 0.0, 0.0}, random)};
-    default: return {"point", cloud(1, Vector3d::Ones(), random)};
+    case 0:
+      return {"sphere", ellipsoid(Vector3d::Ones(), random)};
+    case 1:
+      return {"ellipsoid", ellipsoid({1.0, 0.6, 0.3}, random)};
+    case 2:
+      return {"box", make_box(size, random.integer(12, 300)).vertices};
+    case 3:
+      return {"cloud", cloud(random.integer(4, 200), size, random)};
+    case 4:
+      return {"slab", cloud(random.integer(4, 60), {1.0, 0.7, thin}, random)};
+    case 5:
+      return {"needle", cloud(random.integer(4, 60), {1.0, thin, thin * random.power_of_ten(-3.0, 0.0)}, random)};
+    case 6:
+      return {"blunt corners", blunt_corners(random)};
+    case 7:
+      return {"polygon", cloud(random.integer(3, 40), {1.0, 0.7, 0.0}, random)};
+    case 8:
+      return {"segment", cloud(random.integer(2, 5), {1.0, 0.0, 0.0}, random)};
+    default:
+      return {"point", cloud(1, Vector3d::Ones(), random)};
   }
 }
 
@@ -133,8 +143,7 @@ class Walk {
     HullMemory blank;
     const bool apart = hulls_apart(hull_A_, hull_B_, X_AB_, memory_);
     const bool apart_without_memory = hulls_apart(hull_A_, hull_B_, X_AB_, blank);
-    const bool apart_by_perceptron =
-        hulls_apart(hull_A_, hull_B_, X_AB_, perceptron_memory_, HullTest::kPerceptron);
+    const bool apart_by_perceptron = hulls_apart(hull_A_, hull_B_, X_AB_, perceptron_memory_, HullTest::kPerceptron);
     ++tally.poses;
     tally.apart += apart ? 1 : 0;
     tally.perceptron += apart_by_perceptron ? 1 : 0;

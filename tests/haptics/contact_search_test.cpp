@@ -20,12 +20,13 @@ constexpr double kReach = 1e-3;
 constexpr double kMargin = 5e-6;
 
 std::vector<Contact> contacts(const TriangleMesh& obstacle, const TriangleMesh& part, const Isometry3d& X_WV) {
-  const ContactBody obstacle_W(std::make_shared<TriangleMesh>(obstacle));
-  const SlidingPart part_V(std::make_shared<TriangleMesh>(part));
-  CandidatePairs candidates(obstacle_W, part_V);
+  const auto part_V = std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(part));
+  Surroundings surroundings({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(obstacle))}}, part_V,
+                            kReach);
+  CandidatePairs candidates(surroundings, *part_V);
   candidates.refresh(X_WV, kReach);
   std::vector<Contact> found;
-  find_contacts(obstacle_W, part_V, X_WV, candidates.within(kReach), kReach, kMargin, found);
+  find_contacts(surroundings.obstacles(), *part_V, X_WV, candidates.within(kReach), kReach, kMargin, found);
   return found;
 }
 

@@ -49,7 +49,8 @@ class Server : public ::testing::Test {
     device_ = std::make_unique<SteppedDevice>(
         devices::PoseTrajectory({{milliseconds(0), kStart}, {milliseconds(150), X_WH_end}}));
     coupling_ = coupling_for(device_->descriptor(), {1000.0, 2.0});
-    sliding_ = std::make_unique<Sliding>(plate_, box_, kStart, SlidingOptions{.stiffness = coupling_.stiffness});
+    sliding_ = std::make_unique<Sliding>(std::vector<Obstacle>{{plate_}}, box_, kStart,
+                                         SlidingOptions{.stiffness = coupling_.stiffness});
   }
 
   static void wait_for(const HapticServer& server) {

@@ -27,7 +27,7 @@ std::vector<HapticState> press_on_plate() {
   devices::SimulatedGlove glove(devices::PoseTrajectory(
       {{milliseconds(0), X_WV_start}, {milliseconds(500), X_WH_end}, {milliseconds(1500), X_WH_end}}));
   const Coupling coupling = coupling_for(glove.descriptor(), {1000.0, 2.0});
-  Sliding sliding(plate, box, X_WV_start, {.stiffness = coupling.stiffness});
+  Sliding sliding({{plate}}, box, X_WV_start, {.stiffness = coupling.stiffness});
   HapticKernel kernel(*box, coupling, glove.descriptor(), X_WV_start);
   std::vector<HapticState> samples;
   run_offline(glove, sliding, kernel, 1500, [&](const HapticState& sample) { samples.push_back(sample); });

@@ -12,6 +12,7 @@ namespace glissade::haptics {
 namespace {
 
 constexpr double kFloor = 1e-6;
+constexpr double kReach = 10.0;
 
 std::shared_ptr<const collision::TriangleMesh> one_triangle(double z) {
   auto mesh = std::make_shared<collision::TriangleMesh>();
@@ -24,15 +25,16 @@ std::shared_ptr<const collision::TriangleMesh> one_triangle(double z) {
 class TwoTriangles : public ::testing::Test {
  protected:
   bool proves(const Eigen::Isometry3d& X_WV, const Displacement& d) {
-    CandidatePairs candidates(obstacle_, part_);
-    candidates.refresh(X_WV, 10.0);
+    Surroundings surroundings(obstacles_, part_, kReach);
+    CandidatePairs candidates(surroundings, *part_);
+    candidates.refresh(X_WV, kReach);
     std::vector<UncertifiedPair> failures;
-    return PathCertificate(obstacle_, part_, kFloor).prove(X_WV, d, candidates.within(10.0), failures);
+    return PathCertificate(obstacles_, *part_, kFloor).prove(X_WV, d, candidates.within(kReach), failures);
   }
   static Eigen::Isometry3d at_height(double z) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z)); }
 
-  ContactBody obstacle_{one_triangle(0.0)};
-  SlidingPart part_{one_triangle(0.0)};
+  std::vector<Obstacle> obstacles_{{std::make_shared<ContactBody>(one_triangle(0.0))}};
+  std::shared_ptr<const SlidingPart> part_ = std::make_shared<SlidingPart>(one_triangle(0.0));
 };
 
 TEST_F(TwoTriangles, ApproachIsProvedDownToTheFloorAndNotBelow) {
@@ -78,24 +80,24 @@ TEST(PathCertificate, WhatIsProvedHoldsAllAlongRandomPaths) {
   int proved = 0;
   int refused = 0;
   for (int trial = 0; trial < 2000; ++trial) {
-    const ContactBody obstacle(random_triangle());
-    const SlidingPart part(random_triangle());
+    const std::vector<Obstacle> obstacles{{std::make_shared<ContactBody>(random_triangle())}};
+    const auto part = std::make_shared<SlidingPart>(random_triangle());
     const Eigen::Isometry3d X_WV(Eigen::Translation3d(0.7 * random_vector()));
     const Displacement d{0.5 * random_vector(), random_vector()};
-    CandidatePairs candidates(obstacle, part);
-    candidates.refresh(X_WV, 10.0);
+    Surroundings surroundings(obstacles, part, kReach);
+    CandidatePairs candidates(surroundings, *part);
+    candidates.refresh(X_WV, kReach);
     std::vector<UncertifiedPair> failures;
-    if (!PathCertificate(obstacle, part, kFloor).prove(X_WV, d, candidates.within(10.0), failures)) {
+    if (!PathCertificate(obstacles, *part, kFloor).prove(X_WV, d, candidates.within(kReach), failures)) {
       ++refused;
       continue;
     }
     ++proved;
     for (int i = 0; i <= 100; ++i) {
-      const Eigen::Isometry3d X = displaced(X_WV, part.p_Vref(), d.scaled(0.01 * i));
-      const auto corner = [&](int c) -> Eigen::Vector3d { return X * part.tree.mesh().corner(0, c); };
-      const auto& mesh = obstacle.tree.mesh();
-      const collision::TriangleDistance closest = collision::triangle_distance(
-          {mesh.corner(0, 0), mesh.corner(0, 1), mesh.corner(0, 2)}, {corner(0), corner(1), corner(2)});
+      const Eigen::Isometry3d X = displaced(X_WV, part->p_Vref(), d.scaled(0.01 * i));
+      const auto corner = [&](int c) -> Eigen::Vector3d { return X * part->tree.mesh().corner(0, c); };
+      const collision::TriangleDistance closest =
+          collision::triangle_distance(obstacles[0].triangle_W(0), {corner(0), corner(1), corner(2)});
       ASSERT_GE(closest.distance, 0.95 * kFloor) << "trial " << trial << " at " << i << " %";
     }
   }

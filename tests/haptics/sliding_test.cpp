@@ -37,10 +37,10 @@ struct Tessellation {
   }
 };
 
-std::shared_ptr<const ContactBody> body(const std::vector<TriangleMesh>& meshes, const Tessellation& tessellation) {
+std::vector<Obstacle> obstacle_of(const std::vector<TriangleMesh>& meshes, const Tessellation& tessellation) {
   TriangleMesh mesh = collision::merge(meshes);
   if (tessellation.flipped) mesh = collision::flip_randomly(mesh, 17);
-  return std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(std::move(mesh)));
+  return {{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(std::move(mesh)))}};
 }
 
 std::shared_ptr<const SlidingPart> box_part(const Tessellation& tessellation) {
@@ -82,7 +82,7 @@ class BoxOnFaces : public ::testing::TestWithParam<Tessellation> {
 };
 
 TEST_P(BoxOnFaces, PressedOnAPlaneItFollowsTheGhostAlongIt) {
-  Sliding sliding(body({sheet(Vector3d::UnitZ(), tessellation())}, tessellation()), box_part(tessellation()),
+  Sliding sliding(obstacle_of({sheet(Vector3d::UnitZ(), tessellation())}, tessellation()), box_part(tessellation()),
                   at({-0.1, 0.0, 0.03}));
   lead(sliding, at({-0.1, 0.0, 0.017}), 200, [](const SlidingResult&) {});  // 3 mm into the plane
   lead(sliding, at({0.1, 0.05, 0.017}), 500, [&](const SlidingResult& result) {
@@ -100,7 +100,7 @@ TEST_P(BoxOnFaces, PressedIntoAGrooveItFollowsTheGhostAlongIt) {
   // With two faces flush in the groove, the box's centre is half its height and half its length away from its sides.
   const Vector3d seat = 0.5 * kBoxSize.z() * left + 0.5 * kBoxSize.x() * right;
   const auto along = [&](double y) { return Vector3d(seat.x(), y, seat.z()); };
-  Sliding sliding(body({sheet(left, tessellation()), sheet(right, tessellation())}, tessellation()),
+  Sliding sliding(obstacle_of({sheet(left, tessellation()), sheet(right, tessellation())}, tessellation()),
                   box_part(tessellation()), at(along(-0.1) + Vector3d(0, 0, 0.01), q_45));
   lead(sliding, at(along(-0.1) + Vector3d(0.001, 0, -0.003), q_45), 200, [](const SlidingResult&) {});
   lead(sliding, at(along(0.1) + Vector3d(0.001, 0, -0.003), q_45), 500, [&](const SlidingResult& result) {
@@ -110,9 +110,9 @@ TEST_P(BoxOnFaces, PressedIntoAGrooveItFollowsTheGhostAlongIt) {
 }
 
 TEST_P(BoxOnFaces, PressedIntoACornerItStopsThere) {
-  Sliding sliding(body({sheet(Vector3d::UnitX(), tessellation()), sheet(Vector3d::UnitY(), tessellation()),
-                        sheet(Vector3d::UnitZ(), tessellation())},
-                       tessellation()),
+  Sliding sliding(obstacle_of({sheet(Vector3d::UnitX(), tessellation()), sheet(Vector3d::UnitY(), tessellation()),
+                               sheet(Vector3d::UnitZ(), tessellation())},
+                              tessellation()),
                   box_part(tessellation()), at({0.06, 0.04, 0.03}));
   const Vector3d seat = 0.5 * kBoxSize;
   lead(sliding, at(seat - Vector3d(2e-3, 3e-3, 4e-3)), 200, [](const SlidingResult&) {});
@@ -128,7 +128,7 @@ TEST_P(BoxOnFaces, PressedIntoACornerItStopsThere) {
 }
 
 TEST_P(BoxOnFaces, TheWrenchIsExactlyZeroWheneverNothingIsInTheWay) {
-  Sliding sliding(body({sheet(Vector3d::UnitZ(), tessellation())}, tessellation()), box_part(tessellation()),
+  Sliding sliding(obstacle_of({sheet(Vector3d::UnitZ(), tessellation())}, tessellation()), box_part(tessellation()),
                   at({-0.1, 0.0, 0.03}));
   const auto no_wrench = [&](const SlidingResult& result) {
     const Wrench wrench =
@@ -153,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(Tessellations, BoxOnFaces,
 
 TEST(Sliding, AThinSheetAtFiveMetresPerSecondIsNeverCrossed) {
   const Tessellation tessellation{400, true};
-  const auto obstacle = body({sheet(Vector3d::UnitZ(), tessellation)}, tessellation);
+  const auto obstacle = obstacle_of({sheet(Vector3d::UnitZ(), tessellation)}, tessellation);
   TriangleMesh plate = collision::flip_randomly(collision::make_plate({0.1, 0.06}, 200), 3);
   const auto part = std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(std::move(plate)));
   for (const Metaphor metaphor : {Metaphor::kForceFeedback, Metaphor::kRubberBandSpring}) {
@@ -178,7 +178,7 @@ double greatest_catch_up(Metaphor metaphor, double milliseconds = 1.0) {
   const Tessellation tessellation{12, false};
   const auto plate =
       std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(collision::make_plate({0.2, 0.2}, 100)));
-  Sliding sliding(plate, box_part(tessellation), at({0.0, 0.0, 0.03}), {.metaphor = metaphor});
+  Sliding sliding({{plate}}, box_part(tessellation), at({0.0, 0.0, 0.03}), {.metaphor = metaphor});
   lead(sliding, at({0.0, 0.0, 0.015}), 200, [](const SlidingResult&) {});
   double greatest = 0.0;
   Isometry3d X_WG = sliding.result().X_WG;
@@ -224,7 +224,7 @@ TEST(Sliding, AGhostThatTurnsFarInOneCallDoesNotCarryThePartThroughAWall) {
       std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(collision::make_box({0.2, 0.01, 0.01}, 12)));
   for (const Metaphor metaphor : {Metaphor::kForceFeedback, Metaphor::kRubberBandSpring}) {
     for (const double angle : {0.3, 1.5, 3.0}) {
-      Sliding sliding(wall, rod, Isometry3d::Identity(), {.metaphor = metaphor});
+      Sliding sliding({{wall}}, rod, Isometry3d::Identity(), {.metaphor = metaphor});
       const Isometry3d X_WG(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
       bool touched = false;
       for (int i = 0; i < 50; ++i) {
@@ -244,9 +244,9 @@ TEST(Sliding, AGhostThatJumpsOutOfANarrowSlotLeavesThePartInside) {
   const Vector3d middle(0.6, -0.4, 0.8);
   constexpr double kHalfSlot = 2e-3 + 3e-6;
   const TriangleMesh plate = collision::make_plate({0.5, 0.5}, 2);
-  const auto slot = body({collision::transformed(plate, at(middle + kHalfSlot * normal, q)),
-                          collision::transformed(plate, at(middle - kHalfSlot * normal, q))},
-                         {2, false});
+  const auto slot = obstacle_of({collision::transformed(plate, at(middle + kHalfSlot * normal, q)),
+                                 collision::transformed(plate, at(middle - kHalfSlot * normal, q))},
+                                {2, false});
   const auto part =
       std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(collision::make_box({0.1, 0.06, 0.004}, 12)));
   std::mt19937 generator(kSeed);
@@ -270,7 +270,7 @@ TEST(Sliding, AGhostThatJumpsOutOfANarrowSlotLeavesThePartInside) {
 
 TEST(Sliding, AGhostThatIsNotFiniteChangesNothing) {
   const Tessellation tessellation{12, false};
-  const auto obstacle = body({sheet(Vector3d::UnitZ(), tessellation)}, tessellation);
+  const auto obstacle = obstacle_of({sheet(Vector3d::UnitZ(), tessellation)}, tessellation);
   Sliding sliding(obstacle, box_part(tessellation), at({0.0, 0.0, 0.03}));
   const Isometry3d X_WV = sliding.advance(at({0.001, 0.0, 0.03})).X_WV;
   EXPECT_EQ(sliding.advance(at({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()})).X_WV.matrix(), X_WV.matrix());
@@ -279,14 +279,14 @@ TEST(Sliding, AGhostThatIsNotFiniteChangesNothing) {
 
 TEST(Sliding, WillNotStartInsideAnything) {
   const Tessellation tessellation{12, false};
-  const auto obstacle = body({sheet(Vector3d::UnitZ(), tessellation)}, tessellation);
+  const auto obstacle = obstacle_of({sheet(Vector3d::UnitZ(), tessellation)}, tessellation);
   EXPECT_THROW(Sliding(obstacle, box_part(tessellation), at({0.0, 0.0, 0.01})), std::invalid_argument);
 }
 
 TEST(Sliding, TheSameGhostGivesTheSameBits) {
   const Tessellation tessellation{1200, true};
   const auto obstacle =
-      body({sheet(Vector3d::UnitZ(), tessellation), sheet(Vector3d::UnitX(), tessellation)}, tessellation);
+      obstacle_of({sheet(Vector3d::UnitZ(), tessellation), sheet(Vector3d::UnitX(), tessellation)}, tessellation);
   const auto part = box_part(tessellation);
   const auto run = [&] {
     std::vector<Eigen::Matrix4d> poses;

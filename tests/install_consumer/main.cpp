@@ -38,7 +38,7 @@ int main() {
   expect(collision::intersects(table_W->tree, cube_V->tree, at(0.12), workspace), "overlapping boxes intersect");
   expect(!collision::intersects(table_W->tree, cube_V->tree, at(0.13), workspace), "boxes apart do not intersect");
 
-  haptics::Sliding sliding(table_W, cube_V, at(0.13));
+  haptics::Sliding sliding({{table_W}}, cube_V, at(0.13));
   for (int millisecond = 0; millisecond < 100; ++millisecond)
     sliding.advance(at(0.12));
   expect(sliding.result().state == haptics::SlidingState::kResting, "the cube comes to rest on the table");
