@@ -40,6 +40,13 @@ constexpr std::array<Stage, 4> kStages{{{"queue", &FrameReport::queue},
                                         {"separating_planes", &FrameReport::separating_planes},
                                         {"exact", &FrameReport::exact}}};
 
+double median_stage_us(const std::vector<FrameRecord>& frames, const Stage& stage) {
+  std::vector<double> us;
+  for (const FrameRecord& frame : frames)
+    us.push_back(1e-3 * static_cast<double>((frame.report.*stage.report).time.count()));
+  return median(std::move(us));
+}
+
 // The rows of one scene.
 class SceneRows {
  public:
@@ -51,7 +58,7 @@ class SceneRows {
     row(subject, "meeting", mean(frames, [](const FrameRecord& frame) { return frame.meeting.size(); }), "1");
   }
 
-  // Means over the frames: pairs and times of the stages.
+  // Means over the frames of the pairs that come to a stage and leave it, medians of the times.
   void add_stages(const std::string& subject, const std::vector<FrameRecord>& frames) {
     row(subject, "neighbors", mean(frames, [](const FrameRecord& frame) { return frame.report.neighbors; }), "1");
     for (const Stage& stage : kStages) {
@@ -59,8 +66,7 @@ class SceneRows {
       const std::string name = stage.name;
       row(subject, name + "_in", mean(frames, [&](const FrameRecord& frame) { return of(frame).in; }), "1");
       row(subject, name + "_out", mean(frames, [&](const FrameRecord& frame) { return of(frame).out; }), "1");
-      row(subject, name + "_us", 1e-3 * mean(frames, [&](const FrameRecord& frame) { return of(frame).time.count(); }),
-          "us");
+      row(subject, name + "_us", median_stage_us(frames, stage), "us");
     }
   }
 
