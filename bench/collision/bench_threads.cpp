@@ -63,6 +63,10 @@ void run_bouncing(const SceneCast& cast, const std::string& case_name, std::size
     disagreements += differences(of_subject, records[0]);
   }
   add_rows(case_name, us, disagreements, "us_per_frame", results);
+  double near = 0.0;
+  for (const FrameRecord& frame : records[0])
+    near += static_cast<double>(frame.report.exact.in) / static_cast<double>(records[0].size());
+  results.add({kName, case_name, "glissade", "exact_in", near, "1"});
 }
 
 void run_scenes(const BenchOptions& options, Results& results) {

@@ -86,10 +86,15 @@ std::vector<std::vector<FrameRecord>> replay(const Scene& scene,
     players.emplace_back(scene, *subject, limits);
   for (Player& player : players)
     player.run_in();
+  std::vector<Player*> order;
+  for (Player& player : players)
+    order.push_back(&player);
   const int end = limits.run_in + limits.frames;
   for (int first = limits.run_in; first < end; first += limits.turn) {
-    for (Player& player : players)
-      player.take_turn(first, std::min(first + limits.turn, end));
+    for (Player* const player : order)
+      player->take_turn(first, std::min(first + limits.turn, end));
+    // Who comes first finds the shared models out of the cache; the next time it is another.
+    std::rotate(order.begin(), order.begin() + 1, order.end());
   }
   std::vector<std::vector<FrameRecord>> all;
   for (Player& player : players)

@@ -1,7 +1,8 @@
 #pragma once
 
 /// The clock of the benches of scenes: subjects take turns of some frames each, so that a slow moment of the machine
-/// hits all of them alike, and none sees its own frames only.
+/// hits all of them alike, and who comes
+/// first is another one every time.
 
 #include <span>
 #include <vector>
