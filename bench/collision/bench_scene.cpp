@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 
 #include "benches.h"
@@ -72,7 +72,7 @@ class SceneRows {
 
   // Of the first subject, Glissade, to the others, on the frames that each took.
   void add_ratios(const std::vector<SceneLibrary>& libraries, const Records& records) {
-    double best = INFINITY;
+    double best = std::numeric_limits<double>::infinity();
     for (std::size_t i = 1; i < libraries.size(); ++i) {
       const double ratio = median_us(records[i], records[0]) / median_us(records[0], records[i]);
       best = std::min(best, ratio);

@@ -1,8 +1,7 @@
 #pragma once
 
 /// The clock of the benches of scenes: subjects take turns of some frames each, so that a slow moment of the machine
-/// hits all of them alike, and who comes
-/// first is another one every time.
+/// hits all of them alike, and another one comes first every time.
 
 #include <span>
 #include <vector>
@@ -18,7 +17,7 @@ struct ReplayLimits {
   int frames = 400;      ///< after those
   int turn = 10;         ///< frames
   int warm_up = 1;       ///< frames of a turn that do not count: they find the caches full of others' models
-  double seconds = 4.0;  ///< after which a subject drops out, and so has taken the first frames only
+  double seconds = 8.0;  ///< after which a subject drops out, and so has taken the first frames only
   int least = 3;         ///< frames, however long they take
 };
 
