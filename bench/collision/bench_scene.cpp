@@ -108,7 +108,7 @@ void run_bouncing(const SceneCast& cast, std::size_t count, const BenchOptions& 
   const std::string case_name = "objects-" + std::to_string(count);
   const Scene scene = bouncing_objects(cast.radii(), count, kFilled, options.seed);
   const Records records =
-      replay(scene, cast.start(scene), options.quick ? ReplayLimits{.frames = 100, .seconds = 1.0} : ReplayLimits{});
+      replay(scene, cast.start(scene), options.quick ? ReplayLimits{.frames = 200, .seconds = 1.0} : ReplayLimits{});
   SceneRows rows(case_name, results);
   for (std::size_t i = 0; i < records.size(); ++i)
     rows.add_frames(cast.libraries()[i].name, records[i]);
