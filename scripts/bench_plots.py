@@ -103,6 +103,28 @@ def draw_coherent(path, figures, phases):
     return True
 
 
+def draw_scene(path, figures):
+    """Figure 5 of the paper today: time of a frame against the number of objects, one line for each library."""
+    subjects = [("glissade", "Glissade"), ("fcl", "FCL"), ("ode", "ODE"), ("bullet", "Bullet")]
+    body = ""
+    lines = []
+    for color, (who, title) in enumerate(subjects):
+        points = []
+        for case in figures.cases:
+            name, objects = split_case(case)
+            us = figures.get(case, who, "us_per_frame")
+            if name == "objects" and us is not None:
+                points.append((objects, us))
+        if points:
+            body += data_block(who, points)
+            lines.append(f"${who} " + line(color, title))
+    if not lines:
+        return False
+    body += "set logscale xy\nset xlabel 'objects'\nset ylabel 'µs a frame'\nplot " + ", ".join(lines) + "\n"
+    gnuplot(path, (560, 360), body)
+    return True
+
+
 def draw_build(path, figures):
     """Build time a triangle against size, geometric mean over the shapes."""
     sizes = {}

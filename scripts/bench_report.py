@@ -142,8 +142,52 @@ def build(figures, images):
     return text + folded("Bytes a triangle", time_table(figures, subjects, "bytes_per_triangle", "B", 1))
 
 
+STAGES = ["queue", "neighbor_finding", "separating_planes", "exact"]
+
+
+def stage_table(figures):
+    """Pairs into each stage of the pipeline and out of it, and its time."""
+    rows = []
+    for case in figures.cases:
+        if figures.get(case, "glissade", "exact_us") is None:
+            continue
+        cells = [number(figures.get(case, "glissade", "neighbors"))]
+        for stage in STAGES:
+            passed, us = (figures.get(case, "glissade", f"{stage}_{what}") for what in ("out", "us"))
+            cells.append(f"{number(passed)}, {number(us)} µs")
+        rows.append([case] + cells)
+    return table(["passed on, time", "boxes overlap"] + [stage.replace("_", " ") for stage in STAGES], rows)
+
+
+def scene(figures, images):
+    text = ratio_table(figures)
+    text += picture(bench_plots.draw_scene(images / "bench_scene.svg", figures), "bench_scene.svg",
+                    "Figure 5 of the paper today: time of a frame against the number of objects")
+    text += time_table(figures, ["glissade"] + PEERS, "us_per_frame", "µs a frame", 1)
+    ratio = figures.get("rest-1000", "glissade", "time_by_rest-10")
+    if ratio is not None:
+        text += (f"One object that moves among 1,000 that rest takes {ratio:.2f} times as long as among 10, with the same "
+                 "neighbours near it.\n\n")
+    text += disagreements(figures).replace("Answers that differ", "Pairs that differ, all frames,")
+    text += folded("Frames that were timed", time_table(figures, ["glissade"] + PEERS, "frames", "frames", 1))
+    return text + folded("The stages of Glissade's pipeline", stage_table(figures))
+
+
+def threads(figures, _):
+    subjects = [who for who in figures.variants() if any(figures.get(case, who, "speedup") for case in figures.cases)]
+    rows = []
+    for case in figures.cases:
+        metric = "us_per_frame" if figures.get(case, "glissade", "us_per_frame") is not None else "us_all_queries"
+        cells = [number(figures.get(case, "glissade", metric))]
+        for who in subjects:
+            cells.append(f"{number(figures.get(case, who, metric))} ({figures.get(case, who, 'speedup'):.2f} times faster)")
+        rows.append([case] + cells)
+    header = ["µs", "1 thread"] + [who.removeprefix("glissade-").replace("-", " ") for who in subjects]
+    return table(header, rows) + disagreements(figures)
+
+
 SECTIONS = {"zachmann": zachmann, "close": queries, "shells": queries, "coherent": coherent, "all-pairs": all_pairs,
-            "build": build}
+            "build": build, "scene": scene, "threads": threads}
 
 
 def main():

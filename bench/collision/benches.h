@@ -37,6 +37,13 @@ void run_all_pairs(const BenchOptions& options, Results& results);
 /// Time and memory of building, including a copy of the mesh; bytes are those that malloc has handed out.
 void run_build(const BenchOptions& options, Results& results);
 
+/// 10 to 1,000 objects fly about in a box; the pairs that meet in every frame. Figure 5 of the paper, in one thread.
+/// Beside it: one object that moves among 10 and among 1,000 that rest.
+void run_scene(const BenchOptions& options, Results& results);
+
+/// Glissade on several threads beside one: a dense and a sparse scene, and all pairs of triangles of two large meshes.
+void run_threads(const BenchOptions& options, Results& results);
+
 PassLimits pass_limits(const BenchOptions& options);
 
 }  // namespace glissade::bench

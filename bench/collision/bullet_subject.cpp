@@ -4,44 +4,14 @@
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
-#include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <btBulletCollisionCommon.h>
 
-#include "subject.h"
+#include "bullet_model.h"
 
 namespace glissade::bench {
 namespace {
 
 using Eigen::Isometry3d;
-
-btVector3 vector(const Eigen::Vector3d& v) {
-  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
-}
-
-// Bullet refers to the arrays it is given.
-class BulletModel : public Model {
- public:
-  explicit BulletModel(const collision::TriangleMesh& mesh) {
-    for (const Eigen::Vector3d& vertex : mesh.vertices)
-      vertices_.push_back(vector(vertex));
-    for (const collision::Triangle& triangle : mesh.triangles)
-      indices_.insert(indices_.end(), triangle.begin(), triangle.end());
-    arrays_ = std::make_unique<btTriangleIndexVertexArray>(
-        static_cast<int>(mesh.triangles.size()), indices_.data(), static_cast<int>(3 * sizeof(int)),
-        static_cast<int>(vertices_.size()), static_cast<btScalar*>(vertices_[0]), static_cast<int>(sizeof(btVector3)));
-    shape_ = std::make_unique<btGImpactMeshShape>(arrays_.get());
-    shape_->setMargin(0.0F);
-    shape_->updateBound();  // builds the tree
-  }
-
-  btGImpactMeshShape* shape() const { return shape_.get(); }
-
- private:
-  std::vector<btVector3> vertices_;
-  std::vector<int> indices_;
-  std::unique_ptr<btTriangleIndexVertexArray> arrays_;
-  std::unique_ptr<btGImpactMeshShape> shape_;
-};
 
 // Takes the contacts, which come triangle pair by triangle pair, and keeps only the number of pairs.
 class PairCounter : public btManifoldResult {
@@ -73,10 +43,7 @@ class BulletQuery : public Query {
   bool intersects(const Isometry3d& X_AB) override { return count_pairs(X_AB) > 0; }
 
   std::int64_t count_pairs(const Isometry3d& X_AB) override {
-    btMatrix3x3 rotation;
-    for (int row = 0; row < 3; ++row)
-      rotation[row] = vector(X_AB.linear().row(row).transpose());
-    object_B_.setWorldTransform(btTransform(rotation, vector(X_AB.translation())));
+    object_B_.setWorldTransform(transform(X_AB));
     const btCollisionObjectWrapper a(nullptr, object_A_.getCollisionShape(), &object_A_, object_A_.getWorldTransform(),
                                      -1, -1);
     const btCollisionObjectWrapper b(nullptr, object_B_.getCollisionShape(), &object_B_, object_B_.getWorldTransform(),

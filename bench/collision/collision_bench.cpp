@@ -23,7 +23,8 @@ constexpr int kFailed = 1;
 constexpr int kBadInput = 2;
 
 constexpr const char* kDescription =
-    "Measures Glissade's collision queries beside FCL, ODE, Bullet and CGAL, in one thread, on the same poses.\n"
+    "Measures Glissade's collision queries beside FCL, ODE, Bullet and CGAL, in one thread (but for the bench\n"
+    "threads), on the same poses.\n"
     "\n"
     "  zachmann   two copies of an object at all distances from 0 to just apart, boolean query\n"
     "  close      two copies of an object 0.1 %, 0.3 % and 1 % of the size apart, boolean query\n"
@@ -32,6 +33,8 @@ constexpr const char* kDescription =
     "  all-pairs  all intersecting pairs of triangles of two overlapping copies of an object\n"
     "  build      time and memory of building\n"
     "  hull       one convex hull turns and goes round another in small steps, boolean query\n"
+    "  scene      10 to 1000 objects bounce about in a box: which pairs meet, frame by frame\n"
+    "  threads    dense and sparse scenes and all pairs of large meshes, Glissade on 1, 2, 4 and 8 threads\n"
     "\n"
     "Each subject goes over all poses in turn, again and again; times are medians over these passes. Answers are\n"
     "compared, too. Progress goes to standard error, the figures to results.csv, whose columns are\n"
@@ -48,8 +51,9 @@ using Bench = void (*)(const BenchOptions&, Results&);
 
 const std::vector<std::pair<std::string, Bench>>& benches() {
   static const std::vector<std::pair<std::string, Bench>> all{
-      {"zachmann", run_zachmann},   {"close", run_close}, {"shells", run_shells}, {"coherent", run_coherent},
-      {"all-pairs", run_all_pairs}, {"build", run_build}, {"hull", run_hull}};
+      {"zachmann", run_zachmann}, {"close", run_close},         {"shells", run_shells},
+      {"coherent", run_coherent}, {"all-pairs", run_all_pairs}, {"build", run_build},
+      {"hull", run_hull},         {"scene", run_scene},         {"threads", run_threads}};
   return all;
 }
 
@@ -77,14 +81,20 @@ void fill_in_suite(Suite& suite, bool quick) {
     suite.triangles = {1'000, 5'000, 20'000, 50'000, 100'000};
     suite.shell_triangles = {100'000};
     suite.coherent_triangles = 50'000;
+    suite.scene_triangles = {1'000, 5'000, 20'000, 50'000};
+    suite.thread_triangles = {50'000, 200'000};
     if (quick) {
       suite.triangles = {1'000, 20'000};
       suite.shell_triangles = {20'000};
       suite.coherent_triangles = 20'000;
+      suite.scene_triangles = {1'000, 20'000};
+      suite.thread_triangles = {50'000};
     }
   } else {
     suite.shell_triangles = suite.triangles;
     suite.coherent_triangles = suite.triangles.back();
+    suite.scene_triangles = suite.triangles;
+    suite.thread_triangles = {suite.triangles.back()};
   }
 }
 

@@ -27,14 +27,14 @@ std::vector<double> ratios(const TimeOfCase& ours, const TimeOfCase& theirs) {
   return result;
 }
 
+}  // namespace
+
 double geometric_mean(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double value : values)
     sum += std::log(value);
   return std::exp(sum / static_cast<double>(values.size()));
 }
-
-}  // namespace
 
 void Results::add_ratios(const std::string& bench, const std::vector<std::string>& peers) {
   std::map<std::string, std::map<std::string, TimeOfCase>> times;  // by metric and subject

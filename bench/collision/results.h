@@ -8,6 +8,8 @@
 
 namespace glissade::bench {
 
+double geometric_mean(const std::vector<double>& values);
+
 struct Row {
   std::string bench;
   std::string case_name;

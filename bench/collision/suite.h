@@ -22,10 +22,12 @@ struct SuiteMesh {
 };
 
 struct Suite {
-  std::vector<std::string> shapes;            ///< names of generated shapes
-  std::vector<std::int64_t> triangles;        ///< numbers of triangles of each
-  std::vector<std::int64_t> shell_triangles;  ///< the same for `shells`
-  std::int64_t coherent_triangles = 0;        ///< the same for `coherent`
+  std::vector<std::string> shapes;             ///< names of generated shapes
+  std::vector<std::int64_t> triangles;         ///< numbers of triangles of each
+  std::vector<std::int64_t> shell_triangles;   ///< the same for `shells`
+  std::int64_t coherent_triangles = 0;         ///< the same for `coherent`
+  std::vector<std::int64_t> scene_triangles;   ///< the same for the objects of `scene` and `threads`
+  std::vector<std::int64_t> thread_triangles;  ///< the same for the pairs of `threads`
   std::vector<std::filesystem::path> files;
 };
 

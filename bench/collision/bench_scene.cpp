@@ -1,0 +1,169 @@
+// See `run_scene` in benches.h.
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <limits>
+#include <map>
+
+#include "benches.h"
+#include "interleaved_passes.h"
+#include "scene_cast.h"
+#include "scene_replay.h"
+
+namespace glissade::bench {
+namespace {
+
+using collision::FrameReport;
+using collision::StageReport;
+
+constexpr const char* kName = "scene";
+// Of the box, by the bounding spheres of the objects.
+constexpr double kFilled = 0.12;
+
+using Records = std::vector<std::vector<FrameRecord>>;
+
+template <typename Value>
+double mean(const std::vector<FrameRecord>& frames, const Value& value) {
+  double sum = 0.0;
+  for (const FrameRecord& frame : frames)
+    sum += static_cast<double>(value(frame));
+  return sum / static_cast<double>(frames.size());
+}
+
+struct Stage {
+  const char* name;
+  StageReport FrameReport::*report;
+};
+constexpr std::array<Stage, 4> kStages{{{"queue", &FrameReport::queue},
+                                        {"neighbor_finding", &FrameReport::neighbor_finding},
+                                        {"separating_planes", &FrameReport::separating_planes},
+                                        {"exact", &FrameReport::exact}}};
+
+double median_stage_us(const std::vector<FrameRecord>& frames, const Stage& stage) {
+  std::vector<double> us;
+  for (const FrameRecord& frame : frames)
+    us.push_back(1e-3 * static_cast<double>((frame.report.*stage.report).time.count()));
+  return median(std::move(us));
+}
+
+// The rows of one scene.
+class SceneRows {
+ public:
+  SceneRows(std::string case_name, Results& results) : case_(std::move(case_name)), results_(results) {}
+
+  void add_frames(const std::string& subject, const std::vector<FrameRecord>& frames) {
+    row(subject, "us_per_frame", median_us(frames, frames), "us");
+    row(subject, "frames", static_cast<double>(frames.size()), "1");
+    row(subject, "meeting", mean(frames, [](const FrameRecord& frame) { return frame.meeting.size(); }), "1");
+  }
+
+  // Means over the frames of the pairs that come to a stage and leave it, medians of the times.
+  void add_stages(const std::string& subject, const std::vector<FrameRecord>& frames) {
+    row(subject, "neighbors", mean(frames, [](const FrameRecord& frame) { return frame.report.neighbors; }), "1");
+    for (const Stage& stage : kStages) {
+      const auto of = [&](const FrameRecord& frame) -> const StageReport& { return frame.report.*stage.report; };
+      const std::string name = stage.name;
+      row(subject, name + "_in", mean(frames, [&](const FrameRecord& frame) { return of(frame).in; }), "1");
+      row(subject, name + "_out", mean(frames, [&](const FrameRecord& frame) { return of(frame).out; }), "1");
+      row(subject, name + "_us", median_stage_us(frames, stage), "us");
+    }
+  }
+
+  // Of the first subject, Glissade, to the others, on the frames that each took.
+  void add_ratios(const std::vector<SceneLibrary>& libraries, const Records& records) {
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < libraries.size(); ++i) {
+      const double ratio = median_us(records[i], records[0]) / median_us(records[0], records[i]);
+      best = std::min(best, ratio);
+      row(libraries[0].name, "ratio_to_" + libraries[i].name, ratio, "x");
+      row(libraries[i].name, "disagreements", static_cast<double>(differences(records[0], records[i])), "1");
+    }
+    row(libraries[0].name, "ratio_to_best_peer", best, "x");
+  }
+
+ private:
+  void row(const std::string& subject, const std::string& metric, double value, const std::string& unit) {
+    results_.add({kName, case_, subject, metric, value, unit});
+  }
+
+  std::string case_;
+  Results& results_;
+};
+
+void say(const std::string& case_name, const std::vector<SceneLibrary>& libraries, const Records& records) {
+  std::fprintf(stderr, "%s %s:", kName, case_name.c_str());
+  for (std::size_t i = 0; i < libraries.size(); ++i) {
+    std::fprintf(stderr, " %s %.4g us", libraries[i].name.c_str(), median_us(records[i], records[i]));
+    if (i == 0) continue;
+    std::fprintf(stderr, " (%.1fx)", median_us(records[i], records[0]) / median_us(records[0], records[i]));
+    if (const auto wrong = differences(records[0], records[i]); wrong > 0) {
+      std::fprintf(stderr, " [%lld pairs differ in %zu frames]", static_cast<long long>(wrong), records[i].size());
+    }
+  }
+  std::fputc('\n', stderr);
+}
+
+void run_bouncing(const SceneCast& cast, std::size_t count, const BenchOptions& options, Results& results) {
+  const std::string case_name = "objects-" + std::to_string(count);
+  const Scene scene = bouncing_objects(cast.radii(), count, kFilled, options.seed);
+  const Records records =
+      replay(scene, cast.start(scene), options.quick ? ReplayLimits{.frames = 200, .seconds = 1.0} : ReplayLimits{});
+  SceneRows rows(case_name, results);
+  for (std::size_t i = 0; i < records.size(); ++i)
+    rows.add_frames(cast.libraries()[i].name, records[i]);
+  rows.add_stages(cast.libraries()[0].name, records[0]);
+  rows.add_ratios(cast.libraries(), records);
+  say(case_name, cast.libraries(), records);
+}
+
+// Of the ratios of all cases.
+void add_means(Results& results) {
+  std::map<std::string, std::vector<double>> ratios;
+  for (const Row& row : results.rows()) {
+    if (row.bench == kName && row.metric.starts_with("ratio_to_")) ratios[row.metric].push_back(row.value);
+  }
+  for (const auto& [metric, values] : ratios) {
+    results.add({kName, "geomean", "glissade", metric, geometric_mean(values), "x"});
+    results.add({kName, "worst", "glissade", metric, *std::min_element(values.begin(), values.end()), "x"});
+  }
+}
+
+// What objects that rest cost: both scenes take turns.
+void run_resting(const BenchOptions& options, Results& results) {
+  const SceneCast cast({glissade_scenes(1)}, options);
+  const std::array<std::size_t, 2> resting{10, 1000};
+  std::vector<Scene> scenes;
+  std::vector<std::unique_ptr<SceneSubject>> subjects;
+  for (const std::size_t count : resting) {
+    scenes.push_back(one_among_resting(cast.radii(), count, kFilled, options.seed));
+    subjects.push_back(std::move(cast.start(scenes.back())[0]));
+  }
+  // In both only object 0 moves, and in the same way.
+  const Records records = replay(scenes[0], subjects, {.frames = options.quick ? 1000 : 4000});
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    SceneRows rows("rest-" + std::to_string(resting[i]), results);
+    rows.add_frames("glissade", records[i]);
+    rows.add_stages("glissade", records[i]);
+  }
+  const double ratio = median_us(records[1], records[0]) / median_us(records[0], records[1]);
+  results.add({kName, "rest-1000", "glissade", "time_by_rest-10", ratio, "x"});
+  std::fprintf(stderr, "%s: one moves among 10 that rest %.3g us, among 1000 %.3g us (%.2f times)\n", kName,
+               median_us(records[0], records[0]), median_us(records[1], records[1]), ratio);
+}
+
+}  // namespace
+
+void run_scene(const BenchOptions& options, Results& results) {
+  {
+    const SceneCast cast({glissade_scenes(1), fcl_scenes(), ode_scenes(), bullet_scenes()}, options);
+    std::vector<std::size_t> counts{10, 30, 100};
+    if (!options.quick) counts.insert(counts.end(), {300, 1000});
+    for (const std::size_t count : counts)
+      run_bouncing(cast, count, options, results);
+  }
+  add_means(results);
+  run_resting(options, results);
+}
+
+}  // namespace glissade::bench
