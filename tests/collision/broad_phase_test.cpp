@@ -228,7 +228,7 @@ TEST(BroadPhase, MissesNoPairWhateverHappens) {
   RecordProperty("seed", static_cast<int>(kSeed));
   for (const double margin : {0.0, 0.05}) {
     Crowd crowd(kSeed, margin);
-    for (int step = 0; step < test_support::affordable(10000); ++step) {
+    for (int step = 0; step < test_support::affordable(4000); ++step) {
       crowd.step();
       crowd.compare();
       ASSERT_FALSE(HasFatalFailure()) << "seed " << kSeed << ", margin " << margin << ", step " << step;
