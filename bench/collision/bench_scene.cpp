@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <limits>
 #include <map>
 
@@ -104,11 +106,28 @@ void say(const std::string& case_name, const std::vector<SceneLibrary>& librarie
   std::fputc('\n', stderr);
 }
 
+// Processor time by time that passes. Below 1 the machine has other work, and slow subjects look slower than they are:
+// their frames last longer than a thread is left alone, fast ones fall between the interruptions.
+class CpuShare {
+ public:
+  double value() const {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+    return static_cast<double>(std::clock() - cpu_at_start_) / CLOCKS_PER_SEC / passed.count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::clock_t cpu_at_start_ = std::clock();
+};
+
 void run_bouncing(const SceneCast& cast, std::size_t count, const BenchOptions& options, Results& results) {
   const std::string case_name = "objects-" + std::to_string(count);
   const Scene scene = bouncing_objects(cast.radii(), count, kFilled, options.seed);
+  const auto subjects = cast.start(scene);
+  const CpuShare cpu_share;
   const Records records =
-      replay(scene, cast.start(scene), options.quick ? ReplayLimits{.frames = 200, .seconds = 1.0} : ReplayLimits{});
+      replay(scene, subjects, options.quick ? ReplayLimits{.frames = 200, .seconds = 1.0} : ReplayLimits{});
+  results.add({kName, case_name, "machine", "cpu_share", cpu_share.value(), "1"});
   SceneRows rows(case_name, results);
   for (std::size_t i = 0; i < records.size(); ++i)
     rows.add_frames(cast.libraries()[i].name, records[i]);
