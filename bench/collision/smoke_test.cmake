@@ -31,6 +31,17 @@ foreach(case sphere-200 sphere-400 torus-200 torus-400 far-spheres)
   expect("the answers of FCL in ${case}" results MATCHES "zachmann,${case},fcl,disagreements,0,1")
 endforeach()
 
+execute_process(COMMAND ${BENCH} --only hull --quick --triangles 50 --out ${WORK_DIR}/hull
+  RESULT_VARIABLE status ERROR_VARIABLE said)
+expect("exit code 0 of hull" status EQUAL 0)
+file(READ ${WORK_DIR}/hull/results.csv results)
+foreach(group "" separated- touching- penetrating-)
+  foreach(case geomean worst)
+    expect("a ratio to libccd" results MATCHES "hull,${group}${case},glissade,ratio_to_libccd,[0-9.e+]+,x")
+  endforeach()
+endforeach()
+expect("no wrong answer" NOT results MATCHES "hull,[^,]+,glissade,wrong,[1-9]")
+
 execute_process(COMMAND ${BENCH} --only nonsense --out ${WORK_DIR} RESULT_VARIABLE status ERROR_VARIABLE said)
 expect("exit code 2 for an unknown bench" status EQUAL 2)
 

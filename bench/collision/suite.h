@@ -26,6 +26,7 @@ struct Suite {
   std::vector<std::int64_t> triangles;        ///< numbers of triangles of each
   std::vector<std::int64_t> shell_triangles;  ///< the same for `shells`
   std::int64_t coherent_triangles = 0;        ///< the same for `coherent`
+  std::vector<std::int64_t> hull_vertices;    ///< numbers of corners for `hull`
   std::vector<std::filesystem::path> files;
 };
 
