@@ -60,8 +60,10 @@ class HullQuery {
     memory_.corner_A = hull_A_.support(n, memory_.corner_A);
     const double gap_B = n.dot(p_AB_) - memory_.reach_B - n.dot(vertex_A(memory_.corner_A));
     moved_far_ = -gap_B > kLargeMovement * (hull_A_.radius() + hull_B_.radius());
-    if (!(gap_B > climbing_margin_)) return false;
-    memory_.gap = gap_B - climbing_margin_;
+    // What B reaches along n differs if R is not quite a rotation.
+    const double margin = climbing_margin_ + (R_AB_.transpose() * n - memory_.n_B).lpNorm<1>() * hull_B_.reach();
+    if (!(gap_B > margin)) return false;
+    memory_.gap = gap_B - margin;
     return true;
   }
 

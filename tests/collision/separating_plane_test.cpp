@@ -89,6 +89,16 @@ TEST_F(SeparatingPlanes, AreRightWhateverIsRemembered) {
   EXPECT_GT(meeting, 1000);
 }
 
+// The plane fixed to B knows how far B reached before it grew by a hundred millionth.
+TEST_F(SeparatingPlanes, MissNoContactWhenThePoseIsNotQuiteARotation) {
+  const ConvexHull box(make_box({2.0, 2.0, 2.0}, 12));
+  HullMemory memory;
+  Isometry3d X_AB(Eigen::Translation3d(2.0 + 1e-9, 0.3, -0.2));
+  ASSERT_TRUE(hulls_apart(box, box, X_AB, memory));
+  X_AB.linear() *= 1.0 + 1e-8;
+  EXPECT_FALSE(hulls_apart(box, box, X_AB, memory));
+}
+
 TEST_F(SeparatingPlanes, HoldForManyStepsOnceFound) {
   const ConvexHull ball(make_sphere(1.0, 20000));
   HullMemory memory;
