@@ -26,7 +26,7 @@ constexpr double kSmallTurn = 0.02;
 // is of no use.
 constexpr double kLargeMovement = 1e-3;
 
-// Of all coordinates that take part: each is rounded a few times, and climbing may stop where it sees no difference.
+// Of all coordinates that take part: each is rounded a few times.
 constexpr double kRounding = 1e-14;
 
 // One question about two hulls.
@@ -113,7 +113,6 @@ class HullQuery {
   // To the end, from what it had in hand last time. What rounding has led astray begins anew.
   bool gjk() {
     GjkSimplex simplex = simplex_of_memory();
-    if (simplex.count() == 0) extreme(first_normal());
     for (int attempt = 0; attempt < kGjkAttempts; ++attempt) {
       if (simplex.count() == 0) simplex.add(point(memory_.corner_A, memory_.corner_B));
       const bool apart = run_gjk(simplex);
