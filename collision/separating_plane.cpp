@@ -13,6 +13,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kPerceptronLoops = 300;  // paper §2.2
+constexpr int kLearningSteps = 12;     // before GJK, after a large movement
 constexpr int kGjkRounds = 128;
 constexpr int kGjkAttempts = 3;
 
@@ -21,14 +22,23 @@ constexpr int kGjkAttempts = 3;
 constexpr double kFirstTurn = 0.06;
 constexpr double kSmallTurn = 0.02;
 
-// Of all coordinates that take part: each is rounded a few times, and climbing may stop where it sees no difference.
+// Of the radii: how far hulls reach beyond the old plane when it has turned by some degrees, and what GJK had in hand
+// is of no use.
+constexpr double kLargeMovement = 1e-3;
+
+// Of all coordinates that take part: each is rounded a few times.
 constexpr double kRounding = 1e-14;
 
 // One question about two hulls.
 class HullQuery {
  public:
   HullQuery(const ConvexHull& hull_A, const ConvexHull& hull_B, const Isometry3d& X_AB, HullMemory& memory)
-      : hull_A_(hull_A), hull_B_(hull_B), R_AB_(X_AB.linear()), p_AB_(X_AB.translation()), memory_(memory) {
+      : hull_A_(hull_A),
+        hull_B_(hull_B),
+        R_AB_(X_AB.linear()),
+        p_AB_(X_AB.translation()),
+        memory_(memory),
+        n_guess_(memory.n_A) {
     const double reach = hull_A.reach() + hull_B.reach() + p_AB_.lpNorm<1>();
     margin_ = hull_A.outside() + hull_B.outside() + kRounding * reach;
     climbing_margin_ = margin_ + hull_A.climbing_error() + hull_B.climbing_error();
@@ -49,8 +59,11 @@ class HullQuery {
     const Vector3d n = R_AB_ * memory_.n_B;
     memory_.corner_A = hull_A_.support(n, memory_.corner_A);
     const double gap_B = n.dot(p_AB_) - memory_.reach_B - n.dot(vertex_A(memory_.corner_A));
-    if (!(gap_B > climbing_margin_)) return false;
-    memory_.gap = gap_B - climbing_margin_;
+    moved_far_ = -gap_B > kLargeMovement * (hull_A_.radius() + hull_B_.radius());
+    // What B reaches along n differs if R is not quite a rotation.
+    const double margin = climbing_margin_ + (R_AB_.transpose() * n - memory_.n_B).lpNorm<1>() * hull_B_.reach();
+    if (!(gap_B > margin)) return false;
+    memory_.gap = gap_B - margin;
     return true;
   }
 
@@ -68,11 +81,18 @@ class HullQuery {
     return length > 0.0 ? Vector3d(between / length) : Vector3d::UnitX();
   }
 
+  // Begins anew if what is remembered is too old to help.
+  bool gjk_after_movement() {
+    if (memory_.has_plane && !moved_far_) return gjk();
+    memory_.simplex_count = 0;
+    return learn(kLearningSteps) || gjk();
+  }
+
   // The learning rule of the perceptron, for the two corners that are most on the wrong side: both are added to the
   // plane at once, which leaves its distance from the origin out of account. Steps get smaller, so that it settles.
-  bool learn() {
+  bool learn(int most_loops) {
     Vector3d n = first_normal();
-    for (int loop = 0; loop < kPerceptronLoops; ++loop) {
+    for (int loop = 0; loop < most_loops; ++loop) {
       ++memory_.loops;
       const Vector3d w = extreme(n);
       const double gap = n.dot(w);
@@ -80,19 +100,19 @@ class HullQuery {
       const double square = w.squaredNorm();
       if (!(square > 0.0)) return false;
       // Far enough to put these two on their sides, and a share of the step beyond.
-      const double temperature = 1.0 - static_cast<double>(loop) / kPerceptronLoops;
+      const double temperature = 1.0 - static_cast<double>(loop) / most_loops;
       n += (1.0 + temperature) * ((margin_ - gap) / square) * w;
       const double length = n.norm();
       if (!(length > 1e-6)) return false;
       n /= length;
     }
+    n_guess_ = n;
     return false;
   }
 
   // To the end, from what it had in hand last time. What rounding has led astray begins anew.
   bool gjk() {
     GjkSimplex simplex = simplex_of_memory();
-    if (simplex.count() == 0) extreme(first_normal());
     for (int attempt = 0; attempt < kGjkAttempts; ++attempt) {
       if (simplex.count() == 0) simplex.add(point(memory_.corner_A, memory_.corner_B));
       const bool apart = run_gjk(simplex);
@@ -138,7 +158,7 @@ class HullQuery {
     if (simplex.count() != 3 || !memory_.has_plane) return false;
     const Vector3d nearest = simplex.nearest_of_plane();
     const Vector3d n = nearest.normalized();
-    if (!((n - memory_.n_A).squaredNorm() < kSmallTurn * kSmallTurn)) return false;
+    if (!((n - n_guess_).squaredNorm() < kSmallTurn * kSmallTurn)) return false;
     ++memory_.loops;
     return look_along(n, nearest, simplex) == Step::kApart;
   }
@@ -148,10 +168,10 @@ class HullQuery {
   // long.
   std::optional<Vector3d> turned_toward(const Vector3d& n, double turn) const {
     if (!memory_.has_plane || turn > 1.0) return std::nullopt;
-    const Vector3d difference = n - memory_.n_A;
+    const Vector3d difference = n - n_guess_;
     const double angle = difference.norm();
     if (!(angle > turn)) return std::nullopt;
-    return (memory_.n_A + turn / angle * difference).normalized();
+    return (n_guess_ + turn / angle * difference).normalized();
   }
 
   enum class Step : std::uint8_t { kApart, kNearer, kStuck };
@@ -215,6 +235,8 @@ class HullQuery {
   const Eigen::Matrix3d R_AB_;
   const Vector3d p_AB_;
   HullMemory& memory_;
+  Vector3d n_guess_;  ///< where the normal may be, if there is a plane in memory
+  bool moved_far_ = false;
   double margin_;           ///< for what is certain but for rounding
   double climbing_margin_;  ///< the same, if climbing may have stopped too early
 };
@@ -226,11 +248,11 @@ bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Isome
   HullQuery query(hull_A, hull_B, X_AB, memory);
   bool apart = false;
   if (test == HullTest::kPerceptron) {
-    apart = query.old_plane_separates() || query.learn();
+    apart = query.old_plane_separates() || query.learn(kPerceptronLoops);
   } else if (memory.met) {
     apart = !query.old_corners_meet() && query.gjk();
   } else {
-    apart = query.old_plane_separates() || query.gjk();
+    apart = query.old_plane_separates() || query.gjk_after_movement();
   }
   memory.met = !apart;
   return apart;

@@ -20,8 +20,8 @@ enum class HullTest : std::uint8_t {
   kPerceptron,  ///< the paper's: up to 300 learning steps; it may miss that hulls are apart, never that they meet
 };
 
-/// What a pair of hulls remembers of its last query; all of it is a guess, so that any memory gives the same answer.
-/// Keep one for each pair of objects, in their order. Not thread-safe.
+/// What a pair of hulls remembers of its last query. All of it is a guess: whatever is remembered, the answer is the
+/// same, but where rounding leaves it open. Keep one for each pair of objects, in their order. Not thread-safe.
 struct HullMemory {
   /// The plane, once fixed to A and once to B: a unit normal from A to B, and how far the hull reaches along it.
   Eigen::Vector3d n_A = Eigen::Vector3d::Zero();
@@ -46,9 +46,9 @@ struct HullMemory {
 /// the hulls were made of, but for gaps that are lost in rounding (1e-13 of all coordinates that take part, and
 /// `ConvexHull::outside`), where the answer is no. Touching hulls are not apart.
 ///
-/// Allocates nothing. Cost: some ten nanoseconds while the plane holds, less than a microsecond otherwise for hulls of
-/// thousands of corners; bounded in any case. Different threads may ask about the same hulls, with memories of their
-/// own.
+/// Allocates nothing. Cost: about twenty nanoseconds while the plane or the four pairs hold, less than a microsecond
+/// otherwise after a small movement, some microseconds after a large one; bounded in any case. Different threads may
+/// ask about the same hulls, with memories of their own.
 bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Eigen::Isometry3d& X_AB, HullMemory& memory,
                  HullTest test = HullTest::kExact) noexcept;
 

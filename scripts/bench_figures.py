@@ -5,7 +5,8 @@ import math
 import re
 
 PEERS = ["fcl", "ode", "bullet", "cgal"]
-PEER_TITLES = {"fcl": "FCL", "ode": "ODE", "bullet": "Bullet", "cgal": "CGAL"}
+HULL_PEERS = ["libccd", "libccd-mpr", "fcl", "bullet"]
+PEER_TITLES = {"fcl": "FCL", "ode": "ODE", "bullet": "Bullet", "cgal": "CGAL", "libccd": "libccd GJK", "libccd-mpr": "libccd MPR"}
 
 
 def geometric_mean(values):

@@ -13,7 +13,7 @@ import subprocess
 import sys
 
 import bench_plots
-from bench_figures import PEERS, PEER_TITLES, read_results
+from bench_figures import HULL_PEERS, PEERS, PEER_TITLES, read_results
 
 PHASES = ["gap-1%", "gap-0.5%", "gap-0.1%", "touching", "colliding"]
 
@@ -22,9 +22,10 @@ def output_of(*command):
     return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()
 
 
-def machine(command):
+def machine(command, bench):
     cpu = re.search(r"model name\s*:\s*(.*)", pathlib.Path("/proc/cpuinfo").read_text())
-    versions = [f"{PEER_TITLES[peer]} {output_of('dpkg-query', '-W', '-f=${Version}', f'lib{peer}-dev')}" for peer in PEERS]
+    packages = {"libccd": "ccd", "FCL": "fcl", "Bullet": "bullet"} if bench == "hull" else {PEER_TITLES[peer]: peer for peer in PEERS}
+    versions = [f"{title} {output_of('dpkg-query', '-W', '-f=${Version}', f'lib{package}-dev')}" for title, package in packages.items()]
     return (f"*{datetime.date.today().isoformat()}; {cpu[1] if cpu else 'unknown processor'}; "
             f"{output_of('c++', '--version').splitlines()[0]}; Debian's {', '.join(versions)}; `{command}`*\n\n")
 
@@ -142,6 +143,24 @@ def build(figures, images):
     return text + folded("Bytes a triangle", time_table(figures, subjects, "bytes_per_triangle", "B", 1))
 
 
+def hull(figures, _):
+    header = ["times faster than (geometric mean, worst case)"] + [PEER_TITLES[peer] for peer in HULL_PEERS]
+    rows = []
+    for group in ["separated", "touching", "penetrating", ""]:
+        prefix = group + "-" if group else ""
+        cells = []
+        for peer in HULL_PEERS:
+            mean = figures.get(prefix + "geomean", "glissade", "ratio_to_" + peer)
+            worst = figures.get(prefix + "worst", "glissade", "ratio_to_" + peer)
+            cells.append("" if mean is None else f"{mean:.1f}, {worst:.1f}")
+        rows.append([f"{group}, 0.05 degrees a step" if group else "all gaps and steps"] + cells)
+    text = table(header, rows)
+    wrong = {subject: sum(figures.get(case, subject, "wrong") or 0 for case in figures.cases) for subject in figures.subjects}
+    text += "Wrong answers: " + ", ".join(f"{subject} {count:.0f}" for subject, count in wrong.items()) + ".\n\n"
+    subjects = ["glissade", "glissade-perceptron"] + HULL_PEERS
+    return text + folded("Mean time of a query, ns", time_table(figures, subjects, "time", "ns", 1))
+
+
 STAGES = ["queue", "neighbor_finding", "separating_planes", "exact"]
 
 
@@ -190,7 +209,7 @@ def threads(figures, _):
 
 
 SECTIONS = {"zachmann": zachmann, "close": queries, "shells": queries, "coherent": coherent, "all-pairs": all_pairs,
-            "build": build, "scene": scene, "threads": threads}
+            "build": build, "hull": hull, "scene": scene, "threads": threads}
 
 
 def main():
@@ -207,7 +226,7 @@ def main():
         begin, end = f"<!-- begin {bench} -->", f"<!-- end {bench} -->"
         if begin not in text or end not in text:
             sys.exit(f"{arguments.page}: the markers of {bench} are missing")
-        body = machine(arguments.command) + SECTIONS[bench](figures, images)
+        body = machine(arguments.command, bench) + SECTIONS[bench](figures, images)
         text = text[:text.index(begin)] + f"{begin}\n{body.rstrip()}\n" + text[text.index(end):]
     arguments.page.write_text(text)
 

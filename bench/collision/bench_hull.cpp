@@ -47,8 +47,8 @@ struct Pace {
 const std::vector<Pace> kPaces{{"0.05deg", 0.05}, {"0.5deg", 0.5}, {"5deg", 5.0}};
 constexpr const char* kSlowest = "0.05deg";
 
-HullModel make_model(const Shape& shape, int vertices) {
-  collision::TriangleMesh mesh = collision::make_sphere(1.0, std::int64_t{2} * vertices);
+HullModel make_model(const Shape& shape, std::int64_t vertices) {
+  collision::TriangleMesh mesh = collision::make_sphere(1.0, 2 * vertices);
   for (Vector3d& x : mesh.vertices)
     x = x.cwiseProduct(shape.semi_axes);
   return HullModel(std::move(mesh));
@@ -65,7 +65,7 @@ void approach(const ConvexHull& hull, Isometry3d& X_AB, HullMemory& memory) {
     X_AB.translation() = between * direction;
     (collision::hulls_apart(hull, hull, X_AB, memory) ? far : near) = between;
   }
-  X_AB.translation() = far * direction;
+  X_AB.translation() = (far + 1e-11) * direction;  // out of reach of rounding
   if (!collision::hulls_apart(hull, hull, X_AB, memory)) throw std::logic_error("the bench has lost its contact");
 }
 
@@ -122,7 +122,7 @@ void run_case(const std::string& name, const HullModel& model, const Poses& pose
   std::vector<Contestant> contestants;
   for (const HullSubject& subject : subjects) {
     queries.push_back(subject.query(model));
-    contestants.push_back({queries.back().get(), false});
+    contestants.push_back({queries.back().get(), subject.slow});
     results.add({kName, name, subject.name, "wrong", count_wrong(*queries.back(), poses, expected), "1"});
   }
   const std::vector<PassTimes> times =
@@ -134,7 +134,6 @@ void run_case(const std::string& name, const HullModel& model, const Poses& pose
 }  // namespace
 
 void run_hull(const BenchOptions& options, Results& results) {
-  const std::vector<int> sizes = options.quick ? std::vector<int>{100, 1000} : std::vector<int>{100, 1000, 5000, 20000};
   const int steps = options.quick ? 200 : 1000;
   const std::vector<HullSubject> subjects{glissade_hulls("glissade", HullTest::kExact),
                                           glissade_hulls("glissade-perceptron", HullTest::kPerceptron),
@@ -143,7 +142,7 @@ void run_hull(const BenchOptions& options, Results& results) {
                                           fcl_hulls(),
                                           bullet_hulls()};
   for (const Shape& shape : kShapes) {
-    for (const int size : sizes) {
+    for (const std::int64_t size : options.suite.hull_vertices) {
       const HullModel model = make_model(shape, size);
       for (const Pace& pace : kPaces) {
         for (const Gap& gap : kGaps) {

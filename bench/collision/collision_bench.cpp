@@ -81,18 +81,22 @@ void fill_in_suite(Suite& suite, bool quick) {
     suite.triangles = {1'000, 5'000, 20'000, 50'000, 100'000};
     suite.shell_triangles = {100'000};
     suite.coherent_triangles = 50'000;
+    suite.hull_vertices = {100, 1'000, 5'000, 20'000};
     suite.scene_triangles = {1'000, 5'000, 20'000, 50'000};
     suite.thread_triangles = {50'000, 200'000};
     if (quick) {
       suite.triangles = {1'000, 20'000};
       suite.shell_triangles = {20'000};
       suite.coherent_triangles = 20'000;
+      suite.hull_vertices = {100, 1'000};
       suite.scene_triangles = {1'000, 20'000};
       suite.thread_triangles = {50'000};
     }
   } else {
     suite.shell_triangles = suite.triangles;
     suite.coherent_triangles = suite.triangles.back();
+    for (const std::int64_t triangles : suite.triangles)
+      suite.hull_vertices.push_back(triangles / 2);
     suite.scene_triangles = suite.triangles;
     suite.thread_triangles = {suite.triangles.back()};
   }

@@ -28,6 +28,7 @@ struct Suite {
   std::int64_t coherent_triangles = 0;         ///< the same for `coherent`
   std::vector<std::int64_t> scene_triangles;   ///< the same for the objects of `scene` and `threads`
   std::vector<std::int64_t> thread_triangles;  ///< the same for the pairs of `threads`
+  std::vector<std::int64_t> hull_vertices;     ///< numbers of corners for `hull`
   std::vector<std::filesystem::path> files;
 };
 

@@ -135,6 +135,30 @@ TEST_F(ConvexHulls, OfNearlyFlatPointsMissNone) {
   }
 }
 
+// Among corners within a millionth of each other climbing sees least of where up is.
+TEST_F(ConvexHulls, OfClustersAreClimbedAsFarAsTheyPromise) {
+  for (const double spread : {1e-13, 1e-11, 1e-9, 1e-6, 1e-3}) {
+    std::vector<Vector3d> points;
+    for (const Vector3d& place : cloud(random_, 8)) {
+      for (int i = 0; i < 6; ++i)
+        points.emplace_back(place + spread * random_.point(1.0));
+    }
+    ASSERT_NO_FATAL_FAILURE(expect_hull(points, random_)) << "spread " << spread;
+    // Across an edge of the hull, all but the smallest differences are hidden.
+    const ConvexHull hull(points);
+    for (std::int32_t corner = 0; corner < static_cast<std::int32_t>(hull.vertices().size()); ++corner) {
+      const Vector3d& at = hull.vertices()[static_cast<std::size_t>(corner)];
+      for (const std::int32_t next : hull.neighbors(corner)) {
+        const Vector3d edge = (hull.vertices()[static_cast<std::size_t>(next)] - at).normalized();
+        const Vector3d direction = edge.cross(random_.direction()).normalized();
+        const Vector3d& found = hull.vertices()[static_cast<std::size_t>(hull.support(direction, corner))];
+        ASSERT_GE(direction.dot(found), furthest(points, direction) - hull.outside() - hull.climbing_error())
+            << "spread " << spread;
+      }
+    }
+  }
+}
+
 TEST_F(ConvexHulls, OfAMeshLeavesOutVerticesThatNoTriangleUses) {
   TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}}, {{0, 1, 2}}};
   EXPECT_EQ(ConvexHull(mesh).vertices().size(), 3U);
