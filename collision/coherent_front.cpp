@@ -1,6 +1,7 @@
 #include "coherent_front.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -143,17 +144,29 @@ bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, Dop
   }
   PairMask near = step.leaves(leaves, counters);
   const CertainPairs certain = near == 0 ? CertainPairs{} : step.cross(leaves);
-  near = step.edges(leaves, near & ~certain.intersect) | (near & certain.intersect);
-  double least_gap = step.least_gap(leaves, leaves.present() & ~near);
+  // What answers the query at once goes first, and what is needed only if nothing does, last.
+  const auto answers = [&](int pair, const PairOutcome& outcome) {
+    if (outcome.stop) witness_ = Witness{leaf_P, leaf_Q, pair};
+    return outcome.stop;
+  };
+  const PairMask intersecting = near & certain.intersect;
+  for (PairMask rest = intersecting; rest != 0; rest &= rest - 1) {
+    const int pair = std::countr_zero(rest);
+    if (answers(pair, visitor.found(leaf_P, leaf_Q, pair))) return true;
+  }
+  near = step.edges(leaves, near & ~intersecting);
+  std::array<double, kWidth * kWidth> distances;
   for (PairMask rest = near; rest != 0; rest &= rest - 1) {
     const int pair = std::countr_zero(rest);
-    const bool intersects = (certain.intersect >> pair & 1U) != 0;
-    const PairOutcome outcome = intersects ? visitor.found(leaf_P, leaf_Q, pair) : visitor.visit(leaf_P, leaf_Q, pair);
-    if (outcome.stop) {
-      witness_ = Witness{leaf_P, leaf_Q, pair};
-      return true;
-    }
-    const double distance = outcome.distance >= 0.0 ? outcome.distance : visitor.distance(leaf_P, leaf_Q, pair);
+    const PairOutcome outcome = visitor.visit(leaf_P, leaf_Q, pair);
+    if (answers(pair, outcome)) return true;
+    distances[static_cast<std::size_t>(pair)] = outcome.distance;
+  }
+  double least_gap = intersecting != 0 ? -1.0 : step.least_gap(leaves, leaves.present() & ~near);
+  for (PairMask rest = near; rest != 0 && least_gap > 0.0; rest &= rest - 1) {
+    const int pair = std::countr_zero(rest);
+    double distance = distances[static_cast<std::size_t>(pair)];
+    if (distance < 0.0) distance = visitor.distance(leaf_P, leaf_Q, pair);
     const double gap =
         std::isfinite(distance) ? distance / frame.base_radius * (1.0 - 1e-9) - 4.0 * frame.uncertainty : 0.0;
     least_gap = std::min(least_gap, gap);

@@ -171,22 +171,19 @@ class CollisionPipeline::Frame {
     }
   }
 
-  // Stage 2: those that planes separate, and for how long.
+  // Stage 2: those that planes separate, and for how long. Whoever met in the last frame mostly still does.
   void test_hulls() {
     StageReport& report = result_.report.separating_planes;
     report.in = std::ssize(candidates_);
     is_near_.resize(candidates_.size());
     const double expected_ns = kHullTest_ns * static_cast<double>(candidates_.size());
     crew_.for_each(candidates_.size(), chunk_of(candidates_.size(), expected_ns), expected_ns, [&](std::size_t i, int) {
-      is_near_[i] = !checks_.are_separated(pairs_[candidates_[i]], distance_);
+      TrackedPair& pair = pairs_[candidates_[i]];
+      is_near_[i] = pair.meets || !checks_.are_separated(pair, distance_);
     });
     near_.clear();
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      if (is_near_[i] != 0) {
-        near_.push_back(candidates_[i]);
-      } else {
-        set_meets(pairs_[candidates_[i]], false);
-      }
+      if (is_near_[i] != 0) near_.push_back(candidates_[i]);
     }
     report.out = std::ssize(near_);
   }
