@@ -37,16 +37,24 @@ void CoherentFront::start_afresh(const DopTree& base, const DopTree& other) {
   complete_ = false;
   most_entries_ = base.leaves().size() + other.leaves().size();
   moved_ = 0.0;
-  add({0, 0, kAllPairs}, false);
+  add({0, 0, kAllPairs}, false, 0);
 }
 
-void CoherentFront::add(const NodePair& pair, bool is_leaf) {
+void CoherentFront::add(const NodePair& pair, bool is_leaf, std::size_t parent) {
   if (entries_.size() == expiry_.size()) {
     expiry_.resize(expiry_.size() + kFrontPadding, kNever);
     expired_.resize(expiry_.size());
   }
   expiry_[entries_.size()] = kExpired;
-  entries_.push_back({pair, is_leaf ? 0 : kAllPairs & ~pair.pairs, is_leaf});
+  entries_.push_back({pair, is_leaf ? 0 : kAllPairs & ~pair.pairs, static_cast<std::uint32_t>(parent), is_leaf});
+}
+
+void CoherentFront::take_witness(std::size_t entry, int pair) {
+  witness_.emplace(entries_[entry].pair.node_P, entries_[entry].pair.node_Q, pair);
+  while (entry != 0 && !witness_->is_full()) {
+    entry = entries_[entry].parent;
+    witness_->add_above(entries_[entry].pair);
+  }
 }
 
 void CoherentFront::holds_for(std::size_t entry, double gap) {
@@ -76,8 +84,9 @@ bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, 
                           double distance, DopAlignment& alignment, QueryCounters& counters, TriangleVisitor& visitor) {
   follow(base, other, frame);
   if (frame.spheres_apart(distance)) return false;
+  DopVisit step(base, other, frame, distance, alignment);
   if (goal == Goal::kAnyPair && witness_) {
-    if (visitor.visit(witness_->leaf_P, witness_->leaf_Q, witness_->pair).stop) return true;
+    if (witness_->still_answers(visitor) || witness_->wander(step, counters, visitor)) return true;
     witness_.reset();
   }
 
@@ -90,7 +99,6 @@ bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, 
   } else {
     open_.assign(expired_.begin(), expired_.begin() + static_cast<std::ptrdiff_t>(expired));
   }
-  DopVisit step(base, other, frame, distance, alignment);
   while (!open_.empty()) {
     const std::size_t entry = open_.back();
     open_.pop_back();
@@ -126,7 +134,7 @@ void CoherentFront::visit_nodes(std::size_t entry, DopVisit& step, QueryCounters
     const int pair = step.deepest(overlaps, near);
     const Descent descent = step.descend(nodes, near, pair);
     open_.push_back(static_cast<std::uint32_t>(entries_.size()));
-    add(descent.next, descent.is_leaf);
+    add(descent.next, descent.is_leaf, entry);
     near &= ~descent.including;
   }
   std::reverse(open_.begin() + static_cast<std::ptrdiff_t>(first), open_.end());
@@ -146,7 +154,7 @@ bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, Dop
   const CertainPairs certain = near == 0 ? CertainPairs{} : step.cross(leaves);
   // What answers the query at once goes first, and what is needed only if nothing does, last.
   const auto answers = [&](int pair, const PairOutcome& outcome) {
-    if (outcome.stop) witness_ = Witness{leaf_P, leaf_Q, pair};
+    if (outcome.stop) take_witness(entry, pair);
     return outcome.stop;
   };
   const PairMask intersecting = near & certain.intersect;

@@ -19,6 +19,7 @@
 #include "dop_traversal.h"
 #include "dop_visit.h"
 #include "triangle_visitor.h"
+#include "witness.h"
 
 namespace glissade::collision {
 
@@ -42,6 +43,9 @@ class CoherentFront {
   bool query(Goal goal, const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
              DopAlignment& alignment, QueryCounters& counters, TriangleVisitor& visitor);
 
+  /// Where the last query found that the trees meet, if it did.
+  const std::optional<Witness>& witness() const { return witness_; }
+
   /// For queries of the gap, which begin with what answered the last one and need no front.
   std::optional<NearestPair>& nearest() { return nearest_; }
 
@@ -49,17 +53,13 @@ class CoherentFront {
   struct Entry {
     NodePair pair;    ///< two nodes, or two leaves
     PairMask opened;  ///< pairs of children that have entries of their own
+    std::uint32_t parent;
     bool is_leaf;
   };
-  struct Witness {
-    std::uint32_t leaf_P;
-    std::uint32_t leaf_Q;
-    int pair;
-  };
-
   void follow(const DopTree& base, const DopTree& other, const QueryFrame& frame);
   void start_afresh(const DopTree& base, const DopTree& other);
-  void add(const NodePair& pair, bool is_leaf);
+  void add(const NodePair& pair, bool is_leaf, std::size_t parent);
+  void take_witness(std::size_t entry, int pair);
   void holds_for(std::size_t entry, double gap);
   void visit_nodes(std::size_t entry, DopVisit& step, QueryCounters& counters);
   bool visit_leaves(std::size_t entry, const QueryFrame& frame, DopVisit& step, QueryCounters& counters,

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
@@ -33,6 +34,8 @@ constexpr double kHullTest_ns = 50.0;
 constexpr double kFirstQuery_ns = 5'000.0;
 // Work that is handed out at a time: large beside the cost of that, small beside a frame.
 constexpr double kChunk_ns = 4'000.0;
+// Pairs from now, for the steps of `PairChecks::prefetch`: a query takes about as long as memory.
+constexpr std::array<std::size_t, 4> kPrefetchAhead{6, 4, 2, 1};
 // A pair that takes so long is begun with.
 constexpr double kLong_ns = 20'000.0;
 
@@ -201,6 +204,10 @@ class CollisionPipeline::Frame {
               [&](PairTable::Number m, PairTable::Number n) { return pairs_[m].expected_ns > pairs_[n].expected_ns; });
     met_before_.resize(near_.size());
     crew_.for_each(near_.size(), chunk_of(near_.size(), expected_ns), expected_ns, [&](std::size_t i, int worker) {
+      for (std::size_t step = 0; step < kPrefetchAhead.size(); ++step) {
+        const std::size_t next = i + kPrefetchAhead[step];
+        if (next < near_.size()) checks_.prefetch(pairs_[near_[next]], static_cast<int>(step));
+      }
       TrackedPair& pair = pairs_[near_[i]];
       met_before_[i] = pair.meets;
       checks_.find_out(pair, distance_, worker);

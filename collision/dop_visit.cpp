@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <hwy/cache_control.h>
-
 #include "oriented_boxes.h"
+#include "prefetch.h"
 #include "round_up.h"
 
 namespace glissade::collision {
@@ -25,19 +24,12 @@ PairMask product(std::uint32_t children_P, std::uint32_t children_Q) {
   return kRows[children_P] & children_Q * 0x1111U;
 }
 
-template <typename Value>
-void prefetch_lines(const Value* values, int lines) {
-  for (int line = 0; line < lines; ++line)
-    hwy::Prefetch(reinterpret_cast<const char*>(values) + 64 * line);
-}
-
 void prefetch_child(const DopTree& tree, std::uint32_t node, int c) {
   const NodeHead& head = tree.nodes()[node];
   if (head.is_leaf(c)) {
-    prefetch_lines(&tree.leaves()[head.child(c)], 3);
+    prefetch_lines(&tree.leaves()[head.child(c)], sizeof(TriangleLeaf));
   } else {
-    prefetch_lines(&tree.nodes()[head.child(c)], 1);
-    prefetch_lines(tree.slabs(head.child(c)), slab_lines(tree.options().directions / 2));
+    prefetch_node(tree, head.child(c));
   }
 }
 

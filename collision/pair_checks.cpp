@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "coherent_query.h"
+#include "prefetch.h"
+#include "query_frame.h"
 
 namespace glissade::collision {
 namespace {
@@ -47,6 +49,24 @@ bool PairChecks::are_separated(TrackedPair& pair, double distance) const {
     pair.details.reset();
   }
   return true;
+}
+
+void PairChecks::prefetch(const TrackedPair& pair, int step) const {
+  const WorldObject& a = world_.objects()[pair.slots.a];
+  const WorldObject& b = world_.objects()[pair.slots.b];
+  if (step == 0) {
+    prefetch_lines(&a, sizeof(WorldObject));
+    prefetch_lines(&b, sizeof(WorldObject));
+    if (pair.front) prefetch_lines(pair.front.get(), sizeof(CoherentFront));
+    return;
+  }
+  if (!pair.front || !pair.front->witness()) return;
+  const bool base_is_A = QueryFrame::base_is_first(*a.tree, *b.tree);
+  const DopTree& base = base_is_A ? *a.tree : *b.tree;
+  const DopTree& other = base_is_A ? *b.tree : *a.tree;
+  if (step == 1) pair.front->witness()->prefetch_leaves(base, other);
+  if (step == 2) pair.front->witness()->prefetch_triangles(base, other);
+  if (step == 3) pair.front->witness()->prefetch_corners(base, other);
 }
 
 void PairChecks::find_out(TrackedPair& pair, double distance, int worker) {

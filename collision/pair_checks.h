@@ -32,6 +32,10 @@ class PairChecks {
   /// Whether the hulls are certainly further apart than `distance` (metres). Notes for how long.
   bool are_separated(TrackedPair& pair, double distance) const;
 
+  /// Has the memory ready soon that the pair's exact query will look at; step 0 first, then 1, 2 and 3, each with some
+  /// queries of other pairs in between.
+  void prefetch(const TrackedPair& pair, int step) const;
+
   /// Finds out whether the objects are not further apart than `distance`, and all else that is asked for. `worker` is
   /// the crew's.
   void find_out(TrackedPair& pair, double distance, int worker);

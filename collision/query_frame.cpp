@@ -7,7 +7,7 @@
 namespace glissade::collision {
 
 QueryFrame::QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB)
-    : base_is_A(tree_A.radius() >= tree_B.radius()) {
+    : base_is_A(base_is_first(tree_A, tree_B)) {
   const Eigen::Matrix3d& R_AB = X_AB.linear();
   rotation_defect = collision::rotation_defect(R_AB);
   if (!(rotation_defect < 1e-3) || !is_right_handed(R_AB) || !X_AB.translation().allFinite()) {

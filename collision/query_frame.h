@@ -16,6 +16,11 @@ struct QueryFrame {
   /// (`rotation_defect` below 1e-3), and for trees of different options.
   QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB);
 
+  /// Which of two trees is the base.
+  static bool base_is_first(const DopTree& tree_A, const DopTree& tree_B) {
+    return tree_A.radius() >= tree_B.radius();
+  }
+
   bool base_is_A;
   Eigen::Matrix3d R_PQ;
   Eigen::Vector3d p_PQ;  ///< centre of Q seen from the centre of P, in radii of P
