@@ -151,6 +151,7 @@ ConvexHull::ConvexHull(Points points) {
     radius_ = std::max(radius_, (x - center_).norm());
     reach_ = std::max(reach_, x.norm());
   }
+  find_starts();
   climbing_error_ = dimension_ < 2 ? 4.0 * kRounding * reach_ : climbing_error_of(facets, reach_, outside_);
 }
 
@@ -186,6 +187,24 @@ HullFacets ConvexHull::find_corners(Points points) {
   }
   take_corners(points, edges_of(hull.facets));
   return hull;
+}
+
+void ConvexHull::find_starts() {
+  starts_.reserve(6 * kCells * kCells);
+  std::int32_t corner = 0;
+  for (int face = 0; face < 6; ++face) {
+    for (int u = 0; u < kCells; ++u) {
+      for (int v = 0; v < kCells; ++v) {
+        const int axis = face / 2;
+        Vector3d direction;
+        direction[axis] = face % 2 == 0 ? 1.0 : -1.0;
+        direction[(axis + 1) % 3] = (2.0 * u + 1.0) / kCells - 1.0;
+        direction[(axis + 2) % 3] = (2.0 * v + 1.0) / kCells - 1.0;
+        corner = support(direction.normalized(), corner);
+        starts_.push_back(corner);
+      }
+    }
+  }
 }
 
 // Neighbours get numbers near each other, because they are looked at together.

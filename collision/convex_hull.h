@@ -3,6 +3,7 @@
 /// The convex hull of an object: its corners, and which of them are neighbours. A much tighter enclosure than a box,
 /// and two of them are told apart in nanoseconds by `separating_plane.h` (paper §2.2).
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -59,6 +60,10 @@ class ConvexHull {
   /// before.
   std::int32_t support(const Eigen::Vector3d& direction, std::int32_t start) const;
 
+  /// A corner that is about furthest along `direction`, within some degrees, for climbing to begin at when nothing
+  /// better is known. Cost O(1).
+  std::int32_t start_toward(const Eigen::Vector3d& direction) const { return starts_[cell_of(direction)]; }
+
   /// How much further than the corner of `support` another may be, in metres: climbing stops where it sees no
   /// difference for rounding, which matters where facets are narrow.
   double climbing_error() const { return climbing_error_; }
@@ -69,12 +74,18 @@ class ConvexHull {
  private:
   using Edge = std::array<std::int32_t, 2>;
 
+  // Directions by the cell of a cube that they point to: of each of its six faces, kCells by kCells.
+  static constexpr int kCells = 8;
+  static std::size_t cell_of(const Eigen::Vector3d& direction);
+  void find_starts();
+
   HullFacets find_corners(std::span<const Eigen::Vector3d> points);
   void take_corners(std::span<const Eigen::Vector3d> points, const std::vector<Edge>& edges);
 
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<std::int32_t> first_neighbor_;  ///< one more than vertices
   std::vector<std::int32_t> neighbors_;
+  std::vector<std::int32_t> starts_;  ///< by cell
   int dimension_ = 0;
   double outside_ = 0.0;
   double climbing_error_ = 0.0;
@@ -82,6 +93,18 @@ class ConvexHull {
   double radius_ = 0.0;
   double reach_ = 0.0;
 };
+
+inline std::size_t ConvexHull::cell_of(const Eigen::Vector3d& direction) {
+  Eigen::Index axis = 0;
+  const double largest = direction.cwiseAbs().maxCoeff(&axis);
+  // The cells of a face, from −1 to 1 along either side. A direction of no length has a cell, too.
+  const double scale = largest > 0.0 ? 0.5 * kCells / largest : 0.0;
+  const auto cell = [&](Eigen::Index i) {
+    return std::clamp(static_cast<int>(direction[i] * scale + 0.5 * kCells), 0, kCells - 1);
+  };
+  const int face = 2 * static_cast<int>(axis) + (direction[axis] < 0.0 ? 1 : 0);
+  return static_cast<std::size_t>((face * kCells + cell((axis + 1) % 3)) * kCells + cell((axis + 2) % 3));
+}
 
 inline std::int32_t ConvexHull::support(const Eigen::Vector3d& direction, std::int32_t start) const {
   std::int32_t best = start;

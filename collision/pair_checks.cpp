@@ -41,6 +41,12 @@ bool PairChecks::are_separated(TrackedPair& pair, double distance) const {
   const WorldObject& a = world_.objects()[pair.slots.a];
   const WorldObject& b = world_.objects()[pair.slots.b];
   if (!a.hull || !b.hull) return false;
+  // Boxes are fat, so what enters is mostly not near yet.
+  const double gap_of_spheres = pair.hulls.has_plane ? 0.0 : placed_.gap_of_spheres(pair.slots.a, pair.slots.b);
+  if (gap_of_spheres > distance) {
+    pair.apart_until = placed_.apart_until(pair.slots.a, pair.slots.b, gap_of_spheres);
+    return true;
+  }
   if (!hulls_apart(*a.hull, *b.hull, relative_pose(a, b), pair.hulls, options_.hull_test)) return false;
   if (!(pair.hulls.gap > distance)) return false;
   pair.apart_until = placed_.apart_until(pair.slots.a, pair.slots.b, pair.hulls.gap);

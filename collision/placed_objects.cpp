@@ -36,6 +36,12 @@ void PlacedObjects::move(std::uint32_t slot, const WorldObject& object) {
   travels_[slot].doubt = doubt_of(object.X_WO.linear());
 }
 
+double PlacedObjects::gap_of_spheres(std::uint32_t slot_a, std::uint32_t slot_b) const {
+  const Placed& a = objects_[slot_a];
+  const Placed& b = objects_[slot_b];
+  return (a.c_W - b.c_W).norm() - a.radius - b.radius;
+}
+
 double PlacedObjects::apart_until(std::uint32_t slot_a, std::uint32_t slot_b, double gap) const {
   const Placed& a = objects_[slot_a];
   const Placed& b = objects_[slot_b];

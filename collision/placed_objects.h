@@ -29,6 +29,9 @@ class PlacedObjects {
     return a.length + b.length + a.doubt + b.doubt;
   }
 
+  /// A lower bound of the distance of two objects by their bounding spheres, metres; negative when these overlap.
+  double gap_of_spheres(std::uint32_t slot_a, std::uint32_t slot_b) const;
+
   /// What `motion` may become while two objects stay apart whose gap is now, in their frames, at least `gap` metres.
   /// Less than it is if a pose is too far from a rotation to say.
   double apart_until(std::uint32_t slot_a, std::uint32_t slot_b, double gap) const;

@@ -85,6 +85,9 @@ class HullQuery {
   bool gjk_after_movement() {
     if (memory_.has_plane && !moved_far_) return gjk();
     memory_.simplex_count = 0;
+    const Vector3d n = first_normal();
+    memory_.corner_A = hull_A_.start_toward(n);
+    memory_.corner_B = hull_B_.start_toward(-(R_AB_.transpose() * n));
     return learn(kLearningSteps) || gjk();
   }
 
