@@ -9,7 +9,7 @@ namespace glissade::collision {
 namespace {
 
 // Pairs of leaves that are tried below one pair of nodes, those that overlap most.
-constexpr int kTries = 2;
+constexpr int kTries = 1;
 
 }  // namespace
 
