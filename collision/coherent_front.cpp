@@ -99,12 +99,13 @@ bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, 
   } else {
     open_.assign(expired_.begin(), expired_.begin() + static_cast<std::ptrdiff_t>(expired));
   }
+  VisitedLeaves leaves;
   while (!open_.empty()) {
     const std::size_t entry = open_.back();
     open_.pop_back();
     if (!entries_[entry].is_leaf) {
       visit_nodes(entry, step, counters);
-    } else if (visit_leaves(entry, frame, step, counters, visitor)) {
+    } else if (visit_leaves(entry, frame, step, leaves, counters, visitor)) {
       return true;  // what was still open has expired and stays so
     }
   }
@@ -140,10 +141,9 @@ void CoherentFront::visit_nodes(std::size_t entry, DopVisit& step, QueryCounters
   std::reverse(open_.begin() + static_cast<std::ptrdiff_t>(first), open_.end());
 }
 
-bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, DopVisit& step, QueryCounters& counters,
-                                 TriangleVisitor& visitor) {
+bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, DopVisit& step, VisitedLeaves& leaves,
+                                 QueryCounters& counters, TriangleVisitor& visitor) {
   const auto [leaf_P, leaf_Q, all] = entries_[entry].pair;
-  VisitedLeaves leaves;
   step.prepare(leaf_P, leaf_Q, leaves);
   const double gap_of_all = step.leaf_gap(leaves, counters);
   if (step.beyond(gap_of_all)) {

@@ -62,8 +62,8 @@ class CoherentFront {
   void take_witness(std::size_t entry, int pair);
   void holds_for(std::size_t entry, double gap);
   void visit_nodes(std::size_t entry, DopVisit& step, QueryCounters& counters);
-  bool visit_leaves(std::size_t entry, const QueryFrame& frame, DopVisit& step, QueryCounters& counters,
-                    TriangleVisitor& visitor);
+  bool visit_leaves(std::size_t entry, const QueryFrame& frame, DopVisit& step, VisitedLeaves& leaves,
+                    QueryCounters& counters, TriangleVisitor& visitor);
 
   std::uint64_t base_id_ = 0;
   std::uint64_t other_id_ = 0;

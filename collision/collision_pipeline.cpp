@@ -31,13 +31,15 @@ const PipelineOptions& checked(const PipelineOptions& options) {
 
 // What looking at a pair takes, before anything is known about it.
 constexpr double kHullTest_ns = 50.0;
-constexpr double kFirstQuery_ns = 5'000.0;
+constexpr float kFirstQuery_ns = 5'000.0F;
 // Work that is handed out at a time: large beside the cost of that, small beside a frame.
 constexpr double kChunk_ns = 4'000.0;
 // Pairs from now, for the steps of `PairChecks::prefetch`: a query takes about as long as memory.
 constexpr std::array<std::size_t, 4> kPrefetchAhead{6, 4, 2, 1};
+// One over the share of objects from which on all pairs are gone through.
+constexpr std::ptrdiff_t kMostMove = 4;
 // A pair that takes so long is begun with.
-constexpr double kLong_ns = 20'000.0;
+constexpr float kLong_ns = 20'000.0F;
 
 std::size_t chunk_of(std::size_t count, double expected_ns) {
   const double each = std::max(expected_ns / static_cast<double>(std::max<std::size_t>(count, 1)), 1.0);
@@ -55,7 +57,8 @@ class CollisionPipeline::Frame {
         crew_(options.threads),
         placed_(static_cast<std::size_t>(world.capacity())),
         broad_phase_(static_cast<std::size_t>(world.capacity()), options.greatest_distance),
-        checks_(world_, placed_, options_, crew_) {}
+        checks_(world_, placed_, options_, crew_),
+        has_changed_(static_cast<std::size_t>(world.capacity()), 0) {}
 
   const FrameResult& step(double distance) {
     if (!(distance >= 0.0 && distance <= options_.greatest_distance)) {
@@ -133,6 +136,8 @@ class CollisionPipeline::Frame {
     if (interest_changed_) pairs_.for_each([&](PairTable::Number number) { renew_interest(number); });
     if (all) {
       pairs_.for_each([&](PairTable::Number number) { consider(number); });
+    } else if (kMostMove * std::ssize(changed_) > objects_) {
+      consider_changed_in_order();
     } else {
       for (const std::uint32_t slot : changed_) {
         for (const PairTable::Number number : pairs_.of_object(slot))
@@ -162,10 +167,23 @@ class CollisionPipeline::Frame {
     if (pair.is_of_interest && !was_of_interest) consider(number);
   }
 
+  // In the order of memory, each pair once: where most objects move, this is twice as fast as by objects.
+  void consider_changed_in_order() {
+    for (const std::uint32_t slot : changed_)
+      has_changed_[slot] = 1;
+    pairs_.for_each([&](PairTable::Number number) {
+      const SlotPair& slots = pairs_[number].slots;
+      if ((has_changed_[slots.a] | has_changed_[slots.b]) != 0) consider(number);
+    });
+    for (const std::uint32_t slot : changed_)
+      has_changed_[slot] = 0;
+  }
+
   void consider(PairTable::Number number) {
     TrackedPair& pair = pairs_[number];
-    if (!pair.is_of_interest || pair.frame == result_.frame) return;
-    pair.frame = result_.frame;
+    const auto frame = static_cast<std::uint32_t>(result_.frame);
+    if (!pair.is_of_interest || pair.frame == frame) return;
+    pair.frame = frame;
     ++result_.report.neighbor_finding.out;
     if (placed_.motion(pair.slots.a, pair.slots.b) + distance_ < pair.apart_until) {
       set_meets(pair, false);  // it may have met at a greater distance
@@ -182,7 +200,7 @@ class CollisionPipeline::Frame {
     const double expected_ns = kHullTest_ns * static_cast<double>(candidates_.size());
     crew_.for_each(candidates_.size(), chunk_of(candidates_.size(), expected_ns), expected_ns, [&](std::size_t i, int) {
       TrackedPair& pair = pairs_[candidates_[i]];
-      is_near_[i] = pair.meets || !checks_.are_separated(pair, distance_);
+      is_near_[i] = pair.meets || !checks_.are_separated(pair, pairs_.memory(candidates_[i]), distance_);
     });
     near_.clear();
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
@@ -206,11 +224,12 @@ class CollisionPipeline::Frame {
     crew_.for_each(near_.size(), chunk_of(near_.size(), expected_ns), expected_ns, [&](std::size_t i, int worker) {
       for (std::size_t step = 0; step < kPrefetchAhead.size(); ++step) {
         const std::size_t next = i + kPrefetchAhead[step];
-        if (next < near_.size()) checks_.prefetch(pairs_[near_[next]], static_cast<int>(step));
+        if (next < near_.size())
+          checks_.prefetch(pairs_[near_[next]], pairs_.memory(near_[next]), static_cast<int>(step));
       }
       TrackedPair& pair = pairs_[near_[i]];
       met_before_[i] = pair.meets;
-      checks_.find_out(pair, distance_, worker);
+      checks_.find_out(pair, pairs_.memory(near_[i]), distance_, worker);
     });
     for (std::size_t i = 0; i < near_.size(); ++i) {
       const TrackedPair& pair = pairs_[near_[i]];
@@ -248,7 +267,7 @@ class CollisionPipeline::Frame {
     result_.all_triangle_pairs.clear();
     result_.all_close_pairs.clear();
     for (const SlotPair& slots : meeting_) {
-      const MeetingDetails& details = *pairs_[pairs_.number_of(slots)].details;
+      const MeetingDetails& details = *pairs_.memory(pairs_.number_of(slots)).details;
       result_.all_triangle_pairs.insert(result_.all_triangle_pairs.end(), details.triangle_pairs.begin(),
                                         details.triangle_pairs.end());
       result_.all_close_pairs.insert(result_.all_close_pairs.end(), details.close_pairs.begin(),
@@ -270,8 +289,9 @@ class CollisionPipeline::Frame {
   std::int64_t objects_ = 0;
   bool interest_changed_ = false;
   std::chrono::nanoseconds lap_{0};
-  std::vector<std::uint32_t> changed_;  ///< slots
-  Numbers candidates_;                  ///< that may be near
+  std::vector<std::uint32_t> changed_;     ///< slots
+  std::vector<std::uint8_t> has_changed_;  ///< by slot; all 0 between frames
+  Numbers candidates_;                     ///< that may be near
   std::vector<std::uint8_t> is_near_;
   Numbers near_;
   std::vector<std::uint8_t> met_before_;

@@ -17,9 +17,9 @@ constexpr double kNear = 0.25;
 constexpr std::size_t kManyPairs = 100;
 
 // What the work of a query takes, roughly; only the order of pairs and the number of threads depend on it.
-double expected_ns(const QueryCounters& counters, std::size_t found) {
-  return 150.0 + 5.0 * static_cast<double>(counters.node_tests) + 2.0 * static_cast<double>(counters.triangle_tests) +
-         20.0 * static_cast<double>(found);
+float expected_ns(const QueryCounters& counters, std::size_t found) {
+  return 150.0F + 5.0F * static_cast<float>(counters.node_tests) + 2.0F * static_cast<float>(counters.triangle_tests) +
+         20.0F * static_cast<float>(found);
 }
 
 template <typename Workspace>
@@ -37,75 +37,76 @@ Eigen::Isometry3d relative_pose(const WorldObject& object_A, const WorldObject& 
   return object_A.X_WO.inverse(Eigen::Isometry) * object_B.X_WO;
 }
 
-bool PairChecks::are_separated(TrackedPair& pair, double distance) const {
+bool PairChecks::are_separated(TrackedPair& pair, PairMemory& memory, double distance) const {
   const WorldObject& a = world_.objects()[pair.slots.a];
   const WorldObject& b = world_.objects()[pair.slots.b];
   if (!a.hull || !b.hull) return false;
   // Boxes are fat, so what enters is mostly not near yet.
-  const double gap_of_spheres = pair.hulls.has_plane ? 0.0 : placed_.gap_of_spheres(pair.slots.a, pair.slots.b);
+  const double gap_of_spheres = memory.hulls.has_plane ? 0.0 : placed_.gap_of_spheres(pair.slots.a, pair.slots.b);
   if (gap_of_spheres > distance) {
     pair.apart_until = placed_.apart_until(pair.slots.a, pair.slots.b, gap_of_spheres);
     return true;
   }
-  if (!hulls_apart(*a.hull, *b.hull, relative_pose(a, b), pair.hulls, options_.hull_test)) return false;
-  if (!(pair.hulls.gap > distance)) return false;
-  pair.apart_until = placed_.apart_until(pair.slots.a, pair.slots.b, pair.hulls.gap);
-  if (pair.hulls.gap - distance > kNear * std::min(a.hull->radius(), b.hull->radius())) {
-    pair.front.reset();
-    pair.details.reset();
+  if (!hulls_apart(*a.hull, *b.hull, relative_pose(a, b), memory.hulls, options_.hull_test)) return false;
+  if (!(memory.hulls.gap > distance)) return false;
+  pair.apart_until = placed_.apart_until(pair.slots.a, pair.slots.b, memory.hulls.gap);
+  if (memory.hulls.gap - distance > kNear * std::min(a.hull->radius(), b.hull->radius())) {
+    memory.front.reset();
+    memory.details.reset();
   }
   return true;
 }
 
-void PairChecks::prefetch(const TrackedPair& pair, int step) const {
+void PairChecks::prefetch(const TrackedPair& pair, const PairMemory& memory, int step) const {
   const WorldObject& a = world_.objects()[pair.slots.a];
   const WorldObject& b = world_.objects()[pair.slots.b];
   if (step == 0) {
     prefetch_lines(&a, sizeof(WorldObject));
     prefetch_lines(&b, sizeof(WorldObject));
-    if (pair.front) prefetch_lines(pair.front.get(), sizeof(CoherentFront));
+    if (memory.front) prefetch_lines(memory.front.get(), sizeof(CoherentFront));
     return;
   }
-  if (!pair.front || !pair.front->witness()) return;
+  if (!memory.front || !memory.front->witness()) return;
   const bool base_is_A = QueryFrame::base_is_first(*a.tree, *b.tree);
   const DopTree& base = base_is_A ? *a.tree : *b.tree;
   const DopTree& other = base_is_A ? *b.tree : *a.tree;
-  if (step == 1) pair.front->witness()->prefetch_leaves(base, other);
-  if (step == 2) pair.front->witness()->prefetch_triangles(base, other);
-  if (step == 3) pair.front->witness()->prefetch_corners(base, other);
+  if (step == 1) memory.front->witness()->prefetch_leaves(base, other);
+  if (step == 2) memory.front->witness()->prefetch_triangles(base, other);
+  if (step == 3) memory.front->witness()->prefetch_corners(base, other);
 }
 
-void PairChecks::find_out(TrackedPair& pair, double distance, int worker) {
+void PairChecks::find_out(TrackedPair& pair, PairMemory& memory, double distance, int worker) {
   const WorldObject& a = world_.objects()[pair.slots.a];
   const WorldObject& b = world_.objects()[pair.slots.b];
   const PlacedPair placed{*a.tree, *b.tree, relative_pose(a, b)};
   QueryWorkspace& scratch = scratch_[static_cast<std::size_t>(worker)];
-  if (!pair.front) pair.front = std::make_unique<CoherentFront>();
+  if (!memory.front) memory.front = std::make_unique<CoherentFront>();
   if (options_.query == PairQuery::kVerdict) {
-    pair.meets = intersects(placed.tree_A, placed.tree_B, placed.X_AB, CoherentMemory{scratch, *pair.front}, distance);
+    pair.meets =
+        intersects(placed.tree_A, placed.tree_B, placed.X_AB, CoherentMemory{scratch, *memory.front}, distance);
     pair.expected_ns = expected_ns(scratch.counters(), 0);
     return;
   }
-  if (!pair.details) pair.details = std::make_unique<MeetingDetails>();
+  if (!memory.details) memory.details = std::make_unique<MeetingDetails>();
   if (options_.query == PairQuery::kTrianglePairs) {
-    find_pairs(pair, placed, distance, scratch, pair.details->triangle_pairs);
+    find_pairs(pair, memory, placed, distance, scratch, memory.details->triangle_pairs);
   } else {
-    find_pairs(pair, placed, distance, scratch, pair.details->close_pairs);
+    find_pairs(pair, memory, placed, distance, scratch, memory.details->close_pairs);
   }
 }
 
 template <typename Pair>
-void PairChecks::find_pairs(TrackedPair& pair, const PlacedPair& placed, double distance, QueryWorkspace& scratch,
-                            std::vector<Pair>& found) {
+void PairChecks::find_pairs(TrackedPair& pair, PairMemory& memory, const PlacedPair& placed, double distance,
+                            QueryWorkspace& scratch, std::vector<Pair>& found) {
   QueryCounters counters;
   if (found.size() <= kManyPairs) {
-    query(placed, distance, CoherentMemory{scratch, *pair.front}, found);
+    query(placed, distance, CoherentMemory{scratch, *memory.front}, found);
     counters = scratch.counters();
   } else if (crew_.threads() == 1) {
     query(placed, distance, scratch, found);
     counters = scratch.counters();
   } else {
-    ParallelWorkspace& workspace = pair.details->workspace;
+    ParallelWorkspace& workspace = memory.details->workspace;
     crew_.run([&] { query(placed, distance, workspace, found); });
     counters = workspace.counters();
   }

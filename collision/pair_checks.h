@@ -30,20 +30,20 @@ class PairChecks {
         scratch_(static_cast<std::size_t>(crew.threads())) {}
 
   /// Whether the hulls are certainly further apart than `distance` (metres). Notes for how long.
-  bool are_separated(TrackedPair& pair, double distance) const;
+  bool are_separated(TrackedPair& pair, PairMemory& memory, double distance) const;
 
   /// Has the memory ready soon that the pair's exact query will look at; step 0 first, then 1, 2 and 3, each with some
   /// queries of other pairs in between.
-  void prefetch(const TrackedPair& pair, int step) const;
+  void prefetch(const TrackedPair& pair, const PairMemory& memory, int step) const;
 
   /// Finds out whether the objects are not further apart than `distance`, and all else that is asked for. `worker` is
   /// the crew's.
-  void find_out(TrackedPair& pair, double distance, int worker);
+  void find_out(TrackedPair& pair, PairMemory& memory, double distance, int worker);
 
  private:
   template <typename Pair>
-  void find_pairs(TrackedPair& pair, const PlacedPair& placed, double distance, QueryWorkspace& scratch,
-                  std::vector<Pair>& found);
+  void find_pairs(TrackedPair& pair, PairMemory& memory, const PlacedPair& placed, double distance,
+                  QueryWorkspace& scratch, std::vector<Pair>& found);
 
   const World& world_;
   const PlacedObjects& placed_;

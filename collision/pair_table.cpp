@@ -17,6 +17,7 @@ PairTable::Number PairTable::add(const SlotPair& slots) {
   if (free_.empty()) {
     number = static_cast<Number>(pairs_.size());
     pairs_.emplace_back();
+    memories_.emplace_back();
   } else {
     number = free_.back();
     free_.pop_back();
@@ -37,6 +38,7 @@ void PairTable::remove(Number number) {
   take_out(of_object_[slots.a], number);
   take_out(of_object_[slots.b], number);
   pairs_[number] = {};
+  memories_[number] = {};
   free_.push_back(number);
 }
 

@@ -26,6 +26,7 @@ class PairTable {
 
   TrackedPair& operator[](Number number) { return pairs_[number]; }
   const TrackedPair& operator[](Number number) const { return pairs_[number]; }
+  PairMemory& memory(Number number) { return memories_[number]; }
 
   /// Pairs that are tracked.
   std::size_t size() const { return pairs_.size() - free_.size(); }
@@ -45,6 +46,7 @@ class PairTable {
   std::vector<Number>& list_of(std::uint32_t slot);
 
   std::vector<TrackedPair> pairs_;
+  std::vector<PairMemory> memories_;
   std::vector<Number> free_;
   std::vector<std::vector<Number>> of_object_;
 };

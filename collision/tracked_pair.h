@@ -24,17 +24,22 @@ struct MeetingDetails {
   std::size_t size() const { return triangle_pairs.size() + close_pairs.size(); }
 };
 
+/// What every frame looks at, of many pairs.
 struct TrackedPair {
-  SlotPair slots{0, 0};  ///< of the world; object a is A of every query
+  SlotPair slots{0, 0};  ///< of the world; object a is A of every query; equal ones: no pair
   /// The objects are certainly apart until the sum of their motions (metres) exceeds this.
   double apart_until = -1.0;
-  std::uint64_t frame = 0;  ///< the last that looked at it
+  std::uint32_t frame = 0;   ///< the last that looked at it; low bits of the number
+  float expected_ns = 0.0F;  ///< of the exact query, by what the last one did
   bool is_of_interest = false;
   bool meets = false;
+};
+
+/// What only queries look at, of few.
+struct PairMemory {
   HullMemory hulls;
   std::unique_ptr<CoherentFront> front;     ///< while the pair is near
   std::unique_ptr<MeetingDetails> details;  ///< the same, if they are asked for
-  double expected_ns = 0.0;                 ///< of the exact query, by what the last one did
 };
 
 }  // namespace glissade::collision

@@ -143,7 +143,10 @@ bool World::move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept {
                                           std::memory_order_relaxed)) {
     return false;
   }
-  slot.pose.publish({X_WO, id.generation});
+  NewestPose& newest = slot.pose.write_slot();
+  newest.X_WO = X_WO;
+  newest.generation = id.generation;
+  slot.pose.publish();
   moved_[id.index / kBitsOfWord].fetch_or(std::uint64_t{1} << id.index % kBitsOfWord, std::memory_order_release);
   slot.state.fetch_and(~kMoving, std::memory_order_release);
   return true;
