@@ -120,14 +120,15 @@ class CpuShare {
   std::clock_t cpu_at_start_ = std::clock();
 };
 
-void run_bouncing(const SceneCast& cast, std::size_t count, const BenchOptions& options, Results& results) {
-  const std::string case_name = "objects-" + std::to_string(count);
-  const Scene scene = bouncing_objects(cast.radii(), count, kFilled, options.seed);
-  const auto subjects = cast.start(scene);
-  const CpuShare cpu_share;
-  const Records records =
-      replay(scene, subjects, options.quick ? ReplayLimits{.frames = 200, .seconds = 1.0} : ReplayLimits{});
-  results.add({kName, case_name, "machine", "cpu_share", cpu_share.value(), "1"});
+// Objects that bounce off each other, or pass through each other.
+void run_objects(const SceneCast& cast, std::size_t count, bool off_each_other, const BenchOptions& options,
+                 Results& results) {
+  const std::string case_name = (off_each_other ? "objects-" : "through-") + std::to_string(count);
+  const ReplayLimits limits = options.quick ? ReplayLimits{.frames = 200, .seconds = 1.0} : ReplayLimits{};
+  Scene scene = off_each_other ? objects_apart(cast.radii(), count, kFilled, options.seed)
+                               : objects_in_box(cast.radii(), count, kFilled, options.seed);
+  if (off_each_other) play(scene, *cast.start(scene)[0], limits.run_in + limits.frames);
+  const Records records = replay(scene, cast.start(scene), limits);
   SceneRows rows(case_name, results);
   for (std::size_t i = 0; i < records.size(); ++i)
     rows.add_frames(cast.libraries()[i].name, records[i]);
@@ -179,7 +180,10 @@ void run_scene(const BenchOptions& options, Results& results) {
     std::vector<std::size_t> counts{10, 30, 100};
     if (!options.quick) counts.insert(counts.end(), {300, 1000});
     for (const std::size_t count : counts)
-      run_bouncing(cast, count, options, results);
+      run_objects(cast, count, true, options, results);
+    for (const std::size_t count : counts) {
+      if (count >= 100) run_objects(cast, count, false, options, results);
+    }
   }
   add_means(results);
   run_resting(options, results);

@@ -61,9 +61,9 @@ void add_counts(const std::string& case_name, const std::vector<FrameRecord>& fr
   results.add({kName, case_name, "glissade", "exact_in", exact, "1"});
 }
 
-void run_bouncing(const SceneCast& cast, const std::string& case_name, std::size_t objects, double filled,
+void run_scene_of(const SceneCast& cast, const std::string& case_name, std::size_t objects, double filled,
                   const BenchOptions& options, Results& results) {
-  const Scene scene = bouncing_objects(cast.radii(), objects, filled, options.seed);
+  const Scene scene = objects_in_box(cast.radii(), objects, filled, options.seed);
   // Turns of one frame: threads that were needed for the last one have gone to sleep, as they do in a loop.
   const auto records =
       replay(scene, cast.start(scene),
@@ -83,8 +83,8 @@ void run_scenes(const BenchOptions& options, Results& results) {
   for (const int threads : thread_counts())
     libraries.push_back(glissade_scenes(threads));
   const SceneCast cast(libraries, options);
-  run_bouncing(cast, "dense", 1000, 0.5, options, results);
-  run_bouncing(cast, "sparse", 30, 0.12, options, results);
+  run_scene_of(cast, "dense", 1000, 0.5, options, results);
+  run_scene_of(cast, "sparse", 30, 0.12, options, results);
 }
 
 // All pairs of triangles of one mesh at one pose, by a number of threads.

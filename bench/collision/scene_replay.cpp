@@ -78,6 +78,16 @@ void for_common_frames(std::span<const FrameRecord> frames, std::span<const Fram
 
 }  // namespace
 
+void play(Scene& scene, SceneSubject& referee, int frames) {
+  std::vector<MovedObject> moved;
+  for (int frame = 0; frame < frames; ++frame) {
+    moved_objects(scene, frame, moved);
+    referee.step(moved);
+    for (const auto& [a, b] : in_order(referee.meeting()))
+      bounce(scene[a], scene[b], frame * kFrame_s);
+  }
+}
+
 std::vector<std::vector<FrameRecord>> replay(const Scene& scene,
                                              std::span<const std::unique_ptr<SceneSubject>> subjects,
                                              const ReplayLimits& limits) {

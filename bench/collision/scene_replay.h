@@ -29,6 +29,9 @@ struct FrameRecord {
   collision::FrameReport report;
 };
 
+/// Lets the objects bounce off each other for so many frames; the referee says which meet.
+void play(Scene& scene, SceneSubject& referee, int frames);
+
 /// The frames of each subject that count, in order.
 std::vector<std::vector<FrameRecord>> replay(const Scene& scene,
                                              std::span<const std::unique_ptr<SceneSubject>> subjects,
