@@ -14,6 +14,9 @@ using Eigen::Vector3d;
 
 constexpr int kPerceptronLoops = 300;  // paper §2.2
 constexpr int kLearningSteps = 12;     // before GJK, after a large movement
+constexpr int kWideningSteps = 2;
+constexpr double kWideningTurn = 0.12;  // radians, about
+constexpr double kGoodGap = 0.7;        // of the distance of two corners
 constexpr int kGjkRounds = 128;
 constexpr int kGjkAttempts = 3;
 
@@ -111,6 +114,26 @@ class HullQuery {
     }
     n_guess_ = n;
     return false;
+  }
+
+  // Turns a new plane a little toward where the two corners are that it met first, while that makes the gap larger: so
+  // it holds for longer. They are no nearer to each other than the hulls, so most of their distance is good enough.
+  void widen() {
+    for (int step = 0; step < kWideningSteps; ++step) {
+      const Vector3d w = point(memory_.corner_A, memory_.corner_B).w;
+      const double distance = w.norm();
+      if (!(memory_.gap < kGoodGap * distance)) return;
+      const Vector3d difference = w / distance - memory_.n_A;
+      const double angle = difference.norm();
+      const Vector3d n = (memory_.n_A + std::min(1.0, kWideningTurn / angle) * difference).normalized();
+      const HullMemory before = memory_;
+      const double gap = n.dot(extreme(n));
+      if (!(gap - climbing_margin_ > memory_.gap)) {
+        memory_ = before;
+        return;
+      }
+      separated_by(n, gap);
+    }
   }
 
   // To the end, from what it had in hand last time. What rounding has led astray begins anew.
@@ -257,6 +280,8 @@ bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Isome
   } else {
     apart = query.old_plane_separates() || query.gjk_after_movement();
   }
+  // A plane that is new has but the gap that it was found with.
+  if (apart && test == HullTest::kExact && memory.loops > 0) query.widen();
   memory.met = !apart;
   return apart;
 }

@@ -15,8 +15,8 @@ namespace glissade::bench {
 struct ReplayLimits {
   int run_in = 20;       ///< frames that do not count: what remembers fills its memory
   int frames = 2000;     ///< after those
-  int turn = 10;         ///< frames
-  int warm_up = 1;       ///< frames of a turn that do not count: they find the caches full of others' models
+  int turn = 50;         ///< frames
+  int warm_up = 5;       ///< frames of a turn that do not count: they find the caches full of others' models
   double seconds = 8.0;  ///< after which a subject drops out, and so has taken the first frames only
   int least = 3;         ///< frames, however long they take
 };
