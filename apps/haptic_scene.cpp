@@ -13,27 +13,32 @@ namespace {
 
 constexpr double kLargestCoordinate = 1e9;
 
-bool has_area(const collision::TriangleMesh& mesh) {
+/// Where it lies: far from the origin, rounding may leave nothing of a small object.
+bool has_area(const collision::TriangleMesh& mesh, const Eigen::Isometry3d& X_WB) {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.triangles.size()); ++t) {
-    if (!collision::is_degenerate({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)})) return true;
+    if (!collision::is_degenerate({X_WB * mesh.corner(t, 0), X_WB * mesh.corner(t, 1), X_WB * mesh.corner(t, 2)})) {
+      return true;
+    }
   }
   return false;
 }
 
 /// Throws when an object, where it lies, is of no use.
-void check(const SceneObject& object) {
+void check(const Scene& scene, const SceneObject& object) {
+  const std::string where = scene.source + ": object " + in_quotes(object.name);
   for (std::size_t i = 0; i < object.mesh->vertices.size(); ++i) {
     if (((object.X_WB * object.mesh->vertices[i]).array().abs() <= kLargestCoordinate).all()) continue;
-    throw std::invalid_argument("vertex " + std::to_string(i) + " lies beyond ±1e9 m");
+    throw std::invalid_argument(where + ": vertex " + std::to_string(i) + " lies beyond ±1e9 m");
   }
-  if (!has_area(*object.mesh)) throw std::invalid_argument("the mesh has no triangle of positive area");
+  if (!has_area(*object.mesh, object.X_WB)) {
+    throw std::invalid_argument(where + ": the mesh has no triangle of positive area");
+  }
 }
 
 /// A body of the object, or an error that names it.
 template <typename Body>
 std::shared_ptr<const Body> make_body(const Scene& scene, const SceneObject& object) {
   try {
-    check(object);
     return std::make_shared<Body>(object.mesh);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(scene.source + ": object " + in_quotes(object.name) + ": " + error.what());
@@ -60,6 +65,8 @@ class Bodies {
 
 HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name) {
   const SceneObject& part = scene.find(part_name);
+  for (const SceneObject& object : scene.objects)
+    check(scene, object);
   HapticScene result;
   result.source = scene.source;
   result.part_name = part.name;

@@ -128,7 +128,10 @@ void run_objects(const SceneCast& cast, std::size_t count, bool off_each_other, 
   Scene scene = off_each_other ? objects_apart(cast.radii(), count, kFilled, options.seed)
                                : objects_in_box(cast.radii(), count, kFilled, options.seed);
   if (off_each_other) play(scene, *cast.start(scene)[0], limits.run_in + limits.frames);
-  const Records records = replay(scene, cast.start(scene), limits);
+  const auto subjects = cast.start(scene);
+  const CpuShare cpu_share;
+  const Records records = replay(scene, subjects, limits);
+  results.add({kName, case_name, "machine", "cpu_share", cpu_share.value(), "1"});
   SceneRows rows(case_name, results);
   for (std::size_t i = 0; i < records.size(); ++i)
     rows.add_frames(cast.libraries()[i].name, records[i]);
