@@ -30,7 +30,7 @@ const PipelineOptions& checked(const PipelineOptions& options) {
 }
 
 // What looking at a pair takes, before anything is known about it.
-constexpr double kHullTest_ns = 50.0;
+constexpr double kHullTest_ns = 200.0;
 constexpr float kFirstQuery_ns = 5'000.0F;
 // Work that is handed out at a time: large beside the cost of that, small beside a frame.
 constexpr double kChunk_ns = 4'000.0;
@@ -71,6 +71,7 @@ class CollisionPipeline::Frame {
     result_.report = {};
     result_.time_of_poses = clock_.now();
     lap_ = result_.time_of_poses;
+    if (was_shared_) crew_.wake();
 
     take_changes();
     end_stage(result_.report.queue);
@@ -221,6 +222,7 @@ class CollisionPipeline::Frame {
     std::sort(near_.begin(), end_of_long,
               [&](PairTable::Number m, PairTable::Number n) { return pairs_[m].expected_ns > pairs_[n].expected_ns; });
     met_before_.resize(near_.size());
+    was_shared_ = crew_.is_worth_sharing(expected_ns);
     crew_.for_each(near_.size(), chunk_of(near_.size(), expected_ns), expected_ns, [&](std::size_t i, int worker) {
       for (std::size_t step = 0; step < kPrefetchAhead.size(); ++step) {
         const std::size_t next = i + kPrefetchAhead[step];
@@ -288,6 +290,7 @@ class CollisionPipeline::Frame {
   double distance_ = 0.0;
   std::int64_t objects_ = 0;
   bool interest_changed_ = false;
+  bool was_shared_ = false;  ///< work of the last frame, so probably that of this one
   std::chrono::nanoseconds lap_{0};
   std::vector<std::uint32_t> changed_;     ///< slots
   std::vector<std::uint8_t> has_changed_;  ///< by slot; all 0 between frames

@@ -1,9 +1,14 @@
 #include "work_crew.h"
 
+#include <chrono>
+
 #include <oneapi/tbb/info.h>
 
 namespace glissade::collision {
 namespace {
+
+// After work, and after a call: the next stage, or the work that was announced, comes within that time, mostly.
+constexpr std::chrono::microseconds kAwake{200};
 
 int number_of(int threads) {
   return threads > 0 ? threads : oneapi::tbb::info::default_concurrency();
@@ -16,6 +21,61 @@ WorkCrew::WorkCrew(int threads) : threads_(number_of(threads)), arena_(threads_)
   if (threads_ > oneapi::tbb::info::default_concurrency()) {
     allowance_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_));
   }
+  for (int worker = 1; worker < threads_; ++worker)
+    workers_.emplace_back([this, worker] { serve(worker); });
+}
+
+WorkCrew::~WorkCrew() {
+  should_stop_.store(true, std::memory_order_relaxed);
+  wake();
+  for (std::thread& worker : workers_)
+    worker.join();
+}
+
+void WorkCrew::wake() {
+  if (threads_ == 1) return;
+  calls_.fetch_add(1, std::memory_order_release);
+  calls_.notify_all();
+}
+
+void WorkCrew::give(Job& job) {
+  job_ = &job;
+  open_and_inside_.store(kOpen, std::memory_order_release);
+  wake();
+  job.do_share(job, 0);
+  open_and_inside_.fetch_and(~kOpen, std::memory_order_relaxed);
+  while (open_and_inside_.load(std::memory_order_acquire) != 0)
+    std::this_thread::yield();
+}
+
+void WorkCrew::serve(int worker) {
+  std::uint32_t calls_seen = 0;
+  auto awake_since = std::chrono::steady_clock::now();
+  while (!should_stop_.load(std::memory_order_relaxed)) {
+    if (join_job(worker)) {
+      awake_since = std::chrono::steady_clock::now();
+    } else if (std::chrono::steady_clock::now() - awake_since < kAwake) {
+      std::this_thread::yield();
+    } else {
+      calls_.wait(calls_seen, std::memory_order_acquire);
+      awake_since = std::chrono::steady_clock::now();
+    }
+    calls_seen = calls_.load(std::memory_order_acquire);
+  }
+}
+
+// Whether there was one to join.
+bool WorkCrew::join_job(int worker) {
+  std::uint32_t state = open_and_inside_.load(std::memory_order_relaxed);
+  while ((state & kOpen) != 0) {
+    if (open_and_inside_.compare_exchange_weak(state, state + 1, std::memory_order_acquire,
+                                               std::memory_order_relaxed)) {
+      job_->do_share(*job_, worker);
+      open_and_inside_.fetch_sub(1, std::memory_order_release);
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace glissade::collision
