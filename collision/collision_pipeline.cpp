@@ -123,7 +123,7 @@ class CollisionPipeline::Frame {
 
   void set_box(std::uint32_t slot) {
     const WorldObject& object = world_.objects()[slot];
-    broad_phase_.set(slot, world_box(*object.tree, object.X_WO));
+    broad_phase_.set(slot, world_box(*object.tree, object.X_WO, object.rotation_defect));
   }
 
   // Stage 1: which pairs may have become near or met, or parted again.

@@ -11,9 +11,8 @@ constexpr double kRotation = 1e-12;
 // Of coordinates: rounded a few times.
 constexpr double kRounding = 1e-14;
 
-double doubt_of(const Eigen::Matrix3d& R) {
-  const double defect = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().sum();
-  return defect < kRotation ? 0.0 : std::numeric_limits<double>::infinity();
+double doubt_of(const WorldObject& object) {
+  return object.rotation_defect < kRotation ? 0.0 : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -21,7 +20,7 @@ double doubt_of(const Eigen::Matrix3d& R) {
 void PlacedObjects::place(std::uint32_t slot, const WorldObject& object) {
   const DopTree& tree = *object.tree;
   objects_[slot] = {object.X_WO, object.X_WO * tree.center(), tree.radius(), tree.center().norm() + tree.radius()};
-  travels_[slot] = {0.0, doubt_of(object.X_WO.linear())};
+  travels_[slot] = {0.0, doubt_of(object)};
 }
 
 void PlacedObjects::move(std::uint32_t slot, const WorldObject& object) {
@@ -33,7 +32,7 @@ void PlacedObjects::move(std::uint32_t slot, const WorldObject& object) {
   travels_[slot].length += moved * (1.0 + kRounding) + kRounding * 0.1 * (c_W.lpNorm<1>() + placed.reach);
   placed.X_WO = object.X_WO;
   placed.c_W = c_W;
-  travels_[slot].doubt = doubt_of(object.X_WO.linear());
+  travels_[slot].doubt = doubt_of(object);
 }
 
 double PlacedObjects::gap_of_spheres(std::uint32_t slot_a, std::uint32_t slot_b) const {

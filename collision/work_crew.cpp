@@ -8,7 +8,7 @@ namespace glissade::collision {
 namespace {
 
 // After work, and after a call: the next stage, or the work that was announced, comes within that time, mostly.
-constexpr std::chrono::microseconds kAwake{200};
+constexpr std::chrono::microseconds kAwake{500};
 
 int number_of(int threads) {
   return threads > 0 ? threads : oneapi::tbb::info::default_concurrency();
@@ -16,7 +16,8 @@ int number_of(int threads) {
 
 }  // namespace
 
-WorkCrew::WorkCrew(int threads) : threads_(number_of(threads)), arena_(threads_) {
+WorkCrew::WorkCrew(int threads)
+    : threads_(number_of(threads)), arena_(threads_), parts_(static_cast<std::size_t>(threads_)) {
   // oneTBB keeps no more threads than the machine has, unless it is told to.
   if (threads_ > oneapi::tbb::info::default_concurrency()) {
     allowance_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_));
@@ -38,11 +39,15 @@ void WorkCrew::wake() {
   calls_.notify_all();
 }
 
-void WorkCrew::give(Job& job) {
+void WorkCrew::give(const Job& job) {
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    parts_[p].next.store(p * job.count / parts_.size(), std::memory_order_relaxed);
+    parts_[p].end = (p + 1) * job.count / parts_.size();
+  }
   job_ = &job;
   open_and_inside_.store(kOpen, std::memory_order_release);
   wake();
-  job.do_share(job, 0);
+  job.do_share(job, *this, 0);
   open_and_inside_.fetch_and(~kOpen, std::memory_order_relaxed);
   while (open_and_inside_.load(std::memory_order_acquire) != 0)
     std::this_thread::yield();
@@ -70,7 +75,7 @@ bool WorkCrew::join_job(int worker) {
   while ((state & kOpen) != 0) {
     if (open_and_inside_.compare_exchange_weak(state, state + 1, std::memory_order_acquire,
                                                std::memory_order_relaxed)) {
-      job_->do_share(*job_, worker);
+      job_->do_share(*job_, *this, worker);
       open_and_inside_.fetch_sub(1, std::memory_order_release);
       return true;
     }

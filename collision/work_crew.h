@@ -17,6 +17,8 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <glissade/realtime/cache_line.h>
+
 namespace glissade::collision {
 
 /// Not thread-safe: one thread gives work, and does its share.
@@ -54,17 +56,23 @@ class WorkCrew {
 
   /// What is being done. Lives on the stack of `for_each`.
   struct Job {
-    void (*do_share)(Job& job, int worker);
+    void (*do_share)(const Job& job, WorkCrew& crew, int worker);
     const void* work;
     std::size_t count;
     std::size_t chunk;
+  };
+
+  /// A worker begins with a part of its own, the same of equal work in every frame, so that what it needs is in the
+  /// cache of its processor; then it takes from the others'.
+  struct alignas(realtime::kCacheLineBytes) Part {
     std::atomic<std::size_t> next{0};
+    std::size_t end = 0;
   };
 
   template <typename Work>
-  static void do_share(Job& job, int worker);
+  static void do_share(const Job& job, WorkCrew& crew, int worker);
 
-  void give(Job& job);
+  void give(const Job& job);
   void serve(int worker);
   bool join_job(int worker);
 
@@ -75,7 +83,8 @@ class WorkCrew {
   // The caller sets `job_`, then opens it; a worker enters while it is open, and may use it until it leaves. The caller
   // closes it when nothing is left to be taken, and waits for those inside.
   static constexpr std::uint32_t kOpen = 1U << 31;
-  Job* job_ = nullptr;
+  std::vector<Part> parts_;  ///< one for each worker
+  const Job* job_ = nullptr;
   std::atomic<std::uint32_t> open_and_inside_{0};  ///< kOpen, and how many workers are inside
   std::atomic<std::uint32_t> calls_{0};            ///< for those who sleep
   std::atomic<bool> should_stop_{false};
@@ -83,12 +92,15 @@ class WorkCrew {
 };
 
 template <typename Work>
-void WorkCrew::do_share(Job& job, int worker) {
+void WorkCrew::do_share(const Job& job, WorkCrew& crew, int worker) {
   const Work& work = *static_cast<const Work*>(job.work);
-  for (std::size_t begin = job.next.fetch_add(job.chunk, std::memory_order_relaxed); begin < job.count;
-       begin = job.next.fetch_add(job.chunk, std::memory_order_relaxed)) {
-    for (std::size_t i = begin; i < std::min(begin + job.chunk, job.count); ++i)
-      work(i, worker);
+  for (int offset = 0; offset < crew.threads_; ++offset) {
+    Part& part = crew.parts_[static_cast<std::size_t>((worker + offset) % crew.threads_)];
+    for (std::size_t begin = part.next.fetch_add(job.chunk, std::memory_order_relaxed); begin < part.end;
+         begin = part.next.fetch_add(job.chunk, std::memory_order_relaxed)) {
+      for (std::size_t i = begin; i < std::min(begin + job.chunk, part.end); ++i)
+        work(i, worker);
+    }
   }
 }
 
@@ -99,8 +111,7 @@ void WorkCrew::for_each(std::size_t count, std::size_t chunk, double expected_ns
       work(i, 0);
     return;
   }
-  Job job{&do_share<Work>, &work, count, chunk};
-  give(job);
+  give({&do_share<Work>, &work, count, chunk});
 }
 
 }  // namespace glissade::collision

@@ -39,9 +39,8 @@ std::uint64_t state_at_rest(std::uint32_t generation) {
   return std::uint64_t{generation} << 32 | kAlive;
 }
 
-bool is_pose(const Eigen::Isometry3d& X) {
-  return rotation_defect(X.linear()) < kMaxDefect && is_right_handed(X.linear()) &&
-         (X.translation().array().abs() <= kMaxCoordinate).all();
+bool is_pose(const Eigen::Isometry3d& X, double defect) {
+  return defect < kMaxDefect && is_right_handed(X.linear()) && (X.translation().array().abs() <= kMaxCoordinate).all();
 }
 
 std::size_t checked_capacity(int capacity) {
@@ -77,7 +76,8 @@ ObjectId World::add(const ObjectDescription& object) {
   if (object.group < 0 || object.group >= InterestMatrix::kGroups) {
     throw std::invalid_argument("the group " + std::to_string(object.group) + " of an object is not one of 0 to 63");
   }
-  if (!is_pose(object.X_WO)) {
+  const double defect = rotation_defect(object.X_WO.linear());
+  if (!is_pose(object.X_WO, defect)) {
     throw std::invalid_argument("the pose X_WO of an object is not a finite rotation and a translation within 1e9 m");
   }
   const std::lock_guard lock(edits_);
@@ -89,7 +89,7 @@ ObjectId World::add(const ObjectDescription& object) {
   const std::uint64_t former = slots_[slot].state.load(std::memory_order_relaxed) >> 32;
   // Generation 0 is no object, also when the count begins anew.
   const std::uint32_t generation = std::max(static_cast<std::uint32_t>(former + 1), std::uint32_t{1});
-  registered_[slot] = {{slot, generation}, object.tree, object.hull, object.X_WO, object.group};
+  registered_[slot] = {{slot, generation}, object.tree, object.hull, object.X_WO, defect, object.group};
   mark_edited(slot);
   slots_[slot].state.store(state_at_rest(generation), std::memory_order_release);
   return registered_[slot].id;
@@ -135,7 +135,8 @@ void World::ignore(ObjectId a, ObjectId b) {
 }
 
 bool World::move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept {
-  if (id.index >= slots_.size() || !is_pose(X_WO)) return false;
+  const double defect = rotation_defect(X_WO.linear());
+  if (id.index >= slots_.size() || !is_pose(X_WO, defect)) return false;
   Slot& slot = slots_[id.index];
   const std::uint64_t at_rest = state_at_rest(id.generation);
   std::uint64_t state = at_rest;
@@ -145,6 +146,7 @@ bool World::move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept {
   }
   NewestPose& newest = slot.pose.write_slot();
   newest.X_WO = X_WO;
+  newest.rotation_defect = defect;
   newest.generation = id.generation;
   slot.pose.publish();
   moved_[id.index / kBitsOfWord].fetch_or(std::uint64_t{1} << id.index % kBitsOfWord, std::memory_order_release);
@@ -226,6 +228,7 @@ void World::take_poses() {
       const NewestPose& newest = slots_[slot].pose.value();
       if (newest.generation != object.id.generation) continue;
       object.X_WO = newest.X_WO;
+      object.rotation_defect = newest.rotation_defect;
       if (!std::binary_search(changes_.added.begin(), changes_.added.end(), slot)) changes_.moved.push_back(slot);
     }
   }

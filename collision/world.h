@@ -45,6 +45,7 @@ struct WorldObject {
   std::shared_ptr<const DopTree> tree;
   std::shared_ptr<const ConvexHull> hull;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+  double rotation_defect = 0.0;  ///< of X_WO: the entries of RᵀR − 1, added up
   int group = 0;
 };
 
@@ -112,6 +113,7 @@ class World {
  private:
   struct NewestPose {
     Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+    double rotation_defect = 0.0;
     std::uint32_t generation = 0;  ///< of the object it was meant for
   };
 
