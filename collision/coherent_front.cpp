@@ -86,7 +86,9 @@ bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, 
   if (frame.spheres_apart(distance)) return false;
   DopVisit step(base, other, frame, distance, alignment);
   if (goal == Goal::kAnyPair && witness_) {
-    if (witness_->still_answers(visitor) || witness_->wander(step, counters, visitor)) return true;
+    if (witness_->still_answers(visitor)) return true;
+    // It looks for crossings, which are not all that counts when there is a distance.
+    if (!step.has_distance() && witness_->wander(step, counters, visitor)) return true;
     witness_.reset();
   }
 

@@ -90,6 +90,12 @@ TEST_F(Demo, TheCarDoorRunsOfflineWithoutACollision) {
   EXPECT_EQ(summary["ticks"], 1000);
   EXPECT_EQ(summary["colliding_poses"], 0);
   EXPECT_GT(summary["contact_fraction"], 0.3);
+  EXPECT_GE(summary["objects"], 40);
+  // What the pipeline's stages were asked: most of the door is never near the motor.
+  const nlohmann::json& stages = summary["collision_stages"];
+  EXPECT_LT(stages["neighbor_finding"]["out"], 10.0);
+  EXPECT_LE(stages["exact"]["in"], stages["separating_planes"]["in"]);
+  EXPECT_GT(stages["exact"]["us"], 0.0);
 }
 
 TEST_F(Demo, RefusesWhatIsWrong) {

@@ -26,6 +26,25 @@ Scene parse_object(const std::string& more) {
   return parse("objects:\n  - name: block\n    shape: {type: box}\n" + more);
 }
 
+TEST(SceneFile, EqualMeshesAreShared) {
+  const TemporaryFolder folder;
+  folder.write("part.obj", kTetrahedron);
+  const std::string path = folder.write("scene.yaml",
+                                        "objects:\n"
+                                        "  - {name: a, shape: {type: box, size_x_m: 2, size_y_m: 3}}\n"
+                                        "  - {name: b, shape: {size_y_m: 3, type: box, size_x_m: 2.0}}\n"
+                                        "  - {name: c, shape: {type: box, size_x_m: 2}}\n"
+                                        "  - {name: d, mesh: part.obj}\n"
+                                        "  - {name: e, mesh: part.obj}\n"
+                                        "  - {name: f, mesh: part.obj, scale: 0.5}\n");
+  const Scene scene = read_scene(path);
+  const auto mesh = [&](const char* name) { return scene.find(name).mesh; };
+  EXPECT_EQ(mesh("a"), mesh("b"));
+  EXPECT_NE(mesh("a"), mesh("c"));
+  EXPECT_EQ(mesh("d"), mesh("e"));
+  EXPECT_NE(mesh("d"), mesh("f"));
+}
+
 TEST(SceneFile, ReadsObjectsScriptAndGoal) {
   const TemporaryFolder folder;
   folder.write("part.obj", kTetrahedron);

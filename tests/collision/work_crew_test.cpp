@@ -1,6 +1,8 @@
 #include "work_crew.h"
 
+#include <chrono>
 #include <numeric>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -31,6 +33,29 @@ TEST(WorkCrew, DoesEachPieceOnceHoweverItIsDivided) {
       }
     }
   }
+}
+
+// Jobs follow each other at once, or when everybody sleeps; their data live as long as the call.
+TEST(WorkCrew, IsDoneWithAJobWhenTheCallReturns) {
+  WorkCrew crew(3);
+  for (int job = 0; job < 3000; ++job) {
+    if (job % 1000 == 999) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    if (job % 100 == 50) crew.wake();
+    std::vector<int> numbers(static_cast<std::size_t>(2 + job % 20), 0);
+    crew.for_each(numbers.size(), 1 + static_cast<std::size_t>(job % 3), kMuch_ns,
+                  [&](std::size_t i, int) { numbers[i] += job; });
+    ASSERT_EQ(numbers, std::vector<int>(numbers.size(), job));
+  }
+}
+
+TEST(WorkCrew, SharesWorkThatTakesLong) {
+  WorkCrew crew(2);
+  std::vector<std::thread::id> doers(50);
+  crew.for_each(doers.size(), 1, kMuch_ns, [&](std::size_t i, int) {
+    doers[i] = std::this_thread::get_id();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  });
+  EXPECT_GT(std::set<std::thread::id>(doers.begin(), doers.end()).size(), 1U) << "nobody came in 100 ms";
 }
 
 TEST(WorkCrew, KeepsLittleWorkInTheCallingThread) {

@@ -127,6 +127,32 @@ TEST_P(BoxOnFaces, PressedIntoACornerItStopsThere) {
   });
 }
 
+TEST_P(BoxOnFaces, ObstaclesMayShareABodyAndLieAnywhere) {
+  // The corner of before, of one sheet in three poses, and the same sheet once more out of reach.
+  TriangleMesh mesh = collision::make_plate({0.5, 0.5}, tessellation().triangles);
+  if (tessellation().flipped) mesh = collision::flip_randomly(mesh, 17);
+  const auto sheet_O = std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(std::move(mesh)));
+  const auto facing = [](const Vector3d& normal) {
+    return at(Vector3d::Zero(), Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal));
+  };
+  const std::vector<Obstacle> obstacles{{sheet_O, at({0.0, 0.0, -1.0})},
+                                        {sheet_O, facing(Vector3d::UnitX())},
+                                        {sheet_O, facing(Vector3d::UnitY())},
+                                        {sheet_O, facing(-Vector3d::UnitZ())}};
+  Sliding sliding(obstacles, box_part(tessellation()), at({0.06, 0.04, 0.03}));
+  const Vector3d seat = 0.5 * kBoxSize;
+  lead(sliding, at(seat - Vector3d(2e-3, 3e-3, 4e-3)), 200, [](const SlidingResult&) {});
+  EXPECT_LT((sliding.result().X_WV.translation() - seat).norm(), 2.0 * sliding.margin());
+  std::vector<bool> pushes(obstacles.size(), false);
+  for (const Contact& contact : sliding.result().contacts) {
+    const auto number = static_cast<std::size_t>(contact.obstacle);
+    const Vector3d normal = obstacles[number].X_WO.linear().col(2);
+    EXPECT_GT(std::abs(normal.dot(contact.n_W)), 0.999) << "the normal is that of the obstacle named";
+    if (contact.force > 0.0) pushes[number] = true;
+  }
+  EXPECT_EQ(pushes, (std::vector<bool>{false, true, true, true}));
+}
+
 TEST_P(BoxOnFaces, TheWrenchIsExactlyZeroWheneverNothingIsInTheWay) {
   Sliding sliding(obstacle_of({sheet(Vector3d::UnitZ(), tessellation())}, tessellation()), box_part(tessellation()),
                   at({-0.1, 0.0, 0.03}));
@@ -281,6 +307,7 @@ TEST(Sliding, WillNotStartInsideAnything) {
   const Tessellation tessellation{12, false};
   const auto obstacle = obstacle_of({sheet(Vector3d::UnitZ(), tessellation)}, tessellation);
   EXPECT_THROW(Sliding(obstacle, box_part(tessellation), at({0.0, 0.0, 0.01})), std::invalid_argument);
+  EXPECT_THROW(Sliding({}, box_part(tessellation), at({0.0, 0.0, 0.01})), std::invalid_argument) << "nothing to touch";
 }
 
 TEST(Sliding, TheSameGhostGivesTheSameBits) {
