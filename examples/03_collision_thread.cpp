@@ -31,9 +31,10 @@ int main() {
   std::int64_t frames = 0;
   for (int millisecond = 0; millisecond < 500; ++millisecond) {
     for (int i = 0; i < 100; ++i) {
+      const int row = i / 10;
       const double swing = 0.03 * std::sin(0.02 * millisecond + i);
       world.move(balls[static_cast<std::size_t>(i)],
-                 Eigen::Isometry3d(Eigen::Translation3d(0.12 * (i % 10) + swing, 0.12 * (i / 10), 0.0)));
+                 Eigen::Isometry3d(Eigen::Translation3d(0.12 * (i % 10) + swing, 0.12 * row, 0.0)));
     }
     if (thread.reader().update()) {  // a frame that is new to us
       const collision::FrameResult& frame = thread.reader().frame();

@@ -21,7 +21,7 @@ collision::ObjectDescription description(const std::shared_ptr<const Body>& body
 
 }  // namespace
 
-Surroundings::Surroundings(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,
+Surroundings::Surroundings(std::vector<Obstacle> obstacles, const std::shared_ptr<const SlidingPart>& part_V,
                            double greatest_reach)
     : obstacles_(std::move(obstacles)),
       world_(static_cast<int>(obstacles_.size()) + 1),

@@ -34,7 +34,8 @@ class Surroundings {
  public:
   /// `look_around` may look `greatest_reach` (metres) far. Throws std::invalid_argument as `World::add` does, and when
   /// there is no obstacle.
-  Surroundings(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V, double greatest_reach);
+  Surroundings(std::vector<Obstacle> obstacles, const std::shared_ptr<const SlidingPart>& part_V,
+               double greatest_reach);
 
   std::span<const Obstacle> obstacles() const { return obstacles_; }
 
