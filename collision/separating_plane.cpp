@@ -17,6 +17,7 @@ constexpr int kLearningSteps = 12;     // before GJK, after a large movement
 constexpr int kWideningSteps = 2;
 constexpr double kWideningTurn = 0.12;  // radians, about
 constexpr double kGoodGap = 0.7;        // of the distance of two corners
+constexpr std::int8_t kPlanesToLeave = 15;
 constexpr int kGjkRounds = 128;
 constexpr int kGjkAttempts = 3;
 
@@ -118,7 +119,12 @@ class HullQuery {
 
   // Turns a new plane a little toward where the two corners are that it met first, while that makes the gap larger: so
   // it holds for longer. They are no nearer to each other than the hulls, so most of their distance is good enough.
+  // Where hulls nearly touch there is little to be won, so after a try in vain some planes are left as they are.
   void widen() {
+    if (memory_.planes_to_leave > 0) {
+      --memory_.planes_to_leave;
+      return;
+    }
     for (int step = 0; step < kWideningSteps; ++step) {
       const Vector3d w = point(memory_.corner_A, memory_.corner_B).w;
       const double distance = w.norm();
@@ -130,6 +136,7 @@ class HullQuery {
       const double gap = n.dot(extreme(n));
       if (!(gap - climbing_margin_ > memory_.gap)) {
         memory_ = before;
+        if (step == 0) memory_.planes_to_leave = kPlanesToLeave;
         return;
       }
       separated_by(n, gap);

@@ -36,6 +36,7 @@ struct HullMemory {
   std::int32_t corner_B = 0;
   std::array<std::array<std::int32_t, 2>, 4> simplex{};  ///< corners of A and B, the last that GJK had in hand
   std::int8_t simplex_count = 0;
+  std::int8_t planes_to_leave = 0;  ///< that many new planes are taken as they are found, without a try to turn them
   bool has_plane = false;
   bool met = false;  ///< the last answer was that they may meet
 
