@@ -33,7 +33,7 @@ const PipelineOptions& checked(const PipelineOptions& options) {
 constexpr double kHullTest_ns = 200.0;
 constexpr float kFirstQuery_ns = 5'000.0F;
 // Work that is handed out at a time: large beside the cost of that, small beside a frame.
-constexpr double kChunk_ns = 4'000.0;
+constexpr double kChunk_ns = 20'000.0;
 // Pairs from now, for the steps of `PairChecks::prefetch`: a query takes about as long as memory.
 constexpr std::array<std::size_t, 4> kPrefetchAhead{6, 4, 2, 1};
 // One over the share of objects from which on all pairs are gone through.
@@ -199,15 +199,21 @@ class CollisionPipeline::Frame {
     report.in = std::ssize(candidates_);
     is_near_.resize(candidates_.size());
     const double expected_ns = kHullTest_ns * static_cast<double>(candidates_.size());
-    crew_.for_each(candidates_.size(), chunk_of(candidates_.size(), expected_ns), expected_ns, [&](std::size_t i, int) {
-      TrackedPair& pair = pairs_[candidates_[i]];
-      is_near_[i] = pair.meets || !checks_.are_separated(pair, pairs_.memory(candidates_[i]), distance_);
-    });
+    crew_.for_each(candidates_.size(), chunk_of(candidates_.size(), expected_ns), expected_ns,
+                   [&](std::size_t begin, std::size_t end, int) {
+                     for (std::size_t i = begin; i < end; ++i)
+                       is_near_[i] = may_be_near(candidates_[i]);
+                   });
     near_.clear();
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       if (is_near_[i] != 0) near_.push_back(candidates_[i]);
     }
     report.out = std::ssize(near_);
+  }
+
+  bool may_be_near(PairTable::Number number) {
+    TrackedPair& pair = pairs_[number];
+    return pair.meets || !checks_.are_separated(pair, pairs_.memory(number), distance_);
   }
 
   // Stage 3: the others. What takes long comes first, so that the threads end together.
@@ -216,27 +222,38 @@ class CollisionPipeline::Frame {
     report.in = std::ssize(near_);
     double expected_ns = 0.0;
     for (const PairTable::Number number : near_)
-      expected_ns += pairs_[number].expected_ns;
+      expected_ns += static_cast<double>(pairs_[number].expected_ns);
     const auto end_of_long = std::partition(
         near_.begin(), near_.end(), [&](PairTable::Number number) { return pairs_[number].expected_ns > kLong_ns; });
     std::sort(near_.begin(), end_of_long,
               [&](PairTable::Number m, PairTable::Number n) { return pairs_[m].expected_ns > pairs_[n].expected_ns; });
     met_before_.resize(near_.size());
     was_shared_ = crew_.is_worth_sharing(expected_ns);
-    crew_.for_each(near_.size(), chunk_of(near_.size(), expected_ns), expected_ns, [&](std::size_t i, int worker) {
-      for (std::size_t step = 0; step < kPrefetchAhead.size(); ++step) {
-        const std::size_t next = i + kPrefetchAhead[step];
-        if (next < near_.size())
-          checks_.prefetch(pairs_[near_[next]], pairs_.memory(near_[next]), static_cast<int>(step));
-      }
-      TrackedPair& pair = pairs_[near_[i]];
-      met_before_[i] = pair.meets;
-      checks_.find_out(pair, pairs_.memory(near_[i]), distance_, worker);
-    });
+    crew_.for_each(near_.size(), chunk_of(near_.size(), expected_ns), expected_ns,
+                   [&](std::size_t begin, std::size_t end, int worker) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                       prefetch(i, end);
+                       find_out(i, worker);
+                     }
+                   });
     for (std::size_t i = 0; i < near_.size(); ++i) {
       const TrackedPair& pair = pairs_[near_[i]];
       report.out += pair.meets ? 1 : 0;
       if (pair.meets != (met_before_[i] != 0)) (pair.meets ? met_ : parted_).push_back(pair.slots);
+    }
+  }
+
+  void find_out(std::size_t i, int worker) {
+    TrackedPair& pair = pairs_[near_[i]];
+    met_before_[i] = pair.meets;
+    checks_.find_out(pair, pairs_.memory(near_[i]), distance_, worker);
+  }
+
+  // Of those that come after this one, before `end`: others may be in other hands.
+  void prefetch(std::size_t i, std::size_t end) {
+    for (std::size_t step = 0; step < kPrefetchAhead.size(); ++step) {
+      const std::size_t next = i + kPrefetchAhead[step];
+      if (next < end) checks_.prefetch(pairs_[near_[next]], pairs_.memory(near_[next]), static_cast<int>(step));
     }
   }
 

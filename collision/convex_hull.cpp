@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using Points = std::span<const Vector3d>;
 
 // Of all coordinates that take part. What is thinner is a hull of fewer dimensions, whose thickness is among `outside`.
-constexpr double kRounding = 1e-15;
+constexpr double kRoundingOfPoints = 1e-15;
 
 // The sum of two coordinates in a corner of a facet, for a point of Qhull's points that lies above: they are 3 across,
 // and the way up from a point to the facet is not longer. See `climbing_error_of`.
@@ -122,7 +122,7 @@ std::vector<std::array<std::int32_t, 2>> edges_of(const std::vector<std::array<s
 // from v by that of v from the side opposite, at most. Stretching changes neither s nor t. That facets are not quite
 // convex to each other, and Qhull's coordinates rounded, adds what `outside` is made of.
 double climbing_error_of(const HullFacets& hull, double reach, double outside) {
-  return 4.0 * outside + kReachOfFacets / hull.altitude * 4.0 * kRounding * reach;
+  return 4.0 * outside + kReachOfFacets / hull.altitude * 4.0 * kRoundingOfPoints * reach;
 }
 
 void check(Points points) {
@@ -152,7 +152,7 @@ ConvexHull::ConvexHull(Points points) {
     reach_ = std::max(reach_, x.norm());
   }
   find_starts();
-  climbing_error_ = dimension_ < 2 ? 4.0 * kRounding * reach_ : climbing_error_of(facets, reach_, outside_);
+  climbing_error_ = dimension_ < 2 ? 4.0 * kRoundingOfPoints * reach_ : climbing_error_of(facets, reach_, outside_);
 }
 
 std::int32_t ConvexHull::furthest(const Vector3d& direction) const {
@@ -164,7 +164,7 @@ ConvexHull::ConvexHull(const TriangleMesh& mesh) : ConvexHull(Points(corners_of(
 HullFacets ConvexHull::find_corners(Points points) {
   const Extents extents = extents_of(points);
   const double size = extents.beyond[0];
-  const double rounding = kRounding * (size + points[0].norm());
+  const double rounding = kRoundingOfPoints * (size + points[0].norm());
   HullFacets hull;
   for (dimension_ = 3; dimension_ >= 2; --dimension_) {
     if (!(extents.beyond[static_cast<std::size_t>(dimension_ - 1)] > 4.0 * rounding)) continue;

@@ -9,7 +9,7 @@ namespace {
 // Entries of RᵀR − 1, added up. What a quaternion gives stays below 1e-15.
 constexpr double kRotation = 1e-12;
 // Of coordinates: rounded a few times.
-constexpr double kRounding = 1e-14;
+constexpr double kRoundingOfPoses = 1e-14;
 
 double doubt_of(const WorldObject& object) {
   return object.rotation_defect < kRotation ? 0.0 : std::numeric_limits<double>::infinity();
@@ -29,7 +29,7 @@ void PlacedObjects::move(std::uint32_t slot, const WorldObject& object) {
   // The matrix norm of a difference is no greater than Frobenius'.
   const double turned = (object.X_WO.linear() - placed.X_WO.linear()).norm();
   const double moved = (c_W - placed.c_W).norm() + placed.radius * turned;
-  travels_[slot].length += moved * (1.0 + kRounding) + kRounding * 0.1 * (c_W.lpNorm<1>() + placed.reach);
+  travels_[slot].length += moved * (1.0 + kRoundingOfPoses) + kRoundingOfPoses * 0.1 * (c_W.lpNorm<1>() + placed.reach);
   placed.X_WO = object.X_WO;
   placed.c_W = c_W;
   travels_[slot].doubt = doubt_of(object);
@@ -50,7 +50,7 @@ double PlacedObjects::apart_until(std::uint32_t slot_a, std::uint32_t slot_b, do
   const Eigen::Vector3d& p_a = a.X_WO.translation();
   const Eigen::Vector3d& p_b = b.X_WO.translation();
   const double span = (p_a - p_b).norm() + a.reach + b.reach;
-  return now + gap - 8.0 * kRotation * span - kRounding * (p_a.lpNorm<1>() + p_b.lpNorm<1>() + now);
+  return now + gap - 8.0 * kRotation * span - kRoundingOfPoses * (p_a.lpNorm<1>() + p_b.lpNorm<1>() + now);
 }
 
 }  // namespace glissade::collision

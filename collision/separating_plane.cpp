@@ -31,7 +31,7 @@ constexpr double kSmallTurn = 0.02;
 constexpr double kLargeMovement = 1e-3;
 
 // Of all coordinates that take part: each is rounded a few times.
-constexpr double kRounding = 1e-14;
+constexpr double kRoundingOfGap = 1e-14;
 
 // One question about two hulls.
 class HullQuery {
@@ -44,7 +44,7 @@ class HullQuery {
         memory_(memory),
         n_guess_(memory.n_A) {
     const double reach = hull_A.reach() + hull_B.reach() + p_AB_.lpNorm<1>();
-    margin_ = hull_A.outside() + hull_B.outside() + kRounding * reach;
+    margin_ = hull_A.outside() + hull_B.outside() + kRoundingOfGap * reach;
     climbing_margin_ = margin_ + hull_A.climbing_error() + hull_B.climbing_error();
     memory_.gap = 0.0;
     memory_.loops = 0;

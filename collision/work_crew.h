@@ -98,8 +98,7 @@ void WorkCrew::do_share(const Job& job, WorkCrew& crew, int worker) {
     Part& part = crew.parts_[static_cast<std::size_t>((worker + offset) % crew.threads_)];
     for (std::size_t begin = part.next.fetch_add(job.chunk, std::memory_order_relaxed); begin < part.end;
          begin = part.next.fetch_add(job.chunk, std::memory_order_relaxed)) {
-      for (std::size_t i = begin; i < std::min(begin + job.chunk, part.end); ++i)
-        work(i, worker);
+      work(begin, std::min(begin + job.chunk, part.end), worker);
     }
   }
 }
@@ -107,8 +106,7 @@ void WorkCrew::do_share(const Job& job, WorkCrew& crew, int worker) {
 template <typename Work>
 void WorkCrew::for_each(std::size_t count, std::size_t chunk, double expected_ns, const Work& work) {
   if (count < 2 || !is_worth_sharing(expected_ns)) {
-    for (std::size_t i = 0; i < count; ++i)
-      work(i, 0);
+    if (count > 0) work(std::size_t{0}, count, 0);
     return;
   }
   give({&do_share<Work>, &work, count, chunk});

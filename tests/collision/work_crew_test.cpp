@@ -1,7 +1,7 @@
 #include "work_crew.h"
 
+#include <algorithm>
 #include <chrono>
-#include <numeric>
 #include <set>
 #include <thread>
 #include <vector>
@@ -21,9 +21,12 @@ TEST(WorkCrew, DoesEachPieceOnceHoweverItIsDivided) {
       for (const std::size_t chunk : {1U, 3U, 5000U}) {
         std::vector<int> done(count, 0);
         std::vector<std::vector<int>> by_worker(static_cast<std::size_t>(threads));
-        crew.for_each(count, chunk, kMuch_ns, [&](std::size_t i, int worker) {
-          ++done[i];
-          by_worker[static_cast<std::size_t>(worker)].push_back(static_cast<int>(i));  // nobody else has this number
+        crew.for_each(count, chunk, kMuch_ns, [&](std::size_t begin, std::size_t end, int worker) {
+          EXPECT_LE(end - begin, std::max(chunk, threads == 1 || count < 2 ? count : 1));
+          for (std::size_t i = begin; i < end; ++i) {
+            ++done[i];
+            by_worker[static_cast<std::size_t>(worker)].push_back(static_cast<int>(i));  // nobody else has this number
+          }
         });
         EXPECT_EQ(done, std::vector<int>(count, 1));
         std::size_t sum = 0;
@@ -43,7 +46,10 @@ TEST(WorkCrew, IsDoneWithAJobWhenTheCallReturns) {
     if (job % 100 == 50) crew.wake();
     std::vector<int> numbers(static_cast<std::size_t>(2 + job % 20), 0);
     crew.for_each(numbers.size(), 1 + static_cast<std::size_t>(job % 3), kMuch_ns,
-                  [&](std::size_t i, int) { numbers[i] += job; });
+                  [&](std::size_t begin, std::size_t end, int) {
+                    for (std::size_t i = begin; i < end; ++i)
+                      numbers[i] += job;
+                  });
     ASSERT_EQ(numbers, std::vector<int>(numbers.size(), job));
   }
 }
@@ -51,7 +57,7 @@ TEST(WorkCrew, IsDoneWithAJobWhenTheCallReturns) {
 TEST(WorkCrew, SharesWorkThatTakesLong) {
   WorkCrew crew(2);
   std::vector<std::thread::id> doers(50);
-  crew.for_each(doers.size(), 1, kMuch_ns, [&](std::size_t i, int) {
+  crew.for_each(doers.size(), 1, kMuch_ns, [&](std::size_t i, std::size_t, int) {
     doers[i] = std::this_thread::get_id();
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   });
@@ -61,15 +67,15 @@ TEST(WorkCrew, SharesWorkThatTakesLong) {
 TEST(WorkCrew, KeepsLittleWorkInTheCallingThread) {
   WorkCrew crew(4);
   const auto caller = std::this_thread::get_id();
-  std::vector<int> order;
-  crew.for_each(100, 1, kLittle_ns, [&](std::size_t i, int worker) {
+  int calls = 0;
+  crew.for_each(100, 1, kLittle_ns, [&](std::size_t begin, std::size_t end, int worker) {
     EXPECT_EQ(worker, 0);
     EXPECT_EQ(std::this_thread::get_id(), caller);
-    order.push_back(static_cast<int>(i));
+    EXPECT_EQ(begin, 0U);
+    EXPECT_EQ(end, 100U);
+    ++calls;
   });
-  std::vector<int> expected(100);
-  std::iota(expected.begin(), expected.end(), 0);
-  EXPECT_EQ(order, expected);
+  EXPECT_EQ(calls, 1);
 }
 
 TEST(WorkCrew, TakesAsManyThreadsAsTheMachineHasUnlessToldOtherwise) {
