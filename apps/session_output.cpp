@@ -63,6 +63,7 @@ void add_collision_rows(const Session& session, Rows& rows) {
   rows.emplace_back("  neighbouring pairs", stage_text(sum.neighbor_finding, frames));
   rows.emplace_back("  pairs at hull planes", stage_text(sum.separating_planes, frames));
   rows.emplace_back("  pairs at DOP-trees", stage_text(sum.exact, frames));
+  rows.emplace_back("  pairs that met or parted", stage_text(sum.result, frames));
 }
 
 Rows rows_of(const SessionSummary& summary, const Session& session) {
@@ -138,7 +139,8 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
                           {{"queue", stage(session.collision.queue)},
                            {"neighbor_finding", stage(session.collision.neighbor_finding)},
                            {"separating_planes", stage(session.collision.separating_planes)},
-                           {"exact", stage(session.collision.exact)}}},
+                           {"exact", stage(session.collision.exact)},
+                           {"result", stage(session.collision.result)}}},
                          {"late_ticks", 0},
                          {"colliding_poses", summary.colliding_poses},
                          {"checked_poses", summary.samples},

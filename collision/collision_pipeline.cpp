@@ -82,6 +82,7 @@ class CollisionPipeline::Frame {
     test_exactly();
     end_stage(result_.report.exact);
     update_result();
+    end_stage(result_.report.result);
     result_.report.neighbors = static_cast<std::int64_t>(pairs_.size());
     result_.report.objects = objects_;
     result_.report.total = clock_.now() - result_.time_of_poses;
@@ -123,7 +124,7 @@ class CollisionPipeline::Frame {
 
   void set_box(std::uint32_t slot) {
     const WorldObject& object = world_.objects()[slot];
-    broad_phase_.set(slot, world_box(*object.tree, object.X_WO, object.rotation_defect));
+    broad_phase_.set(slot, world_box(*object.tree, object.X_WO));
   }
 
   // Stage 1: which pairs may have become near or met, or parted again.
@@ -265,7 +266,9 @@ class CollisionPipeline::Frame {
 
   // Those that meet, from the ones of the frame before.
   void update_result() {
-    if (!met_.empty() || !parted_.empty()) {
+    result_.report.result.in = std::ssize(met_) + std::ssize(parted_);
+    const bool is_as_before = met_.empty() && parted_.empty();
+    if (!is_as_before) {
       std::sort(met_.begin(), met_.end());
       std::sort(parted_.begin(), parted_.end());
       kept_.clear();
@@ -278,7 +281,8 @@ class CollisionPipeline::Frame {
       for (const SlotPair& slots : meeting_)
         result_.meeting.push_back({world_.objects()[slots.a].id, world_.objects()[slots.b].id});
     }
-    if (options_.query != PairQuery::kVerdict) copy_details();
+    if (options_.query != PairQuery::kVerdict && !(is_as_before && near_.empty())) copy_details();
+    result_.report.result.out = std::ssize(meeting_);
   }
 
   void copy_details() {

@@ -43,6 +43,7 @@ struct FrameReport {
   StageReport neighbor_finding;   ///< those; pairs whose boxes overlap, and which are of interest
   StageReport separating_planes;  ///< those that may have come together since their gap was last known; not separated
   StageReport exact;              ///< those; pairs that meet
+  StageReport result;             ///< pairs that have met or parted; all pairs that meet
   std::chrono::nanoseconds total{0};
 
   /// The account of both: divide by the number of frames for means.
@@ -53,6 +54,7 @@ struct FrameReport {
     neighbor_finding += other.neighbor_finding;
     separating_planes += other.separating_planes;
     exact += other.exact;
+    result += other.result;
     total += other.total;
     return *this;
   }

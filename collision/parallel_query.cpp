@@ -1,4 +1,5 @@
 #include <atomic>
+#include <cassert>
 #include <cstdint>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -32,7 +33,10 @@ struct ParallelWorkspace::Memory {
   oneapi::tbb::enumerable_thread_specific<Worker> workers;
   QueryWorkspace scratch;  ///< of the calling thread
   QueryCounters counters;
-  std::atomic<int> pieces{0};
+  // oneTBB puts a piece after its giving and the end of the wait after all pieces; these say so once more, because the
+  // thread sanitizer does not look into the library.
+  std::atomic<int> pieces{0};  ///< given
+  std::atomic<int> done{0};    ///< of these
 };
 
 ParallelWorkspace::ParallelWorkspace() : memory_(std::make_unique<Memory>()) {}
@@ -84,26 +88,34 @@ class SharedQuery {
 
   // Does what is on the stack of the calling thread, and appends what is found.
   void run(Stack& stack, std::vector<Pair>& pairs) {
+    for (Worker& worker : memory_.workers) {
+      pairs_of(worker, static_cast<const Pair*>(nullptr)).clear();
+      worker.scratch.memory().counters = {};
+    }
     // A thread that waits here must not begin anything else, which might take long.
     oneapi::tbb::this_task_arena::isolate([&] {
       hand_over(older_half(stack));
       hand_over(std::move(stack));
       pieces_.wait();
     });
+    [[maybe_unused]] const int done = memory_.done.load(std::memory_order_acquire);
+    assert(done == memory_.pieces.load(std::memory_order_relaxed));
     stack.clear();
     for (Worker& worker : memory_.workers) {
       std::vector<Pair>& found = pairs_of(worker, static_cast<const Pair*>(nullptr));
       pairs.insert(pairs.end(), found.begin(), found.end());
-      found.clear();
       memory_.counters += worker.scratch.counters();
-      worker.scratch.memory().counters = {};
     }
   }
 
  private:
   void hand_over(Stack&& piece) {
-    memory_.pieces.fetch_add(1, std::memory_order_relaxed);
-    pieces_.run([this, piece = std::move(piece)] { do_piece(piece); });
+    memory_.pieces.fetch_add(1, std::memory_order_release);
+    pieces_.run([this, piece = std::move(piece)] {
+      static_cast<void>(memory_.pieces.load(std::memory_order_acquire));
+      do_piece(piece);
+      memory_.done.fetch_add(1, std::memory_order_release);
+    });
   }
 
   void do_piece(const Stack& piece) {
@@ -128,6 +140,7 @@ void find_pairs(const PlacedTrees& placed, double distance, ParallelWorkspace::M
                 std::vector<Pair>& pairs) {
   pairs.clear();
   memory.pieces = 0;
+  memory.done = 0;
   memory.counters = {};
   if (placed.frame.spheres_apart(distance)) return;
   QueryWorkspace::Memory& scratch = memory.scratch.memory();

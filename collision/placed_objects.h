@@ -13,7 +13,7 @@ namespace glissade::collision {
 
 class PlacedObjects {
  public:
-  explicit PlacedObjects(std::size_t capacity) : objects_(capacity), travels_(capacity) {}
+  explicit PlacedObjects(std::size_t capacity) : objects_(capacity), travels_(capacity, 0.0) {}
 
   /// A new object has come to a slot.
   void place(std::uint32_t slot, const WorldObject& object);
@@ -22,18 +22,14 @@ class PlacedObjects {
   void move(std::uint32_t slot, const WorldObject& object);
 
   /// The sum of the motions of two objects, metres: their distance has not changed by more than the difference
-  /// of this. Infinite while one of the poses is not a rotation: then frames tell nothing of each other.
-  double motion(std::uint32_t slot_a, std::uint32_t slot_b) const {
-    const Travel& a = travels_[slot_a];
-    const Travel& b = travels_[slot_b];
-    return a.length + b.length + a.doubt + b.doubt;
-  }
+  /// of this.
+  double motion(std::uint32_t slot_a, std::uint32_t slot_b) const { return travels_[slot_a] + travels_[slot_b]; }
 
-  /// A lower bound of the distance of two objects by their bounding spheres, metres; negative when these overlap.
+  /// A certain lower bound of the distance of two objects, by their bounding spheres, metres; negative when these
+  /// overlap.
   double gap_of_spheres(std::uint32_t slot_a, std::uint32_t slot_b) const;
 
   /// What `motion` may become while two objects stay apart whose gap is now, in their frames, at least `gap` metres.
-  /// Less than it is if a pose is too far from a rotation to say.
   double apart_until(std::uint32_t slot_a, std::uint32_t slot_b, double gap) const;
 
  private:
@@ -44,14 +40,10 @@ class PlacedObjects {
     double reach = 0.0;                             ///< of the object from the origin of its frame
   };
 
-  /// Apart from the rest because it is looked at for every pair.
-  struct Travel {
-    double length = 0.0;  ///< metres: no point of the object has moved further, all told
-    double doubt = 0.0;   ///< infinite while the pose is not a rotation but for rounding
-  };
-
   std::vector<Placed> objects_;
-  std::vector<Travel> travels_;
+  /// Metres: no point of the object has moved further, all told. Apart from the rest because it is looked at for every
+  /// pair.
+  std::vector<double> travels_;
 };
 
 }  // namespace glissade::collision

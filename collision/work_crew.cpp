@@ -22,11 +22,20 @@ WorkCrew::WorkCrew(int threads)
   if (threads_ > oneapi::tbb::info::default_concurrency()) {
     allowance_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_));
   }
-  for (int worker = 1; worker < threads_; ++worker)
-    workers_.emplace_back([this, worker] { serve(worker); });
+  try {
+    for (int worker = 1; worker < threads_; ++worker)
+      workers_.emplace_back([this, worker] { serve(worker); });
+  } catch (...) {
+    stop();
+    throw;
+  }
 }
 
 WorkCrew::~WorkCrew() {
+  stop();
+}
+
+void WorkCrew::stop() {
   should_stop_.store(true, std::memory_order_relaxed);
   wake();
   for (std::thread& worker : workers_)

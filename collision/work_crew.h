@@ -73,6 +73,7 @@ class WorkCrew {
   static void do_share(const Job& job, WorkCrew& crew, int worker);
 
   void give(const Job& job);
+  void stop();
   void serve(int worker);
   bool join_job(int worker);
 

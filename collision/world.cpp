@@ -3,9 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <glissade/collision/rigid_pose.h>
 #include <glissade/collision/world.h>
-
-#include "rotation_defect.h"
 
 namespace glissade::collision {
 
@@ -32,15 +31,9 @@ constexpr std::uint64_t kAlive = 1;
 constexpr std::uint64_t kMoving = 2;
 constexpr std::uint32_t kBitsOfWord = 64;
 constexpr int kMaxCapacity = 1000000;
-constexpr double kMaxDefect = 1e-4;  // of two objects, less than the 1e-3 that queries refuse: 3 (1e-4 + 1e-4) in all
-constexpr double kMaxCoordinate = 1e9;
 
 std::uint64_t state_at_rest(std::uint32_t generation) {
   return std::uint64_t{generation} << 32 | kAlive;
-}
-
-bool is_pose(const Eigen::Isometry3d& X, double defect) {
-  return defect < kMaxDefect && is_right_handed(X.linear()) && (X.translation().array().abs() <= kMaxCoordinate).all();
 }
 
 std::size_t checked_capacity(int capacity) {
@@ -76,8 +69,8 @@ ObjectId World::add(const ObjectDescription& object) {
   if (object.group < 0 || object.group >= InterestMatrix::kGroups) {
     throw std::invalid_argument("the group " + std::to_string(object.group) + " of an object is not one of 0 to 63");
   }
-  const double defect = rotation_defect(object.X_WO.linear());
-  if (!is_pose(object.X_WO, defect)) {
+  const std::optional<Eigen::Isometry3d> X_WO = rigid_pose(object.X_WO);
+  if (!X_WO) {
     throw std::invalid_argument("the pose X_WO of an object is not a finite rotation and a translation within 1e9 m");
   }
   const std::lock_guard lock(edits_);
@@ -89,7 +82,7 @@ ObjectId World::add(const ObjectDescription& object) {
   const std::uint64_t former = slots_[slot].state.load(std::memory_order_relaxed) >> 32;
   // Generation 0 is no object, also when the count begins anew.
   const std::uint32_t generation = std::max(static_cast<std::uint32_t>(former + 1), std::uint32_t{1});
-  registered_[slot] = {{slot, generation}, object.tree, object.hull, object.X_WO, defect, object.group};
+  registered_[slot] = {{slot, generation}, object.tree, object.hull, *X_WO, object.group};
   mark_edited(slot);
   slots_[slot].state.store(state_at_rest(generation), std::memory_order_release);
   return registered_[slot].id;
@@ -135,8 +128,8 @@ void World::ignore(ObjectId a, ObjectId b) {
 }
 
 bool World::move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept {
-  const double defect = rotation_defect(X_WO.linear());
-  if (id.index >= slots_.size() || !is_pose(X_WO, defect)) return false;
+  const std::optional<Eigen::Isometry3d> rigid = rigid_pose(X_WO);
+  if (id.index >= slots_.size() || !rigid) return false;
   Slot& slot = slots_[id.index];
   const std::uint64_t at_rest = state_at_rest(id.generation);
   std::uint64_t state = at_rest;
@@ -145,8 +138,7 @@ bool World::move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept {
     return false;
   }
   NewestPose& newest = slot.pose.write_slot();
-  newest.X_WO = X_WO;
-  newest.rotation_defect = defect;
+  newest.X_WO = *rigid;
   newest.generation = id.generation;
   slot.pose.publish();
   moved_[id.index / kBitsOfWord].fetch_or(std::uint64_t{1} << id.index % kBitsOfWord, std::memory_order_release);
@@ -228,7 +220,6 @@ void World::take_poses() {
       const NewestPose& newest = slots_[slot].pose.value();
       if (newest.generation != object.id.generation) continue;
       object.X_WO = newest.X_WO;
-      object.rotation_defect = newest.rotation_defect;
       if (!std::binary_search(changes_.added.begin(), changes_.added.end(), slot)) changes_.moved.push_back(slot);
     }
   }

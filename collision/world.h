@@ -45,7 +45,6 @@ struct WorldObject {
   std::shared_ptr<const DopTree> tree;
   std::shared_ptr<const ConvexHull> hull;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
-  double rotation_defect = 0.0;  ///< of X_WO: the entries of RᵀR − 1, added up
   int group = 0;
 };
 
@@ -88,11 +87,10 @@ class World {
 
   // Movers: any thread, one at a time for each object. Wait-free, and allocates nothing.
 
-  /// The pose of the object in the world. The consumer's next take has this one or one that was newer. Returns false,
-  /// and does nothing, for a stale id, while another thread is moving the same object, and for a pose that is not a
-  /// rotation and translation: the entries of RᵀR − 1 must add up to less than 1e-4, and coordinates stay within
-  /// ±1e9 m. So no query refuses the pose of one object seen from another. True may also mean that the object was
-  /// removed at the same time.
+  /// The pose of the object in the world, made a rotation and translation by `rigid_pose`. The consumer's next take has
+  /// this one or one that was newer. Returns false, and does nothing, for a stale id, while another thread is moving
+  /// the same object, and for what is no pose to `rigid_pose`. Returns true for an object that is being removed at the
+  /// same time, whose pose nobody will see.
   bool move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept;
 
   // The consumer: one thread.
@@ -113,7 +111,6 @@ class World {
  private:
   struct NewestPose {
     Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
-    double rotation_defect = 0.0;
     std::uint32_t generation = 0;  ///< of the object it was meant for
   };
 

@@ -14,7 +14,4 @@ namespace glissade::collision {
 /// Cost: some ten nanoseconds.
 Eigen::AlignedBox3d world_box(const DopTree& tree, const Eigen::Isometry3d& X_WO);
 
-/// The same for who knows the entries of RᵀR − 1, added up.
-Eigen::AlignedBox3d world_box(const DopTree& tree, const Eigen::Isometry3d& X_WO, double rotation_defect);
-
 }  // namespace glissade::collision

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <glissade/collision/rigid_pose.h>
 #include <glissade/haptics/contact_search.h>
 #include <glissade/haptics/sliding.h>
 
@@ -10,7 +11,6 @@ namespace glissade::haptics {
 namespace {
 
 constexpr double kDefaultStiffness_N_per_m = 1000.0;
-constexpr double kLargestCoordinate = 1e9;
 constexpr double kSmallestReach_m = 30e-6;
 constexpr double kLargestReach_m = 3e-3;
 constexpr double kMostLookAhead_m = 0.5e-3;
@@ -59,19 +59,23 @@ Sliding::Sliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingP
       candidates_(surroundings_, *part_V_),
       certificate_(surroundings_.obstacles(), *part_V_, kFloorOfMargin * margin_),
       reach_limit_(kLargestReach_m) {
-  const collision::FrameResult& start = surroundings_.look_around(X_WV_start, 0.0);
+  const std::optional<Eigen::Isometry3d> X_WV = collision::rigid_pose(X_WV_start);
+  if (!X_WV) throw std::invalid_argument("the start pose of the part is not a rotation and translation");
+  const collision::FrameResult& start = surroundings_.look_around(*X_WV, 0.0);
   if (!start.meeting.empty()) {
     const std::string& name = surroundings_.obstacles()[start.meeting.front().object_A.index].name;
     throw std::invalid_argument("the part collides with " + name + " at its start pose");
   }
-  result_.X_WG = X_WV_start;
-  result_.X_WV = X_WV_start;
+  result_.X_WG = *X_WV;
+  result_.X_WV = *X_WV;
 }
 
 const Sliding::Step Sliding::kNoStep{{}, 0.0, false, true};
 
-const SlidingResult& Sliding::advance(const Eigen::Isometry3d& X_WG, double milliseconds) {
-  if (!(X_WG.matrix().array().abs() <= kLargestCoordinate).all()) return result_;
+const SlidingResult& Sliding::advance(const Eigen::Isometry3d& X_WG_given, double milliseconds) {
+  const std::optional<Eigen::Isometry3d> rigid = collision::rigid_pose(X_WG_given);
+  if (!rigid) return result_;
+  const Eigen::Isometry3d& X_WG = *rigid;
   ghost_motion_ = motion_bound(displacement_between(result_.X_WG, X_WG, part_V_->p_Vref()), part_V_->radius());
   result_.X_WG = X_WG;
   double budget = metaphor_ == Metaphor::kForceFeedback ? kSlew_m * milliseconds + 2.0 * ghost_motion_

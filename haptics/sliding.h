@@ -82,8 +82,8 @@ class Sliding {
   Sliding(const Sliding&) = delete;
   Sliding& operator=(const Sliding&) = delete;
 
-  /// Moves the visible part towards the ghost, once per millisecond of motion. A ghost pose with a number that is not
-  /// finite or beyond ±1e9 changes nothing.
+  /// Moves the visible part towards the ghost, once per millisecond of motion. The ghost's pose is made a rotation and
+  /// translation by `collision::rigid_pose`; what is no pose to that changes nothing.
   /// `milliseconds` is how long ago the last call's ghost was; a caller that comes late may catch up for all of it.
   const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0);
 

@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include <glissade/collision/rigid_pose.h>
 #include <glissade/haptics/surroundings.h>
 
 namespace glissade::haptics {
@@ -28,8 +29,12 @@ Surroundings::Surroundings(std::vector<Obstacle> obstacles, const std::shared_pt
       pipeline_(world_, clock_, pipeline_options(greatest_reach)) {
   if (obstacles_.empty()) throw std::invalid_argument("there is nothing that the part could touch");
   world_.ignore_groups(kObstacles, kObstacles);
-  for (const Obstacle& obstacle : obstacles_)
+  for (Obstacle& obstacle : obstacles_) {
+    const std::optional<Eigen::Isometry3d> X_WO = collision::rigid_pose(obstacle.X_WO);
+    if (!X_WO) throw std::invalid_argument("the pose of " + obstacle.name + " is not a rotation and translation");
+    obstacle.X_WO = *X_WO;
     world_.add(description(obstacle.body, obstacle.X_WO, kObstacles));
+  }
   part_ = world_.add(description(part_V, Eigen::Isometry3d::Identity(), kPart));
 }
 

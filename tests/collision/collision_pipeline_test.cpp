@@ -139,30 +139,61 @@ TEST_F(Pipeline, LooksAtASeparatedPairAgainOnlyWhenItsGapMayBeUsedUp) {
   EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{a, b}));
 }
 
-// Its matrix makes an object a little larger in its own frame than in the world: no motion there tells of it.
-TEST_F(Pipeline, TakesPosesThatAreNotQuiteRotationsAtTheirWord) {
+// As poses that have been through single precision. Far from its origin, an object would move by much.
+TEST_F(Pipeline, TakesTheNearestRotationForAMatrixThatIsNotQuiteOne) {
   const double c = 10.0;
   const Shape far_from_its_origin(transformed(make_box({1.0, 1.0, 1.0}, 48), at(c)));
   CollisionPipeline pipeline(world_, clock_);
   const ObjectId a = add(far_from_its_origin, at(-c));
   const ObjectId b = add(at(-1.0001));
-  EXPECT_THAT(pipeline.step().meeting, IsEmpty());
-  const double grown = 1.0 - 1.5e-5;
-  Isometry3d X_WA = at(-grown * c);  // the middle of the box stays where it is
-  X_WA.linear() *= grown;
-  ASSERT_TRUE(world_.move(a, X_WA));
+  for (const double scale : {1.0, 1.0 + 1.5e-5, 1.0 - 1.5e-5, 1.0 + 1e-7}) {
+    Isometry3d X_WA = at(-c);
+    X_WA.linear() = scale * Eigen::AngleAxisd(1e-9, Vector3d::UnitZ()).toRotationMatrix();
+    ASSERT_TRUE(world_.move(a, X_WA));
+    EXPECT_THAT(pipeline.step().meeting, IsEmpty()) << "0.1 mm apart";
+    const Eigen::Matrix3d R = world_.objects()[a.index].X_WO.linear();
+    EXPECT_LT((R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+    X_WA.translation().x() = -c - 0.0002;
+    ASSERT_TRUE(world_.move(a, X_WA));
+    EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{a, b}));
+  }
+}
+
+// The sum of all motions is then so large that a short step is less than its last digit.
+TEST_F(Pipeline, LosesNoShortStepAfterALongWay) {
+  CollisionPipeline pipeline(world_, clock_);
+  add(at(0.0));
+  const ObjectId b = add(at(1.001));
+  for (const double far : {1e8, -1e8, 1e8, -1e8}) {
+    ASSERT_TRUE(world_.move(b, at(far)));
+    pipeline.step();
+  }
+  for (int i = 0; i < 3000; ++i) {
+    const double x = 1.001 - 1e-6 * i;
+    ASSERT_TRUE(world_.move(b, at(x)));
+    const bool meets = !pipeline.step().meeting.empty();
+    ASSERT_EQ(meets, x <= 1.0) << "at " << x;
+  }
+}
+
+TEST_F(Pipeline, KnowsBallsThatTouchFarFromTheOrigin) {
+  const Shape ball(make_sphere(0.01, 200));
   QueryWorkspace workspace;
-  const bool expected =
-      intersects(*far_from_its_origin.tree, *box_.tree, X_WA.inverse(Eigen::Isometry) * at(-1.0001), workspace);
-  EXPECT_EQ(pipeline.step().meeting.size(), expected ? 1U : 0U);
-  X_WA.linear() *= (2.0 - grown) / grown;
-  X_WA.translation().x() = -(2.0 - grown) * c;
-  ASSERT_TRUE(world_.move(a, X_WA));
-  const bool expected_next =
-      intersects(*far_from_its_origin.tree, *box_.tree, X_WA.inverse(Eigen::Isometry) * at(-1.0001), workspace);
-  EXPECT_EQ(pipeline.step().meeting.size(), expected_next ? 1U : 0U);
-  EXPECT_NE(expected, expected_next) << "one of them meets, or this is a test of nothing";
-  EXPECT_TRUE(b != a);
+  for (const double far : {0.0, 1e3, 1e6}) {
+    for (int i = 0; i < 100; ++i) {
+      World world(2);
+      CollisionPipeline pipeline(world, clock_);
+      Isometry3d X_WA = at(far, 0.3 * far);
+      X_WA.linear() = Eigen::AngleAxisd(0.1 * i, Vector3d::UnitZ()).toRotationMatrix();
+      world.add({ball.tree, ball.hull, X_WA, 0});
+      Isometry3d X_WB = X_WA;
+      X_WB.translation().z() += 0.02 + (i % 3 - 1) * std::nextafter(0.02, 1.0) * 1e-15;
+      world.add({ball.tree, ball.hull, X_WB, 0});
+      const bool meets = !pipeline.step().meeting.empty();
+      const Isometry3d X_AB = relative_pose(world.objects()[0], world.objects()[1]);
+      EXPECT_EQ(meets, intersects(*ball.tree, *ball.tree, X_AB, workspace)) << "turned by " << 0.1 * i << " at " << far;
+    }
+  }
 }
 
 TEST_F(Pipeline, GivesTheTrianglesThatMeet) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <glissade/collision/collision_pipeline.h>
+#include <glissade/collision/rigid_pose.h>
 
 #include "random_numbers.h"
 #include "sweep_meshes.h"
@@ -222,7 +223,8 @@ class Scene {
   }
 
   void ask(const Object& a, const Object& b, std::vector<Answer>& answers) {
-    const Isometry3d X_AB = a.X_WO.inverse(Eigen::Isometry) * b.X_WO;
+    // As the world has them: made rotations.
+    const Isometry3d X_AB = rigid_pose(a.X_WO)->inverse(Eigen::Isometry) * *rigid_pose(b.X_WO);
     if (!intersects(*a.shape.tree, *b.shape.tree, X_AB, workspace_, distance_)) return;
     Answer answer{{a.id, b.id}, {}, {}};
     if (options_.query == PairQuery::kTrianglePairs)
