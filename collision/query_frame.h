@@ -17,9 +17,7 @@ struct QueryFrame {
   QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB);
 
   /// Which of two trees is the base.
-  static bool base_is_first(const DopTree& tree_A, const DopTree& tree_B) {
-    return tree_A.radius() >= tree_B.radius();
-  }
+  static bool base_is_first(const DopTree& tree_A, const DopTree& tree_B) { return tree_A.radius() >= tree_B.radius(); }
 
   bool base_is_A;
   Eigen::Matrix3d R_PQ;

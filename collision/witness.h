@@ -32,8 +32,8 @@ class Witness {
   /// last below the roots. Becomes that one if the visitor says stop. A search that fails says nothing.
   bool wander(DopVisit& step, QueryCounters& counters, TriangleVisitor& visitor);
 
-  /// Have the memory ready soon that a query will look at: to be called one after the other, with other work in between,
-  /// because each needs what the one before has asked for.
+  /// Have the memory ready soon that a query will look at: to be called one after the other, with other work in
+  /// between, because each needs what the one before has asked for.
   void prefetch_leaves(const DopTree& base, const DopTree& other) const;
   void prefetch_triangles(const DopTree& base, const DopTree& other) const;
   void prefetch_corners(const DopTree& base, const DopTree& other) const;
