@@ -16,9 +16,9 @@
 namespace glissade::collision {
 namespace {
 
-// A box test and the triangle tests that follow it take 10 to 20 ns. Sleeping threads need 40 to 60 us to wake, so a
-// query is shared when it has gone on for about that long; pieces are large beside the cost of handing one over, about
-// a microsecond.
+// A box test and the triangle tests that follow it take 10 to 20 ns. Sleeping threads need 50 us to wake, if not more,
+// so a query is shared when it has gone on for about that long; pieces are large beside the cost of handing one over,
+// about a microsecond.
 constexpr std::int64_t kTestsWorthSharing = 4'000;
 constexpr std::int64_t kTestsOfPiece = 1'500;
 

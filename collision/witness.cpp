@@ -6,12 +6,6 @@
 #include "prefetch.h"
 
 namespace glissade::collision {
-namespace {
-
-// Pairs of leaves that are tried below one pair of nodes, those that overlap most.
-constexpr int kTries = 1;
-
-}  // namespace
 
 bool Witness::wander(DopVisit& step, QueryCounters& counters, TriangleVisitor& visitor) {
   if (try_leaves(leaf_P_, leaf_Q_, step, counters, visitor)) return true;
@@ -43,24 +37,15 @@ bool Witness::try_leaves(std::uint32_t leaf_P, std::uint32_t leaf_Q, DopVisit& s
 
 // Down along what overlaps most.
 bool Witness::dive(NodePair nodes, DopVisit& step, QueryCounters& counters, TriangleVisitor& visitor) {
-  for (bool is_lowest = false; !is_lowest;) {
+  for (;;) {
     put_below(nodes);
     PairOverlaps overlaps;
-    PairMask near = step.nodes(nodes, overlaps, counters);
-    for (int tries = 0; near != 0 && tries < kTries; ++tries) {
-      const Descent descent = step.descend(nodes, near, step.deepest(overlaps, near));
-      if (!descent.is_leaf) {
-        if (tries == 0) nodes = descent.next;
-        is_lowest = tries > 0;
-        break;
-      }
-      is_lowest = true;
-      if (try_leaves(descent.next.node_P, descent.next.node_Q, step, counters, visitor)) return true;
-      near &= ~descent.including;
-    }
-    is_lowest = is_lowest || near == 0;
+    const PairMask near = step.nodes(nodes, overlaps, counters);
+    if (near == 0) return false;
+    const Descent descent = step.descend(nodes, near, step.deepest(overlaps, near));
+    nodes = descent.next;
+    if (descent.is_leaf) return try_leaves(nodes.node_P, nodes.node_Q, step, counters, visitor);
   }
-  return false;
 }
 
 void Witness::put_below(const NodePair& nodes) {
