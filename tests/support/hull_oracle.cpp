@@ -53,8 +53,8 @@ HullOracle::HullOracle(std::span<const Vector3d> points_A, std::span<const Vecto
 }
 
 bool HullOracle::proves_apart(const Vector3d& n_A) const {
-  Quad reach_A = -std::numeric_limits<double>::infinity();
-  Quad reach_B = std::numeric_limits<double>::infinity();
+  auto reach_A = Quad(-std::numeric_limits<double>::infinity());
+  auto reach_B = Quad(std::numeric_limits<double>::infinity());
   for (const Vector3d& x : points_A_)
     reach_A = std::max(reach_A, height(n_A, x));
   for (const Vector3d& x : points_B_)
