@@ -38,9 +38,9 @@ struct StageReport {
 /// The account of one frame. Objects that rest cost nothing, so the stages see only pairs with an object that moved.
 struct FrameReport {
   std::int64_t objects = 0;       ///< in the world
-  std::int64_t neighbors = 0;     ///< pairs of them whose boxes overlap, at rest or not
+  std::int64_t neighbors = 0;     ///< pairs of them whose fat boxes overlap, at rest or not
   StageReport queue;              ///< objects that somebody moved, added or removed; the objects that have a new pose
-  StageReport neighbor_finding;   ///< those; pairs whose boxes overlap, and which are of interest
+  StageReport neighbor_finding;   ///< those; pairs whose fat boxes overlap, and which are of interest
   StageReport separating_planes;  ///< those that may have come together since their gap was last known; not separated
   StageReport exact;              ///< those; pairs that meet
   StageReport result;             ///< pairs that have met or parted; all pairs that meet

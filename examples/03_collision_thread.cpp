@@ -18,10 +18,17 @@ int main() {
   const auto tree = std::make_shared<collision::DopTree>(mesh);  // one for all balls
   const auto hull = std::make_shared<collision::ConvexHull>(*mesh);
 
+  // Ball i in a given millisecond.
+  const auto place = [](int i, int millisecond) {
+    const int row = i / 10;
+    const double swing = 0.03 * std::sin(0.02 * millisecond + i);
+    return Eigen::Isometry3d(Eigen::Translation3d(0.12 * (i % 10) + swing, 0.12 * row, 0.0));
+  };
+
   collision::World world;
   std::vector<collision::ObjectId> balls;
   for (int i = 0; i < 100; ++i)
-    balls.push_back(world.add({tree, hull, Eigen::Isometry3d::Identity()}));
+    balls.push_back(world.add({tree, hull, place(i, 0)}));
   world.ignore(balls[0], balls[1]);  // these two are glued together
 
   realtime::SteadyClock clock;
@@ -30,12 +37,8 @@ int main() {
   collision::FrameReport sum;
   std::int64_t frames = 0;
   for (int millisecond = 0; millisecond < 500; ++millisecond) {
-    for (int i = 0; i < 100; ++i) {
-      const int row = i / 10;
-      const double swing = 0.03 * std::sin(0.02 * millisecond + i);
-      world.move(balls[static_cast<std::size_t>(i)],
-                 Eigen::Isometry3d(Eigen::Translation3d(0.12 * (i % 10) + swing, 0.12 * row, 0.0)));
-    }
+    for (int i = 0; i < 100; ++i)
+      world.move(balls[static_cast<std::size_t>(i)], place(i, millisecond));
     if (thread.reader().update()) {  // a frame that is new to us
       const collision::FrameResult& frame = thread.reader().frame();
       most = std::max(most, frame.meeting.size());

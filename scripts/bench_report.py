@@ -184,7 +184,7 @@ def scene(figures, images):
                     "Figure 5 of the paper today: time of a frame against the number of objects")
     text += time_table(figures, ["glissade"] + PEERS, "us_per_frame", "µs a frame", 1)
     shares = [figures.get(case, "machine", "cpu_share") for case in figures.cases]
-    text += (f"The program had a processor for {min(filter(None, shares)):.0%} of the time or more; where that is well below "
+    text += (f"The program had a processor for at least {min(filter(None, shares)):.0%} of the time; where that is well below "
              "100 %, slow libraries look slower than they are.\n\n")
     ratio = figures.get("rest-1000", "glissade", "time_by_rest-10")
     if ratio is not None:
