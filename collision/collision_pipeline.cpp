@@ -94,6 +94,14 @@ class CollisionPipeline::Frame {
  private:
   using Numbers = std::vector<PairTable::Number>;
 
+  /// Two objects that meet, or did. In the order of their slots.
+  struct Meeting {
+    SlotPair slots;
+    PairTable::Number number;
+
+    bool operator<(const Meeting& other) const { return slots < other.slots; }
+  };
+
   void end_stage(StageReport& stage) {
     const std::chrono::nanoseconds now = clock_.now();
     stage.time = now - lap_;
@@ -157,7 +165,7 @@ class CollisionPipeline::Frame {
 
   void forget(const SlotPair& slots) {
     const PairTable::Number number = pairs_.number_of(slots);
-    if (pairs_[number].meets) parted_.push_back(slots);
+    part(number);
     pairs_.remove(number);
   }
 
@@ -165,7 +173,7 @@ class CollisionPipeline::Frame {
     TrackedPair& pair = pairs_[number];
     const bool was_of_interest = pair.is_of_interest;
     pair.is_of_interest = world_.attends(pair.slots.a, pair.slots.b);
-    if (!pair.is_of_interest) set_meets(pair, false);
+    if (!pair.is_of_interest) part(number);
     if (pair.is_of_interest && !was_of_interest) consider(number);
   }
 
@@ -188,7 +196,7 @@ class CollisionPipeline::Frame {
     pair.frame = frame;
     ++result_.report.neighbor_finding.out;
     if (placed_.motion(pair.slots.a, pair.slots.b) + distance_ < pair.apart_until) {
-      set_meets(pair, false);  // it may have met at a greater distance
+      part(number);  // it may have met at a greater distance
     } else {
       candidates_.push_back(number);
     }
@@ -240,7 +248,7 @@ class CollisionPipeline::Frame {
     for (std::size_t i = 0; i < near_.size(); ++i) {
       const TrackedPair& pair = pairs_[near_[i]];
       report.out += pair.meets ? 1 : 0;
-      if (pair.meets != (met_before_[i] != 0)) (pair.meets ? met_ : parted_).push_back(pair.slots);
+      if (pair.meets != (met_before_[i] != 0)) (pair.meets ? met_ : parted_).push_back({pair.slots, near_[i]});
     }
   }
 
@@ -258,10 +266,10 @@ class CollisionPipeline::Frame {
     }
   }
 
-  void set_meets(TrackedPair& pair, bool meets) {
-    if (pair.meets == meets) return;
-    pair.meets = meets;
-    (meets ? met_ : parted_).push_back(pair.slots);
+  void part(PairTable::Number number) {
+    TrackedPair& pair = pairs_[number];
+    if (pair.meets) parted_.push_back({pair.slots, number});
+    pair.meets = false;
   }
 
   // Those that meet, from the ones of the frame before.
@@ -278,8 +286,8 @@ class CollisionPipeline::Frame {
       met_.clear();
       parted_.clear();
       result_.meeting.clear();
-      for (const SlotPair& slots : meeting_)
-        result_.meeting.push_back({world_.objects()[slots.a].id, world_.objects()[slots.b].id});
+      for (const Meeting& pair : meeting_)
+        result_.meeting.push_back({world_.objects()[pair.slots.a].id, world_.objects()[pair.slots.b].id});
     }
     if (options_.query != PairQuery::kVerdict && !(is_as_before && near_.empty())) copy_details();
     result_.report.result.out = std::ssize(meeting_);
@@ -289,8 +297,8 @@ class CollisionPipeline::Frame {
     result_.ends.clear();
     result_.all_triangle_pairs.clear();
     result_.all_close_pairs.clear();
-    for (const SlotPair& slots : meeting_) {
-      const MeetingDetails& details = *pairs_.memory(pairs_.number_of(slots)).details;
+    for (const Meeting& pair : meeting_) {
+      const MeetingDetails& details = *pairs_.memory(pair.number).details;
       result_.all_triangle_pairs.insert(result_.all_triangle_pairs.end(), details.triangle_pairs.begin(),
                                         details.triangle_pairs.end());
       result_.all_close_pairs.insert(result_.all_close_pairs.end(), details.close_pairs.begin(),
@@ -319,10 +327,10 @@ class CollisionPipeline::Frame {
   std::vector<std::uint8_t> is_near_;
   Numbers near_;
   std::vector<std::uint8_t> met_before_;
-  std::vector<SlotPair> met_;     ///< in this frame
-  std::vector<SlotPair> parted_;  ///< in this frame
-  std::vector<SlotPair> meeting_;
-  std::vector<SlotPair> kept_;
+  std::vector<Meeting> met_;     ///< in this frame
+  std::vector<Meeting> parted_;  ///< in this frame
+  std::vector<Meeting> meeting_;
+  std::vector<Meeting> kept_;
   FrameResult result_;
 };
 

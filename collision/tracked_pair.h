@@ -20,8 +20,6 @@ struct MeetingDetails {
   ParallelWorkspace workspace;
   std::vector<TrianglePair> triangle_pairs;
   std::vector<ClosePair> close_pairs;
-
-  std::size_t size() const { return triangle_pairs.size() + close_pairs.size(); }
 };
 
 /// What every frame looks at, of many pairs.
