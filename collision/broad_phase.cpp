@@ -16,7 +16,7 @@
 namespace glissade::collision {
 namespace {
 
-// Measured: larger boxes save more time here than `boxes_overlap` takes for the pairs they add (docs/collision.md).
+// Measured: larger boxes save more time here than the pairs they add can take (docs/collision.md).
 constexpr double kFatOfSize = 0.1;     // of the mean edge
 constexpr double kFramesAhead = 16.0;  // of the motion since the last call
 constexpr double kLongestAhead = 1.0;  // of the mean edge: a leap is no speed

@@ -5,7 +5,7 @@
 ///
 /// Boxes are fattened: by a share of their size, and to where they will be soon if they go on as they did last. While a
 /// box stays in its fat one, nothing needs to be done for it, so a frame costs what has moved, and pairs do not
-/// come and go with every tremor. A pair is two fat boxes that overlap; `boxes_overlap` looks at those within.
+/// come and go with every tremor. A pair is two fat boxes that overlap.
 
 #include <cstddef>
 #include <cstdint>
@@ -58,12 +58,6 @@ class BroadPhase {
   std::size_t pair_count() const { return pair_count_; }
   /// All pairs, ascending. Cost O(capacity + pairs).
   std::vector<SlotPair> pairs() const;
-
-  /// Whether the boxes of two objects overlap or are not more than the margin apart: true of every two that are, now;
-  /// false of most pairs that are not. Cost: a few nanoseconds.
-  bool boxes_overlap(std::uint32_t slot_a, std::uint32_t slot_b) const {
-    return slots_[slot_a].box.intersects(slots_[slot_b].box);
-  }
 
  private:
   struct Slot {
