@@ -16,7 +16,7 @@ namespace {
 // Nearer than this to an edge of a bead's flank, a vertex is on it: flat regions must be flat to the last bit.
 constexpr double kOnOutline = 2e-7;
 
-[[noreturn]] void reject(const std::string& what, const RoundedRectangle& outline) {
+[[noreturn]] void reject_outline(const std::string& what, const RoundedRectangle& outline) {
   std::ostringstream message;
   message << what << ": the outline at (" << outline.center.transpose() << ") m of size (" << outline.size.transpose()
           << ") m and corner radius " << outline.corner_radius << " m.";
@@ -27,14 +27,14 @@ void check_outline(const RoundedRectangle& outline) {
   require_positive("the size of an outline", outline.size.x());
   require_positive("the size of an outline", outline.size.y());
   const bool fits = outline.corner_radius >= 0 && outline.corner_radius <= outline.size.minCoeff() / 2 * (1 + 1e-12);
-  if (!fits) reject("A corner radius must be from 0 to half the smaller size", outline);
+  if (!fits) reject_outline("A corner radius must be from 0 to half the smaller size", outline);
 }
 
 void check_within(const SheetMetal& sheet, const RoundedRectangle& outline) {
   check_outline(outline);
   const Eigen::Vector2d reach = outline.center.cwiseAbs() + outline.size / 2;
   const bool is_within = reach.x() < sheet.size.x() / 2 && reach.y() < sheet.size.y() / 2;
-  if (!is_within) reject("Holes and beads must lie within the sheet", outline);
+  if (!is_within) reject_outline("Holes and beads must lie within the sheet", outline);
 }
 
 void check(const SheetMetal& sheet) {
@@ -45,8 +45,9 @@ void check(const SheetMetal& sheet) {
   for (const Bead& bead : sheet.beads) {
     check_within(sheet, bead.foot);
     require_positive("the flank_width of a bead", bead.flank_width);
-    if (!std::isfinite(bead.height)) reject("The height of a bead must be finite", bead.foot);
-    if (bead.flank_width >= bead.foot.size.minCoeff() / 2) reject("The flanks leave the bead no top", bead.foot);
+    if (!std::isfinite(bead.height)) reject_outline("The height of a bead must be finite", bead.foot);
+    if (bead.flank_width >= bead.foot.size.minCoeff() / 2)
+      reject_outline("The flanks leave the bead no top", bead.foot);
   }
 }
 
