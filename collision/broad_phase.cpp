@@ -18,28 +18,22 @@ namespace {
 
 // Measured: larger boxes save more time here than the pairs they add can take (docs/collision.md).
 constexpr double kFatOfSize = 0.1;     // of the mean edge
-constexpr double kFramesAhead = 16.0;  // of the motion since the last call
+constexpr double kFramesAhead = 16.0;  // of the last frame's step
 constexpr double kLongestAhead = 1.0;  // of the mean edge: a leap is no speed
-constexpr double kMostFat = 4.0;       // times the mean edge: the object has shrunk, or slowed down
 
 Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by) {
   const Eigen::Vector3d border = Eigen::Vector3d::Constant(by);
   return {box.min() - border, box.max() + border};
 }
 
-// The last box is empty for objects that are new.
-Eigen::AlignedBox3d fattened(const Eigen::AlignedBox3d& box, const Eigen::AlignedBox3d& last) {
+Eigen::AlignedBox3d fattened(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& step) {
   const double edge = box.sizes().mean();
-  Eigen::AlignedBox3d fat = grown(box, kFatOfSize * edge);
-  if (last.isEmpty()) return fat;
   const double longest = kLongestAhead * edge;
-  fat.min() += (kFramesAhead * (box.min() - last.min())).cwiseMin(0.0).cwiseMax(-longest);
-  fat.max() += (kFramesAhead * (box.max() - last.max())).cwiseMax(0.0).cwiseMin(longest);
+  const Eigen::Vector3d ahead = (kFramesAhead * step).cwiseMax(-longest).cwiseMin(longest);
+  Eigen::AlignedBox3d fat = grown(box, kFatOfSize * edge);
+  fat.min() += ahead.cwiseMin(0.0);
+  fat.max() += ahead.cwiseMax(0.0);
   return fat;
-}
-
-bool holds(const Eigen::AlignedBox3d& fat_box, const Eigen::AlignedBox3d& box) {
-  return fat_box.contains(box) && fat_box.sizes().sum() <= kMostFat * box.sizes().sum();
 }
 
 SlotPair pair_of(std::uint32_t a, std::uint32_t b) {
@@ -93,28 +87,25 @@ BroadPhase::~BroadPhase() = default;
 BroadPhase::BroadPhase(BroadPhase&&) noexcept = default;
 BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
 
-void BroadPhase::set(std::uint32_t slot, const Eigen::AlignedBox3d& box) {
+Eigen::AlignedBox3d BroadPhase::set(std::uint32_t slot, const Eigen::AlignedBox3d& box, const Eigen::Vector3d& step) {
   assert(slot < slots_.size() && !box.isEmpty());
   Slot& object = slots_[slot];
-  const Eigen::AlignedBox3d last = object.box;
+  if (!object.fat_box.isEmpty()) fat_boxes_->remove(slot, object.fat_box);
   // Two roundings are paid back: of what is added here on either side.
   const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-  object.box = half_margin_ == 0.0 ? box : grown(box, half_margin_ + (largest + half_margin_) * 0x1p-51);
-  if (!last.isEmpty()) {
-    if (holds(object.fat_box, object.box)) return;
-    fat_boxes_->remove(slot, object.fat_box);
-  }
-  object.fat_box = fattened(object.box, last);
+  const Eigen::AlignedBox3d wide = grown(box, half_margin_ + (largest + half_margin_) * 0x1p-51);
+  object.fat_box = fattened(wide, step);
   fat_boxes_->insert(slot, object.fat_box);
   if (!object.is_stale) stale_.push_back(slot);
   object.is_stale = true;
+  return {object.fat_box.min() - wide.min(), object.fat_box.max() - wide.max()};
 }
 
 void BroadPhase::remove(std::uint32_t slot) {
-  assert(slot < slots_.size() && !slots_[slot].box.isEmpty());
+  assert(slot < slots_.size() && !slots_[slot].fat_box.isEmpty());
   Slot& object = slots_[slot];
   fat_boxes_->remove(slot, object.fat_box);
-  object.box.setEmpty();
+  object.fat_box.setEmpty();
   for (const std::uint32_t neighbour : object.neighbours)
     part(slot, neighbour, removed_);
   object.neighbours.clear();
@@ -127,7 +118,7 @@ void BroadPhase::update() {
   ended_.swap(removed_);
   for (const std::uint32_t slot : stale_) {
     slots_[slot].is_stale = false;
-    if (!slots_[slot].box.isEmpty()) find_pairs(slot);
+    if (!slots_[slot].fat_box.isEmpty()) find_pairs(slot);
   }
   stale_.clear();
   std::sort(began_.begin(), began_.end());

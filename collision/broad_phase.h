@@ -3,8 +3,8 @@
 /// Which objects are near each other: the first stage of neighbour finding (paper §2). Objects are slots with boxes in
 /// the world; the broad phase keeps the set of pairs whose boxes may overlap, and says how it changes.
 ///
-/// Boxes are fattened: by a share of their size, and to where they will be soon if they go on as they did last. While a
-/// box stays in its fat one, nothing needs to be done for it, so a frame costs what has moved, and pairs do not
+/// Boxes are fattened: by a share of their size, and to where they will be soon if they go on as they do. While an
+/// object stays in its fat box, nothing needs to be done for it, so a frame costs what has moved, and pairs do not
 /// come and go with every tremor. A pair is two fat boxes that overlap.
 
 #include <cstddef>
@@ -36,16 +36,18 @@ class BroadPhase {
   BroadPhase(BroadPhase&&) noexcept;
   BroadPhase& operator=(BroadPhase&&) noexcept;
 
-  /// Where the object in this slot is from now on, whether there was one or not. The box must be finite and not empty.
-  /// Cost: nothing much while the fat box holds; else O(log n).
-  void set(std::uint32_t slot, const Eigen::AlignedBox3d& box);
+  /// Where the object in this slot is from now on, whether there was one or not, and how far it has come in the last
+  /// frame. The box must be finite and not empty. Returns how far the box may move along each axis, which it may do
+  /// without this being called again: a box about the origin. Cost: O(log n).
+  Eigen::AlignedBox3d set(std::uint32_t slot, const Eigen::AlignedBox3d& box,
+                          const Eigen::Vector3d& step = Eigen::Vector3d::Zero());
 
   /// Empties the slot, which must have an object. All its pairs end, also when it is set again before the next
   /// `update`.
   void remove(std::uint32_t slot);
 
-  /// Finds the pairs of what has left its fat box since the last call. Cost: O(log n + neighbours) for each of those;
-  /// nothing for all others.
+  /// Finds the pairs of what was set since the last call. Cost: O(log n + neighbours) for each of those; nothing for
+  /// all others.
   void update();
 
   /// What the last update has changed, ascending: first `ended` left the set of pairs, then `began` joined it. A pair
@@ -61,8 +63,7 @@ class BroadPhase {
 
  private:
   struct Slot {
-    Eigen::AlignedBox3d box;  ///< grown by half the margin; empty: no object
-    Eigen::AlignedBox3d fat_box;
+    Eigen::AlignedBox3d fat_box;  ///< empty: no object
     std::vector<std::uint32_t> neighbours;
     bool is_stale = false;  ///< its pairs are not those of its fat box
   };

@@ -115,11 +115,11 @@ class CollisionPipeline::Frame {
       broad_phase_.remove(slot);
     for (const std::uint32_t slot : changes.added) {
       placed_.place(slot, world_.objects()[slot]);
-      set_box(slot);
+      set_box(slot, Eigen::Vector3d::Zero());
     }
     for (const std::uint32_t slot : changes.moved) {
-      placed_.move(slot, world_.objects()[slot]);
-      set_box(slot);
+      const Eigen::Vector3d step = placed_.move(slot, world_.objects()[slot]);
+      if (!placed_.has_room(slot)) set_box(slot, step);
     }
     objects_ += std::ssize(changes.added) - std::ssize(changes.removed);
     interest_changed_ = changes.interest;
@@ -130,9 +130,9 @@ class CollisionPipeline::Frame {
     result_.report.queue.out = std::ssize(changed_);
   }
 
-  void set_box(std::uint32_t slot) {
+  void set_box(std::uint32_t slot, const Eigen::Vector3d& step) {
     const WorldObject& object = world_.objects()[slot];
-    broad_phase_.set(slot, world_box(*object.tree, object.X_WO));
+    placed_.give_room(slot, broad_phase_.set(slot, world_box(*object.tree, object.X_WO), step));
   }
 
   // Stage 1: which pairs may have become near or met, or parted again.
@@ -195,7 +195,7 @@ class CollisionPipeline::Frame {
     if (!pair.is_of_interest || pair.frame == frame) return;
     pair.frame = frame;
     ++result_.report.neighbor_finding.out;
-    if (placed_.motion(pair.slots.a, pair.slots.b) + distance_ < pair.apart_until) {
+    if (placed_.gap(pair.slots.a, pair.slots.b, pair.separation) > distance_) {
       part(number);  // it may have met at a greater distance
     } else {
       candidates_.push_back(number);

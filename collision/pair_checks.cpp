@@ -44,12 +44,14 @@ bool PairChecks::are_separated(TrackedPair& pair, PairMemory& memory, double dis
   // Boxes are fat, so what enters is mostly not near yet.
   const double gap_of_spheres = memory.hulls.has_plane ? 0.0 : placed_.gap_of_spheres(pair.slots.a, pair.slots.b);
   if (gap_of_spheres > distance) {
-    pair.apart_until = placed_.apart_until(pair.slots.a, pair.slots.b, gap_of_spheres);
+    const Eigen::Vector3d n_W = placed_.direction(pair.slots.a, pair.slots.b);
+    pair.separation = placed_.separation(pair.slots.a, pair.slots.b, n_W, gap_of_spheres);
     return true;
   }
   if (!hulls_apart(*a.hull, *b.hull, relative_pose(a, b), memory.hulls, options_.hull_test)) return false;
   if (!(memory.hulls.gap > distance)) return false;
-  pair.apart_until = placed_.apart_until(pair.slots.a, pair.slots.b, memory.hulls.gap);
+  const Eigen::Vector3d n_W = a.X_WO.linear() * memory.hulls.n_gap_A;
+  pair.separation = placed_.separation(pair.slots.a, pair.slots.b, n_W, memory.hulls.gap);
   if (memory.hulls.gap - distance > kNear * std::min(a.hull->radius(), b.hull->radius())) {
     memory.front.reset();
     memory.details.reset();

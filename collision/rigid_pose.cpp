@@ -12,9 +12,10 @@ constexpr double kMostCoordinate = 1e9;
 }  // namespace
 
 std::optional<Eigen::Isometry3d> rigid_pose(const Eigen::Isometry3d& X) noexcept {
+  if (!(X.translation().array().abs() <= kMostCoordinate).all()) return std::nullopt;
+  if (rotation_defect_bound(X.linear()) < kNone) return X;
   double defect = rotation_defect(X.linear());
   if (!(defect < kMost) || !is_right_handed(X.linear())) return std::nullopt;
-  if (!(X.translation().array().abs() <= kMostCoordinate).all()) return std::nullopt;
   Eigen::Isometry3d rigid = X;
   // Newton's iteration for the nearest rotation squares the defect; two steps are enough.
   while (!(defect < kNone)) {

@@ -58,6 +58,7 @@ class HullQuery {
     const double gap_A = memory_.n_A.dot(p_AB_) - against_B.dot(vertex_B(memory_.corner_B)) - memory_.reach_A;
     if (gap_A > climbing_margin_) {
       memory_.gap = gap_A - climbing_margin_;
+      memory_.n_gap_A = memory_.n_A;
       return true;
     }
     const Vector3d n = R_AB_ * memory_.n_B;
@@ -68,6 +69,7 @@ class HullQuery {
     const double margin = climbing_margin_ + (R_AB_.transpose() * n - memory_.n_B).lpNorm<1>() * hull_B_.reach();
     if (!(gap_B > margin)) return false;
     memory_.gap = gap_B - margin;
+    memory_.n_gap_A = n;
     return true;
   }
 
@@ -240,6 +242,7 @@ class HullQuery {
 
   bool separated_by(const Vector3d& n, double gap) {
     memory_.n_A = n;
+    memory_.n_gap_A = n;
     memory_.n_B = R_AB_.transpose() * n;
     memory_.reach_A = n.dot(vertex_A(memory_.corner_A));
     memory_.reach_B = -memory_.n_B.dot(vertex_B(memory_.corner_B));

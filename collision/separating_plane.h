@@ -29,8 +29,10 @@ struct HullMemory {
   double reach_A = 0.0;  ///< of A along n_A
   double reach_B = 0.0;  ///< of B against n_B
 
-  /// A lower bound of the distance in metres, if the last answer was that they are apart; else 0.
+  /// A lower bound of the distance in metres along a unit vector, from A to B in the frame of A, if the last answer was
+  /// that they are apart; else 0.
   double gap = 0.0;
+  Eigen::Vector3d n_gap_A = Eigen::Vector3d::Zero();
 
   std::int32_t corner_A = 0;  ///< where climbing begins
   std::int32_t corner_B = 0;

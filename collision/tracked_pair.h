@@ -12,6 +12,7 @@
 #include <glissade/collision/separating_plane.h>
 
 #include "coherent_front.h"
+#include "placed_objects.h"
 
 namespace glissade::collision {
 
@@ -25,8 +26,7 @@ struct MeetingDetails {
 /// What every frame looks at, of many pairs.
 struct TrackedPair {
   SlotPair slots{0, 0};  ///< of the world; object a is A of every query; equal ones: no pair
-  /// The objects are certainly apart until the sum of their motions (metres) exceeds this.
-  double apart_until = -1.0;
+  Separation separation;  ///< the last that is known
   std::uint32_t frame = 0;   ///< the last that looked at it; low bits of the number
   float expected_ns = 0.0F;  ///< of the exact query, by what the last one did
   bool is_of_interest = false;

@@ -2,6 +2,7 @@
 #include <bit>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <glissade/collision/rigid_pose.h>
 #include <glissade/collision/world.h>
@@ -10,30 +11,70 @@ namespace glissade::collision {
 
 // How movers, editors and the consumer meet.
 //
-// One mover is inside a slot at a time. It enters by setting kMoving in the slot's state, which succeeds only while the
-// state is that of its own object at rest: right generation, alive, nobody inside. It fills and publishes the triple
-// buffer, marks the slot in `moved_`, and leaves. An editor removes an object by clearing kAlive, which never waits for
-// a mover inside; but the slot is not given to another object before that mover has left. So the triple buffer has one
-// writer at any time. Entering acquires what leaving has released, so writers follow each other properly, whichever
-// threads they are; through `add`, that holds from one object of a slot to the next.
+// One mover is inside a slot at a time. It enters by setting kInside in the slot's state, which succeeds only while the
+// state is that of its own object and nobody is inside. It writes the pose that is not the newest, and leaves by
+// counting it, which makes it the newest. An editor removes an object by clearing the slot's generation, which never
+// waits for a mover inside; and gives the slot to another by entering as a mover does: with the other's first pose, and
+// leaving with its generation in the state. So poses have one writer at any time. Entering acquires what leaving has
+// released, so writers follow each other properly, whichever threads they are.
 //
-// A pose carries the generation of its object. The consumer uses it only for an object of this generation: poses
-// of an object that was removed move nothing. The pose of an object that was added too late for this take stays in the
-// reader's part of the triple buffer, where the take that learns of the object looks for it.
+// The consumer reads the state, the newest pose, and the state again. If generation and count are the same, nobody has
+// written that pose meanwhile: who is inside writes the other one. (Numbers of the pose are released one by one and
+// acquired one by one; who sees one that was written later sees the state that was there before.) It is used only for
+// an object of this generation, so poses of an object that was removed move nothing.
 //
-// Newest wins: the mover publishes, then sets the bit (release). The consumer clears bits (acquire), then reads the
-// buffer. Where it has seen the bit, it sees that pose or a newer one; where it has not, the bit stays for the next
-// take. All changes of the bits are read-modify-write, so a bit that was set twice releases both poses. A mover that is
-// pre-empted anywhere holds up its own pose and no other.
+// Newest wins: the mover leaves, then sets the slot's bit in `moved_` (release). The consumer clears bits (acquire), then
+// reads the pose. Where it has seen the bit, it sees that pose or a newer one; where it has not, the bit stays for the
+// next take. All changes of the bits are read-modify-write, so a bit that was set twice releases both poses. A mover that
+// is pre-empted anywhere holds up its own poses and no other.
 namespace {
 
-constexpr std::uint64_t kAlive = 1;
-constexpr std::uint64_t kMoving = 2;
+constexpr std::uint64_t kInside = 1;
+constexpr std::uint64_t kOnePose = 2;
+constexpr std::uint64_t kPoses = 0xffff'fffe;  // their number, modulo a power of two
 constexpr std::uint32_t kBitsOfWord = 64;
 constexpr int kMaxCapacity = 1000000;
 
-std::uint64_t state_at_rest(std::uint32_t generation) {
-  return std::uint64_t{generation} << 32 | kAlive;
+std::uint32_t generation_of(std::uint64_t state) {
+  return static_cast<std::uint32_t>(state >> 32);
+}
+
+std::uint64_t with_generation(std::uint64_t state, std::uint32_t generation) {
+  return std::uint64_t{generation} << 32 | (state & 0xffff'ffff);
+}
+
+std::uint64_t with_next_pose(std::uint64_t state) {
+  return (state & ~kPoses) | ((state + kOnePose) & kPoses);
+}
+
+std::size_t newest(std::uint64_t state) {
+  return (state & kOnePose) != 0 ? 1 : 0;
+}
+
+bool enter(std::atomic<std::uint64_t>& state, std::uint64_t expected) {
+  return state.compare_exchange_strong(expected, expected | kInside, std::memory_order_acquire,
+                                       std::memory_order_relaxed);
+}
+
+// The upper three rows of the matrix, by columns. Written out, so that compilers keep them in registers.
+using PoseNumbers = std::array<std::atomic<double>, 12>;
+constexpr std::make_index_sequence<12> kPoseNumbers;
+
+template <std::size_t... i>
+void write_pose(const Eigen::Isometry3d& X_WO, PoseNumbers& numbers, std::index_sequence<i...>) {
+  const double* const entries = X_WO.matrix().data();
+  (numbers[i].store(entries[i / 3 * 4 + i % 3], std::memory_order_release), ...);
+}
+
+template <std::size_t... i>
+std::array<double, sizeof...(i)> read_pose(const PoseNumbers& numbers, std::index_sequence<i...>) {
+  return {numbers[i].load(std::memory_order_acquire)...};
+}
+
+template <std::size_t... i>
+void put_pose(const std::array<double, sizeof...(i)>& numbers, Eigen::Isometry3d& X_WO, std::index_sequence<i...>) {
+  double* const entries = X_WO.matrix().data();
+  ((entries[i / 3 * 4 + i % 3] = numbers[i]), ...);
 }
 
 std::size_t checked_capacity(int capacity) {
@@ -77,21 +118,19 @@ ObjectId World::add(const ObjectDescription& object) {
   if (options_.has_value() && !(*options_ == object.tree->options())) {
     throw std::invalid_argument("the trees of a world must have been built with the same options");
   }
-  const std::uint32_t slot = take_free_slot();
+  const std::uint32_t slot = take_free_slot(*X_WO);
+  const std::uint32_t generation = generation_of(slots_[slot].state.load(std::memory_order_relaxed));
   options_ = object.tree->options();
-  const std::uint64_t former = slots_[slot].state.load(std::memory_order_relaxed) >> 32;
-  // Generation 0 is no object, also when the count begins anew.
-  const std::uint32_t generation = std::max(static_cast<std::uint32_t>(former + 1), std::uint32_t{1});
   registered_[slot] = {{slot, generation}, object.tree, object.hull, *X_WO, object.group};
   mark_edited(slot);
-  slots_[slot].state.store(state_at_rest(generation), std::memory_order_release);
+  slots_[slot].generation.store(generation, std::memory_order_release);
   return registered_[slot].id;
 }
 
 void World::remove(ObjectId id) {
   const std::lock_guard lock(edits_);
   require_alive(id);
-  slots_[id.index].state.fetch_and(~kAlive, std::memory_order_relaxed);
+  slots_[id.index].generation.store(0, std::memory_order_relaxed);
   registered_[id.index] = {};
   mark_edited(id.index);
   free_.push_back(id.index);
@@ -128,21 +167,39 @@ void World::ignore(ObjectId a, ObjectId b) {
 }
 
 bool World::move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept {
+  if (!set_pose(id, X_WO)) return false;
+  moved_[id.index / kBitsOfWord].fetch_or(std::uint64_t{1} << id.index % kBitsOfWord, std::memory_order_release);
+  return true;
+}
+
+std::size_t World::move(std::span<const ObjectMove> moves) noexcept {
+  std::size_t done = 0;
+  std::size_t word = 0;
+  std::uint64_t bits = 0;
+  for (const ObjectMove& move : moves) {
+    if (!set_pose(move.id, move.X_WO)) continue;
+    ++done;
+    if (move.id.index / kBitsOfWord != word) {
+      if (bits != 0) moved_[word].fetch_or(bits, std::memory_order_release);
+      word = move.id.index / kBitsOfWord;
+      bits = 0;
+    }
+    bits |= std::uint64_t{1} << move.id.index % kBitsOfWord;
+  }
+  if (bits != 0) moved_[word].fetch_or(bits, std::memory_order_release);
+  return done;
+}
+
+bool World::set_pose(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept {
   const std::optional<Eigen::Isometry3d> rigid = rigid_pose(X_WO);
   if (id.index >= slots_.size() || !rigid) return false;
   Slot& slot = slots_[id.index];
-  const std::uint64_t at_rest = state_at_rest(id.generation);
-  std::uint64_t state = at_rest;
-  if (!slot.state.compare_exchange_strong(state, at_rest | kMoving, std::memory_order_acquire,
-                                          std::memory_order_relaxed)) {
-    return false;
-  }
-  NewestPose& newest = slot.pose.write_slot();
-  newest.X_WO = *rigid;
-  newest.generation = id.generation;
-  slot.pose.publish();
-  moved_[id.index / kBitsOfWord].fetch_or(std::uint64_t{1} << id.index % kBitsOfWord, std::memory_order_release);
-  slot.state.fetch_and(~kMoving, std::memory_order_release);
+  if (id.generation == 0 || slot.generation.load(std::memory_order_acquire) != id.generation) return false;
+  const std::uint64_t state = slot.state.load(std::memory_order_relaxed) & ~kInside;
+  if (generation_of(state) != id.generation || !enter(slot.state, state)) return false;
+  const std::uint64_t next = with_next_pose(state);
+  write_pose(*rigid, slot.poses_WO[newest(next)], kPoseNumbers);
+  slot.state.store(next, std::memory_order_release);
   return true;
 }
 
@@ -167,13 +224,20 @@ void World::require_alive(ObjectId id) const {
   }
 }
 
-// The slot that was freed last and has no mover inside.
-std::uint32_t World::take_free_slot() {
+// The slot that was freed last and has no mover inside; its state is that of the next object.
+std::uint32_t World::take_free_slot(const Eigen::Isometry3d& X_WO) {
   for (std::size_t i = free_.size(); i > 0; --i) {
-    const std::uint32_t slot = free_[i - 1];
-    if ((slots_[slot].state.load(std::memory_order_acquire) & kMoving) != 0) continue;
+    const std::uint32_t number = free_[i - 1];
+    Slot& slot = slots_[number];
+    const std::uint64_t state = slot.state.load(std::memory_order_relaxed) & ~kInside;
+    if (!enter(slot.state, state)) continue;
     free_.erase(free_.begin() + static_cast<std::ptrdiff_t>(i - 1));
-    return slot;
+    // Generation 0 is no object, also when the count begins anew.
+    const std::uint32_t generation = std::max(generation_of(state) + 1, std::uint32_t{1});
+    const std::uint64_t next = with_generation(with_next_pose(state), generation);
+    write_pose(X_WO, slot.poses_WO[newest(next)], kPoseNumbers);
+    slot.state.store(next, std::memory_order_release);
+    return number;
   }
   throw std::length_error("the world is full: it has room for " + std::to_string(slots_.size()) + " objects");
 }
@@ -205,8 +269,7 @@ void World::take_edit(std::uint32_t slot) {
   object = registered_[slot];
   if (object.id == ObjectId{}) return;
   changes_.added.push_back(slot);
-  const NewestPose& newest = slots_[slot].pose.latest();
-  if (newest.generation == object.id.generation) object.X_WO = newest.X_WO;
+  take_pose(slot);
 }
 
 void World::take_poses() {
@@ -215,14 +278,27 @@ void World::take_poses() {
     std::uint64_t bits = moved_[word].exchange(0, std::memory_order_acquire);
     for (; bits != 0; bits &= bits - 1) {
       const auto slot = static_cast<std::uint32_t>(word * kBitsOfWord + static_cast<unsigned>(std::countr_zero(bits)));
-      WorldObject& object = objects_[slot];
-      if (!slots_[slot].pose.update()) continue;
-      const NewestPose& newest = slots_[slot].pose.value();
-      if (newest.generation != object.id.generation) continue;
-      object.X_WO = newest.X_WO;
+      if (!take_pose(slot)) continue;
       if (!std::binary_search(changes_.added.begin(), changes_.added.end(), slot)) changes_.moved.push_back(slot);
     }
   }
+}
+
+// Whether the slot still is that of the object that the consumer has there.
+bool World::take_pose(std::uint32_t slot) {
+  WorldObject& object = objects_[slot];
+  const Slot& source = slots_[slot];
+  std::uint64_t before = source.state.load(std::memory_order_acquire) | kInside;
+  while (generation_of(before) == object.id.generation) {
+    const std::array<double, 12> numbers = read_pose(source.poses_WO[newest(before)], kPoseNumbers);
+    const std::uint64_t after = source.state.load(std::memory_order_acquire) | kInside;
+    if (after == before) {
+      put_pose(numbers, object.X_WO, kPoseNumbers);
+      return true;
+    }
+    before = after;
+  }
+  return false;
 }
 
 }  // namespace glissade::collision

@@ -4,6 +4,7 @@
 /// §2, §2.3). Any number of threads add, remove and move objects while one, the consumer, computes; the consumer takes
 /// what has changed at the beginning of its next frame, and only that.
 
+#include <array>
 #include <atomic>
 #include <compare>
 #include <cstdint>
@@ -18,7 +19,7 @@
 
 #include <glissade/collision/dop_tree.h>
 #include <glissade/collision/interest_matrix.h>
-#include <glissade/realtime/triple_buffer.h>
+#include <glissade/realtime/cache_line.h>
 
 namespace glissade::collision {
 
@@ -37,6 +38,12 @@ struct ObjectDescription {
   std::shared_ptr<const ConvexHull> hull;  ///< of the same mesh; null: no filter by hulls
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   int group = 0;  ///< row and column of the interest matrix, 0 to 63
+};
+
+/// One object's new pose in the world.
+struct ObjectMove {
+  ObjectId id;
+  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
 };
 
 /// What a slot holds. Without an object: the default.
@@ -60,7 +67,7 @@ struct WorldChanges {
 /// id, one of an object that was removed, and one of another world count as stale.
 class World {
  public:
-  /// Room for `capacity` objects; takes about 1.2 kB for each. Throws std::invalid_argument unless 1 to 1,000,000.
+  /// Room for `capacity` objects; takes about 0.7 kB for each. Throws std::invalid_argument unless 1 to 1,000,000.
   explicit World(int capacity = 4096);
   ~World();
   World(const World&) = delete;
@@ -93,10 +100,13 @@ class World {
   /// same time, whose pose nobody will see.
   bool move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept;
 
+  /// All of these, one by one, which is cheaper than as many calls where slots ascend. Returns how many were done.
+  std::size_t move(std::span<const ObjectMove> moves) noexcept;
+
   // The consumer: one thread.
 
   /// Makes `objects` what editors and movers have made of it by now, and says what is different. Blocks on editors for
-  /// the length of one edit, never on movers. Cost O(changes + capacity / 64). Objects that were removed are
+  /// the length of one edit, never on movers; looks twice at a pose that is overwritten meanwhile. Cost O(changes + capacity / 64). Objects that were removed are
   /// destroyed here, if nobody else holds them. The result is overwritten by the next call.
   const WorldChanges& take_changes();
 
@@ -109,23 +119,22 @@ class World {
   }
 
  private:
-  struct NewestPose {
-    Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
-    std::uint32_t generation = 0;  ///< of the object it was meant for
-  };
-
-  struct Slot {
-    std::atomic<std::uint64_t> state{0};  ///< generation, kAlive, kMoving
-    realtime::TripleBuffer<NewestPose> pose;
+  /// The newest pose, and room for the next.
+  struct alignas(realtime::kCacheLineBytes) Slot {
+    std::atomic<std::uint64_t> state{0};       ///< generation, number of poses, kInside
+    std::atomic<std::uint32_t> generation{0};  ///< of the object that is here; 0: none
+    std::array<std::array<std::atomic<double>, 12>, 2> poses_WO{};  ///< by the last bit of that number
   };
 
   bool is_alive(ObjectId id) const;
   void require_alive(ObjectId id) const;
-  std::uint32_t take_free_slot();
+  std::uint32_t take_free_slot(const Eigen::Isometry3d& X_WO);
   void mark_edited(std::uint32_t slot);
   void take_edits();
   void take_edit(std::uint32_t slot);
   void take_poses();
+  bool set_pose(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept;
+  bool take_pose(std::uint32_t slot);
 
   // What movers write.
   std::vector<Slot> slots_;
