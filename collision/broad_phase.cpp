@@ -18,7 +18,7 @@ namespace {
 
 // Measured: larger boxes save more time here than the pairs they add can take (docs/collision.md).
 constexpr double kFatOfSize = 0.1;     // of the mean edge
-constexpr double kFramesAhead = 16.0;  // of the last frame's step
+constexpr double kFramesAhead = 32.0;  // of the last frame's step
 constexpr double kLongestAhead = 1.0;  // of the mean edge: a leap is no speed
 
 Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by) {

@@ -167,30 +167,6 @@ void World::ignore(ObjectId a, ObjectId b) {
 }
 
 bool World::move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept {
-  if (!set_pose(id, X_WO)) return false;
-  moved_[id.index / kBitsOfWord].fetch_or(std::uint64_t{1} << id.index % kBitsOfWord, std::memory_order_release);
-  return true;
-}
-
-std::size_t World::move(std::span<const ObjectMove> moves) noexcept {
-  std::size_t done = 0;
-  std::size_t word = 0;
-  std::uint64_t bits = 0;
-  for (const ObjectMove& move : moves) {
-    if (!set_pose(move.id, move.X_WO)) continue;
-    ++done;
-    if (move.id.index / kBitsOfWord != word) {
-      if (bits != 0) moved_[word].fetch_or(bits, std::memory_order_release);
-      word = move.id.index / kBitsOfWord;
-      bits = 0;
-    }
-    bits |= std::uint64_t{1} << move.id.index % kBitsOfWord;
-  }
-  if (bits != 0) moved_[word].fetch_or(bits, std::memory_order_release);
-  return done;
-}
-
-bool World::set_pose(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept {
   const std::optional<Eigen::Isometry3d> rigid = rigid_pose(X_WO);
   if (id.index >= slots_.size() || !rigid) return false;
   Slot& slot = slots_[id.index];
@@ -200,6 +176,7 @@ bool World::set_pose(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept {
   const std::uint64_t next = with_next_pose(state);
   write_pose(*rigid, slot.poses_WO[newest(next)], kPoseNumbers);
   slot.state.store(next, std::memory_order_release);
+  moved_[id.index / kBitsOfWord].fetch_or(std::uint64_t{1} << id.index % kBitsOfWord, std::memory_order_release);
   return true;
 }
 

@@ -40,12 +40,6 @@ struct ObjectDescription {
   int group = 0;  ///< row and column of the interest matrix, 0 to 63
 };
 
-/// One object's new pose in the world.
-struct ObjectMove {
-  ObjectId id;
-  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
-};
-
 /// What a slot holds. Without an object: the default.
 struct WorldObject {
   ObjectId id;
@@ -100,9 +94,6 @@ class World {
   /// same time, whose pose nobody will see.
   bool move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept;
 
-  /// All of these, one by one, which is cheaper than as many calls where slots ascend. Returns how many were done.
-  std::size_t move(std::span<const ObjectMove> moves) noexcept;
-
   // The consumer: one thread.
 
   /// Makes `objects` what editors and movers have made of it by now, and says what is different. Blocks on editors for
@@ -133,7 +124,6 @@ class World {
   void take_edits();
   void take_edit(std::uint32_t slot);
   void take_poses();
-  bool set_pose(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept;
   bool take_pose(std::uint32_t slot);
 
   // What movers write.

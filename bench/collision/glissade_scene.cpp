@@ -35,10 +35,8 @@ class GlissadeScene : public SceneSubject {
   }
 
   void step(std::span<const MovedObject> moved) override {
-    moves_.clear();
     for (const MovedObject& object : moved)
-      moves_.push_back({ids_[object.object], object.X_WO});
-    world_.move(moves_);
+      world_.move(ids_[object.object], object.X_WO);
     pipeline_.step();
   }
 
@@ -56,7 +54,6 @@ class GlissadeScene : public SceneSubject {
   realtime::SteadyClock clock_;
   collision::CollisionPipeline pipeline_;
   std::vector<ObjectId> ids_;
-  std::vector<collision::ObjectMove> moves_;
   std::vector<std::size_t> number_of_slot_;
 };
 
