@@ -34,7 +34,8 @@ struct PipelineOptions {
 };
 
 /// Deterministic: the answers depend on the poses alone, not on threads or on what came before. Not thread-safe; the
-/// world may be used by others all the time.
+/// world may be used by others all the time. Where memory runs out in a frame that several threads share, the program
+/// ends.
 class CollisionPipeline {
  public:
   /// Is the consumer of `world` from now on, and there must be no other. World and clock must outlive it; the clock

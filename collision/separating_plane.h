@@ -46,8 +46,8 @@ struct HullMemory {
 };
 
 /// Whether two hulls are certainly apart, at the pose X_AB of B in the frame of A. By default exact for the points that
-/// the hulls were made of, but for gaps that are lost in rounding (1e-13 of all coordinates that take part, and
-/// `ConvexHull::outside`), where the answer is no. Touching hulls are not apart.
+/// the hulls were made of, but for gaps that are lost in rounding (1e-13 of all coordinates that take part, 1e-11 for
+/// needles, and `ConvexHull::outside`), where the answer is no. Touching hulls are not apart.
 ///
 /// Allocates nothing. Cost: about twenty nanoseconds while the plane or the four pairs hold, less than a microsecond
 /// otherwise after a small movement, some microseconds after a large one; bounded in any case. Different threads may

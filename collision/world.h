@@ -75,8 +75,8 @@ class World {
   /// beyond 0 to 63, or a pose `move` would refuse; std::length_error when the world is full.
   ObjectId add(const ObjectDescription& object);
 
-  /// Throws std::invalid_argument for a stale id. Pairs of this object need no more be ignored. The tree may live until
-  /// the consumer's next take.
+  /// Throws std::invalid_argument for a stale id. Pairs of this object need no more be ignored. The tree is let go at the
+  /// consumer's next take, or at once if no take has seen the object.
   void remove(ObjectId id);
 
   /// As in `InterestMatrix`; `ignore` and `attend` throw std::invalid_argument for a stale id. A frame may fall between
@@ -97,7 +97,8 @@ class World {
   // The consumer: one thread.
 
   /// Makes `objects` what editors and movers have made of it by now, and says what is different. Blocks on editors for
-  /// the length of one edit, never on movers; looks twice at a pose that is overwritten meanwhile. Cost O(changes + capacity / 64). Objects that were removed are
+  /// the length of one edit, never on movers; looks again at a pose if its object is moved twice meanwhile. Cost
+  /// O(changes + capacity / 64), and a copy of the interest matrix when that has changed. Objects that were removed are
   /// destroyed here, if nobody else holds them. The result is overwritten by the next call.
   const WorldChanges& take_changes();
 

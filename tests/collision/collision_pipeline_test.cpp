@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -131,12 +132,29 @@ TEST_F(Pipeline, LooksAtASeparatedPairAgainOnlyWhenItsGapMayBeUsedUp) {
     EXPECT_EQ(pipeline.result().report.neighbor_finding.out, 1);
     looked += static_cast<int>(pipeline.result().report.separating_planes.in);
   }
-  EXPECT_LE(looked, 2) << "a gap of 100 mm lasts for 100 steps of 1 mm";
+  EXPECT_EQ(looked, 0) << "who goes sideways uses up nothing";
+  ASSERT_TRUE(world_.move(b, at(1.05, 0.1)));
+  EXPECT_EQ(pipeline.step().report.separating_planes.in, 0) << "a gap of 100 mm lasts for 50";
   // Straight on, and it is found out in time.
   ASSERT_TRUE(world_.move(b, at(1.0000001, 0.1)));
   EXPECT_THAT(pipeline.step().meeting, IsEmpty());
   ASSERT_TRUE(world_.move(b, at(0.9999999, 0.1)));
   EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{a, b}));
+}
+
+TEST_F(Pipeline, KnowsWhenTurningUsesUpAGap) {
+  CollisionPipeline pipeline(world_, clock_);
+  const ObjectId a = add(at(0.0));
+  const ObjectId b = add(at(1.2));
+  EXPECT_THAT(pipeline.step().meeting, IsEmpty());
+  for (int degrees = 1; degrees < 45; ++degrees) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    ASSERT_TRUE(world_.move(b, at(1.2) * Eigen::AngleAxisd(angle, Vector3d::UnitZ())));
+    // Where the foremost corner is.
+    const bool meet = 1.2 - std::sqrt(0.5) * std::cos(std::numbers::pi / 4.0 - angle) <= 0.5;
+    ASSERT_EQ(pipeline.step().meeting.size(), meet ? 1U : 0U) << degrees << " degrees";
+  }
+  EXPECT_THAT(pipeline.result().meeting, ElementsAre(ObjectPair{a, b}));
 }
 
 // As poses that have been through single precision. Far from its origin, an object would move by much.

@@ -52,7 +52,7 @@ HullOracle::HullOracle(std::span<const Vector3d> points_A, std::span<const Vecto
     points_B_.emplace_back(X_AB * x);
 }
 
-bool HullOracle::proves_apart(const Vector3d& n_A) const {
+bool HullOracle::proves_apart(const Vector3d& n_A, double gap) const {
   auto reach_A = Quad(-std::numeric_limits<double>::infinity());
   auto reach_B = Quad(std::numeric_limits<double>::infinity());
   for (const Vector3d& x : points_A_)
@@ -60,7 +60,7 @@ bool HullOracle::proves_apart(const Vector3d& n_A) const {
   for (const Vector3d& x : points_B_)
     reach_B = std::min(reach_B, height(n_A, x));
   const Quad error = Quad(1e-32) * Quad(n_A.lpNorm<1>()) * Quad(largest(points_A_) + largest(points_B_));
-  return reach_B - reach_A > error;
+  return reach_B - reach_A > Quad(gap) * Quad(n_A.norm()) + error;
 }
 
 bool HullOracle::proves_meeting(const std::array<PointPair, 4>& pairs) const {

@@ -20,8 +20,9 @@ class HullOracle {
   /// A point of A and one of B, each in its own frame.
   using PointPair = std::array<Eigen::Vector3d, 2>;
 
-  /// Whether a plane with this normal certainly separates A from B: quadruple precision with a bound of its error.
-  bool proves_apart(const Eigen::Vector3d& n_A) const;
+  /// Whether A and B are certainly further apart than `gap` metres along this normal, which need not be of unit length:
+  /// quadruple precision with a bound of its error.
+  bool proves_apart(const Eigen::Vector3d& n_A, double gap) const;
 
   /// Whether the origin is inside of four differences of points, which proves that the hulls meet.
   /// Pairs that are not of the points prove nothing.
