@@ -3,6 +3,7 @@
 import csv
 import math
 import re
+import typing
 
 PEERS = ["fcl", "ode", "bullet", "cgal"]
 HULL_PEERS = ["libccd", "libccd-mpr", "fcl", "bullet"]
@@ -69,3 +70,22 @@ def shapes(figures):
         if triangles and figures.get(case, "glissade", "time") is not None:
             found.setdefault(shape, []).append((triangles, case))
     return {shape: sorted(sizes) for shape, sizes in found.items() if len(sizes) > 1}
+
+
+class HullCase(typing.NamedTuple):
+    """What "sphere-1000-0.05deg-gap-1e-4" says: corners of each hull, degrees a step, "gap-1e-4" or "depth-1e-3"."""
+    shape: str
+    corners: int
+    degrees: float
+    gap: str
+
+
+def hull_times(figures):
+    """Mean time of a query in µs, by case and then by subject."""
+    times = {}
+    for (name, subject, metric), ns in figures.values.items():
+        match = re.fullmatch(r"(\w+)-(\d+)-([\d.]+)deg-((?:gap|depth)-.+)", name)
+        if match and metric == "time":
+            case = HullCase(match[1], int(match[2]), float(match[3]), match[4])
+            times.setdefault(case, {})[subject] = ns / 1000
+    return times

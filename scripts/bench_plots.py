@@ -1,10 +1,11 @@
 """The plots of docs/benchmarks.md, drawn by gnuplot as SVG."""
 
+import math
 import subprocess
 
-from bench_figures import geometric_mean, shapes, split_case
+from bench_figures import HULL_PEERS, PEER_TITLES, geometric_mean, hull_times, shapes, split_case
 
-COLORS = ["#1b6ca8", "#d1495b", "#66a182", "#edae49", "#7d5ba6"]
+COLORS = ["#1b6ca8", "#d1495b", "#66a182", "#edae49", "#7d5ba6", "#4a4a4a"]
 DIRECTIONS = {6: "glissade-k6", 14: "glissade-k14", 18: "glissade-k18", 24: "glissade", 26: "glissade-k26"}
 
 
@@ -122,6 +123,78 @@ def draw_scene(path, figures):
         return False
     body += "set logscale xy\nset xlabel 'objects'\nset ylabel 'µs a frame'\nplot " + ", ".join(lines) + "\n"
     gnuplot(path, (560, 360), body)
+    return True
+
+
+HULL_LINES = {"glissade": "Glissade", "glissade-perceptron": "Glissade, perceptron"}
+HULL_LINES |= {peer: PEER_TITLES[peer] for peer in HULL_PEERS}
+HULL_GAPS = {"gap-1e-2": "1e-2", "gap-1e-4": "1e-4", "gap-1e-6": "1e-6", "depth-1e-3": "1e-3 deep"}
+
+
+def nearest(wanted, numbers):
+    return min(numbers, key=lambda n: abs(math.log(n / wanted)))
+
+
+def hull_points(times, subject, x, fixed):
+    """(x, µs) of one subject over the cases whose fields are as in `fixed`; `x` is a field, too."""
+    points = []
+    for case, us in times.items():
+        if subject in us and fixed.items() <= case._asdict().items():
+            at = getattr(case, x)
+            points.append((list(HULL_GAPS).index(at) if x == "gap" else at, us[subject]))
+    return sorted(points)
+
+
+def hull_panels(times):
+    """(title, x, settings, fields of the solid lines, of the dashed ones). Sizes that are missing are replaced by the nearest.
+
+    Spheres on the left, as in the paper; the line of centres, where some begin, tells little of ellipsoids."""
+    ticks = ", ".join(f"'{title}' {i}" for i, title in enumerate(HULL_GAPS.values()))
+    by_gap = f"set xtics ({ticks})\nset xrange [-0.3:3.3]\nset xlabel 'gap, by the size'\n"
+    by_pace = "set logscale x\nset xtics (0.05, 0.5, 5)\nset format x '%g'\nset xrange [0.04:6.3]\nset xlabel 'degrees a step'\n"
+    sizes = {case.corners for case in times}
+    by_size = f"set logscale x\nset xtics auto\nset xrange [{0.8 * min(sizes)}:{1.25 * max(sizes)}]\n"
+    by_size += "set format x '%.0s%c'\nset xlabel 'corners of each hull'\n"
+    small, large = nearest(1000, sizes), nearest(20000, sizes)
+    two_sizes = f"{small:,} corners" + (f"; dashed: {large:,}" if small != large else "")
+    near = {"gap": "gap-1e-4"}
+    slow = {"degrees": 0.05}
+    return [(f"sphere, {small:,} corners, 0.05° a step", "gap", by_gap, slow | {"shape": "sphere", "corners": small}, None),
+            (f"ellipsoid, {large:,} corners, 0.05° a step", "gap", by_gap, slow | {"shape": "ellipsoid", "corners": large}, None),
+            ("sphere, gap 1e-4, 0.05° a step; dashed: 5°", "corners", by_size,
+             near | slow | {"shape": "sphere"}, near | {"shape": "sphere", "degrees": 5}),
+            ("ellipsoid, gap 1e-4, " + two_sizes, "degrees", by_pace, near | {"shape": "ellipsoid", "corners": small},
+             near | {"shape": "ellipsoid", "corners": large} if small != large else None)]
+
+
+def draw_figure_4(path, figures):
+    """Figure 4 of the paper: convex hulls by distance, number of corners and rotational velocity."""
+    times = hull_times(figures)
+    if not times:
+        return False
+    data = ""
+    plots = []
+    for title, x, settings, *variants in hull_panels(times):
+        lines = []
+        for dashed, fixed in enumerate(variants):
+            for color, subject in enumerate(HULL_LINES):
+                points = hull_points(times, subject, x, fixed) if fixed else []
+                if len(points) > 1:
+                    name = f"{x}{len(plots)}_{dashed}_{color}"
+                    data += data_block(name, points)
+                    lines.append(f"${name} " + line(color, "", dashed))
+        if lines:
+            plots.append((f'{settings}set title "{title}"\n', lines))
+    if not plots:
+        return False
+    # The last panel names the lines, below all.
+    plots[-1][1].extend("NaN " + line(color, title) for color, title in enumerate(HULL_LINES.values()))
+    every_time = [us for by_subject in times.values() for us in by_subject.values()]
+    body = data + "set multiplot layout 2,2 margins 0.09,0.98,0.17,0.94 spacing 0.1,0.18\nset logscale y\nset ylabel 'µs'\n"
+    body += f"set yrange [{0.7 * min(every_time)}:{1.4 * max(every_time)}]\n"
+    body += "set key at screen 0.5,0.02 center bottom vertical maxrows 2 Left reverse width -4\n"
+    body += "".join(f"{settings}plot " + ", ".join(lines) + "\n" for settings, lines in plots)
+    gnuplot(path, (860, 640), body)
     return True
 
 

@@ -143,7 +143,7 @@ def build(figures, images):
     return text + folded("Bytes a triangle", time_table(figures, subjects, "bytes_per_triangle", "B", 1))
 
 
-def hull(figures, _):
+def hull(figures, images):
     header = ["times faster than (geometric mean, worst case)"] + [PEER_TITLES[peer] for peer in HULL_PEERS]
     rows = []
     for group in ["separated", "touching", "penetrating", ""]:
@@ -155,6 +155,8 @@ def hull(figures, _):
             cells.append("" if mean is None else f"{mean:.1f}, {worst:.1f}")
         rows.append([f"{group}, 0.05 degrees a step" if group else "all gaps and steps"] + cells)
     text = table(header, rows)
+    text += picture(bench_plots.draw_figure_4(images / "bench_hull.svg", figures), "bench_hull.svg",
+                    "Figure 4 of the paper today: time of a query against distance, number of corners and rotational velocity")
     wrong = {subject: sum(figures.get(case, subject, "wrong") or 0 for case in figures.cases) for subject in figures.subjects}
     text += "Wrong answers: " + ", ".join(f"{subject} {count:.0f}" for subject, count in wrong.items()) + ".\n\n"
     subjects = ["glissade", "glissade-perceptron"] + HULL_PEERS
@@ -178,11 +180,31 @@ def stage_table(figures):
     return table(["passed on, time", "boxes overlap"] + [stage.replace("_", " ") for stage in STAGES], rows)
 
 
+def means_table(figures):
+    """What medians leave out: mean and 99th percentile of the frames, and how many times faster than whoever is fastest."""
+    subjects = [who for who in ["glissade"] + PEERS if who in figures.subjects]
+    rows = []
+    for case in figures.cases:
+        if figures.get(case, "glissade", "us_per_frame_mean") is None:
+            continue
+        cells = []
+        for who in subjects:
+            mean, slow = (figures.get(case, who, "us_per_frame_" + what) for what in ("mean", "p99"))
+            cells.append("" if mean is None else f"{number(mean)}, {number(slow)}")
+        cells += [number(figures.get(case, "glissade", prefix + "ratio_to_best_peer")) for prefix in ("mean_", "")]
+        rows.append([case] + cells)
+    if not rows:
+        return ""
+    text = "Means and 99th percentiles (of fewer than a hundred frames the slowest), and how many times faster than the best peer:\n\n"
+    return text + table(["µs a frame: mean, 99th percentile"] + subjects + ["times faster, by means", "by medians"], rows)
+
+
 def scene(figures, images):
     text = ratio_table(figures)
     text += picture(bench_plots.draw_scene(images / "bench_scene.svg", figures), "bench_scene.svg",
                     "Figure 5 of the paper today: time of a frame against the number of objects")
     text += time_table(figures, ["glissade"] + PEERS, "us_per_frame", "µs a frame", 1)
+    text += means_table(figures)
     shares = [figures.get(case, "machine", "cpu_share") for case in figures.cases]
     text += (f"The program had a processor for at least {min(filter(None, shares)):.0%} of the time; where that is well below "
              "100 %, slow libraries look slower than they are.\n\n")

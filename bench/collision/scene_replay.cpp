@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "interleaved_passes.h"
@@ -26,7 +27,7 @@ class Player {
   Player(const Scene& scene, SceneSubject& subject, const ReplayLimits& limits)
       : scene_(scene), subject_(subject), limits_(limits) {}
 
-  // Slow ones take only the end of it.
+  // Slow ones stop early, after a tenth of their time: they take the first of these frames only.
   void run_in() {
     const double most_us = 1e6 * limits_.seconds / 10.0;
     double spent_us = step(0);
@@ -76,6 +77,12 @@ void for_common_frames(std::span<const FrameRecord> frames, std::span<const Fram
   }
 }
 
+std::vector<double> common_times_us(std::span<const FrameRecord> frames, std::span<const FrameRecord> others) {
+  std::vector<double> times;
+  for_common_frames(frames, others, [&](const FrameRecord& record, const FrameRecord&) { times.push_back(record.us); });
+  return times;
+}
+
 }  // namespace
 
 void play(Scene& scene, SceneSubject& referee, int frames) {
@@ -113,9 +120,20 @@ std::vector<std::vector<FrameRecord>> replay(const Scene& scene,
 }
 
 double median_us(std::span<const FrameRecord> frames, std::span<const FrameRecord> others) {
-  std::vector<double> times;
-  for_common_frames(frames, others, [&](const FrameRecord& record, const FrameRecord&) { times.push_back(record.us); });
-  return median(std::move(times));
+  return median(common_times_us(frames, others));
+}
+
+double mean_us(std::span<const FrameRecord> frames, std::span<const FrameRecord> others) {
+  const std::vector<double> times = common_times_us(frames, others);
+  return std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
+}
+
+double percentile_99_us(std::span<const FrameRecord> frames) {
+  std::vector<double> times = common_times_us(frames, frames);
+  const std::size_t above = times.size() / 100;  // how many may take longer
+  const auto found = times.end() - 1 - static_cast<std::ptrdiff_t>(above);
+  std::nth_element(times.begin(), found, times.end());
+  return *found;
 }
 
 std::int64_t differences(std::span<const FrameRecord> frames, std::span<const FrameRecord> others) {

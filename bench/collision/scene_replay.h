@@ -40,6 +40,12 @@ std::vector<std::vector<FrameRecord>> replay(const Scene& scene,
 /// Median time of the frames that `others` took, too.
 double median_us(std::span<const FrameRecord> frames, std::span<const FrameRecord> others);
 
+/// Mean time of the same frames, in which the few that take long count.
+double mean_us(std::span<const FrameRecord> frames, std::span<const FrameRecord> others);
+
+/// One frame of a hundred takes longer; of fewer than a hundred the slowest.
+double percentile_99_us(std::span<const FrameRecord> frames);
+
 /// How many pairs meet in one but not in the other, over the frames that both took.
 std::int64_t differences(std::span<const FrameRecord> frames, std::span<const FrameRecord> others);
 
