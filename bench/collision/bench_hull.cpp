@@ -100,7 +100,7 @@ std::vector<bool> exact_answers(const ConvexHull& hull, const Poses& poses) {
       for (std::size_t side = 0; side < 2; ++side)
         pairs[i][side] = hull.vertices()[static_cast<std::size_t>(memory.simplex[i][side])];
     }
-    const bool is_proved = apart ? oracle.proves_apart(memory.n_A) : oracle.proves_meeting(pairs);
+    const bool is_proved = apart ? oracle.proves_apart(memory.n_gap_A, memory.gap) : oracle.proves_meeting(pairs);
     answers.push_back(is_proved ? !apart : oracle.distance() == 0.0);
   }
   return answers;
