@@ -29,7 +29,9 @@ constexpr const char* kFooter =
     "\n"
     "Metaphors:\n"
     "  force-feedback      rigid grasp: the device holds the hand back, the part catches up at a limited speed\n"
+    "  rubber-band         the part hangs on the ghost by its middle; only what it touches turns it, no torque\n"
     "  rubber-band-spring  rubber band and spiral spring: the part catches up at once\n"
+    "  incremental         the part repeats each motion of the ghost from where it is; what is refused is forgotten\n"
     "\n"
     "Example:\n"
     "  glissade slide door.yaml --part motor --trajectory hand.csv --out motion.csv";
@@ -44,10 +46,11 @@ struct Options {
 
 haptics::Metaphor parse_metaphor(const std::string& name) {
   const auto metaphor = haptics::metaphor_from_name(name);
-  if (!metaphor) {
-    throw std::invalid_argument("--metaphor: '" + name + "' is unknown; known are force-feedback, rubber-band-spring");
-  }
-  return *metaphor;
+  if (metaphor) return *metaphor;
+  std::string known;
+  for (const std::string_view one : haptics::kMetaphorNames)
+    known += (known.empty() ? "" : ", ") + std::string(one);
+  throw std::invalid_argument("--metaphor: '" + name + "' is unknown; known are " + known);
 }
 
 std::vector<std::string> columns() {
@@ -65,9 +68,8 @@ void add_pose(CsvWriter& out, const Eigen::Isometry3d& X) {
 void add_row(CsvWriter& out, double time_s, const haptics::Sliding& sliding) {
   const haptics::SlidingResult& result = sliding.result();
   const Eigen::Vector3d& p_Vref = sliding.part().p_Vref();
-  const haptics::Wrench wrench = haptics::about_point(
-      haptics::spring_wrench(sliding.stiffness(), haptics::displacement_between(result.X_WV, result.X_WG, p_Vref)),
-      result.X_WG * p_Vref, result.X_WV.translation());
+  const haptics::Wrench wrench = haptics::about_point(haptics::spring_wrench(sliding.stiffness(), sliding.error()),
+                                                      result.X_WT * p_Vref, result.X_WV.translation());
   out.add(time_s);
   add_pose(out, result.X_WG);
   add_pose(out, result.X_WV);

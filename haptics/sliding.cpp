@@ -28,14 +28,10 @@ CouplingStiffness default_stiffness(const SlidingPart& part_V) {
 
 }  // namespace
 
-std::optional<Metaphor> metaphor_from_name(std::string_view name) {
-  if (name == "force-feedback") return Metaphor::kForceFeedback;
-  if (name == "rubber-band-spring") return Metaphor::kRubberBandSpring;
-  return std::nullopt;
-}
-
 std::string_view name_of(SlidingState state) {
   switch (state) {
+    case SlidingState::kReleased:
+      return "released";
     case SlidingState::kFree:
       return "free";
     case SlidingState::kSliding:
@@ -67,24 +63,55 @@ Sliding::Sliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingP
     throw std::invalid_argument("the part collides with " + name + " at its start pose");
   }
   result_.X_WG = *X_WV;
+  result_.X_WT = *X_WV;
   result_.X_WV = *X_WV;
 }
 
 const Sliding::Step Sliding::kNoStep{{}, 0.0, false, true};
 
+void Sliding::grasp(const Eigen::Isometry3d& X_WG) {
+  const std::optional<Eigen::Isometry3d> rigid = collision::rigid_pose(X_WG);
+  if (!rigid) return;
+  result_.X_WG = *rigid;
+  let_rest(SlidingState::kFree);
+}
+
+void Sliding::release() {
+  result_.X_WG = result_.X_WV;
+  let_rest(SlidingState::kReleased);
+}
+
+/// Nothing is wanted of the part, so nothing pushes it.
+void Sliding::let_rest(SlidingState state) {
+  result_.X_WT = result_.X_WV;
+  result_.state = state;
+  result_.contacts.clear();
+  result_.pushing = 0;
+  result_.cycles = 0;
+}
+
+Displacement Sliding::error() const {
+  return displacement_between(result_.X_WV, result_.X_WT, part_V_->p_Vref());
+}
+
 const SlidingResult& Sliding::advance(const Eigen::Isometry3d& X_WG_given, double milliseconds) {
   const std::optional<Eigen::Isometry3d> rigid = collision::rigid_pose(X_WG_given);
-  if (!rigid) return result_;
-  const Eigen::Isometry3d& X_WG = *rigid;
-  ghost_motion_ = motion_bound(displacement_between(result_.X_WG, X_WG, part_V_->p_Vref()), part_V_->radius());
-  result_.X_WG = X_WG;
+  if (!rigid || result_.state == SlidingState::kReleased) return result_;
+  const Eigen::Isometry3d X_WG_then = result_.X_WG;
+  result_.X_WG = *rigid;
+  ghost_motion_ = motion_bound(displacement_between(X_WG_then, *rigid, part_V_->p_Vref()), part_V_->radius());
+  result_.X_WT = wanted_pose(metaphor_, result_.X_WV, X_WG_then, *rigid, part_V_->p_Vref());
   double budget = metaphor_ == Metaphor::kForceFeedback ? kSlew_m * milliseconds + 2.0 * ghost_motion_
                                                         : std::numeric_limits<double>::infinity();
   double moved = 0.0;
   for (result_.cycles = 1;; ++result_.cycles) {
-    const Step step = cycle(X_WG, budget);
+    const Step step = cycle(budget);
     budget -= step.length;
     moved += step.length;
+    // The rubber band wants what turns with the part.
+    if (metaphor_ == Metaphor::kRubberBand) {
+      result_.X_WT = wanted_pose(metaphor_, result_.X_WV, X_WG_then, *rigid, part_V_->p_Vref());
+    }
     if (step.arrives || step.length < 0.05 * margin_ || result_.cycles == max_cycles_) break;
   }
   result_.state = classify(moved);
@@ -92,12 +119,12 @@ const SlidingResult& Sliding::advance(const Eigen::Isometry3d& X_WG_given, doubl
 }
 
 /// One cycle: look around, project, prove, move.
-Sliding::Step Sliding::cycle(const Eigen::Isometry3d& X_WG, double budget) {
+Sliding::Step Sliding::cycle(double budget) {
   result_.reach = choose_reach(budget);
   if (!candidates_.covers(result_.reach)) refresh_candidates();
   find_rows();
 
-  const Displacement wanted = displacement_between(result_.X_WV, X_WG, part_V_->p_Vref());
+  const Displacement wanted = error();
   const double energy_before = energy(wanted);
   // Contacts that ask for their margin back may cost energy; a step that gains any beyond that went over a bend of the
   // contact that the projection did not see, and is tried again with damping.
@@ -107,17 +134,17 @@ Sliding::Step Sliding::cycle(const Eigen::Isometry3d& X_WG, double budget) {
   for (int trial = 0; trial < kDampings; ++trial) {
     step = certified_step(wanted.scaled(1.0 / (1.0 + damping_)), budget);
     step.arrives = step.arrives && damping_ == 0.0;
-    const Displacement remaining =
-        displacement_between(displaced(result_.X_WV, part_V_->p_Vref(), step.displacement), X_WG, part_V_->p_Vref());
+    const Displacement remaining = displacement_between(displaced(result_.X_WV, part_V_->p_Vref(), step.displacement),
+                                                        result_.X_WT, part_V_->p_Vref());
     if (step.arrives || energy(remaining) <= energy_before + allowance) {
       damping_ = damping_ < 0.1 ? 0.0 : 0.25 * damping_;
-      apply(step, X_WG);
+      apply(step);
       return step;
     }
     damping_ = std::clamp(4.0 * damping_, 0.5, kLargestDamping);
   }
   damping_ = 0.0;
-  apply(kNoStep, X_WG);
+  apply(kNoStep);
   return kNoStep;
 }
 
@@ -227,7 +254,7 @@ double Sliding::energy(const Displacement& error) const {
   return 0.5 * (stiffness_.translational * error.v.squaredNorm() + stiffness_.rotational * error.w.squaredNorm());
 }
 
-void Sliding::apply(const Step& step, const Eigen::Isometry3d& X_WG) {
+void Sliding::apply(const Step& step) {
   const std::size_t found = result_.contacts.size();
   for (int i = 0; i < projection_.active_count; ++i) {
     const auto slot = static_cast<std::size_t>(i);
@@ -238,10 +265,10 @@ void Sliding::apply(const Step& step, const Eigen::Isometry3d& X_WG) {
     contact.force = projection_.force[slot];
   }
   result_.pushing = projection_.active_count;
-  // An arrival copies the ghost's pose, so that the coupling wrench is zero and not merely small.
+  // An arrival copies the wanted pose, so that the coupling wrench is zero and not merely small.
   // Standing still keeps every bit.
   if (step.arrives) {
-    result_.X_WV = X_WG;
+    result_.X_WV = result_.X_WT;
   } else if (step.length > 0.0) {
     result_.X_WV = displaced(result_.X_WV, part_V_->p_Vref(), step.displacement);
   }
@@ -251,7 +278,7 @@ void Sliding::apply(const Step& step, const Eigen::Isometry3d& X_WG) {
 }
 
 SlidingState Sliding::classify(double moved) const {
-  if (result_.X_WV.matrix() == result_.X_WG.matrix()) return SlidingState::kFree;
+  if (result_.X_WV.matrix() == result_.X_WT.matrix()) return SlidingState::kFree;
   if (result_.pushing == 0) return SlidingState::kCatchingUp;
   return moved > 0.05 * margin_ ? SlidingState::kSliding : SlidingState::kResting;
 }

@@ -21,6 +21,7 @@
 #include <glissade/haptics/candidate_pairs.h>
 #include <glissade/haptics/contact.h>
 #include <glissade/haptics/contact_body.h>
+#include <glissade/haptics/metaphor.h>
 #include <glissade/haptics/motion.h>
 #include <glissade/haptics/path_certificate.h>
 #include <glissade/haptics/projection.h>
@@ -28,24 +29,16 @@
 
 namespace glissade::haptics {
 
-/// How hand and part are tied (paper §3).
-enum class Metaphor : std::uint8_t {
-  kForceFeedback,     ///< rigid grasp; the device holds the hand back, and the part catches up at a limited speed
-  kRubberBandSpring,  ///< the part is tied to the ghost by a rubber band and a spiral spring and catches up at once
-};
-
-/// The metaphor called `name` on the command line ("force-feedback", "rubber-band-spring"); none for any other name.
-std::optional<Metaphor> metaphor_from_name(std::string_view name);
-
 /// What a part under force feedback may catch up in a tick beyond twice the ghost's own motion: it takes the jumps out
 /// of the force where the part snaps into a gap.
 inline constexpr double kSlew_m = 0.2e-3;
 
 enum class SlidingState : std::uint8_t {
-  kFree,        ///< visible part and ghost coincide
+  kReleased,    ///< nobody holds the part, which stands still
+  kFree,        ///< the visible part is where the metaphor wants it
   kSliding,     ///< contacts push, the part moves along them
   kResting,     ///< contacts push, the part stands still
-  kCatchingUp,  ///< nothing pushes, but the part has not reached the ghost yet
+  kCatchingUp,  ///< nothing pushes, but the part is not there yet
 };
 
 std::string_view name_of(SlidingState state);
@@ -61,6 +54,7 @@ struct SlidingOptions {
 /// What one call of `advance` led to.
 struct SlidingResult {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< the ghost
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< where the metaphor wants the part, see `wanted_pose`
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part
   SlidingState state = SlidingState::kFree;
   /// The contacts of the last cycle and the pose they were found at; those with a force push.
@@ -82,10 +76,24 @@ class Sliding {
   Sliding(const Sliding&) = delete;
   Sliding& operator=(const Sliding&) = delete;
 
-  /// Moves the visible part towards the ghost, once per millisecond of motion. The ghost's pose is made a rotation and
-  /// translation by `collision::rigid_pose`; what is no pose to that changes nothing.
+  /// The hand takes hold of the part, or takes another hold of it: the ghost is at X_WG from now on, wherever the part
+  /// is. Nothing moves yet. Where ghost and part do not coincide, `force-feedback` closes the gap at its limited speed,
+  /// the rubber bands at once, and `incremental` leaves it as it is, which makes this and `release` its clutch. Needed
+  /// only after `release`. A pose that is none to `collision::rigid_pose` changes nothing.
+  void grasp(const Eigen::Isometry3d& X_WG);
+
+  /// The hand lets go: the part stays where it is, the ghost is where the part is, and no contact pushes.
+  void release();
+
+  /// Moves the visible part to where the metaphor wants it, once per millisecond of motion. The ghost's pose is made a
+  /// rotation and translation by `collision::rigid_pose`; what is no pose to that changes nothing, nor does a call
+  /// while the part is released.
   /// `milliseconds` is how long ago the last call's ghost was; a caller that comes late may catch up for all of it.
   const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0);
+
+  /// From the visible part to where the metaphor wants it: the spring of the coupling is stretched by that. Exactly
+  /// zero in free space and while the part is released.
+  Displacement error() const;
 
   const SlidingResult& result() const { return result_; }
   const SlidingPart& part() const { return *part_V_; }
@@ -110,7 +118,7 @@ class Sliding {
 
   static const Step kNoStep;
 
-  Step cycle(const Eigen::Isometry3d& X_WG, double budget);
+  Step cycle(double budget);
   double choose_reach(double budget) const;
   void refresh_candidates();
   void find_rows();
@@ -120,8 +128,9 @@ class Sliding {
   double allowed_fraction(const Displacement& d, double budget) const;
   void add_rows_for_failures();
   double energy(const Displacement& error) const;
-  void apply(const Step& step, const Eigen::Isometry3d& X_WG);
+  void apply(const Step& step);
   SlidingState classify(double moved) const;
+  void let_rest(SlidingState state);
 
   std::shared_ptr<const SlidingPart> part_V_;
   Surroundings surroundings_;

@@ -157,7 +157,7 @@ TEST_F(Slide, RefusesWhatIsWrong) {
   const std::string good = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n");
   expect_refused({"slide", scene({floor}), "--part", "motor", "--trajectory", good}, {"motor", "box, sheet0"});
   expect_refused({"slide", scene({floor}), "--part", "box", "--trajectory", good, "--metaphor", "glue"},
-                 {"--metaphor", "glue", "force-feedback, rubber-band-spring"});
+                 {"--metaphor", "glue", "force-feedback, rubber-band, rubber-band-spring, incremental"});
   expect_refused({"slide", scene({}), "--part", "box", "--trajectory", good}, {"scene.yaml", "nothing but"});
   const std::string scene_file = scene({floor});
   expect_refused({"slide", scene_file, "--part", "box", "--trajectory", folder.path("none.csv")}, {"none.csv"});

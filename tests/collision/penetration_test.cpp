@@ -1,0 +1,107 @@
+// Ways out of an overlap, against depths known in closed form. That a way out leads out is checked by brute force.
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include <glissade/collision/brute_force.h>
+#include <glissade/collision/mesh_generators.h>
+#include <glissade/collision/penetration.h>
+
+#include "random_numbers.h"
+
+namespace glissade::collision {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr std::uint64_t kSeed = 20261122;
+
+DopTree tree_of(TriangleMesh mesh) {
+  return DopTree(std::make_shared<TriangleMesh>(std::move(mesh)));
+}
+
+Isometry3d at(double x, double y = 0.0, double z = 0.0) {
+  return Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
+// The depth, having checked that the way leads out.
+double depth_of(const DopTree& A, const DopTree& B, const Isometry3d& X_AB, double clearance = 0.0) {
+  QueryWorkspace workspace;
+  const Penetration penetration = find_way_out(A, B, X_AB, workspace, clearance);
+  Isometry3d X_out = X_AB;
+  X_out.translation() += penetration.way_out_A;
+  EXPECT_FALSE(brute_force_intersects(A.mesh(), B.mesh(), X_out));
+  EXPECT_FALSE(intersects(A, B, X_out, workspace, clearance));
+  return penetration.depth();
+}
+
+TEST(WayOut, IsNoneForMeshesThatAreApart) {
+  const DopTree box = tree_of(make_box({1.0, 1.0, 1.0}, 48));
+  EXPECT_EQ(depth_of(box, box, at(1.1)), 0.0);
+  EXPECT_NEAR(depth_of(box, box, at(1.1), 0.3), 0.2, 2e-3) << "but not by that clearance";
+}
+
+TEST(WayOut, OfABoxIsThroughTheNearestFace) {
+  const DopTree box = tree_of(make_box({1.0, 1.0, 1.0}, 48));
+  for (const auto& [offset, depth] : {std::pair{Vector3d(0.9, 0.3, -0.2), 0.1},
+                                      {Vector3d(0.2, -0.7, 0.5), 0.3},
+                                      {Vector3d(0.4, 0.45, -0.95), 0.05}}) {
+    const double found = depth_of(box, box, at(offset.x(), offset.y(), offset.z()));
+    EXPECT_GE(found, depth * (1.0 - 1e-12)) << offset.transpose();
+    EXPECT_LE(found, 1.01 * depth) << offset.transpose();
+  }
+}
+
+TEST(WayOut, OfBallsIsAlongTheirCentres) {
+  RecordProperty("seed", static_cast<int>(kSeed));
+  test_support::RandomNumbers random(kSeed);
+  const DopTree ball = tree_of(make_sphere(0.5, 2000));
+  for (int i = 0; i < 20; ++i) {
+    const double distance = random.uniform(0.5, 0.99);
+    Isometry3d X_AB(random.rotation());
+    X_AB.translation() = distance * random.direction();
+    const double depth = 1.0 - distance;
+    // Balls of triangles are a little smaller.
+    const double found = depth_of(ball, ball, X_AB);
+    EXPECT_LE(found, 1.05 * depth + 1e-3) << "seed " << kSeed << ", case " << i;
+    EXPECT_GE(found, depth - 0.01) << "seed " << kSeed << ", case " << i;
+  }
+}
+
+TEST(WayOut, OfASheetThatABallIsStuckInIsToTheNearerSide) {
+  const DopTree sheet = tree_of(make_plate({2.0, 2.0}, 200));
+  const DopTree ball = tree_of(make_sphere(0.1, 2000));
+  for (const double height : {0.06, -0.03}) {
+    QueryWorkspace workspace;
+    const Vector3d way_out = find_way_out(sheet, ball, at(0.0, 0.0, height), workspace).way_out_A;
+    EXPECT_NEAR(way_out.norm(), 0.1 - std::abs(height), 1e-3);
+    EXPECT_GT(way_out.z() * height, 0.0);
+  }
+}
+
+TEST(WayOut, IsFoundForConcentricObjects) {
+  const DopTree box = tree_of(make_box({1.0, 2.0, 3.0}, 48));
+  EXPECT_NEAR(depth_of(box, box, Isometry3d::Identity()), 1.0, 0.02);
+}
+
+TEST(WayOut, IsTheSameOnASecondCall) {
+  const DopTree box = tree_of(make_box({1.0, 1.0, 1.0}, 48));
+  const DopTree ball = tree_of(make_sphere(0.4, 500));
+  QueryWorkspace workspace;
+  const Vector3d first = find_way_out(box, ball, at(0.5, 0.4, 0.3), workspace).way_out_A;
+  EXPECT_EQ(find_way_out(box, ball, at(0.5, 0.4, 0.3), workspace).way_out_A, first);
+}
+
+TEST(WayOut, RefusesWhatTheQueriesRefuse) {
+  const DopTree box = tree_of(make_box({1.0, 1.0, 1.0}, 48));
+  QueryWorkspace workspace;
+  EXPECT_THROW(find_way_out(box, box, at(std::nan("")), workspace), std::invalid_argument);
+  EXPECT_THROW(find_way_out(box, box, at(0.0), workspace, -1.0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace glissade::collision
