@@ -11,6 +11,8 @@
 #include <glissade/collision/mesh_generators.h>
 #include <glissade/collision/world.h>
 
+#include "sanitizers.h"
+
 namespace glissade::collision {
 namespace {
 
@@ -157,6 +159,48 @@ TEST(WorldStress, NoPoseIsTornLostOrMeantForAnother) {
     EXPECT_EQ(count_of(world.objects()[id.index]), kMoves) << "the newest pose has not arrived";
   for (const WorldObject& object : world.objects())
     EXPECT_EQ(object.id != ObjectId{}, std::find(own.begin(), own.end(), object.id) != own.end());
+}
+
+// One object, movers and the consumer in loops as tight as can be, so that a pose is written while it is read, and
+// while another mover writes.
+void move_and_take_at_once(int movers) {
+  constexpr std::uint32_t kPoses = 64;
+  const int poses_to_see = test_support::affordable(200'000);
+  World world(1);
+  const ObjectId id = world.add({.tree = make_tree()});
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::uint32_t i = 0; i < kPoses; ++i)
+    poses.push_back(pose(id, i + 1));
+  std::atomic<bool> is_over = false;
+  std::vector<std::thread> threads;
+  for (int mover = 0; mover < movers; ++mover) {
+    threads.emplace_back([&, mover] {
+      for (auto i = static_cast<std::uint32_t>(mover); !is_over; i += 7)
+        world.move(id, poses[i % kPoses]);
+    });
+  }
+  std::uint32_t last = 0;
+  for (int seen = 0; seen < poses_to_see;) {
+    world.take_changes();
+    const std::uint32_t count = count_of(world.objects()[id.index]);
+    if (count == last) continue;
+    last = count;
+    ++seen;
+    if (world.objects()[id.index].X_WO.matrix() == poses[count - 1].matrix()) continue;
+    ADD_FAILURE() << "torn, the " << seen << ". pose";
+    break;
+  }
+  is_over = true;
+  for (std::thread& thread : threads)
+    thread.join();
+}
+
+TEST(WorldStress, APoseThatIsRenewedWhileItIsReadIsNotTorn) {
+  move_and_take_at_once(1);
+}
+
+TEST(WorldStress, MoversOfOneObjectKeepOutOfEachOthersWay) {
+  move_and_take_at_once(2);
 }
 
 // An object that is added and moved while the consumer is taking poses: the take may come upon the pose of an object it
