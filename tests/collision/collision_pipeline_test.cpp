@@ -159,23 +159,25 @@ TEST_F(Pipeline, KnowsWhenTheTipOfARodComesStraightOn) {
 
 // Lengths in the frame of an object are not quite those in the world, which counts over a large distance.
 TEST_F(Pipeline, KnowsWhatIsWithinALargeDistance) {
-  CollisionPipeline pipeline(world_, clock_, {.query = PairQuery::kVerdict, .greatest_distance = 100.0});
   Isometry3d X_WA = at(0.0);
   X_WA.linear()(0, 0) = 1.0 - 4.9e-13;  // as good as a rotation
-  const ObjectId a = add(X_WA);
-  const ObjectId b = add(at(1.2));
-  pipeline.step();
   int meeting = 0;
-  for (int i = -50; i < 50; ++i) {
-    ASSERT_TRUE(world_.move(b, at(100.0 + 1e-12 * i)));
+  for (int i = -100; i < 100; ++i) {
+    World world(2);
+    CollisionPipeline pipeline(world, clock_, {.greatest_distance = 100.0, .threads = 1});
+    const ObjectId a = world.add({.tree = box_.tree, .hull = box_.hull, .X_WO = X_WA});
+    const ObjectId b = world.add({.tree = box_.tree, .hull = box_.hull, .X_WO = at(1.2)});
+    pipeline.step();
+    ASSERT_TRUE(world.move(b, at(100.0 + 1e-12 * i)));
+    pipeline.step();
     QueryWorkspace workspace;
-    pipeline.step(0.0);
     const bool meet = intersects(*box_.tree, *box_.tree,
-                                 relative_pose(world_.objects()[a.index], world_.objects()[b.index]), workspace, 99.0);
+                                 relative_pose(world.objects()[a.index], world.objects()[b.index]), workspace, 99.0);
     ASSERT_EQ(pipeline.step(99.0).meeting.size(), meet ? 1U : 0U) << i;
     meeting += meet ? 1 : 0;
   }
-  EXPECT_GT(meeting, 0);
+  EXPECT_GT(meeting, 100);
+  EXPECT_LT(meeting, 200);
 }
 
 TEST_F(Pipeline, KnowsWhenTurningUsesUpAGap) {
