@@ -183,7 +183,6 @@ void move_and_take_at_once(int movers, int takes, std::chrono::microseconds paus
       }
     });
   }
-  std::uint32_t last = 0;
   for (int take = 0; take < takes; ++take) {
     if (pause.count() > 0) std::this_thread::sleep_for(pause);
     world.take_changes();
