@@ -56,7 +56,7 @@ class CollisionPipeline::Frame {
         options_(checked(options)),
         crew_(options.threads),
         placed_(static_cast<std::size_t>(world.capacity())),
-        broad_phase_(static_cast<std::size_t>(world.capacity()), options.greatest_distance),
+        broad_phase_(static_cast<std::size_t>(world.capacity()), certain_distance(options.greatest_distance)),
         checks_(world_, placed_, options_, crew_),
         has_changed_(static_cast<std::size_t>(world.capacity()), 0) {}
 
@@ -195,7 +195,7 @@ class CollisionPipeline::Frame {
     if (!pair.is_of_interest || pair.frame == frame) return;
     pair.frame = frame;
     ++result_.report.neighbor_finding.out;
-    if (placed_.gap(pair.slots.a, pair.slots.b, pair.separation) > distance_) {
+    if (placed_.gap(pair.slots.a, pair.slots.b, pair.separation) > certain_distance(distance_)) {
       part(number);  // it may have met at a greater distance
     } else {
       candidates_.push_back(number);

@@ -43,7 +43,7 @@ bool PairChecks::are_separated(TrackedPair& pair, PairMemory& memory, double dis
   if (!a.hull || !b.hull) return false;
   // Boxes are fat, so what enters is mostly not near yet.
   const double gap_of_spheres = memory.hulls.has_plane ? 0.0 : placed_.gap_of_spheres(pair.slots.a, pair.slots.b);
-  if (gap_of_spheres > distance) {
+  if (gap_of_spheres > certain_distance(distance)) {
     const Eigen::Vector3d n_W = placed_.direction(pair.slots.a, pair.slots.b);
     pair.separation = placed_.separation(pair.slots.a, pair.slots.b, n_W, gap_of_spheres);
     return true;

@@ -12,6 +12,13 @@
 
 namespace glissade::collision {
 
+/// Queries measure in the frame of one of the objects, where lengths differ from those in the world by less than a part
+/// in 10^12, the poses being rotations to that: who is further apart in the world than this is further apart than
+/// `distance` there.
+inline double certain_distance(double distance) {
+  return distance * (1.0 + 4e-12);
+}
+
 /// That two objects were apart along a direction, which need not be looked into again before they have come nearer
 /// along it, or turned. The default says nothing.
 struct Separation {

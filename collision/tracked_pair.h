@@ -25,8 +25,8 @@ struct MeetingDetails {
 
 /// What every frame looks at, of many pairs.
 struct TrackedPair {
-  SlotPair slots{0, 0};  ///< of the world; object a is A of every query; equal ones: no pair
-  Separation separation;  ///< the last that is known
+  SlotPair slots{0, 0};      ///< of the world; object a is A of every query; equal ones: no pair
+  Separation separation;     ///< the last that is known
   std::uint32_t frame = 0;   ///< the last that looked at it; low bits of the number
   float expected_ns = 0.0F;  ///< of the exact query, by what the last one did
   bool is_of_interest = false;

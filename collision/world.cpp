@@ -23,10 +23,10 @@ namespace glissade::collision {
 // acquired one by one; who sees one that was written later sees the state that was there before.) It is used only for
 // an object of this generation, so poses of an object that was removed move nothing.
 //
-// Newest wins: the mover leaves, then sets the slot's bit in `moved_` (release). The consumer clears bits (acquire), then
-// reads the pose. Where it has seen the bit, it sees that pose or a newer one; where it has not, the bit stays for the
-// next take. All changes of the bits are read-modify-write, so a bit that was set twice releases both poses. A mover that
-// is pre-empted anywhere holds up its own poses and no other.
+// Newest wins: the mover leaves, then sets the slot's bit in `moved_` (release). The consumer clears bits (acquire),
+// then reads the pose. Where it has seen the bit, it sees that pose or a newer one; where it has not, the bit stays for
+// the next take. All changes of the bits are read-modify-write, so a bit that was set twice releases both poses. A
+// mover that is pre-empted anywhere holds up its own poses and no other.
 namespace {
 
 constexpr std::uint64_t kInside = 1;

@@ -53,15 +53,15 @@ struct WorldObject {
 struct WorldChanges {
   std::vector<std::uint32_t> removed;  ///< slots whose former object is gone
   std::vector<std::uint32_t> added;    ///< slots with an object that is new; may have been freed before, see `removed`
-  std::vector<std::uint32_t> moved;    ///< slots whose object was there before, with another pose
+  std::vector<std::uint32_t> moved;    ///< slots whose object was there before, and may have another pose
   bool interest = false;               ///< answers of `attends` may differ for pairs that were there before
 };
 
 /// Thread-safety: editors and movers may be any threads at any time; the consumer is one thread. A default-constructed
-/// id, one of an object that was removed, and one of another world count as stale.
+/// id and one of an object that was removed count as stale; those of other worlds must not be used.
 class World {
  public:
-  /// Room for `capacity` objects; takes about 0.7 kB for each. Throws std::invalid_argument unless 1 to 1,000,000.
+  /// Room for `capacity` objects; takes about 0.9 kB for each. Throws std::invalid_argument unless 1 to 1,000,000.
   explicit World(int capacity = 4096);
   ~World();
   World(const World&) = delete;
@@ -72,11 +72,12 @@ class World {
   // Editors: any thread; may block on each other and, for as long as it copies edits, on the consumer.
 
   /// Throws std::invalid_argument for a null tree, one with other options than those of the objects here, a group
-  /// beyond 0 to 63, or a pose `move` would refuse; std::length_error when the world is full.
+  /// beyond 0 to 63, or a pose `move` would refuse; std::length_error when the world is full: also for as long as a
+  /// mover is still inside the only slot that is free.
   ObjectId add(const ObjectDescription& object);
 
-  /// Throws std::invalid_argument for a stale id. Pairs of this object need no more be ignored. The tree is let go at the
-  /// consumer's next take, or at once if no take has seen the object.
+  /// Throws std::invalid_argument for a stale id. Pairs of this object need no more be ignored. The tree is let go at
+  /// the consumer's next take, or at once if no take has seen the object.
   void remove(ObjectId id);
 
   /// As in `InterestMatrix`; `ignore` and `attend` throw std::invalid_argument for a stale id. A frame may fall between
@@ -97,7 +98,7 @@ class World {
   // The consumer: one thread.
 
   /// Makes `objects` what editors and movers have made of it by now, and says what is different. Blocks on editors for
-  /// the length of one edit, never on movers; looks again at a pose if its object is moved twice meanwhile. Cost
+  /// the length of one edit, never on movers; looks again at a pose that was renewed meanwhile. Cost
   /// O(changes + capacity / 64), and a copy of the interest matrix when that has changed. Objects that were removed are
   /// destroyed here, if nobody else holds them. The result is overwritten by the next call.
   const WorldChanges& take_changes();
@@ -113,8 +114,8 @@ class World {
  private:
   /// The newest pose, and room for the next.
   struct alignas(realtime::kCacheLineBytes) Slot {
-    std::atomic<std::uint64_t> state{0};       ///< generation, number of poses, kInside
-    std::atomic<std::uint32_t> generation{0};  ///< of the object that is here; 0: none
+    std::atomic<std::uint64_t> state{0};                            ///< generation, number of poses, kInside
+    std::atomic<std::uint32_t> generation{0};                       ///< of the object that is here; 0: none
     std::array<std::array<std::atomic<double>, 12>, 2> poses_WO{};  ///< by the last bit of that number
   };
 

@@ -82,7 +82,7 @@ Poses walk(const ConvexHull& hull, double gap, double degrees, int steps) {
     Isometry3d X_AB(Eigen::AngleAxisd(step * angle, spin) * first);
     X_AB.translation() = Eigen::AngleAxisd(step * angle, orbit) * Vector3d(0.8, 0.6, 0.0);
     approach(hull, X_AB, memory);
-    X_AB.translation() += gap * memory.n_A;
+    X_AB.translation() += gap * memory.n_gap_A;
     poses.push_back(X_AB);
   }
   return poses;

@@ -61,13 +61,18 @@ void add_counts(const std::string& case_name, const std::vector<FrameRecord>& fr
   results.add({kName, case_name, "glissade", "exact_in", exact, "1"});
 }
 
-void run_scene_of(const SceneCast& cast, const std::string& case_name, std::size_t objects, double filled,
+// In turns of one frame, threads that were needed for the last one have gone to sleep, and caches hold the others'
+// objects, as in a loop with pauses. In longer turns one frame follows the other, as in a loop that has none.
+constexpr int kFramesOfLongTurns = 20;
+
+void run_scene_of(const SceneCast& cast, const std::string& case_name, std::size_t objects, double filled, int turn,
                   const BenchOptions& options, Results& results) {
   const Scene scene = objects_in_box(cast.radii(), objects, filled, options.seed);
-  // Turns of one frame: threads that were needed for the last one have gone to sleep, as they do in a loop.
-  const auto records =
-      replay(scene, cast.start(scene),
-             {.frames = options.quick ? 60 : 300, .turn = 1, .warm_up = 0, .seconds = options.quick ? 1.0 : 5.0});
+  const auto records = replay(scene, cast.start(scene),
+                              {.frames = options.quick ? 60 : 300,
+                               .turn = turn,
+                               .warm_up = turn > 1 ? 1 : 0,
+                               .seconds = options.quick ? 1.0 : 5.0});
   std::vector<double> us;
   std::int64_t disagreements = 0;
   for (const std::vector<FrameRecord>& of_subject : records) {
@@ -83,8 +88,10 @@ void run_scenes(const BenchOptions& options, Results& results) {
   for (const int threads : thread_counts())
     libraries.push_back(glissade_scenes(threads));
   const SceneCast cast(libraries, options);
-  run_scene_of(cast, "dense", 1000, 0.5, options, results);
-  run_scene_of(cast, "sparse", 30, 0.12, options, results);
+  run_scene_of(cast, "dense", 1000, 0.5, kFramesOfLongTurns, options, results);
+  run_scene_of(cast, "dense-with-pauses", 1000, 0.5, 1, options, results);
+  run_scene_of(cast, "sparse", 30, 0.12, kFramesOfLongTurns, options, results);
+  run_scene_of(cast, "sparse-with-pauses", 30, 0.12, 1, options, results);
 }
 
 // All pairs of triangles of one mesh at one pose, by a number of threads.

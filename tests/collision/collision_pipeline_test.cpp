@@ -142,6 +142,44 @@ TEST_F(Pipeline, LooksAtASeparatedPairAgainOnlyWhenItsGapMayBeUsedUp) {
   EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{a, b}));
 }
 
+// The tip moves as far as turning can take any point.
+TEST_F(Pipeline, KnowsWhenTheTipOfARodComesStraightOn) {
+  CollisionPipeline pipeline(world_, clock_);
+  const ObjectId box = add(at(1.45, 0.55));  // from (0.95, 0.05) on
+  const ObjectId rod = add(Shape(make_box({2.0, 0.001, 0.001}, 48)), at(0.0));
+  EXPECT_THAT(pipeline.step().meeting, IsEmpty());
+  for (int step = 1; step <= 60; ++step) {
+    const double angle = 0.001 * step;
+    ASSERT_TRUE(world_.move(rod, at(0.0) * Eigen::AngleAxisd(angle, Vector3d::UnitZ())));
+    const double tip = std::sin(angle) + 0.0005 * std::cos(angle);
+    ASSERT_EQ(pipeline.step().meeting.size(), tip >= 0.05 ? 1U : 0U) << "at " << angle;
+  }
+  EXPECT_THAT(pipeline.result().meeting, ElementsAre(ObjectPair{box, rod}));
+}
+
+// Lengths in the frame of an object are not quite those in the world, which counts over a large distance.
+TEST_F(Pipeline, KnowsWhatIsWithinALargeDistance) {
+  Isometry3d X_WA = at(0.0);
+  X_WA.linear()(0, 0) = 1.0 - 4.9e-13;  // as good as a rotation
+  int meeting = 0;
+  for (int i = -100; i < 100; ++i) {
+    World world(2);
+    CollisionPipeline pipeline(world, clock_, {.greatest_distance = 100.0, .threads = 1});
+    const ObjectId a = world.add({.tree = box_.tree, .hull = box_.hull, .X_WO = X_WA});
+    const ObjectId b = world.add({.tree = box_.tree, .hull = box_.hull, .X_WO = at(1.2)});
+    pipeline.step();
+    ASSERT_TRUE(world.move(b, at(100.0 + 1e-12 * i)));
+    pipeline.step();
+    QueryWorkspace workspace;
+    const bool meet = intersects(*box_.tree, *box_.tree,
+                                 relative_pose(world.objects()[a.index], world.objects()[b.index]), workspace, 99.0);
+    ASSERT_EQ(pipeline.step(99.0).meeting.size(), meet ? 1U : 0U) << i;
+    meeting += meet ? 1 : 0;
+  }
+  EXPECT_GT(meeting, 100);
+  EXPECT_LT(meeting, 200);
+}
+
 TEST_F(Pipeline, KnowsWhenTurningUsesUpAGap) {
   CollisionPipeline pipeline(world_, clock_);
   const ObjectId a = add(at(0.0));

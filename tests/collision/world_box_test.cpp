@@ -59,8 +59,8 @@ TEST(WorldBox, EnclosesEveryVertexAtAnyPose) {
   }
 }
 
-// Two boxes face to face, at poses that are rotations but for what `rigid_pose` lets pass: when the query says that they
-// touch, so do the boxes around them.
+// Two boxes face to face, at poses that are rotations but for what `rigid_pose` lets pass: when the query says that
+// they touch, so do the boxes around them.
 TEST(WorldBox, OverlapsThatOfEveryObjectAQueryMayFindIntersecting) {
   RecordProperty("seed", static_cast<int>(kSeed));
   test_support::RandomNumbers random(kSeed);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <thread>
@@ -11,8 +12,12 @@
 #include <glissade/collision/mesh_generators.h>
 #include <glissade/collision/world.h>
 
+#include "sanitizers.h"
+
 namespace glissade::collision {
 namespace {
+
+using namespace std::chrono_literals;
 
 std::shared_ptr<const DopTree> make_tree() {
   return std::make_shared<DopTree>(std::make_shared<TriangleMesh>(make_box({1.0, 1.0, 1.0}, 12)));
@@ -157,6 +162,48 @@ TEST(WorldStress, NoPoseIsTornLostOrMeantForAnother) {
     EXPECT_EQ(count_of(world.objects()[id.index]), kMoves) << "the newest pose has not arrived";
   for (const WorldObject& object : world.objects())
     EXPECT_EQ(object.id != ObjectId{}, std::find(own.begin(), own.end(), object.id) != own.end());
+}
+
+// One object, movers and the consumer in loops as tight as can be, so that a pose is written while it is read, and
+// while another mover writes.
+void move_and_take_at_once(int movers, int takes, std::chrono::microseconds pause) {
+  constexpr std::uint32_t kPoses = 64;
+  World world(1);
+  const ObjectId id = world.add({.tree = make_tree()});
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::uint32_t i = 0; i < kPoses; ++i)
+    poses.push_back(pose(id, i + 1));
+  std::atomic<bool> is_over = false;
+  std::atomic<int> refused = 0;
+  std::vector<std::thread> threads;
+  for (int mover = 0; mover < movers; ++mover) {
+    threads.emplace_back([&, mover] {
+      for (auto i = static_cast<std::uint32_t>(mover); !is_over; i += 7) {
+        if (!world.move(id, poses[i % kPoses])) ++refused;
+      }
+    });
+  }
+  for (int take = 0; take < takes; ++take) {
+    if (pause.count() > 0) std::this_thread::sleep_for(pause);
+    world.take_changes();
+    const std::uint32_t count = count_of(world.objects()[id.index]);
+    if (count == 0 || world.objects()[id.index].X_WO.matrix() == poses[count - 1].matrix()) continue;
+    ADD_FAILURE() << "torn, at the " << take << ". take";
+    break;
+  }
+  is_over = true;
+  for (std::thread& thread : threads)
+    thread.join();
+  EXPECT_EQ(refused > 0, movers > 1) << "only who meets another inside is refused";
+}
+
+TEST(WorldStress, APoseThatIsRenewedWhileItIsReadIsNotTorn) {
+  move_and_take_at_once(1, test_support::affordable(1'000'000), 0us);
+}
+
+TEST(WorldStress, MoversOfOneObjectKeepOutOfEachOthersWay) {
+  // The consumer leaves the processors to them.
+  move_and_take_at_once(2, test_support::affordable(5'000), 20us);
 }
 
 // An object that is added and moved while the consumer is taking poses: the take may come upon the pose of an object it
