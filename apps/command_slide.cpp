@@ -1,7 +1,11 @@
+#include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <iostream>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -9,7 +13,9 @@
 #include <glissade/apps/command.h>
 #include <glissade/apps/csv.h>
 #include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/html_report.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/slide_check.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
 #include <glissade/haptics/coupling.h>
@@ -33,24 +39,35 @@ constexpr const char* kFooter =
     "  rubber-band-spring  rubber band and spiral spring: the part catches up at once\n"
     "  incremental         the part repeats each motion of the ghost from where it is; what is refused is forgotten\n"
     "\n"
-    "Example:\n"
-    "  glissade slide door.yaml --part motor --trajectory hand.csv --out motion.csv";
+    "Several trajectories, or --summary or --report, ask for an assembly check: one row for each trajectory, which "
+    "tells\n"
+    "whether the part came to the scene's goal (or else to where its trajectory ends), how far from it it was left, "
+    "the\n"
+    "greatest force and torque on the hand, the least clearance and when, and for how long contacts pushed. One that\n"
+    "does not start in free space has no row, a line on standard error, and exit code 1 for all.\n"
+    "\n"
+    "Examples:\n"
+    "  glissade slide door.yaml --part motor --trajectory hand.csv --out motion.csv\n"
+    "  glissade slide door.yaml --part motor --trajectory way_*.csv --summary ways.csv --report ways";
 
 struct Options {
   std::string scene;
   std::string part;
-  std::string trajectory;
+  std::vector<std::string> trajectories;
   std::string metaphor = "force-feedback";
-  std::string out = "-";
+  std::string out;
+  std::string summary;
+  std::string report;
+  double goal_tolerance_m = SlideCheckOptions{}.goal_tolerance_m;
+  double goal_tolerance_deg = SlideCheckOptions{}.goal_tolerance_deg;
+
+  bool is_check() const { return trajectories.size() > 1 || !summary.empty() || !report.empty(); }
 };
 
 haptics::Metaphor parse_metaphor(const std::string& name) {
   const auto metaphor = haptics::metaphor_from_name(name);
   if (metaphor) return *metaphor;
-  std::string known;
-  for (const std::string_view one : haptics::kMetaphorNames)
-    known += (known.empty() ? "" : ", ") + std::string(one);
-  throw std::invalid_argument("--metaphor: '" + name + "' is unknown; known are " + known);
+  throw std::invalid_argument("--metaphor: '" + name + "' is unknown; known are " + joined(haptics::kMetaphorNames));
 }
 
 std::vector<std::string> columns() {
@@ -68,8 +85,8 @@ void add_pose(CsvWriter& out, const Eigen::Isometry3d& X) {
 void add_row(CsvWriter& out, double time_s, const haptics::Sliding& sliding) {
   const haptics::SlidingResult& result = sliding.result();
   const Eigen::Vector3d& p_Vref = sliding.part().p_Vref();
-  const haptics::Wrench wrench = haptics::about_point(haptics::spring_wrench(sliding.stiffness(), sliding.error()),
-                                                      result.X_WT * p_Vref, result.X_WV.translation());
+  const haptics::Wrench wrench =
+      haptics::about_point(wrench_on_hand(sliding), result.X_WT * p_Vref, result.X_WV.translation());
   out.add(time_s);
   add_pose(out, result.X_WG);
   add_pose(out, result.X_WV);
@@ -100,16 +117,19 @@ void check_duration(const devices::PoseTrajectory& trajectory, const std::string
   throw std::invalid_argument(file + ": lasts " + format_number(duration_s) + " s, longer than a day (86400 s)");
 }
 
-int run(const Options& options) {
-  const haptics::Metaphor metaphor = parse_metaphor(options.metaphor);
-  const HapticScene scene = make_haptic_scene(read_scene(options.scene), options.part);
-  const devices::PoseTrajectory trajectory = read_trajectory(options.trajectory);
-  check_duration(trajectory, options.trajectory);
-  const auto sliding = start(scene, trajectory.pose_at(trajectory.first_time()), metaphor, options.trajectory);
+devices::PoseTrajectory read(const std::string& file) {
+  devices::PoseTrajectory trajectory = read_trajectory(file);
+  check_duration(trajectory, file);
+  return trajectory;
+}
+
+void slide(const HapticScene& scene, const std::string& file, haptics::Metaphor metaphor, const std::string& path) {
+  const devices::PoseTrajectory trajectory = read(file);
+  const auto sliding = start(scene, trajectory.pose_at(trajectory.first_time()), metaphor, file);
 
   using std::chrono::milliseconds;
   const std::int64_t ticks = trajectory.duration() / milliseconds(1);
-  CsvWriter out(options.out, columns());
+  CsvWriter out(path, columns());
   ProgressBar progress("sliding", ticks + 1);
   for (std::int64_t i = 0; i <= ticks; ++i) {
     const std::chrono::nanoseconds time = trajectory.first_time() + i * milliseconds(1);
@@ -118,6 +138,62 @@ int run(const Options& options) {
     progress.update(i + 1);
   }
   out.close();
+}
+
+/// Every trajectory by whatever processor is free.
+std::vector<SlideCheck> check_all(const HapticScene& scene, const std::vector<std::string>& files,
+                                  const SlideCheckOptions& options) {
+  std::vector<devices::PoseTrajectory> trajectories;
+  for (const std::string& file : files)
+    trajectories.push_back(read(file));
+  std::vector<SlideCheck> checks(files.size());
+  std::atomic<std::size_t> next = 0;
+  std::atomic<std::int64_t> done = 0;
+  const auto work = [&](const auto& tell) {
+    for (std::size_t i = next++; i < files.size(); i = next++) {
+      checks[i] = check_slide(scene, trajectories[i], files[i], options);
+      tell(++done);
+    }
+  };
+  std::vector<std::jthread> helpers;
+  while (helpers.size() + 1 < std::min<std::size_t>(std::thread::hardware_concurrency(), files.size()))
+    helpers.emplace_back([&] { work([](std::int64_t) {}); });
+  ProgressBar progress("checking", static_cast<std::int64_t>(files.size()));
+  work([&](std::int64_t count) { progress.update(count); });
+  helpers.clear();
+  return checks;
+}
+
+int check(const HapticScene& scene, haptics::Metaphor metaphor, const Options& options) {
+  const SlideCheckOptions check_options{metaphor, options.goal_tolerance_m, options.goal_tolerance_deg};
+  if (!options.report.empty()) prepare_report_folder(options.report);
+  const std::vector<SlideCheck> checks = check_all(scene, options.trajectories, check_options);
+  if (!options.summary.empty() || options.report.empty()) {
+    write_checks(checks, options.summary.empty() ? "-" : options.summary);
+  }
+  if (!options.report.empty()) write_html_report(report_of(scene, checks, check_options), options.report);
+  int exit_code = 0;
+  for (const SlideCheck& one : checks) {
+    if (!one.problem) continue;
+    std::cerr << "glissade: " << one.trajectory << ": " << *one.problem << '\n';
+    exit_code = 1;
+  }
+  return exit_code;
+}
+
+int run(const Options& options) {
+  const haptics::Metaphor metaphor = parse_metaphor(options.metaphor);
+  if (options.is_check() && !options.out.empty()) {
+    throw std::invalid_argument("--out: is for the rows of one trajectory; a check writes to --summary and --report");
+  }
+  for (const std::string& file : options.trajectories) {
+    if (options.is_check() && file.find_first_of(",\"\n\r") != std::string::npos) {
+      throw std::invalid_argument("--trajectory: " + in_quotes(file) + " has a comma, quote or line break in its name");
+    }
+  }
+  const HapticScene scene = make_haptic_scene(read_scene(options.scene), options.part);
+  if (options.is_check()) return check(scene, metaphor, options);
+  slide(scene, options.trajectories.front(), metaphor, options.out.empty() ? "-" : options.out);
   return 0;
 }
 
@@ -129,9 +205,19 @@ void add_slide_command(CLI::App& app, Command& chosen) {
   command->footer(kFooter);
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
   command->add_option("--part", options->part, "Name of the object in the hand")->required();
-  command->add_option("--trajectory", options->trajectory, "Poses of the ghost over time (CSV), see below")->required();
+  command
+      ->add_option("--trajectory", options->trajectories, "Poses of the ghost over time (CSV), see below; or several")
+      ->required();
   command->add_option("--metaphor", options->metaphor, "How hand and part are tied")->capture_default_str();
-  command->add_option("--out", options->out, "CSV file for the answer, - for standard output")->capture_default_str();
+  command->add_option("--out", options->out, "CSV file for the answer (default: standard output)");
+  command->add_option("--summary", options->summary, "CSV file for the check, - for standard output");
+  command->add_option("--report", options->report, "Folder for the check as a page, index.html");
+  command->add_option("--goal-tolerance-m", options->goal_tolerance_m, "The goal is reached within this")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--goal-tolerance-deg", options->goal_tolerance_deg, "and this")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include <glissade/apps/csv.h>
+#include <glissade/apps/slide_check.h>
+#include <glissade/apps/text.h>
+#include <glissade/collision/dop_query.h>
+
+namespace glissade::apps {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::size_t kPlottedChecks = 6;
+
+double seconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+/// The distance of the visible part from all obstacles.
+class Clearance {
+ public:
+  explicit Clearance(const HapticScene& scene) : scene_(scene), workspaces_(scene.obstacles.size()) {}
+
+  /// Exact below `limit`.
+  double at(const Eigen::Isometry3d& X_WV, double limit) {
+    double least = limit;
+    for (std::size_t i = 0; i < workspaces_.size(); ++i) {
+      const haptics::Obstacle& obstacle = scene_.obstacles[i];
+      least = std::min(
+          least, collision::gap_lower_bound(obstacle.body->tree, scene_.part_V->tree,
+                                            obstacle.X_WO.inverse(Eigen::Isometry) * X_WV, workspaces_[i], least));
+    }
+    return least;
+  }
+
+ private:
+  const HapticScene& scene_;
+  std::vector<collision::CoherentWorkspace> workspaces_;
+};
+
+void note_goal(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WGoal, const SlideCheckOptions& options,
+               SlideCheck& check) {
+  check.goal_distance_m = (X_WV.translation() - X_WGoal.translation()).norm();
+  check.goal_angle_deg =
+      Eigen::AngleAxisd(X_WGoal.linear().transpose() * X_WV.linear()).angle() * 180.0 / std::numbers::pi;
+  check.goal_reached =
+      check.goal_distance_m <= options.goal_tolerance_m && check.goal_angle_deg <= options.goal_tolerance_deg;
+}
+
+std::string verdict(const SlideCheck& check) {
+  if (check.problem) return *check.problem;
+  char text[256];
+  std::snprintf(text, sizeof text,
+                "%s, %.3f mm and %.2f degrees from the goal; at most %.2f N and %.3f Nm; least clearance %.1f um at "
+                "%.3f s; %.3f of %.3f s in contact",
+                check.goal_reached ? "reached" : "not reached", 1e3 * check.goal_distance_m, check.goal_angle_deg,
+                check.force_max_N, check.torque_max_Nm, 1e6 * check.clearance_min_m, check.clearance_min_at_s,
+                check.contact_s, check.duration_s);
+  return text;
+}
+
+}  // namespace
+
+haptics::Wrench wrench_on_hand(const haptics::Sliding& sliding) {
+  return haptics::spring_wrench(sliding.stiffness(), sliding.error());
+}
+
+SlideCheck check_slide(const HapticScene& scene, const devices::PoseTrajectory& trajectory, const std::string& name,
+                       const SlideCheckOptions& options) {
+  SlideCheck check;
+  check.trajectory = name;
+  check.force.name = name;
+  check.duration_s = seconds(trajectory.duration());
+  check.clearance_min_m = std::numeric_limits<double>::infinity();
+  try {
+    haptics::Sliding sliding(scene.obstacles, scene.part_V, trajectory.pose_at(trajectory.first_time()),
+                             {.metaphor = options.metaphor});
+    Clearance clearance(scene);
+    const std::int64_t ticks = trajectory.duration() / milliseconds(1);
+    for (std::int64_t i = 0; i <= ticks; ++i) {
+      const std::chrono::nanoseconds time = i * milliseconds(1);
+      const haptics::SlidingResult& result = sliding.advance(trajectory.pose_at(trajectory.first_time() + time));
+      const haptics::Wrench wrench = wrench_on_hand(sliding);
+      check.force_max_N = std::max(check.force_max_N, wrench.f.norm());
+      check.torque_max_Nm = std::max(check.torque_max_Nm, wrench.t.norm());
+      check.contact_s += result.pushing > 0 ? 1e-3 : 0.0;
+      check.force.x.push_back(seconds(time));
+      check.force.y.push_back(wrench.f.norm());
+      const double gap = clearance.at(result.X_WV, check.clearance_min_m);
+      if (gap < check.clearance_min_m) check.clearance_min_at_s = seconds(time);
+      check.clearance_min_m = gap;
+    }
+    note_goal(sliding.result().X_WV, scene.X_WGoal.value_or(trajectory.pose_at(trajectory.last_time())), options,
+              check);
+  } catch (const std::invalid_argument& error) {
+    check.problem = std::string(error.what()) + ", the pose of the first row";
+  }
+  return check;
+}
+
+void write_checks(const std::vector<SlideCheck>& checks, const std::string& path) {
+  CsvWriter out(path, {"trajectory", "goal_reached", "goal_distance_m", "goal_angle_deg", "force_max_N",
+                       "torque_max_Nm", "clearance_min_m", "clearance_min_at_s", "duration_s", "contact_s"});
+  for (const SlideCheck& check : checks) {
+    if (check.problem) continue;
+    out.add(check.trajectory).add(std::int64_t{check.goal_reached});
+    for (const double value : {check.goal_distance_m, check.goal_angle_deg, check.force_max_N, check.torque_max_Nm,
+                               check.clearance_min_m, check.clearance_min_at_s, check.duration_s, check.contact_s}) {
+      out.add(value);
+    }
+    out.end_row();
+  }
+  out.close();
+}
+
+Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& options) {
+  Report report;
+  report.title = "Assembly check of " + scene.part_name;
+  const auto reached = std::count_if(checks.begin(), checks.end(),
+                                     [](const SlideCheck& check) { return !check.problem && check.goal_reached; });
+  report.summary.emplace_back("scene", scene.source);
+  report.summary.emplace_back("metaphor", std::string(haptics::name_of(options.metaphor)));
+  report.summary.emplace_back("goal reached", std::to_string(reached) + " of " + std::to_string(checks.size()));
+  for (const SlideCheck& check : checks)
+    report.summary.emplace_back(check.trajectory, verdict(check));
+
+  std::vector<const SlideCheck*> by_force;
+  for (const SlideCheck& check : checks) {
+    if (!check.problem) by_force.push_back(&check);
+  }
+  std::stable_sort(by_force.begin(), by_force.end(),
+                   [](const SlideCheck* a, const SlideCheck* b) { return a->force_max_N > b->force_max_N; });
+  if (by_force.size() > kPlottedChecks) by_force.resize(kPlottedChecks);
+  Plot plot{"Force on the hand, where it was greatest", "time [s]", "force [N]", {}};
+  for (const SlideCheck* check : by_force)
+    plot.series.push_back(check->force);
+  if (!plot.series.empty()) report.plots.push_back(std::move(plot));
+  return report;
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,137 @@
+/// `glissade slide` as an assembly check: a stack of trajectories in, one row for each out, and a page.
+
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/apps/text.h>
+
+#include "glissade_program.h"
+#include "temporary_folder.h"
+
+namespace glissade::apps {
+namespace {
+
+using test_support::expect_refused;
+using test_support::ProgramResult;
+
+constexpr double kMargin = 1e-5;
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');)
+    cells.push_back(cell);
+  return cells;
+}
+
+/// The rows by the trajectory's file name, each by column name.
+std::map<std::string, std::map<std::string, double>> parse(const std::string& csv) {
+  std::istringstream in(csv);
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> header = split(line);
+  std::map<std::string, std::map<std::string, double>> rows;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> cells = split(line);
+    EXPECT_EQ(cells.size(), header.size()) << line;
+    auto& row = rows[cells.front().substr(cells.front().rfind('/') + 1)];
+    for (std::size_t i = 1; i < cells.size(); ++i)
+      row[header[i]] = std::stod(cells[i]);
+  }
+  return rows;
+}
+
+/// A box of 0.1 × 0.06 × 0.04 m above a floor, and ways to lead it.
+class AssemblyCheck : public testing::Test {
+ protected:
+  std::string trajectory(const std::string& name, const std::string& rows) const {
+    return folder.write(name, "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n" + rows);
+  }
+
+  ProgramResult check(std::vector<std::string> trajectories, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"slide", scene, "--part", "box", "--trajectory"};
+    arguments.insert(arguments.end(), trajectories.begin(), trajectories.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return test_support::glissade(arguments);
+  }
+
+  test_support::TemporaryFolder folder;
+  const std::string scene =
+      folder.write("scene.yaml",
+                   "objects:\n"
+                   "  - {name: box, movable: true, shape: {type: box, size_x_m: 0.1, size_y_m: 0.06, size_z_m: 0.04, "
+                   "triangles: 600}}\n"
+                   "  - {name: floor, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5, triangles: 900}}\n");
+  const std::string above =
+      trajectory("above.csv", "0,0,0,0.03,1,0,0,0\n0.1,0,0,0.025,1,0,0,0\n0.2,0.05,0,0.05,1,0,0,0\n");
+  const std::string below = trajectory("below.csv", "5,0,0,0.03,1,0,0,0\n5.1,0.02,0,0.01,1,0,0,0\n");
+};
+
+TEST_F(AssemblyCheck, TellsWhatBecameOfEachTrajectory) {
+  const ProgramResult result = check({above, below});
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  const auto rows = parse(result.standard_output);
+  ASSERT_EQ(rows.size(), 2U);
+
+  const auto& free = rows.at("above.csv");
+  EXPECT_EQ(free.at("goal_reached"), 1.0);
+  EXPECT_LT(free.at("goal_distance_m"), 1e-12);
+  EXPECT_EQ(free.at("force_max_N"), 0.0);
+  EXPECT_NEAR(free.at("clearance_min_m"), 5e-3, 1e-9) << "at its lowest";
+  EXPECT_NEAR(free.at("clearance_min_at_s"), 0.1, 1e-9);
+  EXPECT_EQ(free.at("contact_s"), 0.0);
+  EXPECT_NEAR(free.at("duration_s"), 0.2, 1e-9);
+
+  // 10 mm above the floor, of 20 mm on the way down, is where it stops: half of the time, and 1000 N/m.
+  const auto& blocked = rows.at("below.csv");
+  EXPECT_EQ(blocked.at("goal_reached"), 0.0);
+  EXPECT_NEAR(blocked.at("goal_distance_m"), 0.01, 2.0 * kMargin);
+  EXPECT_NEAR(blocked.at("force_max_N"), 10.0, 1000.0 * 2.0 * kMargin);
+  EXPECT_GT(blocked.at("clearance_min_m"), 0.0);
+  EXPECT_LT(blocked.at("clearance_min_m"), 2.0 * kMargin);
+  EXPECT_NEAR(blocked.at("contact_s"), 0.05, 0.003);
+}
+
+TEST_F(AssemblyCheck, HasAGoalOfItsOwnTolerance) {
+  const ProgramResult strict = check({below}, {"--summary", "-"});
+  const ProgramResult lax = check({below}, {"--summary", "-", "--goal-tolerance-m", "0.011"});
+  EXPECT_EQ(parse(strict.standard_output).at("below.csv").at("goal_reached"), 0.0);
+  EXPECT_EQ(parse(lax.standard_output).at("below.csv").at("goal_reached"), 1.0);
+}
+
+TEST_F(AssemblyCheck, WritesAPage) {
+  const ProgramResult result = check({above, below}, {"--report", folder.path("page")});
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  EXPECT_EQ(result.standard_output, "") << "the page is the answer";
+  const std::string page = read_text_file(folder.path("page/index.html"));
+  for (const char* part : {"Assembly check of box", "1 of 2", "above.csv", "not reached, 10.0", "force [N]"})
+    EXPECT_THAT(page, testing::HasSubstr(part));
+}
+
+TEST_F(AssemblyCheck, OneThatCannotStartFailsAlone) {
+  const std::string inside = trajectory("inside.csv", "0,0,0,0.01,1,0,0,0\n0.1,0,0,0.1,1,0,0,0\n");
+  const ProgramResult result = check({inside, above});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.standard_error, testing::HasSubstr("inside.csv: the part collides with 'floor'"));
+  EXPECT_EQ(parse(result.standard_output).size(), 1U);
+}
+
+TEST_F(AssemblyCheck, GivesTheSameBytesAgain) {
+  const std::vector<std::string> many{above, below, above, below, below};
+  EXPECT_EQ(check(many).standard_output, check(many).standard_output);
+}
+
+TEST_F(AssemblyCheck, RefusesWhatMakesNoSense) {
+  expect_refused({"slide", scene, "--part", "box", "--trajectory", above, below, "--out", folder.path("rows.csv")},
+                 {"--out", "--summary"});
+  expect_refused({"slide", scene, "--part", "box", "--trajectory", above, folder.path("none.csv")}, {"none.csv"});
+  expect_refused({"slide", scene, "--part", "box", "--trajectory", "a,b.csv", above},
+                 {"--trajectory", "'a,b.csv'", "comma"});
+}
+
+}  // namespace
+}  // namespace glissade::apps
