@@ -39,11 +39,10 @@ constexpr const char* kFooter =
     "  rubber-band-spring  rubber band and spiral spring: the part catches up at once\n"
     "  incremental         the part repeats each motion of the ghost from where it is; what is refused is forgotten\n"
     "\n"
-    "Several trajectories, or --summary or --report, ask for an assembly check: one row for each trajectory, which "
-    "tells\n"
-    "whether the part came to the scene's goal (or else to where its trajectory ends), how far from it it was left, "
-    "the\n"
-    "greatest force and torque on the hand, the least clearance and when, and for how long contacts pushed. One that\n"
+    "Several trajectories, or --summary or --report, ask for an assembly check: one row for each trajectory, which\n"
+    "tells whether the part came to the scene's goal (or else to where its trajectory ends), how far from it it was\n"
+    "left, the greatest force and torque on the hand, the least clearance and when, and for how long contacts pushed. "
+    "One that\n"
     "does not start in free space has no row, a line on standard error, and exit code 1 for all.\n"
     "\n"
     "Examples:\n"
@@ -85,8 +84,8 @@ void add_pose(CsvWriter& out, const Eigen::Isometry3d& X) {
 void add_row(CsvWriter& out, double time_s, const haptics::Sliding& sliding) {
   const haptics::SlidingResult& result = sliding.result();
   const Eigen::Vector3d& p_Vref = sliding.part().p_Vref();
-  const haptics::Wrench wrench =
-      haptics::about_point(wrench_on_hand(sliding), result.X_WT * p_Vref, result.X_WV.translation());
+  const haptics::Wrench wrench = haptics::about_point(haptics::spring_wrench(sliding.stiffness(), sliding.error()),
+                                                      result.X_WT * p_Vref, result.X_WV.translation());
   out.add(time_s);
   add_pose(out, result.X_WG);
   add_pose(out, result.X_WV);

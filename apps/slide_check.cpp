@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include <glissade/apps/csv.h>
@@ -66,10 +67,6 @@ std::string verdict(const SlideCheck& check) {
 
 }  // namespace
 
-haptics::Wrench wrench_on_hand(const haptics::Sliding& sliding) {
-  return haptics::spring_wrench(sliding.stiffness(), sliding.error());
-}
-
 SlideCheck check_slide(const HapticScene& scene, const devices::PoseTrajectory& trajectory, const std::string& name,
                        const SlideCheckOptions& options) {
   SlideCheck check;
@@ -77,29 +74,30 @@ SlideCheck check_slide(const HapticScene& scene, const devices::PoseTrajectory& 
   check.force.name = name;
   check.duration_s = seconds(trajectory.duration());
   check.clearance_min_m = std::numeric_limits<double>::infinity();
+  std::optional<haptics::Sliding> sliding;
   try {
-    haptics::Sliding sliding(scene.obstacles, scene.part_V, trajectory.pose_at(trajectory.first_time()),
-                             {.metaphor = options.metaphor});
-    Clearance clearance(scene);
-    const std::int64_t ticks = trajectory.duration() / milliseconds(1);
-    for (std::int64_t i = 0; i <= ticks; ++i) {
-      const std::chrono::nanoseconds time = i * milliseconds(1);
-      const haptics::SlidingResult& result = sliding.advance(trajectory.pose_at(trajectory.first_time() + time));
-      const haptics::Wrench wrench = wrench_on_hand(sliding);
-      check.force_max_N = std::max(check.force_max_N, wrench.f.norm());
-      check.torque_max_Nm = std::max(check.torque_max_Nm, wrench.t.norm());
-      check.contact_s += result.pushing > 0 ? 1e-3 : 0.0;
-      check.force.x.push_back(seconds(time));
-      check.force.y.push_back(wrench.f.norm());
-      const double gap = clearance.at(result.X_WV, check.clearance_min_m);
-      if (gap < check.clearance_min_m) check.clearance_min_at_s = seconds(time);
-      check.clearance_min_m = gap;
-    }
-    note_goal(sliding.result().X_WV, scene.X_WGoal.value_or(trajectory.pose_at(trajectory.last_time())), options,
-              check);
+    sliding.emplace(scene.obstacles, scene.part_V, trajectory.pose_at(trajectory.first_time()),
+                    haptics::SlidingOptions{.metaphor = options.metaphor});
   } catch (const std::invalid_argument& error) {
     check.problem = std::string(error.what()) + ", the pose of the first row";
+    return check;
   }
+  Clearance clearance(scene);
+  const std::int64_t ticks = trajectory.duration() / milliseconds(1);
+  for (std::int64_t i = 0; i <= ticks; ++i) {
+    const std::chrono::nanoseconds time = i * milliseconds(1);
+    const haptics::SlidingResult& result = sliding->advance(trajectory.pose_at(trajectory.first_time() + time));
+    const haptics::Wrench wrench = haptics::spring_wrench(sliding->stiffness(), sliding->error());
+    check.force_max_N = std::max(check.force_max_N, wrench.f.norm());
+    check.torque_max_Nm = std::max(check.torque_max_Nm, wrench.t.norm());
+    check.contact_s += result.pushing > 0 ? 1e-3 : 0.0;
+    check.force.x.push_back(seconds(time));
+    check.force.y.push_back(wrench.f.norm());
+    const double gap = clearance.at(result.X_WV, check.clearance_min_m);
+    if (gap < check.clearance_min_m) check.clearance_min_at_s = seconds(time);
+    check.clearance_min_m = gap;
+  }
+  note_goal(sliding->result().X_WV, scene.X_WGoal.value_or(trajectory.pose_at(trajectory.last_time())), options, check);
   return check;
 }
 

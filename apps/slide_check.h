@@ -38,12 +38,9 @@ struct SlideCheck {
   PlotSeries force;        ///< newtons over seconds
 };
 
-/// The wrench on the hand about the part's reference point.
-haptics::Wrench wrench_on_hand(const haptics::Sliding& sliding);
-
 /// Leads the part along the trajectory in steps of a millisecond, offline, and keeps account. The goal is the scene's,
-/// or else where the trajectory ends. Throws nothing that a trajectory could cause. Different checks of one scene may
-/// run at once.
+/// or else where the trajectory ends. A start that is not free is told as a `problem`. Different checks of one scene
+/// may run at once.
 SlideCheck check_slide(const HapticScene& scene, const devices::PoseTrajectory& trajectory, const std::string& name,
                        const SlideCheckOptions& options);
 

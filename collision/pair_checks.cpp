@@ -44,7 +44,7 @@ bool PairChecks::are_separated(TrackedPair& pair, PairMemory& memory, double dis
   // Boxes are fat, so what enters is mostly not near yet.
   const double gap_of_spheres = memory.hulls.has_plane ? 0.0 : placed_.gap_of_spheres(pair.slots.a, pair.slots.b);
   if (gap_of_spheres > certain_distance(distance)) {
-    const Eigen::Vector3d n_W = placed_.direction(pair.slots.a, pair.slots.b);
+    const Eigen::Vector3d n_W = placed_.between(pair.slots.a, pair.slots.b);
     pair.separation = placed_.separation(pair.slots.a, pair.slots.b, n_W, gap_of_spheres);
     return true;
   }

@@ -61,8 +61,8 @@ double PlacedObjects::gap_of_spheres(std::uint32_t slot_a, std::uint32_t slot_b)
          16.0 * kRounding * (c_a.lpNorm<1>() + c_b.lpNorm<1>() + reach);
 }
 
-Eigen::Vector3d PlacedObjects::direction(std::uint32_t slot_a, std::uint32_t slot_b) const {
-  return (places_[slot_b].c_W - places_[slot_a].c_W).normalized();
+Eigen::Vector3d PlacedObjects::between(std::uint32_t slot_a, std::uint32_t slot_b) const {
+  return places_[slot_b].c_W - places_[slot_a].c_W;
 }
 
 // Poses seen from each other are rounded, and rotations keep lengths and directions but for their defect.

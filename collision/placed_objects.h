@@ -46,10 +46,11 @@ class PlacedObjects {
   /// overlap.
   double gap_of_spheres(std::uint32_t slot_a, std::uint32_t slot_b) const;
 
-  /// From the centre of a to that of b, a unit vector in the world, if they are not at the same place.
-  Eigen::Vector3d direction(std::uint32_t slot_a, std::uint32_t slot_b) const;
+  /// From the centre of a to that of b, metres, in the world.
+  Eigen::Vector3d between(std::uint32_t slot_a, std::uint32_t slot_b) const;
 
-  /// Of two objects that are now, in their frames, apart by `gap` metres at least along n_W, from a to b.
+  /// Of two objects that are now, in their frames, apart by `gap` metres at least along n_W, from a to b, of any
+  /// length but 0.
   Separation separation(std::uint32_t slot_a, std::uint32_t slot_b, const Eigen::Vector3d& n_W, double gap) const;
 
   /// What is certainly left of the gap, metres; may be negative. Not more than 0 if nothing is known.

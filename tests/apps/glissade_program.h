@@ -3,6 +3,7 @@
 /// The built program, run as its users do.
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,15 @@ namespace glissade::test_support {
 inline ProgramResult glissade(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), GLISSADE_PROGRAM);
   return run_program(arguments);
+}
+
+/// The cells of one line of the CSV it prints.
+inline std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');)
+    cells.push_back(cell);
+  return cells;
 }
 
 /// Expects an exit code and one line on standard error that holds every one of `parts`.

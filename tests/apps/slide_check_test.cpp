@@ -17,16 +17,9 @@ namespace {
 
 using test_support::expect_refused;
 using test_support::ProgramResult;
+using test_support::split;
 
 constexpr double kMargin = 1e-5;
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');)
-    cells.push_back(cell);
-  return cells;
-}
 
 /// The rows by the trajectory's file name, each by column name.
 std::map<std::string, std::map<std::string, double>> parse(const std::string& csv) {

@@ -15,19 +15,12 @@ namespace {
 using test_support::expect_fails;
 using test_support::expect_refused;
 using test_support::ProgramResult;
+using test_support::split;
 
 constexpr double kTwoMargins = 20e-6;
 
 /// One row of the answer by column name; the state's text is left out.
 using Row = std::map<std::string, double>;
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');)
-    cells.push_back(cell);
-  return cells;
-}
 
 std::vector<Row> parse(const std::string& csv) {
   std::istringstream in(csv);
