@@ -28,22 +28,6 @@ CouplingStiffness default_stiffness(const SlidingPart& part_V) {
 
 }  // namespace
 
-std::string_view name_of(SlidingState state) {
-  switch (state) {
-    case SlidingState::kReleased:
-      return "released";
-    case SlidingState::kFree:
-      return "free";
-    case SlidingState::kSliding:
-      return "sliding";
-    case SlidingState::kResting:
-      return "resting";
-    case SlidingState::kCatchingUp:
-      return "catching-up";
-  }
-  return "unknown";
-}
-
 Sliding::Sliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,
                  const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options)
     : part_V_(std::move(part_V)),
@@ -88,10 +72,6 @@ void Sliding::let_rest(SlidingState state) {
   result_.contacts.clear();
   result_.pushing = 0;
   result_.cycles = 0;
-}
-
-Displacement Sliding::error() const {
-  return displacement_between(result_.X_WV, result_.X_WT, part_V_->p_Vref());
 }
 
 const SlidingResult& Sliding::advance(const Eigen::Isometry3d& X_WG_given, double milliseconds) {

@@ -9,22 +9,19 @@
 /// contact instead and derives a new direction from it; at that instant the gap is zero, where a closed predicate
 /// already says "colliding" and no further motion is possible, so here contacts hold the part one margin away.
 
-#include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include <glissade/haptics/candidate_pairs.h>
-#include <glissade/haptics/contact.h>
 #include <glissade/haptics/contact_body.h>
 #include <glissade/haptics/metaphor.h>
 #include <glissade/haptics/motion.h>
 #include <glissade/haptics/path_certificate.h>
 #include <glissade/haptics/projection.h>
+#include <glissade/haptics/sliding_simulation.h>
 #include <glissade/haptics/surroundings.h>
 
 namespace glissade::haptics {
@@ -32,16 +29,6 @@ namespace glissade::haptics {
 /// What a part under force feedback may catch up in a tick beyond twice the ghost's own motion: it takes the jumps out
 /// of the force where the part snaps into a gap.
 inline constexpr double kSlew_m = 0.2e-3;
-
-enum class SlidingState : std::uint8_t {
-  kReleased,    ///< nobody holds the part, which stands still
-  kFree,        ///< the visible part is where the metaphor wants it
-  kSliding,     ///< contacts push, the part moves along them
-  kResting,     ///< contacts push, the part stands still
-  kCatchingUp,  ///< nothing pushes, but the part is not there yet
-};
-
-std::string_view name_of(SlidingState state);
 
 struct SlidingOptions {
   Metaphor metaphor = Metaphor::kForceFeedback;
@@ -51,53 +38,21 @@ struct SlidingOptions {
   int max_cycles = 10;
 };
 
-/// What one call of `advance` led to.
-struct SlidingResult {
-  Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< the ghost
-  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< where the metaphor wants the part, see `wanted_pose`
-  Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part
-  SlidingState state = SlidingState::kFree;
-  /// The contacts of the last cycle and the pose they were found at; those with a force push.
-  std::vector<Contact> contacts;
-  Eigen::Isometry3d X_WV_of_contacts = Eigen::Isometry3d::Identity();
-  double reach = 0.0;  ///< metres from that pose within which contacts were looked for
-  int pushing = 0;     ///< number of contacts with a force
-  int cycles = 0;
-};
-
 /// The simulation of one part among fixed obstacles. Deterministic: the same calls give the same bits.
 /// Not thread-safe; several simulations may share bodies.
-class Sliding {
+class Sliding final : public SlidingSimulation {
  public:
   /// Throws std::invalid_argument when there is no obstacle, and when the part collides with one at X_WV_start.
   Sliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,
           const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options = {});
 
-  Sliding(const Sliding&) = delete;
-  Sliding& operator=(const Sliding&) = delete;
+  void grasp(const Eigen::Isometry3d& X_WG) override;
+  void release() override;
+  const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) override;
 
-  /// The hand takes hold of the part, or takes another hold of it: the ghost is at X_WG from now on, wherever the part
-  /// is. Nothing moves yet. Where ghost and part do not coincide, `force-feedback` closes the gap at its limited speed,
-  /// the rubber bands at once, and `incremental` leaves it as it is, which makes this and `release` its clutch. Needed
-  /// only after `release`. A pose that is none to `collision::rigid_pose` changes nothing.
-  void grasp(const Eigen::Isometry3d& X_WG);
-
-  /// The hand lets go: the part stays where it is, the ghost is where the part is, and no contact pushes.
-  void release();
-
-  /// Moves the visible part to where the metaphor wants it, once per millisecond of motion. The ghost's pose is made a
-  /// rotation and translation by `collision::rigid_pose`; what is no pose to that changes nothing, nor does a call
-  /// while the part is released.
-  /// `milliseconds` is how long ago the last call's ghost was; a caller that comes late may catch up for all of it.
-  const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0);
-
-  /// From the visible part to where the metaphor wants it: the spring of the coupling is stretched by that. Exactly
-  /// zero in free space and while the part is released.
-  Displacement error() const;
-
-  const SlidingResult& result() const { return result_; }
-  const SlidingPart& part() const { return *part_V_; }
-  const CouplingStiffness& stiffness() const { return stiffness_; }
+  const SlidingResult& result() const override { return result_; }
+  const SlidingPart& part() const override { return *part_V_; }
+  const CouplingStiffness& stiffness() const override { return stiffness_; }
   /// Metres at which contacts hold the part away: 1e-4 ρ, but 2 to 10 µm.
   double margin() const { return margin_; }
   /// Metres that every certified path keeps away from everything.
