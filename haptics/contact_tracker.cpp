@@ -1,0 +1,191 @@
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <utility>
+
+#include <glissade/haptics/contact_tracker.h>
+
+namespace glissade::haptics {
+namespace {
+
+constexpr double kCosOfSameNormal = 0.984807753012208;  // 10°
+
+/// What a contact is known by, in the order of the list: of a face and a vertex the vertex first, so that all that
+/// touch at one vertex stand together.
+auto features_of(const Contact& c) {
+  auto first = std::pair(c.part_feature, c.part_triangle);
+  auto second = std::pair(c.obstacle_feature, c.obstacle_triangle);
+  if (c.kind == ContactKind::kFaceVertex) std::swap(first, second);
+  return std::make_tuple(c.obstacle, c.kind, first, second);
+}
+
+/// Whether two contacts are one vertex over the seam of two triangles of one plane: both may count it as over their
+/// inside. The limit is that of `collision::MeshTopology` for edges inside a plane.
+bool are_one_on_a_seam(const Contact& a, const Contact& b, double margin) {
+  constexpr double kCosOfFlat = 1.0 - 0.5e-8;
+  if (a.obstacle != b.obstacle || a.kind != b.kind) return false;
+  const bool same_vertex = a.kind == ContactKind::kVertexFace   ? a.part_feature == b.part_feature
+                           : a.kind == ContactKind::kFaceVertex ? a.obstacle_feature == b.obstacle_feature
+                                                                : false;
+  return same_vertex && a.n_W.dot(b.n_W) >= kCosOfFlat && (a.p_W - b.p_W).norm() <= 0.01 * margin;
+}
+
+/// A total order: two contacts that are told with the same features are told apart by where they are.
+bool comes_before(const Contact& a, const Contact& b) {
+  const auto place = [](const Contact& c) {
+    return std::make_tuple(c.p_W.x(), c.p_W.y(), c.p_W.z(), c.n_W.x(), c.n_W.y(), c.n_W.z(), c.force);
+  };
+  const auto features_a = features_of(a);
+  const auto features_b = features_of(b);
+  return features_a != features_b ? features_a < features_b : place(a) < place(b);
+}
+
+enum class FeatureKind : std::uint8_t { kFace, kEdge, kVertex };
+
+struct FeatureKinds {
+  FeatureKind part;
+  FeatureKind obstacle;
+};
+
+FeatureKinds kinds_of(ContactKind kind) {
+  using enum FeatureKind;
+  constexpr std::array<FeatureKinds, 6> kKinds{
+      {{kVertex, kFace}, {kFace, kVertex}, {kEdge, kEdge}, {kVertex, kEdge}, {kEdge, kVertex}, {kVertex, kVertex}}};
+  return kKinds[static_cast<std::size_t>(kind)];
+}
+
+bool has_common_feature(const Contact& a, const Contact& b) {
+  const FeatureKinds of_a = kinds_of(a.kind);
+  const FeatureKinds of_b = kinds_of(b.kind);
+  return (of_a.part == of_b.part && a.part_feature == b.part_feature) ||
+         (of_a.obstacle == of_b.obstacle && a.obstacle_feature == b.obstacle_feature);
+}
+
+/// The contact after the part has moved by X_W, to first order. A vertex stays where it is on its own side.
+Contact carried(const Contact& contact, const Eigen::Isometry3d& X_W) {
+  Contact moved = contact;
+  const Eigen::Vector3d p_W = X_W * contact.p_W;
+  moved.gap = contact.gap + contact.n_W.dot(p_W - contact.p_W);
+  if (kinds_of(contact.kind).part == FeatureKind::kVertex) {
+    moved.p_W = p_W;
+  } else {
+    moved.p_W = contact.q_W() + moved.gap * contact.n_W;
+  }
+  return moved;
+}
+
+}  // namespace
+
+std::span<const TrackedContact> ContactTracker::update(const SlidingResult& result, double obstacle_travel) {
+  std::swap(before_, now_);
+  take(result);
+  match_features();
+  match_places(result.X_WV, obstacle_travel);
+  number_new_ones();
+  X_WV_ = result.X_WV;
+  return touching_;
+}
+
+void ContactTracker::take(const SlidingResult& result) {
+  const bool moves = result.X_WV.matrix() != result.X_WV_of_contacts.matrix();
+  const Eigen::Isometry3d X_W = result.X_WV * result.X_WV_of_contacts.inverse(Eigen::Isometry);
+  now_.clear();
+  for (const Contact& contact : result.contacts) {
+    TrackedContact tracked{0, 0, moves ? carried(contact, X_W) : contact};
+    if (lasts(tracked.contact)) now_.push_back(tracked);
+  }
+  std::sort(now_.begin(), now_.end(),
+            [](const TrackedContact& a, const TrackedContact& b) { return comes_before(a.contact, b.contact); });
+  unite_seams();
+}
+
+void ContactTracker::unite_seams() {
+  std::size_t kept = 0;
+  for (std::size_t i = 1; i < now_.size(); ++i) {
+    if (are_one_on_a_seam(now_[kept].contact, now_[i].contact, margin_)) {
+      now_[kept].contact.force += now_[i].contact.force;
+    } else {
+      now_[++kept] = now_[i];
+    }
+  }
+  now_.resize(std::min(now_.size(), kept + 1));
+}
+
+/// Both lists are in order, so that one walk along them finds what is in both.
+void ContactTracker::match_features() {
+  ended_.clear();
+  auto now = now_.begin();
+  for (std::size_t i = 0; i < before_.size(); ++i) {
+    const auto features = features_of(before_[i].contact);
+    while (now != now_.end() && features_of(now->contact) < features)
+      ++now;
+    if (now != now_.end() && features_of(now->contact) == features) {
+      now->id = before_[i].id;
+      now->age = before_[i].age + 1;
+      ++now;
+    } else {
+      ended_.push_back({static_cast<std::int32_t>(i), 0.0, false});
+    }
+  }
+}
+
+void ContactTracker::match_places(const Eigen::Isometry3d& X_WV, double obstacle_travel) {
+  if (ended_.empty()) return;
+  const Eigen::Isometry3d X_W = X_WV * X_WV_.inverse(Eigen::Isometry);
+  double widest = 0.0;
+  for (Ended& ended : ended_) {
+    const Eigen::Vector3d& p_W = before_[static_cast<std::size_t>(ended.index)].contact.p_W;
+    ended.travel = (X_W * p_W - p_W).norm() + obstacle_travel + 3.0 * margin_;
+    widest = std::max(widest, ended.travel);
+  }
+  std::sort(ended_.begin(), ended_.end(), [&](const Ended& a, const Ended& b) {
+    const double x_a = before_[static_cast<std::size_t>(a.index)].contact.p_W.x();
+    const double x_b = before_[static_cast<std::size_t>(b.index)].contact.p_W.x();
+    return x_a != x_b ? x_a < x_b : a.index < b.index;
+  });
+  for (TrackedContact& now : now_) {
+    if (now.id != 0) continue;
+    const std::int32_t found = predecessor_of(now.contact, widest);
+    if (found < 0) continue;
+    Ended& ended = ended_[static_cast<std::size_t>(found)];
+    ended.continued = true;
+    now.id = before_[static_cast<std::size_t>(ended.index)].id;
+    now.age = before_[static_cast<std::size_t>(ended.index)].age + 1;
+  }
+}
+
+/// Which of the contacts that have ended `contact` continues, −1 for none; `widest` is the longest way that any of
+/// them can have come.
+std::int32_t ContactTracker::predecessor_of(const Contact& contact, double widest) const {
+  const auto candidate = [&](const Ended& ended) -> const TrackedContact& {
+    return before_[static_cast<std::size_t>(ended.index)];
+  };
+  auto at = std::partition_point(ended_.begin(), ended_.end(), [&](const Ended& ended) {
+    return candidate(ended).contact.p_W.x() < contact.p_W.x() - widest;
+  });
+  std::int32_t best = -1;
+  std::tuple<bool, double, std::int64_t> least;
+  for (; at != ended_.end() && candidate(*at).contact.p_W.x() <= contact.p_W.x() + widest; ++at) {
+    const Contact& old = candidate(*at).contact;
+    if (at->continued || old.obstacle != contact.obstacle || old.n_W.dot(contact.n_W) < kCosOfSameNormal) continue;
+    const double distance = (old.p_W - contact.p_W).norm();
+    if (distance > at->travel || (old.q_W() - contact.q_W()).norm() > at->travel) continue;
+    const auto rank = std::make_tuple(!has_common_feature(old, contact), distance, candidate(*at).id);
+    if (best >= 0 && rank >= least) continue;
+    best = static_cast<std::int32_t>(at - ended_.begin());
+    least = rank;
+  }
+  return best;
+}
+
+/// What is new and does not touch is none of the user's business yet.
+void ContactTracker::number_new_ones() {
+  std::erase_if(now_, [&](const TrackedContact& now) { return now.id == 0 && !touches(now.contact); });
+  touching_.clear();
+  for (TrackedContact& now : now_) {
+    if (now.id == 0) now.id = ++last_id_;
+    if (touches(now.contact)) touching_.push_back(now);
+  }
+}
+
+}  // namespace glissade::haptics
