@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -8,26 +9,18 @@
 namespace glissade::haptics {
 namespace {
 
-constexpr double kCosOfSameNormal = 0.984807753012208;  // 10°
+constexpr double kCosOfSameNormal = 0.984807753012208;    // 10°
+constexpr double kCosOfOneDirection = 0.999847695156391;  // 1°
+constexpr std::int64_t kUnited = -1;                      // for an id: the contact is part of another
 
-/// What a contact is known by, in the order of the list: of a face and a vertex the vertex first, so that all that
-/// touch at one vertex stand together.
 auto features_of(const Contact& c) {
-  auto first = std::pair(c.part_feature, c.part_triangle);
-  auto second = std::pair(c.obstacle_feature, c.obstacle_triangle);
-  if (c.kind == ContactKind::kFaceVertex) std::swap(first, second);
-  return std::make_tuple(c.obstacle, c.kind, first, second);
+  return std::make_tuple(c.obstacle, c.kind, c.part_feature, c.obstacle_feature, c.part_triangle, c.obstacle_triangle);
 }
 
-/// Whether two contacts are one vertex over the seam of two triangles of one plane: both may count it as over their
-/// inside. The limit is that of `collision::MeshTopology` for edges inside a plane.
-bool are_one_on_a_seam(const Contact& a, const Contact& b, double margin) {
-  constexpr double kCosOfFlat = 1.0 - 0.5e-8;
-  if (a.obstacle != b.obstacle || a.kind != b.kind) return false;
-  const bool same_vertex = a.kind == ContactKind::kVertexFace   ? a.part_feature == b.part_feature
-                           : a.kind == ContactKind::kFaceVertex ? a.obstacle_feature == b.obstacle_feature
-                                                                : false;
-  return same_vertex && a.n_W.dot(b.n_W) >= kCosOfFlat && (a.p_W - b.p_W).norm() <= 0.01 * margin;
+/// Whether two contacts are the same to a user: with one obstacle, at one place, in one direction.
+bool are_one(const Contact& a, const Contact& b, double margin) {
+  return a.obstacle == b.obstacle && a.n_W.dot(b.n_W) >= kCosOfOneDirection && (a.p_W - b.p_W).norm() <= margin &&
+         (a.q_W() - b.q_W()).norm() <= margin;
 }
 
 /// A total order: two contacts that are told with the same features are told apart by where they are.
@@ -96,19 +89,28 @@ void ContactTracker::take(const SlidingResult& result) {
   }
   std::sort(now_.begin(), now_.end(),
             [](const TrackedContact& a, const TrackedContact& b) { return comes_before(a.contact, b.contact); });
-  unite_seams();
+  unite_coincident();
 }
 
-void ContactTracker::unite_seams() {
-  std::size_t kept = 0;
-  for (std::size_t i = 1; i < now_.size(); ++i) {
-    if (are_one_on_a_seam(now_[kept].contact, now_[i].contact, margin_)) {
-      now_[kept].contact.force += now_[i].contact.force;
-    } else {
-      now_[++kept] = now_[i];
+void ContactTracker::unite_coincident() {
+  const auto x_of = [&](std::int32_t i) { return now_[static_cast<std::size_t>(i)].contact.p_W.x(); };
+  by_x_.resize(now_.size());
+  std::iota(by_x_.begin(), by_x_.end(), 0);
+  std::sort(by_x_.begin(), by_x_.end(),
+            [&](std::int32_t a, std::int32_t b) { return x_of(a) != x_of(b) ? x_of(a) < x_of(b) : a < b; });
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    TrackedContact& first = now_[i];
+    if (first.id == kUnited) continue;
+    const double x = first.contact.p_W.x();
+    auto near = std::partition_point(by_x_.begin(), by_x_.end(), [&](std::int32_t j) { return x_of(j) < x - margin_; });
+    for (; near != by_x_.end() && x_of(*near) <= x + margin_; ++near) {
+      TrackedContact& other = now_[static_cast<std::size_t>(*near)];
+      if (&other == &first || other.id == kUnited || !are_one(first.contact, other.contact, margin_)) continue;
+      first.contact.force += other.contact.force;
+      other.id = kUnited;
     }
   }
-  now_.resize(std::min(now_.size(), kept + 1));
+  std::erase_if(now_, [](const TrackedContact& contact) { return contact.id == kUnited; });
 }
 
 /// Both lists are in order, so that one walk along them finds what is in both.

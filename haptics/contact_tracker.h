@@ -26,8 +26,10 @@ struct TrackedContact {
 ///
 /// A contact **touches** when it pushes or its gap is at most two margins: contacts hold the part one margin away.
 ///
-/// A vertex over the seam of several triangles of one plane, which each of them may count as over its inside, is one
-/// contact; it is told with the triangle of the lowest number, and the sum of the forces.
+/// Contacts with one obstacle whose points lie within a margin and whose normals within 1° are **one** to the user: a
+/// vertex over the seam of several triangles of a plane, each of which counts it as over its inside, or an edge that
+/// crosses two others at the vertex they share. The one that comes first in the order of the list stands for all, with
+/// the sum of their forces.
 ///
 /// A contact gets its number when it first touches, and **keeps** it until it neither pushes nor is nearer than three
 /// margins, so that one that flickers about the limit stays the same. It is the same contact from one update to the
@@ -44,7 +46,7 @@ class ContactTracker {
   explicit ContactTracker(double margin) : margin_(margin) {}
 
   /// The contacts that touch according to `result`, the next result of the same simulation, in ascending order of
-  /// obstacle, kind and features: the part's first, but the vertex before the face. Simulations tell their contacts as
+  /// obstacle, kind, the part's feature and the obstacle's. Simulations tell their contacts as
   /// they were before the last cycle moved the part; here they are carried along with it, which is exact for
   /// translations along a face. `obstacle_travel` (metres): no point of an obstacle has moved more since the last
   /// update. Valid until the next update. Cost O(n log n) for n contacts; allocates only when there are more than ever
@@ -56,7 +58,7 @@ class ContactTracker {
 
  private:
   void take(const SlidingResult& result);
-  void unite_seams();
+  void unite_coincident();
   void match_features();
   void match_places(const Eigen::Isometry3d& X_WV, double obstacle_travel);
   std::int32_t predecessor_of(const Contact& contact, double widest) const;
@@ -77,6 +79,7 @@ class ContactTracker {
   Eigen::Isometry3d X_WV_ = Eigen::Isometry3d::Identity();  // of the last update
   std::vector<TrackedContact> before_;                      // in order
   std::vector<TrackedContact> now_;                         // in order; id 0 until it is known
+  std::vector<std::int32_t> by_x_;                          // numbers in `now_`
   std::vector<Ended> ended_;                                // by p_W.x
   std::vector<TrackedContact> touching_;
 };

@@ -135,7 +135,7 @@ TEST(ContactTracker, OfTwoThatEndEachGoesOnWhereItsOwnVertexIs) {
   EXPECT_EQ(ids(contacts), (Ids{1, 2}));
 }
 
-TEST(ContactTracker, AVertexOverTheSeamOfAPlaneIsOneContact) {
+TEST(ContactTracker, WhatIsToldTwiceAtOnePlaceIsOneContact) {
   std::vector<Contact> contacts{vertex_over_face(1, 8, Vector3d(0.1, 0, 0)),
                                 vertex_over_face(1, 7, Vector3d(0.1, 0, 0)),
                                 vertex_over_face(2, 7, Vector3d(0.2, 0, 0))};
@@ -153,9 +153,18 @@ TEST(ContactTracker, AVertexOverTheSeamOfAPlaneIsOneContact) {
   EXPECT_EQ(found[0].contact.force, 0.75);
   EXPECT_EQ(found[2].contact.part_triangle, 3);
   EXPECT_EQ(found[2].contact.force, 2.0);
+  // Two edges that meet at a vertex, and an edge across it: three ways to tell one place.
+  Contact crossing{ContactKind::kEdgeEdge, 0, 0, 0, Vector3d::UnitZ(), Vector3d(0.3, 0, 0), kMargin, 0.0, 5, 6};
+  contacts.push_back(crossing);
+  crossing.obstacle_feature = 7;
+  contacts.push_back(crossing);
+  crossing.kind = ContactKind::kEdgeVertex;
+  crossing.p_W.y() += 0.5 * kMargin;
+  contacts.push_back(crossing);
+  EXPECT_EQ(tracker.update(result_of(contacts)).size(), 4u);
   // On the wall beside it, it is another.
   contacts[0].n_W = Vector3d::UnitX();
-  EXPECT_EQ(tracker.update(result_of(contacts)).size(), 4u);
+  EXPECT_EQ(tracker.update(result_of(contacts)).size(), 5u);
 }
 
 TEST(ContactTracker, ContactsAreToldAtTheVisiblePose) {
