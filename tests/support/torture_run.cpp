@@ -32,6 +32,7 @@ constexpr double kGhostMoves_m = 10e-6;
 constexpr double kLongestTrial_m = 20e-6;
 constexpr double kTrialOfRadius = 2e-3;
 constexpr double kStraight = 1e-3;
+constexpr std::int64_t kMostFaultsTold = 5;  // of one scene
 constexpr std::size_t kMostTrialRows = 2000;
 
 constexpr std::uint64_t kFnvOffset = 14695981039346656037U;
@@ -102,6 +103,7 @@ class TortureRun {
   }
 
   void fault(const std::string& what) {
+    if (++counts_.fault_count > kMostFaultsTold) return;
     counts_.faults.push_back(what + "\n  " + label_ + ", tick " + std::to_string(tick_) + ", " +
                              std::string(name_of(metaphor_)) + ", at most " + std::to_string(options_.max_cycles) +
                              " cycles, " + scene_.description);
@@ -301,6 +303,7 @@ void TortureCounts::add(const TortureCounts& later) {
   unbalanced += later.unbalanced;
   force_jump = std::max(force_jump, later.force_jump);
   mix(later.hash, hash);
+  fault_count += later.fault_count;
   faults.insert(faults.end(), later.faults.begin(), later.faults.end());
 }
 

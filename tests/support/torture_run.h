@@ -31,7 +31,8 @@ struct TortureCounts {
   /// any point of the ghost went. The other metaphors catch up at once.
   double force_jump = 0.0;
   std::uint64_t hash = 0;  ///< of all visible poses, states and forces
-  std::vector<std::string> faults;
+  std::int64_t fault_count = 0;
+  std::vector<std::string> faults;  ///< the first few of each scene, in words
 
   /// What came after it.
   void add(const TortureCounts& later);
