@@ -25,7 +25,7 @@ using haptics::Displacement;
 constexpr double kFirstBarrier = 1e-3;  // of the energy at the start
 constexpr double kLastBarrier = 1e-13;  // joules
 constexpr double kBarrierFactor = 0.2;
-constexpr int kNewtonSteps = 100;  // for one barrier
+constexpr int kNewtonSteps = 1000;  // for one barrier
 
 /// n·x = d, with n towards the part.
 struct Plane {
