@@ -43,8 +43,9 @@ haptics::Wrench sum_of_contacts(const haptics::SlidingSimulation& sliding) {
   const Vector3d p_Wref = result.X_WV_of_contacts * sliding.part().p_Vref();
   haptics::Wrench sum;
   for (const haptics::Contact& contact : result.contacts) {
-    sum.f += contact.force * contact.n_W;
-    sum.t += (contact.p_W - p_Wref).cross(contact.force * contact.n_W);
+    const Vector3d f = contact.force * contact.n_W + contact.friction_W;
+    sum.f += f;
+    sum.t += (contact.p_W - p_Wref).cross(f);
   }
   return sum;
 }
