@@ -19,7 +19,7 @@
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
 #include <glissade/haptics/coupling.h>
-#include <glissade/haptics/sliding.h>
+#include <glissade/haptics/sliding_method.h>
 
 namespace glissade::apps {
 
@@ -39,6 +39,10 @@ constexpr const char* kFooter =
     "  rubber-band-spring  rubber band and spiral spring: the part catches up at once\n"
     "  incremental         the part repeats each motion of the ghost from where it is; what is refused is forgotten\n"
     "\n"
+    "Methods:\n"
+    "  projection          the default: contacts within reach, projection, and a proof for every step\n"
+    "  paper               the founding paper's: bisection to the contact, its class, a new direction; for comparison\n"
+    "\n"
     "Several trajectories, or --summary or --report, ask for an assembly check: one row for each trajectory, which\n"
     "tells whether the part came to the scene's goal (or else to where its trajectory ends), how far from it it was\n"
     "left, the greatest force and torque on the hand, the least clearance and when, and for how long contacts pushed. "
@@ -54,6 +58,7 @@ struct Options {
   std::string part;
   std::vector<std::string> trajectories;
   std::string metaphor = "force-feedback";
+  std::string method = "projection";
   std::string out;
   std::string summary;
   std::string report;
@@ -69,6 +74,12 @@ haptics::Metaphor parse_metaphor(const std::string& name) {
   throw std::invalid_argument("--metaphor: '" + name + "' is unknown; known are " + joined(haptics::kMetaphorNames));
 }
 
+haptics::SlidingMethod parse_method(const std::string& name) {
+  const auto method = haptics::sliding_method_from_name(name);
+  if (method) return *method;
+  throw std::invalid_argument("--method: '" + name + "' is unknown; known are " + joined(haptics::kSlidingMethodNames));
+}
+
 std::vector<std::string> columns() {
   return {"t_s", "gx_m", "gy_m", "gz_m", "gqw",  "gqx",  "gqy",   "gqz",   "vx_m",  "vy_m",     "vz_m", "vqw",
           "vqx", "vqy",  "vqz",  "fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm", "contacts", "state"};
@@ -81,7 +92,7 @@ void add_pose(CsvWriter& out, const Eigen::Isometry3d& X) {
   out.add(q.w()).add(q.x()).add(q.y()).add(q.z());
 }
 
-void add_row(CsvWriter& out, double time_s, const haptics::Sliding& sliding) {
+void add_row(CsvWriter& out, double time_s, const haptics::SlidingSimulation& sliding) {
   const haptics::SlidingResult& result = sliding.result();
   const Eigen::Vector3d& p_Vref = sliding.part().p_Vref();
   const haptics::Wrench wrench = haptics::about_point(haptics::spring_wrench(sliding.stiffness(), sliding.error()),
@@ -98,11 +109,11 @@ void add_row(CsvWriter& out, double time_s, const haptics::Sliding& sliding) {
   out.end_row();
 }
 
-std::unique_ptr<haptics::Sliding> start(const HapticScene& scene, const Eigen::Isometry3d& X_WV_start,
-                                        haptics::Metaphor metaphor, const std::string& trajectory) {
+std::unique_ptr<haptics::SlidingSimulation> start(const HapticScene& scene, const Eigen::Isometry3d& X_WV_start,
+                                                  const SlideCheckOptions& options, const std::string& trajectory) {
   try {
-    return std::make_unique<haptics::Sliding>(scene.obstacles, scene.part_V, X_WV_start,
-                                              haptics::SlidingOptions{.metaphor = metaphor});
+    return haptics::make_sliding(options.method, scene.obstacles, scene.part_V, X_WV_start,
+                                 {.metaphor = options.metaphor});
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(trajectory + ": " + error.what() + ", the pose of the first row");
   }
@@ -122,9 +133,10 @@ devices::PoseTrajectory read(const std::string& file) {
   return trajectory;
 }
 
-void slide(const HapticScene& scene, const std::string& file, haptics::Metaphor metaphor, const std::string& path) {
+void slide(const HapticScene& scene, const std::string& file, const SlideCheckOptions& options,
+           const std::string& path) {
   const devices::PoseTrajectory trajectory = read(file);
-  const auto sliding = start(scene, trajectory.pose_at(trajectory.first_time()), metaphor, file);
+  const auto sliding = start(scene, trajectory.pose_at(trajectory.first_time()), options, file);
 
   using std::chrono::milliseconds;
   const std::int64_t ticks = trajectory.duration() / milliseconds(1);
@@ -163,8 +175,7 @@ std::vector<SlideCheck> check_all(const HapticScene& scene, const std::vector<st
   return checks;
 }
 
-int check(const HapticScene& scene, haptics::Metaphor metaphor, const Options& options) {
-  const SlideCheckOptions check_options{metaphor, options.goal_tolerance_m, options.goal_tolerance_deg};
+int check(const HapticScene& scene, const SlideCheckOptions& check_options, const Options& options) {
   if (!options.report.empty()) prepare_report_folder(options.report);
   const std::vector<SlideCheck> checks = check_all(scene, options.trajectories, check_options);
   if (!options.summary.empty() || options.report.empty()) {
@@ -181,7 +192,8 @@ int check(const HapticScene& scene, haptics::Metaphor metaphor, const Options& o
 }
 
 int run(const Options& options) {
-  const haptics::Metaphor metaphor = parse_metaphor(options.metaphor);
+  const SlideCheckOptions check_options{parse_metaphor(options.metaphor), parse_method(options.method),
+                                        options.goal_tolerance_m, options.goal_tolerance_deg};
   if (options.is_check() && !options.out.empty()) {
     throw std::invalid_argument("--out: is for the rows of one trajectory; a check writes to --summary and --report");
   }
@@ -191,8 +203,8 @@ int run(const Options& options) {
     }
   }
   const HapticScene scene = make_haptic_scene(read_scene(options.scene), options.part);
-  if (options.is_check()) return check(scene, metaphor, options);
-  slide(scene, options.trajectories.front(), metaphor, options.out.empty() ? "-" : options.out);
+  if (options.is_check()) return check(scene, check_options, options);
+  slide(scene, options.trajectories.front(), check_options, options.out.empty() ? "-" : options.out);
   return 0;
 }
 
@@ -208,6 +220,7 @@ void add_slide_command(CLI::App& app, Command& chosen) {
       ->add_option("--trajectory", options->trajectories, "Poses of the ghost over time (CSV), see below; or several")
       ->required();
   command->add_option("--metaphor", options->metaphor, "How hand and part are tied")->capture_default_str();
+  command->add_option("--method", options->method, "How sliding is computed")->capture_default_str();
   command->add_option("--out", options->out, "CSV file for the answer (default: standard output)");
   command->add_option("--summary", options->summary, "CSV file for the check, - for standard output");
   command->add_option("--report", options->report, "Folder for the check as a page, index.html");
