@@ -16,6 +16,8 @@ std::string_view name_of(ContactKind kind) {
       return "edge/vertex";
     case ContactKind::kVertexVertex:
       return "vertex/vertex";
+    case ContactKind::kOverlap:
+      return "overlap";
   }
   return "unknown";
 }

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <glissade/haptics/contact_search.h>
 
 #include "triangle_features.h"
@@ -9,19 +11,21 @@ using collision::MeshTopology;
 using collision::TriangleMesh;
 using collision::TrianglePoints;
 
+/// What part of the margin two gaps that count as the same may differ by.
+constexpr double kAsNear = 0.1;
+
 /// One side of a pair, part or obstacle: its mesh in world coordinates and what its triangle answers for.
 class Side {
  public:
   explicit Side(double sign) : sign_(sign) {}
 
-  /// Body and pose must stay where they are until the next call.
-  void select(const ContactBody& body, const Eigen::Isometry3d& X_WB, std::int32_t triangle) {
-    mesh_ = &body.tree.mesh();
-    topology_ = &body.topology;
-    X_WB_ = &X_WB;
+  /// The body must stay where it is until the next call.
+  void select(const PlacedBody& placed, std::int32_t triangle) {
+    mesh_ = &placed.body->tree.mesh();
+    topology_ = &placed.body->topology;
+    X_WB_ = &placed.X_WB;
     triangle_ = triangle;
-    for (int c = 0; c < 3; ++c)
-      points_[static_cast<std::size_t>(c)] = X_WB * mesh_->corner(triangle, c);
+    points_ = placed.triangle_W(triangle);
   }
 
   std::int32_t triangle() const { return triangle_; }
@@ -51,6 +55,15 @@ class Side {
   bool edge_is_nearest(int i, const Eigen::Vector3d& n, double tolerance) const {
     return none_nearer(topology_->apexes_of(edge(i)), corner(i), n, tolerance);
   }
+  /// The edge of the selected triangle, not flat, that x lies within `tolerance` of; −1 if there is none.
+  std::int32_t rim_near(const Eigen::Vector3d& x, double tolerance) const {
+    for (int i = 0; i < 3; ++i) {
+      if (topology_->edges()[static_cast<std::size_t>(edge(i))].flat) continue;
+      const Eigen::Vector3d along = corner((i + 1) % 3) - corner(i);
+      if (along.cross(x - corner(i)).squaredNorm() <= tolerance * tolerance * along.squaredNorm()) return edge(i);
+    }
+    return -1;
+  }
 
  private:
   bool none_nearer(std::span<const std::int32_t> vertices, const Eigen::Vector3d& x_W, const Eigen::Vector3d& n,
@@ -72,16 +85,20 @@ class Side {
 
 class ContactSearch {
  public:
-  ContactSearch(std::span<const Obstacle> obstacles, const SlidingPart& part_V, const Eigen::Isometry3d& X_WV,
-                double reach, double margin, std::vector<Contact>& contacts)
-      : obstacles_(obstacles), part_V_(part_V), X_WV_(X_WV), reach_(reach), margin_(margin), contacts_(contacts) {}
+  ContactSearch(std::span<const PlacedBody> bodies, std::size_t first_part, double reach, double margin,
+                std::vector<Contact>& contacts)
+      : bodies_(bodies),
+        first_part_(static_cast<std::int32_t>(first_part)),
+        reach_(reach),
+        margin_(margin),
+        contacts_(contacts) {}
 
   void search(const CandidatePair& pair) {
     if (!pair.has_features) return;
-    const Obstacle& obstacle = obstacles_[static_cast<std::size_t>(pair.obstacle)];
     obstacle_number_ = pair.obstacle;
-    part_.select(part_V_, X_WV_, pair.part_triangle);
-    obstacle_.select(*obstacle.body, obstacle.X_WO, pair.obstacle_triangle);
+    part_number_ = pair.part - first_part_;
+    part_.select(bodies_[static_cast<std::size_t>(pair.part)], pair.part_triangle);
+    obstacle_.select(bodies_[static_cast<std::size_t>(pair.obstacle)], pair.obstacle_triangle);
     for (int i = 0; i < 3; ++i) {
       if (part_.owns_corner(i)) search_part_corner(i);
       if (obstacle_.owns_corner(i)) search_obstacle_corner(i);
@@ -89,7 +106,48 @@ class ContactSearch {
     }
   }
 
+  /// A vertex over a face, no further from a rim of it than the margin, where one of its edges crosses that rim: past
+  /// the rim there is room, which both constraints together would deny. The one of the edges is as near, and enough.
+  void leave_out_what_rims_hold() {
+    std::size_t kept = 0;
+    auto rim = rims_.begin();
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      const bool is_at_rim = rim != rims_.end() && rim->contact == i;
+      if (!(is_at_rim && rim_holds(contacts_[i], rim->edge))) contacts_[kept++] = contacts_[i];
+      if (is_at_rim) ++rim;
+    }
+    contacts_.resize(kept);
+  }
+
  private:
+  /// A contact of a vertex that is over a face near an edge of it.
+  struct AtRim {
+    std::size_t contact;
+    std::int32_t edge;
+  };
+
+  /// Of the contact that is added next.
+  void note_rim(std::int32_t edge) {
+    if (edge >= 0) rims_.push_back({contacts_.size(), edge});
+  }
+
+  bool rim_holds(const Contact& contact, std::int32_t edge) const {
+    const bool is_part_vertex = contact.kind == ContactKind::kVertexFace;
+    const auto body = static_cast<std::size_t>(is_part_vertex ? contact.part + first_part_ : contact.obstacle);
+    const MeshTopology& topology = bodies_[body].body->topology;
+    const std::int32_t vertex = is_part_vertex ? contact.part_feature : contact.obstacle_feature;
+    return std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact& other) {
+      if (other.kind != ContactKind::kEdgeEdge || other.part != contact.part || other.obstacle != contact.obstacle ||
+          other.gap > contact.gap + kAsNear * margin_ ||
+          (is_part_vertex ? other.obstacle_feature : other.part_feature) != edge) {
+        return false;
+      }
+      const std::int32_t crossing = is_part_vertex ? other.part_feature : other.obstacle_feature;
+      const auto& ends = topology.edges()[static_cast<std::size_t>(crossing)].vertices;
+      return ends[0] == vertex || ends[1] == vertex;
+    });
+  }
+
   void search_part_corner(int i) {
     const Eigen::Vector3d& x = part_.corner(i);
     const ClosestOnTriangle on = closest_on_triangle(x, obstacle_.points());
@@ -98,6 +156,7 @@ class ContactSearch {
     if (gap < 0.0) return;
     switch (on.region) {
       case Region::kFace:
+        note_rim(obstacle_.rim_near(on.point, margin_));
         add(ContactKind::kVertexFace, part_.vertex(i), obstacle_.triangle(), n, x, gap);
         break;
       case Region::kEdge:
@@ -122,6 +181,7 @@ class ContactSearch {
     const double gap = gap_and_normal(y, on.point, n);
     if (gap < 0.0 || on.region == Region::kVertex) return;  // vertex–vertex is found from the part's side
     if (on.region == Region::kFace) {
+      note_rim(part_.rim_near(on.point, margin_));
       add(ContactKind::kFaceVertex, part_.triangle(), obstacle_.vertex(i), n, on.point, gap);
     } else if (part_.owns_edge(on.index) && part_.edge_is_nearest(on.index, n, margin_) &&
                obstacle_.corner_is_nearest(i, n, margin_)) {
@@ -156,29 +216,31 @@ class ContactSearch {
   void add(ContactKind kind, std::int32_t part_feature, std::int32_t obstacle_feature, const Eigen::Vector3d& n,
            const Eigen::Vector3d& p, double gap) {
     contacts_.push_back({kind, part_.triangle(), obstacle_number_, obstacle_.triangle(), n, p, gap, 0.0, part_feature,
-                         obstacle_feature});
+                         obstacle_feature, part_number_});
   }
 
-  std::span<const Obstacle> obstacles_;
-  const SlidingPart& part_V_;
-  const Eigen::Isometry3d& X_WV_;
+  std::span<const PlacedBody> bodies_;
+  std::int32_t first_part_;
   Side part_{1.0};
   Side obstacle_{-1.0};
   std::int32_t obstacle_number_ = -1;
+  std::int32_t part_number_ = 0;
   double reach_;
   double margin_;
   std::vector<Contact>& contacts_;
+  std::vector<AtRim> rims_;  // ascending
 };
 
 }  // namespace
 
-void find_contacts(std::span<const Obstacle> obstacles, const SlidingPart& part_V, const Eigen::Isometry3d& X_WV,
+void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part,
                    std::span<const CandidatePair> candidates, double reach, double margin,
                    std::vector<Contact>& contacts) {
   contacts.clear();
-  ContactSearch search(obstacles, part_V, X_WV, reach, margin, contacts);
+  ContactSearch search(bodies, first_part, reach, margin, contacts);
   for (const CandidatePair& pair : candidates)
     search.search(pair);
+  search.leave_out_what_rims_hold();
 }
 
 }  // namespace glissade::haptics

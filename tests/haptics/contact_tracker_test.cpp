@@ -167,6 +167,15 @@ TEST(ContactTracker, WhatIsToldTwiceAtOnePlaceIsOneContact) {
   EXPECT_EQ(tracker.update(result_of(contacts)).size(), 5u);
 }
 
+TEST(ContactTracker, APartThatIsLedOutOfAnObstacleTouchesIt) {
+  Contact overlap = vertex_over_face(-1, -1, Vector3d(0.1, 0, 0), -3e-3);
+  overlap.kind = ContactKind::kOverlap;
+  ContactTracker tracker(kMargin);
+  EXPECT_EQ(ids(tracker.update(result_of({overlap}))), Ids{1});
+  overlap.gap = -2.8e-3;
+  EXPECT_EQ(ids(tracker.update(result_of({overlap}))), Ids{1});
+}
+
 TEST(ContactTracker, ContactsAreToldAtTheVisiblePose) {
   SlidingResult result = result_of({vertex_over_face(1, 7, Vector3d(0.1, 0, 0), 3.0 * kMargin)});
   Contact under = vertex_over_face(0, 0, Vector3d(0.2, 0, 0), 3.0 * kMargin);
