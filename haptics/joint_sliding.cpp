@@ -356,6 +356,7 @@ double JointSliding::choose_reach() const {
   }
   double reach = 1.5 * std::max(ghosts, last_step_) + 2.0 * largest_margin_;
   if (last_clipped_) reach *= 2.0;
+  reach = std::max(reach, lead_out_ + 2.0 * largest_margin_);
   return std::clamp(std::min(reach, slew + ghosts + 2.0 * largest_margin_), kSmallestReach_m, reach_limit_);
 }
 
