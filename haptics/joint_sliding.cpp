@@ -106,10 +106,11 @@ Contact mirrored(const Contact& contact, std::int32_t body_of_part, std::int32_t
       break;
   }
   std::swap(mirror.part_triangle, mirror.obstacle_triangle);
+  std::swap(mirror.part_feature, mirror.obstacle_feature);
   mirror.part = other_part;
   mirror.obstacle = body_of_part;
   mirror.n_W = -contact.n_W;
-  mirror.p_W = contact.p_W - contact.gap * contact.n_W;
+  mirror.p_W = contact.q_W();
   mirror.friction_W = -contact.friction_W;
   return mirror;
 }
