@@ -28,7 +28,9 @@ haptics::Coupling coupling_of(const HapticScene& scene, const devices::DeviceDes
 }
 
 haptics::SlidingOptions sliding_options(const haptics::Coupling& coupling, int max_cycles) {
-  return {.metaphor = haptics::Metaphor::kForceFeedback, .stiffness = coupling.stiffness, .max_cycles = max_cycles};
+  return {.metaphor = haptics::Metaphor::kForceFeedback,
+          .stiffness = coupling.stiffness,
+          .rules = {.max_cycles = max_cycles}};
 }
 
 /// A part that starts inside an obstacle is the scene's fault.

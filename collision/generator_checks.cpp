@@ -20,4 +20,27 @@ void require_triangle_count(std::int64_t triangle_count) {
   throw std::invalid_argument(message.str());
 }
 
+void require_count(const char* name, int value, int least, int most, int multiple) {
+  if (value >= least && value <= most && value % multiple == 0) return;
+  std::ostringstream message;
+  message << name << " must be from " << least << " to " << most;
+  if (multiple > 1) message << " and a multiple of " << multiple;
+  message << ", but is " << value << ".";
+  throw std::invalid_argument(message.str());
+}
+
+void require_between(const char* name, double value, double least, double most) {
+  if (value >= least && value <= most) return;
+  std::ostringstream message;
+  message << name << " must be from " << least << " to " << most << ", but is " << value << ".";
+  throw std::invalid_argument(message.str());
+}
+
+void require_below(const char* name, double value, const char* limit_name, double limit) {
+  if (value < limit) return;
+  std::ostringstream message;
+  message << name << " must be less than " << limit_name << ", which is " << limit << ", but is " << value << ".";
+  throw std::invalid_argument(message.str());
+}
+
 }  // namespace glissade::collision

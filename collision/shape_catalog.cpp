@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -12,16 +12,13 @@
 #include <glissade/collision/shape_catalog.h>
 #include <glissade/collision/sheet_metal.h>
 
+#include "shape_entries.h"
+
 namespace glissade::collision {
 namespace {
 
-/// The parameters of one call, complete with defaults.
-using Values = std::map<std::string, double>;
-
-struct Entry {
-  Shape shape;
-  std::function<TriangleMesh(const Values&)> make;
-};
+using Values = ShapeValues;
+using Entry = ShapeEntry;
 
 ShapeParameter triangles_parameter(double default_value) {
   return {"triangles", "about so many triangles", default_value};
@@ -163,27 +160,36 @@ Entry tube_entry() {
           [](const Values& v) { return make_tube(v.at("radius_m"), v.at("length_m"), triangles_of(v)); }};
 }
 
+std::vector<Entry> surface_and_part_entries() {
+  return {box_entry(),
+          bumpy_plate_entry(),
+          suite_entry("car_body", "body of a car, 4 m long, in sheet metal, with its seats", &make_car_body),
+          door_part("door_hose", "hose of the car door", &make_door_hose),
+          door_part("door_impact_tube", "side-impact tube of the car door", &make_door_impact_tube),
+          door_part("door_inner_panel", "inner panel of the car door with its access hole", &make_door_inner_panel),
+          suite_entry("door_lock", "lock of a car door, 0.13 m wide, its mechanism in a housing", &make_door_lock),
+          door_part("door_outer_panel", "outer panel of the car door", &make_door_outer_panel),
+          suite_entry("engine_hose", "bellows hose of a car engine, 0.6 m long, with clamps and flanges",
+                      &make_engine_hose),
+          suite_entry("headlight", "car headlight, 0.52 m wide, with its lamps and housing", &make_headlight),
+          hose_entry(),
+          hyperboloid_entry(),
+          plate_entry(),
+          sheet_entry(),
+          sphere_entry(),
+          torus_entry(),
+          tube_entry(),
+          door_part("window_motor", "window motor of the car door in its own frame", &make_window_motor)};
+}
+
+/// In alphabetical order.
 const std::vector<Entry>& entries() {
-  static const std::vector<Entry> kEntries{
-      box_entry(),
-      bumpy_plate_entry(),
-      suite_entry("car_body", "body of a car, 4 m long, in sheet metal, with its seats", &make_car_body),
-      door_part("door_hose", "hose of the car door", &make_door_hose),
-      door_part("door_impact_tube", "side-impact tube of the car door", &make_door_impact_tube),
-      door_part("door_inner_panel", "inner panel of the car door with its access hole", &make_door_inner_panel),
-      suite_entry("door_lock", "lock of a car door, 0.13 m wide, its mechanism in a housing", &make_door_lock),
-      door_part("door_outer_panel", "outer panel of the car door", &make_door_outer_panel),
-      suite_entry("engine_hose", "bellows hose of a car engine, 0.6 m long, with clamps and flanges",
-                  &make_engine_hose),
-      suite_entry("headlight", "car headlight, 0.52 m wide, with its lamps and housing", &make_headlight),
-      hose_entry(),
-      hyperboloid_entry(),
-      plate_entry(),
-      sheet_entry(),
-      sphere_entry(),
-      torus_entry(),
-      tube_entry(),
-      door_part("window_motor", "window motor of the car door in its own frame", &make_window_motor)};
+  static const std::vector<Entry> kEntries = [] {
+    std::vector<Entry> all = surface_and_part_entries();
+    std::ranges::copy(machine_element_entries(), std::back_inserter(all));
+    std::ranges::sort(all, {}, [](const Entry& entry) { return entry.shape.name; });
+    return all;
+  }();
   return kEntries;
 }
 

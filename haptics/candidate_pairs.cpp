@@ -4,18 +4,27 @@
 
 namespace glissade::haptics {
 
-void CandidatePairs::refresh(const Eigen::Isometry3d& X_WV, double radius) {
-  const collision::FrameResult& near = surroundings_.look_around(X_WV, radius);
+void CandidatePairs::refresh(double radius, std::span<const BodyPair> ignored) {
+  const collision::FrameResult& near = surroundings_.look_around(radius);
+  const std::span<const Obstacle> obstacles = surroundings_.obstacles();
   pairs_.clear();
   for (std::size_t i = 0; i < near.meeting.size(); ++i) {
-    const std::uint32_t number = near.meeting[i].object_A.index;
-    const Obstacle& obstacle = surroundings_.obstacles()[number];
+    const std::uint32_t a = near.meeting[i].object_A.index;
+    const std::uint32_t b = near.meeting[i].object_B.index;
+    const BodyPair numbers{static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)};
+    if (std::find(ignored.begin(), ignored.end(), numbers) != ignored.end()) continue;
+    const PlacedBody& obstacle = surroundings_.bodies()[a];
+    const PlacedBody& part = surroundings_.bodies()[b];
+    std::span<const std::int32_t> giving_way;
+    if (a < obstacles.size()) giving_way = obstacles[a].giving_way;
     for (const collision::ClosePair& pair : near.close_pairs(i)) {
-      const Eigen::Vector3d n_W = obstacle.X_WO.linear() * (pair.p_B - pair.p_A).normalized();
-      const bool has_features = obstacle.body->topology.answers_for_features(pair.triangles.triangle_A) ||
-                                part_V_.topology.answers_for_features(pair.triangles.triangle_B);
-      pairs_.push_back({static_cast<std::int32_t>(number), pair.triangles.triangle_A, pair.triangles.triangle_B,
-                        has_features, pair.distance, n_W});
+      const collision::TrianglePair& triangles = pair.triangles;
+      if (std::binary_search(giving_way.begin(), giving_way.end(), triangles.triangle_A)) continue;
+      const bool has_features = obstacle.body->topology.answers_for_features(triangles.triangle_A) ||
+                                part.body->topology.answers_for_features(triangles.triangle_B);
+      const Eigen::Vector3d n_W = obstacle.X_WB.linear() * (pair.p_B - pair.p_A).normalized();
+      pairs_.push_back({numbers.obstacle, triangles.triangle_A, numbers.part, triangles.triangle_B, has_features,
+                        pair.distance, n_W});
     }
   }
   std::stable_sort(pairs_.begin(), pairs_.end(),

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The triangle pairs a part could reach soon, kept over several steps: one tree query serves as long as the part has
-/// certainly not moved further than the query looked.
+/// The triangle pairs that parts could reach soon, kept over several steps: one tree query serves as long as nothing
+/// has certainly moved further than the query looked.
 
 #include <span>
 #include <vector>
@@ -12,33 +12,46 @@
 
 namespace glissade::haptics {
 
-/// A pair of triangles as it was at the pose of the query.
+/// A pair of triangles as it was at the pose of the query. Bodies are numbered as in the surroundings; the obstacle may
+/// be another part of lower number.
 struct CandidatePair {
-  std::int32_t obstacle;  ///< number among the surroundings
+  std::int32_t obstacle;
   std::int32_t obstacle_triangle;
+  std::int32_t part;
   std::int32_t part_triangle;
   bool has_features;    ///< either triangle answers for an edge or vertex that can stop the part
   double distance;      ///< metres, at the pose of the query
   Eigen::Vector3d n_W;  ///< unit, from the obstacle's to the part's closest point, at the pose of the query
 };
 
+/// Two bodies by their numbers.
+struct BodyPair {
+  std::int32_t obstacle;
+  std::int32_t part;
+
+  bool operator==(const BodyPair&) const = default;
+};
+
 /// Not thread-safe.
 class CandidatePairs {
  public:
-  /// Both must outlive this object.
-  CandidatePairs(Surroundings& surroundings, const SlidingPart& part_V)
-      : surroundings_(surroundings), part_V_(part_V) {}
+  /// The surroundings must outlive this object.
+  explicit CandidatePairs(Surroundings& surroundings) : surroundings_(surroundings) {}
 
-  /// Looks around at X_WV for all pairs within `radius` (metres).
-  void refresh(const Eigen::Isometry3d& X_WV, double radius);
+  /// Looks around for all pairs within `radius` (metres) of where the parts are placed, but those of bodies that are
+  /// `ignored` and of triangles that give way.
+  void refresh(double radius, std::span<const BodyPair> ignored);
 
-  /// Tells that no point of the part has moved more than `bound` (metres) since the last call.
+  /// Tells that no two points of different bodies have come nearer by more than `bound` (metres) since the last call.
   void moved(double bound) { drift_ += bound; }
 
-  /// Whether every pair within `reach` of the part's present pose is certainly among the candidates.
+  /// Forgets everything: covers nothing until the next query.
+  void clear() { radius_ = -1.0; }
+
+  /// Whether every pair within `reach` of the parts' present poses is certainly among the candidates.
   bool covers(double reach) const { return reach + drift_ <= radius_; }
 
-  /// The candidates that may be within `reach` of the part's present pose, nearest first (by the pose of the query).
+  /// The candidates that may be within `reach` of the parts' present poses, nearest first (by the poses of the query).
   std::span<const CandidatePair> within(double reach) const;
 
   /// Number of candidates.
@@ -46,9 +59,8 @@ class CandidatePairs {
 
  private:
   Surroundings& surroundings_;
-  const SlidingPart& part_V_;
   std::vector<CandidatePair> pairs_;
-  double radius_ = -1.0;  // covers nothing until the first query
+  double radius_ = -1.0;
   double drift_ = 0.0;
 };
 

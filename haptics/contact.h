@@ -16,17 +16,20 @@ enum class ContactKind : std::uint8_t {
   kVertexEdge,
   kEdgeVertex,
   kVertexVertex,
+  kOverlap,  ///< the part is being led out of an obstacle that overlapped it when it was taken hold of
 };
 
 struct Contact {
   ContactKind kind;
   std::int32_t part_triangle;
-  std::int32_t obstacle;  ///< number among the surroundings
+  std::int32_t obstacle;  ///< number among the bodies of the surroundings; it may be another part
   std::int32_t obstacle_triangle;
-  Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part
-  Eigen::Vector3d p_W;  ///< the contact point on the part, metres
-  double gap;           ///< metres, positive
-  double force = 0.0;   ///< newtons along n_W; 0 where the contact does not push
+  Eigen::Vector3d n_W;                                   ///< unit, from the obstacle to the part
+  Eigen::Vector3d p_W;                                   ///< the contact point on the part, metres
+  double gap;                                            ///< metres, positive
+  double force = 0.0;                                    ///< newtons along n_W; 0 where the contact does not push
+  std::int32_t part = 0;                                 ///< number among the parts that are held
+  Eigen::Vector3d friction_W = Eigen::Vector3d::Zero();  ///< newtons on the part, across n_W
 };
 
 }  // namespace glissade::haptics

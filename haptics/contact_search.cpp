@@ -14,14 +14,13 @@ class Side {
  public:
   explicit Side(double sign) : sign_(sign) {}
 
-  /// Body and pose must stay where they are until the next call.
-  void select(const ContactBody& body, const Eigen::Isometry3d& X_WB, std::int32_t triangle) {
-    mesh_ = &body.tree.mesh();
-    topology_ = &body.topology;
-    X_WB_ = &X_WB;
+  /// The body must stay where it is until the next call.
+  void select(const PlacedBody& placed, std::int32_t triangle) {
+    mesh_ = &placed.body->tree.mesh();
+    topology_ = &placed.body->topology;
+    X_WB_ = &placed.X_WB;
     triangle_ = triangle;
-    for (int c = 0; c < 3; ++c)
-      points_[static_cast<std::size_t>(c)] = X_WB * mesh_->corner(triangle, c);
+    points_ = placed.triangle_W(triangle);
   }
 
   std::int32_t triangle() const { return triangle_; }
@@ -71,16 +70,20 @@ class Side {
 
 class ContactSearch {
  public:
-  ContactSearch(std::span<const Obstacle> obstacles, const SlidingPart& part_V, const Eigen::Isometry3d& X_WV,
-                double reach, double margin, std::vector<Contact>& contacts)
-      : obstacles_(obstacles), part_V_(part_V), X_WV_(X_WV), reach_(reach), margin_(margin), contacts_(contacts) {}
+  ContactSearch(std::span<const PlacedBody> bodies, std::size_t first_part, double reach, double margin,
+                std::vector<Contact>& contacts)
+      : bodies_(bodies),
+        first_part_(static_cast<std::int32_t>(first_part)),
+        reach_(reach),
+        margin_(margin),
+        contacts_(contacts) {}
 
   void search(const CandidatePair& pair) {
     if (!pair.has_features) return;
-    const Obstacle& obstacle = obstacles_[static_cast<std::size_t>(pair.obstacle)];
     obstacle_number_ = pair.obstacle;
-    part_.select(part_V_, X_WV_, pair.part_triangle);
-    obstacle_.select(*obstacle.body, obstacle.X_WO, pair.obstacle_triangle);
+    part_number_ = pair.part - first_part_;
+    part_.select(bodies_[static_cast<std::size_t>(pair.part)], pair.part_triangle);
+    obstacle_.select(bodies_[static_cast<std::size_t>(pair.obstacle)], pair.obstacle_triangle);
     for (int i = 0; i < 3; ++i) {
       if (part_.owns_corner(i)) search_part_corner(i);
       if (obstacle_.owns_corner(i)) search_obstacle_corner(i);
@@ -153,15 +156,17 @@ class ContactSearch {
   }
 
   void add(ContactKind kind, const Eigen::Vector3d& n, const Eigen::Vector3d& p, double gap) {
-    contacts_.push_back({kind, part_.triangle(), obstacle_number_, obstacle_.triangle(), n, p, gap});
+    Contact& contact =
+        contacts_.emplace_back(Contact{kind, part_.triangle(), obstacle_number_, obstacle_.triangle(), n, p, gap});
+    contact.part = part_number_;
   }
 
-  std::span<const Obstacle> obstacles_;
-  const SlidingPart& part_V_;
-  const Eigen::Isometry3d& X_WV_;
+  std::span<const PlacedBody> bodies_;
+  std::int32_t first_part_;
   Side part_{1.0};
   Side obstacle_{-1.0};
   std::int32_t obstacle_number_ = -1;
+  std::int32_t part_number_ = 0;
   double reach_;
   double margin_;
   std::vector<Contact>& contacts_;
@@ -169,11 +174,11 @@ class ContactSearch {
 
 }  // namespace
 
-void find_contacts(std::span<const Obstacle> obstacles, const SlidingPart& part_V, const Eigen::Isometry3d& X_WV,
+void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part,
                    std::span<const CandidatePair> candidates, double reach, double margin,
                    std::vector<Contact>& contacts) {
   contacts.clear();
-  ContactSearch search(obstacles, part_V, X_WV, reach, margin, contacts);
+  ContactSearch search(bodies, first_part, reach, margin, contacts);
   for (const CandidatePair& pair : candidates)
     search.search(pair);
 }

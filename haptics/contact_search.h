@@ -12,13 +12,14 @@
 
 namespace glissade::haptics {
 
-/// Replaces `contacts` by one contact for every pair of features within `reach` (metres) at pose X_WV:
+/// Replaces `contacts` by one contact for every pair of features of the `bodies` within `reach` (metres):
 /// - a vertex over the inside of a face, of either side; its normal is the face's, on the side where the vertex is now;
 /// - two edges whose closest points lie inside both, and vertices against edges and vertices, where the pair is a local
 ///   minimum of distance over the neighbouring features (within `margin`), so that a seam never acts like a wall.
 /// Edges and vertices inside plane patches are left out: others bound the patch. Each edge and vertex is considered for
 /// one of its triangles only, which is among the candidates whenever the feature is within reach.
-void find_contacts(std::span<const Obstacle> obstacles, const SlidingPart& part_V, const Eigen::Isometry3d& X_WV,
+/// `first_part` is the number of the first body that is a part.
+void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part,
                    std::span<const CandidatePair> candidates, double reach, double margin,
                    std::vector<Contact>& contacts);
 

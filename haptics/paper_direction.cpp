@@ -78,10 +78,10 @@ NewTranslation new_translation(const Eigen::Vector3d& wanted, std::span<const Ei
 }
 
 std::optional<Displacement> new_motion(const Displacement& wanted, const CouplingStiffness& stiffness,
-                                       std::span<const ConstraintRow> rows) {
-  const Projection projection = project(wanted, stiffness, rows);
+                                       std::span<const ConstraintRow> rows, ProjectionSolver& solver) {
+  const Projection projection = solver.project(wanted, stiffness, rows);
   if (projection.status != ProjectionStatus::kSolved) return std::nullopt;
-  return projection.displacement;
+  return projection.displacement();
 }
 
 }  // namespace glissade::haptics

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include <glissade/collision/triangle_distance.h>
 #include <glissade/haptics/path_certificate.h>
@@ -26,92 +27,115 @@ Eigen::Vector3d direction(const TriangleDistance& closest) {
 
 }  // namespace
 
-PathCertificate::PathCertificate(std::span<const Obstacle> obstacles, const SlidingPart& part_V, double floor)
-    : obstacles_(obstacles), part_V_(part_V), floor_(floor) {
-  double reach = 0.0;
-  for (const Obstacle& obstacle : obstacles) {
-    const collision::DopTree& tree = obstacle.body->tree;
-    reach = std::max(reach, obstacle.X_WO.translation().norm() + tree.center().norm() + tree.radius());
+PathCertificate::PathCertificate(const Surroundings& surroundings)
+    : surroundings_(surroundings), first_part_(static_cast<std::int32_t>(surroundings.obstacles().size())) {
+  for (std::size_t b = 0; b < surroundings.bodies().size(); ++b) {
+    const PlacedBody& placed = surroundings.bodies()[b];
+    const collision::DopTree& tree = placed.body->tree;
+    if (b < surroundings.obstacles().size()) {
+      reach_of_obstacles_ =
+          std::max(reach_of_obstacles_, placed.X_WB.translation().norm() + tree.center().norm() + tree.radius());
+    } else {
+      paths_.push_back({placed.body, tree.center(), tree.radius(), {}, {}, {}});
+    }
   }
-  rounding_ =
-      64.0 * std::numeric_limits<double>::epsilon() * (reach + part_V.tree.center().norm() + part_V.tree.radius());
 }
 
-bool PathCertificate::prove(const Eigen::Isometry3d& X_WV, const Displacement& d, std::span<const CandidatePair> pairs,
+bool PathCertificate::prove(std::span<const Displacement> displacements, std::span<const CandidatePair> pairs,
                             std::vector<UncertifiedPair>& failures) {
   failures.clear();
-  X_WV_start_ = X_WV;
-  displacement_ = d;
-  known_.fill(false);
+  double reach = reach_of_obstacles_;
+  for (std::size_t p = 0; p < paths_.size(); ++p) {
+    Path& path = paths_[p];
+    path.displacement = displacements[p];
+    path.known.fill(false);
+    path.X_WV_at[0] = surroundings_.bodies()[surroundings_.body_of_part(p)].X_WB;
+    path.known[0] = true;
+    reach = std::max(reach, path.X_WV_at[0].translation().norm() + path.p_Vref.norm() + path.radius);
+  }
+  rounding_ = 64.0 * std::numeric_limits<double>::epsilon() * 2.0 * reach;
   for (const CandidatePair& pair : pairs) {
     Eigen::Vector3d n_start;
     if (!prove_pair(pair, n_start))
-      failures.push_back({pair.obstacle, pair.obstacle_triangle, pair.part_triangle, n_start});
+      failures.push_back({pair.obstacle, pair.obstacle_triangle, pair.part, pair.part_triangle, n_start});
   }
   return failures.empty();
 }
 
 bool PathCertificate::prove_pair(const CandidatePair& pair, Eigen::Vector3d& n_start) {
-  obstacle_ = obstacles_[static_cast<std::size_t>(pair.obstacle)].triangle_W(pair.obstacle_triangle);
-  const TrianglePoints part_start = part_triangle_at(pair.part_triangle, 0);
-  const TrianglePoints part_end = part_triangle_at(pair.part_triangle, kMoments);
+  const double floor = kFloorOfMargin * surroundings_.margin(pair.obstacle, pair.part);
+  const Moment start = moment_of(pair, 0);
+  const Moment end = moment_of(pair, kMoments);
+  const Stretch whole{start, end, curvature_loss(pair, 0, kMoments)};
   // The direction found by the query still separates most pairs; of flush faces that slide over each other, where the
   // closest points of neighbouring triangles lie askew, a face normal separates the others.
-  const double curvature = curvature_loss(0, kMoments);
-  if (separates(pair.n_W, part_start, part_end, curvature, floor_)) return true;
-  for (const Eigen::Vector3d& normal : {face_normal(obstacle_), face_normal(part_start)}) {
-    const Eigen::Vector3d n = normal.dot(part_start[0] - obstacle_[0]) < 0.0 ? (-normal).eval() : normal;
-    if (separates(n, part_start, part_end, curvature, floor_)) return true;
+  if (separates(pair.n_W, whole, floor)) return true;
+  for (const Eigen::Vector3d& normal : {face_normal(start.obstacle), face_normal(start.part)}) {
+    const Eigen::Vector3d n = normal.dot(start.part[0] - start.obstacle[0]) < 0.0 ? (-normal).eval() : normal;
+    if (separates(n, whole, floor)) return true;
   }
 
-  const TriangleDistance closest = collision::triangle_distance(obstacle_, part_start);
+  const TriangleDistance closest = collision::triangle_distance(start.obstacle, start.part);
   n_start = direction(closest);
   if (!(closest.distance > rounding_)) return false;  // nothing can be kept of no distance at all
-  return prove_stretch(pair, 0, kMoments, std::min(floor_, 0.95 * closest.distance));
+  return prove_stretch(pair, 0, kMoments, std::min(floor, 0.95 * closest.distance));
 }
 
 bool PathCertificate::prove_stretch(const CandidatePair& pair, int begin, int end, double floor) {
-  const TrianglePoints part_begin = part_triangle_at(pair.part_triangle, begin);
-  const TrianglePoints part_end = part_triangle_at(pair.part_triangle, end);
-  const double curvature = curvature_loss(begin, end);
-  const TriangleDistance at_begin = collision::triangle_distance(obstacle_, part_begin);
-  if (at_begin.distance < floor) return false;
-  const Eigen::Vector3d n_begin = direction(at_begin);
-  if (separates(n_begin, part_begin, part_end, curvature, floor)) return true;
+  const Moment at_begin = moment_of(pair, begin);
+  const Moment at_end = moment_of(pair, end);
+  const Stretch stretch{at_begin, at_end, curvature_loss(pair, begin, end)};
+  const TriangleDistance closest_begin = collision::triangle_distance(at_begin.obstacle, at_begin.part);
+  if (closest_begin.distance < floor) return false;
+  const Eigen::Vector3d n_begin = direction(closest_begin);
+  if (separates(n_begin, stretch, floor)) return true;
 
-  const TriangleDistance at_end = collision::triangle_distance(obstacle_, part_end);
-  if (at_end.distance < floor) return false;
-  const Eigen::Vector3d n_end = direction(at_end);
-  if (separates(n_end, part_begin, part_end, curvature, floor)) return true;
-  if (separates((n_begin + n_end).normalized(), part_begin, part_end, curvature, floor)) return true;
+  const TriangleDistance closest_end = collision::triangle_distance(at_end.obstacle, at_end.part);
+  if (closest_end.distance < floor) return false;
+  const Eigen::Vector3d n_end = direction(closest_end);
+  if (separates(n_end, stretch, floor)) return true;
+  if (separates((n_begin + n_end).normalized(), stretch, floor)) return true;
 
   if (end - begin == 1) return false;
   const int middle = begin + (end - begin) / 2;
   return prove_stretch(pair, begin, middle, floor) && prove_stretch(pair, middle, end, floor);
 }
 
-bool PathCertificate::separates(const Eigen::Vector3d& n, const TrianglePoints& part_begin,
-                                const TrianglePoints& part_end, double curvature, double floor) const {
-  const double needed = floor + curvature + rounding_;
-  return gap_along(n, obstacle_, part_begin) >= needed && gap_along(n, obstacle_, part_end) >= needed;
+/// Whether n separates the pair by `floor` on the whole stretch.
+bool PathCertificate::separates(const Eigen::Vector3d& n, const Stretch& stretch, double floor) const {
+  const double needed = floor + stretch.curvature + rounding_;
+  return gap_along(n, stretch.begin.obstacle, stretch.begin.part) >= needed &&
+         gap_along(n, stretch.end.obstacle, stretch.end.part) >= needed;
 }
 
-collision::TrianglePoints PathCertificate::part_triangle_at(std::int32_t triangle, int moment) {
+PathCertificate::Moment PathCertificate::moment_of(const CandidatePair& pair, int moment) {
+  return {triangle_at(pair.obstacle, pair.obstacle_triangle, moment),
+          triangle_at(pair.part, pair.part_triangle, moment)};
+}
+
+TrianglePoints PathCertificate::triangle_at(std::int32_t body, std::int32_t triangle, int moment) {
+  if (body < first_part_) return surroundings_.bodies()[static_cast<std::size_t>(body)].triangle_W(triangle);
+  Path& path = paths_[static_cast<std::size_t>(body - first_part_)];
   const auto m = static_cast<std::size_t>(moment);
-  if (!known_[m]) {
+  if (!path.known[m]) {
     const double t = static_cast<double>(moment) / kMoments;
-    X_WV_at_[m] = moment == 0 ? X_WV_start_ : displaced(X_WV_start_, part_V_.p_Vref(), displacement_.scaled(t));
-    known_[m] = true;
+    path.X_WV_at[m] = displaced(path.X_WV_at[0], path.p_Vref, path.displacement.scaled(t));
+    path.known[m] = true;
   }
-  const auto& mesh = part_V_.tree.mesh();
-  return {X_WV_at_[m] * mesh.corner(triangle, 0), X_WV_at_[m] * mesh.corner(triangle, 1),
-          X_WV_at_[m] * mesh.corner(triangle, 2)};
+  const collision::TriangleMesh& mesh = path.body->tree.mesh();
+  const Eigen::Isometry3d& X_WV = path.X_WV_at[m];
+  return {X_WV * mesh.corner(triangle, 0), X_WV * mesh.corner(triangle, 1), X_WV * mesh.corner(triangle, 2)};
 }
 
-double PathCertificate::curvature_loss(int begin, int end) const {
+double PathCertificate::curvature_loss(const CandidatePair& pair, int begin, int end) const {
   // A point at radius ρ leaves the chord of its path by at most (second derivative) / 8 = |w|² ρ / 8.
-  const double angle = displacement_.w.norm() * static_cast<double>(end - begin) / kMoments;
-  return angle * angle * part_V_.radius() / 8.0;
+  const auto loss = [&](std::int32_t body) {
+    if (body < first_part_) return 0.0;
+    const Path& path = paths_[static_cast<std::size_t>(body - first_part_)];
+    const double angle = path.displacement.w.norm() * static_cast<double>(end - begin) / kMoments;
+    return angle * angle * path.radius / 8.0;
+  };
+  return loss(pair.obstacle) + loss(pair.part);
 }
 
 }  // namespace glissade::haptics

@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include <Eigen/Cholesky>
 
 #include <glissade/haptics/projection.h>
+
+#include "dual_active_set.h"
 
 namespace glissade::haptics {
 namespace {
@@ -13,140 +12,128 @@ namespace {
 /// above rounding. Whoever takes the displacement proves it free all the same.
 constexpr double kTolerance_m = 1e-12;
 constexpr double kRelativeTolerance = 1e-9;
-/// A normal whose part outside the span of the active ones is below this fraction adds no direction of its own.
-constexpr double kDependent = 1e-9;
 
-using ActiveMatrix = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, kMaxActive>;
-using ActiveVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxActive, 1>;
-using ActiveSquare = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxActive, kMaxActive>;
-
-class DualActiveSet {
- public:
-  DualActiveSet(const Displacement& wanted, const CouplingStiffness& stiffness, std::span<const ConstraintRow> rows)
-      : rows_(rows), root_t_(std::sqrt(stiffness.translational)), root_r_(std::sqrt(stiffness.rotational)) {
-    y_ << root_t_ * wanted.v, root_r_ * wanted.w;
-    double lever = 0.0;
-    for (const ConstraintRow& row : rows)
-      lever = std::max(lever, row.r.squaredNorm());
-    tolerance_ = std::max(kTolerance_m, kRelativeTolerance * (wanted.v.norm() + wanted.w.norm() * std::sqrt(lever)));
-  }
-
-  Projection solve() noexcept {
-    Projection result;
-    const auto limit = static_cast<std::int64_t>(32 + 4 * rows_.size());
-    for (std::int64_t iteration = 0; iteration < limit; ++iteration) {
-      const std::int32_t violated = most_violated();
-      if (violated < 0) return finished(result);
-      if (!activate(violated)) {
-        result.status = ProjectionStatus::kInfeasible;
-        return result;
-      }
-    }
-    result.status = ProjectionStatus::kIterationLimit;
-    return result;
-  }
-
- private:
-  Vector6d normal(std::int32_t row) const {
-    const ConstraintRow& c = rows_[static_cast<std::size_t>(row)];
-    return (Vector6d() << c.n / root_t_, c.r.cross(c.n) / root_r_).finished();
-  }
-
-  Displacement displacement() const { return {y_.head<3>() / root_t_, y_.tail<3>() / root_r_}; }
-
-  double slack(std::int32_t row) const {
-    const ConstraintRow& c = rows_[static_cast<std::size_t>(row)];
-    return c.velocity(displacement()) - c.bound;
-  }
-
-  std::int32_t most_violated() const {
-    const Displacement d = displacement();
-    std::int32_t worst = -1;
-    double worst_slack = -tolerance_;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const double slack = rows_[i].velocity(d) - rows_[i].bound;
-      if (slack < worst_slack) {
-        worst_slack = slack;
-        worst = static_cast<std::int32_t>(i);
-      }
-    }
-    return worst;
-  }
-
-  /// Moves to the optimum with `row` among the active ones, dropping those that no longer push. False if there is none.
-  bool activate(std::int32_t row) noexcept {
-    const Vector6d a = normal(row);
-    double multiplier = 0.0;
-    // Each pass but the last drops an active row, of which there are at most six.
-    for (int pass = 0; pass <= kMaxActive; ++pass) {
-      const ActiveMatrix normals = normals_.leftCols(count_);
-      const ActiveSquare gram = normals.transpose() * normals;
-      const ActiveVector r = gram.llt().solve(normals.transpose() * a);
-      const Vector6d z = a - normals * r;
-
-      double dual_step = std::numeric_limits<double>::infinity();  // until an active row stops pushing
-      int leaving = -1;
-      for (int j = 0; j < count_; ++j) {
-        if (r[j] > 0.0 && multipliers_[j] / r[j] < dual_step) {
-          dual_step = multipliers_[j] / r[j];
-          leaving = j;
-        }
-      }
-      const bool independent = count_ < kMaxActive && z.norm() > kDependent * a.norm();
-      const double full_step =
-          independent ? std::max(0.0, -slack(row)) / z.squaredNorm() : std::numeric_limits<double>::infinity();
-      const double step = std::min(dual_step, full_step);
-      if (step == std::numeric_limits<double>::infinity()) return false;
-
-      if (independent) y_ += step * z;
-      multipliers_.head(count_) -= step * r;
-      multiplier += step;
-      if (full_step <= dual_step) {
-        normals_.col(count_) = a;
-        multipliers_[count_] = multiplier;
-        active_[static_cast<std::size_t>(count_)] = row;
-        ++count_;
-        return true;
-      }
-      drop(leaving);
-    }
-    return false;
-  }
-
-  void drop(int leaving) {
-    for (int j = leaving; j + 1 < count_; ++j) {
-      normals_.col(j) = normals_.col(j + 1).eval();
-      multipliers_[j] = multipliers_[j + 1];
-      active_[static_cast<std::size_t>(j)] = active_[static_cast<std::size_t>(j) + 1];
-    }
-    --count_;
-  }
-
-  Projection finished(Projection result) const {
-    result.displacement = displacement();
-    result.active_count = count_;
-    result.active = active_;
-    for (int j = 0; j < count_; ++j)
-      result.force[static_cast<std::size_t>(j)] = multipliers_[j];
-    return result;
-  }
-
-  std::span<const ConstraintRow> rows_;
-  double root_t_;
-  double root_r_;
-  double tolerance_ = kTolerance_m;  // metres
-  Vector6d y_;
-  int count_ = 0;
-  Eigen::Matrix<double, 6, kMaxActive> normals_;
-  Eigen::Matrix<double, kMaxActive, 1> multipliers_;
-  std::array<std::int32_t, kMaxActive> active_{};
+/// The square roots of a part's stiffnesses: K^½ ξ has the unit √J in each coordinate. And their reciprocals.
+struct Whitening {
+  Whitening() = default;
+  explicit Whitening(const CouplingStiffness& k)
+      : t(std::sqrt(k.translational)), r(std::sqrt(k.rotational)), inverse_t(1.0 / t), inverse_r(1.0 / r) {}
+  double t;
+  double r;
+  double inverse_t;
+  double inverse_r;
 };
+
+/// Writes the normal of row `i` in the six coordinates of a part.
+template <typename Normals>
+void write_normal(Normals& normals, Eigen::Index i, int part, const Whitening& whitening, const Eigen::Vector3d& n,
+                  const Eigen::Vector3d& r) {
+  const Eigen::Vector3d lever = r.cross(n);
+  for (int k = 0; k < 3; ++k) {
+    normals(i, 6 * part + k) = n[k] * whitening.inverse_t;
+    normals(i, 6 * part + 3 + k) = lever[k] * whitening.inverse_r;
+  }
+}
+
+template <typename Normals>
+void write_row(Normals& normals, Eigen::Index i, const Whitening* whitening, const ConstraintRow& row) {
+  write_normal(normals, i, 0, whitening[0], row.n, row.r);
+}
+
+template <typename Normals>
+void write_row(Normals& normals, Eigen::Index i, const Whitening* whitening, const JointRow& row) {
+  normals.row(i).setZero();
+  write_normal(normals, i, row.part, whitening[row.part], row.n, row.r);
+  if (row.other >= 0) write_normal(normals, i, row.other, whitening[row.other], -row.n, row.r_other);
+}
+
+JointProjection widened(const auto& projection) {
+  JointProjection wide;
+  wide.status = projection.status;
+  wide.active_count = projection.active_count;
+  std::copy(projection.displacements.begin(), projection.displacements.end(), wide.displacements.begin());
+  std::copy(projection.active.begin(), projection.active.end(), wide.active.begin());
+  std::copy(projection.force.begin(), projection.force.end(), wide.force.begin());
+  return wide;
+}
 
 }  // namespace
 
-Projection project(const Displacement& wanted, const CouplingStiffness& stiffness,
-                   std::span<const ConstraintRow> rows) noexcept {
-  return DualActiveSet(wanted, stiffness, rows).solve();
+ProjectionSolver::ProjectionSolver(std::size_t rows) : normals_(kMaxActive * rows), bounds_(rows), slacks_(rows) {}
+
+template <std::size_t kParts, typename Row>
+ProjectionOf<kParts> ProjectionSolver::solve(std::span<const Displacement> wanted,
+                                             std::span<const CouplingStiffness> stiffness, std::span<const Row> rows) {
+  constexpr auto kDof = static_cast<int>(kMaxActive * kParts);
+  if (bounds_.size() < rows.size()) {
+    bounds_.resize(rows.size());
+    slacks_.resize(rows.size());
+  }
+  const std::size_t size = kMaxActive * kParts * rows.size();
+  if (normals_.size() < size) normals_.resize(size);
+
+  std::array<Whitening, kParts> whitening;
+  Eigen::Matrix<double, kDof, 1> y;
+  double reach = 0.0;
+  double turn = 0.0;
+  for (std::size_t part = 0; part < kParts; ++part) {
+    const auto first = static_cast<Eigen::Index>(6 * part);
+    whitening[part] = Whitening(stiffness[part]);
+    y.template segment<6>(first).setZero();
+    if (!std::isfinite(stiffness[part].translational)) continue;
+    y.template segment<3>(first) = whitening[part].t * wanted[part].v;
+    y.template segment<3>(first + 3) = whitening[part].r * wanted[part].w;
+    reach = std::max(reach, wanted[part].v.norm());
+    turn = std::max(turn, wanted[part].w.norm());
+  }
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, kDof>> normals(normals_.data(), count, kDof);
+  double lever = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Row& row = rows[static_cast<std::size_t>(i)];
+    write_row(normals, i, whitening.data(), row);
+    bounds_[static_cast<std::size_t>(i)] = row.bound;
+    lever = std::max(lever, row.r.squaredNorm());
+  }
+  const double tolerance = std::max(kTolerance_m, kRelativeTolerance * (reach + turn * std::sqrt(lever)));
+
+  DualActiveSet<kDof> set(y, {{normals_.data(), count, kDof}, {bounds_.data(), count}}, tolerance,
+                          {slacks_.data(), count});
+  ProjectionOf<kParts> result;
+  result.status = set.solve();
+  if (result.status != ProjectionStatus::kSolved) return result;
+  for (std::size_t part = 0; part < kParts; ++part) {
+    const auto first = static_cast<Eigen::Index>(6 * part);
+    result.displacements[part] = {set.point().template segment<3>(first) * whitening[part].inverse_t,
+                                  set.point().template segment<3>(first + 3) * whitening[part].inverse_r};
+  }
+  result.active_count = set.active_count();
+  for (int i = 0; i < result.active_count; ++i) {
+    result.active[static_cast<std::size_t>(i)] = set.active(i);
+    result.force[static_cast<std::size_t>(i)] = set.multiplier(i);
+  }
+  return result;
+}
+
+Projection ProjectionSolver::project(const Displacement& wanted, const CouplingStiffness& stiffness,
+                                     std::span<const ConstraintRow> rows) {
+  return solve<1, ConstraintRow>({&wanted, 1}, {&stiffness, 1}, rows);
+}
+
+JointProjection ProjectionSolver::project(std::span<const Displacement> wanted,
+                                          std::span<const CouplingStiffness> stiffness,
+                                          std::span<const JointRow> rows) {
+  static_assert(kMaxParts == 4);
+  switch (wanted.size()) {
+    case 1:
+      return widened(solve<1, JointRow>(wanted, stiffness, rows));
+    case 2:
+      return widened(solve<2, JointRow>(wanted, stiffness, rows));
+    case 3:
+      return widened(solve<3, JointRow>(wanted, stiffness, rows));
+    default:
+      return solve<4, JointRow>(wanted, stiffness, rows);
+  }
 }
 
 }  // namespace glissade::haptics

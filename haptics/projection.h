@@ -4,8 +4,10 @@
 /// coupling, that half-space constraints allow.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -29,24 +31,66 @@ struct ConstraintRow {
   double velocity(const Displacement& d) const { return n.dot(d.v + d.w.cross(r)); }
 };
 
-inline constexpr int kMaxActive = 6;  ///< a displacement has six degrees of freedom
+inline constexpr std::size_t kMaxParts = 4;   ///< that are held at once
+inline constexpr std::size_t kMaxActive = 6;  ///< a displacement has six degrees of freedom
+
+/// A constraint on the displacements of several parts: on that of `part`, and where the contact is with another of
+/// them, on its displacement relative to that one.
+struct JointRow : ConstraintRow {
+  std::int32_t part = 0;
+  std::int32_t other = -1;                            ///< −1 for an obstacle
+  Eigen::Vector3d r_other = Eigen::Vector3d::Zero();  ///< as r, for the other part
+
+  double velocity(std::span<const Displacement> d) const {
+    const double own = ConstraintRow::velocity(d[static_cast<std::size_t>(part)]);
+    return other < 0 ? own : own - ConstraintRow{n, r_other, 0.0}.velocity(d[static_cast<std::size_t>(other)]);
+  }
+};
 
 enum class ProjectionStatus : std::uint8_t { kSolved, kInfeasible, kIterationLimit };
 
-struct Projection {
+/// `active` are the rows that hold with equality and push; `force` is newtons along the normal of each of them: their
+/// shares of K (ξ* − ξ). Displacements are valid only when solved.
+template <std::size_t kParts>
+struct ProjectionOf {
   ProjectionStatus status = ProjectionStatus::kSolved;
-  Displacement displacement;
+  std::array<Displacement, kParts> displacements{};
   int active_count = 0;
-  std::array<std::int32_t, kMaxActive> active{};  ///< the rows that hold with equality and push
-  std::array<double, kMaxActive> force{};  ///< newtons along the normal of each of them: its share of K (ξ* − ξ)
+  std::array<std::int32_t, kMaxActive * kParts> active{};
+  std::array<double, kMaxActive * kParts> force{};
+
+  const Displacement& displacement() const { return displacements[0]; }
 };
 
-/// Minimises ½ (ξ − wanted)ᵀ K (ξ − wanted) subject to the rows, by the dual active-set method of Goldfarb and Idnani
-/// (1983) in the six whitened coordinates K^½ ξ.
+using Projection = ProjectionOf<1>;
+using JointProjection = ProjectionOf<kMaxParts>;
+
+/// Minimises ½ (ξ − wanted)ᵀ K (ξ − wanted) subject to rows, by the dual active-set method of Goldfarb and Idnani
+/// (1983) in the whitened coordinates K^½ ξ, six for each part. The normals of the active rows are kept as an
+/// orthonormal basis and a triangle, so that a change of the active set costs some hundred operations.
 ///
-/// Bounded work: at most 32 + 4 rows changes of the active set, O(rows) each; no allocation. `displacement` is valid
-/// only when solved. Thread-safe.
-Projection project(const Displacement& wanted, const CouplingStiffness& stiffness,
-                   std::span<const ConstraintRow> rows) noexcept;
+/// Bounded work: at most 32 + 4 rows changes of the active set, O(rows) each. Deterministic. Not thread-safe.
+class ProjectionSolver {
+ public:
+  /// Allocates for so many rows of one part; a call allocates only when it is given more than any before.
+  explicit ProjectionSolver(std::size_t rows = 0);
+
+  Projection project(const Displacement& wanted, const CouplingStiffness& stiffness,
+                     std::span<const ConstraintRow> rows);
+
+  /// For up to kMaxParts parts; `wanted` and `stiffness` have one entry for each. A part of infinite stiffness stands
+  /// still, whatever is wanted of it.
+  JointProjection project(std::span<const Displacement> wanted, std::span<const CouplingStiffness> stiffness,
+                          std::span<const JointRow> rows);
+
+ private:
+  template <std::size_t kParts, typename Row>
+  ProjectionOf<kParts> solve(std::span<const Displacement> wanted, std::span<const CouplingStiffness> stiffness,
+                             std::span<const Row> rows);
+
+  std::vector<double> normals_;  // one column after the other: a coordinate of all normals
+  std::vector<double> bounds_;
+  std::vector<double> slacks_;
+};
 
 }  // namespace glissade::haptics

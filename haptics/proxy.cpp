@@ -14,16 +14,16 @@ const Eigen::Isometry3d& Proxy::update(const ContactSet& set, const Eigen::Isome
   return X_WP_;
 }
 
-Eigen::Isometry3d Proxy::target(const ContactSet& set, const Eigen::Isometry3d& X_WG) const noexcept {
+Eigen::Isometry3d Proxy::target(const ContactSet& set, const Eigen::Isometry3d& X_WG) noexcept {
   if (set.sequence == 0) return X_WG;  // the simulation has not answered yet
   const Displacement wanted = displacement_between(set.X_WV_of_rows, X_WG, p_Vref_);
-  const Projection projection = project(wanted, stiffness_, set.rows());
+  const Projection projection = solver_.project(wanted, stiffness_, set.rows());
   if (projection.status != ProjectionStatus::kSolved) return X_WP_;
   // Nothing known is in the way. Beyond the reach of the set something might be; but holding the hand back there would
   // make a late simulation feel like drag, and the visible part is safe whatever the proxy does.
   if (projection.active_count == 0) return X_WG;
-  const double fraction = fraction_within(projection.displacement, radius_, set.reach);
-  return displaced(set.X_WV_of_rows, p_Vref_, projection.displacement.scaled(fraction));
+  const double fraction = fraction_within(projection.displacement(), radius_, set.reach);
+  return displaced(set.X_WV_of_rows, p_Vref_, projection.displacement().scaled(fraction));
 }
 
 }  // namespace glissade::haptics

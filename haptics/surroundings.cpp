@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <glissade/collision/rigid_pose.h>
@@ -22,24 +24,43 @@ collision::ObjectDescription description(const std::shared_ptr<const Body>& body
 
 }  // namespace
 
-Surroundings::Surroundings(std::vector<Obstacle> obstacles, const std::shared_ptr<const SlidingPart>& part_V,
-                           double greatest_reach)
+Surroundings::Surroundings(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> parts,
+                           std::span<const double> margins, double greatest_reach)
     : obstacles_(std::move(obstacles)),
-      world_(static_cast<int>(obstacles_.size()) + 1),
+      parts_(std::move(parts)),
+      world_(static_cast<int>(obstacles_.size() + parts_.size())),
       pipeline_(world_, clock_, pipeline_options(greatest_reach)) {
-  if (obstacles_.empty()) throw std::invalid_argument("there is nothing that the part could touch");
+  if (obstacles_.size() + parts_.size() < 2) throw std::invalid_argument("there is nothing that the part could touch");
   world_.ignore_groups(kObstacles, kObstacles);
   for (Obstacle& obstacle : obstacles_) {
     const std::optional<Eigen::Isometry3d> X_WO = collision::rigid_pose(obstacle.X_WO);
     if (!X_WO) throw std::invalid_argument("the pose of " + obstacle.name + " is not a rotation and translation");
+    if (obstacle.margin && !(*obstacle.margin > 0.0 && std::isfinite(*obstacle.margin))) {
+      throw std::invalid_argument("the margin of " + obstacle.name + " is not a positive number");
+    }
     obstacle.X_WO = *X_WO;
     world_.add(description(obstacle.body, obstacle.X_WO, kObstacles));
+    bodies_.push_back({obstacle.body.get(), obstacle.X_WO});
   }
-  part_ = world_.add(description(part_V, Eigen::Isometry3d::Identity(), kPart));
+  for (const double margin : margins) {
+    if (!(margin > 0.0 && std::isfinite(margin))) throw std::invalid_argument("a margin is not a positive number");
+    for (const Obstacle& obstacle : obstacles_)
+      margins_.push_back(obstacle.margin.value_or(margin));
+    for (const double other : margins)
+      margins_.push_back(std::min(margin, other));
+  }
+  for (const auto& part_V : parts_) {
+    part_ids_.push_back(world_.add(description(part_V, Eigen::Isometry3d::Identity(), kPart)));
+    bodies_.push_back({part_V.get(), Eigen::Isometry3d::Identity()});
+  }
 }
 
-const collision::FrameResult& Surroundings::look_around(const Eigen::Isometry3d& X_WV, double reach) {
-  if (!world_.move(part_, X_WV)) throw std::invalid_argument("the part cannot be at a pose that is none");
+void Surroundings::place(std::size_t part, const Eigen::Isometry3d& X_WV) {
+  if (!world_.move(part_ids_[part], X_WV)) throw std::invalid_argument("the part cannot be at a pose that is none");
+  bodies_[body_of_part(part)].X_WB = X_WV;
+}
+
+const collision::FrameResult& Surroundings::look_around(double reach) {
   const collision::FrameResult& frame = pipeline_.step(reach);
   ++frames_;
   sum_ += frame.report;

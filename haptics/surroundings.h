@@ -1,9 +1,10 @@
 #pragma once
 
-/// What the part can touch: the obstacles, in a collision pipeline together with the part, which tells what is near it.
+/// What can touch: the obstacles and the parts in the hands, in a collision pipeline that tells what of them is near.
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,29 +22,54 @@ struct Obstacle {
   std::shared_ptr<const ContactBody> body;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   std::string name = "an obstacle";  ///< for messages
+  /// Triangles that hold no part: where parts that slide in are designed to overlap when they are seated, such as
+  /// spring tongues. Everything else of the obstacle stays exact. Ascending.
+  std::vector<std::int32_t> giving_way{};
+  /// Metres at which this obstacle holds parts away, where that is not to be the part's own margin: less for a tighter
+  /// fit, more for one that needs air.
+  std::optional<double> margin{};
+};
+
+/// A body where it is now.
+struct PlacedBody {
+  const ContactBody* body;
+  Eigen::Isometry3d X_WB;
 
   /// One of its triangles in world coordinates.
   collision::TrianglePoints triangle_W(std::int32_t triangle) const {
     const collision::TriangleMesh& mesh = body->tree.mesh();
-    return {X_WO * mesh.corner(triangle, 0), X_WO * mesh.corner(triangle, 1), X_WO * mesh.corner(triangle, 2)};
+    return {X_WB * mesh.corner(triangle, 0), X_WB * mesh.corner(triangle, 1), X_WB * mesh.corner(triangle, 2)};
   }
 };
 
-/// Obstacles are of no interest to each other: what an assembly is made of touches. Not thread-safe.
+/// Bodies are numbered: the obstacles first, then the parts. Obstacles are of no interest to each other: what an
+/// assembly is made of touches. Not thread-safe.
 class Surroundings {
  public:
-  /// `look_around` may look `greatest_reach` (metres) far. Throws std::invalid_argument as `World::add` does, and when
-  /// there is no obstacle.
-  Surroundings(std::vector<Obstacle> obstacles, const std::shared_ptr<const SlidingPart>& part_V,
-               double greatest_reach);
+  /// `look_around` may look `greatest_reach` (metres) far. All parts are at the identity pose until they are placed.
+  /// `margins` (metres) has one for each part. Throws std::invalid_argument as `World::add` does, when there is nothing
+  /// that a part could touch, and for a margin that is no positive number.
+  Surroundings(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> parts,
+               std::span<const double> margins, double greatest_reach);
 
   std::span<const Obstacle> obstacles() const { return obstacles_; }
+  std::span<const PlacedBody> bodies() const { return bodies_; }
+  /// The number among the bodies of a part.
+  std::size_t body_of_part(std::size_t part) const { return obstacles_.size() + part; }
 
-  /// All pairs of triangles of an obstacle and of the part at X_WV that are not further apart than `reach` (metres).
-  /// Object A of each pair of objects is the obstacle whose number is its index, B is the part; points are in the frame
-  /// of the obstacle. Overwritten by the next call.
-  /// Throws std::invalid_argument for a pose that `World::move` refuses.
-  const collision::FrameResult& look_around(const Eigen::Isometry3d& X_WV, double reach);
+  /// Metres at which contacts of two bodies, one of them a part, hold them apart: the obstacle's margin, if it has one,
+  /// or else that of the part; between two parts the smaller of both.
+  double margin(std::int32_t obstacle, std::int32_t part_body) const {
+    const auto part = static_cast<std::size_t>(part_body) - obstacles_.size();
+    return margins_[part * bodies_.size() + static_cast<std::size_t>(obstacle)];
+  }
+
+  /// A part is at X_WV from now on. Throws std::invalid_argument for a pose that `World::move` refuses.
+  void place(std::size_t part, const Eigen::Isometry3d& X_WV);
+
+  /// All pairs of triangles of two bodies, one of which is a part, that are not further apart than `reach` (metres).
+  /// In each pair of objects A is the body of lower number; points are in the frame of A. Overwritten by the next call.
+  const collision::FrameResult& look_around(double reach);
 
   /// How often that was asked for, and the sum of the accounts of it.
   std::int64_t frames() const { return frames_; }
@@ -51,9 +77,12 @@ class Surroundings {
 
  private:
   std::vector<Obstacle> obstacles_;
+  std::vector<std::shared_ptr<const SlidingPart>> parts_;
+  std::vector<PlacedBody> bodies_;
+  std::vector<double> margins_;  // for each part one with each body
+  std::vector<collision::ObjectId> part_ids_;
   realtime::SteadyClock clock_;
   collision::World world_;
-  collision::ObjectId part_;
   collision::CollisionPipeline pipeline_;
   std::int64_t frames_ = 0;
   collision::FrameReport sum_;

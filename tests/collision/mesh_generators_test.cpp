@@ -8,24 +8,18 @@
 #include <glissade/collision/mesh_generators.h>
 #include <glissade/collision/mesh_report.h>
 
+#include "enclosed_volume.h"
+
 namespace glissade::collision {
 namespace {
 
 using std::numbers::pi;
+using test_support::enclosed_volume;
 
 /// Vertices - edges + triangles; edges are those of two triangles and the open ones.
 std::int64_t euler_characteristic(const MeshReport& r) {
   const std::int64_t edges = (3 * r.triangles - r.open_edges) / 2 + r.open_edges;
   return r.vertices - edges + r.triangles;
-}
-
-double enclosed_volume(const TriangleMesh& mesh) {
-  double volume = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const auto at = [&](std::size_t i) { return mesh.vertices[static_cast<std::size_t>(t[i])]; };
-    volume += at(0).dot(at(1).cross(at(2))) / 6;
-  }
-  return volume;
 }
 
 void expect_sound(const MeshReport& r, std::int64_t triangle_count) {

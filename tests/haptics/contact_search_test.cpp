@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -21,12 +22,13 @@ constexpr double kMargin = 5e-6;
 
 std::vector<Contact> contacts(const TriangleMesh& obstacle, const TriangleMesh& part, const Isometry3d& X_WV) {
   const auto part_V = std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(part));
-  Surroundings surroundings({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(obstacle))}}, part_V,
-                            kReach);
-  CandidatePairs candidates(surroundings, *part_V);
-  candidates.refresh(X_WV, kReach);
+  Surroundings surroundings({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(obstacle))}}, {part_V},
+                            std::array{kMargin}, kReach);
+  surroundings.place(0, X_WV);
+  CandidatePairs candidates(surroundings);
+  candidates.refresh(kReach, {});
   std::vector<Contact> found;
-  find_contacts(surroundings.obstacles(), *part_V, X_WV, candidates.within(kReach), kReach, kMargin, found);
+  find_contacts(surroundings.bodies(), 1, candidates.within(kReach), kReach, kMargin, found);
   return found;
 }
 

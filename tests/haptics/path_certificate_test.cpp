@@ -21,16 +21,22 @@ std::shared_ptr<const collision::TriangleMesh> one_triangle(double z) {
   return mesh;
 }
 
+/// Whether all pairs of the bodies are proved apart while each part goes from its pose along its displacement.
+bool prove(const std::vector<Obstacle>& obstacles, const std::vector<std::shared_ptr<const SlidingPart>>& parts,
+           const std::vector<Eigen::Isometry3d>& X_WV, const std::vector<Displacement>& displacements) {
+  Surroundings surroundings(obstacles, parts, std::vector<double>(parts.size(), kFloor / kFloorOfMargin), kReach);
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    surroundings.place(p, X_WV[p]);
+  CandidatePairs candidates(surroundings);
+  candidates.refresh(kReach, {});
+  std::vector<UncertifiedPair> failures;
+  return PathCertificate(surroundings).prove(displacements, candidates.within(kReach), failures);
+}
+
 /// A triangle above another one, both without thickness.
 class TwoTriangles : public ::testing::Test {
  protected:
-  bool proves(const Eigen::Isometry3d& X_WV, const Displacement& d) {
-    Surroundings surroundings(obstacles_, part_, kReach);
-    CandidatePairs candidates(surroundings, *part_);
-    candidates.refresh(X_WV, kReach);
-    std::vector<UncertifiedPair> failures;
-    return PathCertificate(obstacles_, *part_, kFloor).prove(X_WV, d, candidates.within(kReach), failures);
-  }
+  bool proves(const Eigen::Isometry3d& X_WV, const Displacement& d) { return prove(obstacles_, {part_}, {X_WV}, {d}); }
   static Eigen::Isometry3d at_height(double z) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z)); }
 
   std::vector<Obstacle> obstacles_{{std::make_shared<ContactBody>(one_triangle(0.0))}};
@@ -84,11 +90,7 @@ TEST(PathCertificate, WhatIsProvedHoldsAllAlongRandomPaths) {
     const auto part = std::make_shared<SlidingPart>(random_triangle());
     const Eigen::Isometry3d X_WV(Eigen::Translation3d(0.7 * random_vector()));
     const Displacement d{0.5 * random_vector(), random_vector()};
-    Surroundings surroundings(obstacles, part, kReach);
-    CandidatePairs candidates(surroundings, *part);
-    candidates.refresh(X_WV, kReach);
-    std::vector<UncertifiedPair> failures;
-    if (!PathCertificate(obstacles, *part, kFloor).prove(X_WV, d, candidates.within(kReach), failures)) {
+    if (!prove(obstacles, {part}, {X_WV}, {d})) {
       ++refused;
       continue;
     }
@@ -96,8 +98,8 @@ TEST(PathCertificate, WhatIsProvedHoldsAllAlongRandomPaths) {
     for (int i = 0; i <= 100; ++i) {
       const Eigen::Isometry3d X = displaced(X_WV, part->p_Vref(), d.scaled(0.01 * i));
       const auto corner = [&](int c) -> Eigen::Vector3d { return X * part->tree.mesh().corner(0, c); };
-      const collision::TriangleDistance closest =
-          collision::triangle_distance(obstacles[0].triangle_W(0), {corner(0), corner(1), corner(2)});
+      const collision::TriangleDistance closest = collision::triangle_distance(
+          PlacedBody{obstacles[0].body.get(), obstacles[0].X_WO}.triangle_W(0), {corner(0), corner(1), corner(2)});
       ASSERT_GE(closest.distance, 0.95 * kFloor) << "trial " << trial << " at " << i << " %";
     }
   }

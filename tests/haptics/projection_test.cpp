@@ -17,17 +17,17 @@ ConstraintRow floor_at(double height, const Eigen::Vector3d& r = Eigen::Vector3d
 TEST(Projection, LeavesAnUnhinderedDisplacementAsItIs) {
   const Displacement wanted{{1e-3, 2e-3, -3e-3}, {0.01, 0.02, 0.03}};
   const std::vector<ConstraintRow> rows{floor_at(4e-3)};
-  const Projection result = project(wanted, kStiffness, rows);
+  const Projection result = ProjectionSolver().project(wanted, kStiffness, rows);
   EXPECT_EQ(result.status, ProjectionStatus::kSolved);
   EXPECT_EQ(result.active_count, 0);
-  EXPECT_TRUE(result.displacement.stacked().isApprox(wanted.stacked(), 1e-14));
+  EXPECT_TRUE(result.displacement().stacked().isApprox(wanted.stacked(), 1e-14));
 }
 
 TEST(Projection, SlidesAlongAFloorAndReportsTheForceThatTakes) {
   const Displacement wanted{{1e-3, 0.0, -3e-3}, Eigen::Vector3d::Zero()};
   const std::vector<ConstraintRow> rows{floor_at(1e-3)};
-  const Projection result = project(wanted, kStiffness, rows);
-  EXPECT_TRUE(result.displacement.v.isApprox(Eigen::Vector3d(1e-3, 0.0, -1e-3), 1e-12));
+  const Projection result = ProjectionSolver().project(wanted, kStiffness, rows);
+  EXPECT_TRUE(result.displacement().v.isApprox(Eigen::Vector3d(1e-3, 0.0, -1e-3), 1e-12));
   ASSERT_EQ(result.active_count, 1);
   EXPECT_NEAR(result.force[0], 1000.0 * 2e-3, 1e-9);  // k_t times the 2 mm that were refused
 }
@@ -37,17 +37,17 @@ TEST(Projection, TurnsAboutAnEccentricContactAsTheStiffnessesAllow) {
   const double a = 0.05;
   const double d = 1e-3;
   const std::vector<ConstraintRow> rows{floor_at(0.0, {0.0, a, 0.0})};  // rotation about x lifts the contact point
-  const Projection result = project({{0.0, 0.0, -d}, Eigen::Vector3d::Zero()}, kStiffness, rows);
+  const Projection result = ProjectionSolver().project({{0.0, 0.0, -d}, Eigen::Vector3d::Zero()}, kStiffness, rows);
   const double force = d / (1.0 / kStiffness.translational + a * a / kStiffness.rotational);
   ASSERT_EQ(result.active_count, 1);
   EXPECT_NEAR(result.force[0], force, 1e-9);
-  EXPECT_NEAR(result.displacement.w.x(), force * a / kStiffness.rotational, 1e-12);
+  EXPECT_NEAR(result.displacement().w.x(), force * a / kStiffness.rotational, 1e-12);
 }
 
 TEST(Projection, SaysWhenNothingIsAllowed) {
   const std::vector<ConstraintRow> rows{{Eigen::Vector3d::UnitX(), Eigen::Vector3d::Zero(), 1e-3},
                                         {-Eigen::Vector3d::UnitX(), Eigen::Vector3d::Zero(), 1e-3}};
-  EXPECT_EQ(project({}, kStiffness, rows).status, ProjectionStatus::kInfeasible);
+  EXPECT_EQ(ProjectionSolver().project({}, kStiffness, rows).status, ProjectionStatus::kInfeasible);
 }
 
 // The optimality conditions of Karush, Kuhn and Tucker are sufficient for a convex programme, so they are an oracle.
@@ -67,10 +67,10 @@ TEST(Projection, MeetsTheOptimalityConditionsOnRandomProgrammes) {
       if (i % 5 == 4) rows.push_back(rows.back());  // repeated rows are common in practice
     }
     const Displacement wanted{1e-3 * random_vector(), 0.02 * random_vector()};
-    const Projection result = project(wanted, kStiffness, rows);
+    const Projection result = ProjectionSolver().project(wanted, kStiffness, rows);
     ASSERT_EQ(result.status, ProjectionStatus::kSolved) << "trial " << trial;
     for (const ConstraintRow& row : rows) {
-      ASSERT_GE(row.velocity(result.displacement), row.bound - 1e-11) << "trial " << trial;
+      ASSERT_GE(row.velocity(result.displacement()), row.bound - 1e-11) << "trial " << trial;
     }
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
     Eigen::Vector3d torque = Eigen::Vector3d::Zero();
@@ -78,13 +78,14 @@ TEST(Projection, MeetsTheOptimalityConditionsOnRandomProgrammes) {
       const auto slot = static_cast<std::size_t>(j);
       const ConstraintRow& row = rows[static_cast<std::size_t>(result.active[slot])];
       EXPECT_GE(result.force[slot], 0.0);
-      EXPECT_NEAR(row.velocity(result.displacement), row.bound, 1e-11);
+      EXPECT_NEAR(row.velocity(result.displacement()), row.bound, 1e-11);
       force += result.force[slot] * row.n;
       torque += result.force[slot] * row.r.cross(row.n);
     }
-    EXPECT_LT((kStiffness.translational * (result.displacement.v - wanted.v) - force).norm(), 1e-8)
+    EXPECT_LT((kStiffness.translational * (result.displacement().v - wanted.v) - force).norm(), 1e-8)
         << "trial " << trial;
-    EXPECT_LT((kStiffness.rotational * (result.displacement.w - wanted.w) - torque).norm(), 1e-9) << "trial " << trial;
+    EXPECT_LT((kStiffness.rotational * (result.displacement().w - wanted.w) - torque).norm(), 1e-9)
+        << "trial " << trial;
   }
 }
 

@@ -1,0 +1,59 @@
+#include <cmath>
+#include <numbers>
+
+#include <glissade/haptics/anti_jam.h>
+
+namespace glissade::haptics {
+namespace {
+
+constexpr double kLeastLag_m = 0.1e-3;
+constexpr double kStill_m = 0.5e-6;  // a call
+constexpr double kPatience_ms = 100.0;
+constexpr double kLongestShaking_ms = 2000.0;
+constexpr double kWantedElsewhere_m = 0.3e-3;
+
+constexpr double kOffset_m = 0.3e-3;
+constexpr double kTilt = 0.7 * std::numbers::pi / 180.0;
+constexpr double kTurns_per_ms = 0.02;
+
+}  // namespace
+
+void AntiJam::observe(const Displacement& error, double moved, bool is_held, double milliseconds) {
+  const bool is_wanted_elsewhere = is_held && motion_bound(error, radius_) > kLeastLag_m;
+  if (!is_wanted_elsewhere) {
+    is_shaking_ = false;
+    has_given_up_ = false;
+    still_ms_ = 0.0;
+    return;
+  }
+  if (has_given_up_) {
+    const Displacement change{error.v - stuck_.v, error.w - stuck_.w};
+    has_given_up_ = motion_bound(change, radius_) < kWantedElsewhere_m;
+    return;
+  }
+  if (is_shaking_) {
+    shaken_ms_ += milliseconds;
+    if (shaken_ms_ < kLongestShaking_ms) return;
+    is_shaking_ = false;
+    has_given_up_ = true;
+    stuck_ = error;
+    still_ms_ = 0.0;
+    return;
+  }
+  still_ms_ = moved < kStill_m ? still_ms_ + milliseconds : 0.0;
+  if (still_ms_ < kPatience_ms) return;
+  is_shaking_ = true;
+  shaken_ms_ = 0.0;
+  stuck_ = error;
+}
+
+Eigen::Isometry3d AntiJam::aim(const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& p_Vref) const {
+  if (!is_shaking_) return X_WT;
+  const Eigen::Vector3d axis = stuck_.v.norm() > 0.0 ? stuck_.v.normalized() : stuck_.w.normalized();
+  const Eigen::Vector3d first = axis.unitOrthogonal();
+  const double angle = 2.0 * std::numbers::pi * kTurns_per_ms * shaken_ms_;
+  const Eigen::Vector3d beside = std::cos(angle) * first + std::sin(angle) * axis.cross(first);
+  return displaced(X_WT, p_Vref, {kOffset_m * beside, kTilt * beside});
+}
+
+}  // namespace glissade::haptics

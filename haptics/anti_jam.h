@@ -1,0 +1,38 @@
+#pragma once
+
+/// Shaking a part that is stuck: where contacts hold it although it is wanted elsewhere, its target goes round on a
+/// small cone, as a hand does that wiggles a peg into its hole.
+
+#include <Eigen/Geometry>
+
+#include <glissade/haptics/motion.h>
+
+namespace glissade::haptics {
+
+/// The shaker of one part. It cannot tell a part that is stuck from one that is simply pressed against something, so it
+/// gives up after two seconds, until the part is wanted elsewhere. Deterministic. Not thread-safe.
+class AntiJam {
+ public:
+  /// For a part of the given radius (metres).
+  explicit AntiJam(double radius) : radius_(radius) {}
+
+  /// What became of a call of `advance` that took so many milliseconds: from where the part is to where it is wanted,
+  /// how far it moved (metres), and whether it was held.
+  void observe(const Displacement& error, double moved, bool is_held, double milliseconds);
+
+  bool is_shaking() const { return is_shaking_; }
+
+  /// Where to aim instead of X_WT: there, but while it shakes 0.3 mm beside it and 0.7° askew, going round 20 times a
+  /// second across the direction in which the part was wanted when it got stuck.
+  Eigen::Isometry3d aim(const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& p_Vref) const;
+
+ private:
+  double radius_;
+  bool is_shaking_ = false;
+  bool has_given_up_ = false;
+  double still_ms_ = 0.0;
+  double shaken_ms_ = 0.0;
+  Displacement stuck_;  // what was wanted when it got stuck
+};
+
+}  // namespace glissade::haptics

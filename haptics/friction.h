@@ -1,0 +1,74 @@
+#pragma once
+
+/// Coulomb friction for the projection: contacts that push also hold the part back across their normals, by no more
+/// than the coefficient times what they push with.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <glissade/haptics/motion.h>
+#include <glissade/haptics/projection.h>
+
+namespace glissade::haptics {
+
+/// Coefficients of friction. Without any (both 0) contacts push along their normals only.
+struct Friction {
+  double at_rest = 0.0;  ///< while the part stands still: holds it up to at_rest × the normal force
+  double sliding = 0.0;  ///< while it moves; not more than at_rest
+
+  bool is_on() const { return at_rest > 0.0 || sliding > 0.0; }
+};
+
+/// What a row of the projection does to the parts.
+struct RowForce {
+  std::int32_t row;
+  double normal;                                       ///< newtons along the normal, positive
+  Eigen::Vector3d across_W = Eigen::Vector3d::Zero();  ///< newtons on the part, across the normal
+};
+
+/// The quasi-static step with friction: the displacement ξ with
+///   K (ξ* − ξ) = Σ λ_i (n_i, r_i × n_i) + Σ (f_i, r_i × f_i) up to sign, λ_i ≥ 0, λ_i ⟂ (row i − bound),
+///   |f_i| ≤ μ λ_i, and where the contact slips, f_i is μ λ_i against the slip of this step.
+/// Solved by block Gauss–Seidel over the contacts, with the disc of friction as it is and not as a pyramid. The normal
+/// forces of contacts that are redundant, such as four feet on a floor, are not unique; their sum is.
+/// Deterministic; reuses its memory. Not thread-safe.
+class FrictionSolver {
+ public:
+  /// Replaces `displacements` and `forces`. Starts from the `frictionless` solution of the same programme. Cost
+  /// O(rows) and some hundred sweeps over the contacts that push.
+  void solve(std::span<const Displacement> wanted, std::span<const CouplingStiffness> stiffness,
+             std::span<const JointRow> rows, double coefficient, const JointProjection& frictionless,
+             std::array<Displacement, kMaxParts>& displacements, std::vector<RowForce>& forces);
+
+ private:
+  using Jacobian = Eigen::Matrix<double, 6, 3>;  // columns: the normal and two tangents, whitened
+
+  struct Row {
+    std::int32_t part;
+    std::int32_t other;
+    Jacobian J_part;
+    Jacobian J_other;
+    double bound;
+    double normal_response;         // of the slip to a force of 1 N
+    Eigen::Matrix2d response;       // the same across the normal
+    Eigen::Matrix2d unhold;         // its inverse
+    double largest_response;        // its largest eigenvalue
+    Eigen::Vector3d force_contact;  // N: along the normal and the tangents
+    Eigen::Matrix<double, 3, 2> tangents_W;
+    bool is_hot;  // pushes, or has been in the way
+  };
+
+  void prepare(std::span<const CouplingStiffness> stiffness, std::span<const JointRow> rows);
+  double sweep(double coefficient);
+  double relax(Row& row, double coefficient);
+  bool heat_violated(double tolerance);
+  void push(const Row& row, const Eigen::Vector3d& force_contact);
+
+  std::vector<Row> rows_;
+  std::array<Vector6d, kMaxParts> y_;  // whitened displacements
+};
+
+}  // namespace glissade::haptics

@@ -1,0 +1,21 @@
+#include <glissade/haptics/overlaps.h>
+
+namespace glissade::haptics {
+
+bool Overlaps::update() {
+  ways_out_.clear();
+  const std::size_t before = pairs_.size();
+  std::erase_if(pairs_, [&](const BodyPair& pair) {
+    const PlacedBody& obstacle = surroundings_.bodies()[static_cast<std::size_t>(pair.obstacle)];
+    const PlacedBody& part = surroundings_.bodies()[static_cast<std::size_t>(pair.part)];
+    const double margin = surroundings_.margin(pair.obstacle, pair.part);
+    const collision::Penetration penetration = collision::find_way_out(
+        obstacle.body->tree, part.body->tree, obstacle.X_WB.inverse() * part.X_WB, workspace_, margin);
+    if (penetration.depth() == 0.0) return true;
+    ways_out_.push_back({pair, obstacle.X_WB.linear() * penetration.way_out_A.normalized(), penetration.depth()});
+    return false;
+  });
+  return pairs_.size() != before;
+}
+
+}  // namespace glissade::haptics

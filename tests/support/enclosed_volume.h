@@ -1,0 +1,21 @@
+#pragma once
+
+/// The volume within a closed mesh.
+
+#include <Eigen/Geometry>
+
+#include <glissade/collision/triangle_mesh.h>
+
+namespace glissade::test_support {
+
+/// Cubic metres, positive where triangles face outward. Of an open mesh it means nothing.
+inline double enclosed_volume(const collision::TriangleMesh& mesh) {
+  double volume = 0;
+  for (const collision::Triangle& t : mesh.triangles) {
+    const auto at = [&](std::size_t i) { return mesh.vertices[static_cast<std::size_t>(t[i])]; };
+    volume += at(0).dot(at(1).cross(at(2))) / 6;
+  }
+  return volume;
+}
+
+}  // namespace glissade::test_support

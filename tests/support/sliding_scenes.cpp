@@ -1,0 +1,272 @@
+#include "sliding_scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <glissade/collision/mesh_generators.h>
+#include <glissade/collision/mesh_operations.h>
+#include <glissade/collision/peg_and_hole.h>
+#include <glissade/collision/screw_thread.h>
+#include <glissade/collision/spur_gear.h>
+
+#include "random_numbers.h"
+
+namespace glissade::test_support {
+namespace {
+
+using collision::TriangleMesh;
+using Eigen::Isometry3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using haptics::ContactBody;
+using haptics::Obstacle;
+using haptics::SlidingPart;
+using std::numbers::pi;
+
+const Vector3d kBoxSize(0.1, 0.06, 0.04);
+const collision::ThreadShape kBolt{.turns = 16};
+const collision::ThreadShape kNut{.turns = 4};
+constexpr double kNutStartTurns = 1.0;
+
+Isometry3d at(const Vector3d& p, const Quaterniond& q = Quaterniond::Identity()) {
+  Isometry3d X = Isometry3d::Identity();
+  X.linear() = q.toRotationMatrix();
+  X.translation() = p;
+  return X;
+}
+
+Quaterniond about(const Vector3d& axis, double angle) {
+  return Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
+}
+
+std::shared_ptr<const ContactBody> body_of(TriangleMesh mesh) {
+  return std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(std::move(mesh)));
+}
+
+std::shared_ptr<const SlidingPart> part_of(TriangleMesh mesh) {
+  return std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(std::move(mesh)));
+}
+
+TriangleMesh flipped(const TriangleMesh& mesh, const Tessellation& tessellation, std::uint64_t seed) {
+  return tessellation.flipped ? collision::flip_randomly(mesh, seed) : mesh;
+}
+
+/// The box before planes through the origin that face `normals`, led through poses a second apart.
+SlidingScene box_on_planes(const std::string& name, const std::vector<Vector3d>& normals,
+                           const Tessellation& tessellation, const std::vector<Isometry3d>& poses_WG) {
+  SlidingScene scene;
+  scene.name = name;
+  const auto sheet = body_of(flipped(collision::make_plate({0.5, 0.5}, tessellation.triangles), tessellation, 17));
+  for (const Vector3d& normal : normals)
+    scene.obstacles.push_back(
+        {sheet, at(Vector3d::Zero(), Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal)), "a plane"});
+  scene.part_V = part_of(flipped(collision::make_box(kBoxSize, std::max(12, tessellation.triangles)), tessellation, 3));
+  std::vector<Waypoint> waypoints;
+  for (const Isometry3d& X_WG : poses_WG)
+    waypoints.push_back({static_cast<int>(1000 * waypoints.size()), X_WG});
+  scene.X_WV_start = poses_WG.front();
+  scene.ticks = waypoints.back().tick;
+  scene.ghost = led_through(std::move(waypoints));
+  return scene;
+}
+
+}  // namespace
+
+std::function<Isometry3d(int tick)> led_through(std::vector<Waypoint> waypoints) {
+  const auto earlier = [](const Waypoint& a, const Waypoint& b) { return a.tick < b.tick; };
+  if (waypoints.empty() ||
+      std::adjacent_find(waypoints.begin(), waypoints.end(), std::not_fn(earlier)) != waypoints.end())
+    throw std::invalid_argument("A ghost is led through at least one waypoint, and their ticks ascend.");
+  return [waypoints = std::move(waypoints)](int tick) -> Isometry3d {
+    const auto next =
+        std::find_if(waypoints.begin(), waypoints.end(), [&](const Waypoint& w) { return w.tick > tick; });
+    if (next == waypoints.begin()) return next->X_WG;
+    if (next == waypoints.end()) return waypoints.back().X_WG;
+    const Waypoint& last = *std::prev(next);
+    const double t = static_cast<double>(tick - last.tick) / (next->tick - last.tick);
+    if (t == 0.0) return last.X_WG;
+    const Vector3d p = (1.0 - t) * last.X_WG.translation() + t * next->X_WG.translation();
+    return at(p, Quaterniond(last.X_WG.linear()).slerp(t, Quaterniond(next->X_WG.linear())));
+  };
+}
+
+SlidingScene plane_scene(const Tessellation& tessellation) {
+  return box_on_planes("plane", {Vector3d::UnitZ()}, tessellation,
+                       {at({-0.1, 0.0, 0.03}), at({-0.1, 0.0, 0.017}), at({0.1, 0.05, 0.017}),
+                        at({0.0, 0.0, 0.017}, about({0.0, 0.0, 1.0}, 1.0)), at({0.0, 0.0, 0.03})});
+}
+
+SlidingScene groove_scene(const Tessellation& tessellation) {
+  const Vector3d left = Vector3d(1.0, 0.0, 1.0).normalized();
+  const Vector3d right = Vector3d(-1.0, 0.0, 1.0).normalized();
+  const Quaterniond q = about(Vector3d::UnitY(), pi / 4);
+  const Vector3d seat = 0.5 * kBoxSize.z() * left + 0.5 * kBoxSize.x() * right;
+  const auto pose = [&](double y, double z) { return at(seat + Vector3d(0.0, y, z), q); };
+  return box_on_planes("groove", {left, right}, tessellation,
+                       {pose(-0.1, 0.01), pose(-0.1, -0.003), pose(0.1, -0.003), pose(0.0, -0.003), pose(0.0, 0.01)});
+}
+
+SlidingScene corner_scene(const Tessellation& tessellation) {
+  const Vector3d seat = 0.5 * kBoxSize;
+  return box_on_planes("corner", {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()}, tessellation,
+                       {at(seat + Vector3d(0.01, 0.01, 0.01)), at(seat - Vector3d(2e-3, 3e-3, 4e-3)),
+                        at(seat - Vector3d(4e-3, 2e-3, 1e-3), about({1.0, 2.0, 3.0}, 0.02)),
+                        at(seat - Vector3d(1e-3, -0.02, 3e-3)), at(seat + Vector3d(0.01, 0.01, 0.01))});
+}
+
+SlidingScene peg_scene(const PegTrial& trial) {
+  RandomNumbers random(trial.seed);
+  const collision::PegShape peg;
+  const collision::HoledPlateShape plate{.hole_radius = peg.radius + 52e-6};
+  const auto across = [&] {
+    const double angle = random.uniform(-pi, pi);
+    return Vector3d(std::cos(angle), std::sin(angle), 0.0);
+  };
+  const Quaterniond yaw = about(Vector3d::UnitZ(), random.uniform(-pi, pi));
+  const Vector3d final_offset = trial.offset * across();
+  const Quaterniond final_tilt = about(across(), trial.tilt);
+  const Vector3d first_offset = random.uniform(0.0, 2e-3) * across();
+  const Quaterniond first_tilt = about(across(), random.uniform(0.0, 2.0) * pi / 180.0);
+  SlidingScene scene;
+  scene.name = "peg";
+  scene.obstacles.push_back({body_of(collision::make_holed_plate(plate)), Isometry3d::Identity(), "the plate"});
+  scene.part_V = part_of(collision::make_peg(peg));
+  scene.X_WV_start = at(first_offset + Vector3d(0.0, 0.0, 10e-3), first_tilt * yaw);
+  scene.ticks = 2500;
+  scene.ghost = led_through({{0, scene.X_WV_start},
+                             {1000, at(final_offset + Vector3d(0.0, 0.0, 1e-3), final_tilt * yaw)},
+                             {2000, at(final_offset - Vector3d(0.0, 0.0, 8e-3), final_tilt * yaw)},
+                             {2500, at(final_offset - Vector3d(0.0, 0.0, 8e-3), final_tilt * yaw)}});
+  return scene;
+}
+
+SlidingScene gear_scene() {
+  const Quaterniond quarter = about(Vector3d::UnitZ(), pi / 2);
+  SlidingScene scene;
+  scene.name = "gear";
+  scene.obstacles.push_back({body_of(collision::make_gear_base({})), Isometry3d::Identity(), "the base"});
+  scene.part_V = part_of(collision::make_spur_gear({}));
+  scene.X_WV_start = at({0.3e-3, -0.2e-3, 20e-3}, about({1.0, 0.0, 0.0}, 0.02));
+  scene.ticks = 4000;
+  scene.ghost = led_through({{0, scene.X_WV_start},
+                             {1000, at({0.2e-3, 0.1e-3, -2e-3})},
+                             {2000, at({0.2e-3, 0.1e-3, -2e-3}, quarter)},
+                             {3000, at({-2e-3, 2e-3, -2e-3}, quarter)},
+                             {4000, at({0.0, 0.0, 20e-3}, quarter)}});
+  return scene;
+}
+
+SlidingScene nut_scene(double play) {
+  constexpr int kTurns = 10;
+  SlidingScene scene;
+  scene.name = "nut";
+  scene.obstacles.push_back({body_of(collision::make_bolt(kBolt)), Isometry3d::Identity(), "the bolt"});
+  scene.part_V = part_of(collision::make_nut(kNut, play));
+  scene.X_WV_start = at({0.0, 0.0, kNutStartTurns * kBolt.pitch});
+  scene.ticks = 1000 * kTurns;
+  scene.ghost = [X_WV_start = scene.X_WV_start, ticks = scene.ticks](int tick) -> Isometry3d {
+    const double turns = static_cast<double>(std::clamp(tick, 0, ticks)) / 1000.0;
+    return at(X_WV_start.translation(), about(Vector3d::UnitZ(), 2.0 * pi * turns));
+  };
+  return scene;
+}
+
+double nut_advance(const SlidingScene& scene, const Isometry3d& X_WV) {
+  return X_WV.translation().z() - scene.X_WV_start.translation().z();
+}
+
+SlidingScene clutter_scene(std::uint64_t seed) {
+  constexpr double kRoom = 0.25;  // half an edge, metres
+  RandomNumbers random(seed);
+  SlidingScene scene;
+  scene.name = "clutter";
+  const auto uniform_box = [&](double low, double high) {
+    return Vector3d(random.uniform(low, high), random.uniform(low, high), random.uniform(low, high));
+  };
+  while (scene.obstacles.size() < 60) {
+    const Vector3d size = uniform_box(0.02, 0.1);
+    const Isometry3d X_WO = at(random.point(kRoom), Quaterniond(random.rotation()));
+    if (X_WO.translation().norm() < 0.5 * size.norm() + 0.04) continue;  // the part starts there
+    scene.obstacles.push_back({body_of(collision::make_box(size, 108)), X_WO, "a box"});
+  }
+  scene.part_V = part_of(collision::make_box({0.06, 0.04, 0.03}, 108));
+  scene.ticks = 4000;
+  const Vector3d frequency = uniform_box(0.2, 0.5);  // Hz
+  const Vector3d axis = random.direction();
+  scene.ghost = [=, ticks = scene.ticks](int tick) -> Isometry3d {
+    const double t = 1e-3 * std::clamp(tick, 0, ticks);
+    const Vector3d phase = 2.0 * pi * t * frequency;
+    return at(0.8 * kRoom * Vector3d(phase.array().sin()), about(axis, 2.0 * std::sin(phase.sum() / 3.0)));
+  };
+  return scene;
+}
+
+SlidingScene housing_scene(int triangles, Fit fit) {
+  const Vector3d room(0.2, 0.16, 0.1);
+  SlidingScene scene;
+  scene.obstacles.push_back({body_of(collision::make_box(room, triangles)), Isometry3d::Identity(), "the housing"});
+  Quaterniond q = Quaterniond::Identity();
+  Vector3d half_size;  // how far the part reaches
+  if (fit == Fit::kFlush) {
+    const Vector3d size(0.06, 0.05, 0.04);
+    scene.part_V = part_of(collision::make_box(size, triangles));
+    half_size = 0.5 * size;
+  } else {
+    scene.part_V = part_of(collision::make_torus(0.03, 0.01, triangles));
+    q = about({1.0, 0.4, 0.0}, 0.6);
+    half_size = Vector3d::Constant(0.04);  // more than it is
+  }
+  scene.name = std::string(fit == Fit::kFlush ? "flush" : "light") + "_" + std::to_string(triangles / 1000) + "k";
+  // Along the floor and a wall, and through the corner between them; the tilted torus rolls on its rim.
+  const Vector3d reach = 0.5 * room - half_size;
+  const double press = fit == Fit::kFlush ? 3e-3 : 15e-3;
+  const auto pose = [&](double x, double y, double z) { return at({x, y, z}, q); };
+  scene.X_WV_start = pose(0.0, 0.0, 0.0);
+  scene.ticks = 3000;
+  scene.ghost = led_through({{0, scene.X_WV_start},
+                             {500, pose(-0.6 * reach.x(), 0.0, -reach.z() - press)},
+                             {1500, pose(0.6 * reach.x(), 0.5 * reach.y(), -reach.z() - press)},
+                             {2000, pose(0.0, reach.y() + press, -reach.z() - press)},
+                             {3000, pose(-reach.x() - press, reach.y() + press, -reach.z() - press)}});
+  return scene;
+}
+
+SlidingScene sheets_scene(std::uint64_t seed) {
+  RandomNumbers random(seed);
+  SlidingScene scene;
+  scene.name = "sheets";
+  const Tessellation cut{random.integer(2, 400), random.chance(0.5)};
+  const Isometry3d X_WO = at(random.point(0.5), Quaterniond(random.rotation()));
+  scene.obstacles.push_back(
+      {body_of(flipped(collision::make_plate({0.6, 0.6}, cut.triangles), cut, seed)), X_WO, "the sheet"});
+  scene.part_V = part_of(flipped(collision::make_plate({0.1, 0.06}, random.integer(2, 200)), cut, seed + 1));
+  Quaterniond q_OV = about(Vector3d::UnitZ(), random.uniform(-pi, pi));
+  if (!random.chance(1.0 / 3.0)) q_OV = Quaterniond(random.rotation());
+  const double side = random.chance(0.5) ? 1.0 : -1.0;
+  const double speed = random.uniform(0.5, 5.0);
+  constexpr double kDistance = 0.08;  // to either side; more than the part's radius
+  const auto pose = [&](double z) -> Isometry3d { return X_WO * at({0.0, 0.0, z}, q_OV); };
+  scene.X_WV_start = pose(side * kDistance);
+  const int passing = static_cast<int>(std::ceil(1e3 * 3.0 * kDistance / speed));
+  scene.ticks = passing + 20;
+  const Isometry3d X_through =
+      X_WO * at({random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03), -2.0 * side * kDistance},
+                q_OV * about(random.direction(), random.uniform(0.0, 0.3)));
+  scene.ghost = led_through({{0, scene.X_WV_start}, {passing, X_through}});
+  return scene;
+}
+
+double on_the_near_side(const SlidingScene& scene, const Isometry3d& X_WV) {
+  const Isometry3d X_OW = scene.obstacles.front().X_WO.inverse();
+  const double side = (X_OW * scene.X_WV_start.translation()).z() > 0.0 ? 1.0 : -1.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vector3d& x_V : scene.part_V->tree.mesh().vertices)
+    least = std::min(least, side * (X_OW * (X_WV * x_V)).z());
+  return least;
+}
+
+}  // namespace glissade::test_support
