@@ -221,6 +221,10 @@ void PaperSliding::tell_contacts() {
   for (const PaperContact& contact : contacts_) {
     Contact told{};
     told.kind = told_kind(contact.features.kind);
+    if (contact.features.kind != PaperContactKind::kUnclear) {
+      told.part_feature = contact.features.of_part;
+      told.obstacle_feature = contact.features.of_obstacle;
+    }
     told.part_triangle = contact.part_triangle;
     told.obstacle = contact.features.obstacle;
     told.obstacle_triangle = contact.obstacle_triangle;

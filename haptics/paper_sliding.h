@@ -54,6 +54,7 @@ class PaperSliding final : public SlidingSimulation {
   /// The result's contacts are those that hold the part at the end; the force of each is its share of the coupling's
   /// spring: the part of K ξ* along contact normals that the projection of `projection.h` on their tangent planes takes
   /// away. Where the part is jammed short of its optimum, as this method may be, the shares do not add up to K ξ*.
+  /// Contacts that are unclear are told as those of two vertices without numbers.
   const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) override;
 
   const SlidingResult& result() const override { return result_; }
@@ -66,6 +67,8 @@ class PaperSliding final : public SlidingSimulation {
   /// Checks for collision since construction.
   std::int64_t queries() const { return collision_object_.queries(); }
   double bracket() const { return bracket_; }
+  /// The bracket: contacts hold the part no further away.
+  double margin() const override { return bracket_; }
 
   /// Brackets that the part may be from a contact that holds it.
   static constexpr double kHeldWithin = 4.0;

@@ -21,7 +21,7 @@ bool is_inserted(const SlidingSubject& subject, const test_support::SlidingScene
 }  // namespace
 
 void run_pegs(const SlidingBenchOptions& options, Results& results) {
-  const int trials = options.quick ? 10 : 200;
+  const int trials = options.quick ? 3 : 50;
   for (const SlidingSubject& subject : kSlidingSubjects) {
     std::fprintf(stderr, "sliding pegs %s\n", subject.name.c_str());
     int inserted = 0;

@@ -12,8 +12,8 @@ namespace {
 /// Long scenes of many contacts take minutes; their beginning tells as much.
 int ticks_of(const test_support::SlidingScene& scene, bool quick) {
   if (scene.name == "nut") return std::min(scene.ticks, quick ? 50 : 1000);
-  if (scene.name.ends_with("50k")) return std::min(scene.ticks, quick ? 100 : 1000);
-  return std::min(scene.ticks, 3000);
+  if (scene.name.ends_with("50k")) return std::min(scene.ticks, quick ? 400 : 1500);
+  return std::min(scene.ticks, quick ? 1000 : 3000);
 }
 
 double median_of_tick(const std::vector<std::vector<double>>& rounds, std::size_t tick) {

@@ -89,4 +89,17 @@ double HullOracle::distance() const {
                   std::numeric_limits<double>::min());
 }
 
+Vector3d HullOracle::difference() const {
+  const std::vector<Kernel::Point_3> a = cgal_points(points_A_);
+  const std::vector<Kernel::Point_3> b = cgal_points(points_B_);
+  const Distance distance(a.begin(), a.end(), b.begin(), b.end());
+  // Homogeneous coordinates: the fourth divides the others.
+  const auto p = distance.realizing_point_p_coordinates_begin();
+  const auto q = distance.realizing_point_q_coordinates_begin();
+  Vector3d result;
+  for (int k = 0; k < 3; ++k)
+    result[k] = CGAL::to_double(Exact(q[k] * p[3] - p[k] * q[3])) / CGAL::to_double(Exact(p[3] * q[3]));
+  return result;
+}
+
 }  // namespace glissade::test_support

@@ -32,6 +32,10 @@ class HullOracle {
   /// millisecond.
   double distance() const;
 
+  /// From the point of A that is nearest to B to the point of B nearest to it, in the frame of A; rounded. Zero if they
+  /// meet. Cost as of `distance`.
+  Eigen::Vector3d difference() const;
+
  private:
   std::vector<Eigen::Vector3d> points_A_;
   std::vector<Eigen::Vector3d> points_B_;  ///< in the frame of A

@@ -1,0 +1,20 @@
+#pragma once
+
+/// Random convex meshes, and what the tests of resting parts need to know of them.
+
+#include <span>
+#include <vector>
+
+#include <glissade/collision/triangle_mesh.h>
+
+#include "random_numbers.h"
+
+namespace glissade::test_support {
+
+/// The hull of a few points in general position, by trying all triples: cost O(n⁴).
+collision::TriangleMesh hull_mesh(std::span<const Eigen::Vector3d> points);
+
+/// A box, a sphere or a random hull, about the origin, of about this radius (metres).
+collision::TriangleMesh random_convex_mesh(RandomNumbers& random, double radius);
+
+}  // namespace glissade::test_support

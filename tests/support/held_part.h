@@ -1,0 +1,66 @@
+#pragma once
+
+/// What tests of sliding share: bodies made of meshes, a ghost that is led and then held, and the sum of the contacts.
+
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/collision/mesh_generators.h>
+#include <glissade/collision/mesh_operations.h>
+#include <glissade/haptics/coupling.h>
+#include <glissade/haptics/sliding.h>
+
+namespace glissade::test_support {
+
+inline Eigen::Isometry3d pose(const Eigen::Vector3d& p, const Eigen::Quaterniond& q = Eigen::Quaterniond::Identity()) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = q.toRotationMatrix();
+  X.translation() = p;
+  return X;
+}
+
+/// A rotation by `angle` radians about `axis`, which need not be of unit length.
+inline Eigen::Quaterniond turn(double angle, const Eigen::Vector3d& axis) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
+}
+
+inline std::shared_ptr<const haptics::SlidingPart> part_of(collision::TriangleMesh mesh) {
+  return std::make_shared<const haptics::SlidingPart>(std::make_shared<const collision::TriangleMesh>(std::move(mesh)));
+}
+
+inline haptics::Obstacle obstacle_of(collision::TriangleMesh mesh,
+                                     const Eigen::Isometry3d& X_WO = Eigen::Isometry3d::Identity()) {
+  return {
+      std::make_shared<const haptics::ContactBody>(std::make_shared<const collision::TriangleMesh>(std::move(mesh))),
+      X_WO};
+}
+
+/// The pose at the fraction `t` of the way from one to another, straight and by the shorter turn.
+Eigen::Isometry3d between(const Eigen::Isometry3d& X_from, const Eigen::Isometry3d& X_to, double t);
+
+/// Leads the ghost from where it is to X_WG in so many calls; `see` is shown each answer.
+void lead(haptics::SlidingSimulation& sliding, const Eigen::Isometry3d& X_WG, int calls,
+          const std::function<void(const haptics::SlidingResult&)>& see = {});
+
+/// Holds the ghost where it is until the part has moved less than a picometre in each of twenty calls. Returns how many
+/// calls that took, or -1 if it did not happen within `most_calls`.
+int hold_until_rest(haptics::SlidingSimulation& sliding, int most_calls = 2000);
+
+/// What the contacts do to the part, about its reference point: at rest, K ξ* plus this is zero.
+haptics::Wrench sum_of_contacts(const haptics::SlidingSimulation& sliding);
+
+/// The spring's force and torque on the part, K ξ*.
+haptics::Wrench spring_on_part(const haptics::SlidingSimulation& sliding);
+
+/// How far spring and contacts are from balance, in parts of the spring; both are measured in the norm |F|² = |f|²/k_t
+/// + |t|²/k_r, in which a force and a torque that store the same energy weigh the same.
+double imbalance(const haptics::SlidingSimulation& sliding);
+
+/// ‖ξ‖_K = √(ξᵀ K ξ).
+double length_in(const haptics::CouplingStiffness& stiffness, const haptics::Displacement& d);
+
+}  // namespace glissade::test_support
