@@ -40,14 +40,14 @@ constexpr const char* kFooter =
     "  rubber-band-spring  rubber band and spiral spring: the part catches up at once\n"
     "  incremental         the part repeats each motion of the ghost from where it is; what is refused is forgotten\n"
     "\n"
-    "Methods:\n"
-    "  projection          the default: contacts within reach, projection, and a proof for every step\n"
-    "  paper               the founding paper's: bisection to the contact, its class, a new direction; for comparison\n"
-    "\n"
     "--contacts has one row for each contact that touches and each millisecond: its number, which it keeps as long\n"
     "as it lasts, the two features (a triangle, and the number of the vertex, edge or face in the mesh), the points\n"
     "on part and obstacle, the normal from obstacle to part, gap, force along the normal, and age. --patches has the\n"
     "same merged, where contacts lie in one plane: centre and sum of the forces on the part, their number and extent.\n"
+    "\n"
+    "Methods:\n"
+    "  projection          the default: contacts within reach, projection, and a proof for every step\n"
+    "  paper               the founding paper's: bisection to the contact, its class, a new direction; for comparison\n"
     "\n"
     "Several trajectories, or --summary or --report, ask for an assembly check: one row for each trajectory, which\n"
     "tells whether the part came to the scene's goal (or else to where its trajectory ends), how far from it it was\n"
@@ -139,10 +139,10 @@ devices::PoseTrajectory read(const std::string& file) {
   return trajectory;
 }
 
-void slide(const HapticScene& scene, const SlideCheckOptions& slide_options, const Options& options) {
+void slide(const HapticScene& scene, const SlideCheckOptions& check_options, const Options& options) {
   const std::string& file = options.trajectories.front();
   const devices::PoseTrajectory trajectory = read(file);
-  const auto sliding = start(scene, trajectory.pose_at(trajectory.first_time()), slide_options, file);
+  const auto sliding = start(scene, trajectory.pose_at(trajectory.first_time()), check_options, file);
 
   using std::chrono::milliseconds;
   const std::int64_t ticks = trajectory.duration() / milliseconds(1);

@@ -126,7 +126,7 @@ class Classification {
 
   void add(const TouchingPair& pair) {
     const Obstacle& obstacle = obstacles_[static_cast<std::size_t>(pair.obstacle)];
-    const TrianglePoints q_W = placed(*obstacle.body, pair.obstacle_triangle, obstacle.X_WO);
+    const TrianglePoints q_W = obstacle.placed().triangle_W(pair.obstacle_triangle);
     pair_ = pair;
     p_ = {&part_V_, pair.part_triangle, placed(part_V_, pair.part_triangle, X_WC_),
           placed(part_V_, pair.part_triangle, X_WV_)};

@@ -60,6 +60,7 @@ class PaperSliding final : public SlidingSimulation {
   const SlidingResult& result() const override { return result_; }
   const SlidingPart& part() const override { return collision_object_.part(); }
   const CouplingStiffness& stiffness() const override { return stiffness_; }
+  double margin() const override { return kHeldWithin * bracket_; }
 
   /// The states of the last call, in the order they were in, `done` last; none before the first call and while
   /// released.
