@@ -68,8 +68,6 @@ class PaperSliding final : public SlidingSimulation {
   /// Checks for collision since construction.
   std::int64_t queries() const { return collision_object_.queries(); }
   double bracket() const { return bracket_; }
-  /// The bracket: contacts hold the part no further away.
-  double margin() const override { return bracket_; }
 
   /// Brackets that the part may be from a contact that holds it.
   static constexpr double kHeldWithin = 4.0;

@@ -67,7 +67,7 @@ SlidingAccount account_of(const SlidingSubject& subject, const test_support::Sli
     account.mean_stretch_m += stretch(error, k) / ticks;
     const double moved = motion_bound(displacement_between(X_WV_before, X_WV, p_Vref), radius);
     if (moved < kStandsStill_m && motion_bound(error, radius) > kAhead_m &&
-        jam_check.could_move(X_WV, error, k, run.hold)) {
+        jam_check.could_move(X_WV, error, k, sliding.margin())) {
       ++account.jammed_ticks;
     }
     const double jump = k.translational * stretch({error.v - error_before.v, error.w - error_before.w}, k);

@@ -10,11 +10,9 @@ SlidingRun start(const SlidingSubject& subject, const test_support::SlidingScene
   run.sliding = haptics::make_sliding(subject.method, scene.obstacles, scene.part_V, scene.X_WV_start);
   if (const auto* paper = dynamic_cast<const haptics::PaperSliding*>(run.sliding.get())) {
     run.queries = [paper] { return paper->queries(); };
-    run.hold = haptics::PaperSliding::kHeldWithin * paper->bracket();
   } else {
     const auto& projection = dynamic_cast<const haptics::Sliding&>(*run.sliding);
     run.queries = [&projection] { return projection.surroundings().frames(); };
-    run.hold = projection.margin();
   }
   return run;
 }

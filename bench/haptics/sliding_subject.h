@@ -27,7 +27,6 @@ inline const std::array<SlidingSubject, 2> kSlidingSubjects{
 struct SlidingRun {
   std::unique_ptr<haptics::SlidingSimulation> sliding;
   std::function<std::int64_t()> queries;  ///< of the collision detection, so far
-  double hold = 0.0;                      ///< metres at which contacts may hold the part away
 };
 
 SlidingRun start(const SlidingSubject& subject, const test_support::SlidingScene& scene);
