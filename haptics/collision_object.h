@@ -25,7 +25,8 @@ struct TouchingPair {
   auto operator<=>(const TouchingPair&) const = default;
 };
 
-/// Static, exact checks (`dop_query.h`) of the part against each obstacle. Deterministic. Not thread-safe.
+/// Static, exact checks (`dop_query.h`) of the part against each obstacle; triangles of obstacles that give way are
+/// left out. Deterministic. Not thread-safe.
 class CollisionObject {
  public:
   /// Throws std::invalid_argument when there is no obstacle, and for an obstacle whose pose is none.
@@ -46,6 +47,8 @@ class CollisionObject {
 
  private:
   Eigen::Isometry3d pose_in_obstacle(std::size_t obstacle, const Eigen::Isometry3d& X_WC) const;
+  bool hits(std::size_t obstacle, const Eigen::Isometry3d& X_WC);
+  void find_triangles(std::size_t obstacle, const Eigen::Isometry3d& X_WC);
 
   std::vector<Obstacle> obstacles_;
   std::shared_ptr<const SlidingPart> part_C_;

@@ -60,11 +60,6 @@ Eigen::Vector3d normal_of(const TrianglePoints& t) {
   return (t[1] - t[0]).cross(t[2] - t[0]).normalized();
 }
 
-TrianglePoints placed(const ContactBody& body, std::int32_t triangle, const Eigen::Isometry3d& X_WB) {
-  const collision::TriangleMesh& mesh = body.tree.mesh();
-  return {X_WB * mesh.corner(triangle, 0), X_WB * mesh.corner(triangle, 1), X_WB * mesh.corner(triangle, 2)};
-}
-
 using EdgeFlags = std::array<bool, 3>;
 
 bool any(const EdgeFlags& flags) {
@@ -128,8 +123,8 @@ class Classification {
     const Obstacle& obstacle = obstacles_[static_cast<std::size_t>(pair.obstacle)];
     const TrianglePoints q_W = obstacle.placed().triangle_W(pair.obstacle_triangle);
     pair_ = pair;
-    p_ = {&part_V_, pair.part_triangle, placed(part_V_, pair.part_triangle, X_WC_),
-          placed(part_V_, pair.part_triangle, X_WV_)};
+    p_ = {&part_V_, pair.part_triangle, PlacedBody{&part_V_, X_WC_}.triangle_W(pair.part_triangle),
+          PlacedBody{&part_V_, X_WV_}.triangle_W(pair.part_triangle)};
     q_ = {obstacle.body.get(), pair.obstacle_triangle, q_W, q_W};
 
     EdgeFlags edges_of_p;

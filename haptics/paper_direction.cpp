@@ -9,14 +9,14 @@ namespace glissade::haptics {
 namespace {
 
 constexpr std::size_t kMostNormals = 32;
-constexpr double kSameNormal = 1.0 - 1e-9;      // cosine
-constexpr double kParallelSineSquared = 1e-12;  // planes more parallel than that do not meet in a line
-constexpr double kInto = -1e-9;                 // of the wanted length: less than this is along a plane
+constexpr double kSameNormal = 1.0 - 1e-9;    // cosine
+constexpr double kNoLineSineSquared = 1e-12;  // planes more parallel than that do not meet in a line
+constexpr double kInto = -1e-9;               // of the wanted length: less than this is along a plane
 
 /// Different normals, the most opposed to the motion first.
-class Normals {
+class OpposedNormals {
  public:
-  Normals(const Eigen::Vector3d& wanted, std::span<const Eigen::Vector3d> all) {
+  OpposedNormals(const Eigen::Vector3d& wanted, std::span<const Eigen::Vector3d> all) {
     for (const Eigen::Vector3d& n : all) {
       const double opposed = n.dot(wanted);
       std::size_t place = count_;
@@ -53,7 +53,7 @@ Eigen::Vector3d on_plane(const Eigen::Vector3d& v, const Eigen::Vector3d& n) {
 Eigen::Vector3d on_line(const Eigen::Vector3d& v, const Eigen::Vector3d& n1, const Eigen::Vector3d& n2) {
   const Eigen::Vector3d along = n1.cross(n2);
   const double squared = along.squaredNorm();
-  if (squared < kParallelSineSquared) return Eigen::Vector3d::Zero();
+  if (squared < kNoLineSineSquared) return Eigen::Vector3d::Zero();
   return along * (along.dot(v) / squared);
 }
 
@@ -61,7 +61,7 @@ Eigen::Vector3d on_line(const Eigen::Vector3d& v, const Eigen::Vector3d& n1, con
 
 NewTranslation new_translation(const Eigen::Vector3d& wanted, std::span<const Eigen::Vector3d> all) {
   const double length = wanted.norm();
-  const Normals normals(wanted, all);
+  const OpposedNormals normals(wanted, all);
   if (normals.allow(wanted, length)) return {wanted, 0};
   NewTranslation best{.planes = 3};
   const auto try_out = [&](const Eigen::Vector3d& v, int planes) {
@@ -78,8 +78,8 @@ NewTranslation new_translation(const Eigen::Vector3d& wanted, std::span<const Ei
 }
 
 std::optional<Displacement> new_motion(const Displacement& wanted, const CouplingStiffness& stiffness,
-                                       std::span<const ConstraintRow> rows) {
-  const Projection projection = ProjectionSolver(rows.size()).project(wanted, stiffness, rows);
+                                       std::span<const ConstraintRow> rows, ProjectionSolver& solver) {
+  const Projection projection = solver.project(wanted, stiffness, rows);
   if (projection.status != ProjectionStatus::kSolved) return std::nullopt;
   return projection.displacement();
 }

@@ -34,6 +34,6 @@ NewTranslation new_translation(const Eigen::Vector3d& wanted, std::span<const Ei
 /// freedom. Also where no rotation is wanted (the rubber band) the contacts turn the part. None where the rows cannot
 /// all be met; that is never so with bounds of 0.
 std::optional<Displacement> new_motion(const Displacement& wanted, const CouplingStiffness& stiffness,
-                                       std::span<const ConstraintRow> rows);
+                                       std::span<const ConstraintRow> rows, ProjectionSolver& solver);
 
 }  // namespace glissade::haptics

@@ -5,8 +5,8 @@
 #include <string>
 
 #include <glissade/collision/rigid_pose.h>
+#include <glissade/haptics/joint_sliding.h>
 #include <glissade/haptics/paper_sliding.h>
-#include <glissade/haptics/sliding.h>
 
 namespace glissade::haptics {
 namespace {
@@ -183,8 +183,10 @@ PaperEvent PaperSliding::choose_direction() {
   stalled_cycles_ = progress ? 0 : stalled_cycles_ + 1;
   moved_in_cycle_ = 0.0;
   if (stalled_cycles_ == 0) {
-    const std::optional<Displacement> with_room = new_motion(error(), stiffness_, contact_rows(kRoom * bracket_));
-    direction_ = with_room ? *with_room : new_motion(error(), stiffness_, contact_rows(0.0)).value_or(Displacement{});
+    const std::optional<Displacement> with_room =
+        new_motion(error(), stiffness_, contact_rows(kRoom * bracket_), solver_);
+    direction_ =
+        with_room ? *with_room : new_motion(error(), stiffness_, contact_rows(0.0), solver_).value_or(Displacement{});
   } else {
     normals_.clear();
     for (const PaperContact& contact : contacts_)
@@ -219,6 +221,10 @@ void PaperSliding::tell_contacts() {
   for (const PaperContact& contact : contacts_) {
     Contact told{};
     told.kind = told_kind(contact.features.kind);
+    if (contact.features.kind != PaperContactKind::kUnclear) {
+      told.part_feature = contact.features.of_part;
+      told.obstacle_feature = contact.features.of_obstacle;
+    }
     told.part_triangle = contact.part_triangle;
     told.obstacle = contact.features.obstacle;
     told.obstacle_triangle = contact.obstacle_triangle;
@@ -227,8 +233,7 @@ void PaperSliding::tell_contacts() {
     told.gap = std::max(contact.gap_at(result_.X_WV), std::numeric_limits<double>::min());
     result_.contacts.push_back(told);
   }
-  const std::span<const ConstraintRow> rows = contact_rows(0.0);
-  const Projection shares = ProjectionSolver(rows.size()).project(error(), stiffness_, rows);
+  const Projection shares = solver_.project(error(), stiffness_, contact_rows(0.0));
   result_.pushing = shares.status == ProjectionStatus::kSolved ? shares.active_count : 0;
   for (int i = 0; i < result_.pushing; ++i) {
     const auto slot = static_cast<std::size_t>(i);

@@ -33,7 +33,7 @@ namespace glissade::haptics {
 struct PaperSlidingOptions {
   Metaphor metaphor = Metaphor::kForceFeedback;
   /// By default that of `SlidingOptions`.
-  std::optional<CouplingStiffness> stiffness;
+  std::optional<CouplingStiffness> stiffness{};
   /// Metres that any point of the part moves at most between the two ends of a bisection.
   double bracket = 0.5e-6;
   /// Bisections in one call.
@@ -44,8 +44,8 @@ struct PaperSlidingOptions {
 /// Not thread-safe; several simulations may share bodies.
 class PaperSliding final : public SlidingSimulation {
  public:
-  /// Throws std::invalid_argument when there is no obstacle, when the part collides with one at X_WV_start, and for a
-  /// bracket that is not positive.
+  /// The margins of obstacles are of no concern here. Throws std::invalid_argument when there is no obstacle, when the
+  /// part collides with one at X_WV_start, and for a bracket that is not positive.
   PaperSliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,
                const Eigen::Isometry3d& X_WV_start, const PaperSlidingOptions& options = {});
 
@@ -54,6 +54,7 @@ class PaperSliding final : public SlidingSimulation {
   /// The result's contacts are those that hold the part at the end; the force of each is its share of the coupling's
   /// spring: the part of K ξ* along contact normals that the projection of `projection.h` on their tangent planes takes
   /// away. Where the part is jammed short of its optimum, as this method may be, the shares do not add up to K ξ*.
+  /// Contacts that are unclear are told as those of two vertices without numbers.
   const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) override;
 
   const SlidingResult& result() const override { return result_; }
@@ -100,6 +101,7 @@ class PaperSliding final : public SlidingSimulation {
   std::vector<TouchingPair> touching_;
   std::vector<ConstraintRow> rows_;
   std::vector<Eigen::Vector3d> normals_;
+  ProjectionSolver solver_;
 
   // Of this call.
   Eigen::Isometry3d X_WG_then_ = Eigen::Isometry3d::Identity();

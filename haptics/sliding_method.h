@@ -31,8 +31,8 @@ inline std::string_view name_of(SlidingMethod method) {
 /// None for any other name.
 std::optional<SlidingMethod> sliding_method_from_name(std::string_view name);
 
-/// The simulation of one part among fixed obstacles. The paper's method takes metaphor and stiffness of the options and
-/// has cycles of its own. Throws std::invalid_argument as the constructors of `Sliding` and `PaperSliding` do.
+/// The simulation of one part among fixed obstacles. The paper's method takes metaphor and stiffness of the options,
+/// and knows none of the rules. Throws std::invalid_argument as the constructors of `Sliding` and `PaperSliding` do.
 std::unique_ptr<SlidingSimulation> make_sliding(SlidingMethod method, std::vector<Obstacle> obstacles,
                                                 std::shared_ptr<const SlidingPart> part_V,
                                                 const Eigen::Isometry3d& X_WV_start,

@@ -136,13 +136,13 @@ TEST(PaperClassification, TwoWedgesThatCross) {
 }
 
 TEST(PaperClassification, ATipWithinABracketOfASeamIsTakenForAnEdge) {
-  // 0.1 µm beside the diagonal of the plate, which the tip overlaps when it has gone in: a face of the pyramid touches
-  // both triangles of the plate, as does the next one, so the counts are those of two edges, and a normal leans. This
-  // is where the method jams on finely cut faces.
-  const TriangleMesh plate = moved(collision::transformed(collision::make_plate({0.1, 0.1}, 2),
-                                                          Isometry3d(Eigen::AngleAxisd(0.5, Vector3d::UnitZ()))),
-                                   {0.1e-6, 0.0, 0.0});
-  const auto contacts = contacts_of(moved(pyramid(0.02), kAbove), plate, kDown);
+  // 0.3 µm beside the diagonal of the plate, which the tip overlaps when it has gone 1 µm deep: faces of the pyramid
+  // touch both triangles of the plate, so the counts are those of two edges, and a normal leans. This is where the
+  // method jams on finely cut faces.
+  const Isometry3d turned(Eigen::AngleAxisd(0.5, Vector3d::UnitZ()));
+  const TriangleMesh plate =
+      moved(collision::transformed(collision::make_plate({0.1, 0.1}, 2), turned), {0.3e-6, 0.0, 0.0});
+  const auto contacts = contacts_of(moved(pyramid(0.02), 0.02 * kAbove), plate, kDown);
   EXPECT_TRUE(std::any_of(contacts.begin(), contacts.end(), [](const PaperContact& contact) {
     return contact.features.kind == kEdgeEdge && contact.n_W.z() < 0.99;
   }));

@@ -76,8 +76,9 @@ TEST(NewMotion, OfAContactBesideTheMiddleTurnsThePart) {
   // The part goes down and one point of it, 0.1 m ahead along x, is held: with k_r = k_t ρ², ρ = 0.1 m, the least
   // change turns it upwards there.
   const CouplingStiffness stiffness{1000.0, 10.0};
+  ProjectionSolver solver;
   const ConstraintRow row{kZ, 0.1 * kX, 0.0};
-  const std::optional<Displacement> found = new_motion({-1e-3 * kZ, Vector3d::Zero()}, stiffness, {&row, 1});
+  const std::optional<Displacement> found = new_motion({-1e-3 * kZ, Vector3d::Zero()}, stiffness, {&row, 1}, solver);
   ASSERT_TRUE(found);
   EXPECT_LT((found->v - Vector3d(0.0, 0.0, -0.5e-3)).norm(), 1e-12);
   EXPECT_LT((found->w - Vector3d(0.0, -5e-3, 0.0)).norm(), 1e-12);
@@ -85,9 +86,10 @@ TEST(NewMotion, OfAContactBesideTheMiddleTurnsThePart) {
 
 TEST(NewMotion, OfThreePointsOfAPlaneIsATranslationAlongIt) {
   const CouplingStiffness stiffness{1000.0, 10.0};
+  ProjectionSolver solver;
   const std::vector<ConstraintRow> rows{
       {kZ, 0.1 * kX, 0.0}, {kZ, 0.1 * kY - 0.1 * kX, 0.0}, {kZ, -0.1 * kY - 0.1 * kX, 0.0}};
-  const std::optional<Displacement> found = new_motion({1e-3 * (kX - kZ), 1e-3 * kZ}, stiffness, rows);
+  const std::optional<Displacement> found = new_motion({1e-3 * (kX - kZ), 1e-3 * kZ}, stiffness, rows, solver);
   ASSERT_TRUE(found);
   EXPECT_LT((found->v - 1e-3 * kX).norm(), 1e-12);
   EXPECT_LT((found->w - 1e-3 * kZ).norm(), 1e-12) << "it may turn about the normal";
@@ -95,8 +97,9 @@ TEST(NewMotion, OfThreePointsOfAPlaneIsATranslationAlongIt) {
 
 TEST(NewMotion, OfContactsThatAskForRoomFromOppositeSidesIsNone) {
   const CouplingStiffness stiffness{1000.0, 10.0};
+  ProjectionSolver solver;
   const std::vector<ConstraintRow> rows{{kZ, Vector3d::Zero(), 1e-6}, {-kZ, Vector3d::Zero(), 1e-6}};
-  EXPECT_FALSE(new_motion({1e-3 * kX, Vector3d::Zero()}, stiffness, rows));
+  EXPECT_FALSE(new_motion({1e-3 * kX, Vector3d::Zero()}, stiffness, rows, solver));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include <glissade/collision/brute_force.h>
 #include <glissade/collision/mesh_generators.h>
 #include <glissade/collision/mesh_operations.h>
+#include <glissade/haptics/contact_tracker.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/paper_sliding.h>
 
@@ -113,6 +115,19 @@ TEST(PaperSliding, OnAPlaneOfTwoTrianglesItFollowsTheGhostAlongIt) {
     ASSERT_LT((sum - Vector3d(0.0, 0.0, 3.0)).norm(), 0.01);
   });
   EXPECT_EQ(sliding.result().state, SlidingState::kSliding);
+}
+
+TEST(PaperSliding, TellsTheVerticesThatPressOnAPlane) {
+  PaperSliding sliding = box_among({sheet(Vector3d::UnitZ())}, {0.0, 0.01, 0.03});
+  lead(sliding, at({0.0, 0.01, 0.017}), 200);
+  ContactTracker tracker(sliding.margin());
+  std::set<std::int32_t> vertices;
+  for (const TrackedContact& tracked : tracker.update(sliding.result())) {
+    if (tracked.contact.kind == ContactKind::kVertexFace) vertices.insert(tracked.contact.part_feature);
+  }
+  EXPECT_EQ(vertices.size(), 4u) << "the lower corners of the box";
+  for (const std::int32_t vertex : vertices)
+    EXPECT_LT(sliding.part().tree.mesh().vertices[static_cast<std::size_t>(vertex)].z(), 0.0);
 }
 
 TEST(PaperSliding, InACornerItStops) {
@@ -234,6 +249,16 @@ TEST(PaperSliding, ReleasedItStandsStillAndGraspedAgainItMovesAtALimitedSpeed) {
   EXPECT_EQ(sliding.error().v, Vector3d::Zero()) << "taking hold does not pull";
   EXPECT_EQ(sliding.advance(at({0.01, 0.0, 0.03})).state, SlidingState::kCatchingUp);
   EXPECT_NEAR(sliding.result().X_WV.translation().x(), 0.2e-3, 1e-12);
+}
+
+TEST(PaperSliding, WhatGivesWayHoldsNothing) {
+  Obstacle soft = sheet(Vector3d::UnitZ());
+  soft.giving_way = {0, 1};
+  PaperSliding sliding = box_among({soft, sheet(Vector3d::UnitX())}, {0.1, 0.0, 0.03});
+  lead(sliding, at({0.1, 0.0, -0.03}), 100);
+  EXPECT_EQ(sliding.result().state, SlidingState::kFree);
+  soft.giving_way = {0};
+  EXPECT_THROW(box_among({soft}, {0.0, 0.0, 0.0}), std::invalid_argument) << "the other triangle does not";
 }
 
 TEST(PaperSliding, RefusesAStartInsideAnObstacleAndABracketOfNothing) {

@@ -1,0 +1,63 @@
+#include "jam_check.h"
+
+#include <algorithm>
+#include <array>
+
+#include <glissade/haptics/contact_search.h>
+#include <glissade/haptics/motion.h>
+
+namespace glissade::bench {
+namespace {
+
+using Eigen::Isometry3d;
+using haptics::Displacement;
+
+constexpr double kGreatestReach_m = 0.1e-3;
+constexpr double kTolerance_m = 1e-6;            // of local minima of the distance
+constexpr std::array<double, 1> kMargins{1e-6};  // not used
+
+double energy(const Displacement& d, const haptics::CouplingStiffness& k) {
+  return 0.5 * (k.translational * d.v.squaredNorm() + k.rotational * d.w.squaredNorm());
+}
+
+}  // namespace
+
+JamCheck::JamCheck(const test_support::SlidingScene& scene)
+    : scene_(scene),
+      surroundings_(scene.obstacles, {scene.part_V}, kMargins, kGreatestReach_m),
+      candidates_(surroundings_) {}
+
+bool JamCheck::could_move(const Isometry3d& X_WV, const Displacement& wanted,
+                          const haptics::CouplingStiffness& stiffness, double hold) {
+  const double radius = scene_.part_V->radius();
+  Displacement step = allowed(X_WV, wanted, stiffness, hold);
+  if (motion_bound(step, radius) < kTrialStep_m) return false;
+  step = step.scaled(fraction_within(step, radius, kTrialStep_m));
+  const Isometry3d X_WV_then = displaced(X_WV, scene_.part_V->p_Vref(), step);
+  const Displacement wanted_then{wanted.v - step.v, wanted.w - step.w};
+  return energy(wanted_then, stiffness) < energy(wanted, stiffness) && !collides(X_WV_then);
+}
+
+Displacement JamCheck::allowed(const Isometry3d& X_WV, const Displacement& wanted,
+                               const haptics::CouplingStiffness& stiffness, double hold) {
+  const double reach = hold + 2.0 * kTrialStep_m;
+  surroundings_.place(0, X_WV);
+  candidates_.refresh(reach, {});
+  find_contacts(surroundings_.bodies(), surroundings_.body_of_part(0), candidates_.within(reach), reach, kTolerance_m,
+                contacts_);
+  const Eigen::Vector3d p_Wref = X_WV * scene_.part_V->p_Vref();
+  rows_.clear();
+  for (const haptics::Contact& contact : contacts_)
+    rows_.push_back({contact.n_W, contact.p_W - p_Wref, std::min(0.0, hold - contact.gap)});
+  const haptics::Projection projection = solver_.project(wanted, stiffness, rows_);
+  return projection.status == haptics::ProjectionStatus::kSolved ? projection.displacement() : Displacement{};
+}
+
+bool JamCheck::collides(const Isometry3d& X_WV) {
+  return std::any_of(scene_.obstacles.begin(), scene_.obstacles.end(), [&](const haptics::Obstacle& obstacle) {
+    return collision::intersects(obstacle.body->tree, scene_.part_V->tree,
+                                 obstacle.X_WO.inverse(Eigen::Isometry) * X_WV, workspace_);
+  });
+}
+
+}  // namespace glissade::bench

@@ -1,0 +1,98 @@
+#include "sliding_account.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include <glissade/collision/grid_check.h>
+#include <glissade/haptics/coupling.h>
+
+#include "jam_check.h"
+
+namespace glissade::bench {
+namespace {
+
+using Eigen::Isometry3d;
+using haptics::Displacement;
+using haptics::displacement_between;
+using haptics::motion_bound;
+
+constexpr double kAhead_m = 0.1e-3;
+constexpr double kStandsStill_m = 1e-6;
+
+double stretch(const Displacement& d, const haptics::CouplingStiffness& k) {
+  return std::sqrt(d.v.squaredNorm() + k.rotational / k.translational * d.w.squaredNorm());
+}
+
+int count_collisions(const test_support::SlidingScene& scene, const std::vector<Isometry3d>& poses) {
+  std::vector<collision::PlacedMesh> placed;
+  for (const haptics::Obstacle& obstacle : scene.obstacles) {
+    placed.push_back({std::make_shared<const collision::TriangleMesh>(obstacle.body->tree.mesh()), obstacle.X_WO});
+  }
+  const collision::GridCheck check(placed);
+  const std::vector<char> collide = check.collisions(scene.part_V->tree.mesh(), poses);
+  return static_cast<int>(std::count(collide.begin(), collide.end(), 1));
+}
+
+/// Microseconds of one call.
+double advance(haptics::SlidingSimulation& sliding, const Isometry3d& X_WG) {
+  const auto start = std::chrono::steady_clock::now();
+  sliding.advance(X_WG);
+  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+SlidingAccount account_of(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks) {
+  SlidingRun run = start(subject, scene);
+  haptics::SlidingSimulation& sliding = *run.sliding;
+  JamCheck jam_check(scene);
+  const haptics::CouplingStiffness k = sliding.stiffness();
+  const double radius = sliding.part().radius();
+  const auto& p_Vref = sliding.part().p_Vref();
+  SlidingAccount account;
+  account.ticks = ticks;
+  std::vector<Isometry3d> poses;
+  Displacement error_before = sliding.error();
+  for (int tick = 1; tick <= ticks; ++tick) {
+    const Isometry3d X_WV_before = sliding.result().X_WV;
+    const double ghost_motion =
+        motion_bound(displacement_between(scene.ghost(tick - 1), scene.ghost(tick), p_Vref), radius);
+    account.tick_us.push_back(advance(sliding, scene.ghost(tick)));
+
+    const Isometry3d& X_WV = sliding.result().X_WV;
+    if (poses.empty() || X_WV.matrix() != X_WV_before.matrix()) poses.push_back(X_WV);
+    const Displacement error = sliding.error();
+    account.mean_stretch_m += stretch(error, k) / ticks;
+    const double moved = motion_bound(displacement_between(X_WV_before, X_WV, p_Vref), radius);
+    if (moved < kStandsStill_m && motion_bound(error, radius) > kAhead_m &&
+        jam_check.could_move(X_WV, error, k, sliding.margin())) {
+      ++account.jammed_ticks;
+    }
+    const double jump = k.translational * stretch({error.v - error_before.v, error.w - error_before.w}, k);
+    account.force_jump_N = std::max(account.force_jump_N, jump);
+    account.force_jump_of_bound =
+        std::max(account.force_jump_of_bound, jump / (k.translational * (haptics::kSlew_m + ghost_motion)));
+    error_before = error;
+  }
+  account.final_stretch_m = stretch(error_before, k);
+  account.queries_per_tick = static_cast<double>(run.queries()) / ticks;
+  account.colliding_poses = count_collisions(scene, poses);
+  return account;
+}
+
+std::vector<double> tick_times(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks) {
+  const SlidingRun run = start(subject, scene);
+  std::vector<double> times;
+  for (int tick = 1; tick <= ticks; ++tick)
+    times.push_back(advance(*run.sliding, scene.ghost(tick)));
+  return times;
+}
+
+double quantile(std::vector<double> values, double p) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))];
+}
+
+}  // namespace glissade::bench

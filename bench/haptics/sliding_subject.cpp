@@ -1,0 +1,20 @@
+#include "sliding_subject.h"
+
+#include <glissade/haptics/paper_sliding.h>
+#include <glissade/haptics/sliding.h>
+
+namespace glissade::bench {
+
+SlidingRun start(const SlidingSubject& subject, const test_support::SlidingScene& scene) {
+  SlidingRun run;
+  run.sliding = haptics::make_sliding(subject.method, scene.obstacles, scene.part_V, scene.X_WV_start);
+  if (const auto* paper = dynamic_cast<const haptics::PaperSliding*>(run.sliding.get())) {
+    run.queries = [paper] { return paper->queries(); };
+  } else {
+    const auto& projection = dynamic_cast<const haptics::Sliding&>(*run.sliding);
+    run.queries = [&projection] { return projection.surroundings().frames(); };
+  }
+  return run;
+}
+
+}  // namespace glissade::bench

@@ -1,0 +1,47 @@
+# Runs the benchmark of sliding contact on its smallest scenes and checks what it writes: results.csv has the columns and rows
+# that are promised, no visible pose collides, and the page of benchmarks takes the figures up.
+# Takes BENCH (the program), SOURCE_DIR (the repository) and WORK_DIR.
+
+function(expect condition_name)
+  if(NOT ${ARGN})
+    message(FATAL_ERROR "Expected ${condition_name}. The program said:\n${said}\nresults.csv:\n${results}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK_DIR})
+file(MAKE_DIRECTORY ${WORK_DIR})
+execute_process(COMMAND ${BENCH} --quick --parts scenes,solver --scenes plane,sheets --out ${WORK_DIR}
+  RESULT_VARIABLE status ERROR_VARIABLE said)
+expect("exit code 0" status EQUAL 0)
+
+file(STRINGS ${WORK_DIR}/results.csv results)
+list(GET results 0 header)
+expect("the header" header STREQUAL "bench,case,subject,metric,value,unit")
+list(SUBLIST results 1 -1 rows)
+foreach(row IN LISTS rows)
+  expect("six columns, a number in the fifth: ${row}" row MATCHES "^sliding,[^,]+,[^,]+,[^,]+,[-+.e0-9]+,[^,]+$")
+endforeach()
+foreach(case plane sheets)
+  foreach(subject glissade glissade-paper)
+    foreach(metric ticks final_stretch mean_stretch jammed_ticks force_jump queries_per_tick tick_p50 tick_p99)
+      expect("${metric} of ${subject} in ${case}" results MATCHES "sliding,${case},${subject},${metric},[0-9.e+-]+,")
+    endforeach()
+    expect("no collision of ${subject} in ${case}" results MATCHES "sliding,${case},${subject},colliding_poses,0,1")
+  endforeach()
+  expect("no jam in ${case}" results MATCHES "sliding,${case},glissade,jammed_ticks,0,1")
+endforeach()
+foreach(rows 1 64)
+  expect("the cost of ${rows} rows" results MATCHES "sliding,solver-${rows},glissade,time_per_active,[0-9.e+-]+,us")
+endforeach()
+
+file(COPY ${SOURCE_DIR}/docs/benchmarks.md DESTINATION ${WORK_DIR})
+execute_process(COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 ${SOURCE_DIR}/scripts/bench_report.py
+  ${WORK_DIR}/results.csv ${WORK_DIR}/benchmarks.md --command "smoke test" RESULT_VARIABLE status ERROR_VARIABLE said)
+expect("exit code 0 of the report" status EQUAL 0)
+file(READ ${WORK_DIR}/benchmarks.md page)
+expect("the new section" page MATCHES "<!-- begin sliding -->\n[^\n]*smoke test.*[|] plane [|].*<!-- end sliding -->")
+expect("the prose by hand" page MATCHES "## How it is measured")
+
+execute_process(COMMAND ${BENCH} --scenes nowhere --parts scenes --out ${WORK_DIR} RESULT_VARIABLE status ERROR_VARIABLE said)
+expect("exit code 2 for a scene that is not there" status EQUAL 2)
+expect("its name" said MATCHES "nowhere")
