@@ -16,6 +16,7 @@
 #include <glissade/apps/html_report.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/slide_check.h>
+#include <glissade/apps/slide_contacts.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
 #include <glissade/haptics/coupling.h>
@@ -39,11 +40,15 @@ constexpr const char* kFooter =
     "  rubber-band-spring  rubber band and spiral spring: the part catches up at once\n"
     "  incremental         the part repeats each motion of the ghost from where it is; what is refused is forgotten\n"
     "\n"
+    "--contacts has one row for each contact that touches and each millisecond: its number, which it keeps as long\n"
+    "as it lasts, the two features (a triangle, and the number of the vertex, edge or face in the mesh), the points\n"
+    "on part and obstacle, the normal from obstacle to part, gap, force along the normal, and age. --patches has the\n"
+    "same merged, where contacts lie in one plane: centre and sum of the forces on the part, their number and extent.\n"
+    "\n"
     "Several trajectories, or --summary or --report, ask for an assembly check: one row for each trajectory, which\n"
     "tells whether the part came to the scene's goal (or else to where its trajectory ends), how far from it it was\n"
-    "left, the greatest force and torque on the hand, the least clearance and when, and for how long contacts pushed. "
-    "One that\n"
-    "does not start in free space has no row, a line on standard error, and exit code 1 for all.\n"
+    "left, the greatest force and torque on the hand, the least clearance and when, and for how long contacts pushed.\n"
+    "One that does not start in free space has no row, a line on standard error, and exit code 1 for all.\n"
     "\n"
     "Examples:\n"
     "  glissade slide door.yaml --part motor --trajectory hand.csv --out motion.csv\n"
@@ -55,6 +60,7 @@ struct Options {
   std::vector<std::string> trajectories;
   std::string metaphor = "force-feedback";
   std::string out;
+  SlideContactsFiles contacts;
   std::string summary;
   std::string report;
   double goal_tolerance_m = SlideCheckOptions{}.goal_tolerance_m;
@@ -122,21 +128,27 @@ devices::PoseTrajectory read(const std::string& file) {
   return trajectory;
 }
 
-void slide(const HapticScene& scene, const std::string& file, haptics::Metaphor metaphor, const std::string& path) {
+void slide(const HapticScene& scene, haptics::Metaphor metaphor, const Options& options) {
+  const std::string& file = options.trajectories.front();
   const devices::PoseTrajectory trajectory = read(file);
   const auto sliding = start(scene, trajectory.pose_at(trajectory.first_time()), metaphor, file);
 
   using std::chrono::milliseconds;
   const std::int64_t ticks = trajectory.duration() / milliseconds(1);
-  CsvWriter out(path, columns());
+  CsvWriter out(options.out.empty() ? "-" : options.out, columns());
+  std::unique_ptr<SlideContactsWriter> contacts;
+  if (options.contacts.any()) contacts = std::make_unique<SlideContactsWriter>(options.contacts, scene, *sliding);
   ProgressBar progress("sliding", ticks + 1);
   for (std::int64_t i = 0; i <= ticks; ++i) {
     const std::chrono::nanoseconds time = trajectory.first_time() + i * milliseconds(1);
     sliding->advance(trajectory.pose_at(time));
-    add_row(out, std::chrono::duration<double>(time).count(), *sliding);
+    const double time_s = std::chrono::duration<double>(time).count();
+    add_row(out, time_s, *sliding);
+    if (contacts) contacts->write(time_s);
     progress.update(i + 1);
   }
   out.close();
+  if (contacts) contacts->close();
 }
 
 /// Every trajectory by whatever processor is free.
@@ -180,11 +192,26 @@ int check(const HapticScene& scene, haptics::Metaphor metaphor, const Options& o
   return exit_code;
 }
 
+/// Two tables in one file would be none.
+void check_contact_files(const Options& options) {
+  const auto& [contacts, patches] = options.contacts;
+  if (options.is_check() && options.contacts.any()) {
+    throw std::invalid_argument("--contacts, --patches: are for one trajectory, not for a check");
+  }
+  const std::string out = options.out.empty() ? "-" : options.out;
+  if (contacts == out) throw std::invalid_argument("--contacts: " + in_quotes(out) + " is where --out writes");
+  if (patches == out) throw std::invalid_argument("--patches: " + in_quotes(out) + " is where --out writes");
+  if (!contacts.empty() && contacts == patches) {
+    throw std::invalid_argument("--patches: " + in_quotes(patches) + " is where --contacts writes");
+  }
+}
+
 int run(const Options& options) {
   const haptics::Metaphor metaphor = parse_metaphor(options.metaphor);
   if (options.is_check() && !options.out.empty()) {
     throw std::invalid_argument("--out: is for the rows of one trajectory; a check writes to --summary and --report");
   }
+  check_contact_files(options);
   for (const std::string& file : options.trajectories) {
     if (options.is_check() && file.find_first_of(",\"\n\r") != std::string::npos) {
       throw std::invalid_argument("--trajectory: " + in_quotes(file) + " has a comma, quote or line break in its name");
@@ -192,7 +219,7 @@ int run(const Options& options) {
   }
   const HapticScene scene = make_haptic_scene(read_scene(options.scene), options.part);
   if (options.is_check()) return check(scene, metaphor, options);
-  slide(scene, options.trajectories.front(), metaphor, options.out.empty() ? "-" : options.out);
+  slide(scene, metaphor, options);
   return 0;
 }
 
@@ -209,6 +236,8 @@ void add_slide_command(CLI::App& app, Command& chosen) {
       ->required();
   command->add_option("--metaphor", options->metaphor, "How hand and part are tied")->capture_default_str();
   command->add_option("--out", options->out, "CSV file for the answer (default: standard output)");
+  command->add_option("--contacts", options->contacts.contacts, "CSV file for the contacts, see below");
+  command->add_option("--patches", options->contacts.patches, "CSV file for the contacts merged to patches, see below");
   command->add_option("--summary", options->summary, "CSV file for the check, - for standard output");
   command->add_option("--report", options->report, "Folder for the check as a page, index.html");
   command->add_option("--goal-tolerance-m", options->goal_tolerance_m, "The goal is reached within this")

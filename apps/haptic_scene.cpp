@@ -78,6 +78,7 @@ HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name) 
   for (const SceneObject& object : scene.objects) {
     if (object.name == part.name) continue;
     result.obstacles.push_back({bodies.of(object), object.X_WB, in_quotes(object.name)});
+    result.obstacle_names.push_back(object.name);
     result.placed_obstacles.push_back({object.mesh, object.X_WB});
   }
   if (result.obstacles.empty()) {

@@ -66,6 +66,13 @@ std::int64_t count_colliding(const std::vector<devices::HapticState>& samples, c
   return count;
 }
 
+void count_states(const std::vector<devices::HapticState>& samples, SessionSummary& summary) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    ++summary.state_ticks[static_cast<std::size_t>(samples[i].part_state)];
+    if (i > 0 && samples[i].part_state != samples[i - 1].part_state) ++summary.state_changes;
+  }
+}
+
 }  // namespace
 
 std::vector<devices::HapticState> SessionRecorder::samples() const {
@@ -84,6 +91,7 @@ SessionSummary summarize(const Session& session, const HapticScene& scene) {
   summary.samples = static_cast<std::int64_t>(session.samples.size());
   summary.colliding_poses = count_colliding(session.samples, scene);
   summary.hash = hash_of(session.samples);
+  count_states(session.samples, summary);
   std::int64_t in_contact = 0;
   for (const devices::HapticState& sample : session.samples) {
     in_contact += sample.is_in_contact ? 1 : 0;

@@ -2,6 +2,7 @@
 
 /// What a run of the haptic loop left behind, and what is to be said of it.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -62,6 +63,8 @@ struct SessionSummary {
   std::int64_t colliding_poses = 0;
   double contact_fraction = 0.0;
   std::int32_t contacts_max = 0;
+  std::array<std::int64_t, devices::kPartStates> state_ticks{};  ///< samples in each state of the part, by its number
+  std::int64_t state_changes = 0;                                ///< from one sample to the next
   double force_max_N = 0.0;
   std::optional<bool> seat_reached;  ///< none when the scene has no goal
   double seat_distance_m = 0.0;
@@ -76,7 +79,7 @@ SessionSummary summarize(const Session& session, const HapticScene& scene);
 nlohmann::json to_json(const SessionSummary& summary, const Session& session);
 /// The summary for a person, some lines.
 std::string to_text(const SessionSummary& summary, const Session& session);
-/// An HTML page with the summary and the plots of force and lag in `folder`; returns its path.
+/// An HTML page with the summary and the plots of force, lag and states in `folder`; returns its path.
 std::string write_session_report(const SessionSummary& summary, const Session& session, const std::string& title,
                                  const std::string& folder);
 

@@ -1,5 +1,6 @@
 // How a session is told: as text, as JSON, as a page.
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <iostream>
@@ -66,6 +67,20 @@ void add_collision_rows(const Session& session, Rows& rows) {
   rows.emplace_back("  pairs that met or parted", stage_text(sum.result, frames));
 }
 
+std::string name_of_state(std::size_t number) {
+  return std::string(devices::name_of(devices::part_state_from_number(static_cast<std::int32_t>(number))));
+}
+
+std::string states_text(const SessionSummary& summary) {
+  std::string text;
+  for (std::size_t i = 0; i < summary.state_ticks.size(); ++i) {
+    if (summary.state_ticks[i] == 0) continue;
+    const double share = static_cast<double>(summary.state_ticks[i]) / static_cast<double>(summary.samples);
+    text += formatted("%s %.1f %%, ", name_of_state(i).c_str(), 100.0 * share);
+  }
+  return text + formatted("%lld changes", static_cast<long long>(summary.state_changes));
+}
+
 Rows rows_of(const SessionSummary& summary, const Session& session) {
   Rows rows;
   rows.emplace_back("objects", std::to_string(session.objects));
@@ -76,6 +91,7 @@ Rows rows_of(const SessionSummary& summary, const Session& session) {
                               static_cast<long long>(summary.samples)));
   rows.emplace_back("time in contact",
                     formatted("%.1f %%, up to %d contacts", 100.0 * summary.contact_fraction, summary.contacts_max));
+  rows.emplace_back("states of the part", states_text(summary));
   rows.emplace_back("greatest force", formatted("%.2f N", summary.force_max_N));
   if (summary.seat_reached) {
     rows.emplace_back("seat reached", formatted("%s, %.3f mm from it", *summary.seat_reached ? "yes" : "no",
@@ -95,6 +111,29 @@ PlotSeries series_of(const std::vector<devices::HapticState>& samples, const std
     series.y.push_back(value(sample));
   }
   return series;
+}
+
+/// A state may last a millisecond, less than a pixel: so for each stretch of the run how much of it was spent in each.
+Plot plot_of_states(const std::vector<devices::HapticState>& samples) {
+  constexpr std::size_t kMostStretches = 300;
+  const std::size_t stretch = std::max<std::size_t>(1, (samples.size() + kMostStretches - 1) / kMostStretches);
+  Plot plot{"States of the part", "time [s]", "share of the time [%]", {}};
+  for (std::size_t state = 0; state < static_cast<std::size_t>(devices::kPartStates); ++state) {
+    PlotSeries series{name_of_state(state), {}, {}};
+    bool occurs = false;
+    for (std::size_t first = 0; first < samples.size(); first += stretch) {
+      const std::size_t end = std::min(first + stretch, samples.size());
+      const auto count = std::count_if(samples.data() + first, samples.data() + end, [&](const auto& sample) {
+        return static_cast<std::size_t>(sample.part_state) == state;
+      });
+      occurs = occurs || count > 0;
+      const auto middle = (samples[first].time + samples[end - 1].time) / 2 - samples.front().time;
+      series.x.push_back(std::chrono::duration<double>(middle).count());
+      series.y.push_back(100.0 * static_cast<double>(count) / static_cast<double>(end - first));
+    }
+    if (occurs) plot.series.push_back(std::move(series));
+  }
+  return plot;
 }
 
 std::vector<Plot> plots_of(const std::vector<devices::HapticState>& samples) {
@@ -118,6 +157,7 @@ std::vector<Plot> plots_of(const std::vector<devices::HapticState>& samples) {
        "time [s]",
        "contacts",
        {line("contacts", [](const HapticState& s) { return static_cast<double>(s.contact_count); })}},
+      plot_of_states(samples),
       {"Age of the contact set", "time [s]", "age [ms]", {line("age", [](const HapticState& s) {
          return 1e-6 * static_cast<double>(s.contact_set_age.count());
        })}}};
@@ -132,6 +172,9 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
     };
     return nlohmann::json{{"in", each(sum.in)}, {"out", each(sum.out)}, {"us", each(microseconds(sum.time))}};
   };
+  nlohmann::json states;
+  for (std::size_t i = 0; i < summary.state_ticks.size(); ++i)
+    states[name_of_state(i)] = 1e-3 * static_cast<double>(summary.state_ticks[i]);
   nlohmann::json json = {{"ticks", summary.ticks},
                          {"objects", session.objects},
                          {"collision_frames", session.collision_frames},
@@ -146,6 +189,8 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
                          {"checked_poses", summary.samples},
                          {"contact_fraction", summary.contact_fraction},
                          {"contacts_max", summary.contacts_max},
+                         {"state_s", states},
+                         {"state_changes", summary.state_changes},
                          {"seat_reached", nullptr},
                          {"seat_distance_m", nullptr},
                          {"force_max_N", summary.force_max_N},

@@ -32,6 +32,13 @@ void put(const Eigen::Matrix3d& R, double (&wxyz)[4]) {
   wxyz[3] = q.z();
 }
 
+Eigen::Isometry3d pose_of(const double (&position_m)[3], const double (&wxyz)[4]) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.translation() = Eigen::Vector3d(position_m);
+  X.linear() = Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized().toRotationMatrix();
+  return X;
+}
+
 template <typename Message>
 std::vector<std::uint8_t> to_bytes(const Message& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
@@ -96,6 +103,21 @@ MessageError check(const glove_command_t& message) noexcept {
   return fields.result();
 }
 
+MessageError check(const haptic_state_t& message) noexcept {
+  FieldCheck fields;
+  fields.not_negative(message.sequence);
+  fields.not_negative(message.time_ns);
+  fields.magnitude(message.position_WG_m, kLargestPosition);
+  fields.unit_quaternion(message.orientation_WG_wxyz);
+  fields.magnitude(message.position_WV_m, kLargestPosition);
+  fields.unit_quaternion(message.orientation_WV_wxyz);
+  fields.magnitude(message.force_on_hand_W_N, kLargestForce);
+  fields.magnitude(message.torque_on_hand_V_W_Nm, kLargestTorque);
+  fields.not_negative(message.contact_count);
+  fields.not_negative(message.contact_set_age_ns);
+  return fields.result();
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encode(const GloveState& state) {
@@ -131,6 +153,7 @@ std::vector<std::uint8_t> encode(const HapticState& state) {
   put(Eigen::Matrix3d(state.X_WV.linear()), message.orientation_WV_wxyz);
   put(state.force_on_hand_W, message.force_on_hand_W_N);
   put(state.torque_on_hand_V_W, message.torque_on_hand_V_W_Nm);
+  message.part_state = static_cast<std::int32_t>(state.part_state);
   message.contact_count = state.contact_count;
   message.contact_set_age_ns = state.contact_set_age.count();
   const auto flag = [](bool is_set, std::int32_t value) { return is_set ? value : 0; };
@@ -148,10 +171,7 @@ MessageError decode(std::span<const std::uint8_t> bytes, GloveState& state) noex
   if (error != MessageError::kNone) return error;
   state.sequence = message.sequence;
   state.time = std::chrono::nanoseconds(message.time_ns);
-  const auto& q = message.orientation_WH_wxyz;
-  state.X_WH.setIdentity();
-  state.X_WH.translation() = Eigen::Vector3d(message.position_WH_m);
-  state.X_WH.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+  state.X_WH = pose_of(message.position_WH_m, message.orientation_WH_wxyz);
   state.v_WH = Eigen::Vector3d(message.v_WH_m_per_s);
   state.w_WH = Eigen::Vector3d(message.w_WH_rad_per_s);
   std::copy_n(message.joint_angles_rad, kGloveJoints, state.joint_angles.begin());
@@ -169,6 +189,28 @@ MessageError decode(std::span<const std::uint8_t> bytes, GloveCommand& command) 
   command.f_H_W = Eigen::Vector3d(message.force_H_W_N);
   command.t_H_W = Eigen::Vector3d(message.torque_H_W_Nm);
   std::copy_n(message.joint_torques_Nm, kGloveJoints, command.joint_torques.begin());
+  return MessageError::kNone;
+}
+
+MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noexcept {
+  haptic_state_t message{};
+  MessageError error = from_bytes(bytes, message);
+  if (error == MessageError::kNone) error = check(message);
+  if (error != MessageError::kNone) return error;
+  state.sequence = message.sequence;
+  state.time = std::chrono::nanoseconds(message.time_ns);
+  state.X_WG = pose_of(message.position_WG_m, message.orientation_WG_wxyz);
+  state.X_WV = pose_of(message.position_WV_m, message.orientation_WV_wxyz);
+  state.force_on_hand_W = Eigen::Vector3d(message.force_on_hand_W_N);
+  state.torque_on_hand_V_W = Eigen::Vector3d(message.torque_on_hand_V_W_Nm);
+  state.part_state = part_state_from_number(message.part_state);
+  state.contact_count = message.contact_count;
+  state.contact_set_age = std::chrono::nanoseconds(message.contact_set_age_ns);
+  const auto has = [&](std::int32_t flag) { return (message.flags & flag) != 0; };
+  state.is_in_contact = has(haptic_state_t::FLAG_IN_CONTACT);
+  state.is_force_limited = has(haptic_state_t::FLAG_FORCE_LIMITED);
+  state.is_contact_set_late = has(haptic_state_t::FLAG_CONTACT_SET_LATE);
+  state.has_no_device = has(haptic_state_t::FLAG_NO_DEVICE);
   return MessageError::kNone;
 }
 

@@ -24,5 +24,8 @@ std::vector<std::uint8_t> encode(const HapticState& state);
 /// Decodes and checks. Anything but kNone leaves the output alone. Never throws, whatever the bytes.
 MessageError decode(std::span<const std::uint8_t> bytes, GloveState& state) noexcept;
 MessageError decode(std::span<const std::uint8_t> bytes, GloveCommand& command) noexcept;
+/// A state of the part that this program does not know is none to it, `PartState::kUnknown`, and no error: a viewer may
+/// be older than the simulation.
+MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noexcept;
 
 }  // namespace glissade::devices

@@ -3,6 +3,7 @@
 /// A place where part and obstacles are close, as the projection sees it.
 
 #include <cstdint>
+#include <string_view>
 
 #include <Eigen/Core>
 
@@ -19,17 +20,28 @@ enum class ContactKind : std::uint8_t {
   kOverlap,  ///< the part is being led out of an obstacle that overlapped it when it was taken hold of
 };
 
+std::string_view name_of(ContactKind kind);
+
+/// A contact is known by obstacle, kind and the two features: they are the same numbers as long as the same features
+/// are close, and the triangles follow from them, as each edge and vertex has one triangle that answers for it.
 struct Contact {
   ContactKind kind;
   std::int32_t part_triangle;
   std::int32_t obstacle;  ///< number among the bodies of the surroundings; it may be another part
   std::int32_t obstacle_triangle;
-  Eigen::Vector3d n_W;                                   ///< unit, from the obstacle to the part
-  Eigen::Vector3d p_W;                                   ///< the contact point on the part, metres
-  double gap;                                            ///< metres, positive
-  double force = 0.0;                                    ///< newtons along n_W; 0 where the contact does not push
+  Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part
+  Eigen::Vector3d p_W;  ///< the contact point on the part, metres
+  double gap;           ///< metres; negative only for kOverlap
+  double force = 0.0;   ///< newtons along n_W; 0 where the contact does not push
+  /// The feature of either side: of a face its triangle, of an edge its number in `collision::MeshTopology`, of a
+  /// vertex its number in the mesh; −1 where none is told.
+  std::int32_t part_feature = -1;
+  std::int32_t obstacle_feature = -1;
   std::int32_t part = 0;                                 ///< number among the parts that are held
   Eigen::Vector3d friction_W = Eigen::Vector3d::Zero();  ///< newtons on the part, across n_W
+
+  /// The contact point on the obstacle, metres.
+  Eigen::Vector3d q_W() const { return p_W - gap * n_W; }
 };
 
 }  // namespace glissade::haptics

@@ -27,6 +27,12 @@ class Side {
   const TrianglePoints& points() const { return points_; }
   const Eigen::Vector3d& corner(int i) const { return points_[static_cast<std::size_t>(i)]; }
 
+  /// Numbers in the mesh of corner / edge i.
+  std::int32_t vertex(int i) const {
+    return mesh_->triangles[static_cast<std::size_t>(triangle_)][static_cast<std::size_t>(i)];
+  }
+  std::int32_t edge(int i) const { return topology_->edges_of(triangle_)[static_cast<std::size_t>(i)]; }
+
   /// Whether the selected triangle answers for its corner / edge i, and that feature can stop anything.
   bool owns_corner(int i) const {
     const std::int32_t v = vertex(i);
@@ -46,11 +52,6 @@ class Side {
   }
 
  private:
-  std::int32_t vertex(int i) const {
-    return mesh_->triangles[static_cast<std::size_t>(triangle_)][static_cast<std::size_t>(i)];
-  }
-  std::int32_t edge(int i) const { return topology_->edges_of(triangle_)[static_cast<std::size_t>(i)]; }
-
   bool none_nearer(std::span<const std::int32_t> vertices, const Eigen::Vector3d& x_W, const Eigen::Vector3d& n,
                    double tolerance) const {
     for (const std::int32_t v : vertices) {
@@ -100,18 +101,18 @@ class ContactSearch {
     if (gap < 0.0) return;
     switch (on.region) {
       case Region::kFace:
-        add(ContactKind::kVertexFace, n, x, gap);
+        add(ContactKind::kVertexFace, part_.vertex(i), obstacle_.triangle(), n, x, gap);
         break;
       case Region::kEdge:
         if (obstacle_.owns_edge(on.index) && obstacle_.edge_is_nearest(on.index, n, margin_) &&
             part_.corner_is_nearest(i, n, margin_)) {
-          add(ContactKind::kVertexEdge, n, x, gap);
+          add(ContactKind::kVertexEdge, part_.vertex(i), obstacle_.edge(on.index), n, x, gap);
         }
         break;
       case Region::kVertex:
         if (obstacle_.owns_corner(on.index) && obstacle_.corner_is_nearest(on.index, n, margin_) &&
             part_.corner_is_nearest(i, n, margin_)) {
-          add(ContactKind::kVertexVertex, n, x, gap);
+          add(ContactKind::kVertexVertex, part_.vertex(i), obstacle_.vertex(on.index), n, x, gap);
         }
         break;
     }
@@ -124,10 +125,10 @@ class ContactSearch {
     const double gap = gap_and_normal(y, on.point, n);
     if (gap < 0.0 || on.region == Region::kVertex) return;  // vertex–vertex is found from the part's side
     if (on.region == Region::kFace) {
-      add(ContactKind::kFaceVertex, n, on.point, gap);
+      add(ContactKind::kFaceVertex, part_.triangle(), obstacle_.vertex(i), n, on.point, gap);
     } else if (part_.owns_edge(on.index) && part_.edge_is_nearest(on.index, n, margin_) &&
                obstacle_.corner_is_nearest(i, n, margin_)) {
-      add(ContactKind::kEdgeVertex, n, on.point, gap);
+      add(ContactKind::kEdgeVertex, part_.edge(on.index), obstacle_.vertex(i), n, on.point, gap);
     }
   }
 
@@ -142,7 +143,7 @@ class ContactSearch {
       Eigen::Vector3d n;
       const double gap = gap_and_normal(closest.q, closest.p, n);
       if (gap < 0.0 || !part_.edge_is_nearest(i, n, margin_) || !obstacle_.edge_is_nearest(j, n, margin_)) continue;
-      add(ContactKind::kEdgeEdge, n, closest.p, gap);
+      add(ContactKind::kEdgeEdge, part_.edge(i), obstacle_.edge(j), n, closest.p, gap);
     }
   }
 
@@ -155,10 +156,10 @@ class ContactSearch {
     return gap;
   }
 
-  void add(ContactKind kind, const Eigen::Vector3d& n, const Eigen::Vector3d& p, double gap) {
-    Contact& contact =
-        contacts_.emplace_back(Contact{kind, part_.triangle(), obstacle_number_, obstacle_.triangle(), n, p, gap});
-    contact.part = part_number_;
+  void add(ContactKind kind, std::int32_t part_feature, std::int32_t obstacle_feature, const Eigen::Vector3d& n,
+           const Eigen::Vector3d& p, double gap) {
+    contacts_.push_back({kind, part_.triangle(), obstacle_number_, obstacle_.triangle(), n, p, gap, 0.0, part_feature,
+                         obstacle_feature, part_number_});
   }
 
   std::span<const PlacedBody> bodies_;

@@ -12,6 +12,9 @@ namespace glissade::haptics {
 /// A contact set older than this is late: the simulation takes longer than a few ticks for an answer.
 inline constexpr std::chrono::milliseconds kLateContactSet{5};
 
+/// The state as it is told on the wire.
+devices::PartState part_state_of(SlidingState state) noexcept;
+
 /// The state to tell viewers and recorders, at time `now` of the haptic clock. The wrench is the one sent to the
 /// device, moved to the origin of the visible part. Real-time safe.
 devices::HapticState make_sample(const HapticTick& tick, const ContactSet& set, const Eigen::Vector3d& p_WH,

@@ -67,6 +67,23 @@ void check(const std::vector<HeldPart>& parts, const SlidingRules& rules) {
   }
 }
 
+/// The largest fraction of a displacement of the part that lets its lag, which has changed by `change` already, change by
+/// no more than `most` metres, or than it has.
+double fraction_with_lag(const Displacement& change, const Displacement& d, double radius, double most) {
+  const auto changed = [&](double fraction) {
+    return (change.v - fraction * d.v).norm() + radius * (change.w - fraction * d.w).norm();
+  };
+  most = std::max(most, changed(0.0));
+  if (changed(1.0) <= most) return 1.0;
+  double allowed = 0.0;  // the change is convex in the fraction
+  double refused = 1.0;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = 0.5 * (allowed + refused);
+    (changed(middle) <= most ? allowed : refused) = middle;
+  }
+  return allowed;
+}
+
 /// The same contact as the other part sees it.
 Contact mirrored(const Contact& contact, std::int32_t body_of_part, std::int32_t other_part) {
   Contact mirror = contact;
@@ -89,10 +106,11 @@ Contact mirrored(const Contact& contact, std::int32_t body_of_part, std::int32_t
       break;
   }
   std::swap(mirror.part_triangle, mirror.obstacle_triangle);
+  std::swap(mirror.part_feature, mirror.obstacle_feature);
   mirror.part = other_part;
   mirror.obstacle = body_of_part;
   mirror.n_W = -contact.n_W;
-  mirror.p_W = contact.p_W - contact.gap * contact.n_W;
+  mirror.p_W = contact.q_W();
   mirror.friction_W = -contact.friction_W;
   return mirror;
 }
@@ -155,8 +173,10 @@ void JointSliding::find_overlaps(const std::vector<HeldPart>& parts) {
 void JointSliding::grasp(std::size_t part, const Eigen::Isometry3d& X_WG) {
   const std::optional<Eigen::Isometry3d> rigid = collision::rigid_pose(X_WG);
   if (!rigid) return;
-  parts_[part].result.X_WG = *rigid;
-  let_rest(parts_[part], SlidingState::kFree);
+  Part& held = parts_[part];
+  held.result.X_WG = *rigid;
+  let_rest(held, SlidingState::kFree);
+  held.lag_then = displacement_between(held.result.X_WV, *rigid, held.part_V->p_Vref());
 }
 
 void JointSliding::release(std::size_t part) {
@@ -167,6 +187,7 @@ void JointSliding::release(std::size_t part) {
 /// Nothing is wanted of the part, so nothing pushes it.
 void JointSliding::let_rest(Part& part, SlidingState state) {
   part.result.X_WT = part.result.X_WV;
+  part.lag_then = {};
   part.result.state = state;
   part.result.contacts.clear();
   part.result.pushing = 0;
@@ -194,10 +215,10 @@ void JointSliding::advance(std::span<const Eigen::Isometry3d> X_WG, double milli
     part.result.cycles = cycles;
     part.result.reach = reach_;
     part.result.state = classify(part);
+    part.lag_then = lag_of(part);
     was_moving_ = was_moving_ || part.moved > kNotWorthIt * part.margin;
     if (!rules_.anti_jam) continue;
-    const Displacement error = displacement_between(part.result.X_WV, part.result.X_WT, part.part_V->p_Vref());
-    part.anti_jam.observe(error, part.moved, part.result.pushing > 0, milliseconds);
+    part.anti_jam.observe(part.lag_then, part.moved, part.result.pushing > 0, milliseconds);
   }
 }
 
@@ -218,11 +239,11 @@ bool JointSliding::take_ghosts(std::span<const Eigen::Isometry3d> X_WG, double m
     part.result.X_WT = wanted_pose(part.metaphor, part.result.X_WV, part.X_WG_then, *rigid, part.part_V->p_Vref());
     part.X_WA = rules_.anti_jam ? part.anti_jam.aim(part.result.X_WT, part.part_V->p_Vref()) : part.result.X_WT;
   }
-  // A part may be pushed as fast as the ghost of another one goes.
+  // A part may be pushed by another as fast as the ghost of that one goes.
   const double ghosts = std::accumulate(parts_.begin(), parts_.end(), 0.0,
                                         [](double sum, const Part& part) { return sum + part.ghost_motion; });
   for (Part& part : parts_) {
-    part.budget = part.metaphor == Metaphor::kForceFeedback ? kSlew_m * milliseconds + 2.0 * ghosts : kUnbounded;
+    part.slew = part.metaphor == Metaphor::kForceFeedback ? kSlew_m * milliseconds + ghosts : kUnbounded;
   }
   return any;
 }
@@ -300,14 +321,14 @@ void JointSliding::refresh_candidates() {
 
 double JointSliding::choose_reach() const {
   double ghosts = 0.0;
-  double budget = 0.0;
+  double slew = 0.0;
   for (const Part& part : parts_) {
     ghosts += part.ghost_motion;
-    budget = std::max(budget, part.budget);
+    slew = std::max(slew, part.slew);
   }
   double reach = 1.5 * std::max(ghosts, last_step_) + 2.0 * largest_margin_;
   if (last_clipped_) reach *= 2.0;
-  return std::clamp(std::min(reach, budget + 2.0 * largest_margin_), kSmallestReach_m, reach_limit_);
+  return std::clamp(std::min(reach, slew + ghosts + 2.0 * largest_margin_), kSmallestReach_m, reach_limit_);
 }
 
 void JointSliding::find_rows() {
@@ -337,6 +358,10 @@ void JointSliding::find_rows() {
     }
     add_row(contact.obstacle, static_cast<std::size_t>(contact.part), contact.n_W, contact.p_W, bound);
   }
+}
+
+Displacement JointSliding::lag_of(const Part& part) const {
+  return displacement_between(part.result.X_WV, part.result.X_WT, part.part_V->p_Vref());
 }
 
 Eigen::Vector3d JointSliding::reference_point(std::size_t part) const {
@@ -447,7 +472,12 @@ std::array<double, kMaxParts> JointSliding::allowed_fractions(const Displacement
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     const Part& part = parts_[p];
     const double radius = part.part_V->radius();
-    fractions[p] = fraction_within(d[p], radius, std::min(share, part.budget));
+    fractions[p] = fraction_within(d[p], radius, share);
+    if (part.slew != kUnbounded && is_held(part)) {
+      const Displacement lag = lag_of(part);
+      const Displacement change{lag.v - part.lag_then.v, lag.w - part.lag_then.w};
+      fractions[p] = std::min(fractions[p], fraction_with_lag(change, d[p], radius, part.slew));
+    }
     const double angle = d[p].w.norm();
     const double largest_angle = std::sqrt(part.margin / radius);
     if (!rows_.empty() && angle * fractions[p] > largest_angle) fractions[p] = largest_angle / angle;
@@ -513,7 +543,6 @@ void JointSliding::apply(const Step& step) {
       part.result.X_WV = displaced(part.result.X_WV, part.part_V->p_Vref(), step.displacements[p]);
     }
     part.moved += step.lengths[p];
-    part.budget -= step.lengths[p];
     if (step.lengths[p] > 0.0 || step.arrives[p]) surroundings_.place(p, part.result.X_WV);
   }
   candidates_.moved(step.length);

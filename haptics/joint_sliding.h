@@ -34,8 +34,8 @@
 
 namespace glissade::haptics {
 
-/// What a part under force feedback may catch up in a tick beyond twice the ghost's own motion: it takes the jumps out
-/// of the force where the part snaps into a gap.
+/// How far the lag of a part under force feedback may change in a tick beyond the ghost's own motion: it takes the
+/// jumps out of the force where the part snaps into a gap.
 inline constexpr double kSlew_m = 0.2e-3;
 
 /// What becomes of a part that overlaps an obstacle when it is taken hold of.
@@ -106,7 +106,8 @@ class JointSliding {
     Eigen::Isometry3d X_WG_then = Eigen::Isometry3d::Identity();  // the ghost in the last call
     double ghost_motion = 0.0;                                    // metres, of this tick
     double moved = 0.0;                                           // metres, in this tick
-    double budget = 0.0;                                          // metres it may still move in this tick
+    Displacement lag_then{};  // from the part to where it was wanted, at the end of the last call
+    double slew = 0.0;        // metres that this lag may change by in this tick
   };
   using Displacements = std::array<Displacement, kMaxParts>;
 
@@ -128,6 +129,7 @@ class JointSliding {
   double choose_reach() const;
   void refresh_candidates();
   void find_rows();
+  Displacement lag_of(const Part& part) const;
   Eigen::Vector3d reference_point(std::size_t part) const;
   void add_row(std::int32_t obstacle, std::size_t part, const Eigen::Vector3d& n_W, const Eigen::Vector3d& p_W,
                double bound);

@@ -62,6 +62,17 @@ TEST_F(Demo, OfflineGivesTheSameHashTwiceAndReachesTheSeatThroughContact) {
   EXPECT_EQ(first["seat_reached"], true);
   EXPECT_GT(first["contact_fraction"], 0.7);
   EXPECT_GT(first["force_max_N"], 2.0);
+  // It comes from above, slides, and at the end it rests.
+  const nlohmann::json& states = first["state_s"];
+  double sum = 0.0;
+  for (const auto& [name, seconds] : states.items())
+    sum += seconds.get<double>();
+  EXPECT_NEAR(sum, 1.0, 1e-9);
+  for (const char* name : {"free", "sliding", "resting"})
+    EXPECT_GT(states[name].get<double>(), 0.05) << name;
+  EXPECT_LE(states["unknown"].get<double>(), 0.001) << "the first tick, before there is an answer";
+  EXPECT_EQ(states["released"], 0.0);
+  EXPECT_GE(first["state_changes"], 3);
   EXPECT_TRUE(first["lateness_us_p50"].is_null());
 }
 
@@ -77,7 +88,8 @@ TEST_F(Demo, InRealTimeGloveAndServerMeetOverLcmAndReachTheSameSeat) {
   std::ifstream page(files().path("report") + "/index.html");
   std::stringstream html;
   html << page.rdbuf();
-  EXPECT_NE(html.str().find("Force on the hand"), std::string::npos);
+  for (const char* text : {"Force on the hand", "States of the part", "sliding"})
+    EXPECT_NE(html.str().find(text), std::string::npos) << text;
   // Nothing is fetched from anywhere.
   for (const char* reference : {"src=", "href=", "url(", "@import"}) {
     EXPECT_EQ(html.str().find(reference), std::string::npos) << reference;

@@ -1,6 +1,7 @@
 /// `glissade slide`: a box led over a plane, into a groove and into a corner, as files in and a file out.
 
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -115,6 +116,82 @@ TEST_F(Slide, InACornerItStops) {
     const double dz = rows[i].at("vz_m") - 0.02;
     EXPECT_LT(std::sqrt(dx * dx + dy * dy + dz * dz), kTwoMargins);
   }
+}
+
+/// The rows of a file, each cell by column name.
+std::vector<std::map<std::string, std::string>> cells_of(const std::string& path) {
+  std::ifstream in(path);
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> header = split(line);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> cells = split(line);
+    EXPECT_EQ(cells.size(), header.size()) << line;
+    auto& row = rows.emplace_back();
+    for (std::size_t i = 0; i < header.size() && i < cells.size(); ++i)
+      row[header[i]] = cells[i];
+  }
+  return rows;
+}
+
+TEST_F(Slide, ContactsAndPatchesTellWhatPushes) {
+  const std::string hand =
+      trajectory("0,0.06,0,0.03,1,0,0,0\n0.1,0.047,0,0.018,1,0,0,0\n0.2,0.047,0.02,0.018,1,0,0,0\n");
+  const ProgramResult result =
+      test_support::glissade({"slide", scene({floor, wall_x}), "--part", "box", "--trajectory", hand, "--contacts",
+                              folder.path("contacts.csv"), "--patches", folder.path("patches.csv")});
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  const auto motion = parse(result.standard_output);
+  const Row& last = motion.back();
+
+  std::map<std::string, double> force_by_obstacle;
+  double force_x = 0.0;
+  for (const auto& row : cells_of(folder.path("contacts.csv"))) {
+    const auto number = [&](const char* column) { return std::stod(row.at(column)); };
+    for (const char axis : {'x', 'y', 'z'}) {
+      const std::string a(1, axis);
+      EXPECT_NEAR(std::stod(row.at("p" + a + "_m")) - std::stod(row.at("q" + a + "_m")),
+                  number("gap_m") * std::stod(row.at("n" + a)), 1e-12);
+    }
+    EXPECT_GE(number("id"), 1.0);
+    EXPECT_LE(number("age_ms"), 200.0);
+    if (number("t_s") != 0.2) continue;
+    force_by_obstacle[row.at("obstacle")] += number("force_N");
+    force_x += number("force_N") * number("nx");
+  }
+  EXPECT_EQ(force_by_obstacle.size(), 2u);
+  EXPECT_NEAR(force_by_obstacle["sheet0"], last.at("fz_N"), 0.02);
+  EXPECT_NEAR(force_by_obstacle["sheet1"], last.at("fx_N"), 0.02);
+  EXPECT_NEAR(force_x, last.at("fx_N"), 0.02);
+
+  int patches = 0;
+  for (const auto& row : cells_of(folder.path("patches.csv"))) {
+    if (std::stod(row.at("t_s")) != 0.2) continue;
+    ++patches;
+    EXPECT_NEAR(std::stod(row.at("fx_N")) + std::stod(row.at("fz_N")), force_by_obstacle[row.at("obstacle")], 1e-9);
+    EXPECT_GE(std::stod(row.at("contacts")), 2.0);
+  }
+  EXPECT_EQ(patches, 2);
+}
+
+TEST_F(Slide, RefusesTwoTablesInOneFile) {
+  const std::string hand = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n");
+  const auto slide_with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"slide", scene({floor}), "--part", "box", "--trajectory", hand};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  expect_refused(slide_with({"--contacts", "-"}), {"--contacts", "'-'", "--out"});
+  expect_refused(slide_with({"--out", "a.csv", "--patches", "a.csv"}), {"--patches", "'a.csv'", "--out"});
+  expect_refused(slide_with({"--contacts", "a.csv", "--patches", "a.csv"}), {"--patches", "--contacts"});
+  expect_refused(slide_with({"--contacts", "a.csv", "--summary", "b.csv"}), {"--contacts", "one trajectory"});
+  const std::string odd = folder.write("odd.yaml",
+                                       "objects:\n"
+                                       "  - {name: box, movable: true, shape: {type: box}}\n"
+                                       "  - {name: 'a,b', shape: {type: plate}, pose: {position_m: [0, 0, -3]}}\n");
+  expect_refused({"slide", odd, "--part", "box", "--trajectory", hand, "--contacts", folder.path("c.csv")},
+                 {"odd.yaml", "'a,b'", "comma"});
 }
 
 TEST_F(Slide, StartingInsideAnObstacleIsAFailureWithItsReason) {

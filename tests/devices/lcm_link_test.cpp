@@ -261,6 +261,7 @@ TEST(HapticStatePublisher, PublishesEveryTickInOrder) {
       state.X_WV.translation() = Vector3d(4, 5, 6);
       state.force_on_hand_W = Vector3d(7, 8, 9);
       state.torque_on_hand_V_W = Vector3d(10, 11, 12);
+      state.part_state = PartState::kSliding;
       state.contact_count = i;
       state.contact_set_age = milliseconds(i);
       state.is_in_contact = true;
@@ -285,6 +286,7 @@ TEST(HapticStatePublisher, PublishesEveryTickInOrder) {
   EXPECT_EQ(last.orientation_WV_wxyz[0], 1.0);
   EXPECT_EQ(last.force_on_hand_W_N[2], 9.0);
   EXPECT_EQ(last.torque_on_hand_V_W_Nm[2], 12.0);
+  EXPECT_EQ(last.part_state, haptic_state_t::PART_SLIDING);
   EXPECT_EQ(last.flags, 1 + 4);  // FLAG_IN_CONTACT and FLAG_CONTACT_SET_LATE
 }
 

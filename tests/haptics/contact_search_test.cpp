@@ -1,8 +1,12 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <numbers>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -88,6 +92,60 @@ TEST(ContactSearch, CrossedEdgesMeetAlongTheirCommonNormal) {
   EXPECT_TRUE(found[0].n_W.isApprox(Vector3d::UnitZ(), 1e-9));
   EXPECT_NEAR(found[0].gap, 2e-4, 1e-12);
   EXPECT_TRUE(found[0].p_W.isApprox(Vector3d(0.001, 0.0, 2e-4), 1e-9));
+}
+
+/// The corners of feature `number` of a mesh, a vertex, edge or face.
+std::vector<Vector3d> corners(const TriangleMesh& mesh, char feature, std::int32_t number) {
+  const auto i = static_cast<std::size_t>(number);
+  const auto vertex = [&](std::int32_t v) { return mesh.vertices.at(static_cast<std::size_t>(v)); };
+  if (feature == 'v') return {vertex(number)};
+  if (feature == 'f') return {mesh.corner(number, 0), mesh.corner(number, 1), mesh.corner(number, 2)};
+  const collision::MeshTopology topology(mesh);
+  const collision::MeshTopology::Edge& edge = topology.edges().at(i);
+  return {vertex(edge.vertices[0]), vertex(edge.vertices[1])};
+}
+
+/// How far x is from the line, plane or point of a feature, metres.
+double distance_from(const std::vector<Vector3d>& corners, const Vector3d& x) {
+  if (corners.size() == 1) return (x - corners[0]).norm();
+  const Vector3d along = (corners[1] - corners[0]).normalized();
+  if (corners.size() == 2) return along.cross(x - corners[0]).norm();
+  return std::abs(along.cross(corners[2] - corners[0]).normalized().dot(x - corners[0]));
+}
+
+TEST(ContactSearch, TheFeaturesNamedAreThoseThatTouchWhateverTheKind) {
+  // A ball over a face, an edge and a corner of a box, turned in many ways: all kinds of features meet.
+  const TriangleMesh box = collision::make_box({0.1, 0.1, 0.1}, 100);
+  const TriangleMesh ball = collision::flip_randomly(collision::make_sphere(0.05, 300), 5);
+  const std::vector<Vector3d> nearest{{0.01, 0.02, 0.05}, {0.05, 0.012, 0.05}, {0.05, 0.05, 0.05}};
+  const std::vector<Vector3d> away{{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}, {1.0, 1.0, 1.0}};
+  std::map<ContactKind, int> seen;
+  const auto check = [&](const TriangleMesh& mesh, const Isometry3d& X_WV) {
+    for (const Contact& contact : contacts(box, mesh, X_WV)) {
+      ++seen[contact.kind];
+      const auto name = std::string(name_of(contact.kind));
+      const auto part = corners(mesh, name[0], contact.part_feature);
+      const auto obstacle = corners(box, name[name.find('/') + 1], contact.obstacle_feature);
+      ASSERT_LT(distance_from(part, X_WV.inverse() * contact.p_W), 1e-12) << name;
+      ASSERT_LT(distance_from(obstacle, contact.q_W()), 1e-12) << name;
+      // The triangles told have these features.
+      for (const auto& [of, triangle, feature] :
+           {std::tuple(&mesh, contact.part_triangle, part), std::tuple(&box, contact.obstacle_triangle, obstacle)}) {
+        const auto of_triangle = corners(*of, 'f', triangle);
+        for (const Vector3d& corner : feature)
+          ASSERT_NE(std::find(of_triangle.begin(), of_triangle.end(), corner), of_triangle.end()) << name;
+      }
+    }
+  };
+  check(box, at({0.1001, 0.1001, 0.1001}));  // corner to corner
+  for (std::size_t i = 0; i < 300; ++i) {
+    const auto turns = static_cast<double>(i);
+    const Eigen::Quaterniond q(Eigen::AngleAxisd(0.7 * turns, Vector3d(1.0, 0.03 * turns, 2.0).normalized()));
+    check(ball, at(nearest[i % 3] + 0.0501 * away[i % 3].normalized(), q));
+  }
+  for (const ContactKind kind : {ContactKind::kVertexFace, ContactKind::kFaceVertex, ContactKind::kEdgeEdge,
+                                 ContactKind::kVertexEdge, ContactKind::kEdgeVertex, ContactKind::kVertexVertex})
+    EXPECT_GT(seen[kind], 0) << name_of(kind);
 }
 
 TEST(ContactSearch, ACornerBesideTheRimOfASheetMeetsTheRim) {

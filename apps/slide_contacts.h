@@ -1,0 +1,50 @@
+#pragma once
+
+/// The contacts of `glissade slide` as files: one row for each contact, or each patch of merged contacts, and
+/// millisecond.
+
+#include <memory>
+#include <string>
+
+#include <glissade/apps/csv.h>
+#include <glissade/apps/haptic_scene.h>
+#include <glissade/haptics/contact_patches.h>
+#include <glissade/haptics/contact_tracker.h>
+#include <glissade/haptics/sliding.h>
+
+namespace glissade::apps {
+
+/// Where to write; an empty path means not at all, "-" standard output.
+struct SlideContactsFiles {
+  std::string contacts;
+  std::string patches;
+
+  bool any() const { return !contacts.empty() || !patches.empty(); }
+};
+
+/// Writes what touches, tick by tick. Not thread-safe.
+class SlideContactsWriter {
+ public:
+  /// Throws std::invalid_argument when a file cannot be created, and, naming scene and object, for an obstacle whose
+  /// name no cell of a CSV file can hold. `scene` and `sliding` must outlive this object.
+  SlideContactsWriter(const SlideContactsFiles& files, const HapticScene& scene, const haptics::Sliding& sliding);
+
+  /// The rows of the newest result, told as those of `time_s`. Once for every call of `advance`.
+  void write(double time_s);
+
+  /// Throws std::runtime_error when not everything could be written.
+  void close();
+
+ private:
+  void write_contact(double time_s, const haptics::TrackedContact& tracked);
+  void write_patch(double time_s, const haptics::ContactPatch& patch);
+
+  const HapticScene& scene_;
+  const haptics::Sliding& sliding_;
+  haptics::ContactTracker tracker_;
+  haptics::ContactPatches patches_;
+  std::unique_ptr<CsvWriter> contacts_out_;
+  std::unique_ptr<CsvWriter> patches_out_;
+};
+
+}  // namespace glissade::apps

@@ -1,0 +1,87 @@
+#pragma once
+
+/// The contacts as the user of a simulation wants them: those that touch, in an order that does not depend on how they
+/// were found, each with a number that it keeps over time. For lists, logs and displays; the simulation has no need of
+/// it.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/haptics/contact.h>
+#include <glissade/haptics/sliding_result.h>
+
+namespace glissade::haptics {
+
+/// A contact with its identity. Point, normal and gap are those at the visible pose.
+struct TrackedContact {
+  std::int64_t id = 0;   ///< from 1 on; each new contact has the next number
+  std::int64_t age = 0;  ///< updates since it got the number
+  Contact contact;
+};
+
+/// Follows the contacts of one part from one result to the next. Not thread-safe.
+///
+/// A contact **touches** when it pushes or its gap is at most two margins: contacts hold the part one margin away.
+///
+/// Contacts with one obstacle whose points lie within a margin and whose normals within 1° are **one** to the user: a
+/// vertex over the seam of several triangles of a plane, each of which counts it as over its inside, or an edge that
+/// crosses two others at the vertex they share. The one that comes first in the order of the list stands for all, with
+/// the sum of their forces.
+///
+/// A contact gets its number when it first touches, and **keeps** it until it neither pushes nor is nearer than three
+/// margins, so that one that flickers about the limit stays the same. It is the same contact from one update to the
+/// next when
+/// - obstacle, kind and features are the same; or else
+/// - it takes the place of one that has ended in the same update, of the same obstacle, with both contact points no
+///   further from the old ones than the part's motion there has carried that point (and three margins), and a normal
+///   within 10°. So a contact stays the same when its point passes from one triangle or edge to the next on a flat or
+///   smooth face, and becomes another where it goes round a corner. Of several that have ended, it continues one with
+///   which it has a feature in common, then the nearest, then the oldest.
+class ContactTracker {
+ public:
+  /// `margin` (metres) is that of the simulation, see `Sliding::margin`.
+  explicit ContactTracker(double margin) : margin_(margin) {}
+
+  /// The contacts that touch according to `result`, the next result of the same simulation, in ascending order of
+  /// obstacle, kind, the part's feature and the obstacle's. Simulations tell their contacts as
+  /// they were before the last cycle moved the part; here they are carried along with it, which is exact for
+  /// translations along a face. `obstacle_travel` (metres): no point of an obstacle has moved more since the last
+  /// update. Valid until the next update. Cost O(n log n) for n contacts; allocates only when there are more than ever
+  /// before.
+  std::span<const TrackedContact> update(const SlidingResult& result, double obstacle_travel = 0.0);
+
+  /// The contacts of the last update.
+  std::span<const TrackedContact> contacts() const { return touching_; }
+
+ private:
+  void take(const SlidingResult& result);
+  void unite_coincident();
+  void match_features();
+  void match_places(const Eigen::Isometry3d& X_WV, double obstacle_travel);
+  std::int32_t predecessor_of(const Contact& contact, double widest) const;
+  void number_new_ones();
+
+  bool touches(const Contact& contact) const { return contact.force > 0.0 || contact.gap <= 2.0 * margin_; }
+  bool lasts(const Contact& contact) const { return contact.force > 0.0 || contact.gap <= 3.0 * margin_; }
+
+  /// A contact of the last update that has ended, and how far its points can have come since.
+  struct Ended {
+    std::int32_t index;
+    double travel;
+    bool continued;
+  };
+
+  double margin_;
+  std::int64_t last_id_ = 0;
+  Eigen::Isometry3d X_WV_ = Eigen::Isometry3d::Identity();  // of the last update
+  std::vector<TrackedContact> before_;                      // in order
+  std::vector<TrackedContact> now_;                         // in order; id 0 until it is known
+  std::vector<std::int32_t> by_x_;                          // numbers in `now_`
+  std::vector<Ended> ended_;                                // by p_W.x
+  std::vector<TrackedContact> touching_;
+};
+
+}  // namespace glissade::haptics

@@ -1,0 +1,35 @@
+// What viewers and recorders are told of a tick.
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <glissade/haptics/haptic_sample.h>
+
+namespace glissade::haptics {
+namespace {
+
+using devices::PartState;
+using std::chrono::milliseconds;
+
+TEST(HapticSample, EveryStateOfTheSlidingIsToldByItsName) {
+  std::set<PartState> told;
+  for (const SlidingState state : {SlidingState::kReleased, SlidingState::kFree, SlidingState::kSliding,
+                                   SlidingState::kResting, SlidingState::kCatchingUp}) {
+    ContactSet set;
+    set.sequence = 1;
+    set.state = state;
+    const devices::HapticState sample = make_sample({}, set, Eigen::Vector3d::Zero(), milliseconds(1));
+    EXPECT_EQ(devices::name_of(sample.part_state), name_of(state));
+    told.insert(sample.part_state);
+  }
+  EXPECT_EQ(told.size(), 5u);
+}
+
+TEST(HapticSample, BeforeTheSimulationHasAnsweredTheStateIsUnknown) {
+  const devices::HapticState sample = make_sample({}, {}, Eigen::Vector3d::Zero(), milliseconds(1));
+  EXPECT_EQ(sample.part_state, PartState::kUnknown);
+}
+
+}  // namespace
+}  // namespace glissade::haptics

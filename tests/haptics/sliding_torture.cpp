@@ -1,0 +1,151 @@
+// Sliding contact under torture: random scenes of soups, sheets, slivers and needles from 1 mm to 5 m, random hands up
+// to 5 m/s that jump, press, turn and let go. Every visible pose and every path between two of them that is known is
+// checked by code that shares nothing with the simulation. The hash that is printed depends on the seed, the number of
+// scenes and the milliseconds only; with --again everything is run a second time on another number of threads, and the
+// hash must be the same.
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "sanitizers.h"
+#include "torture_run.h"
+
+namespace glissade::test_support {
+namespace {
+
+struct Arguments {
+  std::int64_t scenes = 1000;
+  int milliseconds = 1000;
+  std::uint64_t seed = 1;
+  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::int64_t only_scene = -1;
+  bool again = false;
+  bool quiet = false;
+};
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// A scene that cannot even be run is a fault of it.
+TortureCounts run_one(const Arguments& arguments, std::int64_t index) {
+  try {
+    return run_torture_scene(arguments.seed, index, arguments.milliseconds);
+  } catch (const std::exception& error) {
+    TortureCounts counts;
+    counts.fault_count = 1;
+    counts.faults.push_back(std::string(error.what()) + "\n  --seed " + std::to_string(arguments.seed) +
+                            " --only-scene " + std::to_string(index));
+    return counts;
+  }
+}
+
+// Scenes go to whichever thread is free; their counts are added up in their own order.
+TortureCounts run_all(const Arguments& arguments, int threads) {
+  if (arguments.only_scene >= 0) return run_one(arguments, arguments.only_scene);
+  const auto scenes = static_cast<std::size_t>(arguments.scenes);
+  std::vector<TortureCounts> counts(scenes);
+  std::atomic<std::size_t> next = 0;
+  std::atomic<std::size_t> done = 0;
+  const Stopwatch watch;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < scenes; i = next++) {
+      counts[i] = run_one(arguments, static_cast<std::int64_t>(i));
+      const std::size_t finished = ++done;
+      if (!arguments.quiet && (finished % 100 == 0 || finished == scenes))
+        std::fprintf(stderr, "\r%zu of %zu scenes, %.0f s", finished, scenes, watch.seconds());
+    }
+  };
+  std::vector<std::thread> crew;
+  for (int i = 0; i < threads; ++i)
+    crew.emplace_back(work);
+  for (std::thread& thread : crew)
+    thread.join();
+  if (!arguments.quiet) std::fprintf(stderr, "\n");
+  TortureCounts sum;
+  for (const TortureCounts& scene : counts)
+    sum.add(scene);
+  return sum;
+}
+
+long long count(std::int64_t number) {
+  return static_cast<long long>(number);
+}
+
+void print(const TortureCounts& c, double seconds) {
+  std::printf("%lld scenes, %lld ms in %.1f s: held %lld, pushed by contacts %lld, moved %lld\n", count(c.scenes),
+              count(c.ticks), seconds, count(c.held), count(c.pushed), count(c.moved));
+  std::printf("visible poses in collision       %lld\n", count(c.collisions));
+  std::printf("paths not proved free            %lld of %lld, and of the last steps of %lld more\n",
+              count(c.unproved_paths), count(c.paths), count(c.partial_paths));
+  std::printf("poses nearer than allowed        %lld, least distance %.4f of the floor\n", count(c.below_floor),
+              c.least_of_floor);
+  std::printf("poses or forces not finite       %lld\n", count(c.not_finite));
+  const double percent = 100.0 / static_cast<double>(std::max<std::int64_t>(1, c.wanted));
+  std::printf("jammed ticks                     %lld of %lld in which the part was wanted elsewhere (%.4f %%)\n",
+              count(c.jammed), count(c.wanted), percent * static_cast<double>(c.jammed));
+  std::printf("jammed where they started nearer than the floor, and not yet away from there: %lld\n",
+              count(c.jammed_near));
+  std::printf("standing still off balance       %lld (%.4f %%)\n", count(c.unbalanced),
+              percent * static_cast<double>(c.unbalanced));
+  std::printf("greatest force jump              %.3g kt (0.2 mm + |dG|), under force feedback\n", c.force_jump);
+  std::printf("hash                             %016llx\n", static_cast<unsigned long long>(c.hash));
+  constexpr std::size_t kPrinted = 10;
+  for (std::size_t i = 0; i < std::min(kPrinted, c.faults.size()); ++i)
+    std::printf("FAULT: %s\n", c.faults[i].c_str());
+  std::printf("%lld faults\n", count(c.fault_count));
+}
+
+bool torture(const Arguments& arguments) {
+  const Stopwatch watch;
+  const TortureCounts counts = run_all(arguments, arguments.threads);
+  print(counts, watch.seconds());
+  bool sound = counts.fault_count == 0 && counts.not_finite == 0;
+  if (arguments.again) {
+    const int threads = arguments.threads == 1 ? 2 : 1;
+    const TortureCounts second = run_all(arguments, threads);
+    const bool same = second.hash == counts.hash;
+    std::printf("again on %d thread%s: hash %s\n", threads, threads == 1 ? "" : "s", same ? "the same" : "DIFFERENT");
+    sound = sound && same;
+  }
+  return sound;
+}
+
+}  // namespace
+}  // namespace glissade::test_support
+
+int main(int argc, char** argv) {
+  using namespace glissade::test_support;
+  Arguments arguments;
+  CLI::App app{"Random scenes and hands for sliding contact, with every visible pose and path checked independently"};
+  app.add_option("--scenes", arguments.scenes, "How many scenes; a twentieth under a sanitizer")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--ms", arguments.milliseconds, "Milliseconds of each scene")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--seed", arguments.seed, "Seed of everything random")->capture_default_str();
+  app.add_option("--threads", arguments.threads, "Threads that scenes are spread over")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  app.add_option("--only-scene", arguments.only_scene, "Repeat the one scene that a fault names")
+      ->check(CLI::NonNegativeNumber);
+  app.add_flag("--again", arguments.again, "Run all of it again on another number of threads and compare the hashes");
+  app.add_flag("--quiet", arguments.quiet, "No progress");
+  CLI11_PARSE(app, argc, argv);
+  if (kSanitized) arguments.scenes = std::max<std::int64_t>(1, arguments.scenes / 20);
+  return torture(arguments) ? 0 : 1;
+}

@@ -1,0 +1,314 @@
+#include "torture_run.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <glissade/collision/grid_check.h>
+#include <glissade/haptics/coupling.h>
+#include <glissade/haptics/sliding.h>
+
+#include "random_numbers.h"
+#include "swept_check.h"
+#include "torture_scene.h"
+
+namespace glissade::test_support {
+namespace {
+
+using namespace haptics;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// A part is wanted elsewhere when it is further away than this, or the ghost has moved by more than that in this tick.
+constexpr double kFarFromGhost_m = 0.1e-3;
+constexpr double kGhostMoves_m = 10e-6;
+// A part that stands still is jammed if a step of this length is free and brings it nearer. It is so short that the
+// motion of a turning part is straight to a thousandth.
+constexpr double kLongestTrial_m = 20e-6;
+constexpr double kTrialOfRadius = 2e-3;
+constexpr double kStraight = 1e-3;
+constexpr std::int64_t kMostFaultsTold = 5;  // of one scene
+constexpr std::size_t kMostTrialRows = 2000;
+
+constexpr std::uint64_t kFnvOffset = 14695981039346656037U;
+constexpr std::uint64_t kFnvPrime = 1099511628211U;
+
+void mix(std::uint64_t value, std::uint64_t& hash) {
+  for (int byte = 0; byte < 8; ++byte) {
+    hash = (hash ^ (value & 0xff)) * kFnvPrime;
+    value >>= 8;
+  }
+}
+
+void mix(double value, std::uint64_t& hash) {
+  mix(std::bit_cast<std::uint64_t>(value), hash);
+}
+
+SlidingOptions random_options(Metaphor metaphor, const SlidingPart& part, RandomNumbers& random) {
+  SlidingOptions options;
+  options.metaphor = metaphor;
+  constexpr std::array<int, 5> kCycles{1, 1, 2, 10, 10};
+  options.max_cycles = kCycles[static_cast<std::size_t>(random.integer(0, 4))];
+  if (random.chance(0.2)) {
+    const double translational = random.power_of_ten(1.0, 4.0);
+    options.stiffness = {translational, translational * part.radius() * part.radius() * random.power_of_ten(-1.0, 1.0)};
+  }
+  return options;
+}
+
+class TortureRun {
+ public:
+  TortureRun(std::uint64_t seed, std::int64_t index)
+      : random_(seed * 1'000'003 + static_cast<std::uint64_t>(index)),
+        label_("--seed " + std::to_string(seed) + " --only-scene " + std::to_string(index)),
+        scene_(random_torture_scene(random_)),
+        metaphor_(static_cast<Metaphor>(index % std::ssize(kMetaphorNames))),
+        options_(random_options(metaphor_, *scene_.part_V, random_)),
+        sliding_(scene_.obstacles, scene_.part_V, scene_.X_WV_start, options_),
+        hand_(scene_, random_),
+        grid_(placed()),
+        swept_(scene_.obstacles, scene_.part_V->tree.mesh(), scene_.part_V->p_Vref()) {
+    milliseconds_ = random_.chance(0.1) ? 3.0 : 1.0;
+    distance_ = swept_.distance(scene_.X_WV_start, sliding_.margin());
+    started_near_ = distance_ < sliding_.floor();
+    counts_.scenes = 1;
+    counts_.hash = kFnvOffset;
+  }
+
+  TortureCounts run(int ticks) {
+    for (tick_ = 0; tick_ < ticks; ++tick_)
+      tick();
+    return counts_;
+  }
+
+ private:
+  std::vector<collision::PlacedMesh> placed() const {
+    std::vector<collision::PlacedMesh> meshes;
+    for (const Obstacle& obstacle : scene_.obstacles)
+      meshes.push_back({std::make_shared<collision::TriangleMesh>(obstacle.body->tree.mesh()), obstacle.X_WO});
+    return meshes;
+  }
+
+  const SlidingPart& part() const { return *scene_.part_V; }
+
+  double length(const Displacement& d) const { return motion_bound(d, part().radius()); }
+
+  Displacement between(const Isometry3d& from, const Isometry3d& to) const {
+    return displacement_between(from, to, part().p_Vref());
+  }
+
+  void fault(const std::string& what) {
+    if (++counts_.fault_count > kMostFaultsTold) return;
+    counts_.faults.push_back(what + "\n  " + label_ + ", tick " + std::to_string(tick_) + ", " +
+                             std::string(name_of(metaphor_)) + ", at most " + std::to_string(options_.max_cycles) +
+                             " cycles, " + scene_.description);
+  }
+
+  void tick() {
+    const Isometry3d X_WG_then = sliding_.result().X_WG;
+    const Isometry3d X_WV_then = sliding_.result().X_WV;
+    const Isometry3d& X_WG = hand_.next();
+    const bool released = sliding_.result().state == SlidingState::kReleased;
+    if (!hand_.holds() && !released) sliding_.release();
+    const bool grasps = hand_.holds() && released;
+    if (grasps) sliding_.grasp(X_WG);
+    const SlidingResult& result = sliding_.advance(X_WG, milliseconds_);
+    ++counts_.ticks;
+    counts_.held += hand_.holds() ? 1 : 0;
+    counts_.pushed += result.pushing > 0 ? 1 : 0;
+    record(result);
+    if (!result.X_WV.matrix().allFinite()) {
+      ++counts_.not_finite;
+      fault("the visible pose is not finite");
+      return;
+    }
+    if (result.X_WV.matrix() != X_WV_then.matrix()) {
+      ++counts_.moved;
+      check_pose(result.X_WV);
+      check_path(X_WV_then, result);
+      check_distance(result);
+    }
+    if (hand_.holds()) {
+      const double ghost_motion = grasps ? 0.0 : length(between(X_WG_then, result.X_WG));
+      check_force(ghost_motion);
+      check_progress(length(between(X_WV_then, result.X_WV)), ghost_motion);
+    }
+    was_held_ = hand_.holds();
+  }
+
+  void record(const SlidingResult& result) {
+    for (int column = 0; column < 4; ++column) {
+      for (int row = 0; row < 3; ++row)
+        mix(result.X_WV(row, column), counts_.hash);
+    }
+    mix(static_cast<std::uint64_t>(result.state), counts_.hash);
+    for (const Contact& contact : result.contacts) {
+      mix(contact.force, counts_.hash);
+      if (!std::isfinite(contact.force)) ++counts_.not_finite;
+    }
+  }
+
+  void check_pose(const Isometry3d& X_WV) {
+    if (!grid_.collides(part().tree.mesh(), X_WV)) return;
+    ++counts_.collisions;
+    fault("the visible part collides");
+  }
+
+  // A call with one cycle is one motion, one with two cycles two, at whose meeting the last contacts were found. Of
+  // more cycles the last one is known.
+  void check_path(const Isometry3d& X_WV_then, const SlidingResult& result) {
+    const bool known = result.cycles <= 2;
+    ++(known ? counts_.paths : counts_.partial_paths);
+    const auto check = [&](const Isometry3d& from, const Isometry3d& to) {
+      if (from.matrix() == to.matrix()) return;
+      const std::optional<std::string> what = swept_.fault_of(from, between(from, to));
+      if (!what) return;
+      ++counts_.unproved_paths;
+      fault(*what);
+    };
+    if (known) check(X_WV_then, result.X_WV_of_contacts);
+    check(result.X_WV_of_contacts, result.X_WV);
+  }
+
+  // Each cycle may take a twentieth of what is below the floor.
+  void check_distance(const SlidingResult& result) {
+    const double before = distance_;
+    distance_ = swept_.distance(result.X_WV, sliding_.margin());
+    if (distance_ >= sliding_.floor()) started_near_ = false;
+    if (!started_near_) counts_.least_of_floor = std::min(counts_.least_of_floor, distance_ / sliding_.floor());
+    const double magnitude = result.X_WV.translation().cwiseAbs().maxCoeff() + part().radius();
+    const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * magnitude;
+    const double allowed = before >= sliding_.floor() ? sliding_.floor() : std::pow(0.95, result.cycles) * before;
+    if (distance_ >= allowed * (1.0 - 1e-9) - rounding) return;
+    ++counts_.below_floor;
+    char text[160];
+    std::snprintf(text, sizeof text, "the distance is %.6g m, before it was %.6g m, the floor is %.6g m", distance_,
+                  before, sliding_.floor());
+    fault(text);
+  }
+
+  void check_force(double ghost_motion) {
+    const Vector3d force = spring_wrench(sliding_.stiffness(), sliding_.error()).f;
+    if (!force.allFinite()) ++counts_.not_finite;
+    const double allowed = sliding_.stiffness().translational * (kSlew_m * milliseconds_ + ghost_motion);
+    if (was_held_ && metaphor_ == Metaphor::kForceFeedback)
+      counts_.force_jump = std::max(counts_.force_jump, (force - force_).norm() / allowed);
+    force_ = force;
+  }
+
+  // Whether a part that stands still although it is wanted elsewhere had to.
+  void check_progress(double moved, double ghost_motion) {
+    const Displacement error = sliding_.error();
+    const double away = length(error);
+    if (!(away > kFarFromGhost_m || (ghost_motion > kGhostMoves_m && away > kGhostMoves_m))) return;
+    ++counts_.wanted;
+    if (moved >= 0.05 * sliding_.margin()) return;
+    if (length(unbalanced_step(error)) > kGhostMoves_m) ++counts_.unbalanced;
+    if (could_move(error)) ++(started_near_ ? counts_.jammed_near : counts_.jammed);
+  }
+
+  // The displacement that what is left of the spring's force, after the contacts' forces, would lead to.
+  Displacement unbalanced_step(const Displacement& error) const {
+    const CouplingStiffness& k = sliding_.stiffness();
+    Vector3d f = k.translational * error.v;
+    Vector3d t = k.rotational * error.w;
+    const Vector3d p_Wref = sliding_.result().X_WV * part().p_Vref();
+    for (const Contact& contact : sliding_.result().contacts) {
+      f += contact.force * contact.n_W;
+      t += contact.force * (contact.p_W - p_Wref).cross(contact.n_W);
+    }
+    return {f / k.translational, t / k.rotational};
+  }
+
+  // Projects the error on planes across the shortest lines between near triangles, and tries a short step that way: it
+  // counts if it is proved free, does not go into the margin any further, and lowers the energy by a hundredth of what
+  // the spring's force would do along its own direction.
+  bool could_move(const Displacement& error) {
+    const CouplingStiffness& k = sliding_.stiffness();
+    const double margin = sliding_.margin();
+    const double step = std::min(kLongestTrial_m, kTrialOfRadius * part().radius());
+    const Isometry3d& X_WV = sliding_.result().X_WV;
+    if (!project_on_near_pairs(error, X_WV, margin + 1.5 * step)) return false;
+    if (length(projection_.displacement) < step) return false;
+    const Displacement trial =
+        projection_.displacement.scaled(fraction_within(projection_.displacement, part().radius(), step));
+    const Isometry3d X_WV_trial = displaced(X_WV, part().p_Vref(), trial);
+    const auto energy = [&](const Displacement& d) {
+      return 0.5 * (k.translational * d.v.squaredNorm() + k.rotational * d.w.squaredNorm());
+    };
+    const double before = energy(error);
+    const double gain = before - energy(between(X_WV_trial, sliding_.result().X_WT));
+    if (gain < 0.01 * std::sqrt(2.0 * before * k.translational) * step) return false;
+    if (swept_.distance(X_WV_trial, margin) < swept_.distance(X_WV, margin) - kStraight * step) return false;
+    return !swept_.fault_of(X_WV, trial);
+  }
+
+  bool project_on_near_pairs(const Displacement& error, const Isometry3d& X_WV, double reach) {
+    const Vector3d p_Wref = X_WV * part().p_Vref();
+    const auto& near = swept_.near_pairs(X_WV, reach, kMostTrialRows);
+    if (near.size() == kMostTrialRows) return false;
+    rows_.clear();
+    for (const SweptCheck::NearPair& pair : near) {
+      if (pair.distance == 0.0) return false;
+      const Vector3d n = (pair.p_part - pair.p_obstacle) / pair.distance;
+      rows_.push_back({n, pair.p_part - p_Wref, std::min(0.0, sliding_.margin() - pair.distance)});
+    }
+    projection_ = project(error, sliding_.stiffness(), rows_);
+    return projection_.status == ProjectionStatus::kSolved;
+  }
+
+  RandomNumbers random_;
+  std::string label_;
+  TortureScene scene_;
+  Metaphor metaphor_;
+  SlidingOptions options_;
+  Sliding sliding_;
+  TortureHand hand_;
+  collision::GridCheck grid_;
+  SweptCheck swept_;
+  double milliseconds_;
+  double distance_;
+  bool started_near_;
+  bool was_held_ = false;
+  Vector3d force_ = Vector3d::Zero();
+  int tick_ = 0;
+  std::vector<ConstraintRow> rows_;
+  Projection projection_;
+  TortureCounts counts_;
+};
+
+}  // namespace
+
+void TortureCounts::add(const TortureCounts& later) {
+  scenes += later.scenes;
+  ticks += later.ticks;
+  held += later.held;
+  pushed += later.pushed;
+  moved += later.moved;
+  collisions += later.collisions;
+  paths += later.paths;
+  partial_paths += later.partial_paths;
+  unproved_paths += later.unproved_paths;
+  below_floor += later.below_floor;
+  least_of_floor = std::min(least_of_floor, later.least_of_floor);
+  not_finite += later.not_finite;
+  wanted += later.wanted;
+  jammed += later.jammed;
+  jammed_near += later.jammed_near;
+  unbalanced += later.unbalanced;
+  force_jump = std::max(force_jump, later.force_jump);
+  mix(later.hash, hash);
+  fault_count += later.fault_count;
+  faults.insert(faults.end(), later.faults.begin(), later.faults.end());
+}
+
+TortureCounts run_torture_scene(std::uint64_t seed, std::int64_t index, int milliseconds) {
+  return TortureRun(seed, index).run(milliseconds);
+}
+
+}  // namespace glissade::test_support

@@ -1,0 +1,61 @@
+#pragma once
+
+/// Random scenes and random hands for sliding contact: soups, sheets, slivers, needles and smooth surfaces from 1 mm to
+/// 5 m, and ghosts that wander, press, turn, jump and let go. A seed gives a scene, whatever the machine or thread.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/haptics/contact_body.h>
+#include <glissade/haptics/surroundings.h>
+
+#include "random_numbers.h"
+
+namespace glissade::test_support {
+
+/// A part among obstacles, free of collision by `GridCheck`.
+struct TortureScene {
+  std::string description;
+  double size = 1.0;  ///< about the part's radius, metres
+  double room = 1.0;  ///< half the edge of the cube about `origin` that everything lies in, metres
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  std::vector<haptics::Obstacle> obstacles;
+  std::shared_ptr<const haptics::SlidingPart> part_V;
+  Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
+};
+
+TortureScene random_torture_scene(RandomNumbers& random);
+
+/// A hand that holds the part, in stretches of 20 to 200 ms of one kind of motion each.
+class TortureHand {
+ public:
+  TortureHand(const TortureScene& scene, RandomNumbers& random);
+
+  /// Where the ghost is a millisecond later.
+  const Eigen::Isometry3d& next();
+
+  /// Whether the hand holds the part in this millisecond.
+  bool holds() const { return motion_ != Motion::kReleased; }
+
+ private:
+  enum class Motion { kGo, kPress, kTurn, kWalk, kRest, kReleased };
+  void begin_stretch();
+  Eigen::Vector3d random_place();
+
+  const TortureScene& scene_;
+  RandomNumbers& random_;
+  Eigen::Isometry3d X_WG_;
+  Motion motion_ = Motion::kRest;
+  int ticks_left_ = 0;
+  Eigen::Vector3d target_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d axis_ = Eigen::Vector3d::UnitX();
+  double speed_ = 0.0;       // metres in a tick
+  double turn_speed_ = 0.0;  // radians in a tick
+};
+
+}  // namespace glissade::test_support
