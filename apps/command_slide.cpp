@@ -20,7 +20,7 @@
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
 #include <glissade/haptics/coupling.h>
-#include <glissade/haptics/sliding.h>
+#include <glissade/haptics/sliding_method.h>
 
 namespace glissade::apps {
 
@@ -45,6 +45,10 @@ constexpr const char* kFooter =
     "on part and obstacle, the normal from obstacle to part, gap, force along the normal, and age. --patches has the\n"
     "same merged, where contacts lie in one plane: centre and sum of the forces on the part, their number and extent.\n"
     "\n"
+    "Methods:\n"
+    "  projection          the default: contacts within reach, projection, and a proof for every step\n"
+    "  paper               the founding paper's: bisection to the contact, its class, a new direction; for comparison\n"
+    "\n"
     "Several trajectories, or --summary or --report, ask for an assembly check: one row for each trajectory, which\n"
     "tells whether the part came to the scene's goal (or else to where its trajectory ends), how far from it it was\n"
     "left, the greatest force and torque on the hand, the least clearance and when, and for how long contacts pushed.\n"
@@ -59,6 +63,7 @@ struct Options {
   std::string part;
   std::vector<std::string> trajectories;
   std::string metaphor = "force-feedback";
+  std::string method = "projection";
   std::string out;
   SlideContactsFiles contacts;
   std::string summary;
@@ -75,6 +80,12 @@ haptics::Metaphor parse_metaphor(const std::string& name) {
   throw std::invalid_argument("--metaphor: '" + name + "' is unknown; known are " + joined(haptics::kMetaphorNames));
 }
 
+haptics::SlidingMethod parse_method(const std::string& name) {
+  const auto method = haptics::sliding_method_from_name(name);
+  if (method) return *method;
+  throw std::invalid_argument("--method: '" + name + "' is unknown; known are " + joined(haptics::kSlidingMethodNames));
+}
+
 std::vector<std::string> columns() {
   return {"t_s", "gx_m", "gy_m", "gz_m", "gqw",  "gqx",  "gqy",   "gqz",   "vx_m",  "vy_m",     "vz_m", "vqw",
           "vqx", "vqy",  "vqz",  "fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm", "contacts", "state"};
@@ -87,7 +98,7 @@ void add_pose(CsvWriter& out, const Eigen::Isometry3d& X) {
   out.add(q.w()).add(q.x()).add(q.y()).add(q.z());
 }
 
-void add_row(CsvWriter& out, double time_s, const haptics::Sliding& sliding) {
+void add_row(CsvWriter& out, double time_s, const haptics::SlidingSimulation& sliding) {
   const haptics::SlidingResult& result = sliding.result();
   const Eigen::Vector3d& p_Vref = sliding.part().p_Vref();
   const haptics::Wrench wrench = haptics::about_point(haptics::spring_wrench(sliding.stiffness(), sliding.error()),
@@ -104,11 +115,11 @@ void add_row(CsvWriter& out, double time_s, const haptics::Sliding& sliding) {
   out.end_row();
 }
 
-std::unique_ptr<haptics::Sliding> start(const HapticScene& scene, const Eigen::Isometry3d& X_WV_start,
-                                        haptics::Metaphor metaphor, const std::string& trajectory) {
+std::unique_ptr<haptics::SlidingSimulation> start(const HapticScene& scene, const Eigen::Isometry3d& X_WV_start,
+                                                  const SlideCheckOptions& options, const std::string& trajectory) {
   try {
-    return std::make_unique<haptics::Sliding>(scene.obstacles, scene.part_V, X_WV_start,
-                                              haptics::SlidingOptions{.metaphor = metaphor});
+    return haptics::make_sliding(options.method, scene.obstacles, scene.part_V, X_WV_start,
+                                 {.metaphor = options.metaphor});
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(trajectory + ": " + error.what() + ", the pose of the first row");
   }
@@ -128,10 +139,10 @@ devices::PoseTrajectory read(const std::string& file) {
   return trajectory;
 }
 
-void slide(const HapticScene& scene, haptics::Metaphor metaphor, const Options& options) {
+void slide(const HapticScene& scene, const SlideCheckOptions& check_options, const Options& options) {
   const std::string& file = options.trajectories.front();
   const devices::PoseTrajectory trajectory = read(file);
-  const auto sliding = start(scene, trajectory.pose_at(trajectory.first_time()), metaphor, file);
+  const auto sliding = start(scene, trajectory.pose_at(trajectory.first_time()), check_options, file);
 
   using std::chrono::milliseconds;
   const std::int64_t ticks = trajectory.duration() / milliseconds(1);
@@ -175,8 +186,7 @@ std::vector<SlideCheck> check_all(const HapticScene& scene, const std::vector<st
   return checks;
 }
 
-int check(const HapticScene& scene, haptics::Metaphor metaphor, const Options& options) {
-  const SlideCheckOptions check_options{metaphor, options.goal_tolerance_m, options.goal_tolerance_deg};
+int check(const HapticScene& scene, const SlideCheckOptions& check_options, const Options& options) {
   if (!options.report.empty()) prepare_report_folder(options.report);
   const std::vector<SlideCheck> checks = check_all(scene, options.trajectories, check_options);
   if (!options.summary.empty() || options.report.empty()) {
@@ -207,7 +217,8 @@ void check_contact_files(const Options& options) {
 }
 
 int run(const Options& options) {
-  const haptics::Metaphor metaphor = parse_metaphor(options.metaphor);
+  const SlideCheckOptions check_options{parse_metaphor(options.metaphor), parse_method(options.method),
+                                        options.goal_tolerance_m, options.goal_tolerance_deg};
   if (options.is_check() && !options.out.empty()) {
     throw std::invalid_argument("--out: is for the rows of one trajectory; a check writes to --summary and --report");
   }
@@ -218,8 +229,8 @@ int run(const Options& options) {
     }
   }
   const HapticScene scene = make_haptic_scene(read_scene(options.scene), options.part);
-  if (options.is_check()) return check(scene, metaphor, options);
-  slide(scene, metaphor, options);
+  if (options.is_check()) return check(scene, check_options, options);
+  slide(scene, check_options, options);
   return 0;
 }
 
@@ -235,6 +246,7 @@ void add_slide_command(CLI::App& app, Command& chosen) {
       ->add_option("--trajectory", options->trajectories, "Poses of the ghost over time (CSV), see below; or several")
       ->required();
   command->add_option("--metaphor", options->metaphor, "How hand and part are tied")->capture_default_str();
+  command->add_option("--method", options->method, "How sliding is computed")->capture_default_str();
   command->add_option("--out", options->out, "CSV file for the answer (default: standard output)");
   command->add_option("--contacts", options->contacts.contacts, "CSV file for the contacts, see below");
   command->add_option("--patches", options->contacts.patches, "CSV file for the contacts merged to patches, see below");

@@ -2,8 +2,8 @@
 #include <chrono>
 #include <cstdio>
 #include <limits>
+#include <memory>
 #include <numbers>
-#include <optional>
 #include <stdexcept>
 
 #include <glissade/apps/csv.h>
@@ -74,10 +74,10 @@ SlideCheck check_slide(const HapticScene& scene, const devices::PoseTrajectory& 
   check.force.name = name;
   check.duration_s = seconds(trajectory.duration());
   check.clearance_min_m = std::numeric_limits<double>::infinity();
-  std::optional<haptics::Sliding> sliding;
+  std::unique_ptr<haptics::SlidingSimulation> sliding;
   try {
-    sliding.emplace(scene.obstacles, scene.part_V, trajectory.pose_at(trajectory.first_time()),
-                    haptics::SlidingOptions{.metaphor = options.metaphor});
+    sliding = haptics::make_sliding(options.method, scene.obstacles, scene.part_V,
+                                    trajectory.pose_at(trajectory.first_time()), {.metaphor = options.metaphor});
   } catch (const std::invalid_argument& error) {
     check.problem = std::string(error.what()) + ", the pose of the first row";
     return check;
@@ -123,6 +123,7 @@ Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks
                                      [](const SlideCheck& check) { return !check.problem && check.goal_reached; });
   report.summary.emplace_back("scene", scene.source);
   report.summary.emplace_back("metaphor", std::string(haptics::name_of(options.metaphor)));
+  report.summary.emplace_back("method", std::string(haptics::name_of(options.method)));
   report.summary.emplace_back("goal reached", std::to_string(reached) + " of " + std::to_string(checks.size()));
   for (const SlideCheck& check : checks)
     report.summary.emplace_back(check.trajectory, verdict(check));

@@ -13,12 +13,13 @@
 #include <glissade/apps/plot.h>
 #include <glissade/devices/pose_trajectory.h>
 #include <glissade/haptics/coupling.h>
-#include <glissade/haptics/sliding.h>
+#include <glissade/haptics/sliding_method.h>
 
 namespace glissade::apps {
 
 struct SlideCheckOptions {
   haptics::Metaphor metaphor = haptics::Metaphor::kForceFeedback;
+  haptics::SlidingMethod method = haptics::SlidingMethod::kProjection;
   double goal_tolerance_m = 0.3e-3;
   double goal_tolerance_deg = 0.5;
 };

@@ -42,7 +42,7 @@ void check_names(const HapticScene& scene) {
 }  // namespace
 
 SlideContactsWriter::SlideContactsWriter(const SlideContactsFiles& files, const HapticScene& scene,
-                                         const haptics::Sliding& sliding)
+                                         const haptics::SlidingSimulation& sliding)
     : scene_(scene), sliding_(sliding), tracker_(sliding.margin()), patches_(sliding.part().radius()) {
   check_names(scene);
   if (!files.contacts.empty()) contacts_out_ = std::make_unique<CsvWriter>(files.contacts, contact_columns());

@@ -10,7 +10,7 @@
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/haptics/contact_patches.h>
 #include <glissade/haptics/contact_tracker.h>
-#include <glissade/haptics/sliding.h>
+#include <glissade/haptics/sliding_simulation.h>
 
 namespace glissade::apps {
 
@@ -27,7 +27,7 @@ class SlideContactsWriter {
  public:
   /// Throws std::invalid_argument when a file cannot be created, and, naming scene and object, for an obstacle whose
   /// name no cell of a CSV file can hold. `scene` and `sliding` must outlive this object.
-  SlideContactsWriter(const SlideContactsFiles& files, const HapticScene& scene, const haptics::Sliding& sliding);
+  SlideContactsWriter(const SlideContactsFiles& files, const HapticScene& scene, const haptics::SlidingSimulation& sliding);
 
   /// The rows of the newest result, told as those of `time_s`. Once for every call of `advance`.
   void write(double time_s);
@@ -40,7 +40,7 @@ class SlideContactsWriter {
   void write_patch(double time_s, const haptics::ContactPatch& patch);
 
   const HapticScene& scene_;
-  const haptics::Sliding& sliding_;
+  const haptics::SlidingSimulation& sliding_;
   haptics::ContactTracker tracker_;
   haptics::ContactPatches patches_;
   std::unique_ptr<CsvWriter> contacts_out_;

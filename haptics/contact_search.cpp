@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <glissade/haptics/contact_search.h>
 
 #include "triangle_features.h"
@@ -8,6 +10,9 @@ namespace {
 using collision::MeshTopology;
 using collision::TriangleMesh;
 using collision::TrianglePoints;
+
+/// What part of the margin two gaps that count as the same may differ by.
+constexpr double kAsNear = 0.1;
 
 /// One side of a pair, part or obstacle: its mesh in world coordinates and what its triangle answers for.
 class Side {
@@ -49,6 +54,15 @@ class Side {
   }
   bool edge_is_nearest(int i, const Eigen::Vector3d& n, double tolerance) const {
     return none_nearer(topology_->apexes_of(edge(i)), corner(i), n, tolerance);
+  }
+  /// The edge of the selected triangle, not flat, that x lies within `tolerance` of; −1 if there is none.
+  std::int32_t rim_near(const Eigen::Vector3d& x, double tolerance) const {
+    for (int i = 0; i < 3; ++i) {
+      if (topology_->edges()[static_cast<std::size_t>(edge(i))].flat) continue;
+      const Eigen::Vector3d along = corner((i + 1) % 3) - corner(i);
+      if (along.cross(x - corner(i)).squaredNorm() <= tolerance * tolerance * along.squaredNorm()) return edge(i);
+    }
+    return -1;
   }
 
  private:
@@ -92,7 +106,48 @@ class ContactSearch {
     }
   }
 
+  /// A vertex over a face, no further from a rim of it than the margin, where one of its edges crosses that rim: past
+  /// the rim there is room, which both constraints together would deny. The one of the edges is as near, and enough.
+  void leave_out_what_rims_hold() {
+    std::size_t kept = 0;
+    auto rim = rims_.begin();
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      const bool is_at_rim = rim != rims_.end() && rim->contact == i;
+      if (!(is_at_rim && rim_holds(contacts_[i], rim->edge))) contacts_[kept++] = contacts_[i];
+      if (is_at_rim) ++rim;
+    }
+    contacts_.resize(kept);
+  }
+
  private:
+  /// A contact of a vertex that is over a face near an edge of it.
+  struct AtRim {
+    std::size_t contact;
+    std::int32_t edge;
+  };
+
+  /// Of the contact that is added next.
+  void note_rim(std::int32_t edge) {
+    if (edge >= 0) rims_.push_back({contacts_.size(), edge});
+  }
+
+  bool rim_holds(const Contact& contact, std::int32_t edge) const {
+    const bool is_part_vertex = contact.kind == ContactKind::kVertexFace;
+    const auto body = static_cast<std::size_t>(is_part_vertex ? contact.part + first_part_ : contact.obstacle);
+    const MeshTopology& topology = bodies_[body].body->topology;
+    const std::int32_t vertex = is_part_vertex ? contact.part_feature : contact.obstacle_feature;
+    return std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact& other) {
+      if (other.kind != ContactKind::kEdgeEdge || other.part != contact.part || other.obstacle != contact.obstacle ||
+          other.gap > contact.gap + kAsNear * margin_ ||
+          (is_part_vertex ? other.obstacle_feature : other.part_feature) != edge) {
+        return false;
+      }
+      const std::int32_t crossing = is_part_vertex ? other.part_feature : other.obstacle_feature;
+      const auto& ends = topology.edges()[static_cast<std::size_t>(crossing)].vertices;
+      return ends[0] == vertex || ends[1] == vertex;
+    });
+  }
+
   void search_part_corner(int i) {
     const Eigen::Vector3d& x = part_.corner(i);
     const ClosestOnTriangle on = closest_on_triangle(x, obstacle_.points());
@@ -101,6 +156,7 @@ class ContactSearch {
     if (gap < 0.0) return;
     switch (on.region) {
       case Region::kFace:
+        note_rim(obstacle_.rim_near(on.point, margin_));
         add(ContactKind::kVertexFace, part_.vertex(i), obstacle_.triangle(), n, x, gap);
         break;
       case Region::kEdge:
@@ -125,6 +181,7 @@ class ContactSearch {
     const double gap = gap_and_normal(y, on.point, n);
     if (gap < 0.0 || on.region == Region::kVertex) return;  // vertex–vertex is found from the part's side
     if (on.region == Region::kFace) {
+      note_rim(part_.rim_near(on.point, margin_));
       add(ContactKind::kFaceVertex, part_.triangle(), obstacle_.vertex(i), n, on.point, gap);
     } else if (part_.owns_edge(on.index) && part_.edge_is_nearest(on.index, n, margin_) &&
                obstacle_.corner_is_nearest(i, n, margin_)) {
@@ -171,6 +228,7 @@ class ContactSearch {
   double reach_;
   double margin_;
   std::vector<Contact>& contacts_;
+  std::vector<AtRim> rims_;  // ascending
 };
 
 }  // namespace
@@ -182,6 +240,7 @@ void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part,
   ContactSearch search(bodies, first_part, reach, margin, contacts);
   for (const CandidatePair& pair : candidates)
     search.search(pair);
+  search.leave_out_what_rims_hold();
 }
 
 }  // namespace glissade::haptics

@@ -67,8 +67,8 @@ void check(const std::vector<HeldPart>& parts, const SlidingRules& rules) {
   }
 }
 
-/// The largest fraction of a displacement of the part that lets its lag, which has changed by `change` already, change by
-/// no more than `most` metres, or than it has.
+/// The largest fraction of a displacement of the part that lets its lag, which has changed by `change` already, change
+/// by no more than `most` metres, or than it has.
 double fraction_with_lag(const Displacement& change, const Displacement& d, double radius, double most) {
   const auto changed = [&](double fraction) {
     return (change.v - fraction * d.v).norm() + radius * (change.w - fraction * d.w).norm();
@@ -167,7 +167,29 @@ void JointSliding::find_overlaps(const std::vector<HeldPart>& parts) {
     throw std::invalid_argument(parts[static_cast<std::size_t>(pair.part) - obstacles.size()].name + " collides with " +
                                 name + " at its start pose");
   }
+  candidates_.refresh(kFloorOfMargin * largest_margin_, overlaps_.pairs());
+  for (const CandidatePair& pair : candidates_.within(kFloorOfMargin * largest_margin_)) {
+    if (pair.distance >= surroundings_.floor(pair.obstacle, pair.part)) continue;
+    surroundings_.start_near(pair.obstacle, pair.part, pair.distance);
+    const BodyPair bodies{pair.obstacle, pair.part};
+    if (std::find(near_starts_.begin(), near_starts_.end(), bodies) == near_starts_.end())
+      near_starts_.push_back(bodies);
+  }
   candidates_.clear();
+}
+
+/// Bodies that started nearer to each other than their floor get it back as they come apart. Needs fresh candidates.
+void JointSliding::raise_floors() {
+  std::erase_if(near_starts_, [&](const BodyPair& bodies) {
+    double nearest = kUnbounded;
+    for (const CandidatePair& pair : candidates_.within(kFloorOfMargin * largest_margin_)) {
+      if (BodyPair{pair.obstacle, pair.part} == bodies) nearest = std::min(nearest, pair.distance);
+    }
+    if (0.95 * nearest > surroundings_.floor(bodies.obstacle, bodies.part)) {
+      surroundings_.start_near(bodies.obstacle, bodies.part, nearest);
+    }
+    return nearest == kUnbounded;
+  });
 }
 
 void JointSliding::grasp(std::size_t part, const Eigen::Isometry3d& X_WG) {
@@ -315,6 +337,7 @@ void JointSliding::refresh_candidates() {
   for (const Part& part : parts_)
     ghosts += part.ghost_motion;
   candidates_.refresh(reach_ + std::clamp(4.0 * ghosts, 30e-6, kMostLookAhead_m), overlaps_.pairs());
+  raise_floors();
   const bool too_many = candidates_.size() > kAffordablePairs;
   reach_limit_ = std::clamp((too_many ? 0.5 : 1.25) * reach_limit_, kSmallestReachLimit_m, kLargestReach_m);
 }
@@ -392,9 +415,11 @@ JointSliding::Step JointSliding::certified_step(std::span<const Displacement> wa
   rows_.resize(contacts_.size());
   proof_contacts_.clear();
   Step step;
+  Step first;  // what the contacts alone allow
   bool proved = false;
-  for (int projection = 0; projection < kProjections && !proved; ++projection) {
-    if (projection > 0) add_rows_for_failures();
+  int projections = 0;
+  for (; projections < kProjections && !proved; ++projections) {
+    if (projections > 0) add_rows_for_failures();
     if (!project_on_rows(wanted)) return {.clipped = true};
     const std::array<double, kMaxParts> fractions = allowed_fractions(projected_);
     Displacements shortened;
@@ -405,6 +430,15 @@ JointSliding::Step JointSliding::certified_step(std::span<const Displacement> wa
       step.clipped = step.clipped || fractions[p] < 1.0;
     }
     proved = prove(shortened, step);
+    if (projections > 0) continue;
+    first = step;
+    first_forces_ = forces_;
+  }
+  // Rows for failed proofs forbid more than they must, and may leave nothing where a shorter step would be free.
+  if (proved && projections > 1 && step.length < kNotWorthIt * largest_margin_) {
+    proved = false;
+    step = first;
+    forces_ = first_forces_;
   }
   for (int halving = 0; halving < kHalvings && !proved; ++halving) {
     Displacements half;

@@ -123,6 +123,7 @@ class JointSliding {
   bool is_held(const Part& part) const { return part.result.state != SlidingState::kReleased; }
   void let_rest(Part& part, SlidingState state);
   void find_overlaps(const std::vector<HeldPart>& parts);
+  void raise_floors();
   bool take_ghosts(std::span<const Eigen::Isometry3d> X_WG, double milliseconds);
   void aim();
   Step cycle();
@@ -149,6 +150,7 @@ class JointSliding {
   CandidatePairs candidates_;
   PathCertificate certificate_;
   Overlaps overlaps_;
+  std::vector<BodyPair> near_starts_;  // nearer than their floor would be
   double largest_margin_ = 0.0;
 
   std::vector<Contact> contacts_;         // one for each of the first rows
@@ -159,6 +161,7 @@ class JointSliding {
   FrictionSolver friction_solver_;
   Displacements projected_;
   std::vector<RowForce> forces_;
+  std::vector<RowForce> first_forces_;  // of the contacts alone
   std::vector<UncertifiedPair> failures_;
   bool was_moving_ = false;  // in the last call, which is what friction depends on
   double lead_out_ = 0.0;    // metres that overlapping obstacles may still push in this tick

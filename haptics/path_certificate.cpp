@@ -25,6 +25,27 @@ Eigen::Vector3d direction(const TriangleDistance& closest) {
   return (closest.p_b - closest.p_a).normalized();
 }
 
+/// Of the face normals and the common normals of edges that which separates the triangles most.
+Eigen::Vector3d sharpest_direction(const TrianglePoints& obstacle, const TrianglePoints& part) {
+  Eigen::Vector3d sharpest = face_normal(obstacle);
+  double widest = -std::numeric_limits<double>::infinity();
+  const auto look = [&](const Eigen::Vector3d& normal) {
+    for (const Eigen::Vector3d& n : {normal, Eigen::Vector3d(-normal)}) {
+      const double gap = gap_along(n, obstacle, part);
+      if (!(gap > widest)) continue;  // nor where parallel edges have none
+      widest = gap;
+      sharpest = n;
+    }
+  };
+  look(face_normal(obstacle));
+  look(face_normal(part));
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j)
+      look((obstacle[(i + 1) % 3] - obstacle[i]).cross(part[(j + 1) % 3] - part[j]).normalized());
+  }
+  return sharpest;
+}
+
 }  // namespace
 
 PathCertificate::PathCertificate(const Surroundings& surroundings)
@@ -63,7 +84,7 @@ bool PathCertificate::prove(std::span<const Displacement> displacements, std::sp
 }
 
 bool PathCertificate::prove_pair(const CandidatePair& pair, Eigen::Vector3d& n_start) {
-  const double floor = kFloorOfMargin * surroundings_.margin(pair.obstacle, pair.part);
+  const double floor = surroundings_.floor(pair.obstacle, pair.part);
   const Moment start = moment_of(pair, 0);
   const Moment end = moment_of(pair, kMoments);
   const Stretch whole{start, end, curvature_loss(pair, 0, kMoments)};
@@ -78,7 +99,7 @@ bool PathCertificate::prove_pair(const CandidatePair& pair, Eigen::Vector3d& n_s
   const TriangleDistance closest = collision::triangle_distance(start.obstacle, start.part);
   n_start = direction(closest);
   if (!(closest.distance > rounding_)) return false;  // nothing can be kept of no distance at all
-  return prove_stretch(pair, 0, kMoments, std::min(floor, 0.95 * closest.distance));
+  return prove_stretch(pair, 0, kMoments, closest.distance >= floor ? floor : 0.95 * closest.distance);
 }
 
 bool PathCertificate::prove_stretch(const CandidatePair& pair, int begin, int end, double floor) {
@@ -95,6 +116,9 @@ bool PathCertificate::prove_stretch(const CandidatePair& pair, int begin, int en
   const Eigen::Vector3d n_end = direction(closest_end);
   if (separates(n_end, stretch, floor)) return true;
   if (separates((n_begin + n_end).normalized(), stretch, floor)) return true;
+  // Of points a few nanometres apart the direction is not sharp enough for triangles of a metre; their features' is.
+  if (separates(sharpest_direction(at_begin.obstacle, at_begin.part), stretch, floor)) return true;
+  if (separates(sharpest_direction(at_end.obstacle, at_end.part), stretch, floor)) return true;
 
   if (end - begin == 1) return false;
   const int middle = begin + (end - begin) / 2;

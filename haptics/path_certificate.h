@@ -16,9 +16,6 @@
 
 namespace glissade::haptics {
 
-/// What part of its margin every pair keeps on every certified path.
-inline constexpr double kFloorOfMargin = 0.3;
-
 /// A pair that could not be proved apart, and the direction that held it apart at the start of the step.
 struct UncertifiedPair {
   std::int32_t obstacle;
@@ -37,8 +34,8 @@ class PathCertificate {
   /// Tries to prove all of `pairs` apart while every part goes from where it is placed along its displacement, all of
   /// them at once; `displacements` has one for each. Replaces `failures` by the pairs it could not prove.
   ///
-  /// A pair must keep the floor, kFloorOfMargin times its margin; one that starts the step nearer keeps 0.95 of its
-  /// distance, and one that touches cannot be proved apart at all. It is apart over a stretch of the path if one
+  /// A pair must keep the floor of its bodies; one that starts the step nearer keeps 0.95 of its distance, and one that
+  /// touches cannot be proved apart at all. It is apart over a stretch of the path if one
   /// direction separates it at both ends by more than the curvature of the paths can take away in between, the sum of
   /// |w|² ρ / 8 over the two; otherwise the stretch is halved, up to five times.
   /// Returns whether there are no failures.

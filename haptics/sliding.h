@@ -45,8 +45,7 @@ class Sliding final : public SlidingSimulation {
   const SlidingResult& result() const override { return sliding_.result(0); }
   const SlidingPart& part() const override { return sliding_.part(0); }
   const CouplingStiffness& stiffness() const override { return sliding_.stiffness(0); }
-  /// Metres at which contacts hold the part away, where the obstacle has no margin of its own.
-  double margin() const { return sliding_.margin(0); }
+  double margin() const override { return sliding_.margin(0); }
   /// Metres that every certified path keeps away from such obstacles.
   double floor() const { return kFloorOfMargin * margin(); }
   /// What is around the part, and what looking for it took.

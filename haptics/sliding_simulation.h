@@ -37,6 +37,8 @@ class SlidingSimulation {
   virtual const SlidingResult& result() const = 0;
   virtual const SlidingPart& part() const = 0;
   virtual const CouplingStiffness& stiffness() const = 0;
+  /// Metres at which contacts hold the part away, where no obstacle has a margin of its own.
+  virtual double margin() const = 0;
 
   /// From the visible part to where the metaphor wants it: the spring of the coupling is stretched by that. Exactly
   /// zero in free space and while the part is released.

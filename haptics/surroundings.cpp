@@ -49,6 +49,8 @@ Surroundings::Surroundings(std::vector<Obstacle> obstacles, std::vector<std::sha
     for (const double other : margins)
       margins_.push_back(std::min(margin, other));
   }
+  for (const double margin : margins_)
+    floors_.push_back(kFloorOfMargin * margin);
   for (const auto& part_V : parts_) {
     part_ids_.push_back(world_.add(description(part_V, Eigen::Isometry3d::Identity(), kPart)));
     bodies_.push_back({part_V.get(), Eigen::Isometry3d::Identity()});

@@ -2,6 +2,7 @@
 
 /// What can touch: the obstacles and the parts in the hands, in a collision pipeline that tells what of them is near.
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -17,18 +18,8 @@
 
 namespace glissade::haptics {
 
-/// A body that stands still. Several may share one mesh.
-struct Obstacle {
-  std::shared_ptr<const ContactBody> body;
-  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
-  std::string name = "an obstacle";  ///< for messages
-  /// Triangles that hold no part: where parts that slide in are designed to overlap when they are seated, such as
-  /// spring tongues. Everything else of the obstacle stays exact. Ascending.
-  std::vector<std::int32_t> giving_way{};
-  /// Metres at which this obstacle holds parts away, where that is not to be the part's own margin: less for a tighter
-  /// fit, more for one that needs air.
-  std::optional<double> margin{};
-};
+/// What part of its margin every pair of bodies keeps on every certified path.
+inline constexpr double kFloorOfMargin = 0.3;
 
 /// A body where it is now.
 struct PlacedBody {
@@ -40,6 +31,21 @@ struct PlacedBody {
     const collision::TriangleMesh& mesh = body->tree.mesh();
     return {X_WB * mesh.corner(triangle, 0), X_WB * mesh.corner(triangle, 1), X_WB * mesh.corner(triangle, 2)};
   }
+};
+
+/// A body that stands still. Several may share one mesh.
+struct Obstacle {
+  std::shared_ptr<const ContactBody> body;
+  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+  std::string name = "an obstacle";  ///< for messages
+  /// Triangles that hold no part: where parts that slide in are designed to overlap when they are seated, such as
+  /// spring tongues. Everything else of the obstacle stays exact. Ascending.
+  std::vector<std::int32_t> giving_way{};
+  /// Metres at which this obstacle holds parts away, where that is not to be the part's own margin: less for a tighter
+  /// fit, more for one that needs air.
+  std::optional<double> margin{};
+
+  PlacedBody placed() const { return {body.get(), X_WO}; }
 };
 
 /// Bodies are numbered: the obstacles first, then the parts. Obstacles are of no interest to each other: what an
@@ -64,6 +70,19 @@ class Surroundings {
     return margins_[part * bodies_.size() + static_cast<std::size_t>(obstacle)];
   }
 
+  /// Metres that every certified path of a part keeps away from a body: kFloorOfMargin of the margin; less where they
+  /// were nearer at the start, see `start_near`.
+  double floor(std::int32_t obstacle, std::int32_t part_body) const {
+    const auto part = static_cast<std::size_t>(part_body) - obstacles_.size();
+    return floors_[part * bodies_.size() + static_cast<std::size_t>(obstacle)];
+  }
+  /// Two bodies are `distance` (metres) apart: their floor is 0.95 of that as long as the margin asks for no less.
+  void start_near(std::int32_t obstacle, std::int32_t part_body, double distance) {
+    const auto part = static_cast<std::size_t>(part_body) - obstacles_.size();
+    floors_[part * bodies_.size() + static_cast<std::size_t>(obstacle)] =
+        std::min(kFloorOfMargin * margin(obstacle, part_body), 0.95 * distance);
+  }
+
   /// A part is at X_WV from now on. Throws std::invalid_argument for a pose that `World::move` refuses.
   void place(std::size_t part, const Eigen::Isometry3d& X_WV);
 
@@ -80,6 +99,7 @@ class Surroundings {
   std::vector<std::shared_ptr<const SlidingPart>> parts_;
   std::vector<PlacedBody> bodies_;
   std::vector<double> margins_;  // for each part one with each body
+  std::vector<double> floors_;   // the same
   std::vector<collision::ObjectId> part_ids_;
   realtime::SteadyClock clock_;
   collision::World world_;

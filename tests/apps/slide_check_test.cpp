@@ -64,6 +64,18 @@ class AssemblyCheck : public testing::Test {
   const std::string below = trajectory("below.csv", "5,0,0,0.03,1,0,0,0\n5.1,0.02,0,0.01,1,0,0,0\n");
 };
 
+TEST_F(AssemblyCheck, TakesTheMethodOfThePaperToo) {
+  const ProgramResult result =
+      check({above, below}, {"--method", "paper", "--summary", "-", "--report", folder.path("page")});
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  auto rows = parse(result.standard_output);
+  EXPECT_EQ(rows["above.csv"]["goal_reached"], 1.0);
+  EXPECT_EQ(rows["below.csv"]["goal_reached"], 0.0);
+  // It goes nearer than the default's margin.
+  EXPECT_GT(rows["below.csv"]["clearance_min_m"], 0.0);
+  EXPECT_LT(rows["below.csv"]["clearance_min_m"], 1e-6);
+}
+
 TEST_F(AssemblyCheck, TellsWhatBecameOfEachTrajectory) {
   const ProgramResult result = check({above, below});
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;

@@ -58,9 +58,11 @@ class Slide : public testing::Test {
     return folder.write("hand.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n" + rows);
   }
 
-  std::vector<Row> slide(const std::string& scene_file, const std::string& trajectory_file) const {
-    const ProgramResult result =
-        test_support::glissade({"slide", scene_file, "--part", "box", "--trajectory", trajectory_file});
+  std::vector<Row> slide(const std::string& scene_file, const std::string& trajectory_file,
+                         const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"slide", scene_file, "--part", "box", "--trajectory", trajectory_file};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = test_support::glissade(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.standard_error;
     EXPECT_EQ(result.standard_output.substr(0, result.standard_output.find('\n')),
               "t_s,gx_m,gy_m,gz_m,gqw,gqx,gqy,gqz,vx_m,vy_m,vz_m,vqw,vqx,vqy,vqz,"
@@ -194,6 +196,25 @@ TEST_F(Slide, RefusesTwoTablesInOneFile) {
                  {"odd.yaml", "'a,b'", "comma"});
 }
 
+TEST_F(Slide, TheMethodOfThePaperSlidesOnAPlaneOfTwoTriangles) {
+  const std::string scene_file =
+      folder.write("coarse.yaml",
+                   "objects:\n"
+                   "  - {name: box, movable: true, shape: {type: box, size_x_m: 0.1, size_y_m: 0.06, size_z_m: 0.04, "
+                   "triangles: 12}}\n"
+                   "  - {name: sheet, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5, triangles: 2}}\n");
+  const std::string hand = trajectory("0,-0.1,0,0.03,1,0,0,0\n0.1,-0.1,0,0.017,1,0,0,0\n0.3,0.1,0.02,0.017,1,0,0,0\n");
+  const auto rows = slide(scene_file, hand, {"--method", "paper"});
+  for (std::size_t i = 100; i < rows.size(); ++i) {
+    EXPECT_NEAR(rows[i].at("vx_m"), rows[i].at("gx_m"), 1e-6);
+    // It stops within half a micrometre of the contact, where the default keeps its margin of several.
+    EXPECT_NEAR(rows[i].at("vz_m"), 0.02, 0.5e-6);
+    EXPECT_NEAR(rows[i].at("fz_N"), 3.0, 1e-3);
+    EXPECT_GE(rows[i].at("contacts"), 1.0);
+  }
+  EXPECT_GT(slide(scene_file, hand).back().at("vz_m"), 0.02 + 2e-6) << "the default";
+}
+
 TEST_F(Slide, StartingInsideAnObstacleIsAFailureWithItsReason) {
   expect_fails(
       1,
@@ -228,6 +249,8 @@ TEST_F(Slide, RefusesWhatIsWrong) {
   expect_refused({"slide", scene({floor}), "--part", "motor", "--trajectory", good}, {"motor", "box, sheet0"});
   expect_refused({"slide", scene({floor}), "--part", "box", "--trajectory", good, "--metaphor", "glue"},
                  {"--metaphor", "glue", "force-feedback, rubber-band, rubber-band-spring, incremental"});
+  expect_refused({"slide", scene({floor}), "--part", "box", "--trajectory", good, "--method", "glue"},
+                 {"--method", "glue", "projection, paper"});
   expect_refused({"slide", scene({}), "--part", "box", "--trajectory", good}, {"scene.yaml", "nothing but"});
   const std::string scene_file = scene({floor});
   expect_refused({"slide", scene_file, "--part", "box", "--trajectory", folder.path("none.csv")}, {"none.csv"});

@@ -99,7 +99,7 @@ TEST(PathCertificate, WhatIsProvedHoldsAllAlongRandomPaths) {
       const Eigen::Isometry3d X = displaced(X_WV, part->p_Vref(), d.scaled(0.01 * i));
       const auto corner = [&](int c) -> Eigen::Vector3d { return X * part->tree.mesh().corner(0, c); };
       const collision::TriangleDistance closest = collision::triangle_distance(
-          PlacedBody{obstacles[0].body.get(), obstacles[0].X_WO}.triangle_W(0), {corner(0), corner(1), corner(2)});
+          obstacles[0].placed().triangle_W(0), {corner(0), corner(1), corner(2)});
       ASSERT_GE(closest.distance, 0.95 * kFloor) << "trial " << trial << " at " << i << " %";
     }
   }

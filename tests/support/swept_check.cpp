@@ -112,7 +112,7 @@ SweptCheck::SweptCheck(const std::vector<haptics::Obstacle>& obstacles, const co
     const collision::TriangleMesh& mesh = obstacle.body->tree.mesh();
     for (std::int32_t i = 0; i < std::ssize(mesh.triangles); ++i) {
       if (!has_area({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)})) continue;
-      const TrianglePoints points = obstacle.triangle_W(i);
+      const TrianglePoints points = obstacle.placed().triangle_W(i);
       obstacles_W_.push_back({points, box_of(points, 0.0)});
     }
   }

@@ -53,7 +53,7 @@ SlidingOptions random_options(Metaphor metaphor, const SlidingPart& part, Random
   SlidingOptions options;
   options.metaphor = metaphor;
   constexpr std::array<int, 5> kCycles{1, 1, 2, 10, 10};
-  options.max_cycles = kCycles[static_cast<std::size_t>(random.integer(0, 4))];
+  options.rules.max_cycles = kCycles[static_cast<std::size_t>(random.integer(0, 4))];
   if (random.chance(0.2)) {
     const double translational = random.power_of_ten(1.0, 4.0);
     options.stiffness = {translational, translational * part.radius() * part.radius() * random.power_of_ten(-1.0, 1.0)};
@@ -105,7 +105,7 @@ class TortureRun {
   void fault(const std::string& what) {
     if (++counts_.fault_count > kMostFaultsTold) return;
     counts_.faults.push_back(what + "\n  " + label_ + ", tick " + std::to_string(tick_) + ", " +
-                             std::string(name_of(metaphor_)) + ", at most " + std::to_string(options_.max_cycles) +
+                             std::string(name_of(metaphor_)) + ", at most " + std::to_string(options_.rules.max_cycles) +
                              " cycles, " + scene_.description);
   }
 
@@ -234,9 +234,9 @@ class TortureRun {
     const double step = std::min(kLongestTrial_m, kTrialOfRadius * part().radius());
     const Isometry3d& X_WV = sliding_.result().X_WV;
     if (!project_on_near_pairs(error, X_WV, margin + 1.5 * step)) return false;
-    if (length(projection_.displacement) < step) return false;
+    if (length(projection_.displacement()) < step) return false;
     const Displacement trial =
-        projection_.displacement.scaled(fraction_within(projection_.displacement, part().radius(), step));
+        projection_.displacement().scaled(fraction_within(projection_.displacement(), part().radius(), step));
     const Isometry3d X_WV_trial = displaced(X_WV, part().p_Vref(), trial);
     const auto energy = [&](const Displacement& d) {
       return 0.5 * (k.translational * d.v.squaredNorm() + k.rotational * d.w.squaredNorm());
@@ -258,7 +258,7 @@ class TortureRun {
       const Vector3d n = (pair.p_part - pair.p_obstacle) / pair.distance;
       rows_.push_back({n, pair.p_part - p_Wref, std::min(0.0, sliding_.margin() - pair.distance)});
     }
-    projection_ = project(error, sliding_.stiffness(), rows_);
+    projection_ = haptics::ProjectionSolver(rows_.size()).project(error, sliding_.stiffness(), rows_);
     return projection_.status == ProjectionStatus::kSolved;
   }
 

@@ -1,0 +1,26 @@
+#include <algorithm>
+#include <utility>
+
+#include <glissade/haptics/paper_sliding.h>
+#include <glissade/haptics/sliding_method.h>
+
+namespace glissade::haptics {
+
+std::optional<SlidingMethod> sliding_method_from_name(std::string_view name) {
+  const auto* const found = std::find(kSlidingMethodNames.begin(), kSlidingMethodNames.end(), name);
+  if (found == kSlidingMethodNames.end()) return std::nullopt;
+  return static_cast<SlidingMethod>(found - kSlidingMethodNames.begin());
+}
+
+std::unique_ptr<SlidingSimulation> make_sliding(SlidingMethod method, std::vector<Obstacle> obstacles,
+                                                std::shared_ptr<const SlidingPart> part_V,
+                                                const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options) {
+  if (method == SlidingMethod::kPaper) {
+    return std::make_unique<PaperSliding>(
+        std::move(obstacles), std::move(part_V), X_WV_start,
+        PaperSlidingOptions{.metaphor = options.metaphor, .stiffness = options.stiffness});
+  }
+  return std::make_unique<Sliding>(std::move(obstacles), std::move(part_V), X_WV_start, options);
+}
+
+}  // namespace glissade::haptics
