@@ -31,8 +31,9 @@ constexpr const char* kDescription = "Lead a part through a scene along a trajec
 constexpr const char* kFooter =
     "The trajectory has the columns t_s,x_m,y_m,z_m,qw,qx,qy,qz: the pose X_WG of the ghost, which is where the hand\n"
     "wants the part, at rising times; between rows it moves straight and turns evenly. The part starts at the first\n"
-    "row's pose, which must be free. The answer has one row per millisecond: ghost pose, visible pose, the wrench on\n"
-    "the hand at the part's origin in world axes, the number of contacts that push, and the state of the sliding.\n"
+    "row's pose, which must be free (but see --lead-out). The answer has one row per millisecond: ghost pose, visible\n"
+    "pose, the wrench on the hand at the part's origin in world axes, the number of contacts that push, and the "
+    "state.\n"
     "\n"
     "Metaphors:\n"
     "  force-feedback      rigid grasp: the device holds the hand back, the part catches up at a limited speed\n"
@@ -44,6 +45,11 @@ constexpr const char* kFooter =
     "as it lasts, the two features (a triangle, and the number of the vertex, edge or face in the mesh), the points\n"
     "on part and obstacle, the normal from obstacle to part, gap, force along the normal, and age. --patches has the\n"
     "same merged, where contacts lie in one plane: centre and sum of the forces on the part, their number and extent.\n"
+    "\n"
+    "--anti-jam: a part that stands still for 0.1 s though it is wanted elsewhere is aimed at a small cone round its\n"
+    "target, as a hand wiggles. --lead-out: an obstacle that overlaps the part at the start does not hold it, but "
+    "pushes\n"
+    "it out at 0.2 m/s at most.\n"
     "\n"
     "Methods:\n"
     "  projection          the default: contacts within reach, projection, and a proof for every step\n"
@@ -64,6 +70,9 @@ struct Options {
   std::vector<std::string> trajectories;
   std::string metaphor = "force-feedback";
   std::string method = "projection";
+  std::vector<double> friction;
+  bool anti_jam = false;
+  bool lead_out = false;
   std::string out;
   SlideContactsFiles contacts;
   std::string summary;
@@ -71,6 +80,7 @@ struct Options {
   double goal_tolerance_m = SlideCheckOptions{}.goal_tolerance_m;
   double goal_tolerance_deg = SlideCheckOptions{}.goal_tolerance_deg;
 
+  bool has_rules() const { return !friction.empty() || anti_jam || lead_out; }
   bool is_check() const { return trajectories.size() > 1 || !summary.empty() || !report.empty(); }
 };
 
@@ -118,8 +128,7 @@ void add_row(CsvWriter& out, double time_s, const haptics::SlidingSimulation& sl
 std::unique_ptr<haptics::SlidingSimulation> start(const HapticScene& scene, const Eigen::Isometry3d& X_WV_start,
                                                   const SlideCheckOptions& options, const std::string& trajectory) {
   try {
-    return haptics::make_sliding(options.method, scene.obstacles, scene.part_V, X_WV_start,
-                                 {.metaphor = options.metaphor});
+    return haptics::make_sliding(options.method, scene.obstacles, scene.part_V, X_WV_start, options.sliding);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(trajectory + ": " + error.what() + ", the pose of the first row");
   }
@@ -202,6 +211,18 @@ int check(const HapticScene& scene, const SlideCheckOptions& check_options, cons
   return exit_code;
 }
 
+haptics::SlidingOptions sliding_options(const Options& options) {
+  haptics::SlidingOptions sliding{.metaphor = parse_metaphor(options.metaphor)};
+  sliding.rules.friction.sliding = options.friction.empty() ? 0.0 : options.friction.front();
+  sliding.rules.friction.at_rest = options.friction.empty() ? 0.0 : options.friction.back();
+  if (sliding.rules.friction.at_rest < sliding.rules.friction.sliding) {
+    throw std::invalid_argument("--friction: the second number, of parts at rest, must not be less than the first");
+  }
+  sliding.rules.anti_jam = options.anti_jam;
+  if (options.lead_out) sliding.rules.overlap = haptics::OverlapRule::kLeadOut;
+  return sliding;
+}
+
 /// Two tables in one file would be none.
 void check_contact_files(const Options& options) {
   const auto& [contacts, patches] = options.contacts;
@@ -217,8 +238,11 @@ void check_contact_files(const Options& options) {
 }
 
 int run(const Options& options) {
-  const SlideCheckOptions check_options{parse_metaphor(options.metaphor), parse_method(options.method),
+  const SlideCheckOptions check_options{sliding_options(options), parse_method(options.method),
                                         options.goal_tolerance_m, options.goal_tolerance_deg};
+  if (check_options.method == haptics::SlidingMethod::kPaper && options.has_rules()) {
+    throw std::invalid_argument("--method: the paper's knows no --friction, --anti-jam and --lead-out");
+  }
   if (options.is_check() && !options.out.empty()) {
     throw std::invalid_argument("--out: is for the rows of one trajectory; a check writes to --summary and --report");
   }
@@ -247,6 +271,13 @@ void add_slide_command(CLI::App& app, Command& chosen) {
       ->required();
   command->add_option("--metaphor", options->metaphor, "How hand and part are tied")->capture_default_str();
   command->add_option("--method", options->method, "How sliding is computed")->capture_default_str();
+  command
+      ->add_option("--friction", options->friction,
+                   "Coefficient of Coulomb friction; or two, while the part slides and at rest")
+      ->expected(1, 2)
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--anti-jam", options->anti_jam, "Shake a part that is stuck, see below");
+  command->add_flag("--lead-out", options->lead_out, "Lead a part that starts inside an obstacle out of it, see below");
   command->add_option("--out", options->out, "CSV file for the answer (default: standard output)");
   command->add_option("--contacts", options->contacts.contacts, "CSV file for the contacts, see below");
   command->add_option("--patches", options->contacts.patches, "CSV file for the contacts merged to patches, see below");

@@ -5,6 +5,7 @@
 
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/text.h>
+#include <glissade/collision/mesh_operations.h>
 #include <glissade/collision/triangle_intersection.h>
 
 namespace glissade::apps {
@@ -61,6 +62,12 @@ class Bodies {
   std::map<const collision::TriangleMesh*, std::shared_ptr<const haptics::ContactBody>> bodies_;
 };
 
+/// What of the mesh holds parts.
+std::shared_ptr<const collision::TriangleMesh> holding(const SceneObject& object) {
+  if (object.giving_way.empty()) return object.mesh;
+  return std::make_shared<collision::TriangleMesh>(collision::without_triangles(*object.mesh, object.giving_way));
+}
+
 }  // namespace
 
 HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name) {
@@ -77,9 +84,10 @@ HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name) 
   Bodies bodies(scene);
   for (const SceneObject& object : scene.objects) {
     if (object.name == part.name) continue;
-    result.obstacles.push_back({bodies.of(object), object.X_WB, in_quotes(object.name)});
+    result.obstacles.push_back(
+        {bodies.of(object), object.X_WB, in_quotes(object.name), object.giving_way, object.margin_m});
     result.obstacle_names.push_back(object.name);
-    result.placed_obstacles.push_back({object.mesh, object.X_WB});
+    result.placed_obstacles.push_back({holding(object), object.X_WB});
   }
   if (result.obstacles.empty()) {
     throw std::invalid_argument(scene.source + ": there is nothing but the part '" + part.name + "' in the scene");

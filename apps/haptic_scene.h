@@ -21,8 +21,8 @@ struct HapticScene {
   std::shared_ptr<const haptics::SlidingPart> part_V;
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
   std::vector<haptics::Obstacle> obstacles;
-  std::vector<std::string> obstacle_names;  ///< as the scene file has them
-  std::vector<collision::PlacedMesh> placed_obstacles;  ///< the same, for the independent check
+  std::vector<std::string> obstacle_names;              ///< as the scene file has them
+  std::vector<collision::PlacedMesh> placed_obstacles;  ///< the same, less what gives way, for the independent check
   std::optional<Eigen::Isometry3d> X_WGoal;
 };
 

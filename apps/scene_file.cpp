@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include <glissade/apps/text.h>
 #include <glissade/apps/yaml_reader.h>
 #include <glissade/collision/mesh_import.h>
+#include <glissade/collision/mesh_operations.h>
 #include <glissade/collision/shape_catalog.h>
 
 namespace glissade::apps {
@@ -48,7 +50,7 @@ class SceneReader {
   };
 
   SceneObject read_object(const YAML::Node& node) {
-    yaml_.check_keys(node, "object", {"name", "mesh", "shape", "scale", "pose", "movable"});
+    yaml_.check_keys(node, "object", {"name", "mesh", "shape", "scale", "pose", "movable", "margin_m", "gives_way"});
     SceneObject object;
     object.name = yaml_.text(yaml_.required(node, "object", "name"), "name");
     const Geometry geometry = read_geometry(node, object.name);
@@ -56,7 +58,28 @@ class SceneReader {
     object.mesh = geometry.mesh;
     if (node["pose"]) object.X_WB = read_pose(node["pose"], "pose");
     if (node["movable"]) object.movable = yaml_.boolean(node["movable"], "movable");
+    if (const YAML::Node margin = node["margin_m"]) {
+      object.margin_m = yaml_.number(margin, "margin_m");
+      if (*object.margin_m <= 0.0) yaml_.fail(margin, "margin_m: must be positive, not " + in_quotes(margin.Scalar()));
+    }
+    if (node["gives_way"]) object.giving_way = read_giving_way(node["gives_way"], *object.mesh);
     return object;
+  }
+
+  std::vector<std::int32_t> read_giving_way(const YAML::Node& boxes, const TriangleMesh& mesh) const {
+    if (!boxes.IsSequence()) yaml_.fail(boxes, "gives_way: must be a list of boxes");
+    std::set<std::int32_t> triangles;
+    for (const YAML::Node& node : boxes) {
+      yaml_.check_keys(node, "gives_way", {"min_m", "max_m"});
+      const Eigen::AlignedBox3d box(
+          Eigen::Vector3d(yaml_.numbers(yaml_.required(node, "gives_way", "min_m"), "min_m", 3)),
+          Eigen::Vector3d(yaml_.numbers(yaml_.required(node, "gives_way", "max_m"), "max_m", 3)));
+      if (box.isEmpty()) yaml_.fail(node, "gives_way: min_m must not be above max_m");
+      const std::vector<std::int32_t> inside = collision::triangles_inside(mesh, box);
+      if (inside.empty()) yaml_.fail(node, "gives_way: no triangle of the object lies inside this box");
+      triangles.insert(inside.begin(), inside.end());
+    }
+    return {triangles.begin(), triangles.end()};
   }
 
   Geometry read_geometry(const YAML::Node& object, const std::string& name) {

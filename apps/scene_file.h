@@ -10,6 +10,9 @@
 ///         shape: {type: sphere, radius_m: 0.05}      # or a generator of shape_catalog.h instead of a mesh
 ///         pose: {position_m: [0, 0, 0.4], orientation_wxyz: [1, 0, 0, 0]}      # X_WB, default identity
 ///         movable: true                    # default false
+///         margin_m: 2.0e-6                 # contacts hold parts this far away, default that of the part
+///         gives_way: [{min_m: [0, 0, 0], max_m: [0.1, 0.1, 0.01]}]     # boxes in the object's frame: its triangles
+///                                          # inside them hold no part, where it overlaps by design when it is seated
 ///     script: hand.csv                     # optional: trajectory of the hand root, relative to the scene file
 ///     goal: {position_m: [0, 0, 0]}        # optional: pose where the movable part should arrive
 
@@ -31,7 +34,9 @@ struct SceneObject {
   std::shared_ptr<const collision::TriangleMesh> mesh;  ///< in metres, in the object's frame B; equal ones are shared
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   bool movable = false;
-  std::int64_t degenerate_triangles = 0;  ///< left out of the mesh, see `import_mesh`
+  std::optional<double> margin_m{};
+  std::vector<std::int32_t> giving_way{};  ///< triangles, ascending
+  std::int64_t degenerate_triangles = 0;   ///< left out of the mesh, see `import_mesh`
 };
 
 /// A scene with at least one object; all names differ.

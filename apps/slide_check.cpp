@@ -77,7 +77,7 @@ SlideCheck check_slide(const HapticScene& scene, const devices::PoseTrajectory& 
   std::unique_ptr<haptics::SlidingSimulation> sliding;
   try {
     sliding = haptics::make_sliding(options.method, scene.obstacles, scene.part_V,
-                                    trajectory.pose_at(trajectory.first_time()), {.metaphor = options.metaphor});
+                                    trajectory.pose_at(trajectory.first_time()), options.sliding);
   } catch (const std::invalid_argument& error) {
     check.problem = std::string(error.what()) + ", the pose of the first row";
     return check;
@@ -122,7 +122,7 @@ Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks
   const auto reached = std::count_if(checks.begin(), checks.end(),
                                      [](const SlideCheck& check) { return !check.problem && check.goal_reached; });
   report.summary.emplace_back("scene", scene.source);
-  report.summary.emplace_back("metaphor", std::string(haptics::name_of(options.metaphor)));
+  report.summary.emplace_back("metaphor", std::string(haptics::name_of(options.sliding.metaphor)));
   report.summary.emplace_back("method", std::string(haptics::name_of(options.method)));
   report.summary.emplace_back("goal reached", std::to_string(reached) + " of " + std::to_string(checks.size()));
   for (const SlideCheck& check : checks)

@@ -18,7 +18,7 @@
 namespace glissade::apps {
 
 struct SlideCheckOptions {
-  haptics::Metaphor metaphor = haptics::Metaphor::kForceFeedback;
+  haptics::SlidingOptions sliding{};
   haptics::SlidingMethod method = haptics::SlidingMethod::kProjection;
   double goal_tolerance_m = 0.3e-3;
   double goal_tolerance_deg = 0.5;

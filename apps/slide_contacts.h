@@ -27,7 +27,8 @@ class SlideContactsWriter {
  public:
   /// Throws std::invalid_argument when a file cannot be created, and, naming scene and object, for an obstacle whose
   /// name no cell of a CSV file can hold. `scene` and `sliding` must outlive this object.
-  SlideContactsWriter(const SlideContactsFiles& files, const HapticScene& scene, const haptics::SlidingSimulation& sliding);
+  SlideContactsWriter(const SlideContactsFiles& files, const HapticScene& scene,
+                      const haptics::SlidingSimulation& sliding);
 
   /// The rows of the newest result, told as those of `time_s`. Once for every call of `advance`.
   void write(double time_s);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -78,6 +79,24 @@ TriangleMesh weld(const TriangleMesh& mesh) {
     welded.triangles.push_back(triangle);
   }
   return welded;
+}
+
+std::vector<std::int32_t> triangles_inside(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box) {
+  std::vector<std::int32_t> inside;
+  for (std::int32_t t = 0; t < std::ssize(mesh.triangles); ++t) {
+    if (box.contains(mesh.corner(t, 0)) && box.contains(mesh.corner(t, 1)) && box.contains(mesh.corner(t, 2)))
+      inside.push_back(t);
+  }
+  return inside;
+}
+
+TriangleMesh without_triangles(const TriangleMesh& mesh, std::span<const std::int32_t> triangles) {
+  TriangleMesh kept{mesh.vertices, {}};
+  for (std::int32_t t = 0; t < std::ssize(mesh.triangles); ++t) {
+    if (!std::binary_search(triangles.begin(), triangles.end(), t))
+      kept.triangles.push_back(mesh.triangles[static_cast<std::size_t>(t)]);
+  }
+  return kept;
 }
 
 }  // namespace glissade::collision

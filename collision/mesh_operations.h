@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -26,5 +27,11 @@ TriangleMesh flip_randomly(const TriangleMesh& mesh, std::uint64_t seed);
 /// Vertices at identical positions become one; 0 and -0 are the same position. Keeps every triangle, also those that
 /// lose their area by it, in order; drops vertices that no triangle uses. Vertices are numbered by first use.
 TriangleMesh weld(const TriangleMesh& mesh);
+
+/// The triangles of the mesh that lie in the box with all of their corners, ascending.
+std::vector<std::int32_t> triangles_inside(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box);
+
+/// The mesh without some of its triangles, which are given in ascending order. Keeps every vertex.
+TriangleMesh without_triangles(const TriangleMesh& mesh, std::span<const std::int32_t> triangles);
 
 }  // namespace glissade::collision

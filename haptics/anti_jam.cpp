@@ -12,8 +12,8 @@ constexpr double kPatience_ms = 100.0;
 constexpr double kLongestShaking_ms = 2000.0;
 constexpr double kWantedElsewhere_m = 0.3e-3;
 
-constexpr double kOffset_m = 0.3e-3;
-constexpr double kTilt = 0.7 * std::numbers::pi / 180.0;
+constexpr double kOffset_m = 0.6e-3;
+constexpr double kTilt = 1.4 * std::numbers::pi / 180.0;
 constexpr double kTurns_per_ms = 0.02;
 
 }  // namespace
@@ -53,7 +53,9 @@ Eigen::Isometry3d AntiJam::aim(const Eigen::Isometry3d& X_WT, const Eigen::Vecto
   const Eigen::Vector3d first = axis.unitOrthogonal();
   const double angle = 2.0 * std::numbers::pi * kTurns_per_ms * shaken_ms_;
   const Eigen::Vector3d beside = std::cos(angle) * first + std::sin(angle) * axis.cross(first);
-  return displaced(X_WT, p_Vref, {kOffset_m * beside, kTilt * beside});
+  // Turned so that what is ahead of the reference point goes the same way, and further: that end is stuck.
+  const double growth = shaken_ms_ / kLongestShaking_ms;
+  return displaced(X_WT, p_Vref, {growth * kOffset_m * beside, growth * kTilt * axis.cross(beside)});
 }
 
 }  // namespace glissade::haptics

@@ -31,7 +31,7 @@ ContactPatch patch_of(std::span<const TrackedContact> contacts, std::span<const 
     weights += weight;
     n_sum += weight * contact.n_W;
     arm += weight * (contact.p_W - first.p_W);
-    patch.force_on_part_W += contact.force * contact.n_W;
+    patch.force_on_part_W += contact.force * contact.n_W + contact.friction_W;
     patch.gap = std::min(patch.gap, contact.gap);
   }
   patch.n_W = n_sum.normalized();
@@ -54,7 +54,8 @@ std::span<const ContactPatch> ContactPatches::merge(std::span<const TrackedConta
     const Contact& founder = contact_at(contacts, by_age_.front());
     const auto joins = [&](std::int32_t i) {
       const Contact& contact = contact_at(contacts, i);
-      return contact.obstacle == founder.obstacle && contact.n_W.dot(founder.n_W) >= kCosOfOnePatch &&
+      return contact.part == founder.part && contact.obstacle == founder.obstacle &&
+             contact.n_W.dot(founder.n_W) >= kCosOfOnePatch &&
              std::abs(founder.n_W.dot(contact.p_W - founder.p_W)) <= plane_tolerance_;
     };
     members_.clear();

@@ -21,7 +21,7 @@ struct ContactPatch {
       Eigen::Vector3d::Zero();  ///< centre of the forces on the part; where nothing pushes, the mean of the points
   Eigen::Vector3d n_W = Eigen::Vector3d::UnitZ();  ///< unit, from the obstacle to the part: the mean of the normals,
                                                    ///< weighted in the same way
-  Eigen::Vector3d force_on_part_W = Eigen::Vector3d::Zero();  ///< sum of the forces, newtons
+  Eigen::Vector3d force_on_part_W = Eigen::Vector3d::Zero();  ///< newtons, friction included
   double gap = 0.0;                                           ///< the least, metres
   double extent = 0.0;  ///< how far the furthest contact point is from p_W, metres
 };

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -14,13 +13,14 @@ constexpr double kCosOfOneDirection = 0.999847695156391;  // 1°
 constexpr std::int64_t kUnited = -1;                      // for an id: the contact is part of another
 
 auto features_of(const Contact& c) {
-  return std::make_tuple(c.obstacle, c.kind, c.part_feature, c.obstacle_feature, c.part_triangle, c.obstacle_triangle);
+  return std::make_tuple(c.part, c.obstacle, c.kind, c.part_feature, c.obstacle_feature, c.part_triangle,
+                         c.obstacle_triangle);
 }
 
 /// Whether two contacts are the same to a user: with one obstacle, at one place, in one direction.
 bool are_one(const Contact& a, const Contact& b, double margin) {
-  return a.obstacle == b.obstacle && a.n_W.dot(b.n_W) >= kCosOfOneDirection && (a.p_W - b.p_W).norm() <= margin &&
-         (a.q_W() - b.q_W()).norm() <= margin;
+  return a.part == b.part && a.obstacle == b.obstacle && a.n_W.dot(b.n_W) >= kCosOfOneDirection &&
+         (a.p_W - b.p_W).norm() <= margin && (a.q_W() - b.q_W()).norm() <= margin;
 }
 
 /// A total order: two contacts that are told with the same features are told apart by where they are.
@@ -33,7 +33,7 @@ bool comes_before(const Contact& a, const Contact& b) {
   return features_a != features_b ? features_a < features_b : place(a) < place(b);
 }
 
-enum class FeatureKind : std::uint8_t { kFace, kEdge, kVertex };
+enum class FeatureKind : std::uint8_t { kNone, kFace, kEdge, kVertex };
 
 struct FeatureKinds {
   FeatureKind part;
@@ -42,16 +42,31 @@ struct FeatureKinds {
 
 FeatureKinds kinds_of(ContactKind kind) {
   using enum FeatureKind;
-  constexpr std::array<FeatureKinds, 6> kKinds{
-      {{kVertex, kFace}, {kFace, kVertex}, {kEdge, kEdge}, {kVertex, kEdge}, {kEdge, kVertex}, {kVertex, kVertex}}};
-  return kKinds[static_cast<std::size_t>(kind)];
+  switch (kind) {
+    case ContactKind::kVertexFace:
+      return {kVertex, kFace};
+    case ContactKind::kFaceVertex:
+      return {kFace, kVertex};
+    case ContactKind::kEdgeEdge:
+      return {kEdge, kEdge};
+    case ContactKind::kVertexEdge:
+      return {kVertex, kEdge};
+    case ContactKind::kEdgeVertex:
+      return {kEdge, kVertex};
+    case ContactKind::kVertexVertex:
+      return {kVertex, kVertex};
+    case ContactKind::kOverlap:
+      break;
+  }
+  return {kNone, kNone};
 }
 
 bool has_common_feature(const Contact& a, const Contact& b) {
   const FeatureKinds of_a = kinds_of(a.kind);
   const FeatureKinds of_b = kinds_of(b.kind);
-  return (of_a.part == of_b.part && a.part_feature == b.part_feature) ||
-         (of_a.obstacle == of_b.obstacle && a.obstacle_feature == b.obstacle_feature);
+  return (of_a.part == of_b.part && of_a.part != FeatureKind::kNone && a.part_feature == b.part_feature) ||
+         (of_a.obstacle == of_b.obstacle && of_a.obstacle != FeatureKind::kNone &&
+          a.obstacle_feature == b.obstacle_feature);
 }
 
 /// The contact after the part has moved by X_W, to first order. A vertex stays where it is on its own side.
@@ -107,6 +122,7 @@ void ContactTracker::unite_coincident() {
       TrackedContact& other = now_[static_cast<std::size_t>(*near)];
       if (&other == &first || other.id == kUnited || !are_one(first.contact, other.contact, margin_)) continue;
       first.contact.force += other.contact.force;
+      first.contact.friction_W += other.contact.friction_W;
       other.id = kUnited;
     }
   }
@@ -169,7 +185,9 @@ std::int32_t ContactTracker::predecessor_of(const Contact& contact, double wides
   std::tuple<bool, double, std::int64_t> least;
   for (; at != ended_.end() && candidate(*at).contact.p_W.x() <= contact.p_W.x() + widest; ++at) {
     const Contact& old = candidate(*at).contact;
-    if (at->continued || old.obstacle != contact.obstacle || old.n_W.dot(contact.n_W) < kCosOfSameNormal) continue;
+    if (at->continued || old.part != contact.part || old.obstacle != contact.obstacle ||
+        old.n_W.dot(contact.n_W) < kCosOfSameNormal)
+      continue;
     const double distance = (old.p_W - contact.p_W).norm();
     if (distance > at->travel || (old.q_W() - contact.q_W()).norm() > at->travel) continue;
     const auto rank = std::make_tuple(!has_common_feature(old, contact), distance, candidate(*at).id);

@@ -22,7 +22,7 @@ struct TrackedContact {
   Contact contact;
 };
 
-/// Follows the contacts of one part from one result to the next. Not thread-safe.
+/// Follows the contacts of one part from one result to the next; of several parts each has a tracker. Not thread-safe.
 ///
 /// A contact **touches** when it pushes or its gap is at most two margins: contacts hold the part one margin away.
 ///
@@ -42,15 +42,16 @@ struct TrackedContact {
 ///   which it has a feature in common, then the nearest, then the oldest.
 class ContactTracker {
  public:
-  /// `margin` (metres) is that of the simulation, see `Sliding::margin`.
+  /// `margin` (metres) is that of the simulation, see `SlidingSimulation::margin`; where obstacles have margins of
+  /// their own, the greatest.
   explicit ContactTracker(double margin) : margin_(margin) {}
 
   /// The contacts that touch according to `result`, the next result of the same simulation, in ascending order of
   /// obstacle, kind, the part's feature and the obstacle's. Simulations tell their contacts as
   /// they were before the last cycle moved the part; here they are carried along with it, which is exact for
-  /// translations along a face. `obstacle_travel` (metres): no point of an obstacle has moved more since the last
-  /// update. Valid until the next update. Cost O(n log n) for n contacts; allocates only when there are more than ever
-  /// before.
+  /// translations along a face. `obstacle_travel` (metres): no point of an obstacle or another part has moved more
+  /// since the last update. Valid until the next update. Cost O(n log n) for n contacts; allocates only when there are
+  /// more than ever before.
   std::span<const TrackedContact> update(const SlidingResult& result, double obstacle_travel = 0.0);
 
   /// The contacts of the last update.

@@ -67,11 +67,16 @@ void check(const std::vector<HeldPart>& parts, const SlidingRules& rules) {
   }
 }
 
-/// The largest fraction of a displacement of the part that lets its lag, which has changed by `change` already, change
-/// by no more than `most` metres, or than it has.
-double fraction_with_lag(const Displacement& change, const Displacement& d, double radius, double most) {
+/// The largest fraction of a displacement `d` of the part that lets its lag, which was `then` and is `now`, change by
+/// no more than `most` metres, or than it has changed already.
+double fraction_with_lag(const Displacement& then, const Displacement& now, const Displacement& d, double radius,
+                         double most) {
+  // Rotations by their angle apart: their vectors may change faster than what they stand for turns.
+  const Eigen::Quaterniond q_then = rotation_by(then.w);
+  const Eigen::Quaterniond q_now = rotation_by(now.w);
   const auto changed = [&](double fraction) {
-    return (change.v - fraction * d.v).norm() + radius * (change.w - fraction * d.w).norm();
+    const Eigen::Quaterniond q = q_now * rotation_by(fraction * d.w).conjugate();
+    return (now.v - fraction * d.v - then.v).norm() + radius * q.angularDistance(q_then);
   };
   most = std::max(most, changed(0.0));
   if (changed(1.0) <= most) return 1.0;
@@ -351,6 +356,7 @@ double JointSliding::choose_reach() const {
   }
   double reach = 1.5 * std::max(ghosts, last_step_) + 2.0 * largest_margin_;
   if (last_clipped_) reach *= 2.0;
+  reach = std::max(reach, lead_out_ + 2.0 * largest_margin_);
   return std::clamp(std::min(reach, slew + ghosts + 2.0 * largest_margin_), kSmallestReach_m, reach_limit_);
 }
 
@@ -508,9 +514,8 @@ std::array<double, kMaxParts> JointSliding::allowed_fractions(const Displacement
     const double radius = part.part_V->radius();
     fractions[p] = fraction_within(d[p], radius, share);
     if (part.slew != kUnbounded && is_held(part)) {
-      const Displacement lag = lag_of(part);
-      const Displacement change{lag.v - part.lag_then.v, lag.w - part.lag_then.w};
-      fractions[p] = std::min(fractions[p], fraction_with_lag(change, d[p], radius, part.slew));
+      const double by_lag = fraction_with_lag(part.lag_then, lag_of(part), d[p], radius, part.slew);
+      fractions[p] = std::min(fractions[p], by_lag);
     }
     const double angle = d[p].w.norm();
     const double largest_angle = std::sqrt(part.margin / radius);

@@ -7,16 +7,6 @@
 namespace glissade::haptics {
 namespace {
 
-Eigen::Quaterniond exp_rotation(const Eigen::Vector3d& w) {
-  const double angle = w.norm();
-  // sin(a/2)/a, by its series where the quotient would lose digits.
-  const double half_sinc = angle > 1e-4 ? std::sin(0.5 * angle) / angle : 0.5 - angle * angle / 48.0;
-  Eigen::Quaterniond q;
-  q.w() = std::cos(0.5 * angle);
-  q.vec() = half_sinc * w;
-  return q;
-}
-
 Eigen::Vector3d log_rotation(Eigen::Quaterniond q) {
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   const double sine = q.vec().norm();
@@ -26,11 +16,21 @@ Eigen::Vector3d log_rotation(Eigen::Quaterniond q) {
 
 }  // namespace
 
+Eigen::Quaterniond rotation_by(const Eigen::Vector3d& w) {
+  const double angle = w.norm();
+  // sin(a/2)/a, by its series where the quotient would lose digits.
+  const double half_sinc = angle > 1e-4 ? std::sin(0.5 * angle) / angle : 0.5 - angle * angle / 48.0;
+  Eigen::Quaterniond q;
+  q.w() = std::cos(0.5 * angle);
+  q.vec() = half_sinc * w;
+  return q;
+}
+
 Eigen::Isometry3d displaced(const Eigen::Isometry3d& X_WV, const Eigen::Vector3d& p_Vref, const Displacement& d) {
   const Eigen::Quaterniond q_WV(X_WV.linear());
   const Eigen::Vector3d p_Wref = X_WV * p_Vref + d.v;
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear() = (exp_rotation(d.w) * q_WV).normalized().toRotationMatrix();
+  X.linear() = (rotation_by(d.w) * q_WV).normalized().toRotationMatrix();
   X.translation() = p_Wref - X.linear() * p_Vref;
   return X;
 }

@@ -20,6 +20,9 @@ struct Displacement {
   Vector6d stacked() const { return (Vector6d() << v, w).finished(); }
 };
 
+/// The rotation by the angle |w| (radians) about w.
+Eigen::Quaterniond rotation_by(const Eigen::Vector3d& w);
+
 /// The pose of a part after a displacement from X_WV; `p_Vref` is the reference point in the part's frame.
 /// The result's rotation is orthonormal to rounding however many displacements are chained.
 Eigen::Isometry3d displaced(const Eigen::Isometry3d& X_WV, const Eigen::Vector3d& p_Vref, const Displacement& d);

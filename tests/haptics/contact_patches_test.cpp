@@ -27,15 +27,16 @@ TrackedContact contact(std::int64_t id, const Vector3d& p_W, const Vector3d& n_W
 }
 
 TEST(ContactPatches, ContactsInOnePlaneAreOneHoweverFarApart) {
-  const std::vector<TrackedContact> contacts{contact(4, {0, 0, 0}, Vector3d::UnitZ(), 1.0),
-                                             contact(7, {0.1, 0, 0}, Vector3d::UnitZ(), 3.0)};
+  std::vector<TrackedContact> contacts{contact(4, {0, 0, 0}, Vector3d::UnitZ(), 1.0),
+                                       contact(7, {0.1, 0, 0}, Vector3d::UnitZ(), 3.0)};
+  contacts[1].contact.friction_W = Vector3d(0.5, 0, 0);
   ContactPatches patches(0.1);
   const auto merged = patches.merge(contacts);
   ASSERT_EQ(merged.size(), 1u);
   EXPECT_EQ(merged[0].id, 4);
   EXPECT_EQ(merged[0].count, 2);
   EXPECT_TRUE(merged[0].p_W.isApprox(Vector3d(0.075, 0, 0)));  // nearer to the one that pushes more
-  EXPECT_TRUE(merged[0].force_on_part_W.isApprox(Vector3d(0, 0, 4.0)));
+  EXPECT_TRUE(merged[0].force_on_part_W.isApprox(Vector3d(0.5, 0, 4.0)));
   EXPECT_NEAR(merged[0].extent, 0.075, 1e-15);
 }
 

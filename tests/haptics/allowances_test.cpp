@@ -1,0 +1,165 @@
+// Parts that overlap when they are taken hold of, obstacles that give way or have margins of their own, parts that are
+// shaken: what is not plain contact, and its limits.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/collision/brute_force.h>
+#include <glissade/collision/mesh_generators.h>
+#include <glissade/collision/mesh_operations.h>
+#include <glissade/haptics/sliding.h>
+
+#include "sliding_scenes.h"
+
+namespace glissade::haptics {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+Isometry3d at(const Vector3d& p) {
+  return Isometry3d(Eigen::Translation3d(p));
+}
+
+std::shared_ptr<const collision::TriangleMesh> box(const Vector3d& size) {
+  return std::make_shared<collision::TriangleMesh>(collision::make_box(size, 12));
+}
+
+/// A block whose upper face is z = 0.
+Obstacle block() {
+  return {std::make_shared<ContactBody>(box({0.4, 0.4, 0.1})), at({0.0, 0.0, -0.05}), "the block"};
+}
+
+std::shared_ptr<const SlidingPart> cube() {
+  return std::make_shared<SlidingPart>(box({0.02, 0.02, 0.02}));
+}
+
+bool overlaps(const Sliding& sliding) {
+  for (const PlacedBody& body : sliding.surroundings().bodies().first(sliding.surroundings().obstacles().size())) {
+    if (collision::brute_force_intersects(body.body->tree.mesh(), sliding.part().tree.mesh(),
+                                          body.X_WB.inverse() * sliding.result().X_WV)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+TEST(Overlap, IsRefusedUnlessTheRulesLeadOutOfIt) {
+  EXPECT_THROW(Sliding({block()}, cube(), at({0.0, 0.0, 0.009})), std::invalid_argument);
+  EXPECT_NO_THROW(Sliding({block()}, cube(), at({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}}));
+}
+
+TEST(Overlap, APartThatIsHeldStillComesOutAtLimitedSpeedAndStaysOut) {
+  Sliding sliding({block()}, cube(), at({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}});
+  const Isometry3d X_WG = sliding.result().X_WG;
+  double height = 0.009;
+  for (int i = 0; i < 5; ++i) {
+    const SlidingResult& result = sliding.advance(X_WG);
+    EXPECT_LE(result.X_WV.translation().z() - height, kSlew_m * (1.0 + 1e-9)) << "no jump";
+    EXPECT_GT(result.X_WV.translation().z(), height + 0.5 * kSlew_m) << "but out it comes";
+    EXPECT_TRUE(std::any_of(result.contacts.begin(), result.contacts.end(),
+                            [](const Contact& contact) { return contact.kind == ContactKind::kOverlap; }));
+    height = result.X_WV.translation().z();
+  }
+  for (int i = 0; i < 5; ++i)
+    sliding.advance(X_WG);
+  EXPECT_FALSE(overlaps(sliding));
+  for (int i = 0; i < 20; ++i) {
+    sliding.advance(at({0.001 * i, 0.0, 0.005}));
+    EXPECT_FALSE(overlaps(sliding)) << "the block is like any other now";
+  }
+  EXPECT_NEAR(sliding.result().X_WV.translation().z(), 0.01, 2.0 * sliding.margin());
+  EXPECT_NEAR(sliding.result().X_WV.translation().x(), 0.019, 1e-6);
+}
+
+TEST(Overlap, IsNotLetDeeperAndOtherObstaclesHoldAllTheWhile) {
+  // A second block leaves 0.4 mm of the 1 mm that the way out takes.
+  Obstacle lid = block();
+  lid.X_WO.translation().z() = 0.05 + 0.0194;
+  Sliding sliding({block(), lid}, cube(), at({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}});
+  for (int i = 0; i < 50; ++i) {
+    const double z = sliding.advance(at({0.0, 0.0, -0.02})).X_WV.translation().z();
+    EXPECT_GT(z, 0.009 - 1e-6);
+    EXPECT_LT(z, 0.0094);
+  }
+}
+
+TEST(GivingWay, LetsAUnitSlideHomeOverItsSpringsAndOutAgain) {
+  // A bay: a floor, and two springs that reach 0.5 mm into the unit's sides when it is home.
+  const collision::TriangleMesh floor = collision::make_plate({0.2, 0.2}, 2);
+  std::vector<collision::TriangleMesh> meshes{floor};
+  for (const double side : {1.0, -1.0})
+    meshes.push_back(
+        collision::transformed(collision::make_box({0.004, 0.01, 0.01}, 12), at({side * 0.0115, 0.0, 0.01})));
+  const auto bay = std::make_shared<ContactBody>(std::make_shared<collision::TriangleMesh>(collision::merge(meshes)));
+  const Eigen::AlignedBox3d springs(Vector3d(-0.02, -0.01, 0.001), Vector3d(0.02, 0.01, 0.02));
+  Obstacle obstacle{bay, Isometry3d::Identity(), "the bay"};
+
+  const auto depth_reached = [&] {
+    Sliding sliding({obstacle}, cube(), at({0.0, 0.0, 0.03}));
+    for (int i = 0; i <= 100; ++i)
+      sliding.advance(at({0.0, 0.0, 0.03 - 0.0003 * i}));
+    const double depth = sliding.result().X_WV.translation().z();
+    for (int i = 0; i <= 100; ++i)
+      sliding.advance(at({0.0, 0.0, 0.0003 * i}));
+    EXPECT_EQ(sliding.result().state, SlidingState::kFree) << "out again";
+    return depth;
+  };
+  EXPECT_NEAR(depth_reached(), 0.025, 1e-4) << "without an allowance it stops on the springs";
+  obstacle.giving_way = collision::triangles_inside(bay->tree.mesh(), springs);
+  EXPECT_EQ(obstacle.giving_way.size(), 24u);
+  EXPECT_NEAR(depth_reached(), 0.01, 1e-5) << "with it the floor holds, as exactly as ever";
+}
+
+TEST(Margin, OfAnObstacleReplacesThatOfThePart) {
+  const auto height = [](std::optional<double> margin) {
+    Obstacle obstacle = block();
+    obstacle.margin = margin;
+    Sliding sliding({obstacle}, cube(), at({0.0, 0.0, 0.011}));
+    for (int i = 0; i < 30; ++i)
+      sliding.advance(at({0.0, 0.0, 0.005}));
+    return sliding.result().X_WV.translation().z() - 0.01;
+  };
+  EXPECT_NEAR(height(std::nullopt), 2e-6, 1e-8) << "the least default";
+  EXPECT_NEAR(height(0.2e-6), 0.2e-6, 1e-9);
+  EXPECT_NEAR(height(50e-6), 50e-6, 1e-8);
+}
+
+TEST(AntiJam, GetsAPegInThatIsHeldAskewAndLeavesAloneWhatIsNotStuck) {
+  const auto depth_reached = [](bool anti_jam, const test_support::PegTrial& trial) {
+    const test_support::SlidingScene scene = test_support::peg_scene(trial);
+    Sliding sliding(scene.obstacles, scene.part_V, scene.X_WV_start, {.rules = {.anti_jam = anti_jam}});
+    for (int tick = 1; tick <= scene.ticks; ++tick)
+      sliding.advance(scene.ghost(tick));
+    return -sliding.result().X_WV.translation().z();
+  };
+  int without = 0;
+  int with = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const test_support::PegTrial trial{.offset = 1e-3, .tilt = 1.5 * std::numbers::pi / 180.0, .seed = seed};
+    without += depth_reached(false, trial) > 7e-3 ? 1 : 0;
+    with += depth_reached(true, trial) > 7e-3 ? 1 : 0;
+  }
+  EXPECT_GE(with, 9);
+  EXPECT_GT(with, without);
+}
+
+TEST(AntiJam, DoesNotShakeAPartThatFollows) {
+  const auto last = [](bool anti_jam) {
+    Sliding sliding({block()}, cube(), at({0.0, 0.0, 0.011}), {.rules = {.anti_jam = anti_jam}});
+    for (int i = 0; i < 500; ++i)
+      sliding.advance(at({1e-5 * i, 0.0, 0.005}));
+    return sliding.result().X_WV;
+  };
+  EXPECT_EQ(last(true).matrix(), last(false).matrix());
+}
+
+}  // namespace
+}  // namespace glissade::haptics
