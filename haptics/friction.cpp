@@ -25,7 +25,7 @@ Eigen::Matrix<double, 6, 3> whitened(const Eigen::Matrix3d& directions_W, const 
 }  // namespace
 
 void FrictionSolver::solve(std::span<const Displacement> wanted, std::span<const CouplingStiffness> stiffness,
-                           std::span<const JointRow> rows, double coefficient, const JointProjection& frictionless,
+                           std::span<const JointRow> rows, double coefficient,
                            std::array<Displacement, kMaxParts>& displacements, std::vector<RowForce>& forces) {
   prepare(stiffness, rows);
   double size = 0.0;
@@ -35,10 +35,9 @@ void FrictionSolver::solve(std::span<const Displacement> wanted, std::span<const
     y_[p] << std::sqrt(stiffness[p].translational) * wanted[p].v, std::sqrt(stiffness[p].rotational) * wanted[p].w;
     size = std::max(size, y_[p].norm());
   }
-  for (int i = 0; i < frictionless.active_count; ++i) {
-    const auto slot = static_cast<std::size_t>(i);
-    Row& row = rows_[static_cast<std::size_t>(frictionless.active[slot])];
-    row.force_contact.x() = frictionless.force[slot];
+  for (const RowForce& force : forces) {
+    Row& row = rows_[static_cast<std::size_t>(force.row)];
+    row.force_contact << force.normal, row.tangents_W.transpose() * force.across_W;
     row.is_hot = true;
     push(row, row.force_contact);
   }

@@ -37,11 +37,12 @@ struct RowForce {
 /// Deterministic; reuses its memory. Not thread-safe.
 class FrictionSolver {
  public:
-  /// Replaces `displacements` and `forces`. Starts from the `frictionless` solution of the same programme. Cost
-  /// O(rows) and some hundred sweeps over the contacts that push.
+  /// Replaces `displacements` by the solution and `forces`, which it starts from, by its forces: those of the step
+  /// before, or else of the frictionless programme. Without a good start a part that sticks would creep by what the
+  /// sweeps leave undone, each time. Cost O(rows) and up to some hundred sweeps over the contacts that push.
   void solve(std::span<const Displacement> wanted, std::span<const CouplingStiffness> stiffness,
-             std::span<const JointRow> rows, double coefficient, const JointProjection& frictionless,
-             std::array<Displacement, kMaxParts>& displacements, std::vector<RowForce>& forces);
+             std::span<const JointRow> rows, double coefficient, std::array<Displacement, kMaxParts>& displacements,
+             std::vector<RowForce>& forces);
 
  private:
   using Jacobian = Eigen::Matrix<double, 6, 3>;  // columns: the normal and two tangents, whitened

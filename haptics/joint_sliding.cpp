@@ -492,16 +492,39 @@ bool JointSliding::project_on_rows(std::span<const Displacement> wanted) {
   projected_.fill({});
   if (projection.status != ProjectionStatus::kSolved) return false;
   if (rules_.friction.is_on() && projection.active_count > 0) {
-    const double coefficient = was_moving_ ? rules_.friction.sliding : rules_.friction.at_rest;
-    friction_solver_.solve(wanted, grips_, rows_, coefficient, projection, projected_, forces_);
-    return true;
+    remember_forces();
+    if (!forces_.empty()) {
+      solve_friction(wanted);
+      return true;
+    }
   }
   projected_ = projection.displacements;
   for (int i = 0; i < projection.active_count; ++i) {
     const auto slot = static_cast<std::size_t>(i);
     forces_.push_back({projection.active[slot], projection.force[slot]});
   }
+  if (rules_.friction.is_on() && projection.active_count > 0) solve_friction(wanted);
   return true;
+}
+
+void JointSliding::solve_friction(std::span<const Displacement> wanted) {
+  const double coefficient = was_moving_ ? rules_.friction.sliding : rules_.friction.at_rest;
+  friction_solver_.solve(wanted, grips_, rows_, coefficient, projected_, forces_);
+}
+
+/// Those of the last cycle, where the same features still touch.
+void JointSliding::remember_forces() {
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& contact = contacts_[i];
+    for (const Contact& before : pushed_) {
+      if (before.part != contact.part || before.obstacle != contact.obstacle || before.kind != contact.kind ||
+          before.part_feature != contact.part_feature || before.obstacle_feature != contact.obstacle_feature) {
+        continue;
+      }
+      forces_.push_back({static_cast<std::int32_t>(i), before.force, before.friction_W});
+      break;
+    }
+  }
 }
 
 /// How much of its displacement each part may go: by the reach, the slew and the linearisation of rotations. Parts that
@@ -564,12 +587,14 @@ double JointSliding::energy(std::span<const Displacement> errors) const {
 
 void JointSliding::apply(const Step& step) {
   const std::size_t found = contacts_.size();
+  pushed_.clear();
   for (const RowForce& force : forces_) {
     const auto row = static_cast<std::size_t>(force.row);
     // A row that only a failed proof asked for holds the part like any contact, and is told like one.
     Contact& contact = row < found ? contacts_[row] : contacts_.emplace_back(proof_contacts_[row - found]);
     contact.force = force.normal;
     contact.friction_W = force.across_W;
+    if (rules_.friction.is_on()) pushed_.push_back(contact);
   }
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     Part& part = parts_[p];

@@ -137,6 +137,8 @@ class JointSliding {
   Step certified_step(std::span<const Displacement> wanted);
   bool prove(const Displacements& displacements, Step& step);
   bool project_on_rows(std::span<const Displacement> wanted);
+  void solve_friction(std::span<const Displacement> wanted);
+  void remember_forces();
   std::array<double, kMaxParts> allowed_fractions(const Displacements& d) const;
   void add_rows_for_failures();
   double energy(std::span<const Displacement> errors) const;
@@ -161,6 +163,7 @@ class JointSliding {
   FrictionSolver friction_solver_;
   Displacements projected_;
   std::vector<RowForce> forces_;
+  std::vector<Contact> pushed_;         // in the last cycle, where there is friction
   std::vector<RowForce> first_forces_;  // of the contacts alone
   std::vector<UncertifiedPair> failures_;
   bool was_moving_ = false;  // in the last call, which is what friction depends on
