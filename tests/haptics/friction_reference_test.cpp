@@ -22,10 +22,8 @@ using test_support::pose;
 using test_support::turn;
 
 constexpr double kCoefficient = 0.4;
-// On the verge of slipping the part creeps while the friction solver ends its sweeps before they have settled, so these
-// are wider than without friction.
-constexpr double kPosition_m = 3e-6;
-constexpr double kForce = 2e-3;  // relative
+constexpr double kPosition_m = 0.1e-6;
+constexpr double kForce = 1e-5;  // relative
 const Vector3d kBoxSize(0.1, 0.06, 0.04);
 
 /// The box on a plane of some slope about y, simulated by both. Positions are in the frame of the plane: x down the
