@@ -2,8 +2,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include <glissade/collision/mesh_operations.h>
 #include <glissade/collision/peg_and_hole.h>
 #include <glissade/collision/screw_thread.h>
+#include <glissade/collision/slide_in_unit.h>
 #include <glissade/collision/spur_gear.h>
 
 #include "shape_entries.h"
@@ -115,10 +117,46 @@ ShapeEntry gear_base_entry() {
           }};
 }
 
+std::vector<ShapeParameter> slide_in_parameters() {
+  const SlideInShape d;
+  return {{"width_m", "width of the body, along x", d.width},
+          {"height_m", "height of the body, along z", d.height},
+          {"depth_m", "depth of the body, along y", d.depth},
+          {"bezel_thickness_m", "thickness of the bezel", d.bezel_thickness},
+          {"bezel_border_m", "by how much it reaches beyond the body", d.bezel_border},
+          {"clearance_m", "between body and bay", d.clearance},
+          {"overlap_m", "of the bay's tongues and the seated body", d.overlap},
+          count_parameter("tongues_per_side", "tongues at each side", d.tongues_per_side),
+          count_parameter("triangles", "about so many triangles", static_cast<int>(d.triangles))};
+}
+
+SlideInShape slide_in_of(const ShapeValues& v) {
+  return {v.at("width_m"),         v.at("height_m"),    v.at("depth_m"),   v.at("bezel_thickness_m"),
+          v.at("bezel_border_m"),  v.at("clearance_m"), v.at("overlap_m"), count_of(v, "tongues_per_side"),
+          count_of(v, "triangles")};
+}
+
+ShapeEntry slide_in_unit_entry() {
+  return {{"slide_in_unit", "unit that slides along +y into its bay, in the frame of the bay when seated",
+           slide_in_parameters()},
+          [](const ShapeValues& v) { return make_slide_in_unit(slide_in_of(v)); }};
+}
+
+ShapeEntry bay_entry() {
+  return {{"bay", "bay of the slide-in unit, without its tongues", slide_in_parameters()},
+          [](const ShapeValues& v) { return make_bay(slide_in_of(v)); }};
+}
+
+ShapeEntry bay_tongues_entry() {
+  return {{"bay_tongues", "spring tongues of that bay", slide_in_parameters()},
+          [](const ShapeValues& v) { return merge(make_bay_tongues(slide_in_of(v))); }};
+}
+
 }  // namespace
 
 std::vector<ShapeEntry> machine_element_entries() {
-  return {bolt_entry(), gear_base_entry(), holed_plate_entry(), nut_entry(), peg_entry(), spur_gear_entry()};
+  return {bay_entry(), bay_tongues_entry(), bolt_entry(),          gear_base_entry(), holed_plate_entry(),
+          nut_entry(), peg_entry(),         slide_in_unit_entry(), spur_gear_entry()};
 }
 
 }  // namespace glissade::collision

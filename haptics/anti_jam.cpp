@@ -12,9 +12,9 @@ constexpr double kPatience_ms = 100.0;
 constexpr double kLongestShaking_ms = 2000.0;
 constexpr double kWantedElsewhere_m = 0.3e-3;
 
-constexpr double kOffset_m = 0.6e-3;
+constexpr double kOffset_m = 1.6e-3;
 constexpr double kTilt = 1.4 * std::numbers::pi / 180.0;
-constexpr double kTurns_per_ms = 0.02;
+constexpr double kTurns_per_ms = 0.01;
 
 }  // namespace
 

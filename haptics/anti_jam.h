@@ -1,7 +1,7 @@
 #pragma once
 
-/// Shaking a part that is stuck: where contacts hold it although it is wanted elsewhere, its target goes round on a
-/// small cone, as a hand does that wiggles a peg into its hole.
+/// Shaking a part that is stuck: where contacts hold it although it is wanted elsewhere, its target goes round in a
+/// growing spiral, as a hand does that looks for a hole with a peg.
 
 #include <Eigen/Geometry>
 
@@ -22,8 +22,8 @@ class AntiJam {
 
   bool is_shaking() const { return is_shaking_; }
 
-  /// Where to aim instead of X_WT: there, but while it shakes 0.3 mm beside it and 0.7° askew, going round 20 times a
-  /// second across the direction in which the part was wanted when it got stuck.
+  /// Where to aim instead of X_WT: there, but while it shakes beside it and askew, by up to 1.6 mm and 1.4° after two
+  /// seconds, going round ten times a second across the direction in which the part was wanted when it got stuck.
   Eigen::Isometry3d aim(const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& p_Vref) const;
 
  private:

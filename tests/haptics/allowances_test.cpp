@@ -136,7 +136,7 @@ TEST(AntiJam, GetsAPegInThatIsHeldAskewAndLeavesAloneWhatIsNotStuck) {
   const auto depth_reached = [](bool anti_jam, const test_support::PegTrial& trial) {
     const test_support::SlidingScene scene = test_support::peg_scene(trial);
     Sliding sliding(scene.obstacles, scene.part_V, scene.X_WV_start, {.rules = {.anti_jam = anti_jam}});
-    for (int tick = 1; tick <= scene.ticks; ++tick)
+    for (int tick = 1; tick <= scene.ticks + 2000; ++tick)  // it is shaken for two seconds
       sliding.advance(scene.ghost(tick));
     return -sliding.result().X_WV.translation().z();
   };

@@ -214,7 +214,7 @@ TEST(ClosedForm, AnEdgeHeldOverTheEdgeOfABlockTipsLikeAFace) {
 double inner_radius(const collision::TriangleMesh& mesh) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vector3d a = mesh.corner(static_cast<std::int32_t>(t), 0);
+    const Vector3d& a = mesh.corner(static_cast<std::int32_t>(t), 0);
     const Vector3d normal =
         (mesh.corner(static_cast<std::int32_t>(t), 1) - a).cross(mesh.corner(static_cast<std::int32_t>(t), 2) - a);
     if (!normal.isZero()) least = std::min(least, std::abs(normal.normalized().dot(a)));

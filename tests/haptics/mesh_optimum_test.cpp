@@ -143,16 +143,24 @@ Isometry3d random_turn(RandomNumbers& random, const Vector3d& p) {
   return pose(p, Eigen::Quaterniond(random.rotation()));
 }
 
+Scene convex_part_on_convex_obstacle(RandomNumbers& random) {
+  Scene scene;
+  scene.set_part(test_support::random_convex_mesh(random, 0.03));
+  scene.add_obstacle(test_support::random_convex_mesh(random, 0.05), random_turn(random, random.point(0.02)));
+  const Vector3d direction = random.direction();
+  scene.X_WV_start = random_turn(random, 0.2 * direction);
+  scene.inwards = -direction;
+  return scene;
+}
+
 TEST(MeshOptimum, OfConvexPartsOnConvexObstacles) {
-  compare(1, 100, [](RandomNumbers& random) {
-    Scene scene;
-    scene.set_part(test_support::random_convex_mesh(random, 0.03));
-    scene.add_obstacle(test_support::random_convex_mesh(random, 0.05), random_turn(random, random.point(0.02)));
-    const Vector3d direction = random.direction();
-    scene.X_WV_start = random_turn(random, 0.2 * direction);
-    scene.inwards = -direction;
-    return scene;
-  });
+  compare(1, 100, convex_part_on_convex_obstacle);
+}
+
+TEST(MeshOptimum, OfAnEdgeThatNearlyLiesOnAFace) {
+  // It rests on one side of the face and is some micrometres above the other. Rows for whole triangles that could not
+  // be proved apart once kept it there.
+  compare(1876, 1, convex_part_on_convex_obstacle);
 }
 
 /// Blocks that meet at right angles: two make a groove along y, three a corner.

@@ -77,6 +77,18 @@ TEST(SlidingScene, ANutFollowsTheThread) {
   EXPECT_NEAR(nut_advance(scene, sliding.result().X_WV), 0.2e-3, 53e-6);
 }
 
+TEST(SlidingScene, AUnitComesHomeIntoItsBayAndOutAgainOnlyIfTheTonguesGiveWay) {
+  for (const bool tongues_give_way : {true, false}) {
+    const SlidingScene scene = bay_scene(tongues_give_way);
+    Sliding sliding(scene.obstacles, scene.part_V, scene.X_WV_start);
+    double deepest = -1.0;
+    for (int tick = 1; tick <= scene.ticks; ++tick)
+      deepest = std::max(deepest, sliding.advance(scene.ghost(tick)).X_WV.translation().y());
+    EXPECT_EQ(deepest > -2.0 * sliding.margin(), tongues_give_way);
+    EXPECT_EQ(sliding.result().state, SlidingState::kFree) << "it is out again";
+  }
+}
+
 TEST(SlidingScene, LedThroughGoesStraightAndTurnsEvenly) {
   Isometry3d X_end(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()));
   X_end.translation() = Eigen::Vector3d(1.0, 2.0, 3.0);

@@ -12,6 +12,7 @@
 #include <exception>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -53,6 +54,25 @@ TortureCounts run_one(const Arguments& arguments, std::int64_t index) {
   }
 }
 
+long long count(std::int64_t number) {
+  return static_cast<long long>(number);
+}
+
+// Jams gather in few scenes.
+void print_most_jammed(const std::vector<TortureCounts>& counts) {
+  constexpr std::size_t kPrinted = 8;
+  std::vector<std::pair<std::int64_t, std::size_t>> jams;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const std::int64_t ticks = counts[i].jammed + counts[i].jammed_near;
+    if (ticks > 0) jams.emplace_back(-ticks, i);
+  }
+  std::sort(jams.begin(), jams.end());
+  if (!jams.empty()) std::printf("jammed in %zu scenes:", jams.size());
+  for (std::size_t i = 0; i < std::min(kPrinted, jams.size()); ++i)
+    std::printf(" %lld ticks in scene %zu", count(-jams[i].first), jams[i].second);
+  if (!jams.empty()) std::printf("\n");
+}
+
 // Scenes go to whichever thread is free; their counts are added up in their own order.
 TortureCounts run_all(const Arguments& arguments, int threads) {
   if (arguments.only_scene >= 0) return run_one(arguments, arguments.only_scene);
@@ -75,14 +95,11 @@ TortureCounts run_all(const Arguments& arguments, int threads) {
   for (std::thread& thread : crew)
     thread.join();
   if (!arguments.quiet) std::fprintf(stderr, "\n");
+  print_most_jammed(counts);
   TortureCounts sum;
   for (const TortureCounts& scene : counts)
     sum.add(scene);
   return sum;
-}
-
-long long count(std::int64_t number) {
-  return static_cast<long long>(number);
 }
 
 void print(const TortureCounts& c, double seconds) {

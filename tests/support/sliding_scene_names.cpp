@@ -11,6 +11,7 @@ using SceneMaker = std::function<SlidingScene()>;
 
 const std::map<std::string, SceneMaker>& scene_makers() {
   static const std::map<std::string, SceneMaker> kMakers{
+      {"bay", [] { return bay_scene(); }},
       {"clutter", [] { return clutter_scene(1); }},
       {"corner",
        [] {

@@ -11,6 +11,7 @@
 #include <glissade/collision/mesh_operations.h>
 #include <glissade/collision/peg_and_hole.h>
 #include <glissade/collision/screw_thread.h>
+#include <glissade/collision/slide_in_unit.h>
 #include <glissade/collision/spur_gear.h>
 
 #include "random_numbers.h"
@@ -177,6 +178,24 @@ SlidingScene nut_scene(double play) {
 
 double nut_advance(const SlidingScene& scene, const Isometry3d& X_WV) {
   return X_WV.translation().z() - scene.X_WV_start.translation().z();
+}
+
+SlidingScene bay_scene(bool tongues_give_way) {
+  const collision::SlideInShape shape;
+  collision::BayWithTongues bay = collision::make_bay_with_tongues(shape);
+  SlidingScene scene;
+  scene.name = "bay";
+  scene.obstacles.push_back({body_of(std::move(bay.mesh)), Isometry3d::Identity(), "the bay"});
+  if (tongues_give_way) scene.obstacles.front().giving_way = std::move(bay.tongue_triangles);
+  scene.part_V = part_of(collision::make_slide_in_unit(shape));
+  scene.X_WV_start = at({1e-3, -0.19, -1e-3}, about({0.3, 1.0, 0.2}, 0.02));
+  scene.ticks = 4000;
+  scene.ghost = led_through({{0, scene.X_WV_start},
+                             {500, at({0.3e-3, -0.17, 0.0})},
+                             {2000, at({0.3e-3, 2e-3, 0.2e-3})},
+                             {2200, at({0.3e-3, 2e-3, 0.2e-3})},
+                             {4000, at({-0.3e-3, -0.19, 0.0})}});
+  return scene;
 }
 
 SlidingScene clutter_scene(std::uint64_t seed) {

@@ -67,6 +67,10 @@ SlidingScene nut_scene(double play = 40e-6);
 /// How far a nut of that scene has come along the axis, metres.
 double nut_advance(const SlidingScene& scene, const Eigen::Isometry3d& X_WV);
 
+/// A unit slid into its bay and pulled out again, the ghost going 2 mm too deep and 0.3 mm beside. The tongues of the
+/// bay, which overlap the seated unit by 0.3 mm, give way to it if they are to. Home is the identity pose.
+SlidingScene bay_scene(bool tongues_give_way = true);
+
 /// A box among 60 boxes that lie about at random; the ghost wanders through all of them.
 SlidingScene clutter_scene(std::uint64_t seed);
 

@@ -112,7 +112,8 @@ SweptCheck::SweptCheck(const std::vector<haptics::Obstacle>& obstacles, const co
     const collision::TriangleMesh& mesh = obstacle.body->tree.mesh();
     for (std::int32_t i = 0; i < std::ssize(mesh.triangles); ++i) {
       if (!has_area({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)})) continue;
-      const TrianglePoints points = obstacle.placed().triangle_W(i);
+      const TrianglePoints points{obstacle.X_WO * mesh.corner(i, 0), obstacle.X_WO * mesh.corner(i, 1),
+                                  obstacle.X_WO * mesh.corner(i, 2)};
       obstacles_W_.push_back({points, box_of(points, 0.0)});
     }
   }

@@ -58,6 +58,11 @@ SlidingOptions random_options(Metaphor metaphor, const SlidingPart& part, Random
     const double translational = random.power_of_ten(1.0, 4.0);
     options.stiffness = {translational, translational * part.radius() * part.radius() * random.power_of_ten(-1.0, 1.0)};
   }
+  if (random.chance(0.2)) {
+    options.rules.friction.at_rest = random.uniform(0.0, 0.8);
+    options.rules.friction.sliding = random.uniform(0.0, 1.0) * options.rules.friction.at_rest;
+  }
+  options.rules.anti_jam = random.chance(0.2);
   return options;
 }
 
@@ -105,8 +110,10 @@ class TortureRun {
   void fault(const std::string& what) {
     if (++counts_.fault_count > kMostFaultsTold) return;
     counts_.faults.push_back(what + "\n  " + label_ + ", tick " + std::to_string(tick_) + ", " +
-                             std::string(name_of(metaphor_)) + ", at most " + std::to_string(options_.rules.max_cycles) +
-                             " cycles, " + scene_.description);
+                             std::string(name_of(metaphor_)) + ", at most " +
+                             std::to_string(options_.rules.max_cycles) + " cycles, " +
+                             (options_.rules.friction.is_on() ? "with friction, " : "") +
+                             (options_.rules.anti_jam ? "shaken, " : "") + scene_.description);
   }
 
   void tick() {
@@ -201,8 +208,9 @@ class TortureRun {
     force_ = force;
   }
 
-  // Whether a part that stands still although it is wanted elsewhere had to.
+  // Whether a part that stands still although it is wanted elsewhere had to. Friction may hold it anywhere.
   void check_progress(double moved, double ghost_motion) {
+    if (options_.rules.friction.is_on()) return;
     const Displacement error = sliding_.error();
     const double away = length(error);
     if (!(away > kFarFromGhost_m || (ghost_motion > kGhostMoves_m && away > kGhostMoves_m))) return;
@@ -258,7 +266,7 @@ class TortureRun {
       const Vector3d n = (pair.p_part - pair.p_obstacle) / pair.distance;
       rows_.push_back({n, pair.p_part - p_Wref, std::min(0.0, sliding_.margin() - pair.distance)});
     }
-    projection_ = haptics::ProjectionSolver(rows_.size()).project(error, sliding_.stiffness(), rows_);
+    projection_ = solver_.project(error, sliding_.stiffness(), rows_);
     return projection_.status == ProjectionStatus::kSolved;
   }
 
@@ -278,6 +286,7 @@ class TortureRun {
   Vector3d force_ = Vector3d::Zero();
   int tick_ = 0;
   std::vector<ConstraintRow> rows_;
+  ProjectionSolver solver_;
   Projection projection_;
   TortureCounts counts_;
 };
