@@ -45,6 +45,24 @@ TEST(SceneFile, EqualMeshesAreShared) {
   EXPECT_NE(mesh("d"), mesh("f"));
 }
 
+TEST(SceneFile, ReadsAllowances) {
+  const Scene scene = parse_object(
+      "    margin_m: 2.0e-6\n"
+      "    gives_way: [{min_m: [-1, -1, 0.04], max_m: [1, 1, 1]}]\n");
+  EXPECT_EQ(scene.objects[0].margin_m, 2e-6);
+  EXPECT_GE(scene.objects[0].giving_way.size(), 2u) << "the upper face of a box";
+  for (const std::int32_t t : scene.objects[0].giving_way) {
+    for (int c = 0; c < 3; ++c)
+      EXPECT_GE(scene.objects[0].mesh->corner(t, c).z(), 0.04);
+  }
+  expect_bad_input([] { parse_object("    margin_m: 0\n"); }, {"scene.yaml:4", "margin_m", "positive", "'0'"});
+  expect_bad_input([] { parse_object("    gives_way: yes\n"); }, {"scene.yaml:4", "gives_way", "list"});
+  expect_bad_input([] { parse_object("    gives_way: [{min_m: [0, 0, 0], max_m: [-1, 1, 1]}]\n"); },
+                   {"scene.yaml:4", "gives_way", "min_m", "above"});
+  expect_bad_input([] { parse_object("    gives_way: [{min_m: [5, 5, 5], max_m: [6, 6, 6]}]\n"); },
+                   {"scene.yaml:4", "gives_way", "no triangle"});
+}
+
 TEST(SceneFile, ReadsObjectsScriptAndGoal) {
   const TemporaryFolder folder;
   folder.write("part.obj", kTetrahedron);

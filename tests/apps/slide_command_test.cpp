@@ -222,6 +222,37 @@ TEST_F(Slide, StartingInsideAnObstacleIsAFailureWithItsReason) {
       {"hand.csv", "collides", "first row"});
 }
 
+TEST_F(Slide, APartThatStartsInsideIsLedOutIfAskedFor) {
+  const std::string hand = trajectory("0,0,0,0.019,1,0,0,0\n0.1,0,0,0.019,1,0,0,0\n");
+  const auto rows = slide(scene({floor}), hand, {"--lead-out"});
+  EXPECT_LT(rows.front().at("vz_m"), 0.0193) << "at limited speed";
+  EXPECT_NEAR(rows.back().at("vz_m"), 0.02, 1e-5) << "half of the box above the floor";
+}
+
+TEST_F(Slide, FrictionHoldsThePartBack) {
+  // Pressed by 2 N, drawn by 1 N.
+  const std::string hand = trajectory("0,0,0,0.021,1,0,0,0\n0.1,0,0,0.018,1,0,0,0\n0.2,0.001,0,0.018,1,0,0,0\n");
+  const auto reached = [&](const std::vector<std::string>& options) {
+    return slide(scene({floor}), hand, options).back().at("vx_m");
+  };
+  EXPECT_NEAR(reached({}), 1e-3, 1e-6);
+  EXPECT_NEAR(reached({"--friction", "0.25"}), 0.5e-3, 1e-5);
+  EXPECT_NEAR(reached({"--friction", "0.25", "0.6"}), 0.0, 1e-6) << "at rest it holds more";
+  EXPECT_EQ(reached({"--friction", "0"}), reached({}));
+}
+
+TEST_F(Slide, RefusesRulesThatCannotBe) {
+  const std::string hand = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n");
+  const auto slide_with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"slide", scene({floor}), "--part", "box", "--trajectory", hand};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  expect_refused(slide_with({"--friction", "-0.1"}), {"--friction"});
+  expect_refused(slide_with({"--friction", "0.3", "0.2"}), {"--friction", "at rest"});
+  expect_refused(slide_with({"--method", "paper", "--anti-jam"}), {"--method", "--anti-jam"});
+}
+
 TEST_F(Slide, AnObjectThatCannotTakePartIsNamed) {
   const std::string hand = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n");
   const std::string far = "{position_m: [0, 1.0e+9, 0]}";

@@ -54,5 +54,18 @@ TEST(MeshOperations, WeldJoinsIdenticalPositionsOnly) {
   EXPECT_EQ(welded.triangles, expected);
 }
 
+TEST(MeshOperations, ABoxTakesOnlyTrianglesThatItHoldsWhole) {
+  const TriangleMesh mesh = make_plate({1, 1}, 2000);
+  const Eigen::AlignedBox3d right_half(Eigen::Vector3d(0.0, -1.0, -1.0), Eigen::Vector3d(1.0, 1.0, 1.0));
+  const std::vector<std::int32_t> inside = triangles_inside(mesh, right_half);
+  EXPECT_NEAR(static_cast<double>(inside.size()), 1000, 100);
+  const TriangleMesh left = without_triangles(mesh, inside);
+  EXPECT_EQ(left.triangles.size() + inside.size(), mesh.triangles.size());
+  for (std::int32_t t = 0; t < std::ssize(left.triangles); ++t) {
+    const double least = std::min({left.corner(t, 0).x(), left.corner(t, 1).x(), left.corner(t, 2).x()});
+    EXPECT_LT(least, 0.0) << "one corner at least is outside of the box";
+  }
+}
+
 }  // namespace
 }  // namespace glissade::collision
