@@ -124,6 +124,7 @@ void print(const TortureCounts& c, double seconds) {
   for (std::size_t i = 0; i < std::min(kPrinted, c.faults.size()); ++i)
     std::printf("FAULT: %s\n", c.faults[i].c_str());
   std::printf("%lld faults\n", count(c.fault_count));
+  std::fflush(stdout);  // with --again there is a long way to go
 }
 
 bool torture(const Arguments& arguments) {
