@@ -11,7 +11,9 @@ using collision::MeshTopology;
 using collision::TriangleMesh;
 using collision::TrianglePoints;
 
-/// What part of the margin two gaps that count as the same may differ by.
+/// In margins: how near contacts are whose rims are looked at, and by how much two gaps may differ that count as the
+/// same.
+constexpr double kNearRims = 2.0;
 constexpr double kAsNear = 0.1;
 
 /// One side of a pair, part or obstacle: its mesh in world coordinates and what its triangle answers for.
@@ -109,12 +111,15 @@ class ContactSearch {
   /// A vertex over a face, no further from a rim of it than the margin, where one of its edges crosses that rim: past
   /// the rim there is room, which both constraints together would deny. The one of the edges is as near, and enough.
   void leave_out_what_rims_hold() {
+    std::erase_if(rims_, [&](const AtRim& rim) { return !rim_holds(contacts_[rim.contact], rim.edge); });
     std::size_t kept = 0;
     auto rim = rims_.begin();
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      const bool is_at_rim = rim != rims_.end() && rim->contact == i;
-      if (!(is_at_rim && rim_holds(contacts_[i], rim->edge))) contacts_[kept++] = contacts_[i];
-      if (is_at_rim) ++rim;
+      if (rim != rims_.end() && rim->contact == i) {
+        ++rim;
+      } else {
+        contacts_[kept++] = contacts_[i];
+      }
     }
     contacts_.resize(kept);
   }
@@ -136,8 +141,9 @@ class ContactSearch {
     const auto body = static_cast<std::size_t>(is_part_vertex ? contact.part + first_part_ : contact.obstacle);
     const MeshTopology& topology = bodies_[body].body->topology;
     const std::int32_t vertex = is_part_vertex ? contact.part_feature : contact.obstacle_feature;
-    return std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact& other) {
-      if (other.kind != ContactKind::kEdgeEdge || other.part != contact.part || other.obstacle != contact.obstacle ||
+    return std::any_of(crossings_.begin(), crossings_.end(), [&](std::size_t i) {
+      const Contact& other = contacts_[i];
+      if (other.part != contact.part || other.obstacle != contact.obstacle ||
           other.gap > contact.gap + kAsNear * margin_ ||
           (is_part_vertex ? other.obstacle_feature : other.part_feature) != edge) {
         return false;
@@ -156,7 +162,7 @@ class ContactSearch {
     if (gap < 0.0) return;
     switch (on.region) {
       case Region::kFace:
-        note_rim(obstacle_.rim_near(on.point, margin_));
+        if (gap <= kNearRims * margin_) note_rim(obstacle_.rim_near(on.point, margin_));
         add(ContactKind::kVertexFace, part_.vertex(i), obstacle_.triangle(), n, x, gap);
         break;
       case Region::kEdge:
@@ -181,7 +187,7 @@ class ContactSearch {
     const double gap = gap_and_normal(y, on.point, n);
     if (gap < 0.0 || on.region == Region::kVertex) return;  // vertex–vertex is found from the part's side
     if (on.region == Region::kFace) {
-      note_rim(part_.rim_near(on.point, margin_));
+      if (gap <= kNearRims * margin_) note_rim(part_.rim_near(on.point, margin_));
       add(ContactKind::kFaceVertex, part_.triangle(), obstacle_.vertex(i), n, on.point, gap);
     } else if (part_.owns_edge(on.index) && part_.edge_is_nearest(on.index, n, margin_) &&
                obstacle_.corner_is_nearest(i, n, margin_)) {
@@ -200,6 +206,7 @@ class ContactSearch {
       Eigen::Vector3d n;
       const double gap = gap_and_normal(closest.q, closest.p, n);
       if (gap < 0.0 || !part_.edge_is_nearest(i, n, margin_) || !obstacle_.edge_is_nearest(j, n, margin_)) continue;
+      if (gap <= (kNearRims + kAsNear) * margin_) crossings_.push_back(contacts_.size());
       add(ContactKind::kEdgeEdge, part_.edge(i), obstacle_.edge(j), n, closest.p, gap);
     }
   }
@@ -228,7 +235,8 @@ class ContactSearch {
   double reach_;
   double margin_;
   std::vector<Contact>& contacts_;
-  std::vector<AtRim> rims_;  // ascending
+  std::vector<AtRim> rims_;             // ascending
+  std::vector<std::size_t> crossings_;  // contacts of two edges that are near
 };
 
 }  // namespace
