@@ -98,8 +98,8 @@ TEST(PathCertificate, WhatIsProvedHoldsAllAlongRandomPaths) {
     for (int i = 0; i <= 100; ++i) {
       const Eigen::Isometry3d X = displaced(X_WV, part->p_Vref(), d.scaled(0.01 * i));
       const auto corner = [&](int c) -> Eigen::Vector3d { return X * part->tree.mesh().corner(0, c); };
-      const collision::TriangleDistance closest = collision::triangle_distance(
-          obstacles[0].placed().triangle_W(0), {corner(0), corner(1), corner(2)});
+      const collision::TriangleDistance closest =
+          collision::triangle_distance(obstacles[0].placed().triangle_W(0), {corner(0), corner(1), corner(2)});
       ASSERT_GE(closest.distance, 0.95 * kFloor) << "trial " << trial << " at " << i << " %";
     }
   }
