@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <glissade/haptics/contact.h>
 
 namespace glissade::haptics {
@@ -20,6 +22,36 @@ std::string_view name_of(ContactKind kind) {
       return "overlap";
   }
   return "unknown";
+}
+
+Contact mirrored(const Contact& contact, std::int32_t body_of_part, std::int32_t other_part) {
+  Contact mirror = contact;
+  switch (contact.kind) {
+    case ContactKind::kVertexFace:
+      mirror.kind = ContactKind::kFaceVertex;
+      break;
+    case ContactKind::kFaceVertex:
+      mirror.kind = ContactKind::kVertexFace;
+      break;
+    case ContactKind::kVertexEdge:
+      mirror.kind = ContactKind::kEdgeVertex;
+      break;
+    case ContactKind::kEdgeVertex:
+      mirror.kind = ContactKind::kVertexEdge;
+      break;
+    case ContactKind::kEdgeEdge:
+    case ContactKind::kVertexVertex:
+    case ContactKind::kOverlap:
+      break;
+  }
+  std::swap(mirror.part_triangle, mirror.obstacle_triangle);
+  std::swap(mirror.part_feature, mirror.obstacle_feature);
+  mirror.part = other_part;
+  mirror.obstacle = body_of_part;
+  mirror.n_W = -contact.n_W;
+  mirror.p_W = contact.q_W();
+  mirror.friction_W = -contact.friction_W;
+  return mirror;
 }
 
 }  // namespace glissade::haptics

@@ -44,4 +44,8 @@ struct Contact {
   Eigen::Vector3d q_W() const { return p_W - gap * n_W; }
 };
 
+/// A contact of two parts as the other one sees it: `body_of_part` is the number among the bodies of the part that the
+/// contact was told for, `other_part` the number among the parts of the other.
+Contact mirrored(const Contact& contact, std::int32_t body_of_part, std::int32_t other_part);
+
 }  // namespace glissade::haptics
