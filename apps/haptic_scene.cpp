@@ -36,11 +36,17 @@ void check(const Scene& scene, const SceneObject& object) {
   }
 }
 
+/// What of the mesh holds parts.
+std::shared_ptr<const collision::TriangleMesh> holding(const SceneObject& object) {
+  if (object.giving_way.empty()) return object.mesh;
+  return std::make_shared<collision::TriangleMesh>(collision::without_triangles(*object.mesh, object.giving_way));
+}
+
 /// A body of the object, or an error that names it.
 template <typename Body>
 std::shared_ptr<const Body> make_body(const Scene& scene, const SceneObject& object) {
   try {
-    return std::make_shared<Body>(object.mesh);
+    return std::make_shared<Body>(holding(object));
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(scene.source + ": object " + in_quotes(object.name) + ": " + error.what());
   }
@@ -52,6 +58,7 @@ class Bodies {
   explicit Bodies(const Scene& scene) : scene_(scene) {}
 
   std::shared_ptr<const haptics::ContactBody> of(const SceneObject& object) {
+    if (!object.giving_way.empty()) return make_body<haptics::ContactBody>(scene_, object);
     std::shared_ptr<const haptics::ContactBody>& body = bodies_[object.mesh.get()];
     if (!body) body = make_body<haptics::ContactBody>(scene_, object);
     return body;
@@ -61,12 +68,6 @@ class Bodies {
   const Scene& scene_;
   std::map<const collision::TriangleMesh*, std::shared_ptr<const haptics::ContactBody>> bodies_;
 };
-
-/// What of the mesh holds parts.
-std::shared_ptr<const collision::TriangleMesh> holding(const SceneObject& object) {
-  if (object.giving_way.empty()) return object.mesh;
-  return std::make_shared<collision::TriangleMesh>(collision::without_triangles(*object.mesh, object.giving_way));
-}
 
 }  // namespace
 
@@ -84,8 +85,7 @@ HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name) 
   Bodies bodies(scene);
   for (const SceneObject& object : scene.objects) {
     if (object.name == part.name) continue;
-    result.obstacles.push_back(
-        {bodies.of(object), object.X_WB, in_quotes(object.name), object.giving_way, object.margin_m});
+    result.obstacles.push_back({bodies.of(object), object.X_WB, in_quotes(object.name), object.margin_m});
     result.obstacle_names.push_back(object.name);
     result.placed_obstacles.push_back({holding(object), object.X_WB});
   }

@@ -11,6 +11,7 @@
 #include <glissade/collision/mesh_import.h>
 #include <glissade/collision/mesh_operations.h>
 #include <glissade/collision/shape_catalog.h>
+#include <glissade/haptics/surroundings.h>
 
 namespace glissade::apps {
 
@@ -60,7 +61,9 @@ class SceneReader {
     if (node["movable"]) object.movable = yaml_.boolean(node["movable"], "movable");
     if (const YAML::Node margin = node["margin_m"]) {
       object.margin_m = yaml_.number(margin, "margin_m");
-      if (*object.margin_m <= 0.0) yaml_.fail(margin, "margin_m: must be positive, not " + in_quotes(margin.Scalar()));
+      if (!(*object.margin_m > 0.0 && *object.margin_m <= haptics::kGreatestMargin_m)) {
+        yaml_.fail(margin, "margin_m: must be positive and at most 0.00025, not " + in_quotes(margin.Scalar()));
+      }
     }
     if (node["gives_way"]) object.giving_way = read_giving_way(node["gives_way"], *object.mesh);
     return object;

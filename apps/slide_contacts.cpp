@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -17,7 +18,9 @@ std::vector<std::string> contact_columns() {
           "qy_m",         "qz_m",
           "nx",           "ny",
           "nz",           "gap_m",
-          "force_N",      "age_ms"};
+          "force_N",      "age_ms",
+          "friction_x_N", "friction_y_N",
+          "friction_z_N"};
 }
 
 std::vector<std::string> patch_columns() {
@@ -39,11 +42,18 @@ void check_names(const HapticScene& scene) {
   }
 }
 
+double greatest_margin(const HapticScene& scene, const haptics::SlidingSimulation& sliding) {
+  double greatest = sliding.margin();
+  for (const haptics::Obstacle& obstacle : scene.obstacles)
+    greatest = std::max(greatest, obstacle.margin.value_or(0.0));
+  return greatest;
+}
+
 }  // namespace
 
 SlideContactsWriter::SlideContactsWriter(const SlideContactsFiles& files, const HapticScene& scene,
                                          const haptics::SlidingSimulation& sliding)
-    : scene_(scene), sliding_(sliding), tracker_(sliding.margin()), patches_(sliding.part().radius()) {
+    : scene_(scene), sliding_(sliding), tracker_(greatest_margin(scene, sliding)), patches_(sliding.part().radius()) {
   check_names(scene);
   if (!files.contacts.empty()) contacts_out_ = std::make_unique<CsvWriter>(files.contacts, contact_columns());
   if (!files.patches.empty()) patches_out_ = std::make_unique<CsvWriter>(files.patches, patch_columns());
@@ -77,6 +87,7 @@ void SlideContactsWriter::write_contact(double time_s, const haptics::TrackedCon
   add_vector(out, contact.q_W());
   add_vector(out, contact.n_W);
   out.add(contact.gap).add(contact.force).add(tracked.age);
+  add_vector(out, contact.friction_W);
   out.end_row();
 }
 

@@ -91,12 +91,12 @@ std::vector<std::int32_t> triangles_inside(const TriangleMesh& mesh, const Eigen
 }
 
 TriangleMesh without_triangles(const TriangleMesh& mesh, std::span<const std::int32_t> triangles) {
-  TriangleMesh kept{mesh.vertices, {}};
-  for (std::int32_t t = 0; t < std::ssize(mesh.triangles); ++t) {
-    if (!std::binary_search(triangles.begin(), triangles.end(), t))
-      kept.triangles.push_back(mesh.triangles[static_cast<std::size_t>(t)]);
+  TriangleMesh rest = mesh;
+  for (const std::int32_t t : triangles) {
+    Triangle& triangle = rest.triangles[static_cast<std::size_t>(t)];
+    triangle = {triangle[0], triangle[0], triangle[0]};
   }
-  return kept;
+  return rest;
 }
 
 }  // namespace glissade::collision

@@ -31,7 +31,9 @@ TriangleMesh weld(const TriangleMesh& mesh);
 /// The triangles of the mesh that lie in the box with all of their corners, ascending.
 std::vector<std::int32_t> triangles_inside(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box);
 
-/// The mesh without some of its triangles, which are given in ascending order. Keeps every vertex.
+/// The mesh without some of its triangles, which are given in ascending order: they lose their area, so that they take
+/// part in nothing, and all others keep their numbers. For parts that slide in and overlap by design when they are
+/// seated, such as a unit on its spring tongues: what is to give way is taken out of the obstacle beforehand.
 TriangleMesh without_triangles(const TriangleMesh& mesh, std::span<const std::int32_t> triangles);
 
 }  // namespace glissade::collision

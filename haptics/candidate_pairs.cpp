@@ -6,7 +6,6 @@ namespace glissade::haptics {
 
 void CandidatePairs::refresh(double radius, std::span<const BodyPair> ignored) {
   const collision::FrameResult& near = surroundings_.look_around(radius);
-  const std::span<const Obstacle> obstacles = surroundings_.obstacles();
   pairs_.clear();
   for (std::size_t i = 0; i < near.meeting.size(); ++i) {
     const std::uint32_t a = near.meeting[i].object_A.index;
@@ -15,11 +14,8 @@ void CandidatePairs::refresh(double radius, std::span<const BodyPair> ignored) {
     if (std::find(ignored.begin(), ignored.end(), numbers) != ignored.end()) continue;
     const PlacedBody& obstacle = surroundings_.bodies()[a];
     const PlacedBody& part = surroundings_.bodies()[b];
-    std::span<const std::int32_t> giving_way;
-    if (a < obstacles.size()) giving_way = obstacles[a].giving_way;
     for (const collision::ClosePair& pair : near.close_pairs(i)) {
       const collision::TrianglePair& triangles = pair.triangles;
-      if (std::binary_search(giving_way.begin(), giving_way.end(), triangles.triangle_A)) continue;
       const bool has_features = obstacle.body->topology.answers_for_features(triangles.triangle_A) ||
                                 part.body->topology.answers_for_features(triangles.triangle_B);
       const Eigen::Vector3d n_W = obstacle.X_WB.linear() * (pair.p_B - pair.p_A).normalized();

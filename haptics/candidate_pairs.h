@@ -39,7 +39,7 @@ class CandidatePairs {
   explicit CandidatePairs(Surroundings& surroundings) : surroundings_(surroundings) {}
 
   /// Looks around for all pairs within `radius` (metres) of where the parts are placed, but those of bodies that are
-  /// `ignored` and of triangles that give way.
+  /// `ignored`.
   void refresh(double radius, std::span<const BodyPair> ignored);
 
   /// Tells that no two points of different bodies have come nearer by more than `bound` (metres) since the last call.

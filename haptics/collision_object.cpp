@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <stdexcept>
 
 #include <glissade/collision/rigid_pose.h>
@@ -32,29 +31,16 @@ void CollisionObject::touching_pairs(const Eigen::Isometry3d& X_WC, std::vector<
   ++queries_;
   pairs.clear();
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-    find_triangles(i, X_WC);
+    collision::intersecting_pairs(obstacles_[i].body->tree, part_C_->tree, pose_in_obstacle(i, X_WC), workspace_,
+                                  triangles_);
     for (const collision::TrianglePair& pair : triangles_)
       pairs.push_back({static_cast<std::int32_t>(i), pair.triangle_A, pair.triangle_B});
   }
 }
 
 bool CollisionObject::hits(std::size_t obstacle, const Eigen::Isometry3d& X_WC) {
-  if (obstacles_[obstacle].giving_way.empty()) {
-    return collision::intersects(obstacles_[obstacle].body->tree, part_C_->tree, pose_in_obstacle(obstacle, X_WC),
-                                 workspace_);
-  }
-  find_triangles(obstacle, X_WC);
-  return !triangles_.empty();
-}
-
-/// All that touch and do not give way.
-void CollisionObject::find_triangles(std::size_t obstacle, const Eigen::Isometry3d& X_WC) {
-  collision::intersecting_pairs(obstacles_[obstacle].body->tree, part_C_->tree, pose_in_obstacle(obstacle, X_WC),
-                                workspace_, triangles_);
-  const std::vector<std::int32_t>& giving_way = obstacles_[obstacle].giving_way;
-  std::erase_if(triangles_, [&](const collision::TrianglePair& pair) {
-    return std::binary_search(giving_way.begin(), giving_way.end(), pair.triangle_A);
-  });
+  return collision::intersects(obstacles_[obstacle].body->tree, part_C_->tree, pose_in_obstacle(obstacle, X_WC),
+                               workspace_);
 }
 
 }  // namespace glissade::haptics

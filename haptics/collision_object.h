@@ -48,7 +48,6 @@ class CollisionObject {
  private:
   Eigen::Isometry3d pose_in_obstacle(std::size_t obstacle, const Eigen::Isometry3d& X_WC) const;
   bool hits(std::size_t obstacle, const Eigen::Isometry3d& X_WC);
-  void find_triangles(std::size_t obstacle, const Eigen::Isometry3d& X_WC);
 
   std::vector<Obstacle> obstacles_;
   std::shared_ptr<const SlidingPart> part_C_;

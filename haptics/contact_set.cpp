@@ -32,10 +32,12 @@ ContactSet make_contact_set(const Sliding& sliding, std::int64_t sequence, std::
   };
   std::partial_sort(scratch.begin(), scratch.begin() + static_cast<std::ptrdiff_t>(kept), scratch.end(), more_urgent);
 
+  const auto body_of_part = static_cast<std::int32_t>(sliding.surroundings().body_of_part(0));
   const Eigen::Vector3d p_Wref = result.X_WV_of_contacts * sliding.part().p_Vref();
   for (std::size_t i = 0; i < kept; ++i) {
     const Contact& contact = contacts[static_cast<std::size_t>(scratch[i])];
-    set.row_array[i] = {contact.n_W, contact.p_W - p_Wref, std::min(0.0, sliding.margin() - contact.gap)};
+    const double margin = sliding.surroundings().margin(contact.obstacle, body_of_part);
+    set.row_array[i] = {contact.n_W, contact.p_W - p_Wref, std::min(0.0, margin - contact.gap)};
   }
   return set;
 }

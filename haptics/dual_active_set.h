@@ -30,7 +30,7 @@ class DualActiveSet {
 
   /// A half-space counts as met that is missed by no more than `tolerance`. `slacks` is room for one number for each.
   DualActiveSet(const Vector& y, const HalfSpaces<kDof>& half_spaces, double tolerance,
-                Eigen::Map<Eigen::VectorXd> slacks)
+                const Eigen::Map<Eigen::VectorXd>& slacks)
       : half_spaces_(half_spaces), slacks_(slacks), tolerance_(tolerance), y_(y) {}
 
   ProjectionStatus solve() noexcept {

@@ -25,9 +25,9 @@ Eigen::Matrix<double, 6, 3> whitened(const Eigen::Matrix3d& directions_W, const 
 }  // namespace
 
 void FrictionSolver::solve(std::span<const Displacement> wanted, std::span<const CouplingStiffness> stiffness,
-                           std::span<const JointRow> rows, double coefficient,
+                           std::span<const JointRow> rows, std::span<const double> coefficients,
                            std::array<Displacement, kMaxParts>& displacements, std::vector<RowForce>& forces) {
-  prepare(stiffness, rows);
+  prepare(stiffness, rows, coefficients);
   double size = 0.0;
   for (std::size_t p = 0; p < wanted.size(); ++p) {
     y_[p].setZero();
@@ -43,7 +43,7 @@ void FrictionSolver::solve(std::span<const Displacement> wanted, std::span<const
   }
   for (int heating = 0; heating < kMostHeatings; ++heating) {
     for (int i = 0; i < kMostSweeps; ++i) {
-      if (sweep(coefficient) <= kSettled * size) break;
+      if (sweep() <= kSettled * size) break;
     }
     if (!heat_violated(kSettled * size)) break;
   }
@@ -61,7 +61,8 @@ void FrictionSolver::solve(std::span<const Displacement> wanted, std::span<const
   }
 }
 
-void FrictionSolver::prepare(std::span<const CouplingStiffness> stiffness, std::span<const JointRow> rows) {
+void FrictionSolver::prepare(std::span<const CouplingStiffness> stiffness, std::span<const JointRow> rows,
+                             std::span<const double> coefficients) {
   rows_.resize(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const JointRow& given = rows[i];
@@ -79,6 +80,7 @@ void FrictionSolver::prepare(std::span<const CouplingStiffness> stiffness, std::
     }
     const Eigen::Matrix3d response = row.J_part.transpose() * row.J_part + row.J_other.transpose() * row.J_other;
     row.bound = given.bound;
+    row.coefficient = coefficients[i];
     row.normal_response = response(0, 0);
     row.response = response.bottomRightCorner<2, 2>();
     row.unhold = row.response.inverse();
@@ -91,16 +93,16 @@ void FrictionSolver::prepare(std::span<const CouplingStiffness> stiffness, std::
 }
 
 /// Returns by how much the displacements changed, in the metric of K.
-double FrictionSolver::sweep(double coefficient) {
+double FrictionSolver::sweep() {
   double change = 0.0;
   for (Row& row : rows_) {
-    if (row.is_hot) change = std::max(change, relax(row, coefficient));
+    if (row.is_hot) change = std::max(change, relax(row));
   }
   return change;
 }
 
 /// Makes one contact consistent with the others as they are.
-double FrictionSolver::relax(Row& row, double coefficient) {
+double FrictionSolver::relax(Row& row) {
   const auto motion = [&]() -> Eigen::Vector3d {
     Eigen::Vector3d u = row.J_part.transpose() * y_[static_cast<std::size_t>(row.part)];
     if (row.other >= 0) u += row.J_other.transpose() * y_[static_cast<std::size_t>(row.other)];
@@ -112,7 +114,7 @@ double FrictionSolver::relax(Row& row, double coefficient) {
   push(row, change);
 
   const Eigen::Vector2d across = row.force_contact.tail<2>();
-  const double most = coefficient * (normal + change.x());
+  const double most = row.coefficient * (normal + change.x());
   const Eigen::Vector2d slip = motion().tail<2>();
   Eigen::Vector2d held = across - row.unhold * slip;
   if (held.norm() > most) {

@@ -37,12 +37,13 @@ struct RowForce {
 /// Deterministic; reuses its memory. Not thread-safe.
 class FrictionSolver {
  public:
-  /// Replaces `displacements` by the solution and `forces`, which it starts from, by its forces: those of the step
-  /// before, or else of the frictionless programme. Without a good start a part that sticks would creep by what the
-  /// sweeps leave undone, each time. Cost O(rows) and up to some hundred sweeps over the contacts that push.
+  /// `coefficients` has one for each row. Replaces `displacements` by the solution and `forces`, which it starts from,
+  /// by its forces: those of the step before, or else of the frictionless programme. Without a good start a part that
+  /// sticks would creep by what the sweeps leave undone, each time. Cost O(rows) and up to some hundred sweeps over the
+  /// contacts that push.
   void solve(std::span<const Displacement> wanted, std::span<const CouplingStiffness> stiffness,
-             std::span<const JointRow> rows, double coefficient, std::array<Displacement, kMaxParts>& displacements,
-             std::vector<RowForce>& forces);
+             std::span<const JointRow> rows, std::span<const double> coefficients,
+             std::array<Displacement, kMaxParts>& displacements, std::vector<RowForce>& forces);
 
  private:
   using Jacobian = Eigen::Matrix<double, 6, 3>;  // columns: the normal and two tangents, whitened
@@ -53,6 +54,7 @@ class FrictionSolver {
     Jacobian J_part;
     Jacobian J_other;
     double bound;
+    double coefficient;
     double normal_response;         // of the slip to a force of 1 N
     Eigen::Matrix2d response;       // the same across the normal
     Eigen::Matrix2d unhold;         // its inverse
@@ -62,9 +64,10 @@ class FrictionSolver {
     bool is_hot;  // pushes, or has been in the way
   };
 
-  void prepare(std::span<const CouplingStiffness> stiffness, std::span<const JointRow> rows);
-  double sweep(double coefficient);
-  double relax(Row& row, double coefficient);
+  void prepare(std::span<const CouplingStiffness> stiffness, std::span<const JointRow> rows,
+               std::span<const double> coefficients);
+  double sweep();
+  double relax(Row& row);
   bool heat_violated(double tolerance);
   void push(const Row& row, const Eigen::Vector3d& force_contact);
 

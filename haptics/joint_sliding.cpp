@@ -39,6 +39,9 @@ void JointSliding::release(std::size_t part) {
 void JointSliding::let_rest(Part& part, SlidingState state) {
   part.result.X_WT = part.result.X_WV;
   part.lag_then = {};
+  part.anti_jam = AntiJam(part.part_V->radius());
+  part.was_moving = false;
+  pushed_.clear();
   part.result.state = state;
   part.result.contacts.clear();
   part.result.pushing = 0;
@@ -47,10 +50,7 @@ void JointSliding::let_rest(Part& part, SlidingState state) {
 
 void JointSliding::advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds) {
   if (!take_ghosts(X_WG, milliseconds)) return;
-  if (!overlaps_.empty()) {
-    lead_out_ = kSlew_m * milliseconds;
-    if (overlaps_.update()) candidates_.clear();
-  }
+  lead_out(kSlew_m * milliseconds);
   int cycles = 1;
   for (;; ++cycles) {
     const Step step = cycle();
@@ -60,14 +60,13 @@ void JointSliding::advance(std::span<const Eigen::Isometry3d> X_WG, double milli
     if (all_arrived || step.length < kNotWorthIt * largest_margin_ || cycles == rules_.max_cycles) break;
   }
   hand_out_contacts();
-  was_moving_ = false;
   for (Part& part : parts_) {
     if (!is_held(part)) continue;
     part.result.cycles = cycles;
     part.result.reach = reach_;
     part.result.state = classify(part);
     part.lag_then = lag_of(part);
-    was_moving_ = was_moving_ || part.moved > kNotWorthIt * part.margin;
+    part.was_moving = part.moved > kNotWorthIt * part.margin;
     if (!rules_.anti_jam) continue;
     part.anti_jam.observe(part.lag_then, part.moved, part.result.pushing > 0, milliseconds);
   }
@@ -99,10 +98,25 @@ bool JointSliding::take_ghosts(std::span<const Eigen::Isometry3d> X_WG, double m
   return any;
 }
 
+/// Aims parts that overlap something out of it, at most so many metres.
+void JointSliding::lead_out(double most) {
+  led_out_ = 0.0;
+  if (overlaps_.empty()) return;
+  if (overlaps_.update()) candidates_.clear();
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    const WayOut* way = overlaps_.way_out_of(p);
+    if (way == nullptr || !is_held(parts_[p])) continue;
+    parts_[p].X_WA = parts_[p].result.X_WV;
+    parts_[p].X_WA.translation() += std::min(most, way->depth) * way->n_W;
+    led_out_ = most;
+  }
+}
+
 /// The rubber band wants what turns with the part.
 void JointSliding::aim() {
-  for (Part& part : parts_) {
-    if (!is_held(part) || part.metaphor != Metaphor::kRubberBand) continue;
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    Part& part = parts_[p];
+    if (!is_held(part) || part.metaphor != Metaphor::kRubberBand || overlaps_.way_out_of(p) != nullptr) continue;
     const Eigen::Vector3d& p_Vref = part.part_V->p_Vref();
     part.result.X_WT = wanted_pose(part.metaphor, part.result.X_WV, part.X_WG_then, part.result.X_WG, p_Vref);
     part.X_WA = rules_.anti_jam ? part.anti_jam.aim(part.result.X_WT, p_Vref) : part.result.X_WT;
@@ -127,8 +141,8 @@ JointSliding::Step JointSliding::cycle() {
   const double energy_before = energy(wanted);
   // Contacts that ask for their margin back may cost energy; a step that gains any beyond that went over a bend of the
   // contact that the projection did not see, and is tried again with damping.
-  const double asked = largest_margin_ + lead_out_;
-  const double allowance = 2.0 * asked * std::sqrt(2.0 * energy_before * stiffest) + stiffest * asked * asked;
+  const double allowance =
+      2.0 * largest_margin_ * std::sqrt(2.0 * energy_before * stiffest) + stiffest * largest_margin_ * largest_margin_;
   for (int trial = 0; trial < kDampings; ++trial) {
     Displacements damped;
     for (std::size_t p = 0; p < parts_.size(); ++p)
@@ -147,7 +161,6 @@ JointSliding::Step JointSliding::cycle() {
     }
     if (all_arrive || energy(remaining) <= energy_before + allowance) {
       damping_ = damping_ < 0.1 ? 0.0 : 0.25 * damping_;
-      lead_out_ = 0.0;
       apply(step);
       return step;
     }
@@ -180,7 +193,7 @@ double JointSliding::choose_reach() const {
   }
   double reach = 1.5 * std::max(ghosts, last_step_) + 2.0 * largest_margin_;
   if (last_clipped_) reach *= 2.0;
-  reach = std::max(reach, lead_out_ + 2.0 * largest_margin_);
+  reach = std::max(reach, led_out_ + 2.0 * largest_margin_);
   return std::clamp(std::min(reach, slew + ghosts + 2.0 * largest_margin_), kSmallestReach_m, reach_limit_);
 }
 
@@ -225,6 +238,15 @@ void JointSliding::apply(const Step& step) {
 /// To each part its own, as it sees them.
 void JointSliding::hand_out_contacts() {
   const auto obstacles = static_cast<std::int32_t>(surroundings_.obstacles().size());
+  for (const WayOut& way : overlaps_.ways_out()) {
+    Contact& contact = contacts_.emplace_back();
+    contact.kind = ContactKind::kOverlap;
+    contact.part = way.bodies.part - obstacles;
+    contact.obstacle = way.bodies.obstacle;
+    contact.n_W = way.n_W;
+    contact.p_W = reference_point(static_cast<std::size_t>(contact.part));
+    contact.gap = -way.depth;
+  }
   if (parts_.size() == 1) {
     std::swap(parts_.front().result.contacts, contacts_);
   } else {

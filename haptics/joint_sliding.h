@@ -41,8 +41,9 @@ inline constexpr double kSlew_m = 0.2e-3;
 /// What becomes of a part that overlaps an obstacle when it is taken hold of.
 enum class OverlapRule : std::uint8_t {
   kRefuse,  ///< it cannot be held there
-  /// The obstacle does not hold the part, but lets it no deeper and pushes it out, along a short way and by kSlew_m a
-  /// millisecond; from the moment they are a margin apart it is like any other. Other obstacles are as ever.
+  /// The part goes a short way out, straight and without turning, by kSlew_m a millisecond, wherever the hand wants it;
+  /// from the moment they are a margin apart it follows again, and the obstacle is like any other. Other obstacles are
+  /// as ever, so where they are in the way it stays. Out of several it is led one after the other, the deepest first.
   kLeadOut,
 };
 
@@ -76,13 +77,15 @@ class JointSliding {
  public:
   /// Throws std::invalid_argument when there is no part or too many, nothing to touch, a pose or a number that is none,
   /// when parts overlap each other at their start, and when one overlaps an obstacle, unless the rules lead it out.
+  /// Bodies that are no further apart than can be told for certain count as overlapping.
   JointSliding(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const SlidingRules& rules = {});
 
-  /// As in `SlidingSimulation`, for one of the parts. A part that is released stands still like an obstacle.
+  /// As in `SlidingSimulation`, for one of the parts, which must be below `part_count`. A part that is released stands
+  /// still like an obstacle.
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG);
   void release(std::size_t part);
 
-  /// As `SlidingSimulation::advance`, for all parts at once; one pose for each.
+  /// As `SlidingSimulation::advance`, for all parts at once; there must be one pose for each.
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds = 1.0);
 
   std::size_t part_count() const { return parts_.size(); }
@@ -105,6 +108,7 @@ class JointSliding {
     Eigen::Isometry3d X_WA = Eigen::Isometry3d::Identity();       // where it is aimed, mostly X_WT
     Eigen::Isometry3d X_WG_then = Eigen::Isometry3d::Identity();  // the ghost in the last call
     double ghost_motion = 0.0;                                    // metres, of this tick
+    bool was_moving = false;                                      // in the last call, which is what friction depends on
     double moved = 0.0;                                           // metres, in this tick
     Displacement lag_then{};  // from the part to where it was wanted, at the end of the last call
     double slew = 0.0;        // metres that this lag may change by in this tick
@@ -125,6 +129,7 @@ class JointSliding {
   void find_overlaps(const std::vector<HeldPart>& parts);
   void raise_floors();
   bool take_ghosts(std::span<const Eigen::Isometry3d> X_WG, double milliseconds);
+  void lead_out(double most);
   void aim();
   Step cycle();
   double choose_reach() const;
@@ -136,6 +141,7 @@ class JointSliding {
                double bound);
   Step certified_step(std::span<const Displacement> wanted);
   bool prove(const Displacements& displacements, Step& step);
+  std::array<bool, kMaxParts> parts_that_fail() const;
   bool project_on_rows(std::span<const Displacement> wanted);
   void solve_friction(std::span<const Displacement> wanted);
   void remember_forces();
@@ -161,13 +167,13 @@ class JointSliding {
   std::vector<CouplingStiffness> grips_;  // infinite for a part that is released
   ProjectionSolver solver_;
   FrictionSolver friction_solver_;
+  std::vector<double> coefficients_;  // of friction, one for each row
   Displacements projected_;
   std::vector<RowForce> forces_;
   std::vector<Contact> pushed_;         // in the last cycle, where there is friction
   std::vector<RowForce> first_forces_;  // of the contacts alone
   std::vector<UncertifiedPair> failures_;
-  bool was_moving_ = false;  // in the last call, which is what friction depends on
-  double lead_out_ = 0.0;    // metres that overlapping obstacles may still push in this tick
+  double led_out_ = 0.0;  // metres that a part is led out of something in this tick
   double reach_ = 0.0;
   double last_step_ = 0.0;  // metres
   bool last_clipped_ = false;

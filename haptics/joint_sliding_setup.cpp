@@ -87,10 +87,11 @@ JointSliding::JointSliding(std::vector<Obstacle> obstacles, const std::vector<He
 
 /// What overlaps at the start is refused or will be led out, as the rules say.
 void JointSliding::find_overlaps(const std::vector<HeldPart>& parts) {
-  candidates_.refresh(0.0, {});
+  const double touching = 4.0 * certificate_.certain_distance();
+  candidates_.refresh(touching, {});
   const std::span<const Obstacle> obstacles = surroundings_.obstacles();
   std::vector<BodyPair> found;
-  for (const CandidatePair& pair : candidates_.within(0.0)) {
+  for (const CandidatePair& pair : candidates_.within(touching)) {
     const BodyPair bodies{pair.obstacle, pair.part};
     if (std::find(found.begin(), found.end(), bodies) != found.end()) continue;
     found.push_back(bodies);

@@ -39,28 +39,14 @@ double fraction_with_lag(const Displacement& then, const Displacement& now, cons
 void JointSliding::find_rows() {
   find_contacts(surroundings_.bodies(), surroundings_.obstacles().size(), candidates_.within(reach_), reach_,
                 largest_margin_, contacts_);
-  for (const WayOut& way : overlaps_.ways_out()) {
-    Contact& contact = contacts_.emplace_back();
-    contact.kind = ContactKind::kOverlap;
-    contact.part = way.bodies.part - static_cast<std::int32_t>(surroundings_.obstacles().size());
-    contact.obstacle = way.bodies.obstacle;
-    contact.n_W = way.n_W;
-    contact.p_W = reference_point(static_cast<std::size_t>(contact.part));
-    contact.gap = -way.depth;
-  }
   for (Part& part : parts_)
     part.result.X_WV_of_contacts = part.result.X_WV;
   rows_.clear();
   for (const Contact& contact : contacts_) {
-    double bound = 0.0;
-    if (contact.kind == ContactKind::kOverlap) {
-      bound = std::min(lead_out_, -contact.gap);
-    } else {
-      // A contact nearer than the margin asks for some of it back.
-      const auto body = static_cast<std::int32_t>(surroundings_.body_of_part(static_cast<std::size_t>(contact.part)));
-      const double missing = surroundings_.margin(contact.obstacle, body) - contact.gap;
-      bound = missing > 0.0 ? 0.7 * missing : missing;
-    }
+    // A contact nearer than the margin asks for some of it back.
+    const auto body = static_cast<std::int32_t>(surroundings_.body_of_part(static_cast<std::size_t>(contact.part)));
+    const double missing = surroundings_.margin(contact.obstacle, body) - contact.gap;
+    const double bound = missing > 0.0 ? 0.7 * missing : missing;
     add_row(contact.obstacle, static_cast<std::size_t>(contact.part), contact.n_W, contact.p_W, bound);
   }
 }
@@ -122,13 +108,18 @@ JointSliding::Step JointSliding::certified_step(std::span<const Displacement> wa
     step = first;
     forces_ = first_forces_;
   }
-  for (int halving = 0; halving < kHalvings && !proved; ++halving) {
-    Displacements half;
-    for (std::size_t p = 0; p < parts_.size(); ++p)
-      half[p] = step.displacements[p].scaled(0.5);
-    proved = prove(half, step);
-    step.arrives.fill(false);
+  // What cannot be proved of one part does not keep the others.
+  const int attempts = kHalvings + static_cast<int>(parts_.size());
+  for (int attempt = 0; attempt < attempts && !proved; ++attempt) {
+    const std::array<bool, kMaxParts> fails = parts_that_fail();
+    Displacements shortened = step.displacements;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (!fails[p]) continue;
+      shortened[p] = shortened[p].scaled(attempt < kHalvings ? 0.5 : 0.0);
+      step.arrives[p] = false;
+    }
     step.clipped = true;
+    proved = prove(shortened, step);
   }
   if (!proved) return {.clipped = true};
   for (const RowForce& force : forces_) {
@@ -141,6 +132,18 @@ JointSliding::Step JointSliding::certified_step(std::span<const Displacement> wa
   return step;
 }
 
+/// The parts of the pairs that could not be proved; all of them where the pairs were not even known.
+std::array<bool, kMaxParts> JointSliding::parts_that_fail() const {
+  std::array<bool, kMaxParts> fails{};
+  if (failures_.empty()) fails.fill(true);
+  const auto obstacles = static_cast<std::int32_t>(surroundings_.obstacles().size());
+  for (const UncertifiedPair& failure : failures_) {
+    fails[static_cast<std::size_t>(failure.part - obstacles)] = true;
+    if (failure.obstacle >= obstacles) fails[static_cast<std::size_t>(failure.obstacle - obstacles)] = true;
+  }
+  return fails;
+}
+
 /// Makes `step` those displacements and tells whether they are proved free.
 bool JointSliding::prove(const Displacements& displacements, Step& step) {
   step.displacements = displacements;
@@ -151,6 +154,7 @@ bool JointSliding::prove(const Displacements& displacements, Step& step) {
   }
   // Pairs further away than this keep the floor whatever happens on the way.
   const double concerned = step.length + kFloorOfMargin * largest_margin_;
+  failures_.clear();
   return candidates_.covers(concerned) &&
          certificate_.prove({displacements.data(), parts_.size()}, candidates_.within(concerned), failures_);
 }
@@ -184,14 +188,20 @@ bool JointSliding::project_on_rows(std::span<const Displacement> wanted) {
 }
 
 void JointSliding::solve_friction(std::span<const Displacement> wanted) {
-  const double coefficient = was_moving_ ? rules_.friction.sliding : rules_.friction.at_rest;
-  friction_solver_.solve(wanted, grips_, rows_, coefficient, projected_, forces_);
+  coefficients_.clear();
+  for (const JointRow& row : rows_) {
+    const bool moves = parts_[static_cast<std::size_t>(row.part)].was_moving ||
+                       (row.other >= 0 && parts_[static_cast<std::size_t>(row.other)].was_moving);
+    coefficients_.push_back(moves ? rules_.friction.sliding : rules_.friction.at_rest);
+  }
+  friction_solver_.solve(wanted, grips_, rows_, coefficients_, projected_, forces_);
 }
 
 /// Those of the last cycle, where the same features still touch.
 void JointSliding::remember_forces() {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Contact& contact = contacts_[i];
+    if (rows_[i].bound == -kUnbounded) continue;  // nobody holds it
     for (const Contact& before : pushed_) {
       if (before.part != contact.part || before.obstacle != contact.obstacle || before.kind != contact.kind ||
           before.part_feature != contact.part_feature || before.obstacle_feature != contact.obstacle_feature) {

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <glissade/haptics/overlaps.h>
 
 namespace glissade::haptics {
@@ -15,7 +17,16 @@ bool Overlaps::update() {
     ways_out_.push_back({pair, obstacle.X_WB.linear() * penetration.way_out_A.normalized(), penetration.depth()});
     return false;
   });
+  std::stable_sort(ways_out_.begin(), ways_out_.end(),
+                   [](const WayOut& a, const WayOut& b) { return a.depth > b.depth; });
   return pairs_.size() != before;
+}
+
+const WayOut* Overlaps::way_out_of(std::size_t part) const {
+  const auto body = static_cast<std::int32_t>(surroundings_.body_of_part(part));
+  const auto way = std::find_if(ways_out_.begin(), ways_out_.end(),
+                                [&](const WayOut& candidate) { return candidate.bodies.part == body; });
+  return way == ways_out_.end() ? nullptr : &*way;
 }
 
 }  // namespace glissade::haptics

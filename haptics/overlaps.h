@@ -35,8 +35,10 @@ class Overlaps {
   /// whether any were. Cost: some hundred queries a pair.
   bool update();
 
-  /// As `update` found them.
+  /// As `update` found them, the deepest first.
   std::span<const WayOut> ways_out() const { return ways_out_; }
+  /// The deepest of one part, null when it has none.
+  const WayOut* way_out_of(std::size_t part) const;
 
  private:
   const Surroundings& surroundings_;

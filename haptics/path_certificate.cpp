@@ -65,22 +65,40 @@ PathCertificate::PathCertificate(const Surroundings& surroundings)
 bool PathCertificate::prove(std::span<const Displacement> displacements, std::span<const CandidatePair> pairs,
                             std::vector<UncertifiedPair>& failures) {
   failures.clear();
-  double reach = reach_of_obstacles_;
+  rounding_ = certain_distance();
   for (std::size_t p = 0; p < paths_.size(); ++p) {
     Path& path = paths_[p];
     path.displacement = displacements[p];
     path.known.fill(false);
     path.X_WV_at[0] = surroundings_.bodies()[surroundings_.body_of_part(p)].X_WB;
     path.known[0] = true;
-    reach = std::max(reach, path.X_WV_at[0].translation().norm() + path.p_Vref.norm() + path.radius);
   }
-  rounding_ = 64.0 * std::numeric_limits<double>::epsilon() * 2.0 * reach;
   for (const CandidatePair& pair : pairs) {
+    if (stands_still(pair)) continue;
     Eigen::Vector3d n_start;
     if (!prove_pair(pair, n_start))
       failures.push_back({pair.obstacle, pair.obstacle_triangle, pair.part, pair.part_triangle, n_start});
   }
   return failures.empty();
+}
+
+double PathCertificate::certain_distance() const {
+  double reach = reach_of_obstacles_;
+  for (std::size_t p = 0; p < paths_.size(); ++p) {
+    const Eigen::Isometry3d& X_WV = surroundings_.bodies()[surroundings_.body_of_part(p)].X_WB;
+    reach = std::max(reach, X_WV.translation().norm() + paths_[p].p_Vref.norm() + paths_[p].radius);
+  }
+  return 128.0 * std::numeric_limits<double>::epsilon() * reach;
+}
+
+/// Whether neither body of the pair moves.
+bool PathCertificate::stands_still(const CandidatePair& pair) const {
+  const auto moves = [&](std::int32_t body) {
+    if (body < first_part_) return false;
+    const Displacement& d = paths_[static_cast<std::size_t>(body - first_part_)].displacement;
+    return !(d.v.isZero(0.0) && d.w.isZero(0.0));
+  };
+  return !moves(pair.obstacle) && !moves(pair.part);
 }
 
 bool PathCertificate::prove_pair(const CandidatePair& pair, Eigen::Vector3d& n_start) {

@@ -42,6 +42,9 @@ class PathCertificate {
   bool prove(std::span<const Displacement> displacements, std::span<const CandidatePair> pairs,
              std::vector<UncertifiedPair>& failures);
 
+  /// Metres: of bodies where they are placed, less than this is no certain distance.
+  double certain_distance() const;
+
  private:
   /// Both triangles of a pair at one moment of the path.
   struct Moment {
@@ -68,6 +71,7 @@ class PathCertificate {
     std::array<bool, kMoments + 1> known{};  ///< which of them have been computed
   };
 
+  bool stands_still(const CandidatePair& pair) const;
   bool prove_pair(const CandidatePair& pair, Eigen::Vector3d& n_start);
   bool prove_stretch(const CandidatePair& pair, int begin, int end, double floor);
   bool separates(const Eigen::Vector3d& n, const Stretch& stretch, double floor) const;

@@ -46,7 +46,8 @@ class Sliding final : public SlidingSimulation {
   const SlidingPart& part() const override { return sliding_.part(0); }
   const CouplingStiffness& stiffness() const override { return sliding_.stiffness(0); }
   double margin() const override { return sliding_.margin(0); }
-  /// Metres that every certified path keeps away from such obstacles.
+  /// Metres that every certified path keeps away from obstacles without a margin of their own, unless it started
+  /// nearer.
   double floor() const { return kFloorOfMargin * margin(); }
   /// What is around the part, and what looking for it took.
   const Surroundings& surroundings() const { return sliding_.surroundings(); }

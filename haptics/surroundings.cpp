@@ -16,6 +16,13 @@ collision::PipelineOptions pipeline_options(double greatest_reach) {
   return {.query = collision::PairQuery::kClosePairs, .greatest_distance = greatest_reach, .threads = 1};
 }
 
+void check_margin(double margin, const std::string& whose) {
+  if (margin > 0.0 && margin <= kGreatestMargin_m) return;
+  throw std::invalid_argument("the margin " + whose + " is " + std::to_string(1e3 * margin) +
+                              " mm; it must be positive and at most " + std::to_string(1e3 * kGreatestMargin_m) +
+                              " mm");
+}
+
 template <typename Body>
 collision::ObjectDescription description(const std::shared_ptr<const Body>& body, const Eigen::Isometry3d& X_WB,
                                          int group) {
@@ -35,15 +42,13 @@ Surroundings::Surroundings(std::vector<Obstacle> obstacles, std::vector<std::sha
   for (Obstacle& obstacle : obstacles_) {
     const std::optional<Eigen::Isometry3d> X_WO = collision::rigid_pose(obstacle.X_WO);
     if (!X_WO) throw std::invalid_argument("the pose of " + obstacle.name + " is not a rotation and translation");
-    if (obstacle.margin && !(*obstacle.margin > 0.0 && std::isfinite(*obstacle.margin))) {
-      throw std::invalid_argument("the margin of " + obstacle.name + " is not a positive number");
-    }
+    if (obstacle.margin) check_margin(*obstacle.margin, "of " + obstacle.name);
     obstacle.X_WO = *X_WO;
     world_.add(description(obstacle.body, obstacle.X_WO, kObstacles));
     bodies_.push_back({obstacle.body.get(), obstacle.X_WO});
   }
   for (const double margin : margins) {
-    if (!(margin > 0.0 && std::isfinite(margin))) throw std::invalid_argument("a margin is not a positive number");
+    check_margin(margin, "of a part");
     for (const Obstacle& obstacle : obstacles_)
       margins_.push_back(obstacle.margin.value_or(margin));
     for (const double other : margins)

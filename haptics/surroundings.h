@@ -18,6 +18,9 @@
 
 namespace glissade::haptics {
 
+/// Margins are small beside what is looked at in one step.
+inline constexpr double kGreatestMargin_m = 0.25e-3;
+
 /// What part of its margin every pair of bodies keeps on every certified path.
 inline constexpr double kFloorOfMargin = 0.3;
 
@@ -38,11 +41,8 @@ struct Obstacle {
   std::shared_ptr<const ContactBody> body;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   std::string name = "an obstacle";  ///< for messages
-  /// Triangles that hold no part: where parts that slide in are designed to overlap when they are seated, such as
-  /// spring tongues. Everything else of the obstacle stays exact. Ascending.
-  std::vector<std::int32_t> giving_way{};
   /// Metres at which this obstacle holds parts away, where that is not to be the part's own margin: less for a tighter
-  /// fit, more for one that needs air.
+  /// fit, more for one that needs air; at most kGreatestMargin_m.
   std::optional<double> margin{};
 
   PlacedBody placed() const { return {body.get(), X_WO}; }
@@ -54,7 +54,7 @@ class Surroundings {
  public:
   /// `look_around` may look `greatest_reach` (metres) far. All parts are at the identity pose until they are placed.
   /// `margins` (metres) has one for each part. Throws std::invalid_argument as `World::add` does, when there is nothing
-  /// that a part could touch, and for a margin that is no positive number.
+  /// that a part could touch, and for a margin that is not positive or above kGreatestMargin_m.
   Surroundings(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> parts,
                std::span<const double> margins, double greatest_reach);
 

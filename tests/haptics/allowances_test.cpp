@@ -91,6 +91,27 @@ TEST(Overlap, IsNotLetDeeperAndOtherObstaclesHoldAllTheWhile) {
   }
 }
 
+TEST(Overlap, AHandThatTurnsDoesNotTurnThePartIn) {
+  const auto rod = std::make_shared<SlidingPart>(box({0.2, 0.01, 0.01}));
+  Sliding sliding({block()}, rod, at({0.0, 0.0, 0.0049}), {.rules = {.overlap = OverlapRule::kLeadOut}});
+  Isometry3d X_WG = sliding.result().X_WG;
+  for (int i = 0; i < 60; ++i) {
+    X_WG.linear() = Eigen::AngleAxisd(0.02 * i, Vector3d::UnitY()).toRotationMatrix();
+    sliding.advance(X_WG);
+    for (const Vector3d& x_V : rod->tree.mesh().vertices)
+      ASSERT_GT((sliding.result().X_WV * x_V).z(), -0.1e-3 - 1e-9) << "tick " << i;
+  }
+  EXPECT_FALSE(overlaps(sliding));
+}
+
+TEST(Overlap, WhatCannotBeToldFromTouchingIsOverlap) {
+  EXPECT_THROW(Sliding({block()}, cube(), at({0.0, 0.0, 0.01 + 1e-16})), std::invalid_argument);
+  Sliding sliding({block()}, cube(), at({0.0, 0.0, 0.01 + 1e-16}), {.rules = {.overlap = OverlapRule::kLeadOut}});
+  for (int i = 0; i < 10; ++i)
+    sliding.advance(at({0.001, 0.0, 0.01}));
+  EXPECT_NEAR(sliding.result().X_WV.translation().x(), 0.001, 1e-6) << "it has come away and follows";
+}
+
 TEST(GivingWay, LetsAUnitSlideHomeOverItsSpringsAndOutAgain) {
   // A bay: a floor, and two springs that reach 0.5 mm into the unit's sides when it is home.
   const collision::TriangleMesh floor = collision::make_plate({0.2, 0.2}, 2);
@@ -113,8 +134,10 @@ TEST(GivingWay, LetsAUnitSlideHomeOverItsSpringsAndOutAgain) {
     return depth;
   };
   EXPECT_NEAR(depth_reached(), 0.025, 1e-4) << "without an allowance it stops on the springs";
-  obstacle.giving_way = collision::triangles_inside(bay->tree.mesh(), springs);
-  EXPECT_EQ(obstacle.giving_way.size(), 24u);
+  const std::vector<std::int32_t> giving_way = collision::triangles_inside(bay->tree.mesh(), springs);
+  EXPECT_EQ(giving_way.size(), 24u);
+  obstacle.body = std::make_shared<ContactBody>(
+      std::make_shared<collision::TriangleMesh>(collision::without_triangles(bay->tree.mesh(), giving_way)));
   EXPECT_NEAR(depth_reached(), 0.01, 1e-5) << "with it the floor holds, as exactly as ever";
 }
 
@@ -149,6 +172,17 @@ TEST(AntiJam, GetsAPegInThatIsHeldAskewAndLeavesAloneWhatIsNotStuck) {
   }
   EXPECT_GE(with, 9);
   EXPECT_GT(with, without);
+}
+
+TEST(AntiJam, IsForgottenWhenTheHandLetsGo) {
+  Sliding sliding({block()}, cube(), at({0.0, 0.0, 0.011}),
+                  {.metaphor = Metaphor::kRubberBandSpring, .rules = {.anti_jam = true}});
+  for (int i = 0; i < 1900; ++i)
+    sliding.advance(at({0.0, 0.0, 0.005}));
+  sliding.release();
+  const Isometry3d X_WV = sliding.result().X_WV;
+  sliding.grasp(X_WV);
+  EXPECT_EQ(sliding.advance(X_WV).X_WV.matrix(), X_WV.matrix());
 }
 
 TEST(AntiJam, DoesNotShakeAPartThatFollows) {

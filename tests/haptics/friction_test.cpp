@@ -132,7 +132,7 @@ TEST(FrictionSolver, WithoutCoefficientFindsTheFrictionlessProjection) {
   const JointProjection projection = ProjectionSolver().project(wanted, stiffness, rows);
   std::array<Displacement, kMaxParts> displacements;
   std::vector<RowForce> forces{{0, 1.0, Vector3d::Zero()}};  // a start far off
-  FrictionSolver().solve(wanted, stiffness, rows, 0.0, displacements, forces);
+  FrictionSolver().solve(wanted, stiffness, rows, std::vector<double>(rows.size(), 0.0), displacements, forces);
   EXPECT_LT((displacements[0].v - projection.displacement().v).norm(), 1e-12);
   EXPECT_LT((displacements[0].w - projection.displacement().w).norm(), 1e-12);
   ASSERT_EQ(forces.size(), static_cast<std::size_t>(projection.active_count));

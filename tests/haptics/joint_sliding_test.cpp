@@ -109,6 +109,32 @@ TEST(TwoParts, ThatDoNotTouchMoveAsIfAlone) {
   EXPECT_EQ(sliding.result(0).state, SlidingState::kCatchingUp);
 }
 
+TEST(TwoParts, OneThatCannotBeProvedDoesNotKeepTheOther) {
+  // The first is squeezed into a slot narrower than any proof; the second is far away from everything.
+  const double gap = 1e-13;
+  const std::vector<HeldPart> parts{{.part_V = cube(0.04), .X_WV_start = at({0.0, 0.0, 0.0})},
+                                    {.part_V = cube(0.04), .X_WV_start = at({-0.3, 0.0, 0.0})}};
+  JointSliding sliding({wall(0.02 + gap), wall(-0.02 - gap)}, parts);
+  lead(sliding, 0.01, -0.32, 20);
+  EXPECT_NEAR(sliding.result(1).X_WV.translation().x(), -0.32, 1e-9);
+}
+
+TEST(TwoParts, EachHasTheCoefficientOfFrictionOfItsOwnState) {
+  // The first is pressed on the wall by 1 N and drawn by 0.5 N, less than 0.8 holds; the other hand moves in the air.
+  const std::vector<HeldPart> parts{{.part_V = cube(0.04), .X_WV_start = at({-0.0201, 0.0, 0.0})},
+                                    {.part_V = cube(0.04), .X_WV_start = at({-0.3, 0.0, 0.0})}};
+  JointSliding sliding({wall(0.0)}, parts, {.friction = {.at_rest = 0.8, .sliding = 0.2}});
+  const auto advance = [&](const Vector3d& first, double second) {
+    const std::array X_WG{at(first), at({second, 0.0, 0.0})};
+    sliding.advance(X_WG);
+  };
+  for (int i = 0; i < 30; ++i)
+    advance({-0.019, 0.0, 0.0}, -0.3);
+  for (int i = 0; i < 50; ++i)
+    advance({-0.019, 0.5e-3 * i / 50, 0.0}, -0.3 - 1e-3 * i);
+  EXPECT_NEAR(sliding.result(0).X_WV.translation().y(), 0.0, 1e-8);
+}
+
 /// A part that moves on its own: held by a script, a thousand times as stiffly as a hand holds.
 HeldPart ram(double x) {
   return {.part_V = cube(0.04),

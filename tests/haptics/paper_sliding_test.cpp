@@ -251,16 +251,6 @@ TEST(PaperSliding, ReleasedItStandsStillAndGraspedAgainItMovesAtALimitedSpeed) {
   EXPECT_NEAR(sliding.result().X_WV.translation().x(), 0.2e-3, 1e-12);
 }
 
-TEST(PaperSliding, WhatGivesWayHoldsNothing) {
-  Obstacle soft = sheet(Vector3d::UnitZ());
-  soft.giving_way = {0, 1};
-  PaperSliding sliding = box_among({soft, sheet(Vector3d::UnitX())}, {0.1, 0.0, 0.03});
-  lead(sliding, at({0.1, 0.0, -0.03}), 100);
-  EXPECT_EQ(sliding.result().state, SlidingState::kFree);
-  soft.giving_way = {0};
-  EXPECT_THROW(box_among({soft}, {0.0, 0.0, 0.0}), std::invalid_argument) << "the other triangle does not";
-}
-
 TEST(PaperSliding, RefusesAStartInsideAnObstacleAndABracketOfNothing) {
   EXPECT_THROW(box_among({sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.01}), std::invalid_argument);
   EXPECT_THROW(box_among({}, {0.0, 0.0, 0.01}), std::invalid_argument);

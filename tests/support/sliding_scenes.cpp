@@ -185,8 +185,8 @@ SlidingScene bay_scene(bool tongues_give_way) {
   collision::BayWithTongues bay = collision::make_bay_with_tongues(shape);
   SlidingScene scene;
   scene.name = "bay";
+  if (tongues_give_way) bay.mesh = collision::without_triangles(bay.mesh, bay.tongue_triangles);
   scene.obstacles.push_back({body_of(std::move(bay.mesh)), Isometry3d::Identity(), "the bay"});
-  if (tongues_give_way) scene.obstacles.front().giving_way = std::move(bay.tongue_triangles);
   scene.part_V = part_of(collision::make_slide_in_unit(shape));
   scene.X_WV_start = at({1e-3, -0.19, -1e-3}, about({0.3, 1.0, 0.2}, 0.02));
   scene.ticks = 4000;
