@@ -11,6 +11,7 @@
 namespace glissade::haptics {
 namespace {
 
+constexpr double kLeastBracket_m = 1e-9;            // bisection ends far above rounding
 constexpr double kPaperStiffness_N_per_m = 1000.0;  // as in `SlidingOptions`
 constexpr double kNoProgress = 1.0;                 // brackets: less is none
 constexpr double kRoom = 0.5;                       // brackets: a contact that is nearer asks for so much
@@ -39,7 +40,9 @@ PaperSliding::PaperSliding(std::vector<Obstacle> obstacles, std::shared_ptr<cons
       metaphor_(options.metaphor),
       bracket_(options.bracket),
       max_cycles_(options.max_cycles) {
-  if (!(bracket_ > 0.0)) throw std::invalid_argument("a bracket of " + std::to_string(bracket_) + " m is not positive");
+  if (!(bracket_ >= kLeastBracket_m)) {
+    throw std::invalid_argument("a bracket of " + std::to_string(1e9 * bracket_) + " nm is less than a nanometre");
+  }
   const std::optional<Eigen::Isometry3d> X_WV = collision::rigid_pose(X_WV_start);
   if (!X_WV) throw std::invalid_argument("the start pose of the part is not a rotation and translation");
   if (const int hit = collision_object_.obstacle_hit_at(*X_WV); hit >= 0) {

@@ -127,11 +127,21 @@ void print(const TortureCounts& c, double seconds) {
   std::fflush(stdout);  // with --again there is a long way to go
 }
 
+/// What is promised of many scenes together: hardly a tick jams, and no force jumps.
+bool keeps_promises(const TortureCounts& counts) {
+  constexpr double kMostJammed = 1e-3;
+  const bool jams = static_cast<double>(counts.jammed) > kMostJammed * static_cast<double>(counts.wanted) + 20.0;
+  const bool jumps = counts.force_jump > 1.0 + 1e-6;
+  if (jams) std::printf("FAULT: more than %.1f %% of the ticks jam\n", 100.0 * kMostJammed);
+  if (jumps) std::printf("FAULT: the force jumps by more than the slew allows\n");
+  return !jams && !jumps;
+}
+
 bool torture(const Arguments& arguments) {
   const Stopwatch watch;
   const TortureCounts counts = run_all(arguments, arguments.threads);
   print(counts, watch.seconds());
-  bool sound = counts.fault_count == 0 && counts.not_finite == 0;
+  bool sound = counts.fault_count == 0 && counts.not_finite == 0 && keeps_promises(counts);
   if (arguments.again) {
     const int threads = arguments.threads == 1 ? 2 : 1;
     const TortureCounts second = run_all(arguments, threads);
