@@ -16,6 +16,7 @@
 #include <glissade/collision/mesh_operations.h>
 #include <glissade/haptics/sliding.h>
 
+#include "sanitizers.h"
 #include "sliding_scenes.h"
 
 namespace glissade::haptics {
@@ -165,12 +166,13 @@ TEST(AntiJam, GetsAPegInThatIsHeldAskewAndLeavesAloneWhatIsNotStuck) {
   };
   int without = 0;
   int with = 0;
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  constexpr std::uint64_t kPegs = test_support::kSanitized ? 2 : 10;
+  for (std::uint64_t seed = 1; seed <= kPegs; ++seed) {
     const test_support::PegTrial trial{.offset = 1e-3, .tilt = 1.5 * std::numbers::pi / 180.0, .seed = seed};
     without += depth_reached(false, trial) > 7e-3 ? 1 : 0;
     with += depth_reached(true, trial) > 7e-3 ? 1 : 0;
   }
-  EXPECT_GE(with, 9);
+  EXPECT_GE(with, static_cast<int>(kPegs) - 1);
   EXPECT_GT(with, without);
 }
 
