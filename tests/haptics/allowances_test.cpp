@@ -157,6 +157,7 @@ TEST(Margin, OfAnObstacleReplacesThatOfThePart) {
 }
 
 TEST(AntiJam, GetsAPegInThatIsHeldAskewAndLeavesAloneWhatIsNotStuck) {
+  if (test_support::kSanitized) GTEST_SKIP() << "takes minutes under a sanitizer";
   const auto depth_reached = [](bool anti_jam, const test_support::PegTrial& trial) {
     const test_support::SlidingScene scene = test_support::peg_scene(trial);
     Sliding sliding(scene.obstacles, scene.part_V, scene.X_WV_start, {.rules = {.anti_jam = anti_jam}});
@@ -166,13 +167,13 @@ TEST(AntiJam, GetsAPegInThatIsHeldAskewAndLeavesAloneWhatIsNotStuck) {
   };
   int without = 0;
   int with = 0;
-  constexpr std::uint64_t kPegs = test_support::kSanitized ? 2 : 10;
+  constexpr std::uint64_t kPegs = 4;
   for (std::uint64_t seed = 1; seed <= kPegs; ++seed) {
     const test_support::PegTrial trial{.offset = 1e-3, .tilt = 1.5 * std::numbers::pi / 180.0, .seed = seed};
     without += depth_reached(false, trial) > 7e-3 ? 1 : 0;
     with += depth_reached(true, trial) > 7e-3 ? 1 : 0;
   }
-  EXPECT_GE(with, static_cast<int>(kPegs) - 1);
+  EXPECT_EQ(with, static_cast<int>(kPegs));
   EXPECT_GT(with, without);
 }
 

@@ -16,6 +16,8 @@
 #include <glissade/haptics/motion.h>
 #include <glissade/haptics/sliding.h>
 
+#include "sanitizers.h"
+
 namespace glissade::haptics {
 namespace {
 
@@ -53,6 +55,7 @@ TEST_P(SlidingScenes, TheGhostDoesNotJump) {
 }
 
 TEST_P(SlidingScenes, AreTheSameWheneverTheyAreMade) {
+  if (test_support::kSanitized) GTEST_SKIP() << "takes minutes under a sanitizer";
   const SlidingScene a = make_sliding_scene(GetParam());
   const SlidingScene b = make_sliding_scene(GetParam());
   ASSERT_EQ(a.obstacles.size(), b.obstacles.size());
@@ -69,6 +72,7 @@ INSTANTIATE_TEST_SUITE_P(ByName, SlidingScenes, ::testing::ValuesIn(sliding_scen
                          [](const auto& test) { return test.param; });
 
 TEST(SlidingScene, ANutFollowsTheThread) {
+  if (test_support::kSanitized) GTEST_SKIP() << "takes minutes under a sanitizer";
   const SlidingScene scene = nut_scene();
   Sliding sliding(scene.obstacles, scene.part_V, scene.X_WV_start);
   for (int tick = 1; tick <= 100; ++tick)
