@@ -22,7 +22,9 @@ Eigen::Isometry3d CollisionObject::pose_in_obstacle(std::size_t obstacle, const 
 int CollisionObject::obstacle_hit_at(const Eigen::Isometry3d& X_WC) {
   ++queries_;
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-    if (hits(i, X_WC)) return static_cast<int>(i);
+    if (collision::intersects(obstacles_[i].body->tree, part_C_->tree, pose_in_obstacle(i, X_WC), workspace_)) {
+      return static_cast<int>(i);
+    }
   }
   return -1;
 }
@@ -36,11 +38,6 @@ void CollisionObject::touching_pairs(const Eigen::Isometry3d& X_WC, std::vector<
     for (const collision::TrianglePair& pair : triangles_)
       pairs.push_back({static_cast<std::int32_t>(i), pair.triangle_A, pair.triangle_B});
   }
-}
-
-bool CollisionObject::hits(std::size_t obstacle, const Eigen::Isometry3d& X_WC) {
-  return collision::intersects(obstacles_[obstacle].body->tree, part_C_->tree, pose_in_obstacle(obstacle, X_WC),
-                               workspace_);
 }
 
 }  // namespace glissade::haptics

@@ -25,8 +25,7 @@ struct TouchingPair {
   auto operator<=>(const TouchingPair&) const = default;
 };
 
-/// Static, exact checks (`dop_query.h`) of the part against each obstacle; triangles of obstacles that give way are
-/// left out. Deterministic. Not thread-safe.
+/// Static, exact checks (`dop_query.h`) of the part against each obstacle. Deterministic. Not thread-safe.
 class CollisionObject {
  public:
   /// Throws std::invalid_argument when there is no obstacle, and for an obstacle whose pose is none.
@@ -47,7 +46,6 @@ class CollisionObject {
 
  private:
   Eigen::Isometry3d pose_in_obstacle(std::size_t obstacle, const Eigen::Isometry3d& X_WC) const;
-  bool hits(std::size_t obstacle, const Eigen::Isometry3d& X_WC);
 
   std::vector<Obstacle> obstacles_;
   std::shared_ptr<const SlidingPart> part_C_;

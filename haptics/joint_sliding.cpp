@@ -38,6 +38,7 @@ void JointSliding::release(std::size_t part) {
 /// Nothing is wanted of the part, so nothing pushes it.
 void JointSliding::let_rest(Part& part, SlidingState state) {
   part.result.X_WT = part.result.X_WV;
+  part.X_WA = part.result.X_WV;
   part.lag_then = {};
   part.anti_jam = AntiJam(part.part_V->radius());
   part.was_moving = false;

@@ -30,6 +30,7 @@
 #include <glissade/haptics/path_certificate.h>
 #include <glissade/haptics/projection.h>
 #include <glissade/haptics/sliding_result.h>
+#include <glissade/haptics/sliding_simulation.h>
 #include <glissade/haptics/surroundings.h>
 
 namespace glissade::haptics {
@@ -66,7 +67,7 @@ struct HeldPart {
   std::shared_ptr<const SlidingPart> part_V;
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
   Metaphor metaphor = Metaphor::kForceFeedback;
-  /// By default 1000 N/m, and as much against rotation as that gives at the part's radius: k_r = k_t ρ².
+  /// By default that of `default_stiffness`: k_r = k_t ρ².
   std::optional<CouplingStiffness> stiffness{};
   std::string name = "the part";  ///< for messages
 };

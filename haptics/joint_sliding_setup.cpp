@@ -10,12 +10,6 @@
 namespace glissade::haptics {
 namespace {
 
-constexpr double kDefaultStiffness_N_per_m = 1000.0;
-
-CouplingStiffness default_stiffness(const SlidingPart& part_V) {
-  return {kDefaultStiffness_N_per_m, kDefaultStiffness_N_per_m * part_V.radius() * part_V.radius()};
-}
-
 double default_margin(const SlidingPart& part_V) {
   return std::clamp(1e-4 * part_V.radius(), 2e-6, 10e-6);
 }
@@ -78,6 +72,7 @@ JointSliding::JointSliding(std::vector<Obstacle> obstacles, const std::vector<He
     part.result.X_WT = *X_WV;
     part.result.X_WV = *X_WV;
     part.result.X_WV_of_contacts = *X_WV;
+    part.X_WA = *X_WV;
     largest_margin_ = std::max(largest_margin_, part.margin);
   }
   for (const Obstacle& obstacle : surroundings_.obstacles())

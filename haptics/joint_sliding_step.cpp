@@ -25,7 +25,7 @@ double fraction_with_lag(const Displacement& then, const Displacement& now, cons
   };
   most = std::max(most, changed(0.0));
   if (changed(1.0) <= most) return 1.0;
-  double allowed = 0.0;  // the change is convex in the fraction
+  double allowed = 0.0;  // stays one that is
   double refused = 1.0;
   for (int i = 0; i < 30; ++i) {
     const double middle = 0.5 * (allowed + refused);
@@ -171,19 +171,16 @@ bool JointSliding::project_on_rows(std::span<const Displacement> wanted) {
   forces_.clear();
   projected_.fill({});
   if (projection.status != ProjectionStatus::kSolved) return false;
-  if (rules_.friction.is_on() && projection.active_count > 0) {
-    remember_forces();
-    if (!forces_.empty()) {
-      solve_friction(wanted);
-      return true;
+  projected_ = projection.displacements;
+  const bool rubs = rules_.friction.is_on() && projection.active_count > 0;
+  if (rubs) remember_forces();
+  if (forces_.empty()) {
+    for (int i = 0; i < projection.active_count; ++i) {
+      const auto slot = static_cast<std::size_t>(i);
+      forces_.push_back({projection.active[slot], projection.force[slot]});
     }
   }
-  projected_ = projection.displacements;
-  for (int i = 0; i < projection.active_count; ++i) {
-    const auto slot = static_cast<std::size_t>(i);
-    forces_.push_back({projection.active[slot], projection.force[slot]});
-  }
-  if (rules_.friction.is_on() && projection.active_count > 0) solve_friction(wanted);
+  if (rubs) solve_friction(wanted);
   return true;
 }
 

@@ -11,10 +11,9 @@
 namespace glissade::haptics {
 namespace {
 
-constexpr double kLeastBracket_m = 1e-9;            // bisection ends far above rounding
-constexpr double kPaperStiffness_N_per_m = 1000.0;  // as in `SlidingOptions`
-constexpr double kNoProgress = 1.0;                 // brackets: less is none
-constexpr double kRoom = 0.5;                       // brackets: a contact that is nearer asks for so much
+constexpr double kLeastBracket_m = 1e-9;  // bisection ends far above rounding
+constexpr double kNoProgress = 1.0;       // brackets: less is none
+constexpr double kRoom = 0.5;             // brackets: a contact that is nearer asks for so much
 
 ContactKind told_kind(PaperContactKind kind) {
   switch (kind) {
@@ -35,8 +34,7 @@ ContactKind told_kind(PaperContactKind kind) {
 PaperSliding::PaperSliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,
                            const Eigen::Isometry3d& X_WV_start, const PaperSlidingOptions& options)
     : collision_object_(std::move(obstacles), std::move(part_V)),
-      stiffness_(options.stiffness.value_or(
-          CouplingStiffness{kPaperStiffness_N_per_m, kPaperStiffness_N_per_m * part().radius() * part().radius()})),
+      stiffness_(options.stiffness.value_or(default_stiffness(part()))),
       metaphor_(options.metaphor),
       bracket_(options.bracket),
       max_cycles_(options.max_cycles) {

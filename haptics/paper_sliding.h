@@ -32,7 +32,7 @@ namespace glissade::haptics {
 
 struct PaperSlidingOptions {
   Metaphor metaphor = Metaphor::kForceFeedback;
-  /// By default that of `SlidingOptions`.
+  /// By default that of `default_stiffness`.
   std::optional<CouplingStiffness> stiffness{};
   /// Metres that any point of the part moves at most between the two ends of a bisection.
   double bracket = 0.5e-6;

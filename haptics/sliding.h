@@ -16,7 +16,7 @@ namespace glissade::haptics {
 
 struct SlidingOptions {
   Metaphor metaphor = Metaphor::kForceFeedback;
-  /// By default 1000 N/m, and as much against rotation as that gives at the part's radius: k_r = k_t ρ².
+  /// By default that of `default_stiffness`: k_r = k_t ρ².
   std::optional<CouplingStiffness> stiffness{};
   SlidingRules rules{};
 };

@@ -11,6 +11,12 @@
 
 namespace glissade::haptics {
 
+/// How stiffly a part is held by default: 1000 N/m, and as much against rotation as that gives at its radius.
+inline CouplingStiffness default_stiffness(const SlidingPart& part_V) {
+  constexpr double kTranslational_N_per_m = 1000.0;
+  return {kTranslational_N_per_m, kTranslational_N_per_m * part_V.radius() * part_V.radius()};
+}
+
 /// The simulation of one held part. Not thread-safe.
 class SlidingSimulation {
  public:

@@ -14,8 +14,10 @@
 #include <glissade/collision/brute_force.h>
 #include <glissade/collision/mesh_generators.h>
 #include <glissade/collision/mesh_operations.h>
+#include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/sliding.h>
 
+#include "held_part.h"
 #include "sanitizers.h"
 #include "sliding_scenes.h"
 
@@ -24,10 +26,7 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-Isometry3d at(const Vector3d& p) {
-  return Isometry3d(Eigen::Translation3d(p));
-}
+using test_support::pose;
 
 std::shared_ptr<const collision::TriangleMesh> box(const Vector3d& size) {
   return std::make_shared<collision::TriangleMesh>(collision::make_box(size, 12));
@@ -35,7 +34,7 @@ std::shared_ptr<const collision::TriangleMesh> box(const Vector3d& size) {
 
 /// A block whose upper face is z = 0.
 Obstacle block() {
-  return {std::make_shared<ContactBody>(box({0.4, 0.4, 0.1})), at({0.0, 0.0, -0.05}), "the block"};
+  return {std::make_shared<ContactBody>(box({0.4, 0.4, 0.1})), pose({0.0, 0.0, -0.05}), "the block"};
 }
 
 std::shared_ptr<const SlidingPart> cube() {
@@ -53,12 +52,12 @@ bool overlaps(const Sliding& sliding) {
 }
 
 TEST(Overlap, IsRefusedUnlessTheRulesLeadOutOfIt) {
-  EXPECT_THROW(Sliding({block()}, cube(), at({0.0, 0.0, 0.009})), std::invalid_argument);
-  EXPECT_NO_THROW(Sliding({block()}, cube(), at({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}}));
+  EXPECT_THROW(Sliding({block()}, cube(), pose({0.0, 0.0, 0.009})), std::invalid_argument);
+  EXPECT_NO_THROW(Sliding({block()}, cube(), pose({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}}));
 }
 
 TEST(Overlap, APartThatIsHeldStillComesOutAtLimitedSpeedAndStaysOut) {
-  Sliding sliding({block()}, cube(), at({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}});
+  Sliding sliding({block()}, cube(), pose({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}});
   const Isometry3d X_WG = sliding.result().X_WG;
   double height = 0.009;
   for (int i = 0; i < 5; ++i) {
@@ -73,7 +72,7 @@ TEST(Overlap, APartThatIsHeldStillComesOutAtLimitedSpeedAndStaysOut) {
     sliding.advance(X_WG);
   EXPECT_FALSE(overlaps(sliding));
   for (int i = 0; i < 20; ++i) {
-    sliding.advance(at({0.001 * i, 0.0, 0.005}));
+    sliding.advance(pose({0.001 * i, 0.0, 0.005}));
     EXPECT_FALSE(overlaps(sliding)) << "the block is like any other now";
   }
   EXPECT_NEAR(sliding.result().X_WV.translation().z(), 0.01, 2.0 * sliding.margin());
@@ -84,9 +83,9 @@ TEST(Overlap, IsNotLetDeeperAndOtherObstaclesHoldAllTheWhile) {
   // A second block leaves 0.4 mm of the 1 mm that the way out takes.
   Obstacle lid = block();
   lid.X_WO.translation().z() = 0.05 + 0.0194;
-  Sliding sliding({block(), lid}, cube(), at({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}});
+  Sliding sliding({block(), lid}, cube(), pose({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}});
   for (int i = 0; i < 50; ++i) {
-    const double z = sliding.advance(at({0.0, 0.0, -0.02})).X_WV.translation().z();
+    const double z = sliding.advance(pose({0.0, 0.0, -0.02})).X_WV.translation().z();
     EXPECT_GT(z, 0.009 - 1e-6);
     EXPECT_LT(z, 0.0094);
   }
@@ -94,7 +93,7 @@ TEST(Overlap, IsNotLetDeeperAndOtherObstaclesHoldAllTheWhile) {
 
 TEST(Overlap, AHandThatTurnsDoesNotTurnThePartIn) {
   const auto rod = std::make_shared<SlidingPart>(box({0.2, 0.01, 0.01}));
-  Sliding sliding({block()}, rod, at({0.0, 0.0, 0.0049}), {.rules = {.overlap = OverlapRule::kLeadOut}});
+  Sliding sliding({block()}, rod, pose({0.0, 0.0, 0.0049}), {.rules = {.overlap = OverlapRule::kLeadOut}});
   Isometry3d X_WG = sliding.result().X_WG;
   for (int i = 0; i < 60; ++i) {
     X_WG.linear() = Eigen::AngleAxisd(0.02 * i, Vector3d::UnitY()).toRotationMatrix();
@@ -106,10 +105,10 @@ TEST(Overlap, AHandThatTurnsDoesNotTurnThePartIn) {
 }
 
 TEST(Overlap, WhatCannotBeToldFromTouchingIsOverlap) {
-  EXPECT_THROW(Sliding({block()}, cube(), at({0.0, 0.0, 0.01 + 1e-16})), std::invalid_argument);
-  Sliding sliding({block()}, cube(), at({0.0, 0.0, 0.01 + 1e-16}), {.rules = {.overlap = OverlapRule::kLeadOut}});
+  EXPECT_THROW(Sliding({block()}, cube(), pose({0.0, 0.0, 0.01 + 1e-16})), std::invalid_argument);
+  Sliding sliding({block()}, cube(), pose({0.0, 0.0, 0.01 + 1e-16}), {.rules = {.overlap = OverlapRule::kLeadOut}});
   for (int i = 0; i < 10; ++i)
-    sliding.advance(at({0.001, 0.0, 0.01}));
+    sliding.advance(pose({0.001, 0.0, 0.01}));
   EXPECT_NEAR(sliding.result().X_WV.translation().x(), 0.001, 1e-6) << "it has come away and follows";
 }
 
@@ -119,18 +118,18 @@ TEST(GivingWay, LetsAUnitSlideHomeOverItsSpringsAndOutAgain) {
   std::vector<collision::TriangleMesh> meshes{floor};
   for (const double side : {1.0, -1.0})
     meshes.push_back(
-        collision::transformed(collision::make_box({0.004, 0.01, 0.01}, 12), at({side * 0.0115, 0.0, 0.01})));
+        collision::transformed(collision::make_box({0.004, 0.01, 0.01}, 12), pose({side * 0.0115, 0.0, 0.01})));
   const auto bay = std::make_shared<ContactBody>(std::make_shared<collision::TriangleMesh>(collision::merge(meshes)));
   const Eigen::AlignedBox3d springs(Vector3d(-0.02, -0.01, 0.001), Vector3d(0.02, 0.01, 0.02));
   Obstacle obstacle{bay, Isometry3d::Identity(), "the bay"};
 
   const auto depth_reached = [&] {
-    Sliding sliding({obstacle}, cube(), at({0.0, 0.0, 0.03}));
+    Sliding sliding({obstacle}, cube(), pose({0.0, 0.0, 0.03}));
     for (int i = 0; i <= 100; ++i)
-      sliding.advance(at({0.0, 0.0, 0.03 - 0.0003 * i}));
+      sliding.advance(pose({0.0, 0.0, 0.03 - 0.0003 * i}));
     const double depth = sliding.result().X_WV.translation().z();
     for (int i = 0; i <= 100; ++i)
-      sliding.advance(at({0.0, 0.0, 0.0003 * i}));
+      sliding.advance(pose({0.0, 0.0, 0.0003 * i}));
     EXPECT_EQ(sliding.result().state, SlidingState::kFree) << "out again";
     return depth;
   };
@@ -146,14 +145,35 @@ TEST(Margin, OfAnObstacleReplacesThatOfThePart) {
   const auto height = [](std::optional<double> margin) {
     Obstacle obstacle = block();
     obstacle.margin = margin;
-    Sliding sliding({obstacle}, cube(), at({0.0, 0.0, 0.011}));
+    Sliding sliding({obstacle}, cube(), pose({0.0, 0.0, 0.011}));
     for (int i = 0; i < 30; ++i)
-      sliding.advance(at({0.0, 0.0, 0.005}));
+      sliding.advance(pose({0.0, 0.0, 0.005}));
     return sliding.result().X_WV.translation().z() - 0.01;
   };
   EXPECT_NEAR(height(std::nullopt), 2e-6, 1e-8) << "the least default";
   EXPECT_NEAR(height(0.2e-6), 0.2e-6, 1e-9);
   EXPECT_NEAR(height(50e-6), 50e-6, 1e-8);
+}
+
+TEST(Margin, OfAnObstacleIsWhatTheHapticThreadKeepsToo) {
+  Obstacle obstacle = block();
+  obstacle.margin = 50e-6;
+  Sliding sliding({obstacle}, cube(), pose({0.0, 0.0, 0.011}));
+  for (int i = 0; i < 30; ++i)
+    sliding.advance(pose({0.0, 0.0, 0.005}));
+  std::vector<std::int32_t> scratch;
+  const ContactSet set = make_contact_set(sliding, 1, {}, scratch);
+  ASSERT_GT(set.row_count, 0);
+  for (const ConstraintRow& row : set.rows().first(static_cast<std::size_t>(set.pushing)))
+    EXPECT_NEAR(row.bound, 0.0, 1e-8) << "no way towards the block is left";
+}
+
+TEST(Margin, IsSmallBesideAStep) {
+  Obstacle obstacle = block();
+  obstacle.margin = 0.3e-3;
+  EXPECT_THROW(Sliding({obstacle}, cube(), pose({0.0, 0.0, 0.011})), std::invalid_argument);
+  EXPECT_THROW(Sliding({block()}, cube(), pose({0.0, 0.0, 0.011}), {.rules = {.margin = 0.3e-3}}),
+               std::invalid_argument);
 }
 
 TEST(AntiJam, GetsAPegInThatIsHeldAskewAndLeavesAloneWhatIsNotStuck) {
@@ -178,10 +198,10 @@ TEST(AntiJam, GetsAPegInThatIsHeldAskewAndLeavesAloneWhatIsNotStuck) {
 }
 
 TEST(AntiJam, IsForgottenWhenTheHandLetsGo) {
-  Sliding sliding({block()}, cube(), at({0.0, 0.0, 0.011}),
+  Sliding sliding({block()}, cube(), pose({0.0, 0.0, 0.011}),
                   {.metaphor = Metaphor::kRubberBandSpring, .rules = {.anti_jam = true}});
   for (int i = 0; i < 1900; ++i)
-    sliding.advance(at({0.0, 0.0, 0.005}));
+    sliding.advance(pose({0.0, 0.0, 0.005}));
   sliding.release();
   const Isometry3d X_WV = sliding.result().X_WV;
   sliding.grasp(X_WV);
@@ -190,9 +210,9 @@ TEST(AntiJam, IsForgottenWhenTheHandLetsGo) {
 
 TEST(AntiJam, DoesNotShakeAPartThatFollows) {
   const auto last = [](bool anti_jam) {
-    Sliding sliding({block()}, cube(), at({0.0, 0.0, 0.011}), {.rules = {.anti_jam = anti_jam}});
+    Sliding sliding({block()}, cube(), pose({0.0, 0.0, 0.011}), {.rules = {.anti_jam = anti_jam}});
     for (int i = 0; i < 500; ++i)
-      sliding.advance(at({1e-5 * i, 0.0, 0.005}));
+      sliding.advance(pose({1e-5 * i, 0.0, 0.005}));
     return sliding.result().X_WV;
   };
   EXPECT_EQ(last(true).matrix(), last(false).matrix());

