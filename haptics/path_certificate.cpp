@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include <glissade/haptics/path_certificate.h>
+#include <glissade/haptics/placed_leaf.h>
 
 namespace glissade::haptics {
 
@@ -98,12 +99,13 @@ bool PathCertificate::separates(const Eigen::Vector3d& n_W, const MovingItem& it
 }
 
 void PathCertificate::prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_P) {
-  for (const std::int32_t triangle_O : obstacle_.body->tree.leaves()[leaf_O].triangle) {
-    for (const std::int32_t triangle_P : part_.body->tree.leaves()[leaf_P].triangle) {
-      if (triangle_O < 0 || triangle_P < 0) continue;  // none, or without area
-      const Eigen::Vector3d between =
-          bodies_.triangle_W(part_.number, triangle_P, 0)[0] - bodies_.triangle_W(obstacle_.number, triangle_O, 0)[0];
-      prove_triangles(triangle_O, triangle_P, between.normalized());
+  const PlacedLeaf placed_O({obstacle_.body, *obstacle_.X_WB[0]}, leaf_O);
+  const PlacedLeaf placed_P({part_.body, *part_.X_WB[0]}, leaf_P);
+  for (int o = 0; o < placed_O.count; ++o) {
+    for (int p = 0; p < placed_P.count; ++p) {
+      if (!placed_O.may_be_near(o, placed_P, p, far_)) continue;
+      prove_triangles(placed_O.triangles[static_cast<std::size_t>(o)], placed_P.triangles[static_cast<std::size_t>(p)],
+                      Eigen::Vector3d::Zero());
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include <glissade/collision/triangle_distance.h>
+#include <glissade/haptics/placed_leaf.h>
 #include <glissade/haptics/proof_front.h>
 
 namespace glissade::haptics {
@@ -67,7 +68,7 @@ void ProofFront::open(const PlacedItem& item_O, const PlacedItem& item_P) {
   const bool is_leaf_O = item_O.item.kind == Kind::kLeaf;
   const bool is_leaf_P = item_P.item.kind == Kind::kLeaf;
   if (is_leaf_O && is_leaf_P) {
-    search_leaves(item_O.item, item_P.item);
+    search_leaves(item_O.item.number, item_P.item.number);
     return;
   }
   const bool opens_O = !is_leaf_O && (is_leaf_P || radius_O >= radius_P);
@@ -103,20 +104,21 @@ ProofFront::Separation ProofFront::separation(const PlacedItem& item_O, const Pl
   return best;
 }
 
-void ProofFront::search_leaves(const TreeItem& leaf_O, const TreeItem& leaf_P) {
-  const auto& triangles_O = obstacle_.body->tree.leaves()[leaf_O.number].triangle;
-  const auto& triangles_P = part_.body->tree.leaves()[leaf_P.number].triangle;
-  for (const std::int32_t o : triangles_O) {
-    if (o < 0) continue;  // none, or without area
-    const collision::TrianglePoints points_O = obstacle_.triangle_W(o);
-    for (const std::int32_t p : triangles_P) {
-      if (p < 0) continue;
-      const collision::TriangleDistance closest = collision::triangle_distance(points_O, part_.triangle_W(p));
+void ProofFront::search_leaves(std::uint32_t leaf_O, std::uint32_t leaf_P) {
+  const PlacedLeaf placed_O(obstacle_, leaf_O);
+  const PlacedLeaf placed_P(part_, leaf_P);
+  for (int o = 0; o < placed_O.count; ++o) {
+    for (int p = 0; p < placed_P.count; ++p) {
+      if (!placed_O.may_be_near(o, placed_P, p, radius_)) continue;
+      const auto at_O = static_cast<std::size_t>(o);
+      const auto at_P = static_cast<std::size_t>(p);
+      const collision::TriangleDistance closest =
+          collision::triangle_distance(placed_O.points_W[at_O], placed_P.points_W[at_P]);
       if (closest.distance > radius_) continue;
       obligations_.push_back({bodies_.obstacle,
                               bodies_.part,
-                              {Kind::kTriangle, static_cast<std::uint32_t>(o), nullptr},
-                              {Kind::kTriangle, static_cast<std::uint32_t>(p), nullptr},
+                              {Kind::kTriangle, static_cast<std::uint32_t>(placed_O.triangles[at_O]), nullptr},
+                              {Kind::kTriangle, static_cast<std::uint32_t>(placed_P.triangles[at_P]), nullptr},
                               closest.distance,
                               (closest.p_b - closest.p_a).normalized()});
     }

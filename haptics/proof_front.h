@@ -34,7 +34,7 @@ struct Obligation {
   TreeItem item_O;
   TreeItem item_P;
   double distance;      ///< metres, a lower bound at the pose of the search
-  Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part, along which they were that far apart
+  Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part, along which they were that far apart; zero: not known
 };
 
 /// Two bodies by their numbers.
@@ -73,7 +73,7 @@ class ProofFront {
   void search(std::int32_t obstacle, std::int32_t part);
   void open(const PlacedItem& item_O, const PlacedItem& item_P);
   Separation separation(const PlacedItem& item_O, const PlacedItem& item_P) const;
-  void search_leaves(const TreeItem& leaf_O, const TreeItem& leaf_P);
+  void search_leaves(std::uint32_t leaf_O, std::uint32_t leaf_P);
 
   const Surroundings& surroundings_;
   std::vector<Obligation> obligations_;
