@@ -62,10 +62,12 @@ void CoherentFront::holds_for(std::size_t entry, double gap) {
 }
 
 // Brings the clock up to this pose.
-void CoherentFront::follow(const DopTree& base, const DopTree& other, const QueryFrame& frame) {
-  if (base_id_ != base.id() || other_id_ != other.id()) {
+void CoherentFront::follow(const DopTree& base, const DopTree& other, const QueryFrame& frame,
+                           const VisitSelection& selection) {
+  if (base_id_ != base.id() || other_id_ != other.id() || selection_ids_ != selection.ids()) {
     base_id_ = base.id();
     other_id_ = other.id();
+    selection_ids_ = selection.ids();
     witness_.reset();
     start_afresh(base, other);
   } else {
@@ -81,10 +83,11 @@ void CoherentFront::follow(const DopTree& base, const DopTree& other, const Quer
 }
 
 bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, const QueryFrame& frame,
-                          double distance, DopAlignment& alignment, QueryCounters& counters, TriangleVisitor& visitor) {
-  follow(base, other, frame);
+                          double distance, DopAlignment& alignment, QueryCounters& counters, TriangleVisitor& visitor,
+                          const VisitSelection& selection) {
+  follow(base, other, frame, selection);
   if (frame.spheres_apart(distance)) return false;
-  DopVisit step(base, other, frame, distance, alignment);
+  DopVisit step(base, other, frame, distance, alignment, selection);
   if (goal == Goal::kAnyPair && witness_) {
     if (witness_->still_answers(visitor)) return true;
     // It looks for crossings, which are not all that counts when there is a distance.
@@ -172,7 +175,7 @@ bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, Dop
     if (answers(pair, outcome)) return true;
     distances[static_cast<std::size_t>(pair)] = outcome.distance;
   }
-  double least_gap = intersecting != 0 ? -1.0 : step.least_gap(leaves, leaves.present() & ~near);
+  double least_gap = intersecting != 0 ? -1.0 : step.least_gap(leaves, leaves.of_interest() & ~near);
   for (PairMask rest = near; rest != 0 && least_gap > 0.0; rest &= rest - 1) {
     const int pair = std::countr_zero(rest);
     double distance = distances[static_cast<std::size_t>(pair)];

@@ -2,12 +2,13 @@
 
 /// What a query of two trees remembers for the next query of the same two: the front where its traversal ended.
 ///
-/// Every pair of triangles is covered by an entry: a visit of two nodes, for the children that were apart then, or of
-/// two leaves. An entry holds good until the part has moved by the least gap it saw; the sum of all motions is the
-/// clock by which it expires. So a query looks again only at what has expired, and first of all at the pair of
-/// triangles that answered the last one. J. Klosowski et al. (1998)
-/// begin at such a front too, and visit all of it.
+/// Every pair of triangles, or every one that was selected, is covered by an entry: a visit of two nodes, for the
+/// children that were apart then, or of two leaves. An entry holds good until the part has moved by the least gap it
+/// saw; the sum of all motions is the clock by which it expires. So a query looks again only at what has expired, and
+/// first of all at the pair of triangles that answered the last one. J. Klosowski et al. (1998) begin at such a front
+/// too, and visit all of it.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -41,7 +42,8 @@ class CoherentFront {
   /// Shows the visitor every pair of triangles that may be within `distance` (metres), until it says stop; when any
   /// pair will do, the one that made it stop last time comes first. Returns whether it did.
   bool query(Goal goal, const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
-             DopAlignment& alignment, QueryCounters& counters, TriangleVisitor& visitor);
+             DopAlignment& alignment, QueryCounters& counters, TriangleVisitor& visitor,
+             const VisitSelection& selection = {});
 
   /// Where the last query found that the trees meet, if it did.
   const std::optional<Witness>& witness() const { return witness_; }
@@ -56,7 +58,7 @@ class CoherentFront {
     std::uint32_t parent;
     bool is_leaf;
   };
-  void follow(const DopTree& base, const DopTree& other, const QueryFrame& frame);
+  void follow(const DopTree& base, const DopTree& other, const QueryFrame& frame, const VisitSelection& selection);
   void start_afresh(const DopTree& base, const DopTree& other);
   void add(const NodePair& pair, bool is_leaf, std::size_t parent);
   void take_witness(std::size_t entry, int pair);
@@ -67,6 +69,7 @@ class CoherentFront {
 
   std::uint64_t base_id_ = 0;
   std::uint64_t other_id_ = 0;
+  std::array<std::uint64_t, 2> selection_ids_{};
   Eigen::Matrix3d R_PQ_ = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_PQ_ = Eigen::Vector3d::Zero();
   double moved_ = 0.0;            ///< since the front was begun, at most, in radii of P

@@ -23,6 +23,6 @@ bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isome
 void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                         const CoherentMemory& memory, std::vector<TrianglePair>& pairs, double tolerance);
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                  const CoherentMemory& memory, std::vector<ClosePair>& pairs);
+                  const CoherentMemory& memory, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
 
 }  // namespace glissade::collision

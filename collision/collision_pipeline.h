@@ -21,7 +21,7 @@ namespace glissade::collision {
 enum class PairQuery : std::uint8_t {
   kVerdict,        ///< that they do
   kTrianglePairs,  ///< and in which pairs of triangles
-  kClosePairs,     ///< and where these are closest
+  kClosePairs,     ///< and where these are closest; of objects with selections, by selected triangles only
 };
 
 struct PipelineOptions {
@@ -48,8 +48,10 @@ class CollisionPipeline {
 
   /// Computes a frame with the newest poses: all pairs of objects of interest to each other that are not further apart
   /// than `distance` metres (0: that touch), exactly, by the queries of `dop_query.h` for the pose X_AB that
-  /// `relative_pose` gives. The result is overwritten by the next call. Throws std::invalid_argument for a distance
-  /// that is negative, not a number or greater than that of the options. Cost: see `FrameReport`.
+  /// `relative_pose` gives. Two objects that both have a selection (`ObjectDescription`) meet, where close pairs are
+  /// asked for, if a pair with a selected triangle is that near; other queries know no selections. The result is
+  /// overwritten by the next call. Throws std::invalid_argument for a distance that is negative, not a number or
+  /// greater than that of the options. Cost: see `FrameReport`.
   const FrameResult& step(double distance = 0.0);
 
   const FrameResult& result() const;

@@ -33,8 +33,9 @@ bool visit_all(Goal goal, const PlacedTrees& placed, double distance, QueryWorks
                TriangleVisitor& visitor) {
   QueryWorkspace::Memory& memory = workspace.memory();
   memory.counters = {};
+  const VisitSelection selection = placed.visit_selection();
   if (placed.frame.spheres_apart(distance)) return false;
-  DopVisit step(placed.base(), placed.other(), placed.frame, distance, memory.alignment);
+  DopVisit step(placed.base(), placed.other(), placed.frame, distance, memory.alignment, selection);
   return traverse(goal, step, memory, visitor);
 }
 
@@ -43,7 +44,7 @@ bool visit_all(Goal goal, const PlacedTrees& placed, double distance, const Cohe
   QueryWorkspace::Memory& memory = workspace.scratch.memory();
   memory.counters = {};
   return workspace.front.query(goal, placed.base(), placed.other(), placed.frame, distance, memory.alignment,
-                               memory.counters, visitor);
+                               memory.counters, visitor, placed.visit_selection());
 }
 
 QueryWorkspace::Memory& memory_of(QueryWorkspace& workspace) {
@@ -103,18 +104,18 @@ void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eige
 }
 
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                  QueryWorkspace& workspace, std::vector<ClosePair>& pairs) {
-  find_pairs({tree_A, tree_B, X_AB}, distance, workspace, pairs);
+                  QueryWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection) {
+  find_pairs({tree_A, tree_B, X_AB, selection}, distance, workspace, pairs);
 }
 
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                  CoherentWorkspace& workspace, std::vector<ClosePair>& pairs) {
-  find_pairs({tree_A, tree_B, X_AB}, distance, memory_apart(workspace), pairs);
+                  CoherentWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection) {
+  find_pairs({tree_A, tree_B, X_AB, selection}, distance, memory_apart(workspace), pairs);
 }
 
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                  const CoherentMemory& memory, std::vector<ClosePair>& pairs) {
-  find_pairs({tree_A, tree_B, X_AB}, distance, memory, pairs);
+                  const CoherentMemory& memory, std::vector<ClosePair>& pairs, const PairSelection& selection) {
+  find_pairs({tree_A, tree_B, X_AB, selection}, distance, memory, pairs);
 }
 
 }  // namespace glissade::collision

@@ -18,6 +18,7 @@
 #include <Eigen/Geometry>
 
 #include <glissade/collision/dop_tree.h>
+#include <glissade/collision/triangle_selection.h>
 
 namespace glissade::collision {
 
@@ -104,11 +105,12 @@ void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eige
                         CoherentWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance = 0.0);
 
 /// Replaces `pairs` by every pair of triangles not further apart than `distance` (metres, ≥ 0), in ascending order of
-/// the triangle indices, with their closest points.
+/// the triangle indices, with their closest points; with a selection, by those with a selected triangle, at a cost that
+/// follows these. Throws std::invalid_argument for a selection that was made for another tree.
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                  QueryWorkspace& workspace, std::vector<ClosePair>& pairs);
+                  QueryWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                  CoherentWorkspace& workspace, std::vector<ClosePair>& pairs);
+                  CoherentWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
 
 /// A certain lower bound of the distance of the two meshes in metres: the distance itself but for a few units in the
 /// last place of the coordinates, 0 when they intersect; that of their bounding spheres when those are further apart

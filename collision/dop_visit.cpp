@@ -9,19 +9,9 @@
 namespace glissade::collision {
 namespace {
 
-// For each set of children of P, its pairs with any child of Q.
-constexpr auto kRows = [] {
-  std::array<std::uint16_t, 1U << kWidth> rows{};
-  for (std::uint32_t children = 0; children < rows.size(); ++children) {
-    for (int c = 0; c < kWidth; ++c)
-      rows[children] |= static_cast<std::uint16_t>((children >> c & 1U) != 0 ? row_of(c) : 0);
-  }
-  return rows;
-}();
-
-// Four bits for each child of P that is named in `children_P`, one in each four for each of `children_Q`.
+// The pairs of a child of P in one set with a child of Q in another.
 PairMask product(std::uint32_t children_P, std::uint32_t children_Q) {
-  return kRows[children_P] & children_Q * 0x1111U;
+  return rows_of(children_P) & columns_of(children_Q);
 }
 
 void prefetch_child(const DopTree& tree, std::uint32_t node, int c) {
@@ -40,11 +30,12 @@ std::uint32_t all_children(const NodeHead& head) {
 }  // namespace
 
 DopVisit::DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
-                   DopAlignment& alignment)
+                   DopAlignment& alignment, const VisitSelection& selection)
     : base_(base),
       other_(other),
       frame_(frame),
       alignment_(alignment),
+      selection_(selection),
       node_kernels_(node_kernels()),
       leaf_kernels_(leaf_kernels()) {
   const double radii = frame.in_base_radii(distance);
@@ -70,16 +61,17 @@ bool DopVisit::boxes_apart() const {
 }
 
 PairMask DopVisit::pairs_of(const NodePair& pair) const {
-  return pair.pairs & product(all_children(base_.nodes()[pair.node_P]), all_children(other_.nodes()[pair.node_Q]));
+  return pair.pairs & product(all_children(base_.nodes()[pair.node_P]), all_children(other_.nodes()[pair.node_Q])) &
+         selection_.pairs_of_nodes(pair.node_P, pair.node_Q);
 }
 
 PairMask DopVisit::nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCounters& counters) {
+  const PairMask pairs = pairs_of(pair);
+  if (pairs == 0) return 0;  // the roots, where nothing is selected
   if (!thin_frame_) begin_nodes();
-  const NodeHead& head_P = base_.nodes()[pair.node_P];
-  const NodeHead& head_Q = other_.nodes()[pair.node_Q];
-  const PairMask pairs = pair.pairs & product(all_children(head_P), all_children(head_Q));
-  counters.realignments += head_Q.child_count();
-  counters.node_tests += head_P.child_count() * head_Q.child_count();
+  const int children_Q = other_.nodes()[pair.node_Q].child_count();
+  counters.realignments += children_Q;
+  counters.node_tests += base_.nodes()[pair.node_P].child_count() * children_Q;
 
   return pairs & (always_near_ | realign_and_test(pair, overlaps));
 }
@@ -117,6 +109,7 @@ void DopVisit::prepare(std::uint32_t leaf_P, std::uint32_t leaf_Q, VisitedLeaves
   if (leaves.leaf_Q != leaf_Q) leaf_kernels_.prepare_Q(*leaf_frame_, other_.leaves()[leaf_Q], leaves);
   leaves.leaf_P = leaf_P;
   leaves.leaf_Q = leaf_Q;
+  leaves.selected = selection_.pairs_of_leaves(leaf_P, leaf_Q);
 }
 
 double DopVisit::leaf_gap(const LeafPair& leaves, QueryCounters& counters) const {
@@ -124,9 +117,9 @@ double DopVisit::leaf_gap(const LeafPair& leaves, QueryCounters& counters) const
   return static_cast<double>(leaf_kernels_.leaf_gap(*leaf_frame_, leaves));
 }
 
-PairMask DopVisit::leaves(LeafPair& leaves, QueryCounters& counters) const {
+PairMask DopVisit::leaves(VisitedLeaves& leaves, QueryCounters& counters) const {
   counters.triangle_tests += kWidth * kWidth;
-  return leaf_kernels_.test(*leaf_frame_, distance_, leaves);
+  return leaves.selected & leaf_kernels_.test(*leaf_frame_, distance_, leaves);
 }
 
 CertainPairs DopVisit::cross(const LeafPair& leaves) const {

@@ -14,6 +14,7 @@
 #include "query_frame.h"
 #include "thin_slab.h"
 #include "vertex_alignment.h"
+#include "visit_selection.h"
 
 namespace glissade::collision {
 
@@ -24,14 +25,6 @@ struct NodePair {
   std::uint32_t node_Q;
   PairMask pairs;
 };
-
-/// All pairs of one child of P, and of one of Q.
-constexpr PairMask row_of(int child_P) {
-  return 0xfU << (kWidth * child_P);
-}
-constexpr PairMask column_of(int child_Q) {
-  return 0x1111U << child_Q;
-}
 
 /// Where a traversal goes from a pair of children.
 struct Descent {
@@ -45,19 +38,24 @@ struct VisitedLeaves : LeafPair {
   static constexpr std::uint32_t kNone = UINT32_MAX;
   std::uint32_t leaf_P = kNone;
   std::uint32_t leaf_Q = kNone;
+  PairMask selected = kAllPairs;
+
+  /// Pairs of triangles that the query is after.
+  PairMask of_interest() const { return present() & selected; }
 };
 
 /// Compares nodes and leaves of two trees in one frame.
 class DopVisit {
  public:
-  /// Pairs that are certainly further apart than `distance` (metres) are dropped. `alignment` is scratch memory.
-  DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
-           DopAlignment& alignment);
+  /// Pairs that are certainly further apart than `distance` (metres) are dropped, and those that have nothing of the
+  /// selection. `alignment` is scratch memory.
+  DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance, DopAlignment& alignment,
+           const VisitSelection& selection = {});
 
   /// The bounding boxes of both trees, turned as these are, are certainly further apart than the distance.
   bool boxes_apart() const;
 
-  /// The pairs of children there are, among those of interest.
+  /// The pairs of children there are, among those of interest, with something selected.
   PairMask pairs_of(const NodePair& pair) const;
 
   /// The pairs of children whose boxes may be near; `overlaps` of all pairs, in grid steps of the base.
@@ -83,7 +81,7 @@ class DopVisit {
   double leaf_gap(const LeafPair& leaves, QueryCounters& counters) const;
 
   /// The pairs of triangles that their normals may let be near.
-  PairMask leaves(LeafPair& leaves, QueryCounters& counters) const;
+  PairMask leaves(VisitedLeaves& leaves, QueryCounters& counters) const;
 
   /// Of those, the ones that certainly intersect, and the ones that certainly do not. Nothing is certain when pairs
   /// within a distance are looked for.
@@ -114,6 +112,7 @@ class DopVisit {
   const DopTree& other_;
   const QueryFrame& frame_;
   DopAlignment& alignment_;
+  const VisitSelection selection_;
   std::optional<ThinSlabFrame> thin_frame_;          ///< once a node is visited: some coherent queries see leaves only
   std::optional<VertexAlignment> vertex_alignment_;  ///< the same, for realignment by brute force
   std::optional<LeafFrame> leaf_frame_;              ///< once a leaf is

@@ -28,7 +28,7 @@ void query(const PlacedPair& placed, double distance, Workspace&& workspace, std
 }
 template <typename Workspace>
 void query(const PlacedPair& placed, double distance, Workspace&& workspace, std::vector<ClosePair>& found) {
-  pairs_within(placed.tree_A, placed.tree_B, placed.X_AB, distance, workspace, found);
+  pairs_within(placed.tree_A, placed.tree_B, placed.X_AB, distance, workspace, found, placed.selection);
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ void PairChecks::prefetch(const TrackedPair& pair, const PairMemory& memory, int
 void PairChecks::find_out(TrackedPair& pair, PairMemory& memory, double distance, int worker) {
   const WorldObject& a = world_.objects()[pair.slots.a];
   const WorldObject& b = world_.objects()[pair.slots.b];
-  const PlacedPair placed{*a.tree, *b.tree, relative_pose(a, b)};
+  const PlacedPair placed{*a.tree, *b.tree, relative_pose(a, b), {a.selection.get(), b.selection.get()}};
   QueryWorkspace& scratch = scratch_[static_cast<std::size_t>(worker)];
   if (!memory.front) memory.front = std::make_unique<CoherentFront>();
   if (options_.query == PairQuery::kVerdict) {

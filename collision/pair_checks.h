@@ -18,6 +18,7 @@ struct PlacedPair {
   const DopTree& tree_A;
   const DopTree& tree_B;
   Eigen::Isometry3d X_AB;
+  PairSelection selection;  ///< where close pairs are asked for
 };
 
 class PairChecks {

@@ -122,7 +122,8 @@ class SharedQuery {
     Worker& worker = memory_.workers.local();
     QueryWorkspace::Memory& scratch = worker.scratch.memory();
     scratch.stack = piece;
-    DopVisit step(placed_.base(), placed_.other(), placed_.frame, distance_, scratch.alignment);
+    DopVisit step(placed_.base(), placed_.other(), placed_.frame, distance_, scratch.alignment,
+                  placed_.visit_selection());
     PairCollector<Pair> visitor(placed_, distance_, pairs_of(worker, static_cast<const Pair*>(nullptr)));
     while (!continue_all(step, scratch, visitor, scratch.counters.node_tests + kTestsOfPiece)) {
       if (scratch.stack.size() > 1) hand_over(older_half(scratch.stack));
@@ -142,10 +143,11 @@ void find_pairs(const PlacedTrees& placed, double distance, ParallelWorkspace::M
   memory.pieces = 0;
   memory.done = 0;
   memory.counters = {};
+  const VisitSelection selection = placed.visit_selection();
   if (placed.frame.spheres_apart(distance)) return;
   QueryWorkspace::Memory& scratch = memory.scratch.memory();
   scratch.counters = {};
-  DopVisit step(placed.base(), placed.other(), placed.frame, distance, scratch.alignment);
+  DopVisit step(placed.base(), placed.other(), placed.frame, distance, scratch.alignment, selection);
   PairCollector<Pair> visitor(placed, distance, pairs);
   begin_all(step, scratch, visitor);
   if (!continue_all(step, scratch, visitor, kTestsWorthSharing)) {
@@ -163,8 +165,8 @@ void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eige
 }
 
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                  ParallelWorkspace& workspace, std::vector<ClosePair>& pairs) {
-  find_pairs({tree_A, tree_B, X_AB}, distance, workspace.memory(), pairs);
+                  ParallelWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection) {
+  find_pairs({tree_A, tree_B, X_AB, selection}, distance, workspace.memory(), pairs);
 }
 
 }  // namespace glissade::collision

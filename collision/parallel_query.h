@@ -37,6 +37,6 @@ class ParallelWorkspace {
 void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                         ParallelWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance = 0.0);
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                  ParallelWorkspace& workspace, std::vector<ClosePair>& pairs);
+                  ParallelWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
 
 }  // namespace glissade::collision

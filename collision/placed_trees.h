@@ -6,8 +6,10 @@
 
 #include <glissade/collision/dop_query.h>
 #include <glissade/collision/triangle_intersection.h>
+#include <glissade/collision/triangle_selection.h>
 
 #include "query_frame.h"
+#include "visit_selection.h"
 
 namespace glissade::collision {
 
@@ -16,10 +18,17 @@ struct PlacedTrees {
   const DopTree& tree_A;
   const DopTree& tree_B;
   const Eigen::Isometry3d& X_AB;
+  PairSelection selection{};
   QueryFrame frame{tree_A, tree_B, X_AB};
 
   const DopTree& base() const { return frame.base_is_A ? tree_A : tree_B; }
   const DopTree& other() const { return frame.base_is_A ? tree_B : tree_A; }
+
+  /// Throws std::invalid_argument for selections that were made for other trees.
+  VisitSelection visit_selection() const {
+    return frame.base_is_A ? VisitSelection(base(), other(), selection.of_A, selection.of_B)
+                           : VisitSelection(base(), other(), selection.of_B, selection.of_A);
+  }
 
   TrianglePair triangles(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) const {
     const std::int32_t triangle_P = base().leaves()[leaf_P].triangle[static_cast<std::size_t>(pair / kWidth)];

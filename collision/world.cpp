@@ -107,6 +107,9 @@ World::~World() = default;
 
 ObjectId World::add(const ObjectDescription& object) {
   if (object.tree == nullptr) throw std::invalid_argument("an object of a world needs a tree");
+  if (object.selection != nullptr && !object.selection->is_of(*object.tree)) {
+    throw std::invalid_argument("the selection of triangles of an object was made for another tree than its own");
+  }
   if (object.group < 0 || object.group >= InterestMatrix::kGroups) {
     throw std::invalid_argument("the group " + std::to_string(object.group) + " of an object is not one of 0 to 63");
   }
@@ -121,7 +124,7 @@ ObjectId World::add(const ObjectDescription& object) {
   const std::uint32_t slot = take_free_slot(*X_WO);
   const std::uint32_t generation = generation_of(slots_[slot].state.load(std::memory_order_relaxed));
   options_ = object.tree->options();
-  registered_[slot] = {{slot, generation}, object.tree, object.hull, *X_WO, object.group};
+  registered_[slot] = {{slot, generation}, object.tree, object.hull, *X_WO, object.group, object.selection};
   mark_edited(slot);
   slots_[slot].generation.store(generation, std::memory_order_release);
   return registered_[slot].id;

@@ -19,6 +19,7 @@
 
 #include <glissade/collision/dop_tree.h>
 #include <glissade/collision/interest_matrix.h>
+#include <glissade/collision/triangle_selection.h>
 #include <glissade/realtime/cache_line.h>
 
 namespace glissade::collision {
@@ -38,6 +39,8 @@ struct ObjectDescription {
   std::shared_ptr<const ConvexHull> hull;  ///< of the same mesh; null: no filter by hulls
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   int group = 0;  ///< row and column of the interest matrix, 0 to 63
+  /// Of the tree. Where both objects have one, `PairQuery::kClosePairs` is after pairs with a selected triangle.
+  std::shared_ptr<const TriangleSelection> selection = nullptr;
 };
 
 /// What a slot holds. Without an object: the default.
@@ -47,6 +50,7 @@ struct WorldObject {
   std::shared_ptr<const ConvexHull> hull;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   int group = 0;
+  std::shared_ptr<const TriangleSelection> selection;
 };
 
 /// What is not as it was at the take before. Slot numbers ascend.
@@ -71,9 +75,9 @@ class World {
 
   // Editors: any thread; may block on each other and, for as long as it copies edits, on the consumer.
 
-  /// Throws std::invalid_argument for a null tree, one with other options than those of the objects here, a group
-  /// beyond 0 to 63, or a pose `move` would refuse; std::length_error when the world is full: also for as long as a
-  /// mover is still inside the only slot that is free.
+  /// Throws std::invalid_argument for a null tree, one with other options than those of the objects here, a selection
+  /// of another tree, a group beyond 0 to 63, or a pose `move` would refuse; std::length_error when the world is full:
+  /// also for as long as a mover is still inside the only slot that is free.
   ObjectId add(const ObjectDescription& object);
 
   /// Throws std::invalid_argument for a stale id. Pairs of this object need no more be ignored. The tree is let go at

@@ -1,5 +1,5 @@
 // Queries that remember against queries that do not, bit for bit, on random walks that hover about contact: steps of
-// all sizes, standing still, going back, teleports, other tolerances, other trees and other queries in between.
+// all sizes, standing still, going back, teleports, other tolerances, other trees, selections and queries in between.
 
 #include <algorithm>
 #include <array>
@@ -93,7 +93,10 @@ class Walk {
     move(counts);
     const DopTree& tree_A = swapped ? *tree_B_ : *tree_A_;
     const DopTree& tree_B = swapped ? *tree_A_ : *tree_B_;
-    const bool hit = ask(tree_A, tree_B, swapped ? X_AB_.inverse() : X_AB_);
+    const PairSelection selection = !selects_ ? PairSelection{}
+                                    : swapped ? PairSelection{&*selection_B_, &*selection_A_}
+                                              : PairSelection{&*selection_A_, &*selection_B_};
+    const bool hit = ask(tree_A, tree_B, swapped ? X_AB_.inverse() : X_AB_, selection);
     ++counts.frames[query_];
     counts.hits[query_] += hit ? 1 : 0;
     if (!swapped) {
@@ -111,6 +114,10 @@ class Walk {
     mesh_B_ = std::make_shared<TriangleMesh>(pair_.B.mesh);
     tree_A_.emplace(mesh_A_, options_);
     tree_B_.emplace(mesh_B_, options_);
+    const double share = random_.uniform(0.0, 0.5);
+    const auto is_selected = [&](std::int32_t) { return random_.chance(share); };
+    selection_A_.emplace(*tree_A_, is_selected);
+    selection_B_.emplace(*tree_B_, is_selected);
     teleport();
   }
 
@@ -138,6 +145,7 @@ class Walk {
   void change_question() {
     if (random_.chance(0.02))
       query_ = large_ && random_.chance(0.6) ? 0 : static_cast<std::size_t>(random_.integer(0, 3));
+    if (random_.chance(0.02)) selects_ = random_.chance(0.5);
     if (random_.chance(0.05)) {
       const double reach = large_ && query_ != 0 ? -2.5 : -0.5;
       tolerance_ = random_.chance(0.5) ? 0.0 : random_.power_of_ten(-9.0, reach) * pair_.scale();
@@ -165,7 +173,7 @@ class Walk {
     }
   }
 
-  bool ask(const DopTree& tree_A, const DopTree& tree_B, const Isometry3d& X_AB) {
+  bool ask(const DopTree& tree_A, const DopTree& tree_B, const Isometry3d& X_AB, const PairSelection& selection) {
     asked_X_AB_ = X_AB;
     if (query_ == 0) {
       const bool expected = intersects(tree_A, tree_B, X_AB, fresh_, tolerance_);
@@ -184,8 +192,8 @@ class Walk {
       if (!same_bits(gap_lower_bound(tree_A, tree_B, X_AB, remembering_, limit), gap)) difference_ = "another gap";
       return gap == 0.0;
     }
-    pairs_within(tree_A, tree_B, X_AB, tolerance_, fresh_, close_pairs_);
-    pairs_within(tree_A, tree_B, X_AB, tolerance_, remembering_, remembered_close_pairs_);
+    pairs_within(tree_A, tree_B, X_AB, tolerance_, fresh_, close_pairs_, selection);
+    pairs_within(tree_A, tree_B, X_AB, tolerance_, remembering_, remembered_close_pairs_, selection);
     const bool same = std::equal(close_pairs_.begin(), close_pairs_.end(), remembered_close_pairs_.begin(),
                                  remembered_close_pairs_.end(),
                                  [](const ClosePair& u, const ClosePair& v) { return same_bits(u, v); });
@@ -195,9 +203,10 @@ class Walk {
 
   std::string description(bool swapped) {
     const std::string what = std::exchange(difference_, {});
-    return what + " from " + kQueries[query_] + ", tolerance " + text(tolerance_) + (swapped ? ", roles swapped" : "") +
-           "\n  " + variant_name(options_) + ", " + family_name(family_) + "\n  A: " + pair_.A.description +
-           "\n  B: " + pair_.B.description + "\n" + text(asked_X_AB_);
+    return what + " from " + kQueries[query_] + (selects_ ? " of a selection" : "") + ", tolerance " +
+           text(tolerance_) + (swapped ? ", roles swapped" : "") + "\n  " + variant_name(options_) + ", " +
+           family_name(family_) + "\n  A: " + pair_.A.description + "\n  B: " + pair_.B.description + "\n" +
+           text(asked_X_AB_);
   }
 
   RandomNumbers random_;
@@ -210,6 +219,9 @@ class Walk {
   std::shared_ptr<TriangleMesh> mesh_B_;
   std::optional<DopTree> tree_A_;
   std::optional<DopTree> tree_B_;
+  std::optional<TriangleSelection> selection_A_;
+  std::optional<TriangleSelection> selection_B_;
+  bool selects_ = false;  ///< where close pairs are asked for
   Isometry3d X_AB_;
   Isometry3d previous_X_AB_;
   Isometry3d asked_X_AB_;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -289,6 +290,31 @@ TEST_F(Pipeline, GivesTheTrianglesWithinADistanceThatMayDifferFromFrameToFrame) 
   }
   EXPECT_THAT(pipeline.step(0.1).meeting, IsEmpty());
   EXPECT_THAT(pipeline.step(0.2).meeting.size(), 1U);
+}
+
+TEST_F(Pipeline, IsAfterSelectedTrianglesWhereBothObjectsHaveASelection) {
+  CollisionPipeline pipeline(world_, clock_, {.query = PairQuery::kClosePairs, .greatest_distance = 0.2, .threads = 1});
+  const TriangleMesh& mesh = box_.tree->mesh();
+  const auto faces_up = [&](std::int32_t t) {  // on the side that the others, to the left and right, are not near
+    return std::min({mesh.corner(t, 0).z(), mesh.corner(t, 1).z(), mesh.corner(t, 2).z()}) > 0.49;
+  };
+  const auto top = std::make_shared<TriangleSelection>(*box_.tree, faces_up);
+  const auto nothing = std::make_shared<TriangleSelection>(*box_.tree, [](std::int32_t) { return false; });
+  const ObjectId a = world_.add({box_.tree, box_.hull, at(0.0), 0, top});
+  const ObjectId b = world_.add({box_.tree, box_.hull, at(1.05), 0, nothing});
+  const ObjectId c = world_.add({box_.tree, box_.hull, at(2.1), 0, nothing});
+  const ObjectId d = world_.add({box_.tree, box_.hull, at(3.15), 0});
+  const FrameResult& result = pipeline.step(0.1);
+  EXPECT_THAT(result.meeting, ElementsAre(ObjectPair{a, b}, ObjectPair{c, d})) << "b and c have nothing to meet with";
+  ASSERT_EQ(result.meeting.size(), 2U);
+  ASSERT_FALSE(result.close_pairs(0).empty());
+  for (const ClosePair& pair : result.close_pairs(0))
+    EXPECT_TRUE(faces_up(pair.triangles.triangle_A));
+  std::vector<ClosePair> all;
+  QueryWorkspace workspace;
+  pairs_within(*box_.tree, *box_.tree, relative_pose(world_.objects()[c.index], world_.objects()[d.index]), 0.1,
+               workspace, all);
+  EXPECT_EQ(result.close_pairs(1).size(), all.size()) << "d has none, so all of it counts";
 }
 
 TEST_F(Pipeline, NeedsNoHulls) {

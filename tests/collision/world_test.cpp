@@ -102,6 +102,16 @@ TEST(World, RefusesHandlesOfObjectsThatAreGone) {
   EXPECT_THROW(world.remove(ObjectId{.index = 1, .generation = 1}), std::invalid_argument);
 }
 
+TEST(World, RefusesASelectionOfTrianglesOfAnotherTree) {
+  World world(1);
+  const DopTree plate(std::make_shared<TriangleMesh>(make_plate({1.0, 1.0}, 200)));
+  const auto all = [](std::int32_t) { return true; };
+  EXPECT_THROW(world.add({.tree = make_tree(), .selection = std::make_shared<TriangleSelection>(plate, all)}),
+               std::invalid_argument);
+  EXPECT_NO_THROW(
+      world.add({.tree = make_tree(), .selection = std::make_shared<TriangleSelection>(*make_tree(), all)}));
+}
+
 TEST(World, ASlotThatGotAnotherObjectIsRemovedAndAdded) {
   World world(1);
   const ObjectId old = world.add({.tree = make_tree()});
