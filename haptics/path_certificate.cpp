@@ -19,7 +19,7 @@ bool PathCertificate::prove(std::span<const Displacement> displacements, std::sp
 }
 
 void PathCertificate::prove(const Obligation& obligation) {
-  if (obligation.obstacle != obstacle_.number || obligation.part != part_.number) select(obligation);
+  if (obligation.bodies != BodyPair{obstacle_.number, part_.number}) select(obligation.bodies);
   if (!moves_) return;
   if (obligation.item_O.kind == TreeItem::Kind::kTriangle) {
     prove_triangles(static_cast<std::int32_t>(obligation.item_O.number),
@@ -31,15 +31,15 @@ void PathCertificate::prove(const Obligation& obligation) {
   if (!separates(obligation.n_W, item_O, item_P)) walk(item_O, item_P);
 }
 
-/// Makes the bodies of an obligation the ones that are proved.
-void PathCertificate::select(const Obligation& obligation) {
-  obstacle_ = moving(obligation.obstacle);
-  part_ = moving(obligation.part);
-  moves_ = bodies_.moves(obligation.obstacle) || bodies_.moves(obligation.part);
-  floor_ = surroundings_.floor(obligation.obstacle, obligation.part);
-  far_ = bodies_.motion(obligation.obstacle) + bodies_.motion(obligation.part) + floor_ + rounding_;
-  needed_ = floor_ + rounding_ + bodies_.curvature(obligation.obstacle, 0, MovingBodies::kMoments) +
-            bodies_.curvature(obligation.part, 0, MovingBodies::kMoments);
+/// Makes them the ones that are proved.
+void PathCertificate::select(const BodyPair& bodies) {
+  obstacle_ = moving(bodies.obstacle);
+  part_ = moving(bodies.part);
+  moves_ = bodies_.moves(bodies.obstacle) || bodies_.moves(bodies.part);
+  floor_ = surroundings_.floor(bodies.obstacle, bodies.part);
+  far_ = bodies_.motion(bodies.obstacle) + bodies_.motion(bodies.part) + floor_ + rounding_;
+  needed_ = floor_ + rounding_ + bodies_.curvature(bodies.obstacle, 0, MovingBodies::kMoments) +
+            bodies_.curvature(bodies.part, 0, MovingBodies::kMoments);
 }
 
 PathCertificate::MovingBody PathCertificate::moving(std::int32_t body) {
