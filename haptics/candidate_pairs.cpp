@@ -25,6 +25,7 @@ void CandidatePairs::refresh(double radius, std::span<const BodyPair> ignored) {
   }
   std::stable_sort(pairs_.begin(), pairs_.end(),
                    [](const CandidatePair& a, const CandidatePair& b) { return a.distance < b.distance; });
+  front_.refresh(radius, ignored);
   radius_ = radius;
   drift_ = 0.0;
 }

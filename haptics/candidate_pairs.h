@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/haptics/proof_front.h>
 #include <glissade/haptics/surroundings.h>
 
 namespace glissade::haptics {
@@ -24,19 +25,11 @@ struct CandidatePair {
   Eigen::Vector3d n_W;  ///< unit, from the obstacle's to the part's closest point, at the pose of the query
 };
 
-/// Two bodies by their numbers.
-struct BodyPair {
-  std::int32_t obstacle;
-  std::int32_t part;
-
-  bool operator==(const BodyPair&) const = default;
-};
-
 /// Not thread-safe.
 class CandidatePairs {
  public:
   /// The surroundings must outlive this object.
-  explicit CandidatePairs(Surroundings& surroundings) : surroundings_(surroundings) {}
+  explicit CandidatePairs(Surroundings& surroundings) : surroundings_(surroundings), front_(surroundings) {}
 
   /// Looks around for all pairs within `radius` (metres) of where the parts are placed, but those of bodies that are
   /// `ignored`.
@@ -54,12 +47,16 @@ class CandidatePairs {
   /// The candidates that may be within `reach` of the parts' present poses, nearest first (by the poses of the query).
   std::span<const CandidatePair> within(double reach) const;
 
+  /// All that may be within `reach` of the parts' present poses, triangles without features too, for proofs.
+  std::span<const Obligation> obligations(double reach) const { return front_.within(reach + drift_); }
+
   /// Number of candidates.
   std::size_t size() const { return pairs_.size(); }
 
  private:
   Surroundings& surroundings_;
   std::vector<CandidatePair> pairs_;
+  ProofFront front_;
   double radius_ = -1.0;
   double drift_ = 0.0;
 };

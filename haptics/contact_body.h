@@ -1,12 +1,13 @@
 #pragma once
 
-/// A mesh made ready for sliding contact: its DOP-tree, its convex hull and its topology.
+/// A mesh made ready for sliding contact: its DOP-tree, tight boxes for proofs, its convex hull and its topology.
 
 #include <memory>
 
 #include <glissade/collision/convex_hull.h>
 #include <glissade/collision/dop_tree.h>
 #include <glissade/collision/mesh_topology.h>
+#include <glissade/haptics/tight_boxes.h>
 
 namespace glissade::haptics {
 
@@ -14,9 +15,10 @@ namespace glissade::haptics {
 struct ContactBody {
   /// Throws std::invalid_argument as DopTree does. Cost O(n log n).
   explicit ContactBody(const std::shared_ptr<const collision::TriangleMesh>& mesh)
-      : tree(mesh), hull(*mesh), topology(*mesh) {}
+      : tree(mesh), boxes(tree), hull(*mesh), topology(*mesh) {}
 
   collision::DopTree tree;
+  TightBoxes boxes;
   collision::ConvexHull hull;
   collision::MeshTopology topology;
 };

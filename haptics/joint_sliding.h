@@ -129,6 +129,7 @@ class JointSliding {
   void let_rest(Part& part, SlidingState state);
   void find_overlaps(const std::vector<HeldPart>& parts);
   void raise_floors();
+  double gap_of(const BodyPair& pair, double limit);
   bool take_ghosts(std::span<const Eigen::Isometry3d> X_WG, double milliseconds);
   void lead_out(double most);
   void aim();
@@ -160,6 +161,7 @@ class JointSliding {
   PathCertificate certificate_;
   Overlaps overlaps_;
   std::vector<BodyPair> near_starts_;  // nearer than their floor would be
+  collision::QueryWorkspace workspace_;
   double largest_margin_ = 0.0;
 
   std::vector<Contact> contacts_;         // one for each of the first rows

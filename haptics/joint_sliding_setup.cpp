@@ -83,45 +83,46 @@ JointSliding::JointSliding(std::vector<Obstacle> obstacles, const std::vector<He
 /// What overlaps at the start is refused or will be led out, as the rules say.
 void JointSliding::find_overlaps(const std::vector<HeldPart>& parts) {
   const double touching = 4.0 * certificate_.certain_distance();
-  candidates_.refresh(touching, {});
   const std::span<const Obstacle> obstacles = surroundings_.obstacles();
-  std::vector<BodyPair> found;
-  for (const CandidatePair& pair : candidates_.within(touching)) {
-    const BodyPair bodies{pair.obstacle, pair.part};
-    if (std::find(found.begin(), found.end(), bodies) != found.end()) continue;
-    found.push_back(bodies);
-    const auto number = static_cast<std::size_t>(pair.obstacle);
-    const bool is_obstacle = number < obstacles.size();
-    if (is_obstacle && rules_.overlap == OverlapRule::kLeadOut) {
-      overlaps_.add(bodies);
-      continue;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    for (std::size_t other = 0; other < surroundings_.body_of_part(p); ++other) {
+      const BodyPair bodies{static_cast<std::int32_t>(other), static_cast<std::int32_t>(surroundings_.body_of_part(p))};
+      const double floor = surroundings_.floor(bodies.obstacle, bodies.part);
+      const double gap = gap_of(bodies, std::max(floor, 2.0 * touching));
+      if (gap > touching) {
+        if (gap >= floor) continue;
+        surroundings_.start_near(bodies.obstacle, bodies.part, gap);
+        near_starts_.push_back(bodies);
+        continue;
+      }
+      const bool is_obstacle = other < obstacles.size();
+      if (is_obstacle && rules_.overlap == OverlapRule::kLeadOut) {
+        overlaps_.add(bodies);
+        continue;
+      }
+      const std::string& name = is_obstacle ? obstacles[other].name : parts[other - obstacles.size()].name;
+      throw std::invalid_argument(parts[p].name + " collides with " + name + " at its start pose");
     }
-    const std::string& name = is_obstacle ? obstacles[number].name : parts[number - obstacles.size()].name;
-    throw std::invalid_argument(parts[static_cast<std::size_t>(pair.part) - obstacles.size()].name + " collides with " +
-                                name + " at its start pose");
   }
-  candidates_.refresh(kFloorOfMargin * largest_margin_, overlaps_.pairs());
-  for (const CandidatePair& pair : candidates_.within(kFloorOfMargin * largest_margin_)) {
-    if (pair.distance >= surroundings_.floor(pair.obstacle, pair.part)) continue;
-    surroundings_.start_near(pair.obstacle, pair.part, pair.distance);
-    const BodyPair bodies{pair.obstacle, pair.part};
-    if (std::find(near_starts_.begin(), near_starts_.end(), bodies) == near_starts_.end())
-      near_starts_.push_back(bodies);
-  }
-  candidates_.clear();
 }
 
-/// Bodies that started nearer to each other than their floor get it back as they come apart. Needs fresh candidates.
+/// Metres between two bodies, or `limit` if that is less.
+double JointSliding::gap_of(const BodyPair& pair, double limit) {
+  const PlacedBody& obstacle = surroundings_.bodies()[static_cast<std::size_t>(pair.obstacle)];
+  const PlacedBody& part = surroundings_.bodies()[static_cast<std::size_t>(pair.part)];
+  const Eigen::Isometry3d X_OV = obstacle.X_WB.inverse(Eigen::Isometry) * part.X_WB;
+  return collision::gap_lower_bound(obstacle.body->tree, part.body->tree, X_OV, workspace_, limit);
+}
+
+/// Bodies that started nearer to each other than their floor get it back as they come apart.
 void JointSliding::raise_floors() {
   std::erase_if(near_starts_, [&](const BodyPair& bodies) {
-    double nearest = kUnbounded;
-    for (const CandidatePair& pair : candidates_.within(kFloorOfMargin * largest_margin_)) {
-      if (BodyPair{pair.obstacle, pair.part} == bodies) nearest = std::min(nearest, pair.distance);
+    const double whole = kFloorOfMargin * surroundings_.margin(bodies.obstacle, bodies.part);
+    const double gap = gap_of(bodies, 2.0 * whole);
+    if (0.95 * gap > surroundings_.floor(bodies.obstacle, bodies.part)) {
+      surroundings_.start_near(bodies.obstacle, bodies.part, gap);
     }
-    if (0.95 * nearest > surroundings_.floor(bodies.obstacle, bodies.part)) {
-      surroundings_.start_near(bodies.obstacle, bodies.part, nearest);
-    }
-    return nearest == kUnbounded;
+    return 0.95 * gap >= whole;
   });
 }
 

@@ -152,11 +152,11 @@ bool JointSliding::prove(const Displacements& displacements, Step& step) {
     step.lengths[p] = motion_bound(displacements[p], parts_[p].part_V->radius());
     step.length += step.lengths[p];
   }
-  // Pairs further away than this keep the floor whatever happens on the way.
+  // What is further away than this keep the floor whatever happens on the way.
   const double concerned = step.length + kFloorOfMargin * largest_margin_;
   failures_.clear();
   return candidates_.covers(concerned) &&
-         certificate_.prove({displacements.data(), parts_.size()}, candidates_.within(concerned), failures_);
+         certificate_.prove({displacements.data(), parts_.size()}, candidates_.obligations(concerned), failures_);
 }
 
 /// Projects on all rows; false when the solver finds nothing, which leaves standing still.

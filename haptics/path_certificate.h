@@ -3,87 +3,81 @@
 /// The proof that a step of the parts stays clear of everything on its whole way, not only at its end. Two sheets
 /// without thickness can pass through each other without any pose in between that collides; a path certificate rules
 /// that out.
+///
+/// Pairs of boxes are proved apart as a whole where the plane of the flat side of either separates all that both hold,
+/// at the start and at the end of the step, by more than the floor and the curvature of the paths: so a plane patch
+/// that slides over another is proved free at once, however finely it is cut. Boxes that are not are opened, down to
+/// pairs of triangles (`triangle_certificate.h`).
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include <Eigen/Geometry>
 
-#include <glissade/collision/triangle_intersection.h>
-#include <glissade/haptics/candidate_pairs.h>
 #include <glissade/haptics/motion.h>
+#include <glissade/haptics/moving_bodies.h>
+#include <glissade/haptics/proof_front.h>
+#include <glissade/haptics/triangle_certificate.h>
 
 namespace glissade::haptics {
 
 /// A pair that could not be proved apart, and the direction that held it apart at the start of the step.
-struct UncertifiedPair {
-  std::int32_t obstacle;
-  std::int32_t obstacle_triangle;
-  std::int32_t part;
-  std::int32_t part_triangle;
+struct UncertifiedPair : TrianglesOfBodies {
   Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part
 };
 
-/// Proves triangle pairs apart along displacements of the parts. Not thread-safe.
+/// Not thread-safe.
 class PathCertificate {
  public:
   /// The surroundings must outlive this object.
-  explicit PathCertificate(const Surroundings& surroundings);
+  explicit PathCertificate(const Surroundings& surroundings) : surroundings_(surroundings), bodies_(surroundings) {}
 
-  /// Tries to prove all of `pairs` apart while every part goes from where it is placed along its displacement, all of
-  /// them at once; `displacements` has one for each. Replaces `failures` by the pairs it could not prove.
-  ///
-  /// A pair must keep the floor of its bodies; one that starts the step nearer keeps 0.95 of its distance, and one that
-  /// touches cannot be proved apart at all. It is apart over a stretch of the path if one
-  /// direction separates it at both ends by more than the curvature of the paths can take away in between, the sum of
-  /// |w|² ρ / 8 over the two; otherwise the stretch is halved, up to five times.
-  /// Returns whether there are no failures.
-  bool prove(std::span<const Displacement> displacements, std::span<const CandidatePair> pairs,
+  /// Tries to keep all `obligations` while every part goes from where it is placed along its displacement, all of them
+  /// at once; `displacements` has one for each. Replaces `failures` by the pairs of triangles it could not prove apart.
+  /// Returns whether there are none.
+  bool prove(std::span<const Displacement> displacements, std::span<const Obligation> obligations,
              std::vector<UncertifiedPair>& failures);
 
   /// Metres: of bodies where they are placed, less than this is no certain distance.
-  double certain_distance() const;
+  double certain_distance() const { return bodies_.certain_distance(); }
 
  private:
-  /// Both triangles of a pair at one moment of the path.
-  struct Moment {
-    collision::TrianglePoints obstacle;
-    collision::TrianglePoints part;
+  /// An item whose box is, at the beginning and at the end of the step, about `c_W`.
+  struct MovingItem {
+    TreeItem item;
+    std::array<Eigen::Vector3d, 2> c_W;
   };
-  /// A stretch of the path.
-  struct Stretch {
-    const Moment& begin;
-    const Moment& end;
-    double curvature;  ///< what it can take from a gap, metres
-  };
-
-  /// The path is cut into 2^5 parts; a moment is the number of one of their ends.
-  static constexpr int kMoments = 32;
-
-  /// The poses of a part on its way.
-  struct Path {
-    const ContactBody* body;
-    Eigen::Vector3d p_Vref;
-    double radius;
-    Displacement displacement;
-    std::array<Eigen::Isometry3d, kMoments + 1> X_WV_at;
-    std::array<bool, kMoments + 1> known{};  ///< which of them have been computed
+  /// One of the bodies of an obligation.
+  struct MovingBody {
+    std::int32_t number = -1;
+    const ContactBody* body = nullptr;
+    std::array<const Eigen::Isometry3d*, 2> X_WB{};  ///< at the beginning and at the end of the step
   };
 
-  bool stands_still(const CandidatePair& pair) const;
-  bool prove_pair(const CandidatePair& pair, Eigen::Vector3d& n_start);
-  bool prove_stretch(const CandidatePair& pair, int begin, int end, double floor);
-  bool separates(const Eigen::Vector3d& n, const Stretch& stretch, double floor) const;
-  Moment moment_of(const CandidatePair& pair, int moment);
-  collision::TrianglePoints triangle_at(std::int32_t body, std::int32_t triangle, int moment);
-  double curvature_loss(const CandidatePair& pair, int begin, int end) const;
+  void select(const Obligation& obligation);
+  MovingBody moving(std::int32_t body);
+  static MovingItem moving(const TreeItem& item, const MovingBody& body);
+  void prove(const Obligation& obligation);
+  void walk(const MovingItem& item_O, const MovingItem& item_P);
+  bool are_apart(const MovingItem& item_O, const MovingItem& item_P) const;
+  bool separates(const Eigen::Vector3d& n_W, const MovingItem& item_O, const MovingItem& item_P) const;
+  void prove_triangles(std::int32_t triangle_O, std::int32_t triangle_P, const Eigen::Vector3d& n_hint);
+  void prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_P);
 
   const Surroundings& surroundings_;
-  std::int32_t first_part_;
-  double reach_of_obstacles_ = 0.0;  // metres from the origin
-  double rounding_ = 0.0;            // metres: distances below this are not certain
-  std::vector<Path> paths_;          // one for each part
+  MovingBodies bodies_;
+  double rounding_ = 0.0;  // metres: distances below this are not certain
+  std::vector<UncertifiedPair>* failures_ = nullptr;
+
+  // Of the pair of bodies that is being proved:
+  MovingBody obstacle_;
+  MovingBody part_;
+  bool moves_ = false;
+  double floor_ = 0.0;
+  double far_ = 0.0;     // metres at which nothing can come as near as the floor
+  double needed_ = 0.0;  // metres of gap at both ends, so that the floor is kept in between
 };
 
 }  // namespace glissade::haptics

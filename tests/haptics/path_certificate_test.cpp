@@ -30,7 +30,7 @@ bool prove(const std::vector<Obstacle>& obstacles, const std::vector<std::shared
   CandidatePairs candidates(surroundings);
   candidates.refresh(kReach, {});
   std::vector<UncertifiedPair> failures;
-  return PathCertificate(surroundings).prove(displacements, candidates.within(kReach), failures);
+  return PathCertificate(surroundings).prove(displacements, candidates.obligations(kReach), failures);
 }
 
 /// A triangle above another one, both without thickness.
