@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -9,8 +10,9 @@
 namespace glissade::collision {
 namespace {
 
-/// Two triangles continue each other where the sine of the angle between their planes is below this: well above what
-/// single-precision vertices make of a tessellated plane, well below any bend that matters to a contact.
+/// Two triangles continue each other where the sine of the angle between their planes is below this, and two edges
+/// where that of the angle between them is: well above what single-precision vertices make of a tessellated plane, well
+/// below any bend that matters to a contact.
 constexpr double kFlatSine = 1e-4;
 
 /// One side of one triangle.
@@ -32,12 +34,21 @@ bool continues_flat(const TriangleMesh& mesh, const std::array<std::int32_t, 2>&
   return n1.dot(n2) < 0.0 && n1.cross(n2).norm() <= kFlatSine * n1.norm() * n2.norm();
 }
 
+/// Whether the edge from `before` to `v` goes straight on to `after`.
+bool continues_straight(const TriangleMesh& mesh, std::int32_t before, std::int32_t v, std::int32_t after) {
+  const Eigen::Vector3d& x = mesh.vertices[static_cast<std::size_t>(v)];
+  const Eigen::Vector3d in = x - mesh.vertices[static_cast<std::size_t>(before)];
+  const Eigen::Vector3d out = mesh.vertices[static_cast<std::size_t>(after)] - x;
+  return in.dot(out) > 0.0 && in.cross(out).norm() <= kFlatSine * in.norm() * out.norm();
+}
+
 }  // namespace
 
 MeshTopology::MeshTopology(const TriangleMesh& mesh) {
   collect_edges(mesh);
   mark_flat(mesh);
-  collect_vertices(mesh);
+  mark_stops(mesh);
+  collect_neighbours(mesh);
 }
 
 void MeshTopology::collect_edges(const TriangleMesh& mesh) {
@@ -84,26 +95,39 @@ void MeshTopology::mark_flat(const TriangleMesh& mesh) {
   }
 }
 
-void MeshTopology::collect_vertices(const TriangleMesh& mesh) {
-  std::vector<std::int32_t> degree(mesh.vertices.size() + 1, 0);
-  vertex_flat_.assign(mesh.vertices.size(), 1);
-  for (const Edge& edge : edges_) {
-    for (const std::int32_t v : edge.vertices) {
-      ++degree[static_cast<std::size_t>(v)];
-      if (!edge.flat) vertex_flat_[static_cast<std::size_t>(v)] = 0;
-    }
-  }
-  neighbours_.start.assign(mesh.vertices.size() + 1, 0);
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    neighbours_.start[v + 1] = neighbours_.start[v] + degree[v];
-  }
+void MeshTopology::mark_stops(const TriangleMesh& mesh) {
+  /// The edges of a vertex that are not flat: how many, and where the first two lead.
+  struct Rims {
+    int count = 0;
+    std::array<std::int32_t, 2> to{};
+  };
+  std::vector<Rims> rims(mesh.vertices.size());
   answers_.assign(mesh.triangles.size(), 0);
   for (const Edge& edge : edges_) {
-    if (!edge.flat) answers_[static_cast<std::size_t>(edge.owner)] = 1;
+    if (edge.flat) continue;
+    answers_[static_cast<std::size_t>(edge.owner)] = 1;
+    for (std::size_t end = 0; end < 2; ++end) {
+      Rims& of_vertex = rims[static_cast<std::size_t>(edge.vertices[end])];
+      if (of_vertex.count < 2) of_vertex.to[static_cast<std::size_t>(of_vertex.count)] = edge.vertices[1 - end];
+      ++of_vertex.count;
+    }
   }
+  can_stop_.assign(mesh.vertices.size(), 0);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (vertex_owner_[v] >= 0 && vertex_flat_[v] == 0) answers_[static_cast<std::size_t>(vertex_owner_[v])] = 1;
+    const auto& [count, to] = rims[v];
+    if (count == 0 || (count == 2 && continues_straight(mesh, to[0], static_cast<std::int32_t>(v), to[1]))) continue;
+    can_stop_[v] = 1;
+    answers_[static_cast<std::size_t>(vertex_owner_[v])] = 1;
   }
+}
+
+void MeshTopology::collect_neighbours(const TriangleMesh& mesh) {
+  neighbours_.start.assign(mesh.vertices.size() + 1, 0);
+  for (const Edge& edge : edges_) {
+    for (const std::int32_t v : edge.vertices)
+      ++neighbours_.start[static_cast<std::size_t>(v) + 1];
+  }
+  std::partial_sum(neighbours_.start.begin(), neighbours_.start.end(), neighbours_.start.begin());
   neighbours_.entries.resize(2 * edges_.size());
   std::vector<std::int32_t> next(neighbours_.start.begin(), neighbours_.start.end() - 1);
   for (const Edge& edge : edges_) {

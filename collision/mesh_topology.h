@@ -37,9 +37,11 @@ class MeshTopology {
   std::span<const std::int32_t> neighbours_of(std::int32_t vertex) const { return neighbours_.of(vertex); }
   /// The one of a vertex's triangles that answers for it, −1 if it has none.
   std::int32_t owner_of(std::int32_t vertex) const { return vertex_owner_[static_cast<std::size_t>(vertex)]; }
-  /// Whether every edge at the vertex is flat: it lies inside a plane patch, and other vertices bound that patch.
-  bool is_flat(std::int32_t vertex) const { return vertex_flat_[static_cast<std::size_t>(vertex)] != 0; }
-  /// Whether a triangle answers for any edge or vertex that is not flat: only those can stop another mesh.
+  /// Whether a vertex can stop another mesh. One inside a plane patch, where every edge is flat, cannot, as others
+  /// bound the patch; nor can one inside a straight rim, where all edges are flat but two that continue each other:
+  /// what it could stop, the ends of the rim stop, or its edges.
+  bool can_stop(std::int32_t vertex) const { return can_stop_[static_cast<std::size_t>(vertex)] != 0; }
+  /// Whether a triangle answers for any edge that is not flat or vertex that can stop: only those stop another mesh.
   bool answers_for_features(std::int32_t triangle) const { return answers_[static_cast<std::size_t>(triangle)] != 0; }
 
  private:
@@ -55,12 +57,13 @@ class MeshTopology {
 
   void collect_edges(const TriangleMesh& mesh);
   void mark_flat(const TriangleMesh& mesh);
-  void collect_vertices(const TriangleMesh& mesh);
+  void mark_stops(const TriangleMesh& mesh);
+  void collect_neighbours(const TriangleMesh& mesh);
 
   std::vector<Edge> edges_;
   std::vector<std::array<std::int32_t, 3>> triangle_edges_;
   std::vector<std::int32_t> vertex_owner_;
-  std::vector<char> vertex_flat_;
+  std::vector<char> can_stop_;
   std::vector<char> answers_;
   Lists apexes_;
   Lists neighbours_;

@@ -11,10 +11,11 @@ using collision::MeshTopology;
 using collision::TriangleMesh;
 using collision::TrianglePoints;
 
-/// In margins: how near contacts are whose rims are looked at, and by how much two gaps may differ that count as the
-/// same.
+/// In margins: how near contacts are whose rims are looked at, by how much two gaps may differ that count as the same,
+/// and how far past its end an edge is looked for that goes straight on there.
 constexpr double kNearRims = 2.0;
 constexpr double kAsNear = 0.1;
+constexpr double kPastEnd = 0.1;
 
 /// One side of a pair, part or obstacle: its mesh in world coordinates and what its triangle answers for.
 class Side {
@@ -31,7 +32,6 @@ class Side {
   }
 
   std::int32_t triangle() const { return triangle_; }
-  const TrianglePoints& points() const { return points_; }
   const Eigen::Vector3d& corner(int i) const { return points_[static_cast<std::size_t>(i)]; }
 
   /// Numbers in the mesh of corner / edge i.
@@ -43,11 +43,33 @@ class Side {
   /// Whether the selected triangle answers for its corner / edge i, and that feature can stop anything.
   bool owns_corner(int i) const {
     const std::int32_t v = vertex(i);
-    return topology_->owner_of(v) == triangle_ && !topology_->is_flat(v);
+    return topology_->owner_of(v) == triangle_ && topology_->can_stop(v);
   }
   bool owns_edge(int i) const {
     const MeshTopology::Edge& e = topology_->edges()[static_cast<std::size_t>(edge(i))];
     return e.owner == triangle_ && !e.flat;
+  }
+  /// Whether a point on the line of edge i, at the part s of it, is inside the edge, or past an end by no more than
+  /// `tolerance` where the rim goes straight on: what crosses a rim just there must not slip through between two edges.
+  bool is_on_edge(int i, double s, double tolerance) const {
+    if (s > 0.0 && s < 1.0) return true;
+    const int end = s <= 0.0 ? i : (i + 1) % 3;
+    const double past = s <= 0.0 ? -s : s - 1.0;
+    const double squared_length = (corner((i + 1) % 3) - corner(i)).squaredNorm();
+    return past * past * squared_length <= tolerance * tolerance && !topology_->can_stop(vertex(end));
+  }
+  /// The point of the selected triangle closest to x. Where that is a vertex inside a straight rim, the one of its
+  /// edges that x lies beside, as `is_on_edge` has it.
+  ClosestOnTriangle closest_to(const Eigen::Vector3d& x, double tolerance) const {
+    const ClosestOnTriangle on = closest_on_triangle(x, points_);
+    if (on.region != Region::kVertex || topology_->can_stop(vertex(on.index))) return on;
+    for (const int i : {on.index, (on.index + 2) % 3}) {
+      if (!owns_edge(i)) continue;
+      const Eigen::Vector3d along = corner((i + 1) % 3) - corner(i);
+      const double s = along.dot(x - corner(i)) / along.squaredNorm();
+      if (is_on_edge(i, s, tolerance)) return {corner(i) + s * along, Region::kEdge, i};
+    }
+    return on;
   }
   /// Whether no neighbour of corner / edge i lies nearer to the other side than it by more than `tolerance`, along the
   /// normal n (from obstacle to part).
@@ -156,7 +178,7 @@ class ContactSearch {
 
   void search_part_corner(int i) {
     const Eigen::Vector3d& x = part_.corner(i);
-    const ClosestOnTriangle on = closest_on_triangle(x, obstacle_.points());
+    const ClosestOnTriangle on = obstacle_.closest_to(x, kPastEnd * margin_);
     Eigen::Vector3d n;
     const double gap = gap_and_normal(on.point, x, n);
     if (gap < 0.0) return;
@@ -182,7 +204,7 @@ class ContactSearch {
 
   void search_obstacle_corner(int i) {
     const Eigen::Vector3d& y = obstacle_.corner(i);
-    const ClosestOnTriangle on = closest_on_triangle(y, part_.points());
+    const ClosestOnTriangle on = part_.closest_to(y, kPastEnd * margin_);
     Eigen::Vector3d n;
     const double gap = gap_and_normal(y, on.point, n);
     if (gap < 0.0 || on.region == Region::kVertex) return;  // vertex–vertex is found from the part's side
@@ -199,8 +221,10 @@ class ContactSearch {
     for (int j = 0; j < 3; ++j) {
       if (!obstacle_.owns_edge(j)) continue;
       SegmentPoints closest;
-      if (!interior_closest_points(part_.corner(i), part_.corner((i + 1) % 3), obstacle_.corner(j),
-                                   obstacle_.corner((j + 1) % 3), closest)) {
+      if (!closest_points_of_lines(part_.corner(i), part_.corner((i + 1) % 3), obstacle_.corner(j),
+                                   obstacle_.corner((j + 1) % 3), closest) ||
+          !part_.is_on_edge(i, closest.along_p, kPastEnd * margin_) ||
+          !obstacle_.is_on_edge(j, closest.along_q, kPastEnd * margin_)) {
         continue;
       }
       Eigen::Vector3d n;

@@ -45,14 +45,17 @@ inline ClosestOnTriangle closest_on_triangle(const Eigen::Vector3d& x, const col
   return {t[static_cast<std::size_t>(nearest)], Region::kVertex, nearest};
 }
 
+/// Where the lines through two segments are closest, and how far along the segments that is: 0 at the first end, 1 at
+/// the second.
 struct SegmentPoints {
   Eigen::Vector3d p;
   Eigen::Vector3d q;
+  double along_p;
+  double along_q;
 };
 
-/// The closest points of two segments if both lie strictly inside them and the segments are not parallel.
-/// Returns false otherwise.
-inline bool interior_closest_points(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
+/// The closest points of the lines through two segments. Returns false where these are parallel.
+inline bool closest_points_of_lines(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
                                     const Eigen::Vector3d& q1, SegmentPoints& closest) {
   constexpr double kParallelSineSquared = 1e-12;
   const Eigen::Vector3d d = p1 - p0;
@@ -65,9 +68,16 @@ inline bool interior_closest_points(const Eigen::Vector3d& p0, const Eigen::Vect
   if (determinant <= kParallelSineSquared * dd * ee) return false;
   const double s = (de * e.dot(w) - ee * d.dot(w)) / determinant;
   const double t = (dd * e.dot(w) - de * d.dot(w)) / determinant;
-  if (!(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0)) return false;
-  closest = {p0 + s * d, q0 + t * e};
+  closest = {p0 + s * d, q0 + t * e, s, t};
   return true;
+}
+
+/// The closest points of two segments if both lie strictly inside them and the segments are not parallel.
+/// Returns false otherwise.
+inline bool interior_closest_points(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
+                                    const Eigen::Vector3d& q1, SegmentPoints& closest) {
+  if (!closest_points_of_lines(p0, p1, q0, q1, closest)) return false;
+  return closest.along_p > 0.0 && closest.along_p < 1.0 && closest.along_q > 0.0 && closest.along_q < 1.0;
 }
 
 }  // namespace glissade::haptics

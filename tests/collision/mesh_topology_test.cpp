@@ -14,12 +14,12 @@ std::int64_t count_edges(const MeshTopology& topology, bool flat) {
                        [&](const MeshTopology::Edge& edge) { return edge.flat == flat; });
 }
 
-std::int64_t count_vertices(const MeshTopology& topology, const TriangleMesh& mesh, bool flat) {
-  std::int64_t count = 0;
+std::vector<std::int32_t> stops(const MeshTopology& topology, const TriangleMesh& mesh) {
+  std::vector<std::int32_t> vertices;
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh.vertices.size()); ++v) {
-    count += topology.is_flat(v) == flat ? 1 : 0;
+    if (topology.can_stop(v)) vertices.push_back(v);
   }
-  return count;
+  return vertices;
 }
 
 TEST(MeshTopology, OfABoxHasTwelveSharpEdgesAndSixFlatDiagonals) {
@@ -27,7 +27,7 @@ TEST(MeshTopology, OfABoxHasTwelveSharpEdgesAndSixFlatDiagonals) {
   const MeshTopology topology(box);
   EXPECT_EQ(count_edges(topology, false), 12);
   EXPECT_EQ(count_edges(topology, true), 6);
-  EXPECT_EQ(count_vertices(topology, box, false), 8);
+  EXPECT_EQ(stops(topology, box).size(), 8U);
 }
 
 TEST(MeshTopology, IsBlindToTheOrientationOfTriangles) {
@@ -41,7 +41,72 @@ TEST(MeshTopology, OnlyTheRimOfASheetCanStopAnything) {
   const TriangleMesh sheet = make_plate({1.0, 1.0}, 200);  // 10 × 10 cells
   const MeshTopology topology(sheet);
   EXPECT_EQ(count_edges(topology, false), 40);
-  EXPECT_EQ(count_vertices(topology, sheet, true), 81);
+  const auto corners = stops(topology, sheet);
+  EXPECT_EQ(corners.size(), 4U) << "the other vertices of the rim lie between two of them";
+  for (const std::int32_t v : corners)
+    EXPECT_EQ(sheet.vertices[static_cast<std::size_t>(v)].cwiseAbs().head<2>(), Eigen::Vector2d(0.5, 0.5));
+}
+
+TEST(MeshTopology, OfAFinelyCutBoxTheCornersCanStopAndTheRimsWithoutTheirVertices) {
+  const TriangleMesh box = flip_randomly(make_box({0.1, 0.2, 0.3}, 6000), 3);
+  const MeshTopology topology(box);
+  EXPECT_GT(count_edges(topology, false), 200);
+  EXPECT_EQ(stops(topology, box).size(), 8U);
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(box.triangles.size()); ++t) {
+    const bool answers = std::any_of(topology.edges_of(t).begin(), topology.edges_of(t).end(), [&](std::int32_t e) {
+      const MeshTopology::Edge& edge = topology.edges()[static_cast<std::size_t>(e)];
+      return edge.owner == t && !edge.flat;
+    });
+    const auto& corners = box.triangles[static_cast<std::size_t>(t)];
+    const bool has_corner = std::any_of(corners.begin(), corners.end(), [&](std::int32_t v) {
+      return topology.can_stop(v) && topology.owner_of(v) == t;
+    });
+    EXPECT_EQ(topology.answers_for_features(t), answers || has_corner);
+  }
+}
+
+TEST(MeshTopology, OfACylinderOnlyTheRimsOfItsEndsCanStop) {
+  const TriangleMesh tube = make_tube(0.05, 0.4, 4000);
+  const MeshTopology topology(tube);
+  const auto vertices = stops(topology, tube);
+  EXPECT_LT(4 * vertices.size(), tube.vertices.size());
+  ASSERT_FALSE(vertices.empty());
+  double lowest = tube.vertices[0].z();
+  double highest = lowest;
+  for (const Eigen::Vector3d& x : tube.vertices) {
+    lowest = std::min(lowest, x.z());
+    highest = std::max(highest, x.z());
+  }
+  for (const std::int32_t v : vertices) {
+    const double z = tube.vertices[static_cast<std::size_t>(v)].z();
+    EXPECT_TRUE(z == lowest || z == highest) << z;
+  }
+}
+
+/// Two triangles in a row above a straight or bent rim, each half of a strip of its own.
+TriangleMesh strip(double bend) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {2, bend, 0}, {0.5, 1, 0}, {1.5, 1, 0}};
+  mesh.triangles = {{0, 1, 3}, {1, 2, 4}, {1, 4, 3}};
+  return mesh;
+}
+
+TEST(MeshTopology, ARimIsStraightUpToTheToleranceOfFlatFaces) {
+  for (const double bend : {0.0, 0.9e-4, -0.9e-4})
+    EXPECT_FALSE(MeshTopology(strip(bend)).can_stop(1)) << bend;
+  for (const double bend : {1.1e-4, -1.1e-4, 0.5})
+    EXPECT_TRUE(MeshTopology(strip(bend)).can_stop(1)) << bend;
+}
+
+TEST(MeshTopology, WhereARimTurnsBackOrForksItsVertexCanStop) {
+  TriangleMesh spike;  // both edges at vertex 0 that are not flat lead the same way
+  spike.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}};
+  spike.triangles = {{0, 1, 2}};
+  EXPECT_TRUE(MeshTopology(spike).can_stop(0));
+  TriangleMesh crossing = strip(0.0);  // another sheet hangs below the vertex inside the rim
+  crossing.vertices.insert(crossing.vertices.end(), {{0.5, -1, 0}, {1.5, -1, 0}});
+  crossing.triangles.push_back({1, 5, 6});
+  EXPECT_TRUE(MeshTopology(crossing).can_stop(1));
 }
 
 TEST(MeshTopology, AFoldIsNotFlatThoughItsTrianglesAreCoplanar) {
