@@ -118,7 +118,6 @@ class ContactSearch {
         contacts_(contacts) {}
 
   void search(const CandidatePair& pair) {
-    if (!pair.has_features) return;
     obstacle_number_ = pair.obstacle;
     part_number_ = pair.part - first_part_;
     part_.select(bodies_[static_cast<std::size_t>(pair.part)], pair.part_triangle);
