@@ -48,14 +48,8 @@ class Side {
   std::int32_t edge(int i) const { return topology_->edges_of(triangle_)[static_cast<std::size_t>(i)]; }
 
   /// Whether the selected triangle answers for its corner / edge i, and that feature can stop anything.
-  bool owns_corner(int i) const {
-    const std::int32_t v = vertex(i);
-    return topology_->owner_of(v) == triangle_ && topology_->can_stop(v);
-  }
-  bool owns_edge(int i) const {
-    const MeshTopology::Edge& e = topology_->edges()[static_cast<std::size_t>(edge(i))];
-    return e.owner == triangle_ && !e.flat;
-  }
+  bool owns_corner(int i) const { return topology_->answers_for_corner(triangle_, i); }
+  bool owns_edge(int i) const { return topology_->answers_for_edge(triangle_, i); }
   /// Whether a point on the line of edge i, at the part s of it, is inside the edge, or past an end by no more than
   /// `tolerance` where the rim goes straight on: what crosses a rim just there must not slip through between two edges.
   bool is_on_edge(int i, double s, double tolerance) const {
