@@ -120,10 +120,10 @@ class ContactSearch {
         contacts_(contacts) {}
 
   void search(const CandidatePair& pair) {
-    obstacle_number_ = pair.obstacle;
-    part_number_ = pair.part - first_part_;
-    part_.select(bodies_[static_cast<std::size_t>(pair.part)], pair.part_triangle);
-    obstacle_.select(bodies_[static_cast<std::size_t>(pair.obstacle)], pair.obstacle_triangle);
+    obstacle_number_ = pair.bodies.obstacle;
+    part_number_ = pair.bodies.part - first_part_;
+    part_.select(bodies_[static_cast<std::size_t>(pair.bodies.part)], pair.part_triangle);
+    obstacle_.select(bodies_[static_cast<std::size_t>(pair.bodies.obstacle)], pair.obstacle_triangle);
     // Candidates were near where the parts were some steps ago.
     if (!part_.may_be_near(obstacle_, reach_)) return;
     for (int i = 0; i < 3; ++i) {

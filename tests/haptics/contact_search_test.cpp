@@ -32,7 +32,9 @@ std::vector<Contact> contacts(const TriangleMesh& obstacle, const TriangleMesh& 
   CandidatePairs candidates(surroundings, kReach);
   candidates.look(kReach, 0.0, {});
   std::vector<Contact> found;
-  find_contacts(surroundings.bodies(), 1, candidates.within(kReach), kReach, kMargin, found);
+  std::vector<CandidatePair> pairs;
+  candidates.within(kReach, pairs);
+  find_contacts(surroundings.bodies(), 1, pairs, kReach, kMargin, found);
   return found;
 }
 

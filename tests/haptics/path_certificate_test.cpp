@@ -30,8 +30,10 @@ bool prove(const std::vector<Obstacle>& obstacles, const std::vector<std::shared
     surroundings.place(p, X_WV[p]);
   CandidatePairs candidates(surroundings, kReach);
   candidates.look(kReach, 0.0, {});
+  std::vector<Obligation> obligations;
+  candidates.within(kReach, obligations);
   std::vector<UncertifiedPair> failures;
-  return PathCertificate(surroundings).prove(displacements, candidates.obligations(kReach), failures);
+  return PathCertificate(surroundings).prove(displacements, obligations, failures);
 }
 
 /// A triangle above another one, both without thickness.
