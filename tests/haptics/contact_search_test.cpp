@@ -29,12 +29,14 @@ constexpr double kMargin = 5e-6;
 std::vector<Contact> contacts(const TriangleMesh& obstacle, const TriangleMesh& part, const Isometry3d& X_WV) {
   const auto part_V = std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(part));
   Surroundings surroundings({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(obstacle))}}, {part_V},
-                            std::array{kMargin}, kReach);
+                            std::array{kMargin});
   surroundings.place(0, X_WV);
-  CandidatePairs candidates(surroundings);
-  candidates.refresh(kReach, {});
+  CandidatePairs candidates(surroundings, kReach);
+  candidates.look(kReach, 0.0, {});
   std::vector<Contact> found;
-  find_contacts(surroundings.bodies(), 1, candidates.within(kReach), kReach, kMargin, found);
+  std::vector<CandidatePair> pairs;
+  candidates.within(kReach, pairs);
+  find_contacts(surroundings.bodies(), 1, pairs, kReach, kMargin, found);
   return found;
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/collision/triangle_distance.h>
+#include <glissade/haptics/candidate_pairs.h>
 #include <glissade/haptics/path_certificate.h>
 
 #include "sanitizers.h"
@@ -26,13 +27,15 @@ std::shared_ptr<const collision::TriangleMesh> one_triangle(double z) {
 /// Whether all pairs of the bodies are proved apart while each part goes from its pose along its displacement.
 bool prove(const std::vector<Obstacle>& obstacles, const std::vector<std::shared_ptr<const SlidingPart>>& parts,
            const std::vector<Eigen::Isometry3d>& X_WV, const std::vector<Displacement>& displacements) {
-  Surroundings surroundings(obstacles, parts, std::vector<double>(parts.size(), kFloor / kFloorOfMargin), kReach);
+  Surroundings surroundings(obstacles, parts, std::vector<double>(parts.size(), kFloor / kFloorOfMargin));
   for (std::size_t p = 0; p < parts.size(); ++p)
     surroundings.place(p, X_WV[p]);
-  CandidatePairs candidates(surroundings);
-  candidates.refresh(kReach, {});
+  CandidatePairs candidates(surroundings, kReach);
+  candidates.look(kReach, 0.0, {});
+  std::vector<Obligation> obligations;
+  candidates.within(kReach, obligations);
   std::vector<UncertifiedPair> failures;
-  return PathCertificate(surroundings).prove(displacements, candidates.obligations(kReach), failures);
+  return PathCertificate(surroundings).prove(displacements, obligations, failures);
 }
 
 /// A triangle above another one, both without thickness.
