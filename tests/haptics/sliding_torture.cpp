@@ -139,6 +139,7 @@ void print(const TortureCounts& c, double seconds) {
 /// The figures of `print` as rows of figure, value and unit.
 void write_csv(const std::string& path, const TortureCounts& c) {
   std::ofstream file(path);
+  file.precision(9);
   const auto row = [&](const char* figure, auto value, const char* unit) {
     file << figure << ',' << value << ',' << unit << '\n';
   };
