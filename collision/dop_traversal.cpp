@@ -46,7 +46,7 @@ class Traversal {
     while (!memory_.stack.empty()) {
       if (memory_.counters.node_tests > node_tests) return false;
       const NodePair nodes = memory_.stack.back().nodes;
-      PairMask near = memory_.stack.back().near;
+      PairMask near = visitor_.to_open(nodes, memory_.stack.back().near);
       memory_.stack.pop_back();
       while (near != 0) {
         const Descent descent = step_.descend(nodes, near, std::countr_zero(near));

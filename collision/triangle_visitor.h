@@ -4,7 +4,11 @@
 
 #include <cstdint>
 
+#include "node_kernels.h"
+
 namespace glissade::collision {
+
+struct NodePair;
 
 /// What is known of a pair of triangles after a visit.
 struct PairOutcome {
@@ -15,6 +19,9 @@ struct PairOutcome {
 /// Pair of triangles: 4 · triangle of leaf_P + triangle of leaf_Q.
 class TriangleVisitor {
  public:
+  /// Of the pairs of children of two nodes that may be near, those that are to be opened: all of them, unless the
+  /// visitor knows better. Only asked where every pair is looked for.
+  virtual PairMask to_open(const NodePair& /*nodes*/, PairMask near) { return near; }
   /// Finds out about a pair.
   virtual PairOutcome visit(std::uint32_t leaf_P, std::uint32_t leaf_Q, int pair) = 0;
   /// The same for a pair that is known to intersect.

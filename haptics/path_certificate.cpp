@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include <glissade/haptics/path_certificate.h>
+#include <glissade/haptics/placed_leaf.h>
 
 namespace glissade::haptics {
 
@@ -18,7 +19,7 @@ bool PathCertificate::prove(std::span<const Displacement> displacements, std::sp
 }
 
 void PathCertificate::prove(const Obligation& obligation) {
-  if (obligation.obstacle != obstacle_.number || obligation.part != part_.number) select(obligation);
+  if (obligation.bodies != BodyPair{obstacle_.number, part_.number}) select(obligation.bodies);
   if (!moves_) return;
   if (obligation.item_O.kind == TreeItem::Kind::kTriangle) {
     prove_triangles(static_cast<std::int32_t>(obligation.item_O.number),
@@ -30,15 +31,15 @@ void PathCertificate::prove(const Obligation& obligation) {
   if (!separates(obligation.n_W, item_O, item_P)) walk(item_O, item_P);
 }
 
-/// Makes the bodies of an obligation the ones that are proved.
-void PathCertificate::select(const Obligation& obligation) {
-  obstacle_ = moving(obligation.obstacle);
-  part_ = moving(obligation.part);
-  moves_ = bodies_.moves(obligation.obstacle) || bodies_.moves(obligation.part);
-  floor_ = surroundings_.floor(obligation.obstacle, obligation.part);
-  far_ = bodies_.motion(obligation.obstacle) + bodies_.motion(obligation.part) + floor_ + rounding_;
-  needed_ = floor_ + rounding_ + bodies_.curvature(obligation.obstacle, 0, MovingBodies::kMoments) +
-            bodies_.curvature(obligation.part, 0, MovingBodies::kMoments);
+/// Makes them the ones that are proved.
+void PathCertificate::select(const BodyPair& bodies) {
+  obstacle_ = moving(bodies.obstacle);
+  part_ = moving(bodies.part);
+  moves_ = bodies_.moves(bodies.obstacle) || bodies_.moves(bodies.part);
+  floor_ = surroundings_.floor(bodies.obstacle, bodies.part);
+  far_ = bodies_.motion(bodies.obstacle) + bodies_.motion(bodies.part) + floor_ + rounding_;
+  needed_ = floor_ + rounding_ + bodies_.curvature(bodies.obstacle, 0, MovingBodies::kMoments) +
+            bodies_.curvature(bodies.part, 0, MovingBodies::kMoments);
 }
 
 PathCertificate::MovingBody PathCertificate::moving(std::int32_t body) {
@@ -98,12 +99,13 @@ bool PathCertificate::separates(const Eigen::Vector3d& n_W, const MovingItem& it
 }
 
 void PathCertificate::prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_P) {
-  for (const std::int32_t triangle_O : obstacle_.body->tree.leaves()[leaf_O].triangle) {
-    for (const std::int32_t triangle_P : part_.body->tree.leaves()[leaf_P].triangle) {
-      if (triangle_O < 0 || triangle_P < 0) continue;  // none, or without area
-      const Eigen::Vector3d between =
-          bodies_.triangle_W(part_.number, triangle_P, 0)[0] - bodies_.triangle_W(obstacle_.number, triangle_O, 0)[0];
-      prove_triangles(triangle_O, triangle_P, between.normalized());
+  const PlacedLeaf placed_O({obstacle_.body, *obstacle_.X_WB[0]}, leaf_O);
+  const PlacedLeaf placed_P({part_.body, *part_.X_WB[0]}, leaf_P);
+  for (int o = 0; o < placed_O.count; ++o) {
+    for (int p = 0; p < placed_P.count; ++p) {
+      if (!placed_O.may_be_near(o, placed_P, p, far_)) continue;
+      prove_triangles(placed_O.triangles[static_cast<std::size_t>(o)], placed_P.triangles[static_cast<std::size_t>(p)],
+                      Eigen::Vector3d::Zero());
     }
   }
 }

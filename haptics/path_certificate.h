@@ -56,7 +56,7 @@ class PathCertificate {
     std::array<const Eigen::Isometry3d*, 2> X_WB{};  ///< at the beginning and at the end of the step
   };
 
-  void select(const Obligation& obligation);
+  void select(const BodyPair& bodies);
   MovingBody moving(std::int32_t body);
   static MovingItem moving(const TreeItem& item, const MovingBody& body);
   void prove(const Obligation& obligation);

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/collision/dop_query.h>
 #include <glissade/haptics/surroundings.h>
 #include <glissade/haptics/tight_boxes.h>
 
@@ -26,23 +27,21 @@ struct TreeItem {
 /// A child of a node, which must have it.
 TreeItem child_of(const ContactBody& body, std::uint32_t node, int child);
 
-/// Two items that a step must keep apart. Bodies are numbered as in the surroundings; the obstacle may be another part
-/// of lower number.
-struct Obligation {
-  std::int32_t obstacle;
-  std::int32_t part;
-  TreeItem item_O;
-  TreeItem item_P;
-  double distance;      ///< metres, a lower bound at the pose of the search
-  Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part, along which they were that far apart
-};
-
-/// Two bodies by their numbers.
+/// Two bodies by their numbers in the surroundings; the obstacle may be another part of lower number.
 struct BodyPair {
   std::int32_t obstacle;
   std::int32_t part;
 
   bool operator==(const BodyPair&) const = default;
+};
+
+/// Two items that a step must keep apart.
+struct Obligation {
+  BodyPair bodies;
+  TreeItem item_O;
+  TreeItem item_P;
+  double distance;      ///< metres, a lower bound at the pose of the search
+  Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part, along which they were that far apart
 };
 
 /// Not thread-safe.
@@ -60,30 +59,9 @@ class ProofFront {
   std::size_t size() const { return obligations_.size(); }
 
  private:
-  struct PlacedItem {
-    TreeItem item;
-    Eigen::Vector3d c_W;  ///< of its box
-  };
-  /// The direction along which two boxes are found furthest apart, from the obstacle to the part.
-  struct Separation {
-    double gap;  ///< metres
-    Eigen::Vector3d n_W;
-  };
-
-  void search(std::int32_t obstacle, std::int32_t part);
-  void open(const PlacedItem& item_O, const PlacedItem& item_P);
-  Separation separation(const PlacedItem& item_O, const PlacedItem& item_P) const;
-  void search_leaves(const TreeItem& leaf_O, const TreeItem& leaf_P);
-
   const Surroundings& surroundings_;
   std::vector<Obligation> obligations_;
-  double radius_ = 0.0;
-
-  // Of the bodies that are being searched:
-  BodyPair bodies_{};
-  PlacedBody obstacle_{};
-  PlacedBody part_{};
-  double enough_ = 0.0;  // metres of gap with which boxes are not opened
+  collision::QueryWorkspace workspace_;
 };
 
 }  // namespace glissade::haptics
