@@ -24,16 +24,29 @@ using Eigen::Vector3d;
 constexpr double kReach = 1e-3;
 constexpr double kMargin = 5e-6;
 
+/// An obstacle at the origin and a part.
+class TwoBodies {
+ public:
+  TwoBodies(const TriangleMesh& obstacle, const TriangleMesh& part)
+      : surroundings_({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(obstacle))}},
+                      {std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(part))}, std::array{kMargin},
+                      kReach) {}
+
+  std::vector<Contact> contacts_at(const Isometry3d& X_WV) {
+    surroundings_.place(0, X_WV);
+    candidates_.refresh(kReach, {});
+    std::vector<Contact> found;
+    find_contacts(surroundings_.bodies(), 1, candidates_.within(kReach), kReach, kMargin, found);
+    return found;
+  }
+
+ private:
+  Surroundings surroundings_;
+  CandidatePairs candidates_{surroundings_};
+};
+
 std::vector<Contact> contacts(const TriangleMesh& obstacle, const TriangleMesh& part, const Isometry3d& X_WV) {
-  const auto part_V = std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(part));
-  Surroundings surroundings({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(obstacle))}}, {part_V},
-                            std::array{kMargin}, kReach);
-  surroundings.place(0, X_WV);
-  CandidatePairs candidates(surroundings);
-  candidates.refresh(kReach, {});
-  std::vector<Contact> found;
-  find_contacts(surroundings.bodies(), 1, candidates.within(kReach), kReach, kMargin, found);
-  return found;
+  return TwoBodies(obstacle, part).contacts_at(X_WV);
 }
 
 std::map<ContactKind, int> kinds(const std::vector<Contact>& contacts) {
@@ -179,14 +192,13 @@ std::vector<double> tiny_shifts() {
 
 TEST(ContactSearch, RimsThatCrossWhereBothAreCutAlwaysMeet) {
   // Cells of 10 mm and of 20 mm: two edges of the box cross the rim of the table over vertices of both.
-  const TriangleMesh table = collision::make_plate({1.0, 1.0}, 5'000);
-  const TriangleMesh box = collision::make_box({0.1, 0.1, 0.1}, 1'200);
+  TwoBodies box_on_table(collision::make_plate({1.0, 1.0}, 5'000), collision::make_box({0.1, 0.1, 0.1}, 1'200));
   for (const double turn : {0.0, 1e-9, 1e-3}) {
     const Eigen::Quaterniond q(Eigen::AngleAxisd(turn, Vector3d::UnitZ()));
     for (const double dx : tiny_shifts()) {
       for (const double dy : tiny_shifts()) {
         SCOPED_TRACE(testing::Message() << "dx " << dx << ", dy " << dy << ", turned by " << turn);
-        const auto found = contacts(table, box, at({0.5 + dx, 0.03 + dy, 0.0501}, q));
+        const auto found = box_on_table.contacts_at(at({0.5 + dx, 0.03 + dy, 0.0501}, q));
         for (const double y : {-0.02, 0.08}) {
           const auto meets_here = [&](const Contact& contact) {
             return contact.kind == ContactKind::kEdgeEdge && std::abs(contact.p_W.y() - y) < 0.0015 &&

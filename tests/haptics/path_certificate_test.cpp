@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/collision/triangle_distance.h>
+#include <glissade/haptics/candidate_pairs.h>
 #include <glissade/haptics/path_certificate.h>
 
 namespace glissade::haptics {
