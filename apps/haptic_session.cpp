@@ -44,11 +44,10 @@ haptics::Sliding start_sliding(const HapticScene& scene, const haptics::SlidingO
 
 Session finished(std::int64_t ticks, const haptics::Sliding& sliding, const SessionRecorder& recorder,
                  std::optional<RealTimeFigures> real_time) {
-  const haptics::Surroundings& surroundings = sliding.surroundings();
   return {ticks,
-          std::ssize(surroundings.obstacles()) + 1,
-          surroundings.frames(),
-          surroundings.sum_of_reports(),
+          std::ssize(sliding.surroundings().obstacles()) + 1,
+          sliding.search_account().searches,
+          sliding.search_account().reports,
           recorder.samples(),
           std::move(real_time)};
 }

@@ -1,39 +1,87 @@
 #include <algorithm>
+#include <utility>
 
 #include <glissade/haptics/candidate_pairs.h>
 
 namespace glissade::haptics {
+namespace {
 
-void CandidatePairs::refresh(double radius, std::span<const BodyPair> ignored) {
-  const collision::FrameResult& near = surroundings_.look_around(radius);
-  pairs_.clear();
-  for (std::size_t i = 0; i < near.meeting.size(); ++i) {
-    const std::uint32_t a = near.meeting[i].object_A.index;
-    const std::uint32_t b = near.meeting[i].object_B.index;
-    const BodyPair numbers{static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)};
-    if (std::find(ignored.begin(), ignored.end(), numbers) != ignored.end()) continue;
-    const PlacedBody& obstacle = surroundings_.bodies()[a];
-    const PlacedBody& part = surroundings_.bodies()[b];
-    for (const collision::ClosePair& pair : near.close_pairs(i)) {
-      const collision::TrianglePair& triangles = pair.triangles;
-      const bool has_features = obstacle.body->topology.answers_for_features(triangles.triangle_A) ||
-                                part.body->topology.answers_for_features(triangles.triangle_B);
-      const Eigen::Vector3d n_W = obstacle.X_WB.linear() * (pair.p_B - pair.p_A).normalized();
-      pairs_.push_back({numbers.obstacle, triangles.triangle_A, numbers.part, triangles.triangle_B, has_features,
-                        pair.distance, n_W});
+template <typename Pair>
+std::span<const Pair> nearest(const std::vector<Pair>& pairs, double distance) {
+  const auto end = std::upper_bound(pairs.begin(), pairs.end(), distance,
+                                    [](double limit, const Pair& pair) { return limit < pair.distance; });
+  return {pairs.data(), static_cast<std::size_t>(end - pairs.begin())};
+}
+
+}  // namespace
+
+CandidatePairs::CandidatePairs(const Surroundings& surroundings, double greatest_radius, bool has_own_thread)
+    : surroundings_(surroundings), search_(surroundings, greatest_radius) {
+  if (has_own_thread) thread_.emplace();
+}
+
+CandidatePairs::~CandidatePairs() = default;
+
+bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> ignored) {
+  bool is_other = false;
+  if (!now_.covers(reach)) {
+    if (thread_) thread_->wait();
+    if (next_.covers(reach)) {
+      std::swap(now_, next_);
+    } else {
+      ask(now_, reach, ahead, ignored);
+      if (thread_) thread_->begin(search_, now_.request, now_.set);
     }
+    next_.is_there = false;
+    take(now_);
+    is_other = true;
   }
-  std::stable_sort(pairs_.begin(), pairs_.end(),
-                   [](const CandidatePair& a, const CandidatePair& b) { return a.distance < b.distance; });
-  front_.refresh(radius, ignored);
-  radius_ = radius;
-  drift_ = 0.0;
+  if (!next_.is_there && now_.drift > now_.half) {
+    ask(next_, reach, ahead, ignored);
+    if (thread_) thread_->begin(search_, next_.request, next_.set);
+  }
+  return is_other;
+}
+
+void CandidatePairs::ask(Search& search, double reach, double ahead, std::span<const BodyPair> ignored) const {
+  search.request.X_WV.clear();
+  for (const PlacedBody& part : surroundings_.bodies().subspan(surroundings_.obstacles().size()))
+    search.request.X_WV.push_back(part.X_WB);
+  search.request.radius = reach + ahead;
+  search.request.ignored.assign(ignored.begin(), ignored.end());
+  search.half = 0.5 * ahead;
+  search.drift = 0.0;
+  search.is_there = true;
+}
+
+/// Has the answer there. Without a thread it is looked for only now, when it is certain to be needed.
+void CandidatePairs::take(Search& search) {
+  if (thread_) {
+    thread_->wait();
+  } else {
+    search_.find(search.request, search.set);
+  }
+  ++account_.searches;
+  account_.reports += search.set.report;
+}
+
+void CandidatePairs::moved(double bound) {
+  now_.drift += bound;
+  next_.drift += bound;
+}
+
+void CandidatePairs::clear() {
+  if (thread_) thread_->wait();
+  now_.is_there = false;
+  next_.is_there = false;
 }
 
 std::span<const CandidatePair> CandidatePairs::within(double reach) const {
-  const auto end = std::upper_bound(pairs_.begin(), pairs_.end(), reach + drift_,
-                                    [](double limit, const CandidatePair& pair) { return limit < pair.distance; });
-  return {pairs_.data(), static_cast<std::size_t>(end - pairs_.begin())};
+  return nearest(now_.set.pairs, reach + now_.drift);
+}
+
+std::span<const Obligation> CandidatePairs::obligations(double reach) const {
+  return nearest(now_.set.obligations, reach + now_.drift);
 }
 
 }  // namespace glissade::haptics

@@ -1,64 +1,81 @@
 #pragma once
 
-/// The triangle pairs that parts could reach soon, kept over several steps: one tree query serves as long as nothing
-/// has certainly moved further than the query looked.
+/// What the parts could reach soon, kept over several steps: one search serves as long as nothing has certainly moved
+/// further than it looked. The next one is asked for ahead of need, when half of that way is used up, and taken when
+/// all of it is. Where each begins and is taken depends on the motion alone; so a thread of its own may work on it
+/// meanwhile, and the bits are the same without one.
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include <Eigen/Geometry>
-
-#include <glissade/haptics/proof_front.h>
+#include <glissade/haptics/candidate_search.h>
+#include <glissade/haptics/search_thread.h>
 #include <glissade/haptics/surroundings.h>
 
 namespace glissade::haptics {
 
-/// A pair of triangles as it was at the pose of the query. Bodies are numbered as in the surroundings; the obstacle may
-/// be another part of lower number.
-struct CandidatePair {
-  std::int32_t obstacle;
-  std::int32_t obstacle_triangle;
-  std::int32_t part;
-  std::int32_t part_triangle;
-  bool has_features;    ///< either triangle answers for an edge or vertex that can stop the part
-  double distance;      ///< metres, at the pose of the query
-  Eigen::Vector3d n_W;  ///< unit, from the obstacle's to the part's closest point, at the pose of the query
+/// What searching took.
+struct SearchAccount {
+  std::int64_t searches = 0;       ///< that were taken
+  collision::FrameReport reports;  ///< the sum of theirs
 };
 
 /// Not thread-safe.
 class CandidatePairs {
  public:
-  /// The surroundings must outlive this object.
-  explicit CandidatePairs(Surroundings& surroundings) : surroundings_(surroundings), front_(surroundings) {}
+  /// The surroundings must outlive this object. Nothing further than `greatest_radius` (metres) can be asked for.
+  CandidatePairs(const Surroundings& surroundings, double greatest_radius, bool has_own_thread = false);
+  CandidatePairs(const CandidatePairs&) = delete;
+  CandidatePairs& operator=(const CandidatePairs&) = delete;
+  ~CandidatePairs();
 
-  /// Looks around for all pairs within `radius` (metres) of where the parts are placed, but those of bodies that are
-  /// `ignored`.
-  void refresh(double radius, std::span<const BodyPair> ignored);
+  /// Makes sure that every pair within `reach` (metres) of where the parts are placed is among the candidates, but
+  /// those of bodies that are `ignored`; whoever looks looks `ahead` (metres) further. Pairs that are ignored must be
+  /// the same in all calls until `clear`. Returns whether the candidates are others than before.
+  bool look(double reach, double ahead, std::span<const BodyPair> ignored);
 
   /// Tells that no two points of different bodies have come nearer by more than `bound` (metres) since the last call.
-  void moved(double bound) { drift_ += bound; }
+  void moved(double bound);
 
-  /// Forgets everything: covers nothing until the next query.
-  void clear() { radius_ = -1.0; }
+  /// Forgets everything: covers nothing until the next search.
+  void clear();
 
   /// Whether every pair within `reach` of the parts' present poses is certainly among the candidates.
-  bool covers(double reach) const { return reach + drift_ <= radius_; }
+  bool covers(double reach) const { return now_.covers(reach); }
 
-  /// The candidates that may be within `reach` of the parts' present poses, nearest first (by the poses of the query).
+  /// The candidates that may be within `reach` of the parts' present poses, nearest first (by the poses of the search).
   std::span<const CandidatePair> within(double reach) const;
+  /// The same of all pairs, with features or not, in boxes as large as proofs take them.
+  std::span<const Obligation> obligations(double reach) const;
 
-  /// All that may be within `reach` of the parts' present poses, triangles without features too, for proofs.
-  std::span<const Obligation> obligations(double reach) const { return front_.within(reach + drift_); }
+  /// Number of pairs, and of obligations.
+  std::size_t size() const { return now_.set.pairs.size() + now_.set.obligations.size(); }
 
-  /// Number of candidates.
-  std::size_t size() const { return pairs_.size(); }
+  const SearchAccount& account() const { return account_; }
 
  private:
-  Surroundings& surroundings_;
-  std::vector<CandidatePair> pairs_;
-  ProofFront front_;
-  double radius_ = -1.0;
-  double drift_ = 0.0;
+  /// A search, and how far the bodies have come together since its poses.
+  struct Search {
+    CandidateRequest request;
+    CandidateSet set;
+    double half = 0.0;      // metres of drift at which the next one is asked for
+    double drift = 0.0;     // metres
+    bool is_there = false;  // asked for, though not necessarily done
+
+    bool covers(double reach) const { return is_there && reach + drift <= request.radius; }
+  };
+
+  void ask(Search& search, double reach, double ahead, std::span<const BodyPair> ignored) const;
+  void take(Search& search);
+
+  const Surroundings& surroundings_;
+  CandidateSearch search_;
+  Search now_;
+  Search next_;
+  SearchAccount account_;
+  std::optional<SearchThread> thread_;  // last: it works on the others
 };
 
 }  // namespace glissade::haptics

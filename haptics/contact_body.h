@@ -1,12 +1,14 @@
 #pragma once
 
-/// A mesh made ready for sliding contact: its DOP-tree, tight boxes for proofs, its convex hull and its topology.
+/// A mesh made ready for sliding contact: its DOP-tree, tight boxes for proofs, its convex hull, and
+/// its topology with the triangles that matter to contacts.
 
 #include <memory>
 
 #include <glissade/collision/convex_hull.h>
 #include <glissade/collision/dop_tree.h>
 #include <glissade/collision/mesh_topology.h>
+#include <glissade/collision/triangle_selection.h>
 #include <glissade/haptics/tight_boxes.h>
 
 namespace glissade::haptics {
@@ -15,12 +17,15 @@ namespace glissade::haptics {
 struct ContactBody {
   /// Throws std::invalid_argument as DopTree does. Cost O(n log n).
   explicit ContactBody(const std::shared_ptr<const collision::TriangleMesh>& mesh)
-      : tree(mesh), boxes(tree), hull(*mesh), topology(*mesh) {}
+      : tree(mesh), boxes(tree), hull(*mesh), topology(*mesh), features(tree, [this](std::int32_t triangle) {
+          return topology.answers_for_features(triangle);
+        }) {}
 
   collision::DopTree tree;
   TightBoxes boxes;
   collision::ConvexHull hull;
   collision::MeshTopology topology;
+  collision::TriangleSelection features;  ///< that answer for any edge or vertex that can stop another body
 };
 
 /// The part in the hand, in its own frame V. Displacements and the coupling act at a reference point fixed in it: the

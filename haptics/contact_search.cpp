@@ -29,6 +29,13 @@ class Side {
     X_WB_ = &placed.X_WB;
     triangle_ = triangle;
     points_ = placed.triangle_W(triangle);
+    bounds_ = Eigen::AlignedBox3d(points_[0]);
+    bounds_.extend(points_[1]).extend(points_[2]);
+  }
+
+  /// Whether the selected triangle may be within `distance` of that of the other side.
+  bool may_be_near(const Side& other, double distance) const {
+    return bounds_.squaredExteriorDistance(other.bounds_) <= distance * distance;
   }
 
   std::int32_t triangle() const { return triangle_; }
@@ -105,6 +112,7 @@ class Side {
   double sign_;  // +1 for the part, from which the normal points away; −1 for the obstacle
   std::int32_t triangle_ = -1;
   TrianglePoints points_;
+  Eigen::AlignedBox3d bounds_;  // of these
 };
 
 class ContactSearch {
@@ -118,11 +126,12 @@ class ContactSearch {
         contacts_(contacts) {}
 
   void search(const CandidatePair& pair) {
-    if (!pair.has_features) return;
     obstacle_number_ = pair.obstacle;
     part_number_ = pair.part - first_part_;
     part_.select(bodies_[static_cast<std::size_t>(pair.part)], pair.part_triangle);
     obstacle_.select(bodies_[static_cast<std::size_t>(pair.obstacle)], pair.obstacle_triangle);
+    // Candidates were near where the parts were some steps ago.
+    if (!part_.may_be_near(obstacle_, reach_)) return;
     for (int i = 0; i < 3; ++i) {
       if (part_.owns_corner(i)) search_part_corner(i);
       if (obstacle_.owns_corner(i)) search_obstacle_corner(i);

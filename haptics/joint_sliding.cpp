@@ -11,6 +11,8 @@ namespace glissade::haptics {
 namespace {
 
 constexpr double kSmallestReach_m = 30e-6;
+constexpr double kTicksAhead = 6.0;  // of the ghosts' motion
+constexpr double kLeastLookAhead_m = 45e-6;
 constexpr double kSmallestReachLimit_m = 1e-3;
 constexpr std::size_t kAffordablePairs = 30'000;
 
@@ -127,7 +129,7 @@ void JointSliding::aim() {
 /// One cycle: look around, project, prove, move.
 JointSliding::Step JointSliding::cycle() {
   reach_ = choose_reach();
-  if (!candidates_.covers(reach_)) refresh_candidates();
+  look_around();
   find_rows();
 
   Displacements wanted;
@@ -173,13 +175,14 @@ JointSliding::Step JointSliding::cycle() {
   return none;
 }
 
-/// A query looks some ticks ahead. Where finely cut surfaces lie flush there are very many pairs, and a part that falls
-/// behind would look further with every query and so fall behind more; the limit on the reach ends that.
-void JointSliding::refresh_candidates() {
+/// A search looks some ticks ahead. Where finely cut surfaces lie close there are very many pairs, and a part that
+/// falls behind would look further with every search and so fall behind more; the limit on the reach ends that.
+void JointSliding::look_around() {
   double ghosts = 0.0;
   for (const Part& part : parts_)
     ghosts += part.ghost_motion;
-  candidates_.refresh(reach_ + std::clamp(4.0 * ghosts, 30e-6, kMostLookAhead_m), overlaps_.pairs());
+  const double ahead = std::clamp(kTicksAhead * ghosts, kLeastLookAhead_m, kMostLookAhead_m);
+  if (!candidates_.look(reach_, ahead, overlaps_.pairs())) return;
   raise_floors();
   const bool too_many = candidates_.size() > kAffordablePairs;
   reach_limit_ = std::clamp((too_many ? 0.5 : 1.25) * reach_limit_, kSmallestReachLimit_m, kLargestReach_m);

@@ -59,6 +59,9 @@ struct SlidingRules {
   OverlapRule overlap = OverlapRule::kRefuse;
   /// Shake parts that are stuck, see `AntiJam`.
   bool anti_jam = false;
+  /// Look for what is near in a thread of its own, ahead of need, so that few calls wait for it; for simulations in
+  /// real time. Poses and forces are the same to the bit.
+  bool has_search_thread = false;
 };
 
 /// One of the parts and who holds it. A part that moves on its own is one held by a script, with a stiffer grip than
@@ -95,8 +98,10 @@ class JointSliding {
   const CouplingStiffness& stiffness(std::size_t part) const { return parts_[part].stiffness; }
   /// Metres at which contacts hold a part away.
   double margin(std::size_t part) const { return parts_[part].margin; }
-  /// What is around the parts, and what looking for it took.
+  /// What is around the parts.
   const Surroundings& surroundings() const { return surroundings_; }
+  /// What looking for it took.
+  const SearchAccount& search_account() const { return candidates_.account(); }
 
  private:
   struct Part {
@@ -135,7 +140,7 @@ class JointSliding {
   void aim();
   Step cycle();
   double choose_reach() const;
-  void refresh_candidates();
+  void look_around();
   void find_rows();
   Displacement lag_of(const Part& part) const;
   Eigen::Vector3d reference_point(std::size_t part) const;

@@ -51,9 +51,8 @@ void check(const std::vector<HeldPart>& parts, const SlidingRules& rules) {
 JointSliding::JointSliding(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts,
                            const SlidingRules& rules)
     : rules_((check(parts, rules), rules)),
-      surroundings_(std::move(obstacles), bodies_of(parts), margins_of(parts, rules),
-                    kLargestReach_m + kMostLookAhead_m),
-      candidates_(surroundings_),
+      surroundings_(std::move(obstacles), bodies_of(parts), margins_of(parts, rules)),
+      candidates_(surroundings_, kLargestReach_m + kMostLookAhead_m, rules.has_search_thread),
       certificate_(surroundings_),
       overlaps_(surroundings_),
       grips_(parts.size()),

@@ -17,12 +17,13 @@ static_assert(kEnough > kFloorOfMargin);
 /// Takes on pairs of boxes that the plane of the flat side of either separates.
 class FrontSearch final : public collision::NearVisitor {
  public:
-  FrontSearch(const BodyPair& bodies, const Surroundings& surroundings, std::vector<Obligation>& obligations)
+  FrontSearch(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
+              std::vector<Obligation>& obligations)
       : bodies_(bodies),
-        obstacle_(surroundings.bodies()[static_cast<std::size_t>(bodies.obstacle)]),
-        part_(surroundings.bodies()[static_cast<std::size_t>(bodies.part)]),
-        X_OP_(obstacle_.X_WB.inverse(Eigen::Isometry) * part_.X_WB),
-        enough_(kEnough * surroundings.margin(bodies.obstacle, bodies.part)),
+        obstacle_(obstacle),
+        part_(part),
+        X_OP_(obstacle.X_WB.inverse(Eigen::Isometry) * part.X_WB),
+        enough_(kEnough * margin),
         obligations_(obligations) {}
 
   const collision::DopTree& tree_O() const { return obstacle_.body->tree; }
@@ -72,26 +73,20 @@ TreeItem child_of(const ContactBody& body, std::uint32_t node, int child) {
   return {head.is_leaf(child) ? Kind::kLeaf : Kind::kNode, head.child(child), &body.boxes.box(node, child)};
 }
 
-void ProofFront::refresh(double radius, std::span<const BodyPair> ignored) {
-  obligations_.clear();
-  const auto count = static_cast<std::int32_t>(surroundings_.bodies().size());
-  for (auto part = static_cast<std::int32_t>(surroundings_.obstacles().size()); part < count; ++part) {
-    for (std::int32_t other = 0; other < part; ++other) {
-      const BodyPair bodies{other, part};
-      if (std::find(ignored.begin(), ignored.end(), bodies) != ignored.end()) continue;
-      FrontSearch search(bodies, surroundings_, obligations_);
-      collision::visit_near(search.tree_O(), search.tree_P(), search.X_OP(), radius, workspace_, search);
+void find_obligations(const Surroundings& surroundings, std::span<const PlacedBody> bodies, double radius,
+                      std::span<const BodyPair> ignored, collision::QueryWorkspace& workspace,
+                      std::vector<Obligation>& obligations) {
+  obligations.clear();
+  for (std::size_t part = surroundings.obstacles().size(); part < bodies.size(); ++part) {
+    for (std::size_t other = 0; other < part; ++other) {
+      const BodyPair pair{static_cast<std::int32_t>(other), static_cast<std::int32_t>(part)};
+      if (std::find(ignored.begin(), ignored.end(), pair) != ignored.end()) continue;
+      FrontSearch search(pair, bodies[other], bodies[part], surroundings.margin(pair.obstacle, pair.part), obligations);
+      collision::visit_near(search.tree_O(), search.tree_P(), search.X_OP(), radius, workspace, search);
     }
   }
-  std::stable_sort(obligations_.begin(), obligations_.end(),
+  std::stable_sort(obligations.begin(), obligations.end(),
                    [](const Obligation& a, const Obligation& b) { return a.distance < b.distance; });
-}
-
-std::span<const Obligation> ProofFront::within(double distance) const {
-  const auto end =
-      std::upper_bound(obligations_.begin(), obligations_.end(), distance,
-                       [](double limit, const Obligation& obligation) { return limit < obligation.distance; });
-  return {obligations_.data(), static_cast<std::size_t>(end - obligations_.begin())};
 }
 
 }  // namespace glissade::haptics

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a step has to be proved free of, kept over several steps: pairs of boxes of the bodies' trees, and of triangles
+/// What steps have to be proved free of: pairs of boxes of the bodies' trees, and of triangles
 /// where boxes do not tell enough, that hold all pairs of triangles which are near.
 
 #include <cstdint>
@@ -44,24 +44,11 @@ struct Obligation {
   Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part, along which they were that far apart
 };
 
-/// Not thread-safe.
-class ProofFront {
- public:
-  /// The surroundings must outlive this object.
-  explicit ProofFront(const Surroundings& surroundings) : surroundings_(surroundings) {}
-
-  /// Finds all that is within `radius` (metres) where the parts are placed, but of bodies that are `ignored`.
-  void refresh(double radius, std::span<const BodyPair> ignored);
-
-  /// The obligations that were no further apart than `distance`, the nearest first.
-  std::span<const Obligation> within(double distance) const;
-
-  std::size_t size() const { return obligations_.size(); }
-
- private:
-  const Surroundings& surroundings_;
-  std::vector<Obligation> obligations_;
-  collision::QueryWorkspace workspace_;
-};
+/// Replaces `obligations` by all that is within `radius` (metres) of the bodies where they are placed here, but of
+/// those that are `ignored`; the nearest first. The bodies are those of the surroundings, which are asked for margins
+/// only.
+void find_obligations(const Surroundings& surroundings, std::span<const PlacedBody> bodies, double radius,
+                      std::span<const BodyPair> ignored, collision::QueryWorkspace& workspace,
+                      std::vector<Obligation>& obligations);
 
 }  // namespace glissade::haptics

@@ -49,8 +49,10 @@ class Sliding final : public SlidingSimulation {
   /// Metres that every certified path keeps away from obstacles without a margin of their own, unless it started
   /// nearer.
   double floor() const { return kFloorOfMargin * margin(); }
-  /// What is around the part, and what looking for it took.
+  /// What is around the part.
   const Surroundings& surroundings() const { return sliding_.surroundings(); }
+  /// What looking for it took.
+  const SearchAccount& search_account() const { return sliding_.search_account(); }
 
  private:
   JointSliding sliding_;

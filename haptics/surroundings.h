@@ -1,6 +1,6 @@
 #pragma once
 
-/// What can touch: the obstacles and the parts in the hands, in a collision pipeline that tells what of them is near.
+/// What can touch: the obstacles and the parts in the hands, where they are, and how near they may come.
 
 #include <algorithm>
 #include <cstdint>
@@ -12,7 +12,6 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/collision/collision_pipeline.h>
 #include <glissade/collision/triangle_intersection.h>
 #include <glissade/haptics/contact_body.h>
 
@@ -52,13 +51,14 @@ struct Obstacle {
 /// assembly is made of touches. Not thread-safe.
 class Surroundings {
  public:
-  /// `look_around` may look `greatest_reach` (metres) far. All parts are at the identity pose until they are placed.
-  /// `margins` (metres) has one for each part. Throws std::invalid_argument as `World::add` does, when there is nothing
-  /// that a part could touch, and for a margin that is not positive or above kGreatestMargin_m.
+  /// All parts are at the identity pose until they are placed. `margins` (metres) has one for each part. Throws
+  /// std::invalid_argument when there is nothing that a part could touch, for a pose that is none, and for a margin
+  /// that is not positive or above kGreatestMargin_m.
   Surroundings(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> parts,
-               std::span<const double> margins, double greatest_reach);
+               std::span<const double> margins);
 
   std::span<const Obstacle> obstacles() const { return obstacles_; }
+  std::span<const std::shared_ptr<const SlidingPart>> parts() const { return parts_; }
   std::span<const PlacedBody> bodies() const { return bodies_; }
   /// The number among the bodies of a part.
   std::size_t body_of_part(std::size_t part) const { return obstacles_.size() + part; }
@@ -83,16 +83,8 @@ class Surroundings {
         std::min(kFloorOfMargin * margin(obstacle, part_body), 0.95 * distance);
   }
 
-  /// A part is at X_WV from now on. Throws std::invalid_argument for a pose that `World::move` refuses.
-  void place(std::size_t part, const Eigen::Isometry3d& X_WV);
-
-  /// All pairs of triangles of two bodies, one of which is a part, that are not further apart than `reach` (metres).
-  /// In each pair of objects A is the body of lower number; points are in the frame of A. Overwritten by the next call.
-  const collision::FrameResult& look_around(double reach);
-
-  /// How often that was asked for, and the sum of the accounts of it.
-  std::int64_t frames() const { return frames_; }
-  const collision::FrameReport& sum_of_reports() const { return sum_; }
+  /// A part is at X_WV from now on, which must be a rigid pose.
+  void place(std::size_t part, const Eigen::Isometry3d& X_WV) { bodies_[body_of_part(part)].X_WB = X_WV; }
 
  private:
   std::vector<Obstacle> obstacles_;
@@ -100,12 +92,6 @@ class Surroundings {
   std::vector<PlacedBody> bodies_;
   std::vector<double> margins_;  // for each part one with each body
   std::vector<double> floors_;   // the same
-  std::vector<collision::ObjectId> part_ids_;
-  realtime::SteadyClock clock_;
-  collision::World world_;
-  collision::CollisionPipeline pipeline_;
-  std::int64_t frames_ = 0;
-  collision::FrameReport sum_;
 };
 
 }  // namespace glissade::haptics

@@ -24,8 +24,8 @@ double energy(const Displacement& d, const haptics::CouplingStiffness& k) {
 
 JamCheck::JamCheck(const test_support::SlidingScene& scene)
     : scene_(scene),
-      surroundings_(scene.obstacles, {scene.part_V}, kMargins, kGreatestReach_m),
-      candidates_(surroundings_) {}
+      surroundings_(scene.obstacles, {scene.part_V}, kMargins),
+      candidates_(surroundings_, kGreatestReach_m) {}
 
 bool JamCheck::could_move(const Isometry3d& X_WV, const Displacement& wanted,
                           const haptics::CouplingStiffness& stiffness, double hold) {
@@ -42,7 +42,8 @@ Displacement JamCheck::allowed(const Isometry3d& X_WV, const Displacement& wante
                                const haptics::CouplingStiffness& stiffness, double hold) {
   const double reach = hold + 2.0 * kTrialStep_m;
   surroundings_.place(0, X_WV);
-  candidates_.refresh(reach, {});
+  candidates_.clear();
+  candidates_.look(reach, 0.0, {});
   find_contacts(surroundings_.bodies(), surroundings_.body_of_part(0), candidates_.within(reach), reach, kTolerance_m,
                 contacts_);
   const Eigen::Vector3d p_Wref = X_WV * scene_.part_V->p_Vref();

@@ -29,12 +29,12 @@ class TwoBodies {
  public:
   TwoBodies(const TriangleMesh& obstacle, const TriangleMesh& part)
       : surroundings_({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(obstacle))}},
-                      {std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(part))}, std::array{kMargin},
-                      kReach) {}
+                      {std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(part))}, std::array{kMargin}) {}
 
   std::vector<Contact> contacts_at(const Isometry3d& X_WV) {
     surroundings_.place(0, X_WV);
-    candidates_.refresh(kReach, {});
+    candidates_.clear();
+    candidates_.look(kReach, 0.0, {});
     std::vector<Contact> found;
     find_contacts(surroundings_.bodies(), 1, candidates_.within(kReach), kReach, kMargin, found);
     return found;
@@ -42,7 +42,7 @@ class TwoBodies {
 
  private:
   Surroundings surroundings_;
-  CandidatePairs candidates_{surroundings_};
+  CandidatePairs candidates_{surroundings_, kReach};
 };
 
 std::vector<Contact> contacts(const TriangleMesh& obstacle, const TriangleMesh& part, const Isometry3d& X_WV) {

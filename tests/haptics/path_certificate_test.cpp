@@ -25,11 +25,11 @@ std::shared_ptr<const collision::TriangleMesh> one_triangle(double z) {
 /// Whether all pairs of the bodies are proved apart while each part goes from its pose along its displacement.
 bool prove(const std::vector<Obstacle>& obstacles, const std::vector<std::shared_ptr<const SlidingPart>>& parts,
            const std::vector<Eigen::Isometry3d>& X_WV, const std::vector<Displacement>& displacements) {
-  Surroundings surroundings(obstacles, parts, std::vector<double>(parts.size(), kFloor / kFloorOfMargin), kReach);
+  Surroundings surroundings(obstacles, parts, std::vector<double>(parts.size(), kFloor / kFloorOfMargin));
   for (std::size_t p = 0; p < parts.size(); ++p)
     surroundings.place(p, X_WV[p]);
-  CandidatePairs candidates(surroundings);
-  candidates.refresh(kReach, {});
+  CandidatePairs candidates(surroundings, kReach);
+  candidates.look(kReach, 0.0, {});
   std::vector<UncertifiedPair> failures;
   return PathCertificate(surroundings).prove(displacements, candidates.obligations(kReach), failures);
 }

@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <stdexcept>
+
+#include <glissade/haptics/candidate_search.h>
+
+namespace glissade::haptics {
+namespace {
+
+constexpr int kObstacles = 0;  // groups of the interest matrix
+constexpr int kPart = 1;
+
+// The other processors belong to the haptic thread and to whoever shows the scene.
+collision::PipelineOptions pipeline_options(double greatest_distance) {
+  return {.query = collision::PairQuery::kClosePairs, .greatest_distance = greatest_distance, .threads = 1};
+}
+
+template <typename Body>
+collision::ObjectDescription description(const std::shared_ptr<const Body>& body, const Eigen::Isometry3d& X_WB,
+                                         int group) {
+  return {.tree = {body, &body->tree},
+          .hull = {body, &body->hull},
+          .X_WO = X_WB,
+          .group = group,
+          .selection = {body, &body->features}};
+}
+
+}  // namespace
+
+CandidateSearch::CandidateSearch(const Surroundings& surroundings, double greatest_radius)
+    : surroundings_(surroundings),
+      bodies_(surroundings.bodies().begin(), surroundings.bodies().end()),
+      world_(static_cast<int>(bodies_.size())),
+      pipeline_(world_, clock_, pipeline_options(greatest_radius)) {
+  world_.ignore_groups(kObstacles, kObstacles);
+  for (const Obstacle& obstacle : surroundings.obstacles())
+    world_.add(description(obstacle.body, obstacle.X_WO, kObstacles));
+  for (const auto& part_V : surroundings.parts())
+    part_ids_.push_back(world_.add(description(part_V, Eigen::Isometry3d::Identity(), kPart)));
+}
+
+void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
+  for (std::size_t p = 0; p < part_ids_.size(); ++p) {
+    if (!world_.move(part_ids_[p], request.X_WV[p]))
+      throw std::invalid_argument("a part cannot be at a pose that is none");
+    bodies_[surroundings_.body_of_part(p)].X_WB = request.X_WV[p];
+  }
+  const collision::FrameResult& near = pipeline_.step(request.radius);
+  set.report = near.report;
+  collect_pairs(near, request.ignored, set.pairs);
+  find_obligations(surroundings_, bodies_, request.radius, request.ignored, workspace_, set.obligations);
+}
+
+void CandidateSearch::collect_pairs(const collision::FrameResult& near, std::span<const BodyPair> ignored,
+                                    std::vector<CandidatePair>& pairs) const {
+  pairs.clear();
+  for (std::size_t i = 0; i < near.meeting.size(); ++i) {
+    const BodyPair bodies{static_cast<std::int32_t>(near.meeting[i].object_A.index),
+                          static_cast<std::int32_t>(near.meeting[i].object_B.index)};
+    if (std::find(ignored.begin(), ignored.end(), bodies) != ignored.end()) continue;
+    for (const collision::ClosePair& pair : near.close_pairs(i)) {
+      pairs.push_back(
+          {bodies.obstacle, pair.triangles.triangle_A, bodies.part, pair.triangles.triangle_B, pair.distance});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const CandidatePair& a, const CandidatePair& b) { return a.distance < b.distance; });
+}
+
+}  // namespace glissade::haptics

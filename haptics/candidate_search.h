@@ -1,0 +1,63 @@
+#pragma once
+
+/// The collision detection of sliding contact (paper §3.1): what is near parts at given poses. It knows poses from its
+/// requests only, so it may work on one in a thread of its own while the simulation goes on (paper Figure 7).
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/collision/collision_pipeline.h>
+#include <glissade/haptics/proof_front.h>
+#include <glissade/haptics/surroundings.h>
+
+namespace glissade::haptics {
+
+/// A pair of triangles that may make a contact: either answers for an edge or vertex that can stop the part.
+struct CandidatePair {
+  std::int32_t obstacle;  ///< bodies are numbered as in the surroundings; it may be another part of lower number
+  std::int32_t obstacle_triangle;
+  std::int32_t part;
+  std::int32_t part_triangle;
+  double distance;  ///< metres, at the poses of the request
+};
+
+/// What is asked for.
+struct CandidateRequest {
+  std::vector<Eigen::Isometry3d> X_WV;  ///< of each part
+  double radius = 0.0;                  ///< metres
+  std::vector<BodyPair> ignored;        ///< pairs of bodies
+};
+
+/// The answer: all pairs within the radius, the nearest first.
+struct CandidateSet {
+  std::vector<CandidatePair> pairs;     ///< for contacts
+  std::vector<Obligation> obligations;  ///< for proofs
+  collision::FrameReport report;        ///< what it took, without the obligations
+};
+
+/// Not thread-safe, but apart from the surroundings: these may be changed while a request is worked on.
+class CandidateSearch {
+ public:
+  /// The surroundings must outlive this object. Requests may have radii up to `greatest_radius` (metres).
+  CandidateSearch(const Surroundings& surroundings, double greatest_radius);
+
+  /// Replaces `set`. The answer depends on the request only.
+  void find(const CandidateRequest& request, CandidateSet& set);
+
+ private:
+  void collect_pairs(const collision::FrameResult& near, std::span<const BodyPair> ignored,
+                     std::vector<CandidatePair>& pairs) const;
+
+  const Surroundings& surroundings_;
+  std::vector<PlacedBody> bodies_;
+  std::vector<collision::ObjectId> part_ids_;
+  realtime::SteadyClock clock_;
+  collision::World world_;
+  collision::CollisionPipeline pipeline_;
+  collision::QueryWorkspace workspace_;
+};
+
+}  // namespace glissade::haptics
