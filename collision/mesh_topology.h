@@ -43,7 +43,14 @@ class MeshTopology {
   bool can_stop(std::int32_t vertex) const { return can_stop_[static_cast<std::size_t>(vertex)] != 0; }
   /// Whether a triangle answers for any edge that is not flat or vertex that can stop: only those stop another mesh.
   bool answers_for_features(std::int32_t triangle) const { return answers_[static_cast<std::size_t>(triangle)] != 0; }
-  /// The same of its corner i, and of its edge i alone.
+  /// Whether two triangles of two meshes can stop each other: not those of which one answers for edges only and the
+  /// other for none, as an edge is stopped by edges and vertices.
+  bool can_stop_each_other(std::int32_t triangle, const MeshTopology& other, std::int32_t triangle_of_other) const {
+    const int mine = answers_[static_cast<std::size_t>(triangle)];
+    const int others = other.answers_[static_cast<std::size_t>(triangle_of_other)];
+    return (mine & kCorners) != 0 || (others & kCorners) != 0 || (mine != 0 && others != 0);
+  }
+  /// Whether it answers for its corner i, and for its edge i.
   bool answers_for_corner(std::int32_t triangle, int i) const { return answers(triangle, i); }
   bool answers_for_edge(std::int32_t triangle, int i) const { return answers(triangle, 3 + i); }
 
@@ -57,6 +64,8 @@ class MeshTopology {
       return {entries.data() + start[i], entries.data() + start[i + 1]};
     }
   };
+
+  static constexpr int kCorners = 7;
 
   bool answers(std::int32_t triangle, int feature) const {
     return (answers_[static_cast<std::size_t>(triangle)] >> feature & 1) != 0;

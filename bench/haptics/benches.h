@@ -20,11 +20,12 @@ struct SlidingBenchOptions {
 /// Each scene by each method: case `SCENE`, the metrics of `SlidingAccount` and p50 and p99 of the times of the ticks.
 void run_scenes(const SlidingBenchOptions& options, Results& results);
 
-/// Sheets led through sheets: case `open-sheets`, how many `trials` there were, how many `crossed`. Runs on all processors.
+/// Sheets led through sheets: case `open-sheets`, how many `trials` there were, how many `crossed`. Runs on all
+/// processors.
 void run_sheets(const SlidingBenchOptions& options, Results& results);
 
-/// Pegs led to the bottom of their holes: cases `pegs-0.3mm-0.5deg` and `pegs-1mm-1.5deg`, by how much the ghost is off in
-/// the end, and `pegs-1mm-1.5deg-anti-jam`; how many `trials`, how many `inserted`. Runs on all processors.
+/// Pegs led to the bottom of their holes: cases `pegs-0.3mm-0.5deg` and `pegs-1mm-1.5deg`, by how much the ghost is off
+/// in the end, and `pegs-1mm-1.5deg-anti-jam`; how many `trials`, how many `inserted`. Runs on all processors.
 void run_pegs(const SlidingBenchOptions& options, Results& results);
 
 /// A nut whose ghost turns on its bolt and does not move along it: case `nut-turns`, how many `turns`, the `pitch`, the

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Counts what becomes of many trials, each of a seed of its own, on all processors. For counts only: times taken side by
-/// side would be those of trials that wait for each other.
+/// Counts what becomes of many trials, each of a seed of its own, on all processors. For counts only: times taken side
+/// by side would be those of trials that wait for each other.
 
 #include <atomic>
 #include <cstdint>
