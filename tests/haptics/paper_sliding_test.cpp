@@ -180,7 +180,7 @@ TEST(PaperSliding, NoVisiblePoseEverCollides) {
                                    collision::transformed(collision::make_tube(0.03, 0.08, 100), at({0.08, 0, 0}))}),
       kSeed);
   const TriangleMesh box = collision::make_box({0.04, 0.03, 0.02}, 12);
-  constexpr int kMilliseconds = test_support::kSanitized ? 150 : 1500;
+  constexpr int kMilliseconds = test_support::kSanitized ? 500 : 1500;
   for (const Metaphor metaphor :
        {Metaphor::kForceFeedback, Metaphor::kRubberBand, Metaphor::kRubberBandSpring, Metaphor::kIncremental}) {
     PaperSliding sliding({{body_of(clutter)}}, part_of(box), at({0.0, 0.0, 0.05}), {.metaphor = metaphor});
