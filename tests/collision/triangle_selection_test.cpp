@@ -195,11 +195,19 @@ TEST(TriangleSelection, AWorkspaceThatRemembersNoticesAnotherSelection) {
 }
 
 TEST(TriangleSelection, ServesATreeThatWasRefitted) {
-  Selected A(make_plate({0.2, 0.2}, 200), Flags(200, 0));
-  A.flags[17] = 1;
-  A.selection = TriangleSelection(A.tree, [](std::int32_t t) { return t == 17; });
+  TriangleMesh plate = make_plate({0.2, 0.2}, 200);
+  const std::size_t first = plate.vertices.size();
+  const auto corner = static_cast<std::int32_t>(first);
+  plate.vertices.insert(plate.vertices.end(), 3, Vector3d::Zero());
+  plate.triangles.push_back({corner, corner + 1, corner + 2});  // has no area yet
+  Flags flags(plate.triangles.size(), 0);
+  flags[17] = 1;
+  flags.back() = 1;
+  Selected A(plate, flags);
   for (Vector3d& vertex : A.mesh->vertices)
     vertex.z() = vertex.x() * vertex.x();
+  A.mesh->vertices[first + 1].x() += 0.01;
+  A.mesh->vertices[first + 2].y() += 0.01;
   A.tree.refit();
   const Isometry3d X_AB = pose(Eigen::Matrix3d::Identity(), {0.0, 0.0, 1e-3});
   QueryWorkspace workspace;

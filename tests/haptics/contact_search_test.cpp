@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -13,6 +14,9 @@
 #include <glissade/collision/mesh_generators.h>
 #include <glissade/collision/mesh_operations.h>
 #include <glissade/haptics/contact_search.h>
+
+#include "random_numbers.h"
+#include "sanitizers.h"
 
 namespace glissade::haptics {
 namespace {
@@ -24,11 +28,11 @@ using Eigen::Vector3d;
 constexpr double kReach = 1e-3;
 constexpr double kMargin = 5e-6;
 
-/// An obstacle at the origin and a part.
+/// An obstacle, at the origin or elsewhere, and a part.
 class TwoBodies {
  public:
-  TwoBodies(const TriangleMesh& obstacle, const TriangleMesh& part)
-      : surroundings_({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(obstacle))}},
+  TwoBodies(const TriangleMesh& obstacle, const TriangleMesh& part, const Isometry3d& X_WO = Isometry3d::Identity())
+      : surroundings_({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(obstacle)), X_WO}},
                       {std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(part))}, std::array{kMargin}) {}
 
   std::vector<Contact> contacts_at(const Isometry3d& X_WV) {
@@ -195,7 +199,8 @@ std::vector<double> tiny_shifts() {
 TEST(ContactSearch, RimsThatCrossWhereBothAreCutAlwaysMeet) {
   // Cells of 10 mm and of 20 mm: two edges of the box cross the rim of the table over vertices of both.
   TwoBodies box_on_table(collision::make_plate({1.0, 1.0}, 5'000), collision::make_box({0.1, 0.1, 0.1}, 1'200));
-  for (const double turn : {0.0, 1e-9, 1e-3}) {
+  const std::vector<double> turns{0.0, 1e-9, 1e-3};
+  for (const double turn : std::span(turns).first(test_support::kSanitized ? 1 : 3)) {
     const Eigen::Quaterniond q(Eigen::AngleAxisd(turn, Vector3d::UnitZ()));
     for (const double dx : tiny_shifts()) {
       for (const double dy : tiny_shifts()) {
@@ -212,6 +217,40 @@ TEST(ContactSearch, RimsThatCrossWhereBothAreCutAlwaysMeet) {
         }
       }
     }
+  }
+}
+
+/// Anywhere, so that no coordinate is a round number.
+Isometry3d random_frame(test_support::RandomNumbers& random) {
+  return at(random.point(1.0), Eigen::Quaterniond(random.rotation()));
+}
+
+TEST(ContactSearch, RoundingLetsNothingThroughWhereARimIsCut) {
+  constexpr std::uint64_t kSeed = 83;
+  RecordProperty("seed", std::to_string(kSeed));
+  test_support::RandomNumbers random(kSeed);
+  const TriangleMesh table = collision::make_plate({0.2, 0.2}, 200);
+  const TriangleMesh box = collision::make_box({0.1, 0.1, 0.1}, 48);
+  const Eigen::Quaterniond on_corner = Eigen::Quaterniond::FromTwoVectors(Vector3d(1.0, 1.0, 1.0), -Vector3d::UnitX());
+  const Vector3d beside(0.1 + 0.05 * std::sqrt(3.0) + 1e-4, 0.02, 0.0);
+  for (int i = 0; i < test_support::affordable(100); ++i) {
+    SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", frame " << i);
+    const Isometry3d X_WO = random_frame(random);
+    // Two edges of the box cross the rim of the table over vertices of both.
+    const auto crossings = TwoBodies(table, box, X_WO).contacts_at(X_WO * at({0.1, 0.03, 0.0501}));
+    for (const double y : {-0.02, 0.08}) {
+      EXPECT_TRUE(std::any_of(crossings.begin(), crossings.end(),
+                              [&](const Contact& contact) {
+                                return contact.kind == ContactKind::kEdgeEdge &&
+                                       (X_WO.inverse() * contact.p_W - Vector3d(0.1, y, 1e-4)).norm() < 1e-6;
+                              }))
+          << "at y " << y;
+    }
+    // A corner beside a vertex of the rim, and the other way round.
+    const auto of_part = TwoBodies(table, box, X_WO).contacts_at(X_WO * at(beside, on_corner));
+    EXPECT_EQ(kinds(of_part).count(ContactKind::kVertexEdge), 1U);
+    const auto of_obstacle = TwoBodies(box, table, X_WO).contacts_at(X_WO * at(beside, on_corner).inverse());
+    EXPECT_EQ(kinds(of_obstacle).count(ContactKind::kEdgeVertex), 1U);
   }
 }
 

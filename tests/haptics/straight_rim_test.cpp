@@ -90,7 +90,7 @@ TEST_F(BoxOnAFinelyCutTable, BeyondTheRimItSlidesAlongItVertexOverVertex) {
            p_before = result.X_WV.translation();
          });
   }
-  EXPECT_LT(most, 1.5) << "it neither stands still nor jumps";
+  EXPECT_LT(most, 1.5) << "it does not jump";
 }
 
 TEST_F(BoxOnAFinelyCutTable, AcrossTheRimItSlidesOutAsFarAsItIsHeld) {
