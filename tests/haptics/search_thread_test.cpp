@@ -95,16 +95,17 @@ TEST_P(SearchThreadInScene, ChangesNoBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(ByName, SearchThreadInScene,
-                         ::testing::Values("bay", "clutter", "gear", "groove", "light_10k", "peg", "plane", "sheets"),
+                         ::testing::Values("clutter", "corner", "gear", "groove", "light_10k", "peg", "plane",
+                                           "sheets"),
                          [](const auto& test) { return test.param; });
 
-/// A block whose upper face is z = 0, finely cut.
+/// A block whose upper face is z = 0.
 Obstacle block() {
-  return test_support::obstacle_of(collision::make_box({0.4, 0.4, 0.1}, 1200), pose({0.0, 0.0, -0.05}));
+  return test_support::obstacle_of(collision::make_box({0.4, 0.4, 0.1}, 300), pose({0.0, 0.0, -0.05}));
 }
 
 std::shared_ptr<const SlidingPart> cube() {
-  return test_support::part_of(collision::make_box({0.02, 0.02, 0.02}, 300));
+  return test_support::part_of(collision::make_box({0.02, 0.02, 0.02}, 48));
 }
 
 /// Somewhere about the block's upper face, also below it.
@@ -158,14 +159,14 @@ TEST(SearchThread, ChangesNoBitOfSeveralParts) {
     parts.push_back({.part_V = cube(), .X_WV_start = X_WV});
   Twins twins({block()}, parts);
   std::array X_from = starts;
-  for (int leg = 0; leg < 10; ++leg) {
+  for (int leg = 0; leg < 6; ++leg) {
     const std::array X_to{random_ghost(random), random_ghost(random), random_ghost(random)};
     const std::size_t idle = static_cast<std::size_t>(leg) % 3;
     if (leg % 4 == 3) twins.release(idle);
-    for (int i = 1; i <= 50; ++i) {
+    for (int i = 1; i <= 30; ++i) {
       std::array<Isometry3d, 3> X_WG;
       for (std::size_t p = 0; p < 3; ++p)
-        X_WG[p] = test_support::between(X_from[p], X_to[p], i / 50.0);
+        X_WG[p] = test_support::between(X_from[p], X_to[p], i / 30.0);
       ASSERT_NO_FATAL_FAILURE(twins.advance(X_WG)) << "leg " << leg << ", tick " << i;
     }
     if (leg % 4 == 3) twins.grasp(idle, X_to[idle]);
