@@ -27,10 +27,8 @@ haptics::Coupling coupling_of(const HapticScene& scene, const devices::DeviceDes
   return haptics::coupling_for(device, {kStiffness_N_per_m, kStiffness_N_per_m * radius * radius});
 }
 
-haptics::SlidingOptions sliding_options(const haptics::Coupling& coupling, int max_cycles) {
-  return {.metaphor = haptics::Metaphor::kForceFeedback,
-          .stiffness = coupling.stiffness,
-          .rules = {.max_cycles = max_cycles}};
+haptics::SlidingOptions sliding_options(const haptics::Coupling& coupling, const haptics::SlidingRules& rules) {
+  return {.metaphor = haptics::Metaphor::kForceFeedback, .stiffness = coupling.stiffness, .rules = rules};
 }
 
 /// A part that starts inside an obstacle is the scene's fault.
@@ -57,7 +55,7 @@ Session finished(std::int64_t ticks, const haptics::Sliding& sliding, const Sess
 Session run_session_offline(const HapticScene& scene, const devices::PoseTrajectory& script_X_WH, std::int64_t ticks) {
   devices::SimulatedGlove glove(script_X_WH);
   const haptics::Coupling coupling = coupling_of(scene, glove.descriptor());
-  haptics::Sliding sliding = start_sliding(scene, sliding_options(coupling, 10));
+  haptics::Sliding sliding = start_sliding(scene, sliding_options(coupling, {}));
   haptics::HapticKernel kernel(*scene.part_V, coupling, glove.descriptor(), scene.X_WV_start);
   SessionRecorder recorder(static_cast<std::size_t>(ticks));
   ProgressBar progress("offline", ticks);
@@ -72,7 +70,8 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
                     const std::function<bool()>& should_stop, const std::function<void(std::int64_t)>& watch) {
   const devices::DeviceDescriptor descriptor = devices::simulated_glove_descriptor();
   const haptics::Coupling coupling = coupling_of(scene, descriptor);
-  haptics::Sliding sliding = start_sliding(scene, sliding_options(coupling, 3));
+  haptics::Sliding sliding =
+      start_sliding(scene, sliding_options(coupling, {.max_cycles = 3, .has_search_thread = true}));
   SessionRecorder recorder(ticks > 0 ? static_cast<std::size_t>(ticks) : kKeptTicks);
   devices::HapticStatePublisher publisher(bus);
   devices::LcmGlove glove(bus, descriptor);

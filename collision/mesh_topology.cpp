@@ -103,9 +103,15 @@ void MeshTopology::mark_stops(const TriangleMesh& mesh) {
   };
   std::vector<Rims> rims(mesh.vertices.size());
   answers_.assign(mesh.triangles.size(), 0);
-  for (const Edge& edge : edges_) {
+  const auto answer = [&](std::int32_t triangle, const std::array<std::int32_t, 3>& features, std::int32_t feature,
+                          int first_bit) {
+    const auto i = std::find(features.begin(), features.end(), feature) - features.begin();
+    answers_[static_cast<std::size_t>(triangle)] |= static_cast<std::uint8_t>(1U << (first_bit + static_cast<int>(i)));
+  };
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const Edge& edge = edges_[e];
     if (edge.flat) continue;
-    answers_[static_cast<std::size_t>(edge.owner)] = 1;
+    answer(edge.owner, edges_of(edge.owner), static_cast<std::int32_t>(e), 3);
     for (std::size_t end = 0; end < 2; ++end) {
       Rims& of_vertex = rims[static_cast<std::size_t>(edge.vertices[end])];
       if (of_vertex.count < 2) of_vertex.to[static_cast<std::size_t>(of_vertex.count)] = edge.vertices[1 - end];
@@ -117,7 +123,8 @@ void MeshTopology::mark_stops(const TriangleMesh& mesh) {
     const auto& [count, to] = rims[v];
     if (count == 0 || (count == 2 && continues_straight(mesh, to[0], static_cast<std::int32_t>(v), to[1]))) continue;
     can_stop_[v] = 1;
-    answers_[static_cast<std::size_t>(vertex_owner_[v])] = 1;
+    answer(vertex_owner_[v], mesh.triangles[static_cast<std::size_t>(vertex_owner_[v])], static_cast<std::int32_t>(v),
+           0);
   }
 }
 

@@ -43,6 +43,16 @@ class MeshTopology {
   bool can_stop(std::int32_t vertex) const { return can_stop_[static_cast<std::size_t>(vertex)] != 0; }
   /// Whether a triangle answers for any edge that is not flat or vertex that can stop: only those stop another mesh.
   bool answers_for_features(std::int32_t triangle) const { return answers_[static_cast<std::size_t>(triangle)] != 0; }
+  /// Whether two triangles of two meshes can stop each other: not those of which one answers for edges only and the
+  /// other for none, as an edge is stopped by edges and vertices.
+  bool can_stop_each_other(std::int32_t triangle, const MeshTopology& other, std::int32_t triangle_of_other) const {
+    const int mine = answers_[static_cast<std::size_t>(triangle)];
+    const int others = other.answers_[static_cast<std::size_t>(triangle_of_other)];
+    return (mine & kCorners) != 0 || (others & kCorners) != 0 || (mine != 0 && others != 0);
+  }
+  /// Whether it answers for its corner i, and for its edge i.
+  bool answers_for_corner(std::int32_t triangle, int i) const { return answers(triangle, i); }
+  bool answers_for_edge(std::int32_t triangle, int i) const { return answers(triangle, 3 + i); }
 
  private:
   /// A list for each of n items, stored end to end.
@@ -55,6 +65,12 @@ class MeshTopology {
     }
   };
 
+  static constexpr int kCorners = 7;
+
+  bool answers(std::int32_t triangle, int feature) const {
+    return (answers_[static_cast<std::size_t>(triangle)] >> feature & 1) != 0;
+  }
+
   void collect_edges(const TriangleMesh& mesh);
   void mark_flat(const TriangleMesh& mesh);
   void mark_stops(const TriangleMesh& mesh);
@@ -64,7 +80,7 @@ class MeshTopology {
   std::vector<std::array<std::int32_t, 3>> triangle_edges_;
   std::vector<std::int32_t> vertex_owner_;
   std::vector<char> can_stop_;
-  std::vector<char> answers_;
+  std::vector<std::uint8_t> answers_;  // bits 0 to 2 for the corners of a triangle, 3 to 5 for its edges
   Lists apexes_;
   Lists neighbours_;
 };

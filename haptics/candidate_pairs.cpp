@@ -1,19 +1,17 @@
-#include <algorithm>
 #include <utility>
 
 #include <glissade/haptics/candidate_pairs.h>
+#include <glissade/haptics/motion.h>
 
 namespace glissade::haptics {
-namespace {
-
 template <typename Pair>
-std::span<const Pair> nearest(const std::vector<Pair>& pairs, double distance) {
-  const auto end = std::upper_bound(pairs.begin(), pairs.end(), distance,
-                                    [](double limit, const Pair& pair) { return limit < pair.distance; });
-  return {pairs.data(), static_cast<std::size_t>(end - pairs.begin())};
+void CandidatePairs::Search::collect(const std::vector<Pair>& pairs, double reach, std::vector<Pair>& found) const {
+  found.clear();
+  for (const Pair& pair : pairs) {
+    if (pair.distance > reach + drift) return;  // and so are the others
+    if (still_apart(pair.bodies, pair.distance, pair.n_W) <= reach) found.push_back(pair);
+  }
 }
-
-}  // namespace
 
 CandidatePairs::CandidatePairs(const Surroundings& surroundings, double greatest_radius, bool has_own_thread)
     : surroundings_(surroundings), search_(surroundings, greatest_radius) {
@@ -50,6 +48,7 @@ void CandidatePairs::ask(Search& search, double reach, double ahead, std::span<c
   search.request.radius = reach + ahead;
   search.request.ignored.assign(ignored.begin(), ignored.end());
   search.half = 0.5 * ahead;
+  search.motions.assign(surroundings_.bodies().size(), {});
   search.drift = 0.0;
   search.is_there = true;
 }
@@ -65,9 +64,23 @@ void CandidatePairs::take(Search& search) {
   account_.reports += search.set.report;
 }
 
-void CandidatePairs::moved(double bound) {
-  now_.drift += bound;
-  next_.drift += bound;
+void CandidatePairs::moved() {
+  follow(now_);
+  follow(next_);
+}
+
+void CandidatePairs::follow(Search& search) const {
+  if (!search.is_there) return;
+  search.drift = 0.0;
+  for (std::size_t p = 0; p < search.request.X_WV.size(); ++p) {
+    const std::size_t body = surroundings_.body_of_part(p);
+    const SlidingPart& part = *surroundings_.parts()[p];
+    const Displacement d =
+        displacement_between(search.request.X_WV[p], surroundings_.bodies()[body].X_WB, part.p_Vref());
+    const double all = motion_bound(d, part.radius());
+    search.motions[body] = {d.v, all - d.v.norm()};
+    search.drift += all;
+  }
 }
 
 void CandidatePairs::clear() {
@@ -76,12 +89,8 @@ void CandidatePairs::clear() {
   next_.is_there = false;
 }
 
-std::span<const CandidatePair> CandidatePairs::within(double reach) const {
-  return nearest(now_.set.pairs, reach + now_.drift);
-}
-
-std::span<const Obligation> CandidatePairs::obligations(double reach) const {
-  return nearest(now_.set.obligations, reach + now_.drift);
-}
+template void CandidatePairs::Search::collect(const std::vector<CandidatePair>&, double,
+                                              std::vector<CandidatePair>&) const;
+template void CandidatePairs::Search::collect(const std::vector<Obligation>&, double, std::vector<Obligation>&) const;
 
 }  // namespace glissade::haptics

@@ -36,8 +36,8 @@ class CandidatePairs {
   /// the same in all calls until `clear`. Returns whether the candidates are others than before.
   bool look(double reach, double ahead, std::span<const BodyPair> ignored);
 
-  /// Tells that no two points of different bodies have come nearer by more than `bound` (metres) since the last call.
-  void moved(double bound);
+  /// The parts are placed elsewhere now.
+  void moved();
 
   /// Forgets everything: covers nothing until the next search.
   void clear();
@@ -45,10 +45,13 @@ class CandidatePairs {
   /// Whether every pair within `reach` of the parts' present poses is certainly among the candidates.
   bool covers(double reach) const { return now_.covers(reach); }
 
-  /// The candidates that may be within `reach` of the parts' present poses, nearest first (by the poses of the search).
-  std::span<const CandidatePair> within(double reach) const;
+  /// Replaces `pairs` by the candidates that may be within `reach` of the parts' present poses, nearest first by the
+  /// poses of the search.
+  void within(double reach, std::vector<CandidatePair>& pairs) const { now_.collect(now_.set.pairs, reach, pairs); }
   /// The same of all pairs, with features or not, in boxes as large as proofs take them.
-  std::span<const Obligation> obligations(double reach) const;
+  void within(double reach, std::vector<Obligation>& obligations) const {
+    now_.collect(now_.set.obligations, reach, obligations);
+  }
 
   /// Number of pairs, and of obligations.
   std::size_t size() const { return now_.set.pairs.size() + now_.set.obligations.size(); }
@@ -56,18 +59,33 @@ class CandidatePairs {
   const SearchAccount& account() const { return account_; }
 
  private:
-  /// A search, and how far the bodies have come together since its poses.
+  /// How a body has moved since a search: no point of it by more than `turn` off `v`.
+  struct Motion {
+    Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  // metres
+    double turn = 0.0;                              // metres
+  };
+  /// A search, and how far the bodies have come since its poses.
   struct Search {
     CandidateRequest request;
     CandidateSet set;
-    double half = 0.0;      // metres of drift at which the next one is asked for
-    double drift = 0.0;     // metres
-    bool is_there = false;  // asked for, though not necessarily done
+    std::vector<Motion> motions;  // of each body
+    double half = 0.0;            // metres of drift at which the next one is asked for
+    double drift = 0.0;           // metres: no two points of different bodies have come nearer by more
+    bool is_there = false;        // asked for, though not necessarily done
 
     bool covers(double reach) const { return is_there && reach + drift <= request.radius; }
+    /// Metres that two bodies are certainly apart still, where the unit vector n_W kept them `distance` apart.
+    double still_apart(const BodyPair& bodies, double distance, const Eigen::Vector3d& n_W) const {
+      const Motion& of_obstacle = motions[static_cast<std::size_t>(bodies.obstacle)];
+      const Motion& of_part = motions[static_cast<std::size_t>(bodies.part)];
+      return distance + n_W.dot(of_part.v_W - of_obstacle.v_W) - of_part.turn - of_obstacle.turn;
+    }
+    template <typename Pair>
+    void collect(const std::vector<Pair>& pairs, double reach, std::vector<Pair>& found) const;
   };
 
   void ask(Search& search, double reach, double ahead, std::span<const BodyPair> ignored) const;
+  void follow(Search& search) const;
   void take(Search& search);
 
   const Surroundings& surroundings_;

@@ -57,9 +57,15 @@ void CandidateSearch::collect_pairs(const collision::FrameResult& near, std::spa
     const BodyPair bodies{static_cast<std::int32_t>(near.meeting[i].object_A.index),
                           static_cast<std::int32_t>(near.meeting[i].object_B.index)};
     if (std::find(ignored.begin(), ignored.end(), bodies) != ignored.end()) continue;
+    const PlacedBody& obstacle = bodies_[static_cast<std::size_t>(bodies.obstacle)];
+    const PlacedBody& part = bodies_[static_cast<std::size_t>(bodies.part)];
     for (const collision::ClosePair& pair : near.close_pairs(i)) {
-      pairs.push_back(
-          {bodies.obstacle, pair.triangles.triangle_A, bodies.part, pair.triangles.triangle_B, pair.distance});
+      if (!obstacle.body->topology.can_stop_each_other(pair.triangles.triangle_A, part.body->topology,
+                                                       pair.triangles.triangle_B)) {
+        continue;
+      }
+      pairs.push_back({bodies, pair.triangles.triangle_A, pair.triangles.triangle_B, pair.distance,
+                       obstacle.X_WB.linear() * (pair.p_B - pair.p_A).normalized()});
     }
   }
   std::stable_sort(pairs.begin(), pairs.end(),

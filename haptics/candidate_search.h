@@ -17,11 +17,11 @@ namespace glissade::haptics {
 
 /// A pair of triangles that may make a contact: either answers for an edge or vertex that can stop the part.
 struct CandidatePair {
-  std::int32_t obstacle;  ///< bodies are numbered as in the surroundings; it may be another part of lower number
+  BodyPair bodies;
   std::int32_t obstacle_triangle;
-  std::int32_t part;
   std::int32_t part_triangle;
-  double distance;  ///< metres, at the poses of the request
+  double distance;      ///< metres, at the poses of the request
+  Eigen::Vector3d n_W;  ///< unit, from the obstacle's to the part's closest point then; zero where they touched
 };
 
 /// What is asked for.

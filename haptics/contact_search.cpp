@@ -48,14 +48,8 @@ class Side {
   std::int32_t edge(int i) const { return topology_->edges_of(triangle_)[static_cast<std::size_t>(i)]; }
 
   /// Whether the selected triangle answers for its corner / edge i, and that feature can stop anything.
-  bool owns_corner(int i) const {
-    const std::int32_t v = vertex(i);
-    return topology_->owner_of(v) == triangle_ && topology_->can_stop(v);
-  }
-  bool owns_edge(int i) const {
-    const MeshTopology::Edge& e = topology_->edges()[static_cast<std::size_t>(edge(i))];
-    return e.owner == triangle_ && !e.flat;
-  }
+  bool owns_corner(int i) const { return topology_->answers_for_corner(triangle_, i); }
+  bool owns_edge(int i) const { return topology_->answers_for_edge(triangle_, i); }
   /// Whether a point on the line of edge i, at the part s of it, is inside the edge, or past an end by no more than
   /// `tolerance` where the rim goes straight on: what crosses a rim just there must not slip through between two edges.
   bool is_on_edge(int i, double s, double tolerance) const {
@@ -126,10 +120,10 @@ class ContactSearch {
         contacts_(contacts) {}
 
   void search(const CandidatePair& pair) {
-    obstacle_number_ = pair.obstacle;
-    part_number_ = pair.part - first_part_;
-    part_.select(bodies_[static_cast<std::size_t>(pair.part)], pair.part_triangle);
-    obstacle_.select(bodies_[static_cast<std::size_t>(pair.obstacle)], pair.obstacle_triangle);
+    obstacle_number_ = pair.bodies.obstacle;
+    part_number_ = pair.bodies.part - first_part_;
+    part_.select(bodies_[static_cast<std::size_t>(pair.bodies.part)], pair.part_triangle);
+    obstacle_.select(bodies_[static_cast<std::size_t>(pair.bodies.obstacle)], pair.obstacle_triangle);
     // Candidates were near where the parts were some steps ago.
     if (!part_.may_be_near(obstacle_, reach_)) return;
     for (int i = 0; i < 3; ++i) {

@@ -234,7 +234,7 @@ void JointSliding::apply(const Step& step) {
     part.moved += step.lengths[p];
     if (step.lengths[p] > 0.0 || step.arrives[p]) surroundings_.place(p, part.result.X_WV);
   }
-  candidates_.moved(step.length);
+  candidates_.moved();
   last_step_ = step.length;
   last_clipped_ = step.clipped;
 }

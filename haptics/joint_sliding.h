@@ -169,6 +169,8 @@ class JointSliding {
   collision::QueryWorkspace workspace_;
   double largest_margin_ = 0.0;
 
+  std::vector<CandidatePair> pairs_;      // within reach
+  std::vector<Obligation> obligations_;   // of the step that is being proved
   std::vector<Contact> contacts_;         // one for each of the first rows
   std::vector<JointRow> rows_;            // those of contacts, then those of failed proofs
   std::vector<Contact> proof_contacts_;   // one for each of the latter

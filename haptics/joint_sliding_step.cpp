@@ -37,8 +37,8 @@ double fraction_with_lag(const Displacement& then, const Displacement& now, cons
 }  // namespace
 
 void JointSliding::find_rows() {
-  find_contacts(surroundings_.bodies(), surroundings_.obstacles().size(), candidates_.within(reach_), reach_,
-                largest_margin_, contacts_);
+  candidates_.within(reach_, pairs_);
+  find_contacts(surroundings_.bodies(), surroundings_.obstacles().size(), pairs_, reach_, largest_margin_, contacts_);
   for (Part& part : parts_)
     part.result.X_WV_of_contacts = part.result.X_WV;
   rows_.clear();
@@ -155,8 +155,9 @@ bool JointSliding::prove(const Displacements& displacements, Step& step) {
   // What is further away than this keep the floor whatever happens on the way.
   const double concerned = step.length + kFloorOfMargin * largest_margin_;
   failures_.clear();
-  return candidates_.covers(concerned) &&
-         certificate_.prove({displacements.data(), parts_.size()}, candidates_.obligations(concerned), failures_);
+  if (!candidates_.covers(concerned)) return false;
+  candidates_.within(concerned, obligations_);
+  return certificate_.prove({displacements.data(), parts_.size()}, obligations_, failures_);
 }
 
 /// Projects on all rows; false when the solver finds nothing, which leaves standing still.

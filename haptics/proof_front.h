@@ -40,8 +40,8 @@ struct Obligation {
   BodyPair bodies;
   TreeItem item_O;
   TreeItem item_P;
-  double distance;      ///< metres, a lower bound at the pose of the search
-  Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part, along which they were that far apart
+  double distance;      ///< metres that n_W keeps them apart where the bodies were placed
+  Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part; zero where triangles touched
 };
 
 /// Replaces `obligations` by all that is within `radius` (metres) of the bodies where they are placed here, but of

@@ -15,7 +15,7 @@ def geometric_mean(values):
 
 
 class Figures:
-    """The rows of one bench. What was not measured is None."""
+    """The rows of one bench. What was not measured is None; what is a pattern of bits stays text."""
 
     def __init__(self, rows):
         self.values = {}
@@ -23,7 +23,7 @@ class Figures:
         self.subjects = []
         for row in rows:
             key = (row["case"], row["subject"], row["metric"])
-            self.values[key] = float(row["value"])
+            self.values[key] = row["value"] if row["unit"] == "hex" else float(row["value"])
             if row["case"] not in self.cases:
                 self.cases.append(row["case"])
             if row["subject"] not in self.subjects:

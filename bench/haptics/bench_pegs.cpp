@@ -1,19 +1,41 @@
 // See `run_pegs` in benches.h.
 
+#include <array>
 #include <cstdio>
 #include <numbers>
 
 #include "benches.h"
 #include "sliding_subject.h"
+#include "trials.h"
 
 namespace glissade::bench {
 namespace {
 
-constexpr double kInserted_m = 7e-3;  // the ghost goes 8 mm deep
+constexpr double kInserted_m = 7e-3;       // the ghost goes 8 mm deep
+constexpr int kShakenMilliseconds = 2000;  // for so long anti-jam tries
 
-bool is_inserted(const SlidingSubject& subject, const test_support::SlidingScene& scene) {
-  const SlidingRun run = start(subject, scene);
-  for (int tick = 1; tick <= scene.ticks; ++tick)
+/// How pegs are led, and by which method.
+struct PegSetting {
+  const char* name;
+  const SlidingSubject& subject;
+  int trials;
+  double offset_m;
+  double tilt_deg;
+  int more_ticks;  ///< in which the ghost stands at the bottom
+  bool anti_jam;
+};
+
+const std::array<PegSetting, 4> kSettings{
+    PegSetting{"pegs-0.3mm-0.5deg", kSlidingSubjects[0], 200, 0.3e-3, 0.5, 0, false},
+    PegSetting{"pegs-0.3mm-0.5deg", kSlidingSubjects[1], 50, 0.3e-3, 0.5, 0, false},
+    PegSetting{"pegs-1mm-1.5deg", kSlidingSubjects[0], 200, 1e-3, 1.5, kShakenMilliseconds, false},
+    PegSetting{"pegs-1mm-1.5deg-anti-jam", kSlidingSubjects[0], 200, 1e-3, 1.5, kShakenMilliseconds, true}};
+
+bool is_inserted(const PegSetting& setting, std::uint64_t seed) {
+  const double tilt = setting.tilt_deg * std::numbers::pi / 180.0;
+  const test_support::SlidingScene scene = test_support::peg_scene({setting.offset_m, tilt, seed});
+  const SlidingRun run = start(setting.subject, scene, {.rules = {.anti_jam = setting.anti_jam}});
+  for (int tick = 1; tick <= scene.ticks + setting.more_ticks; ++tick)
     run.sliding->advance(scene.ghost(tick));
   return run.sliding->result().X_WV.translation().z() < -kInserted_m;
 }
@@ -21,16 +43,12 @@ bool is_inserted(const SlidingSubject& subject, const test_support::SlidingScene
 }  // namespace
 
 void run_pegs(const SlidingBenchOptions& options, Results& results) {
-  const int trials = options.quick ? 3 : 50;
-  for (const SlidingSubject& subject : kSlidingSubjects) {
-    std::fprintf(stderr, "sliding pegs %s\n", subject.name.c_str());
-    int inserted = 0;
-    for (int trial = 1; trial <= trials; ++trial) {
-      const test_support::PegTrial peg{0.3e-3, 0.5 * std::numbers::pi / 180.0, static_cast<std::uint64_t>(trial)};
-      inserted += is_inserted(subject, test_support::peg_scene(peg)) ? 1 : 0;
-    }
-    results.add({kSliding, "pegs", subject.name, "trials", static_cast<double>(trials), "1"});
-    results.add({kSliding, "pegs", subject.name, "inserted", static_cast<double>(inserted), "1"});
+  for (const PegSetting& setting : kSettings) {
+    std::fprintf(stderr, "sliding %s %s\n", setting.name, setting.subject.name.c_str());
+    const int trials = options.quick ? 2 : setting.trials;
+    const int inserted = count_trials(trials, [&](std::uint64_t seed) { return is_inserted(setting, seed); });
+    results.add({kSliding, setting.name, setting.subject.name, "trials", static_cast<double>(trials), "1"});
+    results.add({kSliding, setting.name, setting.subject.name, "inserted", static_cast<double>(inserted), "1"});
   }
 }
 

@@ -44,8 +44,8 @@ Displacement JamCheck::allowed(const Isometry3d& X_WV, const Displacement& wante
   surroundings_.place(0, X_WV);
   candidates_.clear();
   candidates_.look(reach, 0.0, {});
-  find_contacts(surroundings_.bodies(), surroundings_.body_of_part(0), candidates_.within(reach), reach, kTolerance_m,
-                contacts_);
+  candidates_.within(reach, pairs_);
+  find_contacts(surroundings_.bodies(), surroundings_.body_of_part(0), pairs_, reach, kTolerance_m, contacts_);
   const Eigen::Vector3d p_Wref = X_WV * scene_.part_V->p_Vref();
   rows_.clear();
   for (const haptics::Contact& contact : contacts_)

@@ -37,6 +37,7 @@ class JamCheck {
   const test_support::SlidingScene& scene_;
   haptics::Surroundings surroundings_;
   haptics::CandidatePairs candidates_;
+  std::vector<haptics::CandidatePair> pairs_;
   std::vector<haptics::Contact> contacts_;
   std::vector<haptics::ConstraintRow> rows_;
   haptics::ProjectionSolver solver_;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <thread>
 
 #include <glissade/collision/grid_check.h>
 #include <glissade/haptics/coupling.h>
@@ -35,13 +36,6 @@ int count_collisions(const test_support::SlidingScene& scene, const std::vector<
   return static_cast<int>(std::count(collide.begin(), collide.end(), 1));
 }
 
-/// Microseconds of one call.
-double advance(haptics::SlidingSimulation& sliding, const Isometry3d& X_WG) {
-  const auto start = std::chrono::steady_clock::now();
-  sliding.advance(X_WG);
-  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
-}
-
 }  // namespace
 
 SlidingAccount account_of(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks) {
@@ -59,7 +53,8 @@ SlidingAccount account_of(const SlidingSubject& subject, const test_support::Sli
     const Isometry3d X_WV_before = sliding.result().X_WV;
     const double ghost_motion =
         motion_bound(displacement_between(scene.ghost(tick - 1), scene.ghost(tick), p_Vref), radius);
-    account.tick_us.push_back(advance(sliding, scene.ghost(tick)));
+    sliding.advance(scene.ghost(tick));
+    account.pushes.push_back(sliding.result().pushing > 0 ? 1 : 0);
 
     const Isometry3d& X_WV = sliding.result().X_WV;
     if (poses.empty() || X_WV.matrix() != X_WV_before.matrix()) poses.push_back(X_WV);
@@ -83,10 +78,18 @@ SlidingAccount account_of(const SlidingSubject& subject, const test_support::Sli
 }
 
 std::vector<double> tick_times(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks) {
-  const SlidingRun run = start(subject, scene);
+  using Clock = std::chrono::steady_clock;
+  const SlidingRun run = start(subject, scene, {.rules = {.has_search_thread = true}});
   std::vector<double> times;
-  for (int tick = 1; tick <= ticks; ++tick)
-    times.push_back(advance(*run.sliding, scene.ghost(tick)));
+  Clock::time_point due = Clock::now();
+  for (int tick = 1; tick <= ticks; ++tick) {
+    std::this_thread::sleep_until(due);
+    const Clock::time_point begin = Clock::now();
+    run.sliding->advance(scene.ghost(tick));
+    const Clock::time_point end = Clock::now();
+    times.push_back(std::chrono::duration<double, std::micro>(end - begin).count());
+    due = std::max(end, due + std::chrono::milliseconds(1));
+  }
   return times;
 }
 

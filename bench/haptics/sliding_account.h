@@ -25,13 +25,14 @@ struct SlidingAccount {
   double force_jump_of_bound = 0.0;
   int colliding_poses = 0;  ///< visible poses that collide, by `collision::GridCheck`
   double queries_per_tick = 0.0;
-  std::vector<double> tick_us;  ///< of each tick
+  std::vector<char> pushes;  ///< of each tick: whether a contact pushes
 };
 
-/// Leads the part through the first `ticks` of the scene. Only the times differ from one call to the next.
+/// Leads the part through the first `ticks` of the scene.
 SlidingAccount account_of(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks);
 
-/// The times of a run alone, which does not judge what it does.
+/// Microseconds of each tick of a run as in real time: ticks begin a millisecond apart, and what can be looked for
+/// ahead of need is looked for in a thread of its own.
 std::vector<double> tick_times(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks);
 
 /// Sorts the values. p in [0, 1].

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include <glissade/haptics/sliding.h>
 #include <glissade/haptics/sliding_method.h>
 
 #include "sliding_scenes.h"
@@ -29,6 +30,7 @@ struct SlidingRun {
   std::function<std::int64_t()> queries;  ///< of the collision detection, so far
 };
 
-SlidingRun start(const SlidingSubject& subject, const test_support::SlidingScene& scene);
+SlidingRun start(const SlidingSubject& subject, const test_support::SlidingScene& scene,
+                 const haptics::SlidingOptions& options = {});
 
 }  // namespace glissade::bench

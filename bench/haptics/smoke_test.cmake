@@ -10,7 +10,7 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK_DIR})
 file(MAKE_DIRECTORY ${WORK_DIR})
-execute_process(COMMAND ${BENCH} --quick --parts scenes,solver --scenes plane,sheets --out ${WORK_DIR}
+execute_process(COMMAND ${BENCH} --quick --parts scenes,sheets,pegs,solver --scenes plane,sheets --out ${WORK_DIR}
   RESULT_VARIABLE status ERROR_VARIABLE said)
 expect("exit code 0" status EQUAL 0)
 
@@ -29,6 +29,10 @@ foreach(case plane sheets)
     expect("no collision of ${subject} in ${case}" results MATCHES "sliding,${case},${subject},colliding_poses,0,1")
   endforeach()
   expect("no jam in ${case}" results MATCHES "sliding,${case},glissade,jammed_ticks,0,1")
+endforeach()
+expect("no sheet through another" results MATCHES "sliding,open-sheets,glissade,crossed,0,1")
+foreach(case pegs-0.3mm-0.5deg pegs-1mm-1.5deg pegs-1mm-1.5deg-anti-jam)
+  expect("pegs of ${case}" results MATCHES "sliding,${case},glissade,inserted,[0-9]+,1")
 endforeach()
 foreach(rows 1 64)
   expect("the cost of ${rows} rows" results MATCHES "sliding,solver-${rows},glissade,time_per_active,[0-9.e+-]+,us")

@@ -150,8 +150,8 @@ TEST_F(Demo, APartThatStartsInsideAnObstacleIsNamed) {
 TEST_F(Demo, AReportWithoutAPlaceIsRefusedBeforeTheRun) {
   // An hour in real time: a run that began would not end within this test.
   const std::string file = files().write("file", "");
-  expect_refused({"demo", "--seconds", "3600", "--report", file}, {file});
-  expect_refused({"demo", "--seconds", "3600", "--report", file + "/report"}, {file + "/report"});
+  expect_refused({"demo", "--scene", scene, "--seconds", "3600", "--report", file}, {file});
+  expect_refused({"demo", "--scene", scene, "--seconds", "3600", "--report", file + "/report"}, {file + "/report"});
   expect_refused({"run", scene, "--report", file}, {file});
 }
 

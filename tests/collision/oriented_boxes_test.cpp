@@ -11,6 +11,7 @@
 
 #include "kernel_fixture.h"
 #include "random_numbers.h"
+#include "sanitizers.h"
 
 namespace glissade::collision {
 namespace {
@@ -91,9 +92,10 @@ class TwoBoxes {
 TEST(OrientedBoxes, AreApartWhenAndOnlyWhenTheSolidsAre) {
   RecordProperty("seed", static_cast<int>(kSeed));
   test_support::RandomNumbers random(kSeed);
+  constexpr int kTrials = test_support::affordable(4000);
   int apart = 0;
   int meeting = 0;
-  for (int trial = 0; trial < 4000; ++trial) {
+  for (int trial = 0; trial < kTrials; ++trial) {
     const TwoBoxes boxes(random);
     const double distance = boxes.distance();
     if (distance > 1e-9 && !boxes.one_is_inside_the_other()) {
@@ -104,36 +106,38 @@ TEST(OrientedBoxes, AreApartWhenAndOnlyWhenTheSolidsAre) {
       ASSERT_FALSE(boxes.apart(0.0)) << "trial " << trial << ", seed " << kSeed;
     }
   }
-  EXPECT_GT(apart, 1000);
-  EXPECT_GT(meeting, 1000);
+  EXPECT_GT(apart, kTrials / 4);
+  EXPECT_GT(meeting, kTrials / 4);
 }
 
 // The matrix is a rotation but for up to a thousandth, and the meshes lie far from their origins; the boxes just meet.
 TEST(OrientedBoxes, ThatMeetAreNotApartWhateverTheMatrixAndThePlace) {
   RecordProperty("seed", static_cast<int>(kSeed));
   test_support::RandomNumbers random(kSeed);
+  constexpr int kTrials = test_support::affordable(600);
   int compared = 0;
-  for (int trial = 0; trial < 600; ++trial) {
+  for (int trial = 0; trial < kTrials; ++trial) {
     const double offset = trial % 3 == 0 ? 0.0 : random.power_of_ten(0.0, 6.0);
     TwoBoxes boxes(random, offset * random.direction(), random.power_of_ten(-9.0, -4.0));
     if (!boxes.move_to_contact(random.direction())) continue;
     ++compared;
     ASSERT_FALSE(boxes.apart(0.0)) << "trial " << trial << ", seed " << kSeed;
   }
-  EXPECT_GT(compared, 200);
+  EXPECT_GT(compared, kTrials / 3);
 }
 
 TEST(OrientedBoxes, AGapAlongAnEdgeIsNotOverrated) {
   RecordProperty("seed", static_cast<int>(kSeed));
   test_support::RandomNumbers random(kSeed);
+  constexpr int kTrials = test_support::affordable(4000);
   int told_apart = 0;
-  for (int trial = 0; trial < 4000; ++trial) {
+  for (int trial = 0; trial < kTrials; ++trial) {
     const TwoBoxes boxes(random);
     const double distance = boxes.distance();
     ASSERT_FALSE(boxes.apart(distance)) << "trial " << trial << ", seed " << kSeed;
     told_apart += boxes.apart(0.7 * distance) ? 1 : 0;
   }
-  EXPECT_GT(told_apart, 500);
+  EXPECT_GT(told_apart, kTrials / 8);
 }
 
 }  // namespace

@@ -14,6 +14,8 @@
 #include <glissade/collision/mesh_operations.h>
 #include <glissade/haptics/contact_search.h>
 
+#include "sanitizers.h"
+
 namespace glissade::haptics {
 namespace {
 
@@ -24,16 +26,31 @@ using Eigen::Vector3d;
 constexpr double kReach = 1e-3;
 constexpr double kMargin = 5e-6;
 
+/// An obstacle at the origin and a part.
+class TwoBodies {
+ public:
+  TwoBodies(const TriangleMesh& obstacle, const TriangleMesh& part)
+      : surroundings_({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(obstacle))}},
+                      {std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(part))}, std::array{kMargin}) {}
+
+  std::vector<Contact> contacts_at(const Isometry3d& X_WV) {
+    surroundings_.place(0, X_WV);
+    candidates_.clear();
+    candidates_.look(kReach, 0.0, {});
+    std::vector<CandidatePair> pairs;
+    candidates_.within(kReach, pairs);
+    std::vector<Contact> found;
+    find_contacts(surroundings_.bodies(), 1, pairs, kReach, kMargin, found);
+    return found;
+  }
+
+ private:
+  Surroundings surroundings_;
+  CandidatePairs candidates_{surroundings_, kReach};
+};
+
 std::vector<Contact> contacts(const TriangleMesh& obstacle, const TriangleMesh& part, const Isometry3d& X_WV) {
-  const auto part_V = std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(part));
-  Surroundings surroundings({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(obstacle))}}, {part_V},
-                            std::array{kMargin});
-  surroundings.place(0, X_WV);
-  CandidatePairs candidates(surroundings, kReach);
-  candidates.look(kReach, 0.0, {});
-  std::vector<Contact> found;
-  find_contacts(surroundings.bodies(), 1, candidates.within(kReach), kReach, kMargin, found);
-  return found;
+  return TwoBodies(obstacle, part).contacts_at(X_WV);
 }
 
 std::map<ContactKind, int> kinds(const std::vector<Contact>& contacts) {
@@ -138,7 +155,7 @@ TEST(ContactSearch, TheFeaturesNamedAreThoseThatTouchWhateverTheKind) {
     }
   };
   check(box, at({0.1001, 0.1001, 0.1001}));  // corner to corner
-  for (std::size_t i = 0; i < 300; ++i) {
+  for (std::size_t i = 0; i < (test_support::kSanitized ? 60 : 300); ++i) {
     const auto turns = static_cast<double>(i);
     const Eigen::Quaterniond q(Eigen::AngleAxisd(0.7 * turns, Vector3d(1.0, 0.03 * turns, 2.0).normalized()));
     check(ball, at(nearest[i % 3] + 0.0501 * away[i % 3].normalized(), q));
@@ -155,6 +172,76 @@ TEST(ContactSearch, ACornerBesideTheRimOfASheetMeetsTheRim) {
   ASSERT_FALSE(found.empty());
   for (const Contact& contact : found)
     EXPECT_TRUE(contact.n_W.isApprox(Vector3d::UnitX(), 1e-9));
+}
+
+TEST(ContactSearch, HoweverFinelyFacesAreCutABoxTouchesATableWithItsCornersOnly) {
+  const TriangleMesh table = collision::flip_randomly(collision::make_plate({1.0, 1.0}, 20'000), 7);
+  const TriangleMesh box = collision::flip_randomly(collision::make_box({0.1, 0.1, 0.1}, 6'000), 8);
+  EXPECT_EQ(kinds(contacts(table, box, at({0.0123, 0.0045, 0.0501}))),
+            (std::map<ContactKind, int>{{ContactKind::kVertexFace, 4}}));
+  // Half beyond the rim of the table: two corners, and two edges of the box over the rim.
+  EXPECT_EQ(kinds(contacts(table, box, at({0.5003, 0.0045, 0.0501}))),
+            (std::map<ContactKind, int>{{ContactKind::kVertexFace, 2}, {ContactKind::kEdgeEdge, 2}}));
+}
+
+/// Rounding errors and a little more, to both sides.
+std::vector<double> tiny_shifts() {
+  std::vector<double> shifts{0.0};
+  for (const double size : {1e-17, 1e-16, 1e-14, 1e-10, 1e-7, 4e-7, 6e-7, 1e-6, 1e-4}) {
+    shifts.push_back(size);
+    shifts.push_back(-size);
+  }
+  return shifts;
+}
+
+TEST(ContactSearch, RimsThatCrossWhereBothAreCutAlwaysMeet) {
+  // Cells of 10 mm and of 20 mm: two edges of the box cross the rim of the table over vertices of both.
+  TwoBodies box_on_table(collision::make_plate({1.0, 1.0}, 5'000), collision::make_box({0.1, 0.1, 0.1}, 1'200));
+  for (const double turn : {0.0, 1e-9, 1e-3}) {
+    const Eigen::Quaterniond q(Eigen::AngleAxisd(turn, Vector3d::UnitZ()));
+    for (const double dx : tiny_shifts()) {
+      for (const double dy : tiny_shifts()) {
+        SCOPED_TRACE(testing::Message() << "dx " << dx << ", dy " << dy << ", turned by " << turn);
+        const auto found = box_on_table.contacts_at(at({0.5 + dx, 0.03 + dy, 0.0501}, q));
+        for (const double y : {-0.02, 0.08}) {
+          const auto meets_here = [&](const Contact& contact) {
+            return contact.kind == ContactKind::kEdgeEdge && std::abs(contact.p_W.y() - y) < 0.0015 &&
+                   contact.n_W.isApprox(Vector3d::UnitZ(), 1e-9);
+          };
+          const auto count = std::count_if(found.begin(), found.end(), meets_here);
+          ASSERT_GE(count, 1) << "at y " << y;
+          ASSERT_LE(count, 4) << "at y " << y;
+        }
+      }
+    }
+  }
+}
+
+TEST(ContactSearch, ACornerMeetsARimWhereverThatIsCut) {
+  // The corner of a box points at the rim of a sheet, at a vertex inside it, and the other way round.
+  const TriangleMesh sheet = collision::make_plate({0.2, 0.2}, 200);
+  const TriangleMesh box = collision::transformed(
+      collision::make_box({0.1, 0.1, 0.1}, 12),
+      at(Vector3d::Zero(), Eigen::Quaterniond::FromTwoVectors(Vector3d(1.0, 1.0, 1.0), -Vector3d::UnitX())));
+  const double half_diagonal = 0.05 * std::sqrt(3.0);
+  for (const double dy : tiny_shifts()) {
+    SCOPED_TRACE(testing::Message() << "dy " << dy);
+    const Vector3d p(0.1 + half_diagonal + 1e-4, 0.02 + dy, 0.0);
+    const auto of_part = contacts(sheet, box, at(p));
+    ASSERT_GE(of_part.size(), 1U);
+    ASSERT_LE(of_part.size(), 2U);
+    for (const Contact& contact : of_part) {
+      EXPECT_EQ(contact.kind, ContactKind::kVertexEdge);
+      EXPECT_TRUE(contact.n_W.isApprox(Vector3d::UnitX(), 1e-9));
+    }
+    const auto of_obstacle = contacts(box, sheet, at(-p));
+    ASSERT_GE(of_obstacle.size(), 1U);
+    ASSERT_LE(of_obstacle.size(), 2U);
+    for (const Contact& contact : of_obstacle) {
+      EXPECT_EQ(contact.kind, ContactKind::kEdgeVertex);
+      EXPECT_TRUE(contact.n_W.isApprox(-Vector3d::UnitX(), 1e-9));
+    }
+  }
 }
 
 }  // namespace

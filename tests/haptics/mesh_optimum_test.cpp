@@ -13,6 +13,7 @@
 #include "convex_shapes.h"
 #include "held_part.h"
 #include "hull_oracle.h"
+#include "sanitizers.h"
 
 namespace glissade::haptics {
 namespace {
@@ -20,6 +21,7 @@ namespace {
 using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::affordable;
 using test_support::ConvexPiece;
 using test_support::HullOracle;
 using test_support::pose;
@@ -154,7 +156,7 @@ Scene convex_part_on_convex_obstacle(RandomNumbers& random) {
 }
 
 TEST(MeshOptimum, OfConvexPartsOnConvexObstacles) {
-  compare(1, 100, convex_part_on_convex_obstacle);
+  compare(1, affordable(100), convex_part_on_convex_obstacle);
 }
 
 TEST(MeshOptimum, OfAnEdgeThatNearlyLiesOnAFace) {
@@ -174,7 +176,7 @@ void add_blocks(Scene& scene, int count, const Isometry3d& X_WB) {
 }
 
 TEST(MeshOptimum, OfConvexPartsInGroovesAndCorners) {
-  compare(1, 60, [](RandomNumbers& random) {
+  compare(1, affordable(60), [](RandomNumbers& random) {
     Scene scene;
     scene.set_part(test_support::random_convex_mesh(random, 0.03));
     const Isometry3d X_WB = random_turn(random, random.point(0.02));
@@ -192,7 +194,7 @@ TEST(MeshOptimum, OfAnAngleBracketOverABlock) {
   const TriangleMesh leg = collision::make_box({0.06, 0.03, 0.01}, 12);
   const TriangleMesh upright =
       collision::transformed(leg, pose({-0.025, 0.0, -0.035}, turn(0.5 * std::numbers::pi, Vector3d::UnitY())));
-  compare(1, 40, [&](RandomNumbers& random) {
+  compare(1, affordable(40), [&](RandomNumbers& random) {
     Scene scene;
     scene.part_mesh = collision::merge(std::vector<TriangleMesh>{leg, upright});
     scene.part_pieces = {test_support::piece_of(leg), test_support::piece_of(upright)};

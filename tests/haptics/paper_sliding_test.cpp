@@ -19,6 +19,8 @@
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/paper_sliding.h>
 
+#include "sanitizers.h"
+
 namespace glissade::haptics {
 namespace {
 
@@ -178,16 +180,17 @@ TEST(PaperSliding, NoVisiblePoseEverCollides) {
                                    collision::transformed(collision::make_tube(0.03, 0.08, 100), at({0.08, 0, 0}))}),
       kSeed);
   const TriangleMesh box = collision::make_box({0.04, 0.03, 0.02}, 12);
+  constexpr int kMilliseconds = test_support::kSanitized ? 150 : 1500;
   for (const Metaphor metaphor :
        {Metaphor::kForceFeedback, Metaphor::kRubberBand, Metaphor::kRubberBandSpring, Metaphor::kIncremental}) {
     PaperSliding sliding({{body_of(clutter)}}, part_of(box), at({0.0, 0.0, 0.05}), {.metaphor = metaphor});
     int in_contact = 0;
-    random_walk(sliding, 0.08, 2e-3, 1500, [&](const SlidingResult& result) {
+    random_walk(sliding, 0.08, 2e-3, kMilliseconds, [&](const SlidingResult& result) {
       ASSERT_FALSE(collision::brute_force_intersects(clutter, box, result.X_WV)) << name_of(metaphor);
       ASSERT_TRUE(result.X_WV.matrix().allFinite());
       in_contact += result.pushing > 0 ? 1 : 0;
     });
-    EXPECT_GT(in_contact, 100) << name_of(metaphor) << " hardly met anything";
+    EXPECT_GT(in_contact, kMilliseconds / 15) << name_of(metaphor) << " hardly met anything";
   }
 }
 

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <fstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -31,6 +33,7 @@ struct Arguments {
   std::int64_t only_scene = -1;
   bool again = false;
   bool quiet = false;
+  std::string csv;
 };
 
 /// On what a run is made; no answer may depend on it.
@@ -108,6 +111,12 @@ TortureCounts run_all(const Arguments& arguments, const Threads& threads) {
   return sum;
 }
 
+std::string hash_of(const TortureCounts& c) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(c.hash));
+  return text;
+}
+
 void print(const TortureCounts& c, double seconds) {
   std::printf("%lld scenes, %lld ms in %.1f s: held %lld, pushed by contacts %lld, moved %lld\n", count(c.scenes),
               count(c.ticks), seconds, count(c.held), count(c.pushed), count(c.moved));
@@ -125,12 +134,34 @@ void print(const TortureCounts& c, double seconds) {
   std::printf("standing still off balance       %lld (%.4f %%)\n", count(c.unbalanced),
               percent * static_cast<double>(c.unbalanced));
   std::printf("greatest force jump              %.3g kt (0.2 mm + |dG|), under force feedback\n", c.force_jump);
-  std::printf("hash                             %016llx\n", static_cast<unsigned long long>(c.hash));
+  std::printf("hash                             %s\n", hash_of(c).c_str());
   constexpr std::size_t kPrinted = 10;
   for (std::size_t i = 0; i < std::min(kPrinted, c.faults.size()); ++i)
     std::printf("FAULT: %s\n", c.faults[i].c_str());
   std::printf("%lld faults\n", count(c.fault_count));
   std::fflush(stdout);  // with --again there is a long way to go
+}
+
+/// The figures of `print` as rows of figure, value and unit.
+void write_csv(const std::string& path, const TortureCounts& c) {
+  std::ofstream file(path);
+  const auto row = [&](const char* figure, auto value, const char* unit) {
+    file << figure << ',' << value << ',' << unit << '\n';
+  };
+  row("scenes", c.scenes, "1");
+  row("milliseconds", c.ticks, "1");
+  row("collisions", c.collisions, "1");
+  row("paths", c.paths + c.partial_paths, "1");
+  row("unproved_paths", c.unproved_paths, "1");
+  row("below_floor", c.below_floor, "1");
+  row("least_of_floor", c.least_of_floor, "x");
+  row("not_finite", c.not_finite, "1");
+  row("wanted_elsewhere", c.wanted, "1");
+  row("jammed", c.jammed, "1");
+  row("greatest_force_jump", c.force_jump, "x");
+  row("hash", hash_of(c).c_str(), "hex");
+  file.close();
+  if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
 /// What is promised of many scenes together: hardly a tick jams, and no force jumps.
@@ -147,6 +178,7 @@ bool torture(const Arguments& arguments) {
   const Stopwatch watch;
   const TortureCounts counts = run_all(arguments, {.scenes = arguments.threads});
   print(counts, watch.seconds());
+  if (!arguments.csv.empty()) write_csv(arguments.csv, counts);
   bool sound = counts.fault_count == 0 && counts.not_finite == 0 && keeps_promises(counts);
   if (arguments.again) {
     const int threads = arguments.threads == 1 ? 2 : 1;
@@ -181,7 +213,13 @@ int main(int argc, char** argv) {
   app.add_flag("--again", arguments.again,
                "Run all of it again on another number of threads, with search threads, and compare the hashes");
   app.add_flag("--quiet", arguments.quiet, "No progress");
+  app.add_option("--csv", arguments.csv, "Write the figures of the first run to this file: figure,value,unit");
   CLI11_PARSE(app, argc, argv);
   if (kSanitized) arguments.scenes = std::max<std::int64_t>(1, arguments.scenes / 20);
-  return torture(arguments) ? 0 : 1;
+  try {
+    return torture(arguments) ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "sliding_torture: %s\n", error.what());
+    return 2;
+  }
 }

@@ -22,6 +22,7 @@
 
 #include "convex_shapes.h"
 #include "held_part.h"
+#include "sanitizers.h"
 
 namespace glissade::haptics {
 namespace {
@@ -89,7 +90,7 @@ std::vector<Obstacle> half_spaces(int count) {
 }
 
 TEST(ForceChangeOfATurningPart, IsNoGreaterThanTheGhostsWhereTheFreeSpaceIsConvex) {
-  for (int seed = 1; seed <= 12; ++seed) {
+  for (int seed = 1; seed <= std::max(3, test_support::affordable(12)); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     RandomNumbers random(static_cast<std::uint64_t>(seed));
     const auto part = test_support::part_of(test_support::random_convex_mesh(random, 0.03));
@@ -114,7 +115,7 @@ TEST(ForceChangeOfATurningPart, IsNoGreaterThanTheGhostsWhereTheFreeSpaceIsConve
 TEST(ForceChangeOfATurningPart, UnderForceFeedbackIsLimitedInAnyScene) {
   // A hull among spheres, which its ghost goes right through.
   double greatest_excess = 0.0;
-  for (int seed = 1; seed <= 6; ++seed) {
+  for (int seed = 1; seed <= std::max(1, test_support::affordable(6)); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     RandomNumbers random(static_cast<std::uint64_t>(seed));
     std::vector<Obstacle> obstacles;

@@ -180,6 +180,10 @@ double nut_advance(const SlidingScene& scene, const Isometry3d& X_WV) {
   return X_WV.translation().z() - scene.X_WV_start.translation().z();
 }
 
+double nut_pitch() {
+  return kBolt.pitch;
+}
+
 SlidingScene bay_scene(bool tongues_give_way) {
   const collision::SlideInShape shape;
   collision::BayWithTongues bay = collision::make_bay_with_tongues(shape);

@@ -66,6 +66,8 @@ SlidingScene gear_scene();
 SlidingScene nut_scene(double play = 40e-6);
 /// How far a nut of that scene has come along the axis, metres.
 double nut_advance(const SlidingScene& scene, const Eigen::Isometry3d& X_WV);
+/// How far it comes in a turn without play, metres.
+double nut_pitch();
 
 /// A unit slid into its bay and pulled out again, the ghost going 2 mm too deep and 0.3 mm beside. The tongues of the
 /// bay, which overlap the seated unit by 0.3 mm, give way to it if they are to. Home is the identity pose.
