@@ -30,34 +30,44 @@ using test_support::RandomNumbers;
 
 constexpr double kGreatest = 5e-3;  // metres
 
-/// Moves each part at random by up to `most` metres, or not at all; returns how much nearer two points may have come.
-double move_parts(Surroundings& surroundings, double most, RandomNumbers& random) {
-  double bound = 0.0;
+/// Moves each part at random by up to `most` metres, or not at all.
+void move_parts(Surroundings& surroundings, double most, RandomNumbers& random) {
   for (std::size_t p = 0; p < surroundings.parts().size(); ++p) {
     if (random.chance(0.2)) continue;
     const SlidingPart& part = *surroundings.parts()[p];
     const Displacement d{random.uniform(0.0, 0.5) * most * random.direction(),
                          random.uniform(0.0, 0.5) * most / part.radius() * random.direction()};
-    bound += motion_bound(d, part.radius());
     surroundings.place(p, displaced(surroundings.bodies()[surroundings.body_of_part(p)].X_WB, part.p_Vref(), d));
   }
-  return bound;
 }
 
-bool has_features(const Surroundings& surroundings, const BodyTriangles& pair) {
-  const auto answers = [&](std::int32_t body, std::int32_t triangle) {
-    return surroundings.bodies()[static_cast<std::size_t>(body)].body->topology.answers_for_features(triangle);
+std::vector<CandidatePair> pairs_within(const CandidatePairs& candidates, double reach) {
+  std::vector<CandidatePair> pairs(3);  // they are replaced
+  candidates.within(reach, pairs);
+  return pairs;
+}
+
+std::vector<Obligation> obligations_within(const CandidatePairs& candidates, double reach) {
+  std::vector<Obligation> obligations(3);
+  candidates.within(reach, obligations);
+  return obligations;
+}
+
+bool can_make_contact(const Surroundings& surroundings, const BodyTriangles& pair) {
+  const auto topology_of = [&](std::int32_t body) -> const collision::MeshTopology& {
+    return surroundings.bodies()[static_cast<std::size_t>(body)].body->topology;
   };
-  return answers(pair.bodies.obstacle, pair.triangle_O) || answers(pair.bodies.part, pair.triangle_P);
+  return topology_of(pair.bodies.obstacle)
+      .can_stop_each_other(pair.triangle_O, topology_of(pair.bodies.part), pair.triangle_P);
 }
 
 /// A pair of triangles within `reach` that is missing, for proofs or for contacts; empty if none is.
 std::string what_is_missing(const CandidatePairs& candidates, const Surroundings& surroundings, double reach) {
   std::set<BodyTriangles> for_contacts;
-  for (const CandidatePair& c : candidates.within(reach))
-    for_contacts.insert({{c.obstacle, c.part}, c.obstacle_triangle, c.part_triangle});
+  for (const CandidatePair& c : pairs_within(candidates, reach))
+    for_contacts.insert({c.bodies, c.obstacle_triangle, c.part_triangle});
   std::set<BodyTriangles> for_proofs;
-  for (const Obligation& obligation : candidates.obligations(reach)) {
+  for (const Obligation& obligation : obligations_within(candidates, reach)) {
     for (const BodyTriangles& pair : test_support::triangles_of(surroundings.bodies(), obligation))
       for_proofs.insert(pair);
   }
@@ -67,7 +77,7 @@ std::string what_is_missing(const CandidatePairs& candidates, const Surroundings
                              " and " + std::to_string(pair.triangle_P) + " of body " +
                              std::to_string(pair.bodies.part) + " at " + std::to_string(distance);
     if (!for_proofs.contains(pair)) return "for proofs: " + text;
-    if (has_features(surroundings, pair) && !for_contacts.contains(pair)) return "for contacts: " + text;
+    if (can_make_contact(surroundings, pair) && !for_contacts.contains(pair)) return "for contacts: " + text;
   }
   return "";
 }
@@ -91,7 +101,8 @@ TEST(CandidatePairs, HoldEverythingWithinTheReachOverManySteps) {
       ASSERT_TRUE(candidates.covers(reach));
       ASSERT_EQ(what_is_missing(candidates, *surroundings, reach), "");
       // A step later the same candidates may still do.
-      candidates.moved(move_parts(*surroundings, 2e-4, random));
+      move_parts(*surroundings, 2e-4, random);
+      candidates.moved();
       const double other = random.power_of_ten(-4.0, -3.0);
       if (candidates.covers(other)) {
         ASSERT_EQ(what_is_missing(candidates, *surroundings, other), "");
@@ -112,22 +123,24 @@ TEST(CandidatePairs, LeaveOutBodiesThatAreIgnored) {
   CandidatePairs candidates(surroundings, kGreatest);
   const std::vector<BodyPair> ignored{{1, 2}};
   candidates.look(0.5e-3, 0.0, ignored);
-  EXPECT_FALSE(candidates.within(0.5e-3).empty());
-  EXPECT_FALSE(candidates.obligations(0.5e-3).empty());
-  for (const CandidatePair& pair : candidates.within(0.5e-3))
-    EXPECT_EQ(pair.obstacle, 0);
-  for (const Obligation& obligation : candidates.obligations(0.5e-3))
+  const std::vector<CandidatePair> pairs = pairs_within(candidates, 0.5e-3);
+  const std::vector<Obligation> obligations = obligations_within(candidates, 0.5e-3);
+  EXPECT_FALSE(pairs.empty());
+  EXPECT_FALSE(obligations.empty());
+  for (const CandidatePair& pair : pairs)
+    EXPECT_EQ(pair.bodies.obstacle, 0);
+  for (const Obligation& obligation : obligations)
     EXPECT_EQ(obligation.bodies.obstacle, 0);
 }
 
 /// Everything that `candidates` has to say, bit for bit.
 std::vector<double> contents(const CandidatePairs& candidates, double reach) {
   std::vector<double> numbers;
-  for (const CandidatePair& c : candidates.within(reach)) {
-    numbers.insert(numbers.end(),
-                   {1.0 * c.obstacle, 1.0 * c.obstacle_triangle, 1.0 * c.part, 1.0 * c.part_triangle, c.distance});
+  for (const CandidatePair& c : pairs_within(candidates, reach)) {
+    numbers.insert(numbers.end(), {1.0 * c.bodies.obstacle, 1.0 * c.obstacle_triangle, 1.0 * c.bodies.part,
+                                   1.0 * c.part_triangle, c.distance, c.n_W.x(), c.n_W.y(), c.n_W.z()});
   }
-  for (const Obligation& o : candidates.obligations(reach)) {
+  for (const Obligation& o : obligations_within(candidates, reach)) {
     numbers.insert(numbers.end(), {1.0 * o.bodies.obstacle, 1.0 * o.bodies.part, 1.0 * o.item_O.number,
                                    1.0 * o.item_P.number, o.distance, o.n_W.x(), o.n_W.y(), o.n_W.z()});
   }
@@ -158,9 +171,9 @@ TEST(CandidatePairs, AreTheSameWithAThreadOfTheirOwn) {
       ASSERT_EQ(with.look(reach, ahead, {}), is_other);
       ASSERT_EQ(contents(with, reach), contents(without, reach));
       renewed += is_other ? 1 : 0;
-      const double bound = move_parts(*surroundings, 1e-4, random);
-      without.moved(bound);
-      with.moved(bound);
+      move_parts(*surroundings, 1e-4, random);
+      without.moved();
+      with.moved();
     }
   }
   EXPECT_GT(renewed, 10);
@@ -175,7 +188,7 @@ class CubeOverPlate : public ::testing::TestWithParam<bool> {
   void move(double length) {
     z_ -= length;
     surroundings_.place(0, test_support::pose({0.0, 0.0, z_}));
-    candidates_.moved(length);
+    candidates_.moved();
   }
 
   double z_ = 0.015;
@@ -213,10 +226,36 @@ TEST_P(CubeOverPlate, AJumpBeyondWhatWasAskedForIsSearchedAfresh) {
   EXPECT_EQ(candidates_.account().searches, 2) << "what was not taken is not told";
 }
 
+TEST_P(CubeOverPlate, IsToldOfThePosesAtWhichItWasAskedFor) {
+  move(5e-3 - 1.3 * kAhead);
+  candidates_.look(kReach, kAhead, {});
+  move(0.6 * kAhead);
+  candidates_.look(kReach, kAhead, {});  // asks for the next one, 0.7 of it above the plate
+  move(0.5 * kAhead);
+  EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
+  const std::vector<Obligation> obligations = obligations_within(candidates_, 0.5 * kAhead);
+  ASSERT_FALSE(obligations.empty());
+  EXPECT_NEAR(obligations.front().distance, 0.7 * kAhead, 1e-9);
+  const std::vector<CandidatePair> pairs = pairs_within(candidates_, 0.5 * kAhead);
+  ASSERT_FALSE(pairs.empty());
+  EXPECT_NEAR(pairs.front().distance, 0.7 * kAhead, 1e-9);
+}
+
+TEST_P(CubeOverPlate, LeavesOutWhatHasCertainlyComeApart) {
+  move(4.9e-3);
+  candidates_.look(kReach, kAhead, {});
+  EXPECT_FALSE(pairs_within(candidates_, kReach).empty());
+  EXPECT_FALSE(obligations_within(candidates_, kReach).empty());
+  move(-0.2 * kAhead);  // up again; by the length of the way alone all might still be near
+  EXPECT_TRUE(candidates_.covers(kReach));
+  EXPECT_TRUE(pairs_within(candidates_, kReach).empty());
+  EXPECT_TRUE(obligations_within(candidates_, kReach).empty());
+}
+
 TEST_P(CubeOverPlate, APoseThatIsNoneIsAnErrorOfTheCaller) {
   candidates_.look(kReach, kAhead, {});
   surroundings_.place(0, test_support::pose({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()}));
-  candidates_.moved(1.0);
+  candidates_.moved();
   EXPECT_THROW(candidates_.look(kReach, kAhead, {}), std::invalid_argument);
 }
 
