@@ -4,6 +4,7 @@
 #include <glissade/haptics/motion.h>
 
 namespace glissade::haptics {
+
 template <typename Pair>
 void CandidatePairs::Search::collect(const std::vector<Pair>& pairs, double reach, std::vector<Pair>& found) const {
   found.clear();
@@ -23,25 +24,26 @@ CandidatePairs::~CandidatePairs() = default;
 bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> ignored) {
   bool is_other = false;
   if (!now_.covers(reach)) {
+    const bool takes_next = next_.covers(reach);
+    forget();
     if (thread_) thread_->wait();
-    if (next_.covers(reach)) {
+    if (takes_next) {
       std::swap(now_, next_);
     } else {
       ask(now_, reach, ahead, ignored);
-      if (thread_) thread_->begin(search_, now_.request, now_.set);
     }
-    next_.is_there = false;
-    take(now_);
+    answer(now_);
+    now_.is_there = true;
     is_other = true;
   }
   if (!next_.is_there && now_.drift > now_.half) {
     ask(next_, reach, ahead, ignored);
-    if (thread_) thread_->begin(search_, next_.request, next_.set);
+    next_.is_there = true;
   }
   return is_other;
 }
 
-void CandidatePairs::ask(Search& search, double reach, double ahead, std::span<const BodyPair> ignored) const {
+void CandidatePairs::ask(Search& search, double reach, double ahead, std::span<const BodyPair> ignored) {
   search.request.X_WV.clear();
   for (const PlacedBody& part : surroundings_.bodies().subspan(surroundings_.obstacles().size()))
     search.request.X_WV.push_back(part.X_WB);
@@ -50,11 +52,11 @@ void CandidatePairs::ask(Search& search, double reach, double ahead, std::span<c
   search.half = 0.5 * ahead;
   search.motions.assign(surroundings_.bodies().size(), {});
   search.drift = 0.0;
-  search.is_there = true;
+  if (thread_) thread_->begin(search_, search.request, search.set);
 }
 
-/// Has the answer there. Without a thread it is looked for only now, when it is certain to be needed.
-void CandidatePairs::take(Search& search) {
+/// Has the answer to a request. Without a thread it is looked for only now, when it is certain to be needed.
+void CandidatePairs::answer(Search& search) {
   if (thread_) {
     thread_->wait();
   } else {
@@ -84,7 +86,12 @@ void CandidatePairs::follow(Search& search) const {
 }
 
 void CandidatePairs::clear() {
+  forget();
   if (thread_) thread_->wait();
+}
+
+/// Also what a search that threw has left behind.
+void CandidatePairs::forget() {
   now_.is_there = false;
   next_.is_there = false;
 }

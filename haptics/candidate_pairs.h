@@ -71,7 +71,7 @@ class CandidatePairs {
     std::vector<Motion> motions;  // of each body
     double half = 0.0;            // metres of drift at which the next one is asked for
     double drift = 0.0;           // metres: no two points of different bodies have come nearer by more
-    bool is_there = false;        // asked for, though not necessarily done
+    bool is_there = false;        // or will be, when the thread is done with it
 
     bool covers(double reach) const { return is_there && reach + drift <= request.radius; }
     /// Metres that two bodies are certainly apart still, where the unit vector n_W kept them `distance` apart.
@@ -84,9 +84,10 @@ class CandidatePairs {
     void collect(const std::vector<Pair>& pairs, double reach, std::vector<Pair>& found) const;
   };
 
-  void ask(Search& search, double reach, double ahead, std::span<const BodyPair> ignored) const;
+  void ask(Search& search, double reach, double ahead, std::span<const BodyPair> ignored);
+  void answer(Search& search);
   void follow(Search& search) const;
-  void take(Search& search);
+  void forget();
 
   const Surroundings& surroundings_;
   CandidateSearch search_;
