@@ -257,6 +257,11 @@ TEST_P(CubeOverPlate, APoseThatIsNoneIsAnErrorOfTheCaller) {
   surroundings_.place(0, test_support::pose({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()}));
   candidates_.moved();
   EXPECT_THROW(candidates_.look(kReach, kAhead, {}), std::invalid_argument);
+  EXPECT_FALSE(candidates_.covers(0.0)) << "what has failed is no answer";
+  move(4.9e-3);
+  EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
+  EXPECT_EQ(what_is_missing(candidates_, surroundings_, kReach), "");
+  EXPECT_FALSE(pairs_within(candidates_, kReach).empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutAThread, CubeOverPlate, ::testing::Bool(),
