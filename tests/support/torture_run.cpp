@@ -49,9 +49,11 @@ void mix(double value, std::uint64_t& hash) {
   mix(std::bit_cast<std::uint64_t>(value), hash);
 }
 
-SlidingOptions random_options(Metaphor metaphor, const SlidingPart& part, RandomNumbers& random) {
+SlidingOptions random_options(Metaphor metaphor, const SlidingPart& part, bool has_search_thread,
+                              RandomNumbers& random) {
   SlidingOptions options;
   options.metaphor = metaphor;
+  options.rules.has_search_thread = has_search_thread;
   constexpr std::array<int, 5> kCycles{1, 1, 2, 10, 10};
   options.rules.max_cycles = kCycles[static_cast<std::size_t>(random.integer(0, 4))];
   if (random.chance(0.2)) {
@@ -68,12 +70,12 @@ SlidingOptions random_options(Metaphor metaphor, const SlidingPart& part, Random
 
 class TortureRun {
  public:
-  TortureRun(std::uint64_t seed, std::int64_t index)
+  TortureRun(std::uint64_t seed, std::int64_t index, bool has_search_thread)
       : random_(seed * 1'000'003 + static_cast<std::uint64_t>(index)),
         label_("--seed " + std::to_string(seed) + " --only-scene " + std::to_string(index)),
         scene_(random_torture_scene(random_)),
         metaphor_(static_cast<Metaphor>(index % std::ssize(kMetaphorNames))),
-        options_(random_options(metaphor_, *scene_.part_V, random_)),
+        options_(random_options(metaphor_, *scene_.part_V, has_search_thread, random_)),
         sliding_(scene_.obstacles, scene_.part_V, scene_.X_WV_start, options_),
         hand_(scene_, random_),
         grid_(placed()),
@@ -318,8 +320,8 @@ void TortureCounts::add(const TortureCounts& later) {
   faults.insert(faults.end(), later.faults.begin(), later.faults.end());
 }
 
-TortureCounts run_torture_scene(std::uint64_t seed, std::int64_t index, int milliseconds) {
-  return TortureRun(seed, index).run(milliseconds);
+TortureCounts run_torture_scene(std::uint64_t seed, std::int64_t index, int milliseconds, bool has_search_thread) {
+  return TortureRun(seed, index, has_search_thread).run(milliseconds);
 }
 
 }  // namespace glissade::test_support

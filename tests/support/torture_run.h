@@ -38,7 +38,9 @@ struct TortureCounts {
   void add(const TortureCounts& later);
 };
 
-/// Scene `index` of a seed for so many milliseconds. The same whenever and wherever it is run.
-TortureCounts run_torture_scene(std::uint64_t seed, std::int64_t index, int milliseconds);
+/// Scene `index` of a seed for so many milliseconds. The same whenever and wherever it is run, and whether or not the
+/// simulation searches in a thread of its own.
+TortureCounts run_torture_scene(std::uint64_t seed, std::int64_t index, int milliseconds,
+                                bool has_search_thread = false);
 
 }  // namespace glissade::test_support

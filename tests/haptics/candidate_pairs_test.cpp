@@ -1,0 +1,271 @@
+// Candidates over many steps: none that is near is missing while a search serves, and it makes no difference who looks.
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/collision/mesh_generators.h>
+#include <glissade/haptics/candidate_pairs.h>
+#include <glissade/haptics/motion.h>
+
+#include "held_part.h"
+#include "near_bodies.h"
+#include "sanitizers.h"
+
+namespace glissade::haptics {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using test_support::BodyTriangles;
+using test_support::RandomNumbers;
+
+constexpr double kGreatest = 5e-3;  // metres
+
+/// Moves each part at random by up to `most` metres, or not at all.
+void move_parts(Surroundings& surroundings, double most, RandomNumbers& random) {
+  for (std::size_t p = 0; p < surroundings.parts().size(); ++p) {
+    if (random.chance(0.2)) continue;
+    const SlidingPart& part = *surroundings.parts()[p];
+    const Displacement d{random.uniform(0.0, 0.5) * most * random.direction(),
+                         random.uniform(0.0, 0.5) * most / part.radius() * random.direction()};
+    surroundings.place(p, displaced(surroundings.bodies()[surroundings.body_of_part(p)].X_WB, part.p_Vref(), d));
+  }
+}
+
+std::vector<CandidatePair> pairs_within(const CandidatePairs& candidates, double reach) {
+  std::vector<CandidatePair> pairs(3);  // they are replaced
+  candidates.within(reach, pairs);
+  return pairs;
+}
+
+std::vector<Obligation> obligations_within(const CandidatePairs& candidates, double reach) {
+  std::vector<Obligation> obligations(3);
+  candidates.within(reach, obligations);
+  return obligations;
+}
+
+bool can_make_contact(const Surroundings& surroundings, const BodyTriangles& pair) {
+  const auto topology_of = [&](std::int32_t body) -> const collision::MeshTopology& {
+    return surroundings.bodies()[static_cast<std::size_t>(body)].body->topology;
+  };
+  return topology_of(pair.bodies.obstacle)
+      .can_stop_each_other(pair.triangle_O, topology_of(pair.bodies.part), pair.triangle_P);
+}
+
+/// A pair of triangles within `reach` that is missing, for proofs or for contacts; empty if none is.
+std::string what_is_missing(const CandidatePairs& candidates, const Surroundings& surroundings, double reach) {
+  std::set<BodyTriangles> for_contacts;
+  for (const CandidatePair& c : pairs_within(candidates, reach))
+    for_contacts.insert({c.bodies, c.obstacle_triangle, c.part_triangle});
+  std::set<BodyTriangles> for_proofs;
+  for (const Obligation& obligation : obligations_within(candidates, reach)) {
+    for (const BodyTriangles& pair : test_support::triangles_of(surroundings.bodies(), obligation))
+      for_proofs.insert(pair);
+  }
+  for (const auto& [pair, distance] :
+       test_support::near_triangles(surroundings.bodies(), surroundings.obstacles().size(), reach)) {
+    const std::string text = std::to_string(pair.triangle_O) + " of body " + std::to_string(pair.bodies.obstacle) +
+                             " and " + std::to_string(pair.triangle_P) + " of body " +
+                             std::to_string(pair.bodies.part) + " at " + std::to_string(distance);
+    if (!for_proofs.contains(pair)) return "for proofs: " + text;
+    if (can_make_contact(surroundings, pair) && !for_contacts.contains(pair)) return "for contacts: " + text;
+  }
+  return "";
+}
+
+TEST(CandidatePairs, HoldEverythingWithinTheReachOverManySteps) {
+  constexpr std::uint64_t kSeed = 61;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  RandomNumbers random(kSeed);
+  int kept = 0;  // steps that an earlier search served
+  std::int64_t searches = 0;
+  for (int trial = 0; trial < test_support::affordable(60); ++trial) {
+    const auto surroundings = test_support::random_surroundings(0.02, 1e-4, 2e-4, random);
+    CandidatePairs candidates(*surroundings, kGreatest);
+    EXPECT_FALSE(candidates.covers(0.0)) << "before the first search";
+    for (int step = 0; step < 40; ++step) {
+      SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", step " +
+                   std::to_string(step));
+      if (random.chance(0.02)) candidates.clear();
+      const double reach = random.power_of_ten(-4.0, -3.0);
+      kept += candidates.look(reach, random.uniform(0.0, 1e-3), {}) ? 0 : 1;
+      ASSERT_TRUE(candidates.covers(reach));
+      ASSERT_EQ(what_is_missing(candidates, *surroundings, reach), "");
+      // A step later the same candidates may still do.
+      move_parts(*surroundings, 2e-4, random);
+      candidates.moved();
+      const double other = random.power_of_ten(-4.0, -3.0);
+      if (candidates.covers(other)) {
+        ASSERT_EQ(what_is_missing(candidates, *surroundings, other), "");
+      }
+    }
+    searches += candidates.account().searches;
+  }
+  EXPECT_GT(kept, 10);
+  EXPECT_GT(searches, 10);
+}
+
+TEST(CandidatePairs, LeaveOutBodiesThatAreIgnored) {
+  const std::vector<Obstacle> obstacles{test_support::obstacle_of(collision::make_plate({0.1, 0.1}, 50)),
+                                        test_support::obstacle_of(collision::make_plate({0.1, 0.1}, 50))};
+  Surroundings surroundings(obstacles, {test_support::part_of(collision::make_box({0.02, 0.02, 0.02}, 48))},
+                            std::vector<double>{1e-5});
+  surroundings.place(0, test_support::pose({0.0, 0.0, 0.0101}));
+  CandidatePairs candidates(surroundings, kGreatest);
+  const std::vector<BodyPair> ignored{{1, 2}};
+  candidates.look(0.5e-3, 0.0, ignored);
+  const std::vector<CandidatePair> pairs = pairs_within(candidates, 0.5e-3);
+  const std::vector<Obligation> obligations = obligations_within(candidates, 0.5e-3);
+  EXPECT_FALSE(pairs.empty());
+  EXPECT_FALSE(obligations.empty());
+  for (const CandidatePair& pair : pairs)
+    EXPECT_EQ(pair.bodies.obstacle, 0);
+  for (const Obligation& obligation : obligations)
+    EXPECT_EQ(obligation.bodies.obstacle, 0);
+}
+
+/// Everything that `candidates` has to say, bit for bit.
+std::vector<double> contents(const CandidatePairs& candidates, double reach) {
+  std::vector<double> numbers;
+  for (const CandidatePair& c : pairs_within(candidates, reach)) {
+    numbers.insert(numbers.end(), {1.0 * c.bodies.obstacle, 1.0 * c.obstacle_triangle, 1.0 * c.bodies.part,
+                                   1.0 * c.part_triangle, c.distance, c.n_W.x(), c.n_W.y(), c.n_W.z()});
+  }
+  for (const Obligation& o : obligations_within(candidates, reach)) {
+    numbers.insert(numbers.end(), {1.0 * o.bodies.obstacle, 1.0 * o.bodies.part, 1.0 * o.item_O.number,
+                                   1.0 * o.item_P.number, o.distance, o.n_W.x(), o.n_W.y(), o.n_W.z()});
+  }
+  numbers.push_back(static_cast<double>(candidates.size()));
+  numbers.push_back(static_cast<double>(candidates.account().searches));
+  return numbers;
+}
+
+TEST(CandidatePairs, AreTheSameWithAThreadOfTheirOwn) {
+  constexpr std::uint64_t kSeed = 62;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  RandomNumbers random(kSeed);
+  int renewed = 0;
+  for (int trial = 0; trial < test_support::affordable(60); ++trial) {
+    const auto surroundings = test_support::random_surroundings(0.02, 1e-4, 2e-4, random);
+    CandidatePairs without(*surroundings, kGreatest);
+    CandidatePairs with(*surroundings, kGreatest, true);
+    for (int step = 0; step < 60; ++step) {
+      SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", step " +
+                   std::to_string(step));
+      if (random.chance(0.03)) {
+        without.clear();
+        with.clear();
+      }
+      const double reach = random.power_of_ten(-4.0, -3.0);
+      const double ahead = random.uniform(0.0, 1e-3);
+      const bool is_other = without.look(reach, ahead, {});
+      ASSERT_EQ(with.look(reach, ahead, {}), is_other);
+      ASSERT_EQ(contents(with, reach), contents(without, reach));
+      renewed += is_other ? 1 : 0;
+      move_parts(*surroundings, 1e-4, random);
+      without.moved();
+      with.moved();
+    }
+  }
+  EXPECT_GT(renewed, 10);
+}
+
+/// A cube that goes down to a plate in steps of equal length.
+class CubeOverPlate : public ::testing::TestWithParam<bool> {
+ protected:
+  static constexpr double kReach = 0.1e-3;
+  static constexpr double kAhead = 1e-3;
+
+  void move(double length) {
+    z_ -= length;
+    surroundings_.place(0, test_support::pose({0.0, 0.0, z_}));
+    candidates_.moved();
+  }
+
+  double z_ = 0.015;
+  Surroundings surroundings_{{test_support::obstacle_of(collision::make_plate({0.1, 0.1}, 50))},
+                             {test_support::part_of(collision::make_box({0.02, 0.02, 0.02}, 48))},
+                             std::vector<double>{1e-5}};
+  CandidatePairs candidates_{surroundings_, kGreatest, GetParam()};
+};
+
+// Asked for at half of the way that a search looks ahead, it looks from there: so it serves half a way longer.
+TEST_P(CubeOverPlate, TakesTheSearchThatWasAskedForAheadOfNeed) {
+  move(0.0);
+  EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
+  std::vector<int> taken;
+  for (int step = 1; step <= 40; ++step) {
+    move(0.1 * kAhead);
+    if (candidates_.look(kReach, kAhead, {})) taken.push_back(step);
+    ASSERT_TRUE(candidates_.covers(kReach));
+  }
+  ASSERT_GE(taken.size(), 4U);
+  EXPECT_NEAR(taken[0], 11, 1) << "the first has been used up";
+  for (std::size_t i = 1; i < taken.size(); ++i)
+    EXPECT_NEAR(taken[i] - taken[i - 1], 5, 1) << "each later one was asked for half a way before";
+}
+
+TEST_P(CubeOverPlate, AJumpBeyondWhatWasAskedForIsSearchedAfresh) {
+  candidates_.look(kReach, kAhead, {});
+  move(0.6 * kAhead);
+  EXPECT_FALSE(candidates_.look(kReach, kAhead, {})) << "and asks for the next one";
+  move(3.5 * kAhead);
+  EXPECT_FALSE(candidates_.covers(kReach));
+  EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
+  EXPECT_TRUE(candidates_.covers(kReach + 0.9 * kAhead)) << "from here";
+  EXPECT_EQ(what_is_missing(candidates_, surroundings_, kReach), "");
+  EXPECT_EQ(candidates_.account().searches, 2) << "what was not taken is not told";
+}
+
+TEST_P(CubeOverPlate, IsToldOfThePosesAtWhichItWasAskedFor) {
+  move(5e-3 - 1.3 * kAhead);
+  candidates_.look(kReach, kAhead, {});
+  move(0.6 * kAhead);
+  candidates_.look(kReach, kAhead, {});  // asks for the next one, 0.7 of it above the plate
+  move(0.5 * kAhead);
+  EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
+  const std::vector<Obligation> obligations = obligations_within(candidates_, 0.5 * kAhead);
+  ASSERT_FALSE(obligations.empty());
+  EXPECT_NEAR(obligations.front().distance, 0.7 * kAhead, 1e-9);
+  const std::vector<CandidatePair> pairs = pairs_within(candidates_, 0.5 * kAhead);
+  ASSERT_FALSE(pairs.empty());
+  EXPECT_NEAR(pairs.front().distance, 0.7 * kAhead, 1e-9);
+}
+
+TEST_P(CubeOverPlate, LeavesOutWhatHasCertainlyComeApart) {
+  move(4.9e-3);
+  candidates_.look(kReach, kAhead, {});
+  EXPECT_FALSE(pairs_within(candidates_, kReach).empty());
+  EXPECT_FALSE(obligations_within(candidates_, kReach).empty());
+  move(-0.2 * kAhead);  // up again; by the length of the way alone all might still be near
+  EXPECT_TRUE(candidates_.covers(kReach));
+  EXPECT_TRUE(pairs_within(candidates_, kReach).empty());
+  EXPECT_TRUE(obligations_within(candidates_, kReach).empty());
+}
+
+TEST_P(CubeOverPlate, APoseThatIsNoneIsAnErrorOfTheCaller) {
+  candidates_.look(kReach, kAhead, {});
+  surroundings_.place(0, test_support::pose({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()}));
+  candidates_.moved();
+  EXPECT_THROW(candidates_.look(kReach, kAhead, {}), std::invalid_argument);
+  EXPECT_FALSE(candidates_.covers(0.0)) << "what has failed is no answer";
+  move(4.9e-3);
+  EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
+  EXPECT_EQ(what_is_missing(candidates_, surroundings_, kReach), "");
+  EXPECT_FALSE(pairs_within(candidates_, kReach).empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutAThread, CubeOverPlate, ::testing::Bool(),
+                         [](const auto& test) { return std::string(test.param ? "WithAThread" : "WithoutAThread"); });
+
+}  // namespace
+}  // namespace glissade::haptics

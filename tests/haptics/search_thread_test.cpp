@@ -1,0 +1,188 @@
+// Sliding with the collision detection in a thread of its own: every bit is what it is without.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/collision/mesh_generators.h>
+#include <glissade/haptics/joint_sliding.h>
+#include <glissade/haptics/sliding.h>
+
+#include "held_part.h"
+#include "random_numbers.h"
+#include "sanitizers.h"
+#include "sliding_scenes.h"
+
+namespace glissade::haptics {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using test_support::pose;
+using test_support::turn;
+
+/// All that a call answers, as numbers.
+std::vector<double> bits_of(const SlidingResult& result) {
+  std::vector<double> numbers(result.X_WV.matrix().data(), result.X_WV.matrix().data() + 16);
+  numbers.insert(numbers.end(), result.X_WT.matrix().data(), result.X_WT.matrix().data() + 16);
+  numbers.insert(numbers.end(),
+                 {1.0 * static_cast<int>(result.state), 1.0 * result.cycles, 1.0 * result.pushing, result.reach});
+  for (const Contact& contact : result.contacts) {
+    numbers.insert(numbers.end(), {1.0 * static_cast<int>(contact.kind), 1.0 * contact.obstacle, contact.gap,
+                                   contact.force, contact.n_W.x(), contact.n_W.y(), contact.n_W.z(),
+                                   contact.friction_W.x(), contact.friction_W.y(), contact.friction_W.z()});
+  }
+  return numbers;
+}
+
+/// The same simulation twice, without and with a search thread; each call goes to both and must be answered alike.
+class Twins {
+ public:
+  Twins(const std::vector<Obstacle>& obstacles, const std::vector<HeldPart>& parts, SlidingRules rules = {})
+      : without_(obstacles, parts, rules), with_(obstacles, parts, with_thread(rules)) {}
+
+  void grasp(std::size_t part, const Isometry3d& X_WG) {
+    without_.grasp(part, X_WG);
+    with_.grasp(part, X_WG);
+  }
+  void release(std::size_t part) {
+    without_.release(part);
+    with_.release(part);
+  }
+  void advance(std::span<const Isometry3d> X_WG) {
+    without_.advance(X_WG);
+    with_.advance(X_WG);
+    for (std::size_t p = 0; p < without_.part_count(); ++p) {
+      ASSERT_EQ(bits_of(with_.result(p)), bits_of(without_.result(p))) << "part " << p;
+      pushed_ += without_.result(p).pushing > 0 ? 1 : 0;
+    }
+    ASSERT_EQ(with_.search_account().searches, without_.search_account().searches);
+  }
+
+  const SlidingResult& result(std::size_t part) const { return without_.result(part); }
+  /// Answers in which contacts pushed.
+  int pushed() const { return pushed_; }
+  std::int64_t searches() const { return without_.search_account().searches; }
+
+ private:
+  static SlidingRules with_thread(SlidingRules rules) {
+    rules.has_search_thread = true;
+    return rules;
+  }
+
+  JointSliding without_;
+  JointSliding with_;
+  int pushed_ = 0;
+};
+
+class SearchThreadInScene : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(SearchThreadInScene, ChangesNoBit) {
+  const test_support::SlidingScene scene = test_support::make_sliding_scene(GetParam());
+  Twins twins(scene.obstacles, {{.part_V = scene.part_V, .X_WV_start = scene.X_WV_start}});
+  // Where the ghost has come to something in most of them.
+  for (int tick = 1; tick <= test_support::affordable(1500); ++tick) {
+    const Isometry3d X_WG = scene.ghost(tick);
+    ASSERT_NO_FATAL_FAILURE(twins.advance({&X_WG, 1})) << "tick " << tick;
+  }
+  if (test_support::kSanitized) return;
+  EXPECT_GT(twins.pushed(), 0);
+  EXPECT_GT(twins.searches(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(ByName, SearchThreadInScene,
+                         ::testing::Values("clutter", "corner", "gear", "groove", "light_10k", "peg", "plane",
+                                           "sheets"),
+                         [](const auto& test) { return test.param; });
+
+/// A block whose upper face is z = 0.
+Obstacle block() {
+  return test_support::obstacle_of(collision::make_box({0.4, 0.4, 0.1}, 300), pose({0.0, 0.0, -0.05}));
+}
+
+std::shared_ptr<const SlidingPart> cube() {
+  return test_support::part_of(collision::make_box({0.02, 0.02, 0.02}, 48));
+}
+
+/// Somewhere about the block's upper face, also below it.
+Isometry3d random_ghost(test_support::RandomNumbers& random) {
+  return pose({random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03), random.uniform(-0.01, 0.03)},
+              turn(random.uniform(-1.0, 1.0), random.direction()));
+}
+
+TEST(SearchThread, ChangesNoBitWhereAPartIsLedOut) {
+  const Isometry3d X_WV = pose({0.0, 0.0, 0.005});
+  Twins twins({block()}, {{.part_V = cube(), .X_WV_start = X_WV}}, {.overlap = OverlapRule::kLeadOut});
+  for (int i = 0; i < 200; ++i) {
+    const Isometry3d X_WG = pose({2e-4 * i, 0.0, 0.004}, turn(0.002 * i, Vector3d::UnitZ()));
+    ASSERT_NO_FATAL_FAILURE(twins.advance({&X_WG, 1})) << "tick " << i;
+  }
+  EXPECT_GT(twins.result(0).X_WV.translation().z(), 0.01) << "it is out";
+}
+
+TEST(SearchThread, ChangesNoBitWhereHandsLetGoAndTakeHold) {
+  constexpr std::uint64_t kSeed = 71;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  test_support::RandomNumbers random(kSeed);
+  Twins twins({block()}, {{.part_V = cube(), .X_WV_start = pose({0.0, 0.0, 0.015})}},
+              {.friction = {.at_rest = 0.4, .sliding = 0.2}});
+  Isometry3d X_from = pose({0.0, 0.0, 0.015});
+  for (int leg = 0; leg < 20; ++leg) {
+    const Isometry3d X_to = random_ghost(random);
+    for (int i = 1; i <= 50; ++i) {
+      const Isometry3d X_WG = test_support::between(X_from, X_to, i / 50.0);
+      ASSERT_NO_FATAL_FAILURE(twins.advance({&X_WG, 1})) << "leg " << leg << ", tick " << i;
+    }
+    X_from = X_to;
+    if (!random.chance(0.5)) continue;
+    twins.release(0);
+    ASSERT_NO_FATAL_FAILURE(twins.advance({&X_to, 1}));
+    X_from = random_ghost(random);
+    twins.grasp(0, X_from);
+  }
+  EXPECT_GT(twins.pushed(), 10);
+}
+
+TEST(SearchThread, ChangesNoBitOfSeveralParts) {
+  constexpr std::uint64_t kSeed = 72;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  test_support::RandomNumbers random(kSeed);
+  const std::array starts{pose({-0.03, 0.0, 0.02}), pose({0.0, 0.0, 0.02}), pose({0.03, 0.0, 0.02})};
+  std::vector<HeldPart> parts;
+  for (const Isometry3d& X_WV : starts)
+    parts.push_back({.part_V = cube(), .X_WV_start = X_WV});
+  Twins twins({block()}, parts);
+  std::array X_from = starts;
+  for (int leg = 0; leg < 6; ++leg) {
+    const std::array X_to{random_ghost(random), random_ghost(random), random_ghost(random)};
+    const std::size_t idle = static_cast<std::size_t>(leg) % 3;
+    if (leg % 4 == 3) twins.release(idle);
+    for (int i = 1; i <= 30; ++i) {
+      std::array<Isometry3d, 3> X_WG;
+      for (std::size_t p = 0; p < 3; ++p)
+        X_WG[p] = test_support::between(X_from[p], X_to[p], i / 30.0);
+      ASSERT_NO_FATAL_FAILURE(twins.advance(X_WG)) << "leg " << leg << ", tick " << i;
+    }
+    if (leg % 4 == 3) twins.grasp(idle, X_to[idle]);
+    X_from = X_to;
+  }
+  EXPECT_GT(twins.pushed(), 10);
+}
+
+TEST(SearchThread, EndsWithASearchUnderWay) {
+  const Isometry3d X_WV = pose({0.0, 0.0, 0.0105});
+  for (int ticks = 1; ticks <= 20; ++ticks) {
+    Sliding sliding({block()}, cube(), X_WV, {.rules = {.has_search_thread = true}});
+    for (int i = 1; i <= ticks; ++i)
+      sliding.advance(pose({3e-4 * i, 0.0, 0.0102}));
+  }
+}
+
+}  // namespace
+}  // namespace glissade::haptics

@@ -1,0 +1,155 @@
+#include "near_bodies.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <glissade/collision/dop_query.h>
+#include <glissade/collision/mesh_generators.h>
+#include <glissade/collision/triangle_distance.h>
+#include <glissade/collision/triangle_intersection.h>
+
+#include "sweep_meshes.h"
+#include "tree_triangles.h"
+
+namespace glissade::test_support {
+namespace {
+
+using collision::TrianglePoints;
+using Eigen::AlignedBox3d;
+using Eigen::Isometry3d;
+using haptics::PlacedBody;
+using haptics::TreeItem;
+
+/// A triangle with an area where it is placed.
+struct PlacedTriangle {
+  std::int32_t number;
+  TrianglePoints points;
+  AlignedBox3d box;
+};
+
+std::vector<PlacedTriangle> placed_triangles(const PlacedBody& body) {
+  std::vector<std::int32_t> numbers;
+  add_triangles_of_node(body.body->tree, 0, numbers);
+  std::vector<PlacedTriangle> triangles;
+  for (const std::int32_t number : numbers) {
+    PlacedTriangle& triangle = triangles.emplace_back(PlacedTriangle{number, body.triangle_W(number), {}});
+    for (const Eigen::Vector3d& x : triangle.points)
+      triangle.box.extend(x);
+  }
+  return triangles;
+}
+
+std::vector<std::int32_t> triangles_of(const haptics::ContactBody& body, const TreeItem& item) {
+  std::vector<std::int32_t> triangles;
+  if (item.kind == TreeItem::Kind::kTriangle) triangles.push_back(static_cast<std::int32_t>(item.number));
+  if (item.kind == TreeItem::Kind::kLeaf) add_triangles_of_leaf(body.tree, item.number, triangles);
+  if (item.kind == TreeItem::Kind::kNode) add_triangles_of_node(body.tree, item.number, triangles);
+  return triangles;
+}
+
+const PlacedBody& body_of(std::span<const PlacedBody> bodies, std::int32_t number) {
+  return bodies[static_cast<std::size_t>(number)];
+}
+
+/// The least distance of a part from all bodies of lower number.
+double clearance(const haptics::Surroundings& surroundings, std::size_t part) {
+  collision::QueryWorkspace workspace;
+  const std::size_t number = surroundings.body_of_part(part);
+  const PlacedBody& placed = surroundings.bodies()[number];
+  double least = std::numeric_limits<double>::infinity();
+  for (const PlacedBody& other : surroundings.bodies().first(number)) {
+    const Isometry3d X_OP = other.X_WB.inverse(Eigen::Isometry) * placed.X_WB;
+    least = std::min(least, collision::gap_lower_bound(other.body->tree, placed.body->tree, X_OP, workspace));
+  }
+  return least;
+}
+
+/// Brings a part from far away towards a point, straight, until its clearance is hardly more than `gap`.
+void approach(haptics::Surroundings& surroundings, std::size_t part, double far, double gap, RandomNumbers& random) {
+  const haptics::ContactBody& body = *surroundings.bodies()[surroundings.body_of_part(part)].body;
+  const Eigen::Vector3d direction = random.direction();
+  Isometry3d X_WV = Isometry3d::Identity();
+  X_WV.linear() = random.chance(0.5) ? random.rotation() : random.cube_rotation();
+  X_WV.translation() = far * direction + random.point(0.1 * far) - X_WV.linear() * body.tree.center();
+  surroundings.place(part, X_WV);
+  // A body comes nearer by no more than it goes.
+  for (int i = 0; i < 30; ++i) {
+    const double now = clearance(surroundings, part);
+    X_WV.translation() -= (now - gap) * direction;
+    if (now < 1.1 * gap || X_WV.translation().dot(direction) < -far) return;  // there, or past them all
+    surroundings.place(part, X_WV);
+  }
+}
+
+}  // namespace
+
+double distance_of(std::span<const PlacedBody> bodies, const BodyTriangles& pair) {
+  return collision::triangle_distance(body_of(bodies, pair.bodies.obstacle).triangle_W(pair.triangle_O),
+                                      body_of(bodies, pair.bodies.part).triangle_W(pair.triangle_P))
+      .distance;
+}
+
+std::map<BodyTriangles, double> near_triangles(std::span<const PlacedBody> bodies, std::size_t first_part,
+                                               double radius) {
+  std::vector<std::vector<PlacedTriangle>> placed;
+  for (const PlacedBody& body : bodies)
+    placed.push_back(placed_triangles(body));
+  std::map<BodyTriangles, double> near;
+  for (std::size_t part = first_part; part < bodies.size(); ++part) {
+    for (std::size_t other = 0; other < part; ++other) {
+      for (const PlacedTriangle& o : placed[other]) {
+        for (const PlacedTriangle& p : placed[part]) {
+          if (o.box.exteriorDistance(p.box) > 1.001 * radius) continue;
+          const double distance = collision::triangle_distance(o.points, p.points).distance;
+          if (distance > radius) continue;
+          const haptics::BodyPair pair{static_cast<std::int32_t>(other), static_cast<std::int32_t>(part)};
+          near[{pair, o.number, p.number}] = distance;
+        }
+      }
+    }
+  }
+  return near;
+}
+
+std::vector<BodyTriangles> triangles_of(std::span<const PlacedBody> bodies, const haptics::Obligation& obligation) {
+  const std::vector<std::int32_t> of_P = triangles_of(*body_of(bodies, obligation.bodies.part).body, obligation.item_P);
+  std::vector<BodyTriangles> pairs;
+  for (const std::int32_t o : triangles_of(*body_of(bodies, obligation.bodies.obstacle).body, obligation.item_O)) {
+    for (const std::int32_t p : of_P)
+      pairs.push_back({obligation.bodies, o, p});
+  }
+  return pairs;
+}
+
+std::shared_ptr<const haptics::SlidingPart> random_part(double size, RandomNumbers& random) {
+  auto mesh = std::make_shared<collision::TriangleMesh>();
+  const int kind = random.integer(0, 3);
+  if (kind == 0) *mesh = collision::make_plate({size, size * random.uniform(0.2, 1.0)}, random.integer(20, 120));
+  if (kind == 1) *mesh = collision::make_torus(0.6 * size, 0.2 * size, random.integer(60, 120));
+  if (kind >= 2) *mesh = random_mesh(size, random.point(size), random).mesh;
+  return std::make_shared<const haptics::SlidingPart>(std::move(mesh));
+}
+
+std::unique_ptr<haptics::Surroundings> random_surroundings(double size, double margin, double gap,
+                                                           RandomNumbers& random) {
+  std::vector<haptics::Obstacle> obstacles;
+  const int obstacle_count = random.integer(1, 2);
+  for (int i = 0; i < obstacle_count; ++i) {
+    haptics::Obstacle obstacle{random_part(size * random.uniform(0.5, 2.0), random)};
+    obstacle.X_WO.linear() = random.chance(0.5) ? random.rotation() : random.cube_rotation();
+    obstacle.X_WO.translation() = random.point(size);
+    obstacles.push_back(obstacle);
+  }
+  std::vector<std::shared_ptr<const haptics::SlidingPart>> parts;
+  const int part_count = random.integer(1, 2);
+  for (int i = 0; i < part_count; ++i)
+    parts.push_back(random_part(size * random.uniform(0.3, 1.0), random));
+  const std::vector<double> margins(parts.size(), margin);
+  auto surroundings = std::make_unique<haptics::Surroundings>(obstacles, parts, margins);
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    approach(*surroundings, p, 8.0 * size, gap, random);
+  return surroundings;
+}
+
+}  // namespace glissade::test_support
