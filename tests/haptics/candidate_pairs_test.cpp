@@ -215,6 +215,7 @@ TEST_P(CubeOverPlate, TakesTheSearchThatWasAskedForAheadOfNeed) {
 }
 
 TEST_P(CubeOverPlate, AJumpBeyondWhatWasAskedForIsSearchedAfresh) {
+  move(0.0);
   candidates_.look(kReach, kAhead, {});
   move(0.6 * kAhead);
   EXPECT_FALSE(candidates_.look(kReach, kAhead, {})) << "and asks for the next one";
@@ -253,6 +254,7 @@ TEST_P(CubeOverPlate, LeavesOutWhatHasCertainlyComeApart) {
 }
 
 TEST_P(CubeOverPlate, APoseThatIsNoneIsAnErrorOfTheCaller) {
+  move(0.0);
   candidates_.look(kReach, kAhead, {});
   surroundings_.place(0, test_support::pose({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()}));
   candidates_.moved();
