@@ -64,7 +64,8 @@ void CandidateSearch::collect_pairs(const collision::FrameResult& near, std::spa
                                                        pair.triangles.triangle_B)) {
         continue;
       }
-      pairs.push_back({bodies, pair.triangles.triangle_A, pair.triangles.triangle_B, pair.distance,
+      pairs.push_back({{bodies, pair.triangles.triangle_A, pair.triangles.triangle_B},
+                       pair.distance,
                        obstacle.X_WB.linear() * (pair.p_B - pair.p_A).normalized()});
     }
   }

@@ -138,8 +138,9 @@ std::array<bool, kMaxParts> JointSliding::parts_that_fail() const {
   if (failures_.empty()) fails.fill(true);
   const auto obstacles = static_cast<std::int32_t>(surroundings_.obstacles().size());
   for (const UncertifiedPair& failure : failures_) {
-    fails[static_cast<std::size_t>(failure.part - obstacles)] = true;
-    if (failure.obstacle >= obstacles) fails[static_cast<std::size_t>(failure.obstacle - obstacles)] = true;
+    fails[static_cast<std::size_t>(failure.bodies.part - obstacles)] = true;
+    if (failure.bodies.obstacle >= obstacles)
+      fails[static_cast<std::size_t>(failure.bodies.obstacle - obstacles)] = true;
   }
   return fails;
 }
@@ -242,18 +243,18 @@ std::array<double, kMaxParts> JointSliding::allowed_fractions(const Displacement
 /// Keeps each triangle of the part that could not be proved apart on its side of the plane that separated it.
 void JointSliding::add_rows_for_failures() {
   for (const UncertifiedPair& failure : failures_) {
-    const PlacedBody& obstacle = surroundings_.bodies()[static_cast<std::size_t>(failure.obstacle)];
-    const PlacedBody& part = surroundings_.bodies()[static_cast<std::size_t>(failure.part)];
-    const std::size_t number = static_cast<std::size_t>(failure.part) - surroundings_.obstacles().size();
-    const double margin = surroundings_.margin(failure.obstacle, failure.part);
+    const PlacedBody& obstacle = surroundings_.bodies()[static_cast<std::size_t>(failure.bodies.obstacle)];
+    const PlacedBody& part = surroundings_.bodies()[static_cast<std::size_t>(failure.bodies.part)];
+    const std::size_t number = static_cast<std::size_t>(failure.bodies.part) - surroundings_.obstacles().size();
+    const double margin = surroundings_.margin(failure.bodies.obstacle, failure.bodies.part);
     double top = -kUnbounded;
     for (const Eigen::Vector3d& y_W : obstacle.triangle_W(failure.obstacle_triangle))
       top = std::max(top, failure.n_W.dot(y_W));
     for (const Eigen::Vector3d& x_W : part.triangle_W(failure.part_triangle)) {
       const double gap = failure.n_W.dot(x_W) - top;
-      add_row(failure.obstacle, number, failure.n_W, x_W, std::min(0.0, margin - gap));
+      add_row(failure.bodies.obstacle, number, failure.n_W, x_W, std::min(0.0, margin - gap));
       Contact& contact =
-          proof_contacts_.emplace_back(Contact{ContactKind::kVertexFace, failure.part_triangle, failure.obstacle,
+          proof_contacts_.emplace_back(Contact{ContactKind::kVertexFace, failure.part_triangle, failure.bodies.obstacle,
                                                failure.obstacle_triangle, failure.n_W, x_W, gap});
       contact.part = static_cast<std::int32_t>(number);
     }

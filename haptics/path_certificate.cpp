@@ -111,7 +111,7 @@ void PathCertificate::prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_P) {
 }
 
 void PathCertificate::prove_triangles(std::int32_t triangle_O, std::int32_t triangle_P, const Eigen::Vector3d& n_hint) {
-  const TrianglesOfBodies pair{obstacle_.number, triangle_O, part_.number, triangle_P};
+  const TrianglesOfBodies pair{{obstacle_.number, part_.number}, triangle_O, triangle_P};
   Eigen::Vector3d n_start;
   if (TriangleCertificate(bodies_, pair, floor_, rounding_).prove(n_hint, n_start)) return;
   failures_->push_back({pair, n_start});

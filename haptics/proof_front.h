@@ -27,14 +27,6 @@ struct TreeItem {
 /// A child of a node, which must have it.
 TreeItem child_of(const ContactBody& body, std::uint32_t node, int child);
 
-/// Two bodies by their numbers in the surroundings; the obstacle may be another part of lower number.
-struct BodyPair {
-  std::int32_t obstacle;
-  std::int32_t part;
-
-  bool operator==(const BodyPair&) const = default;
-};
-
 /// Two items that a step must keep apart.
 struct Obligation {
   BodyPair bodies;

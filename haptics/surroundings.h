@@ -35,6 +35,21 @@ struct PlacedBody {
   }
 };
 
+/// Two bodies by their numbers, of which the second is a part; the obstacle may be another part of lower number.
+struct BodyPair {
+  std::int32_t obstacle;
+  std::int32_t part;
+
+  bool operator==(const BodyPair&) const = default;
+};
+
+/// A triangle of each of two bodies.
+struct TrianglesOfBodies {
+  BodyPair bodies;
+  std::int32_t obstacle_triangle;
+  std::int32_t part_triangle;
+};
+
 /// A body that stands still. Several may share one mesh.
 struct Obstacle {
   std::shared_ptr<const ContactBody> body;

@@ -63,7 +63,8 @@ bool TriangleCertificate::prove(const Eigen::Vector3d& n_hint, Eigen::Vector3d& 
   const TriangleDistance closest = collision::triangle_distance(start.obstacle, start.part);
   n_start = direction(closest);
   if (!(closest.distance > rounding_)) return false;  // nothing can be kept of no distance at all
-  if (closest.distance > bodies_.motion(pair_.obstacle) + bodies_.motion(pair_.part) + floor_ + rounding_) return true;
+  if (closest.distance > bodies_.motion(pair_.bodies.obstacle) + bodies_.motion(pair_.bodies.part) + floor_ + rounding_)
+    return true;
   if (closest.distance < floor_) floor_ = 0.95 * closest.distance;
   return prove_stretch(0, MovingBodies::kMoments);
 }
@@ -98,12 +99,13 @@ bool TriangleCertificate::separates(const Eigen::Vector3d& n, const Stretch& str
 }
 
 TriangleCertificate::Moment TriangleCertificate::at(int moment) {
-  return {bodies_.triangle_W(pair_.obstacle, pair_.obstacle_triangle, moment),
-          bodies_.triangle_W(pair_.part, pair_.part_triangle, moment)};
+  return {bodies_.triangle_W(pair_.bodies.obstacle, pair_.obstacle_triangle, moment),
+          bodies_.triangle_W(pair_.bodies.part, pair_.part_triangle, moment)};
 }
 
 double TriangleCertificate::needed(int begin, int end) const {
-  return floor_ + bodies_.curvature(pair_.obstacle, begin, end) + bodies_.curvature(pair_.part, begin, end) + rounding_;
+  return floor_ + bodies_.curvature(pair_.bodies.obstacle, begin, end) +
+         bodies_.curvature(pair_.bodies.part, begin, end) + rounding_;
 }
 
 }  // namespace glissade::haptics

@@ -12,14 +12,6 @@
 
 namespace glissade::haptics {
 
-/// Two triangles of two bodies, of which the second is a part and the first has a lower number.
-struct TrianglesOfBodies {
-  std::int32_t obstacle;
-  std::int32_t obstacle_triangle;
-  std::int32_t part;
-  std::int32_t part_triangle;
-};
-
 /// Proves pairs of triangles apart along the step that `bodies` are in. Not thread-safe.
 ///
 /// A pair must keep the floor of its bodies; one that starts the step nearer keeps 0.95 of its distance, and one that
