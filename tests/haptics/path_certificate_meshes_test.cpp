@@ -189,14 +189,15 @@ TEST(PathCertificate, ATipThatSwingsLowIsNotProvedByBothEndsOfItsWay) {
 TEST(PathCertificate, OfTwoPartsCountsTheMotionOfBoth) {
   constexpr double kMargin = 0.1e-3;
   const Obstacle table = test_support::obstacle_of(collision::make_plate({1.0, 1.0}, 2));
-  const auto cube = test_support::part_of(collision::make_box({0.02, 0.02, 0.02}, 500));
-  Surroundings surroundings({table}, {cube, cube}, std::vector<double>{kMargin, kMargin});
+  // Flat, so that boxes tell it, and no triangle is asked.
+  const auto plate = test_support::part_of(collision::make_plate({0.02, 0.02}, 500));
+  Surroundings surroundings({table}, {plate, plate}, std::vector<double>{kMargin, kMargin});
   const double gap = 1e-3;
   surroundings.place(0, test_support::pose({0.0, 0.0, 0.5}));
-  surroundings.place(1, test_support::pose({0.02 + gap, 0.0, 0.5}));
+  surroundings.place(1, test_support::pose({0.0, 0.0, 0.5 + gap}));
   const double most = gap - kFloorOfMargin * kMargin;
   const auto proves = [&](double first, double second) {
-    return prove(surroundings, {{{first, 0.0, 0.0}, Vector3d::Zero()}, {{second, 0.0, 0.0}, Vector3d::Zero()}}).holds;
+    return prove(surroundings, {{{0.0, 0.0, first}, Vector3d::Zero()}, {{0.0, 0.0, second}, Vector3d::Zero()}}).holds;
   };
   EXPECT_TRUE(proves(0.499 * most, -0.499 * most));
   EXPECT_FALSE(proves(0.501 * most, -0.501 * most));
