@@ -119,7 +119,7 @@ TEST_F(NearVisit, OfOneWhoTakesNothingShowsThePairsWithinTheDistance) {
     }
     pairs += expected.size();
   }
-  EXPECT_GT(pairs, 1000U);
+  EXPECT_GT(pairs, 100U);
 }
 
 TEST_F(NearVisit, ShowsEveryPairOnceOrLeavesItToWhoTookWhatHoldsIt) {
@@ -140,8 +140,8 @@ TEST_F(NearVisit, ShowsEveryPairOnceOrLeavesItToWhoTookWhatHoldsIt) {
     taken += visitor.taken.size();
     seen += visitor.seen.size();
   }
-  EXPECT_GT(taken, 100U);
-  EXPECT_GT(seen, 100U);
+  EXPECT_GT(taken, 5U);
+  EXPECT_GT(seen, 50U);
 }
 
 TEST_F(NearVisit, LooksAtNothingBelowWhatWasTaken) {
