@@ -14,6 +14,14 @@ collision::PipelineOptions pipeline_options(double greatest_distance) {
   return {.query = collision::PairQuery::kClosePairs, .greatest_distance = greatest_distance, .threads = 1};
 }
 
+/// Metres. Of points nearer than that the direction from one to the other is not sharp enough for what is large.
+constexpr double kSharp_m = 1e-6;
+
+Eigen::Vector3d direction_of(const collision::ClosePair& pair) {
+  if (pair.distance < kSharp_m) return Eigen::Vector3d::Zero();
+  return (pair.p_B - pair.p_A).normalized();
+}
+
 template <typename Body>
 collision::ObjectDescription description(const std::shared_ptr<const Body>& body, const Eigen::Isometry3d& X_WB,
                                          int group) {
@@ -66,7 +74,7 @@ void CandidateSearch::collect_pairs(const collision::FrameResult& near, std::spa
       }
       pairs.push_back({{bodies, pair.triangles.triangle_A, pair.triangles.triangle_B},
                        pair.distance,
-                       obstacle.X_WB.linear() * (pair.p_B - pair.p_A).normalized()});
+                       obstacle.X_WB.linear() * direction_of(pair)});
     }
   }
   std::stable_sort(pairs.begin(), pairs.end(),

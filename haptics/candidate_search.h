@@ -18,7 +18,7 @@ namespace glissade::haptics {
 /// A pair of triangles that may make a contact: either answers for an edge or vertex that can stop the part.
 struct CandidatePair : TrianglesOfBodies {
   double distance;      ///< metres, at the poses of the request
-  Eigen::Vector3d n_W;  ///< unit, from the obstacle's to the part's closest point then; zero where they touched
+  Eigen::Vector3d n_W;  ///< unit, from the obstacle's to the part's closest point then; zero where it is not sharp
 };
 
 /// What is asked for.
