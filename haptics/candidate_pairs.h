@@ -33,7 +33,8 @@ class CandidatePairs {
 
   /// Makes sure that every pair within `reach` (metres) of where the parts are placed is among the candidates, but
   /// those of bodies that are `ignored`; whoever looks looks `ahead` (metres) further. Pairs that are ignored must be
-  /// the same in all calls until `clear`. Returns whether the candidates are others than before.
+  /// the same in all calls until `clear`. Returns whether the candidates are others than before. What a search
+  /// throws, for memory that is not to be had or a pose that is none, reaches the caller; nothing is covered then.
   bool look(double reach, double ahead, std::span<const BodyPair> ignored);
 
   /// The parts are placed elsewhere now.
