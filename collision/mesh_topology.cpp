@@ -7,12 +7,13 @@
 #include <glissade/collision/mesh_topology.h>
 #include <glissade/collision/triangle_intersection.h>
 
+#include "straight_rims.h"
+
 namespace glissade::collision {
 namespace {
 
-/// Two triangles continue each other where the sine of the angle between their planes is below this, and two edges
-/// where that of the angle between them is: well above what single-precision vertices make of a tessellated plane, well
-/// below any bend that matters to a contact.
+/// Two triangles continue each other where the sine of the angle between their planes is below this: well above what
+/// single-precision vertices make of a tessellated plane, well below any bend that matters to a contact.
 constexpr double kFlatSine = 1e-4;
 
 /// One side of one triangle.
@@ -32,14 +33,6 @@ bool continues_flat(const TriangleMesh& mesh, const std::array<std::int32_t, 2>&
   const Eigen::Vector3d n1 = along.cross(point(apex_1) - point(edge[0]));
   const Eigen::Vector3d n2 = along.cross(point(apex_2) - point(edge[0]));
   return n1.dot(n2) < 0.0 && n1.cross(n2).norm() <= kFlatSine * n1.norm() * n2.norm();
-}
-
-/// Whether the edge from `before` to `v` goes straight on to `after`.
-bool continues_straight(const TriangleMesh& mesh, std::int32_t before, std::int32_t v, std::int32_t after) {
-  const Eigen::Vector3d& x = mesh.vertices[static_cast<std::size_t>(v)];
-  const Eigen::Vector3d in = x - mesh.vertices[static_cast<std::size_t>(before)];
-  const Eigen::Vector3d out = mesh.vertices[static_cast<std::size_t>(after)] - x;
-  return in.dot(out) > 0.0 && in.cross(out).norm() <= kFlatSine * in.norm() * out.norm();
 }
 
 }  // namespace
@@ -96,12 +89,6 @@ void MeshTopology::mark_flat(const TriangleMesh& mesh) {
 }
 
 void MeshTopology::mark_stops(const TriangleMesh& mesh) {
-  /// The edges of a vertex that are not flat: how many, and where the first two lead.
-  struct Rims {
-    int count = 0;
-    std::array<std::int32_t, 2> to{};
-  };
-  std::vector<Rims> rims(mesh.vertices.size());
   answers_.assign(mesh.triangles.size(), 0);
   const auto answer = [&](std::int32_t triangle, const std::array<std::int32_t, 3>& features, std::int32_t feature,
                           int first_bit) {
@@ -112,16 +99,12 @@ void MeshTopology::mark_stops(const TriangleMesh& mesh) {
     const Edge& edge = edges_[e];
     if (edge.flat) continue;
     answer(edge.owner, edges_of(edge.owner), static_cast<std::int32_t>(e), 3);
-    for (std::size_t end = 0; end < 2; ++end) {
-      Rims& of_vertex = rims[static_cast<std::size_t>(edge.vertices[end])];
-      if (of_vertex.count < 2) of_vertex.to[static_cast<std::size_t>(of_vertex.count)] = edge.vertices[1 - end];
-      ++of_vertex.count;
-    }
   }
+  const std::vector<RimEdges> rims = rim_edges(mesh, edges_);
+  const std::vector<char> inside = inside_straight_rims(mesh, rims);
   can_stop_.assign(mesh.vertices.size(), 0);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const auto& [count, to] = rims[v];
-    if (count == 0 || (count == 2 && continues_straight(mesh, to[0], static_cast<std::int32_t>(v), to[1]))) continue;
+    if (rims[v].count == 0 || inside[v] != 0) continue;
     can_stop_[v] = 1;
     answer(vertex_owner_[v], mesh.triangles[static_cast<std::size_t>(vertex_owner_[v])], static_cast<std::int32_t>(v),
            0);

@@ -38,8 +38,8 @@ class MeshTopology {
   /// The one of a vertex's triangles that answers for it, −1 if it has none.
   std::int32_t owner_of(std::int32_t vertex) const { return vertex_owner_[static_cast<std::size_t>(vertex)]; }
   /// Whether a vertex can stop another mesh. One inside a plane patch, where every edge is flat, cannot, as others
-  /// bound the patch; nor can one inside a straight rim, where all edges are flat but two that continue each other:
-  /// what it could stop, the ends of the rim stop, or its edges.
+  /// bound the patch; nor can one inside a straight rim, where all edges are flat but two that continue each other,
+  /// within 0.1 µm of the chord: what it could stop, the ends of the rim stop, or its edges.
   bool can_stop(std::int32_t vertex) const { return can_stop_[static_cast<std::size_t>(vertex)] != 0; }
   /// Whether a triangle answers for any edge that is not flat or vertex that can stop: only those stop another mesh.
   bool answers_for_features(std::int32_t triangle) const { return answers_[static_cast<std::size_t>(triangle)] != 0; }

@@ -16,7 +16,8 @@
 
 namespace glissade::haptics {
 
-/// What searching took.
+/// What searching for contacts took, of the searches that were taken. What is to be proved is looked for as often; that
+/// is not in it.
 struct SearchAccount {
   std::int64_t searches = 0;       ///< that were taken
   collision::FrameReport reports;  ///< the sum of theirs
@@ -75,11 +76,14 @@ class CandidatePairs {
     bool is_there = false;        // or will be, when the thread is done with it
 
     bool covers(double reach) const { return is_there && reach + drift <= request.radius; }
-    /// Metres that two bodies are certainly apart still, where the unit vector n_W kept them `distance` apart.
+    /// Metres that two triangles or boxes are certainly apart still, where the unit vector n_W kept them `distance`
+    /// apart; or, where n_W is zero, nobody knows which.
     double still_apart(const BodyPair& bodies, double distance, const Eigen::Vector3d& n_W) const {
       const Motion& of_obstacle = motions[static_cast<std::size_t>(bodies.obstacle)];
       const Motion& of_part = motions[static_cast<std::size_t>(bodies.part)];
-      return distance + n_W.dot(of_part.v_W - of_obstacle.v_W) - of_part.turn - of_obstacle.turn;
+      const Eigen::Vector3d v_W = of_part.v_W - of_obstacle.v_W;
+      const double apart = n_W.isZero(0.0) ? -v_W.norm() : n_W.dot(v_W);
+      return distance + apart - of_part.turn - of_obstacle.turn;
     }
     template <typename Pair>
     void collect(const std::vector<Pair>& pairs, double reach, std::vector<Pair>& found) const;

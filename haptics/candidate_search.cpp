@@ -14,11 +14,8 @@ collision::PipelineOptions pipeline_options(double greatest_distance) {
   return {.query = collision::PairQuery::kClosePairs, .greatest_distance = greatest_distance, .threads = 1};
 }
 
-/// Metres. Of points nearer than that the direction from one to the other is not sharp enough for what is large.
-constexpr double kSharp_m = 1e-6;
-
 Eigen::Vector3d direction_of(const collision::ClosePair& pair) {
-  if (pair.distance < kSharp_m) return Eigen::Vector3d::Zero();
+  if (pair.distance < kSharpDistance_m) return Eigen::Vector3d::Zero();
   return (pair.p_B - pair.p_A).normalized();
 }
 

@@ -154,7 +154,7 @@ bool JointSliding::prove(const Displacements& displacements, Step& step) {
     step.length += step.lengths[p];
   }
   // What is further away than this keep the floor whatever happens on the way.
-  const double concerned = step.length + kFloorOfMargin * largest_margin_;
+  const double concerned = step.length + kFloorOfMargin * largest_margin_ + certificate_.certain_distance();
   failures_.clear();
   if (!candidates_.covers(concerned)) return false;
   candidates_.within(concerned, obligations_);

@@ -23,6 +23,9 @@ inline constexpr double kGreatestMargin_m = 0.25e-3;
 /// What part of its margin every pair of bodies keeps on every certified path.
 inline constexpr double kFloorOfMargin = 0.3;
 
+/// Metres. Of points nearer than that the direction from one to the other is not sharp enough for large triangles.
+inline constexpr double kSharpDistance_m = 1e-6;
+
 /// A body where it is now.
 struct PlacedBody {
   const ContactBody* body;

@@ -108,8 +108,8 @@ class BoxFit {
     double least = std::numeric_limits<double>::infinity();
     const auto look = [&](const Vector3d& direction) {
       const Vector3d across = thin.cross(direction);
-      if (!(across.norm() > 1e-6 * direction.norm())) return;
-      const Vector3d u = across.normalized();
+      if (!(across.norm() > 0.1 * direction.norm())) return;  // too near to be exactly across
+      const Vector3d u = (across - thin * thin.dot(across)).normalized();
       const double area = thickness(u) * thickness(thin.cross(u));
       if (!(area < least)) return;
       least = area;
@@ -153,8 +153,6 @@ class Builder {
     }
   }
 
-  std::span<const std::int32_t> triangles() const { return triangles_; }
-
  private:
   void add_leaf(std::uint32_t leaf) {
     for (const std::int32_t triangle : tree_.leaves()[leaf].triangle) {
@@ -171,9 +169,7 @@ class Builder {
 
 TightBoxes::TightBoxes(const DopTree& tree)
     : boxes_(static_cast<std::size_t>(collision::kWidth) * tree.nodes().size()) {
-  Builder builder(tree, boxes_);
-  builder.visit(0);
-  whole_ = box_of(tree.mesh(), builder.triangles());
+  Builder(tree, boxes_).visit(0);
 }
 
 }  // namespace glissade::haptics

@@ -37,11 +37,8 @@ class TightBoxes {
   const TightBox& box(std::uint32_t node, int child) const {
     return boxes_[static_cast<std::size_t>(collision::kWidth) * node + static_cast<std::size_t>(child)];
   }
-  /// That of the whole tree.
-  const TightBox& whole() const { return whole_; }
 
  private:
-  TightBox whole_;
   std::vector<TightBox> boxes_;
 };
 

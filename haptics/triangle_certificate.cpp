@@ -61,7 +61,8 @@ bool TriangleCertificate::prove(const Eigen::Vector3d& n_hint, Eigen::Vector3d& 
   }
 
   const TriangleDistance closest = collision::triangle_distance(start.obstacle, start.part);
-  n_start = direction(closest);
+  // Of points a few nanometres apart the direction is not sharp enough for triangles of a metre; their features' is.
+  n_start = closest.distance < kSharpDistance_m ? sharpest_direction(start.obstacle, start.part) : direction(closest);
   if (!(closest.distance > rounding_)) return false;  // nothing can be kept of no distance at all
   if (closest.distance > bodies_.motion(pair_.bodies.obstacle) + bodies_.motion(pair_.bodies.part) + floor_ + rounding_)
     return true;
@@ -83,7 +84,6 @@ bool TriangleCertificate::prove_stretch(int begin, int end) {
   const Eigen::Vector3d n_end = direction(closest_end);
   if (separates(n_end, stretch)) return true;
   if (separates((n_begin + n_end).normalized(), stretch)) return true;
-  // Of points a few nanometres apart the direction is not sharp enough for triangles of a metre; their features' is.
   if (separates(sharpest_direction(at_begin.obstacle, at_begin.part), stretch)) return true;
   if (separates(sharpest_direction(at_end.obstacle, at_end.part), stretch)) return true;
 

