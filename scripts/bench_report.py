@@ -265,7 +265,8 @@ PEG_CASES = {"pegs-0.3mm-0.5deg": "0.3 mm and 0.5°", "pegs-1mm-1.5deg": "1 mm a
 NUT = {"turns": "turns", "pitch": "pitch, mm", "advance_per_turn": "advance a turn, mm", "worst_deviation": "worst deviation, µm",
        "tick_mean": "ms a tick"}
 TORTURE = {"scenes": "scenes", "milliseconds": "ms", "collisions": "colliding poses", "paths": "paths", "unproved_paths": "not proved",
-           "below_floor": "poses too near", "not_finite": "not finite", "least_of_floor": "least distance, floors", "jammed_share": "jammed, % of the ticks in which it is wanted elsewhere",
+           "below_floor": "poses too near", "not_finite": "not finite", "least_of_floor": "least distance, floors",
+           "jammed_share": "jammed, % of the ticks in which it is wanted elsewhere",
            "greatest_force_jump": "force jump, of what a tick may do", "hash": "hash"}
 
 
