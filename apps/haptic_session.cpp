@@ -17,14 +17,12 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr double kStiffness_N_per_m = 1000.0;
 constexpr int kFifoPriority = 80;
 /// What a run without an end keeps of its ticks: the last minute.
 constexpr std::size_t kKeptTicks = 60'000;
 
 haptics::Coupling coupling_of(const HapticScene& scene, const devices::DeviceDescriptor& device) {
-  const double radius = scene.part_V->radius();
-  return haptics::coupling_for(device, {kStiffness_N_per_m, kStiffness_N_per_m * radius * radius});
+  return haptics::coupling_for(device, haptics::default_stiffness(*scene.part_V));
 }
 
 haptics::SlidingOptions sliding_options(const haptics::Coupling& coupling, const haptics::SlidingRules& rules) {

@@ -41,7 +41,7 @@ class CandidateSearch {
   /// The surroundings must outlive this object. Requests may have radii up to `greatest_radius` (metres).
   CandidateSearch(const Surroundings& surroundings, double greatest_radius);
 
-  /// Replaces `set`. The answer depends on the request only.
+  /// Replaces `set`. The answer depends on the request only. Throws std::invalid_argument for a pose that is none.
   void find(const CandidateRequest& request, CandidateSet& set);
 
  private:

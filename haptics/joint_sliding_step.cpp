@@ -153,7 +153,7 @@ bool JointSliding::prove(const Displacements& displacements, Step& step) {
     step.lengths[p] = motion_bound(displacements[p], parts_[p].part_V->radius());
     step.length += step.lengths[p];
   }
-  // What is further away than this keep the floor whatever happens on the way.
+  // What is further away than this keeps the floor whatever happens on the way.
   const double concerned = step.length + kFloorOfMargin * largest_margin_ + certificate_.certain_distance();
   failures_.clear();
   if (!candidates_.covers(concerned)) return false;

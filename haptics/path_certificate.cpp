@@ -1,7 +1,8 @@
 #include <cmath>
 
 #include <glissade/haptics/path_certificate.h>
-#include <glissade/haptics/placed_leaf.h>
+
+#include "placed_leaf.h"
 
 namespace glissade::haptics {
 

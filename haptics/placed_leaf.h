@@ -1,6 +1,6 @@
 #pragma once
 
-/// The triangles of a leaf of a tree where they are, to see quickly which of two leaves are near.
+/// Private: the triangles of a leaf of a tree where they are, to see quickly which of two leaves are near.
 
 #include <array>
 #include <cstdint>

@@ -3,6 +3,7 @@
 /// What can touch: the obstacles and the parts in the hands, where they are, and how near they may come.
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -43,7 +44,7 @@ struct BodyPair {
   std::int32_t obstacle;
   std::int32_t part;
 
-  bool operator==(const BodyPair&) const = default;
+  auto operator<=>(const BodyPair&) const = default;
 };
 
 /// A triangle of each of two bodies.
@@ -51,6 +52,8 @@ struct TrianglesOfBodies {
   BodyPair bodies;
   std::int32_t obstacle_triangle;
   std::int32_t part_triangle;
+
+  auto operator<=>(const TrianglesOfBodies&) const = default;
 };
 
 /// A body that stands still. Several may share one mesh.

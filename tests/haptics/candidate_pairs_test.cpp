@@ -25,7 +25,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-using test_support::BodyTriangles;
 using test_support::RandomNumbers;
 
 constexpr double kGreatest = 5e-3;  // metres
@@ -53,29 +52,29 @@ std::vector<Obligation> obligations_within(const CandidatePairs& candidates, dou
   return obligations;
 }
 
-bool can_make_contact(const Surroundings& surroundings, const BodyTriangles& pair) {
+bool can_make_contact(const Surroundings& surroundings, const TrianglesOfBodies& pair) {
   const auto topology_of = [&](std::int32_t body) -> const collision::MeshTopology& {
     return surroundings.bodies()[static_cast<std::size_t>(body)].body->topology;
   };
   return topology_of(pair.bodies.obstacle)
-      .can_stop_each_other(pair.triangle_O, topology_of(pair.bodies.part), pair.triangle_P);
+      .can_stop_each_other(pair.obstacle_triangle, topology_of(pair.bodies.part), pair.part_triangle);
 }
 
 /// A pair of triangles within `reach` that is missing, for proofs or for contacts; empty if none is.
 std::string what_is_missing(const CandidatePairs& candidates, const Surroundings& surroundings, double reach) {
-  std::set<BodyTriangles> for_contacts;
+  std::set<TrianglesOfBodies> for_contacts;
   for (const CandidatePair& c : pairs_within(candidates, reach))
     for_contacts.insert({c.bodies, c.obstacle_triangle, c.part_triangle});
-  std::set<BodyTriangles> for_proofs;
+  std::set<TrianglesOfBodies> for_proofs;
   for (const Obligation& obligation : obligations_within(candidates, reach)) {
-    for (const BodyTriangles& pair : test_support::triangles_of(surroundings.bodies(), obligation))
+    for (const TrianglesOfBodies& pair : test_support::triangles_of(surroundings.bodies(), obligation))
       for_proofs.insert(pair);
   }
   for (const auto& [pair, distance] :
        test_support::near_triangles(surroundings.bodies(), surroundings.obstacles().size(), reach)) {
-    const std::string text = std::to_string(pair.triangle_O) + " of body " + std::to_string(pair.bodies.obstacle) +
-                             " and " + std::to_string(pair.triangle_P) + " of body " +
-                             std::to_string(pair.bodies.part) + " at " + std::to_string(distance);
+    const std::string text = std::to_string(pair.obstacle_triangle) + " of body " +
+                             std::to_string(pair.bodies.obstacle) + " and " + std::to_string(pair.part_triangle) +
+                             " of body " + std::to_string(pair.bodies.part) + " at " + std::to_string(distance);
     if (!for_proofs.contains(pair)) return "for proofs: " + text;
     if (can_make_contact(surroundings, pair) && !for_contacts.contains(pair)) return "for contacts: " + text;
   }

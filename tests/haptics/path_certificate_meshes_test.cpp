@@ -24,7 +24,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-using test_support::BodyTriangles;
 using test_support::RandomNumbers;
 
 /// What came of trying to prove a step.
@@ -68,8 +67,8 @@ std::string what_comes_too_near(const Surroundings& surroundings, const std::vec
     for (const auto& [pair, distance] :
          test_support::near_triangles(bodies, surroundings.obstacles().size(), floor - kRounding)) {
       if (distance >= 0.95 * test_support::distance_of(start, pair) - kRounding) continue;
-      return std::to_string(pair.triangle_O) + " of body " + std::to_string(pair.bodies.obstacle) + " and " +
-             std::to_string(pair.triangle_P) + " of body " + std::to_string(pair.bodies.part) + " are " +
+      return std::to_string(pair.obstacle_triangle) + " of body " + std::to_string(pair.bodies.obstacle) + " and " +
+             std::to_string(pair.part_triangle) + " of body " + std::to_string(pair.bodies.part) + " are " +
              std::to_string(distance / floor) + " floors apart at moment " + std::to_string(i);
     }
   }

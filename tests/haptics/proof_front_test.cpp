@@ -21,7 +21,6 @@ namespace glissade::haptics {
 namespace {
 
 using Eigen::Vector3d;
-using test_support::BodyTriangles;
 using test_support::RandomNumbers;
 
 constexpr double kSize = 0.02;  // metres, of most bodies here
@@ -65,17 +64,17 @@ TEST_F(ProofFront, HoldsEveryPairOfTrianglesWithinTheRadiusOnce) {
     const auto surroundings =
         test_support::random_surroundings(kSize, margin, margin * random_.uniform(0.3, 2.0), random_);
     const double radius = random_.power_of_ten(-4.0, -2.0);
-    std::map<BodyTriangles, int> held;
+    std::map<TrianglesOfBodies, int> held;
     for (const Obligation& obligation : obligations_of(*surroundings, radius)) {
       const bool is_box = obligation.item_O.kind != TreeItem::Kind::kTriangle;
       ++(is_box ? boxes : triangles);
-      for (const BodyTriangles& pair : test_support::triangles_of(surroundings->bodies(), obligation))
+      for (const TrianglesOfBodies& pair : test_support::triangles_of(surroundings->bodies(), obligation))
         ++held[pair];
     }
     for (const auto& [pair, distance] :
          test_support::near_triangles(surroundings->bodies(), surroundings->obstacles().size(), radius)) {
-      ASSERT_EQ(held[pair], 1) << pair.bodies.obstacle << ": " << pair.triangle_O << ", " << pair.bodies.part << ": "
-                               << pair.triangle_P << " at " << distance;
+      ASSERT_EQ(held[pair], 1) << pair.bodies.obstacle << ": " << pair.obstacle_triangle << ", " << pair.bodies.part
+                               << ": " << pair.part_triangle << " at " << distance;
     }
   }
   EXPECT_GT(boxes, 50U);
@@ -93,13 +92,13 @@ TEST_F(ProofFront, TellsLowerBoundsOfDistancesInAscendingOrder) {
                                [](const Obligation& a, const Obligation& b) { return a.distance < b.distance; }));
     for (const Obligation& obligation : obligations) {
       ASSERT_NEAR(obligation.n_W.norm(), 1.0, 1e-12);
-      for (const BodyTriangles& pair : test_support::triangles_of(bodies, obligation)) {
+      for (const TrianglesOfBodies& pair : test_support::triangles_of(bodies, obligation)) {
         constexpr double kRounding = 1e-14;
         const double distance = test_support::distance_of(bodies, pair);
         const auto& O = bodies[static_cast<std::size_t>(pair.bodies.obstacle)];
         const auto& P = bodies[static_cast<std::size_t>(pair.bodies.part)];
         ASSERT_GE(distance, obligation.distance - kRounding);
-        ASSERT_GE(gap_along(obligation.n_W, O.triangle_W(pair.triangle_O), P.triangle_W(pair.triangle_P)),
+        ASSERT_GE(gap_along(obligation.n_W, O.triangle_W(pair.obstacle_triangle), P.triangle_W(pair.part_triangle)),
                   obligation.distance - kRounding)
             << "from the obstacle to the part";
         // A direction between points a micrometre apart is good to 1e-10.

@@ -102,6 +102,37 @@ TEST(TightBoxes, OfSheetsAndToriHoldThemToo) {
   }
 }
 
+/// Two low walls that cross in the middle.
+TriangleMesh crossing_walls() {
+  constexpr double kHeight = 0.02;
+  TriangleMesh mesh;
+  for (const Vector3d& end : {Vector3d(0.3, 0.0, 0.0), Vector3d(0.0, 0.29, 0.0)}) {
+    const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+    const Vector3d up(0.0, 0.0, kHeight);
+    mesh.vertices.insert(mesh.vertices.end(), {-end, end, end + up, up - end});
+    mesh.triangles.insert(mesh.triangles.end(), {{first, first + 1, first + 2}, {first, first + 2, first + 3}});
+  }
+  return mesh;
+}
+
+// The height is the thin direction, and edges of the largest triangle lead the same way but for the rounding of a file;
+// what is across both is no direction at all, though its box would be smaller than those along the walls.
+TEST(TightBoxes, OfLowWallsInSinglePrecisionHaveOrthogonalAxes) {
+  constexpr std::uint64_t kSeed = 34;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  RandomNumbers random(kSeed);
+  for (int trial = 0; trial < test_support::affordable(1000); ++trial) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
+    TriangleMesh mesh = collision::transformed(crossing_walls(), random_pose(1.0, random));
+    for (Vector3d& x : mesh.vertices)
+      x = x.cast<float>().cast<double>();
+    const DopTree tree = tree_of(mesh);
+    for_each_box(tree, TightBoxes(tree), [](const TightBox& box, const std::vector<std::int32_t>& /*triangles*/) {
+      EXPECT_LT((box.axes.transpose() * box.axes - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 16.0 * kEpsilon);
+    });
+  }
+}
+
 // A proof at micrometres needs that: the thickness of a box comes off the gap.
 TEST(TightBoxes, OfPlanePatchesAreAsFlatAsRoundingHoweverTheyLie) {
   constexpr std::uint64_t kSeed = 32;

@@ -84,18 +84,18 @@ void approach(haptics::Surroundings& surroundings, std::size_t part, double far,
 
 }  // namespace
 
-double distance_of(std::span<const PlacedBody> bodies, const BodyTriangles& pair) {
-  return collision::triangle_distance(body_of(bodies, pair.bodies.obstacle).triangle_W(pair.triangle_O),
-                                      body_of(bodies, pair.bodies.part).triangle_W(pair.triangle_P))
+double distance_of(std::span<const PlacedBody> bodies, const haptics::TrianglesOfBodies& pair) {
+  return collision::triangle_distance(body_of(bodies, pair.bodies.obstacle).triangle_W(pair.obstacle_triangle),
+                                      body_of(bodies, pair.bodies.part).triangle_W(pair.part_triangle))
       .distance;
 }
 
-std::map<BodyTriangles, double> near_triangles(std::span<const PlacedBody> bodies, std::size_t first_part,
-                                               double radius) {
+std::map<haptics::TrianglesOfBodies, double> near_triangles(std::span<const PlacedBody> bodies, std::size_t first_part,
+                                                            double radius) {
   std::vector<std::vector<PlacedTriangle>> placed;
   for (const PlacedBody& body : bodies)
     placed.push_back(placed_triangles(body));
-  std::map<BodyTriangles, double> near;
+  std::map<haptics::TrianglesOfBodies, double> near;
   for (std::size_t part = first_part; part < bodies.size(); ++part) {
     for (std::size_t other = 0; other < part; ++other) {
       for (const PlacedTriangle& o : placed[other]) {
@@ -112,9 +112,10 @@ std::map<BodyTriangles, double> near_triangles(std::span<const PlacedBody> bodie
   return near;
 }
 
-std::vector<BodyTriangles> triangles_of(std::span<const PlacedBody> bodies, const haptics::Obligation& obligation) {
+std::vector<haptics::TrianglesOfBodies> triangles_of(std::span<const PlacedBody> bodies,
+                                                     const haptics::Obligation& obligation) {
   const std::vector<std::int32_t> of_P = triangles_of(*body_of(bodies, obligation.bodies.part).body, obligation.item_P);
-  std::vector<BodyTriangles> pairs;
+  std::vector<haptics::TrianglesOfBodies> pairs;
   for (const std::int32_t o : triangles_of(*body_of(bodies, obligation.bodies.obstacle).body, obligation.item_O)) {
     for (const std::int32_t p : of_P)
       pairs.push_back({obligation.bodies, o, p});
