@@ -76,6 +76,14 @@ class FrontSearch final : public collision::NearVisitor {
   std::vector<Obligation>& obligations_;
 };
 
+/// Whether the spheres about two bodies are further apart than `distance` (metres).
+bool are_far_apart(const PlacedBody& a, const PlacedBody& b, double distance) {
+  const collision::DopTree& tree_a = a.body->tree;
+  const collision::DopTree& tree_b = b.body->tree;
+  const double together = tree_a.radius() + tree_b.radius() + distance;
+  return (a.X_WB * tree_a.center() - b.X_WB * tree_b.center()).squaredNorm() > together * together;
+}
+
 }  // namespace
 
 TreeItem child_of(const ContactBody& body, std::uint32_t node, int child) {
@@ -91,6 +99,7 @@ void find_obligations(const Surroundings& surroundings, std::span<const PlacedBo
     for (std::size_t other = 0; other < part; ++other) {
       const BodyPair pair{static_cast<std::int32_t>(other), static_cast<std::int32_t>(part)};
       if (std::find(ignored.begin(), ignored.end(), pair) != ignored.end()) continue;
+      if (are_far_apart(bodies[other], bodies[part], radius)) continue;  // as most are in a scene of many
       FrontSearch search(pair, bodies[other], bodies[part], surroundings.margin(pair.obstacle, pair.part), obligations);
       collision::visit_near(search.tree_O(), search.tree_P(), search.X_OP(), radius, workspace, search);
     }
