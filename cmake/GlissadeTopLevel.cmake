@@ -16,11 +16,18 @@ function(glissade_set_warnings target)
   endif()
 endfunction()
 
-# Compiles the headers once for the whole target where GLISSADE_COMPILE_IN_BULK is on. Elsewhere every file must compile
-# with what it includes itself. The option is ccache's wish.
+# Compiles these headers once for the whole target. clang-tidy goes without that (preset lint), so every file must still
+# include what it uses. The option is ccache's wish.
 function(glissade_precompile target)
-  if(GLISSADE_COMPILE_IN_BULK AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
-    target_precompile_headers(${target} PRIVATE ${ARGN})
+  if(CMAKE_DISABLE_PRECOMPILE_HEADERS)
+    return()
+  endif()
+  target_precompile_headers(${target} PRIVATE ${ARGN})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -fpch-preprocess)
+  endif()
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # The same bug; precompiled headers of the library are no longer exempt from what follows from it.
+    target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-array-bounds)
   endif()
 endfunction()
