@@ -252,6 +252,15 @@ TEST_P(CubeOverPlate, LeavesOutWhatHasCertainlyComeApart) {
   EXPECT_TRUE(obligations_within(candidates_, kReach).empty());
 }
 
+// Nobody knows then which way is apart, so any way may be nearer.
+TEST_P(CubeOverPlate, KeepsWhatWasTooNearToHaveADirection) {
+  move(5e-3 - 0.9 * kSharpDistance_m);
+  candidates_.look(kReach, kAhead, {});
+  move(0.8 * kSharpDistance_m);
+  EXPECT_FALSE(pairs_within(candidates_, 0.2 * kSharpDistance_m).empty());
+  EXPECT_EQ(what_is_missing(candidates_, surroundings_, 0.2 * kSharpDistance_m), "");
+}
+
 TEST_P(CubeOverPlate, APoseThatIsNoneIsAnErrorOfTheCaller) {
   move(0.0);
   candidates_.look(kReach, kAhead, {});

@@ -1,0 +1,195 @@
+// Two parts in random hands among obstacles, close to each other and to these: they push each other about, slide, are
+// let go and taken again, and never is anything inside anything, neither where they are seen nor on the way there.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/collision/brute_force.h>
+#include <glissade/collision/dop_query.h>
+#include <glissade/haptics/joint_sliding.h>
+
+#include "held_part.h"
+#include "near_bodies.h"
+#include "sanitizers.h"
+
+namespace glissade::haptics {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using test_support::RandomNumbers;
+
+constexpr int kTicks = 150;
+constexpr double kMargin_m = 5e-6;
+
+/// A hand that goes for some body, turns, rests, or lets go, for some ticks each.
+class Hand {
+ public:
+  Hand(const Isometry3d& X_WG, double size) : X_WG_(X_WG), size_(size) {}
+
+  void begin(const Vector3d& target_W, RandomNumbers& random) {
+    ticks_left_ = random.integer(5, 40);
+    target_W_ = target_W;
+    speed_ = random.chance(0.2) ? 0.0 : size_ * random.power_of_ten(-4.0, -1.0);
+    axis_ = random.direction();
+    turn_ = random.chance(0.5) ? 0.0 : random.power_of_ten(-4.0, -1.5);
+    holds_ = !random.chance(0.1);
+  }
+  const Isometry3d& next() {
+    --ticks_left_;
+    const Vector3d way = target_W_ - X_WG_.translation();
+    X_WG_.translation() += std::min(1.0, speed_ / std::max(way.norm(), 1e-9)) * way;
+    X_WG_.linear() =
+        (Eigen::AngleAxisd(turn_, axis_) * Eigen::Quaterniond(X_WG_.linear())).normalized().toRotationMatrix();
+    return X_WG_;
+  }
+
+  bool is_done() const { return ticks_left_ <= 0; }
+  bool holds() const { return holds_; }
+
+ private:
+  Isometry3d X_WG_;
+  double size_;
+  int ticks_left_ = 0;
+  Vector3d target_W_ = Vector3d::Zero();
+  Vector3d axis_ = Vector3d::UnitX();
+  double speed_ = 0.0;  // metres in a tick
+  double turn_ = 0.0;   // radians in a tick
+  bool holds_ = true;
+};
+
+/// Where all bodies are, in the order of their numbers.
+std::vector<PlacedBody> placed_bodies(const JointSliding& sliding) {
+  return {sliding.surroundings().bodies().begin(), sliding.surroundings().bodies().end()};
+}
+
+/// Calls `check` with every pair of bodies that must not meet.
+template <typename Check>
+void for_each_pair(const JointSliding& sliding, const Check& check) {
+  const auto bodies = static_cast<std::int32_t>(sliding.surroundings().bodies().size());
+  for (auto part = static_cast<std::int32_t>(sliding.surroundings().obstacles().size()); part < bodies; ++part) {
+    for (std::int32_t other = 0; other < part; ++other)
+      check(BodyPair{other, part});
+  }
+}
+
+Isometry3d relative_pose(const std::vector<PlacedBody>& bodies, const BodyPair& pair) {
+  return bodies[static_cast<std::size_t>(pair.obstacle)].X_WB.inverse(Eigen::Isometry) *
+         bodies[static_cast<std::size_t>(pair.part)].X_WB;
+}
+
+/// Two bodies that meet, in words; empty if none do.
+std::string what_meets(const JointSliding& sliding) {
+  const std::vector<PlacedBody> bodies = placed_bodies(sliding);
+  std::string met;
+  for_each_pair(sliding, [&](const BodyPair& pair) {
+    if (collision::brute_force_intersects(bodies[static_cast<std::size_t>(pair.obstacle)].body->tree.mesh(),
+                                          bodies[static_cast<std::size_t>(pair.part)].body->tree.mesh(),
+                                          relative_pose(bodies, pair))) {
+      met = "bodies " + std::to_string(pair.obstacle) + " and " + std::to_string(pair.part);
+    }
+  });
+  return met;
+}
+
+/// Bodies that come nearer than their floor somewhere on the way of one cycle from where they were; empty if none do.
+/// Both go along their displacements at the same time, so a sheet that passed another would be seen near it.
+std::string what_comes_too_near(const JointSliding& sliding, const std::vector<PlacedBody>& before) {
+  constexpr int kSamples = 8;
+  std::string near;
+  std::vector<PlacedBody> bodies = placed_bodies(sliding);
+  const std::vector<PlacedBody> after = bodies;
+  collision::QueryWorkspace workspace;
+  for (int sample = 1; sample <= kSamples; ++sample) {
+    for (std::size_t p = 0; p < sliding.part_count(); ++p) {
+      const std::size_t body = sliding.surroundings().body_of_part(p);
+      const Vector3d& p_Vref = sliding.part(p).p_Vref();
+      const Displacement d = displacement_between(before[body].X_WB, after[body].X_WB, p_Vref);
+      bodies[body].X_WB =
+          displaced(before[body].X_WB, p_Vref, d.scaled(static_cast<double>(sample) / static_cast<double>(kSamples)));
+    }
+    for_each_pair(sliding, [&](const BodyPair& pair) {
+      const double floor = sliding.surroundings().floor(pair.obstacle, pair.part);
+      const double gap = collision::gap_lower_bound(bodies[static_cast<std::size_t>(pair.obstacle)].body->tree,
+                                                    bodies[static_cast<std::size_t>(pair.part)].body->tree,
+                                                    relative_pose(bodies, pair), workspace, 2.0 * floor);
+      if (gap >= 0.999 * floor) return;
+      near = "bodies " + std::to_string(pair.obstacle) + " and " + std::to_string(pair.part) + " are " +
+             std::to_string(1e6 * gap) + " um apart at sample " + std::to_string(sample);
+    });
+  }
+  return near;
+}
+
+SlidingRules random_rules(RandomNumbers& random) {
+  SlidingRules rules{.max_cycles = random.chance(0.7) ? 1 : 10, .margin = kMargin_m};
+  if (random.chance(0.2)) rules.friction = {.at_rest = 0.4, .sliding = 0.3};
+  return rules;
+}
+
+TEST(JointTorture, NothingIsEverInsideAnything) {
+  constexpr std::uint64_t kSeed = 71;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  RandomNumbers random(kSeed);
+  int pushed_by_each_other = 0;
+  int moved = 0;
+  int paths = 0;
+  for (int trial = 0; trial < test_support::affordable(200); ++trial) {
+    const double size = random.power_of_ten(-2.5, 0.0);
+    const auto surroundings = test_support::random_surroundings(size, kMargin_m, 2.0 * kMargin_m, random);
+    std::vector<HeldPart> parts;
+    std::vector<Hand> hands;
+    for (std::size_t p = 0; p < surroundings->parts().size(); ++p) {
+      const Isometry3d& X_WV = surroundings->bodies()[surroundings->body_of_part(p)].X_WB;
+      parts.push_back({.part_V = surroundings->parts()[p],
+                       .X_WV_start = X_WV,
+                       .metaphor = static_cast<Metaphor>(random.integer(0, std::ssize(kMetaphorNames) - 1))});
+      hands.emplace_back(X_WV, size);
+    }
+    const SlidingRules rules = random_rules(random);
+    const auto obstacles = surroundings->obstacles();
+    JointSliding sliding({obstacles.begin(), obstacles.end()}, parts, rules);
+    for (int tick = 0; tick < kTicks; ++tick) {
+      SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", tick " +
+                   std::to_string(tick) + ", parts of " + std::to_string(size) + " m");
+      const std::vector<PlacedBody> before = placed_bodies(sliding);
+      std::vector<Isometry3d> X_WG;
+      for (std::size_t p = 0; p < hands.size(); ++p) {
+        if (hands[p].is_done()) {
+          const auto body = static_cast<std::size_t>(random.integer(0, static_cast<int>(before.size()) - 1));
+          hands[p].begin(before[body].X_WB * before[body].body->tree.center(), random);
+        }
+        X_WG.push_back(hands[p].next());
+        const bool is_released = sliding.result(p).state == SlidingState::kReleased;
+        if (!hands[p].holds() && !is_released) sliding.release(p);
+        if (hands[p].holds() && is_released) sliding.grasp(p, X_WG[p]);
+      }
+      sliding.advance(X_WG, random.chance(0.1) ? 3.0 : 1.0);
+      ASSERT_EQ(what_meets(sliding), "");
+      if (rules.max_cycles == 1) {
+        ASSERT_EQ(what_comes_too_near(sliding, before), "");
+        ++paths;
+      }
+      for (std::size_t p = 0; p < parts.size(); ++p) {
+        const SlidingResult& result = sliding.result(p);
+        ASSERT_TRUE(result.X_WV.matrix().allFinite());
+        moved += result.X_WV.matrix() != before[sliding.surroundings().body_of_part(p)].X_WB.matrix() ? 1 : 0;
+        pushed_by_each_other +=
+            static_cast<int>(std::count_if(result.contacts.begin(), result.contacts.end(), [&](const Contact& contact) {
+              return contact.force > 0.0 && contact.obstacle >= static_cast<std::int32_t>(obstacles.size());
+            }));
+      }
+    }
+  }
+  EXPECT_GT(moved, 100);
+  EXPECT_GT(paths, 100);
+  EXPECT_GT(pushed_by_each_other, 100);
+}
+
+}  // namespace
+}  // namespace glissade::haptics
