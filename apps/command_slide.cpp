@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -46,6 +47,9 @@ constexpr const char* kFooter =
     "on part and obstacle, the normal from obstacle to part, gap, force along the normal, and age. --patches has the\n"
     "same merged, where contacts lie in one plane: centre and sum of the forces on the part, their number and extent.\n"
     "\n"
+    "Objects of the scene with 'moves: FILE', poses over the same time, move on their own: they push the part out of\n"
+    "their way, and wait where it cannot give way. --moving has one row for each of them and each millisecond.\n"
+    "\n"
     "--anti-jam: a part that stands still for 0.1 s though it is wanted elsewhere is aimed at a spiral round its\n"
     "target, up to 1.6 mm wide, as a hand looks for a hole. --lead-out: an obstacle that overlaps the part at the\n"
     "start does not hold it, but pushes it out at 0.2 m/s at most.\n"
@@ -74,6 +78,7 @@ struct Options {
   bool lead_out = false;
   std::string out;
   SlideContactsFiles contacts;
+  std::string moving;
   std::string summary;
   std::string report;
   double goal_tolerance_m = SlideCheckOptions{}.goal_tolerance_m;
@@ -100,6 +105,10 @@ std::vector<std::string> columns() {
           "vqx", "vqy",  "vqz",  "fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm", "contacts", "state"};
 }
 
+std::vector<std::string> moving_columns() {
+  return {"t_s", "object", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};
+}
+
 void add_pose(CsvWriter& out, const Eigen::Isometry3d& X) {
   Eigen::Quaterniond q(X.linear());
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
@@ -124,12 +133,23 @@ void add_row(CsvWriter& out, double time_s, const haptics::SlidingSimulation& sl
   out.end_row();
 }
 
-std::unique_ptr<haptics::SlidingSimulation> start(const HapticScene& scene, const Eigen::Isometry3d& X_WV_start,
-                                                  const SlideCheckOptions& options, const std::string& trajectory) {
+/// One row for each object that moves on its own.
+void add_moving_rows(CsvWriter& out, double time_s, const HapticScene& scene,
+                     const haptics::SlidingSimulation& sliding) {
+  const std::size_t first = scene.obstacles.size() + 1;
+  for (std::size_t i = 0; i < scene.moving.size(); ++i) {
+    out.add(time_s).add(scene.body_names[first + i]);
+    add_pose(out, sliding.scripted_X_WB()[i]);
+    out.end_row();
+  }
+}
+
+std::unique_ptr<haptics::SlidingSimulation> start(const HapticScene& scene, const devices::PoseTrajectory& trajectory,
+                                                  const SlideCheckOptions& options, const std::string& file) {
   try {
-    return haptics::make_sliding(options.method, scene.obstacles, scene.part_V, X_WV_start, options.sliding);
+    return start_sliding(scene, trajectory, options);
   } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(trajectory + ": " + error.what() + ", the pose of the first row");
+    throw std::runtime_error(file + ": " + error.what());
   }
 }
 
@@ -150,24 +170,28 @@ devices::PoseTrajectory read(const std::string& file) {
 void slide(const HapticScene& scene, const SlideCheckOptions& check_options, const Options& options) {
   const std::string& file = options.trajectories.front();
   const devices::PoseTrajectory trajectory = read(file);
-  const auto sliding = start(scene, trajectory.pose_at(trajectory.first_time()), check_options, file);
+  const auto sliding = start(scene, trajectory, check_options, file);
 
-  using std::chrono::milliseconds;
-  const std::int64_t ticks = trajectory.duration() / milliseconds(1);
+  const std::int64_t ticks = trajectory.duration() / std::chrono::milliseconds(1);
   CsvWriter out(options.out.empty() ? "-" : options.out, columns());
   std::unique_ptr<SlideContactsWriter> contacts;
   if (options.contacts.any()) contacts = std::make_unique<SlideContactsWriter>(options.contacts, scene, *sliding);
+  std::unique_ptr<CsvWriter> moving;
+  if (!options.moving.empty()) {
+    check_names_fit_csv(scene);
+    moving = std::make_unique<CsvWriter>(options.moving, moving_columns());
+  }
   ProgressBar progress("sliding", ticks + 1);
   for (std::int64_t i = 0; i <= ticks; ++i) {
-    const std::chrono::nanoseconds time = trajectory.first_time() + i * milliseconds(1);
-    sliding->advance(trajectory.pose_at(time));
-    const double time_s = std::chrono::duration<double>(time).count();
+    const double time_s = std::chrono::duration<double>(slide_to(i, trajectory, *sliding)).count();
     add_row(out, time_s, *sliding);
     if (contacts) contacts->write(time_s);
+    if (moving) add_moving_rows(*moving, time_s, scene, *sliding);
     progress.update(i + 1);
   }
   out.close();
   if (contacts) contacts->close();
+  if (moving) moving->close();
 }
 
 /// Every trajectory by whatever processor is free.
@@ -223,16 +247,20 @@ haptics::SlidingOptions sliding_options(const Options& options) {
 }
 
 /// Two tables in one file would be none.
-void check_contact_files(const Options& options) {
-  const auto& [contacts, patches] = options.contacts;
-  if (options.is_check() && options.contacts.any()) {
-    throw std::invalid_argument("--contacts, --patches: are for one trajectory, not for a check");
+void check_files(const Options& options) {
+  const std::vector<std::pair<std::string, std::string>> files{{"--out", options.out.empty() ? "-" : options.out},
+                                                               {"--contacts", options.contacts.contacts},
+                                                               {"--patches", options.contacts.patches},
+                                                               {"--moving", options.moving}};
+  if (options.is_check() && (options.contacts.any() || !options.moving.empty())) {
+    throw std::invalid_argument("--contacts, --patches, --moving: are for one trajectory, not for a check");
   }
-  const std::string out = options.out.empty() ? "-" : options.out;
-  if (contacts == out) throw std::invalid_argument("--contacts: " + in_quotes(out) + " is where --out writes");
-  if (patches == out) throw std::invalid_argument("--patches: " + in_quotes(out) + " is where --out writes");
-  if (!contacts.empty() && contacts == patches) {
-    throw std::invalid_argument("--patches: " + in_quotes(patches) + " is where --contacts writes");
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (files[i].second.empty() || files[i].second != files[j].second) continue;
+      throw std::invalid_argument(files[i].first + ": " + in_quotes(files[i].second) + " is where " + files[j].first +
+                                  " writes");
+    }
   }
 }
 
@@ -245,13 +273,17 @@ int run(const Options& options) {
   if (options.is_check() && !options.out.empty()) {
     throw std::invalid_argument("--out: is for the rows of one trajectory; a check writes to --summary and --report");
   }
-  check_contact_files(options);
+  check_files(options);
   for (const std::string& file : options.trajectories) {
     if (options.is_check() && file.find_first_of(",\"\n\r") != std::string::npos) {
       throw std::invalid_argument("--trajectory: " + in_quotes(file) + " has a comma, quote or line break in its name");
     }
   }
   const HapticScene scene = make_haptic_scene(read_scene(options.scene), options.part);
+  if (check_options.method == haptics::SlidingMethod::kPaper && !scene.moving.empty()) {
+    throw std::invalid_argument("--method: the paper's knows nothing that moves on its own, as " +
+                                scene.moving.front().name + " does");
+  }
   if (options.is_check()) return check(scene, check_options, options);
   slide(scene, check_options, options);
   return 0;
@@ -280,6 +312,7 @@ void add_slide_command(CLI::App& app, Command& chosen) {
   command->add_option("--out", options->out, "CSV file for the answer (default: standard output)");
   command->add_option("--contacts", options->contacts.contacts, "CSV file for the contacts, see below");
   command->add_option("--patches", options->contacts.patches, "CSV file for the contacts merged to patches, see below");
+  command->add_option("--moving", options->moving, "CSV file for what moves on its own, see below");
   command->add_option("--summary", options->summary, "CSV file for the check, - for standard output");
   command->add_option("--report", options->report, "Folder for the check as a page, index.html");
   command->add_option("--goal-tolerance-m", options->goal_tolerance_m, "The goal is reached within this")

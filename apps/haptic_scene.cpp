@@ -73,6 +73,10 @@ class Bodies {
 
 HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name) {
   const SceneObject& part = scene.find(part_name);
+  if (part.motion) {
+    throw std::invalid_argument(scene.source + ": object " + in_quotes(part.name) +
+                                " moves on its own, so it cannot be the part in the hand");
+  }
   for (const SceneObject& object : scene.objects)
     check(scene, object);
   HapticScene result;
@@ -84,12 +88,26 @@ HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name) 
 
   Bodies bodies(scene);
   for (const SceneObject& object : scene.objects) {
-    if (object.name == part.name) continue;
+    if (object.name == part.name || object.motion) continue;
     result.obstacles.push_back({bodies.of(object), object.X_WB, in_quotes(object.name), object.margin_m});
-    result.obstacle_names.push_back(object.name);
+    result.body_names.push_back(object.name);
     result.placed_obstacles.push_back({holding(object), object.X_WB});
   }
-  if (result.obstacles.empty()) {
+  result.body_names.push_back(part.name);
+  for (const SceneObject& object : scene.objects) {
+    if (!object.motion) continue;
+    haptics::ScriptedPart& moving = result.moving.emplace_back(
+        haptics::ScriptedPart{make_body<haptics::SlidingPart>(scene, object), object.motion->script_X_WB});
+    moving.grip_N_per_m = object.motion->grip_N_per_m.value_or(moving.grip_N_per_m);
+    moving.name = in_quotes(object.name);
+    result.body_names.push_back(object.name);
+  }
+  if (result.moving.size() >= haptics::kMaxParts) {
+    throw std::invalid_argument(scene.source + ": " + std::to_string(result.moving.size()) +
+                                " objects move on their own; at most " + std::to_string(haptics::kMaxParts - 1) +
+                                " can");
+  }
+  if (result.obstacles.empty() && result.moving.empty()) {
     throw std::invalid_argument(scene.source + ": there is nothing but the part '" + part.name + "' in the scene");
   }
   return result;
@@ -99,10 +117,21 @@ std::string only_movable_object(const Scene& scene) {
   std::vector<std::string> names;
   for (const SceneObject& object : scene.objects) {
     if (object.movable) names.push_back(object.name);
+    if (!object.motion) continue;
+    throw std::invalid_argument(scene.source + ": object " + in_quotes(object.name) +
+                                " moves on its own, which only 'glissade slide' can simulate yet");
   }
   if (names.size() == 1) return names.front();
   throw std::invalid_argument(scene.source + ": one object must be movable, the part in the hand, but " +
                               std::to_string(names.size()) + " are");
+}
+
+void check_names_fit_csv(const HapticScene& scene) {
+  for (const std::string& name : scene.body_names) {
+    if (name.find_first_of(",\"\n\r") == std::string::npos) continue;
+    throw std::invalid_argument(scene.source + ": object " + in_quotes(name) +
+                                " has a comma, quote or line break in its name, which a CSV file cannot hold");
+  }
 }
 
 }  // namespace glissade::apps

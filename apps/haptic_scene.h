@@ -1,6 +1,6 @@
 #pragma once
 
-/// A scene made ready for sliding: one part in the hand, everything else an obstacle.
+/// A scene made ready for sliding: one part in the hand, everything else an obstacle, some of which move.
 
 #include <memory>
 #include <optional>
@@ -11,6 +11,7 @@
 
 #include <glissade/apps/scene_file.h>
 #include <glissade/collision/grid_check.h>
+#include <glissade/haptics/sliding.h>
 #include <glissade/haptics/surroundings.h>
 
 namespace glissade::apps {
@@ -21,7 +22,9 @@ struct HapticScene {
   std::shared_ptr<const haptics::SlidingPart> part_V;
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
   std::vector<haptics::Obstacle> obstacles;
-  std::vector<std::string> obstacle_names;              ///< as the scene file has them
+  std::vector<haptics::ScriptedPart> moving;
+  /// As the scene file has them, by their numbers in contacts: the obstacles, the part, what moves.
+  std::vector<std::string> body_names;
   std::vector<collision::PlacedMesh> placed_obstacles;  ///< the same, less what gives way, for the independent check
   std::optional<Eigen::Isometry3d> X_WGoal;
 };
@@ -31,7 +34,11 @@ struct HapticScene {
 /// m.
 HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name);
 
-/// The name of the one movable object. Throws std::invalid_argument, naming the scene, when there is none or several.
+/// The name of the one movable object, for who lets nothing else move. Throws std::invalid_argument, naming the scene,
+/// when there is none or several, and when another one moves on its own.
 std::string only_movable_object(const Scene& scene);
+
+/// Throws std::invalid_argument, naming scene and object, where a name has what no cell of a CSV file can hold.
+void check_names_fit_csv(const HapticScene& scene);
 
 }  // namespace glissade::apps

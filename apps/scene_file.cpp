@@ -7,6 +7,7 @@
 #include <glissade/apps/pose_rules.h>
 #include <glissade/apps/scene_file.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/trajectory_file.h>
 #include <glissade/apps/yaml_reader.h>
 #include <glissade/collision/mesh_import.h>
 #include <glissade/collision/mesh_operations.h>
@@ -51,7 +52,9 @@ class SceneReader {
   };
 
   SceneObject read_object(const YAML::Node& node) {
-    yaml_.check_keys(node, "object", {"name", "mesh", "shape", "scale", "pose", "movable", "margin_m", "gives_way"});
+    yaml_.check_keys(
+        node, "object",
+        {"name", "mesh", "shape", "scale", "pose", "movable", "moves", "grip_N_per_m", "margin_m", "gives_way"});
     SceneObject object;
     object.name = yaml_.text(yaml_.required(node, "object", "name"), "name");
     const Geometry geometry = read_geometry(node, object.name);
@@ -59,6 +62,11 @@ class SceneReader {
     object.mesh = geometry.mesh;
     if (node["pose"]) object.X_WB = read_pose(node["pose"], "pose");
     if (node["movable"]) object.movable = yaml_.boolean(node["movable"], "movable");
+    if (node["moves"]) object.motion = read_motion(node);
+    if (object.motion) object.X_WB = object.motion->script_X_WB.pose_at(object.motion->script_X_WB.first_time());
+    if (node["grip_N_per_m"] && !object.motion) {
+      yaml_.fail(node["grip_N_per_m"], "grip_N_per_m: is for objects that move, see 'moves'");
+    }
     if (const YAML::Node margin = node["margin_m"]) {
       object.margin_m = yaml_.number(margin, "margin_m");
       if (!(*object.margin_m > 0.0 && *object.margin_m <= haptics::kGreatestMargin_m)) {
@@ -67,6 +75,23 @@ class SceneReader {
     }
     if (node["gives_way"]) object.giving_way = read_giving_way(node["gives_way"], *object.mesh);
     return object;
+  }
+
+  SceneMotion read_motion(const YAML::Node& object) const {
+    for (const char* key : {"pose", "movable", "margin_m"}) {
+      if (object[key]) yaml_.fail(object[key], std::string(key) + ": is not for objects that move, see 'moves'");
+    }
+    const YAML::Node node = object["moves"];
+    std::optional<double> grip;
+    if (const YAML::Node given = object["grip_N_per_m"]) {
+      grip = yaml_.number(given, "grip_N_per_m");
+      if (!(*grip > 0.0)) yaml_.fail(given, "grip_N_per_m: must be positive, not " + in_quotes(given.Scalar()));
+    }
+    try {
+      return {read_trajectory(full_path(yaml_.text(node, "moves"))), grip};
+    } catch (const std::invalid_argument& error) {
+      yaml_.fail(node, std::string("moves: ") + error.what());
+    }
   }
 
   std::vector<std::int32_t> read_giving_way(const YAML::Node& boxes, const TriangleMesh& mesh) const {

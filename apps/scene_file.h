@@ -13,6 +13,10 @@
 ///         margin_m: 2.0e-6                 # contacts hold parts this far away, default that of the part
 ///         gives_way: [{min_m: [0, 0, 0], max_m: [0.1, 0.1, 0.01]}]     # boxes in the object's frame: its triangles
 ///                                          # inside them hold no part, where it overlaps by design when it is seated
+///       - name: lift
+///         mesh: lift.stl
+///         moves: lift.csv                  # poses X_WB over time, relative to the scene file; instead of pose
+///         grip_N_per_m: 1.0e+6             # how stiffly it is held there; 1000 is another hand
 ///     script: hand.csv                     # optional: trajectory of the hand root, relative to the scene file
 ///     goal: {position_m: [0, 0, 0]}        # optional: pose where the movable part should arrive
 
@@ -25,8 +29,15 @@
 #include <Eigen/Geometry>
 
 #include <glissade/collision/triangle_mesh.h>
+#include <glissade/devices/pose_trajectory.h>
 
 namespace glissade::apps {
+
+/// How an object moves on its own, or in the other hand.
+struct SceneMotion {
+  devices::PoseTrajectory script_X_WB;
+  std::optional<double> grip_N_per_m{};
+};
 
 /// One object at its initial pose.
 struct SceneObject {
@@ -34,6 +45,7 @@ struct SceneObject {
   std::shared_ptr<const collision::TriangleMesh> mesh;  ///< in metres, in the object's frame B; equal ones are shared
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   bool movable = false;
+  std::optional<SceneMotion> motion{};
   std::optional<double> margin_m{};
   std::vector<std::int32_t> giving_way{};  ///< triangles, ascending
   std::int64_t degenerate_triangles = 0;   ///< left out of the mesh, see `import_mesh`

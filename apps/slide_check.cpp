@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include <glissade/apps/csv.h>
 #include <glissade/apps/slide_check.h>
@@ -22,20 +23,24 @@ double seconds(std::chrono::nanoseconds time) {
   return std::chrono::duration<double>(time).count();
 }
 
-/// The distance of the visible part from all obstacles.
+/// The distance of the visible part from all that it must not touch.
 class Clearance {
  public:
-  explicit Clearance(const HapticScene& scene) : scene_(scene), workspaces_(scene.obstacles.size()) {}
+  explicit Clearance(const HapticScene& scene)
+      : scene_(scene), workspaces_(scene.obstacles.size() + scene.moving.size()) {}
 
   /// Exact below `limit`.
-  double at(const Eigen::Isometry3d& X_WV, double limit) {
+  double now(const haptics::SlidingSimulation& sliding, double limit) {
     double least = limit;
-    for (std::size_t i = 0; i < workspaces_.size(); ++i) {
-      const haptics::Obstacle& obstacle = scene_.obstacles[i];
-      least = std::min(
-          least, collision::gap_lower_bound(obstacle.body->tree, scene_.part_V->tree,
-                                            obstacle.X_WO.inverse(Eigen::Isometry) * X_WV, workspaces_[i], least));
-    }
+    std::size_t body = 0;
+    const auto look_at = [&](const collision::DopTree& tree, const Eigen::Isometry3d& X_WB) {
+      const Eigen::Isometry3d X_BV = X_WB.inverse(Eigen::Isometry) * sliding.result().X_WV;
+      least = std::min(least, collision::gap_lower_bound(tree, scene_.part_V->tree, X_BV, workspaces_[body++], least));
+    };
+    for (const haptics::Obstacle& obstacle : scene_.obstacles)
+      look_at(obstacle.body->tree, obstacle.X_WO);
+    for (std::size_t i = 0; i < scene_.moving.size(); ++i)
+      look_at(scene_.moving[i].part_B->tree, sliding.scripted_X_WB()[i]);
     return least;
   }
 
@@ -67,6 +72,27 @@ std::string verdict(const SlideCheck& check) {
 
 }  // namespace
 
+std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& scene,
+                                                          const devices::PoseTrajectory& trajectory,
+                                                          const SlideCheckOptions& options) {
+  std::vector<haptics::ScriptedPart> moving = scene.moving;
+  for (haptics::ScriptedPart& part : moving)
+    part.start = trajectory.first_time();
+  try {
+    return haptics::make_sliding(options.method, scene.obstacles, scene.part_V,
+                                 trajectory.pose_at(trajectory.first_time()), options.sliding, std::move(moving));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string(error.what()) + ", the pose of the first row");
+  }
+}
+
+std::chrono::nanoseconds slide_to(std::int64_t tick, const devices::PoseTrajectory& trajectory,
+                                  haptics::SlidingSimulation& sliding) {
+  const std::chrono::nanoseconds time = trajectory.first_time() + tick * milliseconds(1);
+  sliding.advance(trajectory.pose_at(time), tick == 0 ? 0.0 : 1.0);
+  return time;
+}
+
 SlideCheck check_slide(const HapticScene& scene, const devices::PoseTrajectory& trajectory, const std::string& name,
                        const SlideCheckOptions& options) {
   SlideCheck check;
@@ -76,24 +102,22 @@ SlideCheck check_slide(const HapticScene& scene, const devices::PoseTrajectory& 
   check.clearance_min_m = std::numeric_limits<double>::infinity();
   std::unique_ptr<haptics::SlidingSimulation> sliding;
   try {
-    sliding = haptics::make_sliding(options.method, scene.obstacles, scene.part_V,
-                                    trajectory.pose_at(trajectory.first_time()), options.sliding);
+    sliding = start_sliding(scene, trajectory, options);
   } catch (const std::invalid_argument& error) {
-    check.problem = std::string(error.what()) + ", the pose of the first row";
+    check.problem = error.what();
     return check;
   }
   Clearance clearance(scene);
   const std::int64_t ticks = trajectory.duration() / milliseconds(1);
   for (std::int64_t i = 0; i <= ticks; ++i) {
-    const std::chrono::nanoseconds time = i * milliseconds(1);
-    const haptics::SlidingResult& result = sliding->advance(trajectory.pose_at(trajectory.first_time() + time));
+    const std::chrono::nanoseconds time = slide_to(i, trajectory, *sliding) - trajectory.first_time();
     const haptics::Wrench wrench = haptics::spring_wrench(sliding->stiffness(), sliding->error());
     check.force_max_N = std::max(check.force_max_N, wrench.f.norm());
     check.torque_max_Nm = std::max(check.torque_max_Nm, wrench.t.norm());
-    check.contact_s += result.pushing > 0 ? 1e-3 : 0.0;
+    check.contact_s += sliding->result().pushing > 0 ? 1e-3 : 0.0;
     check.force.x.push_back(seconds(time));
     check.force.y.push_back(wrench.f.norm());
-    const double gap = clearance.at(result.X_WV, check.clearance_min_m);
+    const double gap = clearance.now(*sliding, check.clearance_min_m);
     if (gap < check.clearance_min_m) check.clearance_min_at_s = seconds(time);
     check.clearance_min_m = gap;
   }

@@ -2,6 +2,9 @@
 
 /// What became of a part on its way through a scene: the assembly check of one trajectory.
 
+#include <chrono>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +41,16 @@ struct SlideCheck {
   double contact_s = 0.0;  ///< contacts pushed for so long
   PlotSeries force;        ///< newtons over seconds
 };
+
+/// The simulation of the scene from the trajectory's first row on, which is the time on the scripts of what moves.
+/// Throws std::invalid_argument, as one sentence, when that is not free.
+std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& scene,
+                                                          const devices::PoseTrajectory& trajectory,
+                                                          const SlideCheckOptions& options);
+
+/// Goes on to a tick of the trajectory, a millisecond each; the first is tick 0. Returns its time.
+std::chrono::nanoseconds slide_to(std::int64_t tick, const devices::PoseTrajectory& trajectory,
+                                  haptics::SlidingSimulation& sliding);
 
 /// Leads the part along the trajectory in steps of a millisecond, offline, and keeps account. The goal is the scene's,
 /// or else where the trajectory ends. A start that is not free is told as a `problem`. Different checks of one scene

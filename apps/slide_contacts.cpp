@@ -1,9 +1,8 @@
 #include <algorithm>
-#include <stdexcept>
 #include <vector>
 
 #include <glissade/apps/slide_contacts.h>
-#include <glissade/apps/text.h>
+#include <glissade/haptics/motion.h>
 
 namespace glissade::apps {
 namespace {
@@ -34,14 +33,6 @@ void add_vector(CsvWriter& out, const Eigen::Vector3d& vector) {
     out.add(vector[i] + 0.0);
 }
 
-void check_names(const HapticScene& scene) {
-  for (const std::string& name : scene.obstacle_names) {
-    if (name.find_first_of(",\"\n\r") == std::string::npos) continue;
-    throw std::invalid_argument(scene.source + ": object " + in_quotes(name) +
-                                " has a comma, quote or line break in its name, which a list of contacts cannot hold");
-  }
-}
-
 double greatest_margin(const HapticScene& scene, const haptics::SlidingSimulation& sliding) {
   double greatest = sliding.margin();
   for (const haptics::Obstacle& obstacle : scene.obstacles)
@@ -53,14 +44,18 @@ double greatest_margin(const HapticScene& scene, const haptics::SlidingSimulatio
 
 SlideContactsWriter::SlideContactsWriter(const SlideContactsFiles& files, const HapticScene& scene,
                                          const haptics::SlidingSimulation& sliding)
-    : scene_(scene), sliding_(sliding), tracker_(greatest_margin(scene, sliding)), patches_(sliding.part().radius()) {
-  check_names(scene);
+    : scene_(scene),
+      sliding_(sliding),
+      tracker_(greatest_margin(scene, sliding)),
+      patches_(sliding.part().radius()),
+      moving_X_WB_(sliding.scripted_X_WB().begin(), sliding.scripted_X_WB().end()) {
+  check_names_fit_csv(scene);
   if (!files.contacts.empty()) contacts_out_ = std::make_unique<CsvWriter>(files.contacts, contact_columns());
   if (!files.patches.empty()) patches_out_ = std::make_unique<CsvWriter>(files.patches, patch_columns());
 }
 
 void SlideContactsWriter::write(double time_s) {
-  const auto contacts = tracker_.update(sliding_.result());
+  const auto contacts = tracker_.update(sliding_.result(), travel_of_obstacles());
   if (contacts_out_) {
     for (const haptics::TrackedContact& tracked : contacts)
       write_contact(time_s, tracked);
@@ -69,6 +64,19 @@ void SlideContactsWriter::write(double time_s) {
     for (const haptics::ContactPatch& patch : patches_.merge(contacts))
       write_patch(time_s, patch);
   }
+}
+
+/// Metres that no point of what moves on its own has moved more since the last call.
+double SlideContactsWriter::travel_of_obstacles() {
+  double most = 0.0;
+  const auto X_WB = sliding_.scripted_X_WB();
+  for (std::size_t i = 0; i < X_WB.size(); ++i) {
+    const haptics::SlidingPart& part = *scene_.moving[i].part_B;
+    const haptics::Displacement d = haptics::displacement_between(moving_X_WB_[i], X_WB[i], part.p_Vref());
+    most = std::max(most, haptics::motion_bound(d, part.radius()));
+  }
+  moving_X_WB_.assign(X_WB.begin(), X_WB.end());
+  return most;
 }
 
 void SlideContactsWriter::close() {
@@ -80,7 +88,7 @@ void SlideContactsWriter::write_contact(double time_s, const haptics::TrackedCon
   const haptics::Contact& contact = tracked.contact;
   CsvWriter& out = *contacts_out_;
   out.add(time_s).add(tracked.id).add(haptics::name_of(contact.kind)).add(std::int64_t{contact.part_triangle});
-  out.add(scene_.obstacle_names[static_cast<std::size_t>(contact.obstacle)]);
+  out.add(scene_.body_names[static_cast<std::size_t>(contact.obstacle)]);
   out.add(std::int64_t{contact.obstacle_triangle});
   out.add(std::int64_t{contact.part_feature}).add(std::int64_t{contact.obstacle_feature});
   add_vector(out, contact.p_W);
@@ -93,7 +101,7 @@ void SlideContactsWriter::write_contact(double time_s, const haptics::TrackedCon
 
 void SlideContactsWriter::write_patch(double time_s, const haptics::ContactPatch& patch) {
   CsvWriter& out = *patches_out_;
-  out.add(time_s).add(patch.id).add(scene_.obstacle_names[static_cast<std::size_t>(patch.obstacle)]);
+  out.add(time_s).add(patch.id).add(scene_.body_names[static_cast<std::size_t>(patch.obstacle)]);
   out.add(std::int64_t{patch.count});
   add_vector(out, patch.p_W);
   add_vector(out, patch.n_W);

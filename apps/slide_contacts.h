@@ -5,6 +5,9 @@
 
 #include <memory>
 #include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
 
 #include <glissade/apps/csv.h>
 #include <glissade/apps/haptic_scene.h>
@@ -37,6 +40,7 @@ class SlideContactsWriter {
   void close();
 
  private:
+  double travel_of_obstacles();
   void write_contact(double time_s, const haptics::TrackedContact& tracked);
   void write_patch(double time_s, const haptics::ContactPatch& patch);
 
@@ -44,6 +48,7 @@ class SlideContactsWriter {
   const haptics::SlidingSimulation& sliding_;
   haptics::ContactTracker tracker_;
   haptics::ContactPatches patches_;
+  std::vector<Eigen::Isometry3d> moving_X_WB_;  // at the last call
   std::unique_ptr<CsvWriter> contacts_out_;
   std::unique_ptr<CsvWriter> patches_out_;
 };

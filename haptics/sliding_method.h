@@ -31,11 +31,12 @@ inline std::string_view name_of(SlidingMethod method) {
 /// None for any other name.
 std::optional<SlidingMethod> sliding_method_from_name(std::string_view name);
 
-/// The simulation of one part among fixed obstacles. The paper's method takes metaphor and stiffness of the options,
-/// and knows none of the rules. Throws std::invalid_argument as the constructors of `Sliding` and `PaperSliding` do.
+/// The simulation of one part among obstacles. The paper's method takes metaphor and stiffness of the options, and
+/// knows none of the rules and no scripted parts: it throws std::invalid_argument for these. Throws it otherwise as the
+/// constructors of `Sliding` and `PaperSliding` do.
 std::unique_ptr<SlidingSimulation> make_sliding(SlidingMethod method, std::vector<Obstacle> obstacles,
                                                 std::shared_ptr<const SlidingPart> part_V,
-                                                const Eigen::Isometry3d& X_WV_start,
-                                                const SlidingOptions& options = {});
+                                                const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options = {},
+                                                std::vector<ScriptedPart> scripted = {});
 
 }  // namespace glissade::haptics

@@ -2,6 +2,8 @@
 
 /// What every method of sliding contact offers to those who lead a part: the hand takes hold, moves, and lets go.
 
+#include <span>
+
 #include <Eigen/Geometry>
 
 #include <glissade/haptics/contact_body.h>
@@ -41,6 +43,9 @@ class SlidingSimulation {
   virtual const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) = 0;
 
   virtual const SlidingResult& result() const = 0;
+  /// Where parts that scripts move are seen, in the order in which they were given; none where the method knows none.
+  virtual std::span<const Eigen::Isometry3d> scripted_X_WB() const { return {}; }
+
   virtual const SlidingPart& part() const = 0;
   virtual const CouplingStiffness& stiffness() const = 0;
   /// Metres at which contacts hold the part away, where no obstacle has a margin of its own.

@@ -1,0 +1,49 @@
+#include <glissade/haptics/sliding.h>
+
+namespace glissade::haptics {
+namespace {
+
+Eigen::Isometry3d pose_at(const ScriptedPart& part, std::chrono::duration<double, std::milli> since_start) {
+  return part.script_X_WB.pose_at(part.start + std::chrono::round<std::chrono::nanoseconds>(since_start));
+}
+
+std::vector<HeldPart> held_parts(std::shared_ptr<const SlidingPart> part_V, const Eigen::Isometry3d& X_WV_start,
+                                 const SlidingOptions& options, const std::vector<ScriptedPart>& scripted) {
+  std::vector<HeldPart> parts{{.part_V = std::move(part_V),
+                               .X_WV_start = X_WV_start,
+                               .metaphor = options.metaphor,
+                               .stiffness = options.stiffness}};
+  for (const ScriptedPart& part : scripted) {
+    const double radius = part.part_B->radius();
+    parts.push_back({.part_V = part.part_B,
+                     .X_WV_start = pose_at(part, {}),
+                     .metaphor = Metaphor::kRubberBandSpring,  // it lags behind its script by nothing but contacts
+                     .stiffness = CouplingStiffness{part.grip_N_per_m, part.grip_N_per_m * radius * radius},
+                     .name = part.name});
+  }
+  return parts;
+}
+
+}  // namespace
+
+Sliding::Sliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,
+                 const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options, std::vector<ScriptedPart> scripted)
+    : sliding_(std::move(obstacles), held_parts(std::move(part_V), X_WV_start, options, scripted), options.rules),
+      scripted_(std::move(scripted)),
+      ghosts_X_WG_(sliding_.part_count()) {
+  for (std::size_t i = 0; i < scripted_.size(); ++i)
+    scripted_X_WB_.push_back(sliding_.result(i + 1).X_WV);
+}
+
+const SlidingResult& Sliding::advance(const Eigen::Isometry3d& X_WG, double milliseconds) {
+  time_ += std::chrono::duration<double, std::milli>(milliseconds);
+  ghosts_X_WG_[0] = X_WG;
+  for (std::size_t i = 0; i < scripted_.size(); ++i)
+    ghosts_X_WG_[i + 1] = pose_at(scripted_[i], time_);
+  sliding_.advance(ghosts_X_WG_, milliseconds);
+  for (std::size_t i = 0; i < scripted_.size(); ++i)
+    scripted_X_WB_[i] = sliding_.result(i + 1).X_WV;
+  return sliding_.result(0);
+}
+
+}  // namespace glissade::haptics
