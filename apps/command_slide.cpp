@@ -47,8 +47,10 @@ constexpr const char* kFooter =
     "on part and obstacle, the normal from obstacle to part, gap, force along the normal, and age. --patches has the\n"
     "same merged, where contacts lie in one plane: centre and sum of the forces on the part, their number and extent.\n"
     "\n"
-    "Objects of the scene with 'moves: FILE', poses over the same time, move on their own: they push the part out of\n"
-    "their way, and wait where it cannot give way. --moving has one row for each of them and each millisecond.\n"
+    "Objects of the scene with 'moves: FILE', at most three, move on their own, on the clock of the trajectory; "
+    "before\n"
+    "and after their rows they stand still. They push the part out of their way, wait where it cannot give way, and\n"
+    "must not touch anything at first. --moving has one row for each of them and each millisecond.\n"
     "\n"
     "--anti-jam: a part that stands still for 0.1 s though it is wanted elsewhere is aimed at a spiral round its\n"
     "target, up to 1.6 mm wide, as a hand looks for a hole. --lead-out: an obstacle that overlaps the part at the\n"
@@ -177,10 +179,7 @@ void slide(const HapticScene& scene, const SlideCheckOptions& check_options, con
   std::unique_ptr<SlideContactsWriter> contacts;
   if (options.contacts.any()) contacts = std::make_unique<SlideContactsWriter>(options.contacts, scene, *sliding);
   std::unique_ptr<CsvWriter> moving;
-  if (!options.moving.empty()) {
-    check_names_fit_csv(scene);
-    moving = std::make_unique<CsvWriter>(options.moving, moving_columns());
-  }
+  if (!options.moving.empty()) moving = std::make_unique<CsvWriter>(options.moving, moving_columns());
   ProgressBar progress("sliding", ticks + 1);
   for (std::int64_t i = 0; i <= ticks; ++i) {
     const double time_s = std::chrono::duration<double>(slide_to(i, trajectory, *sliding)).count();
@@ -284,6 +283,10 @@ int run(const Options& options) {
     throw std::invalid_argument("--method: the paper's knows nothing that moves on its own, as " +
                                 scene.moving.front().name + " does");
   }
+  if (!options.moving.empty() && scene.moving.empty()) {
+    throw std::invalid_argument("--moving: nothing moves on its own in " + scene.source);
+  }
+  if (options.contacts.any() || !options.moving.empty()) check_names_fit_csv(scene);
   if (options.is_check()) return check(scene, check_options, options);
   slide(scene, check_options, options);
   return 0;

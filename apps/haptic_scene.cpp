@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -77,6 +78,12 @@ HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name) 
     throw std::invalid_argument(scene.source + ": object " + in_quotes(part.name) +
                                 " moves on its own, so it cannot be the part in the hand");
   }
+  const auto movers = std::count_if(scene.objects.begin(), scene.objects.end(),
+                                    [](const SceneObject& object) { return object.motion.has_value(); });
+  if (movers >= static_cast<std::ptrdiff_t>(haptics::kMaxParts)) {
+    throw std::invalid_argument(scene.source + ": " + std::to_string(movers) + " objects move on their own; at most " +
+                                std::to_string(haptics::kMaxParts - 1) + " can");
+  }
   for (const SceneObject& object : scene.objects)
     check(scene, object);
   HapticScene result;
@@ -102,11 +109,6 @@ HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name) 
     moving.name = in_quotes(object.name);
     result.body_names.push_back(object.name);
   }
-  if (result.moving.size() >= haptics::kMaxParts) {
-    throw std::invalid_argument(scene.source + ": " + std::to_string(result.moving.size()) +
-                                " objects move on their own; at most " + std::to_string(haptics::kMaxParts - 1) +
-                                " can");
-  }
   if (result.obstacles.empty() && result.moving.empty()) {
     throw std::invalid_argument(scene.source + ": there is nothing but the part '" + part.name + "' in the scene");
   }
@@ -127,7 +129,9 @@ std::string only_movable_object(const Scene& scene) {
 }
 
 void check_names_fit_csv(const HapticScene& scene) {
-  for (const std::string& name : scene.body_names) {
+  for (std::size_t body = 0; body < scene.body_names.size(); ++body) {
+    const std::string& name = scene.body_names[body];
+    if (body == scene.obstacles.size()) continue;  // the part, which no row tells
     if (name.find_first_of(",\"\n\r") == std::string::npos) continue;
     throw std::invalid_argument(scene.source + ": object " + in_quotes(name) +
                                 " has a comma, quote or line break in its name, which a CSV file cannot hold");

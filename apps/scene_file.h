@@ -15,8 +15,9 @@
 ///                                          # inside them hold no part, where it overlaps by design when it is seated
 ///       - name: lift
 ///         mesh: lift.stl
-///         moves: lift.csv                  # poses X_WB over time, relative to the scene file; instead of pose
-///         grip_N_per_m: 1.0e+6             # how stiffly it is held there; 1000 is another hand
+///         moves: lift.csv                  # poses X_WB over time, relative to the scene file; instead of pose.
+///                                          # Outside its times it stands still; at first it must touch nothing
+///         grip_N_per_m: 1.0e+6             # how stiffly it is held there, default 1e6; 1000 is another hand
 ///     script: hand.csv                     # optional: trajectory of the hand root, relative to the scene file
 ///     goal: {position_m: [0, 0, 0]}        # optional: pose where the movable part should arrive
 
@@ -36,7 +37,7 @@ namespace glissade::apps {
 /// How an object moves on its own, or in the other hand.
 struct SceneMotion {
   devices::PoseTrajectory script_X_WB;
-  std::optional<double> grip_N_per_m{};
+  std::optional<double> grip_N_per_m{};  ///< none: that of `haptics::ScriptedPart`
 };
 
 /// One object at its initial pose.

@@ -82,13 +82,14 @@ std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& sce
     return haptics::make_sliding(options.method, scene.obstacles, scene.part_V,
                                  trajectory.pose_at(trajectory.first_time()), options.sliding, std::move(moving));
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(std::string(error.what()) + ", the pose of the first row");
+    throw std::invalid_argument(std::string(error.what()) + ", at the time of the first row");
   }
 }
 
 std::chrono::nanoseconds slide_to(std::int64_t tick, const devices::PoseTrajectory& trajectory,
                                   haptics::SlidingSimulation& sliding) {
   const std::chrono::nanoseconds time = trajectory.first_time() + tick * milliseconds(1);
+  // The first row tells what is there at its time, and nothing has had time to move.
   sliding.advance(trajectory.pose_at(time), tick == 0 ? 0.0 : 1.0);
   return time;
 }

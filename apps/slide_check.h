@@ -42,13 +42,14 @@ struct SlideCheck {
   PlotSeries force;        ///< newtons over seconds
 };
 
-/// The simulation of the scene from the trajectory's first row on, which is the time on the scripts of what moves.
-/// Throws std::invalid_argument, as one sentence, when that is not free.
+/// The simulation of the scene; it begins at the time and pose of the trajectory's first row, and what moves on its own
+/// begins where it is at that time. Throws std::invalid_argument, as one sentence, where anything is not free then.
 std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& scene,
                                                           const devices::PoseTrajectory& trajectory,
                                                           const SlideCheckOptions& options);
 
-/// Goes on to a tick of the trajectory, a millisecond each; the first is tick 0. Returns its time.
+/// Goes on to a tick of the trajectory and returns its time. Ticks are a millisecond each, and must come in order: 0,
+/// 1, 2 and so on.
 std::chrono::nanoseconds slide_to(std::int64_t tick, const devices::PoseTrajectory& trajectory,
                                   haptics::SlidingSimulation& sliding);
 

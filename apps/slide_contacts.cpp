@@ -49,7 +49,6 @@ SlideContactsWriter::SlideContactsWriter(const SlideContactsFiles& files, const 
       tracker_(greatest_margin(scene, sliding)),
       patches_(sliding.part().radius()),
       moving_X_WB_(sliding.scripted_X_WB().begin(), sliding.scripted_X_WB().end()) {
-  check_names_fit_csv(scene);
   if (!files.contacts.empty()) contacts_out_ = std::make_unique<CsvWriter>(files.contacts, contact_columns());
   if (!files.patches.empty()) patches_out_ = std::make_unique<CsvWriter>(files.patches, patch_columns());
 }

@@ -28,8 +28,8 @@ struct SlideContactsFiles {
 /// Writes what touches, tick by tick. Not thread-safe.
 class SlideContactsWriter {
  public:
-  /// Throws std::invalid_argument when a file cannot be created, and, naming scene and object, for an obstacle whose
-  /// name no cell of a CSV file can hold. `scene` and `sliding` must outlive this object.
+  /// Throws std::invalid_argument when a file cannot be created. The scene's names must fit, see `check_names_fit_csv`;
+  /// `scene` and `sliding` must outlive this object.
   SlideContactsWriter(const SlideContactsFiles& files, const HapticScene& scene,
                       const haptics::SlidingSimulation& sliding);
 

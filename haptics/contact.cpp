@@ -24,6 +24,17 @@ std::string_view name_of(ContactKind kind) {
   return "unknown";
 }
 
+Contact carried(const Contact& contact, const Eigen::Isometry3d& X_W, const Eigen::Isometry3d& X_W_obstacle) {
+  const Eigen::Vector3d p_W = X_W * contact.p_W;
+  const Eigen::Vector3d q_W = X_W_obstacle * contact.q_W();
+  Contact moved = contact;
+  moved.gap = contact.gap + contact.n_W.dot(p_W - contact.p_W) - contact.n_W.dot(q_W - contact.q_W());
+  const bool is_vertex_of_part = contact.kind == ContactKind::kVertexFace || contact.kind == ContactKind::kVertexEdge ||
+                                 contact.kind == ContactKind::kVertexVertex;
+  moved.p_W = is_vertex_of_part ? p_W : Eigen::Vector3d(q_W + moved.gap * contact.n_W);
+  return moved;
+}
+
 Contact mirrored(const Contact& contact, std::int32_t body_of_part, std::int32_t other_part) {
   Contact mirror = contact;
   switch (contact.kind) {

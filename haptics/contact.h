@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace glissade::haptics {
 
@@ -43,6 +43,11 @@ struct Contact {
   /// The contact point on the obstacle, metres.
   Eigen::Vector3d q_W() const { return p_W - gap * n_W; }
 };
+
+/// The contact after its two sides have moved by X_W and, where that moves too, X_W_obstacle (in the world), to first
+/// order: the normal stays; a vertex of the part stays where it is on the part, else the obstacle's point does on it.
+Contact carried(const Contact& contact, const Eigen::Isometry3d& X_W,
+                const Eigen::Isometry3d& X_W_obstacle = Eigen::Isometry3d::Identity());
 
 /// A contact of two parts as the other one sees it: `body_of_part` is the number among the bodies of the part that the
 /// contact was told for, `other_part` the number among the parts of the other.

@@ -69,19 +69,6 @@ bool has_common_feature(const Contact& a, const Contact& b) {
           a.obstacle_feature == b.obstacle_feature);
 }
 
-/// The contact after the part has moved by X_W, to first order. A vertex stays where it is on its own side.
-Contact carried(const Contact& contact, const Eigen::Isometry3d& X_W) {
-  Contact moved = contact;
-  const Eigen::Vector3d p_W = X_W * contact.p_W;
-  moved.gap = contact.gap + contact.n_W.dot(p_W - contact.p_W);
-  if (kinds_of(contact.kind).part == FeatureKind::kVertex) {
-    moved.p_W = p_W;
-  } else {
-    moved.p_W = contact.q_W() + moved.gap * contact.n_W;
-  }
-  return moved;
-}
-
 }  // namespace
 
 std::span<const TrackedContact> ContactTracker::update(const SlidingResult& result, double obstacle_travel) {

@@ -29,7 +29,8 @@ void JointSliding::grasp(std::size_t part, const Eigen::Isometry3d& X_WG) {
   Part& held = parts_[part];
   held.result.X_WG = *rigid;
   let_rest(held, SlidingState::kFree);
-  held.lag_then = displacement_between(held.result.X_WV, *rigid, held.part_V->p_Vref());
+  if (held.metaphor == Metaphor::kForceFeedback)
+    held.offset = displacement_between(*rigid, held.result.X_WV, held.part_V->p_Vref());
 }
 
 void JointSliding::release(std::size_t part) {
@@ -42,6 +43,8 @@ void JointSliding::let_rest(Part& part, SlidingState state) {
   part.result.X_WT = part.result.X_WV;
   part.X_WA = part.result.X_WV;
   part.lag_then = {};
+  part.offset = {};
+  part.closing = 0.0;
   part.anti_jam = AntiJam(part.part_V->radius());
   part.was_moving = false;
   pushed_.clear();
@@ -70,7 +73,7 @@ void JointSliding::advance(std::span<const Eigen::Isometry3d> X_WG, double milli
     part.result.state = classify(part);
     part.lag_then = lag_of(part);
     part.was_moving = part.moved > kNotWorthIt * part.margin;
-    if (!rules_.anti_jam) continue;
+    if (!is_shaken(part)) continue;
     part.anti_jam.observe(part.lag_then, part.moved, part.result.pushing > 0, milliseconds);
   }
 }
@@ -89,8 +92,11 @@ bool JointSliding::take_ghosts(std::span<const Eigen::Isometry3d> X_WG, double m
     part.result.X_WG = *rigid;
     part.ghost_motion =
         motion_bound(displacement_between(part.X_WG_then, *rigid, part.part_V->p_Vref()), part.part_V->radius());
-    part.result.X_WT = wanted_pose(part.metaphor, part.result.X_WV, part.X_WG_then, *rigid, part.part_V->p_Vref());
-    part.X_WA = rules_.anti_jam ? part.anti_jam.aim(part.result.X_WT, part.part_V->p_Vref()) : part.result.X_WT;
+    close_offset(part, kSlew_m * milliseconds);
+    const Eigen::Vector3d& p_Vref = part.part_V->p_Vref();
+    part.result.X_WT = wanted_pose(part.metaphor, part.result.X_WV, part.X_WG_then, *rigid, p_Vref);
+    if (!part.offset.is_zero()) part.result.X_WT = displaced(*rigid, p_Vref, part.offset);
+    part.X_WA = is_shaken(part) ? part.anti_jam.aim(part.result.X_WT, p_Vref) : part.result.X_WT;
   }
   // A part may be pushed by another as fast as the ghost of that one goes.
   const double ghosts = std::accumulate(parts_.begin(), parts_.end(), 0.0,
@@ -99,6 +105,13 @@ bool JointSliding::take_ghosts(std::span<const Eigen::Isometry3d> X_WG, double m
     part.slew = part.metaphor == Metaphor::kForceFeedback ? kSlew_m * milliseconds + ghosts : kUnbounded;
   }
   return any;
+}
+
+/// By at most so many metres for any point of the part.
+void JointSliding::close_offset(Part& part, double most) const {
+  const double left = part.offset.v.norm() + part.part_V->radius() * part.offset.w.norm();
+  part.closing = std::min(left, most);
+  part.offset = part.closing < left ? part.offset.scaled(1.0 - part.closing / left) : Displacement{};
 }
 
 /// Aims parts that overlap something out of it, at most so many metres.
@@ -122,7 +135,7 @@ void JointSliding::aim() {
     if (!is_held(part) || part.metaphor != Metaphor::kRubberBand || overlaps_.way_out_of(p) != nullptr) continue;
     const Eigen::Vector3d& p_Vref = part.part_V->p_Vref();
     part.result.X_WT = wanted_pose(part.metaphor, part.result.X_WV, part.X_WG_then, part.result.X_WG, p_Vref);
-    part.X_WA = rules_.anti_jam ? part.anti_jam.aim(part.result.X_WT, p_Vref) : part.result.X_WT;
+    part.X_WA = is_shaken(part) ? part.anti_jam.aim(part.result.X_WT, p_Vref) : part.result.X_WT;
   }
 }
 
@@ -133,19 +146,15 @@ JointSliding::Step JointSliding::cycle() {
   find_rows();
 
   Displacements wanted;
-  double stiffest = 0.0;
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     const Part& part = parts_[p];
     grips_[p] = is_held(part) ? part.stiffness : kImmovable;
     if (!is_held(part)) continue;
     wanted[p] = displacement_between(part.result.X_WV, part.X_WA, part.part_V->p_Vref());
-    stiffest = std::max(stiffest, part.stiffness.translational);
   }
-  const double energy_before = energy(wanted);
-  // Contacts that ask for their margin back may cost energy; a step that gains any beyond that went over a bend of the
-  // contact that the projection did not see, and is tried again with damping.
-  const double allowance =
-      2.0 * largest_margin_ * std::sqrt(2.0 * energy_before * stiffest) + stiffest * largest_margin_ * largest_margin_;
+  // A step that gains energy beyond this went over a bend of the contact that the projection did not see, and is tried
+  // again with damping.
+  const double most_energy = energy(wanted) + allowance(wanted);
   for (int trial = 0; trial < kDampings; ++trial) {
     Displacements damped;
     for (std::size_t p = 0; p < parts_.size(); ++p)
@@ -162,7 +171,7 @@ JointSliding::Step JointSliding::cycle() {
       remaining[p] =
           displacement_between(displaced(part.result.X_WV, p_Vref, step.displacements[p]), part.X_WA, p_Vref);
     }
-    if (all_arrive || energy(remaining) <= energy_before + allowance) {
+    if (all_arrive || energy(remaining) <= most_energy) {
       damping_ = damping_ < 0.1 ? 0.0 : 0.25 * damping_;
       apply(step);
       return step;
@@ -180,7 +189,7 @@ JointSliding::Step JointSliding::cycle() {
 void JointSliding::look_around() {
   double ghosts = 0.0;
   for (const Part& part : parts_)
-    ghosts += part.ghost_motion;
+    ghosts += part.ghost_motion + part.closing;
   const double ahead = std::clamp(kTicksAhead * ghosts, kLeastLookAhead_m, kMostLookAhead_m);
   if (!candidates_.look(reach_, ahead, overlaps_.pairs())) return;
   raise_floors();
@@ -192,7 +201,7 @@ double JointSliding::choose_reach() const {
   double ghosts = 0.0;
   double slew = 0.0;
   for (const Part& part : parts_) {
-    ghosts += part.ghost_motion;
+    ghosts += part.ghost_motion + part.closing;
     slew = std::max(slew, part.slew);
   }
   double reach = 1.5 * std::max(ghosts, last_step_) + 2.0 * largest_margin_;
@@ -206,6 +215,19 @@ double JointSliding::energy(std::span<const Displacement> errors) const {
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     const CouplingStiffness& k = parts_[p].stiffness;
     sum += 0.5 * (k.translational * errors[p].v.squaredNorm() + k.rotational * errors[p].w.squaredNorm());
+  }
+  return sum;
+}
+
+/// What contacts may cost that ask for their margin back.
+double JointSliding::allowance(std::span<const Displacement> errors) const {
+  double sum = 0.0;
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    if (!is_held(parts_[p])) continue;
+    const CouplingStiffness& k = parts_[p].stiffness;
+    const double squared_pull =
+        k.translational * (k.translational * errors[p].v.squaredNorm() + k.rotational * errors[p].w.squaredNorm());
+    sum += 2.0 * largest_margin_ * std::sqrt(squared_pull) + k.translational * largest_margin_ * largest_margin_;
   }
   return sum;
 }
@@ -254,13 +276,21 @@ void JointSliding::hand_out_contacts() {
   if (parts_.size() == 1) {
     std::swap(parts_.front().result.contacts, contacts_);
   } else {
-    for (Part& part : parts_)
-      part.result.contacts.clear();
-    for (const Contact& contact : contacts_) {
-      const auto number = static_cast<std::size_t>(contact.part);
+    // Each result tells one pose of the contacts, that of its part; so the other side must be where it is now.
+    std::array<Eigen::Isometry3d, kMaxParts> motions;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      SlidingResult& result = parts_[p].result;
+      motions[p] = result.X_WV * result.X_WV_of_contacts.inverse(Eigen::Isometry);
+      result.X_WV_of_contacts = result.X_WV;
+      result.contacts.clear();
+    }
+    for (const Contact& found : contacts_) {
+      const auto number = static_cast<std::size_t>(found.part);
+      const std::int32_t other = found.obstacle - obstacles;
+      const Contact contact = other < 0 ? carried(found, motions[number])
+                                        : carried(found, motions[number], motions[static_cast<std::size_t>(other)]);
       parts_[number].result.contacts.push_back(contact);
-      if (contact.obstacle < obstacles) continue;
-      const std::int32_t other = contact.obstacle - obstacles;
+      if (other < 0) continue;
       parts_[static_cast<std::size_t>(other)].result.contacts.push_back(
           mirrored(contact, static_cast<std::int32_t>(surroundings_.body_of_part(number)), other));
     }

@@ -73,6 +73,7 @@ struct HeldPart {
   /// By default that of `default_stiffness`: k_r = k_t ρ².
   std::optional<CouplingStiffness> stiffness{};
   std::string name = "the part";  ///< for messages
+  bool is_scripted = false;       ///< goes where its script says or waits: it is neither shaken nor led out of anything
 };
 
 /// The simulation of up to kMaxParts parts among fixed obstacles. Deterministic: the same calls give the same bits.
@@ -85,7 +86,8 @@ class JointSliding {
   JointSliding(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const SlidingRules& rules = {});
 
   /// As in `SlidingSimulation`, for one of the parts, which must be below `part_count`. A part that is released stands
-  /// still like an obstacle.
+  /// still like an obstacle. Where a ghost takes hold at an offset under force feedback, the part is wanted where it is
+  /// at first, and from there to the ghost by kSlew_m a millisecond: neither the part jumps nor the force.
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG);
   void release(std::size_t part);
 
@@ -109,13 +111,16 @@ class JointSliding {
     Metaphor metaphor;
     CouplingStiffness stiffness;
     double margin;
+    bool is_scripted;
     AntiJam anti_jam;
     SlidingResult result{};
     Eigen::Isometry3d X_WA = Eigen::Isometry3d::Identity();       // where it is aimed, mostly X_WT
     Eigen::Isometry3d X_WG_then = Eigen::Isometry3d::Identity();  // the ghost in the last call
     double ghost_motion = 0.0;                                    // metres, of this tick
-    bool was_moving = false;                                      // in the last call, which is what friction depends on
-    double moved = 0.0;                                           // metres, in this tick
+    Displacement offset{};    // from the ghost to where the part is wanted, since it was taken hold of
+    double closing = 0.0;     // metres that the offset became less in this tick
+    bool was_moving = false;  // in the last call, which is what friction depends on
+    double moved = 0.0;       // metres, in this tick
     Displacement lag_then{};  // from the part to where it was wanted, at the end of the last call
     double slew = 0.0;        // metres that this lag may change by in this tick
   };
@@ -131,7 +136,9 @@ class JointSliding {
   };
 
   bool is_held(const Part& part) const { return part.result.state != SlidingState::kReleased; }
+  bool is_shaken(const Part& part) const { return rules_.anti_jam && !part.is_scripted; }
   void let_rest(Part& part, SlidingState state);
+  void close_offset(Part& part, double most) const;
   void find_overlaps(const std::vector<HeldPart>& parts);
   void raise_floors();
   double gap_of(const BodyPair& pair, double limit);
@@ -155,6 +162,7 @@ class JointSliding {
   std::array<double, kMaxParts> allowed_fractions(const Displacements& d) const;
   void add_rows_for_failures();
   double energy(std::span<const Displacement> errors) const;
+  double allowance(std::span<const Displacement> errors) const;
   void apply(const Step& step);
   void hand_out_contacts();
   SlidingState classify(const Part& part) const;

@@ -66,6 +66,7 @@ JointSliding::JointSliding(std::vector<Obstacle> obstacles, const std::vector<He
                                           .metaphor = held.metaphor,
                                           .stiffness = held.stiffness.value_or(default_stiffness(*held.part_V)),
                                           .margin = rules.margin.value_or(default_margin(*held.part_V)),
+                                          .is_scripted = held.is_scripted,
                                           .anti_jam = AntiJam(held.part_V->radius())});
     part.result.X_WG = *X_WV;
     part.result.X_WT = *X_WV;
@@ -95,7 +96,7 @@ void JointSliding::find_overlaps(const std::vector<HeldPart>& parts) {
         continue;
       }
       const bool is_obstacle = other < obstacles.size();
-      if (is_obstacle && rules_.overlap == OverlapRule::kLeadOut) {
+      if (is_obstacle && rules_.overlap == OverlapRule::kLeadOut && !parts[p].is_scripted) {
         overlaps_.add(bodies);
         continue;
       }

@@ -17,6 +17,7 @@ struct Displacement {
   Eigen::Vector3d w = Eigen::Vector3d::Zero();
 
   Displacement scaled(double factor) const { return {factor * v, factor * w}; }
+  bool is_zero() const { return v.isZero(0.0) && w.isZero(0.0); }
   Vector6d stacked() const { return (Vector6d() << v, w).finished(); }
 };
 

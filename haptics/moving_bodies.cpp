@@ -23,7 +23,7 @@ void MovingBodies::begin_step(std::span<const Displacement> displacements) {
   for (std::size_t p = 0; p < paths_.size(); ++p) {
     Path& path = paths_[p];
     path.displacement = displacements[p];
-    path.moves = !(displacements[p].v.isZero(0.0) && displacements[p].w.isZero(0.0));
+    path.moves = !displacements[p].is_zero();
     path.motion = motion_bound(displacements[p], path.radius);
     path.known.fill(false);
     path.X_WV_at[0] = surroundings_.bodies()[surroundings_.body_of_part(p)].X_WB;

@@ -19,7 +19,8 @@ std::vector<HeldPart> held_parts(std::shared_ptr<const SlidingPart> part_V, cons
                      .X_WV_start = pose_at(part, {}),
                      .metaphor = Metaphor::kRubberBandSpring,  // it lags behind its script by nothing but contacts
                      .stiffness = CouplingStiffness{part.grip_N_per_m, part.grip_N_per_m * radius * radius},
-                     .name = part.name});
+                     .name = part.name,
+                     .is_scripted = true});
   }
   return parts;
 }

@@ -48,7 +48,7 @@ class Sliding final : public SlidingSimulation {
 
   void grasp(const Eigen::Isometry3d& X_WG) override { sliding_.grasp(0, X_WG); }
   void release() override { sliding_.release(0); }
-  /// Scripts go on by as much, whoever holds the part.
+  /// Scripts go on by as much, whoever holds the part, and whatever X_WG is.
   const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) override;
 
   const SlidingResult& result() const override { return sliding_.result(0); }

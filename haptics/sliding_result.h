@@ -28,7 +28,8 @@ struct SlidingResult {
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< where the metaphor wants the part, see `wanted_pose`
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part
   SlidingState state = SlidingState::kFree;
-  /// The contacts of the last cycle and the pose they were found at; those with a force push.
+  /// The contacts of the last cycle and the pose they were found at; those with a force push. Of several parts they are
+  /// carried along with the last step of both sides, and the pose is X_WV.
   std::vector<Contact> contacts;
   Eigen::Isometry3d X_WV_of_contacts = Eigen::Isometry3d::Identity();
   double reach = 0.0;  ///< metres from that pose within which contacts were looked for

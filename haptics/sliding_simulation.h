@@ -37,9 +37,10 @@ class SlidingSimulation {
   virtual void release() = 0;
 
   /// Moves the visible part to where the metaphor wants it, once per millisecond of motion. The ghost's pose is made a
-  /// rotation and translation by `collision::rigid_pose`; what is no pose to that changes nothing, nor does a call
-  /// while the part is released.
-  /// `milliseconds` is how long ago the last call's ghost was; a caller that comes late may catch up for all of it.
+  /// rotation and translation by `collision::rigid_pose`; what is no pose to that leaves the part where it is, as
+  /// does a call while the part is released.
+  /// `milliseconds`, finite and not negative, is how long ago the last call's ghost was; a caller that comes late may
+  /// catch up for all of it.
   virtual const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) = 0;
 
   virtual const SlidingResult& result() const = 0;

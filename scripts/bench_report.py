@@ -264,10 +264,12 @@ PEG_CASES = {"pegs-0.3mm-0.5deg": "0.3 mm and 0.5°", "pegs-1mm-1.5deg": "1 mm a
              "pegs-1mm-1.5deg-anti-jam": "1 mm and 1.5°, with anti-jam"}
 NUT = {"turns": "turns", "pitch": "pitch, mm", "advance_per_turn": "advance a turn, mm", "worst_deviation": "worst deviation, µm",
        "tick_mean": "ms a tick"}
-TORTURE = {"scenes": "scenes", "milliseconds": "ms", "collisions": "colliding poses", "paths": "paths", "unproved_paths": "not proved",
+TORTURE = {"scenes": "scenes", "milliseconds": "ms", "collisions": "colliding poses", "paths": "paths checked in full",
+           "last_steps": "of which the last step was", "unproved_paths": "not proved",
            "below_floor": "poses too near", "not_finite": "not finite", "least_of_floor": "least distance, floors",
            "jammed_share": "jammed, % of the ticks in which it is wanted elsewhere",
-           "greatest_force_jump": "force jump, of what a tick may do", "hash": "hash"}
+           "off_balance_share": "at rest off balance, % of these", "greatest_force_jump": "force jump, of what a tick may do",
+           "hash": "hash", "hash_again": "again, on other threads"}
 
 
 def peg_table(figures):
@@ -288,7 +290,8 @@ def torture_table(figures):
     if figures.get("torture", "glissade", "scenes") is None:
         return ""
     values = {metric: figures.get("torture", "glissade", metric) for metric in TORTURE}
-    values["jammed_share"] = 100 * figures.get("torture", "glissade", "jammed") / max(1, figures.get("torture", "glissade", "wanted_elsewhere"))
+    for share, metric in {"jammed_share": "jammed", "off_balance_share": "off_balance"}.items():
+        values[share] = 100 * figures.get("torture", "glissade", metric) / max(1, figures.get("torture", "glissade", "wanted_elsewhere"))
     cells = [value if isinstance(value, str) else f"{value:.4g}" if value % 1 else f"{value:.0f}" for value in values.values()]
     return table(["random scenes"] + list(TORTURE.values()), [["glissade"] + cells])
 

@@ -3,6 +3,7 @@
 /// The built program, run as its users do.
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -27,6 +28,25 @@ inline std::vector<std::string> split(const std::string& line) {
   for (std::string cell; std::getline(in, cell, ',');)
     cells.push_back(cell);
   return cells;
+}
+
+/// Rows of CSV below its header, each cell by the name of its column.
+using CsvRow = std::map<std::string, std::string>;
+
+inline std::vector<CsvRow> rows_of(const std::string& csv) {
+  std::istringstream in(csv);
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> header = split(line);
+  std::vector<CsvRow> rows;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> cells = split(line);
+    EXPECT_EQ(cells.size(), header.size()) << line;
+    CsvRow& row = rows.emplace_back();
+    for (std::size_t i = 0; i < std::min(header.size(), cells.size()); ++i)
+      row[header[i]] = cells[i];
+  }
+  return rows;
 }
 
 /// Expects an exit code and one line on standard error that holds every one of `parts`.

@@ -1,7 +1,6 @@
 /// `glissade slide` as an assembly check: a stack of trajectories in, one row for each out, and a page.
 
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -17,23 +16,18 @@ namespace {
 
 using test_support::expect_refused;
 using test_support::ProgramResult;
-using test_support::split;
 
 constexpr double kMargin = 1e-5;
 
 /// The rows by the trajectory's file name, each by column name.
 std::map<std::string, std::map<std::string, double>> parse(const std::string& csv) {
-  std::istringstream in(csv);
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> header = split(line);
   std::map<std::string, std::map<std::string, double>> rows;
-  while (std::getline(in, line)) {
-    const std::vector<std::string> cells = split(line);
-    EXPECT_EQ(cells.size(), header.size()) << line;
-    auto& row = rows[cells.front().substr(cells.front().rfind('/') + 1)];
-    for (std::size_t i = 1; i < cells.size(); ++i)
-      row[header[i]] = std::stod(cells[i]);
+  for (const test_support::CsvRow& cells : test_support::rows_of(csv)) {
+    const std::string& path = cells.at("trajectory");
+    auto& row = rows[path.substr(path.rfind('/') + 1)];
+    for (const auto& [column, cell] : cells) {
+      if (column != "trajectory") row[column] = std::stod(cell);
+    }
   }
   return rows;
 }

@@ -1,11 +1,11 @@
 /// `glissade slide`: a box led over a plane, into a groove and into a corner, as files in and a file out.
 
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include <gtest/gtest.h>
+
+#include <glissade/apps/text.h>
 
 #include "glissade_program.h"
 #include "temporary_folder.h"
@@ -16,7 +16,7 @@ namespace {
 using test_support::expect_fails;
 using test_support::expect_refused;
 using test_support::ProgramResult;
-using test_support::split;
+using test_support::rows_of;
 
 constexpr double kTwoMargins = 20e-6;
 
@@ -24,17 +24,12 @@ constexpr double kTwoMargins = 20e-6;
 using Row = std::map<std::string, double>;
 
 std::vector<Row> parse(const std::string& csv) {
-  std::istringstream in(csv);
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> header = split(line);
   std::vector<Row> rows;
-  while (std::getline(in, line)) {
-    const std::vector<std::string> cells = split(line);
-    EXPECT_EQ(cells.size(), header.size());
+  for (const test_support::CsvRow& cells : rows_of(csv)) {
     Row& row = rows.emplace_back();
-    for (std::size_t i = 0; i + 1 < header.size(); ++i)
-      row[header[i]] = std::stod(cells[i]);
+    for (const auto& [column, cell] : cells) {
+      if (column != "state") row[column] = std::stod(cell);
+    }
   }
   return rows;
 }
@@ -120,23 +115,6 @@ TEST_F(Slide, InACornerItStops) {
   }
 }
 
-/// The rows of a file, each cell by column name.
-std::vector<std::map<std::string, std::string>> cells_of(const std::string& path) {
-  std::ifstream in(path);
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> header = split(line);
-  std::vector<std::map<std::string, std::string>> rows;
-  while (std::getline(in, line)) {
-    const std::vector<std::string> cells = split(line);
-    EXPECT_EQ(cells.size(), header.size()) << line;
-    auto& row = rows.emplace_back();
-    for (std::size_t i = 0; i < header.size() && i < cells.size(); ++i)
-      row[header[i]] = cells[i];
-  }
-  return rows;
-}
-
 TEST_F(Slide, ContactsAndPatchesTellWhatPushes) {
   const std::string hand =
       trajectory("0,0.06,0,0.03,1,0,0,0\n0.1,0.047,0,0.018,1,0,0,0\n0.2,0.047,0.02,0.018,1,0,0,0\n");
@@ -149,7 +127,7 @@ TEST_F(Slide, ContactsAndPatchesTellWhatPushes) {
 
   std::map<std::string, double> force_by_obstacle;
   double force_x = 0.0;
-  for (const auto& row : cells_of(folder.path("contacts.csv"))) {
+  for (const auto& row : rows_of(read_text_file(folder.path("contacts.csv")))) {
     const auto number = [&](const char* column) { return std::stod(row.at(column)); };
     for (const char axis : {'x', 'y', 'z'}) {
       const std::string a(1, axis);
@@ -168,7 +146,7 @@ TEST_F(Slide, ContactsAndPatchesTellWhatPushes) {
   EXPECT_NEAR(force_x, last.at("fx_N"), 0.02);
 
   int patches = 0;
-  for (const auto& row : cells_of(folder.path("patches.csv"))) {
+  for (const auto& row : rows_of(read_text_file(folder.path("patches.csv")))) {
     if (std::stod(row.at("t_s")) != 0.2) continue;
     ++patches;
     EXPECT_NEAR(std::stod(row.at("fx_N")) + std::stod(row.at("fz_N")), force_by_obstacle[row.at("obstacle")], 1e-9);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -18,26 +17,9 @@ namespace {
 
 using test_support::expect_refused;
 using test_support::ProgramResult;
-using test_support::split;
+using test_support::rows_of;
 
 constexpr double kTwoMargins = 20e-6;
-
-/// The rows of a CSV, each by column name.
-std::vector<std::map<std::string, std::string>> parse(const std::string& csv) {
-  std::istringstream in(csv);
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> header = split(line);
-  std::vector<std::map<std::string, std::string>> rows;
-  while (std::getline(in, line)) {
-    const std::vector<std::string> cells = split(line);
-    EXPECT_EQ(cells.size(), header.size()) << line;
-    auto& row = rows.emplace_back();
-    for (std::size_t i = 0; i < header.size(); ++i)
-      row[header[i]] = cells[i];
-  }
-  return rows;
-}
 
 /// A lift of 0.1 × 0.1 × 0.02 m that rises by 10 mm in 0.1 s, 1 s after time zero, and a cube that is held 25 mm above
 /// where it begins: their faces are 5 mm apart.
@@ -70,8 +52,8 @@ TEST_F(SlideAmongMovingObjects, TheyKeepTheTimeOfTheTrajectoryAndPushThePart) {
   const ProgramResult result = test_support::glissade(
       slide(scene(), {"--moving", folder.path("moving.csv"), "--contacts", folder.path("contacts.csv")}));
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
-  const auto rows = parse(result.standard_output);
-  const auto moving = parse(read_text_file(folder.path("moving.csv")));
+  const auto rows = rows_of(result.standard_output);
+  const auto moving = rows_of(read_text_file(folder.path("moving.csv")));
   ASSERT_EQ(rows.size(), 201U);
   ASSERT_EQ(moving.size(), rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -84,7 +66,7 @@ TEST_F(SlideAmongMovingObjects, TheyKeepTheTimeOfTheTrajectoryAndPushThePart) {
   EXPECT_EQ(std::stod(rows[30].at("fz_N")), 0.0) << "it has not come yet";
   EXPECT_NEAR(std::stod(rows.back().at("vz_m")), 0.05, 2.0 * kTwoMargins);
   EXPECT_NEAR(std::stod(rows.back().at("fz_N")), 5.0, 0.05) << "the hand holds 5 mm against 1000 N/m";
-  const auto contacts = parse(read_text_file(folder.path("contacts.csv")));
+  const auto contacts = rows_of(read_text_file(folder.path("contacts.csv")));
   ASSERT_FALSE(contacts.empty());
   for (const auto& contact : contacts)
     EXPECT_EQ(contact.at("obstacle"), "lift");
@@ -93,13 +75,13 @@ TEST_F(SlideAmongMovingObjects, TheyKeepTheTimeOfTheTrajectoryAndPushThePart) {
 TEST_F(SlideAmongMovingObjects, AnotherHandGivesWayAsMuch) {
   const ProgramResult result = test_support::glissade(slide(scene(", grip_N_per_m: 1000")));
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
-  EXPECT_NEAR(std::stod(parse(result.standard_output).back().at("vz_m")), 0.0475, kTwoMargins);
+  EXPECT_NEAR(std::stod(rows_of(result.standard_output).back().at("vz_m")), 0.0475, kTwoMargins);
 }
 
 TEST_F(SlideAmongMovingObjects, ACheckTellsTheClearanceToThem) {
   const ProgramResult result = test_support::glissade(slide(scene(), {"--summary", "-"}));
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
-  const auto rows = parse(result.standard_output);
+  const auto rows = rows_of(result.standard_output);
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_LT(std::stod(rows[0].at("clearance_min_m")), kTwoMargins);
   EXPECT_GT(std::stod(rows[0].at("clearance_min_m")), 0.0);
@@ -115,10 +97,41 @@ TEST_F(SlideAmongMovingObjects, RefusesWhatMakesNoSense) {
   expect_refused(slide(scene(), {"--summary", "-", "--moving", folder.path("moving.csv")}), {"--moving", "check"});
   expect_refused(slide(scene(), {"--out", folder.path("a.csv"), "--moving", folder.path("a.csv")}),
                  {"--moving", "a.csv", "--out"});
-  expect_refused({"demo", "--scene", scene()}, {"scene.yaml", "script"});
+  const std::string with_script = folder.write("demo.yaml", read_text_file(scene()) + "script: hand.csv\n");
+  expect_refused({"demo", "--scene", with_script}, {"demo.yaml", "'lift'", "glissade slide"});
   expect_refused({"run", scene()}, {"scene.yaml", "'lift'", "glissade slide"});
   folder.write("lift.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,zero,1,0,0,0\n");
   expect_refused(slide(scene()), {"scene.yaml:4", "moves", "lift.csv:2", "zero"});
+}
+
+TEST_F(SlideAmongMovingObjects, WhereNothingMovesThereIsNothingToWrite) {
+  const std::string still = folder.write("still.yaml",
+                                         "objects:\n"
+                                         "  - {name: cube, shape: {type: box}}\n"
+                                         "  - {name: floor, shape: {type: plate}, pose: {position_m: [0, 0, -9]}}\n");
+  expect_refused(slide(still, {"--moving", folder.path("moving.csv")}), {"--moving", "still.yaml"});
+}
+
+TEST_F(SlideAmongMovingObjects, EachHasItsOwnName) {
+  const std::string two = folder.write("two.yaml", read_text_file(scene()) +
+                                                       "  - {name: press, moves: press.csv, shape: {type: box, "
+                                                       "size_x_m: 0.1, size_y_m: 0.1, size_z_m: 0.02}}\n");
+  folder.write("press.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n1,0,0,0.08,1,0,0,0\n1.1,0,0,0.064,1,0,0,0\n");
+  const ProgramResult result = test_support::glissade(
+      slide(two, {"--moving", folder.path("moving.csv"), "--patches", folder.path("patches.csv")}));
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  const auto moving = rows_of(read_text_file(folder.path("moving.csv")));
+  ASSERT_EQ(moving.size(), 2U * 201U);
+  EXPECT_EQ(moving[400].at("object"), "lift");
+  EXPECT_EQ(moving[401].at("object"), "press");
+  // Between them there are 24 mm less both halves, for 20 mm of cube; so they leave it no room to move.
+  EXPECT_NEAR(std::stod(moving[401].at("z_m")) - std::stod(moving[400].at("z_m")), 0.04, 2.0 * kTwoMargins);
+  std::map<std::string, double> force;
+  for (const auto& patch : rows_of(read_text_file(folder.path("patches.csv")))) {
+    if (std::stod(patch.at("t_s")) == 1.2) force[patch.at("obstacle")] += std::stod(patch.at("fz_N"));
+  }
+  EXPECT_GT(force["lift"], 100.0);
+  EXPECT_LT(force["press"], -100.0);
 }
 
 TEST_F(SlideAmongMovingObjects, OnlySoManyCanMove) {

@@ -1,10 +1,11 @@
-// Two parts in random hands among obstacles, close to each other and to these: they push each other about, slide, are
-// let go and taken again, and never is anything inside anything, neither where they are seen nor on the way there.
+// One or two parts in random hands among obstacles, close to each other and to these: they push each other about,
+// slide, are let go and taken again. Never is anything inside anything, where they are seen, nor, in calls of one
+// cycle, on the way there; and the lag of a part under force feedback never jumps.
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,7 +14,6 @@
 #include <glissade/collision/dop_query.h>
 #include <glissade/haptics/joint_sliding.h>
 
-#include "held_part.h"
 #include "near_bodies.h"
 #include "sanitizers.h"
 
@@ -97,33 +97,66 @@ std::string what_meets(const JointSliding& sliding) {
   return met;
 }
 
-/// Bodies that come nearer than their floor somewhere on the way of one cycle from where they were; empty if none do.
-/// Both go along their displacements at the same time, so a sheet that passed another would be seen near it.
-std::string what_comes_too_near(const JointSliding& sliding, const std::vector<PlacedBody>& before) {
-  constexpr int kSamples = 8;
-  std::string near;
-  std::vector<PlacedBody> bodies = placed_bodies(sliding);
-  const std::vector<PlacedBody> after = bodies;
-  collision::QueryWorkspace workspace;
-  for (int sample = 1; sample <= kSamples; ++sample) {
+/// Proves that bodies keep their floor on the whole way of one cycle, on which all parts go along their displacements
+/// at the same time: a gap in the middle of a stretch holds for all of it that nothing can have covered since. The
+/// trees' gaps have tests of their own; the certificate has no part in it.
+class PathProof {
+ public:
+  PathProof(const JointSliding& sliding, std::vector<PlacedBody> before)
+      : sliding_(sliding), before_(std::move(before)), bodies_(before_) {
     for (std::size_t p = 0; p < sliding.part_count(); ++p) {
       const std::size_t body = sliding.surroundings().body_of_part(p);
-      const Vector3d& p_Vref = sliding.part(p).p_Vref();
-      const Displacement d = displacement_between(before[body].X_WB, after[body].X_WB, p_Vref);
-      bodies[body].X_WB =
-          displaced(before[body].X_WB, p_Vref, d.scaled(static_cast<double>(sample) / static_cast<double>(kSamples)));
+      displacements_.push_back(displacement_between(before_[body].X_WB, sliding.surroundings().bodies()[body].X_WB,
+                                                    sliding.part(p).p_Vref()));
     }
-    for_each_pair(sliding, [&](const BodyPair& pair) {
-      const double floor = sliding.surroundings().floor(pair.obstacle, pair.part);
-      const double gap = collision::gap_lower_bound(bodies[static_cast<std::size_t>(pair.obstacle)].body->tree,
-                                                    bodies[static_cast<std::size_t>(pair.part)].body->tree,
-                                                    relative_pose(bodies, pair), workspace, 2.0 * floor);
-      if (gap >= 0.999 * floor) return;
-      near = "bodies " + std::to_string(pair.obstacle) + " and " + std::to_string(pair.part) + " are " +
-             std::to_string(1e6 * gap) + " um apart at sample " + std::to_string(sample);
-    });
   }
-  return near;
+
+  /// Two bodies that come nearer than their floor, in words; empty if none do.
+  std::string what_comes_too_near() {
+    std::string near;
+    for_each_pair(sliding_, [&](const BodyPair& pair) {
+      if (!keeps_floor(pair, 0.0, 1.0))
+        near = "bodies " + std::to_string(pair.obstacle) + " and " + std::to_string(pair.part);
+    });
+    return near;
+  }
+
+ private:
+  bool keeps_floor(const BodyPair& pair, double begin, double end) {
+    const double middle = 0.5 * (begin + end);
+    for (std::size_t p = 0; p < displacements_.size(); ++p) {
+      const std::size_t body = sliding_.surroundings().body_of_part(p);
+      bodies_[body].X_WB = displaced(before_[body].X_WB, sliding_.part(p).p_Vref(), displacements_[p].scaled(middle));
+    }
+    const double least = 0.999 * sliding_.surroundings().floor(pair.obstacle, pair.part);
+    const double covered = motion_of(pair.obstacle, 0.5 * (end - begin)) + motion_of(pair.part, 0.5 * (end - begin));
+    const double gap = collision::gap_lower_bound(bodies_[static_cast<std::size_t>(pair.obstacle)].body->tree,
+                                                  bodies_[static_cast<std::size_t>(pair.part)].body->tree,
+                                                  relative_pose(bodies_, pair), workspace_, 2.0 * (least + covered));
+    if (gap >= least + covered) return true;
+    if (gap < least || end - begin < 1e-6) return false;
+    return keeps_floor(pair, begin, middle) && keeps_floor(pair, middle, end);
+  }
+
+  /// Metres that no point of a body moves more than in such a part of the way.
+  double motion_of(std::int32_t body, double fraction) const {
+    const auto first = static_cast<std::int32_t>(sliding_.surroundings().obstacles().size());
+    if (body < first) return 0.0;
+    const auto part = static_cast<std::size_t>(body - first);
+    return motion_bound(displacements_[part].scaled(fraction), sliding_.part(part).radius());
+  }
+
+  const JointSliding& sliding_;
+  std::vector<PlacedBody> before_;
+  std::vector<PlacedBody> bodies_;
+  std::vector<Displacement> displacements_;
+  collision::QueryWorkspace workspace_;
+};
+
+/// By which the coupling's force is: k_t times this, metres.
+Vector3d lag_of(const JointSliding& sliding, std::size_t part) {
+  const SlidingResult& result = sliding.result(part);
+  return displacement_between(result.X_WV, result.X_WT, sliding.part(part).p_Vref()).v;
 }
 
 SlidingRules random_rules(RandomNumbers& random) {
@@ -158,6 +191,9 @@ TEST(JointTorture, NothingIsEverInsideAnything) {
       SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", tick " +
                    std::to_string(tick) + ", parts of " + std::to_string(size) + " m");
       const std::vector<PlacedBody> before = placed_bodies(sliding);
+      const double milliseconds = random.chance(0.1) ? 3.0 : 1.0;
+      double allowed = kSlew_m * milliseconds;
+      std::vector<Vector3d> lags;
       std::vector<Isometry3d> X_WG;
       for (std::size_t p = 0; p < hands.size(); ++p) {
         if (hands[p].is_done()) {
@@ -168,16 +204,22 @@ TEST(JointTorture, NothingIsEverInsideAnything) {
         const bool is_released = sliding.result(p).state == SlidingState::kReleased;
         if (!hands[p].holds() && !is_released) sliding.release(p);
         if (hands[p].holds() && is_released) sliding.grasp(p, X_WG[p]);
+        lags.push_back(lag_of(sliding, p));
+        const Displacement of_ghost = displacement_between(sliding.result(p).X_WG, X_WG[p], sliding.part(p).p_Vref());
+        if (hands[p].holds()) allowed += motion_bound(of_ghost, sliding.part(p).radius());
       }
-      sliding.advance(X_WG, random.chance(0.1) ? 3.0 : 1.0);
+      sliding.advance(X_WG, milliseconds);
       ASSERT_EQ(what_meets(sliding), "");
       if (rules.max_cycles == 1) {
-        ASSERT_EQ(what_comes_too_near(sliding, before), "");
+        ASSERT_EQ(PathProof(sliding, before).what_comes_too_near(), "");
         ++paths;
       }
       for (std::size_t p = 0; p < parts.size(); ++p) {
         const SlidingResult& result = sliding.result(p);
         ASSERT_TRUE(result.X_WV.matrix().allFinite());
+        if (parts[p].metaphor == Metaphor::kForceFeedback) {
+          ASSERT_LE((lag_of(sliding, p) - lags[p]).norm(), allowed * (1.0 + 1e-9));
+        }
         moved += result.X_WV.matrix() != before[sliding.surroundings().body_of_part(p)].X_WB.matrix() ? 1 : 0;
         pushed_by_each_other +=
             static_cast<int>(std::count_if(result.contacts.begin(), result.contacts.end(), [&](const Contact& contact) {
@@ -188,7 +230,7 @@ TEST(JointTorture, NothingIsEverInsideAnything) {
   }
   EXPECT_GT(moved, 100);
   EXPECT_GT(paths, 100);
-  EXPECT_GT(pushed_by_each_other, 100);
+  EXPECT_GT(pushed_by_each_other, 20);
 }
 
 }  // namespace

@@ -112,18 +112,40 @@ TEST(Incremental, GraspAndReleaseAreItsClutch) {
   EXPECT_NEAR(sliding.result().X_WV.translation().x(), 0.2, 1e-12) << "twice the reach of the hand";
 }
 
-TEST(Grasp, AtAnOffsetMovesThePartAtALimitedSpeedUnderForceFeedback) {
+TEST(Grasp, AtAnOffsetMovesThePartAtALimitedSpeedUnderForceFeedbackAndDoesNotPull) {
   Sliding sliding = box_above_floor(Metaphor::kForceFeedback, at(0.0, 0.1));
   sliding.release();
   EXPECT_EQ(sliding.result().state, SlidingState::kReleased);
-  sliding.grasp(at(0.01, 0.1));
-  EXPECT_EQ(sliding.error().v, Vector3d::Zero()) << "taking hold does not pull";
-  for (int i = 1; i <= 49; ++i) {
-    EXPECT_EQ(sliding.advance(at(0.01, 0.1)).state, SlidingState::kCatchingUp);
-    EXPECT_LE(sliding.result().X_WV.translation().x(), i * kSlew_m * (1.0 + 1e-9)) << "call " << i;
+  const Isometry3d X_WG = at(0.01, 0.11, 0.1);
+  sliding.grasp(X_WG);
+  Isometry3d X_WV = sliding.result().X_WV;
+  int calls = 0;
+  while (sliding.result().X_WV.matrix() != X_WG.matrix()) {
+    ASSERT_EQ(sliding.advance(X_WG).state, SlidingState::kFree);
+    ASSERT_EQ(sliding.error().v, Vector3d::Zero()) << "call " << calls;
+    const Displacement d = displacement_between(X_WV, sliding.result().X_WV, sliding.part().p_Vref());
+    ASSERT_LE(motion_bound(d, sliding.part().radius()), kSlew_m * (1.0 + 1e-9)) << "call " << calls;
+    X_WV = sliding.result().X_WV;
+    ++calls;
   }
-  lead(sliding, at(0.01, 0.1), 3);
-  EXPECT_EQ(sliding.result().state, SlidingState::kFree);
+  // 14 mm, and 0.1 rad of a radius of 62 mm.
+  EXPECT_NEAR(calls, (std::sqrt(2.0) * 0.01 + 0.1 * sliding.part().radius()) / kSlew_m, 2.0);
+}
+
+TEST(Grasp, AtAnOffsetBehindTheFloorPullsHarderOnlyAsFastAsTheSlew) {
+  Sliding sliding = box_above_floor(Metaphor::kForceFeedback, at(0.0, kRest + 1e-3));
+  sliding.release();
+  const Isometry3d X_WG = at(0.0, kRest - 9e-3);
+  sliding.grasp(X_WG);
+  Vector3d error = Vector3d::Zero();
+  for (int i = 0; i < 60; ++i) {
+    sliding.advance(X_WG);
+    ASSERT_LE((sliding.error().v - error).norm(), kSlew_m * (1.0 + 1e-9)) << "call " << i;
+    error = sliding.error().v;
+  }
+  EXPECT_NEAR(error.z(), -9e-3, 2.0 * sliding.margin()) << "in the end as hard as any";
+  sliding.release();
+  EXPECT_EQ(sliding.error().v, Vector3d::Zero());
 }
 
 TEST(Grasp, IsLeftAndTakenAThousandTimesWithoutMovingAPartThatPresses) {

@@ -122,6 +122,38 @@ TEST(ScriptedPart, LeavesThePartAloneWhereTheyDoNotMeet) {
   }
 }
 
+TEST(ScriptedPart, IsToldInContactsWhereItIsNow) {
+  // It comes near, by 1 mm in 10 ms, and goes away again, and never touches.
+  ScriptedPart visitor = ram();
+  visitor.script_X_WB = devices::PoseTrajectory({{milliseconds(0), pose({-0.0262, 0.0, 0.0})},
+                                                 {milliseconds(10), pose({-0.0252, 0.0, 0.0})},
+                                                 {milliseconds(20), pose({-0.0262, 0.0, 0.0})}});
+  Sliding sliding = cube_before(visitor, 1.0);
+  int told = 0;
+  for (int i = 0; i < 20; ++i) {
+    sliding.advance(sliding.result().X_WG);
+    const double gap = (x_of(sliding.result().X_WV) - 0.01) - (x_of(sliding.scripted_X_WB()[0]) + 0.02);
+    for (const Contact& contact : sliding.result().contacts) {
+      EXPECT_NEAR(contact.gap, gap, 1e-12) << "call " << i;
+      EXPECT_NEAR(contact.q_W().x(), x_of(sliding.scripted_X_WB()[0]) + 0.02, 1e-12);
+      ++told;
+    }
+  }
+  EXPECT_GT(told, 4);
+}
+
+TEST(ScriptedPart, IsNeitherShakenNorLedOut) {
+  const SlidingOptions options{.rules = {.overlap = OverlapRule::kLeadOut, .anti_jam = true}};
+  Sliding waiting({wall(0.018)}, cube(0.02), pose({0.005, 0.0, 0.0}), options, {ram()});
+  wait(waiting, 200);
+  const Isometry3d X_WB = waiting.scripted_X_WB()[0];
+  for (int i = 0; i < 500; ++i) {
+    wait(waiting, 1);
+    ASSERT_LT((waiting.scripted_X_WB()[0].translation() - X_WB.translation()).norm(), kTwoMargins) << "call " << i;
+  }
+  EXPECT_THROW(Sliding({wall(-0.03)}, cube(0.02), pose({0.1, 0.0, 0.0}), options, {ram()}), std::invalid_argument);
+}
+
 TEST(ScriptedPart, IsRefusedWhereItCollidesAtItsStart) {
   ScriptedPart inside = ram();
   inside.start = milliseconds(90);

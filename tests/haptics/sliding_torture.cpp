@@ -142,8 +142,8 @@ void print(const TortureCounts& c, double seconds) {
   std::fflush(stdout);  // with --again there is a long way to go
 }
 
-/// The figures of `print` as rows of figure, value and unit.
-void write_csv(const std::string& path, const TortureCounts& c) {
+/// The figures of `print` as rows of figure, value and unit; `again` is the hash of a second run, if there was one.
+void write_csv(const std::string& path, const TortureCounts& c, const std::string& again) {
   std::ofstream file(path);
   file.precision(9);
   const auto row = [&](const char* figure, auto value, const char* unit) {
@@ -152,15 +152,18 @@ void write_csv(const std::string& path, const TortureCounts& c) {
   row("scenes", c.scenes, "1");
   row("milliseconds", c.ticks, "1");
   row("collisions", c.collisions, "1");
-  row("paths", c.paths + c.partial_paths, "1");
+  row("paths", c.paths, "1");
+  row("last_steps", c.partial_paths, "1");
   row("unproved_paths", c.unproved_paths, "1");
   row("below_floor", c.below_floor, "1");
   row("least_of_floor", c.least_of_floor, "x");
   row("not_finite", c.not_finite, "1");
   row("wanted_elsewhere", c.wanted, "1");
   row("jammed", c.jammed, "1");
+  row("off_balance", c.unbalanced, "1");
   row("greatest_force_jump", c.force_jump, "x");
   row("hash", hash_of(c).c_str(), "hex");
+  if (!again.empty()) row("hash_again", again.c_str(), "hex");
   file.close();
   if (!file) throw std::runtime_error(path + ": cannot be written");
 }
@@ -179,16 +182,18 @@ bool torture(const Arguments& arguments) {
   const Stopwatch watch;
   const TortureCounts counts = run_all(arguments, {.scenes = arguments.threads});
   print(counts, watch.seconds());
-  if (!arguments.csv.empty()) write_csv(arguments.csv, counts);
   bool sound = counts.fault_count == 0 && counts.not_finite == 0 && keeps_promises(counts);
+  std::string again;
   if (arguments.again) {
     const int threads = arguments.threads == 1 ? 2 : 1;
     const TortureCounts second = run_all(arguments, {.scenes = threads, .has_search = true});
     const bool same = second.hash == counts.hash;
+    again = hash_of(second);
     std::printf("again on %d thread%s, each scene with a search thread: hash %s\n", threads, threads == 1 ? "" : "s",
                 same ? "the same" : "DIFFERENT");
     sound = sound && same;
   }
+  if (!arguments.csv.empty()) write_csv(arguments.csv, counts, again);
   return sound;
 }
 
@@ -214,7 +219,8 @@ int main(int argc, char** argv) {
   app.add_flag("--again", arguments.again,
                "Run all of it again on another number of threads, with search threads, and compare the hashes");
   app.add_flag("--quiet", arguments.quiet, "No progress");
-  app.add_option("--csv", arguments.csv, "Write the figures of the first run to this file: figure,value,unit");
+  app.add_option("--csv", arguments.csv,
+                 "Write the figures of the first run, and the hash of the second, to this file: figure,value,unit");
   CLI11_PARSE(app, argc, argv);
   if (kSanitized) arguments.scenes = std::max<std::int64_t>(1, arguments.scenes / 20);
   try {

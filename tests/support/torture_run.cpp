@@ -147,8 +147,9 @@ class TortureRun {
       const double ghost_motion = grasps ? 0.0 : length(between(X_WG_then, result.X_WG));
       check_force(ghost_motion);
       check_progress(length(between(X_WV_then, result.X_WV)), ghost_motion);
+    } else {
+      force_.setZero();  // letting go takes it away at once
     }
-    was_held_ = hand_.holds();
   }
 
   void record(const SlidingResult& result) {
@@ -206,7 +207,7 @@ class TortureRun {
     const Vector3d force = spring_wrench(sliding_.stiffness(), sliding_.error()).f;
     if (!force.allFinite()) ++counts_.not_finite;
     const double allowed = sliding_.stiffness().translational * (kSlew_m * milliseconds_ + ghost_motion);
-    if (was_held_ && metaphor_ == Metaphor::kForceFeedback)
+    if (metaphor_ == Metaphor::kForceFeedback)
       counts_.force_jump = std::max(counts_.force_jump, (force - force_).norm() / allowed);
     force_ = force;
   }
@@ -286,7 +287,6 @@ class TortureRun {
   double distance_;
   double start_distance_;
   bool started_near_;
-  bool was_held_ = false;
   Vector3d force_ = Vector3d::Zero();
   int tick_ = 0;
   std::vector<ConstraintRow> rows_;
