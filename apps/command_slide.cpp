@@ -21,6 +21,7 @@
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
 #include <glissade/haptics/coupling.h>
+#include <glissade/haptics/paper_sliding.h>
 #include <glissade/haptics/sliding_method.h>
 
 namespace glissade::apps {
@@ -58,7 +59,8 @@ constexpr const char* kFooter =
     "\n"
     "Methods:\n"
     "  projection          the default: contacts within reach, projection, and a proof for every step\n"
-    "  paper               the founding paper's: bisection to the contact, its class, a new direction; for comparison\n"
+    "  paper               the founding paper's, for comparison: bisection to the contact, its class, a new\n"
+    "                      direction; a column more tells the states of its machine that each row went through\n"
     "\n"
     "Several trajectories, or --summary or --report, ask for an assembly check: one row for each trajectory, which\n"
     "tells whether the part came to the scene's goal (or else to where its trajectory ends), how far from it it was\n"
@@ -102,9 +104,12 @@ haptics::SlidingMethod parse_method(const std::string& name) {
   throw std::invalid_argument("--method: '" + name + "' is unknown; known are " + joined(haptics::kSlidingMethodNames));
 }
 
-std::vector<std::string> columns() {
-  return {"t_s", "gx_m", "gy_m", "gz_m", "gqw",  "gqx",  "gqy",   "gqz",   "vx_m",  "vy_m",     "vz_m", "vqw",
-          "vqx", "vqy",  "vqz",  "fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm", "contacts", "state"};
+std::vector<std::string> columns(haptics::SlidingMethod method) {
+  std::vector<std::string> names{"t_s",  "gx_m", "gy_m",  "gz_m",  "gqw",   "gqx",      "gqy",  "gqz",
+                                 "vx_m", "vy_m", "vz_m",  "vqw",   "vqx",   "vqy",      "vqz",  "fx_N",
+                                 "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm", "contacts", "state"};
+  if (method == haptics::SlidingMethod::kPaper) names.emplace_back("states");
+  return names;
 }
 
 std::vector<std::string> moving_columns() {
@@ -132,6 +137,13 @@ void add_row(CsvWriter& out, double time_s, const haptics::SlidingSimulation& sl
   for (int i = 0; i < 3; ++i)
     out.add(wrench.t[i] + 0.0);
   out.add(std::int64_t{result.pushing}).add(haptics::name_of(result.state));
+  // The other method has no machine that runs through states within a call.
+  if (const auto* paper = dynamic_cast<const haptics::PaperSliding*>(&sliding)) {
+    std::string states;
+    for (const haptics::PaperState state : paper->states())
+      states += (states.empty() ? "" : ">") + std::string(haptics::name_of(state));
+    out.add(states);
+  }
   out.end_row();
 }
 
@@ -175,7 +187,7 @@ void slide(const HapticScene& scene, const SlideCheckOptions& check_options, con
   const auto sliding = start(scene, trajectory, check_options, file);
 
   const std::int64_t ticks = trajectory.duration() / std::chrono::milliseconds(1);
-  CsvWriter out(options.out.empty() ? "-" : options.out, columns());
+  CsvWriter out(options.out.empty() ? "-" : options.out, columns(check_options.method));
   std::unique_ptr<SlideContactsWriter> contacts;
   if (options.contacts.any()) contacts = std::make_unique<SlideContactsWriter>(options.contacts, scene, *sliding);
   std::unique_ptr<CsvWriter> moving;

@@ -39,7 +39,7 @@ namespace glissade::haptics {
 /// jumps out of the force where the part snaps into a gap.
 inline constexpr double kSlew_m = 0.2e-3;
 
-/// What becomes of a part that overlaps an obstacle when it is taken hold of.
+/// What becomes of a part that overlaps an obstacle at its start; two parts must not.
 enum class OverlapRule : std::uint8_t {
   kRefuse,  ///< it cannot be held there
   /// The part goes a short way out, straight and without turning, by kSlew_m a millisecond, wherever the hand wants it;
