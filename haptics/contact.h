@@ -17,7 +17,7 @@ enum class ContactKind : std::uint8_t {
   kVertexEdge,
   kEdgeVertex,
   kVertexVertex,
-  kOverlap,  ///< the part is being led out of an obstacle that overlapped it when it was taken hold of
+  kOverlap,  ///< the part is being led out of an obstacle that overlapped it at its start
 };
 
 std::string_view name_of(ContactKind kind);

@@ -28,9 +28,10 @@ void JointSliding::grasp(std::size_t part, const Eigen::Isometry3d& X_WG) {
   if (!rigid) return;
   Part& held = parts_[part];
   held.result.X_WG = *rigid;
-  let_rest(held, SlidingState::kFree);
+  const bool holds_on = is_held(held) && held.metaphor == Metaphor::kForceFeedback;  // with what lag there is
+  if (!holds_on) let_rest(held, SlidingState::kFree);
   if (held.metaphor == Metaphor::kForceFeedback)
-    held.offset = displacement_between(*rigid, held.result.X_WV, held.part_V->p_Vref());
+    held.offset = displacement_between(*rigid, held.result.X_WT, held.part_V->p_Vref());
 }
 
 void JointSliding::release(std::size_t part) {
@@ -69,7 +70,8 @@ void JointSliding::advance(std::span<const Eigen::Isometry3d> X_WG, double milli
   for (Part& part : parts_) {
     if (!is_held(part)) continue;
     part.result.cycles = cycles;
-    part.result.reach = reach_;
+    // Of several parts the contacts are told for where the last step has led.
+    part.result.reach = parts_.size() == 1 ? reach_ : std::max(0.0, reach_ - last_step_);
     part.result.state = classify(part);
     part.lag_then = lag_of(part);
     part.was_moving = part.moved > kNotWorthIt * part.margin;
@@ -92,7 +94,7 @@ bool JointSliding::take_ghosts(std::span<const Eigen::Isometry3d> X_WG, double m
     part.result.X_WG = *rigid;
     part.ghost_motion =
         motion_bound(displacement_between(part.X_WG_then, *rigid, part.part_V->p_Vref()), part.part_V->radius());
-    close_offset(part, kSlew_m * milliseconds);
+    if (overlaps_.way_out_of(p) == nullptr) close_offset(part, kSlew_m * milliseconds);
     const Eigen::Vector3d& p_Vref = part.part_V->p_Vref();
     part.result.X_WT = wanted_pose(part.metaphor, part.result.X_WV, part.X_WG_then, *rigid, p_Vref);
     if (!part.offset.is_zero()) part.result.X_WT = displaced(*rigid, p_Vref, part.offset);
@@ -270,7 +272,8 @@ void JointSliding::hand_out_contacts() {
     contact.part = way.bodies.part - obstacles;
     contact.obstacle = way.bodies.obstacle;
     contact.n_W = way.n_W;
-    contact.p_W = reference_point(static_cast<std::size_t>(contact.part));
+    const Part& part = parts_[static_cast<std::size_t>(contact.part)];
+    contact.p_W = part.result.X_WV_of_contacts * part.part_V->p_Vref();
     contact.gap = -way.depth;
   }
   if (parts_.size() == 1) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Obstacles that overlap a part when it is taken hold of, and how it is led out of them.
+/// Obstacles that overlap a part at its start, and how it is led out of them.
 
 #include <optional>
 #include <span>

@@ -25,7 +25,8 @@ std::string_view name_of(SlidingState state);
 /// What one call of `advance` led to.
 struct SlidingResult {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< the ghost
-  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< where the metaphor wants the part, see `wanted_pose`
+  Eigen::Isometry3d X_WT =
+      Eigen::Isometry3d::Identity();  ///< where the metaphor wants the part, see `wanted_pose` and `grasp`
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part
   SlidingState state = SlidingState::kFree;
   /// The contacts of the last cycle and the pose they were found at; those with a force push. Of several parts they are

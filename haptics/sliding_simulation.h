@@ -28,7 +28,8 @@ class SlidingSimulation {
   virtual ~SlidingSimulation() = default;
 
   /// The hand takes hold of the part, or takes another hold of it: the ghost is at X_WG from now on, wherever the part
-  /// is. Nothing moves yet. Where ghost and part do not coincide, `force-feedback` closes the gap at its limited speed,
+  /// is. Nothing moves yet. Where ghost and part do not coincide, `force-feedback` closes the gap at its limited speed
+  /// (`Sliding` without pulling, `PaperSliding` against its full spring),
   /// the rubber bands at once, and `incremental` leaves it as it is, which makes this and `release` its clutch. Needed
   /// only after `release`. A pose that is none to `collision::rigid_pose` changes nothing.
   virtual void grasp(const Eigen::Isometry3d& X_WG) = 0;

@@ -1,4 +1,4 @@
-// Parts that overlap when they are taken hold of, obstacles that give way or have margins of their own, parts that are
+// Parts that overlap at their start, obstacles that give way or have margins of their own, parts that are
 // shaken: what is not plain contact, and its limits.
 
 #include <algorithm>
