@@ -94,7 +94,7 @@ bool JointSliding::take_ghosts(std::span<const Eigen::Isometry3d> X_WG, double m
     part.result.X_WG = *rigid;
     part.ghost_motion =
         motion_bound(displacement_between(part.X_WG_then, *rigid, part.part_V->p_Vref()), part.part_V->radius());
-    if (overlaps_.way_out_of(p) == nullptr) close_offset(part, kSlew_m * milliseconds);
+    close_offset(part, kClosing_m * milliseconds);
     const Eigen::Vector3d& p_Vref = part.part_V->p_Vref();
     part.result.X_WT = wanted_pose(part.metaphor, part.result.X_WV, part.X_WG_then, *rigid, p_Vref);
     if (!part.offset.is_zero()) part.result.X_WT = displaced(*rigid, p_Vref, part.offset);

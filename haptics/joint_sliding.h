@@ -39,6 +39,10 @@ namespace glissade::haptics {
 /// jumps out of the force where the part snaps into a gap.
 inline constexpr double kSlew_m = 0.2e-3;
 
+/// How fast the offset of a grasp closes under force feedback, metres a millisecond: half of the slew, so that the part
+/// can slide and be led meanwhile.
+inline constexpr double kClosing_m = 0.5 * kSlew_m;
+
 /// What becomes of a part that overlaps an obstacle at its start; two parts must not.
 enum class OverlapRule : std::uint8_t {
   kRefuse,  ///< it cannot be held there
@@ -86,9 +90,8 @@ class JointSliding {
   JointSliding(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const SlidingRules& rules = {});
 
   /// As in `SlidingSimulation`, for one of the parts, which must be below `part_count`. A part that is released stands
-  /// still like an obstacle. Where a ghost takes hold at an offset under force feedback, the part is wanted where it
-  /// was wanted before, or where it is, and from there to the ghost by kSlew_m a millisecond, but not while it is led
-  /// out: neither the part jumps nor the force.
+  /// still like an obstacle. Where a ghost takes hold at an offset under force feedback, the part is wanted where it was
+  /// wanted before, or where it is, and from there to the ghost by kClosing_m a millisecond: neither part nor force jumps.
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG);
   void release(std::size_t part);
 
