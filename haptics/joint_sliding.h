@@ -90,8 +90,9 @@ class JointSliding {
   JointSliding(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const SlidingRules& rules = {});
 
   /// As in `SlidingSimulation`, for one of the parts, which must be below `part_count`. A part that is released stands
-  /// still like an obstacle. Where a ghost takes hold at an offset under force feedback, the part is wanted where it was
-  /// wanted before, or where it is, and from there to the ghost by kClosing_m a millisecond: neither part nor force jumps.
+  /// still like an obstacle. Where a ghost takes hold at an offset under force feedback, the part is wanted where it
+  /// was wanted before, or where it is, and from there to the ghost by kClosing_m a millisecond: neither part nor force
+  /// jumps.
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG);
   void release(std::size_t part);
 
