@@ -265,7 +265,7 @@ PEG_CASES = {"pegs-0.3mm-0.5deg": "0.3 mm and 0.5°", "pegs-1mm-1.5deg": "1 mm a
 NUT = {"turns": "turns", "pitch": "pitch, mm", "advance_per_turn": "advance a turn, mm", "worst_deviation": "worst deviation, µm",
        "tick_mean": "ms a tick"}
 TORTURE = {"scenes": "scenes", "milliseconds": "ms", "collisions": "colliding poses", "paths": "paths checked in full",
-           "last_steps": "of which the last step was", "unproved_paths": "not proved",
+           "last_steps": "others, of which the last step was", "unproved_paths": "not proved",
            "below_floor": "poses too near", "not_finite": "not finite", "least_of_floor": "least distance, floors",
            "jammed_share": "jammed, % of the ticks in which it is wanted elsewhere",
            "off_balance_share": "at rest off balance, % of these", "greatest_force_jump": "force jump, of what a tick may do",
