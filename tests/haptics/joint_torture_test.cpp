@@ -24,6 +24,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using test_support::RandomNumbers;
 
+constexpr int kTrials = test_support::kSanitized ? 40 : 200;
 constexpr int kTicks = 150;
 constexpr double kMargin_m = 5e-6;
 
@@ -173,7 +174,7 @@ TEST(JointTorture, NothingIsEverInsideAnything) {
   int grasps_at_an_offset = 0;  // under force feedback
   int moved = 0;
   int paths = 0;
-  for (int trial = 0; trial < test_support::affordable(200); ++trial) {
+  for (int trial = 0; trial < kTrials; ++trial) {
     const double size = random.power_of_ten(-2.5, 0.0);
     const auto surroundings = test_support::random_surroundings(size, kMargin_m, 2.0 * kMargin_m, random);
     std::vector<HeldPart> parts;
@@ -237,7 +238,7 @@ TEST(JointTorture, NothingIsEverInsideAnything) {
   EXPECT_GT(paths, 100);
   RecordProperty("pushed_by_each_other", pushed_by_each_other);
   RecordProperty("grasps_at_an_offset", grasps_at_an_offset);
-  // So few, for the ten trials that sanitizers afford.
+  // So few, for the forty trials that sanitizers afford.
   EXPECT_GT(pushed_by_each_other, 20);
   EXPECT_GT(grasps_at_an_offset, 0);
 }
