@@ -33,7 +33,7 @@ function(glissade_add_component name)
   if(GLISSADE_COMPILE_IN_BULK)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 20)
     # Warnings about what stands in other files of the component; the release build warns of the rest.
-    target_compile_options(${target} PRIVATE -Wno-shadow -Wno-subobject-linkage)
+    target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
     # Highway's kernels include themselves once for each instruction set.
     foreach(source IN LISTS ARG_SOURCES)
       file(STRINGS ${source} is_kernel REGEX "foreach_target\\.h")

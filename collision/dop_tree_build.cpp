@@ -19,7 +19,14 @@ constexpr std::size_t kSweepAtMost = 64;  // so few triangles are sorted rather 
 
 // Triangles worth a task of their own. oneTBB's hand-over of tasks is not visible to the thread sanitizer, which would
 // see a race in every triangle.
-#ifdef __SANITIZE_THREAD__
+#if defined(__SANITIZE_THREAD__)
+#define GLISSADE_THREAD_SANITIZER
+#elif defined(__has_feature)  // clang's way to tell
+#if __has_feature(thread_sanitizer)
+#define GLISSADE_THREAD_SANITIZER
+#endif
+#endif
+#ifdef GLISSADE_THREAD_SANITIZER
 constexpr std::size_t kTaskAtLeast = std::numeric_limits<std::size_t>::max();
 #else
 constexpr std::size_t kTaskAtLeast = 4'096;

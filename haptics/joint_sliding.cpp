@@ -47,7 +47,7 @@ void JointSliding::let_rest(Part& part, SlidingState state) {
   part.offset = {};
   part.closing = 0.0;
   part.anti_jam = AntiJam(part.part_V->radius());
-  part.was_moving = false;
+  part.last_motion = {};
   pushed_.clear();
   part.result.state = state;
   part.result.contacts.clear();
@@ -74,7 +74,7 @@ void JointSliding::advance(std::span<const Eigen::Isometry3d> X_WG, double milli
     part.result.reach = parts_.size() == 1 ? reach_ : std::max(0.0, reach_ - last_step_);
     part.result.state = classify(part);
     part.lag_then = lag_of(part);
-    part.was_moving = part.moved > kNotWorthIt * part.margin;
+    part.last_motion = displacement_between(part.X_WV_then, part.result.X_WV, part.part_V->p_Vref());
     if (!is_shaken(part)) continue;
     part.anti_jam.observe(part.lag_then, part.moved, part.result.pushing > 0, milliseconds);
   }
@@ -87,6 +87,7 @@ bool JointSliding::take_ghosts(std::span<const Eigen::Isometry3d> X_WG, double m
     Part& part = parts_[p];
     part.moved = 0.0;
     part.ghost_motion = 0.0;
+    part.X_WV_then = part.result.X_WV;
     part.X_WG_then = part.result.X_WG;
     const std::optional<Eigen::Isometry3d> rigid = collision::rigid_pose(X_WG[p]);
     if (!is_held(part) || !rigid) continue;

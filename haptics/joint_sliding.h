@@ -122,12 +122,13 @@ class JointSliding {
     Eigen::Isometry3d X_WA = Eigen::Isometry3d::Identity();       // where it is aimed, mostly X_WT
     Eigen::Isometry3d X_WG_then = Eigen::Isometry3d::Identity();  // the ghost in the last call
     double ghost_motion = 0.0;                                    // metres, of this tick
-    Displacement offset{};    // from the ghost to where the part is wanted, since it was taken hold of
-    double closing = 0.0;     // metres that the offset became less in this tick
-    bool was_moving = false;  // in the last call, which is what friction depends on
-    double moved = 0.0;       // metres, in this tick
-    Displacement lag_then{};  // from the part to where it was wanted, at the end of the last call
-    double slew = 0.0;        // metres that this lag may change by in this tick
+    Displacement offset{};  // from the ghost to where the part is wanted, since it was taken hold of
+    double closing = 0.0;   // metres that the offset became less in this tick
+    double moved = 0.0;     // metres, in this tick
+    Eigen::Isometry3d X_WV_then = Eigen::Isometry3d::Identity();  // before this tick
+    Displacement last_motion{};  // in the last call, from which friction knows what slips
+    Displacement lag_then{};     // from the part to where it was wanted, at the end of the last call
+    double slew = 0.0;           // metres that this lag may change by in this tick
   };
   using Displacements = std::array<Displacement, kMaxParts>;
 
@@ -163,6 +164,7 @@ class JointSliding {
   std::array<bool, kMaxParts> parts_that_fail() const;
   bool project_on_rows(std::span<const Displacement> wanted);
   void solve_friction(std::span<const Displacement> wanted);
+  bool slipped(const JointRow& row) const;
   void remember_forces();
   std::array<double, kMaxParts> allowed_fractions(const Displacements& d) const;
   void add_rows_for_failures();

@@ -188,12 +188,21 @@ bool JointSliding::project_on_rows(std::span<const Displacement> wanted) {
 
 void JointSliding::solve_friction(std::span<const Displacement> wanted) {
   coefficients_.clear();
-  for (const JointRow& row : rows_) {
-    const bool moves = parts_[static_cast<std::size_t>(row.part)].was_moving ||
-                       (row.other >= 0 && parts_[static_cast<std::size_t>(row.other)].was_moving);
-    coefficients_.push_back(moves ? rules_.friction.sliding : rules_.friction.at_rest);
-  }
+  for (const JointRow& row : rows_)
+    coefficients_.push_back(slipped(row) ? rules_.friction.sliding : rules_.friction.at_rest);
   friction_solver_.solve(wanted, grips_, rows_, coefficients_, projected_, forces_);
+}
+
+/// Whether the two sides went past each other in the last call, whatever they did together.
+bool JointSliding::slipped(const JointRow& row) const {
+  const auto motion_at = [](const Part& part, const Eigen::Vector3d& r) -> Eigen::Vector3d {
+    return part.last_motion.v + part.last_motion.w.cross(r);
+  };
+  const Part& part = parts_[static_cast<std::size_t>(row.part)];
+  Eigen::Vector3d slip = motion_at(part, row.r);
+  if (row.other >= 0) slip -= motion_at(parts_[static_cast<std::size_t>(row.other)], row.r_other);
+  slip -= slip.dot(row.n) * row.n;
+  return slip.norm() > kNotWorthIt * part.margin;
 }
 
 /// Those of the last cycle, where the same features still touch.

@@ -21,6 +21,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using test_support::pose;
 using test_support::turn;
+using test_support::turn_from_to;
 
 constexpr double kPosition_m = 0.5e-6;
 constexpr double kLag_m = 1e-6;
@@ -112,7 +113,7 @@ TEST(ClosedForm, TiltedFurtherItStandsOnOneEdge) {
 
 TEST(ClosedForm, ACornerOverTheMiddleOfTheForceDoesNotTurnAndSlidesWithoutLag) {
   // The space diagonal upright: the box stands on a corner right below its middle.
-  const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(kBoxSize, Vector3d::UnitZ());
+  const Eigen::Quaterniond q = turn_from_to(kBoxSize, Vector3d::UnitZ());
   const double half_diagonal = 0.5 * kBoxSize.norm();
   Sliding sliding = held_box({floor_below()}, pose({-0.05, 0.0, half_diagonal + 1e-3}, q));
   const double height = half_diagonal + sliding.margin();
@@ -140,9 +141,8 @@ TEST(ClosedForm, InAGrooveItStaysOneMarginFromBothSidesAndFollowsAlongIt) {
   const Vector3d left = Vector3d(1.0, 0.0, 1.0).normalized();
   const Vector3d right = Vector3d(-1.0, 0.0, 1.0).normalized();
   const auto side = [](const Vector3d& normal) {
-    return test_support::obstacle_of(
-        make_plate({0.5, 0.5}, 200),
-        pose(Vector3d::Zero(), Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal)));
+    return test_support::obstacle_of(make_plate({0.5, 0.5}, 200),
+                                     pose(Vector3d::Zero(), turn_from_to(Vector3d::UnitZ(), normal)));
   };
   // Two of the box's faces lie flush with the sides.
   const Eigen::Quaterniond q = turn(0.5 * kRightAngle, Vector3d::UnitY());
@@ -158,9 +158,8 @@ TEST(ClosedForm, InAGrooveItStaysOneMarginFromBothSidesAndFollowsAlongIt) {
 
 TEST(ClosedForm, InACornerItStaysOneMarginFromAllThreeSides) {
   const auto wall = [](const Vector3d& normal) {
-    return test_support::obstacle_of(
-        make_plate({0.5, 0.5}, 200),
-        pose(Vector3d::Zero(), Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal)));
+    return test_support::obstacle_of(make_plate({0.5, 0.5}, 200),
+                                     pose(Vector3d::Zero(), turn_from_to(Vector3d::UnitZ(), normal)));
   };
   const Vector3d seat = 0.5 * kBoxSize;
   Sliding sliding = held_box({wall(Vector3d::UnitX()), wall(Vector3d::UnitY()), wall(Vector3d::UnitZ())},
@@ -194,8 +193,7 @@ TEST(ClosedForm, AnEdgeHeldOverTheEdgeOfABlockTipsLikeAFace) {
   // Turned by half a right angle about its length, the box hangs with one long edge down, across the block's. In the
   // plane of its length and of the vertical it is again a line at some distance from the middle.
   const double below = 0.5 * std::hypot(kBoxSize.y(), kBoxSize.z());
-  const Eigen::Quaterniond q_down =
-      Eigen::Quaterniond::FromTwoVectors(Vector3d(0.0, kBoxSize.y(), kBoxSize.z()), Vector3d::UnitZ());
+  const Eigen::Quaterniond q_down = turn_from_to(Vector3d(0.0, kBoxSize.y(), kBoxSize.z()), Vector3d::UnitZ());
   Sliding sliding = held_box({ridge()}, pose({0.0, 0.0, below + 0.01}, q_down));
   const double reach = below + sliding.margin();
   const Vector3d p_WG(-0.015, 0.01, below - 3e-3);

@@ -13,12 +13,16 @@
 #include <glissade/haptics/contact_patches.h>
 #include <glissade/haptics/sliding.h>
 
+#include "poses.h"
+
 namespace glissade::haptics {
 namespace {
 
 using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::pose;
+using test_support::turn_from_to;
 
 constexpr unsigned kSeed = 43;
 
@@ -104,20 +108,14 @@ std::vector<ContactPatch> patches_after(const std::vector<TriangleMesh>& obstacl
   return {merged.begin(), merged.end()};
 }
 
-Isometry3d at(const Vector3d& p, const Eigen::Quaterniond& q = Eigen::Quaterniond::Identity()) {
-  Isometry3d X(q);
-  X.translation() = p;
-  return X;
-}
-
 TriangleMesh sheet(const Vector3d& normal) {
   return collision::transformed(collision::make_plate({0.5, 0.5}, 5000),
-                                at(Vector3d::Zero(), Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal)));
+                                pose(Vector3d::Zero(), turn_from_to(Vector3d::UnitZ(), normal)));
 }
 
 TEST(ContactPatches, AFinelyCutBoxOnAFinelyCutPlaneIsOnePatch) {
   const auto patches = patches_after({sheet(Vector3d::UnitZ())}, collision::make_box({0.1, 0.06, 0.04}, 1200),
-                                     at({0, 0, 0.025}), at({0.01, 0.02, 0.017}));
+                                     pose({0, 0, 0.025}), pose({0.01, 0.02, 0.017}));
   ASSERT_EQ(patches.size(), 1u);
   EXPECT_GE(patches[0].count, 4);
   EXPECT_TRUE(patches[0].n_W.isApprox(Vector3d::UnitZ(), 1e-3));
@@ -134,7 +132,7 @@ TEST(ContactPatches, ABoxInAGrooveIsTwo) {
   const Vector3d seat = 0.02 * left + 0.05 * right;
   const auto patches =
       patches_after({sheet(left), sheet(right)}, collision::make_box({0.1, 0.06, 0.04}, 1200),
-                    at(seat + Vector3d(0, 0, 0.01), q_45), at(seat + Vector3d(0.0, 0.01, -0.003), q_45));
+                    pose(seat + Vector3d(0, 0, 0.01), q_45), pose(seat + Vector3d(0.0, 0.01, -0.003), q_45));
   ASSERT_EQ(patches.size(), 2u);
   EXPECT_TRUE(patches[0].n_W.isApprox(left, 1e-3) || patches[1].n_W.isApprox(left, 1e-3));
 }
@@ -144,8 +142,8 @@ TEST(ContactPatches, ATiltedPegInItsHoleIsAFew) {
   const std::vector<Eigen::Vector2d> profile{{0.0, -0.01}, {0.00795, -0.01}, {0.00795, 0.01}, {0.0, 0.01}};
   const TriangleMesh peg = collision::make_revolution(profile, false, 48);
   const Eigen::Quaterniond q_tilted(Eigen::AngleAxisd(0.03, Vector3d::UnitX()));
-  const auto patches =
-      patches_after({collision::make_tube(0.008, 0.03, 2000)}, peg, at(Vector3d::Zero()), at({0, 0, 0.001}, q_tilted));
+  const auto patches = patches_after({collision::make_tube(0.008, 0.03, 2000)}, peg, pose(Vector3d::Zero()),
+                                     pose({0, 0, 0.001}, q_tilted));
   EXPECT_GE(patches.size(), 2u);
   EXPECT_LE(patches.size(), 8u);
 }

@@ -15,6 +15,7 @@
 #include <glissade/collision/mesh_operations.h>
 #include <glissade/haptics/contact_search.h>
 
+#include "poses.h"
 #include "random_numbers.h"
 #include "sanitizers.h"
 
@@ -24,6 +25,8 @@ namespace {
 using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::pose;
+using test_support::turn_from_to;
 
 constexpr double kReach = 1e-3;
 constexpr double kMargin = 5e-6;
@@ -62,16 +65,9 @@ std::map<ContactKind, int> kinds(const std::vector<Contact>& contacts) {
   return count;
 }
 
-Isometry3d at(const Vector3d& p, const Eigen::Quaterniond& q = Eigen::Quaterniond::Identity()) {
-  Isometry3d X = Isometry3d::Identity();
-  X.linear() = q.toRotationMatrix();
-  X.translation() = p;
-  return X;
-}
-
 TEST(ContactSearch, ABoxOnALargePlaneTouchesWithItsFourCornersOnly) {
   const auto found = contacts(collision::make_plate({1.0, 1.0}, 2), collision::make_box({0.1, 0.1, 0.1}, 12),
-                              at({0.012, 0.004, 0.0501}));
+                              pose({0.012, 0.004, 0.0501}));
   EXPECT_EQ(kinds(found), (std::map<ContactKind, int>{{ContactKind::kVertexFace, 4}}));
   for (const Contact& contact : found) {
     EXPECT_TRUE(contact.n_W.isApprox(Vector3d::UnitZ()));
@@ -82,8 +78,8 @@ TEST(ContactSearch, ABoxOnALargePlaneTouchesWithItsFourCornersOnly) {
 TEST(ContactSearch, NormalsOfATessellatedAndFlippedPlaneAllPointStraightUp) {
   const TriangleMesh plane = collision::flip_randomly(collision::make_plate({1.0, 1.0}, 5000), 1);
   const TriangleMesh box = collision::flip_randomly(collision::make_box({0.1, 0.1, 0.1}, 600), 2);
-  const auto found =
-      contacts(plane, box, at({0.0123, 0.0045, 0.0501}, Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Vector3d::UnitZ()))));
+  const auto found = contacts(
+      plane, box, pose({0.0123, 0.0045, 0.0501}, Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Vector3d::UnitZ()))));
   ASSERT_FALSE(found.empty());
   for (const Contact& contact : found)
     EXPECT_TRUE(contact.n_W.isApprox(Vector3d::UnitZ(), 1e-9));
@@ -91,7 +87,7 @@ TEST(ContactSearch, NormalsOfATessellatedAndFlippedPlaneAllPointStraightUp) {
 
 TEST(ContactSearch, BelowASheetNormalsPointDown) {
   const auto found = contacts(collision::make_plate({1.0, 1.0}, 2), collision::make_box({0.1, 0.1, 0.1}, 12),
-                              at({0.012, 0.004, -0.0501}));
+                              pose({0.012, 0.004, -0.0501}));
   ASSERT_EQ(found.size(), 4u);
   for (const Contact& contact : found)
     EXPECT_TRUE(contact.n_W.isApprox(-Vector3d::UnitZ()));
@@ -103,10 +99,10 @@ TEST(ContactSearch, CrossedEdgesMeetAlongTheirCommonNormal) {
   const double half_diagonal = 0.05 * std::sqrt(2.0);
   const TriangleMesh below = collision::transformed(
       box,
-      at({0.0, 0.0, -half_diagonal}, Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitX()))));
+      pose({0.0, 0.0, -half_diagonal}, Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitX()))));
   const auto found = contacts(below, box,
-                              at({0.001, 0.002, half_diagonal + 2e-4},
-                                 Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitY()))));
+                              pose({0.001, 0.002, half_diagonal + 2e-4},
+                                   Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitY()))));
   ASSERT_EQ(kinds(found), (std::map<ContactKind, int>{{ContactKind::kEdgeEdge, 1}}));
   EXPECT_TRUE(found[0].n_W.isApprox(Vector3d::UnitZ(), 1e-9));
   EXPECT_NEAR(found[0].gap, 2e-4, 1e-12);
@@ -156,11 +152,11 @@ TEST(ContactSearch, TheFeaturesNamedAreThoseThatTouchWhateverTheKind) {
       }
     }
   };
-  check(box, at({0.1001, 0.1001, 0.1001}));  // corner to corner
+  check(box, pose({0.1001, 0.1001, 0.1001}));  // corner to corner
   for (std::size_t i = 0; i < 300; ++i) {
     const auto turns = static_cast<double>(i);
     const Eigen::Quaterniond q(Eigen::AngleAxisd(0.7 * turns, Vector3d(1.0, 0.03 * turns, 2.0).normalized()));
-    check(ball, at(nearest[i % 3] + 0.0501 * away[i % 3].normalized(), q));
+    check(ball, pose(nearest[i % 3] + 0.0501 * away[i % 3].normalized(), q));
   }
   for (const ContactKind kind : {ContactKind::kVertexFace, ContactKind::kFaceVertex, ContactKind::kEdgeEdge,
                                  ContactKind::kVertexEdge, ContactKind::kEdgeVertex, ContactKind::kVertexVertex})
@@ -168,8 +164,8 @@ TEST(ContactSearch, TheFeaturesNamedAreThoseThatTouchWhateverTheKind) {
 }
 
 TEST(ContactSearch, ACornerBesideTheRimOfASheetMeetsTheRim) {
-  const auto found =
-      contacts(collision::make_plate({0.2, 0.2}, 2), collision::make_box({0.1, 0.1, 0.1}, 12), at({0.1502, 0.0, 0.0}));
+  const auto found = contacts(collision::make_plate({0.2, 0.2}, 2), collision::make_box({0.1, 0.1, 0.1}, 12),
+                              pose({0.1502, 0.0, 0.0}));
   // The box's side faces the rim from 0.2 mm away; nothing but horizontal normals can come of that.
   ASSERT_FALSE(found.empty());
   for (const Contact& contact : found)
@@ -179,10 +175,10 @@ TEST(ContactSearch, ACornerBesideTheRimOfASheetMeetsTheRim) {
 TEST(ContactSearch, HoweverFinelyFacesAreCutABoxTouchesATableWithItsCornersOnly) {
   const TriangleMesh table = collision::flip_randomly(collision::make_plate({1.0, 1.0}, 20'000), 7);
   const TriangleMesh box = collision::flip_randomly(collision::make_box({0.1, 0.1, 0.1}, 6'000), 8);
-  EXPECT_EQ(kinds(contacts(table, box, at({0.0123, 0.0045, 0.0501}))),
+  EXPECT_EQ(kinds(contacts(table, box, pose({0.0123, 0.0045, 0.0501}))),
             (std::map<ContactKind, int>{{ContactKind::kVertexFace, 4}}));
   // Half beyond the rim of the table: two corners, and two edges of the box over the rim.
-  EXPECT_EQ(kinds(contacts(table, box, at({0.5003, 0.0045, 0.0501}))),
+  EXPECT_EQ(kinds(contacts(table, box, pose({0.5003, 0.0045, 0.0501}))),
             (std::map<ContactKind, int>{{ContactKind::kVertexFace, 2}, {ContactKind::kEdgeEdge, 2}}));
 }
 
@@ -205,7 +201,7 @@ TEST(ContactSearch, RimsThatCrossWhereBothAreCutAlwaysMeet) {
     for (const double dx : tiny_shifts()) {
       for (const double dy : tiny_shifts()) {
         SCOPED_TRACE(testing::Message() << "dx " << dx << ", dy " << dy << ", turned by " << turn);
-        const auto found = box_on_table.contacts_at(at({0.5 + dx, 0.03 + dy, 0.0501}, q));
+        const auto found = box_on_table.contacts_at(pose({0.5 + dx, 0.03 + dy, 0.0501}, q));
         for (const double y : {-0.02, 0.08}) {
           const auto meets_here = [&](const Contact& contact) {
             return contact.kind == ContactKind::kEdgeEdge && std::abs(contact.p_W.y() - y) < 0.0015 &&
@@ -222,7 +218,7 @@ TEST(ContactSearch, RimsThatCrossWhereBothAreCutAlwaysMeet) {
 
 /// Anywhere, so that no coordinate is a round number.
 Isometry3d random_frame(test_support::RandomNumbers& random) {
-  return at(random.point(1.0), Eigen::Quaterniond(random.rotation()));
+  return pose(random.point(1.0), Eigen::Quaterniond(random.rotation()));
 }
 
 TEST(ContactSearch, RoundingLetsNothingThroughWhereARimIsCut) {
@@ -231,13 +227,13 @@ TEST(ContactSearch, RoundingLetsNothingThroughWhereARimIsCut) {
   test_support::RandomNumbers random(kSeed);
   const TriangleMesh table = collision::make_plate({0.2, 0.2}, 200);
   const TriangleMesh box = collision::make_box({0.1, 0.1, 0.1}, 48);
-  const Eigen::Quaterniond on_corner = Eigen::Quaterniond::FromTwoVectors(Vector3d(1.0, 1.0, 1.0), -Vector3d::UnitX());
+  const Eigen::Quaterniond on_corner = turn_from_to(Vector3d(1.0, 1.0, 1.0), -Vector3d::UnitX());
   const Vector3d beside(0.1 + 0.05 * std::sqrt(3.0) + 1e-4, 0.02, 0.0);
   for (int i = 0; i < test_support::affordable(100); ++i) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", frame " << i);
     const Isometry3d X_WO = random_frame(random);
     // Two edges of the box cross the rim of the table over vertices of both.
-    const auto crossings = TwoBodies(table, box, X_WO).contacts_at(X_WO * at({0.1, 0.03, 0.0501}));
+    const auto crossings = TwoBodies(table, box, X_WO).contacts_at(X_WO * pose({0.1, 0.03, 0.0501}));
     for (const double y : {-0.02, 0.08}) {
       EXPECT_TRUE(std::any_of(crossings.begin(), crossings.end(),
                               [&](const Contact& contact) {
@@ -247,9 +243,9 @@ TEST(ContactSearch, RoundingLetsNothingThroughWhereARimIsCut) {
           << "at y " << y;
     }
     // A corner beside a vertex of the rim, and the other way round.
-    const auto of_part = TwoBodies(table, box, X_WO).contacts_at(X_WO * at(beside, on_corner));
+    const auto of_part = TwoBodies(table, box, X_WO).contacts_at(X_WO * pose(beside, on_corner));
     EXPECT_EQ(kinds(of_part).count(ContactKind::kVertexEdge), 1U);
-    const auto of_obstacle = TwoBodies(box, table, X_WO).contacts_at(X_WO * at(beside, on_corner).inverse());
+    const auto of_obstacle = TwoBodies(box, table, X_WO).contacts_at(X_WO * pose(beside, on_corner).inverse());
     EXPECT_EQ(kinds(of_obstacle).count(ContactKind::kEdgeVertex), 1U);
   }
 }
@@ -257,21 +253,21 @@ TEST(ContactSearch, RoundingLetsNothingThroughWhereARimIsCut) {
 TEST(ContactSearch, ACornerMeetsARimWhereverThatIsCut) {
   // The corner of a box points at the rim of a sheet, at a vertex inside it, and the other way round.
   const TriangleMesh sheet = collision::make_plate({0.2, 0.2}, 200);
-  const TriangleMesh box = collision::transformed(
-      collision::make_box({0.1, 0.1, 0.1}, 12),
-      at(Vector3d::Zero(), Eigen::Quaterniond::FromTwoVectors(Vector3d(1.0, 1.0, 1.0), -Vector3d::UnitX())));
+  const TriangleMesh box =
+      collision::transformed(collision::make_box({0.1, 0.1, 0.1}, 12),
+                             pose(Vector3d::Zero(), turn_from_to(Vector3d(1.0, 1.0, 1.0), -Vector3d::UnitX())));
   const double half_diagonal = 0.05 * std::sqrt(3.0);
   for (const double dy : tiny_shifts()) {
     SCOPED_TRACE(testing::Message() << "dy " << dy);
     const Vector3d p(0.1 + half_diagonal + 1e-4, 0.02 + dy, 0.0);
-    const auto of_part = contacts(sheet, box, at(p));
+    const auto of_part = contacts(sheet, box, pose(p));
     ASSERT_GE(of_part.size(), 1U);
     ASSERT_LE(of_part.size(), 2U);
     for (const Contact& contact : of_part) {
       EXPECT_EQ(contact.kind, ContactKind::kVertexEdge);
       EXPECT_TRUE(contact.n_W.isApprox(Vector3d::UnitX(), 1e-9));
     }
-    const auto of_obstacle = contacts(box, sheet, at(-p));
+    const auto of_obstacle = contacts(box, sheet, pose(-p));
     ASSERT_GE(of_obstacle.size(), 1U);
     ASSERT_LE(of_obstacle.size(), 2U);
     for (const Contact& contact : of_obstacle) {

@@ -13,6 +13,7 @@
 #include <glissade/collision/mesh_operations.h>
 #include <glissade/haptics/sliding.h>
 
+#include "poses.h"
 #include "sanitizers.h"
 
 namespace glissade::haptics {
@@ -21,13 +22,14 @@ namespace {
 using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::turn_from_to;
 
 constexpr unsigned kSeed = 47;
 const Vector3d kBoxSize(0.1, 0.06, 0.04);
 
 TriangleMesh sheet(const Vector3d& normal) {
   return collision::transformed(collision::make_plate({0.5, 0.5}, 800),
-                                Isometry3d(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal)));
+                                Isometry3d(turn_from_to(Vector3d::UnitZ(), normal)));
 }
 
 std::shared_ptr<const SlidingPart> box(std::int64_t triangles) {

@@ -1,5 +1,6 @@
 // Friction against Coulomb's law in closed form: a box on a plane, held by the spring of the coupling.
 
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -17,6 +18,7 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using std::chrono::milliseconds;
 using test_support::pose;
 
 constexpr double kStiffness = 1000.0;  // N/m, the default
@@ -115,6 +117,54 @@ TEST_F(PressedBox, AHundredMillionthOfFrictionHardlyDiffersFromNone) {
   };
   const Isometry3d without = end_of_way({});
   EXPECT_LT((end_of_way({1e-8, 1e-8}).translation() - without.translation()).norm(), 1e-9);
+}
+
+/// A box on a lift that stands still for 200 ms and then goes along x at 0.1 m/s for 100 ms; pressed down by 2 N.
+class BoxOnLift : public ::testing::Test {
+ protected:
+  static constexpr int kWaits = 200;
+  static constexpr int kGoes = 100;
+  static constexpr double kWay_m = 0.01;
+
+  BoxOnLift() {
+    const Isometry3d X_WLift = pose({0.0, 0.0, -0.01});
+    const auto lift = test_support::part_of(collision::make_box({0.4, 0.4, 0.02}, 12));
+    const devices::PoseTrajectory script({{milliseconds(0), X_WLift},
+                                          {milliseconds(kWaits), X_WLift},
+                                          {milliseconds(kWaits + kGoes), pose({kWay_m, 0.0, -0.01})}});
+    const auto box = test_support::part_of(collision::make_box({0.06, 0.04, 0.02}, 12));
+    sliding_ = std::make_unique<Sliding>(
+        std::vector<Obstacle>{}, box, pose({0.0, 0.0, 0.0101}),
+        SlidingOptions{.rules = {.friction = {.at_rest = kAtRest, .sliding = kSliding}}},
+        std::vector<ScriptedPart>{{.part_B = lift, .script_X_WB = script, .name = "the lift"}});
+  }
+
+  /// From where the ghost is, evenly.
+  void lead(const Vector3d& p_WG, int calls) { test_support::lead(*sliding_, pose(p_WG), calls); }
+  double x_on_lift() const {
+    return sliding_->result().X_WV.translation().x() - sliding_->scripted_X_WB()[0].translation().x();
+  }
+
+  std::unique_ptr<Sliding> sliding_;
+};
+
+TEST_F(BoxOnLift, IsCarriedAlongByWhatHoldsItAtRest) {
+  // More than what slides could hold, less than what rests can.
+  const double pulled = 0.8 * kAtRest * kPressed;
+  static_assert(0.8 * kAtRest > kSliding);
+  lead({0.0, 0.0, 0.01 - kPressed}, 100);
+  lead({pulled, 0.0, 0.01 - kPressed}, 100);
+  const double x = x_on_lift();
+  lead({pulled + kWay_m, 0.0, 0.01 - kPressed}, kGoes);
+  EXPECT_NEAR(sliding_->scripted_X_WB()[0].translation().x(), kWay_m, 1e-5) << "the lift went";
+  EXPECT_NEAR(x_on_lift(), x, 1e-5) << "and the box with it";
+}
+
+TEST_F(BoxOnLift, SlipsWhereTheHandHoldsItBackAndFeelsTheForceOfSliding) {
+  lead({0.0, 0.0, 0.01 - kPressed}, kWaits);
+  lead({0.0, 0.0, 0.01 - kPressed}, kGoes);
+  EXPECT_LT(x_on_lift(), -0.9 * kWay_m + kAtRest * kPressed);
+  EXPECT_NEAR(sliding_->result().X_WV.translation().x(), kSliding * kPressed, 1e-5);
 }
 
 TEST(FrictionSolver, WithoutCoefficientFindsTheFrictionlessProjection) {

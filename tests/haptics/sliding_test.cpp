@@ -17,6 +17,7 @@
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 
+#include "poses.h"
 #include "sanitizers.h"
 
 namespace glissade::haptics {
@@ -25,6 +26,9 @@ namespace {
 using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::pose;
+using test_support::turn;
+using test_support::turn_from_to;
 
 constexpr unsigned kSeed = 29;
 const Vector3d kBoxSize(0.1, 0.06, 0.04);
@@ -60,13 +64,6 @@ TriangleMesh sheet(const Vector3d& normal, const Tessellation& tessellation) {
   return collision::transformed(collision::make_plate({0.5, 0.5}, tessellation.triangles), X);
 }
 
-Isometry3d at(const Vector3d& p, const Eigen::Quaterniond& q = Eigen::Quaterniond::Identity()) {
-  Isometry3d X = Isometry3d::Identity();
-  X.linear() = q.toRotationMatrix();
-  X.translation() = p;
-  return X;
-}
-
 /// Leads the ghost in a straight line through some calls, and lets `check` see every one of them.
 template <typename Check>
 void lead(Sliding& sliding, const Isometry3d& X_WG_to, int calls, const Check& check, double milliseconds = 1.0) {
@@ -75,7 +72,7 @@ void lead(Sliding& sliding, const Isometry3d& X_WG_to, int calls, const Check& c
   for (int i = 1; i <= calls; ++i) {
     const double t = static_cast<double>(i) / calls;
     const Vector3d p = (1.0 - t) * X_WG_from.translation() + t * X_WG_to.translation();
-    check(sliding.advance(at(p, q_from.slerp(t, Eigen::Quaterniond(X_WG_to.linear()))), milliseconds));
+    check(sliding.advance(pose(p, q_from.slerp(t, Eigen::Quaterniond(X_WG_to.linear()))), milliseconds));
   }
 }
 
@@ -86,9 +83,9 @@ class BoxOnFaces : public ::testing::TestWithParam<Tessellation> {
 
 TEST_P(BoxOnFaces, PressedOnAPlaneItFollowsTheGhostAlongIt) {
   Sliding sliding(obstacle_of({sheet(Vector3d::UnitZ(), tessellation())}, tessellation()), box_part(tessellation()),
-                  at({-0.1, 0.0, 0.03}));
-  lead(sliding, at({-0.1, 0.0, 0.017}), 200, [](const SlidingResult&) {});  // 3 mm into the plane
-  lead(sliding, at({0.1, 0.05, 0.017}), 500, [&](const SlidingResult& result) {
+                  pose({-0.1, 0.0, 0.03}));
+  lead(sliding, pose({-0.1, 0.0, 0.017}), 200, [](const SlidingResult&) {});  // 3 mm into the plane
+  lead(sliding, pose({0.1, 0.05, 0.017}), 500, [&](const SlidingResult& result) {
     Vector3d optimum = result.X_WG.translation();
     optimum.z() = 0.5 * kBoxSize.z();
     ASSERT_LT((result.X_WV.translation() - optimum).norm(), 2.0 * sliding.margin());
@@ -104,9 +101,9 @@ TEST_P(BoxOnFaces, PressedIntoAGrooveItFollowsTheGhostAlongIt) {
   const Vector3d seat = 0.5 * kBoxSize.z() * left + 0.5 * kBoxSize.x() * right;
   const auto along = [&](double y) { return Vector3d(seat.x(), y, seat.z()); };
   Sliding sliding(obstacle_of({sheet(left, tessellation()), sheet(right, tessellation())}, tessellation()),
-                  box_part(tessellation()), at(along(-0.1) + Vector3d(0, 0, 0.01), q_45));
-  lead(sliding, at(along(-0.1) + Vector3d(0.001, 0, -0.003), q_45), 200, [](const SlidingResult&) {});
-  lead(sliding, at(along(0.1) + Vector3d(0.001, 0, -0.003), q_45), 500, [&](const SlidingResult& result) {
+                  box_part(tessellation()), pose(along(-0.1) + Vector3d(0, 0, 0.01), q_45));
+  lead(sliding, pose(along(-0.1) + Vector3d(0.001, 0, -0.003), q_45), 200, [](const SlidingResult&) {});
+  lead(sliding, pose(along(0.1) + Vector3d(0.001, 0, -0.003), q_45), 500, [&](const SlidingResult& result) {
     const Vector3d optimum = along(result.X_WG.translation().y());
     ASSERT_LT((result.X_WV.translation() - optimum).norm(), 2.0 * sliding.margin());
   });
@@ -116,10 +113,10 @@ TEST_P(BoxOnFaces, PressedIntoACornerItStopsThere) {
   Sliding sliding(obstacle_of({sheet(Vector3d::UnitX(), tessellation()), sheet(Vector3d::UnitY(), tessellation()),
                                sheet(Vector3d::UnitZ(), tessellation())},
                               tessellation()),
-                  box_part(tessellation()), at({0.06, 0.04, 0.03}));
+                  box_part(tessellation()), pose({0.06, 0.04, 0.03}));
   const Vector3d seat = 0.5 * kBoxSize;
-  lead(sliding, at(seat - Vector3d(2e-3, 3e-3, 4e-3)), 200, [](const SlidingResult&) {});
-  lead(sliding, at(seat - Vector3d(4e-3, 2e-3, 1e-3)), 200, [&](const SlidingResult& result) {
+  lead(sliding, pose(seat - Vector3d(2e-3, 3e-3, 4e-3)), 200, [](const SlidingResult&) {});
+  lead(sliding, pose(seat - Vector3d(4e-3, 2e-3, 1e-3)), 200, [&](const SlidingResult& result) {
     ASSERT_LT((result.X_WV.translation() - seat).norm(), 2.0 * sliding.margin());
     ASSERT_LT(Eigen::AngleAxisd(result.X_WV.linear()).angle(), 1e-4);
     const Wrench wrench =
@@ -136,15 +133,15 @@ TEST_P(BoxOnFaces, ObstaclesMayShareABodyAndLieAnywhere) {
   if (tessellation().flipped) mesh = collision::flip_randomly(mesh, 17);
   const auto sheet_O = std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(std::move(mesh)));
   const auto facing = [](const Vector3d& normal) {
-    return at(Vector3d::Zero(), Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal));
+    return pose(Vector3d::Zero(), turn_from_to(Vector3d::UnitZ(), normal));
   };
-  const std::vector<Obstacle> obstacles{{sheet_O, at({0.0, 0.0, -1.0})},
+  const std::vector<Obstacle> obstacles{{sheet_O, pose({0.0, 0.0, -1.0})},
                                         {sheet_O, facing(Vector3d::UnitX())},
                                         {sheet_O, facing(Vector3d::UnitY())},
                                         {sheet_O, facing(-Vector3d::UnitZ())}};
-  Sliding sliding(obstacles, box_part(tessellation()), at({0.06, 0.04, 0.03}));
+  Sliding sliding(obstacles, box_part(tessellation()), pose({0.06, 0.04, 0.03}));
   const Vector3d seat = 0.5 * kBoxSize;
-  lead(sliding, at(seat - Vector3d(2e-3, 3e-3, 4e-3)), 200, [](const SlidingResult&) {});
+  lead(sliding, pose(seat - Vector3d(2e-3, 3e-3, 4e-3)), 200, [](const SlidingResult&) {});
   EXPECT_LT((sliding.result().X_WV.translation() - seat).norm(), 2.0 * sliding.margin());
   std::vector<bool> pushes(obstacles.size(), false);
   for (const Contact& contact : sliding.result().contacts) {
@@ -158,7 +155,7 @@ TEST_P(BoxOnFaces, ObstaclesMayShareABodyAndLieAnywhere) {
 
 TEST_P(BoxOnFaces, TheWrenchIsExactlyZeroWheneverNothingIsInTheWay) {
   Sliding sliding(obstacle_of({sheet(Vector3d::UnitZ(), tessellation())}, tessellation()), box_part(tessellation()),
-                  at({-0.1, 0.0, 0.03}));
+                  pose({-0.1, 0.0, 0.03}));
   const auto no_wrench = [&](const SlidingResult& result) {
     const Wrench wrench =
         spring_wrench(sliding.stiffness(), displacement_between(result.X_WV, result.X_WG, sliding.part().p_Vref()));
@@ -167,12 +164,12 @@ TEST_P(BoxOnFaces, TheWrenchIsExactlyZeroWheneverNothingIsInTheWay) {
     ASSERT_EQ(wrench.t, Vector3d::Zero());
   };
   const Eigen::Quaterniond q_tilted(Eigen::AngleAxisd(0.4, Vector3d(1.0, 2.0, 3.0).normalized()));
-  lead(sliding, at({0.1, 0.02, 0.06}, q_tilted), 300, no_wrench);
-  lead(sliding, at({0.0, 0.0, 0.03}), 300, no_wrench);
-  lead(sliding, at({0.0, 0.0, 0.01}), 100, [](const SlidingResult&) {});
+  lead(sliding, pose({0.1, 0.02, 0.06}, q_tilted), 300, no_wrench);
+  lead(sliding, pose({0.0, 0.0, 0.03}), 300, no_wrench);
+  lead(sliding, pose({0.0, 0.0, 0.01}), 100, [](const SlidingResult&) {});
   EXPECT_EQ(sliding.result().state, SlidingState::kResting);
-  lead(sliding, at({0.0, 0.0, 0.03}), 300, [](const SlidingResult&) {});
-  lead(sliding, at({0.02, 0.0, 0.03}), 10, no_wrench);
+  lead(sliding, pose({0.0, 0.0, 0.03}), 300, [](const SlidingResult&) {});
+  lead(sliding, pose({0.02, 0.0, 0.03}), 10, no_wrench);
 }
 
 INSTANTIATE_TEST_SUITE_P(Tessellations, BoxOnFaces,
@@ -190,8 +187,8 @@ TEST(Sliding, AThinSheetAtFiveMetresPerSecondIsNeverCrossed) {
       for (const double tilt : {0.0, 0.02, 0.7, std::numbers::pi / 2}) {
         if (test_support::kSanitized && tilt > 0.02) continue;
         const Eigen::Quaterniond q(Eigen::AngleAxisd(tilt, Vector3d::UnitX()));
-        Sliding sliding(obstacle, part, at({0.0, 0.0, 0.1 * side}, q), {.metaphor = metaphor});
-        lead(sliding, at({0.01, 0.02, -0.3 * side}, q), 80, [&](const SlidingResult& result) {
+        Sliding sliding(obstacle, part, pose({0.0, 0.0, 0.1 * side}, q), {.metaphor = metaphor});
+        lead(sliding, pose({0.01, 0.02, -0.3 * side}, q), 80, [&](const SlidingResult& result) {
           for (const Vector3d& x_V : part->tree.mesh().vertices)
             ASSERT_GT(side * (result.X_WV * x_V).z(), 0.0);
         });
@@ -208,13 +205,13 @@ double greatest_catch_up(Metaphor metaphor, double milliseconds = 1.0) {
   const Tessellation tessellation{12, false};
   const auto plate =
       std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(collision::make_plate({0.2, 0.2}, 100)));
-  Sliding sliding({{plate}}, box_part(tessellation), at({0.0, 0.0, 0.03}), {.metaphor = metaphor});
-  lead(sliding, at({0.0, 0.0, 0.015}), 200, [](const SlidingResult&) {});
+  Sliding sliding({{plate}}, box_part(tessellation), pose({0.0, 0.0, 0.03}), {.metaphor = metaphor});
+  lead(sliding, pose({0.0, 0.0, 0.015}), 200, [](const SlidingResult&) {});
   double greatest = 0.0;
   Isometry3d X_WG = sliding.result().X_WG;
   Displacement lag = sliding.error();
   lead(
-      sliding, at({0.17, 0.0, 0.015}), 500,
+      sliding, pose({0.17, 0.0, 0.015}), 500,
       [&](const SlidingResult& result) {
         const Vector3d& p_Vref = sliding.part().p_Vref();
         const double radius = sliding.part().radius();
@@ -274,8 +271,8 @@ TEST(Sliding, AGhostThatJumpsOutOfANarrowSlotLeavesThePartInside) {
   const Vector3d middle(0.6, -0.4, 0.8);
   constexpr double kHalfSlot = 2e-3 + 3e-6;
   const TriangleMesh plate = collision::make_plate({0.5, 0.5}, 2);
-  const auto slot = obstacle_of({collision::transformed(plate, at(middle + kHalfSlot * normal, q)),
-                                 collision::transformed(plate, at(middle - kHalfSlot * normal, q))},
+  const auto slot = obstacle_of({collision::transformed(plate, pose(middle + kHalfSlot * normal, q)),
+                                 collision::transformed(plate, pose(middle - kHalfSlot * normal, q))},
                                 {2, false});
   const auto part =
       std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(collision::make_box({0.1, 0.06, 0.004}, 12)));
@@ -285,11 +282,11 @@ TEST(Sliding, AGhostThatJumpsOutOfANarrowSlotLeavesThePartInside) {
   const auto random_vector = [&] { return Vector3d(uniform(generator), uniform(generator), uniform(generator)); };
   for (const Metaphor metaphor : {Metaphor::kForceFeedback, Metaphor::kRubberBandSpring}) {
     for (int trial = 0; trial < 10; ++trial) {
-      Sliding sliding(slot, part, at(middle, q), {.metaphor = metaphor});
+      Sliding sliding(slot, part, pose(middle, q), {.metaphor = metaphor});
       const double distance = trial == 0 ? 1e6 : 0.3;
       const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.3, random_vector().normalized()));
       for (int i = 0; i < 5; ++i) {
-        sliding.advance(at(middle + distance * random_vector(), turn * q));
+        sliding.advance(pose(middle + distance * random_vector(), turn * q));
         for (const Vector3d& x_V : part->tree.mesh().vertices) {
           ASSERT_LT(std::abs(normal.dot(sliding.result().X_WV * x_V - middle)), kHalfSlot);
         }
@@ -301,17 +298,18 @@ TEST(Sliding, AGhostThatJumpsOutOfANarrowSlotLeavesThePartInside) {
 TEST(Sliding, AGhostThatIsNotFiniteChangesNothing) {
   const Tessellation tessellation{12, false};
   const auto obstacle = obstacle_of({sheet(Vector3d::UnitZ(), tessellation)}, tessellation);
-  Sliding sliding(obstacle, box_part(tessellation), at({0.0, 0.0, 0.03}));
-  const Isometry3d X_WV = sliding.advance(at({0.001, 0.0, 0.03})).X_WV;
-  EXPECT_EQ(sliding.advance(at({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()})).X_WV.matrix(), X_WV.matrix());
-  EXPECT_EQ(sliding.advance(at({0.002, 0.0, 0.03})).X_WV.translation().x(), 0.002);
+  Sliding sliding(obstacle, box_part(tessellation), pose({0.0, 0.0, 0.03}));
+  const Isometry3d X_WV = sliding.advance(pose({0.001, 0.0, 0.03})).X_WV;
+  EXPECT_EQ(sliding.advance(pose({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()})).X_WV.matrix(), X_WV.matrix());
+  EXPECT_EQ(sliding.advance(pose({0.002, 0.0, 0.03})).X_WV.translation().x(), 0.002);
 }
 
 TEST(Sliding, WillNotStartInsideAnything) {
   const Tessellation tessellation{12, false};
   const auto obstacle = obstacle_of({sheet(Vector3d::UnitZ(), tessellation)}, tessellation);
-  EXPECT_THROW(Sliding(obstacle, box_part(tessellation), at({0.0, 0.0, 0.01})), std::invalid_argument);
-  EXPECT_THROW(Sliding({}, box_part(tessellation), at({0.0, 0.0, 0.01})), std::invalid_argument) << "nothing to touch";
+  EXPECT_THROW(Sliding(obstacle, box_part(tessellation), pose({0.0, 0.0, 0.01})), std::invalid_argument);
+  EXPECT_THROW(Sliding({}, box_part(tessellation), pose({0.0, 0.0, 0.01})), std::invalid_argument)
+      << "nothing to touch";
 }
 
 TEST(Sliding, TheSameGhostGivesTheSameBits) {
@@ -321,8 +319,8 @@ TEST(Sliding, TheSameGhostGivesTheSameBits) {
   const auto part = box_part(tessellation);
   const auto run = [&] {
     std::vector<Eigen::Matrix4d> poses;
-    Sliding sliding(obstacle, part, at({0.1, 0.0, 0.03}));
-    lead(sliding, at({0.03, 0.02, 0.01}, Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Vector3d::UnitY()))), 200,
+    Sliding sliding(obstacle, part, pose({0.1, 0.0, 0.03}));
+    lead(sliding, pose({0.03, 0.02, 0.01}, Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Vector3d::UnitY()))), 200,
          [&](const SlidingResult& result) { poses.push_back(result.X_WV.matrix()); });
     return poses;
   };

@@ -21,7 +21,7 @@ bool allocations_are_counted() {
 
 }  // namespace glissade::test_support
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !GLISSADE_SANITIZED
 // glibc exports its own functions under these names too; operator new ends up in malloc or aligned_alloc.
 extern "C" {
 void* __libc_malloc(std::size_t size);                           // NOLINT

@@ -14,19 +14,9 @@
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 
+#include "poses.h"
+
 namespace glissade::test_support {
-
-inline Eigen::Isometry3d pose(const Eigen::Vector3d& p, const Eigen::Quaterniond& q = Eigen::Quaterniond::Identity()) {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear() = q.toRotationMatrix();
-  X.translation() = p;
-  return X;
-}
-
-/// A rotation by `angle` radians about `axis`, which need not be of unit length.
-inline Eigen::Quaterniond turn(double angle, const Eigen::Vector3d& axis) {
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-}
 
 inline std::shared_ptr<const haptics::SlidingPart> part_of(collision::TriangleMesh mesh) {
   return std::make_shared<const haptics::SlidingPart>(std::make_shared<const collision::TriangleMesh>(std::move(mesh)));

@@ -75,7 +75,7 @@ std::vector<OdeScene> scenes_on_planes() {
 std::vector<OdeScene> scenes_on_blocks() {
   const double flat = 0.5 * kBox.z();
   const double below = 0.5 * std::hypot(kBox.y(), kBox.z());
-  const Quaterniond edge_down = Quaterniond::FromTwoVectors(Vector3d(0.0, kBox.y(), kBox.z()), Vector3d::UnitZ());
+  const Quaterniond edge_down = turn_from_to(Vector3d(0.0, kBox.y(), kBox.z()), Vector3d::UnitZ());
   const Vector3d block(0.05, 0.3, 0.05);
   const Vector3d wall(0.05, 0.3, 0.2);
   const auto side = [&](double x, const Vector3d& towards) { return OdeBlock{wall, pose({x, 0.0, 0.0}), towards}; };
@@ -119,7 +119,7 @@ std::vector<OdeScene> scenes_of_spheres() {
 std::vector<haptics::Obstacle> obstacles_of(const OdeScene& scene) {
   std::vector<haptics::Obstacle> obstacles;
   for (const OdePlane& plane : scene.planes) {
-    const Quaterniond q = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), plane.n);
+    const Quaterniond q = turn_from_to(Vector3d::UnitZ(), plane.n);
     obstacles.push_back(obstacle_of(collision::make_plate({0.5, 0.5}, 2), pose(plane.d * plane.n, q)));
   }
   for (const OdeBlock& block : scene.blocks)

@@ -2,19 +2,20 @@
 
 /// Random tests do a twentieth of their work under a sanitizer, which slows them down about as much.
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define GLISSADE_SANITIZED 1
+#elif defined(__has_feature)  // clang's way to tell
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define GLISSADE_SANITIZED 1
+#endif
+#endif
+#ifndef GLISSADE_SANITIZED
+#define GLISSADE_SANITIZED 0
+#endif
+
 namespace glissade::test_support {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-inline constexpr bool kSanitized = true;
-#else
-inline constexpr bool kSanitized = false;
-#endif
-#else
-inline constexpr bool kSanitized = false;
-#endif
+inline constexpr bool kSanitized = GLISSADE_SANITIZED == 1;
 
 /// `count`, or a twentieth of it under a sanitizer.
 constexpr int affordable(int count) {

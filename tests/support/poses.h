@@ -1,0 +1,30 @@
+#pragma once
+
+/// Poses and turns, written shortly.
+
+#include <Eigen/Geometry>
+
+namespace glissade::test_support {
+
+inline Eigen::Isometry3d pose(const Eigen::Vector3d& p, const Eigen::Quaterniond& q = Eigen::Quaterniond::Identity()) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = q.toRotationMatrix();
+  X.translation() = p;
+  return X;
+}
+
+/// A rotation by `angle` radians about `axis`, which need not be of unit length.
+inline Eigen::Quaterniond turn(double angle, const Eigen::Vector3d& axis) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
+}
+
+/// The shortest turn that takes one direction to another, which must not be its opposite. Eigen's FromTwoVectors brings
+/// in an SVD that takes long to compile.
+inline Eigen::Quaterniond turn_from_to(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  Eigen::Quaterniond q;
+  q.vec() = from.cross(to);
+  q.w() = from.norm() * to.norm() + from.dot(to);
+  return q.normalized();
+}
+
+}  // namespace glissade::test_support
