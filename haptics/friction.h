@@ -16,8 +16,8 @@ namespace glissade::haptics {
 
 /// Coefficients of friction. Without any (both 0) contacts push along their normals only.
 struct Friction {
-  double at_rest = 0.0;  ///< while the part stands still: holds it up to at_rest × the normal force
-  double sliding = 0.0;  ///< while it moves; not more than at_rest
+  double at_rest = 0.0;  ///< where nothing slips: holds up to at_rest × the normal force
+  double sliding = 0.0;  ///< where one side slips past the other; not more than at_rest
 
   bool is_on() const { return at_rest > 0.0 || sliding > 0.0; }
 };
