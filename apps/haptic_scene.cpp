@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/pose_rules.h>
 #include <glissade/apps/text.h>
 #include <glissade/collision/mesh_operations.h>
 #include <glissade/collision/triangle_intersection.h>
@@ -12,8 +13,6 @@
 namespace glissade::apps {
 
 namespace {
-
-constexpr double kLargestCoordinate = 1e9;
 
 /// Where it lies: far from the origin, rounding may leave nothing of a small object.
 bool has_area(const collision::TriangleMesh& mesh, const Eigen::Isometry3d& X_WB) {
@@ -29,7 +28,7 @@ bool has_area(const collision::TriangleMesh& mesh, const Eigen::Isometry3d& X_WB
 void check(const Scene& scene, const SceneObject& object) {
   const std::string where = scene.source + ": object " + in_quotes(object.name);
   for (std::size_t i = 0; i < object.mesh->vertices.size(); ++i) {
-    if (((object.X_WB * object.mesh->vertices[i]).array().abs() <= kLargestCoordinate).all()) continue;
+    if (((object.X_WB * object.mesh->vertices[i]).array().abs() <= kLargestCoordinate_m).all()) continue;
     throw std::invalid_argument(where + ": vertex " + std::to_string(i) + " lies beyond ±1e9 m");
   }
   if (!has_area(*object.mesh, object.X_WB)) {

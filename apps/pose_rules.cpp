@@ -9,7 +9,6 @@ namespace glissade::apps {
 namespace {
 
 constexpr double kLengthTolerance = 1e-3;
-constexpr double kLargestCoordinate = 1e9;
 
 std::string spaced(const Eigen::Vector4d& values) {
   return format_number(values[0]) + " " + format_number(values[1]) + " " + format_number(values[2]) + " " +
@@ -20,7 +19,7 @@ std::string spaced(const Eigen::Vector4d& values) {
 
 Eigen::Isometry3d checked_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& q, const std::string& where) {
   for (const double coordinate : position) {
-    if (std::abs(coordinate) > kLargestCoordinate) {
+    if (std::abs(coordinate) > kLargestCoordinate_m) {
       throw std::invalid_argument(where + ": the position " + format_number(coordinate) + " is beyond 1e9 m");
     }
   }

@@ -31,16 +31,15 @@ function(glissade_add_component name)
     glissade_set_warnings(${target})
   endif()
   if(GLISSADE_COMPILE_IN_BULK)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 20)
-    # Warnings about what stands in other files of the component; the release build warns of the rest.
-    target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
     # Highway's kernels include themselves once for each instruction set.
+    set(kernels ${ARG_SOURCES})
     foreach(source IN LISTS ARG_SOURCES)
       file(STRINGS ${source} is_kernel REGEX "foreach_target\\.h")
-      if(is_kernel)
-        set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      if(NOT is_kernel)
+        list(REMOVE_ITEM kernels ${source})
       endif()
     endforeach()
+    glissade_compile_in_bulk(${target} EXCEPT ${kernels})
   endif()
 
   install(TARGETS ${target} EXPORT glissadeTargets

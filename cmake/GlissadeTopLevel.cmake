@@ -32,3 +32,16 @@ function(glissade_precompile target)
     target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-array-bounds)
   endif()
 endfunction()
+
+# glissade_compile_in_bulk(TARGET EXCEPT sources...): the target's other sources as a few large files, where the option asks
+# for that.
+function(glissade_compile_in_bulk target)
+  cmake_parse_arguments(ARG "" "" "EXCEPT" ${ARGN})
+  if(NOT GLISSADE_COMPILE_IN_BULK)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 20)
+  set_source_files_properties(${ARG_EXCEPT} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  # Warnings about what stands in other files of the target; the release build warns of the rest.
+  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endfunction()

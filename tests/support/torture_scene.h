@@ -1,7 +1,8 @@
 #pragma once
 
 /// Random scenes and random hands for sliding contact: soups, sheets, slivers, needles and smooth surfaces from 1 mm to
-/// 5 m, and ghosts that wander, press, turn, jump and let go. A seed gives a scene, whatever the machine or thread.
+/// 5 m, and ghosts that wander, press, turn, jump and let go. A seed gives a scene, whatever the machine
+/// or thread; see `RandomNumbers` for what it depends on.
 
 #include <cstdint>
 #include <memory>
