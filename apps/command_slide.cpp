@@ -250,7 +250,7 @@ haptics::SlidingOptions sliding_options(const Options& options) {
   sliding.rules.friction.sliding = options.friction.empty() ? 0.0 : options.friction.front();
   sliding.rules.friction.at_rest = options.friction.empty() ? 0.0 : options.friction.back();
   if (sliding.rules.friction.at_rest < sliding.rules.friction.sliding) {
-    throw std::invalid_argument("--friction: the second number, of parts at rest, must not be less than the first");
+    throw std::invalid_argument("--friction: the second number, at rest, must not be less than the first");
   }
   sliding.rules.anti_jam = options.anti_jam;
   if (options.lead_out) sliding.rules.overlap = haptics::OverlapRule::kLeadOut;
@@ -318,8 +318,7 @@ void add_slide_command(CLI::App& app, Command& chosen) {
   command->add_option("--metaphor", options->metaphor, "How hand and part are tied")->capture_default_str();
   command->add_option("--method", options->method, "How sliding is computed")->capture_default_str();
   command
-      ->add_option("--friction", options->friction,
-                   "Coefficient of Coulomb friction; or two, while the part slides and at rest")
+      ->add_option("--friction", options->friction, "Coefficient of Coulomb friction; or two, of sliding and at rest")
       ->expected(1, 2)
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--anti-jam", options->anti_jam, "Shake a part that is stuck, see below");

@@ -30,7 +30,7 @@ function(glissade_add_component name)
   if(COMMAND glissade_set_warnings)
     glissade_set_warnings(${target})
   endif()
-  if(GLISSADE_COMPILE_IN_BULK)
+  if(COMMAND glissade_compile_in_bulk AND GLISSADE_COMPILE_IN_BULK)
     # Highway's kernels include themselves once for each instruction set.
     set(kernels ${ARG_SOURCES})
     foreach(source IN LISTS ARG_SOURCES)

@@ -17,15 +17,15 @@ function(glissade_set_warnings target)
 endfunction()
 
 # Compiles these headers once for the whole target. clang-tidy goes without that (preset lint), so every file must still
-# include what it uses. The option is ccache's wish.
+# include what it uses. The options are ccache's wish.
 function(glissade_precompile target)
   if(CMAKE_DISABLE_PRECOMPILE_HEADERS)
     return()
   endif()
   target_precompile_headers(${target} PRIVATE ${ARGN})
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(${target} PRIVATE -fpch-preprocess)
-  endif()
+  target_compile_options(${target} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
+    "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # The bug above (105651) comes up under other names where the standard library's headers are precompiled. Components,
     # which go without, keep these warnings.

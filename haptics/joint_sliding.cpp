@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <glissade/collision/rigid_pose.h>
 #include <glissade/haptics/joint_sliding.h>
@@ -47,7 +48,6 @@ void JointSliding::let_rest(Part& part, SlidingState state) {
   part.offset = {};
   part.closing = 0.0;
   part.anti_jam = AntiJam(part.part_V->radius());
-  part.last_motion = {};
   pushed_.clear();
   part.result.state = state;
   part.result.contacts.clear();
@@ -74,7 +74,6 @@ void JointSliding::advance(std::span<const Eigen::Isometry3d> X_WG, double milli
     part.result.reach = parts_.size() == 1 ? reach_ : std::max(0.0, reach_ - last_step_);
     part.result.state = classify(part);
     part.lag_then = lag_of(part);
-    part.last_motion = displacement_between(part.X_WV_then, part.result.X_WV, part.part_V->p_Vref());
     if (!is_shaken(part)) continue;
     part.anti_jam.observe(part.lag_then, part.moved, part.result.pushing > 0, milliseconds);
   }
@@ -87,7 +86,7 @@ bool JointSliding::take_ghosts(std::span<const Eigen::Isometry3d> X_WG, double m
     Part& part = parts_[p];
     part.moved = 0.0;
     part.ghost_motion = 0.0;
-    part.X_WV_then = part.result.X_WV;
+    part.X_WV_before_last = std::exchange(part.X_WV_before, part.result.X_WV);
     part.X_WG_then = part.result.X_WG;
     const std::optional<Eigen::Isometry3d> rigid = collision::rigid_pose(X_WG[p]);
     if (!is_held(part) || !rigid) continue;

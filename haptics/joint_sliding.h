@@ -125,10 +125,11 @@ class JointSliding {
     Displacement offset{};  // from the ghost to where the part is wanted, since it was taken hold of
     double closing = 0.0;   // metres that the offset became less in this tick
     double moved = 0.0;     // metres, in this tick
-    Eigen::Isometry3d X_WV_then = Eigen::Isometry3d::Identity();  // before this tick
-    Displacement last_motion{};  // in the last call, from which friction knows what slips
-    Displacement lag_then{};     // from the part to where it was wanted, at the end of the last call
-    double slew = 0.0;           // metres that this lag may change by in this tick
+    // The part before the last call and before this one, from which friction knows what slips.
+    Eigen::Isometry3d X_WV_before_last = Eigen::Isometry3d::Identity();
+    Eigen::Isometry3d X_WV_before = Eigen::Isometry3d::Identity();
+    Displacement lag_then{};  // from the part to where it was wanted, at the end of the last call
+    double slew = 0.0;        // metres that this lag may change by in this tick
   };
   using Displacements = std::array<Displacement, kMaxParts>;
 

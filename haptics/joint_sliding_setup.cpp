@@ -73,6 +73,7 @@ JointSliding::JointSliding(std::vector<Obstacle> obstacles, const std::vector<He
     part.result.X_WV = *X_WV;
     part.result.X_WV_of_contacts = *X_WV;
     part.X_WA = *X_WV;
+    part.X_WV_before = *X_WV;
     largest_margin_ = std::max(largest_margin_, part.margin);
   }
   for (const Obstacle& obstacle : surroundings_.obstacles())

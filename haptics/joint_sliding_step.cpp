@@ -195,14 +195,22 @@ void JointSliding::solve_friction(std::span<const Displacement> wanted) {
 
 /// Whether the two sides went past each other in the last call, whatever they did together.
 bool JointSliding::slipped(const JointRow& row) const {
-  const auto motion_at = [](const Part& part, const Eigen::Vector3d& r) -> Eigen::Vector3d {
-    return part.last_motion.v + part.last_motion.w.cross(r);
+  double still = kUnbounded;  // less than this does not count
+  double curved = 0.0;        // what a step that holds this point to first order may carry it away by
+  const auto motion_of = [&](std::int32_t number, const Eigen::Vector3d& r) -> Eigen::Vector3d {
+    const Part& part = parts_[static_cast<std::size_t>(number)];
+    const Eigen::Isometry3d& X_from = part.X_WV_before_last;
+    const Eigen::Isometry3d& X_to = part.X_WV_before;
+    const double angle = Eigen::Quaterniond(X_from.linear()).angularDistance(Eigen::Quaterniond(X_to.linear()));
+    still = std::min(still, kNotWorthIt * part.margin);
+    curved += 0.5 * angle * angle * r.norm();
+    const Eigen::Vector3d p_V = part.part_V->p_Vref() + part.result.X_WV.linear().transpose() * r;
+    return X_to.translation() - X_from.translation() + (X_to.linear() - X_from.linear()) * p_V;
   };
-  const Part& part = parts_[static_cast<std::size_t>(row.part)];
-  Eigen::Vector3d slip = motion_at(part, row.r);
-  if (row.other >= 0) slip -= motion_at(parts_[static_cast<std::size_t>(row.other)], row.r_other);
+  Eigen::Vector3d slip = motion_of(row.part, row.r);
+  if (row.other >= 0) slip -= motion_of(row.other, row.r_other);
   slip -= slip.dot(row.n) * row.n;
-  return slip.norm() > kNotWorthIt * part.margin;
+  return slip.norm() > still + curved;
 }
 
 /// Those of the last cycle, where the same features still touch.

@@ -18,6 +18,7 @@
 #include <glissade/haptics/sliding.h>
 
 #include "held_part.h"
+#include "poses.h"
 #include "sanitizers.h"
 #include "sliding_scenes.h"
 

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "held_part.h"
+#include "poses.h"
 #include "sanitizers.h"
 
 namespace glissade::haptics {

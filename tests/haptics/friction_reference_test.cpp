@@ -11,6 +11,7 @@
 
 #include "held_part.h"
 #include "ode_reference.h"
+#include "poses.h"
 
 namespace glissade::haptics {
 namespace {

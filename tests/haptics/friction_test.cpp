@@ -3,15 +3,18 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <glissade/collision/mesh_generators.h>
+#include <glissade/devices/pose_trajectory.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 
 #include "held_part.h"
+#include "poses.h"
 
 namespace glissade::haptics {
 namespace {
@@ -20,6 +23,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using std::chrono::milliseconds;
 using test_support::pose;
+using test_support::turn;
 
 constexpr double kStiffness = 1000.0;  // N/m, the default
 constexpr double kPressed = 2e-3;      // metres below the plane: 2 N
@@ -119,51 +123,71 @@ TEST_F(PressedBox, AHundredMillionthOfFrictionHardlyDiffersFromNone) {
   EXPECT_LT((end_of_way({1e-8, 1e-8}).translation() - without.translation()).norm(), 1e-9);
 }
 
-/// A box on a lift that stands still for 200 ms and then goes along x at 0.1 m/s for 100 ms; pressed down by 2 N.
-class BoxOnLift : public ::testing::Test {
+/// A box on a carriage that stands still for 200 ms and then moves for 100 ms; pressed down by 2 N.
+class BoxOnCarriage : public ::testing::Test {
  protected:
   static constexpr int kWaits = 200;
-  static constexpr int kGoes = 100;
-  static constexpr double kWay_m = 0.01;
+  static constexpr int kMoves = 100;
+  /// What the hand pulls with across is more than what slides could hold, and less than what rests can.
+  static constexpr double kPulled = 0.8 * kAtRest * kPressed;
+  static_assert(0.8 * kAtRest > kSliding);
 
-  BoxOnLift() {
-    const Isometry3d X_WLift = pose({0.0, 0.0, -0.01});
-    const auto lift = test_support::part_of(collision::make_box({0.4, 0.4, 0.02}, 12));
-    const devices::PoseTrajectory script({{milliseconds(0), X_WLift},
-                                          {milliseconds(kWaits), X_WLift},
-                                          {milliseconds(kWaits + kGoes), pose({kWay_m, 0.0, -0.01})}});
+  /// The motion is in world axes, about the middle of the carriage.
+  void start(const Vector3d& p_box, const Isometry3d& X_motion) {
+    motion_ = X_motion;
+    const Isometry3d X_WC = pose({0.0, 0.0, -0.01});
+    const devices::PoseTrajectory script(
+        {{milliseconds(0), X_WC}, {milliseconds(kWaits), X_WC}, {milliseconds(kWaits + kMoves), X_motion * X_WC}});
+    const auto carriage = test_support::part_of(collision::make_box({0.4, 0.4, 0.02}, 12));
     const auto box = test_support::part_of(collision::make_box({0.06, 0.04, 0.02}, 12));
     sliding_ = std::make_unique<Sliding>(
-        std::vector<Obstacle>{}, box, pose({0.0, 0.0, 0.0101}),
+        std::vector<Obstacle>{}, box, pose(p_box + Vector3d(0.0, 0.0, 0.0101)),
         SlidingOptions{.rules = {.friction = {.at_rest = kAtRest, .sliding = kSliding}}},
-        std::vector<ScriptedPart>{{.part_B = lift, .script_X_WB = script, .name = "the lift"}});
+        std::vector<ScriptedPart>{{.part_B = carriage, .script_X_WB = script, .name = "the carriage"}});
+    lead(p_box + Vector3d(0.0, 0.0, 0.01 - kPressed), kWaits / 2);
   }
 
-  /// From where the ghost is, evenly.
   void lead(const Vector3d& p_WG, int calls) { test_support::lead(*sliding_, pose(p_WG), calls); }
-  double x_on_lift() const {
-    return sliding_->result().X_WV.translation().x() - sliding_->scripted_X_WB()[0].translation().x();
+  /// The hand goes with the carriage.
+  void go_along() {
+    const Isometry3d X_WG = sliding_->result().X_WG;
+    for (int i = 1; i <= kMoves; ++i)
+      sliding_->advance(test_support::between(Isometry3d::Identity(), motion_, static_cast<double>(i) / kMoves) * X_WG);
+    EXPECT_LT((sliding_->scripted_X_WB()[0].matrix() - (motion_ * pose({0.0, 0.0, -0.01})).matrix()).norm(), 1e-5)
+        << "the carriage went";
   }
+  /// Where the box is on the carriage.
+  Vector3d p_CV() const { return (sliding_->scripted_X_WB()[0].inverse() * sliding_->result().X_WV).translation(); }
 
+  Isometry3d motion_;
   std::unique_ptr<Sliding> sliding_;
 };
 
-TEST_F(BoxOnLift, IsCarriedAlongByWhatHoldsItAtRest) {
-  // More than what slides could hold, less than what rests can.
-  const double pulled = 0.8 * kAtRest * kPressed;
-  static_assert(0.8 * kAtRest > kSliding);
-  lead({0.0, 0.0, 0.01 - kPressed}, 100);
-  lead({pulled, 0.0, 0.01 - kPressed}, 100);
-  const double x = x_on_lift();
-  lead({pulled + kWay_m, 0.0, 0.01 - kPressed}, kGoes);
-  EXPECT_NEAR(sliding_->scripted_X_WB()[0].translation().x(), kWay_m, 1e-5) << "the lift went";
-  EXPECT_NEAR(x_on_lift(), x, 1e-5) << "and the box with it";
+TEST_F(BoxOnCarriage, IsCarriedAlongByWhatHoldsItAtRest) {
+  start({0.0, 0.0, 0.0}, pose({0.01, 0.0, 0.0}));
+  lead({kPulled, 0.0, 0.01 - kPressed}, kWaits / 2);
+  const Vector3d before = p_CV();
+  go_along();
+  EXPECT_LT((p_CV() - before).norm(), 1e-5);
 }
 
-TEST_F(BoxOnLift, SlipsWhereTheHandHoldsItBackAndFeelsTheForceOfSliding) {
-  lead({0.0, 0.0, 0.01 - kPressed}, kWaits);
-  lead({0.0, 0.0, 0.01 - kPressed}, kGoes);
-  EXPECT_LT(x_on_lift(), -0.9 * kWay_m + kAtRest * kPressed);
+TEST_F(BoxOnCarriage, IsCarriedAlongAroundACorner) {
+  // A turn by 180°/s, 0.1 m from its axis.
+  start({0.1, 0.0, 0.0}, pose({0.0, 0.0, 0.0}, turn(0.1 * std::numbers::pi, Vector3d::UnitZ())));
+  lead({0.1, kPulled, 0.01 - kPressed}, kWaits / 2);
+  const Vector3d before = p_CV();
+  go_along();
+  const Vector3d moved = p_CV() - before;
+  EXPECT_NEAR(moved.y(), 0.0, 0.1 * (kPulled - kSliding * kPressed)) << "held against the pull";
+  const double turned = 1e-3 * std::numbers::pi;  // in a call
+  EXPECT_NEAR(moved.x(), 0.0, 1.2 * kMoves * 0.5 * turned * turned * 0.1) << "creeps outwards to second order";
+}
+
+TEST_F(BoxOnCarriage, SlipsWhereTheHandHoldsItBackAndFeelsTheForceOfSliding) {
+  constexpr double kWay_m = 0.01;
+  start({0.0, 0.0, 0.0}, pose({kWay_m, 0.0, 0.0}));
+  lead({0.0, 0.0, 0.01 - kPressed}, kWaits / 2 + kMoves);
+  EXPECT_LT(p_CV().x(), -0.9 * kWay_m + kAtRest * kPressed);
   EXPECT_NEAR(sliding_->result().X_WV.translation().x(), kSliding * kPressed, 1e-5);
 }
 

@@ -17,6 +17,7 @@
 #include <glissade/haptics/joint_sliding.h>
 
 #include "held_part.h"
+#include "poses.h"
 
 namespace glissade::haptics {
 namespace {
@@ -119,7 +120,7 @@ TEST(TwoParts, OneThatCannotBeProvedDoesNotKeepTheOther) {
   EXPECT_NEAR(sliding.result(1).X_WV.translation().x(), -0.32, 1e-9);
 }
 
-TEST(TwoParts, EachHasTheCoefficientOfFrictionOfItsOwnState) {
+TEST(TwoParts, FrictionTakesNoNoticeOfAPartThatDoesNotTouch) {
   // The first is pressed on the wall by 1 N and drawn by 0.5 N, less than 0.8 holds; the other hand moves in the air.
   const std::vector<HeldPart> parts{{.part_V = cube(0.04), .X_WV_start = pose({-0.0201, 0.0, 0.0})},
                                     {.part_V = cube(0.04), .X_WV_start = pose({-0.3, 0.0, 0.0})}};

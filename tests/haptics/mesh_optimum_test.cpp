@@ -13,6 +13,7 @@
 #include "convex_shapes.h"
 #include "held_part.h"
 #include "hull_oracle.h"
+#include "poses.h"
 #include "sanitizers.h"
 
 namespace glissade::haptics {

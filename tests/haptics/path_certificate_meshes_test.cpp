@@ -17,6 +17,7 @@
 
 #include "held_part.h"
 #include "near_bodies.h"
+#include "poses.h"
 #include "sanitizers.h"
 
 namespace glissade::haptics {

@@ -15,6 +15,7 @@
 
 #include "held_part.h"
 #include "near_bodies.h"
+#include "poses.h"
 #include "sanitizers.h"
 
 namespace glissade::haptics {

@@ -11,6 +11,7 @@
 #include <glissade/haptics/sliding_method.h>
 
 #include "held_part.h"
+#include "poses.h"
 
 namespace glissade::haptics {
 namespace {

@@ -13,6 +13,7 @@
 #include <glissade/haptics/sliding.h>
 
 #include "held_part.h"
+#include "poses.h"
 #include "random_numbers.h"
 #include "sanitizers.h"
 #include "sliding_scenes.h"

@@ -27,7 +27,6 @@ using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using test_support::pose;
-using test_support::turn;
 using test_support::turn_from_to;
 
 constexpr unsigned kSeed = 29;

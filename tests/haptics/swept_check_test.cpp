@@ -12,6 +12,8 @@
 #include <glissade/collision/mesh_generators.h>
 #include <glissade/haptics/motion.h>
 
+#include "poses.h"
+
 namespace glissade::test_support {
 namespace {
 
@@ -24,15 +26,11 @@ std::vector<haptics::Obstacle> obstacle_of(const TriangleMesh& mesh) {
   return {{std::make_shared<haptics::ContactBody>(std::make_shared<TriangleMesh>(mesh))}};
 }
 
-Isometry3d at(const Vector3d& p) {
-  return Isometry3d(Eigen::Translation3d(p));
-}
-
 const TriangleMesh kSheet = collision::make_plate({0.2, 0.2}, 50);
 
 TEST(SweptCheck, SeesASheetGoThroughAnotherThoughNeitherEndCollides) {
   SweptCheck check(obstacle_of(kSheet), collision::make_plate({0.05, 0.05}, 8), Vector3d::Zero());
-  const Isometry3d above = at({0.0, 0.0, 1e-3});
+  const Isometry3d above = pose({0.0, 0.0, 1e-3});
   EXPECT_TRUE(check.fault_of(above, {{0.0, 0.0, -2e-3}, Vector3d::Zero()}));
   EXPECT_TRUE(check.fault_of(above, {{0.05, 0.0, -2e-3}, {0.01, 0.0, 0.0}}));
   EXPECT_FALSE(check.fault_of(above, {{0.05, 0.0, -0.999e-3}, Vector3d::Zero()}));
@@ -54,22 +52,22 @@ TEST(SweptCheck, SeesWhatOnlyTheMiddleOfATurnMeets) {
 
 TEST(SweptCheck, ProvesLongWaysOverAFaceANanometreAway) {
   SweptCheck check(obstacle_of(kSheet), collision::make_box({0.05, 0.05, 0.02}, 108), Vector3d::Zero());
-  EXPECT_FALSE(check.fault_of(at({-0.05, 0.0, 0.01 + 1e-9}), {{0.1, 0.02, 0.0}, {0.0, 0.0, 0.3}}));
-  EXPECT_TRUE(check.fault_of(at({-0.05, 0.0, 0.01 + 1e-9}), {{0.1, 0.02, 0.0}, {1e-6, 0.0, 0.3}}));
+  EXPECT_FALSE(check.fault_of(pose({-0.05, 0.0, 0.01 + 1e-9}), {{0.1, 0.02, 0.0}, {0.0, 0.0, 0.3}}));
+  EXPECT_TRUE(check.fault_of(pose({-0.05, 0.0, 0.01 + 1e-9}), {{0.1, 0.02, 0.0}, {1e-6, 0.0, 0.3}}));
 }
 
 TEST(SweptCheck, TellsDistancesAndTheirPoints) {
   SweptCheck check(obstacle_of(kSheet), collision::make_box({0.05, 0.05, 0.02}, 12), Vector3d::Zero());
-  EXPECT_NEAR(check.distance(at({0.0, 0.0, 0.01 + 3e-6}), 1e-3), 3e-6, 1e-15);
-  EXPECT_EQ(check.distance(at({0.0, 0.0, 0.1}), 1e-3), 1e-3);
-  EXPECT_EQ(check.distance(at({0.0, 0.0, 0.0}), 1e-3), 0.0);
-  const auto& near = check.near_pairs(at({0.0, 0.0, 0.01 + 3e-6}), 4e-6, 1000);
+  EXPECT_NEAR(check.distance(pose({0.0, 0.0, 0.01 + 3e-6}), 1e-3), 3e-6, 1e-15);
+  EXPECT_EQ(check.distance(pose({0.0, 0.0, 0.1}), 1e-3), 1e-3);
+  EXPECT_EQ(check.distance(pose({0.0, 0.0, 0.0}), 1e-3), 0.0);
+  const auto& near = check.near_pairs(pose({0.0, 0.0, 0.01 + 3e-6}), 4e-6, 1000);
   ASSERT_FALSE(near.empty());
   for (const SweptCheck::NearPair& pair : near) {
     EXPECT_NEAR((pair.p_part - pair.p_obstacle).norm(), pair.distance, 1e-15);
     EXPECT_NEAR(pair.p_obstacle.z(), 0.0, 1e-15);
   }
-  EXPECT_EQ(check.near_pairs(at({0.0, 0.0, 0.01 + 3e-6}), 4e-6, 2).size(), 2);
+  EXPECT_EQ(check.near_pairs(pose({0.0, 0.0, 0.01 + 3e-6}), 4e-6, 2).size(), 2);
 }
 
 }  // namespace

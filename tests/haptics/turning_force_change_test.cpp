@@ -22,6 +22,7 @@
 
 #include "convex_shapes.h"
 #include "held_part.h"
+#include "poses.h"
 #include "sanitizers.h"
 
 namespace glissade::haptics {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "poses.h"
+
 namespace glissade::test_support {
 
 using Eigen::Isometry3d;

@@ -14,8 +14,6 @@
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 
-#include "poses.h"
-
 namespace glissade::test_support {
 
 inline std::shared_ptr<const haptics::SlidingPart> part_of(collision::TriangleMesh mesh) {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "held_part.h"
+#include "poses.h"
 
 namespace glissade::test_support {
 namespace {

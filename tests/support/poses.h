@@ -2,6 +2,8 @@
 
 /// Poses and turns, written shortly.
 
+#include <numbers>
+
 #include <Eigen/Geometry>
 
 namespace glissade::test_support {
@@ -18,12 +20,14 @@ inline Eigen::Quaterniond turn(double angle, const Eigen::Vector3d& axis) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
 }
 
-/// The shortest turn that takes one direction to another, which must not be its opposite. Eigen's FromTwoVectors brings
-/// in an SVD that takes long to compile.
+/// The shortest turn that takes one direction to another. Eigen's FromTwoVectors brings in an SVD that takes long to
+/// compile.
 inline Eigen::Quaterniond turn_from_to(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const double length = from.norm() * to.norm();
   Eigen::Quaterniond q;
   q.vec() = from.cross(to);
-  q.w() = from.norm() * to.norm() + from.dot(to);
+  q.w() = length + from.dot(to);
+  if (q.norm() < 1e-9 * length) q = Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, from.unitOrthogonal()));
   return q.normalized();
 }
 

@@ -120,8 +120,10 @@ SlidingScene peg_scene(const PegTrial& trial) {
   const Quaterniond yaw = turn(random.uniform(-pi, pi), Vector3d::UnitZ());
   const Vector3d final_offset = trial.offset * across();
   const Quaterniond final_tilt = turn(trial.tilt, across());
-  const Vector3d first_offset = random.uniform(0.0, 2e-3) * across();
-  const Quaterniond first_tilt = turn(random.uniform(0.0, 2.0) * pi / 180.0, across());
+  const Vector3d first_direction = across();
+  const Vector3d first_offset = random.uniform(0.0, 2e-3) * first_direction;
+  const double first_angle = random.uniform(0.0, 2.0) * pi / 180.0;
+  const Quaterniond first_tilt = turn(first_angle, across());
   SlidingScene scene;
   scene.name = "peg";
   scene.obstacles.push_back({body_of(collision::make_holed_plate(plate)), Isometry3d::Identity(), "the plate"});
