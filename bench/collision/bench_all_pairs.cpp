@@ -14,7 +14,7 @@ using collision::DopTree;
 using collision::TriangleMesh;
 using Eigen::Isometry3d;
 
-constexpr const char* kName = "all-pairs";
+constexpr const char* kAllPairsName = "all-pairs";
 
 // Between a third of the way to contact and contact, so that objects overlap as parts do that a hand pushes together.
 std::vector<Isometry3d> overlapping_poses(const DopTree& tree, const BenchOptions& options) {
@@ -40,7 +40,7 @@ void run_all_pairs(const BenchOptions& options, Results& results) {
       join({{glissade_subject()}, glissade_instruction_sets(), peers_that_count_pairs()});
   for (const SuiteMesh& suite_mesh : suite_meshes(options.suite, options.suite.triangles)) {
     const auto mesh = std::make_shared<const TriangleMesh>(suite_mesh.make());
-    run_query_case({.bench = kName,
+    run_query_case({.bench = kAllPairsName,
                     .name = suite_mesh.name,
                     .mesh_A = *mesh,
                     .mesh_B = *mesh,
@@ -48,7 +48,7 @@ void run_all_pairs(const BenchOptions& options, Results& results) {
                     .operation = Operation::kCountPairs},
                    subjects, pass_limits(options), results);
   }
-  results.add_ratios(kName, kPeers);
+  results.add_ratios(kAllPairsName, kPeers);
 }
 
 }  // namespace glissade::bench

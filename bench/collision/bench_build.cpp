@@ -15,8 +15,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kName = "build";
-constexpr std::int64_t kLarge = 1'000'000;  // Glissade only
+constexpr const char* kBuildName = "build";
+constexpr std::int64_t kLargest = 1'000'000;  // Glissade only
 
 double allocated_bytes() {
   const struct mallinfo2 info = mallinfo2();
@@ -57,12 +57,12 @@ void run(const SuiteMesh& suite_mesh, const std::vector<Subject>& subjects, int 
       bytes[i] = figures.bytes;
     }
   }
-  std::fprintf(stderr, "%s %s:", kName, suite_mesh.name.c_str());
-  results.add({kName, suite_mesh.name, subjects[0].name, "triangles", triangles, "1"});
+  std::fprintf(stderr, "%s %s:", kBuildName, suite_mesh.name.c_str());
+  results.add({kBuildName, suite_mesh.name, subjects[0].name, "triangles", triangles, "1"});
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     const double ns = median(times[i]);
-    results.add({kName, suite_mesh.name, subjects[i].name, "time", ns, "ns"});
-    results.add({kName, suite_mesh.name, subjects[i].name, "bytes_per_triangle", bytes[i] / triangles, "B"});
+    results.add({kBuildName, suite_mesh.name, subjects[i].name, "time", ns, "ns"});
+    results.add({kBuildName, suite_mesh.name, subjects[i].name, "bytes_per_triangle", bytes[i] / triangles, "B"});
     std::fprintf(stderr, " %s %.3g ms, %.0f B/triangle;", subjects[i].name.c_str(), 1e-6 * ns, bytes[i] / triangles);
   }
   std::fputc('\n', stderr);
@@ -75,11 +75,11 @@ void run_build(const BenchOptions& options, Results& results) {
   const int rounds = options.quick ? 3 : 5;
   for (const SuiteMesh& mesh : suite_meshes(options.suite, options.suite.triangles))
     run(mesh, join({ours, peers()}), rounds, results);
-  results.add_ratios(kName, kPeers);
+  results.add_ratios(kBuildName, kPeers);
   if (options.quick) return;
   Suite shapes = options.suite;
   shapes.files.clear();
-  for (const SuiteMesh& mesh : suite_meshes(shapes, {kLarge}))
+  for (const SuiteMesh& mesh : suite_meshes(shapes, {kLargest}))
     run(mesh, ours, 1, results);
 }
 

@@ -14,13 +14,13 @@ using collision::DopTree;
 using collision::TriangleMesh;
 using Eigen::Isometry3d;
 
-constexpr const char* kName = "close";
+constexpr const char* kCloseName = "close";
 
-struct Gap {
+struct RelativeGap {
   const char* name;
   double share;  // of the size
 };
-constexpr Gap kGaps[] = {{"gap-0.1%", 0.001}, {"gap-0.3%", 0.003}, {"gap-1%", 0.01}};
+constexpr RelativeGap kRelativeGaps[] = {{"gap-0.1%", 0.001}, {"gap-0.3%", 0.003}, {"gap-1%", 0.01}};
 
 std::vector<Isometry3d> close_poses(const DopTree& tree, double gap, const BenchOptions& options) {
   PoseSource source(tree, tree, options.seed);
@@ -41,8 +41,8 @@ void run_close(const BenchOptions& options, Results& results) {
   for (const SuiteMesh& suite_mesh : suite_meshes(options.suite, options.suite.triangles)) {
     const auto mesh = std::make_shared<const TriangleMesh>(suite_mesh.make());
     const DopTree tree(mesh);
-    for (const Gap& gap : kGaps) {
-      run_query_case({.bench = kName,
+    for (const RelativeGap& gap : kRelativeGaps) {
+      run_query_case({.bench = kCloseName,
                       .name = suite_mesh.name + "-" + gap.name,
                       .mesh_A = *mesh,
                       .mesh_B = *mesh,
@@ -50,7 +50,7 @@ void run_close(const BenchOptions& options, Results& results) {
                      subjects, pass_limits(options), results);
     }
   }
-  results.add_ratios(kName, kPeers);
+  results.add_ratios(kCloseName, kPeers);
 }
 
 }  // namespace glissade::bench

@@ -14,7 +14,7 @@ namespace {
 using collision::DopTree;
 using collision::TriangleMesh;
 
-constexpr const char* kName = "coherent";
+constexpr const char* kCoherentName = "coherent";
 constexpr double kPartSize = 0.1;
 constexpr SlidingStep kStep{.length = 1e-5, .angle = 0.005 * std::numbers::pi / 180.0};
 
@@ -34,7 +34,7 @@ void run_coherent(const BenchOptions& options, Results& results) {
   for (const SuiteMesh& suite_mesh : suite_meshes(options.suite, {options.suite.coherent_triangles}, kPartSize)) {
     const auto mesh = std::make_shared<const TriangleMesh>(suite_mesh.make());
     const DopTree tree(mesh);
-    run_query_case({.bench = kName,
+    run_query_case({.bench = kCoherentName,
                     .name = suite_mesh.name,
                     .mesh_A = *mesh,
                     .mesh_B = *mesh,
@@ -46,7 +46,7 @@ void run_coherent(const BenchOptions& options, Results& results) {
                          {fcl_subject()}}),
                    pass_limits(options), results);
   }
-  results.add_ratios(kName, kPeers);
+  results.add_ratios(kCoherentName, kPeers);
 }
 
 }  // namespace glissade::bench

@@ -17,9 +17,9 @@ namespace {
 using collision::DopTree;
 using collision::TriangleMesh;
 
-constexpr const char* kName = "zachmann";
+constexpr const char* kExtremesName = "zachmann";
 constexpr std::int64_t kSmall = 1'000;
-constexpr std::int64_t kLarge = 1'000'000;
+constexpr std::int64_t kLargeMesh = 1'000'000;
 constexpr std::int64_t kFarTriangles = 20'000;
 
 void run_far_pair(const BenchOptions& options, Results& results) {
@@ -29,14 +29,17 @@ void run_far_pair(const BenchOptions& options, Results& results) {
   std::vector<Eigen::Isometry3d> poses;
   while (poses.size() < 500)
     poses.push_back(pose(source.rotation(), 3.0 * source.direction()));
-  run_query_case(
-      {.bench = kName, .name = "far-spheres", .mesh_A = *mesh, .mesh_B = *mesh, .poses = with_sample(poses, 1, 10)},
-      usual_subjects(), pass_limits(options), results);
+  run_query_case({.bench = kExtremesName,
+                  .name = "far-spheres",
+                  .mesh_A = *mesh,
+                  .mesh_B = *mesh,
+                  .poses = with_sample(poses, 1, 10)},
+                 usual_subjects(), pass_limits(options), results);
 }
 
 double time_of(const Results& results, const std::string& case_name) {
   for (const Row& row : results.rows()) {
-    if (row.bench == kName && row.case_name == case_name && row.subject == "glissade" && row.metric == "time")
+    if (row.bench == kExtremesName && row.case_name == case_name && row.subject == "glissade" && row.metric == "time")
       return row.value;
   }
   return 0.0;
@@ -46,12 +49,12 @@ void run_million(const BenchOptions& options, Results& results) {
   double log_sum = 0.0;
   int count = 0;
   for (const std::string& shape : options.suite.shapes) {
-    const std::string name = shape + "-" + short_count(kLarge);
+    const std::string name = shape + "-" + short_count(kLargeMesh);
     {
-      const auto mesh = std::make_shared<const TriangleMesh>(make_shape(shape, kLarge, kSize));
+      const auto mesh = std::make_shared<const TriangleMesh>(make_shape(shape, kLargeMesh, kSize));
       const DopTree tree(mesh);
       PoseSource source(tree, tree, options.seed);
-      run_query_case({.bench = kName,
+      run_query_case({.bench = kExtremesName,
                       .name = name,
                       .mesh_A = *mesh,
                       .mesh_B = *mesh,
@@ -63,7 +66,7 @@ void run_million(const BenchOptions& options, Results& results) {
     log_sum += std::log(time_of(results, name) / small);
     ++count;
   }
-  if (count > 0) results.add({kName, "growth", "glissade", "time_1M_by_1k", std::exp(log_sum / count), "x"});
+  if (count > 0) results.add({kExtremesName, "growth", "glissade", "time_1M_by_1k", std::exp(log_sum / count), "x"});
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using Poses = std::vector<Isometry3d>;
 
-constexpr const char* kName = "hull";
+constexpr const char* kHullName = "hull";
 const std::vector<std::string> kHullPeers{"libccd", "libccd-mpr", "fcl", "bullet"};
 
 struct Shape {
@@ -116,19 +116,19 @@ double count_wrong(HullQuery& query, const Poses& poses, const std::vector<bool>
 
 void run_case(const std::string& name, const HullModel& model, const Poses& poses,
               const std::vector<HullSubject>& subjects, const BenchOptions& options, Results& results) {
-  std::fprintf(stderr, "%s %s\n", kName, name.c_str());
+  std::fprintf(stderr, "%s %s\n", kHullName, name.c_str());
   const std::vector<bool> expected = exact_answers(model.hull, poses);
   std::vector<std::unique_ptr<HullQuery>> queries;
   std::vector<Contestant> contestants;
   for (const HullSubject& subject : subjects) {
     queries.push_back(subject.query(model));
     contestants.push_back({queries.back().get(), subject.slow});
-    results.add({kName, name, subject.name, "wrong", count_wrong(*queries.back(), poses, expected), "1"});
+    results.add({kHullName, name, subject.name, "wrong", count_wrong(*queries.back(), poses, expected), "1"});
   }
   const std::vector<PassTimes> times =
       interleaved_passes(contestants, {poses}, Operation::kIntersects, pass_limits(options));
   for (std::size_t i = 0; i < subjects.size(); ++i)
-    results.add({kName, name, subjects[i].name, "time", times[i].all_ns, "ns"});
+    results.add({kHullName, name, subjects[i].name, "time", times[i].all_ns, "ns"});
 }
 
 }  // namespace
@@ -153,13 +153,13 @@ void run_hull(const BenchOptions& options, Results& results) {
       }
     }
   }
-  results.add_ratios(kName, kHullPeers);
+  results.add_ratios(kHullName, kHullPeers);
   for (const char* group : {"separated", "touching", "penetrating"}) {
     std::vector<std::string> endings;
     for (const Gap& gap : kGaps) {
       if (gap.group == std::string(group)) endings.push_back(std::string(kSlowest) + "-" + gap.name);
     }
-    results.add_group_ratios(kName, group, endings, kHullPeers);
+    results.add_group_ratios(kHullName, group, endings, kHullPeers);
   }
 }
 

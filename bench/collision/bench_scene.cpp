@@ -19,7 +19,7 @@ namespace {
 using collision::FrameReport;
 using collision::StageReport;
 
-constexpr const char* kName = "scene";
+constexpr const char* kSceneName = "scene";
 // Of the box, by the bounding spheres of the objects.
 constexpr double kFilled = 0.12;
 
@@ -98,7 +98,7 @@ class SceneRows {
   }
 
   void row(const std::string& subject, const std::string& metric, double value, const std::string& unit) {
-    results_.add({kName, case_, subject, metric, value, unit});
+    results_.add({kSceneName, case_, subject, metric, value, unit});
   }
 
   std::string case_;
@@ -106,7 +106,7 @@ class SceneRows {
 };
 
 void say(const std::string& case_name, const std::vector<SceneLibrary>& libraries, const Records& records) {
-  std::fprintf(stderr, "%s %s:", kName, case_name.c_str());
+  std::fprintf(stderr, "%s %s:", kSceneName, case_name.c_str());
   for (std::size_t i = 0; i < libraries.size(); ++i) {
     std::fprintf(stderr, " %s %.4g us", libraries[i].name.c_str(), median_us(records[i], records[i]));
     if (i == 0) continue;
@@ -143,7 +143,7 @@ void run_objects(const SceneCast& cast, std::size_t count, bool off_each_other, 
   const auto subjects = cast.start(scene);
   const CpuShare cpu_share;
   const Records records = replay(scene, subjects, limits);
-  results.add({kName, case_name, "machine", "cpu_share", cpu_share.value(), "1"});
+  results.add({kSceneName, case_name, "machine", "cpu_share", cpu_share.value(), "1"});
   SceneRows rows(case_name, results);
   for (std::size_t i = 0; i < records.size(); ++i)
     rows.add_frames(cast.libraries()[i].name, records[i]);
@@ -156,12 +156,12 @@ void run_objects(const SceneCast& cast, std::size_t count, bool off_each_other, 
 void add_means(Results& results) {
   std::map<std::string, std::vector<double>> ratios;
   for (const Row& row : results.rows()) {
-    if (row.bench == kName && row.metric.find("ratio_to_") != std::string::npos)
+    if (row.bench == kSceneName && row.metric.find("ratio_to_") != std::string::npos)
       ratios[row.metric].push_back(row.value);
   }
   for (const auto& [metric, values] : ratios) {
-    results.add({kName, "geomean", "glissade", metric, geometric_mean(values), "x"});
-    results.add({kName, "worst", "glissade", metric, *std::min_element(values.begin(), values.end()), "x"});
+    results.add({kSceneName, "geomean", "glissade", metric, geometric_mean(values), "x"});
+    results.add({kSceneName, "worst", "glissade", metric, *std::min_element(values.begin(), values.end()), "x"});
   }
 }
 
@@ -184,10 +184,10 @@ void run_resting(const BenchOptions& options, Results& results) {
   }
   const auto time = [](const FrameRecord& frame) { return frame.us; };
   const double ratio = median_us(records[1], records[0]) / median_us(records[0], records[1]);
-  results.add({kName, "rest-1000", "glissade", "time_by_rest-10", ratio, "x"});
-  results.add(
-      {kName, "rest-1000", "glissade", "mean_time_by_rest-10", mean(records[1], time) / mean(records[0], time), "x"});
-  std::fprintf(stderr, "%s: one moves among 10 that rest %.3g us, among 1000 %.3g us (%.2f times)\n", kName,
+  results.add({kSceneName, "rest-1000", "glissade", "time_by_rest-10", ratio, "x"});
+  results.add({kSceneName, "rest-1000", "glissade", "mean_time_by_rest-10",
+               mean(records[1], time) / mean(records[0], time), "x"});
+  std::fprintf(stderr, "%s: one moves among 10 that rest %.3g us, among 1000 %.3g us (%.2f times)\n", kSceneName,
                median_us(records[0], records[0]), median_us(records[1], records[1]), ratio);
 }
 

@@ -18,7 +18,7 @@ using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr const char* kName = "shells";
+constexpr const char* kShellsName = "shells";
 constexpr double kGap = 0.02;  // of the radius of the sphere, of half the size of the plate
 
 // B inside A, turned about their common centre.
@@ -50,21 +50,21 @@ void run_shells(const BenchOptions& options, Results& results) {
     const auto inner = std::make_shared<const TriangleMesh>(collision::make_sphere(1.0 - kGap, triangles));
     const DopTree outer_tree(outer);
     PoseSource source(outer_tree, outer_tree, options.seed);
-    run_query_case({.bench = kName,
+    run_query_case({.bench = kShellsName,
                     .name = "nested-spheres-" + short_count(triangles),
                     .mesh_A = *outer,
                     .mesh_B = *inner,
                     .poses = with_sample(nested_poses(source, count), 1, 10)},
                    subjects, pass_limits(options), results);
     const TriangleMesh plate = collision::make_bumpy_plate({kSize, kSize}, 0.1 * kSize, 4, triangles);
-    run_query_case({.bench = kName,
+    run_query_case({.bench = kShellsName,
                     .name = "bumpy-plates-" + short_count(triangles),
                     .mesh_A = plate,
                     .mesh_B = plate,
                     .poses = with_sample(stacked_poses(source, count), 1, 10)},
                    subjects, pass_limits(options), results);
   }
-  results.add_ratios(kName, kPeers);
+  results.add_ratios(kShellsName, kPeers);
 }
 
 }  // namespace glissade::bench

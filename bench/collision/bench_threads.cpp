@@ -21,7 +21,7 @@ using collision::DopTree;
 using collision::TrianglePair;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kName = "threads";
+constexpr const char* kThreadsName = "threads";
 
 // 1, 2, 4 and 8, as far as the machine has them; 2 always, so that there is something to compare.
 std::vector<int> thread_counts() {
@@ -36,16 +36,16 @@ std::vector<int> thread_counts() {
 void add_rows(const std::string& case_name, const std::vector<double>& us, std::int64_t disagreements,
               const std::string& metric, Results& results) {
   const std::vector<int> counts = thread_counts();
-  std::fprintf(stderr, "%s %s:", kName, case_name.c_str());
+  std::fprintf(stderr, "%s %s:", kThreadsName, case_name.c_str());
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const std::string subject = glissade_scenes(counts[i]).name;
-    results.add({kName, case_name, subject, metric, us[i], "us"});
+    results.add({kThreadsName, case_name, subject, metric, us[i], "us"});
     std::fprintf(stderr, " %s %.4g us", subject.c_str(), us[i]);
     if (i == 0) continue;
-    results.add({kName, case_name, subject, "speedup", us[0] / us[i], "x"});
+    results.add({kThreadsName, case_name, subject, "speedup", us[0] / us[i], "x"});
     std::fprintf(stderr, " (%.2fx)", us[0] / us[i]);
   }
-  results.add({kName, case_name, "glissade", "disagreements", static_cast<double>(disagreements), "1"});
+  results.add({kThreadsName, case_name, "glissade", "disagreements", static_cast<double>(disagreements), "1"});
   std::fputc('\n', stderr);
 }
 
@@ -57,8 +57,8 @@ void add_counts(const std::string& case_name, const std::vector<FrameRecord>& fr
     neighbors += static_cast<double>(frame.report.neighbors) / static_cast<double>(frames.size());
     exact += static_cast<double>(frame.report.exact.in) / static_cast<double>(frames.size());
   }
-  results.add({kName, case_name, "glissade", "neighbors", neighbors, "1"});
-  results.add({kName, case_name, "glissade", "exact_in", exact, "1"});
+  results.add({kThreadsName, case_name, "glissade", "neighbors", neighbors, "1"});
+  results.add({kThreadsName, case_name, "glissade", "exact_in", exact, "1"});
 }
 
 // In turns of one frame, threads that were needed for the last one have gone to sleep, and caches hold the others'

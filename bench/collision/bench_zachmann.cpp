@@ -14,7 +14,7 @@ namespace {
 using collision::DopTree;
 using collision::TriangleMesh;
 
-constexpr const char* kName = "zachmann";
+constexpr const char* kZachmannName = "zachmann";
 constexpr std::int64_t kSweepTriangles = 20'000;  // where the number of directions is varied
 
 std::vector<Subject> subjects_for(const std::string& mesh_name) {
@@ -28,7 +28,7 @@ void run(const SuiteMesh& suite_mesh, const std::vector<Subject>& subjects, cons
   const DopTree tree(mesh);
   PoseSource source(tree, tree, options.seed);
   run_query_case(
-      {.bench = kName,
+      {.bench = kZachmannName,
        .name = suite_mesh.name,
        .mesh_A = *mesh,
        .mesh_B = *mesh,
@@ -46,7 +46,7 @@ PassLimits pass_limits(const BenchOptions& options) {
 void run_zachmann(const BenchOptions& options, Results& results) {
   for (const SuiteMesh& mesh : suite_meshes(options.suite, options.suite.triangles))
     run(mesh, subjects_for(mesh.name), options, results);
-  results.add_ratios(kName, kPeers);
+  results.add_ratios(kZachmannName, kPeers);
   run_extremes(options, results);  // not among the ratios
 }
 

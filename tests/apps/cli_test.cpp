@@ -12,6 +12,7 @@
 
 #include "glissade_program.h"
 #include "temporary_folder.h"
+#include "tetrahedron_file.h"
 
 namespace glissade::apps {
 namespace {
@@ -22,7 +23,6 @@ using test_support::ProgramResult;
 using test_support::TemporaryFolder;
 using testing::HasSubstr;
 
-constexpr const char* kTetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 constexpr const char* kPosesHeader = "x_m,y_m,z_m,qw,qx,qy,qz\n";
 
 /// A folder with a mesh `a.obj`, to which tests add what is wrong.
@@ -34,7 +34,7 @@ class Cli : public testing::Test {
   }
 
   TemporaryFolder folder;
-  std::string mesh = folder.write("a.obj", kTetrahedron);
+  std::string mesh = folder.write("a.obj", kTetrahedronObj);
   std::string poses = folder.write("good.csv", kPosesHeader + std::string("0.5,0,0,1,0,0,0\n2,0,0,1,0,0,0\n"));
 };
 
@@ -85,7 +85,7 @@ TEST_F(Cli, CollideWritesTheSameToAFile) {
 }
 
 TEST_F(Cli, CacheKeepsTheTreesNextToTheMeshes) {
-  const std::string other = folder.write("b.obj", kTetrahedron);
+  const std::string other = folder.write("b.obj", kTetrahedronObj);
   const std::vector<std::string> collide{"collide", mesh, other, "--poses", poses, "--pairs"};
   std::vector<std::string> cached_collide = collide;
   cached_collide.emplace_back("--cache");
@@ -109,7 +109,7 @@ TEST_F(Cli, CacheKeepsTheTreesNextToTheMeshes) {
   const ProgramResult stale = glissade(cached_collide);
   EXPECT_EQ(stale.standard_output, "pose,colliding,pairs\n0,0,0\n1,0,0\n");
   EXPECT_EQ(stale.standard_error, "glissade: " + other + ".dop-tree: of another mesh; built anew\n");
-  folder.write("b.obj", kTetrahedron);
+  folder.write("b.obj", kTetrahedronObj);
   folder.write("b.obj.dop-tree", "DOP-tr");
   expect_answer("glissade: " + other + ".dop-tree: not a kept tree; built anew\n");
   expect_answer("");

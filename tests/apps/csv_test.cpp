@@ -19,47 +19,48 @@ using test_support::TemporaryFolder;
 
 const std::vector<std::string> kColumns{"t_s", "x_m"};
 
-CsvTable parse(const std::string& text) {
+CsvTable parse_table(const std::string& text) {
   return parse_csv(text, "table.csv", kColumns);
 }
 
 TEST(Csv, ReadsRowsOfNumbers) {
-  const CsvTable table = parse("t_s,x_m\n0,1.5\n-2e-3,.25\n");
+  const CsvTable table = parse_table("t_s,x_m\n0,1.5\n-2e-3,.25\n");
   EXPECT_THAT(table.rows, testing::ElementsAre(std::vector<double>{0.0, 1.5}, std::vector<double>{-2e-3, 0.25}));
   EXPECT_EQ(table.where(1), "table.csv:3");
 }
 
 TEST(Csv, LineBreaksMayBeOfEitherKindAndTheLastOneMayBeMissing) {
-  EXPECT_EQ(parse("t_s,x_m\r\n1,2\r\n3,4").rows, parse("t_s,x_m\n1,2\n3,4\n").rows);
+  EXPECT_EQ(parse_table("t_s,x_m\r\n1,2\r\n3,4").rows, parse_table("t_s,x_m\n1,2\n3,4\n").rows);
 }
 
 TEST(Csv, TheHeaderMustBeExact) {
-  expect_bad_input([] { parse("t_s,y_m\n1,2\n"); }, {"table.csv:1:", "t_s,x_m", "'t_s,y_m'"});
-  expect_bad_input([] { parse("t_s,x_m,y_m\n1,2,3\n"); }, {"table.csv:1:", "t_s,x_m,y_m"});
-  expect_bad_input([] { parse("1,2\n3,4\n"); }, {"table.csv:1:", "'1,2'"});
+  expect_bad_input([] { parse_table("t_s,y_m\n1,2\n"); }, {"table.csv:1:", "t_s,x_m", "'t_s,y_m'"});
+  expect_bad_input([] { parse_table("t_s,x_m,y_m\n1,2,3\n"); }, {"table.csv:1:", "t_s,x_m,y_m"});
+  expect_bad_input([] { parse_table("1,2\n3,4\n"); }, {"table.csv:1:", "'1,2'"});
 }
 
 TEST(Csv, AWrongNumberOfColumnsNamesTheLine) {
-  expect_bad_input([] { parse("t_s,x_m\n1,2\n3\n"); }, {"table.csv:3:", "2 columns, not 1"});
-  expect_bad_input([] { parse("t_s,x_m\n1,2,3\n"); }, {"table.csv:2:", "2 columns, not 3"});
-  expect_bad_input([] { parse("t_s,x_m\n1,2\n\n3,4\n"); }, {"table.csv:3:", "2 columns, not 0"});
+  expect_bad_input([] { parse_table("t_s,x_m\n1,2\n3\n"); }, {"table.csv:3:", "2 columns, not 1"});
+  expect_bad_input([] { parse_table("t_s,x_m\n1,2,3\n"); }, {"table.csv:2:", "2 columns, not 3"});
+  expect_bad_input([] { parse_table("t_s,x_m\n1,2\n\n3,4\n"); }, {"table.csv:3:", "2 columns, not 0"});
 }
 
 TEST(Csv, WhatIsNotAFiniteNumberNamesLineColumnAndValue) {
   for (const std::string bad : {"left", "nan", "inf", "-inf", "1e999", "", " 1", "1 ", "1;2", "0x10", "\"1\""}) {
-    expect_bad_input([&] { parse("t_s,x_m\n1,2\n1," + bad + "\n"); }, {"table.csv:3:", "column x_m", "'" + bad + "'"});
+    expect_bad_input([&] { parse_table("t_s,x_m\n1,2\n1," + bad + "\n"); },
+                     {"table.csv:3:", "column x_m", "'" + bad + "'"});
   }
 }
 
 TEST(Csv, ABinaryFileIsToldOnOneShortLine) {
   const std::string garbage(10000, '\x01');
-  expect_bad_input([&] { parse(garbage); }, {"table.csv:1:"});
-  expect_bad_input([&] { parse("t_s,x_m\n1," + std::string(10000, 'x')); }, {"'xxxxx", "...'"});
+  expect_bad_input([&] { parse_table(garbage); }, {"table.csv:1:"});
+  expect_bad_input([&] { parse_table("t_s,x_m\n1," + std::string(10000, 'x')); }, {"'xxxxx", "...'"});
 }
 
 TEST(Csv, ATableWithoutRowsIsAnError) {
-  expect_bad_input([] { parse(""); }, {"table.csv: the file is empty"});
-  expect_bad_input([] { parse("t_s,x_m\n"); }, {"table.csv:1:", "not followed by any row"});
+  expect_bad_input([] { parse_table(""); }, {"table.csv: the file is empty"});
+  expect_bad_input([] { parse_table("t_s,x_m\n"); }, {"table.csv:1:", "not followed by any row"});
 }
 
 TEST(Csv, FilesThatCannotBeReadAreNamed) {

@@ -49,6 +49,9 @@ inline std::vector<CsvRow> rows_of(const std::string& csv) {
   return rows;
 }
 
+/// How far from what it touches `slide` may say that a part rests, where no margin is asked for.
+constexpr double kTwoMargins = 20e-6;
+
 /// Expects an exit code and one line on standard error that holds every one of `parts`.
 inline void expect_fails(int exit_code, const std::vector<std::string>& arguments,
                          const std::vector<std::string>& parts) {

@@ -8,6 +8,7 @@
 
 #include "expect_bad_input.h"
 #include "temporary_folder.h"
+#include "tetrahedron_file.h"
 
 namespace glissade::apps {
 namespace {
@@ -15,20 +16,18 @@ namespace {
 using test_support::expect_bad_input;
 using test_support::TemporaryFolder;
 
-constexpr const char* kTetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
-
-Scene parse(const std::string& text) {
+Scene parse_text(const std::string& text) {
   return parse_scene(text, "scene.yaml", ".");
 }
 
 /// A scene with one box and the lines `more` in its object.
 Scene parse_object(const std::string& more) {
-  return parse("objects:\n  - name: block\n    shape: {type: box}\n" + more);
+  return parse_text("objects:\n  - name: block\n    shape: {type: box}\n" + more);
 }
 
 TEST(SceneFile, EqualMeshesAreShared) {
   const TemporaryFolder folder;
-  folder.write("part.obj", kTetrahedron);
+  folder.write("part.obj", kTetrahedronObj);
   const std::string path = folder.write("scene.yaml",
                                         "objects:\n"
                                         "  - {name: a, shape: {type: box, size_x_m: 2, size_y_m: 3}}\n"
@@ -65,7 +64,7 @@ TEST(SceneFile, ReadsAllowances) {
 
 TEST(SceneFile, ReadsObjectsScriptAndGoal) {
   const TemporaryFolder folder;
-  folder.write("part.obj", kTetrahedron);
+  folder.write("part.obj", kTetrahedronObj);
   const std::string path = folder.write("scene.yaml",
                                         "objects:\n"
                                         "  - name: block\n"
@@ -110,7 +109,7 @@ TEST(SceneFile, ScriptAndGoalAreOptional) {
 
 TEST(SceneFile, CountsTrianglesWithoutArea) {
   const TemporaryFolder folder;
-  folder.write("part.obj", std::string(kTetrahedron) + "f 1 2 2\nv 2 0 0\nf 1 2 5\n");
+  folder.write("part.obj", std::string(kTetrahedronObj) + "f 1 2 2\nv 2 0 0\nf 1 2 5\n");
   const std::string path = folder.write("scene.yaml", "objects:\n  - {name: part, mesh: part.obj}\n");
   EXPECT_EQ(read_scene(path).objects.front().degenerate_triangles, 2);
 }
@@ -131,32 +130,33 @@ TEST(SceneFile, UnknownAndRepeatedKeysNameTheirLine) {
 }
 
 TEST(SceneFile, NamesMustBeThereAndDiffer) {
-  expect_bad_input([] { parse("objects:\n  - shape: {type: box}\n"); }, {"scene.yaml:2:", "'name'", "missing"});
-  expect_bad_input([] { parse("objects:\n  - name: ''\n    shape: {type: box}\n"); }, {"scene.yaml:2:", "name"});
+  expect_bad_input([] { parse_text("objects:\n  - shape: {type: box}\n"); }, {"scene.yaml:2:", "'name'", "missing"});
+  expect_bad_input([] { parse_text("objects:\n  - name: ''\n    shape: {type: box}\n"); }, {"scene.yaml:2:", "name"});
   expect_bad_input([] { parse_object("  - name: block\n    shape: {type: sphere}\n"); },
                    {"scene.yaml:4:", "'block'", "scene.yaml:2"});
 }
 
 TEST(SceneFile, ExactlyOneOfMeshAndShape) {
-  expect_bad_input([] { parse("objects:\n  - name: block\n"); }, {"scene.yaml:2:", "'block'", "neither"});
+  expect_bad_input([] { parse_text("objects:\n  - name: block\n"); }, {"scene.yaml:2:", "'block'", "neither"});
   expect_bad_input([] { parse_object("    mesh: block.obj\n"); }, {"scene.yaml:3:", "'block'", "both"});
 }
 
 TEST(SceneFile, ShapesAndTheirParametersMustBeKnown) {
-  expect_bad_input([] { parse("objects:\n  - name: a\n    shape: {type: blob}\n"); },
+  expect_bad_input([] { parse_text("objects:\n  - name: a\n    shape: {type: blob}\n"); },
                    {"scene.yaml:3:", "blob", "sphere"});
-  expect_bad_input([] { parse("objects:\n  - name: a\n    shape: {type: box, size: 1}\n"); },
+  expect_bad_input([] { parse_text("objects:\n  - name: a\n    shape: {type: box, size: 1}\n"); },
                    {"scene.yaml:3:", "size", "size_x_m"});
-  expect_bad_input([] { parse("objects:\n  - name: a\n    shape: {type: box, size_x_m: wide}\n"); },
+  expect_bad_input([] { parse_text("objects:\n  - name: a\n    shape: {type: box, size_x_m: wide}\n"); },
                    {"scene.yaml:3:", "size_x_m", "'wide'"});
-  expect_bad_input([] { parse("objects:\n  - name: a\n    shape: {size_x_m: 1}\n"); }, {"scene.yaml:3:", "'type'"});
-  expect_bad_input([] { parse("objects:\n  - name: a\n    shape: {type: box, type: sphere}\n"); },
+  expect_bad_input([] { parse_text("objects:\n  - name: a\n    shape: {size_x_m: 1}\n"); },
+                   {"scene.yaml:3:", "'type'"});
+  expect_bad_input([] { parse_text("objects:\n  - name: a\n    shape: {type: box, type: sphere}\n"); },
                    {"scene.yaml:3:", "'type'", "twice"});
-  expect_bad_input([] { parse("objects:\n  - name: a\n    shape: box\n"); }, {"scene.yaml:3:", "shape"});
+  expect_bad_input([] { parse_text("objects:\n  - name: a\n    shape: box\n"); }, {"scene.yaml:3:", "shape"});
 }
 
 TEST(SceneFile, AMeshThatCannotBeReadNamesSceneLineAndFile) {
-  expect_bad_input([] { parse("objects:\n  - name: a\n    mesh: none.obj\n"); }, {"scene.yaml:3:", "none.obj"});
+  expect_bad_input([] { parse_text("objects:\n  - name: a\n    mesh: none.obj\n"); }, {"scene.yaml:3:", "none.obj"});
 }
 
 TEST(SceneFile, ValuesOfTheWrongTypeNameKeyAndValue) {
@@ -171,7 +171,7 @@ TEST(SceneFile, ValuesOfTheWrongTypeNameKeyAndValue) {
 
 TEST(SceneFile, AScaleIsForMeshesAndMustLeaveOneThatCanBeQueried) {
   const TemporaryFolder folder;
-  folder.write("part.obj", kTetrahedron);
+  folder.write("part.obj", kTetrahedronObj);
   const auto read_scaled = [&](const std::string& scale) {
     read_scene(folder.write("scene.yaml", "objects:\n  - name: part\n    mesh: part.obj\n    scale: " + scale + "\n"));
   };
@@ -190,19 +190,19 @@ TEST(SceneFile, QuaternionsFollowTheRuleForPoses) {
 }
 
 TEST(SceneFile, WhatIsNotASceneIsAnError) {
-  expect_bad_input([] { parse("objects: [\n"); }, {"scene.yaml:", "not valid YAML"});
-  expect_bad_input([] { parse("a: b: c\n"); }, {"scene.yaml:1:", "not valid YAML"});
-  expect_bad_input([] { parse(""); }, {"scene.yaml", "must be a map"});
-  expect_bad_input([] { parse("just text\n"); }, {"scene.yaml:1:", "scene", "'just text'"});
-  expect_bad_input([] { parse("script: hand.csv\n"); }, {"scene.yaml:1:", "'objects'", "missing"});
-  expect_bad_input([] { parse("objects: []\n"); }, {"scene.yaml:1:", "objects"});
-  expect_bad_input([] { parse("objects:\n  - 7\n"); }, {"scene.yaml:2:", "object", "'7'"});
+  expect_bad_input([] { parse_text("objects: [\n"); }, {"scene.yaml:", "not valid YAML"});
+  expect_bad_input([] { parse_text("a: b: c\n"); }, {"scene.yaml:1:", "not valid YAML"});
+  expect_bad_input([] { parse_text(""); }, {"scene.yaml", "must be a map"});
+  expect_bad_input([] { parse_text("just text\n"); }, {"scene.yaml:1:", "scene", "'just text'"});
+  expect_bad_input([] { parse_text("script: hand.csv\n"); }, {"scene.yaml:1:", "'objects'", "missing"});
+  expect_bad_input([] { parse_text("objects: []\n"); }, {"scene.yaml:1:", "objects"});
+  expect_bad_input([] { parse_text("objects:\n  - 7\n"); }, {"scene.yaml:2:", "object", "'7'"});
 }
 
 TEST(SceneFile, ThereIsOneDocument) {
   expect_bad_input([] { parse_object("---\nobjects: []\n"); }, {"scene.yaml:5:", "second"});
   expect_bad_input([] { parse_object("---\n"); }, {"scene.yaml:", "second"});
-  EXPECT_EQ(parse("---\nobjects:\n  - {name: a, shape: {type: box}}\n...\n").objects.size(), 1U);
+  EXPECT_EQ(parse_text("---\nobjects:\n  - {name: a, shape: {type: box}}\n...\n").objects.size(), 1U);
 }
 
 TEST(SceneFile, AFileThatCannotBeReadIsNamed) {

@@ -20,7 +20,7 @@ using test_support::ProgramResult;
 constexpr double kMargin = 1e-5;
 
 /// The rows by the trajectory's file name, each by column name.
-std::map<std::string, std::map<std::string, double>> parse(const std::string& csv) {
+std::map<std::string, std::map<std::string, double>> checks_of(const std::string& csv) {
   std::map<std::string, std::map<std::string, double>> rows;
   for (const test_support::CsvRow& cells : test_support::rows_of(csv)) {
     const std::string& path = cells.at("trajectory");
@@ -62,7 +62,7 @@ TEST_F(AssemblyCheck, TakesTheMethodOfThePaperToo) {
   const ProgramResult result =
       check({above, below}, {"--method", "paper", "--summary", "-", "--report", folder.path("page")});
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
-  auto rows = parse(result.standard_output);
+  auto rows = checks_of(result.standard_output);
   EXPECT_EQ(rows["above.csv"]["goal_reached"], 1.0);
   EXPECT_EQ(rows["below.csv"]["goal_reached"], 0.0);
   // It goes nearer than the default's margin.
@@ -73,7 +73,7 @@ TEST_F(AssemblyCheck, TakesTheMethodOfThePaperToo) {
 TEST_F(AssemblyCheck, TellsWhatBecameOfEachTrajectory) {
   const ProgramResult result = check({above, below});
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
-  const auto rows = parse(result.standard_output);
+  const auto rows = checks_of(result.standard_output);
   ASSERT_EQ(rows.size(), 2U);
 
   const auto& free = rows.at("above.csv");
@@ -98,8 +98,8 @@ TEST_F(AssemblyCheck, TellsWhatBecameOfEachTrajectory) {
 TEST_F(AssemblyCheck, HasAGoalOfItsOwnTolerance) {
   const ProgramResult strict = check({below}, {"--summary", "-"});
   const ProgramResult lax = check({below}, {"--summary", "-", "--goal-tolerance-m", "0.011"});
-  EXPECT_EQ(parse(strict.standard_output).at("below.csv").at("goal_reached"), 0.0);
-  EXPECT_EQ(parse(lax.standard_output).at("below.csv").at("goal_reached"), 1.0);
+  EXPECT_EQ(checks_of(strict.standard_output).at("below.csv").at("goal_reached"), 0.0);
+  EXPECT_EQ(checks_of(lax.standard_output).at("below.csv").at("goal_reached"), 1.0);
 }
 
 TEST_F(AssemblyCheck, WritesAPage) {
@@ -116,7 +116,7 @@ TEST_F(AssemblyCheck, OneThatCannotStartFailsAlone) {
   const ProgramResult result = check({inside, above});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.standard_error, testing::HasSubstr("inside.csv: the part collides with 'floor'"));
-  EXPECT_EQ(parse(result.standard_output).size(), 1U);
+  EXPECT_EQ(checks_of(result.standard_output).size(), 1U);
 }
 
 TEST_F(AssemblyCheck, GivesTheSameBytesAgain) {

@@ -16,15 +16,14 @@ namespace {
 
 using test_support::expect_fails;
 using test_support::expect_refused;
+using test_support::kTwoMargins;
 using test_support::ProgramResult;
 using test_support::rows_of;
-
-constexpr double kTwoMargins = 20e-6;
 
 /// One row of the answer by column name; the state's text is left out.
 using Row = std::map<std::string, double>;
 
-std::vector<Row> parse(const std::string& csv) {
+std::vector<Row> ticks_of(const std::string& csv) {
   std::vector<Row> rows;
   for (const test_support::CsvRow& cells : rows_of(csv)) {
     Row& row = rows.emplace_back();
@@ -65,7 +64,7 @@ class Slide : public testing::Test {
               std::string("t_s,gx_m,gy_m,gz_m,gqw,gqx,gqy,gqz,vx_m,vy_m,vz_m,vqw,vqx,vqy,vqz,"
                           "fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,contacts,state") +
                   (is_paper ? ",states" : ""));
-    return parse(result.standard_output);
+    return ticks_of(result.standard_output);
   }
 
   test_support::TemporaryFolder folder;
@@ -125,7 +124,7 @@ TEST_F(Slide, ContactsAndPatchesTellWhatPushes) {
       test_support::glissade({"slide", scene({floor, wall_x}), "--part", "box", "--trajectory", hand, "--contacts",
                               folder.path("contacts.csv"), "--patches", folder.path("patches.csv")});
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
-  const auto motion = parse(result.standard_output);
+  const auto motion = ticks_of(result.standard_output);
   const Row& last = motion.back();
 
   std::map<std::string, double> force_by_obstacle;

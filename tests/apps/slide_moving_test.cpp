@@ -16,10 +16,9 @@ namespace glissade::apps {
 namespace {
 
 using test_support::expect_refused;
+using test_support::kTwoMargins;
 using test_support::ProgramResult;
 using test_support::rows_of;
-
-constexpr double kTwoMargins = 20e-6;
 
 /// A lift of 0.1 × 0.1 × 0.02 m that rises by 10 mm in 0.1 s, 1 s after time zero, and a cube that is held 25 mm above
 /// where it begins: their faces are 5 mm apart.

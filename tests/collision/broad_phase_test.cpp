@@ -25,7 +25,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr std::uint64_t kSeed = 20261122;
+constexpr std::uint64_t kBroadPhaseSeed = 20261122;
 
 Eigen::AlignedBox3d cube(const Eigen::Vector3d& center, double half_edge) {
   return {center - Eigen::Vector3d::Constant(half_edge), center + Eigen::Vector3d::Constant(half_edge)};
@@ -140,11 +140,12 @@ TEST(BroadPhase, RefusesWhatIsNoMargin) {
 }
 
 // Boxes of very different sizes come, go, drift and leap. Beside the broad phase: all boxes against all.
-class Crowd {
+class MovingBoxes {
  public:
   static constexpr std::uint32_t kSlots = 60;
 
-  explicit Crowd(std::uint64_t seed, double margin) : margin_(margin), random_(seed), broad_phase_(kSlots, margin) {}
+  explicit MovingBoxes(std::uint64_t seed, double margin)
+      : margin_(margin), random_(seed), broad_phase_(kSlots, margin) {}
 
   void step() {
     for (int changes = random_.integer(0, 12); changes > 0; --changes)
@@ -222,25 +223,25 @@ class Crowd {
 };
 
 TEST(BroadPhase, MissesNoPairWhateverHappens) {
-  RecordProperty("seed", static_cast<int>(kSeed));
+  RecordProperty("seed", static_cast<int>(kBroadPhaseSeed));
   for (const double margin : {0.0, 0.05}) {
-    Crowd crowd(kSeed, margin);
+    MovingBoxes crowd(kBroadPhaseSeed, margin);
     for (int step = 0; step < test_support::affordable(4000); ++step) {
       crowd.step();
       crowd.compare();
-      ASSERT_FALSE(HasFatalFailure()) << "seed " << kSeed << ", margin " << margin << ", step " << step;
+      ASSERT_FALSE(HasFatalFailure()) << "seed " << kBroadPhaseSeed << ", margin " << margin << ", step " << step;
     }
   }
 }
 
 TEST(BroadPhase, TheSameCallsGiveTheSamePairs) {
-  RecordProperty("seed", static_cast<int>(kSeed));
-  Crowd first(kSeed, 0.0);
-  Crowd second(kSeed, 0.0);
+  RecordProperty("seed", static_cast<int>(kBroadPhaseSeed));
+  MovingBoxes first(kBroadPhaseSeed, 0.0);
+  MovingBoxes second(kBroadPhaseSeed, 0.0);
   for (int step = 0; step < test_support::affordable(2000); ++step) {
     first.step();
     second.step();
-    ASSERT_EQ(first.pairs(), second.pairs()) << "seed " << kSeed << ", step " << step;
+    ASSERT_EQ(first.pairs(), second.pairs()) << "seed " << kBroadPhaseSeed << ", step " << step;
   }
 }
 

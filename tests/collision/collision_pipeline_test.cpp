@@ -13,17 +13,16 @@
 #include <glissade/collision/mesh_generators.h>
 #include <glissade/collision/mesh_operations.h>
 
+#include "poses.h"
+
 namespace glissade::collision {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::at;
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-Isometry3d at(double x, double y = 0.0, double z = 0.0) {
-  return Isometry3d(Eigen::Translation3d(x, y, z));
-}
 
 // Boxes of one metre on a long shelf.
 class Pipeline : public testing::Test {

@@ -16,15 +16,14 @@
 #include <glissade/collision/collision_thread.h>
 #include <glissade/collision/mesh_generators.h>
 
+#include "poses.h"
+
 namespace glissade::collision {
 namespace {
 
 using Eigen::Isometry3d;
+using test_support::at;
 using namespace std::chrono_literals;
-
-Isometry3d at(double x, double y = 0.0) {
-  return Isometry3d(Eigen::Translation3d(x, y, 0.0));
-}
 
 ObjectDescription box(const Isometry3d& X_WO) {
   static const auto mesh = std::make_shared<TriangleMesh>(make_box({1.0, 1.0, 1.0}, 300));

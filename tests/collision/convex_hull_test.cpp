@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 using test_support::RandomNumbers;
 
-constexpr unsigned kSeed = 41;
+constexpr unsigned kConvexHullSeed = 41;
 
 double furthest(const std::vector<Vector3d>& points, const Vector3d& direction) {
   double most = -std::numeric_limits<double>::infinity();
@@ -80,8 +80,8 @@ std::vector<Vector3d> cloud(RandomNumbers& random, int count) {
 
 class ConvexHulls : public ::testing::Test {
  protected:
-  ConvexHulls() { RecordProperty("seed", static_cast<int>(kSeed)); }
-  RandomNumbers random_{kSeed};
+  ConvexHulls() { RecordProperty("seed", static_cast<int>(kConvexHullSeed)); }
+  RandomNumbers random_{kConvexHullSeed};
 };
 
 TEST_F(ConvexHulls, ReachAsFarAsTheirPointsAtEveryScaleAndPlace) {

@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Isometry3d;
 
-DopTree torus(const DopTreeOptions& options = {}) {
+DopTree torus_tree(const DopTreeOptions& options = {}) {
   return DopTree(std::make_shared<const TriangleMesh>(make_torus(0.1, 0.03, 400)), options);
 }
 
@@ -62,10 +62,10 @@ std::vector<Query> all_queries() {
 }
 
 TEST(DopQuery, RefusesTreesOfDifferentOptions) {
-  const DopTree tree = torus();
+  const DopTree tree = torus_tree();
   for (const DopTreeOptions& other : {DopTreeOptions{.directions = 18}, DopTreeOptions{.thin_slab = false},
                                       DopTreeOptions{.realignment = Realignment::kBruteForce}}) {
-    const DopTree different = torus(other);
+    const DopTree different = torus_tree(other);
     for (const Query& query : all_queries()) {
       SCOPED_TRACE(query.name);
       test_support::expect_bad_input([&] { query.ask(tree, different, Isometry3d::Identity()); },
@@ -77,7 +77,7 @@ TEST(DopQuery, RefusesTreesOfDifferentOptions) {
 }
 
 TEST(DopQuery, RefusesPosesThatAreNone) {
-  const DopTree tree = torus();
+  const DopTree tree = torus_tree();
   for (const Query& query : all_queries()) {
     SCOPED_TRACE(query.name);
     const auto expect_pose_refused = [&](const Isometry3d& X_AB) {
@@ -106,7 +106,7 @@ TEST(DopQuery, RefusesPosesThatAreNone) {
 }
 
 TEST(DopQuery, RefusesDistancesThatAreNone) {
-  const DopTree tree = torus();
+  const DopTree tree = torus_tree();
   Isometry3d X_AB = Isometry3d::Identity();
   for (const double shift : {0.0, 100.0}) {
     X_AB.translation().x() = shift;
@@ -127,7 +127,7 @@ TEST(DopQuery, RefusesDistancesThatAreNone) {
 }
 
 TEST(DopQuery, AnInfiniteDistanceFindsEveryPair) {
-  const DopTree tree = torus();
+  const DopTree tree = torus_tree();
   const std::size_t triangles = tree.mesh().triangles.size();
   const double everything = std::numeric_limits<double>::infinity();
   QueryWorkspace fresh;
@@ -145,8 +145,8 @@ TEST(DopQuery, AnInfiniteDistanceFindsEveryPair) {
 
 TEST(DopQuery, AllocatesNothingOnceMemoryIsThere) {
   if (!test_support::allocations_are_counted()) GTEST_SKIP() << "allocations cannot be counted here";
-  const DopTree tree_A = torus();
-  const DopTree tree_B = torus();
+  const DopTree tree_A = torus_tree();
+  const DopTree tree_B = torus_tree();
   for (const Query& query : all_queries()) {
     const auto slide_to_and_fro = [&] {
       for (int frame = 0; frame < 60; ++frame) {

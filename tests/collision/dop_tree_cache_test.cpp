@@ -36,7 +36,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::shared_ptr<TriangleMesh> torus(int triangles) {
+std::shared_ptr<TriangleMesh> torus_with(int triangles) {
   return std::make_shared<TriangleMesh>(make_torus(0.1, 0.03, triangles));
 }
 
@@ -71,7 +71,7 @@ class TreeCache : public testing::Test {
   test_support::TemporaryFolder folder;
   std::string mesh_path = folder.path("torus.obj");
   std::string path = folder.path("torus.obj.dop-tree");
-  std::shared_ptr<TriangleMesh> mesh = torus(60);
+  std::shared_ptr<TriangleMesh> mesh = torus_with(60);
   DopTree tree{mesh};
 };
 
@@ -79,7 +79,7 @@ TEST_F(TreeCache, ReadsTheTreeThatWasWritten) {
   for (const int k : {6, 14, 18, 24, 26}) {
     for (const std::size_t count : {1U, 4U, 5U, 17U, 3000U}) {
       SCOPED_TRACE(testing::Message() << "k " << k << ", " << count << " triangles");
-      const auto some = torus(3000);
+      const auto some = torus_with(3000);
       some->triangles.resize(std::min(count, some->triangles.size()));
       if (count > 5) some->triangles[5] = {3, 3, 4};  // has no area
       for (const DopTreeOptions& options :
@@ -129,7 +129,7 @@ TEST_F(TreeCache, BelongsToItsMeshItsOptionsAndItsVersion) {
   shorter.triangles.pop_back();
   TriangleMesh longer = *mesh;
   longer.vertices.emplace_back(0.0, 0.0, 0.0);
-  for (const TriangleMesh& other : {moved, turned, swapped, shorter, longer, TriangleMesh(*torus(2000))})
+  for (const TriangleMesh& other : {moved, turned, swapped, shorter, longer, TriangleMesh(*torus_with(2000))})
     expect_stale(std::make_shared<const TriangleMesh>(other), {}, "of another mesh");
 
   std::string bytes = content(path);

@@ -21,8 +21,8 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr unsigned kSeed = 7;
-constexpr int kDirections[] = {6, 14, 18, 24, 26};
+constexpr unsigned kDopVerticesSeed = 7;
+constexpr int kDirectionCounts[] = {6, 14, 18, 24, 26};
 
 DopTree tree(const TriangleMesh& mesh, int k, Realignment realignment = Realignment::kBruteForce) {
   return DopTree(std::make_shared<const TriangleMesh>(mesh), {.directions = k, .realignment = realignment});
@@ -41,7 +41,7 @@ std::vector<Vector3d> vertices_of(const DopTree& tree, std::uint32_t node, std::
 
 class Vertices : public ::testing::Test {
  protected:
-  Vertices() { RecordProperty("seed", static_cast<int>(kSeed)); }
+  Vertices() { RecordProperty("seed", static_cast<int>(kDopVerticesSeed)); }
 
   Isometry3d random_pose(double translation) {
     Isometry3d X = Isometry3d::Identity();
@@ -50,7 +50,7 @@ class Vertices : public ::testing::Test {
     return X;
   }
 
-  test_support::RandomNumbers random_{kSeed};
+  test_support::RandomNumbers random_{kDopVerticesSeed};
 };
 
 TEST_F(Vertices, OfABoxOfThreeSlabsAreItsCorners) {
@@ -74,7 +74,7 @@ TEST_F(Vertices, OfABoxOfThreeSlabsAreItsCorners) {
 }
 
 TEST_F(Vertices, LieWithinAllHalfSpacesAndOnThreePlanes) {
-  for (const int k : kDirections) {
+  for (const int k : kDirectionCounts) {
     const DopDirections& directions = dop_directions(k);
     const DopTree torus = tree(make_torus(0.7, 0.3, 500), k);
     for (std::uint32_t node = 0; node < torus.nodes().size(); ++node) {
@@ -97,7 +97,7 @@ TEST_F(Vertices, LieWithinAllHalfSpacesAndOnThreePlanes) {
 
 // Nodes that are aligned already must stay what they are: planes that touch what they enclose keep their places.
 TEST_F(Vertices, RealignmentByTheIdentityChangesNothing) {
-  for (const int k : kDirections) {
+  for (const int k : kDirectionCounts) {
     const DopTree torus = tree(make_torus(0.7, 0.3, 500), k);
     const VertexAlignment alignment(dop_directions(k), QueryFrame(torus, torus, Isometry3d::Identity()));
     for (std::uint32_t node = 0; node < torus.nodes().size(); ++node) {
@@ -116,7 +116,7 @@ TEST_F(Vertices, RealignmentByTheIdentityChangesNothing) {
 
 // The extreme of the vertices is the tightest bound there is; three weighted offsets are some bound.
 TEST_F(Vertices, RealignNoLooserThanThreeOffsetsDo) {
-  for (const int k : kDirections) {
+  for (const int k : kDirectionCounts) {
     const DopTree sphere = tree(make_sphere(1.0, 500), k);
     const DopTree torus = tree(make_torus(0.6, 0.2, 500), k);
     std::int64_t excess = 0;
@@ -149,7 +149,7 @@ TEST_F(Vertices, QueriesAnswerAsWithThreeOffsets) {
   std::vector<TrianglePair> expected;
   std::vector<TrianglePair> actual;
   std::size_t found = 0;
-  for (const int k : kDirections) {
+  for (const int k : kDirectionCounts) {
     for (std::size_t i = 0; i < 3; ++i) {
       const TriangleMesh& mesh_A = bodies[i];
       const TriangleMesh& mesh_B = bodies[(i + 1) % 3];

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr unsigned kSeed = 23;
+constexpr unsigned kOrientedBoxesSeed = 23;
 
 // Two solid boxes at a random pose, somewhere about touching.
 class TwoBoxes {
@@ -90,8 +90,8 @@ class TwoBoxes {
 };
 
 TEST(OrientedBoxes, AreApartWhenAndOnlyWhenTheSolidsAre) {
-  RecordProperty("seed", static_cast<int>(kSeed));
-  test_support::RandomNumbers random(kSeed);
+  RecordProperty("seed", static_cast<int>(kOrientedBoxesSeed));
+  test_support::RandomNumbers random(kOrientedBoxesSeed);
   constexpr int kTrials = test_support::affordable(4000);
   int apart = 0;
   int meeting = 0;
@@ -100,10 +100,10 @@ TEST(OrientedBoxes, AreApartWhenAndOnlyWhenTheSolidsAre) {
     const double distance = boxes.distance();
     if (distance > 1e-9 && !boxes.one_is_inside_the_other()) {
       ++apart;
-      ASSERT_TRUE(boxes.apart(0.0)) << "trial " << trial << ", seed " << kSeed;
+      ASSERT_TRUE(boxes.apart(0.0)) << "trial " << trial << ", seed " << kOrientedBoxesSeed;
     } else {
       ++meeting;
-      ASSERT_FALSE(boxes.apart(0.0)) << "trial " << trial << ", seed " << kSeed;
+      ASSERT_FALSE(boxes.apart(0.0)) << "trial " << trial << ", seed " << kOrientedBoxesSeed;
     }
   }
   EXPECT_GT(apart, kTrials / 4);
@@ -112,8 +112,8 @@ TEST(OrientedBoxes, AreApartWhenAndOnlyWhenTheSolidsAre) {
 
 // The matrix is a rotation but for up to a thousandth, and the meshes lie far from their origins; the boxes just meet.
 TEST(OrientedBoxes, ThatMeetAreNotApartWhateverTheMatrixAndThePlace) {
-  RecordProperty("seed", static_cast<int>(kSeed));
-  test_support::RandomNumbers random(kSeed);
+  RecordProperty("seed", static_cast<int>(kOrientedBoxesSeed));
+  test_support::RandomNumbers random(kOrientedBoxesSeed);
   constexpr int kTrials = test_support::affordable(600);
   int compared = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -121,20 +121,20 @@ TEST(OrientedBoxes, ThatMeetAreNotApartWhateverTheMatrixAndThePlace) {
     TwoBoxes boxes(random, offset * random.direction(), random.power_of_ten(-9.0, -4.0));
     if (!boxes.move_to_contact(random.direction())) continue;
     ++compared;
-    ASSERT_FALSE(boxes.apart(0.0)) << "trial " << trial << ", seed " << kSeed;
+    ASSERT_FALSE(boxes.apart(0.0)) << "trial " << trial << ", seed " << kOrientedBoxesSeed;
   }
   EXPECT_GT(compared, kTrials / 3);
 }
 
 TEST(OrientedBoxes, AGapAlongAnEdgeIsNotOverrated) {
-  RecordProperty("seed", static_cast<int>(kSeed));
-  test_support::RandomNumbers random(kSeed);
+  RecordProperty("seed", static_cast<int>(kOrientedBoxesSeed));
+  test_support::RandomNumbers random(kOrientedBoxesSeed);
   constexpr int kTrials = test_support::affordable(4000);
   int told_apart = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const TwoBoxes boxes(random);
     const double distance = boxes.distance();
-    ASSERT_FALSE(boxes.apart(distance)) << "trial " << trial << ", seed " << kSeed;
+    ASSERT_FALSE(boxes.apart(distance)) << "trial " << trial << ", seed " << kOrientedBoxesSeed;
     told_apart += boxes.apart(0.7 * distance) ? 1 : 0;
   }
   EXPECT_GT(told_apart, kTrials / 8);

@@ -13,6 +13,7 @@
 
 #include "enclosed_volume.h"
 #include "expect_bad_input.h"
+#include "trees.h"
 
 namespace glissade::collision {
 namespace {
@@ -21,12 +22,9 @@ using Eigen::Isometry3d;
 using std::numbers::pi;
 using test_support::enclosed_volume;
 using test_support::expect_bad_input;
+using test_support::tree_of;
 
 constexpr double kClearance = 52e-6;
-
-DopTree tree_of(const TriangleMesh& mesh) {
-  return DopTree(std::make_shared<TriangleMesh>(mesh));
-}
 
 // The peg's tip at the height z over the plate's upper face.
 Isometry3d tip_at(double z, double angle = 0.0, double x = 0.0) {

@@ -10,23 +10,19 @@
 #include <glissade/collision/mesh_generators.h>
 #include <glissade/collision/penetration.h>
 
+#include "poses.h"
 #include "random_numbers.h"
+#include "trees.h"
 
 namespace glissade::collision {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::at;
+using test_support::tree_of;
 
-constexpr std::uint64_t kSeed = 20261122;
-
-DopTree tree_of(TriangleMesh mesh) {
-  return DopTree(std::make_shared<TriangleMesh>(std::move(mesh)));
-}
-
-Isometry3d at(double x, double y = 0.0, double z = 0.0) {
-  return Isometry3d(Eigen::Translation3d(x, y, z));
-}
+constexpr std::uint64_t kPenetrationSeed = 20261122;
 
 // The depth, having checked that the way leads out.
 double depth_of(const DopTree& A, const DopTree& B, const Isometry3d& X_AB, double clearance = 0.0) {
@@ -57,8 +53,8 @@ TEST(WayOut, OfABoxIsThroughTheNearestFace) {
 }
 
 TEST(WayOut, OfBallsIsAlongTheirCentres) {
-  RecordProperty("seed", static_cast<int>(kSeed));
-  test_support::RandomNumbers random(kSeed);
+  RecordProperty("seed", static_cast<int>(kPenetrationSeed));
+  test_support::RandomNumbers random(kPenetrationSeed);
   const DopTree ball = tree_of(make_sphere(0.5, 2000));
   for (int i = 0; i < 20; ++i) {
     const double distance = random.uniform(0.5, 0.99);
@@ -67,8 +63,8 @@ TEST(WayOut, OfBallsIsAlongTheirCentres) {
     const double depth = 1.0 - distance;
     // Balls of triangles are a little smaller.
     const double found = depth_of(ball, ball, X_AB);
-    EXPECT_LE(found, 1.05 * depth + 1e-3) << "seed " << kSeed << ", case " << i;
-    EXPECT_GE(found, depth - 0.01) << "seed " << kSeed << ", case " << i;
+    EXPECT_LE(found, 1.05 * depth + 1e-3) << "seed " << kPenetrationSeed << ", case " << i;
+    EXPECT_GE(found, depth - 0.01) << "seed " << kPenetrationSeed << ", case " << i;
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 
-constexpr std::uint64_t kSeed = 20261122;
+constexpr std::uint64_t kRigidPoseSeed = 20261122;
 
 double defect(const Matrix3d& R) {
   return (R.transpose() * R - Matrix3d::Identity()).cwiseAbs().sum();
@@ -27,21 +27,21 @@ Isometry3d with_rotation(const Matrix3d& R) {
 }
 
 TEST(RigidPose, OfARotationIsThatPose) {
-  RecordProperty("seed", static_cast<int>(kSeed));
-  test_support::RandomNumbers random(kSeed);
+  RecordProperty("seed", static_cast<int>(kRigidPoseSeed));
+  test_support::RandomNumbers random(kRigidPoseSeed);
   for (int i = 0; i < 1000; ++i) {
     Isometry3d X = with_rotation(random.rotation() * random.rotation() * random.rotation());
     X.translation() = random.point(1e9);
     const std::optional<Isometry3d> rigid = rigid_pose(X);
-    ASSERT_TRUE(rigid.has_value()) << "seed " << kSeed << ", case " << i;
-    ASSERT_EQ(rigid->matrix(), X.matrix()) << "seed " << kSeed << ", case " << i;
+    ASSERT_TRUE(rigid.has_value()) << "seed " << kRigidPoseSeed << ", case " << i;
+    ASSERT_EQ(rigid->matrix(), X.matrix()) << "seed " << kRigidPoseSeed << ", case " << i;
   }
 }
 
 // Stretched, sheared, one column only, or all entries.
 TEST(RigidPose, IsARotationHoweverTheMatrixIsOff) {
-  RecordProperty("seed", static_cast<int>(kSeed));
-  test_support::RandomNumbers random(kSeed);
+  RecordProperty("seed", static_cast<int>(kRigidPoseSeed));
+  test_support::RandomNumbers random(kRigidPoseSeed);
   int kept = 0;
   for (int i = 0; i < 20000; ++i) {
     const Matrix3d R = random.chance(0.5) ? random.rotation() : random.cube_rotation();
@@ -54,10 +54,11 @@ TEST(RigidPose, IsARotationHoweverTheMatrixIsOff) {
         off.col(column) = size * random.point(1.0);
     }
     const std::optional<Isometry3d> rigid = rigid_pose(with_rotation(R + off));
-    ASSERT_TRUE(rigid.has_value()) << "seed " << kSeed << ", case " << i;
-    ASSERT_LT(defect(rigid->linear()), 1.001e-12) << "seed " << kSeed << ", case " << i;
+    ASSERT_TRUE(rigid.has_value()) << "seed " << kRigidPoseSeed << ", case " << i;
+    ASSERT_LT(defect(rigid->linear()), 1.001e-12) << "seed " << kRigidPoseSeed << ", case " << i;
     // The nearest rotation is no further than this one.
-    ASSERT_LE((rigid->linear() - R - off).norm(), 1.001 * off.norm() + 1e-15) << "seed " << kSeed << ", case " << i;
+    ASSERT_LE((rigid->linear() - R - off).norm(), 1.001 * off.norm() + 1e-15)
+        << "seed " << kRigidPoseSeed << ", case " << i;
     kept += rigid->linear() == R + off ? 1 : 0;
   }
   EXPECT_GT(kept, 1000);

@@ -22,11 +22,11 @@ using test_support::affordable;
 using test_support::HullOracle;
 using test_support::RandomNumbers;
 
-constexpr unsigned kSeed = 42;
+constexpr unsigned kSeparatingPlaneSeed = 42;
 
 class SeparatingPlanes : public ::testing::Test {
  protected:
-  SeparatingPlanes() { RecordProperty("seed", static_cast<int>(kSeed)); }
+  SeparatingPlanes() { RecordProperty("seed", static_cast<int>(kSeparatingPlaneSeed)); }
 
   Isometry3d pose(const Vector3d& p_AB) {
     Isometry3d X_AB = Isometry3d::Identity();
@@ -35,7 +35,7 @@ class SeparatingPlanes : public ::testing::Test {
     return X_AB;
   }
 
-  RandomNumbers random_{kSeed};
+  RandomNumbers random_{kSeparatingPlaneSeed};
 };
 
 TEST_F(SeparatingPlanes, TellBoxesApartAtTheirFaces) {
@@ -76,7 +76,7 @@ TEST_F(SeparatingPlanes, AreRightWhateverIsRemembered) {
         const bool answer = hulls_apart(hull_A, hull_B, X_AB, remembering);
         HullMemory blank;
         ASSERT_EQ(answer, hulls_apart(hull_A, hull_B, X_AB, blank));
-        ASSERT_EQ(answer, distance > 0.0) << "step " << step << ", seed " << kSeed;
+        ASSERT_EQ(answer, distance > 0.0) << "step " << step << ", seed " << kSeparatingPlaneSeed;
         if (hulls_apart(hull_A, hull_B, X_AB, perceptron, HullTest::kPerceptron)) {
           ASSERT_TRUE(answer);
         }

@@ -12,20 +12,16 @@
 
 #include "enclosed_volume.h"
 #include "expect_bad_input.h"
+#include "poses.h"
+#include "trees.h"
 
 namespace glissade::collision {
 namespace {
 
+using test_support::at;
 using test_support::enclosed_volume;
 using test_support::expect_bad_input;
-
-DopTree tree_of(const TriangleMesh& mesh) {
-  return DopTree(std::make_shared<TriangleMesh>(mesh));
-}
-
-Eigen::Isometry3d shifted(double x, double y, double z) {
-  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
-}
+using test_support::tree_of;
 
 TEST(SlideInUnit, HasItsClearanceOnTheWholeWayHome) {
   for (const std::int64_t triangles : {30, 1000, 20'000}) {
@@ -34,17 +30,17 @@ TEST(SlideInUnit, HasItsClearanceOnTheWholeWayHome) {
     const DopTree bay = tree_of(make_bay(shape));
     QueryWorkspace workspace;
     for (const double out : {1e-3, 0.05, 0.12})
-      EXPECT_NEAR(gap_lower_bound(bay, unit, shifted(0.0, -out, 0.0), workspace), shape.clearance, 1e-12);
+      EXPECT_NEAR(gap_lower_bound(bay, unit, at(0.0, -out, 0.0), workspace), shape.clearance, 1e-12);
     for (const double lift : {1e-6, 0.2e-3})
-      EXPECT_NEAR(gap_lower_bound(bay, unit, shifted(0.0, -lift, 0.0), workspace), lift, 1e-12);
-    EXPECT_TRUE(intersects(bay, unit, shifted(0.0, 0.0, 0.0), workspace)) << "the bezel lies on the flange";
+      EXPECT_NEAR(gap_lower_bound(bay, unit, at(0.0, -lift, 0.0), workspace), lift, 1e-12);
+    EXPECT_TRUE(intersects(bay, unit, at(0.0, 0.0, 0.0), workspace)) << "the bezel lies on the flange";
     for (const double sign : {-1.0, 1.0}) {
       const double inside = 0.999 * sign * shape.clearance;
       const double outside = 1.001 * sign * shape.clearance;
-      EXPECT_FALSE(intersects(bay, unit, shifted(inside, -1e-3, 0.0), workspace));
-      EXPECT_TRUE(intersects(bay, unit, shifted(outside, -1e-3, 0.0), workspace));
-      EXPECT_FALSE(intersects(bay, unit, shifted(0.0, -1e-3, inside), workspace));
-      EXPECT_TRUE(intersects(bay, unit, shifted(0.0, -1e-3, outside), workspace));
+      EXPECT_FALSE(intersects(bay, unit, at(inside, -1e-3, 0.0), workspace));
+      EXPECT_TRUE(intersects(bay, unit, at(outside, -1e-3, 0.0), workspace));
+      EXPECT_FALSE(intersects(bay, unit, at(0.0, -1e-3, inside), workspace));
+      EXPECT_TRUE(intersects(bay, unit, at(0.0, -1e-3, outside), workspace));
     }
   }
 }
@@ -58,9 +54,9 @@ TEST(SlideInUnit, EveryTongueReachesIntoTheSeatedUnitByTheOverlap) {
   for (std::size_t i = 0; i < tongues.size(); ++i) {
     const double side = i < 3 ? -1.0 : 1.0;  // where the tongue is
     const DopTree tongue = tree_of(tongues[i]);
-    EXPECT_TRUE(intersects(tongue, unit, shifted(0.0, 0.0, 0.0), workspace));
-    EXPECT_TRUE(intersects(tongue, unit, shifted(-0.999 * side * shape.overlap, 0.0, 0.0), workspace));
-    EXPECT_FALSE(intersects(tongue, unit, shifted(-1.001 * side * shape.overlap, 0.0, 0.0), workspace));
+    EXPECT_TRUE(intersects(tongue, unit, at(0.0, 0.0, 0.0), workspace));
+    EXPECT_TRUE(intersects(tongue, unit, at(-0.999 * side * shape.overlap, 0.0, 0.0), workspace));
+    EXPECT_FALSE(intersects(tongue, unit, at(-1.001 * side * shape.overlap, 0.0, 0.0), workspace));
   }
 }
 

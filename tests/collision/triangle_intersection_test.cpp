@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using test_support::affordable;
 using test_support::RandomTriangles;
 
-const TrianglePoints kUnit{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)};
+const TrianglePoints kRightTriangle{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)};
 
 // The answer may depend neither on the order of the triangles, nor on that of their corners, nor on the axes' names.
 std::vector<std::pair<TrianglePoints, TrianglePoints>> equivalent_pairs(const TrianglePoints& a,
@@ -56,7 +56,7 @@ void expect_intersection(const TrianglePoints& a, const TrianglePoints& b, bool 
 
 struct NamedPair {
   std::string name;
-  TrianglePoints b;  // the other one is kUnit
+  TrianglePoints b;  // the other one is kRightTriangle
   bool intersect;
 };
 
@@ -64,11 +64,11 @@ class TriangleIntersection : public testing::TestWithParam<NamedPair> {};
 
 TEST_P(TriangleIntersection, IsTheSameInEveryOrderAndScale) {
   const NamedPair& named = GetParam();
-  expect_intersection(kUnit, named.b, named.intersect);
+  expect_intersection(kRightTriangle, named.b, named.intersect);
   // Powers of two and an offset that keeps every coordinate representable change nothing either.
   for (const double scale : {0x1p-20, 0x1p10}) {
     for (const double offset : {0.0, 0x1p20}) {
-      TrianglePoints a = kUnit;
+      TrianglePoints a = kRightTriangle;
       TrianglePoints b = named.b;
       for (std::size_t i = 0; i < 3; ++i) {
         a[i] = scale * a[i] + Vector3d::Constant(offset);
@@ -147,7 +147,7 @@ TEST(TriangleIntersectionExact, DecidesWhatDifferencesOfCoordinatesLose) {
 }
 
 TEST(TriangleIntersectionExact, SeesDegenerateTriangles) {
-  EXPECT_FALSE(is_degenerate(kUnit));
+  EXPECT_FALSE(is_degenerate(kRightTriangle));
   EXPECT_TRUE(is_degenerate({Vector3d(1, 2, 3), Vector3d(1, 2, 3), Vector3d(4, 5, 7)}));
   EXPECT_TRUE(is_degenerate({Vector3d(1, 2, 3), Vector3d(2, 4, 6), Vector3d(4, 8, 12)}));
   EXPECT_FALSE(is_degenerate({Vector3d(1, 2, 3), Vector3d(2, 4, 6), Vector3d(4, 8, std::nextafter(12.0, 13.0))}));
@@ -159,7 +159,7 @@ TEST(TriangleIntersectionExact, SeesDegenerateTriangles) {
   }
 }
 
-void expect_agreement(const test_support::TrianglePair& pair, int& intersecting) {
+void expect_same_answer(const test_support::TrianglePair& pair, int& intersecting) {
   const bool expected = test_support::cgal_intersect(pair.a, pair.b);
   intersecting += expected ? 1 : 0;
   ASSERT_EQ(triangles_intersect(pair.a, pair.b), expected);
@@ -168,12 +168,12 @@ void expect_agreement(const test_support::TrianglePair& pair, int& intersecting)
 }
 
 template <typename Next>
-void expect_agreement_with_cgal(int count, std::uint64_t seed, const Next& next) {
+void expect_same_answers_as_cgal(int count, std::uint64_t seed, const Next& next) {
   RandomTriangles random(seed);
   int intersecting = 0;
   for (int i = 0; i < count; ++i) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", pair " + std::to_string(i));
-    expect_agreement(next(random), intersecting);
+    expect_same_answer(next(random), intersecting);
     if (testing::Test::HasFatalFailure()) {
       return;
     }
@@ -184,20 +184,20 @@ void expect_agreement_with_cgal(int count, std::uint64_t seed, const Next& next)
 }
 
 TEST(TriangleIntersectionAgainstCgal, AgreesAnywhere) {
-  expect_agreement_with_cgal(affordable(40'000), 1, [](RandomTriangles& random) { return random.anywhere(); });
+  expect_same_answers_as_cgal(affordable(40'000), 1, [](RandomTriangles& random) { return random.anywhere(); });
 }
 
 TEST(TriangleIntersectionAgainstCgal, AgreesOnSmallLattices) {
-  expect_agreement_with_cgal(affordable(40'000), 2, [](RandomTriangles& random) { return random.on_lattice(2); });
-  expect_agreement_with_cgal(affordable(40'000), 3, [](RandomTriangles& random) { return random.on_lattice(4); });
+  expect_same_answers_as_cgal(affordable(40'000), 2, [](RandomTriangles& random) { return random.on_lattice(2); });
+  expect_same_answers_as_cgal(affordable(40'000), 3, [](RandomTriangles& random) { return random.on_lattice(4); });
 }
 
 TEST(TriangleIntersectionAgainstCgal, AgreesOnPairsThatNearlyTouch) {
-  expect_agreement_with_cgal(affordable(50'000), 4, [](RandomTriangles& random) { return random.nearly_touching(); });
+  expect_same_answers_as_cgal(affordable(50'000), 4, [](RandomTriangles& random) { return random.nearly_touching(); });
 }
 
 TEST(TriangleIntersectionAgainstCgal, AgreesOnPairsThatAreNearlyCoplanar) {
-  expect_agreement_with_cgal(affordable(30'000), 5, [](RandomTriangles& random) { return random.nearly_coplanar(); });
+  expect_same_answers_as_cgal(affordable(30'000), 5, [](RandomTriangles& random) { return random.nearly_coplanar(); });
 }
 
 TEST(TrianglesIntersect, ATriangleThatIsFlattenedIsTheSegmentThatIsLeft) {

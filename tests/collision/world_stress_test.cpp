@@ -13,15 +13,12 @@
 #include <glissade/collision/world.h>
 
 #include "sanitizers.h"
+#include "trees.h"
 
 namespace glissade::collision {
 namespace {
 
 using namespace std::chrono_literals;
-
-std::shared_ptr<const DopTree> make_tree() {
-  return std::make_shared<DopTree>(std::make_shared<TriangleMesh>(make_box({1.0, 1.0, 1.0}, 12)));
-}
 
 // A pose that says whose it is and the how-manieth, twice over: a torn one contradicts itself.
 Eigen::Isometry3d pose(ObjectId id, std::uint32_t count) {
@@ -116,7 +113,7 @@ class ShortLived {
 TEST(WorldStress, NoPoseIsTornLostOrMeantForAnother) {
   constexpr std::uint32_t kMoves = 10000;
   constexpr int kShortLives = 10000;
-  const auto tree = make_tree();
+  const auto tree = test_support::cube_tree();
   World world(7);
   std::array<ObjectId, 3> own;
   for (ObjectId& id : own)
@@ -169,7 +166,7 @@ TEST(WorldStress, NoPoseIsTornLostOrMeantForAnother) {
 void move_and_take_at_once(int movers, int takes, std::chrono::microseconds pause) {
   constexpr std::uint32_t kPoses = 64;
   World world(1);
-  const ObjectId id = world.add({.tree = make_tree()});
+  const ObjectId id = world.add({.tree = test_support::cube_tree()});
   std::vector<Eigen::Isometry3d> poses;
   for (std::uint32_t i = 0; i < kPoses; ++i)
     poses.push_back(pose(id, i + 1));
@@ -210,7 +207,7 @@ TEST(WorldStress, MoversOfOneObjectKeepOutOfEachOthersWay) {
 // does not know yet. Others that have moved as well make takes long enough for that.
 TEST(WorldStress, AnObjectAddedAndMovedDuringATakeIsWhereItWasMoved) {
   constexpr int kObjects = 1000;
-  const auto tree = make_tree();
+  const auto tree = test_support::cube_tree();
   World world(512);
   std::vector<ObjectId> others(500);
   for (ObjectId& id : others)

@@ -12,20 +12,16 @@
 #include <glissade/collision/world.h>
 
 #include "allocation_counter.h"
+#include "poses.h"
+#include "trees.h"
 
 namespace glissade::collision {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
-
-std::shared_ptr<const DopTree> make_tree(const DopTreeOptions& options = {}) {
-  return std::make_shared<DopTree>(std::make_shared<TriangleMesh>(make_box({1.0, 1.0, 1.0}, 12)), options);
-}
-
-Eigen::Isometry3d at(double x) {
-  return Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0));
-}
+using test_support::at;
+using test_support::cube_tree;
+using testing::ElementsAre;
+using testing::IsEmpty;
 
 double x_of(const World& world, ObjectId id) {
   return world.objects()[id.index].X_WO.translation().x();
@@ -33,7 +29,7 @@ double x_of(const World& world, ObjectId id) {
 
 TEST(World, TakesAddedObjects) {
   World world(8);
-  const auto tree = make_tree();
+  const auto tree = cube_tree();
   const ObjectId first = world.add({.tree = tree, .X_WO = at(1.0)});
   const ObjectId second = world.add({.tree = tree, .X_WO = at(2.0), .group = 3});
   EXPECT_EQ(world.objects()[first.index].id, ObjectId{}) << "before the take";
@@ -55,7 +51,7 @@ TEST(World, TakesTheNewestPoseOfEachObjectThatMoved) {
   World world(200);
   std::vector<ObjectId> ids;
   for (int i = 0; i < 200; ++i)
-    ids.push_back(world.add({.tree = make_tree()}));
+    ids.push_back(world.add({.tree = cube_tree()}));
   world.take_changes();
 
   for (const double x : {1.0, 2.0, 3.0})
@@ -71,7 +67,7 @@ TEST(World, TakesTheNewestPoseOfEachObjectThatMoved) {
 
 TEST(World, AnObjectMovedBeforeItIsTakenIsAddedWhereItIs) {
   World world;
-  const ObjectId id = world.add({.tree = make_tree()});
+  const ObjectId id = world.add({.tree = cube_tree()});
   world.move(id, at(5.0));
   const WorldChanges& changes = world.take_changes();
   EXPECT_THAT(changes.added, ElementsAre(id.index));
@@ -81,12 +77,12 @@ TEST(World, AnObjectMovedBeforeItIsTakenIsAddedWhereItIs) {
 
 TEST(World, RefusesHandlesOfObjectsThatAreGone) {
   World world(1);
-  const ObjectId old = world.add({.tree = make_tree()});
+  const ObjectId old = world.add({.tree = cube_tree()});
   world.remove(old);
   EXPECT_FALSE(world.move(old, at(1.0)));
   EXPECT_THROW(world.remove(old), std::invalid_argument);
 
-  const ObjectId next = world.add({.tree = make_tree()});
+  const ObjectId next = world.add({.tree = cube_tree()});
   EXPECT_EQ(next.index, old.index);
   EXPECT_NE(next, old);
   EXPECT_FALSE(world.move(old, at(1.0)));
@@ -106,19 +102,19 @@ TEST(World, RefusesASelectionOfTrianglesOfAnotherTree) {
   World world(1);
   const DopTree plate(std::make_shared<TriangleMesh>(make_plate({1.0, 1.0}, 200)));
   const auto all = [](std::int32_t) { return true; };
-  EXPECT_THROW(world.add({.tree = make_tree(), .selection = std::make_shared<TriangleSelection>(plate, all)}),
+  EXPECT_THROW(world.add({.tree = cube_tree(), .selection = std::make_shared<TriangleSelection>(plate, all)}),
                std::invalid_argument);
   EXPECT_NO_THROW(
-      world.add({.tree = make_tree(), .selection = std::make_shared<TriangleSelection>(*make_tree(), all)}));
+      world.add({.tree = cube_tree(), .selection = std::make_shared<TriangleSelection>(*cube_tree(), all)}));
 }
 
 TEST(World, ASlotThatGotAnotherObjectIsRemovedAndAdded) {
   World world(1);
-  const ObjectId old = world.add({.tree = make_tree()});
+  const ObjectId old = world.add({.tree = cube_tree()});
   world.take_changes();
   world.move(old, at(7.0));
   world.remove(old);
-  const ObjectId next = world.add({.tree = make_tree(), .X_WO = at(2.0)});
+  const ObjectId next = world.add({.tree = cube_tree(), .X_WO = at(2.0)});
   const WorldChanges& changes = world.take_changes();
   EXPECT_THAT(changes.removed, ElementsAre(0U));
   EXPECT_THAT(changes.added, ElementsAre(0U));
@@ -129,7 +125,7 @@ TEST(World, ASlotThatGotAnotherObjectIsRemovedAndAdded) {
 
 TEST(World, AnObjectThatCameAndWentBetweenTwoTakesIsNoChange) {
   World world;
-  const ObjectId id = world.add({.tree = make_tree()});
+  const ObjectId id = world.add({.tree = cube_tree()});
   world.move(id, at(1.0));
   world.remove(id);
   const WorldChanges& changes = world.take_changes();
@@ -142,19 +138,19 @@ TEST(World, ChangesComeInAscendingOrderOfSlots) {
   World world(4);
   std::vector<ObjectId> ids;
   for (int i = 0; i < 4; ++i)
-    ids.push_back(world.add({.tree = make_tree()}));
+    ids.push_back(world.add({.tree = cube_tree()}));
   world.take_changes();
   for (const std::size_t i : {3U, 0U, 2U})
     world.remove(ids[i]);
   EXPECT_THAT(world.take_changes().removed, ElementsAre(0U, 2U, 3U));
   for (int i = 0; i < 3; ++i)
-    world.add({.tree = make_tree()});
+    world.add({.tree = cube_tree()});
   EXPECT_THAT(world.take_changes().added, ElementsAre(0U, 2U, 3U));
 }
 
 TEST(World, ARemovedObjectLivesUntilTheNextTake) {
   World world;
-  auto tree = make_tree();
+  auto tree = cube_tree();
   const std::weak_ptr<const DopTree> observer = tree;
   const ObjectId id = world.add({.tree = std::move(tree)});
   world.take_changes();
@@ -168,11 +164,11 @@ TEST(World, ARemovedObjectLivesUntilTheNextTake) {
 
 TEST(World, IsFullAtItsCapacityAndNotBefore) {
   World world(2);
-  world.add({.tree = make_tree()});
-  const ObjectId second = world.add({.tree = make_tree()});
-  EXPECT_THROW(world.add({.tree = make_tree()}), std::length_error);
+  world.add({.tree = cube_tree()});
+  const ObjectId second = world.add({.tree = cube_tree()});
+  EXPECT_THROW(world.add({.tree = cube_tree()}), std::length_error);
   world.remove(second);
-  EXPECT_NO_THROW(world.add({.tree = make_tree()}));
+  EXPECT_NO_THROW(world.add({.tree = cube_tree()}));
 }
 
 TEST(World, RefusesWhatIsNoObject) {
@@ -180,23 +176,23 @@ TEST(World, RefusesWhatIsNoObject) {
   EXPECT_THROW(World(1000001), std::invalid_argument);
   World world;
   EXPECT_THROW(world.add({}), std::invalid_argument);
-  EXPECT_THROW(world.add({.tree = make_tree(), .group = 64}), std::invalid_argument);
-  EXPECT_THROW(world.add({.tree = make_tree(), .group = -1}), std::invalid_argument);
-  EXPECT_THROW(world.add({.tree = make_tree(), .X_WO = at(std::nan(""))}), std::invalid_argument);
+  EXPECT_THROW(world.add({.tree = cube_tree(), .group = 64}), std::invalid_argument);
+  EXPECT_THROW(world.add({.tree = cube_tree(), .group = -1}), std::invalid_argument);
+  EXPECT_THROW(world.add({.tree = cube_tree(), .X_WO = at(std::nan(""))}), std::invalid_argument);
 }
 
 // Queries refuse two trees of different options.
 TEST(World, HasTreesOfOneKind) {
   World world;
-  const ObjectId id = world.add({.tree = make_tree()});
-  EXPECT_THROW(world.add({.tree = make_tree({.directions = 14})}), std::invalid_argument);
+  const ObjectId id = world.add({.tree = cube_tree()});
+  EXPECT_THROW(world.add({.tree = cube_tree({.directions = 14})}), std::invalid_argument);
   world.remove(id);
-  EXPECT_NO_THROW(world.add({.tree = make_tree({.directions = 14})}));
+  EXPECT_NO_THROW(world.add({.tree = cube_tree({.directions = 14})}));
 }
 
 TEST(World, RefusesWhatIsNoPose) {
   World world;
-  const ObjectId id = world.add({.tree = make_tree()});
+  const ObjectId id = world.add({.tree = cube_tree()});
   Eigen::Isometry3d scaled = at(1.0);
   scaled.linear() *= 1.0001;
   Eigen::Isometry3d mirrored = at(1.0);
@@ -215,9 +211,9 @@ TEST(World, RefusesWhatIsNoPose) {
 
 TEST(World, TakesInterestWithTheObjects) {
   World world;
-  const ObjectId a = world.add({.tree = make_tree()});
-  const ObjectId b = world.add({.tree = make_tree()});
-  const ObjectId c = world.add({.tree = make_tree(), .group = 1});
+  const ObjectId a = world.add({.tree = cube_tree()});
+  const ObjectId b = world.add({.tree = cube_tree()});
+  const ObjectId c = world.add({.tree = cube_tree(), .group = 1});
   EXPECT_FALSE(world.take_changes().interest);
   EXPECT_TRUE(world.attends(a.index, b.index));
   EXPECT_FALSE(world.attends(a.index, a.index));
@@ -239,12 +235,12 @@ TEST(World, TakesInterestWithTheObjects) {
 
 TEST(World, NobodyInheritsWhatWasIgnored) {
   World world;
-  const ObjectId a = world.add({.tree = make_tree()});
-  const ObjectId b = world.add({.tree = make_tree()});
+  const ObjectId a = world.add({.tree = cube_tree()});
+  const ObjectId b = world.add({.tree = cube_tree()});
   world.ignore(a, b);
   world.take_changes();
   world.remove(b);
-  const ObjectId next = world.add({.tree = make_tree()});
+  const ObjectId next = world.add({.tree = cube_tree()});
   ASSERT_EQ(next.index, b.index);
   world.take_changes();
   EXPECT_TRUE(world.attends(a.index, next.index));
@@ -255,7 +251,7 @@ TEST(World, MovingAndTakingPosesAllocateNothing) {
   World world;
   std::vector<ObjectId> ids;
   for (int i = 0; i < 100; ++i)
-    ids.push_back(world.add({.tree = make_tree()}));
+    ids.push_back(world.add({.tree = cube_tree()}));
   world.take_changes();
   const std::int64_t before = test_support::allocations_of_this_thread();
   for (int frame = 0; frame < 3; ++frame) {

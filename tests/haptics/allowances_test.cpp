@@ -27,6 +27,7 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::cube;
 using test_support::pose;
 
 std::shared_ptr<const collision::TriangleMesh> box(const Vector3d& size) {
@@ -36,10 +37,6 @@ std::shared_ptr<const collision::TriangleMesh> box(const Vector3d& size) {
 /// A block whose upper face is z = 0.
 Obstacle block() {
   return {std::make_shared<ContactBody>(box({0.4, 0.4, 0.1})), pose({0.0, 0.0, -0.05}), "the block"};
-}
-
-std::shared_ptr<const SlidingPart> cube() {
-  return std::make_shared<SlidingPart>(box({0.02, 0.02, 0.02}));
 }
 
 bool overlaps(const Sliding& sliding) {
@@ -53,12 +50,13 @@ bool overlaps(const Sliding& sliding) {
 }
 
 TEST(Overlap, IsRefusedUnlessTheRulesLeadOutOfIt) {
-  EXPECT_THROW(Sliding({block()}, cube(), pose({0.0, 0.0, 0.009})), std::invalid_argument);
-  EXPECT_NO_THROW(Sliding({block()}, cube(), pose({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}}));
+  EXPECT_THROW(Sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.009})), std::invalid_argument);
+  EXPECT_NO_THROW(
+      Sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}}));
 }
 
 TEST(Overlap, APartThatIsHeldStillComesOutAtLimitedSpeedAndStaysOut) {
-  Sliding sliding({block()}, cube(), pose({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}});
+  Sliding sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}});
   const Isometry3d X_WG = sliding.result().X_WG;
   double height = 0.009;
   for (int i = 0; i < 5; ++i) {
@@ -84,7 +82,7 @@ TEST(Overlap, IsNotLetDeeperAndOtherObstaclesHoldAllTheWhile) {
   // A second block leaves 0.4 mm of the 1 mm that the way out takes.
   Obstacle lid = block();
   lid.X_WO.translation().z() = 0.05 + 0.0194;
-  Sliding sliding({block(), lid}, cube(), pose({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}});
+  Sliding sliding({block(), lid}, cube(0.02), pose({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}});
   for (int i = 0; i < 50; ++i) {
     const double z = sliding.advance(pose({0.0, 0.0, -0.02})).X_WV.translation().z();
     EXPECT_GT(z, 0.009 - 1e-6);
@@ -106,8 +104,8 @@ TEST(Overlap, AHandThatTurnsDoesNotTurnThePartIn) {
 }
 
 TEST(Overlap, WhatCannotBeToldFromTouchingIsOverlap) {
-  EXPECT_THROW(Sliding({block()}, cube(), pose({0.0, 0.0, 0.01 + 1e-16})), std::invalid_argument);
-  Sliding sliding({block()}, cube(), pose({0.0, 0.0, 0.01 + 1e-16}), {.rules = {.overlap = OverlapRule::kLeadOut}});
+  EXPECT_THROW(Sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.01 + 1e-16})), std::invalid_argument);
+  Sliding sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.01 + 1e-16}), {.rules = {.overlap = OverlapRule::kLeadOut}});
   for (int i = 0; i < 10; ++i)
     sliding.advance(pose({0.001, 0.0, 0.01}));
   EXPECT_NEAR(sliding.result().X_WV.translation().x(), 0.001, 1e-6) << "it has come away and follows";
@@ -125,7 +123,7 @@ TEST(GivingWay, LetsAUnitSlideHomeOverItsSpringsAndOutAgain) {
   Obstacle obstacle{bay, Isometry3d::Identity(), "the bay"};
 
   const auto depth_reached = [&] {
-    Sliding sliding({obstacle}, cube(), pose({0.0, 0.0, 0.03}));
+    Sliding sliding({obstacle}, cube(0.02), pose({0.0, 0.0, 0.03}));
     for (int i = 0; i <= 100; ++i)
       sliding.advance(pose({0.0, 0.0, 0.03 - 0.0003 * i}));
     const double depth = sliding.result().X_WV.translation().z();
@@ -146,7 +144,7 @@ TEST(Margin, OfAnObstacleReplacesThatOfThePart) {
   const auto height = [](std::optional<double> margin) {
     Obstacle obstacle = block();
     obstacle.margin = margin;
-    Sliding sliding({obstacle}, cube(), pose({0.0, 0.0, 0.011}));
+    Sliding sliding({obstacle}, cube(0.02), pose({0.0, 0.0, 0.011}));
     for (int i = 0; i < 30; ++i)
       sliding.advance(pose({0.0, 0.0, 0.005}));
     return sliding.result().X_WV.translation().z() - 0.01;
@@ -159,7 +157,7 @@ TEST(Margin, OfAnObstacleReplacesThatOfThePart) {
 TEST(Margin, OfAnObstacleIsWhatTheHapticThreadKeepsToo) {
   Obstacle obstacle = block();
   obstacle.margin = 50e-6;
-  Sliding sliding({obstacle}, cube(), pose({0.0, 0.0, 0.011}));
+  Sliding sliding({obstacle}, cube(0.02), pose({0.0, 0.0, 0.011}));
   for (int i = 0; i < 30; ++i)
     sliding.advance(pose({0.0, 0.0, 0.005}));
   std::vector<std::int32_t> scratch;
@@ -172,8 +170,8 @@ TEST(Margin, OfAnObstacleIsWhatTheHapticThreadKeepsToo) {
 TEST(Margin, IsSmallBesideAStep) {
   Obstacle obstacle = block();
   obstacle.margin = 0.3e-3;
-  EXPECT_THROW(Sliding({obstacle}, cube(), pose({0.0, 0.0, 0.011})), std::invalid_argument);
-  EXPECT_THROW(Sliding({block()}, cube(), pose({0.0, 0.0, 0.011}), {.rules = {.margin = 0.3e-3}}),
+  EXPECT_THROW(Sliding({obstacle}, cube(0.02), pose({0.0, 0.0, 0.011})), std::invalid_argument);
+  EXPECT_THROW(Sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.011}), {.rules = {.margin = 0.3e-3}}),
                std::invalid_argument);
 }
 
@@ -199,7 +197,7 @@ TEST(AntiJam, GetsAPegInThatIsHeldAskewAndLeavesAloneWhatIsNotStuck) {
 }
 
 TEST(AntiJam, IsForgottenWhenTheHandLetsGo) {
-  Sliding sliding({block()}, cube(), pose({0.0, 0.0, 0.011}),
+  Sliding sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.011}),
                   {.metaphor = Metaphor::kRubberBandSpring, .rules = {.anti_jam = true}});
   for (int i = 0; i < 1900; ++i)
     sliding.advance(pose({0.0, 0.0, 0.005}));
@@ -211,7 +209,7 @@ TEST(AntiJam, IsForgottenWhenTheHandLetsGo) {
 
 TEST(AntiJam, DoesNotShakeAPartThatFollows) {
   const auto last = [](bool anti_jam) {
-    Sliding sliding({block()}, cube(), pose({0.0, 0.0, 0.011}), {.rules = {.anti_jam = anti_jam}});
+    Sliding sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.011}), {.rules = {.anti_jam = anti_jam}});
     for (int i = 0; i < 500; ++i)
       sliding.advance(pose({1e-5 * i, 0.0, 0.005}));
     return sliding.result().X_WV;

@@ -20,17 +20,17 @@ using collision::make_box;
 using collision::make_plate;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::kBoxSize;
+using test_support::kRestBalance;
+using test_support::kRestPosition_m;
+using test_support::kRestRotation_rad;
 using test_support::pose;
 using test_support::turn;
 using test_support::turn_from_to;
 
-constexpr double kPosition_m = 0.5e-6;
 constexpr double kLag_m = 1e-6;
-constexpr double kRotation_rad = 0.02e-3 * std::numbers::pi / 180.0;
-constexpr double kBalance = 1e-6;
 constexpr double kRightAngle = 0.5 * std::numbers::pi;
 
-const Vector3d kBoxSize(0.1, 0.06, 0.04);
 const double kHalfLength = 0.5 * kBoxSize.x();
 const double kHalfHeight = 0.5 * kBoxSize.z();
 
@@ -61,16 +61,16 @@ double turned_by(const Isometry3d& X, const Isometry3d& Y) {
 void expect_at_rest(Sliding& sliding, const Isometry3d& X_optimum) {
   ASSERT_GE(test_support::hold_until_rest(sliding), 0);
   const SlidingResult& result = sliding.result();
-  EXPECT_LE((result.X_WV.translation() - X_optimum.translation()).norm(), kPosition_m);
-  EXPECT_LE(turned_by(result.X_WV, X_optimum), kRotation_rad);
-  EXPECT_LE(test_support::imbalance(sliding), kBalance);
+  EXPECT_LE((result.X_WV.translation() - X_optimum.translation()).norm(), kRestPosition_m);
+  EXPECT_LE(turned_by(result.X_WV, X_optimum), kRestRotation_rad);
+  EXPECT_LE(test_support::imbalance(sliding), kRestBalance);
 
   const Displacement stretch = displacement_between(X_optimum, result.X_WG, Vector3d::Zero());
   const Wrench on_part = test_support::spring_on_part(sliding);
   EXPECT_LE((on_part.f - sliding.stiffness().translational * stretch.v).norm(),
-            sliding.stiffness().translational * kPosition_m);
+            sliding.stiffness().translational * kRestPosition_m);
   EXPECT_LE((on_part.t - sliding.stiffness().rotational * stretch.w).norm(),
-            sliding.stiffness().rotational * kRotation_rad);
+            sliding.stiffness().rotational * kRestRotation_rad);
 }
 
 /// Where a function with one change of sign between `low` and `high` is zero.
@@ -122,7 +122,7 @@ TEST(ClosedForm, ACornerOverTheMiddleOfTheForceDoesNotTurnAndSlidesWithoutLag) {
   expect_at_rest(sliding, pose({-0.05, 0.0, height}, q));
   test_support::lead(sliding, pose({0.05, 0.03, half_diagonal - 3e-3}, q), 300, [&](const SlidingResult& result) {
     ASSERT_LE((result.X_WV.translation() - Vector3d(result.X_WG(0, 3), result.X_WG(1, 3), height)).norm(), kLag_m);
-    ASSERT_LE(turned_by(result.X_WV, result.X_WG), kRotation_rad);
+    ASSERT_LE(turned_by(result.X_WV, result.X_WG), kRestRotation_rad);
   });
 }
 
@@ -134,7 +134,7 @@ TEST(ClosedForm, LyingOnAPlaneItFollowsWithoutLag) {
   const Isometry3d X_WG = pose({0.1, 0.05, kHalfHeight - 3e-3}, turn(0.5, Vector3d::UnitZ()));
   test_support::lead(sliding, X_WG, 500, [&](const SlidingResult& result) {
     ASSERT_LE((result.X_WV.translation() - Vector3d(result.X_WG(0, 3), result.X_WG(1, 3), height)).norm(), kLag_m);
-    ASSERT_LE(turned_by(result.X_WV, result.X_WG), kRotation_rad);
+    ASSERT_LE(turned_by(result.X_WV, result.X_WG), kRestRotation_rad);
   });
 }
 
@@ -239,13 +239,13 @@ TEST(ClosedForm, ASphereOnASphereIsAsFarAsItsFacetsLet) {
     test_support::lead(sliding, pose((smooth - depth) * direction.normalized()), 200);
     ASSERT_GE(test_support::hold_until_rest(sliding), 0);
     const double distance = sliding.result().X_WV.translation().norm();
-    EXPECT_LE(distance, smooth + kPosition_m);
+    EXPECT_LE(distance, smooth + kRestPosition_m);
     EXPECT_GE(distance, smooth - sagittas);
     // A smaller part among smaller obstacles has more room, so its optimum is not worse.
     const double length = test_support::length_in(sliding.stiffness(), sliding.error());
-    EXPECT_LE(0.5 * length * length, energy(depth + kPosition_m));
+    EXPECT_LE(0.5 * length * length, energy(depth + kRestPosition_m));
     EXPECT_GE(0.5 * length * length, energy(depth - sagittas));
-    EXPECT_LE(test_support::imbalance(sliding), kBalance);
+    EXPECT_LE(test_support::imbalance(sliding), kRestBalance);
   }
 }
 

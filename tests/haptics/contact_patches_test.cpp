@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 using test_support::pose;
 using test_support::turn_from_to;
 
-constexpr unsigned kSeed = 43;
+constexpr unsigned kPatchesSeed = 43;
 
 TrackedContact contact(std::int64_t id, const Vector3d& p_W, const Vector3d& n_W, double force = 0.0) {
   return {id, 0, {ContactKind::kVertexFace, 0, 0, 0, n_W, p_W, 5e-6, force, 0, 0}};
@@ -63,9 +63,9 @@ TEST(ContactPatches, AStepASlopeAndAnotherObstacleArePatchesOfTheirOwn) {
 }
 
 TEST(ContactPatches, TheOrderOfTheContactsMakesNoOthers) {
-  RecordProperty("seed", static_cast<int>(kSeed));
-  SCOPED_TRACE("seed " + std::to_string(kSeed));
-  std::mt19937 random(kSeed);
+  RecordProperty("seed", static_cast<int>(kPatchesSeed));
+  SCOPED_TRACE("seed " + std::to_string(kPatchesSeed));
+  std::mt19937 random(kPatchesSeed);
   std::uniform_real_distribution<double> coordinate(-0.05, 0.05);
   std::vector<TrackedContact> contacts;
   for (int i = 0; i < 60; ++i) {

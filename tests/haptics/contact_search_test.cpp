@@ -28,30 +28,31 @@ using Eigen::Vector3d;
 using test_support::pose;
 using test_support::turn_from_to;
 
-constexpr double kReach = 1e-3;
-constexpr double kMargin = 5e-6;
+constexpr double kSearchReach = 1e-3;
+constexpr double kSearchMargin = 5e-6;
 
 /// An obstacle, at the origin or elsewhere, and a part.
 class TwoBodies {
  public:
   TwoBodies(const TriangleMesh& obstacle, const TriangleMesh& part, const Isometry3d& X_WO = Isometry3d::Identity())
       : surroundings_({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(obstacle)), X_WO}},
-                      {std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(part))}, std::array{kMargin}) {}
+                      {std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(part))},
+                      std::array{kSearchMargin}) {}
 
   std::vector<Contact> contacts_at(const Isometry3d& X_WV) {
     surroundings_.place(0, X_WV);
     candidates_.clear();
-    candidates_.look(kReach, 0.0, {});
+    candidates_.look(kSearchReach, 0.0, {});
     std::vector<CandidatePair> pairs;
-    candidates_.within(kReach, pairs);
+    candidates_.within(kSearchReach, pairs);
     std::vector<Contact> found;
-    find_contacts(surroundings_.bodies(), 1, pairs, kReach, kMargin, found);
+    find_contacts(surroundings_.bodies(), 1, pairs, kSearchReach, kSearchMargin, found);
     return found;
   }
 
  private:
   Surroundings surroundings_;
-  CandidatePairs candidates_{surroundings_, kReach};
+  CandidatePairs candidates_{surroundings_, kSearchReach};
 };
 
 std::vector<Contact> contacts(const TriangleMesh& obstacle, const TriangleMesh& part, const Isometry3d& X_WV) {

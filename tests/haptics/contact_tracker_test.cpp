@@ -25,11 +25,11 @@ using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kMargin = 5e-6;
-constexpr unsigned kSeed = 41;
+constexpr double kTrackedMargin = 5e-6;
+constexpr unsigned kTrackerSeed = 41;
 
 /// Vertex `vertex` of the part over face `face` of obstacle 0, which is horizontal.
-Contact vertex_over_face(std::int32_t vertex, std::int32_t face, const Vector3d& p_W, double gap = kMargin) {
+Contact vertex_over_face(std::int32_t vertex, std::int32_t face, const Vector3d& p_W, double gap = kTrackedMargin) {
   return {ContactKind::kVertexFace, 0, 0, face, Vector3d::UnitZ(), p_W, gap, 0.0, vertex, face};
 }
 
@@ -52,21 +52,21 @@ std::vector<std::int64_t> ids(std::span<const TrackedContact> contacts) {
 using Ids = std::vector<std::int64_t>;
 
 TEST(ContactTracker, WhatTouchesIsNearerThanTwoMarginsOrPushes) {
-  ContactTracker tracker(kMargin);
-  Contact pushing = vertex_over_face(3, 0, Vector3d(0.3, 0, 0), 10.0 * kMargin);
+  ContactTracker tracker(kTrackedMargin);
+  Contact pushing = vertex_over_face(3, 0, Vector3d(0.3, 0, 0), 10.0 * kTrackedMargin);
   pushing.force = 0.1;
   const auto contacts =
-      tracker.update(result_of({vertex_over_face(1, 0, Vector3d(0.1, 0, 0), 1.9 * kMargin),
-                                vertex_over_face(2, 0, Vector3d(0.2, 0, 0), 2.1 * kMargin), pushing}));
+      tracker.update(result_of({vertex_over_face(1, 0, Vector3d(0.1, 0, 0), 1.9 * kTrackedMargin),
+                                vertex_over_face(2, 0, Vector3d(0.2, 0, 0), 2.1 * kTrackedMargin), pushing}));
   ASSERT_EQ(contacts.size(), 2u);
   EXPECT_EQ(contacts[0].contact.part_feature, 1);
   EXPECT_EQ(contacts[1].contact.part_feature, 3);
 }
 
 TEST(ContactTracker, OrderAndNumbersDoNotDependOnTheOrderOfTheSearch) {
-  RecordProperty("seed", static_cast<int>(kSeed));
-  SCOPED_TRACE("seed " + std::to_string(kSeed));
-  std::mt19937 random(kSeed);
+  RecordProperty("seed", static_cast<int>(kTrackerSeed));
+  SCOPED_TRACE("seed " + std::to_string(kTrackerSeed));
+  std::mt19937 random(kTrackerSeed);
   std::vector<Contact> contacts;
   for (std::int32_t i = 0; i < 40; ++i) {
     Contact contact = vertex_over_face(i % 7, i, Vector3d(0.01 * i, 0, 0));
@@ -74,7 +74,7 @@ TEST(ContactTracker, OrderAndNumbersDoNotDependOnTheOrderOfTheSearch) {
     contact.obstacle = i % 3;
     contacts.push_back(contact);
   }
-  ContactTracker tracker(kMargin);
+  ContactTracker tracker(kTrackedMargin);
   tracker.update(result_of(contacts));
   const std::vector<TrackedContact> expected(tracker.contacts().begin(), tracker.contacts().end());
   for (std::size_t i = 1; i < expected.size(); ++i) {
@@ -86,7 +86,7 @@ TEST(ContactTracker, OrderAndNumbersDoNotDependOnTheOrderOfTheSearch) {
   }
   for (int trial = 0; trial < 20; ++trial) {
     std::shuffle(contacts.begin(), contacts.end(), random);
-    ContactTracker other(kMargin);
+    ContactTracker other(kTrackedMargin);
     const auto found = other.update(result_of(contacts));
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -97,9 +97,9 @@ TEST(ContactTracker, OrderAndNumbersDoNotDependOnTheOrderOfTheSearch) {
 }
 
 TEST(ContactTracker, TheSameFeaturesKeepTheirNumberUntilTheyAreThreeMarginsApart) {
-  ContactTracker tracker(kMargin);
+  ContactTracker tracker(kTrackedMargin);
   const auto at_gap = [&](double margins) {
-    return tracker.update(result_of({vertex_over_face(1, 0, Vector3d(0.1, 0, 0), margins * kMargin)}));
+    return tracker.update(result_of({vertex_over_face(1, 0, Vector3d(0.1, 0, 0), margins * kTrackedMargin)}));
   };
   EXPECT_EQ(ids(at_gap(1.0)), Ids{1});
   EXPECT_EQ(at_gap(1.0)[0].age, 1);
@@ -112,7 +112,7 @@ TEST(ContactTracker, TheSameFeaturesKeepTheirNumberUntilTheyAreThreeMarginsApart
 }
 
 TEST(ContactTracker, AContactThatPassesToTheNextTriangleOfAFaceStaysTheSame) {
-  ContactTracker tracker(kMargin);
+  ContactTracker tracker(kTrackedMargin);
   EXPECT_EQ(ids(tracker.update(result_of({vertex_over_face(1, 7, Vector3d(0.1, 0, 0))}, 0.0))), Ids{1});
   EXPECT_EQ(ids(tracker.update(result_of({vertex_over_face(1, 8, Vector3d(0.101, 0, 0))}, 0.001))), Ids{1});
   // ... also where it is another feature of the part, as on a tessellated curve, ...
@@ -127,7 +127,7 @@ TEST(ContactTracker, AContactThatPassesToTheNextTriangleOfAFaceStaysTheSame) {
 }
 
 TEST(ContactTracker, OfTwoThatEndEachGoesOnWhereItsOwnVertexIs) {
-  ContactTracker tracker(kMargin);
+  ContactTracker tracker(kTrackedMargin);
   tracker.update(
       result_of({vertex_over_face(1, 7, Vector3d(0.1, 0, 0)), vertex_over_face(2, 7, Vector3d(0.1008, 0, 0))}));
   // The part has moved by 1 mm: vertex 1 is now nearly where vertex 2 was.
@@ -145,9 +145,9 @@ TEST(ContactTracker, WhatIsToldTwiceAtOnePlaceIsOneContact) {
   // The same with a vertex of the obstacle below two faces of the part.
   for (const std::int32_t face : {4, 3}) {
     contacts.push_back(
-        {ContactKind::kFaceVertex, face, 0, 0, Vector3d::UnitZ(), Vector3d::Zero(), kMargin, 1.0, face, 9});
+        {ContactKind::kFaceVertex, face, 0, 0, Vector3d::UnitZ(), Vector3d::Zero(), kTrackedMargin, 1.0, face, 9});
   }
-  ContactTracker tracker(kMargin);
+  ContactTracker tracker(kTrackedMargin);
   const auto found = tracker.update(result_of(contacts));
   ASSERT_EQ(found.size(), 3u);
   EXPECT_EQ(found[0].contact.obstacle_triangle, 7);
@@ -155,12 +155,12 @@ TEST(ContactTracker, WhatIsToldTwiceAtOnePlaceIsOneContact) {
   EXPECT_EQ(found[2].contact.part_triangle, 3);
   EXPECT_EQ(found[2].contact.force, 2.0);
   // Two edges that meet at a vertex, and an edge across it: three ways to tell one place.
-  Contact crossing{ContactKind::kEdgeEdge, 0, 0, 0, Vector3d::UnitZ(), Vector3d(0.3, 0, 0), kMargin, 0.0, 5, 6};
+  Contact crossing{ContactKind::kEdgeEdge, 0, 0, 0, Vector3d::UnitZ(), Vector3d(0.3, 0, 0), kTrackedMargin, 0.0, 5, 6};
   contacts.push_back(crossing);
   crossing.obstacle_feature = 7;
   contacts.push_back(crossing);
   crossing.kind = ContactKind::kEdgeVertex;
-  crossing.p_W.y() += 0.5 * kMargin;
+  crossing.p_W.y() += 0.5 * kTrackedMargin;
   contacts.push_back(crossing);
   EXPECT_EQ(tracker.update(result_of(contacts)).size(), 4u);
   // On the wall beside it, it is another.
@@ -171,27 +171,27 @@ TEST(ContactTracker, WhatIsToldTwiceAtOnePlaceIsOneContact) {
 TEST(ContactTracker, APartThatIsLedOutOfAnObstacleTouchesIt) {
   Contact overlap = vertex_over_face(-1, -1, Vector3d(0.1, 0, 0), -3e-3);
   overlap.kind = ContactKind::kOverlap;
-  ContactTracker tracker(kMargin);
+  ContactTracker tracker(kTrackedMargin);
   EXPECT_EQ(ids(tracker.update(result_of({overlap}))), Ids{1});
   overlap.gap = -2.8e-3;
   EXPECT_EQ(ids(tracker.update(result_of({overlap}))), Ids{1});
 }
 
 TEST(ContactTracker, ContactsAreToldAtTheVisiblePose) {
-  SlidingResult result = result_of({vertex_over_face(1, 7, Vector3d(0.1, 0, 0), 3.0 * kMargin)});
-  Contact under = vertex_over_face(0, 0, Vector3d(0.2, 0, 0), 3.0 * kMargin);
+  SlidingResult result = result_of({vertex_over_face(1, 7, Vector3d(0.1, 0, 0), 3.0 * kTrackedMargin)});
+  Contact under = vertex_over_face(0, 0, Vector3d(0.2, 0, 0), 3.0 * kTrackedMargin);
   under.kind = ContactKind::kFaceVertex;
   result.contacts.push_back(under);
   // The last cycle went 1 mm along the face, and down.
-  result.X_WV = Isometry3d(Eigen::Translation3d(1e-3, 0.0, -2.0 * kMargin));
-  ContactTracker tracker(kMargin);
+  result.X_WV = Isometry3d(Eigen::Translation3d(1e-3, 0.0, -2.0 * kTrackedMargin));
+  ContactTracker tracker(kTrackedMargin);
   const auto contacts = tracker.update(result);
   ASSERT_EQ(contacts.size(), 2u);
   for (const TrackedContact& contact : contacts)
-    EXPECT_NEAR(contact.contact.gap, kMargin, 1e-15);
+    EXPECT_NEAR(contact.contact.gap, kTrackedMargin, 1e-15);
   // The part's vertex has gone along; the obstacle's is where it was.
-  EXPECT_TRUE(contacts[0].contact.p_W.isApprox(Vector3d(0.101, 0.0, -2.0 * kMargin), 1e-12));
-  EXPECT_TRUE(contacts[1].contact.q_W().isApprox(Vector3d(0.2, 0.0, -3.0 * kMargin), 1e-12));
+  EXPECT_TRUE(contacts[0].contact.p_W.isApprox(Vector3d(0.101, 0.0, -2.0 * kTrackedMargin), 1e-12));
+  EXPECT_TRUE(contacts[1].contact.q_W().isApprox(Vector3d(0.2, 0.0, -3.0 * kTrackedMargin), 1e-12));
 }
 
 class BoxOnPlate : public ::testing::Test {

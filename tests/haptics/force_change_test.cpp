@@ -13,6 +13,7 @@
 #include <glissade/collision/mesh_operations.h>
 #include <glissade/haptics/sliding.h>
 
+#include "held_part.h"
 #include "poses.h"
 #include "sanitizers.h"
 
@@ -22,12 +23,12 @@ namespace {
 using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::kBoxSize;
 using test_support::turn_from_to;
 
-constexpr unsigned kSeed = 47;
-const Vector3d kBoxSize(0.1, 0.06, 0.04);
+constexpr unsigned kForceChangeSeed = 47;
 
-TriangleMesh sheet(const Vector3d& normal) {
+TriangleMesh fine_sheet(const Vector3d& normal) {
   return collision::transformed(collision::make_plate({0.5, 0.5}, 800),
                                 Isometry3d(turn_from_to(Vector3d::UnitZ(), normal)));
 }
@@ -46,12 +47,12 @@ Displacement difference(const Displacement& a, const Displacement& b) {
 }
 
 TEST(ForceChange, InAConvexCornerTheForceChangesNoMoreThanTheGhostMoves) {
-  RecordProperty("seed", static_cast<int>(kSeed));
-  SCOPED_TRACE("seed " + std::to_string(kSeed));
-  std::mt19937 random(kSeed);
+  RecordProperty("seed", static_cast<int>(kForceChangeSeed));
+  SCOPED_TRACE("seed " + std::to_string(kForceChangeSeed));
+  std::mt19937 random(kForceChangeSeed);
   std::normal_distribution<double> normal;
-  const TriangleMesh corner =
-      collision::merge(std::vector{sheet(Vector3d::UnitX()), sheet(Vector3d::UnitY()), sheet(Vector3d::UnitZ())});
+  const TriangleMesh corner = collision::merge(
+      std::vector{fine_sheet(Vector3d::UnitX()), fine_sheet(Vector3d::UnitY()), fine_sheet(Vector3d::UnitZ())});
   const Vector3d seat = 0.5 * kBoxSize;
   Vector3d ghost = seat + Vector3d::Constant(1e-3);
   Sliding sliding({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(corner))}}, box(12),

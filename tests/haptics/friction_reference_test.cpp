@@ -18,14 +18,14 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::kBoxSize;
 using test_support::OdeHeldPart;
 using test_support::pose;
 using test_support::turn;
 
-constexpr double kCoefficient = 0.4;
-constexpr double kPosition_m = 0.1e-6;
-constexpr double kForce = 1e-5;  // relative
-const Vector3d kBoxSize(0.1, 0.06, 0.04);
+constexpr double kSlopeFriction = 0.4;
+constexpr double kSlopePosition_m = 0.1e-6;
+constexpr double kSlopeForce = 1e-5;  // relative
 
 /// The box on a plane of some slope about y, simulated by both. Positions are in the frame of the plane: x down the
 /// slope, z away from it.
@@ -37,12 +37,13 @@ class BoxOnSlope {
         std::vector<Obstacle>{test_support::obstacle_of(collision::make_plate({0.5, 0.5}, 2), pose({0, 0, 0}, q_))},
         test_support::part_of(collision::make_box(kBoxSize, 12)), X_WV,
         SlidingOptions{.metaphor = Metaphor::kRubberBandSpring,
-                       .rules = {.friction = {.at_rest = kCoefficient, .sliding = kCoefficient}}});
+                       .rules = {.friction = {.at_rest = kSlopeFriction, .sliding = kSlopeFriction}}});
     const Vector3d up = q_ * Vector3d::UnitZ();
-    ode_ = std::make_unique<OdeHeldPart>(
-        test_support::OdeWorld{
-            .planes = {{up, ours_->margin()}}, .boxes = {}, .friction = kCoefficient, .slip_W = q_ * Vector3d::UnitX()},
-        test_support::OdePart{.size = kBoxSize}, ours_->stiffness(), X_WV);
+    ode_ = std::make_unique<OdeHeldPart>(test_support::OdeWorld{.planes = {{up, ours_->margin()}},
+                                                                .boxes = {},
+                                                                .friction = kSlopeFriction,
+                                                                .slip_W = q_ * Vector3d::UnitX()},
+                                         test_support::OdePart{.size = kBoxSize}, ours_->stiffness(), X_WV);
   }
 
   /// Leads both ghosts to this place in world axes, their boxes parallel to the plane, in so many milliseconds; then
@@ -82,13 +83,13 @@ TEST(FrictionReference, OnAPlaneTheBoxSticksAsLongInOdeAsHere) {
   for (const double depth : {1e-3, 3e-3}) {
     BoxOnSlope box(0.0);
     box.lead_to({0.0, 0.0, box.height() - depth}, 100);
-    const double reach = kCoefficient * depth;  // of the ghost, when the spring pulls as much as friction holds
+    const double reach = kSlopeFriction * depth;  // of the ghost, when the spring pulls as much as friction holds
     box.lead_to({0.99 * reach, 0.0, box.height() - depth}, 100);
     EXPECT_NEAR(box.ours().x(), 0.0, 1e-9);
-    EXPECT_NEAR(box.ode().x(), 0.0, kPosition_m);
+    EXPECT_NEAR(box.ode().x(), 0.0, kSlopePosition_m);
     box.lead_to({1.02 * reach, 0.0, box.height() - depth}, 100);
-    EXPECT_NEAR(box.ours().x(), 0.02 * reach, kPosition_m);
-    EXPECT_NEAR(box.ode().x(), 0.02 * reach, kPosition_m);
+    EXPECT_NEAR(box.ours().x(), 0.02 * reach, kSlopePosition_m);
+    EXPECT_NEAR(box.ode().x(), 0.02 * reach, kSlopePosition_m);
   }
 }
 
@@ -97,35 +98,35 @@ TEST(FrictionReference, OnAPlaneTheBoxIsDrawnAlongByTheSameForceAsInOde) {
   box.lead_to({0.0, 0.0, box.height() - 2e-3}, 100);
   for (const double x : {0.05, 0.0, -0.03}) {
     box.lead_to({x, 0.0, box.height() - 2e-3}, 400);
-    EXPECT_LE((box.ours() - box.ode()).norm(), kPosition_m);
-    EXPECT_NEAR(std::abs(box.pull()), kCoefficient * box.press(), kForce * box.press());
-    EXPECT_NEAR(box.pull(), box.ode_pull(), kForce * std::abs(box.ode_pull()));
+    EXPECT_LE((box.ours() - box.ode()).norm(), kSlopePosition_m);
+    EXPECT_NEAR(std::abs(box.pull()), kSlopeFriction * box.press(), kSlopeForce * box.press());
+    EXPECT_NEAR(box.pull(), box.ode_pull(), kSlopeForce * std::abs(box.ode_pull()));
   }
 }
 
 TEST(FrictionReference, LoweredOntoASlopeTheBoxStaysWhereTheSlopeIsLessThanTheCoefficient) {
-  const double slope = 0.95 * std::atan(kCoefficient);
+  const double slope = 0.95 * std::atan(kSlopeFriction);
   BoxOnSlope box(slope);
   const Vector3d touching = box.from_plane({0.0, 0.0, box.height()});
   box.lead_to(touching, 50);
   box.lead_to(touching - Vector3d(0.0, 0.0, 3e-3), 100);
-  EXPECT_NEAR(box.ours().x(), 0.0, kPosition_m);
-  EXPECT_NEAR(box.ode().x(), 0.0, kPosition_m);
+  EXPECT_NEAR(box.ours().x(), 0.0, kSlopePosition_m);
+  EXPECT_NEAR(box.ode().x(), 0.0, kSlopePosition_m);
 }
 
 TEST(FrictionReference, LoweredOntoASteeperSlopeTheBoxSlidesDownUntilFrictionHoldsTheRest) {
   const double slope = 0.5;
-  ASSERT_GT(std::tan(slope), kCoefficient);
+  ASSERT_GT(std::tan(slope), kSlopeFriction);
   BoxOnSlope box(slope);
   const Vector3d touching = box.from_plane({0.0, 0.0, box.height()});
   const double way = 3e-3;
   box.lead_to(touching, 50);
   box.lead_to(touching - Vector3d(0.0, 0.0, way), 100);
   // The ghost is way · sin down the slope and way · cos inside it.
-  const double expected = way * (std::sin(slope) - kCoefficient * std::cos(slope));
-  EXPECT_NEAR(box.ours().x(), expected, kPosition_m);
-  EXPECT_NEAR(box.ode().x(), expected, kPosition_m);
-  EXPECT_NEAR(box.pull(), kCoefficient * box.press(), kForce * box.press());
+  const double expected = way * (std::sin(slope) - kSlopeFriction * std::cos(slope));
+  EXPECT_NEAR(box.ours().x(), expected, kSlopePosition_m);
+  EXPECT_NEAR(box.ode().x(), expected, kSlopePosition_m);
+  EXPECT_NEAR(box.pull(), kSlopeFriction * box.press(), kSlopeForce * box.press());
 }
 
 }  // namespace

@@ -25,15 +25,15 @@ using std::chrono::milliseconds;
 using test_support::pose;
 using test_support::turn;
 
-constexpr double kStiffness = 1000.0;  // N/m, the default
-constexpr double kPressed = 2e-3;      // metres below the plane: 2 N
+constexpr double kStiffness_N_per_m = 1000.0;  // N/m, the default
+constexpr double kPressed = 2e-3;              // metres below the plane: 2 N
 constexpr double kAtRest = 0.5;
-constexpr double kSliding = 0.3;
+constexpr double kWhileSliding = 0.3;
 
 /// A box on a plate, pressed down by 2 N.
 class PressedBox : public ::testing::Test {
  protected:
-  explicit PressedBox(const Friction& friction = {kAtRest, kSliding}) { start(friction); }
+  explicit PressedBox(const Friction& friction = {kAtRest, kWhileSliding}) { start(friction); }
 
   void start(const Friction& friction) {
     const auto plate =
@@ -76,9 +76,9 @@ TEST_F(PressedBox, SticksAsLongAsTheSpringPullsLessThanTheCoefficientAtRestAllow
 TEST_F(PressedBox, SlidesWithTheForceOfSliding) {
   lead({0.05, 0.03, 0.01 - kPressed}, 500);
   const double normal = force_of_spring().z();
-  EXPECT_NEAR(-normal, kStiffness * kPressed, 0.01);
+  EXPECT_NEAR(-normal, kStiffness_N_per_m * kPressed, 0.01);
   const Vector3d across(force_of_spring().x(), force_of_spring().y(), 0.0);
-  EXPECT_NEAR(across.norm(), -kSliding * normal, 1e-3 * -normal);
+  EXPECT_NEAR(across.norm(), -kWhileSliding * normal, 1e-3 * -normal);
   EXPECT_NEAR(across.normalized().dot(Vector3d(0.05, 0.03, 0.0).normalized()), 1.0, 1e-3) << "against the motion";
 }
 
@@ -87,7 +87,7 @@ TEST_F(PressedBox, IsHeldByWhatItsContactsTell) {
   Vector3d sum = Vector3d::Zero();
   for (const Contact& contact : sliding_->result().contacts) {
     sum += contact.force * contact.n_W + contact.friction_W;
-    EXPECT_LE(contact.friction_W.norm(), kSliding * contact.force * (1.0 + 1e-9));
+    EXPECT_LE(contact.friction_W.norm(), kWhileSliding * contact.force * (1.0 + 1e-9));
     EXPECT_NEAR(contact.friction_W.dot(contact.n_W), 0.0, 1e-12);
   }
   EXPECT_LT((sum + force_of_spring()).norm(), 1e-6 * sum.norm());
@@ -97,7 +97,7 @@ TEST_F(PressedBox, TurnsOnTheSpotAgainstATorqueOfFriction) {
   // Pressed evenly, four feet at radius r hold up to μ N r against turning.
   const Vector3d p = sliding_->result().X_WG.translation();
   const double radius = std::hypot(0.03, 0.02);
-  const double most = kAtRest * kStiffness * kPressed * radius;
+  const double most = kAtRest * kStiffness_N_per_m * kPressed * radius;
   const auto turned = [&](double torque) {
     start({kAtRest, kAtRest});
     const double angle = torque / sliding_->stiffness().rotational;
@@ -130,7 +130,7 @@ class BoxOnCarriage : public ::testing::Test {
   static constexpr int kMoves = 100;
   /// What the hand pulls with across is more than what slides could hold, and less than what rests can.
   static constexpr double kPulled = 0.8 * kAtRest * kPressed;
-  static_assert(0.8 * kAtRest > kSliding);
+  static_assert(0.8 * kAtRest > kWhileSliding);
 
   /// The motion is in world axes, about the middle of the carriage.
   void start(const Vector3d& p_box, const Isometry3d& X_motion) {
@@ -142,7 +142,7 @@ class BoxOnCarriage : public ::testing::Test {
     const auto box = test_support::part_of(collision::make_box({0.06, 0.04, 0.02}, 12));
     sliding_ = std::make_unique<Sliding>(
         std::vector<Obstacle>{}, box, pose(p_box + Vector3d(0.0, 0.0, 0.0101)),
-        SlidingOptions{.rules = {.friction = {.at_rest = kAtRest, .sliding = kSliding}}},
+        SlidingOptions{.rules = {.friction = {.at_rest = kAtRest, .sliding = kWhileSliding}}},
         std::vector<ScriptedPart>{{.part_B = carriage, .script_X_WB = script, .name = "the carriage"}});
     lead(p_box + Vector3d(0.0, 0.0, 0.01 - kPressed), kWaits / 2);
   }
@@ -178,7 +178,7 @@ TEST_F(BoxOnCarriage, IsCarriedAlongAroundACorner) {
   const Vector3d before = p_CV();
   go_along();
   const Vector3d moved = p_CV() - before;
-  EXPECT_NEAR(moved.y(), 0.0, 0.1 * (kPulled - kSliding * kPressed)) << "held against the pull";
+  EXPECT_NEAR(moved.y(), 0.0, 0.1 * (kPulled - kWhileSliding * kPressed)) << "held against the pull";
   const double turned = 1e-3 * std::numbers::pi;  // in a call
   EXPECT_NEAR(moved.x(), 0.0, 1.2 * kMoves * 0.5 * turned * turned * 0.1) << "creeps outwards to second order";
 }
@@ -188,7 +188,7 @@ TEST_F(BoxOnCarriage, SlipsWhereTheHandHoldsItBackAndFeelsTheForceOfSliding) {
   start({0.0, 0.0, 0.0}, pose({kWay_m, 0.0, 0.0}));
   lead({0.0, 0.0, 0.01 - kPressed}, kWaits / 2 + kMoves);
   EXPECT_LT(p_CV().x(), -0.9 * kWay_m + kAtRest * kPressed);
-  EXPECT_NEAR(sliding_->result().X_WV.translation().x(), kSliding * kPressed, 1e-5);
+  EXPECT_NEAR(sliding_->result().X_WV.translation().x(), kWhileSliding * kPressed, 1e-5);
 }
 
 TEST(FrictionSolver, WithoutCoefficientFindsTheFrictionlessProjection) {

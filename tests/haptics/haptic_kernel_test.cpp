@@ -17,7 +17,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-const CouplingStiffness kStiffness{1000.0, 2.0};
+const CouplingStiffness kKernelStiffness{1000.0, 2.0};
 
 class Kernel : public ::testing::Test {
  protected:
@@ -50,7 +50,7 @@ class Kernel : public ::testing::Test {
   static inline const Isometry3d kStart{Eigen::Translation3d(0.0, 0.0, 0.5)};
   SlidingPart part_{std::make_shared<collision::TriangleMesh>(collision::make_box({0.1, 0.1, 0.1}, 12))};
   devices::DeviceDescriptor device_ = devices::simulated_glove_descriptor();
-  HapticKernel kernel_{part_, coupling_for(device_, kStiffness), device_, kStart};
+  HapticKernel kernel_{part_, coupling_for(device_, kKernelStiffness), device_, kStart};
 };
 
 TEST_F(Kernel, TheFirstStateGraspsThePartWhereItLies) {
@@ -100,7 +100,7 @@ TEST_F(Kernel, CutsTheCouplingToWhatTheDeviceCanRender) {
   weak.max_stiffness = 400.0;
   weak.max_rotational_stiffness = 0.3;
   weak.max_damping = 1.0;
-  const Coupling coupling = coupling_for(weak, kStiffness);
+  const Coupling coupling = coupling_for(weak, kKernelStiffness);
   EXPECT_EQ(coupling.stiffness.translational, 400.0);
   EXPECT_EQ(coupling.stiffness.rotational, 0.3);
   EXPECT_EQ(coupling.damping.translational, 1.0);
@@ -109,7 +109,7 @@ TEST_F(Kernel, CutsTheCouplingToWhatTheDeviceCanRender) {
 TEST_F(Kernel, ADeviceThatRendersNoStiffnessIsRefused) {
   devices::DeviceDescriptor forceless = device_;
   forceless.max_rotational_stiffness = 0.0;
-  EXPECT_THROW(coupling_for(forceless, kStiffness), std::invalid_argument);
+  EXPECT_THROW(coupling_for(forceless, kKernelStiffness), std::invalid_argument);
 }
 
 TEST_F(Kernel, ATickAllocatesNothing) {

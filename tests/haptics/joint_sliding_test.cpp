@@ -24,21 +24,9 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::cube;
 using test_support::pose;
-
-std::shared_ptr<const SlidingPart> cube(double size) {
-  return std::make_shared<SlidingPart>(
-      std::make_shared<collision::TriangleMesh>(collision::make_box({size, size, size}, 12)));
-}
-
-/// A wall across x, far enough away from where most of these tests play.
-Obstacle wall(double x) {
-  Isometry3d X_WO = pose({x, 0.0, 0.0});
-  X_WO.linear() = Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitY()).toRotationMatrix();
-  return {
-      std::make_shared<ContactBody>(std::make_shared<collision::TriangleMesh>(collision::make_plate({0.4, 0.4}, 2))),
-      X_WO, "the wall"};
-}
+using test_support::wall;
 
 Vector3d force_of_spring(const JointSliding& sliding, std::size_t part) {
   const SlidingResult& result = sliding.result(part);

@@ -25,15 +25,14 @@ using Eigen::Vector3d;
 using test_support::affordable;
 using test_support::ConvexPiece;
 using test_support::HullOracle;
+using test_support::kRestBalance;
+using test_support::kRestPosition_m;
+using test_support::kRestRotation_rad;
 using test_support::pose;
 using test_support::RandomNumbers;
 using test_support::RestOptimum;
 using test_support::RestProblem;
 using test_support::turn;
-
-constexpr double kPosition_m = 0.5e-6;
-constexpr double kRotation_rad = 0.02e-3 * std::numbers::pi / 180.0;
-constexpr double kBalance = 1e-6;
 
 /// A part and what is around it, as meshes for the library and as convex pieces for the minimiser.
 struct Scene {
@@ -84,7 +83,7 @@ Isometry3d moved_out(const RestProblem& problem, Isometry3d X_WV, double gap) {
 
 bool is_at(const Sliding& sliding, const Isometry3d& X_WV) {
   const Displacement error = displacement_between(X_WV, sliding.result().X_WV, sliding.part().p_Vref());
-  return error.v.norm() <= kPosition_m && error.w.norm() <= kRotation_rad;
+  return error.v.norm() <= kRestPosition_m && error.w.norm() <= kRestRotation_rad;
 }
 
 /// Whether the energy falls when the part goes a micrometre towards X_WV, kept off the obstacles by the margin.
@@ -112,7 +111,7 @@ bool expect_rest_at_optimum(const Scene& scene, RandomNumbers& random) {
   test_support::lead(sliding, X_WG, 100);
   EXPECT_GE(test_support::hold_until_rest(sliding), 0);
   if (sliding.result().state == SlidingState::kFree) return true;
-  EXPECT_LE(test_support::imbalance(sliding), kBalance);
+  EXPECT_LE(test_support::imbalance(sliding), kRestBalance);
 
   const RestProblem problem{scene.part_pieces, scene.obstacle_pieces, sliding.part().p_Vref(), sliding.stiffness(),
                             sliding.margin()};

@@ -11,16 +11,18 @@
 #include <glissade/haptics/metaphor.h>
 #include <glissade/haptics/sliding.h>
 
+#include "held_part.h"
+
 namespace glissade::haptics {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::kBoxSize;
 
-const Vector3d kBoxSize(0.1, 0.06, 0.04);
 constexpr double kRest = 0.02;  // of its middle above the floor
 
-Isometry3d at(double x, double z, double angle = 0.0) {
+Isometry3d tilted_at(double x, double z, double angle = 0.0) {
   return Isometry3d(Eigen::Translation3d(x, 0.0, z)) * Eigen::AngleAxisd(angle, Vector3d::UnitY());
 }
 
@@ -60,19 +62,19 @@ TEST(Metaphor, HasItsNameOnTheCommandLine) {
 }
 
 TEST(RubberBand, DoesNotTurnThePartInFreeSpace) {
-  Sliding sliding = box_above_floor(Metaphor::kRubberBand, at(0.0, 0.1));
-  lead(sliding, at(0.05, 0.12, 0.5), 100);
+  Sliding sliding = box_above_floor(Metaphor::kRubberBand, tilted_at(0.0, 0.1));
+  lead(sliding, tilted_at(0.05, 0.12, 0.5), 100);
   EXPECT_EQ(sliding.result().state, SlidingState::kFree);
-  EXPECT_EQ(sliding.result().X_WV.linear(), at(0.0, 0.1).linear());
+  EXPECT_EQ(sliding.result().X_WV.linear(), tilted_at(0.0, 0.1).linear());
   EXPECT_LT((sliding.result().X_WV.translation() - Vector3d(0.05, 0.0, 0.12)).norm(), 1e-15);
   EXPECT_EQ(sliding.error().v, Vector3d::Zero());
 }
 
 TEST(RubberBand, LaysATiltedPartFlatAndGivesNoTorque) {
   constexpr double kTilt = 0.2;
-  Sliding sliding = box_above_floor(Metaphor::kRubberBand, at(0.0, 0.06, kTilt));
-  lead(sliding, at(0.0, kRest - 2e-3, kTilt), 200);
-  lead(sliding, at(0.0, kRest - 2e-3, kTilt), 50);
+  Sliding sliding = box_above_floor(Metaphor::kRubberBand, tilted_at(0.0, 0.06, kTilt));
+  lead(sliding, tilted_at(0.0, kRest - 2e-3, kTilt), 200);
+  lead(sliding, tilted_at(0.0, kRest - 2e-3, kTilt), 50);
   EXPECT_LT(angle_of(sliding.result().X_WV), 1e-3) << "the spring would hold it up";
   EXPECT_NEAR(sliding.result().X_WV.translation().z(), kRest + sliding.margin(), 2.0 * sliding.margin());
   EXPECT_EQ(sliding.error().w, Vector3d::Zero());
@@ -81,42 +83,42 @@ TEST(RubberBand, LaysATiltedPartFlatAndGivesNoTorque) {
 
 TEST(RubberBandSpring, HoldsATiltedPartUpByItsTorque) {
   constexpr double kTilt = 0.2;
-  Sliding sliding = box_above_floor(Metaphor::kRubberBandSpring, at(0.0, 0.06, kTilt));
-  lead(sliding, at(0.0, kRest, kTilt), 200);
+  Sliding sliding = box_above_floor(Metaphor::kRubberBandSpring, tilted_at(0.0, 0.06, kTilt));
+  lead(sliding, tilted_at(0.0, kRest, kTilt), 200);
   EXPECT_GT(angle_of(sliding.result().X_WV), 0.02);
   EXPECT_GT(sliding.error().w.norm(), 0.02);
 }
 
 TEST(Incremental, ForgetsWhatTheFloorRefuses) {
-  Sliding sliding = box_above_floor(Metaphor::kIncremental, at(0.0, kRest + 1e-3));
-  lead(sliding, at(0.0, kRest - 3e-3), 40);  // 1 mm to the floor, 3 mm refused
+  Sliding sliding = box_above_floor(Metaphor::kIncremental, tilted_at(0.0, kRest + 1e-3));
+  lead(sliding, tilted_at(0.0, kRest - 3e-3), 40);  // 1 mm to the floor, 3 mm refused
   EXPECT_NEAR(sliding.result().X_WV.translation().z(), kRest, 2.0 * sliding.margin());
   EXPECT_NEAR(sliding.error().v.z(), -1e-4, 2.0 * sliding.margin()) << "that of the last call alone";
   const double resting = sliding.result().X_WV.translation().z();
-  lead(sliding, at(0.02, kRest - 2e-3), 40);  // back by 1 mm, and aside
+  lead(sliding, tilted_at(0.02, kRest - 2e-3), 40);  // back by 1 mm, and aside
   EXPECT_EQ(sliding.result().state, SlidingState::kFree) << "it lifts off at once";
   EXPECT_NEAR(sliding.result().X_WV.translation().z(), resting + 1e-3, 2.0 * sliding.margin());
   EXPECT_NEAR(sliding.result().X_WV.translation().x(), 0.02, 1e-9);
 }
 
 TEST(Incremental, GraspAndReleaseAreItsClutch) {
-  Sliding sliding = box_above_floor(Metaphor::kIncremental, at(0.0, 0.1));
-  lead(sliding, at(0.1, 0.1), 100);
+  Sliding sliding = box_above_floor(Metaphor::kIncremental, tilted_at(0.0, 0.1));
+  lead(sliding, tilted_at(0.1, 0.1), 100);
   const Isometry3d X_WV = sliding.result().X_WV;
   sliding.release();
-  lead(sliding, at(-0.2, 0.3, 1.0), 10);
+  lead(sliding, tilted_at(-0.2, 0.3, 1.0), 10);
   EXPECT_EQ(sliding.result().X_WV.matrix(), X_WV.matrix()) << "nobody holds it";
-  sliding.grasp(at(0.0, 0.1));
+  sliding.grasp(tilted_at(0.0, 0.1));
   EXPECT_EQ(sliding.result().X_WV.matrix(), X_WV.matrix());
-  lead(sliding, at(0.1, 0.1), 100);
+  lead(sliding, tilted_at(0.1, 0.1), 100);
   EXPECT_NEAR(sliding.result().X_WV.translation().x(), 0.2, 1e-12) << "twice the reach of the hand";
 }
 
 TEST(Grasp, AtAnOffsetMovesThePartAtALimitedSpeedUnderForceFeedbackAndDoesNotPull) {
-  Sliding sliding = box_above_floor(Metaphor::kForceFeedback, at(0.0, 0.1));
+  Sliding sliding = box_above_floor(Metaphor::kForceFeedback, tilted_at(0.0, 0.1));
   sliding.release();
   EXPECT_EQ(sliding.result().state, SlidingState::kReleased);
-  const Isometry3d X_WG = at(0.01, 0.11, 0.1);
+  const Isometry3d X_WG = tilted_at(0.01, 0.11, 0.1);
   sliding.grasp(X_WG);
   Isometry3d X_WV = sliding.result().X_WV;
   int calls = 0;
@@ -133,9 +135,9 @@ TEST(Grasp, AtAnOffsetMovesThePartAtALimitedSpeedUnderForceFeedbackAndDoesNotPul
 }
 
 TEST(Grasp, AtAnOffsetBehindTheFloorPullsHarderOnlyAsFastAsTheSlew) {
-  Sliding sliding = box_above_floor(Metaphor::kForceFeedback, at(0.0, kRest + 1e-3));
+  Sliding sliding = box_above_floor(Metaphor::kForceFeedback, tilted_at(0.0, kRest + 1e-3));
   sliding.release();
-  const Isometry3d X_WG = at(0.0, kRest - 9e-3);
+  const Isometry3d X_WG = tilted_at(0.0, kRest - 9e-3);
   sliding.grasp(X_WG);
   Vector3d error = Vector3d::Zero();
   for (int i = 0; i < 120; ++i) {
@@ -144,17 +146,17 @@ TEST(Grasp, AtAnOffsetBehindTheFloorPullsHarderOnlyAsFastAsTheSlew) {
     error = sliding.error().v;
   }
   EXPECT_NEAR(error.z(), -9e-3, 2.0 * sliding.margin()) << "in the end as hard as any";
-  sliding.grasp(at(0.0, kRest - 5e-3));
+  sliding.grasp(tilted_at(0.0, kRest - 5e-3));
   EXPECT_EQ(sliding.error().v, error) << "another hold of a part that is held keeps what pulls";
-  sliding.advance(at(0.0, kRest - 5e-3));
+  sliding.advance(tilted_at(0.0, kRest - 5e-3));
   EXPECT_NEAR(sliding.error().v.z(), error.z() + kClosing_m, 1e-9);
   sliding.release();
   EXPECT_EQ(sliding.error().v, Vector3d::Zero());
 }
 
 TEST(Grasp, IsLeftAndTakenAThousandTimesWithoutMovingAPartThatPresses) {
-  Sliding sliding = box_above_floor(Metaphor::kForceFeedback, at(0.0, kRest + 1e-3));
-  lead(sliding, at(0.0, kRest - 1e-3), 40);
+  Sliding sliding = box_above_floor(Metaphor::kForceFeedback, tilted_at(0.0, kRest + 1e-3));
+  lead(sliding, tilted_at(0.0, kRest - 1e-3), 40);
   ASSERT_EQ(sliding.result().state, SlidingState::kResting);
   const Isometry3d X_WV = sliding.result().X_WV;
   for (int i = 0; i < 1000; ++i) {
@@ -165,12 +167,12 @@ TEST(Grasp, IsLeftAndTakenAThousandTimesWithoutMovingAPartThatPresses) {
     // Held where it is, the part is free to go, though it lies on the floor.
     ASSERT_EQ(sliding.advance(X_WV).state, SlidingState::kFree) << i;
   }
-  lead(sliding, at(0.0, kRest - 1e-3), 40);
+  lead(sliding, tilted_at(0.0, kRest - 1e-3), 40);
   EXPECT_NEAR(sliding.result().X_WV.translation().z(), X_WV.translation().z(), 2.0 * sliding.margin());
 }
 
 TEST(Grasp, WithAPoseThatIsNoneChangesNothing) {
-  Sliding sliding = box_above_floor(Metaphor::kForceFeedback, at(0.0, 0.1));
+  Sliding sliding = box_above_floor(Metaphor::kForceFeedback, tilted_at(0.0, 0.1));
   sliding.release();
   sliding.grasp(Isometry3d(Eigen::Scaling(2.0) * Isometry3d::Identity().matrix().topLeftCorner<3, 3>()));
   EXPECT_EQ(sliding.result().state, SlidingState::kReleased);

@@ -9,7 +9,7 @@
 namespace glissade::haptics {
 namespace {
 
-constexpr unsigned kSeed = 7;
+constexpr unsigned kMotionSeed = 7;
 
 class Motion : public ::testing::Test {
  protected:
@@ -17,12 +17,12 @@ class Motion : public ::testing::Test {
   Eigen::Isometry3d random_pose() {
     return displaced(Eigen::Isometry3d::Identity(), Eigen::Vector3d::Zero(), {random_vector(), 3.0 * random_vector()});
   }
-  std::mt19937 generator_{kSeed};
+  std::mt19937 generator_{kMotionSeed};
   std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
 };
 
 TEST_F(Motion, DisplacementBetweenTwoPosesTakesOneToTheOther) {
-  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  SCOPED_TRACE("seed " + std::to_string(kMotionSeed));
   for (int i = 0; i < 200; ++i) {
     const Eigen::Isometry3d X_WV = random_pose();
     const Eigen::Isometry3d X_WG = random_pose();
@@ -41,7 +41,7 @@ TEST_F(Motion, RotatesAboutTheReferencePoint) {
 }
 
 TEST_F(Motion, NoPointMovesMoreThanTheBoundAtAnyMoment) {
-  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  SCOPED_TRACE("seed " + std::to_string(kMotionSeed));
   const double radius = 0.5;
   for (int i = 0; i < 200; ++i) {
     const Displacement d{0.1 * random_vector(), random_vector()};

@@ -19,6 +19,7 @@
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/paper_sliding.h>
 
+#include "held_part.h"
 #include "poses.h"
 #include "sanitizers.h"
 
@@ -29,24 +30,18 @@ using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using enum PaperState;
+using test_support::kBoxSize;
+using test_support::obstacle_of;
+using test_support::part_of;
 using test_support::pose;
 using test_support::turn_from_to;
 
-constexpr unsigned kSeed = 31;
-const Vector3d kBoxSize(0.1, 0.06, 0.04);
-
-std::shared_ptr<const ContactBody> body_of(const TriangleMesh& mesh) {
-  return std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(mesh));
-}
-
-std::shared_ptr<const SlidingPart> part_of(const TriangleMesh& mesh) {
-  return std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(mesh));
-}
+constexpr unsigned kPaperSlidingSeed = 31;
 
 /// A sheet of two triangles through the origin with the given normal.
-Obstacle sheet(const Vector3d& normal) {
-  return {body_of(collision::make_plate({0.5, 0.5}, 2)),
-          pose(Vector3d::Zero(), turn_from_to(Vector3d::UnitZ(), normal))};
+Obstacle coarse_sheet(const Vector3d& normal) {
+  return obstacle_of(collision::make_plate({0.5, 0.5}, 2),
+                     pose(Vector3d::Zero(), turn_from_to(Vector3d::UnitZ(), normal)));
 }
 
 PaperSliding box_among(const std::vector<Obstacle>& obstacles, const Vector3d& start,
@@ -72,7 +67,7 @@ std::vector<PaperState> states_of(const PaperSliding& sliding) {
 }
 
 TEST(PaperSliding, InFreeSpaceFollowsTheGhostToTheBit) {
-  PaperSliding sliding = box_among({sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.1});
+  PaperSliding sliding = box_among({coarse_sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.1});
   lead(sliding, pose({0.05, 0.02, 0.12}, Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Vector3d::UnitX()))), 100,
        [&](const SlidingResult& result) {
          EXPECT_EQ(result.X_WV.matrix(), result.X_WG.matrix());
@@ -85,7 +80,7 @@ TEST(PaperSliding, InFreeSpaceFollowsTheGhostToTheBit) {
 }
 
 TEST(PaperSliding, GoesThroughTheStatesOfThePaper) {
-  PaperSliding sliding = box_among({sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.0203});
+  PaperSliding sliding = box_among({coarse_sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.0203});
   sliding.advance(pose({0.001, 0.0, 0.017}));
   const std::vector<PaperState> states = states_of(sliding);
   const std::vector first{kMoving, kBisecting, kClassifying, kNewDirection, kCriterion, kSliding};
@@ -98,7 +93,7 @@ TEST(PaperSliding, GoesThroughTheStatesOfThePaper) {
 }
 
 TEST(PaperSliding, OnAPlaneOfTwoTrianglesItFollowsTheGhostAlongIt) {
-  PaperSliding sliding = box_among({sheet(Vector3d::UnitZ())}, {-0.1, 0.0, 0.03});
+  PaperSliding sliding = box_among({coarse_sheet(Vector3d::UnitZ())}, {-0.1, 0.0, 0.03});
   lead(sliding, pose({-0.1, 0.0, 0.017}), 200);  // 3 mm into the plane
   lead(sliding, pose({0.1, 0.05, 0.017}), 500, [&](const SlidingResult& result) {
     Vector3d optimum = result.X_WG.translation();
@@ -116,7 +111,7 @@ TEST(PaperSliding, OnAPlaneOfTwoTrianglesItFollowsTheGhostAlongIt) {
 }
 
 TEST(PaperSliding, TellsTheVerticesThatPressOnAPlane) {
-  PaperSliding sliding = box_among({sheet(Vector3d::UnitZ())}, {0.0, 0.01, 0.03});
+  PaperSliding sliding = box_among({coarse_sheet(Vector3d::UnitZ())}, {0.0, 0.01, 0.03});
   lead(sliding, pose({0.0, 0.01, 0.017}), 200);
   ContactTracker tracker(sliding.margin());
   std::set<std::int32_t> vertices;
@@ -130,7 +125,8 @@ TEST(PaperSliding, TellsTheVerticesThatPressOnAPlane) {
 
 TEST(PaperSliding, InACornerItStops) {
   PaperSliding sliding =
-      box_among({sheet(Vector3d::UnitX()), sheet(Vector3d::UnitY()), sheet(Vector3d::UnitZ())}, {0.06, 0.04, 0.03});
+      box_among({coarse_sheet(Vector3d::UnitX()), coarse_sheet(Vector3d::UnitY()), coarse_sheet(Vector3d::UnitZ())},
+                {0.06, 0.04, 0.03});
   const Vector3d seat = 0.5 * kBoxSize;
   lead(sliding, pose(seat - Vector3d(2e-3, 3e-3, 4e-3)), 200);
   lead(sliding, pose(seat - Vector3d(2e-3, 3e-3, 4e-3)), 20);
@@ -142,7 +138,7 @@ TEST(PaperSliding, InACornerItStops) {
 
 TEST(PaperSliding, LaysATiltedBoxOnThePlane) {
   const Eigen::Quaterniond tilted(Eigen::AngleAxisd(0.05, Vector3d::UnitY()));
-  PaperSliding sliding({sheet(Vector3d::UnitZ())}, part_of(collision::make_box(kBoxSize, 12)),
+  PaperSliding sliding({coarse_sheet(Vector3d::UnitZ())}, part_of(collision::make_box(kBoxSize, 12)),
                        pose({0.0, 0.0, 0.03}, tilted));
   lead(sliding, pose({0.0, 0.0, 0.019}), 300);
   lead(sliding, pose({0.0, 0.0, 0.019}), 300);
@@ -153,7 +149,7 @@ TEST(PaperSliding, LaysATiltedBoxOnThePlane) {
 /// The ghost walks at random, up to `step` metres a call, in a box about the origin.
 template <typename Check>
 void random_walk(PaperSliding& sliding, double reach, double step, int calls, const Check& check) {
-  std::mt19937 random(kSeed);
+  std::mt19937 random(kPaperSlidingSeed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto direction = [&] { return Vector3d(uniform(random), uniform(random), uniform(random)); };
   Vector3d p = sliding.result().X_WG.translation();
@@ -169,17 +165,17 @@ void random_walk(PaperSliding& sliding, double reach, double step, int calls, co
 }
 
 TEST(PaperSliding, NoVisiblePoseEverCollides) {
-  RecordProperty("seed", static_cast<int>(kSeed));
+  RecordProperty("seed", static_cast<int>(kPaperSlidingSeed));
   const TriangleMesh clutter = collision::flip_randomly(
       collision::merge(std::vector{collision::transformed(collision::make_torus(0.06, 0.015, 200), pose({0, 0, -0.05})),
                                    collision::transformed(collision::make_plate({0.2, 0.2}, 8), pose({0, 0, -0.08})),
                                    collision::transformed(collision::make_tube(0.03, 0.08, 100), pose({0.08, 0, 0}))}),
-      kSeed);
+      kPaperSlidingSeed);
   const TriangleMesh box = collision::make_box({0.04, 0.03, 0.02}, 12);
   constexpr int kMilliseconds = test_support::kSanitized ? 500 : 1500;
   for (const Metaphor metaphor :
        {Metaphor::kForceFeedback, Metaphor::kRubberBand, Metaphor::kRubberBandSpring, Metaphor::kIncremental}) {
-    PaperSliding sliding({{body_of(clutter)}}, part_of(box), pose({0.0, 0.0, 0.05}), {.metaphor = metaphor});
+    PaperSliding sliding({obstacle_of(clutter)}, part_of(box), pose({0.0, 0.0, 0.05}), {.metaphor = metaphor});
     int in_contact = 0;
     random_walk(sliding, 0.08, 2e-3, kMilliseconds, [&](const SlidingResult& result) {
       ASSERT_FALSE(collision::brute_force_intersects(clutter, box, result.X_WV)) << name_of(metaphor);
@@ -195,7 +191,7 @@ TEST(PaperSliding, ASheetIsMetFromEitherSideWhateverTheOrderOfVertices) {
   for (const double side : {1.0, -1.0}) {
     const TriangleMesh plate = collision::flip_randomly(collision::make_plate({0.5, 0.5}, 2), 3);
     const TriangleMesh box = collision::flip_randomly(collision::make_box(kBoxSize, 12), 4);
-    PaperSliding sliding({{body_of(plate)}}, part_of(box), pose({0.0, 0.0, side * 0.025}));
+    PaperSliding sliding({obstacle_of(plate)}, part_of(box), pose({0.0, 0.0, side * 0.025}));
     lead(sliding, pose({0.0, 0.0, side * 0.017}), 80);
     lead(sliding, pose({0.05, 0.05, side * 0.017}), 200, [&](const SlidingResult& result) {
       ASSERT_NEAR(result.X_WV.translation().z(), side * 0.02, 2.0 * sliding.bracket());
@@ -206,7 +202,7 @@ TEST(PaperSliding, ASheetIsMetFromEitherSideWhateverTheOrderOfVertices) {
 
 TEST(PaperSliding, AThinSheetAtSpeedIsPassedAsOnlyPosesAreChecked) {
   const TriangleMesh plate = collision::make_plate({0.1, 0.1}, 2);
-  PaperSliding sliding({{body_of(plate)}}, part_of(plate), pose({0.0, 0.0, 0.0025}));
+  PaperSliding sliding({obstacle_of(plate)}, part_of(plate), pose({0.0, 0.0, 0.0025}));
   for (int i = 1; i <= 5; ++i)
     sliding.advance(pose({0.0, 0.0, 0.0025 - 0.005 * i}));  // 5 m/s
   EXPECT_LT(sliding.result().X_WV.translation().z(), 0.0) << "then docs/sliding.md says something wrong";
@@ -214,8 +210,8 @@ TEST(PaperSliding, AThinSheetAtSpeedIsPassedAsOnlyPosesAreChecked) {
 
 TEST(PaperSliding, TheSameGhostGivesTheSameBits) {
   const auto run = [] {
-    PaperSliding sliding =
-        box_among({sheet(Vector3d::UnitX()), sheet(Vector3d(0.1, 0.2, 1.0).normalized())}, {0.1, 0.0, 0.08});
+    PaperSliding sliding = box_among(
+        {coarse_sheet(Vector3d::UnitX()), coarse_sheet(Vector3d(0.1, 0.2, 1.0).normalized())}, {0.1, 0.0, 0.08});
     std::vector<double> all;
     random_walk(sliding, 0.12, 1e-3, 300, [&](const SlidingResult& result) {
       all.insert(all.end(), result.X_WV.data(), result.X_WV.data() + 16);
@@ -228,12 +224,12 @@ TEST(PaperSliding, TheSameGhostGivesTheSameBits) {
 }
 
 TEST(PaperSliding, TheRubberBandTurnsNothingInFreeSpaceAndIncrementsForgetWhatIsRefused) {
-  PaperSliding band = box_among({sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.1}, Metaphor::kRubberBand);
+  PaperSliding band = box_among({coarse_sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.1}, Metaphor::kRubberBand);
   lead(band, pose({0.05, 0.0, 0.12}, Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Vector3d::UnitY()))), 50);
   EXPECT_EQ(band.result().X_WV.linear(), Eigen::Matrix3d::Identity());
   EXPECT_EQ(band.error().v, Vector3d::Zero());
 
-  PaperSliding incremental = box_among({sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.021}, Metaphor::kIncremental);
+  PaperSliding incremental = box_among({coarse_sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.021}, Metaphor::kIncremental);
   lead(incremental, pose({0.0, 0.0, 0.017}), 40);  // 1 mm to the sheet, 3 mm refused
   EXPECT_NEAR(incremental.result().X_WV.translation().z(), 0.02, 2.0 * incremental.bracket());
   lead(incremental, pose({0.02, 0.0, 0.018}), 40);  // back by 1 mm, and aside
@@ -241,7 +237,7 @@ TEST(PaperSliding, TheRubberBandTurnsNothingInFreeSpaceAndIncrementsForgetWhatIs
 }
 
 TEST(PaperSliding, ReleasedItStandsStillAndGraspedAgainItMovesAtALimitedSpeed) {
-  PaperSliding sliding = box_among({sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.03});
+  PaperSliding sliding = box_among({coarse_sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.03});
   sliding.release();
   EXPECT_EQ(sliding.advance(pose({0.05, 0.0, 0.03})).state, SlidingState::kReleased);
   EXPECT_EQ(sliding.result().X_WV.matrix(), pose({0.0, 0.0, 0.03}).matrix());
@@ -252,9 +248,9 @@ TEST(PaperSliding, ReleasedItStandsStillAndGraspedAgainItMovesAtALimitedSpeed) {
 }
 
 TEST(PaperSliding, RefusesAStartInsideAnObstacleAndABracketOfNothing) {
-  EXPECT_THROW(box_among({sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.01}), std::invalid_argument);
+  EXPECT_THROW(box_among({coarse_sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.01}), std::invalid_argument);
   EXPECT_THROW(box_among({}, {0.0, 0.0, 0.01}), std::invalid_argument);
-  EXPECT_THROW(PaperSliding({sheet(Vector3d::UnitZ())}, part_of(collision::make_box(kBoxSize, 12)),
+  EXPECT_THROW(PaperSliding({coarse_sheet(Vector3d::UnitZ())}, part_of(collision::make_box(kBoxSize, 12)),
                             pose({0.0, 0.0, 0.03}), {.bracket = 0.0}),
                std::invalid_argument);
 }

@@ -15,7 +15,7 @@ namespace glissade::haptics {
 namespace {
 
 constexpr double kFloor = 1e-6;
-constexpr double kReach = 10.0;
+constexpr double kProofReach = 10.0;
 
 std::shared_ptr<const collision::TriangleMesh> one_triangle(double z) {
   auto mesh = std::make_shared<collision::TriangleMesh>();
@@ -30,10 +30,10 @@ bool prove(const std::vector<Obstacle>& obstacles, const std::vector<std::shared
   Surroundings surroundings(obstacles, parts, std::vector<double>(parts.size(), kFloor / kFloorOfMargin));
   for (std::size_t p = 0; p < parts.size(); ++p)
     surroundings.place(p, X_WV[p]);
-  CandidatePairs candidates(surroundings, kReach);
-  candidates.look(kReach, 0.0, {});
+  CandidatePairs candidates(surroundings, kProofReach);
+  candidates.look(kProofReach, 0.0, {});
   std::vector<Obligation> obligations;
-  candidates.within(kReach, obligations);
+  candidates.within(kProofReach, obligations);
   std::vector<UncertifiedPair> failures;
   return PathCertificate(surroundings).prove(displacements, obligations, failures);
 }

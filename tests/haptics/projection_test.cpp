@@ -8,7 +8,7 @@
 namespace glissade::haptics {
 namespace {
 
-const CouplingStiffness kStiffness{1000.0, 2.5};
+const CouplingStiffness kProjectedStiffness{1000.0, 2.5};
 
 ConstraintRow floor_at(double height, const Eigen::Vector3d& r = Eigen::Vector3d::Zero()) {
   return {Eigen::Vector3d::UnitZ(), r, -height};
@@ -17,7 +17,7 @@ ConstraintRow floor_at(double height, const Eigen::Vector3d& r = Eigen::Vector3d
 TEST(Projection, LeavesAnUnhinderedDisplacementAsItIs) {
   const Displacement wanted{{1e-3, 2e-3, -3e-3}, {0.01, 0.02, 0.03}};
   const std::vector<ConstraintRow> rows{floor_at(4e-3)};
-  const Projection result = ProjectionSolver().project(wanted, kStiffness, rows);
+  const Projection result = ProjectionSolver().project(wanted, kProjectedStiffness, rows);
   EXPECT_EQ(result.status, ProjectionStatus::kSolved);
   EXPECT_EQ(result.active_count, 0);
   EXPECT_TRUE(result.displacement().stacked().isApprox(wanted.stacked(), 1e-14));
@@ -26,7 +26,7 @@ TEST(Projection, LeavesAnUnhinderedDisplacementAsItIs) {
 TEST(Projection, SlidesAlongAFloorAndReportsTheForceThatTakes) {
   const Displacement wanted{{1e-3, 0.0, -3e-3}, Eigen::Vector3d::Zero()};
   const std::vector<ConstraintRow> rows{floor_at(1e-3)};
-  const Projection result = ProjectionSolver().project(wanted, kStiffness, rows);
+  const Projection result = ProjectionSolver().project(wanted, kProjectedStiffness, rows);
   EXPECT_TRUE(result.displacement().v.isApprox(Eigen::Vector3d(1e-3, 0.0, -1e-3), 1e-12));
   ASSERT_EQ(result.active_count, 1);
   EXPECT_NEAR(result.force[0], 1000.0 * 2e-3, 1e-9);  // k_t times the 2 mm that were refused
@@ -37,17 +37,18 @@ TEST(Projection, TurnsAboutAnEccentricContactAsTheStiffnessesAllow) {
   const double a = 0.05;
   const double d = 1e-3;
   const std::vector<ConstraintRow> rows{floor_at(0.0, {0.0, a, 0.0})};  // rotation about x lifts the contact point
-  const Projection result = ProjectionSolver().project({{0.0, 0.0, -d}, Eigen::Vector3d::Zero()}, kStiffness, rows);
-  const double force = d / (1.0 / kStiffness.translational + a * a / kStiffness.rotational);
+  const Projection result =
+      ProjectionSolver().project({{0.0, 0.0, -d}, Eigen::Vector3d::Zero()}, kProjectedStiffness, rows);
+  const double force = d / (1.0 / kProjectedStiffness.translational + a * a / kProjectedStiffness.rotational);
   ASSERT_EQ(result.active_count, 1);
   EXPECT_NEAR(result.force[0], force, 1e-9);
-  EXPECT_NEAR(result.displacement().w.x(), force * a / kStiffness.rotational, 1e-12);
+  EXPECT_NEAR(result.displacement().w.x(), force * a / kProjectedStiffness.rotational, 1e-12);
 }
 
 TEST(Projection, SaysWhenNothingIsAllowed) {
   const std::vector<ConstraintRow> rows{{Eigen::Vector3d::UnitX(), Eigen::Vector3d::Zero(), 1e-3},
                                         {-Eigen::Vector3d::UnitX(), Eigen::Vector3d::Zero(), 1e-3}};
-  EXPECT_EQ(ProjectionSolver().project({}, kStiffness, rows).status, ProjectionStatus::kInfeasible);
+  EXPECT_EQ(ProjectionSolver().project({}, kProjectedStiffness, rows).status, ProjectionStatus::kInfeasible);
 }
 
 // The optimality conditions of Karush, Kuhn and Tucker are sufficient for a convex programme, so they are an oracle.
@@ -67,7 +68,7 @@ TEST(Projection, MeetsTheOptimalityConditionsOnRandomProgrammes) {
       if (i % 5 == 4) rows.push_back(rows.back());  // repeated rows are common in practice
     }
     const Displacement wanted{1e-3 * random_vector(), 0.02 * random_vector()};
-    const Projection result = ProjectionSolver().project(wanted, kStiffness, rows);
+    const Projection result = ProjectionSolver().project(wanted, kProjectedStiffness, rows);
     ASSERT_EQ(result.status, ProjectionStatus::kSolved) << "trial " << trial;
     for (const ConstraintRow& row : rows) {
       ASSERT_GE(row.velocity(result.displacement()), row.bound - 1e-11) << "trial " << trial;
@@ -82,9 +83,9 @@ TEST(Projection, MeetsTheOptimalityConditionsOnRandomProgrammes) {
       force += result.force[slot] * row.n;
       torque += result.force[slot] * row.r.cross(row.n);
     }
-    EXPECT_LT((kStiffness.translational * (result.displacement().v - wanted.v) - force).norm(), 1e-8)
+    EXPECT_LT((kProjectedStiffness.translational * (result.displacement().v - wanted.v) - force).norm(), 1e-8)
         << "trial " << trial;
-    EXPECT_LT((kStiffness.rotational * (result.displacement().w - wanted.w) - torque).norm(), 1e-9)
+    EXPECT_LT((kProjectedStiffness.rotational * (result.displacement().w - wanted.w) - torque).norm(), 1e-9)
         << "trial " << trial;
   }
 }

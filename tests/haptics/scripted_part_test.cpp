@@ -19,19 +19,11 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using std::chrono::milliseconds;
+using test_support::cube;
 using test_support::pose;
+using test_support::wall;
 
 constexpr double kTwoMargins = 20e-6;
-
-std::shared_ptr<const SlidingPart> cube(double size) {
-  return test_support::part_of(collision::make_box({size, size, size}, 12));
-}
-
-/// A wall across x.
-Obstacle wall(double x) {
-  return test_support::obstacle_of(collision::make_plate({0.4, 0.4}, 2),
-                                   pose({x, 0.0, 0.0}, test_support::turn(0.5 * std::numbers::pi, Vector3d::UnitY())));
-}
 
 /// A cube of 40 mm that goes along x at 0.1 m/s, from -30 mm to -20 mm: its face from -10 mm to 0.
 ScriptedPart ram() {

@@ -101,11 +101,11 @@ INSTANTIATE_TEST_SUITE_P(ByName, SearchThreadInScene,
                          [](const auto& test) { return test.param; });
 
 /// A block whose upper face is z = 0.
-Obstacle block() {
+Obstacle finely_cut_block() {
   return test_support::obstacle_of(collision::make_box({0.4, 0.4, 0.1}, 300), pose({0.0, 0.0, -0.05}));
 }
 
-std::shared_ptr<const SlidingPart> cube() {
+std::shared_ptr<const SlidingPart> finely_cut_cube() {
   return test_support::part_of(collision::make_box({0.02, 0.02, 0.02}, 48));
 }
 
@@ -117,7 +117,8 @@ Isometry3d random_ghost(test_support::RandomNumbers& random) {
 
 TEST(SearchThread, ChangesNoBitWhereAPartIsLedOut) {
   const Isometry3d X_WV = pose({0.0, 0.0, 0.005});
-  Twins twins({block()}, {{.part_V = cube(), .X_WV_start = X_WV}}, {.overlap = OverlapRule::kLeadOut});
+  Twins twins({finely_cut_block()}, {{.part_V = finely_cut_cube(), .X_WV_start = X_WV}},
+              {.overlap = OverlapRule::kLeadOut});
   for (int i = 0; i < 200; ++i) {
     const Isometry3d X_WG = pose({2e-4 * i, 0.0, 0.004}, turn(0.002 * i, Vector3d::UnitZ()));
     ASSERT_NO_FATAL_FAILURE(twins.advance({&X_WG, 1})) << "tick " << i;
@@ -130,7 +131,7 @@ TEST(SearchThread, ChangesNoBitWhereHandsLetGoAndTakeHold) {
   RecordProperty("seed", static_cast<int>(kSeed));
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   test_support::RandomNumbers random(kSeed);
-  Twins twins({block()}, {{.part_V = cube(), .X_WV_start = pose({0.0, 0.0, 0.015})}},
+  Twins twins({finely_cut_block()}, {{.part_V = finely_cut_cube(), .X_WV_start = pose({0.0, 0.0, 0.015})}},
               {.friction = {.at_rest = 0.4, .sliding = 0.2}});
   Isometry3d X_from = pose({0.0, 0.0, 0.015});
   for (int leg = 0; leg < 20; ++leg) {
@@ -157,8 +158,8 @@ TEST(SearchThread, ChangesNoBitOfSeveralParts) {
   const std::array starts{pose({-0.03, 0.0, 0.02}), pose({0.0, 0.0, 0.02}), pose({0.03, 0.0, 0.02})};
   std::vector<HeldPart> parts;
   for (const Isometry3d& X_WV : starts)
-    parts.push_back({.part_V = cube(), .X_WV_start = X_WV});
-  Twins twins({block()}, parts);
+    parts.push_back({.part_V = finely_cut_cube(), .X_WV_start = X_WV});
+  Twins twins({finely_cut_block()}, parts);
   std::array X_from = starts;
   for (int leg = 0; leg < 6; ++leg) {
     const std::array X_to{random_ghost(random), random_ghost(random), random_ghost(random)};
@@ -179,7 +180,7 @@ TEST(SearchThread, ChangesNoBitOfSeveralParts) {
 TEST(SearchThread, EndsWithASearchUnderWay) {
   const Isometry3d X_WV = pose({0.0, 0.0, 0.0105});
   for (int ticks = 1; ticks <= 20; ++ticks) {
-    Sliding sliding({block()}, cube(), X_WV, {.rules = {.has_search_thread = true}});
+    Sliding sliding({finely_cut_block()}, finely_cut_cube(), X_WV, {.rules = {.has_search_thread = true}});
     for (int i = 1; i <= ticks; ++i)
       sliding.advance(pose({3e-4 * i, 0.0, 0.0102}));
   }

@@ -17,6 +17,7 @@
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 
+#include "held_part.h"
 #include "poses.h"
 #include "sanitizers.h"
 
@@ -26,11 +27,11 @@ namespace {
 using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::kBoxSize;
 using test_support::pose;
 using test_support::turn_from_to;
 
-constexpr unsigned kSeed = 29;
-const Vector3d kBoxSize(0.1, 0.06, 0.04);
+constexpr unsigned kSlidingSeed = 29;
 constexpr std::int64_t kFinelyCut = test_support::kSanitized ? 240 : 1200;
 
 /// How finely the faces are cut, and whether their triangles are turned at random.
@@ -275,8 +276,8 @@ TEST(Sliding, AGhostThatJumpsOutOfANarrowSlotLeavesThePartInside) {
                                 {2, false});
   const auto part =
       std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(collision::make_box({0.1, 0.06, 0.004}, 12)));
-  std::mt19937 generator(kSeed);
-  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937 generator(kSlidingSeed);
+  SCOPED_TRACE("seed " + std::to_string(kSlidingSeed));
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto random_vector = [&] { return Vector3d(uniform(generator), uniform(generator), uniform(generator)); };
   for (const Metaphor metaphor : {Metaphor::kForceFeedback, Metaphor::kRubberBandSpring}) {

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-Isometry3d at(const Vector3d& p, double turn = 0.0) {
+Isometry3d turned_at(const Vector3d& p, double turn = 0.0) {
   Isometry3d X(Eigen::Translation3d{p});
   X.rotate(Eigen::AngleAxisd(turn, Vector3d::UnitZ()));
   return X;
@@ -33,7 +33,7 @@ class BoxOnAFinelyCutTable : public ::testing::Test {
       : sliding_({{std::make_shared<ContactBody>(std::make_shared<collision::TriangleMesh>(table()))}},
                  std::make_shared<SlidingPart>(std::make_shared<collision::TriangleMesh>(
                      collision::make_box({2.0 * kHalf_m, 2.0 * kHalf_m, 2.0 * kHalf_m}, 1200))),
-                 at({0.0, 0.0, kHalf_m + 1e-3})) {}
+                 turned_at({0.0, 0.0, kHalf_m + 1e-3})) {}
 
   static collision::TriangleMesh table() { return collision::make_plate({0.2, 0.2}, 5000); }
 
@@ -45,7 +45,7 @@ class BoxOnAFinelyCutTable : public ::testing::Test {
     const double turn = std::atan2(X_WG_to(1, 0), X_WG_to(0, 0)) - turned;
     for (int i = 1; i <= calls; ++i) {
       const double t = static_cast<double>(i) / calls;
-      check(sliding_.advance(at(from + t * (X_WG_to.translation() - from), turned + t * turn), 1.0));
+      check(sliding_.advance(turned_at(from + t * (X_WG_to.translation() - from), turned + t * turn), 1.0));
     }
   }
   void lead(const Isometry3d& X_WG_to, int calls) {
@@ -64,8 +64,8 @@ class BoxOnAFinelyCutTable : public ::testing::Test {
 };
 
 TEST_F(BoxOnAFinelyCutTable, TouchesWithItsFourCornersOnly) {
-  lead(at({0.0013, 0.0017, kHalf_m - kPressed_m}), 100);
-  lead(at({0.0513, 0.0317, kHalf_m - kPressed_m}, 0.2), 200, [&](const SlidingResult& result) {
+  lead(turned_at({0.0013, 0.0017, kHalf_m - kPressed_m}), 100);
+  lead(turned_at({0.0513, 0.0317, kHalf_m - kPressed_m}, 0.2), 200, [&](const SlidingResult& result) {
     expect_flat(result);
     ASSERT_LE(result.contacts.size(), 8U) << "but for what is told of both triangles at a seam, one for each corner";
   });
@@ -75,15 +75,15 @@ TEST_F(BoxOnAFinelyCutTable, BeyondTheRimItSlidesAlongItVertexOverVertex) {
   // A part of the box that is a whole number of cells is beyond the rim: every other cell along it vertices of both
   // meet.
   const double x = 0.1 - kHalf_m + 4.0 * kCell_m;
-  lead(at({0.05, 0.0, kHalf_m + 1e-3}), 50);
-  lead(at({x, 0.0, kHalf_m + 1e-3}), 50);
-  lead(at({x, 0.0, kHalf_m - kPressed_m}), 100);
+  lead(turned_at({0.05, 0.0, kHalf_m + 1e-3}), 50);
+  lead(turned_at({x, 0.0, kHalf_m + 1e-3}), 50);
+  lead(turned_at({x, 0.0, kHalf_m - kPressed_m}), 100);
   double most = 0.0;
   Vector3d p_before = sliding_.result().X_WV.translation();
   // Slowly over vertices: 10 µm a call, and then faster by half cells.
   for (const double step : {1e-5, 0.5 * kCell_m / 4.0}) {
     const Vector3d from = sliding_.result().X_WG.translation();
-    lead(at(from + Vector3d(0.0, 8e-3, 0.0)), static_cast<int>(std::lround(8e-3 / step)),
+    lead(turned_at(from + Vector3d(0.0, 8e-3, 0.0)), static_cast<int>(std::lround(8e-3 / step)),
          [&](const SlidingResult& result) {
            expect_flat(result);
            most = std::max(most, (result.X_WV.translation() - p_before).norm() / step);
@@ -94,8 +94,9 @@ TEST_F(BoxOnAFinelyCutTable, BeyondTheRimItSlidesAlongItVertexOverVertex) {
 }
 
 TEST_F(BoxOnAFinelyCutTable, AcrossTheRimItSlidesOutAsFarAsItIsHeld) {
-  lead(at({0.05, 0.0, kHalf_m - kPressed_m}), 100);
-  lead(at({0.1 - 1e-4, 0.0, kHalf_m - kPressed_m}), 1000, [&](const SlidingResult& result) { expect_flat(result); });
+  lead(turned_at({0.05, 0.0, kHalf_m - kPressed_m}), 100);
+  lead(turned_at({0.1 - 1e-4, 0.0, kHalf_m - kPressed_m}), 1000,
+       [&](const SlidingResult& result) { expect_flat(result); });
 }
 
 }  // namespace

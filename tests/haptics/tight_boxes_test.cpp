@@ -19,6 +19,7 @@
 #include "sanitizers.h"
 #include "sweep_meshes.h"
 #include "tree_triangles.h"
+#include "trees.h"
 
 namespace glissade::haptics {
 namespace {
@@ -28,13 +29,10 @@ using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using test_support::RandomNumbers;
+using test_support::tree_of;
 using Vector3l = Eigen::Matrix<long double, 3, 1>;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
-DopTree tree_of(TriangleMesh mesh) {
-  return DopTree(std::make_shared<TriangleMesh>(std::move(mesh)));
-}
 
 Isometry3d random_pose(double distance, RandomNumbers& random) {
   Isometry3d X = Isometry3d::Identity();

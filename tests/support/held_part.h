@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -14,7 +15,17 @@
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 
+#include "poses.h"
+
 namespace glissade::test_support {
+
+/// Of the box that most of these tests hold, metres.
+inline const Eigen::Vector3d kBoxSize(0.1, 0.06, 0.04);
+
+/// How far a part at rest may be from where a reference has it, and its forces from balance, relatively.
+constexpr double kRestPosition_m = 0.5e-6;
+constexpr double kRestRotation_rad = 0.02e-3 * std::numbers::pi / 180.0;
+constexpr double kRestBalance = 1e-6;
 
 inline std::shared_ptr<const haptics::SlidingPart> part_of(collision::TriangleMesh mesh) {
   return std::make_shared<const haptics::SlidingPart>(std::make_shared<const collision::TriangleMesh>(std::move(mesh)));
@@ -25,6 +36,16 @@ inline haptics::Obstacle obstacle_of(collision::TriangleMesh mesh,
   return {
       std::make_shared<const haptics::ContactBody>(std::make_shared<const collision::TriangleMesh>(std::move(mesh))),
       X_WO};
+}
+
+inline std::shared_ptr<const haptics::SlidingPart> cube(double edge) {
+  return part_of(collision::make_box({edge, edge, edge}, 12));
+}
+
+/// A sheet of 0.4 m across the x axis.
+inline haptics::Obstacle wall(double x) {
+  return obstacle_of(collision::make_plate({0.4, 0.4}, 2),
+                     pose({x, 0.0, 0.0}, turn(0.5 * std::numbers::pi, Eigen::Vector3d::UnitY())));
 }
 
 /// The pose at the fraction `t` of the way from one to another, straight and by the shorter turn.

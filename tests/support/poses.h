@@ -15,6 +15,11 @@ inline Eigen::Isometry3d pose(const Eigen::Vector3d& p, const Eigen::Quaterniond
   return X;
 }
 
+/// Unturned, at these coordinates.
+inline Eigen::Isometry3d at(double x, double y = 0.0, double z = 0.0) {
+  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
 /// A rotation by `angle` radians about `axis`, which need not be of unit length.
 inline Eigen::Quaterniond turn(double angle, const Eigen::Vector3d& axis) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));

@@ -14,6 +14,7 @@
 #include <glissade/collision/slide_in_unit.h>
 #include <glissade/collision/spur_gear.h>
 
+#include "held_part.h"
 #include "poses.h"
 #include "random_numbers.h"
 
@@ -29,17 +30,12 @@ using haptics::Obstacle;
 using haptics::SlidingPart;
 using std::numbers::pi;
 
-const Vector3d kBoxSize(0.1, 0.06, 0.04);
 const collision::ThreadShape kBolt{.turns = 16};
 const collision::ThreadShape kNut{.turns = 4};
 constexpr double kNutStartTurns = 1.0;
 
 std::shared_ptr<const ContactBody> body_of(TriangleMesh mesh) {
   return std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(std::move(mesh)));
-}
-
-std::shared_ptr<const SlidingPart> part_of(TriangleMesh mesh) {
-  return std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(std::move(mesh)));
 }
 
 TriangleMesh flipped(const TriangleMesh& mesh, const Tessellation& tessellation, std::uint64_t seed) {
