@@ -21,10 +21,10 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kCollideDescription =
     "Whether two meshes collide at each of many poses, and with how many pairs of triangles";
 
-constexpr const char* kFooter =
+constexpr const char* kCollideFooter =
     "The poses file has the columns x_m,y_m,z_m,qw,qx,qy,qz: the pose of mesh B in the frame of mesh A, in metres and "
     "as\n"
     "a unit quaternion (w first; off by at most 1e-3). The answer has the columns pose (counted from 0), colliding (0 "
@@ -44,7 +44,7 @@ constexpr const char* kFooter =
     "  glissade collide door.stl motor.obj --poses poses.csv --method brute-force\n"
     "  glissade collide door.stl motor.obj --poses poses.csv --cache";
 
-struct Options {
+struct CollideOptions {
   std::string mesh_A;
   std::string mesh_B;
   std::string poses;
@@ -65,7 +65,7 @@ void check(const CollideQuestion& question) {
   }
 }
 
-int run(const Options& options) {
+int run(const CollideOptions& options) {
   check(options.question);
   const std::vector<Eigen::Isometry3d> poses_AB = read_poses(options.poses);
   const TreeFiles beside = options.cache ? TreeFiles{options.mesh_A, options.mesh_B} : TreeFiles{};
@@ -90,9 +90,9 @@ int run(const Options& options) {
 }  // namespace
 
 void add_collide_command(CLI::App& app, Command& chosen) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("collide", kDescription);
-  command->footer(kFooter);
+  const auto options = std::make_shared<CollideOptions>();
+  CLI::App* command = app.add_subcommand("collide", kCollideDescription);
+  command->footer(kCollideFooter);
   command->add_option("A", options->mesh_A, "Mesh file: OBJ, STL, PLY or glTF, in metres")->required();
   command->add_option("B", options->mesh_B, "The other mesh file")->required();
   command->add_option("--poses", options->poses, "Poses of B in the frame of A, see below")->required();

@@ -22,9 +22,10 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kDescription = "The whole system without hardware: a simulated glove carries a part to its seat";
+constexpr const char* kDemoDescription =
+    "The whole system without hardware: a simulated glove carries a part to its seat";
 
-constexpr const char* kFooter =
+constexpr const char* kDemoFooter =
     "Without --scene, the glove carries a window motor into a car door: through the access hole of the inner panel, "
     "past\n"
     "the side-impact tube and back against the panel. The hand follows a script, squeezed or stretched to the seconds\n"
@@ -37,7 +38,7 @@ constexpr const char* kFooter =
     "  glissade demo --seconds 20 --report report\n"
     "  glissade demo --offline --json";
 
-struct Options {
+struct DemoOptions {
   double seconds = 10.0;
   std::string scene;
   bool offline = false;
@@ -80,7 +81,7 @@ Session run_in_real_time(const Demo& demo, const devices::PoseTrajectory& script
   return run_session(demo.scene, bus, ticks, &StopSignal::requested, [&](std::int64_t done) { progress.update(done); });
 }
 
-int run(const Options& options) {
+int run(const DemoOptions& options) {
   const std::int64_t ticks = checked_ticks(options.seconds);
   const Demo demo = options.scene.empty() ? embedded_demo() : demo_from_file(options.scene);
   const devices::PoseTrajectory script_X_WH = demo.script_X_WH.time_scaled(std::chrono::milliseconds(ticks));
@@ -95,9 +96,9 @@ int run(const Options& options) {
 }  // namespace
 
 void add_demo_command(CLI::App& app, Command& chosen) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("demo", kDescription);
-  command->footer(kFooter);
+  const auto options = std::make_shared<DemoOptions>();
+  CLI::App* command = app.add_subcommand("demo", kDemoDescription);
+  command->footer(kDemoFooter);
   command->add_option("--seconds", options->seconds, "How long the script takes, in seconds")->capture_default_str();
   command->add_option("--scene", options->scene, "Another scene (YAML) with one movable object and a script");
   CLI::Option* offline =

@@ -19,9 +19,9 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kDescription = "A simulated force-feedback glove as a process of its own";
+constexpr const char* kGloveDescription = "A simulated force-feedback glove as a process of its own";
 
-constexpr const char* kFooter =
+constexpr const char* kGloveFooter =
     "The hand follows a script, t_s,x_m,y_m,z_m,qw,qx,qy,qz: the pose X_WH of the hand root over time; without one, "
     "that\n"
     "of the car door demonstration. It waits at the script's start until a server sends the first command, yields to\n"
@@ -30,13 +30,13 @@ constexpr const char* kFooter =
     "Example, with 'glissade run' in another terminal:\n"
     "  glissade glove --lcm 'udpm://239.255.76.67:7667?ttl=0' --script hand.csv";
 
-struct Options {
+struct GloveOptions {
   std::string side = "right";
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::string script;
 };
 
-int run(const Options& options) {
+int run(const GloveOptions& options) {
   check_reaches_other_processes(options.lcm_url);
   const devices::PoseTrajectory script = options.script.empty()
                                              ? parse_trajectory(embedded_scene_script(), "car_door_script.csv")
@@ -66,9 +66,9 @@ int run(const Options& options) {
 }  // namespace
 
 void add_glove_command(CLI::App& app, Command& chosen) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("glove", kDescription);
-  command->footer(kFooter);
+  const auto options = std::make_shared<GloveOptions>();
+  CLI::App* command = app.add_subcommand("glove", kGloveDescription);
+  command->footer(kGloveFooter);
   command->add_option("--side", options->side, "Which hand wears it")
       ->check(CLI::IsMember({"left", "right"}))
       ->capture_default_str();

@@ -20,9 +20,9 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kDescription = "What a mesh is made of, its defects, and the statistics of its DOP-tree";
+constexpr const char* kInfoDescription = "What a mesh is made of, its defects, and the statistics of its DOP-tree";
 
-constexpr const char* kFooter =
+constexpr const char* kInfoFooter =
     "None of the defects keeps a mesh from being used; triangles without area are left out. Vertices at the\n"
     "same position are welded first, and polygons are triangulated.\n"
     "\n"
@@ -30,7 +30,7 @@ constexpr const char* kFooter =
     "  glissade info door.stl\n"
     "  glissade info door.stl --json | jq .bounds_max_m";
 
-struct Options {
+struct InfoOptions {
   std::string mesh;
   bool json = false;
   bool cache = false;
@@ -46,7 +46,7 @@ struct Info {
   double tree_bytes_per_triangle;
 };
 
-Info gather(const Options& options) {
+Info gather(const InfoOptions& options) {
   collision::ImportedMesh imported = collision::import_mesh(options.mesh);
   const auto mesh = std::make_shared<const collision::TriangleMesh>(std::move(imported.mesh));
   const collision::DopTree tree = kept_tree(mesh, options.cache ? options.mesh : "");
@@ -112,7 +112,7 @@ void print_text(const Info& info) {
   row("tree bytes per triangle", info.tree_bytes_per_triangle);
 }
 
-int run(const Options& options) {
+int run(const InfoOptions& options) {
   const Info info = gather(options);
   if (options.json) {
     print_json(info);
@@ -125,9 +125,9 @@ int run(const Options& options) {
 }  // namespace
 
 void add_info_command(CLI::App& app, Command& chosen) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("info", kDescription);
-  command->footer(kFooter);
+  const auto options = std::make_shared<InfoOptions>();
+  CLI::App* command = app.add_subcommand("info", kInfoDescription);
+  command->footer(kInfoFooter);
   command->add_option("MESH", options->mesh, "Mesh file: OBJ, STL, PLY or glTF, in metres")->required();
   command->add_flag("--json", options->json, "Print one JSON object instead of a table");
   command->add_flag("--cache", options->cache, kCacheHelp);

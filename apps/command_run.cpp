@@ -20,9 +20,9 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kDescription = "The haptic server: glove states in over LCM, forces out, 1000 times a second";
+constexpr const char* kRunDescription = "The haptic server: glove states in over LCM, forces out, 1000 times a second";
 
-constexpr const char* kFooter =
+constexpr const char* kRunFooter =
     "The scene's one movable object is the part in the hand. It is grasped rigidly, where it lies, when the first "
     "glove\n"
     "state arrives on the channel GLOVE_STATE; commands go out on GLOVE_COMMAND, and every tick on HAPTIC_STATE for\n"
@@ -33,7 +33,7 @@ constexpr const char* kFooter =
     "  glissade run examples/scenes/car_door.yaml --lcm 'udpm://239.255.76.67:7667?ttl=0' --seconds 12\n"
     "  glissade glove --lcm 'udpm://239.255.76.67:7667?ttl=0'";
 
-struct Options {
+struct RunOptions {
   std::string scene;
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   double seconds = 0.0;
@@ -41,7 +41,7 @@ struct Options {
   std::string report;
 };
 
-int run(const Options& options) {
+int run(const RunOptions& options) {
   if (!(options.seconds >= 0.0 && options.seconds <= 86400.0)) {
     throw std::invalid_argument("--seconds: must lie between 0 and 86400, not " + format_number(options.seconds));
   }
@@ -71,9 +71,9 @@ int run(const Options& options) {
 }  // namespace
 
 void add_run_command(CLI::App& app, Command& chosen) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("run", kDescription);
-  command->footer(kFooter);
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", kRunDescription);
+  command->footer(kRunFooter);
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
   command->add_option("--lcm", options->lcm_url, "LCM address of the glove")->capture_default_str();
   command->add_option("--seconds", options->seconds, "Ends so long after the first glove state; 0: on Ctrl-C")

@@ -28,9 +28,10 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kDescription = "Lead a part through a scene along a trajectory, offline and deterministically";
+constexpr const char* kSlideDescription =
+    "Lead a part through a scene along a trajectory, offline and deterministically";
 
-constexpr const char* kFooter =
+constexpr const char* kSlideFooter =
     "The trajectory has the columns t_s,x_m,y_m,z_m,qw,qx,qy,qz: the pose X_WG of the ghost, which is where the hand\n"
     "wants the part, at rising times; between rows it moves straight and turns evenly. The part starts at the first\n"
     "row's pose, which must be free (but see --lead-out). The answer has one row per millisecond: ghost pose, visible\n"
@@ -71,7 +72,7 @@ constexpr const char* kFooter =
     "  glissade slide door.yaml --part motor --trajectory hand.csv --out motion.csv\n"
     "  glissade slide door.yaml --part motor --trajectory way_*.csv --summary ways.csv --report ways";
 
-struct Options {
+struct SlideOptions {
   std::string scene;
   std::string part;
   std::vector<std::string> trajectories;
@@ -181,7 +182,7 @@ devices::PoseTrajectory read(const std::string& file) {
   return trajectory;
 }
 
-void slide(const HapticScene& scene, const SlideCheckOptions& check_options, const Options& options) {
+void slide(const HapticScene& scene, const SlideCheckOptions& check_options, const SlideOptions& options) {
   const std::string& file = options.trajectories.front();
   const devices::PoseTrajectory trajectory = read(file);
   const auto sliding = start(scene, trajectory, check_options, file);
@@ -229,7 +230,7 @@ std::vector<SlideCheck> check_all(const HapticScene& scene, const std::vector<st
   return checks;
 }
 
-int check(const HapticScene& scene, const SlideCheckOptions& check_options, const Options& options) {
+int check(const HapticScene& scene, const SlideCheckOptions& check_options, const SlideOptions& options) {
   if (!options.report.empty()) prepare_report_folder(options.report);
   const std::vector<SlideCheck> checks = check_all(scene, options.trajectories, check_options);
   if (!options.summary.empty() || options.report.empty()) {
@@ -245,7 +246,7 @@ int check(const HapticScene& scene, const SlideCheckOptions& check_options, cons
   return exit_code;
 }
 
-haptics::SlidingOptions sliding_options(const Options& options) {
+haptics::SlidingOptions sliding_options(const SlideOptions& options) {
   haptics::SlidingOptions sliding{.metaphor = parse_metaphor(options.metaphor)};
   sliding.rules.friction.sliding = options.friction.empty() ? 0.0 : options.friction.front();
   sliding.rules.friction.at_rest = options.friction.empty() ? 0.0 : options.friction.back();
@@ -258,7 +259,7 @@ haptics::SlidingOptions sliding_options(const Options& options) {
 }
 
 /// Two tables in one file would be none.
-void check_files(const Options& options) {
+void check_files(const SlideOptions& options) {
   const std::vector<std::pair<std::string, std::string>> files{{"--out", options.out.empty() ? "-" : options.out},
                                                                {"--contacts", options.contacts.contacts},
                                                                {"--patches", options.contacts.patches},
@@ -275,7 +276,7 @@ void check_files(const Options& options) {
   }
 }
 
-int run(const Options& options) {
+int run(const SlideOptions& options) {
   const SlideCheckOptions check_options{sliding_options(options), parse_method(options.method),
                                         options.goal_tolerance_m, options.goal_tolerance_deg};
   if (check_options.method == haptics::SlidingMethod::kPaper && options.has_rules()) {
@@ -307,9 +308,9 @@ int run(const Options& options) {
 }  // namespace
 
 void add_slide_command(CLI::App& app, Command& chosen) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("slide", kDescription);
-  command->footer(kFooter);
+  const auto options = std::make_shared<SlideOptions>();
+  CLI::App* command = app.add_subcommand("slide", kSlideDescription);
+  command->footer(kSlideFooter);
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
   command->add_option("--part", options->part, "Name of the object in the hand")->required();
   command

@@ -27,7 +27,7 @@ Eigen::Isometry3d checked_pose(const Eigen::Vector3d& position, const Eigen::Qua
   // Written so that a length that is not a number fails as well.
   if (!(std::abs(length - 1.0) <= kLengthTolerance)) {
     throw std::invalid_argument(
-        where + ": the quaternion (w x y z) " + spaced({q.w(), q.x(), q.y(), q.z()}) +
+        where + ": the quaternion (w x y z) " + spaced(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z())) +
         (length == 0.0 ? " is zero" : " has length " + format_number(length) + " instead of 1"));
   }
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
