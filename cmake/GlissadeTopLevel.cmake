@@ -16,13 +16,14 @@ function(glissade_set_warnings target)
   endif()
 endfunction()
 
-# Compiles these headers once for the whole target. clang-tidy goes without that (preset lint), so they must still be
-# included where they are used. The options are ccache's wish.
+# glissade_precompile(TARGET PRIVATE headers... | REUSE_FROM target): these headers are compiled once for the whole target.
+# clang-tidy goes without that (preset lint), so they must still be included where they are used. The options are ccache's
+# wish.
 function(glissade_precompile target)
   if(CMAKE_DISABLE_PRECOMPILE_HEADERS)
     return()
   endif()
-  target_precompile_headers(${target} PRIVATE ${ARGN})
+  target_precompile_headers(${target} ${ARGN})
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
     "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")

@@ -23,6 +23,7 @@
 
 #include "cgal_oracle.h"
 #include "fcl_model.h"
+#include "triangle_points.h"
 
 namespace {
 
@@ -31,6 +32,7 @@ using Eigen::Vector3d;
 using namespace glissade::collision;
 using glissade::bench::fcl_tree;
 using glissade::bench::FclTree;
+using glissade::test_support::points_of;
 
 struct Arguments {
   std::filesystem::path path_A;
@@ -118,10 +120,6 @@ class PoseSource {
   QueryWorkspace workspace_;
 };
 
-TrianglePoints points_of(const TriangleMesh& mesh_M, std::int32_t triangle, const Isometry3d& X_AM) {
-  return {X_AM * mesh_M.corner(triangle, 0), X_AM * mesh_M.corner(triangle, 1), X_AM * mesh_M.corner(triangle, 2)};
-}
-
 // How far a triangle reaches beyond the plane of another one, on the side where it reaches less far.
 double depth_beyond_plane(const TrianglePoints& triangle, const TrianglePoints& plane) {
   const Vector3d normal = (plane[1] - plane[0]).cross(plane[2] - plane[0]).normalized();
@@ -140,7 +138,7 @@ void explain_collision(const DopTree& tree_A, const DopTree& tree_B, const Isome
   std::size_t confirmed = 0;
   double depth = 0.0;
   for (const TrianglePair& pair : pairs) {
-    const TrianglePoints a = points_of(tree_A.mesh(), pair.triangle_A, Isometry3d::Identity());
+    const TrianglePoints a = points_of(tree_A.mesh(), pair.triangle_A);
     const TrianglePoints b = points_of(tree_B.mesh(), pair.triangle_B, X_AB);
     if (glissade::test_support::cgal_intersect(a, b)) ++confirmed;
     depth = std::max(depth, std::min(depth_beyond_plane(a, b), depth_beyond_plane(b, a)));

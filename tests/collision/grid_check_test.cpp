@@ -10,12 +10,14 @@
 
 #include "cgal_oracle.h"
 #include "random_triangles.h"
+#include "triangle_points.h"
 
 namespace glissade::collision {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::points_of;
 using test_support::RandomTriangles;
 
 // A soup of `count` triangles of edge about `edge`, thrown into a cube of edge 2.
@@ -39,15 +41,11 @@ Isometry3d random_pose(RandomTriangles& random, double reach) {
   return X;
 }
 
-TrianglePoints points_of(const TriangleMesh& mesh_M, std::int32_t triangle, const Isometry3d& X_WM) {
-  return {X_WM * mesh_M.corner(triangle, 0), X_WM * mesh_M.corner(triangle, 1), X_WM * mesh_M.corner(triangle, 2)};
-}
-
 std::vector<TrianglePair> cgal_pairs(const TriangleMesh& mesh_A, const TriangleMesh& mesh_B, const Isometry3d& X_AB) {
   std::vector<TrianglePair> pairs;
   for (std::int32_t a = 0; a < static_cast<std::int32_t>(mesh_A.triangles.size()); ++a) {
     for (std::int32_t b = 0; b < static_cast<std::int32_t>(mesh_B.triangles.size()); ++b) {
-      const TrianglePoints triangle_A = points_of(mesh_A, a, Isometry3d::Identity());
+      const TrianglePoints triangle_A = points_of(mesh_A, a);
       if (test_support::cgal_intersect(triangle_A, points_of(mesh_B, b, X_AB))) pairs.push_back({a, b});
     }
   }

@@ -18,12 +18,14 @@
 #include "expect_bad_input.h"
 #include "random_numbers.h"
 #include "sweep_meshes.h"
+#include "triangle_points.h"
 
 namespace glissade::collision {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::points_of;
 using test_support::RandomNumbers;
 using testing::ElementsAreArray;
 using testing::IsEmpty;
@@ -52,21 +54,17 @@ Flags random_flags(const TriangleMesh& mesh, double share, RandomNumbers& random
   return flags;
 }
 
-TrianglePoints corners(const TriangleMesh& mesh, std::int32_t triangle, const Isometry3d& X) {
-  return {X * mesh.corner(triangle, 0), X * mesh.corner(triangle, 1), X * mesh.corner(triangle, 2)};
-}
-
 /// All pairs of which a triangle is selected, one after the other.
 std::vector<TrianglePair> expected_pairs(const Selected& A, const Selected& B, const Isometry3d& X_AB,
                                          double distance) {
   std::vector<TrianglePair> pairs;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(A.flags.size()); ++i) {
-    const TrianglePoints a = corners(*A.mesh, i, Isometry3d::Identity());
+    const TrianglePoints a = points_of(*A.mesh, i);
     if (is_degenerate(a)) continue;
     for (std::int32_t j = 0; j < static_cast<std::int32_t>(B.flags.size()); ++j) {
       if (A.flags[static_cast<std::size_t>(i)] == 0 && B.flags[static_cast<std::size_t>(j)] == 0) continue;
-      if (is_degenerate(corners(*B.mesh, j, Isometry3d::Identity()))) continue;
-      if (triangle_distance(a, corners(*B.mesh, j, X_AB)).distance <= distance) pairs.push_back({i, j});
+      if (is_degenerate(points_of(*B.mesh, j))) continue;
+      if (triangle_distance(a, points_of(*B.mesh, j, X_AB)).distance <= distance) pairs.push_back({i, j});
     }
   }
   return pairs;

@@ -5,6 +5,7 @@
 #include <glissade/collision/triangle_distance.h>
 
 #include "cgal_oracle.h"
+#include "triangle_points.h"
 
 namespace glissade::test_support {
 
@@ -15,10 +16,6 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 namespace {
-
-TrianglePoints corners_of(const TriangleMesh& mesh, std::int32_t triangle) {
-  return {mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)};
-}
 
 double radius_of(const TriangleMesh& mesh) {
   double radius = 0.0;
@@ -32,8 +29,8 @@ double radius_of(const TriangleMesh& mesh) {
 MeshOracle::MeshOracle(const TriangleMesh& mesh_A, const TriangleMesh& mesh_B)
     : mesh_A_(mesh_A), mesh_B_(mesh_B), radius_A_(radius_of(mesh_A)), radius_B_(radius_of(mesh_B)) {
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh_A_.triangles.size()); ++i) {
-    if (cgal_is_degenerate(corners_of(mesh_A_, i))) continue;
-    triangles_A_.push_back(boxed(corners_of(mesh_A_, i), i));
+    if (cgal_is_degenerate(points_of(mesh_A_, i))) continue;
+    triangles_A_.push_back(boxed(points_of(mesh_A_, i), i));
     low_A_ = low_A_.min(triangles_A_.back().low);
     high_A_ = high_A_.max(triangles_A_.back().high);
     widest_A_ = std::max(widest_A_, triangles_A_.back().high.x() - triangles_A_.back().low.x());
@@ -41,7 +38,7 @@ MeshOracle::MeshOracle(const TriangleMesh& mesh_A, const TriangleMesh& mesh_B)
   std::sort(triangles_A_.begin(), triangles_A_.end(),
             [](const BoxedTriangle& u, const BoxedTriangle& v) { return u.low.x() < v.low.x(); });
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh_B_.triangles.size()); ++i) {
-    if (!cgal_is_degenerate(corners_of(mesh_B_, i))) triangles_B_.push_back(i);
+    if (!cgal_is_degenerate(points_of(mesh_B_, i))) triangles_B_.push_back(i);
   }
 }
 
@@ -51,11 +48,11 @@ MeshOracle::BoxedTriangle MeshOracle::boxed(const TrianglePoints& points, std::i
 }
 
 TrianglePoints MeshOracle::points_A(std::int32_t triangle) const {
-  return corners_of(mesh_A_, triangle);
+  return points_of(mesh_A_, triangle);
 }
 
 TrianglePoints MeshOracle::points_B(std::int32_t triangle, const Isometry3d& X_AB) const {
-  return {X_AB * mesh_B_.corner(triangle, 0), X_AB * mesh_B_.corner(triangle, 1), X_AB * mesh_B_.corner(triangle, 2)};
+  return points_of(mesh_B_, triangle, X_AB);
 }
 
 bool MeshOracle::visit_near(const Isometry3d& X_AB, double distance, const Visit& visit) const {

@@ -8,6 +8,7 @@
 
 #include "cgal_oracle.h"
 #include "quad_distance.h"
+#include "triangle_points.h"
 
 namespace glissade::test_support {
 
@@ -21,14 +22,10 @@ namespace {
 
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
 
-TrianglePoints corners_of(const TriangleMesh& mesh, std::int32_t triangle) {
-  return {mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)};
-}
-
 std::vector<std::int32_t> triangles_with_area(const TriangleMesh& mesh) {
   std::vector<std::int32_t> result;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh.triangles.size()); ++i) {
-    if (!cgal_is_degenerate(corners_of(mesh, i))) result.push_back(i);
+    if (!cgal_is_degenerate(points_of(mesh, i))) result.push_back(i);
   }
   return result;
 }
@@ -80,11 +77,11 @@ NearPairs::NearPairs(const TriangleMesh& mesh_A, const TriangleMesh& mesh_B)
       triangles_B_(triangles_with_area(mesh_B)) {}
 
 TrianglePoints NearPairs::points_A(std::int32_t triangle) const {
-  return corners_of(mesh_A_, triangle);
+  return points_of(mesh_A_, triangle);
 }
 
 TrianglePoints NearPairs::points_B(std::int32_t triangle, const Isometry3d& X_AB) const {
-  return {X_AB * mesh_B_.corner(triangle, 0), X_AB * mesh_B_.corner(triangle, 1), X_AB * mesh_B_.corner(triangle, 2)};
+  return points_of(mesh_B_, triangle, X_AB);
 }
 
 std::vector<NearPair> NearPairs::within(const Isometry3d& X_AB, double limit) const {
