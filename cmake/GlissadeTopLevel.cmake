@@ -17,8 +17,7 @@ function(glissade_set_warnings target)
 endfunction()
 
 # glissade_precompile(TARGET PRIVATE headers... | REUSE_FROM target): these headers are compiled once for the whole target.
-# clang-tidy goes without that (preset lint), so they must still be included where they are used. The options are ccache's
-# wish.
+# clang-tidy goes without that (preset lint). The options are ccache's wish.
 function(glissade_precompile target)
   if(CMAKE_DISABLE_PRECOMPILE_HEADERS)
     return()
@@ -34,9 +33,9 @@ function(glissade_precompile target)
   endif()
 endfunction()
 
-# glissade_compile_in_bulk(TARGET [EXCEPT sources...]): the target's other sources as a few large files. Tests and benchmarks
-# always are, which halves the time of a whole build; the rest where GLISSADE_COMPILE_IN_BULK asks for it, and then in
-# larger files.
+# glissade_compile_in_bulk(TARGET [EXCEPT sources...]): the target's other sources as a few large files. Tests and the
+# program always call it, which halves the time of a whole build; whoever else does asks for GLISSADE_COMPILE_IN_BULK
+# first, under which the files are larger.
 function(glissade_compile_in_bulk target)
   cmake_parse_arguments(ARG "" "" "EXCEPT" ${ARGN})
   set(batch 8)
@@ -47,6 +46,7 @@ function(glissade_compile_in_bulk target)
   if(ARG_EXCEPT)
     set_source_files_properties(${ARG_EXCEPT} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
-  # Warnings about what stands in other files of the target.
-  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  # No warnings about what stands in other files of the target.
+  target_compile_options(${target} PRIVATE -Wno-shadow
+    $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local> $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()

@@ -16,7 +16,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kBuildName = "build";
-constexpr std::int64_t kLargest = 1'000'000;  // Glissade only
+constexpr std::int64_t kLargestMesh = 1'000'000;  // Glissade only
 
 double allocated_bytes() {
   const struct mallinfo2 info = mallinfo2();
@@ -79,7 +79,7 @@ void run_build(const BenchOptions& options, Results& results) {
   if (options.quick) return;
   Suite shapes = options.suite;
   shapes.files.clear();
-  for (const SuiteMesh& mesh : suite_meshes(shapes, {kLargest}))
+  for (const SuiteMesh& mesh : suite_meshes(shapes, {kLargestMesh}))
     run(mesh, ours, 1, results);
 }
 

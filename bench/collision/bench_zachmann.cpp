@@ -14,7 +14,6 @@ namespace {
 using collision::DopTree;
 using collision::TriangleMesh;
 
-constexpr const char* kZachmannName = "zachmann";
 constexpr std::int64_t kSweepTriangles = 20'000;  // where the number of directions is varied
 
 std::vector<Subject> subjects_for(const std::string& mesh_name) {

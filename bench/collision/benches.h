@@ -8,6 +8,9 @@
 
 namespace glissade::bench {
 
+/// In the results, of the next two.
+constexpr const char* kZachmannName = "zachmann";
+
 /// Two copies of an object at Zachmann's poses (paper §2.1.2): for random orientations and axes of approach, distances
 /// from 0 to where the bounding boxes come apart; the time is averaged over all. Figure 3 of the paper.
 void run_zachmann(const BenchOptions& options, Results& results);

@@ -225,10 +225,10 @@ class MovingBoxes {
 TEST(BroadPhase, MissesNoPairWhateverHappens) {
   RecordProperty("seed", static_cast<int>(kBroadPhaseSeed));
   for (const double margin : {0.0, 0.05}) {
-    MovingBoxes crowd(kBroadPhaseSeed, margin);
+    MovingBoxes boxes(kBroadPhaseSeed, margin);
     for (int step = 0; step < test_support::affordable(4000); ++step) {
-      crowd.step();
-      crowd.compare();
+      boxes.step();
+      boxes.compare();
       ASSERT_FALSE(HasFatalFailure()) << "seed " << kBroadPhaseSeed << ", margin " << margin << ", step " << step;
     }
   }

@@ -1,7 +1,6 @@
 // Ways out of an overlap, against depths known in closed form. That a way out leads out is checked by brute force.
 
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 
 #include <gtest/gtest.h>

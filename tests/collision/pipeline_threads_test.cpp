@@ -14,7 +14,7 @@
 namespace glissade::collision {
 namespace {
 
-constexpr std::uint64_t kCrowdOnThreadsSeed = 20261122;
+constexpr std::uint64_t kPipelineThreadsSeed = 20261122;
 constexpr int kObjects = 150;
 constexpr int kFrames = 40;
 
@@ -45,7 +45,7 @@ class Crowd {
   std::int64_t near() const { return near_; }
 
  private:
-  test_support::RandomNumbers random_{kCrowdOnThreadsSeed};
+  test_support::RandomNumbers random_{kPipelineThreadsSeed};
   World world_{kObjects};
   realtime::SteadyClock clock_;
   CollisionPipeline pipeline_;
@@ -55,14 +55,14 @@ class Crowd {
 };
 
 TEST(PipelineThreads, GiveTheAnswersOfOne) {
-  RecordProperty("seed", static_cast<int>(kCrowdOnThreadsSeed));
+  RecordProperty("seed", static_cast<int>(kPipelineThreadsSeed));
   Crowd by_one(1);
   Crowd by_two(2);
   Crowd by_four(4);
   for (int frame = 0; frame < kFrames; ++frame) {
     const std::vector<ObjectPair> expected = by_one.step();
-    ASSERT_EQ(by_two.step(), expected) << "seed " << kCrowdOnThreadsSeed << ", frame " << frame;
-    ASSERT_EQ(by_four.step(), expected) << "seed " << kCrowdOnThreadsSeed << ", frame " << frame;
+    ASSERT_EQ(by_two.step(), expected) << "seed " << kPipelineThreadsSeed << ", frame " << frame;
+    ASSERT_EQ(by_four.step(), expected) << "seed " << kPipelineThreadsSeed << ", frame " << frame;
   }
   EXPECT_GT(by_one.near(), 100 * kFrames) << "too little to be worth sharing";
 }

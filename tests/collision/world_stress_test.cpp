@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
 #include <glissade/collision/world.h>
 
 #include "sanitizers.h"

@@ -28,7 +28,7 @@ using test_support::turn_from_to;
 
 constexpr unsigned kForceChangeSeed = 47;
 
-TriangleMesh fine_sheet(const Vector3d& normal) {
+TriangleMesh sheet_of_800(const Vector3d& normal) {
   return collision::transformed(collision::make_plate({0.5, 0.5}, 800),
                                 Isometry3d(turn_from_to(Vector3d::UnitZ(), normal)));
 }
@@ -52,7 +52,7 @@ TEST(ForceChange, InAConvexCornerTheForceChangesNoMoreThanTheGhostMoves) {
   std::mt19937 random(kForceChangeSeed);
   std::normal_distribution<double> normal;
   const TriangleMesh corner = collision::merge(
-      std::vector{fine_sheet(Vector3d::UnitX()), fine_sheet(Vector3d::UnitY()), fine_sheet(Vector3d::UnitZ())});
+      std::vector{sheet_of_800(Vector3d::UnitX()), sheet_of_800(Vector3d::UnitY()), sheet_of_800(Vector3d::UnitZ())});
   const Vector3d seat = 0.5 * kBoxSize;
   Vector3d ghost = seat + Vector3d::Constant(1e-3);
   Sliding sliding({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(corner))}}, box(12),

@@ -25,7 +25,7 @@ using test_support::turn;
 
 constexpr double kSlopeFriction = 0.4;
 constexpr double kSlopePosition_m = 0.1e-6;
-constexpr double kSlopeForce = 1e-5;  // relative
+constexpr double kSlopeForceRatio = 1e-5;  // relative
 
 /// The box on a plane of some slope about y, simulated by both. Positions are in the frame of the plane: x down the
 /// slope, z away from it.
@@ -99,8 +99,8 @@ TEST(FrictionReference, OnAPlaneTheBoxIsDrawnAlongByTheSameForceAsInOde) {
   for (const double x : {0.05, 0.0, -0.03}) {
     box.lead_to({x, 0.0, box.height() - 2e-3}, 400);
     EXPECT_LE((box.ours() - box.ode()).norm(), kSlopePosition_m);
-    EXPECT_NEAR(std::abs(box.pull()), kSlopeFriction * box.press(), kSlopeForce * box.press());
-    EXPECT_NEAR(box.pull(), box.ode_pull(), kSlopeForce * std::abs(box.ode_pull()));
+    EXPECT_NEAR(std::abs(box.pull()), kSlopeFriction * box.press(), kSlopeForceRatio * box.press());
+    EXPECT_NEAR(box.pull(), box.ode_pull(), kSlopeForceRatio * std::abs(box.ode_pull()));
   }
 }
 
@@ -126,7 +126,7 @@ TEST(FrictionReference, LoweredOntoASteeperSlopeTheBoxSlidesDownUntilFrictionHol
   const double expected = way * (std::sin(slope) - kSlopeFriction * std::cos(slope));
   EXPECT_NEAR(box.ours().x(), expected, kSlopePosition_m);
   EXPECT_NEAR(box.ode().x(), expected, kSlopePosition_m);
-  EXPECT_NEAR(box.pull(), kSlopeFriction * box.press(), kSlopeForce * box.press());
+  EXPECT_NEAR(box.pull(), kSlopeFriction * box.press(), kSlopeForceRatio * box.press());
 }
 
 }  // namespace

@@ -3,15 +3,12 @@
 
 #include <array>
 #include <limits>
-#include <memory>
-#include <numbers>
 #include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <glissade/collision/brute_force.h>
-#include <glissade/collision/mesh_generators.h>
 #include <glissade/collision/mesh_operations.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/joint_sliding.h>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -39,7 +38,7 @@ using test_support::turn_from_to;
 constexpr unsigned kPaperSlidingSeed = 31;
 
 /// A sheet of two triangles through the origin with the given normal.
-Obstacle coarse_sheet(const Vector3d& normal) {
+Obstacle sheet_of_two(const Vector3d& normal) {
   return obstacle_of(collision::make_plate({0.5, 0.5}, 2),
                      pose(Vector3d::Zero(), turn_from_to(Vector3d::UnitZ(), normal)));
 }
@@ -67,7 +66,7 @@ std::vector<PaperState> states_of(const PaperSliding& sliding) {
 }
 
 TEST(PaperSliding, InFreeSpaceFollowsTheGhostToTheBit) {
-  PaperSliding sliding = box_among({coarse_sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.1});
+  PaperSliding sliding = box_among({sheet_of_two(Vector3d::UnitZ())}, {0.0, 0.0, 0.1});
   lead(sliding, pose({0.05, 0.02, 0.12}, Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Vector3d::UnitX()))), 100,
        [&](const SlidingResult& result) {
          EXPECT_EQ(result.X_WV.matrix(), result.X_WG.matrix());
@@ -80,7 +79,7 @@ TEST(PaperSliding, InFreeSpaceFollowsTheGhostToTheBit) {
 }
 
 TEST(PaperSliding, GoesThroughTheStatesOfThePaper) {
-  PaperSliding sliding = box_among({coarse_sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.0203});
+  PaperSliding sliding = box_among({sheet_of_two(Vector3d::UnitZ())}, {0.0, 0.0, 0.0203});
   sliding.advance(pose({0.001, 0.0, 0.017}));
   const std::vector<PaperState> states = states_of(sliding);
   const std::vector first{kMoving, kBisecting, kClassifying, kNewDirection, kCriterion, kSliding};
@@ -93,7 +92,7 @@ TEST(PaperSliding, GoesThroughTheStatesOfThePaper) {
 }
 
 TEST(PaperSliding, OnAPlaneOfTwoTrianglesItFollowsTheGhostAlongIt) {
-  PaperSliding sliding = box_among({coarse_sheet(Vector3d::UnitZ())}, {-0.1, 0.0, 0.03});
+  PaperSliding sliding = box_among({sheet_of_two(Vector3d::UnitZ())}, {-0.1, 0.0, 0.03});
   lead(sliding, pose({-0.1, 0.0, 0.017}), 200);  // 3 mm into the plane
   lead(sliding, pose({0.1, 0.05, 0.017}), 500, [&](const SlidingResult& result) {
     Vector3d optimum = result.X_WG.translation();
@@ -111,7 +110,7 @@ TEST(PaperSliding, OnAPlaneOfTwoTrianglesItFollowsTheGhostAlongIt) {
 }
 
 TEST(PaperSliding, TellsTheVerticesThatPressOnAPlane) {
-  PaperSliding sliding = box_among({coarse_sheet(Vector3d::UnitZ())}, {0.0, 0.01, 0.03});
+  PaperSliding sliding = box_among({sheet_of_two(Vector3d::UnitZ())}, {0.0, 0.01, 0.03});
   lead(sliding, pose({0.0, 0.01, 0.017}), 200);
   ContactTracker tracker(sliding.margin());
   std::set<std::int32_t> vertices;
@@ -125,7 +124,7 @@ TEST(PaperSliding, TellsTheVerticesThatPressOnAPlane) {
 
 TEST(PaperSliding, InACornerItStops) {
   PaperSliding sliding =
-      box_among({coarse_sheet(Vector3d::UnitX()), coarse_sheet(Vector3d::UnitY()), coarse_sheet(Vector3d::UnitZ())},
+      box_among({sheet_of_two(Vector3d::UnitX()), sheet_of_two(Vector3d::UnitY()), sheet_of_two(Vector3d::UnitZ())},
                 {0.06, 0.04, 0.03});
   const Vector3d seat = 0.5 * kBoxSize;
   lead(sliding, pose(seat - Vector3d(2e-3, 3e-3, 4e-3)), 200);
@@ -138,7 +137,7 @@ TEST(PaperSliding, InACornerItStops) {
 
 TEST(PaperSliding, LaysATiltedBoxOnThePlane) {
   const Eigen::Quaterniond tilted(Eigen::AngleAxisd(0.05, Vector3d::UnitY()));
-  PaperSliding sliding({coarse_sheet(Vector3d::UnitZ())}, part_of(collision::make_box(kBoxSize, 12)),
+  PaperSliding sliding({sheet_of_two(Vector3d::UnitZ())}, part_of(collision::make_box(kBoxSize, 12)),
                        pose({0.0, 0.0, 0.03}, tilted));
   lead(sliding, pose({0.0, 0.0, 0.019}), 300);
   lead(sliding, pose({0.0, 0.0, 0.019}), 300);
@@ -211,7 +210,7 @@ TEST(PaperSliding, AThinSheetAtSpeedIsPassedAsOnlyPosesAreChecked) {
 TEST(PaperSliding, TheSameGhostGivesTheSameBits) {
   const auto run = [] {
     PaperSliding sliding = box_among(
-        {coarse_sheet(Vector3d::UnitX()), coarse_sheet(Vector3d(0.1, 0.2, 1.0).normalized())}, {0.1, 0.0, 0.08});
+        {sheet_of_two(Vector3d::UnitX()), sheet_of_two(Vector3d(0.1, 0.2, 1.0).normalized())}, {0.1, 0.0, 0.08});
     std::vector<double> all;
     random_walk(sliding, 0.12, 1e-3, 300, [&](const SlidingResult& result) {
       all.insert(all.end(), result.X_WV.data(), result.X_WV.data() + 16);
@@ -224,12 +223,12 @@ TEST(PaperSliding, TheSameGhostGivesTheSameBits) {
 }
 
 TEST(PaperSliding, TheRubberBandTurnsNothingInFreeSpaceAndIncrementsForgetWhatIsRefused) {
-  PaperSliding band = box_among({coarse_sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.1}, Metaphor::kRubberBand);
+  PaperSliding band = box_among({sheet_of_two(Vector3d::UnitZ())}, {0.0, 0.0, 0.1}, Metaphor::kRubberBand);
   lead(band, pose({0.05, 0.0, 0.12}, Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Vector3d::UnitY()))), 50);
   EXPECT_EQ(band.result().X_WV.linear(), Eigen::Matrix3d::Identity());
   EXPECT_EQ(band.error().v, Vector3d::Zero());
 
-  PaperSliding incremental = box_among({coarse_sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.021}, Metaphor::kIncremental);
+  PaperSliding incremental = box_among({sheet_of_two(Vector3d::UnitZ())}, {0.0, 0.0, 0.021}, Metaphor::kIncremental);
   lead(incremental, pose({0.0, 0.0, 0.017}), 40);  // 1 mm to the sheet, 3 mm refused
   EXPECT_NEAR(incremental.result().X_WV.translation().z(), 0.02, 2.0 * incremental.bracket());
   lead(incremental, pose({0.02, 0.0, 0.018}), 40);  // back by 1 mm, and aside
@@ -237,7 +236,7 @@ TEST(PaperSliding, TheRubberBandTurnsNothingInFreeSpaceAndIncrementsForgetWhatIs
 }
 
 TEST(PaperSliding, ReleasedItStandsStillAndGraspedAgainItMovesAtALimitedSpeed) {
-  PaperSliding sliding = box_among({coarse_sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.03});
+  PaperSliding sliding = box_among({sheet_of_two(Vector3d::UnitZ())}, {0.0, 0.0, 0.03});
   sliding.release();
   EXPECT_EQ(sliding.advance(pose({0.05, 0.0, 0.03})).state, SlidingState::kReleased);
   EXPECT_EQ(sliding.result().X_WV.matrix(), pose({0.0, 0.0, 0.03}).matrix());
@@ -248,9 +247,9 @@ TEST(PaperSliding, ReleasedItStandsStillAndGraspedAgainItMovesAtALimitedSpeed) {
 }
 
 TEST(PaperSliding, RefusesAStartInsideAnObstacleAndABracketOfNothing) {
-  EXPECT_THROW(box_among({coarse_sheet(Vector3d::UnitZ())}, {0.0, 0.0, 0.01}), std::invalid_argument);
+  EXPECT_THROW(box_among({sheet_of_two(Vector3d::UnitZ())}, {0.0, 0.0, 0.01}), std::invalid_argument);
   EXPECT_THROW(box_among({}, {0.0, 0.0, 0.01}), std::invalid_argument);
-  EXPECT_THROW(PaperSliding({coarse_sheet(Vector3d::UnitZ())}, part_of(collision::make_box(kBoxSize, 12)),
+  EXPECT_THROW(PaperSliding({sheet_of_two(Vector3d::UnitZ())}, part_of(collision::make_box(kBoxSize, 12)),
                             pose({0.0, 0.0, 0.03}), {.bracket = 0.0}),
                std::invalid_argument);
 }

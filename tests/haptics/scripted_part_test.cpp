@@ -1,8 +1,6 @@
 // Parts that scripts move beside the one in the hand: a ram that pushes, a lift that waits, another hand.
 
 #include <chrono>
-#include <memory>
-#include <numbers>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -17,7 +15,6 @@ namespace glissade::haptics {
 namespace {
 
 using Eigen::Isometry3d;
-using Eigen::Vector3d;
 using std::chrono::milliseconds;
 using test_support::cube;
 using test_support::pose;

@@ -1,6 +1,7 @@
 #pragma once
 
-/// What tests of sliding share: bodies made of meshes, a ghost that is led and then held, and the sum of the contacts.
+/// What tests of sliding share: bodies made of meshes, how near to a reference they have to come to rest, a ghost that
+/// is led and then held, and the sum of the contacts.
 
 #include <functional>
 #include <memory>

@@ -26,8 +26,6 @@ using Eigen::Isometry3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using haptics::ContactBody;
-using haptics::Obstacle;
-using haptics::SlidingPart;
 using std::numbers::pi;
 
 const collision::ThreadShape kBolt{.turns = 16};

@@ -14,7 +14,7 @@ inline collision::DopTree tree_of(collision::TriangleMesh mesh, const collision:
   return collision::DopTree(std::make_shared<const collision::TriangleMesh>(std::move(mesh)), options);
 }
 
-/// The tree of a cube of one metre, for tests in which only the number of trees matters.
+/// The tree of a cube of one metre, for tests in which its shape does not matter.
 inline std::shared_ptr<const collision::DopTree> cube_tree(const collision::DopTreeOptions& options = {}) {
   return std::make_shared<const collision::DopTree>(tree_of(collision::make_box({1.0, 1.0, 1.0}, 12), options));
 }
