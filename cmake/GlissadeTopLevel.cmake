@@ -34,7 +34,7 @@ function(glissade_precompile target)
 endfunction()
 
 # glissade_compile_in_bulk(TARGET [EXCEPT sources...]): the target's other sources as a few large files. Tests and the
-# program always call it, which halves the time of a whole build; whoever else does asks for GLISSADE_COMPILE_IN_BULK
+# program always call it, which saves minutes in a whole build; whoever else does asks for GLISSADE_COMPILE_IN_BULK
 # first, under which the files are larger.
 function(glissade_compile_in_bulk target)
   cmake_parse_arguments(ARG "" "" "EXCEPT" ${ARGN})
