@@ -2,21 +2,20 @@
 #include <utility>
 
 #include <glissade/apps/collide_method.h>
-#include <glissade/apps/kept_tree.h>
+#include <glissade/apps/load_or_build_tree.h>
 #include <glissade/apps/text.h>
-#include <glissade/collision/brute_force.h>
 #include <glissade/collision/dop_query.h>
 #include <glissade/collision/dop_tree.h>
-#include <glissade/collision/triangle_distance.h>
-#include <glissade/collision/triangle_intersection.h>
+#include <glissade/geometry/triangle_pair.h>
+#include <glissade/reference/brute_force.h>
 
 namespace glissade::apps {
 
 namespace {
 
 using collision::DopTree;
-using collision::TriangleMesh;
-using collision::TrianglePoints;
+using geometry::TriangleMesh;
+using geometry::TrianglePoints;
 
 constexpr const char* kDopTree = "dop-tree";
 constexpr const char* kBruteForce = "brute-force";
@@ -24,10 +23,11 @@ constexpr const char* kBruteForce = "brute-force";
 /// The trees of two meshes and room for their queries.
 class TreeMethod {
  public:
-  TreeMethod(const std::shared_ptr<const TriangleMesh>& mesh_A, const std::shared_ptr<const TriangleMesh>& mesh_B,
-             const CollideQuestion& question, const TreeFiles& files)
-      : tree_A_(std::make_shared<const DopTree>(kept_tree(mesh_A, files.mesh_A))),
-        tree_B_(std::make_shared<const DopTree>(kept_tree(mesh_B, files.mesh_B))),
+  TreeMethod(const std::shared_ptr<const geometry::TriangleMesh>& mesh_A,
+             const std::shared_ptr<const geometry::TriangleMesh>& mesh_B, const CollideQuestion& question,
+             const TreeFiles& files)
+      : tree_A_(std::make_shared<const DopTree>(load_or_build_tree(mesh_A, files.mesh_A))),
+        tree_B_(std::make_shared<const DopTree>(load_or_build_tree(mesh_B, files.mesh_B))),
         question_(question) {}
 
   CollideAnswer operator()(const Eigen::Isometry3d& X_AB) {
@@ -51,12 +51,12 @@ class TreeMethod {
 };
 
 /// The triangles of `mesh` that have an area, in the frame to which X leads from that of the mesh.
-std::vector<TrianglePoints> triangles_of(const TriangleMesh& mesh, const Eigen::Isometry3d& X) {
-  std::vector<TrianglePoints> triangles;
+std::vector<geometry::TrianglePoints> triangles_of(const geometry::TriangleMesh& mesh, const Eigen::Isometry3d& X) {
+  std::vector<geometry::TrianglePoints> triangles;
   triangles.reserve(mesh.triangles.size());
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh.triangles.size()); ++i) {
     // Decided before the pose is applied, as the trees do.
-    if (collision::is_degenerate({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)})) continue;
+    if (geometry::is_degenerate({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)})) continue;
     triangles.push_back({X * mesh.corner(i, 0), X * mesh.corner(i, 1), X * mesh.corner(i, 2)});
   }
   return triangles;
@@ -65,24 +65,24 @@ std::vector<TrianglePoints> triangles_of(const TriangleMesh& mesh, const Eigen::
 /// Every triangle of one mesh against every triangle of the other.
 class BruteForceMethod {
  public:
-  BruteForceMethod(std::shared_ptr<const TriangleMesh> mesh_A, std::shared_ptr<const TriangleMesh> mesh_B,
-                   const CollideQuestion& question)
+  BruteForceMethod(std::shared_ptr<const geometry::TriangleMesh> mesh_A,
+                   std::shared_ptr<const geometry::TriangleMesh> mesh_B, const CollideQuestion& question)
       : mesh_A_(std::move(mesh_A)), mesh_B_(std::move(mesh_B)), question_(question) {}
 
   CollideAnswer operator()(const Eigen::Isometry3d& X_AB) const {
     if (question_.tolerance > 0.0) return within_tolerance(X_AB);
-    if (!question_.count_pairs) return {brute_force_intersects(*mesh_A_, *mesh_B_, X_AB), 0};
-    const auto pairs = static_cast<std::int64_t>(brute_force_pairs(*mesh_A_, *mesh_B_, X_AB).size());
+    if (!question_.count_pairs) return {reference::brute_force_intersects(*mesh_A_, *mesh_B_, X_AB), 0};
+    const auto pairs = static_cast<std::int64_t>(reference::brute_force_pairs(*mesh_A_, *mesh_B_, X_AB).size());
     return {pairs > 0, pairs};
   }
 
  private:
   CollideAnswer within_tolerance(const Eigen::Isometry3d& X_AB) const {
-    const std::vector<TrianglePoints> triangles_A = triangles_of(*mesh_A_, Eigen::Isometry3d::Identity());
+    const std::vector<geometry::TrianglePoints> triangles_A = triangles_of(*mesh_A_, Eigen::Isometry3d::Identity());
     std::int64_t pairs = 0;
-    for (const TrianglePoints& b : triangles_of(*mesh_B_, X_AB)) {
-      for (const TrianglePoints& a : triangles_A) {
-        if (collision::triangle_distance(a, b).distance > question_.tolerance) continue;
+    for (const geometry::TrianglePoints& b : triangles_of(*mesh_B_, X_AB)) {
+      for (const geometry::TrianglePoints& a : triangles_A) {
+        if (geometry::triangle_distance(a, b).distance > question_.tolerance) continue;
         if (!question_.count_pairs) return {true, 0};
         ++pairs;
       }
@@ -90,8 +90,8 @@ class BruteForceMethod {
     return {pairs > 0, pairs};
   }
 
-  std::shared_ptr<const TriangleMesh> mesh_A_;
-  std::shared_ptr<const TriangleMesh> mesh_B_;
+  std::shared_ptr<const geometry::TriangleMesh> mesh_A_;
+  std::shared_ptr<const geometry::TriangleMesh> mesh_B_;
   CollideQuestion question_;
 };
 
@@ -102,8 +102,8 @@ const std::vector<std::string>& collide_method_names() {
   return names;
 }
 
-CollideMethod make_collide_method(const std::string& name, std::shared_ptr<const TriangleMesh> mesh_A,
-                                  std::shared_ptr<const TriangleMesh> mesh_B, const CollideQuestion& question,
+CollideMethod make_collide_method(const std::string& name, std::shared_ptr<const geometry::TriangleMesh> mesh_A,
+                                  std::shared_ptr<const geometry::TriangleMesh> mesh_B, const CollideQuestion& question,
                                   const TreeFiles& files) {
   if (name == kBruteForce) return BruteForceMethod(std::move(mesh_A), std::move(mesh_B), question);
   if (name == kDopTree) return TreeMethod(mesh_A, mesh_B, question, files);

@@ -10,7 +10,7 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 namespace glissade::apps {
 
@@ -26,7 +26,7 @@ struct CollideAnswer {
   std::int64_t pairs;  ///< pairs of triangles within the tolerance; meaningless unless they were to be counted
 };
 
-/// The mesh files next to which trees are kept (`kept_tree.h`); empty: they are not.
+/// The mesh files next to which trees are kept (`load_or_build_tree.h`); empty: they are not.
 struct TreeFiles {
   std::string mesh_A;
   std::string mesh_B;
@@ -40,8 +40,8 @@ const std::vector<std::string>& collide_method_names();
 
 /// Prepares the method `name` for two meshes. Throws std::invalid_argument for another name and for what `DopTree`
 /// refuses.
-CollideMethod make_collide_method(const std::string& name, std::shared_ptr<const collision::TriangleMesh> mesh_A,
-                                  std::shared_ptr<const collision::TriangleMesh> mesh_B,
-                                  const CollideQuestion& question, const TreeFiles& files = {});
+CollideMethod make_collide_method(const std::string& name, std::shared_ptr<const geometry::TriangleMesh> mesh_A,
+                                  std::shared_ptr<const geometry::TriangleMesh> mesh_B, const CollideQuestion& question,
+                                  const TreeFiles& files = {});
 
 }  // namespace glissade::apps

@@ -11,11 +11,11 @@
 #include <glissade/apps/collide_method.h>
 #include <glissade/apps/command.h>
 #include <glissade/apps/csv.h>
-#include <glissade/apps/kept_tree.h>
+#include <glissade/apps/load_or_build_tree.h>
 #include <glissade/apps/poses_file.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/text.h>
-#include <glissade/collision/mesh_import.h>
+#include <glissade/geometry/mesh_import.h>
 
 namespace glissade::apps {
 
@@ -54,8 +54,8 @@ struct CollideOptions {
   CollideQuestion question;
 };
 
-std::shared_ptr<const collision::TriangleMesh> load(const std::string& path) {
-  return std::make_shared<const collision::TriangleMesh>(collision::import_mesh(path).mesh);
+std::shared_ptr<const geometry::TriangleMesh> load(const std::string& path) {
+  return std::make_shared<const geometry::TriangleMesh>(geometry::import_mesh(path).mesh);
 }
 
 void check(const CollideQuestion& question) {

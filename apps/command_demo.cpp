@@ -13,6 +13,7 @@
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/html_report.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/scene_file.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
@@ -56,7 +57,7 @@ std::int64_t checked_ticks(double seconds) {
 
 struct Demo {
   HapticScene scene;
-  devices::PoseTrajectory script_X_WH;
+  geometry::PoseTrajectory script_X_WH;
 };
 
 Demo embedded_demo() {
@@ -71,7 +72,7 @@ Demo demo_from_file(const std::string& path) {
   return {make_haptic_scene(scene, only_movable_object(scene)), read_trajectory(*scene.script_path)};
 }
 
-Session run_in_real_time(const Demo& demo, const devices::PoseTrajectory& script_X_WH, std::int64_t ticks,
+Session run_in_real_time(const Demo& demo, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks,
                          const std::string& lcm_url) {
   const StopSignal stop_signal;
   const auto bus = std::make_shared<devices::LcmBus>(lcm_url);
@@ -84,7 +85,7 @@ Session run_in_real_time(const Demo& demo, const devices::PoseTrajectory& script
 int run(const DemoOptions& options) {
   const std::int64_t ticks = checked_ticks(options.seconds);
   const Demo demo = options.scene.empty() ? embedded_demo() : demo_from_file(options.scene);
-  const devices::PoseTrajectory script_X_WH = demo.script_X_WH.time_scaled(std::chrono::milliseconds(ticks));
+  const geometry::PoseTrajectory script_X_WH = demo.script_X_WH.time_scaled(std::chrono::milliseconds(ticks));
   if (!options.report.empty()) prepare_report_folder(options.report);
   const Session session = options.offline ? run_session_offline(demo.scene, script_X_WH, ticks)
                                           : run_in_real_time(demo, script_X_WH, ticks, options.lcm_url);
@@ -98,7 +99,7 @@ int run(const DemoOptions& options) {
 void add_demo_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<DemoOptions>();
   CLI::App* command = app.add_subcommand("demo", kDemoDescription);
-  command->footer(kDemoFooter);
+  command->footer(std::string(kDemoFooter) + kSceneFileHelp);
   command->add_option("--seconds", options->seconds, "How long the script takes, in seconds")->capture_default_str();
   command->add_option("--scene", options->scene, "Another scene (YAML) with one movable object and a script");
   CLI::Option* offline =

@@ -38,9 +38,9 @@ struct GloveOptions {
 
 int run(const GloveOptions& options) {
   check_reaches_other_processes(options.lcm_url);
-  const devices::PoseTrajectory script = options.script.empty()
-                                             ? parse_trajectory(embedded_scene_script(), "car_door_script.csv")
-                                             : read_trajectory(options.script);
+  const geometry::PoseTrajectory script = options.script.empty()
+                                              ? parse_trajectory(embedded_scene_script(), "car_door_script.csv")
+                                              : read_trajectory(options.script);
   const StopSignal stop_signal;
   const auto bus = std::make_shared<devices::LcmBus>(options.lcm_url);
   realtime::SteadyClock clock;

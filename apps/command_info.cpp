@@ -11,10 +11,10 @@
 #include <nlohmann/json.hpp>
 
 #include <glissade/apps/command.h>
-#include <glissade/apps/kept_tree.h>
+#include <glissade/apps/load_or_build_tree.h>
 #include <glissade/collision/dop_tree.h>
-#include <glissade/collision/mesh_import.h>
-#include <glissade/collision/mesh_report.h>
+#include <glissade/geometry/mesh_import.h>
+#include <glissade/geometry/mesh_report.h>
 
 namespace glissade::apps {
 
@@ -38,7 +38,7 @@ struct InfoOptions {
 
 /// What the command tells.
 struct Info {
-  collision::MeshReport report;  ///< of the imported mesh, which has no degenerate triangle left
+  geometry::MeshReport report;  ///< of the imported mesh, which has no degenerate triangle left
   std::int64_t degenerate_triangles;
   std::int64_t polygons_triangulated;
   std::int64_t tree_nodes;
@@ -47,13 +47,13 @@ struct Info {
 };
 
 Info gather(const InfoOptions& options) {
-  collision::ImportedMesh imported = collision::import_mesh(options.mesh);
-  const auto mesh = std::make_shared<const collision::TriangleMesh>(std::move(imported.mesh));
-  const collision::DopTree tree = kept_tree(mesh, options.cache ? options.mesh : "");
-  return {collision::report(*mesh),
+  geometry::ImportedMesh imported = geometry::import_mesh(options.mesh);
+  const auto mesh = std::make_shared<const geometry::TriangleMesh>(std::move(imported.mesh));
+  const collision::DopTree tree = load_or_build_tree(mesh, options.cache ? options.mesh : "");
+  return {geometry::report(*mesh),
           imported.degenerate_triangles,
           imported.polygons_triangulated,
-          static_cast<std::int64_t>(tree.nodes().size()),
+          static_cast<std::int64_t>(tree.node_count()),
           tree.depth(),
           static_cast<double>(tree.memory_bytes()) / static_cast<double>(mesh->triangles.size())};
 }
@@ -63,7 +63,7 @@ std::vector<double> list(const Eigen::Vector3d& p) {
 }
 
 void print_json(const Info& info) {
-  const collision::MeshReport& report = info.report;
+  const geometry::MeshReport& report = info.report;
   const nlohmann::ordered_json json{{"vertices", report.vertices},
                                     {"triangles", report.triangles},
                                     {"degenerate_triangles", info.degenerate_triangles},
@@ -93,7 +93,7 @@ void print_text(const Info& info) {
   const auto row = [](const char* what, const auto& value, const char* unit = "") {
     std::cout << std::left << std::setw(28) << what << value << unit << '\n';
   };
-  const collision::MeshReport& report = info.report;
+  const geometry::MeshReport& report = info.report;
   row("vertices", report.vertices);
   row("triangles", report.triangles);
   row("duplicate triangles", report.duplicates);

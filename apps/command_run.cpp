@@ -13,6 +13,7 @@
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/html_report.h>
 #include <glissade/apps/lcm_option.h>
+#include <glissade/apps/scene_file.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
 
@@ -73,7 +74,7 @@ int run(const RunOptions& options) {
 void add_run_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", kRunDescription);
-  command->footer(kRunFooter);
+  command->footer(std::string(kRunFooter) + kSceneFileHelp);
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
   command->add_option("--lcm", options->lcm_url, "LCM address of the glove")->capture_default_str();
   command->add_option("--seconds", options->seconds, "Ends so long after the first glove state; 0: on Ctrl-C")

@@ -16,13 +16,13 @@
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/html_report.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/scene_file.h>
 #include <glissade/apps/slide_check.h>
 #include <glissade/apps/slide_contacts.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
 #include <glissade/haptics/coupling.h>
-#include <glissade/haptics/paper_sliding.h>
-#include <glissade/haptics/sliding_method.h>
+#include <glissade/haptics/sliding.h>
 
 namespace glissade::apps {
 
@@ -34,7 +34,8 @@ constexpr const char* kSlideDescription =
 constexpr const char* kSlideFooter =
     "The trajectory has the columns t_s,x_m,y_m,z_m,qw,qx,qy,qz: the pose X_WG of the ghost, which is where the hand\n"
     "wants the part, at rising times; between rows it moves straight and turns evenly. The part starts at the first\n"
-    "row's pose, which must be free (but see --lead-out). The answer has one row per millisecond: ghost pose, visible\n"
+    "row's pose, which must be free (but see --depenetrate). The answer has one row per millisecond: ghost pose, "
+    "visible\n"
     "pose, the wrench on the hand at the part's origin in world axes, the number of contacts that push, and the "
     "state.\n"
     "\n"
@@ -54,8 +55,8 @@ constexpr const char* kSlideFooter =
     "and after their rows they stand still. They push the part out of their way, wait where it cannot give way, and\n"
     "must not touch anything at first. --moving has one row for each of them and each millisecond.\n"
     "\n"
-    "--anti-jam: a part that stands still for 0.1 s though it is wanted elsewhere is aimed at a spiral round its\n"
-    "target, up to 1.6 mm wide, as a hand looks for a hole. --lead-out: an obstacle that overlaps the part at the\n"
+    "--spiral-search: a part that stands still for 0.1 s though it is wanted elsewhere is aimed at a spiral round its\n"
+    "target, up to 1.6 mm wide, as a hand looks for a hole. --depenetrate: an obstacle that overlaps the part at the\n"
     "start does not hold it, but pushes it out at 0.2 m/s at most.\n"
     "\n"
     "Methods:\n"
@@ -79,8 +80,8 @@ struct SlideOptions {
   std::string metaphor = "force-feedback";
   std::string method = "projection";
   std::vector<double> friction;
-  bool anti_jam = false;
-  bool lead_out = false;
+  bool spiral_search = false;
+  bool depenetrate = false;
   std::string out;
   SlideContactsFiles contacts;
   std::string moving;
@@ -89,7 +90,7 @@ struct SlideOptions {
   double goal_tolerance_m = SlideCheckOptions{}.goal_tolerance_m;
   double goal_tolerance_deg = SlideCheckOptions{}.goal_tolerance_deg;
 
-  bool has_rules() const { return !friction.empty() || anti_jam || lead_out; }
+  bool has_rules() const { return !friction.empty() || spiral_search || depenetrate; }
   bool is_check() const { return trajectories.size() > 1 || !summary.empty() || !report.empty(); }
 };
 
@@ -124,7 +125,7 @@ void add_pose(CsvWriter& out, const Eigen::Isometry3d& X) {
   out.add(q.w()).add(q.x()).add(q.y()).add(q.z());
 }
 
-void add_row(CsvWriter& out, double time_s, const haptics::SlidingSimulation& sliding) {
+void add_row(CsvWriter& out, double time_s, haptics::SlidingMethod method, const haptics::SlidingSimulation& sliding) {
   const haptics::SlidingResult& result = sliding.result();
   const Eigen::Vector3d& p_Vref = sliding.part().p_Vref();
   const haptics::Wrench wrench = haptics::about_point(haptics::spring_wrench(sliding.stiffness(), sliding.error()),
@@ -138,13 +139,7 @@ void add_row(CsvWriter& out, double time_s, const haptics::SlidingSimulation& sl
   for (int i = 0; i < 3; ++i)
     out.add(wrench.t[i] + 0.0);
   out.add(std::int64_t{result.pushing}).add(haptics::name_of(result.state));
-  // The other method has no machine that runs through states within a call.
-  if (const auto* paper = dynamic_cast<const haptics::PaperSliding*>(&sliding)) {
-    std::string states;
-    for (const haptics::PaperState state : paper->states())
-      states += (states.empty() ? "" : ">") + std::string(haptics::name_of(state));
-    out.add(states);
-  }
+  if (method == haptics::SlidingMethod::kPaper) out.add(sliding.trace());
   out.end_row();
 }
 
@@ -159,7 +154,7 @@ void add_moving_rows(CsvWriter& out, double time_s, const HapticScene& scene,
   }
 }
 
-std::unique_ptr<haptics::SlidingSimulation> start(const HapticScene& scene, const devices::PoseTrajectory& trajectory,
+std::unique_ptr<haptics::SlidingSimulation> start(const HapticScene& scene, const geometry::PoseTrajectory& trajectory,
                                                   const SlideCheckOptions& options, const std::string& file) {
   try {
     return start_sliding(scene, trajectory, options);
@@ -169,22 +164,22 @@ std::unique_ptr<haptics::SlidingSimulation> start(const HapticScene& scene, cons
 }
 
 /// At most a day: some 20 GB of rows, and more is a slip of the unit of t_s.
-void check_duration(const devices::PoseTrajectory& trajectory, const std::string& file) {
+void check_duration(const geometry::PoseTrajectory& trajectory, const std::string& file) {
   constexpr std::chrono::hours kLongest{24};
   if (trajectory.duration() <= kLongest) return;
   const double duration_s = std::chrono::duration<double>(trajectory.duration()).count();
   throw std::invalid_argument(file + ": lasts " + format_number(duration_s) + " s, longer than a day (86400 s)");
 }
 
-devices::PoseTrajectory read(const std::string& file) {
-  devices::PoseTrajectory trajectory = read_trajectory(file);
+geometry::PoseTrajectory read(const std::string& file) {
+  geometry::PoseTrajectory trajectory = read_trajectory(file);
   check_duration(trajectory, file);
   return trajectory;
 }
 
 void slide(const HapticScene& scene, const SlideCheckOptions& check_options, const SlideOptions& options) {
   const std::string& file = options.trajectories.front();
-  const devices::PoseTrajectory trajectory = read(file);
+  const geometry::PoseTrajectory trajectory = read(file);
   const auto sliding = start(scene, trajectory, check_options, file);
 
   const std::int64_t ticks = trajectory.duration() / std::chrono::milliseconds(1);
@@ -196,7 +191,7 @@ void slide(const HapticScene& scene, const SlideCheckOptions& check_options, con
   ProgressBar progress("sliding", ticks + 1);
   for (std::int64_t i = 0; i <= ticks; ++i) {
     const double time_s = std::chrono::duration<double>(slide_to(i, trajectory, *sliding)).count();
-    add_row(out, time_s, *sliding);
+    add_row(out, time_s, check_options.method, *sliding);
     if (contacts) contacts->write(time_s);
     if (moving) add_moving_rows(*moving, time_s, scene, *sliding);
     progress.update(i + 1);
@@ -209,7 +204,7 @@ void slide(const HapticScene& scene, const SlideCheckOptions& check_options, con
 /// Every trajectory by whatever processor is free.
 std::vector<SlideCheck> check_all(const HapticScene& scene, const std::vector<std::string>& files,
                                   const SlideCheckOptions& options) {
-  std::vector<devices::PoseTrajectory> trajectories;
+  std::vector<geometry::PoseTrajectory> trajectories;
   for (const std::string& file : files)
     trajectories.push_back(read(file));
   std::vector<SlideCheck> checks(files.size());
@@ -253,8 +248,8 @@ haptics::SlidingOptions sliding_options(const SlideOptions& options) {
   if (sliding.rules.friction.at_rest < sliding.rules.friction.sliding) {
     throw std::invalid_argument("--friction: the second number, at rest, must not be less than the first");
   }
-  sliding.rules.anti_jam = options.anti_jam;
-  if (options.lead_out) sliding.rules.overlap = haptics::OverlapRule::kLeadOut;
+  sliding.rules.spiral_search = options.spiral_search;
+  if (options.depenetrate) sliding.rules.overlap = haptics::OverlapRule::kDepenetrate;
   return sliding;
 }
 
@@ -280,7 +275,7 @@ int run(const SlideOptions& options) {
   const SlideCheckOptions check_options{sliding_options(options), parse_method(options.method),
                                         options.goal_tolerance_m, options.goal_tolerance_deg};
   if (check_options.method == haptics::SlidingMethod::kPaper && options.has_rules()) {
-    throw std::invalid_argument("--method: the paper's knows no --friction, --anti-jam and --lead-out");
+    throw std::invalid_argument("--method: the paper's knows no --friction, --spiral-search and --depenetrate");
   }
   if (options.is_check() && !options.out.empty()) {
     throw std::invalid_argument("--out: is for the rows of one trajectory; a check writes to --summary and --report");
@@ -310,7 +305,7 @@ int run(const SlideOptions& options) {
 void add_slide_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<SlideOptions>();
   CLI::App* command = app.add_subcommand("slide", kSlideDescription);
-  command->footer(kSlideFooter);
+  command->footer(std::string(kSlideFooter) + kSceneFileHelp);
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
   command->add_option("--part", options->part, "Name of the object in the hand")->required();
   command
@@ -322,8 +317,9 @@ void add_slide_command(CLI::App& app, Command& chosen) {
       ->add_option("--friction", options->friction, "Coefficient of Coulomb friction; or two, of sliding and at rest")
       ->expected(1, 2)
       ->check(CLI::NonNegativeNumber);
-  command->add_flag("--anti-jam", options->anti_jam, "Shake a part that is stuck, see below");
-  command->add_flag("--lead-out", options->lead_out, "Lead a part that starts inside an obstacle out of it, see below");
+  command->add_flag("--spiral-search", options->spiral_search, "Shake a part that is stuck, see below");
+  command->add_flag("--depenetrate", options->depenetrate,
+                    "Lead a part that starts inside an obstacle out of it, see below");
   command->add_option("--out", options->out, "CSV file for the answer (default: standard output)");
   command->add_option("--contacts", options->contacts.contacts, "CSV file for the contacts, see below");
   command->add_option("--patches", options->contacts.patches, "CSV file for the contacts merged to patches, see below");

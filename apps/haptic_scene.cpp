@@ -7,17 +7,17 @@
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/pose_rules.h>
 #include <glissade/apps/text.h>
-#include <glissade/collision/mesh_operations.h>
-#include <glissade/collision/triangle_intersection.h>
+#include <glissade/geometry/triangle_mesh.h>
+#include <glissade/geometry/triangle_pair.h>
 
 namespace glissade::apps {
 
 namespace {
 
 /// Where it lies: far from the origin, rounding may leave nothing of a small object.
-bool has_area(const collision::TriangleMesh& mesh, const Eigen::Isometry3d& X_WB) {
+bool has_area(const geometry::TriangleMesh& mesh, const Eigen::Isometry3d& X_WB) {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.triangles.size()); ++t) {
-    if (!collision::is_degenerate({X_WB * mesh.corner(t, 0), X_WB * mesh.corner(t, 1), X_WB * mesh.corner(t, 2)})) {
+    if (!geometry::is_degenerate({X_WB * mesh.corner(t, 0), X_WB * mesh.corner(t, 1), X_WB * mesh.corner(t, 2)})) {
       return true;
     }
   }
@@ -37,9 +37,9 @@ void check(const Scene& scene, const SceneObject& object) {
 }
 
 /// What of the mesh holds parts.
-std::shared_ptr<const collision::TriangleMesh> holding(const SceneObject& object) {
+std::shared_ptr<const geometry::TriangleMesh> holding(const SceneObject& object) {
   if (object.giving_way.empty()) return object.mesh;
-  return std::make_shared<collision::TriangleMesh>(collision::without_triangles(*object.mesh, object.giving_way));
+  return std::make_shared<geometry::TriangleMesh>(geometry::without_triangles(*object.mesh, object.giving_way));
 }
 
 /// A body of the object, or an error that names it.
@@ -66,7 +66,7 @@ class Bodies {
 
  private:
   const Scene& scene_;
-  std::map<const collision::TriangleMesh*, std::shared_ptr<const haptics::ContactBody>> bodies_;
+  std::map<const geometry::TriangleMesh*, std::shared_ptr<const haptics::ContactBody>> bodies_;
 };
 
 }  // namespace

@@ -10,9 +10,9 @@
 #include <Eigen/Geometry>
 
 #include <glissade/apps/scene_file.h>
-#include <glissade/collision/grid_check.h>
 #include <glissade/haptics/sliding.h>
-#include <glissade/haptics/surroundings.h>
+#include <glissade/reference/grid_check.h>
+
 
 namespace glissade::apps {
 
@@ -23,7 +23,7 @@ struct HapticScene {
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
   std::vector<haptics::Obstacle> obstacles;
   std::vector<haptics::ScriptedPart> moving;            ///< what moves on its own
-  std::vector<collision::PlacedMesh> placed_obstacles;  ///< `obstacles`, less what gives way, for the independent check
+  std::vector<reference::PlacedMesh> placed_obstacles;  ///< `obstacles`, less what gives way, for the independent check
   /// As the scene file has them, by their numbers in contacts: the obstacles, the part, what moves.
   std::vector<std::string> body_names;
   std::optional<Eigen::Isometry3d> X_WGoal;

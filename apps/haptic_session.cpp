@@ -8,7 +8,6 @@
 #include <glissade/devices/haptic_state_publisher.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/devices/simulated_glove.h>
-#include <glissade/haptics/haptic_kernel.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/haptics/offline_run.h>
 #include <glissade/realtime/clock.h>
@@ -21,11 +20,10 @@ constexpr int kFifoPriority = 80;
 /// What a run without an end keeps of its ticks: the last minute.
 constexpr std::size_t kKeptTicks = 60'000;
 
-haptics::Coupling coupling_of(const HapticScene& scene, const devices::DeviceDescriptor& device) {
-  return haptics::coupling_for(device, haptics::default_stiffness(*scene.part_V));
-}
-
-haptics::SlidingOptions sliding_options(const haptics::Coupling& coupling, const haptics::SlidingRules& rules) {
+/// The part is held as stiffly as the device can render.
+haptics::SlidingOptions sliding_options(const HapticScene& scene, const devices::DeviceDescriptor& device,
+                                        const haptics::SlidingRules& rules) {
+  const haptics::Coupling coupling = haptics::coupling_for(device, haptics::default_stiffness(scene.part_V->radius()));
   return {.metaphor = haptics::Metaphor::kForceFeedback, .stiffness = coupling.stiffness, .rules = rules};
 }
 
@@ -38,44 +36,42 @@ haptics::Sliding start_sliding(const HapticScene& scene, const haptics::SlidingO
   }
 }
 
-Session finished(std::int64_t ticks, const haptics::Sliding& sliding, const SessionRecorder& recorder,
-                 std::optional<RealTimeFigures> real_time) {
+Session finished(std::int64_t ticks, const HapticScene& scene, const haptics::Sliding& sliding,
+                 const SessionRecorder& recorder, std::optional<RealTimeFigures> real_time) {
+  const haptics::SearchAccount account = sliding.search_account();
   return {ticks,
-          std::ssize(sliding.surroundings().obstacles()) + 1,
-          sliding.search_account().searches,
-          sliding.search_account().reports,
+          std::ssize(scene.obstacles) + 1,
+          account.searches,
+          account.reports,
           recorder.samples(),
           std::move(real_time)};
 }
 
 }  // namespace
 
-Session run_session_offline(const HapticScene& scene, const devices::PoseTrajectory& script_X_WH, std::int64_t ticks) {
+Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks) {
   devices::SimulatedGlove glove(script_X_WH);
-  const haptics::Coupling coupling = coupling_of(scene, glove.descriptor());
-  haptics::Sliding sliding = start_sliding(scene, sliding_options(coupling, {}));
-  haptics::HapticKernel kernel(*scene.part_V, coupling, glove.descriptor(), scene.X_WV_start);
+  haptics::Sliding sliding = start_sliding(scene, sliding_options(scene, glove.descriptor(), {}));
   SessionRecorder recorder(static_cast<std::size_t>(ticks));
   ProgressBar progress("offline", ticks);
-  haptics::run_offline(glove, sliding, kernel, ticks, [&](const devices::HapticState& sample) {
+  haptics::run_offline(glove, sliding, ticks, [&](const devices::HapticState& sample) {
     recorder.record(sample);
     progress.update(recorder.total());
   });
-  return finished(ticks, sliding, recorder, std::nullopt);
+  return finished(ticks, scene, sliding, recorder, std::nullopt);
 }
 
 Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, std::int64_t ticks,
                     const std::function<bool()>& should_stop, const std::function<void(std::int64_t)>& watch) {
   const devices::DeviceDescriptor descriptor = devices::simulated_glove_descriptor();
-  const haptics::Coupling coupling = coupling_of(scene, descriptor);
   haptics::Sliding sliding =
-      start_sliding(scene, sliding_options(coupling, {.max_cycles = 3, .has_search_thread = true}));
+      start_sliding(scene, sliding_options(scene, descriptor, {.max_cycles = 3, .has_search_thread = true}));
   SessionRecorder recorder(ticks > 0 ? static_cast<std::size_t>(ticks) : kKeptTicks);
   devices::HapticStatePublisher publisher(bus);
   devices::LcmGlove glove(bus, descriptor);
   realtime::SteadyClock clock;
 
-  haptics::HapticServer server(glove, sliding, coupling, clock,
+  haptics::HapticServer server(glove, sliding, clock,
                                [&](const devices::HapticState& sample) {
                                  recorder.record(sample);
                                  publisher.push(sample);
@@ -89,7 +85,8 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   }
   server.stop();
   bare_timer.stop();
-  return finished(server.ticks(), sliding, recorder, RealTimeFigures{server.statistics(), bare_timer.statistics()});
+  return finished(server.ticks(), scene, sliding, recorder,
+                  RealTimeFigures{server.statistics(), bare_timer.statistics()});
 }
 
 }  // namespace glissade::apps

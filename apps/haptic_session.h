@@ -9,13 +9,13 @@
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/session.h>
 #include <glissade/devices/lcm_bus.h>
-#include <glissade/devices/pose_trajectory.h>
+#include <glissade/geometry/pose_trajectory.h>
 
 namespace glissade::apps {
 
 /// The whole system on a simulated clock: `ticks` milliseconds of a simulated glove that follows `script_X_WH`.
 /// Throws std::invalid_argument, naming scene and part, when the part collides at its start.
-Session run_session_offline(const HapticScene& scene, const devices::PoseTrajectory& script_X_WH, std::int64_t ticks);
+Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks);
 
 /// The haptic server in real time, with the glove on `bus`: for `ticks` ticks with a device, or, for 0, until
 /// `should_stop` says so. Calls `watch` ten times a second with the ticks done. Publishes HAPTIC_STATE on the bus.

@@ -9,16 +9,16 @@
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
 #include <glissade/apps/yaml_reader.h>
-#include <glissade/collision/mesh_import.h>
-#include <glissade/collision/mesh_operations.h>
-#include <glissade/collision/shape_catalog.h>
-#include <glissade/haptics/surroundings.h>
+#include <glissade/geometry/mesh_import.h>
+#include <glissade/geometry/triangle_mesh.h>
+#include <glissade/haptics/sliding_rules.h>
+#include <glissade/shapes/shape_catalog.h>
 
 namespace glissade::apps {
 
 namespace {
 
-using collision::TriangleMesh;
+using geometry::TriangleMesh;
 
 /// Reads the parts of one scene file.
 class SceneReader {
@@ -28,7 +28,7 @@ class SceneReader {
 
   Scene read(const std::string& text) {
     const YAML::Node root = yaml_.parse(text);
-    yaml_.check_keys(root, "scene", {"objects", "script", "goal"});
+    yaml_.check_keys(root, "scene", kSceneKeys);
     const YAML::Node objects = yaml_.required(root, "scene", "objects");
     if (!objects.IsSequence() || objects.size() == 0) yaml_.fail(objects, "objects: must be a list of objects");
     Scene scene{source_, {}, std::nullopt, std::nullopt};
@@ -47,14 +47,12 @@ class SceneReader {
  private:
   /// What objects may share: those of the same file or of the same shape do.
   struct Geometry {
-    std::shared_ptr<const TriangleMesh> mesh;
+    std::shared_ptr<const geometry::TriangleMesh> mesh;
     std::int64_t degenerate_triangles = 0;
   };
 
   SceneObject read_object(const YAML::Node& node) {
-    yaml_.check_keys(
-        node, "object",
-        {"name", "mesh", "shape", "scale", "pose", "movable", "moves", "grip_N_per_m", "margin_m", "gives_way"});
+    yaml_.check_keys(node, "object", kObjectKeys);
     SceneObject object;
     object.name = yaml_.text(yaml_.required(node, "object", "name"), "name");
     const Geometry geometry = read_geometry(node, object.name);
@@ -94,16 +92,16 @@ class SceneReader {
     }
   }
 
-  std::vector<std::int32_t> read_giving_way(const YAML::Node& boxes, const TriangleMesh& mesh) const {
+  std::vector<std::int32_t> read_giving_way(const YAML::Node& boxes, const geometry::TriangleMesh& mesh) const {
     if (!boxes.IsSequence()) yaml_.fail(boxes, "gives_way: must be a list of boxes");
     std::set<std::int32_t> triangles;
     for (const YAML::Node& node : boxes) {
-      yaml_.check_keys(node, "gives_way", {"min_m", "max_m"});
+      yaml_.check_keys(node, "gives_way", kBoxKeys);
       const Eigen::AlignedBox3d box(
           Eigen::Vector3d(yaml_.numbers(yaml_.required(node, "gives_way", "min_m"), "min_m", 3)),
           Eigen::Vector3d(yaml_.numbers(yaml_.required(node, "gives_way", "max_m"), "max_m", 3)));
       if (box.isEmpty()) yaml_.fail(node, "gives_way: min_m must not be above max_m");
-      const std::vector<std::int32_t> inside = collision::triangles_inside(mesh, box);
+      const std::vector<std::int32_t> inside = geometry::triangles_inside(mesh, box);
       if (inside.empty()) yaml_.fail(node, "gives_way: no triangle of the object lies inside this box");
       triangles.insert(inside.begin(), inside.end());
     }
@@ -127,8 +125,9 @@ class SceneReader {
     Geometry& geometry = files_[{path, scale}];
     if (geometry.mesh) return geometry;
     try {
-      collision::ImportedMesh imported = collision::import_mesh(path, scale);
-      geometry = {std::make_shared<const TriangleMesh>(std::move(imported.mesh)), imported.degenerate_triangles};
+      geometry::ImportedMesh imported = geometry::import_mesh(path, scale);
+      geometry = {std::make_shared<const geometry::TriangleMesh>(std::move(imported.mesh)),
+                  imported.degenerate_triangles};
       return geometry;
     } catch (const std::invalid_argument& error) {
       yaml_.fail(mesh, std::string("mesh: ") + error.what());
@@ -137,16 +136,17 @@ class SceneReader {
 
   Geometry read_shape(const YAML::Node& shape) {
     yaml_.check_map(shape, "shape");
-    const std::string type = yaml_.text(yaml_.required(shape, "shape", "type"), "type");
+    const std::string type_key(kShapeTypeKey);
+    const std::string type = yaml_.text(yaml_.required(shape, "shape", type_key), type_key);
     std::map<std::string, double> parameters;
     for (const auto& entry : shape) {
       const std::string& key = entry.first.Scalar();
-      if (key != "type") parameters.emplace(key, yaml_.number(entry.second, key));
+      if (key != kShapeTypeKey) parameters.emplace(key, yaml_.number(entry.second, key));
     }
     Geometry& geometry = shapes_[{type, parameters}];
     if (geometry.mesh) return geometry;
     try {
-      geometry.mesh = std::make_shared<const TriangleMesh>(collision::make_shape(type, parameters));
+      geometry.mesh = std::make_shared<const geometry::TriangleMesh>(shapes::make_shape(type, parameters));
       return geometry;
     } catch (const std::invalid_argument& error) {
       yaml_.fail(shape, std::string("shape: ") + error.what());
@@ -154,7 +154,7 @@ class SceneReader {
   }
 
   Eigen::Isometry3d read_pose(const YAML::Node& node, const std::string& key) const {
-    yaml_.check_keys(node, key, {"position_m", "orientation_wxyz"});
+    yaml_.check_keys(node, key, kPoseKeys);
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
     if (const YAML::Node given = node["position_m"]) position = yaml_.numbers(given, "position_m", 3);

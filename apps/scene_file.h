@@ -1,49 +1,53 @@
 #pragma once
 
-/// Scenes as YAML files: what lies where, what can be moved, and where it should arrive.
-///
-///     objects:
-///       - name: door                       # unique
-///         mesh: door.stl                   # relative to the scene file
-///         scale: 0.001                     # mesh units to metres, default 1; not for shapes
-///       - name: motor
-///         shape: {type: sphere, radius_m: 0.05}      # or a generator of shape_catalog.h instead of a mesh
-///         pose: {position_m: [0, 0, 0.4], orientation_wxyz: [1, 0, 0, 0]}      # X_WB, default identity
-///         movable: true                    # default false
-///         margin_m: 2.0e-6                 # contacts hold parts this far away, default that of the part
-///         gives_way: [{min_m: [0, 0, 0], max_m: [0.1, 0.1, 0.01]}]     # boxes in the object's frame: its triangles
-///                                          # inside them hold no part, where it overlaps by design when it is seated
-///       - name: lift
-///         mesh: lift.stl
-///         moves: lift.csv                  # poses X_WB over time, relative to the scene file; instead of pose.
-///                                          # Outside its times it stands still; at first it must touch nothing
-///         grip_N_per_m: 1.0e+6             # how stiffly it is held there, default 1e6; 1000 is another hand
-///     script: hand.csv                     # optional: trajectory of the hand root, relative to the scene file
-///     goal: {position_m: [0, 0, 0]}        # optional: pose where the movable part should arrive
+/// Scenes as YAML files: the objects, their poses, the part in the hand, and its goal. docs/scene_files.md describes
+/// every key; a test compares that page with the lists of keys below.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
 
-#include <glissade/collision/triangle_mesh.h>
-#include <glissade/devices/pose_trajectory.h>
+#include <glissade/geometry/pose_trajectory.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 namespace glissade::apps {
 
+/// The keys that the reader accepts, by the map in which they stand. A shape takes `kShapeTypeKey` and the parameters
+/// of that shape in `shapes::shape_catalog`.
+inline constexpr std::array<std::string_view, 3> kSceneKeys{"objects", "script", "goal"};
+inline constexpr std::array<std::string_view, 10> kObjectKeys{
+    "name", "mesh", "shape", "scale", "pose", "movable", "moves", "grip_N_per_m", "margin_m", "gives_way"};
+inline constexpr std::string_view kShapeTypeKey = "type";
+inline constexpr std::array<std::string_view, 2> kPoseKeys{"position_m", "orientation_wxyz"};
+inline constexpr std::array<std::string_view, 2> kBoxKeys{"min_m", "max_m"};
+
+/// The end of `--help` for every command that reads a scene.
+inline constexpr const char* kSceneFileHelp =
+    "\n"
+    "\n"
+    "A scene file is YAML:\n"
+    "  objects:\n"
+    "    - {name: door, mesh: door.stl, scale: 0.001}\n"
+    "    - {name: motor, shape: {type: box}, pose: {position_m: [0, -0.2, 0]}, movable: true}\n"
+    "  script: hand.csv\n"
+    "An unknown key or shape is an error that lists the known ones. Scene files: docs/scene_files.md in the sources.";
+
 /// How an object moves on its own, or in the other hand.
 struct SceneMotion {
-  devices::PoseTrajectory script_X_WB;
+  geometry::PoseTrajectory script_X_WB;
   std::optional<double> grip_N_per_m{};  ///< none: that of `haptics::ScriptedPart`
 };
 
 /// One object at its initial pose.
 struct SceneObject {
   std::string name;
-  std::shared_ptr<const collision::TriangleMesh> mesh;  ///< in metres, in the object's frame B; equal ones are shared
+  std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< in metres, in the object's frame B; equal ones are shared
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   bool movable = false;
   std::optional<SceneMotion> motion{};
@@ -64,8 +68,7 @@ struct Scene {
 };
 
 /// Reads a scene and the meshes it names.
-/// Throws std::invalid_argument, one line with file, line and key or value, for everything that is not as described
-/// above.
+/// Throws std::invalid_argument, one line with file, line and key or value, for every deviation from the format.
 Scene read_scene(const std::string& path);
 
 /// The same for a text that is already in memory: `source` stands in for the file's name in messages, and paths in the

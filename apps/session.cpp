@@ -57,7 +57,7 @@ std::int64_t count_colliding(const std::vector<devices::HapticState>& samples, c
   if (poses.empty()) return 0;
   ProgressBar progress("checking poses", static_cast<std::int64_t>(poses.size()));
   const std::vector<char> colliding =
-      collision::GridCheck(scene.placed_obstacles).collisions(scene.part_V->tree.mesh(), poses, [&](std::size_t done) {
+      reference::GridCheck(scene.placed_obstacles).collisions(scene.part_V->tree.mesh(), poses, [&](std::size_t done) {
         progress.update(static_cast<std::int64_t>(done));
       });
   std::int64_t count = 0;

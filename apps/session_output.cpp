@@ -61,7 +61,7 @@ void add_collision_rows(const Session& session, Rows& rows) {
   rows.emplace_back("collision frames", formatted("%lld, %.1f us each", static_cast<long long>(frames),
                                                   microseconds(sum.total) / static_cast<double>(frames)));
   rows.emplace_back("  moved objects", stage_text(sum.queue, frames));
-  rows.emplace_back("  neighbouring pairs", stage_text(sum.neighbor_finding, frames));
+  rows.emplace_back("  neighboring pairs", stage_text(sum.neighbor_finding, frames));
   rows.emplace_back("  pairs at hull planes", stage_text(sum.separating_planes, frames));
   rows.emplace_back("  pairs at DOP-trees", stage_text(sum.exact, frames));
   rows.emplace_back("  pairs that met or parted", stage_text(sum.result, frames));

@@ -73,7 +73,7 @@ std::string verdict(const SlideCheck& check) {
 }  // namespace
 
 std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& scene,
-                                                          const devices::PoseTrajectory& trajectory,
+                                                          const geometry::PoseTrajectory& trajectory,
                                                           const SlideCheckOptions& options) {
   std::vector<haptics::ScriptedPart> moving = scene.moving;
   for (haptics::ScriptedPart& part : moving)
@@ -86,7 +86,7 @@ std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& sce
   }
 }
 
-std::chrono::nanoseconds slide_to(std::int64_t tick, const devices::PoseTrajectory& trajectory,
+std::chrono::nanoseconds slide_to(std::int64_t tick, const geometry::PoseTrajectory& trajectory,
                                   haptics::SlidingSimulation& sliding) {
   const std::chrono::nanoseconds time = trajectory.first_time() + tick * milliseconds(1);
   // The first row tells what is there at its time, and nothing has had time to move.
@@ -94,7 +94,7 @@ std::chrono::nanoseconds slide_to(std::int64_t tick, const devices::PoseTrajecto
   return time;
 }
 
-SlideCheck check_slide(const HapticScene& scene, const devices::PoseTrajectory& trajectory, const std::string& name,
+SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory& trajectory, const std::string& name,
                        const SlideCheckOptions& options) {
   SlideCheck check;
   check.trajectory = name;

@@ -14,9 +14,9 @@
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/html_report.h>
 #include <glissade/apps/plot.h>
-#include <glissade/devices/pose_trajectory.h>
+#include <glissade/geometry/pose_trajectory.h>
 #include <glissade/haptics/coupling.h>
-#include <glissade/haptics/sliding_method.h>
+#include <glissade/haptics/sliding.h>
 
 namespace glissade::apps {
 
@@ -45,18 +45,18 @@ struct SlideCheck {
 /// The simulation of the scene; it begins at the time and pose of the trajectory's first row, and what moves on its own
 /// begins where it is at that time. Throws std::invalid_argument, as one sentence, where anything is not free then.
 std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& scene,
-                                                          const devices::PoseTrajectory& trajectory,
+                                                          const geometry::PoseTrajectory& trajectory,
                                                           const SlideCheckOptions& options);
 
 /// Goes on to a tick of the trajectory and returns its time. Ticks are a millisecond each, and must come in order: 0,
 /// 1, 2 and so on.
-std::chrono::nanoseconds slide_to(std::int64_t tick, const devices::PoseTrajectory& trajectory,
+std::chrono::nanoseconds slide_to(std::int64_t tick, const geometry::PoseTrajectory& trajectory,
                                   haptics::SlidingSimulation& sliding);
 
 /// Leads the part along the trajectory in steps of a millisecond, offline, and keeps account. The goal is the scene's,
 /// or else where the trajectory ends. A start that is not free is told as a `problem`. Different checks of one scene
 /// may run at once.
-SlideCheck check_slide(const HapticScene& scene, const devices::PoseTrajectory& trajectory, const std::string& name,
+SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory& trajectory, const std::string& name,
                        const SlideCheckOptions& options);
 
 /// One row for each check, in their order; `path` as for `CsvWriter`.

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include <glissade/apps/slide_contacts.h>
-#include <glissade/haptics/motion.h>
+#include <glissade/geometry/displacement.h>
 
 namespace glissade::apps {
 namespace {
@@ -71,8 +71,8 @@ double SlideContactsWriter::travel_of_obstacles() {
   const auto X_WB = sliding_.scripted_X_WB();
   for (std::size_t i = 0; i < X_WB.size(); ++i) {
     const haptics::SlidingPart& part = *scene_.moving[i].part_B;
-    const haptics::Displacement d = haptics::displacement_between(moving_X_WB_[i], X_WB[i], part.p_Vref());
-    most = std::max(most, haptics::motion_bound(d, part.radius()));
+    const geometry::Displacement d = geometry::displacement_between(moving_X_WB_[i], X_WB[i], part.p_Vref());
+    most = std::max(most, geometry::motion_bound(d, part.radius()));
   }
   moving_X_WB_.assign(X_WB.begin(), X_WB.end());
   return most;

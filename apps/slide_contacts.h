@@ -11,9 +11,8 @@
 
 #include <glissade/apps/csv.h>
 #include <glissade/apps/haptic_scene.h>
-#include <glissade/haptics/contact_patches.h>
-#include <glissade/haptics/contact_tracker.h>
 #include <glissade/haptics/sliding_simulation.h>
+#include <glissade/haptics/tracked_contacts.h>
 
 namespace glissade::apps {
 

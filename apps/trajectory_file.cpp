@@ -26,8 +26,8 @@ std::chrono::nanoseconds time_of(double t_s, const std::string& where) {
   return std::chrono::nanoseconds(std::llround(t_s * 1e9));
 }
 
-devices::PoseTrajectory trajectory_from(const CsvTable& table) {
-  std::vector<devices::TimedPose> rows;
+geometry::PoseTrajectory trajectory_from(const CsvTable& table) {
+  std::vector<geometry::TimedPose> rows;
   rows.reserve(table.rows.size());
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const std::chrono::nanoseconds time = time_of(table.rows[row][0], table.where(row));
@@ -38,16 +38,16 @@ devices::PoseTrajectory trajectory_from(const CsvTable& table) {
     }
     rows.push_back({time, pose_from_row(table, row, 1)});
   }
-  return devices::PoseTrajectory(rows);
+  return geometry::PoseTrajectory(rows);
 }
 
 }  // namespace
 
-devices::PoseTrajectory read_trajectory(const std::string& path) {
+geometry::PoseTrajectory read_trajectory(const std::string& path) {
   return trajectory_from(read_csv(path, trajectory_columns()));
 }
 
-devices::PoseTrajectory parse_trajectory(std::string_view text, const std::string& source) {
+geometry::PoseTrajectory parse_trajectory(std::string_view text, const std::string& source) {
   return trajectory_from(parse_csv(text, source, trajectory_columns()));
 }
 

@@ -5,16 +5,16 @@
 #include <string>
 #include <string_view>
 
-#include <glissade/devices/pose_trajectory.h>
+#include <glissade/geometry/pose_trajectory.h>
 
 namespace glissade::apps {
 
 /// Reads a trajectory; times are rounded to nanoseconds.
 /// Throws std::invalid_argument, naming file, line and value, when a time does not rise above the one before or is
 /// beyond ±1e9 s, and for what `read_csv` and `checked_pose` refuse.
-devices::PoseTrajectory read_trajectory(const std::string& path);
+geometry::PoseTrajectory read_trajectory(const std::string& path);
 
 /// The same for a text that is already in memory; `source` stands in for the file's name in messages.
-devices::PoseTrajectory parse_trajectory(std::string_view text, const std::string& source);
+geometry::PoseTrajectory parse_trajectory(std::string_view text, const std::string& source);
 
 }  // namespace glissade::apps

@@ -55,7 +55,7 @@ void YamlReader::check_map(const YAML::Node& map, const std::string& what) const
 }
 
 void YamlReader::check_keys(const YAML::Node& map, const std::string& what,
-                            const std::vector<std::string>& known) const {
+                            std::span<const std::string_view> known) const {
   check_map(map, what);
   for (const auto& entry : map) {
     const std::string& key = entry.first.Scalar();

@@ -2,8 +2,9 @@
 
 /// Typed access to YAML that tolerates nothing unexpected: every error is one line with file, line and key.
 
+#include <span>
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include <Eigen/Core>
 #include <yaml-cpp/yaml.h>
@@ -28,8 +29,8 @@ class YamlReader {
   /// Checks that `map` (called `what` in messages) is a map whose keys are texts and differ.
   void check_map(const YAML::Node& map, const std::string& what) const;
 
-  /// The same, with none but the keys `known`.
-  void check_keys(const YAML::Node& map, const std::string& what, const std::vector<std::string>& known) const;
+  /// The same; in addition, every key must be one of `known`.
+  void check_keys(const YAML::Node& map, const std::string& what, std::span<const std::string_view> known) const;
 
   /// The value of `key`, which must be there.
   YAML::Node required(const YAML::Node& map, const std::string& what, const std::string& key) const;

@@ -1,15 +1,36 @@
+set(glissade_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/glissade)
+
+# glissade_find_package(PACKAGE [VERSION] [options...]): finds a package that components may need, for targets named
+# PACKAGE::... among their DEPENDS. The installed glissade finds it with the same arguments, where a requested component
+# needs it.
+macro(glissade_find_package package)
+  find_package(${ARGV} REQUIRED)
+  set_property(GLOBAL PROPERTY glissade_package_${package} "${ARGV}")
+endmacro()
+
+# glissade_install_component(NAME [arguments of install(TARGETS)...]): installs the target glissade_NAME, with an export
+# set of its own, as a component of find_package(glissade).
+function(glissade_install_component name)
+  set_property(GLOBAL APPEND PROPERTY glissade_components ${name})
+  set_target_properties(glissade_${name} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS glissade_${name} EXPORT glissade_${name} ${ARGN})
+  install(EXPORT glissade_${name} FILE glissade_${name}Targets.cmake NAMESPACE glissade::
+    DESTINATION ${glissade_package_dir})
+endfunction()
+
 # glissade_add_component(NAME
-#   HEADERS  public headers, installed as <glissade/NAME/...>
-#   SOURCES  sources and private headers
+#   HEADERS  its public face: the headers directly in its folder, installed as <glissade/NAME/...>
+#   SOURCES  its sources; those in its subfolders are private rooms
 #   DEPENDS  targets that users of the component see
-#   PRIVATE_DEPENDS  targets that only its sources see)
+#   PRIVATE_DEPENDS  targets that only its sources see
+#   NOT_INSTALLED  for the program, tests and benchmarks of this tree only)
 #
 # Defines the library glissade_NAME with the alias glissade::NAME. Its include root is a directory link in the build tree,
 #   build/include/NAME/glissade/NAME -> the component's folder,
 # so that an include reads the same in the tree and installed, and an include of a component that is not among DEPENDS
 # fails to compile.
 function(glissade_add_component name)
-  cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "NOT_INSTALLED" "" "HEADERS;SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   set(target glissade_${name})
   set(include_root ${PROJECT_BINARY_DIR}/include/${name})
   file(MAKE_DIRECTORY ${include_root}/glissade)
@@ -19,12 +40,14 @@ function(glissade_add_component name)
   add_library(glissade::${name} ALIAS ${target})
   list(TRANSFORM ARG_HEADERS PREPEND ${include_root}/glissade/${name}/)
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${include_root} FILES ${ARG_HEADERS})
+  # Headers of rooms are included with quotes, by their path in the component: "ROOM/header.h".
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  list(TRANSFORM ARG_PRIVATE_DEPENDS REPLACE "^glissade_base$" "$<BUILD_INTERFACE:glissade_base>")
   target_link_libraries(${target} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE_DEPENDS})
   target_compile_features(${target} PUBLIC cxx_std_20)
   # The same inputs must give the same bits on every processor: no silent fused multiply-add.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   set_target_properties(${target} PROPERTIES
-    EXPORT_NAME ${name}
     POSITION_INDEPENDENT_CODE ON
     VERIFY_INTERFACE_HEADER_SETS ${PROJECT_IS_TOP_LEVEL})
   if(COMMAND glissade_set_warnings)
@@ -42,8 +65,10 @@ function(glissade_add_component name)
     glissade_compile_in_bulk(${target} EXCEPT ${kernels})
   endif()
 
-  install(TARGETS ${target} EXPORT glissadeTargets
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  if(NOT ARG_NOT_INSTALLED)
+    glissade_install_component(${name}
+      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+      FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  endif()
 endfunction()

@@ -3,35 +3,17 @@
 /// The collision pipeline (paper §2): which objects of a world meet, frame by frame, at a cost that follows the pairs
 /// that are near and moved, not the number of objects.
 ///
-///   queue → interest matrix → neighbour finding → separating planes → DOP-trees
+///   queue → interest matrix → neighbor finding → separating planes → DOP-trees
 ///
 /// Take one of these to run it in a thread of your own, and a `CollisionThread` to have it run beside you.
 
-#include <cstdint>
 #include <memory>
 
 #include <glissade/collision/frame_result.h>
-#include <glissade/collision/separating_plane.h>
 #include <glissade/collision/world.h>
 #include <glissade/realtime/clock.h>
 
 namespace glissade::collision {
-
-/// What is to be known of objects that meet.
-enum class PairQuery : std::uint8_t {
-  kVerdict,        ///< that they do
-  kTrianglePairs,  ///< and in which pairs of triangles
-  kClosePairs,     ///< and where these are closest; of objects with selections, by selected triangles only
-};
-
-struct PipelineOptions {
-  PairQuery query = PairQuery::kVerdict;
-  HullTest hull_test = HullTest::kExact;
-  /// Metres. Objects meet when they are not further apart than what `step` is told, which is no more than this.
-  double greatest_distance = 0.0;
-  /// That work on a frame, the caller's among them. 0: as many as the machine has.
-  int threads = 0;
-};
 
 /// Deterministic: the answers depend on the poses alone, not on threads or on what came before. Not thread-safe; the
 /// world may be used by others all the time. Where memory runs out in a frame that several threads share, the program
@@ -60,8 +42,5 @@ class CollisionPipeline {
   class Frame;
   std::unique_ptr<Frame> frame_;
 };
-
-/// The pose of B in the frame of A as the pipeline computes it, for who wants to compare bit for bit.
-Eigen::Isometry3d relative_pose(const WorldObject& object_A, const WorldObject& object_B);
 
 }  // namespace glissade::collision

@@ -7,9 +7,10 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/assert.h>
 #include <glissade/collision/convex_hull.h>
 
-#include "qhull_facets.h"
+#include "hull/qhull_facets.h"
 
 namespace glissade::collision {
 namespace {
@@ -24,11 +25,13 @@ constexpr double kRoundingOfPoints = 1e-15;
 // and the way up from a point to the facet is not longer. See `climbing_error_of`.
 constexpr double kReachOfFacets = 12.0;
 
-std::vector<Vector3d> corners_of(const TriangleMesh& mesh) {
+std::vector<Vector3d> corners_of(const geometry::TriangleMesh& mesh) {
   std::vector<bool> is_used(mesh.vertices.size(), false);
-  for (const Triangle& triangle : mesh.triangles) {
-    for (const std::int32_t index : triangle)
+  for (const geometry::Triangle& triangle : mesh.triangles) {
+    for (const std::int32_t index : triangle) {
+      GLISSADE_ASSERT(index >= 0 && static_cast<std::size_t>(index) < is_used.size());
       is_used[static_cast<std::size_t>(index)] = true;
+    }
   }
   std::vector<Vector3d> corners;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -86,8 +89,8 @@ Extents extents_of(Points points) {
   return e;
 }
 
-// Coordinates along the first `dimension` axes, from the middle. All extents become 1: neighbours on a hull stay
-// neighbours however it is stretched, and Qhull never sees anything flat.
+// Coordinates along the first `dimension` axes, from the middle. All extents become 1: neighbors on a hull stay
+// neighbors however it is stretched, and Qhull never sees anything flat.
 std::vector<double> unit_coordinates(Points points, const Extents& extents, int dimension) {
   const Vector3d origin = 0.5 * (points[extents.ends[0]] + points[extents.ends[1]]);
   std::vector<double> coordinates;
@@ -159,7 +162,7 @@ std::int32_t ConvexHull::furthest(const Vector3d& direction) const {
   return static_cast<std::int32_t>(furthest_of(vertices_, [&](const Vector3d& x) { return direction.dot(x); }));
 }
 
-ConvexHull::ConvexHull(const TriangleMesh& mesh) : ConvexHull(Points(corners_of(mesh))) {}
+ConvexHull::ConvexHull(const geometry::TriangleMesh& mesh) : ConvexHull(Points(corners_of(mesh))) {}
 
 HullFacets ConvexHull::find_corners(Points points) {
   const Extents extents = extents_of(points);
@@ -207,7 +210,7 @@ void ConvexHull::find_starts() {
   }
 }
 
-// Neighbours get numbers near each other, because they are looked at together.
+// Neighbors get numbers near each other, because they are looked at together.
 void ConvexHull::take_corners(Points points, const std::vector<Edge>& edges) {
   std::vector<std::int32_t> number(points.size(), -1);
   std::vector<std::int32_t> point_of;

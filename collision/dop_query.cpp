@@ -1,31 +1,13 @@
 #include <glissade/collision/dop_query.h>
 
-#include "coherent_front.h"
-#include "coherent_query.h"
-#include "dop_traversal.h"
-#include "pair_visitors.h"
-#include "placed_trees.h"
-#include "sort_pairs.h"
+#include "query/coherent_front.h"
+#include "query/coherent_query.h"
+#include "query/dop_traversal.h"
+#include "query/pair_visitors.h"
+#include "query/placed_trees.h"
+#include "query/sort_pairs.h"
 
 namespace glissade::collision {
-
-QueryWorkspace::QueryWorkspace() : memory_(std::make_unique<Memory>()) {}
-QueryWorkspace::~QueryWorkspace() = default;
-QueryWorkspace::QueryWorkspace(QueryWorkspace&&) noexcept = default;
-QueryWorkspace& QueryWorkspace::operator=(QueryWorkspace&&) noexcept = default;
-
-const QueryCounters& QueryWorkspace::counters() const {
-  return memory_->counters;
-}
-
-CoherentWorkspace::CoherentWorkspace() : front_(std::make_unique<CoherentFront>()) {}
-CoherentWorkspace::~CoherentWorkspace() = default;
-CoherentWorkspace::CoherentWorkspace(CoherentWorkspace&&) noexcept = default;
-CoherentWorkspace& CoherentWorkspace::operator=(CoherentWorkspace&&) noexcept = default;
-
-void CoherentWorkspace::forget() {
-  front_->clear();
-}
 
 namespace {
 

@@ -9,87 +9,15 @@
 /// matrix is not a rotation: the entries of RᵀR − 1 must add up to less than 1e-3. What is lacking to 0 costs speed,
 /// not exactness.
 
-#include <cstdint>
 #include <limits>
-#include <memory>
 #include <vector>
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <glissade/collision/dop_tree.h>
-#include <glissade/collision/triangle_selection.h>
+#include <glissade/collision/query_types.h>
 
 namespace glissade::collision {
-
-/// Triangle indices into the meshes of tree A and tree B.
-struct TrianglePair {
-  std::int32_t triangle_A;
-  std::int32_t triangle_B;
-
-  auto operator<=>(const TrianglePair&) const = default;
-};
-
-/// Two triangles and the points where they are closest, in the frame of A. Distance 0 when they intersect; the two
-/// points are then one point of the intersection as well as rounding allows.
-struct ClosePair {
-  TrianglePair triangles;
-  double distance;
-  Eigen::Vector3d p_A;  ///< on triangle A
-  Eigen::Vector3d p_B;  ///< on triangle B
-};
-
-/// Work of one query.
-struct QueryCounters {
-  std::int64_t node_tests = 0;      ///< pairs of boxes tested
-  std::int64_t realignments = 0;    ///< boxes realigned
-  std::int64_t triangle_tests = 0;  ///< pairs of triangles tested
-};
-
-/// Scratch memory and counters of the queries. Keep one per thread and reuse it: after a few queries nothing is
-/// allocated. Not thread-safe.
-class QueryWorkspace {
- public:
-  QueryWorkspace();
-  ~QueryWorkspace();
-  QueryWorkspace(QueryWorkspace&&) noexcept;
-  QueryWorkspace& operator=(QueryWorkspace&&) noexcept;
-
-  /// Work of the last query.
-  const QueryCounters& counters() const;
-
-  struct Memory;
-  Memory& memory() { return *memory_; }
-
- private:
-  std::unique_ptr<Memory> memory_;
-};
-
-class CoherentFront;
-
-/// A workspace that remembers the last query of one pair of trees, which makes queries of a pair that moves little from
-/// one to the next much cheaper. Answers are the same, bit for bit, as without it. Use one for each pair; a query of
-/// other trees, or of a tree that was refitted, makes it start afresh. Not thread-safe.
-class CoherentWorkspace {
- public:
-  CoherentWorkspace();
-  ~CoherentWorkspace();
-  CoherentWorkspace(CoherentWorkspace&&) noexcept;
-  CoherentWorkspace& operator=(CoherentWorkspace&&) noexcept;
-
-  /// Work of the last query.
-  const QueryCounters& counters() const { return workspace_.counters(); }
-
-  /// Starts afresh.
-  void forget();
-
-  QueryWorkspace& workspace() { return workspace_; }
-  CoherentFront& front() { return *front_; }
-
- private:
-  QueryWorkspace workspace_;
-  std::unique_ptr<CoherentFront> front_;
-};
 
 /// Whether any two triangles are not further apart than `tolerance` (metres, ≥ 0; 0: intersect). (paper §2.1)
 bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, QueryWorkspace& workspace,
@@ -119,5 +47,27 @@ double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen
                        QueryWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
 double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                        CoherentWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
+
+/// A way out.
+struct Penetration {
+  /// Translation of B in the frame of A after which the meshes are apart; zero if they are to begin with. Metres.
+  Eigen::Vector3d way_out_A = Eigen::Vector3d::Zero();
+
+  double depth() const { return way_out_A.norm(); }
+};
+
+/// A short translation of B that brings the meshes further apart than `clearance` (metres, ≥ 0), by the exact queries
+/// of `dop_query.h` for the pose X_AB.
+///
+/// The depth is an upper bound of the translational penetration depth, and certain: the way out has been tried. That it
+/// is the shortest is an estimate. Tried are directions all around, those of the triangles that intersect, and then
+/// those near the best so far, down to some thousandths of its length; for convex bodies that comes within a few per
+/// cent. Meshes are surfaces without inside: what lies within a closed one without touching it is apart, and the
+/// shortest way out of a shell may lead into it. Nothing is said of the way itself, on which they may meet others, or
+/// each other.
+///
+/// Deterministic. Cost: some hundred queries. Throws as the queries do.
+Penetration find_way_out(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                         QueryWorkspace& workspace, double clearance = 0.0);
 
 }  // namespace glissade::collision

@@ -10,14 +10,16 @@
 
 #include <Eigen/Core>
 
-#include <glissade/collision/dop.h>
-#include <glissade/collision/dop_node.h>
-#include <glissade/collision/dop_vertices.h>
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 namespace glissade::collision {
 
+struct NodeHead;
+struct SlabLine;
+struct TriangleLeaf;
 struct TreeShape;
+struct VertexGroup;
+class DopVertices;
 
 /// How the nodes of one tree are brought into the frame of the other.
 enum class Realignment {
@@ -34,36 +36,61 @@ struct DopTreeOptions {
   bool operator==(const DopTreeOptions&) const = default;
 };
 
+/// The children of a node: first those that are nodes, then those that are leaves; each kind is numbered consecutively.
+struct TreeNode {
+  std::uint32_t first_node;  ///< of the children that are nodes
+  std::uint32_t first_leaf;  ///< of the children that are leaves
+  int node_count;
+  int leaf_count;
+
+  int child_count() const { return node_count + leaf_count; }
+  bool is_leaf(int child) const { return child >= node_count; }
+  /// The number of a child among the nodes, or among the leaves.
+  std::uint32_t child(int c) const {
+    return is_leaf(c) ? first_leaf + static_cast<std::uint32_t>(c - node_count)
+                      : first_node + static_cast<std::uint32_t>(c);
+  }
+};
+
 /// A bounding-volume hierarchy in the object's own frame: nodes of four children, leaves of up to four triangles.
 ///
 /// Thread-safety: any number of threads may query a tree at once; `refit` needs it alone.
 class DopTree {
  public:
+  /// Most children of a node, and most triangles of a leaf.
+  static constexpr int kWidth = 4;
+
   /// Builds the hierarchy by binned surface-area heuristic, on several threads when the mesh is large; the result does
   /// not depend on their number. Degenerate triangles (zero area) take part in no query.
   ///
-  /// Throws std::invalid_argument when the mesh has no triangle of positive area or more than 5 million triangles, an
-  /// index out of range, or a coordinate that is not finite or beyond ±1e9, and for options that do not exist.
+  /// Throws std::invalid_argument when the mesh is null, has no triangle of positive area or more than 5 million
+  /// triangles, an index out of range, or a coordinate that is not finite or beyond ±1e9, and for options that do not
+  /// exist.
   /// Cost O(n log n).
-  explicit DopTree(const std::shared_ptr<const TriangleMesh>& mesh, const DopTreeOptions& options = {});
+  explicit DopTree(const std::shared_ptr<const geometry::TriangleMesh>& mesh, const DopTreeOptions& options = {});
+  DopTree(const DopTree& other);
+  DopTree(DopTree&&) noexcept;
+  DopTree& operator=(const DopTree& other);
+  DopTree& operator=(DopTree&&) noexcept;
+  ~DopTree();
 
   /// Encloses the vertices where they are now, after the owner of the mesh has moved them; the triangles must be the
-  /// same. Queries stay exact; they get slower the more neighbours have parted. Allocates nothing. Cost O(n log n).
+  /// same. Queries stay exact; they get slower the more neighbors have parted. Allocates nothing. Cost O(n log n).
   /// Throws std::invalid_argument, and leaves the tree as it was, for a coordinate the constructor would refuse.
   void refit();
 
-  const TriangleMesh& mesh() const { return *mesh_; }
+  const geometry::TriangleMesh& mesh() const { return *mesh_; }
   const DopTreeOptions& options() const { return options_; }
 
-  /// Node 0 is the root; it has at least one child.
-  std::span<const NodeHead> nodes() const { return heads_; }
-  /// The offsets of a node's children.
-  const SlabLine* slabs(std::uint32_t node) const { return &slabs_[node * lines_of_node_]; }
-  /// The same as vertices; of trees realigned by brute force only.
-  std::span<const VertexGroup> vertices(std::uint32_t node) const { return vertices_.of(node); }
-  std::span<const TriangleLeaf> leaves() const { return leaves_; }
+  std::size_t node_count() const;
+  std::size_t leaf_count() const;
+  /// A node by its number, below `node_count`. Node 0 is the root; it has at least one child.
+  TreeNode node(std::uint32_t number) const;
+  /// The triangles of a leaf by its number, below `leaf_count`: numbers in the mesh, negative where there is none or it
+  /// has no area.
+  std::span<const std::int32_t, kWidth> triangles_of_leaf(std::uint32_t leaf) const;
 
-  /// Another number for every tree and every refit of this process; 0 is none. Copies have the same.
+  /// Another number for every tree and every refit of this process; 0 is none.
   std::uint64_t id() const { return id_; }
 
   std::int64_t degenerate_triangles() const { return degenerate_triangles_; }
@@ -80,16 +107,22 @@ class DopTree {
   /// Bytes of the tree itself, without the mesh it shares.
   std::size_t memory_bytes() const;
 
- private:
-  friend DopTree tree_of_shape(std::shared_ptr<const TriangleMesh> mesh, const DopTreeOptions& options,
-                               TreeShape&& shape);
-  DopTree(std::shared_ptr<const TriangleMesh> mesh, const DopTreeOptions& options, TreeShape&& shape);
+  // Nodes and leaves as the kernels read them; their types are private (`tree/tree_nodes.h`).
+  std::span<const NodeHead> nodes() const;
+  const SlabLine* slabs(std::uint32_t node) const;
+  std::span<const VertexGroup> vertices(std::uint32_t node) const;
+  std::span<const TriangleLeaf> leaves() const;
 
-  std::shared_ptr<const TriangleMesh> mesh_;
+ private:
+  friend DopTree tree_of_shape(std::shared_ptr<const geometry::TriangleMesh> mesh, const DopTreeOptions& options,
+                               TreeShape&& shape);
+  DopTree(std::shared_ptr<const geometry::TriangleMesh> mesh, const DopTreeOptions& options, TreeShape&& shape);
+
+  std::shared_ptr<const geometry::TriangleMesh> mesh_;
   DopTreeOptions options_;
   std::vector<NodeHead> heads_;
   std::vector<SlabLine> slabs_;
-  DopVertices vertices_;
+  std::unique_ptr<DopVertices> vertices_;  // of trees realigned by brute force only
   std::vector<TriangleLeaf> leaves_;
   std::size_t lines_of_node_ = 0;
   std::uint64_t id_ = 0;

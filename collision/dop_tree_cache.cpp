@@ -9,12 +9,13 @@
 #include <system_error>
 #include <utility>
 
+#include <glissade/base/byte_order.h>
 #include <glissade/collision/dop_tree_cache.h>
 
-#include "byte_order.h"
-#include "content_hash.h"
-#include "dop_tree_build.h"
-#include "tree_shape_code.h"
+#include "tree/content_hash.h"
+#include "tree/dop_tree_build.h"
+#include "tree/tree_nodes.h"
+#include "tree/tree_shape_code.h"
 
 namespace glissade::collision {
 namespace {
@@ -30,7 +31,7 @@ constexpr std::size_t kMeshAt = 24;
 constexpr std::size_t kHeadSize = 32;
 constexpr std::size_t kChecksumSize = 8;
 
-std::uint64_t hash_of(const TriangleMesh& mesh) {
+std::uint64_t hash_of(const geometry::TriangleMesh& mesh) {
   ContentHash hash;
   hash.add(mesh.vertices.size());
   hash.add(mesh.triangles.size());
@@ -38,28 +39,33 @@ std::uint64_t hash_of(const TriangleMesh& mesh) {
     for (const double coordinate : vertex)
       hash.add(std::bit_cast<std::uint64_t>(coordinate));
   }
-  for (const Triangle& triangle : mesh.triangles) {
+  for (const geometry::Triangle& triangle : mesh.triangles) {
     for (const std::int32_t index : triangle)
       hash.add(static_cast<std::uint32_t>(index));
   }
   return hash.value();
 }
 
-std::string head_of(const TriangleMesh& mesh, const DopTreeOptions& options) {
+std::string head_of(const geometry::TriangleMesh& mesh, const DopTreeOptions& options) {
   std::string head(kMagic);
-  append_number(head, kVersion);
-  append_number(head, static_cast<std::int32_t>(options.directions));
-  append_number(head, static_cast<std::int32_t>(options.thin_slab));
-  append_number(head, static_cast<std::int32_t>(options.realignment));
-  append_number(head, hash_of(mesh));
+  base::append_number(head, kVersion);
+  base::append_number(head, static_cast<std::int32_t>(options.directions));
+  base::append_number(head, static_cast<std::int32_t>(options.thin_slab));
+  base::append_number(head, static_cast<std::int32_t>(options.realignment));
+  base::append_number(head, hash_of(mesh));
   return head;
+}
+
+void require(const std::shared_ptr<const geometry::TriangleMesh>& mesh) {
+  if (mesh == nullptr) throw std::invalid_argument("a tree cannot be read from its cache without the mesh");
 }
 
 CachedTree rejected(CacheState state, std::string reason) {
   return {state, std::move(reason), std::nullopt};
 }
 
-CachedTree read_bytes(std::string_view bytes, std::shared_ptr<const TriangleMesh> mesh, const DopTreeOptions& options) {
+CachedTree read_bytes(std::string_view bytes, std::shared_ptr<const geometry::TriangleMesh> mesh,
+                      const DopTreeOptions& options) {
   if (!bytes.starts_with(kMagic)) return rejected(CacheState::kDamaged, "not a kept tree");
   if (bytes.size() < kHeadSize + kChecksumSize) return rejected(CacheState::kDamaged, "truncated");
   const std::string head = head_of(*mesh, options);
@@ -71,7 +77,7 @@ CachedTree read_bytes(std::string_view bytes, std::shared_ptr<const TriangleMesh
   if (!same(kMeshAt, kHeadSize)) return rejected(CacheState::kStale, "of another mesh");
 
   const std::size_t checksum_at = bytes.size() - kChecksumSize;
-  if (content_hash(bytes.substr(0, checksum_at)) != number_at<std::uint64_t>(bytes, checksum_at)) {
+  if (content_hash(bytes.substr(0, checksum_at)) != base::number_at<std::uint64_t>(bytes, checksum_at)) {
     return rejected(CacheState::kDamaged, "the checksum is wrong");
   }
   TreeShape shape;
@@ -137,19 +143,21 @@ std::filesystem::path tree_cache_path(const std::filesystem::path& mesh_path) {
 void write_tree_cache(const std::filesystem::path& path, const DopTree& tree) {
   std::string bytes = head_of(tree.mesh(), tree.options());
   append_shape_code(tree, bytes);
-  append_number(bytes, content_hash(bytes));
+  base::append_number(bytes, content_hash(bytes));
   NewFile file(path);
   file.write(bytes);
   file.complete();
 }
 
-CachedTree read_tree_cache_bytes(std::span<const std::byte> bytes, std::shared_ptr<const TriangleMesh> mesh,
+CachedTree read_tree_cache_bytes(std::span<const std::byte> bytes, std::shared_ptr<const geometry::TriangleMesh> mesh,
                                  const DopTreeOptions& options) {
+  require(mesh);
   return read_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, std::move(mesh), options);
 }
 
-CachedTree read_tree_cache(const std::filesystem::path& path, std::shared_ptr<const TriangleMesh> mesh,
+CachedTree read_tree_cache(const std::filesystem::path& path, std::shared_ptr<const geometry::TriangleMesh> mesh,
                            const DopTreeOptions& options) {
+  require(mesh);
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) return rejected(CacheState::kMissing, "missing");
@@ -168,7 +176,8 @@ CachedTree read_tree_cache(const std::filesystem::path& path, std::shared_ptr<co
   return read_bytes(bytes, std::move(mesh), options);
 }
 
-LoadedTree load_or_build_tree(const std::filesystem::path& mesh_path, const std::shared_ptr<const TriangleMesh>& mesh,
+LoadedTree load_or_build_tree(const std::filesystem::path& mesh_path,
+                              const std::shared_ptr<const geometry::TriangleMesh>& mesh,
                               const DopTreeOptions& options) {
   const std::filesystem::path path = tree_cache_path(mesh_path);
   CachedTree cached = read_tree_cache(path, mesh, options);

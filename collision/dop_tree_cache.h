@@ -20,7 +20,7 @@
 #include <string>
 
 #include <glissade/collision/dop_tree.h>
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 namespace glissade::collision {
 
@@ -50,11 +50,11 @@ void write_tree_cache(const std::filesystem::path& path, const DopTree& tree);
 
 /// Reads a file for the tree that DopTree(mesh, options) would build. A file that is of no use is not an error, but
 /// throws as DopTree does what DopTree refuses of `mesh` and `options`. Cost O(n log n); may block on the disk.
-CachedTree read_tree_cache(const std::filesystem::path& path, std::shared_ptr<const TriangleMesh> mesh,
+CachedTree read_tree_cache(const std::filesystem::path& path, std::shared_ptr<const geometry::TriangleMesh> mesh,
                            const DopTreeOptions& options = {});
 
 /// The same for the bytes of a file.
-CachedTree read_tree_cache_bytes(std::span<const std::byte> bytes, std::shared_ptr<const TriangleMesh> mesh,
+CachedTree read_tree_cache_bytes(std::span<const std::byte> bytes, std::shared_ptr<const geometry::TriangleMesh> mesh,
                                  const DopTreeOptions& options = {});
 
 /// A tree, and what its user should know about the file.
@@ -65,7 +65,8 @@ struct LoadedTree {
 
 /// Reads the tree from the file that belongs to `mesh_path`. Where that is missing or of no use, builds the tree and
 /// writes the file; one that cannot be written is told in the note. Throws as DopTree does.
-LoadedTree load_or_build_tree(const std::filesystem::path& mesh_path, const std::shared_ptr<const TriangleMesh>& mesh,
+LoadedTree load_or_build_tree(const std::filesystem::path& mesh_path,
+                              const std::shared_ptr<const geometry::TriangleMesh>& mesh,
                               const DopTreeOptions& options = {});
 
 }  // namespace glissade::collision

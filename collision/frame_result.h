@@ -8,10 +8,27 @@
 #include <span>
 #include <vector>
 
-#include <glissade/collision/dop_query.h>
+#include <glissade/collision/convex_hull.h>
+#include <glissade/collision/query_types.h>
 #include <glissade/collision/world.h>
 
 namespace glissade::collision {
+
+/// What is to be known of objects that meet.
+enum class PairQuery : std::uint8_t {
+  kVerdict,        ///< that they do
+  kTrianglePairs,  ///< and in which pairs of triangles
+  kClosePairs,     ///< and where these are closest; of objects with selections, by selected triangles only
+};
+
+struct PipelineOptions {
+  PairQuery query = PairQuery::kVerdict;
+  HullTest hull_test = HullTest::kExact;
+  /// Metres. Objects meet when they are not further apart than what `step` is told, which is no more than this.
+  double greatest_distance = 0.0;
+  /// That work on a frame, the caller's among them. 0: as many as the machine has.
+  int threads = 0;
+};
 
 /// Two objects of a world, the one of lower index first: that is A of the query, the other B.
 struct ObjectPair {
@@ -88,5 +105,8 @@ struct FrameResult {
     return std::span(all).subspan(begin, ends[i] - begin);
   }
 };
+
+/// The pose of B in the frame of A as the pipeline computes it, for who wants to compare bit for bit.
+Eigen::Isometry3d relative_pose(const WorldObject& object_A, const WorldObject& object_B);
 
 }  // namespace glissade::collision

@@ -1,11 +1,20 @@
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <bit>
+#include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include <glissade/collision/rigid_pose.h>
+#include <glissade/base/assert.h>
+#include <glissade/collision/dop_tree.h>
+#include <glissade/collision/query_types.h>
 #include <glissade/collision/world.h>
+#include <glissade/geometry/rigid_pose.h>
+
+#include "pipeline/interest_matrix.h"
 
 namespace glissade::collision {
 
@@ -87,7 +96,56 @@ std::size_t checked_capacity(int capacity) {
 
 }  // namespace
 
-World::World(int capacity)
+struct World::State {
+  explicit State(int capacity);
+
+  ObjectId add(const ObjectDescription& object);
+  void remove(ObjectId id);
+  void enable_groups(int group_a, int group_b);
+  void disable_groups(int group_a, int group_b);
+  void enable_pair(ObjectId a, ObjectId b);
+  void disable_pair(ObjectId a, ObjectId b);
+  bool move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept;
+  const WorldChanges& take_changes();
+
+  /// The newest pose, and room for the next.
+  struct alignas(64) Slot {
+    std::atomic<std::uint64_t> state{0};                            ///< generation, number of poses, kInside
+    std::atomic<std::uint32_t> generation{0};                       ///< of the object that is here; 0: none
+    std::array<std::array<std::atomic<double>, 12>, 2> poses_WO{};  ///< by the last bit of that number
+  };
+
+  bool is_alive(ObjectId id) const;
+  void require_alive(ObjectId id) const;
+  std::uint32_t take_free_slot(const Eigen::Isometry3d& X_WO);
+  void mark_edited(std::uint32_t slot);
+  void take_edits();
+  void take_edit(std::uint32_t slot);
+  void take_poses();
+  bool take_pose(std::uint32_t slot);
+
+  // What movers write.
+  std::vector<Slot> slots_;
+  std::vector<std::atomic<std::uint64_t>> moved_;  ///< a bit for each slot whose pose the consumer has not taken
+
+  // What editors write, under the mutex.
+  std::mutex edits_;
+  std::vector<WorldObject> registered_;
+  std::vector<std::uint32_t> free_;
+  std::vector<std::uint32_t> edited_;  ///< slots that differ from `objects_`, each once
+  std::vector<std::uint8_t> is_edited_;
+  std::optional<DopTreeOptions> options_;  ///< of all trees here
+  InterestMatrix interest_;
+  bool interest_edited_ = false;
+
+  // What the consumer has.
+  std::vector<WorldObject> objects_;
+  std::vector<WorldObject> retired_;
+  InterestMatrix interest_taken_;
+  WorldChanges changes_;
+};
+
+World::State::State(int capacity)
     : slots_(checked_capacity(capacity)),
       moved_((slots_.size() + kBitsOfWord - 1) / kBitsOfWord),
       registered_(slots_.size()),
@@ -103,9 +161,7 @@ World::World(int capacity)
     list->reserve(size);
 }
 
-World::~World() = default;
-
-ObjectId World::add(const ObjectDescription& object) {
+ObjectId World::State::add(const ObjectDescription& object) {
   if (object.tree == nullptr) throw std::invalid_argument("an object of a world needs a tree");
   if (object.selection != nullptr && !object.selection->is_of(*object.tree)) {
     throw std::invalid_argument("the selection of triangles of an object was made for another tree than its own");
@@ -113,7 +169,7 @@ ObjectId World::add(const ObjectDescription& object) {
   if (object.group < 0 || object.group >= InterestMatrix::kGroups) {
     throw std::invalid_argument("the group " + std::to_string(object.group) + " of an object is not one of 0 to 63");
   }
-  const std::optional<Eigen::Isometry3d> X_WO = rigid_pose(object.X_WO);
+  const std::optional<Eigen::Isometry3d> X_WO = geometry::rigid_pose(object.X_WO);
   if (!X_WO) {
     throw std::invalid_argument("the pose X_WO of an object is not a finite rotation and a translation within 1e9 m");
   }
@@ -130,7 +186,7 @@ ObjectId World::add(const ObjectDescription& object) {
   return registered_[slot].id;
 }
 
-void World::remove(ObjectId id) {
+void World::State::remove(ObjectId id) {
   const std::lock_guard lock(edits_);
   require_alive(id);
   slots_[id.index].generation.store(0, std::memory_order_relaxed);
@@ -141,36 +197,36 @@ void World::remove(ObjectId id) {
   if (interest_.forget(id.index)) interest_edited_ = true;
 }
 
-void World::attend_groups(int group_a, int group_b) {
+void World::State::enable_groups(int group_a, int group_b) {
   const std::lock_guard lock(edits_);
-  interest_.attend_groups(group_a, group_b);
+  interest_.enable_groups(group_a, group_b);
   interest_edited_ = true;
 }
 
-void World::ignore_groups(int group_a, int group_b) {
+void World::State::disable_groups(int group_a, int group_b) {
   const std::lock_guard lock(edits_);
-  interest_.ignore_groups(group_a, group_b);
+  interest_.disable_groups(group_a, group_b);
   interest_edited_ = true;
 }
 
-void World::attend(ObjectId a, ObjectId b) {
-  const std::lock_guard lock(edits_);
-  require_alive(a);
-  require_alive(b);
-  interest_.attend(a.index, b.index);
-  interest_edited_ = true;
-}
-
-void World::ignore(ObjectId a, ObjectId b) {
+void World::State::enable_pair(ObjectId a, ObjectId b) {
   const std::lock_guard lock(edits_);
   require_alive(a);
   require_alive(b);
-  interest_.ignore(a.index, b.index);
+  interest_.enable_pair(a.index, b.index);
   interest_edited_ = true;
 }
 
-bool World::move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept {
-  const std::optional<Eigen::Isometry3d> rigid = rigid_pose(X_WO);
+void World::State::disable_pair(ObjectId a, ObjectId b) {
+  const std::lock_guard lock(edits_);
+  require_alive(a);
+  require_alive(b);
+  interest_.disable_pair(a.index, b.index);
+  interest_edited_ = true;
+}
+
+bool World::State::move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept {
+  const std::optional<Eigen::Isometry3d> rigid = geometry::rigid_pose(X_WO);
   if (id.index >= slots_.size() || !rigid) return false;
   Slot& slot = slots_[id.index];
   if (id.generation == 0 || slot.generation.load(std::memory_order_acquire) != id.generation) return false;
@@ -183,7 +239,7 @@ bool World::move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept {
   return true;
 }
 
-const WorldChanges& World::take_changes() {
+const WorldChanges& World::State::take_changes() {
   changes_.removed.clear();
   changes_.added.clear();
   changes_.moved.clear();
@@ -193,11 +249,11 @@ const WorldChanges& World::take_changes() {
   return changes_;
 }
 
-bool World::is_alive(ObjectId id) const {
+bool World::State::is_alive(ObjectId id) const {
   return id.generation != 0 && id.index < registered_.size() && registered_[id.index].id == id;
 }
 
-void World::require_alive(ObjectId id) const {
+void World::State::require_alive(ObjectId id) const {
   if (!is_alive(id)) {
     throw std::invalid_argument("the object " + std::to_string(id.index) + " of generation " +
                                 std::to_string(id.generation) + " is not, or no longer, in this world");
@@ -205,7 +261,7 @@ void World::require_alive(ObjectId id) const {
 }
 
 // The slot that was freed last and has no mover inside; its state is that of the next object.
-std::uint32_t World::take_free_slot(const Eigen::Isometry3d& X_WO) {
+std::uint32_t World::State::take_free_slot(const Eigen::Isometry3d& X_WO) {
   for (std::size_t i = free_.size(); i > 0; --i) {
     const std::uint32_t number = free_[i - 1];
     Slot& slot = slots_[number];
@@ -222,12 +278,12 @@ std::uint32_t World::take_free_slot(const Eigen::Isometry3d& X_WO) {
   throw std::length_error("the world is full: it has room for " + std::to_string(slots_.size()) + " objects");
 }
 
-void World::mark_edited(std::uint32_t slot) {
+void World::State::mark_edited(std::uint32_t slot) {
   if (is_edited_[slot] == 0) edited_.push_back(slot);
   is_edited_[slot] = 1;
 }
 
-void World::take_edits() {
+void World::State::take_edits() {
   const std::lock_guard lock(edits_);
   std::sort(edited_.begin(), edited_.end());
   for (const std::uint32_t slot : edited_)
@@ -238,7 +294,7 @@ void World::take_edits() {
   interest_edited_ = false;
 }
 
-void World::take_edit(std::uint32_t slot) {
+void World::State::take_edit(std::uint32_t slot) {
   is_edited_[slot] = 0;
   WorldObject& object = objects_[slot];
   if (object.id == registered_[slot].id) return;  // came and went between two takes
@@ -252,7 +308,7 @@ void World::take_edit(std::uint32_t slot) {
   take_pose(slot);
 }
 
-void World::take_poses() {
+void World::State::take_poses() {
   for (std::size_t word = 0; word < moved_.size(); ++word) {
     if (moved_[word].load(std::memory_order_relaxed) == 0) continue;
     std::uint64_t bits = moved_[word].exchange(0, std::memory_order_acquire);
@@ -265,7 +321,7 @@ void World::take_poses() {
 }
 
 // Whether the slot still is that of the object that the consumer has there.
-bool World::take_pose(std::uint32_t slot) {
+bool World::State::take_pose(std::uint32_t slot) {
   WorldObject& object = objects_[slot];
   const Slot& source = slots_[slot];
   std::uint64_t before = source.state.load(std::memory_order_acquire) | kInside;
@@ -279,6 +335,56 @@ bool World::take_pose(std::uint32_t slot) {
     before = after;
   }
   return false;
+}
+
+World::World(int capacity) : state_(std::make_unique<State>(capacity)) {}
+World::~World() = default;
+
+int World::capacity() const {
+  return static_cast<int>(state_->slots_.size());
+}
+
+ObjectId World::add(const ObjectDescription& object) {
+  return state_->add(object);
+}
+
+void World::remove(ObjectId id) {
+  state_->remove(id);
+}
+
+void World::enable_groups(int group_a, int group_b) {
+  state_->enable_groups(group_a, group_b);
+}
+
+void World::disable_groups(int group_a, int group_b) {
+  state_->disable_groups(group_a, group_b);
+}
+
+void World::enable_pair(ObjectId a, ObjectId b) {
+  state_->enable_pair(a, b);
+}
+
+void World::disable_pair(ObjectId a, ObjectId b) {
+  state_->disable_pair(a, b);
+}
+
+bool World::move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept {
+  return state_->move(id, X_WO);
+}
+
+const WorldChanges& World::take_changes() {
+  return state_->take_changes();
+}
+
+std::span<const WorldObject> World::objects() const {
+  return state_->objects_;
+}
+
+bool World::is_enabled(std::uint32_t slot_a, std::uint32_t slot_b) const {
+  const std::vector<WorldObject>& objects = state_->objects_;
+  GLISSADE_ASSERT(slot_a < objects.size() && objects[slot_a].id != ObjectId{});
+  GLISSADE_ASSERT(slot_b < objects.size() && objects[slot_b].id != ObjectId{});
+  return state_->interest_taken_.is_enabled(slot_a, objects[slot_a].group, slot_b, objects[slot_b].group);
 }
 
 }  // namespace glissade::collision

@@ -4,27 +4,21 @@
 /// §2, §2.3). Any number of threads add, remove and move objects while one, the consumer, computes; the consumer takes
 /// what has changed at the beginning of its next frame, and only that.
 
-#include <array>
-#include <atomic>
 #include <compare>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include <glissade/collision/dop_tree.h>
-#include <glissade/collision/interest_matrix.h>
-#include <glissade/collision/triangle_selection.h>
-#include <glissade/realtime/cache_line.h>
 
 namespace glissade::collision {
 
 class ConvexHull;
+class TriangleSelection;
 
 /// Names one object for ever: an object that comes to the same slot later has another generation.
 struct ObjectId {
@@ -58,7 +52,7 @@ struct WorldChanges {
   std::vector<std::uint32_t> removed;  ///< slots whose former object is gone
   std::vector<std::uint32_t> added;    ///< slots with an object that is new; may have been freed before, see `removed`
   std::vector<std::uint32_t> moved;    ///< slots whose object was there before, and may have another pose
-  bool interest = false;               ///< answers of `attends` may differ for pairs that were there before
+  bool interest = false;               ///< answers of `is_enabled` may differ for pairs that were there before
 };
 
 /// Thread-safety: editors and movers may be any threads at any time; the consumer is one thread. A default-constructed
@@ -71,7 +65,7 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  int capacity() const { return static_cast<int>(slots_.size()); }
+  int capacity() const;
 
   // Editors: any thread; may block on each other and, for as long as it copies edits, on the consumer.
 
@@ -84,12 +78,12 @@ class World {
   /// the consumer's next take, or at once if no take has seen the object.
   void remove(ObjectId id);
 
-  /// As in `InterestMatrix`; `ignore` and `attend` throw std::invalid_argument for a stale id. A frame may fall between
-  /// `add` and `ignore`: what must never be compared goes into groups.
-  void attend_groups(int group_a, int group_b);
-  void ignore_groups(int group_a, int group_b);
-  void attend(ObjectId a, ObjectId b);
-  void ignore(ObjectId a, ObjectId b);
+  /// As in `InterestMatrix`; `disable_pair` and `enable_pair` throw std::invalid_argument for a stale id. A frame may
+  /// fall between `add` and `disable_pair`: what must never be compared goes into groups.
+  void enable_groups(int group_a, int group_b);
+  void disable_groups(int group_a, int group_b);
+  void enable_pair(ObjectId a, ObjectId b);
+  void disable_pair(ObjectId a, ObjectId b);
 
   // Movers: any thread, one at a time for each object. Wait-free, and allocates nothing.
 
@@ -108,49 +102,14 @@ class World {
   const WorldChanges& take_changes();
 
   /// By slot, as of the last take; `capacity` of them.
-  std::span<const WorldObject> objects() const { return objects_; }
+  std::span<const WorldObject> objects() const;
 
   /// Whether the pair matters, as of the last take. Both slots must have objects. Cost O(1).
-  bool attends(std::uint32_t slot_a, std::uint32_t slot_b) const {
-    return interest_taken_.attends(slot_a, objects_[slot_a].group, slot_b, objects_[slot_b].group);
-  }
+  bool is_enabled(std::uint32_t slot_a, std::uint32_t slot_b) const;
 
  private:
-  /// The newest pose, and room for the next.
-  struct alignas(realtime::kCacheLineBytes) Slot {
-    std::atomic<std::uint64_t> state{0};                            ///< generation, number of poses, kInside
-    std::atomic<std::uint32_t> generation{0};                       ///< of the object that is here; 0: none
-    std::array<std::array<std::atomic<double>, 12>, 2> poses_WO{};  ///< by the last bit of that number
-  };
-
-  bool is_alive(ObjectId id) const;
-  void require_alive(ObjectId id) const;
-  std::uint32_t take_free_slot(const Eigen::Isometry3d& X_WO);
-  void mark_edited(std::uint32_t slot);
-  void take_edits();
-  void take_edit(std::uint32_t slot);
-  void take_poses();
-  bool take_pose(std::uint32_t slot);
-
-  // What movers write.
-  std::vector<Slot> slots_;
-  std::vector<std::atomic<std::uint64_t>> moved_;  ///< a bit for each slot whose pose the consumer has not taken
-
-  // What editors write, under the mutex.
-  std::mutex edits_;
-  std::vector<WorldObject> registered_;
-  std::vector<std::uint32_t> free_;
-  std::vector<std::uint32_t> edited_;  ///< slots that differ from `objects_`, each once
-  std::vector<std::uint8_t> is_edited_;
-  std::optional<DopTreeOptions> options_;  ///< of all trees here
-  InterestMatrix interest_;
-  bool interest_edited_ = false;
-
-  // What the consumer has.
-  std::vector<WorldObject> objects_;
-  std::vector<WorldObject> retired_;
-  InterestMatrix interest_taken_;
-  WorldChanges changes_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace glissade::collision

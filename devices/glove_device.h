@@ -1,10 +1,85 @@
 #pragma once
 
-/// A glove as the haptic loop sees it: the newest state in, the newest command out, and never a wait.
+/// A force-feedback glove as the haptic loop sees it: its state, the command it obeys, its limits, and the interface of
+/// a device driver. Frames: W world, H hand root.
 
-#include <glissade/devices/glove_types.h>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace glissade::devices {
+
+inline constexpr int kGloveJoints = 22;
+
+/// One number per joint, in CyberGlove order (`kGloveJointNames`).
+using JointValues = std::array<double, kGloveJoints>;
+
+/// Abduction is the angle between the two neighbors.
+inline constexpr std::array<std::string_view, kGloveJoints> kGloveJointNames{"thumb_roll",
+                                                                             "thumb_mcp",
+                                                                             "thumb_ip",
+                                                                             "thumb_index_abduction",
+                                                                             "index_mcp",
+                                                                             "index_pip",
+                                                                             "index_dip",
+                                                                             "middle_mcp",
+                                                                             "middle_pip",
+                                                                             "middle_dip",
+                                                                             "middle_index_abduction",
+                                                                             "ring_mcp",
+                                                                             "ring_pip",
+                                                                             "ring_dip",
+                                                                             "ring_middle_abduction",
+                                                                             "little_mcp",
+                                                                             "little_pip",
+                                                                             "little_dip",
+                                                                             "little_ring_abduction",
+                                                                             "palm_arch",
+                                                                             "wrist_flexion",
+                                                                             "wrist_abduction"};
+
+/// A glove's hand, measured.
+struct GloveState {
+  std::int64_t sequence = 0;         ///< ≥ 0, rises with every state
+  std::chrono::nanoseconds time{0};  ///< of the measurement, on the glove's clock
+  Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d v_WH = Eigen::Vector3d::Zero();  ///< of the origin of H, in world axes
+  Eigen::Vector3d w_WH = Eigen::Vector3d::Zero();  ///< in world axes
+  JointValues joint_angles{};
+};
+
+/// What the glove shall exert on the hand. The default is no force at all.
+struct GloveCommand {
+  std::int64_t sequence = 0;                        ///< ≥ 0, rises with every command
+  std::int64_t state_sequence = 0;                  ///< of the state that it answers
+  std::chrono::nanoseconds time{0};                 ///< of the computation, on the sender's clock
+  Eigen::Vector3d f_H_W = Eigen::Vector3d::Zero();  ///< on the hand at the origin of H, in world axes
+  Eigen::Vector3d t_H_W = Eigen::Vector3d::Zero();  ///< about the origin of H, in world axes
+  JointValues joint_torques{};                      ///< positive toward larger joint angles
+};
+
+/// What a device can do. Everything is SI: N, Nm, N/m, Nm/rad, N s/m, rad, Hz.
+struct DeviceDescriptor {
+  std::string name;
+  double max_force = 0.0;                 ///< norm of the force on the hand
+  double max_torque = 0.0;                ///< norm of the torque on the hand
+  double max_stiffness = 0.0;             ///< largest that may be rendered without shaking
+  double max_rotational_stiffness = 0.0;  ///< likewise
+  double max_damping = 0.0;               ///< likewise
+  double max_joint_torque = 0.0;          ///< each joint
+  JointValues joint_lower{};
+  JointValues joint_upper{};
+  double update_rate = 0.0;
+};
+
+/// Throws std::invalid_argument, naming the device and the field, when a limit is negative or not finite, a joint's
+/// lower limit is not below its upper one, or the update rate is not positive.
+void validate(const DeviceDescriptor& descriptor);
 
 /// Thread-safety: one thread, the haptic one, calls `read` and `command`. Both are wait-free, allocate nothing and make
 /// no system call; whatever has to wait for a device does so in a thread of the implementation.

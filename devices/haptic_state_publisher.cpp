@@ -2,12 +2,13 @@
 
 #include <glissade/devices/haptic_state_publisher.h>
 
-#include "glove_messages.h"
+#include "lcm/checked_bus.h"
+#include "lcm/glove_messages.h"
 
 namespace glissade::devices {
 
 HapticStatePublisher::HapticStatePublisher(std::shared_ptr<LcmBus> bus, std::size_t capacity)
-    : bus_(std::move(bus)), ring_(capacity) {
+    : bus_(checked_bus(std::move(bus), "A publisher of haptic states")), ring_(capacity) {
   constexpr std::chrono::milliseconds kPeriod(5);  // a viewer sees no delay below a frame
   thread_ = std::make_unique<realtime::PeriodicThread>(clock_, realtime::PeriodicThreadOptions{.period = kPeriod},
                                                        [this](const realtime::PeriodicTick&) {

@@ -19,7 +19,7 @@ class HapticStatePublisher {
  public:
   static constexpr std::size_t kDefaultCapacity = 1024;  ///< a second of ticks
 
-  /// Throws std::invalid_argument when `capacity` is 0.
+  /// Throws std::invalid_argument when the bus is null or `capacity` is 0.
   explicit HapticStatePublisher(std::shared_ptr<LcmBus> bus, std::size_t capacity = kDefaultCapacity);
   /// Publishes what is left.
   ~HapticStatePublisher();

@@ -15,9 +15,10 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <glissade/base/assert.h>
 #include <glissade/devices/lcm_bus.h>
 
-#include "lcm_url.h"
+#include "lcm/lcm_url.h"
 
 namespace glissade::devices {
 namespace {
@@ -101,7 +102,9 @@ LcmBus::Connection::~Connection() {
 
 std::int64_t LcmBus::Connection::subscribe(const std::string& channel, Handler handler) {
   check_channel(channel);
+  if (!handler) throw std::invalid_argument("The subscription to the LCM channel '" + channel + "' needs a handler.");
   const std::lock_guard set_up_lock(set_up_mutex_);
+  GLISSADE_ASSERT(std::this_thread::get_id() != thread_.get_id());
   const bool is_new = [&] {
     const std::lock_guard lock(handlers_mutex_);
     return !handlers_.contains(channel);
@@ -114,6 +117,7 @@ std::int64_t LcmBus::Connection::subscribe(const std::string& channel, Handler h
 }
 
 void LcmBus::Connection::unsubscribe(const std::string& channel, std::int64_t id) {
+  GLISSADE_ASSERT(std::this_thread::get_id() != thread_.get_id());
   const std::lock_guard lock(handlers_mutex_);
   std::erase_if(handlers_.at(channel), [id](const auto& handler) { return handler.first == id; });
 }

@@ -38,7 +38,8 @@ class LcmBus {
 
   const std::string& url() const noexcept;
 
-  /// Throws std::invalid_argument when the channel's name is not allowed or nothing can be received from the URL.
+  /// Throws std::invalid_argument when the channel's name is not allowed, the handler is empty, or nothing can be
+  /// received from the URL.
   [[nodiscard]] std::unique_ptr<Subscription> subscribe(const std::string& channel, Handler handler);
 
   /// Returns false when the system refused to send. Over memq, a message nobody has subscribed to is lost at once.
@@ -61,6 +62,21 @@ class LcmBus::Subscription {
   Connection& connection_;
   std::string channel_;
   std::int64_t id_;
+};
+
+/// Messages received so far. `lost` counts the gaps in the sequences of the accepted ones.
+struct LinkStatistics {
+  std::uint64_t accepted = 0;
+  std::uint64_t wrong_size = 0;       ///< not the encoded size of the message's type
+  std::uint64_t undecodable = 0;      ///< right in size but of another type
+  std::uint64_t not_finite = 0;       ///< with a NaN or an infinity
+  std::uint64_t out_of_range = 0;     ///< with a number beyond any sense, or a quaternion that is none
+  std::uint64_t out_of_sequence = 0;  ///< not newer than the last accepted one
+  std::uint64_t lost = 0;
+
+  std::uint64_t rejected() const noexcept {
+    return wrong_size + undecodable + not_finite + out_of_range + out_of_sequence;
+  }
 };
 
 }  // namespace glissade::devices

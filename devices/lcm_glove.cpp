@@ -3,12 +3,13 @@
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/devices/safety_limits.h>
 
-#include "glove_messages.h"
+#include "lcm/checked_bus.h"
+#include "lcm/glove_messages.h"
 
 namespace glissade::devices {
 
 LcmGlove::LcmGlove(std::shared_ptr<LcmBus> bus, DeviceDescriptor descriptor, const LcmGloveOptions& options)
-    : bus_(std::move(bus)),
+    : bus_(checked_bus(std::move(bus), "An LCM glove")),
       descriptor_(std::move(descriptor)),
       monitor_(std::make_unique<LinkMonitor>(options.restart_silence)) {
   validate(descriptor_);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A glove at the other end of an LCM link, as the haptic loop uses it. The glove's own end is `LcmGloveHost`.
+/// The two ends of a glove's LCM link: `LcmGlove` for the haptic loop, `LcmGloveHost` for the driver of the glove.
 
 #include <atomic>
 #include <chrono>
@@ -8,7 +8,6 @@
 
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/lcm_bus.h>
-#include <glissade/devices/link_statistics.h>
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/periodic_thread.h>
 #include <glissade/realtime/triple_buffer.h>
@@ -30,8 +29,8 @@ struct LcmGloveOptions {
 /// command of no force.
 class LcmGlove final : public GloveDevice {
  public:
-  /// Throws std::invalid_argument when the descriptor is not valid, the bus cannot receive, or the send period is not
-  /// positive.
+  /// Throws std::invalid_argument when the bus is null or cannot receive, the descriptor is not valid, or the send
+  /// period is not positive.
   LcmGlove(std::shared_ptr<LcmBus> bus, DeviceDescriptor descriptor, const LcmGloveOptions& options = {});
   ~LcmGlove() override;
 
@@ -57,6 +56,47 @@ class LcmGlove final : public GloveDevice {
   std::unique_ptr<LinkMonitor> monitor_;
   std::unique_ptr<LcmBus::Subscription> subscription_;
   std::unique_ptr<realtime::PeriodicThread> sender_;
+};
+
+class LinkMonitor;
+
+struct LcmGloveHostOptions {
+  /// A command older than this is no longer obeyed: the server may be gone.
+  std::chrono::nanoseconds command_timeout{std::chrono::milliseconds(100)};
+  /// After so long without an accepted command, one of any sequence is accepted: the server may have been restarted.
+  std::chrono::nanoseconds restart_silence{std::chrono::milliseconds(500)};
+};
+
+/// Sends states on the channel GLOVE_STATE and receives commands on GLOVE_COMMAND.
+/// Thread-safety: one thread, the glove's, calls `publish` and `newest_command`.
+class LcmGloveHost {
+ public:
+  /// Throws std::invalid_argument when the bus is null or cannot receive.
+  explicit LcmGloveHost(std::shared_ptr<LcmBus> bus, const LcmGloveHostOptions& options = {});
+  ~LcmGloveHost();
+
+  /// Sends `state`; returns false when the system refused. May block.
+  bool publish(const GloveState& state);
+
+  /// The newest command, with all its forces zero once it is older than the timeout; before the first one, a default
+  /// GloveCommand. Wait-free.
+  GloveCommand newest_command() noexcept;
+
+  /// What came from the server. Any thread.
+  LinkStatistics statistics() const noexcept;
+
+ private:
+  struct ReceivedCommand {
+    GloveCommand command;
+    std::chrono::nanoseconds arrival{0};
+  };
+
+  std::shared_ptr<LcmBus> bus_;
+  std::chrono::nanoseconds command_timeout_;
+  realtime::SteadyClock clock_;
+  realtime::TripleBuffer<ReceivedCommand> commands_;
+  std::unique_ptr<LinkMonitor> monitor_;
+  std::unique_ptr<LcmBus::Subscription> subscription_;
 };
 
 }  // namespace glissade::devices

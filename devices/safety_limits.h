@@ -2,7 +2,7 @@
 
 /// The last gate before a device: whatever was computed, this is what it may be sent.
 
-#include <glissade/devices/glove_types.h>
+#include <glissade/devices/glove_device.h>
 
 namespace glissade::devices {
 

@@ -90,7 +90,7 @@ DeviceDescriptor simulated_glove_descriptor() {
   return descriptor;
 }
 
-SimulatedGlove::SimulatedGlove(PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters)
+SimulatedGlove::SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters)
     : script_X_WH_(std::move(script_X_WH)), parameters_(parameters), descriptor_(simulated_glove_descriptor()) {
   check(parameters_);
   state_.time = script_X_WH_.first_time();

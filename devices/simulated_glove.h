@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <glissade/devices/glove_types.h>
-#include <glissade/devices/pose_trajectory.h>
+#include <glissade/devices/glove_device.h>
+#include <glissade/geometry/pose_trajectory.h>
 
 namespace glissade::devices {
 
@@ -40,7 +40,7 @@ class SimulatedGlove {
   /// Starts at rest at the first pose of the script, which is that of the hand root, X_WH. Throws
   /// std::invalid_argument, naming the parameter, when one is not finite, not positive (damping and posture may be 0),
   /// or so large that steps of 1 ms would not be stable.
-  explicit SimulatedGlove(PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters = {});
+  explicit SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters = {});
 
   const DeviceDescriptor& descriptor() const noexcept { return descriptor_; }
 
@@ -56,7 +56,7 @@ class SimulatedGlove {
   void turn_hand(double h, const GloveCommand& command) noexcept;
   void move_fingers(double h, const GloveCommand& command) noexcept;
 
-  PoseTrajectory script_X_WH_;
+  geometry::PoseTrajectory script_X_WH_;
   SimulatedGloveParameters parameters_;
   DeviceDescriptor descriptor_;
   GloveState state_;

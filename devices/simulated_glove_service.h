@@ -8,7 +8,7 @@
 #include <optional>
 
 #include <glissade/devices/lcm_bus.h>
-#include <glissade/devices/lcm_glove_host.h>
+#include <glissade/devices/lcm_glove.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/periodic_thread.h>
@@ -20,7 +20,7 @@ namespace glissade::devices {
 /// whatever ticks the thread misses.
 class SimulatedGloveService {
  public:
-  /// Throws std::invalid_argument when the bus cannot receive. The clock must outlive the service.
+  /// Throws std::invalid_argument when the bus is null or cannot receive. The clock must outlive the service.
   SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock);
 
   /// How much of the script is done. Any thread.

@@ -3,15 +3,15 @@
 #include <vector>
 
 #include <glissade/collision/dop_query.h>
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 
 int main() {
   using namespace glissade;
-  const auto mesh = [](const collision::TriangleMesh& m) { return std::make_shared<collision::TriangleMesh>(m); };
-  const auto plate_W = std::make_shared<haptics::ContactBody>(mesh(collision::make_plate({0.4, 0.4}, 200)));
-  const auto box_V = std::make_shared<haptics::SlidingPart>(mesh(collision::make_box({0.1, 0.06, 0.04}, 1200)));
+  const auto mesh = [](const geometry::TriangleMesh& m) { return std::make_shared<geometry::TriangleMesh>(m); };
+  const auto plate_W = std::make_shared<haptics::ContactBody>(mesh(geometry::make_plate({0.4, 0.4}, 200)));
+  const auto box_V = std::make_shared<haptics::SlidingPart>(mesh(geometry::make_box({0.1, 0.06, 0.04}, 1200)));
 
   const Eigen::Isometry3d X_WV_start(Eigen::Translation3d(0.0, 0.0, 0.030));  // 10 mm above the plate
   const Eigen::Isometry3d X_WG(Eigen::Translation3d(0.1, 0.0, 0.017));        // where the hand goes: 3 mm too deep
@@ -23,7 +23,7 @@ int main() {
   haptics::Sliding sliding({{plate_W}}, box_V, X_WV_start);
   for (int millisecond = 0; millisecond < 1000; ++millisecond)
     sliding.advance(X_WG);
-  const haptics::Displacement lag = haptics::displacement_between(sliding.result().X_WV, X_WG, box_V->p_Vref());
+  const geometry::Displacement lag = geometry::displacement_between(sliding.result().X_WV, X_WG, box_V->p_Vref());
   const haptics::Wrench wrench = haptics::spring_wrench(sliding.stiffness(), lag);
   std::cout << "The box lies on it at z = " << sliding.result().X_WV.translation().z() * 1e3 << " mm, "
             << "and the hand feels " << wrench.f.z() << " N upwards.\n";

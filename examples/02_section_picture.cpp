@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include <glissade/collision/car_door_parts.h>
-#include <glissade/collision/mesh_operations.h>
+#include <glissade/geometry/triangle_mesh.h>
 #include <glissade/haptics/sliding.h>
+#include <glissade/shapes/car_door_parts.h>
 
 namespace {
 
 using namespace glissade;
-using collision::TriangleMesh;
+using geometry::TriangleMesh;
 
 constexpr double kDrumX_m = 0.04;  // in the motor's frame V
 constexpr double kDetail = 0.4;    // no dimension of the parts depends on it
@@ -39,7 +39,7 @@ std::vector<Eigen::Isometry3d> read_poses(const std::string& path) {
 }
 
 // The lines in which the plane x_B = cut cuts the triangles, as an SVG path: y_W to the right, z_W up, in millimetres.
-std::string section(const TriangleMesh& mesh_B, double cut_m, const Eigen::Isometry3d& X_WB) {
+std::string section(const geometry::TriangleMesh& mesh_B, double cut_m, const Eigen::Isometry3d& X_WB) {
   std::ostringstream path;
   path.precision(5);
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh_B.triangles.size()); ++t) {
@@ -70,14 +70,14 @@ int main(int argc, char** argv) {
     std::cerr << "usage: section_picture SCRIPT.csv PICTURE.svg\n";
     return 2;
   }
-  const std::vector<TriangleMesh> door{collision::make_door_inner_panel(kDetail),
-                                       collision::make_door_outer_panel(kDetail),
-                                       collision::make_door_impact_tube(kDetail), collision::make_door_hose(kDetail)};
+  const std::vector<geometry::TriangleMesh> door{
+      shapes::make_door_inner_panel(kDetail), shapes::make_door_outer_panel(kDetail),
+      shapes::make_door_impact_tube(kDetail), shapes::make_door_hose(kDetail)};
   std::vector<haptics::Obstacle> obstacles;
-  for (const TriangleMesh& mesh : door)
-    obstacles.push_back({std::make_shared<haptics::ContactBody>(std::make_shared<const TriangleMesh>(mesh))});
+  for (const geometry::TriangleMesh& mesh : door)
+    obstacles.push_back({std::make_shared<haptics::ContactBody>(std::make_shared<const geometry::TriangleMesh>(mesh))});
   const auto motor_V = std::make_shared<haptics::SlidingPart>(
-      std::make_shared<const TriangleMesh>(collision::make_window_motor(kDetail)));
+      std::make_shared<const geometry::TriangleMesh>(shapes::make_window_motor(kDetail)));
   const std::vector<Eigen::Isometry3d> poses_WG = read_poses(argv[1]);
 
   std::ofstream svg(argv[2]);
@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
   }
   draw(svg, track.str(), "stroke:#d08020;stroke-width:1.5;stroke-dasharray:5 4");
   const double door_cut_m = (sliding.result().X_WV * Eigen::Vector3d(kDrumX_m, 0.0, 0.0)).x();
-  for (const TriangleMesh& mesh : door)
+  for (const geometry::TriangleMesh& mesh : door)
     draw(svg, section(mesh, door_cut_m, Eigen::Isometry3d::Identity()), "stroke:#303030;stroke-width:2.2");
   draw(svg, section(motor_V->tree.mesh(), kDrumX_m, sliding.result().X_WV), "stroke:#1050b0;stroke-width:1.8");
 

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include <glissade/collision/collision_thread.h>
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 
 int main() {
   using namespace glissade;
-  const auto mesh = std::make_shared<collision::TriangleMesh>(collision::make_sphere(0.05, 2000));
+  const auto mesh = std::make_shared<geometry::TriangleMesh>(geometry::make_sphere(0.05, 2000));
   const auto tree = std::make_shared<collision::DopTree>(mesh);  // one for all balls
   const auto hull = std::make_shared<collision::ConvexHull>(*mesh);
 
@@ -29,7 +29,7 @@ int main() {
   std::vector<collision::ObjectId> balls;
   for (int i = 0; i < 100; ++i)
     balls.push_back(world.add({tree, hull, place(i, 0)}));
-  world.ignore(balls[0], balls[1]);  // these two are glued together
+  world.disable_pair(balls[0], balls[1]);  // these two are glued together
 
   realtime::SteadyClock clock;
   collision::CollisionThread thread(world, clock);

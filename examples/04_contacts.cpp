@@ -6,16 +6,15 @@
 #include <string>
 #include <vector>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/haptics/contact_patches.h>
-#include <glissade/haptics/contact_tracker.h>
+#include <glissade/geometry/mesh_generators.h>
 #include <glissade/haptics/sliding.h>
+#include <glissade/haptics/tracked_contacts.h>
 
 int main() {
   using namespace glissade;
-  const auto mesh = [](const collision::TriangleMesh& m) { return std::make_shared<collision::TriangleMesh>(m); };
-  const auto block_O = std::make_shared<haptics::ContactBody>(mesh(collision::make_box({0.2, 0.2, 0.02}, 500)));
-  const auto box_V = std::make_shared<haptics::SlidingPart>(mesh(collision::make_box({0.06, 0.04, 0.02}, 12)));
+  const auto mesh = [](const geometry::TriangleMesh& m) { return std::make_shared<geometry::TriangleMesh>(m); };
+  const auto block_O = std::make_shared<haptics::ContactBody>(mesh(geometry::make_box({0.2, 0.2, 0.02}, 500)));
+  const auto box_V = std::make_shared<haptics::SlidingPart>(mesh(geometry::make_box({0.06, 0.04, 0.02}, 12)));
   const std::vector<haptics::Obstacle> steps{
       {block_O, Eigen::Isometry3d(Eigen::Translation3d(-0.1, 0.0, -0.010)), "upper"},     // its top is at z = 0
       {block_O, Eigen::Isometry3d(Eigen::Translation3d(0.1001, 0.0, -0.015)), "lower"}};  // 5 mm below

@@ -1,41 +1,55 @@
 #pragma once
 
-/// A mesh made ready for sliding contact: its DOP-tree, tight boxes for proofs, its convex hull, and
-/// its topology with the triangles that matter to contacts.
+/// A mesh prepared for sliding contact, as the part in the hand or as an obstacle.
 
 #include <memory>
+#include <optional>
+#include <string>
+
+#include <Eigen/Geometry>
 
 #include <glissade/collision/convex_hull.h>
 #include <glissade/collision/dop_tree.h>
-#include <glissade/collision/mesh_topology.h>
-#include <glissade/collision/triangle_selection.h>
-#include <glissade/haptics/tight_boxes.h>
+#include <glissade/collision/query_types.h>
+#include <glissade/geometry/mesh_topology.h>
 
 namespace glissade::haptics {
 
-/// Immutable after construction, so safe to share between threads.
+class ObbTree;
+
+/// A mesh with its DOP-tree, convex hull and topology. Immutable after construction, so safe to share between threads.
 struct ContactBody {
-  /// Throws std::invalid_argument as DopTree does. Cost O(n log n).
-  explicit ContactBody(const std::shared_ptr<const collision::TriangleMesh>& mesh)
-      : tree(mesh), boxes(tree), hull(*mesh), topology(*mesh), features(tree, [this](std::int32_t triangle) {
-          return topology.answers_for_features(triangle);
-        }) {}
+  /// Throws std::invalid_argument for a null mesh, and as `DopTree` does. Cost O(n log n).
+  explicit ContactBody(const std::shared_ptr<const geometry::TriangleMesh>& mesh);
+  ContactBody(const ContactBody&) = delete;
+  ContactBody& operator=(const ContactBody&) = delete;
+  ~ContactBody();
 
   collision::DopTree tree;
-  TightBoxes boxes;
+  std::unique_ptr<const ObbTree> obbs;  ///< for path certificates; private to the component
   collision::ConvexHull hull;
-  collision::MeshTopology topology;
-  collision::TriangleSelection features;  ///< that answer for any edge or vertex that can stop another body
+  geometry::MeshTopology topology;
+  collision::TriangleSelection features;  ///< triangles with an edge or vertex that can stop another body
 };
 
 /// The part in the hand, in its own frame V. Displacements and the coupling act at a reference point fixed in it: the
-/// centre of its bounding box, so that rotation and translation are as independent as its shape allows.
+/// centre of its bounding box, where translation and rotation are as independent as its shape allows.
 struct SlidingPart : ContactBody {
   using ContactBody::ContactBody;
 
   const Eigen::Vector3d& p_Vref() const { return tree.center(); }
   /// ρ: the largest distance of a vertex from the reference point, metres.
   double radius() const { return tree.radius(); }
+};
+
+/// A body that stands still. Several may share one mesh.
+struct Obstacle {
+  std::shared_ptr<const ContactBody> body;
+  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+  std::string name = "an obstacle";  ///< for messages
+  /// Metres at which this obstacle holds parts away, where that is not to be the part's own margin: smaller for a
+  /// tighter fit, larger for a body that needs air; at most kGreatestMargin_m.
+  std::optional<double> margin{};
 };
 
 }  // namespace glissade::haptics

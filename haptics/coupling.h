@@ -1,15 +1,53 @@
 #pragma once
 
-/// The virtual coupling: the spring and damper between the hand and the visible part, and the wrench the hand feels.
+/// The virtual coupling: the spring and damper between the hand and the visible part, its limits, and the wrench that
+/// the hand feels. Frames: W world, G ghost, V visible part.
 
-#include <algorithm>
+#include <chrono>
 
 #include <Eigen/Core>
 
-#include <glissade/haptics/motion.h>
-#include <glissade/haptics/projection.h>
+#include <glissade/geometry/displacement.h>
+
+namespace glissade::devices {
+struct DeviceDescriptor;
+}
 
 namespace glissade::haptics {
+
+/// One tick of the haptic loop: the rate that force-feedback devices expect.
+inline constexpr std::chrono::milliseconds kTickPeriod{1};
+
+/// Metres by which the lag of a part under force feedback may change in a tick beyond the ghost's own motion. Bounds
+/// the force step where the part snaps into a gap.
+inline constexpr double kSlew_m = 0.2e-3;
+
+/// Stiffness of the spring against translation (N/m) and rotation (Nm/rad) of the part's reference point. It is also
+/// the metric of the projection, so that the coupling wrench is exactly a sum of contact normals.
+struct CouplingStiffness {
+  double translational;
+  double rotational;
+};
+
+/// Damping against translation (N s/m) and rotation (Nm s/rad) of the part's reference point.
+struct CouplingDamping {
+  double translational;
+  double rotational;
+};
+
+/// Spring and damper.
+struct Coupling {
+  CouplingStiffness stiffness;
+  CouplingDamping damping;
+};
+
+/// The stiffness with which a part of the given radius (metres) is held by default: k_t = 1000 N/m, k_r = k_t ρ².
+CouplingStiffness default_stiffness(double radius);
+
+/// The coupling that a device can render without shaking: `wanted`, lowered to the limits of the descriptor, with a
+/// damping of 5 ms times the stiffness; the translational damping is lowered to the descriptor's limit too. Throws
+/// std::invalid_argument, naming the device, when it cannot render any stiffness against translation or rotation.
+Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted);
 
 /// Force (N) and torque (Nm) on a body about some point, in world axes.
 struct Wrench {
@@ -18,22 +56,12 @@ struct Wrench {
 };
 
 /// The same wrench about another point: `from` and `to` in world coordinates, metres.
-inline Wrench about_point(const Wrench& wrench, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  return {wrench.f, wrench.t + (from - to).cross(wrench.f)};
-}
+Wrench about_point(const Wrench& wrench, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 /// The spring's wrench on the hand about the ghost's reference point: −K ξ*, where `error` ξ* is the displacement from
-/// the visible part to the ghost. Exactly zero when they coincide. As the part was projected in the metric of K, it is
-/// a sum of contact normals: sliding is without friction.
-inline Wrench spring_wrench(const CouplingStiffness& stiffness, const Displacement& error) {
-  return {-stiffness.translational * error.v, -stiffness.rotational * error.w};
-}
-
-/// Damping of the coupling: N s/m against translation, Nm s/rad against rotation, of the reference point.
-struct CouplingDamping {
-  double translational;
-  double rotational;
-};
+/// the visible part to the ghost. Exactly zero when they coincide. Because the part was projected in the metric of K,
+/// the wrench is a sum of contact normals: sliding is frictionless.
+Wrench spring_wrench(const CouplingStiffness& stiffness, const geometry::Displacement& error);
 
 /// Velocity of the ghost: of its reference point (m/s) and angular (rad/s), in world axes.
 struct Velocity {
@@ -41,17 +69,9 @@ struct Velocity {
   Eigen::Vector3d w = Eigen::Vector3d::Zero();
 };
 
-/// The damper's wrench on the hand. It acts along the spring's force and torque only, since against fixed obstacles the
-/// part moves freely across them, and never exceeds them: so it sets in smoothly when contact is made, and never pulls
-/// the hand towards a contact it leaves.
-inline Wrench damper_wrench(const CouplingDamping& damping, const Wrench& spring, const Velocity& ghost) {
-  const auto along = [](const Eigen::Vector3d& push, double coefficient, const Eigen::Vector3d& velocity) {
-    const double magnitude = push.norm();
-    if (magnitude == 0.0) return Eigen::Vector3d(Eigen::Vector3d::Zero());
-    const Eigen::Vector3d direction = push / magnitude;
-    return Eigen::Vector3d(std::clamp(-coefficient * velocity.dot(direction), -magnitude, magnitude) * direction);
-  };
-  return {along(spring.f, damping.translational, ghost.v), along(spring.t, damping.rotational, ghost.w)};
-}
+/// The damper's wrench on the hand. It acts along the spring's force and torque only, because a part moves freely
+/// across the contact normals of fixed obstacles. It never exceeds the spring's wrench: it sets in smoothly when
+/// contact is made and never pulls the hand towards a contact that it leaves.
+Wrench damper_wrench(const CouplingDamping& damping, const Wrench& spring, const Velocity& ghost);
 
 }  // namespace glissade::haptics

@@ -1,32 +1,20 @@
-#include <algorithm>
-#include <stdexcept>
-
+#include <glissade/haptics/contact_body.h>
 #include <glissade/haptics/haptic_kernel.h>
+
+#include "loop/proxy.h"
 
 namespace glissade::haptics {
 
-Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted) {
-  constexpr double kDampingTime_s = 5e-3;
-  if (!(device.max_stiffness > 0.0 && device.max_rotational_stiffness > 0.0)) {
-    throw std::invalid_argument("device '" + device.name +
-                                "': it must render some stiffness against translation and rotation");
-  }
-  Coupling coupling;
-  coupling.stiffness.translational = std::min(wanted.translational, device.max_stiffness);
-  coupling.stiffness.rotational = std::min(wanted.rotational, device.max_rotational_stiffness);
-  coupling.damping.translational = std::min(kDampingTime_s * coupling.stiffness.translational, device.max_damping);
-  coupling.damping.rotational = kDampingTime_s * coupling.stiffness.rotational;
-  return coupling;
-}
-
-HapticKernel::HapticKernel(const SlidingPart& part_V, const Coupling& coupling, const devices::DeviceDescriptor& device,
-                           const Eigen::Isometry3d& X_WV_start)
+HapticKernel::HapticKernel(const SlidingPart& part_V, const CouplingStiffness& stiffness,
+                           const devices::DeviceDescriptor& device, const Eigen::Isometry3d& X_WV_start)
     : p_Vref_(part_V.p_Vref()),
-      coupling_(coupling),
+      coupling_(coupling_for(device, stiffness)),
       device_(device),
       X_WV_start_(X_WV_start),
       X_WG_(X_WV_start),
-      proxy_(part_V.p_Vref(), part_V.radius(), coupling.stiffness, X_WV_start) {}
+      proxy_(std::make_unique<Proxy>(part_V.p_Vref(), part_V.radius(), coupling_.stiffness, X_WV_start)) {}
+
+HapticKernel::~HapticKernel() = default;
 
 HapticTick HapticKernel::tick(const devices::GloveState& state, const ContactSet& set) noexcept {
   if (!state.X_WH.matrix().allFinite()) return no_force(state);
@@ -37,13 +25,13 @@ HapticTick HapticKernel::tick(const devices::GloveState& state, const ContactSet
   HapticTick tick;
   tick.X_WG = state.X_WH * X_HG_;
   X_WG_ = tick.X_WG;
-  tick.X_WP = proxy_.update(set, tick.X_WG);
+  tick.X_WP = proxy_->update(set, tick.X_WG);
 
   const Eigen::Vector3d& p_WH = state.X_WH.translation();
   const Eigen::Vector3d p_Wref = tick.X_WG * p_Vref_;
   Wrench wrench;
   if (tick.X_WP.matrix() != tick.X_WG.matrix()) {
-    tick.spring = spring_wrench(coupling_.stiffness, displacement_between(tick.X_WP, tick.X_WG, p_Vref_));
+    tick.spring = spring_wrench(coupling_.stiffness, geometry::displacement_between(tick.X_WP, tick.X_WG, p_Vref_));
     const Velocity ghost{state.v_WH + state.w_WH.cross(p_Wref - p_WH), state.w_WH};
     const Wrench damping = damper_wrench(coupling_.damping, tick.spring, ghost);
     wrench = {tick.spring.f + damping.f, tick.spring.t + damping.t};

@@ -1,31 +1,24 @@
 #pragma once
 
-/// One tick of the haptic thread as a pure function of its inputs: glove state and contact set in, glove command out.
-/// Owns no clock, no thread and no device, so the same code runs in real time, offline and in tests.
+/// One tick of the haptic thread as a pure function of its inputs: device state and contact set in, device command out.
+/// It owns no clock, no thread and no device, so the same code runs in real time, offline and in tests.
+
+#include <cstdint>
+#include <memory>
 
 #include <Eigen/Geometry>
 
-#include <glissade/devices/glove_types.h>
+#include <glissade/devices/glove_device.h>
 #include <glissade/devices/safety_limits.h>
-#include <glissade/haptics/contact_body.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
-#include <glissade/haptics/proxy.h>
 
 namespace glissade::haptics {
 
-/// What ties the hand to the part.
-struct Coupling {
-  CouplingStiffness stiffness;
-  CouplingDamping damping;
-};
+class Proxy;
+struct SlidingPart;
 
-/// The coupling a device can render without shaking: `wanted` cut to the limits of its descriptor, with a damping of
-/// 5 ms times the stiffness; that against translation is cut to the descriptor's too. Throws std::invalid_argument,
-/// naming the device, when it cannot render any stiffness against translation or rotation.
-Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted);
-
-/// What one tick computed.
+/// The outcome of one tick.
 struct HapticTick {
   Eigen::Isometry3d X_WG;         ///< ghost
   Eigen::Isometry3d X_WP;         ///< proxy
@@ -34,16 +27,23 @@ struct HapticTick {
   devices::LimitReasons limited;
 };
 
-/// Real-time safe: bounded work, no allocation, no lock, no system call. Not thread-safe.
+/// Real-time safe: bounded work, no allocation, no lock, no system call after construction. Not thread-safe.
 class HapticKernel {
  public:
-  /// The hand grasps the part rigidly, and the part is at X_WV_start when the first state comes.
-  HapticKernel(const SlidingPart& part_V, const Coupling& coupling, const devices::DeviceDescriptor& device,
+  /// The hand grasps the part rigidly where both are when the first state arrives; the part is at X_WV_start then. The
+  /// coupling is `coupling_for` the device and the `stiffness` with which the simulation holds the part. Throws as
+  /// `coupling_for` does.
+  HapticKernel(const SlidingPart& part_V, const CouplingStiffness& stiffness, const devices::DeviceDescriptor& device,
                const Eigen::Isometry3d& X_WV_start);
+  ~HapticKernel();
+  HapticKernel(const HapticKernel&) = delete;
+  HapticKernel& operator=(const HapticKernel&) = delete;
 
   /// The tick for the newest state and the newest contact set. A hand pose that is not finite gives no force and leaves
   /// the ghost where it was.
   HapticTick tick(const devices::GloveState& state, const ContactSet& set) noexcept;
+
+  const Coupling& coupling() const noexcept { return coupling_; }
 
  private:
   HapticTick no_force(const devices::GloveState& state) noexcept;
@@ -55,7 +55,7 @@ class HapticKernel {
   Eigen::Isometry3d X_HG_ = Eigen::Isometry3d::Identity();  // the grasp, fixed by the first state
   bool grasped_ = false;
   Eigen::Isometry3d X_WG_;  // the last ghost
-  Proxy proxy_;
+  std::unique_ptr<Proxy> proxy_;
   std::int64_t sequence_ = 0;
 };
 

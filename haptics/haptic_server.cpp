@@ -1,8 +1,9 @@
 #include <algorithm>
+#include <stdexcept>
 
-#include <glissade/haptics/haptic_sample.h>
 #include <glissade/haptics/haptic_server.h>
-#include <glissade/haptics/offline_run.h>
+
+#include "loop/haptic_sample.h"
 
 namespace glissade::haptics {
 
@@ -10,16 +11,17 @@ namespace {
 constexpr double kLongestCatchUp_ms = 250.0;
 }  // namespace
 
-HapticServer::HapticServer(devices::GloveDevice& device, Sliding& sliding, const Coupling& coupling,
-                           realtime::Clock& clock, Sink sink, const HapticServerOptions& options)
+HapticServer::HapticServer(devices::GloveDevice& device, SlidingSimulation& simulation, realtime::Clock& clock,
+                           Sink sink, const HapticServerOptions& options)
     : device_(device),
-      sliding_(sliding),
+      simulation_(simulation),
       clock_(clock),
       sink_(std::move(sink)),
       options_(options),
-      kernel_(sliding.part(), coupling, device.descriptor(), sliding.result().X_WV) {
+      kernel_(simulation.part(), simulation.stiffness(), device.descriptor(), simulation.result().X_WV) {
+  if (!sink_) throw std::invalid_argument("a haptic server needs a sink for its states, not an empty function");
   ContactSet at_start;
-  at_start.X_WV = sliding.result().X_WV;
+  at_start.X_WV = simulation.result().X_WV;
   sets_.publish(at_start);
   simulation_thread_ = std::make_unique<realtime::PeriodicThread>(
       clock, realtime::PeriodicThreadOptions{.period = kTickPeriod}, [this](const realtime::PeriodicTick&) {
@@ -66,9 +68,9 @@ void HapticServer::simulation_tick() {
   const std::chrono::nanoseconds start = clock_.now();
   // An answer that takes long must not slow the part down: the slew is a speed.
   const double milliseconds = std::chrono::duration<double, std::milli>(ghost.time - answered_).count();
-  sliding_.advance(ghost.X_WG, std::clamp(milliseconds, 1.0, kLongestCatchUp_ms));
+  simulation_.advance(ghost.X_WG, std::clamp(milliseconds, 1.0, kLongestCatchUp_ms));
   answered_ = ghost.time;
-  sets_.publish(make_contact_set(sliding_, ++set_sequence_, ghost.time, scratch_));
+  sets_.publish(make_contact_set(simulation_.result(), simulation_.part(), ++set_sequence_, ghost.time, scratch_));
   statistics_.simulation.record(clock_.now() - start);
 }
 

@@ -12,7 +12,7 @@
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/haptic_state.h>
 #include <glissade/haptics/haptic_kernel.h>
-#include <glissade/haptics/sliding.h>
+#include <glissade/haptics/sliding_simulation.h>
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/latency_histogram.h>
 #include <glissade/realtime/periodic_thread.h>
@@ -37,17 +37,18 @@ struct HapticServerStatistics {
   bool has_fifo_scheduling = false;
 };
 
-/// Thread-safety: one thread owns the object. Between construction and the end of `stop`, `device` and `sliding` belong
-/// to the server's threads.
+/// Thread-safety: one thread owns the object. Between construction and the end of `stop`, `device` and `simulation`
+/// belong to the server's threads.
 class HapticServer {
  public:
   /// Called by the haptic thread for each tick with a device; must be real-time safe.
   using Sink = std::function<void(const devices::HapticState&)>;
 
-  /// Starts both threads. The references must outlive the server. `sliding` should use the coupling stiffness of
-  /// `coupling`; the part is grasped where it is when the first state of the device arrives.
-  HapticServer(devices::GloveDevice& device, Sliding& sliding, const Coupling& coupling, realtime::Clock& clock,
-               Sink sink, const HapticServerOptions& options = {});
+  /// Starts both threads. The references must outlive the server. The part is grasped where it is when the first state
+  /// of the device arrives. The coupling is `coupling_for` the device and the stiffness of the simulation. Throws
+  /// std::invalid_argument for an empty sink, and as `coupling_for` does.
+  HapticServer(devices::GloveDevice& device, SlidingSimulation& simulation, realtime::Clock& clock, Sink sink,
+               const HapticServerOptions& options = {});
   HapticServer(const HapticServer&) = delete;
   HapticServer& operator=(const HapticServer&) = delete;
   ~HapticServer() { stop(); }
@@ -74,7 +75,7 @@ class HapticServer {
   void simulation_tick();
 
   devices::GloveDevice& device_;
-  Sliding& sliding_;
+  SlidingSimulation& simulation_;
   realtime::Clock& clock_;
   Sink sink_;
   HapticServerOptions options_;

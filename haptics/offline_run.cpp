@@ -1,22 +1,28 @@
-#include <glissade/haptics/haptic_sample.h>
+#include <stdexcept>
+
+#include <glissade/haptics/haptic_kernel.h>
 #include <glissade/haptics/offline_run.h>
+
+#include "loop/haptic_sample.h"
 
 namespace glissade::haptics {
 
-void run_offline(devices::SimulatedGlove& glove, Sliding& sliding, HapticKernel& kernel, std::int64_t ticks,
+void run_offline(devices::SimulatedGlove& glove, SlidingSimulation& simulation, std::int64_t ticks,
                  const std::function<void(const devices::HapticState&)>& sink) {
+  if (!sink) throw std::invalid_argument("an offline run needs a sink for its states, not an empty function");
+  HapticKernel kernel(simulation.part(), simulation.stiffness(), glove.descriptor(), simulation.result().X_WV);
   devices::GloveCommand command;
   std::vector<std::int32_t> scratch;
   ContactSet set;
-  set.X_WV = sliding.result().X_WV;
+  set.X_WV = simulation.result().X_WV;
   for (std::int64_t i = 1; i <= ticks; ++i) {
     const std::chrono::nanoseconds now = i * kTickPeriod;
     const devices::GloveState state = glove.step(kTickPeriod, command);
     const HapticTick tick = kernel.tick(state, set);
     command = tick.command;
     sink(make_sample(tick, set, state.X_WH.translation(), now));
-    sliding.advance(tick.X_WG);
-    set = make_contact_set(sliding, i, now, scratch);
+    simulation.advance(tick.X_WG);
+    set = make_contact_set(simulation.result(), simulation.part(), i, now, scratch);
   }
 }
 

@@ -1,4 +1,10 @@
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
 #include <glissade/haptics/sliding.h>
+
+#include "paper/paper_sliding.h"
 
 namespace glissade::haptics {
 namespace {
@@ -45,6 +51,27 @@ const SlidingResult& Sliding::advance(const Eigen::Isometry3d& X_WG, double mill
   for (std::size_t i = 0; i < scripted_.size(); ++i)
     scripted_X_WB_[i] = sliding_.result(i + 1).X_WV;
   return sliding_.result(0);
+}
+
+std::optional<SlidingMethod> sliding_method_from_name(std::string_view name) {
+  const auto* const found = std::find(kSlidingMethodNames.begin(), kSlidingMethodNames.end(), name);
+  if (found == kSlidingMethodNames.end()) return std::nullopt;
+  return static_cast<SlidingMethod>(found - kSlidingMethodNames.begin());
+}
+
+std::unique_ptr<SlidingSimulation> make_sliding(SlidingMethod method, std::vector<Obstacle> obstacles,
+                                                std::shared_ptr<const SlidingPart> part_V,
+                                                const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options,
+                                                std::vector<ScriptedPart> scripted) {
+  if (method == SlidingMethod::kPaper) {
+    if (!scripted.empty()) {
+      throw std::invalid_argument(scripted.front().name + " moves, which the paper's method does not know");
+    }
+    return std::make_unique<PaperSliding>(
+        std::move(obstacles), std::move(part_V), X_WV_start,
+        PaperSlidingOptions{.metaphor = options.metaphor, .stiffness = options.stiffness});
+  }
+  return std::make_unique<Sliding>(std::move(obstacles), std::move(part_V), X_WV_start, options, std::move(scripted));
 }
 
 }  // namespace glissade::haptics

@@ -1,75 +1,102 @@
 #pragma once
 
-/// Sliding contact (paper §3): the visible part follows the ghost as nearly as the obstacles allow, and is never inside
-/// anything, neither at rest nor on its way. How: see `joint_sliding.h`, which does the same for several parts.
+/// Sliding contact of one part (paper §3): the visible part follows the ghost as closely as the obstacles allow, and is
+/// never inside anything, neither at rest nor on its way. `Sliding` is the method to use; `make_sliding` also offers
+/// the founding paper's method, for comparison.
 
+#include <array>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
 
-#include <glissade/devices/pose_trajectory.h>
-#include <glissade/haptics/joint_sliding.h>
+#include <glissade/geometry/pose_trajectory.h>
+#include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/haptics/sliding_simulation.h>
 
 namespace glissade::haptics {
 
 struct SlidingOptions {
   Metaphor metaphor = Metaphor::kForceFeedback;
-  /// By default that of `default_stiffness`: k_r = k_t ρ².
-  std::optional<CouplingStiffness> stiffness{};
+  std::optional<CouplingStiffness> stiffness{};  ///< default: `default_stiffness` of the part's radius
   SlidingRules rules{};
 };
 
 /// A part that moves on its own, or in the other hand: it follows its script as any held part follows its ghost.
 struct ScriptedPart {
   std::shared_ptr<const SlidingPart> part_B;
-  devices::PoseTrajectory script_X_WB;
+  geometry::PoseTrajectory script_X_WB;
   std::chrono::nanoseconds start{0};  ///< the script's time at which the simulation begins
-  /// Against translation, and k_r = k_t ρ². By default a thousand times that of a hand, so that it pushes and is hardly
-  /// pushed; as stiff as the hand it is another hand.
+  /// Stiffness against translation; against rotation it is k_r = k_t ρ². The default is a thousand times that of a
+  /// hand, so that the part pushes and is hardly pushed. With a hand's stiffness it is another hand.
   double grip_N_per_m = 1e6;
   std::string name = "a moving part";  ///< for messages
 };
 
-/// The simulation of one part among obstacles, most of which stand still. Deterministic: the same calls give the same
-/// bits. Not thread-safe; several simulations may share bodies.
+/// The simulation of one part among obstacles that stand still and parts that follow scripts: `MultiPartSliding` with
+/// the part first and the scripted parts after it. Deterministic: the same calls give the same bits. Not thread-safe;
+/// several simulations may share bodies.
 class Sliding final : public SlidingSimulation {
  public:
-  /// Throws std::invalid_argument as `JointSliding` does, of which the part is the first and the scripted ones are the
-  /// others.
+  /// Throws std::invalid_argument as `MultiPartSliding` does.
   Sliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,
           const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options = {},
           std::vector<ScriptedPart> scripted = {});
 
   void grasp(const Eigen::Isometry3d& X_WG) override { sliding_.grasp(0, X_WG); }
   void release() override { sliding_.release(0); }
-  /// Scripts go on by as much, whoever holds the part, and whatever X_WG is.
+  /// Scripts advance by as much, whoever holds the part, and whatever X_WG is.
   const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) override;
 
   const SlidingResult& result() const override { return sliding_.result(0); }
   const SlidingPart& part() const override { return sliding_.part(0); }
   const CouplingStiffness& stiffness() const override { return sliding_.stiffness(0); }
   double margin() const override { return sliding_.margin(0); }
+  std::span<const Eigen::Isometry3d> scripted_X_WB() const override { return scripted_X_WB_; }
+  SearchAccount search_account() const override { return sliding_.search_account(); }
+
   /// Metres that every certified path keeps away from obstacles without a margin of their own, unless it started
   /// nearer.
-  double floor() const { return kFloorOfMargin * margin(); }
-  std::span<const Eigen::Isometry3d> scripted_X_WB() const override { return scripted_X_WB_; }
-  /// What is around the part.
-  const Surroundings& surroundings() const { return sliding_.surroundings(); }
-  /// What looking for it took.
-  const SearchAccount& search_account() const { return sliding_.search_account(); }
+  double min_clearance() const { return kMinClearanceOfMargin * margin(); }
+  /// The bodies and where they are, for tests; the type is private.
+  const ContactScene& scene() const { return sliding_.scene(); }
 
  private:
-  JointSliding sliding_;
+  MultiPartSliding sliding_;
   std::vector<ScriptedPart> scripted_;
   std::vector<Eigen::Isometry3d> scripted_X_WB_;
   std::vector<Eigen::Isometry3d> ghosts_X_WG_;           // of all parts
   std::chrono::duration<double, std::milli> time_{0.0};  // since the simulation began
 };
+
+/// The methods of sliding contact.
+enum class SlidingMethod : std::uint8_t {
+  kProjection,  ///< sequential projection with margin and certificate: `Sliding`
+  kPaper,       ///< the founding paper's bisection and classification (paper §3)
+};
+
+/// In the order of their numbers, as on the command line.
+inline constexpr std::array<std::string_view, 2> kSlidingMethodNames{"projection", "paper"};
+
+inline std::string_view name_of(SlidingMethod method) {
+  return kSlidingMethodNames[static_cast<std::size_t>(method)];
+}
+
+/// The method of that name; nothing for an unknown name.
+std::optional<SlidingMethod> sliding_method_from_name(std::string_view name);
+
+/// The simulation of one part by either method. The paper's method uses the metaphor and stiffness of the options; it
+/// ignores the rules and throws std::invalid_argument for scripted parts. Throws otherwise as the constructor of
+/// `Sliding` does.
+std::unique_ptr<SlidingSimulation> make_sliding(SlidingMethod method, std::vector<Obstacle> obstacles,
+                                                std::shared_ptr<const SlidingPart> part_V,
+                                                const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options = {},
+                                                std::vector<ScriptedPart> scripted = {});
 
 }  // namespace glissade::haptics

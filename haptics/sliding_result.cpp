@@ -2,6 +2,26 @@
 
 namespace glissade::haptics {
 
+std::string_view name_of(ContactKind kind) {
+  switch (kind) {
+    case ContactKind::kVertexFace:
+      return "vertex/face";
+    case ContactKind::kFaceVertex:
+      return "face/vertex";
+    case ContactKind::kEdgeEdge:
+      return "edge/edge";
+    case ContactKind::kVertexEdge:
+      return "vertex/edge";
+    case ContactKind::kEdgeVertex:
+      return "edge/vertex";
+    case ContactKind::kVertexVertex:
+      return "vertex/vertex";
+    case ContactKind::kOverlap:
+      return "overlap";
+  }
+  return "unknown";
+}
+
 std::string_view name_of(SlidingState state) {
   switch (state) {
     case SlidingState::kReleased:

@@ -1,23 +1,29 @@
 #pragma once
 
-/// What every method of sliding contact offers to those who lead a part: the hand takes hold, moves, and lets go.
+/// The interface of every method of sliding contact for one held part: the hand takes hold, moves, and lets go.
 
+#include <chrono>
+#include <cstdint>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
+#include <glissade/collision/frame_result.h>
+#include <glissade/geometry/displacement.h>
 #include <glissade/haptics/contact_body.h>
-#include <glissade/haptics/motion.h>
-#include <glissade/haptics/projection.h>
+#include <glissade/haptics/contact_set.h>
+#include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding_result.h>
 
 namespace glissade::haptics {
 
-/// How stiffly a part is held by default: 1000 N/m, and as much against rotation as that gives at its radius.
-inline CouplingStiffness default_stiffness(const SlidingPart& part_V) {
-  constexpr double kTranslational_N_per_m = 1000.0;
-  return {kTranslational_N_per_m, kTranslational_N_per_m * part_V.radius() * part_V.radius()};
-}
+/// The work of searching for contacts. Searches for pairs to certify are as many and not included.
+struct SearchAccount {
+  std::int64_t searches = 0;       ///< whose answers were used
+  collision::FrameReport reports;  ///< the sum of their reports
+};
 
 /// The simulation of one held part. Not thread-safe.
 class SlidingSimulation {
@@ -29,33 +35,45 @@ class SlidingSimulation {
 
   /// The hand takes hold of the part, or takes another hold of it: the ghost is at X_WG from now on, wherever the part
   /// is. Nothing moves yet. Where ghost and part do not coincide, `force-feedback` closes the gap at its limited speed
-  /// (`Sliding` without pulling, `PaperSliding` against its full spring),
-  /// the rubber bands at once, and `incremental` leaves it as it is, which makes this and `release` its clutch. Needed
-  /// only after `release`. A pose that is none to `collision::rigid_pose` changes nothing.
+  /// (`Sliding` without pulling, the paper's method against its full spring), the rubber bands close it at once, and
+  /// `incremental` keeps it: there, `grasp` and `release` are the clutch. Needed only after `release`. Ignores poses
+  /// that `geometry::rigid_pose` rejects.
   virtual void grasp(const Eigen::Isometry3d& X_WG) = 0;
 
   /// The hand lets go: the part stays where it is, the ghost is where the part is, and no contact pushes.
   virtual void release() = 0;
 
-  /// Moves the visible part to where the metaphor wants it, once per millisecond of motion. The ghost's pose is made a
-  /// rotation and translation by `collision::rigid_pose`; what is no pose to that leaves the part where it is, as
-  /// does a call while the part is released.
-  /// `milliseconds`, finite and not negative, is how long ago the last call's ghost was; a caller that comes late may
-  /// catch up for all of it.
+  /// Moves the visible part towards its target, once per millisecond of motion. `geometry::rigid_pose` makes X_WG a
+  /// rotation and translation; a pose that it rejects leaves the part where it is, as does a call while the part is
+  /// released. `milliseconds`, finite and not negative, is the time since the ghost of the last call; a caller that
+  /// comes late may catch up for all of it.
   virtual const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) = 0;
 
   virtual const SlidingResult& result() const = 0;
-  /// Where parts that scripts move are seen, in the order in which they were given; none where the method knows none.
+
+  /// Visible poses of the parts that scripts move, in the order in which they were given; empty for methods without.
   virtual std::span<const Eigen::Isometry3d> scripted_X_WB() const { return {}; }
 
   virtual const SlidingPart& part() const = 0;
   virtual const CouplingStiffness& stiffness() const = 0;
-  /// Metres at which contacts hold the part away, where no obstacle has a margin of its own.
+  /// Metres at which contacts hold the part away from obstacles without a margin of their own.
   virtual double margin() const = 0;
 
-  /// From the visible part to where the metaphor wants it: the spring of the coupling is stretched by that. Exactly
-  /// zero in free space and while the part is released.
-  Displacement error() const { return displacement_between(result().X_WV, result().X_WT, part().p_Vref()); }
+  /// The work of searching so far; zero for methods without searches.
+  virtual SearchAccount search_account() const { return {}; }
+
+  /// States of the method's own state machine in the last call, in their order, such as "moving>bisecting>done"; empty
+  /// for methods without one.
+  virtual std::string trace() const { return {}; }
+
+  /// Displacement from the visible part to its target: the stretch of the coupling's spring. Exactly zero in free space
+  /// and while the part is released.
+  geometry::Displacement error() const;
 };
+
+/// The contact set of the newest `result` of a part, as the answer to the ghost pose of `time`. `scratch` is memory
+/// that calls reuse. Works for every method and for each of several parts. Cost O(contacts).
+ContactSet make_contact_set(const SlidingResult& result, const SlidingPart& part, std::int64_t sequence,
+                            std::chrono::nanoseconds time, std::vector<std::int32_t>& scratch);
 
 }  // namespace glissade::haptics

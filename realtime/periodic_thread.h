@@ -9,7 +9,6 @@
 
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/periodic_loop.h>
-#include <glissade/realtime/thread_scheduling.h>
 
 namespace glissade::realtime {
 
@@ -17,6 +16,12 @@ namespace glissade::realtime {
 struct PeriodicThreadOptions {
   std::chrono::nanoseconds period{std::chrono::milliseconds(1)};
   int fifo_priority = 0;  ///< SCHED_FIFO priority to ask for, 1 to 99; 0 asks for none
+};
+
+/// What the system granted to a thread.
+struct ThreadScheduling {
+  bool is_fifo = false;                  ///< runs under SCHED_FIFO: ahead of every ordinary thread
+  bool has_minimal_timer_slack = false;  ///< the kernel no longer delays its timers (by 50 µs) to batch wake-ups
 };
 
 /// Starts in its constructor, ends when the tick returns false, on `stop()`, or with its destructor.
@@ -27,7 +32,8 @@ class PeriodicThread {
   using Tick = std::function<bool(const PeriodicTick&)>;
 
   /// `clock` must outlive the thread. Returns once the thread runs and its scheduling is known. Throws
-  /// std::invalid_argument when the period is not positive, std::system_error when there is no thread to be had.
+  /// std::invalid_argument when the period is not positive or the tick is empty, std::system_error when there is no
+  /// thread to be had.
   PeriodicThread(Clock& clock, const PeriodicThreadOptions& options, Tick tick);
   PeriodicThread(const PeriodicThread&) = delete;
   PeriodicThread& operator=(const PeriodicThread&) = delete;

@@ -12,8 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include <glissade/realtime/cache_line.h>
-
 namespace glissade::realtime {
 
 /// Thread-safety: one producer thread and one consumer thread; the counters may be read by any.
@@ -62,6 +60,9 @@ class SpscRing {
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
  private:
+  /// Bytes. Our own: std::hardware_destructive_interference_size may differ between translation units.
+  static constexpr std::size_t kCacheLineBytes = 64;
+
   static std::size_t checked_capacity(std::size_t capacity) {
     if (capacity == 0 || capacity > (std::size_t{1} << 32U)) {
       throw std::invalid_argument("The capacity of a ring must lie between 1 and 2^32.");

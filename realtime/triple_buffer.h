@@ -5,10 +5,9 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
-
-#include <glissade/realtime/cache_line.h>
 
 namespace glissade::realtime {
 
@@ -57,6 +56,8 @@ class TripleBuffer {
   }
 
  private:
+  /// Bytes. Our own: std::hardware_destructive_interference_size may differ between translation units.
+  static constexpr std::size_t kCacheLineBytes = 64;
   static constexpr std::uint8_t kIndex = 3;
   static constexpr std::uint8_t kFresh = 4;  ///< set in `between_` from a publish to the update that takes it
 

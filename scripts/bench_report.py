@@ -187,7 +187,7 @@ def stage_table(figures):
 
 
 def means_table(figures):
-    """What medians leave out: mean and 99th percentile of the frames, and how many times faster than whoever is fastest."""
+    """What medians leave out: mean and 99th percentile of the frames, and the factor over the fastest peer."""
     subjects = [who for who in ["glissade"] + PEERS if who in figures.subjects]
     rows = []
     for case in figures.cases:
@@ -201,7 +201,7 @@ def means_table(figures):
         rows.append([case] + cells)
     if not rows:
         return ""
-    text = "Means and 99th percentiles (of fewer than a hundred frames the slowest), and how many times faster than the best peer:\n\n"
+    text = "Means and 99th percentiles (below a hundred frames: the slowest frame), and the factor over the best peer:\n\n"
     return text + table(["µs a frame: mean, 99th percentile"] + subjects + ["times faster, by means", "by medians"], rows)
 
 
@@ -212,13 +212,12 @@ def scene(figures, images):
     text += time_table(figures, ["glissade"] + PEERS, "us_per_frame", "µs a frame", 1)
     text += means_table(figures)
     shares = [figures.get(case, "machine", "cpu_share") for case in figures.cases]
-    text += (f"The program had a processor for at least {min(filter(None, shares)):.0%} of the time; where that is well below "
-             "100 %, slow libraries look slower than they are.\n\n")
+    text += (f"The program had a processor for at least {min(filter(None, shares)):.0%} of the time. Well below 100 %, slow "
+             "libraries look slower than they are.\n\n")
     ratio = figures.get("rest-1000", "glissade", "time_by_rest-10")
     if ratio is not None:
-        text += (f"One object that moves among 1,000 that rest takes {ratio:.2f} times as long as among 10, with the same "
-                 "neighbours near it.\n\n")
-    text += disagreements(figures).replace("Answers that differ", "Pairs that differ, all frames,")
+        text += f"One moving object among 1,000 resting ones takes {ratio:.2f} times as long as among 10, with the same neighbors.\n\n"
+    text += disagreements(figures).replace("Answers that differ", "Pairs of all frames that differ")
     text += folded("Frames that were timed", time_table(figures, ["glissade"] + PEERS, "frames", "frames", 1))
     return text + folded("The stages of Glissade's pipeline", stage_table(figures))
 
@@ -238,7 +237,7 @@ def threads(figures, _):
 
 METHODS = ["glissade", "glissade-paper"]
 QUALITY = {"ticks": "ticks", "colliding_poses": "colliding poses", "mean_stretch": "mean stretch, mm", "final_stretch": "final stretch, mm",
-           "jammed_ticks": "jammed ticks", "force_jump": "greatest force jump, N", "force_jump_of_bound": "of what a tick may do"}
+           "jammed_ticks": "jammed ticks", "force_jump": "greatest force jump, N", "force_jump_of_bound": "over the bound for a tick"}
 COST = {"queries_per_tick": "queries a tick", "tick_p50": "p50, µs", "tick_p99": "p99, µs"}
 
 
@@ -261,14 +260,14 @@ def share_table(figures, case, metric, title):
 
 
 PEG_CASES = {"pegs-0.3mm-0.5deg": "0.3 mm and 0.5°", "pegs-1mm-1.5deg": "1 mm and 1.5°",
-             "pegs-1mm-1.5deg-anti-jam": "1 mm and 1.5°, with anti-jam"}
+             "pegs-1mm-1.5deg-anti-jam": "1 mm and 1.5°, with spiral search"}
 NUT = {"turns": "turns", "pitch": "pitch, mm", "advance_per_turn": "advance a turn, mm", "worst_deviation": "worst deviation, µm",
        "tick_mean": "ms a tick"}
 TORTURE = {"scenes": "scenes", "milliseconds": "ms", "collisions": "colliding poses", "paths": "paths checked in full",
-           "last_steps": "others, of which the last step was", "unproved_paths": "not proved",
-           "below_floor": "poses too near", "not_finite": "not finite", "least_of_floor": "least distance, floors",
-           "jammed_share": "jammed, % of the ticks in which it is wanted elsewhere",
-           "off_balance_share": "at rest off balance, % of these", "greatest_force_jump": "force jump, of what a tick may do",
+           "last_steps": "others, checked in their last step", "unproved_paths": "not proved",
+           "below_floor": "poses too near", "not_finite": "not finite", "least_of_floor": "least distance over the minimum clearance",
+           "jammed_share": "jammed, % of the ticks with the target elsewhere",
+           "off_balance_share": "at rest off balance, % of these", "greatest_force_jump": "force jump over the bound for a tick",
            "hash": "hash", "hash_again": "again, on other threads"}
 
 

@@ -17,9 +17,9 @@
 #include <CLI/CLI.hpp>
 #include <fcl/narrowphase/collision.h>
 
-#include <glissade/collision/brute_force.h>
 #include <glissade/collision/dop_query.h>
-#include <glissade/collision/mesh_import.h>
+#include <glissade/geometry/mesh_import.h>
+#include <glissade/reference/brute_force.h>
 
 #include "cgal_oracle.h"
 #include "fcl_model.h"
@@ -29,6 +29,7 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+namespace geometry = glissade::geometry;
 using namespace glissade::collision;
 using glissade::bench::fcl_tree;
 using glissade::bench::FclTree;
@@ -121,7 +122,7 @@ class PoseSource {
 };
 
 // How far a triangle reaches beyond the plane of another one, on the side where it reaches less far.
-double depth_beyond_plane(const TrianglePoints& triangle, const TrianglePoints& plane) {
+double depth_beyond_plane(const geometry::TrianglePoints& triangle, const geometry::TrianglePoints& plane) {
   const Vector3d normal = (plane[1] - plane[0]).cross(plane[2] - plane[0]).normalized();
   double above = 0.0;
   double below = 0.0;
@@ -138,8 +139,8 @@ void explain_collision(const DopTree& tree_A, const DopTree& tree_B, const Isome
   std::size_t confirmed = 0;
   double depth = 0.0;
   for (const TrianglePair& pair : pairs) {
-    const TrianglePoints a = points_of(tree_A.mesh(), pair.triangle_A);
-    const TrianglePoints b = points_of(tree_B.mesh(), pair.triangle_B, X_AB);
+    const geometry::TrianglePoints a = points_of(tree_A.mesh(), pair.triangle_A);
+    const geometry::TrianglePoints b = points_of(tree_B.mesh(), pair.triangle_B, X_AB);
     if (glissade::test_support::cgal_intersect(a, b)) ++confirmed;
     depth = std::max(depth, std::min(depth_beyond_plane(a, b), depth_beyond_plane(b, a)));
   }
@@ -161,7 +162,7 @@ void explain_gap(const DopTree& tree_A, const DopTree& tree_B, const Isometry3d&
 }
 
 void explain(const DopTree& tree_A, const DopTree& tree_B, const Isometry3d& X_AB, double size) {
-  const std::vector<TrianglePair> pairs = brute_force_pairs(tree_A.mesh(), tree_B.mesh(), X_AB);
+  const std::vector<TrianglePair> pairs = glissade::reference::brute_force_pairs(tree_A.mesh(), tree_B.mesh(), X_AB);
   if (pairs.empty()) {
     explain_gap(tree_A, tree_B, X_AB, size);
   } else {
@@ -171,7 +172,7 @@ void explain(const DopTree& tree_A, const DopTree& tree_B, const Isometry3d& X_A
 
 void compare(const Arguments& arguments) {
   const auto load = [](const std::filesystem::path& path, double scale) {
-    return std::make_shared<const TriangleMesh>(import_mesh(path, scale).mesh);
+    return std::make_shared<const geometry::TriangleMesh>(geometry::import_mesh(path, scale).mesh);
   };
   const DopTree tree_A(load(arguments.path_A, arguments.scale_A));
   const DopTree tree_B(load(arguments.path_B, arguments.scale_B));

@@ -11,8 +11,8 @@ namespace glissade::bench {
 namespace {
 
 using collision::DopTree;
-using collision::TriangleMesh;
 using Eigen::Isometry3d;
+using geometry::TriangleMesh;
 
 constexpr const char* kAllPairsName = "all-pairs";
 
@@ -39,7 +39,7 @@ void run_all_pairs(const BenchOptions& options, Results& results) {
   const std::vector<Subject> subjects =
       join({{glissade_subject()}, glissade_instruction_sets(), peers_that_count_pairs()});
   for (const SuiteMesh& suite_mesh : suite_meshes(options.suite, options.suite.triangles)) {
-    const auto mesh = std::make_shared<const TriangleMesh>(suite_mesh.make());
+    const auto mesh = std::make_shared<const geometry::TriangleMesh>(suite_mesh.make());
     run_query_case({.bench = kAllPairsName,
                     .name = suite_mesh.name,
                     .mesh_A = *mesh,

@@ -28,7 +28,7 @@ struct Figures {
   double bytes = 0.0;
 };
 
-Figures build_once(const Subject& subject, const collision::TriangleMesh& mesh) {
+Figures build_once(const Subject& subject, const geometry::TriangleMesh& mesh) {
   const double bytes_before = allocated_bytes();
   const Clock::time_point start = Clock::now();
   const std::unique_ptr<Model> model = subject.build(mesh);
@@ -38,7 +38,7 @@ Figures build_once(const Subject& subject, const collision::TriangleMesh& mesh) 
 
 Subject on_one_thread(Subject subject) {
   subject.name += "-one-thread";
-  subject.build = [build = subject.build](const collision::TriangleMesh& mesh) {
+  subject.build = [build = subject.build](const geometry::TriangleMesh& mesh) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
     return build(mesh);
   };
@@ -46,7 +46,7 @@ Subject on_one_thread(Subject subject) {
 }
 
 void run(const SuiteMesh& suite_mesh, const std::vector<Subject>& subjects, int rounds, Results& results) {
-  const collision::TriangleMesh mesh = suite_mesh.make();
+  const geometry::TriangleMesh mesh = suite_mesh.make();
   const auto triangles = static_cast<double>(mesh.triangles.size());
   std::vector<std::vector<double>> times(subjects.size());
   std::vector<double> bytes(subjects.size());

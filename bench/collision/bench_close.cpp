@@ -11,8 +11,8 @@ namespace glissade::bench {
 namespace {
 
 using collision::DopTree;
-using collision::TriangleMesh;
 using Eigen::Isometry3d;
+using geometry::TriangleMesh;
 
 constexpr const char* kCloseName = "close";
 
@@ -39,7 +39,7 @@ std::vector<Isometry3d> close_poses(const DopTree& tree, double gap, const Bench
 void run_close(const BenchOptions& options, Results& results) {
   const std::vector<Subject> subjects = usual_subjects();
   for (const SuiteMesh& suite_mesh : suite_meshes(options.suite, options.suite.triangles)) {
-    const auto mesh = std::make_shared<const TriangleMesh>(suite_mesh.make());
+    const auto mesh = std::make_shared<const geometry::TriangleMesh>(suite_mesh.make());
     const DopTree tree(mesh);
     for (const RelativeGap& gap : kRelativeGaps) {
       run_query_case({.bench = kCloseName,

@@ -12,7 +12,7 @@ namespace glissade::bench {
 namespace {
 
 using collision::DopTree;
-using collision::TriangleMesh;
+using geometry::TriangleMesh;
 
 constexpr const char* kCoherentName = "coherent";
 constexpr double kPartSize = 0.1;
@@ -32,7 +32,7 @@ void run_coherent(const BenchOptions& options, Results& results) {
   for (const SlidingPhase& phase : kPhases)
     names.emplace_back(phase.name);
   for (const SuiteMesh& suite_mesh : suite_meshes(options.suite, {options.suite.coherent_triangles}, kPartSize)) {
-    const auto mesh = std::make_shared<const TriangleMesh>(suite_mesh.make());
+    const auto mesh = std::make_shared<const geometry::TriangleMesh>(suite_mesh.make());
     const DopTree tree(mesh);
     run_query_case({.bench = kCoherentName,
                     .name = suite_mesh.name,

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <memory>
 
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 
 #include "benches.h"
 #include "pose_source.h"
@@ -15,14 +15,14 @@ namespace glissade::bench {
 namespace {
 
 using collision::DopTree;
-using collision::TriangleMesh;
+using geometry::TriangleMesh;
 
 constexpr std::int64_t kSmall = 1'000;
 constexpr std::int64_t kLargeMesh = 1'000'000;
 constexpr std::int64_t kFarTriangles = 20'000;
 
 void run_far_pair(const BenchOptions& options, Results& results) {
-  const auto mesh = std::make_shared<const TriangleMesh>(collision::make_sphere(1.0, kFarTriangles));
+  const auto mesh = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(1.0, kFarTriangles));
   const DopTree tree(mesh);
   PoseSource source(tree, tree, options.seed);
   std::vector<Eigen::Isometry3d> poses;
@@ -50,7 +50,7 @@ void run_million(const BenchOptions& options, Results& results) {
   for (const std::string& shape : options.suite.shapes) {
     const std::string name = shape + "-" + short_count(kLargeMesh);
     {
-      const auto mesh = std::make_shared<const TriangleMesh>(make_shape(shape, kLargeMesh, kSize));
+      const auto mesh = std::make_shared<const geometry::TriangleMesh>(make_shape(shape, kLargeMesh, kSize));
       const DopTree tree(mesh);
       PoseSource source(tree, tree, options.seed);
       run_query_case({.bench = kZachmannName,

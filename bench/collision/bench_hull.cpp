@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 
 #include "benches.h"
 #include "hull_oracle.h"
@@ -48,7 +48,7 @@ const std::vector<Pace> kPaces{{"0.05deg", 0.05}, {"0.5deg", 0.5}, {"5deg", 5.0}
 constexpr const char* kSlowest = "0.05deg";
 
 HullModel make_model(const Shape& shape, std::int64_t vertices) {
-  collision::TriangleMesh mesh = collision::make_sphere(1.0, 2 * vertices);
+  geometry::TriangleMesh mesh = geometry::make_sphere(1.0, 2 * vertices);
   for (Vector3d& x : mesh.vertices)
     x = x.cwiseProduct(shape.semi_axes);
   return HullModel(std::move(mesh));

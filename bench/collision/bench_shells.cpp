@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include <glissade/collision/benchmark_shapes.h>
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/shapes/benchmark_shapes.h>
 
 #include "benches.h"
 #include "pose_source.h"
@@ -14,9 +14,9 @@ namespace glissade::bench {
 namespace {
 
 using collision::DopTree;
-using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using geometry::TriangleMesh;
 
 constexpr const char* kShellsName = "shells";
 constexpr double kGap = 0.02;  // of the radius of the sphere, of half the size of the plate
@@ -46,8 +46,8 @@ void run_shells(const BenchOptions& options, Results& results) {
   const std::vector<Subject> subjects = usual_subjects();
   const std::size_t count = options.quick ? 10 : 40;
   for (const std::int64_t triangles : options.suite.shell_triangles) {
-    const auto outer = std::make_shared<const TriangleMesh>(collision::make_sphere(1.0, triangles));
-    const auto inner = std::make_shared<const TriangleMesh>(collision::make_sphere(1.0 - kGap, triangles));
+    const auto outer = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(1.0, triangles));
+    const auto inner = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(1.0 - kGap, triangles));
     const DopTree outer_tree(outer);
     PoseSource source(outer_tree, outer_tree, options.seed);
     run_query_case({.bench = kShellsName,
@@ -56,7 +56,7 @@ void run_shells(const BenchOptions& options, Results& results) {
                     .mesh_B = *inner,
                     .poses = with_sample(nested_poses(source, count), 1, 10)},
                    subjects, pass_limits(options), results);
-    const TriangleMesh plate = collision::make_bumpy_plate({kSize, kSize}, 0.1 * kSize, 4, triangles);
+    const geometry::TriangleMesh plate = shapes::make_bumpy_plate({kSize, kSize}, 0.1 * kSize, 4, triangles);
     run_query_case({.bench = kShellsName,
                     .name = "bumpy-plates-" + short_count(triangles),
                     .mesh_A = plate,

@@ -6,11 +6,10 @@
 
 #include <oneapi/tbb/task_arena.h>
 
-#include <glissade/collision/parallel_query.h>
-
 #include "benches.h"
 #include "interleaved_passes.h"
 #include "pose_source.h"
+#include "query/parallel_query.h"
 #include "scene_cast.h"
 #include "scene_replay.h"
 
@@ -149,7 +148,7 @@ void run_pairs(std::int64_t triangles, const BenchOptions& options, Results& res
   std::vector<PairQuery> queries = pair_queries();
   PairTimes times;
   for (const SuiteMesh& mesh : suite_meshes(options.suite, {triangles})) {
-    const DopTree tree(std::make_shared<const collision::TriangleMesh>(mesh.make()));
+    const DopTree tree(std::make_shared<const geometry::TriangleMesh>(mesh.make()));
     PoseSource source(tree, tree, options.seed);
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d shift = 0.1 * kSize * source.direction();

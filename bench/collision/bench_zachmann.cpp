@@ -12,7 +12,7 @@ namespace glissade::bench {
 namespace {
 
 using collision::DopTree;
-using collision::TriangleMesh;
+using geometry::TriangleMesh;
 
 constexpr std::int64_t kSweepTriangles = 20'000;  // where the number of directions is varied
 
@@ -23,7 +23,7 @@ std::vector<Subject> subjects_for(const std::string& mesh_name) {
 
 void run(const SuiteMesh& suite_mesh, const std::vector<Subject>& subjects, const BenchOptions& options,
          Results& results) {
-  const auto mesh = std::make_shared<const TriangleMesh>(suite_mesh.make());
+  const auto mesh = std::make_shared<const geometry::TriangleMesh>(suite_mesh.make());
   const DopTree tree(mesh);
   PoseSource source(tree, tree, options.seed);
   run_query_case(

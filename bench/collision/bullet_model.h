@@ -9,7 +9,7 @@
 #include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <Eigen/Geometry>
 
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 #include "subject.h"
 
@@ -29,10 +29,10 @@ inline btTransform transform(const Eigen::Isometry3d& X_WO) {
 // Bullet refers to the arrays it is given.
 class BulletModel : public Model {
  public:
-  explicit BulletModel(const collision::TriangleMesh& mesh) {
+  explicit BulletModel(const geometry::TriangleMesh& mesh) {
     for (const Eigen::Vector3d& vertex : mesh.vertices)
       vertices_.push_back(vector(vertex));
-    for (const collision::Triangle& triangle : mesh.triangles)
+    for (const geometry::Triangle& triangle : mesh.triangles)
       indices_.insert(indices_.end(), triangle.begin(), triangle.end());
     arrays_ = std::make_unique<btTriangleIndexVertexArray>(
         static_cast<int>(mesh.triangles.size()), indices_.data(), static_cast<int>(3 * sizeof(int)),

@@ -100,7 +100,7 @@ class BulletScene : public SceneSubject {
 SceneLibrary bullet_scenes() {
   return {.name = "bullet",
           .model = "bullet",
-          .build = [](const collision::TriangleMesh& mesh) { return std::make_unique<BulletModel>(mesh); },
+          .build = [](const geometry::TriangleMesh& mesh) { return std::make_unique<BulletModel>(mesh); },
           .start = [](std::span<const SceneObject> objects) { return std::make_unique<BulletScene>(objects); }};
 }
 

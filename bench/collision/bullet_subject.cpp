@@ -68,7 +68,7 @@ class BulletQuery : public Query {
 Subject bullet_subject() {
   return {.name = "bullet",
           .model = "bullet",
-          .build = [](const collision::TriangleMesh& mesh) { return std::make_unique<BulletModel>(mesh); },
+          .build = [](const geometry::TriangleMesh& mesh) { return std::make_unique<BulletModel>(mesh); },
           .query = [](const Model& model_A,
                       const Model& model_B) { return std::make_unique<BulletQuery>(model_A, model_B); },
           .slow = true};

@@ -20,8 +20,8 @@ using Eigen::Isometry3d;
 
 struct CgalModel : Model {
   // Triangles share no vertices here: a surface mesh must be a manifold, and ours need not be.
-  explicit CgalModel(const collision::TriangleMesh& mesh) {
-    for (const collision::Triangle& triangle : mesh.triangles) {
+  explicit CgalModel(const geometry::TriangleMesh& mesh) {
+    for (const geometry::Triangle& triangle : mesh.triangles) {
       std::array<SurfaceMesh::Vertex_index, 3> corners;
       for (std::size_t i = 0; i < 3; ++i) {
         const Eigen::Vector3d& p = mesh.vertices[static_cast<std::size_t>(triangle[i])];
@@ -70,7 +70,7 @@ Subject cgal_subject() {
   return {
       .name = "cgal",
       .model = "cgal",
-      .build = [](const collision::TriangleMesh& mesh) { return std::make_unique<CgalModel>(mesh); },
+      .build = [](const geometry::TriangleMesh& mesh) { return std::make_unique<CgalModel>(mesh); },
       .query = [](const Model& model_A, const Model& model_B) { return std::make_unique<CgalQuery>(model_A, model_B); },
       .slow = true};
 }

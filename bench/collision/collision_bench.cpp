@@ -10,9 +10,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include <glissade/collision/instruction_set.h>
-
 #include "benches.h"
+#include "kernels/instruction_set.h"
 #include "subject.h"
 
 namespace {
@@ -69,8 +68,8 @@ int fail(int exit_code, const std::string& message) {
 void choose_instruction_set_named(const std::string& wanted) {
   std::string names;
   for (const auto set : glissade::collision::available_instruction_sets()) {
-    if (glissade::collision::name(set) == wanted) return choose_instruction_set(set);
-    names += " " + std::string(glissade::collision::name(set));
+    if (glissade::collision::name_of(set) == wanted) return choose_instruction_set(set);
+    names += " " + std::string(glissade::collision::name_of(set));
   }
   throw std::invalid_argument("--instruction-set: " + wanted + " is not available here, but only" + names);
 }

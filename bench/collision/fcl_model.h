@@ -5,16 +5,16 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/OBBRSS.h>
 
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 namespace glissade::bench {
 
 using FclTree = fcl::BVHModel<fcl::OBBRSS<double>>;
 
-inline FclTree fcl_tree(const collision::TriangleMesh& mesh) {
+inline FclTree fcl_tree(const geometry::TriangleMesh& mesh) {
   std::vector<fcl::Triangle> triangles;
   triangles.reserve(mesh.triangles.size());
-  for (const collision::Triangle& t : mesh.triangles) {
+  for (const geometry::Triangle& t : mesh.triangles) {
     triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
                            static_cast<std::size_t>(t[2]));
   }

@@ -15,7 +15,7 @@ namespace {
 using FclObject = fcl::CollisionObject<double>;
 
 struct FclSceneModel : Model {
-  explicit FclSceneModel(const collision::TriangleMesh& mesh) : tree(std::make_shared<FclTree>(fcl_tree(mesh))) {}
+  explicit FclSceneModel(const geometry::TriangleMesh& mesh) : tree(std::make_shared<FclTree>(fcl_tree(mesh))) {}
   std::shared_ptr<FclTree> tree;
 };
 
@@ -72,7 +72,7 @@ class FclScene : public SceneSubject {
 SceneLibrary fcl_scenes() {
   return {.name = "fcl",
           .model = "fcl",
-          .build = [](const collision::TriangleMesh& mesh) { return std::make_unique<FclSceneModel>(mesh); },
+          .build = [](const geometry::TriangleMesh& mesh) { return std::make_unique<FclSceneModel>(mesh); },
           .start = [](std::span<const SceneObject> objects) { return std::make_unique<FclScene>(objects); }};
 }
 

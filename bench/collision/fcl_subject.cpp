@@ -14,7 +14,7 @@ namespace {
 using Eigen::Isometry3d;
 
 struct FclModel : Model {
-  explicit FclModel(const collision::TriangleMesh& mesh) : tree(fcl_tree(mesh)) {}
+  explicit FclModel(const geometry::TriangleMesh& mesh) : tree(fcl_tree(mesh)) {}
   FclTree tree;
 };
 
@@ -46,7 +46,7 @@ Subject fcl_subject() {
   return {
       .name = "fcl",
       .model = "fcl",
-      .build = [](const collision::TriangleMesh& mesh) { return std::make_unique<FclModel>(mesh); },
+      .build = [](const geometry::TriangleMesh& mesh) { return std::make_unique<FclModel>(mesh); },
       .query = [](const Model& model_A, const Model& model_B) { return std::make_unique<FclQuery>(model_A, model_B); }};
 }
 

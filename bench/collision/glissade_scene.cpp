@@ -12,8 +12,8 @@ using collision::ObjectId;
 using collision::ObjectPair;
 
 struct GlissadeSceneModel : Model {
-  explicit GlissadeSceneModel(const collision::TriangleMesh& mesh)
-      : tree(std::make_shared<const collision::DopTree>(std::make_shared<const collision::TriangleMesh>(mesh))),
+  explicit GlissadeSceneModel(const geometry::TriangleMesh& mesh)
+      : tree(std::make_shared<const collision::DopTree>(std::make_shared<const geometry::TriangleMesh>(mesh))),
         hull(std::make_shared<const collision::ConvexHull>(mesh)) {}
 
   std::shared_ptr<const collision::DopTree> tree;
@@ -63,7 +63,7 @@ SceneLibrary glissade_scenes(int threads) {
   return {
       .name = threads == 1 ? "glissade" : "glissade-" + std::to_string(threads) + "-threads",
       .model = "glissade",
-      .build = [](const collision::TriangleMesh& mesh) { return std::make_unique<GlissadeSceneModel>(mesh); },
+      .build = [](const geometry::TriangleMesh& mesh) { return std::make_unique<GlissadeSceneModel>(mesh); },
       .start = [threads](
                    std::span<const SceneObject> objects) { return std::make_unique<GlissadeScene>(objects, threads); }};
 }

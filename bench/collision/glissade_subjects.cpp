@@ -8,12 +8,12 @@ namespace {
 using collision::DopTree;
 using collision::DopTreeOptions;
 using collision::InstructionSet;
-using collision::TriangleMesh;
 using Eigen::Isometry3d;
+using geometry::TriangleMesh;
 
 struct GlissadeModel : Model {
-  explicit GlissadeModel(const TriangleMesh& mesh, const DopTreeOptions& options)
-      : tree(std::make_shared<const TriangleMesh>(mesh), options) {}
+  explicit GlissadeModel(const geometry::TriangleMesh& mesh, const DopTreeOptions& options)
+      : tree(std::make_shared<const geometry::TriangleMesh>(mesh), options) {}
   DopTree tree;
 };
 
@@ -56,13 +56,13 @@ template <typename Workspace = collision::QueryWorkspace>
 Subject make_subject(const std::string& name, const DopTreeOptions& options, InstructionSet set) {
   const std::string model = "glissade k" + std::to_string(options.directions) + (options.thin_slab ? " slab" : "") +
                             (options.realignment == collision::Realignment::kBruteForce ? " brute force" : "");
-  return {.name = name,
-          .model = model,
-          .build = [options](const TriangleMesh& mesh) { return std::make_unique<GlissadeModel>(mesh, options); },
-          .query =
-              [set](const Model& model_A, const Model& model_B) {
-                return std::make_unique<GlissadeQuery<Workspace>>(model_A, model_B, set);
-              }};
+  return {
+      .name = name,
+      .model = model,
+      .build = [options](const geometry::TriangleMesh& mesh) { return std::make_unique<GlissadeModel>(mesh, options); },
+      .query = [set](
+                   const Model& model_A,
+                   const Model& model_B) { return std::make_unique<GlissadeQuery<Workspace>>(model_A, model_B, set); }};
 }
 
 template <typename Workspace>
@@ -70,7 +70,7 @@ std::vector<Subject> on_other_instruction_sets(const std::string& prefix) {
   std::vector<Subject> subjects;
   const InstructionSet in_use = default_instruction_set();
   for (const InstructionSet set : collision::available_instruction_sets()) {
-    if (set != in_use) subjects.push_back(make_subject<Workspace>(prefix + std::string(collision::name(set)), {}, set));
+    if (set != in_use) subjects.push_back(make_subject<Workspace>(prefix + std::string(collision::name_of(set)), {}, set));
   }
   return subjects;
 }

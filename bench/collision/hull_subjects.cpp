@@ -93,9 +93,9 @@ class CcdHulls : public HullQuery {
 
 class FclHulls : public HullQuery {
  public:
-  explicit FclHulls(const collision::TriangleMesh& mesh) {
+  explicit FclHulls(const geometry::TriangleMesh& mesh) {
     auto faces = std::make_shared<std::vector<int>>();
-    for (const collision::Triangle& triangle : mesh.triangles) {
+    for (const geometry::Triangle& triangle : mesh.triangles) {
       faces->push_back(3);
       faces->insert(faces->end(), triangle.begin(), triangle.end());
     }

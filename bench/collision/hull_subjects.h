@@ -1,7 +1,7 @@
 #pragma once
 
 /// Who tells convex hulls apart: Glissade and other libraries, each behind a small adapter. All that can climb from
-/// corner to corner do so on the same neighbours, beginning where they were.
+/// corner to corner do so on the same neighbors, beginning where they were.
 
 #include <functional>
 #include <memory>
@@ -9,8 +9,7 @@
 #include <vector>
 
 #include <glissade/collision/convex_hull.h>
-#include <glissade/collision/separating_plane.h>
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 #include "subject.h"
 
@@ -18,9 +17,9 @@ namespace glissade::bench {
 
 /// A convex mesh, all of whose vertices are corners.
 struct HullModel {
-  explicit HullModel(collision::TriangleMesh convex) : mesh(std::move(convex)), hull(mesh) {}
+  explicit HullModel(geometry::TriangleMesh convex) : mesh(std::move(convex)), hull(mesh) {}
 
-  collision::TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   collision::ConvexHull hull;
 };
 

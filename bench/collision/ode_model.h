@@ -7,7 +7,7 @@
 
 #include <ode/ode.h>
 
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 #include "subject.h"
 
@@ -27,11 +27,11 @@ inline void keep_ode_alive() {
 // ODE refers to the arrays it is given.
 class OdeModel : public Model {
  public:
-  explicit OdeModel(const collision::TriangleMesh& mesh) {
+  explicit OdeModel(const geometry::TriangleMesh& mesh) {
     keep_ode_alive();
     for (const Eigen::Vector3d& vertex : mesh.vertices)
       vertices_.insert(vertices_.end(), {vertex.x(), vertex.y(), vertex.z()});
-    for (const collision::Triangle& triangle : mesh.triangles) {
+    for (const geometry::Triangle& triangle : mesh.triangles) {
       for (const std::int32_t index : triangle)
         indices_.push_back(static_cast<dTriIndex>(index));
     }

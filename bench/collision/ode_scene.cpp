@@ -53,7 +53,7 @@ class OdeScene : public SceneSubject {
 SceneLibrary ode_scenes() {
   return {.name = "ode",
           .model = "ode",
-          .build = [](const collision::TriangleMesh& mesh) { return std::make_unique<OdeModel>(mesh); },
+          .build = [](const geometry::TriangleMesh& mesh) { return std::make_unique<OdeModel>(mesh); },
           .start = [](std::span<const SceneObject> objects) { return std::make_unique<OdeScene>(objects); }};
 }
 

@@ -56,7 +56,7 @@ Subject ode_subject() {
   return {
       .name = "ode",
       .model = "ode",
-      .build = [](const collision::TriangleMesh& mesh) { return std::make_unique<OdeModel>(mesh); },
+      .build = [](const geometry::TriangleMesh& mesh) { return std::make_unique<OdeModel>(mesh); },
       .query = [](const Model& model_A, const Model& model_B) { return std::make_unique<OdeQuery>(model_A, model_B); },
       .slow = true};
 }

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-AlignedBox3d bounds(const collision::TriangleMesh& mesh, const Matrix3d& R) {
+AlignedBox3d bounds(const geometry::TriangleMesh& mesh, const Matrix3d& R) {
   AlignedBox3d box;
   for (const Vector3d& vertex : mesh.vertices)
     box.extend(R * vertex);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 #include "interleaved_passes.h"
 #include "results.h"
@@ -16,8 +16,8 @@ namespace glissade::bench {
 struct QueryCase {
   std::string bench;
   std::string name;
-  const collision::TriangleMesh& mesh_A;
-  const collision::TriangleMesh& mesh_B;  ///< may be the same object: then both use one model
+  const geometry::TriangleMesh& mesh_A;
+  const geometry::TriangleMesh& mesh_B;  ///< may be the same object: then both use one model
   PoseParts poses;
   std::vector<std::string> part_names = {
       "sample"};  ///< the first parts, as many as there are names, are reported apart

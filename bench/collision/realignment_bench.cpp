@@ -16,14 +16,16 @@
 #include <Eigen/Geometry>
 
 #include <glissade/collision/dop_tree.h>
-#include <glissade/collision/instruction_set.h>
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 
-#include "node_kernels.h"
-#include "vertex_alignment.h"
+#include "kernels/instruction_set.h"
+#include "kernels/node_kernels.h"
+#include "kernels/vertex_alignment.h"
+#include "tree/tree_nodes.h"
 
 namespace {
 
+namespace geometry = glissade::geometry;
 using namespace glissade::collision;
 
 constexpr int kRounds = 1001;
@@ -37,7 +39,7 @@ constexpr int kOperationsOfDirection = 2;           // a constant to be added to
 
 struct Bench {
   explicit Bench(int directions)
-      : tree(std::make_shared<const TriangleMesh>(make_torus(0.7, 0.3, 2000)),
+      : tree(std::make_shared<const geometry::TriangleMesh>(geometry::make_torus(0.7, 0.3, 2000)),
              {.directions = directions, .realignment = Realignment::kBruteForce}),
         k(directions) {
     X_AB.linear() = Eigen::Quaterniond(0.5, 0.1, -0.3, 0.8).normalized().toRotationMatrix();
@@ -119,7 +121,7 @@ void run(const Bench& bench, InstructionSet instruction_set) {
     by_offsets.measure();
     by_vertices.measure();
   }
-  const std::string with = "-" + std::string(name(instruction_set));
+  const std::string with = "-" + std::string(name_of(instruction_set));
   const double affine_time = by_offsets.median();
   const double vertex_time = by_vertices.median();
   // Of one child; the code does four at a time.

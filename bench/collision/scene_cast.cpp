@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kObjectSize_m = 0.1;
 
-double radius_of(const collision::TriangleMesh& mesh) {
+double radius_of(const geometry::TriangleMesh& mesh) {
   double radius = 0.0;
   for (const Eigen::Vector3d& vertex : mesh.vertices)
     radius = std::max(radius, vertex.norm());
@@ -20,7 +20,7 @@ double radius_of(const collision::TriangleMesh& mesh) {
 SceneCast::SceneCast(std::vector<SceneLibrary> libraries, const BenchOptions& options)
     : libraries_(std::move(libraries)) {
   for (const SuiteMesh& suite_mesh : suite_meshes(options.suite, options.suite.scene_triangles, kObjectSize_m)) {
-    const collision::TriangleMesh mesh = suite_mesh.make();
+    const geometry::TriangleMesh mesh = suite_mesh.make();
     radii_.push_back(radius_of(mesh));
     for (const SceneLibrary& library : libraries_) {
       std::vector<std::unique_ptr<Model>>& models = models_[library.model];

@@ -45,7 +45,7 @@ struct SceneObject {
 struct SceneLibrary {
   std::string name;
   std::string model;  ///< libraries of the same `model` share what was built
-  std::function<std::unique_ptr<Model>(const collision::TriangleMesh&)> build;
+  std::function<std::unique_ptr<Model>(const geometry::TriangleMesh&)> build;
   std::function<std::unique_ptr<SceneSubject>(std::span<const SceneObject> objects)> start;
 };
 

@@ -12,7 +12,8 @@
 #include <Eigen/Geometry>
 
 #include <glissade/collision/dop_query.h>
-#include <glissade/collision/instruction_set.h>
+
+#include "kernels/instruction_set.h"
 
 namespace glissade::bench {
 
@@ -40,7 +41,7 @@ class Query {
 struct Subject {
   std::string name;
   std::string model;  ///< subjects of the same `model` share what was built
-  std::function<std::unique_ptr<Model>(const collision::TriangleMesh&)> build;
+  std::function<std::unique_ptr<Model>(const geometry::TriangleMesh&)> build;
   std::function<std::unique_ptr<Query>(const Model& model_A, const Model& model_B)> query;
   bool slow = false;  ///< takes only a sample of the poses, or the benchmarks would take hours
 };

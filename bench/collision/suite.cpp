@@ -6,14 +6,14 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/collision/benchmark_shapes.h>
-#include <glissade/collision/mesh_import.h>
+#include <glissade/geometry/mesh_import.h>
+#include <glissade/shapes/benchmark_shapes.h>
 
 namespace glissade::bench {
 namespace {
 
-using collision::TriangleMesh;
-TriangleMesh centred(TriangleMesh mesh, double size) {
+using geometry::TriangleMesh;
+geometry::TriangleMesh centered(geometry::TriangleMesh mesh, double size) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : mesh.vertices)
     box.extend(vertex);
@@ -27,14 +27,14 @@ TriangleMesh centred(TriangleMesh mesh, double size) {
 
 std::vector<std::string> all_shapes() {
   std::vector<std::string> names;
-  for (const collision::BenchmarkShape& shape : collision::benchmark_shapes())
+  for (const shapes::BenchmarkShape& shape : shapes::benchmark_shapes())
     names.push_back(shape.name);
   return names;
 }
 
-TriangleMesh make_shape(const std::string& shape, std::int64_t triangles, double size) {
-  for (const collision::BenchmarkShape& known : collision::benchmark_shapes()) {
-    if (known.name == shape) return centred(known.make(triangles), size);
+geometry::TriangleMesh make_shape(const std::string& shape, std::int64_t triangles, double size) {
+  for (const shapes::BenchmarkShape& known : shapes::benchmark_shapes()) {
+    if (known.name == shape) return centered(known.make(triangles), size);
   }
   throw std::invalid_argument("shape " + shape + " is unknown");
 }
@@ -54,10 +54,10 @@ std::vector<SuiteMesh> suite_meshes(const Suite& suite, const std::vector<std::i
     }
   }
   for (const std::filesystem::path& file : suite.files) {
-    const auto mesh = std::make_shared<const TriangleMesh>(collision::import_mesh(file).mesh);
+    const auto mesh = std::make_shared<const geometry::TriangleMesh>(geometry::import_mesh(file).mesh);
     std::string name = file.stem().string();
     std::replace(name.begin(), name.end(), ',', '_');  // results.csv knows no quoting
-    meshes.push_back({name, [mesh, size] { return centred(*mesh, size); }});
+    meshes.push_back({name, [mesh, size] { return centered(*mesh, size); }});
   }
   return meshes;
 }

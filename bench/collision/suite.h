@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 namespace glissade::bench {
 
@@ -18,7 +18,7 @@ inline constexpr double kSize = 2.0;
 /// One mesh of the suite, made when it is needed: a million triangles are not kept for later.
 struct SuiteMesh {
   std::string name;  ///< "sphere-20k", or the file's stem
-  std::function<collision::TriangleMesh()> make;
+  std::function<geometry::TriangleMesh()> make;
 };
 
 struct Suite {
@@ -37,7 +37,7 @@ std::vector<std::string> all_shapes();
 
 /// The shape with about so many triangles, centred on the origin, its largest extent `size`. Throws
 /// std::invalid_argument for an unknown name.
-collision::TriangleMesh make_shape(const std::string& shape, std::int64_t triangles, double size);
+geometry::TriangleMesh make_shape(const std::string& shape, std::int64_t triangles, double size);
 
 /// Every shape at each of the sizes, then the user's meshes, centred on the origin and scaled to the largest extent
 /// `size`. Throws std::invalid_argument for a file that cannot be used.

@@ -22,7 +22,7 @@ struct PegSetting {
   double offset_m;
   double tilt_deg;
   int more_ticks;  ///< in which the ghost stands at the bottom
-  bool anti_jam;
+  bool spiral_search;
 };
 
 const std::array<PegSetting, 4> kSettings{
@@ -34,7 +34,7 @@ const std::array<PegSetting, 4> kSettings{
 bool is_inserted(const PegSetting& setting, std::uint64_t seed) {
   const double tilt = setting.tilt_deg * std::numbers::pi / 180.0;
   const test_support::SlidingScene scene = test_support::peg_scene({setting.offset_m, tilt, seed});
-  const SlidingRun run = start(setting.subject, scene, {.rules = {.anti_jam = setting.anti_jam}});
+  const SlidingRun run = start(setting.subject, scene, {.rules = {.spiral_search = setting.spiral_search}});
   for (int tick = 1; tick <= scene.ticks + setting.more_ticks; ++tick)
     run.sliding->advance(scene.ghost(tick));
   return run.sliding->result().X_WV.translation().z() < -kInserted_m;

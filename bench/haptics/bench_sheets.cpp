@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include <glissade/haptics/sliding_method.h>
+#include <glissade/haptics/sliding.h>
 
 #include "benches.h"
 #include "sliding_subject.h"

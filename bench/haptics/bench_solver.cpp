@@ -4,23 +4,22 @@
 #include <random>
 #include <vector>
 
-#include <glissade/haptics/projection.h>
-
 #include "benches.h"
 #include "sliding_account.h"
+#include "solver/projection.h"
 
 namespace glissade::bench {
 namespace {
 
+using geometry::Displacement;
 using haptics::ConstraintRow;
-using haptics::Displacement;
 
 constexpr haptics::CouplingStiffness kStiffness{1000.0, 10.0};
 constexpr double kRadius = 0.1;  // metres; k_r = k_t ρ²
 
 /// A part that is pressed, and turned, against contacts on one side of it that lean at random.
 struct Programme {
-  Displacement wanted;
+  geometry::Displacement wanted;
   std::vector<ConstraintRow> rows;
 };
 

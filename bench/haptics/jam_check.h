@@ -7,12 +7,11 @@
 #include <Eigen/Geometry>
 
 #include <glissade/collision/dop_query.h>
-#include <glissade/haptics/candidate_pairs.h>
-#include <glissade/haptics/contact.h>
-#include <glissade/haptics/projection.h>
-#include <glissade/haptics/surroundings.h>
 
+#include <glissade/haptics/sliding_result.h>
+#include "search/candidate_pairs.h"
 #include "sliding_scenes.h"
+#include "solver/projection.h"
 
 namespace glissade::bench {
 
@@ -24,18 +23,18 @@ class JamCheck {
   /// Whether the part at X_WV, which wants to go by `wanted`, can do a step of kTrialStep_m at least towards that: what
   /// all contacts within reach allow of it, contacts being held at a distance of `hold` metres, is as long; the pose
   /// at its end collides with nothing; and the energy of the coupling is less there.
-  bool could_move(const Eigen::Isometry3d& X_WV, const haptics::Displacement& wanted,
+  bool could_move(const Eigen::Isometry3d& X_WV, const geometry::Displacement& wanted,
                   const haptics::CouplingStiffness& stiffness, double hold);
 
   static constexpr double kTrialStep_m = 20e-6;
 
  private:
-  haptics::Displacement allowed(const Eigen::Isometry3d& X_WV, const haptics::Displacement& wanted,
-                                const haptics::CouplingStiffness& stiffness, double hold);
+  geometry::Displacement allowed(const Eigen::Isometry3d& X_WV, const geometry::Displacement& wanted,
+                                 const haptics::CouplingStiffness& stiffness, double hold);
   bool collides(const Eigen::Isometry3d& X_WV);
 
   const test_support::SlidingScene& scene_;
-  haptics::Surroundings surroundings_;
+  haptics::ContactScene bodies_;
   haptics::CandidatePairs candidates_;
   std::vector<haptics::CandidatePair> pairs_;
   std::vector<haptics::Contact> contacts_;

@@ -6,8 +6,8 @@
 #include <memory>
 #include <thread>
 
-#include <glissade/collision/grid_check.h>
 #include <glissade/haptics/coupling.h>
+#include <glissade/reference/grid_check.h>
 
 #include "jam_check.h"
 
@@ -15,23 +15,23 @@ namespace glissade::bench {
 namespace {
 
 using Eigen::Isometry3d;
-using haptics::Displacement;
-using haptics::displacement_between;
-using haptics::motion_bound;
+using geometry::Displacement;
+using geometry::displacement_between;
+using geometry::motion_bound;
 
 constexpr double kAhead_m = 0.1e-3;
 constexpr double kStandsStill_m = 1e-6;
 
-double stretch(const Displacement& d, const haptics::CouplingStiffness& k) {
+double stretch(const geometry::Displacement& d, const haptics::CouplingStiffness& k) {
   return std::sqrt(d.v.squaredNorm() + k.rotational / k.translational * d.w.squaredNorm());
 }
 
 int count_collisions(const test_support::SlidingScene& scene, const std::vector<Isometry3d>& poses) {
-  std::vector<collision::PlacedMesh> placed;
+  std::vector<reference::PlacedMesh> placed;
   for (const haptics::Obstacle& obstacle : scene.obstacles) {
-    placed.push_back({std::make_shared<const collision::TriangleMesh>(obstacle.body->tree.mesh()), obstacle.X_WO});
+    placed.push_back({std::make_shared<const geometry::TriangleMesh>(obstacle.body->tree.mesh()), obstacle.X_WO});
   }
-  const collision::GridCheck check(placed);
+  const reference::GridCheck check(placed);
   const std::vector<char> collide = check.collisions(scene.part_V->tree.mesh(), poses);
   return static_cast<int>(std::count(collide.begin(), collide.end(), 1));
 }
@@ -48,20 +48,20 @@ SlidingAccount account_of(const SlidingSubject& subject, const test_support::Sli
   SlidingAccount account;
   account.ticks = ticks;
   std::vector<Isometry3d> poses;
-  Displacement error_before = sliding.error();
+  geometry::Displacement error_before = sliding.error();
   for (int tick = 1; tick <= ticks; ++tick) {
     const Isometry3d X_WV_before = sliding.result().X_WV;
-    const double ghost_motion =
-        motion_bound(displacement_between(scene.ghost(tick - 1), scene.ghost(tick), p_Vref), radius);
+    const double ghost_motion = geometry::motion_bound(
+        geometry::displacement_between(scene.ghost(tick - 1), scene.ghost(tick), p_Vref), radius);
     sliding.advance(scene.ghost(tick));
     account.pushes.push_back(sliding.result().pushing > 0 ? 1 : 0);
 
     const Isometry3d& X_WV = sliding.result().X_WV;
     if (poses.empty() || X_WV.matrix() != X_WV_before.matrix()) poses.push_back(X_WV);
-    const Displacement error = sliding.error();
+    const geometry::Displacement error = sliding.error();
     account.mean_stretch_m += stretch(error, k) / ticks;
-    const double moved = motion_bound(displacement_between(X_WV_before, X_WV, p_Vref), radius);
-    if (moved < kStandsStill_m && motion_bound(error, radius) > kAhead_m &&
+    const double moved = geometry::motion_bound(geometry::displacement_between(X_WV_before, X_WV, p_Vref), radius);
+    if (moved < kStandsStill_m && geometry::motion_bound(error, radius) > kAhead_m &&
         jam_check.could_move(X_WV, error, k, sliding.margin())) {
       ++account.jammed_ticks;
     }

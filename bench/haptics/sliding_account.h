@@ -23,7 +23,7 @@ struct SlidingAccount {
   double force_jump_N = 0.0;
   /// The same by what a tick may do, k_t (0.2 mm + how far the ghost moved): not over 1.
   double force_jump_of_bound = 0.0;
-  int colliding_poses = 0;  ///< visible poses that collide, by `collision::GridCheck`
+  int colliding_poses = 0;  ///< visible poses that collide, by `reference::GridCheck`
   double queries_per_tick = 0.0;
   std::vector<char> pushes;  ///< of each tick: whether a contact pushes
 };

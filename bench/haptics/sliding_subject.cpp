@@ -1,6 +1,6 @@
 #include "sliding_subject.h"
 
-#include <glissade/haptics/paper_sliding.h>
+#include "paper/paper_sliding.h"
 
 namespace glissade::bench {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include <glissade/haptics/sliding.h>
-#include <glissade/haptics/sliding_method.h>
+#include <glissade/haptics/sliding.h>
 
 #include "sliding_scenes.h"
 

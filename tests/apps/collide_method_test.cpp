@@ -10,11 +10,11 @@
 namespace glissade::apps {
 namespace {
 
-using collision::TriangleMesh;
+using geometry::TriangleMesh;
 
 /// A strip of `cells` unit squares along x in the plane z = 0, two triangles each.
-std::shared_ptr<const TriangleMesh> strip(int cells) {
-  auto mesh = std::make_shared<TriangleMesh>();
+std::shared_ptr<const geometry::TriangleMesh> strip(int cells) {
+  auto mesh = std::make_shared<geometry::TriangleMesh>();
   for (int i = 0; i <= cells; ++i) {
     mesh->vertices.emplace_back(i, 0.0, 0.0);
     mesh->vertices.emplace_back(i, 1.0, 0.0);
@@ -41,7 +41,7 @@ TEST(CollideMethod, ToleranceDecidesWhatCounts) {
 
 TEST(CollideMethod, CountsPairsOfTriangles) {
   // Standing on the middle of the first cell's diagonal, the upright triangle touches both of its triangles.
-  auto upright = std::make_shared<TriangleMesh>();
+  auto upright = std::make_shared<geometry::TriangleMesh>();
   upright->vertices = {{0.5, 0.5, 0.0}, {0.5, 0.5, 1.0}, {0.6, 0.5, 1.0}};
   upright->triangles = {{0, 1, 2}, {0, 0, 1}};
   for (const std::string& name : collide_method_names()) {

@@ -17,7 +17,7 @@ TEST(EmbeddedScene, TheScriptStartsAtTheMovablePart) {
   EXPECT_TRUE(scene.X_WGoal.has_value());
   EXPECT_EQ(scene.script_path, "car_door_script.csv");
 
-  const devices::PoseTrajectory script = parse_trajectory(embedded_scene_script(), "embedded script");
+  const geometry::PoseTrajectory script = parse_trajectory(embedded_scene_script(), "embedded script");
   EXPECT_TRUE(script.pose_at(script.first_time()).isApprox(scene.find("window_motor").X_WB, 1e-9));
 }
 

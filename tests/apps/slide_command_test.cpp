@@ -215,7 +215,7 @@ TEST_F(Slide, StartingInsideAnObstacleIsAFailureWithItsReason) {
 
 TEST_F(Slide, APartThatStartsInsideIsLedOutIfAskedFor) {
   const std::string hand = trajectory("0,0,0,0.019,1,0,0,0\n0.1,0,0,0.019,1,0,0,0\n");
-  const auto rows = slide(scene({floor}), hand, {"--lead-out"});
+  const auto rows = slide(scene({floor}), hand, {"--depenetrate"});
   EXPECT_LT(rows.front().at("vz_m"), 0.0193) << "at limited speed";
   EXPECT_NEAR(rows.back().at("vz_m"), 0.02, 1e-5) << "half of the box above the floor";
 }
@@ -241,7 +241,7 @@ TEST_F(Slide, RefusesRulesThatCannotBe) {
   };
   expect_refused(slide_with({"--friction", "-0.1"}), {"--friction"});
   expect_refused(slide_with({"--friction", "0.3", "0.2"}), {"--friction", "at rest"});
-  expect_refused(slide_with({"--method", "paper", "--anti-jam"}), {"--method", "--anti-jam"});
+  expect_refused(slide_with({"--method", "paper", "--spiral-search"}), {"--method", "--spiral-search"});
 }
 
 TEST_F(Slide, AnObjectThatCannotTakePartIsNamed) {

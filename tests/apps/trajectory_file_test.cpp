@@ -13,12 +13,12 @@ namespace {
 using std::chrono::milliseconds;
 using test_support::expect_bad_input;
 
-devices::PoseTrajectory parse_rows(const std::string& rows) {
+geometry::PoseTrajectory parse_rows(const std::string& rows) {
   return parse_trajectory("t_s,x_m,y_m,z_m,qw,qx,qy,qz\n" + rows, "path.csv");
 }
 
 TEST(TrajectoryFile, ReadsTimesAndPoses) {
-  const devices::PoseTrajectory path = parse_rows("0.5,0,0,0,1,0,0,0\n1.5,2,0,4,1,0,0,0\n");
+  const geometry::PoseTrajectory path = parse_rows("0.5,0,0,0,1,0,0,0\n1.5,2,0,4,1,0,0,0\n");
   EXPECT_EQ(path.first_time(), milliseconds(500));
   EXPECT_EQ(path.last_time(), milliseconds(1500));
   EXPECT_TRUE(path.pose_at(milliseconds(1000)).translation().isApprox(Eigen::Vector3d(1.0, 0.0, 2.0)));

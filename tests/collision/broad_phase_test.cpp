@@ -1,3 +1,5 @@
+#include "pipeline/broad_phase.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -8,8 +10,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <glissade/collision/broad_phase.h>
 
 #include "random_numbers.h"
 #include "sanitizers.h"
@@ -47,8 +47,8 @@ TEST(BroadPhase, SaysWhichPairsBeginAndEnd) {
   broad_phase.update();
   EXPECT_THAT(broad_phase.began(), ElementsAre(SlotPair{2, 5}));
   EXPECT_THAT(broad_phase.ended(), IsEmpty());
-  EXPECT_THAT(broad_phase.neighbours(2), ElementsAre(5U));
-  EXPECT_THAT(broad_phase.neighbours(5), ElementsAre(2U));
+  EXPECT_THAT(broad_phase.neighbors(2), ElementsAre(5U));
+  EXPECT_THAT(broad_phase.neighbors(5), ElementsAre(2U));
 
   broad_phase.update();
   EXPECT_THAT(broad_phase.began(), IsEmpty());
@@ -76,7 +76,7 @@ TEST(BroadPhase, BoxesWithinTheMarginAreAPair) {
     broad_phase.set(0, {Eigen::Vector3d(x - 1e-6, 0.0, 0.0), Eigen::Vector3d(x, 1e-6, 1e-6)});
     broad_phase.set(1, {Eigen::Vector3d(right, 0.0, 0.0), Eigen::Vector3d(right + 1e-6, 1e-6, 1e-6)});
     broad_phase.update();
-    EXPECT_THAT(broad_phase.neighbours(0), ::testing::Contains(1U)) << x;
+    EXPECT_THAT(broad_phase.neighbors(0), ::testing::Contains(1U)) << x;
   }
 }
 

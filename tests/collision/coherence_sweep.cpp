@@ -56,7 +56,7 @@ struct Counts {
 SweepPair walk_pair(const SweepFamily& family, bool large, RandomNumbers& random) {
   if (!large) return random_pair(family.placement, random);
   const auto surface = [&] {
-    TriangleMesh mesh = random_surface(random.integer(500, 5000), random);
+    geometry::TriangleMesh mesh = random_surface(random.integer(500, 5000), random);
     const std::string description = "surface, " + std::to_string(mesh.triangles.size()) + " triangles";
     return SweepMesh{std::move(mesh), 1.0, Vector3d::Zero(), description};
   };
@@ -110,8 +110,8 @@ class Walk {
   // New trees at the address of the old ones: a workspace must not take them for those.
   void renew_trees() {
     pair_ = walk_pair(family_, large_, random_);
-    mesh_A_ = std::make_shared<TriangleMesh>(pair_.A.mesh);
-    mesh_B_ = std::make_shared<TriangleMesh>(pair_.B.mesh);
+    mesh_A_ = std::make_shared<geometry::TriangleMesh>(pair_.A.mesh);
+    mesh_B_ = std::make_shared<geometry::TriangleMesh>(pair_.B.mesh);
     tree_A_.emplace(mesh_A_, options_);
     tree_B_.emplace(mesh_B_, options_);
     const double share = random_.uniform(0.0, 0.5);
@@ -215,8 +215,8 @@ class Walk {
   DopTreeOptions options_;
   double step_;  // largest step over size
   SweepPair pair_;
-  std::shared_ptr<TriangleMesh> mesh_A_;
-  std::shared_ptr<TriangleMesh> mesh_B_;
+  std::shared_ptr<geometry::TriangleMesh> mesh_A_;
+  std::shared_ptr<geometry::TriangleMesh> mesh_B_;
   std::optional<DopTree> tree_A_;
   std::optional<DopTree> tree_B_;
   std::optional<TriangleSelection> selection_A_;
@@ -245,7 +245,7 @@ void walk(const SweepArguments& arguments, InstructionSet set, std::int64_t inde
     const std::string difference = walk.frame(counts);
     if (difference.empty()) continue;
     differences.add(difference + "\n  --seed " + std::to_string(arguments.seed) + " --only-case " +
-                    std::to_string(index) + ", frame " + std::to_string(i) + ", " + std::string(name(set)));
+                    std::to_string(index) + ", frame " + std::to_string(i) + ", " + std::string(name_of(set)));
   }
 }
 

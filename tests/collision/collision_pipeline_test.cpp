@@ -10,8 +10,10 @@
 #include <gtest/gtest.h>
 
 #include <glissade/collision/collision_pipeline.h>
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/mesh_operations.h>
+#include <glissade/collision/dop_query.h>
+#include <glissade/collision/dop_tree.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 #include "poses.h"
 
@@ -28,8 +30,9 @@ using testing::IsEmpty;
 class Pipeline : public testing::Test {
  protected:
   struct Shape {
-    explicit Shape(const TriangleMesh& m)
-        : tree(std::make_shared<DopTree>(std::make_shared<TriangleMesh>(m))), hull(std::make_shared<ConvexHull>(m)) {}
+    explicit Shape(const geometry::TriangleMesh& m)
+        : tree(std::make_shared<DopTree>(std::make_shared<geometry::TriangleMesh>(m))),
+          hull(std::make_shared<ConvexHull>(m)) {}
     std::shared_ptr<const DopTree> tree;
     std::shared_ptr<const ConvexHull> hull;
   };
@@ -39,7 +42,7 @@ class Pipeline : public testing::Test {
     return world_.add({shape.tree, shape.hull, X_WO, group});
   }
 
-  const Shape box_{make_box({1.0, 1.0, 1.0}, 48)};
+  const Shape box_{geometry::make_box({1.0, 1.0, 1.0}, 48)};
   realtime::SteadyClock clock_;
   World world_{64};
 };
@@ -84,13 +87,13 @@ TEST_F(Pipeline, LeavesOutPairsOfNoInterest) {
   const ObjectId finger = add(at(0.0), 1);
   const ObjectId next_finger = add(at(0.8), 1);
   const ObjectId part = add(at(0.4), 2);
-  world_.ignore_groups(1, 1);
+  world_.disable_groups(1, 1);
   EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{finger, part}, ObjectPair{next_finger, part}));
-  world_.ignore(part, finger);
+  world_.disable_pair(part, finger);
   EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{next_finger, part}));
   EXPECT_EQ(pipeline.result().report.exact.in, 0) << "an answer that is known needs no query";
-  world_.attend(finger, part);
-  world_.attend_groups(1, 1);
+  world_.enable_pair(finger, part);
+  world_.enable_groups(1, 1);
   EXPECT_THAT(pipeline.step().meeting,
               ElementsAre(ObjectPair{finger, next_finger}, ObjectPair{finger, part}, ObjectPair{next_finger, part}));
 }
@@ -146,7 +149,7 @@ TEST_F(Pipeline, LooksAtASeparatedPairAgainOnlyWhenItsGapMayBeUsedUp) {
 TEST_F(Pipeline, KnowsWhenTheTipOfARodComesStraightOn) {
   CollisionPipeline pipeline(world_, clock_);
   const ObjectId box = add(at(1.45, 0.55));  // from (0.95, 0.05) on
-  const ObjectId rod = add(Shape(make_box({2.0, 0.001, 0.001}, 48)), at(0.0));
+  const ObjectId rod = add(Shape(geometry::make_box({2.0, 0.001, 0.001}, 48)), at(0.0));
   EXPECT_THAT(pipeline.step().meeting, IsEmpty());
   for (int step = 1; step <= 60; ++step) {
     const double angle = 0.001 * step;
@@ -198,7 +201,7 @@ TEST_F(Pipeline, KnowsWhenTurningUsesUpAGap) {
 // As poses that have been through single precision. Far from its origin, an object would move by much.
 TEST_F(Pipeline, TakesTheNearestRotationForAMatrixThatIsNotQuiteOne) {
   const double c = 10.0;
-  const Shape far_from_its_origin(transformed(make_box({1.0, 1.0, 1.0}, 48), at(c)));
+  const Shape far_from_its_origin(geometry::transformed(geometry::make_box({1.0, 1.0, 1.0}, 48), at(c)));
   CollisionPipeline pipeline(world_, clock_);
   const ObjectId a = add(far_from_its_origin, at(-c));
   const ObjectId b = add(at(-1.0001));
@@ -234,7 +237,7 @@ TEST_F(Pipeline, LosesNoShortStepAfterALongWay) {
 
 TEST_F(Pipeline, KnowsBallsThatTouchFarFromTheOrigin) {
   // Their centres are rounded on another way than the poses that queries see.
-  const Shape ball(transformed(make_sphere(0.01, 200), at(3.0)));
+  const Shape ball(geometry::transformed(geometry::make_sphere(0.01, 200), at(3.0)));
   QueryWorkspace workspace;
   int meeting = 0;
   for (const double far : {0.0, 1e3, 1e6}) {
@@ -293,7 +296,7 @@ TEST_F(Pipeline, GivesTheTrianglesWithinADistanceThatMayDifferFromFrameToFrame) 
 
 TEST_F(Pipeline, IsAfterSelectedTrianglesWhereBothObjectsHaveASelection) {
   CollisionPipeline pipeline(world_, clock_, {.query = PairQuery::kClosePairs, .greatest_distance = 0.2, .threads = 1});
-  const TriangleMesh& mesh = box_.tree->mesh();
+  const geometry::TriangleMesh& mesh = box_.tree->mesh();
   const auto faces_up = [&](std::int32_t t) {  // on the side that the others, to the left and right, are not near
     return std::min({mesh.corner(t, 0).z(), mesh.corner(t, 1).z(), mesh.corner(t, 2).z()}) > 0.49;
   };

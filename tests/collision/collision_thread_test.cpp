@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/collision/collision_thread.h>
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 
 #include "poses.h"
 
@@ -26,7 +26,7 @@ using test_support::at;
 using namespace std::chrono_literals;
 
 ObjectDescription box(const Isometry3d& X_WO) {
-  static const auto mesh = std::make_shared<TriangleMesh>(make_box({1.0, 1.0, 1.0}, 300));
+  static const auto mesh = std::make_shared<geometry::TriangleMesh>(geometry::make_box({1.0, 1.0, 1.0}, 300));
   static const auto tree = std::make_shared<DopTree>(mesh);
   static const auto hull = std::make_shared<ConvexHull>(*mesh);
   return {tree, hull, X_WO, 0};
@@ -85,7 +85,7 @@ TEST(CollisionThread, RefusesWhatMakesNoSense) {
   EXPECT_THROW(CollisionThread(world, clock, {.pipeline = {.threads = -2}}), std::invalid_argument);
 }
 
-// Movers shake their own boxes about fixed places, so what may meet is known: neighbours of one row. Editors add and
+// Movers shake their own boxes about fixed places, so what may meet is known: neighbors of one row. Editors add and
 // remove others far away from them, in a place of their own where all meet.
 TEST(CollisionThreadStress, MoversEditorsAndReadersAtOnce) {
   constexpr unsigned kSeed = 5;
@@ -120,7 +120,7 @@ TEST(CollisionThreadStress, MoversEditorsAndReadersAtOnce) {
       std::vector<ObjectId> crowd;
       for (int i = 0; i < 10; ++i)
         crowd.push_back(world.add(box(at(-50.0 + 0.1 * i))));
-      world.ignore(crowd[0], crowd[1]);
+      world.disable_pair(crowd[0], crowd[1]);
       for (const ObjectId& id : crowd)
         world.remove(id);
     }
@@ -141,7 +141,7 @@ TEST(CollisionThreadStress, MoversEditorsAndReadersAtOnce) {
           if (pair.object_B.index >= movers_boxes) {
             EXPECT_GE(pair.object_A.index, movers_boxes) << "the crowd is far away";
           } else {
-            EXPECT_EQ(pair.object_A.index + 1, pair.object_B.index) << "only neighbours can meet";
+            EXPECT_EQ(pair.object_A.index + 1, pair.object_B.index) << "only neighbors can meet";
           }
         }
         last = frame.frame;

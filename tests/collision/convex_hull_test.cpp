@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/collision/convex_hull.h>
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 
 #include "random_numbers.h"
 
@@ -55,7 +55,7 @@ void expect_hull(const std::vector<Vector3d>& points, RandomNumbers& random) {
   }
 }
 
-// Every neighbour is a neighbour in turn, and all corners can be reached.
+// Every neighbor is a neighbor in turn, and all corners can be reached.
 void expect_connected(const ConvexHull& hull) {
   std::set<std::int32_t> reached{0};
   std::vector<std::int32_t> open{0};
@@ -98,10 +98,10 @@ TEST_F(ConvexHulls, ReachAsFarAsTheirPointsAtEveryScaleAndPlace) {
 
 TEST_F(ConvexHulls, OfSmoothAndOfFlatFacedBodies) {
   for (const std::int64_t triangles : {100, 2000, 20000}) {
-    ASSERT_NO_FATAL_FAILURE(expect_hull(make_sphere(0.5, triangles).vertices, random_));
-    ASSERT_NO_FATAL_FAILURE(expect_hull(make_box({1.0, 0.2, 3.0}, triangles).vertices, random_));
+    ASSERT_NO_FATAL_FAILURE(expect_hull(geometry::make_sphere(0.5, triangles).vertices, random_));
+    ASSERT_NO_FATAL_FAILURE(expect_hull(geometry::make_box({1.0, 0.2, 3.0}, triangles).vertices, random_));
   }
-  const ConvexHull box(make_box({1.0, 0.2, 3.0}, 5000));
+  const ConvexHull box(geometry::make_box({1.0, 0.2, 3.0}, 5000));
   EXPECT_EQ(box.dimension(), 3);
   EXPECT_EQ(box.vertices().size(), 8U);
 }
@@ -160,12 +160,12 @@ TEST_F(ConvexHulls, OfClustersAreClimbedAsFarAsTheyPromise) {
 }
 
 TEST_F(ConvexHulls, OfAMeshLeavesOutVerticesThatNoTriangleUses) {
-  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}}, {{0, 1, 2}}};
+  geometry::TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}}, {{0, 1, 2}}};
   EXPECT_EQ(ConvexHull(mesh).vertices().size(), 3U);
 }
 
 TEST_F(ConvexHulls, RefusesNoPointsAndWhatIsNotFinite) {
-  EXPECT_THROW(ConvexHull(TriangleMesh{}), std::invalid_argument);
+  EXPECT_THROW(ConvexHull(geometry::TriangleMesh{}), std::invalid_argument);
   const std::vector<Vector3d> points{{0, 0, 0}, {std::numeric_limits<double>::quiet_NaN(), 0, 0}};
   EXPECT_THROW(ConvexHull{points}, std::invalid_argument);
 }

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/collision/dop_query.h>
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 
 #include "mesh_oracle.h"
 
@@ -14,7 +14,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 TEST(GapLowerBound, IsTheDistanceOfSpheresAndNeverMore) {
-  const auto sphere = std::make_shared<const TriangleMesh>(make_sphere(1.0, 5'000));
+  const auto sphere = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(1.0, 5'000));
   const DopTree tree(sphere);
   QueryWorkspace workspace;
   for (const double gap : {1e-3, 0.1, 0.9, 3.0, 1e3}) {
@@ -33,8 +33,8 @@ TEST(GapLowerBound, AgreesWithEveryPairOfTriangles) {
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   std::mt19937 generator(kSeed);
   std::normal_distribution<double> normal;
-  const auto mesh_A = std::make_shared<const TriangleMesh>(make_torus(1.0, 0.3, 200));
-  const auto mesh_B = std::make_shared<const TriangleMesh>(make_plate({0.5, 0.3}, 50));
+  const auto mesh_A = std::make_shared<const geometry::TriangleMesh>(geometry::make_torus(1.0, 0.3, 200));
+  const auto mesh_B = std::make_shared<const geometry::TriangleMesh>(geometry::make_plate({0.5, 0.3}, 50));
   const DopTree tree_A(mesh_A);
   const DopTree tree_B(mesh_B);
   const test_support::MeshOracle oracle(*mesh_A, *mesh_B);
@@ -61,7 +61,7 @@ TEST(GapLowerBound, AgreesWithEveryPairOfTriangles) {
 }
 
 TEST(GapLowerBound, IsTheSameFromWhereverItBeginsButCheaperWhereTheLastOneEnded) {
-  const auto sphere = std::make_shared<const TriangleMesh>(make_sphere(1.0, 5'000));
+  const auto sphere = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(1.0, 5'000));
   const DopTree tree(sphere);
   QueryWorkspace fresh;
   CoherentWorkspace remembering;

@@ -13,10 +13,10 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/parallel_for.h>
 
-#include <glissade/collision/car_door_parts.h>
 #include <glissade/collision/dop_query.h>
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/shape_catalog.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/shapes/car_door_parts.h>
+#include <glissade/shapes/shape_catalog.h>
 
 #include "cgal_oracle.h"
 #include "mesh_oracle.h"
@@ -33,55 +33,55 @@ using test_support::MeshOracle;
 constexpr int kContactsPerPair = 150;
 constexpr int kPosesPerContact = 16;  // eight near the contact, eight anywhere
 
-TriangleMesh sheet() {
-  return make_shape("sheet", {{"size_x_m", 0.4}, {"size_y_m", 0.3}, {"triangles", 400.0}});
+geometry::TriangleMesh sheet() {
+  return shapes::make_shape("sheet", {{"size_x_m", 0.4}, {"size_y_m", 0.3}, {"triangles", 400.0}});
 }
-TriangleMesh small_sheet() {
-  return make_shape("sheet", {{"size_x_m", 0.2},
-                              {"size_y_m", 0.15},
-                              {"hole_x_m", 0.06},
-                              {"hole_y_m", 0.04},
-                              {"hole_corner_radius_m", 0.01},
-                              {"bead_width_m", 0.01},
-                              {"triangles", 300.0}});
+geometry::TriangleMesh small_sheet() {
+  return shapes::make_shape("sheet", {{"size_x_m", 0.2},
+                                      {"size_y_m", 0.15},
+                                      {"hole_x_m", 0.06},
+                                      {"hole_y_m", 0.04},
+                                      {"hole_corner_radius_m", 0.01},
+                                      {"bead_width_m", 0.01},
+                                      {"triangles", 300.0}});
 }
-TriangleMesh sphere() {
-  return make_sphere(0.1, 300);
+geometry::TriangleMesh sphere() {
+  return geometry::make_sphere(0.1, 300);
 }
-TriangleMesh torus() {
-  return make_torus(0.1, 0.03, 400);
+geometry::TriangleMesh torus() {
+  return geometry::make_torus(0.1, 0.03, 400);
 }
-TriangleMesh hyperboloid() {
-  return make_hyperboloid(0.04, 0.1, 0.2, 400);
+geometry::TriangleMesh hyperboloid() {
+  return geometry::make_hyperboloid(0.04, 0.1, 0.2, 400);
 }
-TriangleMesh plate() {
-  return make_plate({0.2, 0.15}, 200);
+geometry::TriangleMesh plate() {
+  return geometry::make_plate({0.2, 0.15}, 200);
 }
-TriangleMesh inner_panel() {
-  return make_door_inner_panel(0.005);
+geometry::TriangleMesh inner_panel() {
+  return shapes::make_door_inner_panel(0.005);
 }
-TriangleMesh impact_tube() {
-  return make_door_impact_tube(0.05);
+geometry::TriangleMesh impact_tube() {
+  return shapes::make_door_impact_tube(0.05);
 }
-TriangleMesh hose() {
-  return make_door_hose(0.05);
+geometry::TriangleMesh hose() {
+  return shapes::make_door_hose(0.05);
 }
-TriangleMesh motor() {
-  return make_window_motor(0.005);
+geometry::TriangleMesh motor() {
+  return shapes::make_window_motor(0.005);
 }
 
 struct MeshPair {
   std::string name;
-  TriangleMesh (*make_A)();
-  TriangleMesh (*make_B)();
+  geometry::TriangleMesh (*make_A)();
+  geometry::TriangleMesh (*make_B)();
 };
 
 // Both trees, the oracle, and poses that depend on nothing but the seed.
 class Duel {
  public:
   explicit Duel(const MeshPair& pair)
-      : mesh_A_(std::make_shared<const TriangleMesh>(pair.make_A())),
-        mesh_B_(std::make_shared<const TriangleMesh>(pair.make_B())),
+      : mesh_A_(std::make_shared<const geometry::TriangleMesh>(pair.make_A())),
+        mesh_B_(std::make_shared<const geometry::TriangleMesh>(pair.make_B())),
         tree_A_(mesh_A_),
         tree_B_(mesh_B_),
         oracle_(*mesh_A_, *mesh_B_) {}
@@ -151,8 +151,8 @@ class Duel {
     return true;
   }
 
-  std::shared_ptr<const TriangleMesh> mesh_A_;
-  std::shared_ptr<const TriangleMesh> mesh_B_;
+  std::shared_ptr<const geometry::TriangleMesh> mesh_A_;
+  std::shared_ptr<const geometry::TriangleMesh> mesh_B_;
   DopTree tree_A_;
   DopTree tree_B_;
   MeshOracle oracle_;
@@ -217,8 +217,8 @@ void expect_same(const std::vector<ClosePair>& actual, const std::vector<ClosePa
 // The points must lie on the triangles and the distance be CGAL's, for a few of the pairs: its arithmetic is slow.
 void expect_true_distances(const std::vector<ClosePair>& pairs, const MeshOracle& oracle, const Isometry3d& X_AB) {
   for (std::size_t i = 0; i < pairs.size(); i += 1 + pairs.size() / 3) {
-    const TrianglePoints a = oracle.points_A(pairs[i].triangles.triangle_A);
-    const TrianglePoints b = oracle.points_B(pairs[i].triangles.triangle_B, X_AB);
+    const geometry::TrianglePoints a = oracle.points_A(pairs[i].triangles.triangle_A);
+    const geometry::TrianglePoints b = oracle.points_B(pairs[i].triangles.triangle_B, X_AB);
     const bool intersect = test_support::cgal_intersect(a, b);
     ASSERT_EQ(pairs[i].distance == 0.0, intersect);
     ASSERT_NEAR(pairs[i].distance, intersect ? 0.0 : test_support::cgal_distance(a, b), 1e-14);
@@ -263,7 +263,7 @@ TEST(DopQueryOracleSeat, DecidesTheSeatedMotor) {
   bool both[2] = {false, false};
   for (const double dy : {0.0, 1e-17, -1e-15, 1e-9, 1e-5}) {
     for (const double dz : {0.0, 1e-16, -1e-12, -1e-5}) {
-      Isometry3d X_WV = seat_pose_WV();
+      Isometry3d X_WV = shapes::seat_pose_WV();
       X_WV.translation() += Vector3d(0.0, dy, dz);
       SCOPED_TRACE(text(X_WV));
       intersecting_pairs(duel.tree_A(), duel.tree_B(), X_WV, workspace, pairs);

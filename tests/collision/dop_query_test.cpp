@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/collision/dop_query.h>
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 
 #include "allocation_counter.h"
 #include "expect_bad_input.h"
@@ -20,7 +20,7 @@ namespace {
 using Eigen::Isometry3d;
 
 DopTree torus_tree(const DopTreeOptions& options = {}) {
-  return DopTree(std::make_shared<const TriangleMesh>(make_torus(0.1, 0.03, 400)), options);
+  return DopTree(std::make_shared<const geometry::TriangleMesh>(geometry::make_torus(0.1, 0.03, 400)), options);
 }
 
 /// A query of one kind, with memory and results of its own.

@@ -1,11 +1,11 @@
+#include "tree/dop.h"
+
 #include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/collision/dop.h>
-
-#include "generic_dop.h"
+#include "tree/generic_dop.h"
 
 namespace glissade::collision {
 namespace {

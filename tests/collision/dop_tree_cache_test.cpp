@@ -19,25 +19,25 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <glissade/base/byte_order.h>
 #include <glissade/collision/dop_tree_cache.h>
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 
-#include "byte_order.h"
-#include "content_hash.h"
 #include "expect_bad_input.h"
 #include "same_tree.h"
 #include "sanitizers.h"
 #include "temporary_folder.h"
+#include "tree/content_hash.h"
+#include "tree/tree_shape_code.h"
 #include "tree_answers.h"
-#include "tree_shape_code.h"
 
 namespace glissade::collision {
 namespace {
 
 using testing::HasSubstr;
 
-std::shared_ptr<TriangleMesh> torus_with(int triangles) {
-  return std::make_shared<TriangleMesh>(make_torus(0.1, 0.03, triangles));
+std::shared_ptr<geometry::TriangleMesh> torus_with(int triangles) {
+  return std::make_shared<geometry::TriangleMesh>(geometry::make_torus(0.1, 0.03, triangles));
 }
 
 std::string content(const std::string& path) {
@@ -45,7 +45,7 @@ std::string content(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-CachedTree read_bytes(const std::string& bytes, const std::shared_ptr<const TriangleMesh>& mesh) {
+CachedTree read_bytes(const std::string& bytes, const std::shared_ptr<const geometry::TriangleMesh>& mesh) {
   return read_tree_cache_bytes(std::as_bytes(std::span(bytes)), mesh);
 }
 
@@ -71,7 +71,7 @@ class TreeCache : public testing::Test {
   test_support::TemporaryFolder folder;
   std::string mesh_path = folder.path("torus.obj");
   std::string path = folder.path("torus.obj.dop-tree");
-  std::shared_ptr<TriangleMesh> mesh = torus_with(60);
+  std::shared_ptr<geometry::TriangleMesh> mesh = torus_with(60);
   DopTree tree{mesh};
 };
 
@@ -109,8 +109,8 @@ TEST_F(TreeCache, ReadsATreeThatWasRefitted) {
 }
 
 TEST_F(TreeCache, BelongsToItsMeshItsOptionsAndItsVersion) {
-  const auto expect_stale = [&](const std::shared_ptr<const TriangleMesh>& other, const DopTreeOptions& options,
-                                const std::string& reason) {
+  const auto expect_stale = [&](const std::shared_ptr<const geometry::TriangleMesh>& other,
+                                const DopTreeOptions& options, const std::string& reason) {
     const CachedTree cached = read_tree_cache(path, other, options);
     EXPECT_EQ(cached.state, CacheState::kStale);
     EXPECT_EQ(cached.reason, reason);
@@ -119,18 +119,19 @@ TEST_F(TreeCache, BelongsToItsMeshItsOptionsAndItsVersion) {
   expect_stale(mesh, {.thin_slab = false}, "of other options");
   expect_stale(mesh, {.realignment = Realignment::kBruteForce}, "of other options");
 
-  TriangleMesh moved = *mesh;
+  geometry::TriangleMesh moved = *mesh;
   moved.vertices[7].y() = std::nextafter(moved.vertices[7].y(), 1.0);
-  TriangleMesh turned = *mesh;
+  geometry::TriangleMesh turned = *mesh;
   std::swap(turned.triangles[3][0], turned.triangles[3][1]);
-  TriangleMesh swapped = *mesh;
+  geometry::TriangleMesh swapped = *mesh;
   std::swap(swapped.triangles[3], swapped.triangles[4]);
-  TriangleMesh shorter = *mesh;
+  geometry::TriangleMesh shorter = *mesh;
   shorter.triangles.pop_back();
-  TriangleMesh longer = *mesh;
+  geometry::TriangleMesh longer = *mesh;
   longer.vertices.emplace_back(0.0, 0.0, 0.0);
-  for (const TriangleMesh& other : {moved, turned, swapped, shorter, longer, TriangleMesh(*torus_with(2000))})
-    expect_stale(std::make_shared<const TriangleMesh>(other), {}, "of another mesh");
+  for (const geometry::TriangleMesh& other :
+       {moved, turned, swapped, shorter, longer, geometry::TriangleMesh(*torus_with(2000))})
+    expect_stale(std::make_shared<const geometry::TriangleMesh>(other), {}, "of another mesh");
 
   std::string bytes = content(path);
   ++bytes[8];
@@ -189,13 +190,13 @@ class ForgedTreeCache : public TreeCache {
   /// Whether `bytes` is taken once its checksum is put right; answers must be right then.
   bool is_taken(std::string bytes) const {
     bytes.resize(bytes.size() - 8);
-    append_number(bytes, content_hash(bytes));
+    base::append_number(bytes, content_hash(bytes));
     const CachedTree cached = read_bytes(bytes, mesh);
     if (cached) expect_right_answers(*cached.tree, ball, 2);
     return static_cast<bool>(cached);
   }
 
-  const DopTree ball{std::make_shared<const TriangleMesh>(make_sphere(0.06, 40))};
+  const DopTree ball{std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.06, 40))};
   const std::string good = content(path);
 };
 
@@ -231,12 +232,12 @@ using Bytes = std::vector<std::uint8_t>;
 /// The code of a shape, written out.
 std::string shape_code(const Bytes& nodes, const Bytes& leaves, const std::vector<std::uint32_t>& triangles) {
   std::string code;
-  append_number(code, static_cast<std::uint32_t>(nodes.size()));
-  append_number(code, static_cast<std::uint32_t>(leaves.size()));
+  base::append_number(code, static_cast<std::uint32_t>(nodes.size()));
+  base::append_number(code, static_cast<std::uint32_t>(leaves.size()));
   code.append(nodes.begin(), nodes.end());
   code.append(leaves.begin(), leaves.end());
   for (const std::uint32_t triangle : triangles)
-    append_number(code, triangle);
+    base::append_number(code, triangle);
   return code;
 }
 
@@ -359,10 +360,10 @@ TEST_F(TreeCache, BuildsWhereNothingCanBeKept) {
 }
 
 TEST_F(TreeCache, RefusesMeshesAsTheTreeDoes) {
-  const auto nan = std::make_shared<TriangleMesh>(*mesh);
+  const auto nan = std::make_shared<geometry::TriangleMesh>(*mesh);
   nan->vertices[3].x() = std::numeric_limits<double>::quiet_NaN();
   test_support::expect_bad_input([&] { load_or_build_tree(mesh_path, nan); }, {"vertex 3"});
-  const auto wild = std::make_shared<TriangleMesh>(*mesh);
+  const auto wild = std::make_shared<geometry::TriangleMesh>(*mesh);
   wild->triangles[3][1] = 1'000'000;
   test_support::expect_bad_input([&] { load_or_build_tree(mesh_path, wild); }, {"triangle 3"});
 }
@@ -370,7 +371,7 @@ TEST_F(TreeCache, RefusesMeshesAsTheTreeDoes) {
 // Vertices of whole numbers, so that every machine builds the same.
 TEST(TreeCacheVersion, CountsWaysToBuild) {
   std::mt19937 random(7);
-  auto mesh = std::make_shared<TriangleMesh>();
+  auto mesh = std::make_shared<geometry::TriangleMesh>();
   for (int i = 0; i < 900; ++i) {
     const auto x = static_cast<double>(random() % 1000);
     const auto y = static_cast<double>(random() % 1000);

@@ -12,12 +12,13 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <glissade/collision/dop_tree.h>
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 
 #include "allocation_counter.h"
 #include "expect_bad_input.h"
 #include "same_tree.h"
 #include "sanitizers.h"
+#include "tree/tree_nodes.h"
 #include "tree_answers.h"
 
 namespace glissade::collision {
@@ -28,13 +29,13 @@ using test_support::expect_bad_input;
 
 constexpr int kDirections[] = {6, 14, 18, 24, 26};
 
-std::shared_ptr<TriangleMesh> shared(TriangleMesh mesh) {
-  return std::make_shared<TriangleMesh>(std::move(mesh));
+std::shared_ptr<geometry::TriangleMesh> shared(geometry::TriangleMesh mesh) {
+  return std::make_shared<geometry::TriangleMesh>(std::move(mesh));
 }
 
 /// The first `count` triangles of a torus.
-std::shared_ptr<TriangleMesh> piece_of_torus(std::size_t count) {
-  TriangleMesh mesh = make_torus(0.1, 0.03, 400);
+std::shared_ptr<geometry::TriangleMesh> piece_of_torus(std::size_t count) {
+  geometry::TriangleMesh mesh = geometry::make_torus(0.1, 0.03, 400);
   mesh.triangles.resize(count);
   return shared(std::move(mesh));
 }
@@ -72,7 +73,7 @@ const Motion kMotions[] = {
      }},
 };
 
-void move(TriangleMesh& mesh, const std::vector<Vector3d>& vertices, const Motion& motion) {
+void move(geometry::TriangleMesh& mesh, const std::vector<Vector3d>& vertices, const Motion& motion) {
   std::mt19937 random(20);
   for (std::size_t i = 0; i < vertices.size(); ++i)
     mesh.vertices[i] = motion.moved(vertices[i], random);
@@ -83,11 +84,11 @@ TEST(DopTreeRefit, AnswersStayExactWhateverTheVerticesDo) {
   for (const int k : kDirections)
     all_options.push_back({.directions = k});
   for (const DopTreeOptions& options : all_options) {
-    const auto plate = shared(make_plate({0.4, 0.3}, 200));
+    const auto plate = shared(geometry::make_plate({0.4, 0.3}, 200));
     const std::vector<Vector3d> flat = plate->vertices;
     DopTree tree(plate, options);
     const DopTree original = tree;
-    const DopTree ball(shared(make_sphere(0.1, 100)), options);
+    const DopTree ball(shared(geometry::make_sphere(0.1, 100)), options);
     for (const Motion& motion : kMotions) {
       SCOPED_TRACE(testing::Message() << "k " << options.directions << ", " << motion.name);
       move(*plate, flat, motion);
@@ -103,9 +104,9 @@ TEST(DopTreeRefit, AnswersStayExactWhateverTheVerticesDo) {
 }
 
 TEST(DopTreeRefit, EnclosesWhereverARandomWalkLeads) {
-  const auto plate = shared(make_plate({0.4, 0.3}, 200));
+  const auto plate = shared(geometry::make_plate({0.4, 0.3}, 200));
   DopTree tree(plate);
-  const DopTree ball(shared(make_sphere(0.1, 100)));
+  const DopTree ball(shared(geometry::make_sphere(0.1, 100)));
   std::mt19937 random(20);
   CoherentWorkspace memory;  // of the tree as it was a step before
   std::vector<TrianglePair> pairs;
@@ -117,15 +118,15 @@ TEST(DopTreeRefit, EnclosesWhereverARandomWalkLeads) {
     tree.refit();
     expect_right_answers(tree, ball, 5);
     intersecting_pairs(tree, ball, X_AB, memory, pairs);
-    EXPECT_EQ(pairs, brute_force_pairs(*plate, ball.mesh(), X_AB));
+    EXPECT_EQ(pairs, reference::brute_force_pairs(*plate, ball.mesh(), X_AB));
   }
 }
 
 TEST(DopTreeRefit, TrianglesLoseTheirAreaAndGetItBack) {
-  const auto plate = shared(make_plate({0.4, 0.3}, 200));
+  const auto plate = shared(geometry::make_plate({0.4, 0.3}, 200));
   const std::vector<Vector3d> flat = plate->vertices;
   DopTree tree(plate);
-  const DopTree ball(shared(make_sphere(0.1, 100)));
+  const DopTree ball(shared(geometry::make_sphere(0.1, 100)));
   EXPECT_EQ(tree.degenerate_triangles(), 0);
 
   // On a line, then in one point: nothing is left that could collide.
@@ -148,7 +149,7 @@ TEST(DopTreeRefit, TrianglesLoseTheirAreaAndGetItBack) {
 TEST(DopTreeRefit, AllocatesNothing) {
   if (!test_support::allocations_are_counted()) GTEST_SKIP() << "allocations cannot be counted here";
   for (const Realignment realignment : {Realignment::kAffine, Realignment::kBruteForce}) {
-    const auto plate = shared(make_plate({0.4, 0.3}, 2000));
+    const auto plate = shared(geometry::make_plate({0.4, 0.3}, 2000));
     DopTree tree(plate, {.realignment = realignment});
     for (Vector3d& vertex : plate->vertices)
       vertex.z() = vertex.x() * vertex.y();
@@ -159,7 +160,7 @@ TEST(DopTreeRefit, AllocatesNothing) {
 }
 
 TEST(DopTreeRefit, LeavesTheTreeAsItWasWhenAVertexIsRefused) {
-  const auto plate = shared(make_plate({0.4, 0.3}, 200));
+  const auto plate = shared(geometry::make_plate({0.4, 0.3}, 200));
   DopTree tree(plate);
   const DopTree original = tree;
   const Vector3d good = plate->vertices[17];
@@ -170,7 +171,7 @@ TEST(DopTreeRefit, LeavesTheTreeAsItWasWhenAVertexIsRefused) {
   }
   plate->vertices[17] = good;
   tree.refit();
-  EXPECT_GT(expect_right_answers(tree, DopTree(shared(make_sphere(0.1, 100))), 5), 0U);
+  EXPECT_GT(expect_right_answers(tree, DopTree(shared(geometry::make_sphere(0.1, 100))), 5), 0U);
 }
 
 TEST(DopTree, HoldsEveryTriangleInOneLeaf) {
@@ -202,7 +203,7 @@ TEST(DopTree, HoldsEveryTriangleInOneLeaf) {
     }
     EXPECT_EQ(nodes, tree.nodes().size());
     EXPECT_EQ(leaves, tree.leaves().size());
-    EXPECT_GT(expect_right_answers(tree, DopTree(shared(make_sphere(0.1, 100))), 40), 0U);
+    EXPECT_GT(expect_right_answers(tree, DopTree(shared(geometry::make_sphere(0.1, 100))), 40), 0U);
   }
 }
 
@@ -212,11 +213,11 @@ TEST(DopTree, LeavesOutTrianglesWithoutArea) {
   mesh->triangles[16] = {7, 8, 7};
   const DopTree tree(mesh);
   EXPECT_EQ(tree.degenerate_triangles(), 2);
-  EXPECT_GT(expect_right_answers(tree, DopTree(shared(make_sphere(0.1, 100))), 40), 0U);
+  EXPECT_GT(expect_right_answers(tree, DopTree(shared(geometry::make_sphere(0.1, 100))), 40), 0U);
 }
 
 TEST(DopTree, IsTheSameWhateverTheNumberOfThreads) {
-  const auto mesh = shared(make_torus(0.1, 0.03, 20'000));
+  const auto mesh = shared(geometry::make_torus(0.1, 0.03, 20'000));
   const DopTree tree(mesh);
   expect_same_tree(tree, DopTree(mesh));
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
@@ -224,8 +225,10 @@ TEST(DopTree, IsTheSameWhateverTheNumberOfThreads) {
 }
 
 TEST(DopTree, TakesAtMost100BytesATriangleWithItsMesh) {
-  for (const TriangleMesh& mesh : {make_torus(0.1, 0.03, 20'000), make_sphere(0.1, 20'000)}) {
-    const std::size_t mesh_bytes = mesh.vertices.size() * sizeof(Vector3d) + mesh.triangles.size() * sizeof(Triangle);
+  for (const geometry::TriangleMesh& mesh :
+       {geometry::make_torus(0.1, 0.03, 20'000), geometry::make_sphere(0.1, 20'000)}) {
+    const std::size_t mesh_bytes =
+        mesh.vertices.size() * sizeof(Vector3d) + mesh.triangles.size() * sizeof(geometry::Triangle);
     const DopTree tree(shared(mesh));
     EXPECT_LE(tree.memory_bytes() + mesh_bytes, 100 * mesh.triangles.size());
   }
@@ -237,7 +240,7 @@ TEST(DopTree, RefusesOptionsThatDoNotExist) {
 }
 
 TEST(DopTree, RefusesMeshesItCannotHold) {
-  const auto expect_mesh_refused = [](const std::shared_ptr<TriangleMesh>& mesh, const std::string& reason) {
+  const auto expect_mesh_refused = [](const std::shared_ptr<geometry::TriangleMesh>& mesh, const std::string& reason) {
     expect_bad_input([&] { DopTree tree(mesh); }, {reason});
   };
   expect_mesh_refused(shared({}), "no triangle of positive area");

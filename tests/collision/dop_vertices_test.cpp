@@ -8,12 +8,13 @@
 
 #include <glissade/collision/dop_query.h>
 #include <glissade/collision/dop_tree.h>
-#include <glissade/collision/instruction_set.h>
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 
-#include "node_kernels.h"
+#include "kernels/instruction_set.h"
+#include "kernels/node_kernels.h"
+#include "kernels/vertex_alignment.h"
 #include "random_numbers.h"
-#include "vertex_alignment.h"
+#include "tree/tree_nodes.h"
 
 namespace glissade::collision {
 namespace {
@@ -24,8 +25,8 @@ using Eigen::Vector3d;
 constexpr unsigned kDopVerticesSeed = 7;
 constexpr int kDirectionCounts[] = {6, 14, 18, 24, 26};
 
-DopTree tree(const TriangleMesh& mesh, int k, Realignment realignment = Realignment::kBruteForce) {
-  return DopTree(std::make_shared<const TriangleMesh>(mesh), {.directions = k, .realignment = realignment});
+DopTree tree(const geometry::TriangleMesh& mesh, int k, Realignment realignment = Realignment::kBruteForce) {
+  return DopTree(std::make_shared<const geometry::TriangleMesh>(mesh), {.directions = k, .realignment = realignment});
 }
 
 std::vector<Vector3d> vertices_of(const DopTree& tree, std::uint32_t node, std::size_t child) {
@@ -54,7 +55,7 @@ class Vertices : public ::testing::Test {
 };
 
 TEST_F(Vertices, OfABoxOfThreeSlabsAreItsCorners) {
-  const DopTree box = tree(make_box({2.0, 1.0, 0.5}, 100), 6);
+  const DopTree box = tree(geometry::make_box({2.0, 1.0, 0.5}, 100), 6);
   for (std::uint32_t node = 0; node < box.nodes().size(); ++node) {
     for (std::size_t c = 0; c < static_cast<std::size_t>(box.nodes()[node].child_count()); ++c) {
       std::vector<Vector3d> corners;
@@ -76,7 +77,7 @@ TEST_F(Vertices, OfABoxOfThreeSlabsAreItsCorners) {
 TEST_F(Vertices, LieWithinAllHalfSpacesAndOnThreePlanes) {
   for (const int k : kDirectionCounts) {
     const DopDirections& directions = dop_directions(k);
-    const DopTree torus = tree(make_torus(0.7, 0.3, 500), k);
+    const DopTree torus = tree(geometry::make_torus(0.7, 0.3, 500), k);
     for (std::uint32_t node = 0; node < torus.nodes().size(); ++node) {
       for (std::size_t c = 0; c < static_cast<std::size_t>(torus.nodes()[node].child_count()); ++c) {
         for (const Vector3d& x : vertices_of(torus, node, c)) {
@@ -98,7 +99,7 @@ TEST_F(Vertices, LieWithinAllHalfSpacesAndOnThreePlanes) {
 // Nodes that are aligned already must stay what they are: planes that touch what they enclose keep their places.
 TEST_F(Vertices, RealignmentByTheIdentityChangesNothing) {
   for (const int k : kDirectionCounts) {
-    const DopTree torus = tree(make_torus(0.7, 0.3, 500), k);
+    const DopTree torus = tree(geometry::make_torus(0.7, 0.3, 500), k);
     const VertexAlignment alignment(dop_directions(k), QueryFrame(torus, torus, Isometry3d::Identity()));
     for (std::uint32_t node = 0; node < torus.nodes().size(); ++node) {
       AlignedNode aligned;
@@ -117,8 +118,8 @@ TEST_F(Vertices, RealignmentByTheIdentityChangesNothing) {
 // The extreme of the vertices is the tightest bound there is; three weighted offsets are some bound.
 TEST_F(Vertices, RealignNoLooserThanThreeOffsetsDo) {
   for (const int k : kDirectionCounts) {
-    const DopTree sphere = tree(make_sphere(1.0, 500), k);
-    const DopTree torus = tree(make_torus(0.6, 0.2, 500), k);
+    const DopTree sphere = tree(geometry::make_sphere(1.0, 500), k);
+    const DopTree torus = tree(geometry::make_torus(0.6, 0.2, 500), k);
     std::int64_t excess = 0;
     for (int trial = 0; trial < 5; ++trial) {
       const QueryFrame frame(sphere, torus, random_pose(1.5));
@@ -143,16 +144,16 @@ TEST_F(Vertices, RealignNoLooserThanThreeOffsetsDo) {
 }
 
 TEST_F(Vertices, QueriesAnswerAsWithThreeOffsets) {
-  const TriangleMesh bodies[] = {make_sphere(1.0, 300), make_torus(0.7, 0.3, 400),
-                                 make_hyperboloid(0.2, 0.5, 1.5, 300)};
+  const geometry::TriangleMesh bodies[] = {geometry::make_sphere(1.0, 300), geometry::make_torus(0.7, 0.3, 400),
+                                           geometry::make_hyperboloid(0.2, 0.5, 1.5, 300)};
   QueryWorkspace workspace;
   std::vector<TrianglePair> expected;
   std::vector<TrianglePair> actual;
   std::size_t found = 0;
   for (const int k : kDirectionCounts) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const TriangleMesh& mesh_A = bodies[i];
-      const TriangleMesh& mesh_B = bodies[(i + 1) % 3];
+      const geometry::TriangleMesh& mesh_A = bodies[i];
+      const geometry::TriangleMesh& mesh_B = bodies[(i + 1) % 3];
       const DopTree affine_A = tree(mesh_A, k, Realignment::kAffine);
       const DopTree affine_B = tree(mesh_B, k, Realignment::kAffine);
       const DopTree vertices_A = tree(mesh_A, k);
@@ -173,18 +174,18 @@ TEST_F(Vertices, QueriesAnswerAsWithThreeOffsets) {
 }
 
 TEST_F(Vertices, FollowTheMeshWhenTheTreeIsFittedAnew) {
-  const TriangleMesh torus = make_torus(0.7, 0.3, 300);
-  TriangleMesh stretched = torus;
+  const geometry::TriangleMesh torus = geometry::make_torus(0.7, 0.3, 300);
+  geometry::TriangleMesh stretched = torus;
   for (Vector3d& vertex : stretched.vertices)
     vertex.z() *= 3.0;
-  const auto mesh = std::make_shared<TriangleMesh>(torus);
+  const auto mesh = std::make_shared<geometry::TriangleMesh>(torus);
   DopTree refitted(mesh, {.realignment = Realignment::kBruteForce});
   mesh->vertices = stretched.vertices;
   refitted.refit();
 
   const DopTree affine = tree(stretched, 24, Realignment::kAffine);
-  const DopTree sphere_affine = tree(make_sphere(0.5, 200), 24, Realignment::kAffine);
-  const DopTree sphere = tree(make_sphere(0.5, 200), 24);
+  const DopTree sphere_affine = tree(geometry::make_sphere(0.5, 200), 24, Realignment::kAffine);
+  const DopTree sphere = tree(geometry::make_sphere(0.5, 200), 24);
   QueryWorkspace workspace;
   std::vector<TrianglePair> expected;
   std::vector<TrianglePair> actual;

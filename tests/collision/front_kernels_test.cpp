@@ -1,4 +1,4 @@
-#include "front_kernels.h"
+#include "kernels/front_kernels.h"
 
 #include <limits>
 #include <vector>
@@ -30,7 +30,7 @@ TEST_P(FrontKernels, FindsWhatTheClockHasReachedInOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(InstructionSets, FrontKernels, ::testing::ValuesIn(available_instruction_sets()),
-                         [](const auto& test) { return std::string(name(test.param)); });
+                         [](const auto& test) { return std::string(name_of(test.param)); });
 
 }  // namespace
 }  // namespace glissade::collision

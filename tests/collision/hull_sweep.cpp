@@ -11,8 +11,8 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/separating_plane.h>
+#include <glissade/collision/convex_hull.h>
+#include <glissade/geometry/mesh_generators.h>
 
 #include "hull_oracle.h"
 #include "random_numbers.h"
@@ -45,7 +45,7 @@ std::vector<Vector3d> cloud(int count, const Vector3d& size, RandomNumbers& rand
 }
 
 std::vector<Vector3d> ellipsoid(const Vector3d& size, RandomNumbers& random) {
-  std::vector<Vector3d> points = make_sphere(0.5, random.integer(20, 400)).vertices;
+  std::vector<Vector3d> points = geometry::make_sphere(0.5, random.integer(20, 400)).vertices;
   for (Vector3d& x : points)
     x = x.cwiseProduct(size);
   return points;
@@ -71,7 +71,7 @@ Body random_body(RandomNumbers& random) {
     case 1:
       return {"ellipsoid", ellipsoid({1.0, 0.6, 0.3}, random)};
     case 2:
-      return {"box", make_box(size, random.integer(12, 300)).vertices};
+      return {"box", geometry::make_box(size, random.integer(12, 300)).vertices};
     case 3:
       return {"cloud", cloud(random.integer(4, 200), size, random)};
     case 4:

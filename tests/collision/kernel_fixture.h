@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include <glissade/collision/dop_tree.h>
-#include <glissade/collision/instruction_set.h>
-#include <glissade/collision/triangle_distance.h>
+#include <glissade/geometry/triangle_pair.h>
 
+#include "kernels/instruction_set.h"
 #include "random_numbers.h"
 
 namespace glissade::collision {
@@ -40,8 +40,8 @@ class Kernels : public ::testing::TestWithParam<InstructionSet> {
   }
 
   // Small thin triangles scattered over a sphere of radius 1, some large ones among them.
-  TriangleMesh soup(int triangles) {
-    TriangleMesh mesh;
+  geometry::TriangleMesh soup(int triangles) {
+    geometry::TriangleMesh mesh;
     for (std::int32_t t = 0; t < triangles; ++t) {
       const Eigen::Vector3d middle = random_vector().normalized();
       const double size = t % 10 == 0 ? 1.0 : 0.1;
@@ -53,12 +53,12 @@ class Kernels : public ::testing::TestWithParam<InstructionSet> {
     return mesh;
   }
 
-  DopTree tree(const TriangleMesh& mesh, double scale, const Eigen::Vector3d& offset,
+  DopTree tree(const geometry::TriangleMesh& mesh, double scale, const Eigen::Vector3d& offset,
                const DopTreeOptions& options = {}) {
-    TriangleMesh placed = mesh;
+    geometry::TriangleMesh placed = mesh;
     for (Eigen::Vector3d& vertex : placed.vertices)
       vertex = scale * vertex + offset;
-    return DopTree(std::make_shared<const TriangleMesh>(std::move(placed)), options);
+    return DopTree(std::make_shared<const geometry::TriangleMesh>(std::move(placed)), options);
   }
 
   test_support::RandomNumbers random_{kKernelSeed};
@@ -72,9 +72,9 @@ inline double least_distance(const DopTree& tree_A, const std::vector<std::int32
     for (const std::int32_t b : triangles_B) {
       const auto corner_A = [&](int c) { return tree_A.mesh().corner(a, c); };
       const auto corner_B = [&](int c) { return X_AB * tree_B.mesh().corner(b, c); };
-      least = std::min(
-          least,
-          triangle_distance({corner_A(0), corner_A(1), corner_A(2)}, {corner_B(0), corner_B(1), corner_B(2)}).distance);
+      least = std::min(least, geometry::triangle_distance({corner_A(0), corner_A(1), corner_A(2)},
+                                                          {corner_B(0), corner_B(1), corner_B(2)})
+                                  .distance);
     }
   }
   return least;

@@ -1,4 +1,4 @@
-#include "leaf_kernels.h"
+#include "kernels/leaf_kernels.h"
 
 #include <algorithm>
 #include <vector>
@@ -6,10 +6,11 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <glissade/collision/brute_force.h>
+#include <glissade/reference/brute_force.h>
 
 #include "kernel_fixture.h"
-#include "placed_trees.h"
+#include "query/placed_trees.h"
+#include "tree/tree_nodes.h"
 
 namespace glissade::collision {
 namespace {
@@ -37,19 +38,20 @@ class LeafKernelsTest : public Kernels {
     const double radius = placed.frame.base_radius;
     const double rounding = 1e-12 * (tree_A.center().norm() + X_AB.translation().norm()) / radius;
     const LeafFrame frame(placed.frame);
-    for (std::uint32_t leaf_P = 0; leaf_P < placed.base().leaves().size(); ++leaf_P) {
-      for (std::uint32_t leaf_Q = 0; leaf_Q < placed.other().leaves().size(); ++leaf_Q) {
+    for (std::uint32_t leaf_M = 0; leaf_M < placed.base().leaves().size(); ++leaf_M) {
+      for (std::uint32_t leaf_N = 0; leaf_N < placed.other().leaves().size(); ++leaf_N) {
         std::array<double, 16> distance;
         for (int pair = 0; pair < 16; ++pair) {
-          const TrianglePair triangles = placed.triangles(leaf_P, leaf_Q, pair);
+          const TrianglePair triangles = placed.triangles(leaf_M, leaf_N, pair);
           const bool exists = triangles.triangle_A >= 0 && triangles.triangle_B >= 0;
           distance[static_cast<std::size_t>(pair)] =
-              exists ? triangle_distance(placed.points_A(triangles), placed.points_B(triangles)).distance / radius
+              exists ? geometry::triangle_distance(placed.points_A(triangles), placed.points_B(triangles)).distance /
+                           radius
                      : -1.0;
         }
         LeafPair leaves;
-        leaf_kernels().prepare_P(placed.base().leaves()[leaf_P], leaves);
-        leaf_kernels().prepare_Q(frame, placed.other().leaves()[leaf_Q], leaves);
+        leaf_kernels().prepare_M(placed.base().leaves()[leaf_M], leaves);
+        leaf_kernels().prepare_N(frame, placed.other().leaves()[leaf_N], leaves);
         check(Visit{frame, leaves, distance, rounding});
       }
     }
@@ -141,7 +143,7 @@ TEST_P(LeafKernelsTest, CertaintiesHoldWhereTrianglesBarelyMeet) {
   int certain_pairs = 0;
   for (int trial = 0; trial < 1500; ++trial) {
     const auto triangle = [&] {
-      const TriangleMesh mesh{{random_vector(), random_vector(), random_vector()}, {{0, 1, 2}}};
+      const geometry::TriangleMesh mesh{{random_vector(), random_vector(), random_vector()}, {{0, 1, 2}}};
       return tree(mesh, trial % 2 == 0 ? 1.0 : 0.3, Vector3d::Zero());
     };
     const DopTree tree_A = triangle();
@@ -151,7 +153,7 @@ TEST_P(LeafKernelsTest, CertaintiesHoldWhereTrianglesBarelyMeet) {
     const Vector3d way = 4.0 * random_.direction();
     const auto meet = [&](double along) {
       X_AB.translation() = start + along * way;
-      return brute_force_intersects(tree_A.mesh(), tree_B.mesh(), X_AB);
+      return reference::brute_force_intersects(tree_A.mesh(), tree_B.mesh(), X_AB);
     };
     if (!meet(0.0)) continue;
     double meeting = 0.0;
@@ -165,8 +167,8 @@ TEST_P(LeafKernelsTest, CertaintiesHoldWhereTrianglesBarelyMeet) {
     const PlacedTrees placed{tree_A, tree_B, X_AB};
     const LeafFrame frame(placed.frame);
     LeafPair leaves;
-    leaf_kernels().prepare_P(placed.base().leaves()[0], leaves);
-    leaf_kernels().prepare_Q(frame, placed.other().leaves()[0], leaves);
+    leaf_kernels().prepare_M(placed.base().leaves()[0], leaves);
+    leaf_kernels().prepare_N(frame, placed.other().leaves()[0], leaves);
     ASSERT_TRUE(!intersect || has(leaf_kernels().test(frame, 0.0F, leaves), 0)) << "trial " << trial;
     const CertainPairs certain = leaf_kernels().cross(frame, leaves);
     ASSERT_FALSE(has(intersect ? certain.apart : certain.intersect, 0)) << "trial " << trial << ", off " << off;
@@ -190,7 +192,7 @@ TEST_P(LeafKernelsTest, TheLeastGapIsOfThePairsAskedFor) {
 }
 
 INSTANTIATE_TEST_SUITE_P(InstructionSets, LeafKernelsTest, ::testing::ValuesIn(available_instruction_sets()),
-                         [](const auto& test) { return std::string(name(test.param)); });
+                         [](const auto& test) { return std::string(name_of(test.param)); });
 
 }  // namespace
 }  // namespace glissade::collision

@@ -1,15 +1,16 @@
-#include "node_kernels.h"
+#include "kernels/node_kernels.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/mesh_operations.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 #include "kernel_fixture.h"
-#include "placed_trees.h"
+#include "kernels/vertex_alignment.h"
+#include "query/placed_trees.h"
 #include "sanitizers.h"
-#include "vertex_alignment.h"
+#include "tree/tree_nodes.h"
 
 namespace glissade::collision {
 namespace {
@@ -59,7 +60,7 @@ TEST_P(Kernels, RealignedNodesEncloseEveryTransformedPoint) {
         const QueryFrame& frame = placed.frame;
         const DopTree& base = placed.base();
         const DopTree& other = placed.other();
-        const Isometry3d X_PQ = frame.base_is_A ? X_AB : X_AB.inverse();
+        const Isometry3d X_MN = frame.base_is_A ? X_AB : X_AB.inverse();
         DopAlignment alignment;
         align(k, frame, alignment);
         for (std::uint32_t node = 0; node < other.nodes().size(); ++node) {
@@ -72,7 +73,7 @@ TEST_P(Kernels, RealignedNodesEncloseEveryTransformedPoint) {
             for (const std::int32_t t : triangles) {
               for (int corner = 0; corner < 3; ++corner) {
                 const Vector3d x =
-                    (X_PQ * other.mesh().corner(t, corner) - base.center()) * (kGridRadius / base.radius());
+                    (X_MN * other.mesh().corner(t, corner) - base.center()) * (kGridRadius / base.radius());
                 ASSERT_NO_FATAL_FAILURE(expect_inside(aligned[0], directions, c, x)) << "affine, k " << k;
                 ASSERT_NO_FATAL_FAILURE(expect_inside(aligned[1], directions, c, x)) << "brute force, k " << k;
               }
@@ -88,8 +89,8 @@ TEST_P(Kernels, OverlapsOfPairsBoundTheirDistance) {
   for (const bool with_thin_slabs : {false, true}) {
     for (const Setting& s : kSettings) {
       // Curved surfaces, whose nodes are thin.
-      const DopTree tree_A = tree(make_sphere(1.0, 200), s.scale_A, s.scale_A * s.offset * random_vector());
-      const DopTree tree_B = tree(make_torus(0.7, 0.3, 200), s.scale_B, s.scale_B * random_vector());
+      const DopTree tree_A = tree(geometry::make_sphere(1.0, 200), s.scale_A, s.scale_A * s.offset * random_vector());
+      const DopTree tree_B = tree(geometry::make_torus(0.7, 0.3, 200), s.scale_B, s.scale_B * random_vector());
       int separated = 0;
       for (int trial = 0; trial < 3; ++trial) {
         const Isometry3d X_AB = random_pose(tree_A, tree_B, s.translation * s.scale_A);
@@ -97,33 +98,33 @@ TEST_P(Kernels, OverlapsOfPairsBoundTheirDistance) {
         const QueryFrame& frame = placed.frame;
         const DopTree& base = placed.base();
         const DopTree& other = placed.other();
-        const Isometry3d X_PQ = frame.base_is_A ? X_AB : X_AB.inverse();
+        const Isometry3d X_MN = frame.base_is_A ? X_AB : X_AB.inverse();
         DopAlignment alignment;
         align(24, frame, alignment);
         for (std::uint32_t p = 0; p < base.nodes().size(); p += test_support::kSanitized ? 30 : 3) {
           for (std::uint32_t q = 0; q < other.nodes().size(); q += 5) {
             AlignedNode aligned;
             PairOverlaps overlaps;
-            const NodeHead& head_P = base.nodes()[p];
-            const NodeHead& head_Q = other.nodes()[q];
+            const NodeHead& head_M = base.nodes()[p];
+            const NodeHead& head_N = other.nodes()[q];
             node_kernels().realign(alignment, other.slabs(q), aligned);
             PairMask near = node_kernels().test(base.slabs(p), aligned, 12, 0, overlaps);
             if (with_thin_slabs) {
-              near = node_kernels().test_thin(ThinSlabFrame(frame), head_P, base.slabs(p), head_Q, other.slabs(q), 0,
+              near = node_kernels().test_thin(ThinSlabFrame(frame), head_M, base.slabs(p), head_N, other.slabs(q), 0,
                                               overlaps);
             }
-            for (int i = 0; i < head_P.child_count(); ++i) {
-              for (int j = 0; j < head_Q.child_count(); ++j) {
+            for (int i = 0; i < head_M.child_count(); ++i) {
+              for (int j = 0; j < head_N.child_count(); ++j) {
                 const auto pair = static_cast<std::size_t>(kWidth * i + j);
                 ASSERT_EQ((near >> pair & 1U) != 0, overlaps.overlap[pair] >= 0);
                 if (overlaps.overlap[pair] >= 0) continue;
                 ++separated;
-                std::vector<std::int32_t> triangles_P;
-                std::vector<std::int32_t> triangles_Q;
-                collect(base, head_P, i, triangles_P);
-                collect(other, head_Q, j, triangles_Q);
-                const double distance = least_distance(base, triangles_P, other, triangles_Q, X_PQ);
-                const double rounding = 1e-12 * (base.center().norm() + X_PQ.translation().norm());
+                std::vector<std::int32_t> triangles_M;
+                std::vector<std::int32_t> triangles_N;
+                collect(base, head_M, i, triangles_M);
+                collect(other, head_N, j, triangles_N);
+                const double distance = least_distance(base, triangles_M, other, triangles_N, X_MN);
+                const double rounding = 1e-12 * (base.center().norm() + X_MN.translation().norm());
                 ASSERT_LE(-overlaps.overlap[pair] * base.radius() / kGridRadius, distance + rounding);
               }
             }
@@ -187,7 +188,7 @@ TEST_P(Kernels, TheDeepestPairOverlapsMostButForSixteenSteps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(InstructionSets, Kernels, ::testing::ValuesIn(available_instruction_sets()),
-                         [](const auto& test) { return std::string(name(test.param)); });
+                         [](const auto& test) { return std::string(name_of(test.param)); });
 
 }  // namespace
 }  // namespace glissade::collision

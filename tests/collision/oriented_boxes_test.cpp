@@ -1,4 +1,4 @@
-#include "oriented_boxes.h"
+#include "query/oriented_boxes.h"
 
 #include <memory>
 #include <numeric>
@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 
 #include "kernel_fixture.h"
 #include "random_numbers.h"
@@ -76,10 +76,10 @@ class TwoBoxes {
     return {random.uniform(0.01, 2.0), random.uniform(0.01, 2.0), random.uniform(0.01, 2.0)};
   }
   static DopTree tree(const Vector3d& size, const Vector3d& center) {
-    TriangleMesh mesh = make_box(size, 12);
+    geometry::TriangleMesh mesh = geometry::make_box(size, 12);
     for (Vector3d& vertex : mesh.vertices)
       vertex += center;
-    return DopTree(std::make_shared<const TriangleMesh>(std::move(mesh)));
+    return DopTree(std::make_shared<const geometry::TriangleMesh>(std::move(mesh)));
   }
 
   Vector3d size_A_;

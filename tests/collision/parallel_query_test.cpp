@@ -1,3 +1,5 @@
+#include "query/parallel_query.h"
+
 #include <memory>
 #include <vector>
 
@@ -5,8 +7,8 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <glissade/collision/benchmark_shapes.h>
-#include <glissade/collision/parallel_query.h>
+#include <glissade/collision/dop_query.h>
+#include <glissade/shapes/benchmark_shapes.h>
 
 namespace glissade::collision {
 namespace {
@@ -31,7 +33,7 @@ class OverlappingParts : public testing::TestWithParam<int> {
     return X_AB;
   }
 
-  const DopTree tree_{std::make_shared<TriangleMesh>(make_headlight(20'000))};
+  const DopTree tree_{std::make_shared<geometry::TriangleMesh>(shapes::make_headlight(20'000))};
   const double size_ = tree_.radius();
 };
 

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/brute_force.h>
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/penetration.h>
+#include <glissade/collision/dop_query.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/reference/brute_force.h>
 
 #include "poses.h"
 #include "random_numbers.h"
@@ -29,19 +29,19 @@ double depth_of(const DopTree& A, const DopTree& B, const Isometry3d& X_AB, doub
   const Penetration penetration = find_way_out(A, B, X_AB, workspace, clearance);
   Isometry3d X_out = X_AB;
   X_out.translation() += penetration.way_out_A;
-  EXPECT_FALSE(brute_force_intersects(A.mesh(), B.mesh(), X_out));
+  EXPECT_FALSE(reference::brute_force_intersects(A.mesh(), B.mesh(), X_out));
   EXPECT_FALSE(intersects(A, B, X_out, workspace, clearance));
   return penetration.depth();
 }
 
 TEST(WayOut, IsNoneForMeshesThatAreApart) {
-  const DopTree box = tree_of(make_box({1.0, 1.0, 1.0}, 48));
+  const DopTree box = tree_of(geometry::make_box({1.0, 1.0, 1.0}, 48));
   EXPECT_EQ(depth_of(box, box, at(1.1)), 0.0);
   EXPECT_NEAR(depth_of(box, box, at(1.1), 0.3), 0.2, 2e-3) << "but not by that clearance";
 }
 
 TEST(WayOut, OfABoxIsThroughTheNearestFace) {
-  const DopTree box = tree_of(make_box({1.0, 1.0, 1.0}, 48));
+  const DopTree box = tree_of(geometry::make_box({1.0, 1.0, 1.0}, 48));
   for (const auto& [offset, depth] : {std::pair{Vector3d(0.9, 0.3, -0.2), 0.1},
                                       {Vector3d(0.2, -0.7, 0.5), 0.3},
                                       {Vector3d(0.4, 0.45, -0.95), 0.05}}) {
@@ -51,10 +51,10 @@ TEST(WayOut, OfABoxIsThroughTheNearestFace) {
   }
 }
 
-TEST(WayOut, OfBallsIsAlongTheirCentres) {
+TEST(WayOut, OfBallsIsAlongTheirCenters) {
   RecordProperty("seed", static_cast<int>(kPenetrationSeed));
   test_support::RandomNumbers random(kPenetrationSeed);
-  const DopTree ball = tree_of(make_sphere(0.5, 2000));
+  const DopTree ball = tree_of(geometry::make_sphere(0.5, 2000));
   for (int i = 0; i < 20; ++i) {
     const double distance = random.uniform(0.5, 0.99);
     Isometry3d X_AB(random.rotation());
@@ -68,8 +68,8 @@ TEST(WayOut, OfBallsIsAlongTheirCentres) {
 }
 
 TEST(WayOut, OfASheetThatABallIsStuckInIsToTheNearerSide) {
-  const DopTree sheet = tree_of(make_plate({2.0, 2.0}, 200));
-  const DopTree ball = tree_of(make_sphere(0.1, 2000));
+  const DopTree sheet = tree_of(geometry::make_plate({2.0, 2.0}, 200));
+  const DopTree ball = tree_of(geometry::make_sphere(0.1, 2000));
   for (const double height : {0.06, -0.03}) {
     QueryWorkspace workspace;
     const Vector3d way_out = find_way_out(sheet, ball, at(0.0, 0.0, height), workspace).way_out_A;
@@ -79,20 +79,20 @@ TEST(WayOut, OfASheetThatABallIsStuckInIsToTheNearerSide) {
 }
 
 TEST(WayOut, IsFoundForConcentricObjects) {
-  const DopTree box = tree_of(make_box({1.0, 2.0, 3.0}, 48));
+  const DopTree box = tree_of(geometry::make_box({1.0, 2.0, 3.0}, 48));
   EXPECT_NEAR(depth_of(box, box, Isometry3d::Identity()), 1.0, 0.02);
 }
 
 TEST(WayOut, IsTheSameOnASecondCall) {
-  const DopTree box = tree_of(make_box({1.0, 1.0, 1.0}, 48));
-  const DopTree ball = tree_of(make_sphere(0.4, 500));
+  const DopTree box = tree_of(geometry::make_box({1.0, 1.0, 1.0}, 48));
+  const DopTree ball = tree_of(geometry::make_sphere(0.4, 500));
   QueryWorkspace workspace;
   const Vector3d first = find_way_out(box, ball, at(0.5, 0.4, 0.3), workspace).way_out_A;
   EXPECT_EQ(find_way_out(box, ball, at(0.5, 0.4, 0.3), workspace).way_out_A, first);
 }
 
 TEST(WayOut, RefusesWhatTheQueriesRefuse) {
-  const DopTree box = tree_of(make_box({1.0, 1.0, 1.0}, 48));
+  const DopTree box = tree_of(geometry::make_box({1.0, 1.0, 1.0}, 48));
   QueryWorkspace workspace;
   EXPECT_THROW(find_way_out(box, box, at(std::nan("")), workspace), std::invalid_argument);
   EXPECT_THROW(find_way_out(box, box, at(0.0), workspace, -1.0), std::invalid_argument);

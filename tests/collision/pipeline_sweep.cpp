@@ -12,7 +12,8 @@
 #include <vector>
 
 #include <glissade/collision/collision_pipeline.h>
-#include <glissade/collision/rigid_pose.h>
+#include <glissade/collision/dop_query.h>
+#include <glissade/geometry/rigid_pose.h>
 
 #include "random_numbers.h"
 #include "sweep_meshes.h"
@@ -116,7 +117,7 @@ class Scene {
 
   Shape random_shape() {
     const double size = scale_ * random_.uniform(0.2, 1.0);
-    TriangleMesh mesh;
+    geometry::TriangleMesh mesh;
     if (random_.chance(0.3)) {
       mesh = random_surface(random_.integer(200, 3000), random_);
       for (Vector3d& x : mesh.vertices)
@@ -124,7 +125,7 @@ class Scene {
     } else {
       mesh = random_mesh(size, random_.chance(0.5) ? Vector3d::Zero() : random_.point(size), random_).mesh;
     }
-    Shape shape{std::make_shared<DopTree>(std::make_shared<TriangleMesh>(mesh)), nullptr};
+    Shape shape{std::make_shared<DopTree>(std::make_shared<geometry::TriangleMesh>(mesh)), nullptr};
     if (random_.chance(0.9)) shape.hull = std::make_shared<ConvexHull>(mesh);
     return shape;
   }
@@ -173,7 +174,7 @@ class Scene {
     attended_[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] = attend;
     attended_[static_cast<std::size_t>(b)][static_cast<std::size_t>(a)] = attend;
     for (const auto& copy : copies_)
-      attend ? copy->world.attend_groups(a, b) : copy->world.ignore_groups(a, b);
+      attend ? copy->world.enable_groups(a, b) : copy->world.disable_groups(a, b);
   }
 
   void change_pair() {
@@ -184,7 +185,7 @@ class Scene {
     const bool attend = random_.chance(0.3);
     attend ? static_cast<void>(ignored_.erase(pair)) : static_cast<void>(ignored_.insert(pair));
     for (const auto& copy : copies_)
-      attend ? copy->world.attend(pair.first, pair.second) : copy->world.ignore(pair.second, pair.first);
+      attend ? copy->world.enable_pair(pair.first, pair.second) : copy->world.disable_pair(pair.second, pair.first);
   }
 
   void move(std::size_t i) {
@@ -203,7 +204,7 @@ class Scene {
       copy->world.move(object.id, object.X_WO);
   }
 
-  bool attends(const Object& a, const Object& b) const {
+  bool is_enabled(const Object& a, const Object& b) const {
     return attended_[static_cast<std::size_t>(a.group)][static_cast<std::size_t>(b.group)] &&
            !ignored_.contains(std::minmax({a.id, b.id}));
   }
@@ -216,7 +217,7 @@ class Scene {
     std::vector<Answer> answers;
     for (std::size_t i = 0; i < by_slot.size(); ++i) {
       for (std::size_t j = i + 1; j < by_slot.size(); ++j) {
-        if (attends(*by_slot[i], *by_slot[j])) ask(*by_slot[i], *by_slot[j], answers);
+        if (is_enabled(*by_slot[i], *by_slot[j])) ask(*by_slot[i], *by_slot[j], answers);
       }
     }
     return answers;
@@ -224,7 +225,7 @@ class Scene {
 
   void ask(const Object& a, const Object& b, std::vector<Answer>& answers) {
     // As the world has them: made rotations.
-    const Isometry3d X_AB = rigid_pose(a.X_WO)->inverse(Eigen::Isometry) * *rigid_pose(b.X_WO);
+    const Isometry3d X_AB = geometry::rigid_pose(a.X_WO)->inverse(Eigen::Isometry) * *geometry::rigid_pose(b.X_WO);
     if (!intersects(*a.shape.tree, *b.shape.tree, X_AB, workspace_, distance_)) return;
     Answer answer{{a.id, b.id}, {}, {}};
     if (options_.query == PairQuery::kTrianglePairs)

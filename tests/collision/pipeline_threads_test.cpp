@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/collision/collision_pipeline.h>
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 
 #include "random_numbers.h"
 
@@ -22,7 +22,7 @@ constexpr int kFrames = 40;
 class Crowd {
  public:
   explicit Crowd(int threads) : pipeline_(world_, clock_, {.threads = threads}) {
-    const auto mesh = std::make_shared<TriangleMesh>(make_sphere(0.5, 500));
+    const auto mesh = std::make_shared<geometry::TriangleMesh>(geometry::make_sphere(0.5, 500));
     const auto tree = std::make_shared<DopTree>(mesh);
     const auto hull = std::make_shared<ConvexHull>(*mesh);
     for (int i = 0; i < kObjects; ++i) {

@@ -1,4 +1,4 @@
-#include "round_up.h"
+#include "kernels/round_up.h"
 
 #include <cmath>
 #include <limits>

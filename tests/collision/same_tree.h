@@ -10,6 +10,8 @@
 
 #include <glissade/collision/dop_tree.h>
 
+#include "tree/tree_nodes.h"
+
 namespace glissade::collision {
 
 template <typename Part>

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/separating_plane.h>
+#include <glissade/collision/convex_hull.h>
+#include <glissade/geometry/mesh_generators.h>
 
 #include "allocation_counter.h"
 #include "hull_oracle.h"
@@ -39,7 +39,7 @@ class SeparatingPlanes : public ::testing::Test {
 };
 
 TEST_F(SeparatingPlanes, TellBoxesApartAtTheirFaces) {
-  const ConvexHull box(make_box({2.0, 2.0, 2.0}, 12));
+  const ConvexHull box(geometry::make_box({2.0, 2.0, 2.0}, 12));
   for (const HullTest test : {HullTest::kExact, HullTest::kPerceptron}) {
     for (const double gap : {1e-1, 1e-3, 1e-6}) {
       HullMemory memory;
@@ -57,10 +57,10 @@ TEST_F(SeparatingPlanes, TellBoxesApartAtTheirFaces) {
 
 // Two bodies roll about each other through contact; memory must never change an answer, and every answer is proved.
 TEST_F(SeparatingPlanes, AreRightWhateverIsRemembered) {
-  const std::vector<ConvexHull> hulls{ConvexHull(make_sphere(0.5, 200)), ConvexHull(make_box({1.0, 0.4, 0.1}, 12)),
-                                      ConvexHull(make_plate({0.7, 0.7}, 2)),
-                                      ConvexHull(std::vector<Vector3d>{{-0.5, 0, 0}, {0.5, 0.1, 0}}),
-                                      ConvexHull(std::vector<Vector3d>{{0, 0, 0}})};
+  const std::vector<ConvexHull> hulls{
+      ConvexHull(geometry::make_sphere(0.5, 200)), ConvexHull(geometry::make_box({1.0, 0.4, 0.1}, 12)),
+      ConvexHull(geometry::make_plate({0.7, 0.7}, 2)), ConvexHull(std::vector<Vector3d>{{-0.5, 0, 0}, {0.5, 0.1, 0}}),
+      ConvexHull(std::vector<Vector3d>{{0, 0, 0}})};
   int apart = 0;
   int meeting = 0;
   for (const ConvexHull& hull_A : hulls) {
@@ -93,7 +93,7 @@ TEST_F(SeparatingPlanes, AreRightWhateverIsRemembered) {
 
 // The plane fixed to B knows how far B reached before it grew by a hundred millionth.
 TEST_F(SeparatingPlanes, MissNoContactWhenThePoseIsNotQuiteARotation) {
-  const ConvexHull box(make_box({2.0, 2.0, 2.0}, 12));
+  const ConvexHull box(geometry::make_box({2.0, 2.0, 2.0}, 12));
   HullMemory memory;
   Isometry3d X_AB(Eigen::Translation3d(2.0 + 1e-9, 0.3, -0.2));
   ASSERT_TRUE(hulls_apart(box, box, X_AB, memory));
@@ -102,7 +102,7 @@ TEST_F(SeparatingPlanes, MissNoContactWhenThePoseIsNotQuiteARotation) {
 }
 
 TEST_F(SeparatingPlanes, HoldForManyStepsOnceFound) {
-  const ConvexHull ball(make_sphere(1.0, 20000));
+  const ConvexHull ball(geometry::make_sphere(1.0, 20000));
   HullMemory memory;
   int loops = 0;
   for (int step = 0; step < 1000; ++step) {
@@ -116,7 +116,7 @@ TEST_F(SeparatingPlanes, HoldForManyStepsOnceFound) {
 }
 
 TEST_F(SeparatingPlanes, AllocateNothing) {
-  const ConvexHull ball(make_sphere(1.0, 2000));
+  const ConvexHull ball(geometry::make_sphere(1.0, 2000));
   HullMemory memory;
   if (!test_support::allocations_are_counted()) GTEST_SKIP() << "a sanitizer's allocator cannot be counted";
   const std::int64_t before = test_support::allocations_of_this_thread();

@@ -9,8 +9,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <glissade/collision/brute_force.h>
 #include <glissade/collision/dop_query.h>
+#include <glissade/reference/brute_force.h>
 
 namespace glissade::collision {
 
@@ -32,7 +32,7 @@ class PosesOfContact {
 
  private:
   double uniform() { return uniform_(random_); }
-  Eigen::Vector3d corner_of(const TriangleMesh& mesh) {
+  Eigen::Vector3d corner_of(const geometry::TriangleMesh& mesh) {
     std::uniform_int_distribution<std::size_t> any(0, mesh.triangles.size() - 1);
     return mesh.corner(static_cast<std::int32_t>(any(random_)), 0);
   }
@@ -51,7 +51,7 @@ inline std::size_t expect_right_answers(const DopTree& tree_A, const DopTree& tr
   for (int i = 0; i < poses; ++i) {
     SCOPED_TRACE(testing::Message() << "pose " << i);
     const Eigen::Isometry3d X_AB = contact.next(tree_A, tree_B);
-    const std::vector<TrianglePair> expected = brute_force_pairs(tree_A.mesh(), tree_B.mesh(), X_AB);
+    const std::vector<TrianglePair> expected = reference::brute_force_pairs(tree_A.mesh(), tree_B.mesh(), X_AB);
     intersecting_pairs(tree_A, tree_B, X_AB, workspace, pairs);
     EXPECT_EQ(pairs, expected);
     EXPECT_EQ(intersects(tree_A, tree_B, X_AB, workspace), !expected.empty());

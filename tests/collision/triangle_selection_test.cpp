@@ -9,13 +9,13 @@
 #include <gtest/gtest.h>
 
 #include <glissade/collision/dop_query.h>
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/parallel_query.h>
-#include <glissade/collision/triangle_distance.h>
-#include <glissade/collision/triangle_selection.h>
+#include <glissade/collision/query_types.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_pair.h>
 
 #include "allocation_counter.h"
 #include "expect_bad_input.h"
+#include "query/parallel_query.h"
 #include "random_numbers.h"
 #include "sweep_meshes.h"
 #include "triangle_points.h"
@@ -34,20 +34,20 @@ using Flags = std::vector<char>;
 
 /// A tree, and which of its triangles are selected.
 struct Selected {
-  Selected(TriangleMesh triangles, Flags is_selected)
-      : mesh(std::make_shared<TriangleMesh>(std::move(triangles))),
+  Selected(geometry::TriangleMesh triangles, Flags is_selected)
+      : mesh(std::make_shared<geometry::TriangleMesh>(std::move(triangles))),
         tree(mesh),
         flags(std::move(is_selected)),
         selection(tree, [this](std::int32_t t) { return flags[static_cast<std::size_t>(t)] != 0; }) {}
 
-  std::shared_ptr<TriangleMesh> mesh;
+  std::shared_ptr<geometry::TriangleMesh> mesh;
   DopTree tree;
   Flags flags;
   TriangleSelection selection;
 };
 
 /// None, all, or about a share of the triangles of a mesh.
-Flags random_flags(const TriangleMesh& mesh, double share, RandomNumbers& random) {
+Flags random_flags(const geometry::TriangleMesh& mesh, double share, RandomNumbers& random) {
   Flags flags(mesh.triangles.size());
   for (char& flag : flags)
     flag = random.chance(share) ? 1 : 0;
@@ -59,12 +59,12 @@ std::vector<TrianglePair> expected_pairs(const Selected& A, const Selected& B, c
                                          double distance) {
   std::vector<TrianglePair> pairs;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(A.flags.size()); ++i) {
-    const TrianglePoints a = points_of(*A.mesh, i);
-    if (is_degenerate(a)) continue;
+    const geometry::TrianglePoints a = points_of(*A.mesh, i);
+    if (geometry::is_degenerate(a)) continue;
     for (std::int32_t j = 0; j < static_cast<std::int32_t>(B.flags.size()); ++j) {
       if (A.flags[static_cast<std::size_t>(i)] == 0 && B.flags[static_cast<std::size_t>(j)] == 0) continue;
-      if (is_degenerate(points_of(*B.mesh, j))) continue;
-      if (triangle_distance(a, points_of(*B.mesh, j, X_AB)).distance <= distance) pairs.push_back({i, j});
+      if (geometry::is_degenerate(points_of(*B.mesh, j))) continue;
+      if (geometry::triangle_distance(a, points_of(*B.mesh, j, X_AB)).distance <= distance) pairs.push_back({i, j});
     }
   }
   return pairs;
@@ -95,8 +95,8 @@ TEST(TriangleSelection, AnswersThePairsOfWhichATriangleIsSelected) {
   std::size_t all_found = 0;
   for (int i = 0; i < 200; ++i) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", meshes " + std::to_string(i));
-    TriangleMesh mesh_A = test_support::random_mesh(1.0, Vector3d::Zero(), random).mesh;
-    TriangleMesh mesh_B = test_support::random_mesh(random.uniform(0.2, 2.0), Vector3d::Zero(), random).mesh;
+    geometry::TriangleMesh mesh_A = test_support::random_mesh(1.0, Vector3d::Zero(), random).mesh;
+    geometry::TriangleMesh mesh_B = test_support::random_mesh(random.uniform(0.2, 2.0), Vector3d::Zero(), random).mesh;
     const std::vector<double> shares{0.0, 0.03, 0.3, 1.0};
     Flags flags_A = random_flags(mesh_A, shares[static_cast<std::size_t>(i) % 4], random);
     Flags flags_B = random_flags(mesh_B, shares[static_cast<std::size_t>(i) / 4 % 4], random);
@@ -121,7 +121,7 @@ TEST(TriangleSelection, AnswersThePairsOfWhichATriangleIsSelected) {
 }
 
 TEST(TriangleSelection, LeavesNothingOutWhereOneOfTheTwoIsMissing) {
-  const TriangleMesh torus = make_torus(0.1, 0.03, 400);
+  const geometry::TriangleMesh torus = geometry::make_torus(0.1, 0.03, 400);
   const Selected none(torus, Flags(torus.triangles.size(), 0));
   const Isometry3d X_AB = pose(Eigen::Matrix3d::Identity(), {0.15, 0.0, 0.0});
   QueryWorkspace workspace;
@@ -139,7 +139,7 @@ TEST(TriangleSelection, LeavesNothingOutWhereOneOfTheTwoIsMissing) {
 
 // Two finely cut plates lie flush: nothing but their rims is of interest.
 TEST(TriangleSelection, WhatHasNothingSelectedIsPassedOverHighUp) {
-  const TriangleMesh plate = make_plate({0.2, 0.2}, 20'000);
+  const geometry::TriangleMesh plate = geometry::make_plate({0.2, 0.2}, 20'000);
   Flags at_rim(plate.triangles.size());
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(at_rim.size()); ++t) {
     for (int c = 0; c < 3; ++c) {
@@ -168,7 +168,7 @@ TEST(TriangleSelection, WhatHasNothingSelectedIsPassedOverHighUp) {
 }
 
 TEST(TriangleSelection, AWorkspaceThatRemembersNoticesAnotherSelection) {
-  const TriangleMesh torus = make_torus(0.1, 0.03, 400);
+  const geometry::TriangleMesh torus = geometry::make_torus(0.1, 0.03, 400);
   RandomNumbers random(5);
   const Selected some(torus, random_flags(torus, 0.2, random));
   const Selected others(torus, random_flags(torus, 0.2, random));
@@ -193,7 +193,7 @@ TEST(TriangleSelection, AWorkspaceThatRemembersNoticesAnotherSelection) {
 }
 
 TEST(TriangleSelection, ServesATreeThatWasRefitted) {
-  TriangleMesh plate = make_plate({0.2, 0.2}, 200);
+  geometry::TriangleMesh plate = geometry::make_plate({0.2, 0.2}, 200);
   const std::size_t first = plate.vertices.size();
   const auto corner = static_cast<std::int32_t>(first);
   plate.vertices.insert(plate.vertices.end(), 3, Vector3d::Zero());
@@ -214,7 +214,7 @@ TEST(TriangleSelection, ServesATreeThatWasRefitted) {
 
 TEST(TriangleSelection, AllocatesNothingOnceMemoryIsThere) {
   if (!test_support::allocations_are_counted()) GTEST_SKIP() << "allocations cannot be counted here";
-  const TriangleMesh torus = make_torus(0.1, 0.03, 400);
+  const geometry::TriangleMesh torus = geometry::make_torus(0.1, 0.03, 400);
   RandomNumbers random(6);
   const Selected A(torus, random_flags(torus, 0.2, random));
   QueryWorkspace fresh;
@@ -235,8 +235,8 @@ TEST(TriangleSelection, AllocatesNothingOnceMemoryIsThere) {
 }
 
 TEST(TriangleSelection, OfAnotherTreeIsRefused) {
-  const DopTree tree(std::make_shared<TriangleMesh>(make_plate({0.2, 0.2}, 200)));
-  const DopTree larger(std::make_shared<TriangleMesh>(make_plate({0.2, 0.2}, 2000)));
+  const DopTree tree(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.2, 0.2}, 200)));
+  const DopTree larger(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.2, 0.2}, 2000)));
   const TriangleSelection selection(larger, [](std::int32_t) { return true; });
   QueryWorkspace fresh;
   CoherentWorkspace remembering;

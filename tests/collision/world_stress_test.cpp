@@ -32,9 +32,9 @@ std::uint32_t count_of(const WorldObject& object) {
 }
 
 // What the consumer has seen so far, and whether it may see that.
-class Witness {
+class Observer {
  public:
-  explicit Witness(const World& world) : world_(world), seen_(world.objects().size()) {}
+  explicit Observer(const World& world) : world_(world), seen_(world.objects().size()) {}
 
   void look(const WorldChanges& changes) {
     for (const std::uint32_t slot : changes.removed) {
@@ -141,17 +141,17 @@ TEST(WorldStress, NoPoseIsTornLostOrMeantForAnother) {
     start([&] { lives.move(world, 1); });
   }
 
-  Witness witness(world);
+  Observer observer(world);
   std::size_t changes = 0;
   while (at_work > 0) {
     const WorldChanges& taken = world.take_changes();
-    witness.look(taken);
+    observer.look(taken);
     changes += taken.moved.size() + taken.added.size();
     std::this_thread::yield();
   }
   for (std::thread& thread : threads)
     thread.join();
-  witness.look(world.take_changes());
+  observer.look(world.take_changes());
 
   EXPECT_GT(changes, own.size()) << "the threads did not meet";
   for (const ObjectId id : own)

@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
 #include <glissade/collision/world.h>
+#include <glissade/geometry/mesh_generators.h>
 
 #include "allocation_counter.h"
 #include "poses.h"
@@ -87,8 +87,8 @@ TEST(World, RefusesHandlesOfObjectsThatAreGone) {
   EXPECT_NE(next, old);
   EXPECT_FALSE(world.move(old, at(1.0)));
   EXPECT_THROW(world.remove(old), std::invalid_argument);
-  EXPECT_THROW(world.ignore(old, next), std::invalid_argument);
-  EXPECT_THROW(world.attend(next, old), std::invalid_argument);
+  EXPECT_THROW(world.disable_pair(old, next), std::invalid_argument);
+  EXPECT_THROW(world.enable_pair(next, old), std::invalid_argument);
   world.take_changes();
   EXPECT_EQ(x_of(world, next), 0.0);
 
@@ -100,7 +100,7 @@ TEST(World, RefusesHandlesOfObjectsThatAreGone) {
 
 TEST(World, RefusesASelectionOfTrianglesOfAnotherTree) {
   World world(1);
-  const DopTree plate(std::make_shared<TriangleMesh>(make_plate({1.0, 1.0}, 200)));
+  const DopTree plate(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({1.0, 1.0}, 200)));
   const auto all = [](std::int32_t) { return true; };
   EXPECT_THROW(world.add({.tree = cube_tree(), .selection = std::make_shared<TriangleSelection>(plate, all)}),
                std::invalid_argument);
@@ -215,35 +215,35 @@ TEST(World, TakesInterestWithTheObjects) {
   const ObjectId b = world.add({.tree = cube_tree()});
   const ObjectId c = world.add({.tree = cube_tree(), .group = 1});
   EXPECT_FALSE(world.take_changes().interest);
-  EXPECT_TRUE(world.attends(a.index, b.index));
-  EXPECT_FALSE(world.attends(a.index, a.index));
+  EXPECT_TRUE(world.is_enabled(a.index, b.index));
+  EXPECT_FALSE(world.is_enabled(a.index, a.index));
 
-  world.ignore(b, a);
-  world.ignore_groups(0, 1);
-  EXPECT_TRUE(world.attends(a.index, b.index)) << "before the take";
+  world.disable_pair(b, a);
+  world.disable_groups(0, 1);
+  EXPECT_TRUE(world.is_enabled(a.index, b.index)) << "before the take";
   EXPECT_TRUE(world.take_changes().interest);
-  EXPECT_FALSE(world.attends(a.index, b.index));
-  EXPECT_FALSE(world.attends(c.index, a.index));
+  EXPECT_FALSE(world.is_enabled(a.index, b.index));
+  EXPECT_FALSE(world.is_enabled(c.index, a.index));
   EXPECT_FALSE(world.take_changes().interest);
 
-  world.attend(a, b);
-  world.attend_groups(1, 0);
+  world.enable_pair(a, b);
+  world.enable_groups(1, 0);
   EXPECT_TRUE(world.take_changes().interest);
-  EXPECT_TRUE(world.attends(a.index, b.index));
-  EXPECT_TRUE(world.attends(c.index, a.index));
+  EXPECT_TRUE(world.is_enabled(a.index, b.index));
+  EXPECT_TRUE(world.is_enabled(c.index, a.index));
 }
 
 TEST(World, NobodyInheritsWhatWasIgnored) {
   World world;
   const ObjectId a = world.add({.tree = cube_tree()});
   const ObjectId b = world.add({.tree = cube_tree()});
-  world.ignore(a, b);
+  world.disable_pair(a, b);
   world.take_changes();
   world.remove(b);
   const ObjectId next = world.add({.tree = cube_tree()});
   ASSERT_EQ(next.index, b.index);
   world.take_changes();
-  EXPECT_TRUE(world.attends(a.index, next.index));
+  EXPECT_TRUE(world.is_enabled(a.index, next.index));
 }
 
 TEST(World, MovingAndTakingPosesAllocateNothing) {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/devices/glove_types.h>
+#include <glissade/devices/glove_device.h>
 #include <glissade/devices/simulated_glove.h>
 
 #include "expect_bad_input.h"

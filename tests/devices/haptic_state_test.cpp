@@ -8,7 +8,7 @@
 #include <glissade/devices/haptic_state.h>
 #include <glissade/lcmtypes/haptic_state_t.hpp>
 
-#include "glove_messages.h"
+#include "lcm/glove_messages.h"
 
 namespace glissade::devices {
 namespace {

@@ -11,7 +11,6 @@
 
 #include <glissade/devices/haptic_state_publisher.h>
 #include <glissade/devices/lcm_glove.h>
-#include <glissade/devices/lcm_glove_host.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/lcmtypes/glove_command_t.hpp>
 #include <glissade/lcmtypes/glove_state_t.hpp>
@@ -189,7 +188,7 @@ TEST_F(LcmLink, RefusesNumbersBeyondSense) {
   }
 }
 
-TEST_F(LcmLink, NormalisesAQuaternionThatIsNearlyOne) {
+TEST_F(LcmLink, NormalizesAQuaternionThatIsNearlyOne) {
   glove_state_t message = good_state(1);
   message.orientation_WH_wxyz[0] = 0.9995;
   EXPECT_EQ(after(encoded(message)).accepted, 1U);
@@ -296,7 +295,7 @@ TEST_F(LcmLink, ASimulatedGloveYieldsToTheServer) {
   std::atomic<double> hand_x{0.0};
   std::thread glove_thread([&] {
     LcmGloveHost host(bus);
-    SimulatedGlove simulated(PoseTrajectory({{nanoseconds(0), Eigen::Isometry3d::Identity()}}));
+    SimulatedGlove simulated(geometry::PoseTrajectory({{nanoseconds(0), Eigen::Isometry3d::Identity()}}));
     while (!done) {
       host.publish(simulated.step(milliseconds(1), host.newest_command()));
       hand_x = simulated.state().X_WH.translation().x();

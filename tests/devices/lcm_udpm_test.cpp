@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <glissade/devices/lcm_glove.h>
-#include <glissade/devices/lcm_glove_host.h>
 #include <glissade/devices/simulated_glove.h>
 
 #include "eventually.h"

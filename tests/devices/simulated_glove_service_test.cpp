@@ -13,7 +13,7 @@
 #include <glissade/devices/simulated_glove_service.h>
 
 #include "eventually.h"
-#include "glove_messages.h"
+#include "lcm/glove_messages.h"
 
 namespace glissade::devices {
 namespace {
@@ -58,7 +58,7 @@ class SimulatedGloveServiceTest : public testing::Test {
 
 TEST_F(SimulatedGloveServiceTest, WaitsForTheFirstCommandAndThenRunsByTime) {
   DrowsyClock clock;
-  SimulatedGloveService service(bus, SimulatedGlove(PoseTrajectory({TimedPose{}})), clock);
+  SimulatedGloveService service(bus, SimulatedGlove(geometry::PoseTrajectory({geometry::TimedPose{}})), clock);
   ASSERT_TRUE(eventually([this] { return state_times().size() >= 20; }));
   EXPECT_THAT(state_times(), testing::Each(nanoseconds(0)));
   EXPECT_EQ(service.script_time(), nanoseconds(0));

@@ -20,12 +20,12 @@ using std::chrono::seconds;
 
 constexpr milliseconds kTick(1);
 
-PoseTrajectory hold(const Vector3d& p_WH) {
-  return PoseTrajectory({{seconds(0), Isometry3d(Translation3d(p_WH))}});
+geometry::PoseTrajectory hold(const Vector3d& p_WH) {
+  return geometry::PoseTrajectory({{seconds(0), Isometry3d(Translation3d(p_WH))}});
 }
 
-PoseTrajectory line(const Vector3d& from_WH, const Vector3d& to_WH, milliseconds duration) {
-  return PoseTrajectory(
+geometry::PoseTrajectory line(const Vector3d& from_WH, const Vector3d& to_WH, milliseconds duration) {
+  return geometry::PoseTrajectory(
       {{milliseconds(0), Isometry3d(Translation3d(from_WH))}, {duration, Isometry3d(Translation3d(to_WH))}});
 }
 
@@ -53,7 +53,7 @@ TEST(SimulatedGlove, InFreeSpaceLagsByTheArmsFrictionOnly) {
 
 TEST(SimulatedGlove, TurnsWithTheScript) {
   const Isometry3d X_end(AngleAxisd(1.2, Vector3d(1, 2, -1).normalized()));
-  SimulatedGlove glove(PoseTrajectory({{seconds(0), Isometry3d::Identity()}, {seconds(1), X_end}}));
+  SimulatedGlove glove(geometry::PoseTrajectory({{seconds(0), Isometry3d::Identity()}, {seconds(1), X_end}}));
   for (int i = 0; i < 900; ++i)
     glove.step(kTick, {});
   const Vector3d w_script = 1.2 * Vector3d(1, 2, -1).normalized();
@@ -144,7 +144,7 @@ TEST(SimulatedGlove, FingersYieldWithinTheirLimits) {
 }
 
 TEST(SimulatedGlove, IsDeterministicAndDividesLongSteps) {
-  const PoseTrajectory script = line({0, 0, 0}, {0.3, 0.1, 0}, milliseconds(200));
+  const geometry::PoseTrajectory script = line({0, 0, 0}, {0.3, 0.1, 0}, milliseconds(200));
   SimulatedGlove one(script);
   SimulatedGlove two(script);
   GloveCommand command;

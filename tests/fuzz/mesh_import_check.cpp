@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-#include <glissade/collision/mesh_import.h>
-#include <glissade/collision/mesh_report.h>
-#include <glissade/collision/triangle_intersection.h>
+#include <glissade/geometry/mesh_import.h>
+#include <glissade/geometry/mesh_report.h>
+#include <glissade/geometry/triangle_pair.h>
 
 #include "mesh_seeds.h"
 #include "temporary_folder.h"
@@ -15,7 +15,7 @@
 namespace glissade::fuzz {
 namespace {
 
-using collision::TriangleMesh;
+using geometry::TriangleMesh;
 
 void require(bool holds, const char* what) {
   if (!holds) throw std::logic_error(what);
@@ -26,16 +26,16 @@ bool is_before(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 /// What mesh_import.h promises of every mesh.
-void check(const TriangleMesh& mesh) {
+void check(const geometry::TriangleMesh& mesh) {
   require(!mesh.triangles.empty(), "a mesh without triangles");
   std::vector<bool> is_used(mesh.vertices.size());
-  for (const collision::Triangle& triangle : mesh.triangles) {
+  for (const geometry::Triangle& triangle : mesh.triangles) {
     for (const std::int32_t corner : triangle) {
       require(corner >= 0 && static_cast<std::size_t>(corner) < mesh.vertices.size(), "an index out of range");
       is_used[static_cast<std::size_t>(corner)] = true;
     }
     const auto at = [&](std::size_t corner) { return mesh.vertices[static_cast<std::size_t>(triangle[corner])]; };
-    require(!collision::is_degenerate({at(0), at(1), at(2)}), "a triangle without area");
+    require(!geometry::is_degenerate({at(0), at(1), at(2)}), "a triangle without area");
   }
   require(std::find(is_used.begin(), is_used.end(), false) == is_used.end(), "a vertex that no triangle uses");
   std::vector<Eigen::Vector3d> sorted = mesh.vertices;
@@ -68,10 +68,10 @@ bool try_mesh_import(const std::string& extension, std::string_view bytes) {
   static const Files files;
   const std::string path = files.write(extension, bytes);
   try {
-    const collision::ImportedMesh imported = collision::import_mesh(path);
+    const geometry::ImportedMesh imported = geometry::import_mesh(path);
     require(imported.degenerate_triangles >= 0 && imported.polygons_triangulated >= 0, "a negative count");
     check(imported.mesh);
-    require(std::isfinite(collision::report(imported.mesh).area), "an area that is not finite");
+    require(std::isfinite(geometry::report(imported.mesh).area), "an area that is not finite");
     return true;
   } catch (const std::invalid_argument& error) {
     const std::string message = error.what();

@@ -5,41 +5,41 @@
 #include <cctype>
 #include <cstring>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 #include "mesh_files.h"
 
 namespace glissade::fuzz {
 namespace {
 
-using collision::ascii_stl_facet;
-using collision::bytes_of;
-using collision::Triangle;
-using collision::TriangleMesh;
-using collision::with_crlf;
+using geometry::ascii_stl_facet;
+using geometry::bytes_of;
+using geometry::Triangle;
+using geometry::TriangleMesh;
+using geometry::with_crlf;
 
 std::string text_of(const Eigen::Vector3d& p) {
   return std::to_string(p.x()) + " " + std::to_string(p.y()) + " " + std::to_string(p.z());
 }
 
-TriangleMesh box() {
-  return collision::make_box({0.1, 0.2, 0.3}, 12);
+geometry::TriangleMesh box() {
+  return geometry::make_box({0.1, 0.2, 0.3}, 12);
 }
 
-TriangleMesh sphere() {
-  return collision::make_sphere(0.5, 60);
+geometry::TriangleMesh sphere() {
+  return geometry::make_sphere(0.5, 60);
 }
 
 /// `relative` counts the corners backwards, and gives them texture coordinates and normals.
-std::string obj_of(const TriangleMesh& mesh, bool relative) {
+std::string obj_of(const geometry::TriangleMesh& mesh, bool relative) {
   std::string file = "# Türgriff\no Tür\xC3\xA9\n";
   for (const Eigen::Vector3d& p : mesh.vertices) {
     file += "v " + text_of(p) + (relative ? " 1.0\n" : "\n");
   }
   file += relative ? "vt 0 0\nvn 0 0 1\ns off\n" : "g \xE6\x89\x89\nusemtl steel\n";
   const auto count = static_cast<std::int32_t>(mesh.vertices.size());
-  for (const Triangle& triangle : mesh.triangles) {
+  for (const geometry::Triangle& triangle : mesh.triangles) {
     file += 'f';
     for (const std::int32_t corner : triangle) {
       file += " " + (relative ? std::to_string(corner - count) + "/1/1" : std::to_string(corner + 1));
@@ -55,19 +55,19 @@ std::string obj_of_polygons() {
          "o second\nv 3 0 1e-3\nv 5 0 -1E+0\nv 5 2 +.5\nv 3 2 0\nf -4 -3 -2 -1\nf 7//1 9//1 8//1 10//1\n";
 }
 
-std::string stl_of(const TriangleMesh& mesh) {
+std::string stl_of(const geometry::TriangleMesh& mesh) {
   std::string file = "solid Tür\n";
-  for (const Triangle& t : mesh.triangles) {
+  for (const geometry::Triangle& t : mesh.triangles) {
     const auto at = [&](std::size_t corner) { return text_of(mesh.vertices[static_cast<std::size_t>(t[corner])]); };
     file += ascii_stl_facet(at(0), at(1), at(2));
   }
   return file + "endsolid Tür\n";
 }
 
-std::string binary_stl_of(const TriangleMesh& mesh) {
+std::string binary_stl_of(const geometry::TriangleMesh& mesh) {
   std::string file = "COLOR=\xff" + std::string(73, '\0') +
                      bytes_of<std::uint32_t>({static_cast<std::uint32_t>(mesh.triangles.size())});
-  for (const Triangle& triangle : mesh.triangles) {
+  for (const geometry::Triangle& triangle : mesh.triangles) {
     file += bytes_of<float>({0, 0, 1});
     for (const std::int32_t corner : triangle) {
       for (const double coordinate : mesh.vertices[static_cast<std::size_t>(corner)]) {
@@ -81,8 +81,8 @@ std::string binary_stl_of(const TriangleMesh& mesh) {
 
 /// Binary, with floats or doubles and indices of the type `Index`; `index_type` is PLY's name for it.
 template <class Number, class Index>
-std::string binary_ply_of(const TriangleMesh& mesh, const std::string& number_type, const std::string& index_type,
-                          bool is_big_endian) {
+std::string binary_ply_of(const geometry::TriangleMesh& mesh, const std::string& number_type,
+                          const std::string& index_type, bool is_big_endian) {
   std::string file = "ply\nformat binary_" + std::string(is_big_endian ? "big" : "little") +
                      "_endian 1.0\nobj_info Tür\nelement vertex " + std::to_string(mesh.vertices.size()) + "\n";
   for (const char* axis : {"x", "y", "z"}) {
@@ -95,7 +95,7 @@ std::string binary_ply_of(const TriangleMesh& mesh, const std::string& number_ty
       file += bytes_of<Number>({static_cast<Number>(coordinate)}, is_big_endian);
     }
   }
-  for (const Triangle& triangle : mesh.triangles) {
+  for (const geometry::Triangle& triangle : mesh.triangles) {
     file += '\3';
     for (const std::int32_t corner : triangle) {
       file += bytes_of<Index>({static_cast<Index>(corner)}, is_big_endian);
@@ -115,7 +115,7 @@ std::string text_ply_of_polygons() {
 }
 
 std::vector<Seed> obj_seeds() {
-  return {{"tetrahedron.obj", collision::kObj},
+  return {{"tetrahedron.obj", geometry::kObj},
           {"box.obj", obj_of(box(), false)},
           {"relative.obj", obj_of(box(), true)},
           {"crlf.obj", with_crlf(obj_of(sphere(), false))},
@@ -123,19 +123,19 @@ std::vector<Seed> obj_seeds() {
 }
 
 std::vector<Seed> stl_seeds() {
-  return {{"tetrahedron.stl", collision::kAsciiStl},
+  return {{"tetrahedron.stl", geometry::kAsciiStl},
           {"two_solids.stl", stl_of(box()) + with_crlf(stl_of(sphere()))},
-          {"solid.stl", collision::binary_stl("solid but binary")},
+          {"solid.stl", geometry::binary_stl("solid but binary")},
           {"box.stl", binary_stl_of(box())},
           {"sphere.stl", binary_stl_of(sphere())}};
 }
 
 std::vector<Seed> ply_seeds() {
-  return {{"tetrahedron.ply", collision::kAsciiPly},
+  return {{"tetrahedron.ply", geometry::kAsciiPly},
           {"polygons.ply", text_ply_of_polygons()},
           {"crlf.ply", with_crlf(text_ply_of_polygons())},
-          {"mixed_little.ply", collision::binary_ply(false)},
-          {"mixed_big.ply", collision::binary_ply(true)},
+          {"mixed_little.ply", geometry::binary_ply(false)},
+          {"mixed_big.ply", geometry::binary_ply(true)},
           {"uint8.ply", binary_ply_of<float, std::uint8_t>(box(), "float", "uchar", false)},
           {"int16.ply", binary_ply_of<double, std::int16_t>(sphere(), "float64", "int16", true)},
           {"uint16.ply", binary_ply_of<float, std::uint16_t>(box(), "float32", "uint16", true)},

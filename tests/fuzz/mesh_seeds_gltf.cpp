@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 #include "mesh_files.h"
 #include "mesh_seeds.h"
@@ -9,8 +9,8 @@
 namespace glissade::fuzz {
 namespace {
 
-using collision::bytes_of;
-using collision::TriangleMesh;
+using geometry::bytes_of;
+using geometry::TriangleMesh;
 using nlohmann::json;
 
 std::string base64(const std::string& bytes) {
@@ -51,7 +51,7 @@ class Document {
     return json_["accessors"].size() - 1;
   }
 
-  std::size_t add_positions(const TriangleMesh& mesh, bool with_gaps) {
+  std::size_t add_positions(const geometry::TriangleMesh& mesh, bool with_gaps) {
     std::string bytes;
     for (const Eigen::Vector3d& p : mesh.vertices) {
       for (const double coordinate : p) {
@@ -63,9 +63,9 @@ class Document {
   }
 
   template <class Index>
-  std::size_t add_indices(const TriangleMesh& mesh, int component) {
+  std::size_t add_indices(const geometry::TriangleMesh& mesh, int component) {
     std::string bytes;
-    for (const collision::Triangle& triangle : mesh.triangles) {
+    for (const geometry::Triangle& triangle : mesh.triangles) {
       for (const std::int32_t corner : triangle) {
         bytes += bytes_of<Index>({static_cast<Index>(corner)});
       }
@@ -77,7 +77,7 @@ class Document {
   void add_node(const json& node) { json_["nodes"].push_back(node); }
 
   std::string gltf() const { return with_buffer("data:application/octet-stream;base64," + base64(binary_)).dump(); }
-  std::string glb() const { return collision::glb(with_buffer("").dump(), binary_); }
+  std::string glb() const { return geometry::glb(with_buffer("").dump(), binary_); }
 
  private:
   json with_buffer(const std::string& uri) const {
@@ -93,8 +93,8 @@ class Document {
 
 /// Two meshes with indices of different sizes, placed three times by matrices, turns and scales.
 Document assembly() {
-  const TriangleMesh box = collision::make_box({0.1, 0.2, 0.3}, 12);
-  const TriangleMesh sphere = collision::make_sphere(0.5, 30);
+  const geometry::TriangleMesh box = geometry::make_box({0.1, 0.2, 0.3}, 12);
+  const geometry::TriangleMesh sphere = geometry::make_sphere(0.5, 30);
   Document document;
   const std::size_t corners = document.add_positions(box, false);
   document.add_mesh(
@@ -112,7 +112,7 @@ Document assembly() {
 
 /// A strip, a fan and plain triangles, with and without indices.
 Document strips() {
-  const TriangleMesh plate = collision::make_plate({1.0, 2.0}, 8);
+  const geometry::TriangleMesh plate = geometry::make_plate({1.0, 2.0}, 8);
   Document document;
   const json attributes{{"POSITION", document.add_positions(plate, false)}};
   const std::size_t indices = document.add_indices<std::uint16_t>(plate, 5123);
@@ -128,16 +128,16 @@ Document strips() {
 }  // namespace
 
 std::string mesh_buffer() {
-  return collision::gltf_binary();
+  return geometry::gltf_binary();
 }
 
 std::vector<Seed> gltf_seeds(bool is_glb) {
   if (is_glb) {
-    return {{"tetrahedron.glb", collision::tetrahedron_glb()},
+    return {{"tetrahedron.glb", geometry::tetrahedron_glb()},
             {"assembly.glb", assembly().glb()},
             {"strips.glb", strips().glb()}};
   }
-  return {{"tetrahedron.gltf", collision::gltf(R"({"byteLength":72,"uri":"%64ata.bin"})")},
+  return {{"tetrahedron.gltf", geometry::gltf(R"({"byteLength":72,"uri":"%64ata.bin"})")},
           {"assembly.gltf", assembly().gltf()},
           {"strips.gltf", strips().gltf()}};
 }

@@ -12,15 +12,15 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/collision/brute_force.h>
+#include <glissade/base/byte_order.h>
 #include <glissade/collision/dop_query.h>
 #include <glissade/collision/dop_tree_cache.h>
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/reference/brute_force.h>
 
-#include "byte_order.h"
-#include "content_hash.h"
 #include "fuzz_target.h"
 #include "temporary_folder.h"
+#include "tree/content_hash.h"
 
 namespace glissade::fuzz {
 namespace {
@@ -28,7 +28,7 @@ namespace {
 using collision::CachedTree;
 using collision::CacheState;
 using collision::DopTree;
-using collision::TriangleMesh;
+using geometry::TriangleMesh;
 
 constexpr std::size_t kHeadSize = 32;
 constexpr std::size_t kChecksumSize = 8;
@@ -37,8 +37,8 @@ void require(bool holds, const char* what) {
   if (!holds) throw std::logic_error(what);
 }
 
-const std::shared_ptr<const TriangleMesh>& torus() {
-  static const auto mesh = std::make_shared<const TriangleMesh>(collision::make_torus(0.1, 0.03, 60));
+const std::shared_ptr<const geometry::TriangleMesh>& torus() {
+  static const auto mesh = std::make_shared<const geometry::TriangleMesh>(geometry::make_torus(0.1, 0.03, 60));
   return mesh;
 }
 
@@ -56,7 +56,7 @@ const std::string& built_file() {
 
 /// A few poses, of which the last touches nothing.
 void check_answers(const DopTree& tree) {
-  static const DopTree ball(std::make_shared<const TriangleMesh>(collision::make_sphere(0.06, 40)));
+  static const DopTree ball(std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.06, 40)));
   static collision::QueryWorkspace workspace;
   static std::vector<collision::TrianglePair> pairs;
   for (const double x : {0.02, 0.1, 0.5}) {
@@ -64,7 +64,7 @@ void check_answers(const DopTree& tree) {
     X_AB.linear() = Eigen::AngleAxisd(x, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     X_AB.translation().x() = x;
     collision::intersecting_pairs(tree, ball, X_AB, workspace, pairs);
-    require(pairs == collision::brute_force_pairs(tree.mesh(), ball.mesh(), X_AB), "a wrong answer");
+    require(pairs == reference::brute_force_pairs(tree.mesh(), ball.mesh(), X_AB), "a wrong answer");
   }
 }
 
@@ -101,7 +101,7 @@ void repair(std::string& bytes) {
   if (bytes.size() < kHeadSize + kChecksumSize) return;
   bytes.replace(0, kHeadSize, built_file(), 0, kHeadSize);
   bytes.resize(bytes.size() - kChecksumSize);
-  collision::append_number(bytes, collision::content_hash(bytes));
+  base::append_number(bytes, collision::content_hash(bytes));
 }
 
 }  // namespace glissade::fuzz

@@ -11,11 +11,11 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/brute_force.h>
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/mesh_operations.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/sliding.h>
+#include <glissade/reference/brute_force.h>
 
 #include "held_part.h"
 #include "poses.h"
@@ -30,8 +30,8 @@ using Eigen::Vector3d;
 using test_support::cube;
 using test_support::pose;
 
-std::shared_ptr<const collision::TriangleMesh> box(const Vector3d& size) {
-  return std::make_shared<collision::TriangleMesh>(collision::make_box(size, 12));
+std::shared_ptr<const geometry::TriangleMesh> box(const Vector3d& size) {
+  return std::make_shared<geometry::TriangleMesh>(geometry::make_box(size, 12));
 }
 
 /// A block whose upper face is z = 0.
@@ -40,8 +40,8 @@ Obstacle block() {
 }
 
 bool overlaps(const Sliding& sliding) {
-  for (const PlacedBody& body : sliding.surroundings().bodies().first(sliding.surroundings().obstacles().size())) {
-    if (collision::brute_force_intersects(body.body->tree.mesh(), sliding.part().tree.mesh(),
+  for (const PlacedBody& body : sliding.scene().bodies().first(sliding.scene().obstacles().size())) {
+    if (reference::brute_force_intersects(body.body->tree.mesh(), sliding.part().tree.mesh(),
                                           body.X_WB.inverse() * sliding.result().X_WV)) {
       return true;
     }
@@ -52,11 +52,11 @@ bool overlaps(const Sliding& sliding) {
 TEST(Overlap, IsRefusedUnlessTheRulesLeadOutOfIt) {
   EXPECT_THROW(Sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.009})), std::invalid_argument);
   EXPECT_NO_THROW(
-      Sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}}));
+      Sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kDepenetrate}}));
 }
 
 TEST(Overlap, APartThatIsHeldStillComesOutAtLimitedSpeedAndStaysOut) {
-  Sliding sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}});
+  Sliding sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kDepenetrate}});
   const Isometry3d X_WG = sliding.result().X_WG;
   double height = 0.009;
   for (int i = 0; i < 5; ++i) {
@@ -82,7 +82,8 @@ TEST(Overlap, IsNotLetDeeperAndOtherObstaclesHoldAllTheWhile) {
   // A second block leaves 0.4 mm of the 1 mm that the way out takes.
   Obstacle lid = block();
   lid.X_WO.translation().z() = 0.05 + 0.0194;
-  Sliding sliding({block(), lid}, cube(0.02), pose({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kLeadOut}});
+  Sliding sliding({block(), lid}, cube(0.02), pose({0.0, 0.0, 0.009}),
+                  {.rules = {.overlap = OverlapRule::kDepenetrate}});
   for (int i = 0; i < 50; ++i) {
     const double z = sliding.advance(pose({0.0, 0.0, -0.02})).X_WV.translation().z();
     EXPECT_GT(z, 0.009 - 1e-6);
@@ -92,7 +93,7 @@ TEST(Overlap, IsNotLetDeeperAndOtherObstaclesHoldAllTheWhile) {
 
 TEST(Overlap, AHandThatTurnsDoesNotTurnThePartIn) {
   const auto rod = std::make_shared<SlidingPart>(box({0.2, 0.01, 0.01}));
-  Sliding sliding({block()}, rod, pose({0.0, 0.0, 0.0049}), {.rules = {.overlap = OverlapRule::kLeadOut}});
+  Sliding sliding({block()}, rod, pose({0.0, 0.0, 0.0049}), {.rules = {.overlap = OverlapRule::kDepenetrate}});
   Isometry3d X_WG = sliding.result().X_WG;
   for (int i = 0; i < 60; ++i) {
     X_WG.linear() = Eigen::AngleAxisd(0.02 * i, Vector3d::UnitY()).toRotationMatrix();
@@ -105,7 +106,8 @@ TEST(Overlap, AHandThatTurnsDoesNotTurnThePartIn) {
 
 TEST(Overlap, WhatCannotBeToldFromTouchingIsOverlap) {
   EXPECT_THROW(Sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.01 + 1e-16})), std::invalid_argument);
-  Sliding sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.01 + 1e-16}), {.rules = {.overlap = OverlapRule::kLeadOut}});
+  Sliding sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.01 + 1e-16}),
+                  {.rules = {.overlap = OverlapRule::kDepenetrate}});
   for (int i = 0; i < 10; ++i)
     sliding.advance(pose({0.001, 0.0, 0.01}));
   EXPECT_NEAR(sliding.result().X_WV.translation().x(), 0.001, 1e-6) << "it has come away and follows";
@@ -113,12 +115,12 @@ TEST(Overlap, WhatCannotBeToldFromTouchingIsOverlap) {
 
 TEST(GivingWay, LetsAUnitSlideHomeOverItsSpringsAndOutAgain) {
   // A bay: a floor, and two springs that reach 0.5 mm into the unit's sides when it is home.
-  const collision::TriangleMesh floor = collision::make_plate({0.2, 0.2}, 2);
-  std::vector<collision::TriangleMesh> meshes{floor};
+  const geometry::TriangleMesh floor = geometry::make_plate({0.2, 0.2}, 2);
+  std::vector<geometry::TriangleMesh> meshes{floor};
   for (const double side : {1.0, -1.0})
     meshes.push_back(
-        collision::transformed(collision::make_box({0.004, 0.01, 0.01}, 12), pose({side * 0.0115, 0.0, 0.01})));
-  const auto bay = std::make_shared<ContactBody>(std::make_shared<collision::TriangleMesh>(collision::merge(meshes)));
+        geometry::transformed(geometry::make_box({0.004, 0.01, 0.01}, 12), pose({side * 0.0115, 0.0, 0.01})));
+  const auto bay = std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(geometry::merge(meshes)));
   const Eigen::AlignedBox3d springs(Vector3d(-0.02, -0.01, 0.001), Vector3d(0.02, 0.01, 0.02));
   Obstacle obstacle{bay, Isometry3d::Identity(), "the bay"};
 
@@ -133,10 +135,10 @@ TEST(GivingWay, LetsAUnitSlideHomeOverItsSpringsAndOutAgain) {
     return depth;
   };
   EXPECT_NEAR(depth_reached(), 0.025, 1e-4) << "without an allowance it stops on the springs";
-  const std::vector<std::int32_t> giving_way = collision::triangles_inside(bay->tree.mesh(), springs);
+  const std::vector<std::int32_t> giving_way = geometry::triangles_inside(bay->tree.mesh(), springs);
   EXPECT_EQ(giving_way.size(), 24u);
   obstacle.body = std::make_shared<ContactBody>(
-      std::make_shared<collision::TriangleMesh>(collision::without_triangles(bay->tree.mesh(), giving_way)));
+      std::make_shared<geometry::TriangleMesh>(geometry::without_triangles(bay->tree.mesh(), giving_way)));
   EXPECT_NEAR(depth_reached(), 0.01, 1e-5) << "with it the floor holds, as exactly as ever";
 }
 
@@ -161,7 +163,7 @@ TEST(Margin, OfAnObstacleIsWhatTheHapticThreadKeepsToo) {
   for (int i = 0; i < 30; ++i)
     sliding.advance(pose({0.0, 0.0, 0.005}));
   std::vector<std::int32_t> scratch;
-  const ContactSet set = make_contact_set(sliding, 1, {}, scratch);
+  const ContactSet set = make_contact_set(sliding.result(), sliding.part(), 1, {}, scratch);
   ASSERT_GT(set.row_count, 0);
   for (const ConstraintRow& row : set.rows().first(static_cast<std::size_t>(set.pushing)))
     EXPECT_NEAR(row.bound, 0.0, 1e-8) << "no way towards the block is left";
@@ -175,11 +177,11 @@ TEST(Margin, IsSmallBesideAStep) {
                std::invalid_argument);
 }
 
-TEST(AntiJam, GetsAPegInThatIsHeldAskewAndLeavesAloneWhatIsNotStuck) {
+TEST(SpiralSearch, GetsAPegInThatIsHeldAskewAndLeavesAloneWhatIsNotStuck) {
   if (test_support::kSanitized) GTEST_SKIP() << "takes minutes under a sanitizer";
-  const auto depth_reached = [](bool anti_jam, const test_support::PegTrial& trial) {
+  const auto depth_reached = [](bool spiral_search, const test_support::PegTrial& trial) {
     const test_support::SlidingScene scene = test_support::peg_scene(trial);
-    Sliding sliding(scene.obstacles, scene.part_V, scene.X_WV_start, {.rules = {.anti_jam = anti_jam}});
+    Sliding sliding(scene.obstacles, scene.part_V, scene.X_WV_start, {.rules = {.spiral_search = spiral_search}});
     for (int tick = 1; tick <= scene.ticks + 2000; ++tick)  // it is shaken for two seconds
       sliding.advance(scene.ghost(tick));
     return -sliding.result().X_WV.translation().z();
@@ -196,9 +198,9 @@ TEST(AntiJam, GetsAPegInThatIsHeldAskewAndLeavesAloneWhatIsNotStuck) {
   EXPECT_GT(with, without);
 }
 
-TEST(AntiJam, IsForgottenWhenTheHandLetsGo) {
+TEST(SpiralSearch, IsForgottenWhenTheHandLetsGo) {
   Sliding sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.011}),
-                  {.metaphor = Metaphor::kRubberBandSpring, .rules = {.anti_jam = true}});
+                  {.metaphor = Metaphor::kRubberBandSpring, .rules = {.spiral_search = true}});
   for (int i = 0; i < 1900; ++i)
     sliding.advance(pose({0.0, 0.0, 0.005}));
   sliding.release();
@@ -207,9 +209,9 @@ TEST(AntiJam, IsForgottenWhenTheHandLetsGo) {
   EXPECT_EQ(sliding.advance(X_WV).X_WV.matrix(), X_WV.matrix());
 }
 
-TEST(AntiJam, DoesNotShakeAPartThatFollows) {
-  const auto last = [](bool anti_jam) {
-    Sliding sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.011}), {.rules = {.anti_jam = anti_jam}});
+TEST(SpiralSearch, DoesNotShakeAPartThatFollows) {
+  const auto last = [](bool spiral_search) {
+    Sliding sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.011}), {.rules = {.spiral_search = spiral_search}});
     for (int i = 0; i < 500; ++i)
       sliding.advance(pose({1e-5 * i, 0.0, 0.005}));
     return sliding.result().X_WV;

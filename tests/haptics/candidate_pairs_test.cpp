@@ -1,5 +1,7 @@
 // Candidates over many steps: none that is near is missing while a search serves, and it makes no difference who looks.
 
+#include "search/candidate_pairs.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -12,9 +14,8 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/haptics/candidate_pairs.h>
-#include <glissade/haptics/motion.h>
+#include <glissade/geometry/displacement.h>
+#include <glissade/geometry/mesh_generators.h>
 
 #include "held_part.h"
 #include "near_bodies.h"
@@ -31,13 +32,13 @@ using test_support::RandomNumbers;
 constexpr double kGreatest = 5e-3;  // metres
 
 /// Moves each part at random by up to `most` metres, or not at all.
-void move_parts(Surroundings& surroundings, double most, RandomNumbers& random) {
-  for (std::size_t p = 0; p < surroundings.parts().size(); ++p) {
+void move_parts(ContactScene& scene, double most, RandomNumbers& random) {
+  for (std::size_t p = 0; p < scene.parts().size(); ++p) {
     if (random.chance(0.2)) continue;
-    const SlidingPart& part = *surroundings.parts()[p];
-    const Displacement d{random.uniform(0.0, 0.5) * most * random.direction(),
-                         random.uniform(0.0, 0.5) * most / part.radius() * random.direction()};
-    surroundings.place(p, displaced(surroundings.bodies()[surroundings.body_of_part(p)].X_WB, part.p_Vref(), d));
+    const SlidingPart& part = *scene.parts()[p];
+    const geometry::Displacement d{random.uniform(0.0, 0.5) * most * random.direction(),
+                                   random.uniform(0.0, 0.5) * most / part.radius() * random.direction()};
+    scene.place(p, geometry::displaced(scene.bodies()[scene.body_of_part(p)].X_WB, part.p_Vref(), d));
   }
 }
 
@@ -47,37 +48,36 @@ std::vector<CandidatePair> pairs_within(const CandidatePairs& candidates, double
   return pairs;
 }
 
-std::vector<Obligation> obligations_within(const CandidatePairs& candidates, double reach) {
-  std::vector<Obligation> obligations(3);
-  candidates.within(reach, obligations);
-  return obligations;
+std::vector<PairToCertify> pairs_to_certify_within(const CandidatePairs& candidates, double reach) {
+  std::vector<PairToCertify> to_certify(3);
+  candidates.within(reach, to_certify);
+  return to_certify;
 }
 
-bool can_make_contact(const Surroundings& surroundings, const TrianglesOfBodies& pair) {
-  const auto topology_of = [&](std::int32_t body) -> const collision::MeshTopology& {
-    return surroundings.bodies()[static_cast<std::size_t>(body)].body->topology;
+bool can_make_contact(const ContactScene& scene, const TrianglesOfBodies& pair) {
+  const auto topology_of = [&](std::int32_t body) -> const geometry::MeshTopology& {
+    return scene.bodies()[static_cast<std::size_t>(body)].body->topology;
   };
   return topology_of(pair.bodies.obstacle)
       .can_stop_each_other(pair.obstacle_triangle, topology_of(pair.bodies.part), pair.part_triangle);
 }
 
 /// A pair of triangles within `reach` that is missing, for proofs or for contacts; empty if none is.
-std::string what_is_missing(const CandidatePairs& candidates, const Surroundings& surroundings, double reach) {
+std::string what_is_missing(const CandidatePairs& candidates, const ContactScene& scene, double reach) {
   std::set<TrianglesOfBodies> for_contacts;
   for (const CandidatePair& c : pairs_within(candidates, reach))
     for_contacts.insert({c.bodies, c.obstacle_triangle, c.part_triangle});
   std::set<TrianglesOfBodies> for_proofs;
-  for (const Obligation& obligation : obligations_within(candidates, reach)) {
-    for (const TrianglesOfBodies& pair : test_support::triangles_of(surroundings.bodies(), obligation))
+  for (const PairToCertify& pair_to_certify : pairs_to_certify_within(candidates, reach)) {
+    for (const TrianglesOfBodies& pair : test_support::triangles_of(scene.bodies(), pair_to_certify))
       for_proofs.insert(pair);
   }
-  for (const auto& [pair, distance] :
-       test_support::near_triangles(surroundings.bodies(), surroundings.obstacles().size(), reach)) {
+  for (const auto& [pair, distance] : test_support::near_triangles(scene.bodies(), scene.obstacles().size(), reach)) {
     const std::string text = std::to_string(pair.obstacle_triangle) + " of body " +
                              std::to_string(pair.bodies.obstacle) + " and " + std::to_string(pair.part_triangle) +
                              " of body " + std::to_string(pair.bodies.part) + " at " + std::to_string(distance);
     if (!for_proofs.contains(pair)) return "for proofs: " + text;
-    if (can_make_contact(surroundings, pair) && !for_contacts.contains(pair)) return "for contacts: " + text;
+    if (can_make_contact(scene, pair) && !for_contacts.contains(pair)) return "for contacts: " + text;
   }
   return "";
 }
@@ -89,8 +89,8 @@ TEST(CandidatePairs, HoldEverythingWithinTheReachOverManySteps) {
   int kept = 0;  // steps that an earlier search served
   std::int64_t searches = 0;
   for (int trial = 0; trial < test_support::affordable(60); ++trial) {
-    const auto surroundings = test_support::random_surroundings(0.02, 1e-4, 2e-4, random);
-    CandidatePairs candidates(*surroundings, kGreatest);
+    const auto scene = test_support::random_surroundings(0.02, 1e-4, 2e-4, random);
+    CandidatePairs candidates(*scene, kGreatest);
     EXPECT_FALSE(candidates.covers(0.0)) << "before the first search";
     for (int step = 0; step < 40; ++step) {
       SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", step " +
@@ -99,13 +99,13 @@ TEST(CandidatePairs, HoldEverythingWithinTheReachOverManySteps) {
       const double reach = random.power_of_ten(-4.0, -3.0);
       kept += candidates.look(reach, random.uniform(0.0, 1e-3), {}) ? 0 : 1;
       ASSERT_TRUE(candidates.covers(reach));
-      ASSERT_EQ(what_is_missing(candidates, *surroundings, reach), "");
+      ASSERT_EQ(what_is_missing(candidates, *scene, reach), "");
       // A step later the same candidates may still do.
-      move_parts(*surroundings, 2e-4, random);
+      move_parts(*scene, 2e-4, random);
       candidates.moved();
       const double other = random.power_of_ten(-4.0, -3.0);
       if (candidates.covers(other)) {
-        ASSERT_EQ(what_is_missing(candidates, *surroundings, other), "");
+        ASSERT_EQ(what_is_missing(candidates, *scene, other), "");
       }
     }
     searches += candidates.account().searches;
@@ -115,22 +115,22 @@ TEST(CandidatePairs, HoldEverythingWithinTheReachOverManySteps) {
 }
 
 TEST(CandidatePairs, LeaveOutBodiesThatAreIgnored) {
-  const std::vector<Obstacle> obstacles{test_support::obstacle_of(collision::make_plate({0.1, 0.1}, 50)),
-                                        test_support::obstacle_of(collision::make_plate({0.1, 0.1}, 50))};
-  Surroundings surroundings(obstacles, {test_support::part_of(collision::make_box({0.02, 0.02, 0.02}, 48))},
-                            std::vector<double>{1e-5});
-  surroundings.place(0, test_support::pose({0.0, 0.0, 0.0101}));
-  CandidatePairs candidates(surroundings, kGreatest);
+  const std::vector<Obstacle> obstacles{test_support::obstacle_of(geometry::make_plate({0.1, 0.1}, 50)),
+                                        test_support::obstacle_of(geometry::make_plate({0.1, 0.1}, 50))};
+  ContactScene scene(obstacles, {test_support::part_of(geometry::make_box({0.02, 0.02, 0.02}, 48))},
+                     std::vector<double>{1e-5});
+  scene.place(0, test_support::pose({0.0, 0.0, 0.0101}));
+  CandidatePairs candidates(scene, kGreatest);
   const std::vector<BodyPair> ignored{{1, 2}};
   candidates.look(0.5e-3, 0.0, ignored);
   const std::vector<CandidatePair> pairs = pairs_within(candidates, 0.5e-3);
-  const std::vector<Obligation> obligations = obligations_within(candidates, 0.5e-3);
+  const std::vector<PairToCertify> to_certify = pairs_to_certify_within(candidates, 0.5e-3);
   EXPECT_FALSE(pairs.empty());
-  EXPECT_FALSE(obligations.empty());
+  EXPECT_FALSE(to_certify.empty());
   for (const CandidatePair& pair : pairs)
     EXPECT_EQ(pair.bodies.obstacle, 0);
-  for (const Obligation& obligation : obligations)
-    EXPECT_EQ(obligation.bodies.obstacle, 0);
+  for (const PairToCertify& pair_to_certify : to_certify)
+    EXPECT_EQ(pair_to_certify.bodies.obstacle, 0);
 }
 
 /// Everything that `candidates` has to say, bit for bit.
@@ -140,9 +140,9 @@ std::vector<double> contents(const CandidatePairs& candidates, double reach) {
     numbers.insert(numbers.end(), {1.0 * c.bodies.obstacle, 1.0 * c.obstacle_triangle, 1.0 * c.bodies.part,
                                    1.0 * c.part_triangle, c.distance, c.n_W.x(), c.n_W.y(), c.n_W.z()});
   }
-  for (const Obligation& o : obligations_within(candidates, reach)) {
+  for (const PairToCertify& o : pairs_to_certify_within(candidates, reach)) {
     numbers.insert(numbers.end(), {1.0 * o.bodies.obstacle, 1.0 * o.bodies.part, 1.0 * o.item_O.number,
-                                   1.0 * o.item_P.number, o.distance, o.n_W.x(), o.n_W.y(), o.n_W.z()});
+                                   1.0 * o.item_V.number, o.distance, o.n_W.x(), o.n_W.y(), o.n_W.z()});
   }
   numbers.push_back(static_cast<double>(candidates.size()));
   numbers.push_back(static_cast<double>(candidates.account().searches));
@@ -155,9 +155,9 @@ TEST(CandidatePairs, AreTheSameWithAThreadOfTheirOwn) {
   RandomNumbers random(kSeed);
   int renewed = 0;
   for (int trial = 0; trial < test_support::affordable(60); ++trial) {
-    const auto surroundings = test_support::random_surroundings(0.02, 1e-4, 2e-4, random);
-    CandidatePairs without(*surroundings, kGreatest);
-    CandidatePairs with(*surroundings, kGreatest, true);
+    const auto scene = test_support::random_surroundings(0.02, 1e-4, 2e-4, random);
+    CandidatePairs without(*scene, kGreatest);
+    CandidatePairs with(*scene, kGreatest, true);
     for (int step = 0; step < 60; ++step) {
       SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", step " +
                    std::to_string(step));
@@ -171,7 +171,7 @@ TEST(CandidatePairs, AreTheSameWithAThreadOfTheirOwn) {
       ASSERT_EQ(with.look(reach, ahead, {}), is_other);
       ASSERT_EQ(contents(with, reach), contents(without, reach));
       renewed += is_other ? 1 : 0;
-      move_parts(*surroundings, 1e-4, random);
+      move_parts(*scene, 1e-4, random);
       without.moved();
       with.moved();
     }
@@ -187,15 +187,15 @@ class CubeOverPlate : public ::testing::TestWithParam<bool> {
 
   void move(double length) {
     z_ -= length;
-    surroundings_.place(0, test_support::pose({0.0, 0.0, z_}));
+    scene_.place(0, test_support::pose({0.0, 0.0, z_}));
     candidates_.moved();
   }
 
   double z_ = 0.015;
-  Surroundings surroundings_{{test_support::obstacle_of(collision::make_plate({0.1, 0.1}, 50))},
-                             {test_support::part_of(collision::make_box({0.02, 0.02, 0.02}, 48))},
-                             std::vector<double>{1e-5}};
-  CandidatePairs candidates_{surroundings_, kGreatest, GetParam()};
+  ContactScene scene_{{test_support::obstacle_of(geometry::make_plate({0.1, 0.1}, 50))},
+                      {test_support::part_of(geometry::make_box({0.02, 0.02, 0.02}, 48))},
+                      std::vector<double>{1e-5}};
+  CandidatePairs candidates_{scene_, kGreatest, GetParam()};
 };
 
 // Asked for at half of the way that a search looks ahead, it looks from there: so it serves half a way longer.
@@ -223,7 +223,7 @@ TEST_P(CubeOverPlate, AJumpBeyondWhatWasAskedForIsSearchedAfresh) {
   EXPECT_FALSE(candidates_.covers(kReach));
   EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
   EXPECT_TRUE(candidates_.covers(kReach + 0.9 * kAhead)) << "from here";
-  EXPECT_EQ(what_is_missing(candidates_, surroundings_, kReach), "");
+  EXPECT_EQ(what_is_missing(candidates_, scene_, kReach), "");
   EXPECT_EQ(candidates_.account().searches, 2) << "what was not taken is not told";
 }
 
@@ -234,9 +234,9 @@ TEST_P(CubeOverPlate, IsToldOfThePosesAtWhichItWasAskedFor) {
   candidates_.look(kReach, kAhead, {});  // asks for the next one, 0.7 of it above the plate
   move(0.5 * kAhead);
   EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
-  const std::vector<Obligation> obligations = obligations_within(candidates_, 0.5 * kAhead);
-  ASSERT_FALSE(obligations.empty());
-  EXPECT_NEAR(obligations.front().distance, 0.7 * kAhead, 1e-9);
+  const std::vector<PairToCertify> to_certify = pairs_to_certify_within(candidates_, 0.5 * kAhead);
+  ASSERT_FALSE(to_certify.empty());
+  EXPECT_NEAR(to_certify.front().distance, 0.7 * kAhead, 1e-9);
   const std::vector<CandidatePair> pairs = pairs_within(candidates_, 0.5 * kAhead);
   ASSERT_FALSE(pairs.empty());
   EXPECT_NEAR(pairs.front().distance, 0.7 * kAhead, 1e-9);
@@ -246,11 +246,11 @@ TEST_P(CubeOverPlate, LeavesOutWhatHasCertainlyComeApart) {
   move(4.9e-3);
   candidates_.look(kReach, kAhead, {});
   EXPECT_FALSE(pairs_within(candidates_, kReach).empty());
-  EXPECT_FALSE(obligations_within(candidates_, kReach).empty());
+  EXPECT_FALSE(pairs_to_certify_within(candidates_, kReach).empty());
   move(-0.2 * kAhead);  // up again; by the length of the way alone all might still be near
   EXPECT_TRUE(candidates_.covers(kReach));
   EXPECT_TRUE(pairs_within(candidates_, kReach).empty());
-  EXPECT_TRUE(obligations_within(candidates_, kReach).empty());
+  EXPECT_TRUE(pairs_to_certify_within(candidates_, kReach).empty());
 }
 
 // Nobody knows then which way is apart, so any way may be nearer.
@@ -259,19 +259,19 @@ TEST_P(CubeOverPlate, KeepsWhatWasTooNearToHaveADirection) {
   candidates_.look(kReach, kAhead, {});
   move(0.8 * kSharpDistance_m);
   EXPECT_FALSE(pairs_within(candidates_, 0.2 * kSharpDistance_m).empty());
-  EXPECT_EQ(what_is_missing(candidates_, surroundings_, 0.2 * kSharpDistance_m), "");
+  EXPECT_EQ(what_is_missing(candidates_, scene_, 0.2 * kSharpDistance_m), "");
 }
 
 TEST_P(CubeOverPlate, APoseThatIsNoneIsAnErrorOfTheCaller) {
   move(0.0);
   candidates_.look(kReach, kAhead, {});
-  surroundings_.place(0, test_support::pose({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()}));
+  scene_.place(0, test_support::pose({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()}));
   candidates_.moved();
   EXPECT_THROW(candidates_.look(kReach, kAhead, {}), std::invalid_argument);
   EXPECT_FALSE(candidates_.covers(0.0)) << "what has failed is no answer";
   move(4.9e-3);
   EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
-  EXPECT_EQ(what_is_missing(candidates_, surroundings_, kReach), "");
+  EXPECT_EQ(what_is_missing(candidates_, scene_, kReach), "");
   EXPECT_FALSE(pairs_within(candidates_, kReach).empty());
 }
 

@@ -16,10 +16,10 @@
 namespace glissade::haptics {
 namespace {
 
-using collision::make_box;
-using collision::make_plate;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using geometry::make_box;
+using geometry::make_plate;
 using test_support::kBoxSize;
 using test_support::kRestBalance;
 using test_support::kRestPosition_m;
@@ -35,26 +35,26 @@ const double kHalfLength = 0.5 * kBoxSize.x();
 const double kHalfHeight = 0.5 * kBoxSize.z();
 
 Obstacle floor_below() {
-  return test_support::obstacle_of(make_plate({0.5, 0.5}, 200));
+  return test_support::obstacle_of(geometry::make_plate({0.5, 0.5}, 200));
 }
 
 /// A long block one of whose edges lies on the y axis and points up.
 Obstacle ridge() {
   constexpr double kWidth = 0.05;
   return test_support::obstacle_of(
-      make_box({kWidth, 0.4, kWidth}, 12),
+      geometry::make_box({kWidth, 0.4, kWidth}, 12),
       pose({0.0, 0.0, -kWidth / std::numbers::sqrt2}, turn(0.5 * kRightAngle, Vector3d::UnitY())));
 }
 
 Sliding held_box(std::vector<Obstacle> obstacles, const Isometry3d& X_WV) {
   return {std::move(obstacles),
-          test_support::part_of(make_box(kBoxSize, 300)),
+          test_support::part_of(geometry::make_box(kBoxSize, 300)),
           X_WV,
           {.metaphor = Metaphor::kRubberBandSpring}};
 }
 
 double turned_by(const Isometry3d& X, const Isometry3d& Y) {
-  return displacement_between(X, Y, Vector3d::Zero()).w.norm();
+  return geometry::displacement_between(X, Y, Vector3d::Zero()).w.norm();
 }
 
 /// The part is at the optimum, and what holds it there is the spring's force and torque.
@@ -65,7 +65,7 @@ void expect_at_rest(Sliding& sliding, const Isometry3d& X_optimum) {
   EXPECT_LE(turned_by(result.X_WV, X_optimum), kRestRotation_rad);
   EXPECT_LE(test_support::imbalance(sliding), kRestBalance);
 
-  const Displacement stretch = displacement_between(X_optimum, result.X_WG, Vector3d::Zero());
+  const geometry::Displacement stretch = geometry::displacement_between(X_optimum, result.X_WG, Vector3d::Zero());
   const Wrench on_part = test_support::spring_on_part(sliding);
   EXPECT_LE((on_part.f - sliding.stiffness().translational * stretch.v).norm(),
             sliding.stiffness().translational * kRestPosition_m);
@@ -142,7 +142,7 @@ TEST(ClosedForm, InAGrooveItStaysOneMarginFromBothSidesAndFollowsAlongIt) {
   const Vector3d left = Vector3d(1.0, 0.0, 1.0).normalized();
   const Vector3d right = Vector3d(-1.0, 0.0, 1.0).normalized();
   const auto side = [](const Vector3d& normal) {
-    return test_support::obstacle_of(make_plate({0.5, 0.5}, 200),
+    return test_support::obstacle_of(geometry::make_plate({0.5, 0.5}, 200),
                                      pose(Vector3d::Zero(), turn_from_to(Vector3d::UnitZ(), normal)));
   };
   // Two of the box's faces lie flush with the sides.
@@ -159,7 +159,7 @@ TEST(ClosedForm, InAGrooveItStaysOneMarginFromBothSidesAndFollowsAlongIt) {
 
 TEST(ClosedForm, InACornerItStaysOneMarginFromAllThreeSides) {
   const auto wall = [](const Vector3d& normal) {
-    return test_support::obstacle_of(make_plate({0.5, 0.5}, 200),
+    return test_support::obstacle_of(geometry::make_plate({0.5, 0.5}, 200),
                                      pose(Vector3d::Zero(), turn_from_to(Vector3d::UnitZ(), normal)));
   };
   const Vector3d seat = 0.5 * kBoxSize;
@@ -211,7 +211,7 @@ TEST(ClosedForm, AnEdgeHeldOverTheEdgeOfABlockTipsLikeAFace) {
 }
 
 /// The distance of the nearest facet of a mesh around the origin.
-double inner_radius(const collision::TriangleMesh& mesh) {
+double inner_radius(const geometry::TriangleMesh& mesh) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vector3d& a = mesh.corner(static_cast<std::int32_t>(t), 0);
@@ -226,8 +226,8 @@ TEST(ClosedForm, ASphereOnASphereIsAsFarAsItsFacetsLet) {
   const double radius_O = 0.04;
   const double radius_V = 0.02;
   constexpr int kTriangles = test_support::kSanitized ? 2000 : 4000;
-  const collision::TriangleMesh sphere_O = collision::make_sphere(radius_O, kTriangles);
-  const collision::TriangleMesh sphere_V = collision::make_sphere(radius_V, kTriangles);
+  const geometry::TriangleMesh sphere_O = geometry::make_sphere(radius_O, kTriangles);
+  const geometry::TriangleMesh sphere_V = geometry::make_sphere(radius_V, kTriangles);
   const double sagittas = radius_O - inner_radius(sphere_O) + radius_V - inner_radius(sphere_V);
   ASSERT_LT(sagittas, 0.8 / kTriangles);
   Sliding sliding({test_support::obstacle_of(sphere_O)}, test_support::part_of(sphere_V), pose({0.0, 0.0, 0.07}),

@@ -8,19 +8,19 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/mesh_operations.h>
-#include <glissade/haptics/contact_patches.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
 #include <glissade/haptics/sliding.h>
+#include <glissade/haptics/tracked_contacts.h>
 
 #include "poses.h"
 
 namespace glissade::haptics {
 namespace {
 
-using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using geometry::TriangleMesh;
 using test_support::pose;
 using test_support::turn_from_to;
 
@@ -89,12 +89,13 @@ TEST(ContactPatches, TheOrderOfTheContactsMakesNoOthers) {
 }
 
 /// The patches of a part that is led from one pose to another in 0.3 s and pressed there for 0.1 s.
-std::vector<ContactPatch> patches_after(const std::vector<TriangleMesh>& obstacles, const TriangleMesh& part,
-                                        const Isometry3d& X_WG_from, const Isometry3d& X_WG_to) {
+std::vector<ContactPatch> patches_after(const std::vector<geometry::TriangleMesh>& obstacles,
+                                        const geometry::TriangleMesh& part, const Isometry3d& X_WG_from,
+                                        const Isometry3d& X_WG_to) {
   std::vector<Obstacle> bodies;
-  for (const TriangleMesh& mesh : obstacles)
-    bodies.push_back({std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(mesh))});
-  Sliding sliding(bodies, std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(part)), X_WG_from);
+  for (const geometry::TriangleMesh& mesh : obstacles)
+    bodies.push_back({std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(mesh))});
+  Sliding sliding(bodies, std::make_shared<SlidingPart>(std::make_shared<geometry::TriangleMesh>(part)), X_WG_from);
   ContactTracker tracker(sliding.margin());
   const Eigen::Quaterniond q_from(X_WG_from.linear());
   for (int i = 0; i <= 400; ++i) {
@@ -108,13 +109,13 @@ std::vector<ContactPatch> patches_after(const std::vector<TriangleMesh>& obstacl
   return {merged.begin(), merged.end()};
 }
 
-TriangleMesh sheet(const Vector3d& normal) {
-  return collision::transformed(collision::make_plate({0.5, 0.5}, 5000),
-                                pose(Vector3d::Zero(), turn_from_to(Vector3d::UnitZ(), normal)));
+geometry::TriangleMesh sheet(const Vector3d& normal) {
+  return geometry::transformed(geometry::make_plate({0.5, 0.5}, 5000),
+                               pose(Vector3d::Zero(), turn_from_to(Vector3d::UnitZ(), normal)));
 }
 
 TEST(ContactPatches, AFinelyCutBoxOnAFinelyCutPlaneIsOnePatch) {
-  const auto patches = patches_after({sheet(Vector3d::UnitZ())}, collision::make_box({0.1, 0.06, 0.04}, 1200),
+  const auto patches = patches_after({sheet(Vector3d::UnitZ())}, geometry::make_box({0.1, 0.06, 0.04}, 1200),
                                      pose({0, 0, 0.025}), pose({0.01, 0.02, 0.017}));
   ASSERT_EQ(patches.size(), 1u);
   EXPECT_GE(patches[0].count, 4);
@@ -131,7 +132,7 @@ TEST(ContactPatches, ABoxInAGrooveIsTwo) {
   const Eigen::Quaterniond q_45(Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitY()));
   const Vector3d seat = 0.02 * left + 0.05 * right;
   const auto patches =
-      patches_after({sheet(left), sheet(right)}, collision::make_box({0.1, 0.06, 0.04}, 1200),
+      patches_after({sheet(left), sheet(right)}, geometry::make_box({0.1, 0.06, 0.04}, 1200),
                     pose(seat + Vector3d(0, 0, 0.01), q_45), pose(seat + Vector3d(0.0, 0.01, -0.003), q_45));
   ASSERT_EQ(patches.size(), 2u);
   EXPECT_TRUE(patches[0].n_W.isApprox(left, 1e-3) || patches[1].n_W.isApprox(left, 1e-3));
@@ -140,9 +141,9 @@ TEST(ContactPatches, ABoxInAGrooveIsTwo) {
 TEST(ContactPatches, ATiltedPegInItsHoleIsAFew) {
   // A peg of 8 mm in a tube with 50 µm of play, tilted as far as that lets it.
   const std::vector<Eigen::Vector2d> profile{{0.0, -0.01}, {0.00795, -0.01}, {0.00795, 0.01}, {0.0, 0.01}};
-  const TriangleMesh peg = collision::make_revolution(profile, false, 48);
+  const geometry::TriangleMesh peg = geometry::make_revolution(profile, false, 48);
   const Eigen::Quaterniond q_tilted(Eigen::AngleAxisd(0.03, Vector3d::UnitX()));
-  const auto patches = patches_after({collision::make_tube(0.008, 0.03, 2000)}, peg, pose(Vector3d::Zero()),
+  const auto patches = patches_after({geometry::make_tube(0.008, 0.03, 2000)}, peg, pose(Vector3d::Zero()),
                                      pose({0, 0, 0.001}, q_tilted));
   EXPECT_GE(patches.size(), 2u);
   EXPECT_LE(patches.size(), 8u);

@@ -1,3 +1,5 @@
+#include "contact/contact_search.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,9 +13,8 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/mesh_operations.h>
-#include <glissade/haptics/contact_search.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 #include "poses.h"
 #include "random_numbers.h"
@@ -22,9 +23,9 @@
 namespace glissade::haptics {
 namespace {
 
-using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using geometry::TriangleMesh;
 using test_support::pose;
 using test_support::turn_from_to;
 
@@ -34,28 +35,30 @@ constexpr double kSearchMargin = 5e-6;
 /// An obstacle, at the origin or elsewhere, and a part.
 class TwoBodies {
  public:
-  TwoBodies(const TriangleMesh& obstacle, const TriangleMesh& part, const Isometry3d& X_WO = Isometry3d::Identity())
-      : surroundings_({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(obstacle)), X_WO}},
-                      {std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(part))},
-                      std::array{kSearchMargin}) {}
+  TwoBodies(const geometry::TriangleMesh& obstacle, const geometry::TriangleMesh& part,
+            const Isometry3d& X_WO = Isometry3d::Identity())
+      : scene_({{std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(obstacle)), X_WO}},
+               {std::make_shared<SlidingPart>(std::make_shared<geometry::TriangleMesh>(part))},
+               std::array{kSearchMargin}) {}
 
   std::vector<Contact> contacts_at(const Isometry3d& X_WV) {
-    surroundings_.place(0, X_WV);
+    scene_.place(0, X_WV);
     candidates_.clear();
     candidates_.look(kSearchReach, 0.0, {});
     std::vector<CandidatePair> pairs;
     candidates_.within(kSearchReach, pairs);
     std::vector<Contact> found;
-    find_contacts(surroundings_.bodies(), 1, pairs, kSearchReach, kSearchMargin, found);
+    find_contacts(scene_.bodies(), 1, pairs, kSearchReach, kSearchMargin, found);
     return found;
   }
 
  private:
-  Surroundings surroundings_;
-  CandidatePairs candidates_{surroundings_, kSearchReach};
+  ContactScene scene_;
+  CandidatePairs candidates_{scene_, kSearchReach};
 };
 
-std::vector<Contact> contacts(const TriangleMesh& obstacle, const TriangleMesh& part, const Isometry3d& X_WV) {
+std::vector<Contact> contacts(const geometry::TriangleMesh& obstacle, const geometry::TriangleMesh& part,
+                              const Isometry3d& X_WV) {
   return TwoBodies(obstacle, part).contacts_at(X_WV);
 }
 
@@ -67,7 +70,7 @@ std::map<ContactKind, int> kinds(const std::vector<Contact>& contacts) {
 }
 
 TEST(ContactSearch, ABoxOnALargePlaneTouchesWithItsFourCornersOnly) {
-  const auto found = contacts(collision::make_plate({1.0, 1.0}, 2), collision::make_box({0.1, 0.1, 0.1}, 12),
+  const auto found = contacts(geometry::make_plate({1.0, 1.0}, 2), geometry::make_box({0.1, 0.1, 0.1}, 12),
                               pose({0.012, 0.004, 0.0501}));
   EXPECT_EQ(kinds(found), (std::map<ContactKind, int>{{ContactKind::kVertexFace, 4}}));
   for (const Contact& contact : found) {
@@ -77,8 +80,8 @@ TEST(ContactSearch, ABoxOnALargePlaneTouchesWithItsFourCornersOnly) {
 }
 
 TEST(ContactSearch, NormalsOfATessellatedAndFlippedPlaneAllPointStraightUp) {
-  const TriangleMesh plane = collision::flip_randomly(collision::make_plate({1.0, 1.0}, 5000), 1);
-  const TriangleMesh box = collision::flip_randomly(collision::make_box({0.1, 0.1, 0.1}, 600), 2);
+  const geometry::TriangleMesh plane = geometry::flip_randomly(geometry::make_plate({1.0, 1.0}, 5000), 1);
+  const geometry::TriangleMesh box = geometry::flip_randomly(geometry::make_box({0.1, 0.1, 0.1}, 600), 2);
   const auto found = contacts(
       plane, box, pose({0.0123, 0.0045, 0.0501}, Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Vector3d::UnitZ()))));
   ASSERT_FALSE(found.empty());
@@ -87,7 +90,7 @@ TEST(ContactSearch, NormalsOfATessellatedAndFlippedPlaneAllPointStraightUp) {
 }
 
 TEST(ContactSearch, BelowASheetNormalsPointDown) {
-  const auto found = contacts(collision::make_plate({1.0, 1.0}, 2), collision::make_box({0.1, 0.1, 0.1}, 12),
+  const auto found = contacts(geometry::make_plate({1.0, 1.0}, 2), geometry::make_box({0.1, 0.1, 0.1}, 12),
                               pose({0.012, 0.004, -0.0501}));
   ASSERT_EQ(found.size(), 4u);
   for (const Contact& contact : found)
@@ -96,9 +99,9 @@ TEST(ContactSearch, BelowASheetNormalsPointDown) {
 
 TEST(ContactSearch, CrossedEdgesMeetAlongTheirCommonNormal) {
   // Two boxes turned to stand on an edge, one along x and one along y.
-  const TriangleMesh box = collision::make_box({0.1, 0.1, 0.1}, 12);
+  const geometry::TriangleMesh box = geometry::make_box({0.1, 0.1, 0.1}, 12);
   const double half_diagonal = 0.05 * std::sqrt(2.0);
-  const TriangleMesh below = collision::transformed(
+  const geometry::TriangleMesh below = geometry::transformed(
       box,
       pose({0.0, 0.0, -half_diagonal}, Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitX()))));
   const auto found = contacts(below, box,
@@ -111,13 +114,13 @@ TEST(ContactSearch, CrossedEdgesMeetAlongTheirCommonNormal) {
 }
 
 /// The corners of feature `number` of a mesh, a vertex, edge or face.
-std::vector<Vector3d> corners(const TriangleMesh& mesh, char feature, std::int32_t number) {
+std::vector<Vector3d> corners(const geometry::TriangleMesh& mesh, char feature, std::int32_t number) {
   const auto i = static_cast<std::size_t>(number);
   const auto vertex = [&](std::int32_t v) { return mesh.vertices.at(static_cast<std::size_t>(v)); };
   if (feature == 'v') return {vertex(number)};
   if (feature == 'f') return {mesh.corner(number, 0), mesh.corner(number, 1), mesh.corner(number, 2)};
-  const collision::MeshTopology topology(mesh);
-  const collision::MeshTopology::Edge& edge = topology.edges().at(i);
+  const geometry::MeshTopology topology(mesh);
+  const geometry::MeshTopology::Edge& edge = topology.edges().at(i);
   return {vertex(edge.vertices[0]), vertex(edge.vertices[1])};
 }
 
@@ -131,12 +134,12 @@ double distance_from(const std::vector<Vector3d>& corners, const Vector3d& x) {
 
 TEST(ContactSearch, TheFeaturesNamedAreThoseThatTouchWhateverTheKind) {
   // A ball over a face, an edge and a corner of a box, turned in many ways: all kinds of features meet.
-  const TriangleMesh box = collision::make_box({0.1, 0.1, 0.1}, 100);
-  const TriangleMesh ball = collision::flip_randomly(collision::make_sphere(0.05, 300), 5);
+  const geometry::TriangleMesh box = geometry::make_box({0.1, 0.1, 0.1}, 100);
+  const geometry::TriangleMesh ball = geometry::flip_randomly(geometry::make_sphere(0.05, 300), 5);
   const std::vector<Vector3d> nearest{{0.01, 0.02, 0.05}, {0.05, 0.012, 0.05}, {0.05, 0.05, 0.05}};
   const std::vector<Vector3d> away{{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}, {1.0, 1.0, 1.0}};
   std::map<ContactKind, int> seen;
-  const auto check = [&](const TriangleMesh& mesh, const Isometry3d& X_WV) {
+  const auto check = [&](const geometry::TriangleMesh& mesh, const Isometry3d& X_WV) {
     for (const Contact& contact : contacts(box, mesh, X_WV)) {
       ++seen[contact.kind];
       const auto name = std::string(name_of(contact.kind));
@@ -165,8 +168,8 @@ TEST(ContactSearch, TheFeaturesNamedAreThoseThatTouchWhateverTheKind) {
 }
 
 TEST(ContactSearch, ACornerBesideTheRimOfASheetMeetsTheRim) {
-  const auto found = contacts(collision::make_plate({0.2, 0.2}, 2), collision::make_box({0.1, 0.1, 0.1}, 12),
-                              pose({0.1502, 0.0, 0.0}));
+  const auto found =
+      contacts(geometry::make_plate({0.2, 0.2}, 2), geometry::make_box({0.1, 0.1, 0.1}, 12), pose({0.1502, 0.0, 0.0}));
   // The box's side faces the rim from 0.2 mm away; nothing but horizontal normals can come of that.
   ASSERT_FALSE(found.empty());
   for (const Contact& contact : found)
@@ -174,8 +177,8 @@ TEST(ContactSearch, ACornerBesideTheRimOfASheetMeetsTheRim) {
 }
 
 TEST(ContactSearch, HoweverFinelyFacesAreCutABoxTouchesATableWithItsCornersOnly) {
-  const TriangleMesh table = collision::flip_randomly(collision::make_plate({1.0, 1.0}, 20'000), 7);
-  const TriangleMesh box = collision::flip_randomly(collision::make_box({0.1, 0.1, 0.1}, 6'000), 8);
+  const geometry::TriangleMesh table = geometry::flip_randomly(geometry::make_plate({1.0, 1.0}, 20'000), 7);
+  const geometry::TriangleMesh box = geometry::flip_randomly(geometry::make_box({0.1, 0.1, 0.1}, 6'000), 8);
   EXPECT_EQ(kinds(contacts(table, box, pose({0.0123, 0.0045, 0.0501}))),
             (std::map<ContactKind, int>{{ContactKind::kVertexFace, 4}}));
   // Half beyond the rim of the table: two corners, and two edges of the box over the rim.
@@ -195,7 +198,7 @@ std::vector<double> tiny_shifts() {
 
 TEST(ContactSearch, RimsThatCrossWhereBothAreCutAlwaysMeet) {
   // Cells of 10 mm and of 20 mm: two edges of the box cross the rim of the table over vertices of both.
-  TwoBodies box_on_table(collision::make_plate({1.0, 1.0}, 5'000), collision::make_box({0.1, 0.1, 0.1}, 1'200));
+  TwoBodies box_on_table(geometry::make_plate({1.0, 1.0}, 5'000), geometry::make_box({0.1, 0.1, 0.1}, 1'200));
   const std::vector<double> turns{0.0, 1e-9, 1e-3};
   for (const double turn : std::span(turns).first(test_support::kSanitized ? 1 : 3)) {
     const Eigen::Quaterniond q(Eigen::AngleAxisd(turn, Vector3d::UnitZ()));
@@ -226,8 +229,8 @@ TEST(ContactSearch, RoundingLetsNothingThroughWhereARimIsCut) {
   constexpr std::uint64_t kSeed = 83;
   RecordProperty("seed", std::to_string(kSeed));
   test_support::RandomNumbers random(kSeed);
-  const TriangleMesh table = collision::make_plate({0.2, 0.2}, 200);
-  const TriangleMesh box = collision::make_box({0.1, 0.1, 0.1}, 48);
+  const geometry::TriangleMesh table = geometry::make_plate({0.2, 0.2}, 200);
+  const geometry::TriangleMesh box = geometry::make_box({0.1, 0.1, 0.1}, 48);
   const Eigen::Quaterniond on_corner = turn_from_to(Vector3d(1.0, 1.0, 1.0), -Vector3d::UnitX());
   const Vector3d beside(0.1 + 0.05 * std::sqrt(3.0) + 1e-4, 0.02, 0.0);
   for (int i = 0; i < test_support::affordable(100); ++i) {
@@ -253,10 +256,10 @@ TEST(ContactSearch, RoundingLetsNothingThroughWhereARimIsCut) {
 
 TEST(ContactSearch, ACornerMeetsARimWhereverThatIsCut) {
   // The corner of a box points at the rim of a sheet, at a vertex inside it, and the other way round.
-  const TriangleMesh sheet = collision::make_plate({0.2, 0.2}, 200);
-  const TriangleMesh box =
-      collision::transformed(collision::make_box({0.1, 0.1, 0.1}, 12),
-                             pose(Vector3d::Zero(), turn_from_to(Vector3d(1.0, 1.0, 1.0), -Vector3d::UnitX())));
+  const geometry::TriangleMesh sheet = geometry::make_plate({0.2, 0.2}, 200);
+  const geometry::TriangleMesh box =
+      geometry::transformed(geometry::make_box({0.1, 0.1, 0.1}, 12),
+                            pose(Vector3d::Zero(), turn_from_to(Vector3d(1.0, 1.0, 1.0), -Vector3d::UnitX())));
   const double half_diagonal = 0.05 * std::sqrt(3.0);
   for (const double dy : tiny_shifts()) {
     SCOPED_TRACE(testing::Message() << "dy " << dy);

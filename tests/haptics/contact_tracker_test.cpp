@@ -10,10 +10,10 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/mesh_operations.h>
-#include <glissade/haptics/contact_tracker.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
 #include <glissade/haptics/sliding.h>
+#include <glissade/haptics/tracked_contacts.h>
 
 #include "allocation_counter.h"
 #include "sanitizers.h"
@@ -21,9 +21,9 @@
 namespace glissade::haptics {
 namespace {
 
-using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using geometry::TriangleMesh;
 
 constexpr double kTrackedMargin = 5e-6;
 constexpr unsigned kTrackerSeed = 41;
@@ -196,10 +196,11 @@ TEST(ContactTracker, ContactsAreToldAtTheVisiblePose) {
 
 class BoxOnPlate : public ::testing::Test {
  protected:
-  Sliding sliding{
-      {{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(collision::make_plate({0.5, 0.5}, 5000)))}},
-      std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(collision::make_box({0.1, 0.06, 0.04}, 12))),
-      Isometry3d(Eigen::Translation3d(-0.1, 0.0, 0.021))};
+  Sliding sliding{{{std::make_shared<ContactBody>(
+                      std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.5, 0.5}, 5000)))}},
+                  std::make_shared<SlidingPart>(
+                      std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.06, 0.04}, 12))),
+                  Isometry3d(Eigen::Translation3d(-0.1, 0.0, 0.021))};
   ContactTracker tracker{sliding.margin()};
 
   const SlidingResult& lead(double x, double z) {
@@ -240,7 +241,7 @@ TEST_F(BoxOnPlate, TheForcesOfTheListAreTheSpringsForceAndTorque) {
     torque += contact.force * (contact.p_W - p_Wref).cross(contact.n_W);
   }
   // They balance the spring between the part and what the metaphor wants.
-  const Displacement error = sliding.error();
+  const geometry::Displacement error = sliding.error();
   EXPECT_LT((force + sliding.stiffness().translational * error.v).norm(), 1e-6 * force.norm());
   EXPECT_LT((torque + sliding.stiffness().rotational * error.w).norm(), 1e-6 * sliding.part().radius() * force.norm());
 }

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/mesh_operations.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
 #include <glissade/haptics/sliding.h>
 
 #include "held_part.h"
@@ -20,29 +20,30 @@
 namespace glissade::haptics {
 namespace {
 
-using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using geometry::TriangleMesh;
 using test_support::kBoxSize;
 using test_support::turn_from_to;
 
 constexpr unsigned kForceChangeSeed = 47;
 
-TriangleMesh sheet_of_800(const Vector3d& normal) {
-  return collision::transformed(collision::make_plate({0.5, 0.5}, 800),
-                                Isometry3d(turn_from_to(Vector3d::UnitZ(), normal)));
+geometry::TriangleMesh sheet_of_800(const Vector3d& normal) {
+  return geometry::transformed(geometry::make_plate({0.5, 0.5}, 800),
+                               Isometry3d(turn_from_to(Vector3d::UnitZ(), normal)));
 }
 
 std::shared_ptr<const SlidingPart> box(std::int64_t triangles) {
-  return std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(collision::make_box(kBoxSize, triangles)));
+  return std::make_shared<SlidingPart>(
+      std::make_shared<geometry::TriangleMesh>(geometry::make_box(kBoxSize, triangles)));
 }
 
 /// ‖ξ‖_K, whose square is twice the energy of the spring.
-double norm_in(const CouplingStiffness& stiffness, const Displacement& d) {
+double norm_in(const CouplingStiffness& stiffness, const geometry::Displacement& d) {
   return std::sqrt(stiffness.translational * d.v.squaredNorm() + stiffness.rotational * d.w.squaredNorm());
 }
 
-Displacement difference(const Displacement& a, const Displacement& b) {
+geometry::Displacement difference(const geometry::Displacement& a, const geometry::Displacement& b) {
   return {a.v - b.v, a.w - b.w};
 }
 
@@ -51,13 +52,13 @@ TEST(ForceChange, InAConvexCornerTheForceChangesNoMoreThanTheGhostMoves) {
   SCOPED_TRACE("seed " + std::to_string(kForceChangeSeed));
   std::mt19937 random(kForceChangeSeed);
   std::normal_distribution<double> normal;
-  const TriangleMesh corner = collision::merge(
+  const geometry::TriangleMesh corner = geometry::merge(
       std::vector{sheet_of_800(Vector3d::UnitX()), sheet_of_800(Vector3d::UnitY()), sheet_of_800(Vector3d::UnitZ())});
   const Vector3d seat = 0.5 * kBoxSize;
   Vector3d ghost = seat + Vector3d::Constant(1e-3);
-  Sliding sliding({{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(corner))}}, box(12),
+  Sliding sliding({{std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(corner))}}, box(12),
                   Isometry3d(Eigen::Translation3d(ghost)), {.metaphor = Metaphor::kRubberBandSpring});
-  Displacement before = sliding.error();
+  geometry::Displacement before = sliding.error();
   constexpr int kMilliseconds = test_support::affordable(3000);
   int in_contact = 0;
   for (int i = 0; i < kMilliseconds; ++i) {
@@ -66,7 +67,7 @@ TEST(ForceChange, InAConvexCornerTheForceChangesNoMoreThanTheGhostMoves) {
     ghost += step;
     const SlidingResult& result = sliding.advance(Isometry3d(Eigen::Translation3d(ghost)));
     in_contact += result.pushing > 0 ? 1 : 0;
-    const Displacement now = sliding.error();
+    const geometry::Displacement now = sliding.error();
     const double change = norm_in(sliding.stiffness(), difference(now, before));
     const double ghost_change = norm_in(sliding.stiffness(), {step, Vector3d::Zero()});
     // A cycle that moves less than a twentieth of the margin is the last of its call.
@@ -79,16 +80,16 @@ TEST(ForceChange, InAConvexCornerTheForceChangesNoMoreThanTheGhostMoves) {
 
 TEST(ForceChange, WhereABoxSnapsOffARimTheForceFallsNoFasterThanTheSlewAllows) {
   const auto plate =
-      std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(collision::make_plate({0.2, 0.2}, 100)));
+      std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.2, 0.2}, 100)));
   Sliding sliding({{plate}}, box(12), Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.021)));
   Vector3d ghost(0.0, 0.0, 0.021);
-  Displacement before = sliding.error();
+  geometry::Displacement before = sliding.error();
   double greatest_lag = 0.0;
   for (int i = 0; i < 1200; ++i) {
     const Vector3d step = i < 100 ? Vector3d(0.0, 0.0, -6e-5) : Vector3d(2e-4, 0.0, 0.0);
     ghost += step;
     sliding.advance(Isometry3d(Eigen::Translation3d(ghost)));
-    const Displacement now = sliding.error();
+    const geometry::Displacement now = sliding.error();
     greatest_lag = std::max(greatest_lag, now.v.norm());
     ASSERT_LE((now.v - before.v).norm(), kSlew_m + step.norm() + 1e-12) << "after " << i << " ms";
     before = now;

@@ -34,8 +34,8 @@ class BoxOnSlope {
   explicit BoxOnSlope(double slope) : q_(turn(slope, Vector3d::UnitY())) {
     const Isometry3d X_WV = pose(q_ * Vector3d(0.0, 0.0, 0.5 * kBoxSize.z() + 0.1e-3), q_);
     ours_ = std::make_unique<Sliding>(
-        std::vector<Obstacle>{test_support::obstacle_of(collision::make_plate({0.5, 0.5}, 2), pose({0, 0, 0}, q_))},
-        test_support::part_of(collision::make_box(kBoxSize, 12)), X_WV,
+        std::vector<Obstacle>{test_support::obstacle_of(geometry::make_plate({0.5, 0.5}, 2), pose({0, 0, 0}, q_))},
+        test_support::part_of(geometry::make_box(kBoxSize, 12)), X_WV,
         SlidingOptions{.metaphor = Metaphor::kRubberBandSpring,
                        .rules = {.friction = {.at_rest = kSlopeFriction, .sliding = kSlopeFriction}}});
     const Vector3d up = q_ * Vector3d::UnitZ();

@@ -1,5 +1,7 @@
 // Friction against Coulomb's law in closed form: a box on a plane, held by the spring of the coupling.
 
+#include "solver/friction.h"
+
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -8,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/devices/pose_trajectory.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/pose_trajectory.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 
@@ -37,9 +39,9 @@ class PressedBox : public ::testing::Test {
 
   void start(const Friction& friction) {
     const auto plate =
-        std::make_shared<ContactBody>(std::make_shared<collision::TriangleMesh>(collision::make_plate({0.4, 0.4}, 2)));
+        std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.4, 0.4}, 2)));
     const auto box = std::make_shared<SlidingPart>(
-        std::make_shared<collision::TriangleMesh>(collision::make_box({0.06, 0.04, 0.02}, 12)));
+        std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.06, 0.04, 0.02}, 12)));
     sliding_ = std::make_unique<Sliding>(std::vector<Obstacle>{{plate}}, box, pose({0.0, 0.0, 0.0101}),
                                          SlidingOptions{.rules = {.friction = friction}});
     lead({0.0, 0.0, 0.01 - kPressed}, 40);
@@ -136,10 +138,10 @@ class BoxOnCarriage : public ::testing::Test {
   void start(const Vector3d& p_box, const Isometry3d& X_motion) {
     motion_ = X_motion;
     const Isometry3d X_WC = pose({0.0, 0.0, -0.01});
-    const devices::PoseTrajectory script(
+    const geometry::PoseTrajectory script(
         {{milliseconds(0), X_WC}, {milliseconds(kWaits), X_WC}, {milliseconds(kWaits + kMoves), X_motion * X_WC}});
-    const auto carriage = test_support::part_of(collision::make_box({0.4, 0.4, 0.02}, 12));
-    const auto box = test_support::part_of(collision::make_box({0.06, 0.04, 0.02}, 12));
+    const auto carriage = test_support::part_of(geometry::make_box({0.4, 0.4, 0.02}, 12));
+    const auto box = test_support::part_of(geometry::make_box({0.06, 0.04, 0.02}, 12));
     sliding_ = std::make_unique<Sliding>(
         std::vector<Obstacle>{}, box, pose(p_box + Vector3d(0.0, 0.0, 0.0101)),
         SlidingOptions{.rules = {.friction = {.at_rest = kAtRest, .sliding = kWhileSliding}}},
@@ -192,17 +194,17 @@ TEST_F(BoxOnCarriage, SlipsWhereTheHandHoldsItBackAndFeelsTheForceOfSliding) {
 }
 
 TEST(FrictionSolver, WithoutCoefficientFindsTheFrictionlessProjection) {
-  const std::vector<Displacement> wanted{{{1e-3, 2e-3, -3e-3}, {0.01, -0.02, 0.03}}};
+  const std::vector<geometry::Displacement> wanted{{{1e-3, 2e-3, -3e-3}, {0.01, -0.02, 0.03}}};
   const std::vector<CouplingStiffness> stiffness{{1000.0, 0.5}};
-  std::vector<JointRow> rows(3);
+  std::vector<CoupledRow> rows(3);
   const std::vector<Vector3d> feet{{0.03, 0.02, -0.01}, {-0.03, 0.02, -0.01}, {0.0, -0.02, -0.01}};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].n = Vector3d::UnitZ();
     rows[i].r = feet[i];
     rows[i].bound = -1e-5;
   }
-  const JointProjection projection = ProjectionSolver().project(wanted, stiffness, rows);
-  std::array<Displacement, kMaxParts> displacements;
+  const CoupledProjection projection = ProjectionSolver().project(wanted, stiffness, rows);
+  std::array<geometry::Displacement, kMaxParts> displacements;
   std::vector<RowForce> forces{{0, 1.0, Vector3d::Zero()}};  // a start far off
   FrictionSolver().solve(wanted, stiffness, rows, std::vector<double>(rows.size(), 0.0), displacements, forces);
   EXPECT_LT((displacements[0].v - projection.displacement().v).norm(), 1e-12);

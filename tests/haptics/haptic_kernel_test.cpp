@@ -5,8 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
 #include <glissade/devices/simulated_glove.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/haptics/contact_body.h>
 #include <glissade/haptics/haptic_kernel.h>
 
 #include "allocation_counter.h"
@@ -48,9 +49,9 @@ class Kernel : public ::testing::Test {
   }
 
   static inline const Isometry3d kStart{Eigen::Translation3d(0.0, 0.0, 0.5)};
-  SlidingPart part_{std::make_shared<collision::TriangleMesh>(collision::make_box({0.1, 0.1, 0.1}, 12))};
+  SlidingPart part_{std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.1, 0.1}, 12))};
   devices::DeviceDescriptor device_ = devices::simulated_glove_descriptor();
-  HapticKernel kernel_{part_, coupling_for(device_, kKernelStiffness), device_, kStart};
+  HapticKernel kernel_{part_, kKernelStiffness, device_, kStart};
 };
 
 TEST_F(Kernel, TheFirstStateGraspsThePartWhereItLies) {
@@ -104,6 +105,7 @@ TEST_F(Kernel, CutsTheCouplingToWhatTheDeviceCanRender) {
   EXPECT_EQ(coupling.stiffness.translational, 400.0);
   EXPECT_EQ(coupling.stiffness.rotational, 0.3);
   EXPECT_EQ(coupling.damping.translational, 1.0);
+  EXPECT_EQ(HapticKernel(part_, kKernelStiffness, weak, kStart).coupling().stiffness.translational, 400.0);
 }
 
 TEST_F(Kernel, ADeviceThatRendersNoStiffnessIsRefused) {

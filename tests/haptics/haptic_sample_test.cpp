@@ -1,10 +1,10 @@
 // What viewers and recorders are told of a tick.
 
+#include "loop/haptic_sample.h"
+
 #include <set>
 
 #include <gtest/gtest.h>
-
-#include <glissade/haptics/haptic_sample.h>
 
 namespace glissade::haptics {
 namespace {

@@ -7,10 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
 #include <glissade/devices/simulated_glove.h>
+#include <glissade/geometry/mesh_generators.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/haptics/offline_run.h>
+#include <glissade/haptics/sliding.h>
 
 #include "allocation_counter.h"
 
@@ -23,7 +24,7 @@ using Eigen::Vector3d;
 /// A simulated glove that takes a step whenever it is read. Used by the haptic thread alone.
 class SteppedDevice final : public devices::GloveDevice {
  public:
-  explicit SteppedDevice(const devices::PoseTrajectory& script) : glove_(script) {}
+  explicit SteppedDevice(const geometry::PoseTrajectory& script) : glove_(script) {}
 
   const devices::DeviceDescriptor& descriptor() const noexcept override { return glove_.descriptor(); }
   bool read(devices::GloveState& newest) noexcept override {
@@ -47,10 +48,10 @@ class Server : public ::testing::Test {
     const Isometry3d X_WH_end(Eigen::Translation3d(0.0, 0.0, 0.01));
     using std::chrono::milliseconds;
     device_ = std::make_unique<SteppedDevice>(
-        devices::PoseTrajectory({{milliseconds(0), kStart}, {milliseconds(150), X_WH_end}}));
-    coupling_ = coupling_for(device_->descriptor(), {1000.0, 2.0});
+        geometry::PoseTrajectory({{milliseconds(0), kStart}, {milliseconds(150), X_WH_end}}));
+    const Coupling coupling = coupling_for(device_->descriptor(), {1000.0, 2.0});
     sliding_ = std::make_unique<Sliding>(std::vector<Obstacle>{{plate_}}, box_, kStart,
-                                         SlidingOptions{.stiffness = coupling_.stiffness});
+                                         SlidingOptions{.stiffness = coupling.stiffness});
   }
 
   static void wait_for(const HapticServer& server) {
@@ -60,11 +61,10 @@ class Server : public ::testing::Test {
 
   static inline const Isometry3d kStart{Eigen::Translation3d(0.0, 0.0, 0.03)};
   std::shared_ptr<const ContactBody> plate_ =
-      std::make_shared<ContactBody>(std::make_shared<collision::TriangleMesh>(collision::make_plate({0.5, 0.5}, 200)));
+      std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.5, 0.5}, 200)));
   std::shared_ptr<const SlidingPart> box_ = std::make_shared<SlidingPart>(
-      std::make_shared<collision::TriangleMesh>(collision::make_box({0.1, 0.06, 0.04}, 12)));
+      std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.06, 0.04}, 12)));
   std::unique_ptr<SteppedDevice> device_;
-  Coupling coupling_;
   std::unique_ptr<Sliding> sliding_;
   realtime::SteadyClock clock_;
 };
@@ -74,7 +74,7 @@ TEST_F(Server, PressesThePartOnThePlateAndSendsTheForces) {
   std::vector<devices::HapticState> samples(kTicks);
   std::size_t count = 0;
   std::int64_t allocations = 0;
-  HapticServer server(*device_, *sliding_, coupling_, clock_,
+  HapticServer server(*device_, *sliding_, clock_,
                       [&](const devices::HapticState& sample) {
                         samples[count++] = sample;
                         if (count == 1) allocations = test_support::allocations_of_this_thread();
@@ -95,7 +95,7 @@ TEST_F(Server, PressesThePartOnThePlateAndSendsTheForces) {
 
 TEST_F(Server, ADeviceThatFallsSilentGetsNoForce) {
   std::atomic<bool> silent{false};
-  HapticServer server(*device_, *sliding_, coupling_, clock_,
+  HapticServer server(*device_, *sliding_, clock_,
                       [&](const devices::HapticState& sample) {
                         if (sample.sequence == 400) device_->fall_silent();
                         if (sample.has_no_device) silent = true;
@@ -108,8 +108,12 @@ TEST_F(Server, ADeviceThatFallsSilentGetsNoForce) {
   EXPECT_EQ(device_->last_command().t_H_W, Vector3d::Zero());
 }
 
+TEST_F(Server, RefusesAnEmptySink) {
+  EXPECT_THROW(HapticServer(*device_, *sliding_, clock_, {}), std::invalid_argument);
+}
+
 TEST_F(Server, StopsWhenItIsToldTo) {
-  HapticServer server(*device_, *sliding_, coupling_, clock_, [](const devices::HapticState&) {});
+  HapticServer server(*device_, *sliding_, clock_, [](const devices::HapticState&) {});
   while (server.ticks() < 10)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   server.stop();

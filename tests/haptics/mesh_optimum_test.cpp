@@ -19,9 +19,9 @@
 namespace glissade::haptics {
 namespace {
 
-using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using geometry::TriangleMesh;
 using test_support::affordable;
 using test_support::ConvexPiece;
 using test_support::HullOracle;
@@ -36,18 +36,18 @@ using test_support::turn;
 
 /// A part and what is around it, as meshes for the library and as convex pieces for the minimiser.
 struct Scene {
-  TriangleMesh part_mesh;
+  geometry::TriangleMesh part_mesh;
   std::vector<ConvexPiece> part_pieces;
   std::vector<Obstacle> obstacles;
   std::vector<ConvexPiece> obstacle_pieces;
   Isometry3d X_WV_start;
   Vector3d inwards;  ///< where the ghost goes from there until there is contact, and then deeper
 
-  void add_obstacle(const TriangleMesh& mesh, const Isometry3d& X_WO) {
+  void add_obstacle(const geometry::TriangleMesh& mesh, const Isometry3d& X_WO) {
     obstacles.push_back(test_support::obstacle_of(mesh, X_WO));
     obstacle_pieces.push_back(test_support::piece_of(mesh, X_WO));
   }
-  void set_part(const TriangleMesh& mesh) {
+  void set_part(const geometry::TriangleMesh& mesh) {
     part_mesh = mesh;
     part_pieces = {test_support::piece_of(mesh)};
   }
@@ -55,7 +55,7 @@ struct Scene {
 
 double energy(const Sliding& sliding, const Isometry3d& X_WV) {
   const double length = test_support::length_in(
-      sliding.stiffness(), displacement_between(X_WV, sliding.result().X_WG, sliding.part().p_Vref()));
+      sliding.stiffness(), geometry::displacement_between(X_WV, sliding.result().X_WG, sliding.part().p_Vref()));
   return 0.5 * length * length;
 }
 
@@ -82,15 +82,16 @@ Isometry3d moved_out(const RestProblem& problem, Isometry3d X_WV, double gap) {
 }
 
 bool is_at(const Sliding& sliding, const Isometry3d& X_WV) {
-  const Displacement error = displacement_between(X_WV, sliding.result().X_WV, sliding.part().p_Vref());
+  const geometry::Displacement error =
+      geometry::displacement_between(X_WV, sliding.result().X_WV, sliding.part().p_Vref());
   return error.v.norm() <= kRestPosition_m && error.w.norm() <= kRestRotation_rad;
 }
 
 /// Whether the energy falls when the part goes a micrometre towards X_WV, kept off the obstacles by the margin.
 bool goes_downhill_towards(const Sliding& sliding, const RestProblem& problem, const Isometry3d& X_WV) {
-  const Displacement d = displacement_between(sliding.result().X_WV, X_WV, sliding.part().p_Vref());
-  const double fraction = 1e-6 / motion_bound(d, sliding.part().radius());
-  const Isometry3d X_near = displaced(sliding.result().X_WV, sliding.part().p_Vref(), d.scaled(fraction));
+  const geometry::Displacement d = geometry::displacement_between(sliding.result().X_WV, X_WV, sliding.part().p_Vref());
+  const double fraction = 1e-6 / geometry::motion_bound(d, sliding.part().radius());
+  const Isometry3d X_near = geometry::displaced(sliding.result().X_WV, sliding.part().p_Vref(), d.scaled(fraction));
   return energy(sliding, moved_out(problem, X_near, problem.margin)) < energy(sliding, sliding.result().X_WV);
 }
 
@@ -168,7 +169,7 @@ TEST(MeshOptimum, OfAnEdgeThatNearlyLiesOnAFace) {
 /// Blocks that meet at right angles: two make a groove along y, three a corner.
 void add_blocks(Scene& scene, int count, const Isometry3d& X_WB) {
   constexpr double kEdge = 0.3;
-  const TriangleMesh block = collision::make_box(Vector3d::Constant(kEdge), 12);
+  const geometry::TriangleMesh block = geometry::make_box(Vector3d::Constant(kEdge), 12);
   for (const Vector3d& axis : std::vector<Vector3d>{Vector3d::UnitX(), Vector3d::UnitZ(), Vector3d::UnitY()}) {
     if (count-- == 0) return;
     scene.add_obstacle(block, X_WB * pose(-0.5 * kEdge * axis + 0.1 * (Vector3d::Ones() - axis)));
@@ -191,14 +192,14 @@ TEST(MeshOptimum, OfConvexPartsInGroovesAndCorners) {
 TEST(MeshOptimum, OfAnAngleBracketOverABlock) {
   // A part that is not convex, of two convex pieces that share a face: it hangs over the edge of the block, and both
   // its legs touch.
-  const TriangleMesh leg = collision::make_box({0.06, 0.03, 0.01}, 12);
-  const TriangleMesh upright =
-      collision::transformed(leg, pose({-0.025, 0.0, -0.035}, turn(0.5 * std::numbers::pi, Vector3d::UnitY())));
+  const geometry::TriangleMesh leg = geometry::make_box({0.06, 0.03, 0.01}, 12);
+  const geometry::TriangleMesh upright =
+      geometry::transformed(leg, pose({-0.025, 0.0, -0.035}, turn(0.5 * std::numbers::pi, Vector3d::UnitY())));
   compare(1, affordable(40), [&](RandomNumbers& random) {
     Scene scene;
-    scene.part_mesh = collision::merge(std::vector<TriangleMesh>{leg, upright});
+    scene.part_mesh = geometry::merge(std::vector<geometry::TriangleMesh>{leg, upright});
     scene.part_pieces = {test_support::piece_of(leg), test_support::piece_of(upright)};
-    scene.add_obstacle(collision::make_box({0.1, 0.2, 0.1}, 12), pose({0.05, 0.0, -0.05}));
+    scene.add_obstacle(geometry::make_box({0.1, 0.2, 0.1}, 12), pose({0.05, 0.0, -0.05}));
     scene.X_WV_start =
         pose(Vector3d(0.0, 0.0, 0.03) + random.point(2e-3), turn(random.uniform(-0.1, 0.1), random.direction()));
     scene.inwards = Vector3d(0.3, 0.0, -1.0).normalized();

@@ -7,11 +7,12 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/haptics/metaphor.h>
+#include <glissade/geometry/mesh_generators.h>
 #include <glissade/haptics/sliding.h>
 
 #include "held_part.h"
+#include "sliding/sliding_constants.h"
+#include "sliding/wanted_pose.h"
 
 namespace glissade::haptics {
 namespace {
@@ -32,9 +33,9 @@ double angle_of(const Isometry3d& X) {
 
 Sliding box_above_floor(Metaphor metaphor, const Isometry3d& X_WV) {
   const auto floor =
-      std::make_shared<ContactBody>(std::make_shared<collision::TriangleMesh>(collision::make_plate({0.5, 0.5}, 200)));
+      std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.5, 0.5}, 200)));
   const auto box =
-      std::make_shared<SlidingPart>(std::make_shared<collision::TriangleMesh>(collision::make_box(kBoxSize, 300)));
+      std::make_shared<SlidingPart>(std::make_shared<geometry::TriangleMesh>(geometry::make_box(kBoxSize, 300)));
   return {{{floor}}, box, X_WV, {.metaphor = metaphor}};
 }
 
@@ -125,8 +126,9 @@ TEST(Grasp, AtAnOffsetMovesThePartAtALimitedSpeedUnderForceFeedbackAndDoesNotPul
   while (calls < 400 && sliding.result().X_WV.matrix() != X_WG.matrix()) {
     ASSERT_EQ(sliding.advance(X_WG).state, SlidingState::kFree);
     ASSERT_EQ(sliding.error().v, Vector3d::Zero()) << "call " << calls;
-    const Displacement d = displacement_between(X_WV, sliding.result().X_WV, sliding.part().p_Vref());
-    ASSERT_LE(motion_bound(d, sliding.part().radius()), kClosing_m * (1.0 + 1e-9)) << "call " << calls;
+    const geometry::Displacement d =
+        geometry::displacement_between(X_WV, sliding.result().X_WV, sliding.part().p_Vref());
+    ASSERT_LE(geometry::motion_bound(d, sliding.part().radius()), kClosing_m * (1.0 + 1e-9)) << "call " << calls;
     X_WV = sliding.result().X_WV;
     ++calls;
   }

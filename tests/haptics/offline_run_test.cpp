@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 #include <glissade/haptics/offline_run.h>
+#include <glissade/haptics/sliding.h>
 
 namespace glissade::haptics {
 namespace {
@@ -19,18 +20,17 @@ constexpr double kDepth = 0.01;  // metres that the wearer wants to go into the 
 std::vector<HapticState> press_on_plate() {
   using std::chrono::milliseconds;
   const auto plate =
-      std::make_shared<ContactBody>(std::make_shared<collision::TriangleMesh>(collision::make_plate({0.5, 0.5}, 200)));
+      std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.5, 0.5}, 200)));
   const auto box = std::make_shared<SlidingPart>(
-      std::make_shared<collision::TriangleMesh>(collision::make_box({0.1, 0.06, 0.04}, 100)));
+      std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.06, 0.04}, 100)));
   const Isometry3d X_WV_start(Eigen::Translation3d(0.0, 0.0, 0.03));
   const Isometry3d X_WH_end(Eigen::Translation3d(0.0, 0.0, 0.02 - kDepth));
-  devices::SimulatedGlove glove(devices::PoseTrajectory(
+  devices::SimulatedGlove glove(geometry::PoseTrajectory(
       {{milliseconds(0), X_WV_start}, {milliseconds(500), X_WH_end}, {milliseconds(1500), X_WH_end}}));
   const Coupling coupling = coupling_for(glove.descriptor(), {1000.0, 2.0});
   Sliding sliding({{plate}}, box, X_WV_start, {.stiffness = coupling.stiffness});
-  HapticKernel kernel(*box, coupling, glove.descriptor(), X_WV_start);
   std::vector<HapticState> samples;
-  run_offline(glove, sliding, kernel, 1500, [&](const HapticState& sample) { samples.push_back(sample); });
+  run_offline(glove, sliding, 1500, [&](const HapticState& sample) { samples.push_back(sample); });
   return samples;
 }
 

@@ -1,10 +1,10 @@
 // New directions from one, two, three and more contact points.
 
+#include "paper/paper_direction.h"
+
 #include <vector>
 
 #include <gtest/gtest.h>
-
-#include <glissade/haptics/paper_direction.h>
 
 namespace glissade::haptics {
 namespace {
@@ -78,7 +78,8 @@ TEST(NewMotion, OfAContactBesideTheMiddleTurnsThePart) {
   const CouplingStiffness stiffness{1000.0, 10.0};
   ProjectionSolver solver;
   const ConstraintRow row{kZ, 0.1 * kX, 0.0};
-  const std::optional<Displacement> found = new_motion({-1e-3 * kZ, Vector3d::Zero()}, stiffness, {&row, 1}, solver);
+  const std::optional<geometry::Displacement> found =
+      new_motion({-1e-3 * kZ, Vector3d::Zero()}, stiffness, {&row, 1}, solver);
   ASSERT_TRUE(found);
   EXPECT_LT((found->v - Vector3d(0.0, 0.0, -0.5e-3)).norm(), 1e-12);
   EXPECT_LT((found->w - Vector3d(0.0, -5e-3, 0.0)).norm(), 1e-12);
@@ -89,7 +90,8 @@ TEST(NewMotion, OfThreePointsOfAPlaneIsATranslationAlongIt) {
   ProjectionSolver solver;
   const std::vector<ConstraintRow> rows{
       {kZ, 0.1 * kX, 0.0}, {kZ, 0.1 * kY - 0.1 * kX, 0.0}, {kZ, -0.1 * kY - 0.1 * kX, 0.0}};
-  const std::optional<Displacement> found = new_motion({1e-3 * (kX - kZ), 1e-3 * kZ}, stiffness, rows, solver);
+  const std::optional<geometry::Displacement> found =
+      new_motion({1e-3 * (kX - kZ), 1e-3 * kZ}, stiffness, rows, solver);
   ASSERT_TRUE(found);
   EXPECT_LT((found->v - 1e-3 * kX).norm(), 1e-12);
   EXPECT_LT((found->w - 1e-3 * kZ).norm(), 1e-12) << "it may turn about the normal";

@@ -1,5 +1,7 @@
 // The founding paper's sliding method: what it does well, and the states it goes through.
 
+#include "paper/paper_sliding.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -11,12 +13,11 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/brute_force.h>
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/mesh_operations.h>
-#include <glissade/haptics/contact_tracker.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
 #include <glissade/haptics/coupling.h>
-#include <glissade/haptics/paper_sliding.h>
+#include <glissade/haptics/tracked_contacts.h>
+#include <glissade/reference/brute_force.h>
 
 #include "held_part.h"
 #include "poses.h"
@@ -25,9 +26,9 @@
 namespace glissade::haptics {
 namespace {
 
-using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using geometry::TriangleMesh;
 using enum PaperState;
 using test_support::kBoxSize;
 using test_support::obstacle_of;
@@ -39,13 +40,13 @@ constexpr unsigned kPaperSlidingSeed = 31;
 
 /// A sheet of two triangles through the origin with the given normal.
 Obstacle sheet_of_two(const Vector3d& normal) {
-  return obstacle_of(collision::make_plate({0.5, 0.5}, 2),
+  return obstacle_of(geometry::make_plate({0.5, 0.5}, 2),
                      pose(Vector3d::Zero(), turn_from_to(Vector3d::UnitZ(), normal)));
 }
 
 PaperSliding box_among(const std::vector<Obstacle>& obstacles, const Vector3d& start,
                        Metaphor metaphor = Metaphor::kForceFeedback) {
-  return {obstacles, part_of(collision::make_box(kBoxSize, 12)), pose(start), {.metaphor = metaphor}};
+  return {obstacles, part_of(geometry::make_box(kBoxSize, 12)), pose(start), {.metaphor = metaphor}};
 }
 
 /// Leads the ghost straight and evenly turning through some calls, and lets `check` see every one of them.
@@ -137,7 +138,7 @@ TEST(PaperSliding, InACornerItStops) {
 
 TEST(PaperSliding, LaysATiltedBoxOnThePlane) {
   const Eigen::Quaterniond tilted(Eigen::AngleAxisd(0.05, Vector3d::UnitY()));
-  PaperSliding sliding({sheet_of_two(Vector3d::UnitZ())}, part_of(collision::make_box(kBoxSize, 12)),
+  PaperSliding sliding({sheet_of_two(Vector3d::UnitZ())}, part_of(geometry::make_box(kBoxSize, 12)),
                        pose({0.0, 0.0, 0.03}, tilted));
   lead(sliding, pose({0.0, 0.0, 0.019}), 300);
   lead(sliding, pose({0.0, 0.0, 0.019}), 300);
@@ -165,19 +166,19 @@ void random_walk(PaperSliding& sliding, double reach, double step, int calls, co
 
 TEST(PaperSliding, NoVisiblePoseEverCollides) {
   RecordProperty("seed", static_cast<int>(kPaperSlidingSeed));
-  const TriangleMesh clutter = collision::flip_randomly(
-      collision::merge(std::vector{collision::transformed(collision::make_torus(0.06, 0.015, 200), pose({0, 0, -0.05})),
-                                   collision::transformed(collision::make_plate({0.2, 0.2}, 8), pose({0, 0, -0.08})),
-                                   collision::transformed(collision::make_tube(0.03, 0.08, 100), pose({0.08, 0, 0}))}),
+  const geometry::TriangleMesh clutter = geometry::flip_randomly(
+      geometry::merge(std::vector{geometry::transformed(geometry::make_torus(0.06, 0.015, 200), pose({0, 0, -0.05})),
+                                  geometry::transformed(geometry::make_plate({0.2, 0.2}, 8), pose({0, 0, -0.08})),
+                                  geometry::transformed(geometry::make_tube(0.03, 0.08, 100), pose({0.08, 0, 0}))}),
       kPaperSlidingSeed);
-  const TriangleMesh box = collision::make_box({0.04, 0.03, 0.02}, 12);
+  const geometry::TriangleMesh box = geometry::make_box({0.04, 0.03, 0.02}, 12);
   constexpr int kMilliseconds = test_support::kSanitized ? 500 : 1500;
   for (const Metaphor metaphor :
        {Metaphor::kForceFeedback, Metaphor::kRubberBand, Metaphor::kRubberBandSpring, Metaphor::kIncremental}) {
     PaperSliding sliding({obstacle_of(clutter)}, part_of(box), pose({0.0, 0.0, 0.05}), {.metaphor = metaphor});
     int in_contact = 0;
     random_walk(sliding, 0.08, 2e-3, kMilliseconds, [&](const SlidingResult& result) {
-      ASSERT_FALSE(collision::brute_force_intersects(clutter, box, result.X_WV)) << name_of(metaphor);
+      ASSERT_FALSE(reference::brute_force_intersects(clutter, box, result.X_WV)) << name_of(metaphor);
       ASSERT_TRUE(result.X_WV.matrix().allFinite());
       in_contact += result.pushing > 0 ? 1 : 0;
     });
@@ -188,8 +189,8 @@ TEST(PaperSliding, NoVisiblePoseEverCollides) {
 
 TEST(PaperSliding, ASheetIsMetFromEitherSideWhateverTheOrderOfVertices) {
   for (const double side : {1.0, -1.0}) {
-    const TriangleMesh plate = collision::flip_randomly(collision::make_plate({0.5, 0.5}, 2), 3);
-    const TriangleMesh box = collision::flip_randomly(collision::make_box(kBoxSize, 12), 4);
+    const geometry::TriangleMesh plate = geometry::flip_randomly(geometry::make_plate({0.5, 0.5}, 2), 3);
+    const geometry::TriangleMesh box = geometry::flip_randomly(geometry::make_box(kBoxSize, 12), 4);
     PaperSliding sliding({obstacle_of(plate)}, part_of(box), pose({0.0, 0.0, side * 0.025}));
     lead(sliding, pose({0.0, 0.0, side * 0.017}), 80);
     lead(sliding, pose({0.05, 0.05, side * 0.017}), 200, [&](const SlidingResult& result) {
@@ -200,7 +201,7 @@ TEST(PaperSliding, ASheetIsMetFromEitherSideWhateverTheOrderOfVertices) {
 }
 
 TEST(PaperSliding, AThinSheetAtSpeedIsPassedAsOnlyPosesAreChecked) {
-  const TriangleMesh plate = collision::make_plate({0.1, 0.1}, 2);
+  const geometry::TriangleMesh plate = geometry::make_plate({0.1, 0.1}, 2);
   PaperSliding sliding({obstacle_of(plate)}, part_of(plate), pose({0.0, 0.0, 0.0025}));
   for (int i = 1; i <= 5; ++i)
     sliding.advance(pose({0.0, 0.0, 0.0025 - 0.005 * i}));  // 5 m/s
@@ -249,7 +250,7 @@ TEST(PaperSliding, ReleasedItStandsStillAndGraspedAgainItMovesAtALimitedSpeed) {
 TEST(PaperSliding, RefusesAStartInsideAnObstacleAndABracketOfNothing) {
   EXPECT_THROW(box_among({sheet_of_two(Vector3d::UnitZ())}, {0.0, 0.0, 0.01}), std::invalid_argument);
   EXPECT_THROW(box_among({}, {0.0, 0.0, 0.01}), std::invalid_argument);
-  EXPECT_THROW(PaperSliding({sheet_of_two(Vector3d::UnitZ())}, part_of(collision::make_box(kBoxSize, 12)),
+  EXPECT_THROW(PaperSliding({sheet_of_two(Vector3d::UnitZ())}, part_of(geometry::make_box(kBoxSize, 12)),
                             pose({0.0, 0.0, 0.03}), {.bracket = 0.0}),
                std::invalid_argument);
 }

@@ -1,8 +1,8 @@
 // The finite state machine of the founding paper's sliding simulation: what follows on what.
 
-#include <gtest/gtest.h>
+#include "paper/paper_states.h"
 
-#include <glissade/haptics/paper_states.h>
+#include <gtest/gtest.h>
 
 namespace glissade::haptics {
 namespace {

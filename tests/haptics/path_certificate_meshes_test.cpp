@@ -12,9 +12,9 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/haptics/path_certificate.h>
+#include <glissade/geometry/mesh_generators.h>
 
+#include "certificate/path_certificate.h"
 #include "held_part.h"
 #include "near_bodies.h"
 #include "poses.h"
@@ -30,43 +30,43 @@ using test_support::RandomNumbers;
 /// What came of trying to prove a step.
 struct Proof {
   bool holds;
-  std::size_t obligations;
-  std::size_t boxes;  ///< of the obligations, pairs of boxes
+  std::size_t to_certify;
+  std::size_t boxes;  ///< of the to_certify, pairs of boxes
   std::vector<UncertifiedPair> failures;
 };
 
 /// Tries to prove that each part goes free from its place along its displacement.
-Proof prove(const Surroundings& surroundings, const std::vector<Displacement>& displacements) {
-  double radius = kFloorOfMargin * kGreatestMargin_m;
+Proof prove(const ContactScene& scene, const std::vector<geometry::Displacement>& displacements) {
+  double radius = kMinClearanceOfMargin * kGreatestMargin_m;
   for (std::size_t p = 0; p < displacements.size(); ++p)
-    radius += motion_bound(displacements[p], surroundings.parts()[p]->radius());
+    radius += geometry::motion_bound(displacements[p], scene.parts()[p]->radius());
   collision::QueryWorkspace workspace;
-  std::vector<Obligation> obligations;
-  find_obligations(surroundings, surroundings.bodies(), radius, {}, workspace, obligations);
-  const auto boxes = std::count_if(obligations.begin(), obligations.end(), [](const Obligation& obligation) {
-    return obligation.item_O.kind != TreeItem::Kind::kTriangle;
+  std::vector<PairToCertify> to_certify;
+  find_pairs_to_certify(scene, scene.bodies(), radius, {}, workspace, to_certify);
+  const auto boxes = std::count_if(to_certify.begin(), to_certify.end(), [](const PairToCertify& pair_to_certify) {
+    return pair_to_certify.item_O.kind != TreeItem::Kind::kTriangle;
   });
   std::vector<UncertifiedPair> failures;
-  const bool holds = PathCertificate(surroundings).prove(displacements, obligations, failures);
+  const bool holds = PathCertificate(scene).prove(displacements, to_certify, failures);
   EXPECT_EQ(holds, failures.empty());
-  return {holds, obligations.size(), static_cast<std::size_t>(boxes), failures};
+  return {holds, to_certify.size(), static_cast<std::size_t>(boxes), failures};
 }
 
 /// The first pair of triangles that comes nearer than it may on a path, and when; empty if none does.
-std::string what_comes_too_near(const Surroundings& surroundings, const std::vector<Displacement>& displacements) {
+std::string what_comes_too_near(const ContactScene& scene, const std::vector<geometry::Displacement>& displacements) {
   constexpr int kMoments = 25;
   constexpr double kRounding = 1e-13;
-  const std::vector<PlacedBody> start(surroundings.bodies().begin(), surroundings.bodies().end());
+  const std::vector<PlacedBody> start(scene.bodies().begin(), scene.bodies().end());
   for (int i = 0; i <= kMoments; ++i) {
     std::vector<PlacedBody> bodies = start;
     for (std::size_t p = 0; p < displacements.size(); ++p) {
-      Isometry3d& X_WV = bodies[surroundings.body_of_part(p)].X_WB;
-      X_WV = displaced(X_WV, surroundings.parts()[p]->p_Vref(), displacements[p].scaled(1.0 * i / kMoments));
+      Isometry3d& X_WV = bodies[scene.body_of_part(p)].X_WB;
+      X_WV = geometry::displaced(X_WV, scene.parts()[p]->p_Vref(), displacements[p].scaled(1.0 * i / kMoments));
     }
     // All have the same margin.
-    const double floor = surroundings.floor(0, static_cast<std::int32_t>(surroundings.body_of_part(0)));
+    const double floor = scene.min_clearance(0, static_cast<std::int32_t>(scene.body_of_part(0)));
     for (const auto& [pair, distance] :
-         test_support::near_triangles(bodies, surroundings.obstacles().size(), floor - kRounding)) {
+         test_support::near_triangles(bodies, scene.obstacles().size(), floor - kRounding)) {
       if (distance >= 0.95 * test_support::distance_of(start, pair) - kRounding) continue;
       return std::to_string(pair.obstacle_triangle) + " of body " + std::to_string(pair.bodies.obstacle) + " and " +
              std::to_string(pair.part_triangle) + " of body " + std::to_string(pair.bodies.part) + " are " +
@@ -77,7 +77,7 @@ std::string what_comes_too_near(const Surroundings& surroundings, const std::vec
 }
 
 /// About as long as the parts are far from each other, so that both proofs and refusals occur; seldom a large turn.
-Displacement random_displacement(double gap, double radius, RandomNumbers& random) {
+geometry::Displacement random_displacement(double gap, double radius, RandomNumbers& random) {
   const double length = gap * random.power_of_ten(-1.0, 1.5);
   const double angle = random.chance(0.3) ? random.uniform(0.0, 1.0) : random.power_of_ten(-1.0, 1.0) * gap / radius;
   return {length * random.direction(), random.chance(0.2) ? Vector3d(Vector3d::Zero()) : angle * random.direction()};
@@ -94,20 +94,20 @@ TEST(PathCertificate, WhatIsProvedOfRandomMeshesHoldsAllAlong) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     const double margin = random.power_of_ten(-5.0, -3.7);
     const double gap = margin * random.uniform(0.2, 4.0);
-    const auto surroundings = test_support::random_surroundings(0.02, margin, gap, random);
+    const auto scene = test_support::random_surroundings(0.02, margin, gap, random);
     for (int step = 0; step < 5; ++step) {
-      std::vector<Displacement> displacements;
+      std::vector<geometry::Displacement> displacements;
       double motion = 0.0;
-      for (const auto& part : surroundings->parts()) {
+      for (const auto& part : scene->parts()) {
         displacements.push_back(random_displacement(gap, part->radius(), random));
         if (random.chance(0.2)) displacements.back() = {};
-        motion += motion_bound(displacements.back(), part->radius());
+        motion += geometry::motion_bound(displacements.back(), part->radius());
       }
-      const Proof proof = prove(*surroundings, displacements);
+      const Proof proof = prove(*scene, displacements);
       ++(proof.holds ? proved : refused);
       if (!proof.holds) continue;
-      near += proof.obligations > 0 && motion > gap ? 1 : 0;
-      ASSERT_EQ(what_comes_too_near(*surroundings, displacements), "") << "step " << step;
+      near += proof.to_certify > 0 && motion > gap ? 1 : 0;
+      ASSERT_EQ(what_comes_too_near(*scene, displacements), "") << "step " << step;
     }
   }
   EXPECT_GT(refused, 5);
@@ -121,21 +121,21 @@ class FinePlates : public ::testing::Test {
   static constexpr double kMargin = 4e-6;
   static constexpr double kHalfLength = 0.05;
 
-  static Surroundings at_height(double z) {
-    static const Obstacle kTable = test_support::obstacle_of(collision::make_plate({0.5, 0.5}, 4000));
-    static const auto kPart = test_support::part_of(collision::make_plate({2.0 * kHalfLength, 0.06}, 4000));
-    Surroundings surroundings({kTable}, {kPart}, std::vector<double>{kMargin});
-    surroundings.place(0, test_support::pose({0.02, 0.01, z}, test_support::turn(0.3, Vector3d::UnitZ())));
-    return surroundings;
+  static ContactScene at_height(double z) {
+    static const Obstacle kTable = test_support::obstacle_of(geometry::make_plate({0.5, 0.5}, 4000));
+    static const auto kPart = test_support::part_of(geometry::make_plate({2.0 * kHalfLength, 0.06}, 4000));
+    ContactScene scene({kTable}, {kPart}, std::vector<double>{kMargin});
+    scene.place(0, test_support::pose({0.02, 0.01, z}, test_support::turn(0.3, Vector3d::UnitZ())));
+    return scene;
   }
-  static double floor() { return kFloorOfMargin * kMargin; }
+  static double floor() { return kMinClearanceOfMargin * kMargin; }
 };
 
 TEST_F(FinePlates, ThatSlideFlushOneMarginApartAreProvedByAFewBoxes) {
   const Proof proof = prove(at_height(kMargin), {{{1e-3, 2e-3, 0.0}, {0.0, 0.0, 0.01}}});
   EXPECT_TRUE(proof.holds);
-  EXPECT_LE(proof.obligations, 16U) << "of 16 million pairs of triangles: the children of the roots";
-  EXPECT_EQ(proof.boxes, proof.obligations);
+  EXPECT_LE(proof.to_certify, 16U) << "of 16 million pairs of triangles: the children of the roots";
+  EXPECT_EQ(proof.boxes, proof.to_certify);
 }
 
 TEST_F(FinePlates, AreNotProvedToComeNearerThanTheFloor) {
@@ -150,15 +150,15 @@ TEST_F(FinePlates, AreNotProvedToComeNearerThanTheFloor) {
 // The boxes are taken as a whole where they are now, and one end of the part comes near.
 TEST_F(FinePlates, ThatTiltAreProvedAsLongAsTheLowestCornerKeepsTheFloor) {
   const double z = 20e-6;
-  const Surroundings surroundings = at_height(z);
+  const ContactScene scene = at_height(z);
   const Vector3d across = test_support::turn(0.3, Vector3d::UnitZ()) * Vector3d::UnitY();  // the part's y axis
   const double angle = std::asin((z - floor()) / kHalfLength);
-  EXPECT_TRUE(prove(surroundings, {{Vector3d::Zero(), 0.999 * angle * across}}).holds);
-  const Proof proof = prove(surroundings, {{Vector3d::Zero(), 1.001 * angle * across}});
-  EXPECT_EQ(proof.boxes, proof.obligations) << "nothing but boxes";
+  EXPECT_TRUE(prove(scene, {{Vector3d::Zero(), 0.999 * angle * across}}).holds);
+  const Proof proof = prove(scene, {{Vector3d::Zero(), 1.001 * angle * across}});
+  EXPECT_EQ(proof.boxes, proof.to_certify) << "nothing but boxes";
   EXPECT_FALSE(proof.holds);
   for (const UncertifiedPair& failure : proof.failures) {
-    const collision::TriangleMesh& mesh = surroundings.parts()[0]->tree.mesh();
+    const geometry::TriangleMesh& mesh = scene.parts()[0]->tree.mesh();
     double farthest = 0.0;
     for (int corner = 0; corner < 3; ++corner)
       farthest = std::max(farthest, mesh.corner(failure.part_triangle, corner).x());
@@ -171,16 +171,16 @@ TEST_F(FinePlates, ThatTiltAreProvedAsLongAsTheLowestCornerKeepsTheFloor) {
 TEST(PathCertificate, ATipThatSwingsLowIsNotProvedByBothEndsOfItsWay) {
   constexpr double kMargin = 0.1e-3;
   constexpr double kTurn = 0.2;  // radians
-  const Obstacle table = test_support::obstacle_of(collision::make_plate({1.0, 1.0}, 100));
-  const auto rod = test_support::part_of(collision::make_plate({0.2, 1e-4}, 200));
+  const Obstacle table = test_support::obstacle_of(geometry::make_plate({1.0, 1.0}, 100));
+  const auto rod = test_support::part_of(geometry::make_plate({0.2, 1e-4}, 200));
   const auto proves = [&](double height) {
-    Surroundings surroundings({table}, {rod}, std::vector<double>{kMargin});
-    surroundings.place(0, test_support::pose({0.0, 0.0, height},
-                                             test_support::turn(0.5 * (std::numbers::pi - kTurn), Vector3d::UnitY())));
-    return prove(surroundings, {{Vector3d::Zero(), kTurn * Vector3d::UnitY()}}).holds;
+    ContactScene scene({table}, {rod}, std::vector<double>{kMargin});
+    scene.place(0, test_support::pose({0.0, 0.0, height},
+                                      test_support::turn(0.5 * (std::numbers::pi - kTurn), Vector3d::UnitY())));
+    return prove(scene, {{Vector3d::Zero(), kTurn * Vector3d::UnitY()}}).holds;
   };
   const double radius = rod->radius();
-  const double floor = kFloorOfMargin * kMargin;
+  const double floor = kMinClearanceOfMargin * kMargin;
   EXPECT_FALSE(proves(radius * std::cos(0.5 * kTurn) + 1.1 * floor)) << "free at both ends only";
   EXPECT_FALSE(proves(radius + 0.9 * floor));
   EXPECT_TRUE(proves(radius + 1.1 * floor));
@@ -188,16 +188,16 @@ TEST(PathCertificate, ATipThatSwingsLowIsNotProvedByBothEndsOfItsWay) {
 
 TEST(PathCertificate, OfTwoPartsCountsTheMotionOfBoth) {
   constexpr double kMargin = 0.1e-3;
-  const Obstacle table = test_support::obstacle_of(collision::make_plate({1.0, 1.0}, 2));
+  const Obstacle table = test_support::obstacle_of(geometry::make_plate({1.0, 1.0}, 2));
   // Flat, so that boxes tell it, and no triangle is asked.
-  const auto plate = test_support::part_of(collision::make_plate({0.02, 0.02}, 500));
-  Surroundings surroundings({table}, {plate, plate}, std::vector<double>{kMargin, kMargin});
+  const auto plate = test_support::part_of(geometry::make_plate({0.02, 0.02}, 500));
+  ContactScene scene({table}, {plate, plate}, std::vector<double>{kMargin, kMargin});
   const double gap = 1e-3;
-  surroundings.place(0, test_support::pose({0.0, 0.0, 0.5}));
-  surroundings.place(1, test_support::pose({0.0, 0.0, 0.5 + gap}));
-  const double most = gap - kFloorOfMargin * kMargin;
+  scene.place(0, test_support::pose({0.0, 0.0, 0.5}));
+  scene.place(1, test_support::pose({0.0, 0.0, 0.5 + gap}));
+  const double most = gap - kMinClearanceOfMargin * kMargin;
   const auto proves = [&](double first, double second) {
-    return prove(surroundings, {{{0.0, 0.0, first}, Vector3d::Zero()}, {{0.0, 0.0, second}, Vector3d::Zero()}}).holds;
+    return prove(scene, {{{0.0, 0.0, first}, Vector3d::Zero()}, {{0.0, 0.0, second}, Vector3d::Zero()}}).holds;
   };
   EXPECT_TRUE(proves(0.499 * most, -0.499 * most));
   EXPECT_FALSE(proves(0.501 * most, -0.501 * most));

@@ -1,3 +1,5 @@
+#include "certificate/path_certificate.h"
+
 #include <memory>
 #include <random>
 #include <string>
@@ -5,11 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/triangle_distance.h>
-#include <glissade/haptics/candidate_pairs.h>
-#include <glissade/haptics/path_certificate.h>
+#include <glissade/geometry/triangle_pair.h>
 
 #include "sanitizers.h"
+#include "search/candidate_pairs.h"
 
 namespace glissade::haptics {
 namespace {
@@ -17,8 +18,8 @@ namespace {
 constexpr double kFloor = 1e-6;
 constexpr double kProofReach = 10.0;
 
-std::shared_ptr<const collision::TriangleMesh> one_triangle(double z) {
-  auto mesh = std::make_shared<collision::TriangleMesh>();
+std::shared_ptr<const geometry::TriangleMesh> one_triangle(double z) {
+  auto mesh = std::make_shared<geometry::TriangleMesh>();
   mesh->vertices = {{-1.0, -1.0, z}, {1.0, -1.0, z}, {0.0, 1.0, z}};
   mesh->triangles = {{0, 1, 2}};
   return mesh;
@@ -26,22 +27,24 @@ std::shared_ptr<const collision::TriangleMesh> one_triangle(double z) {
 
 /// Whether all pairs of the bodies are proved apart while each part goes from its pose along its displacement.
 bool prove(const std::vector<Obstacle>& obstacles, const std::vector<std::shared_ptr<const SlidingPart>>& parts,
-           const std::vector<Eigen::Isometry3d>& X_WV, const std::vector<Displacement>& displacements) {
-  Surroundings surroundings(obstacles, parts, std::vector<double>(parts.size(), kFloor / kFloorOfMargin));
+           const std::vector<Eigen::Isometry3d>& X_WV, const std::vector<geometry::Displacement>& displacements) {
+  ContactScene scene(obstacles, parts, std::vector<double>(parts.size(), kFloor / kMinClearanceOfMargin));
   for (std::size_t p = 0; p < parts.size(); ++p)
-    surroundings.place(p, X_WV[p]);
-  CandidatePairs candidates(surroundings, kProofReach);
+    scene.place(p, X_WV[p]);
+  CandidatePairs candidates(scene, kProofReach);
   candidates.look(kProofReach, 0.0, {});
-  std::vector<Obligation> obligations;
-  candidates.within(kProofReach, obligations);
+  std::vector<PairToCertify> to_certify;
+  candidates.within(kProofReach, to_certify);
   std::vector<UncertifiedPair> failures;
-  return PathCertificate(surroundings).prove(displacements, obligations, failures);
+  return PathCertificate(scene).prove(displacements, to_certify, failures);
 }
 
 /// A triangle above another one, both without thickness.
 class TwoTriangles : public ::testing::Test {
  protected:
-  bool proves(const Eigen::Isometry3d& X_WV, const Displacement& d) { return prove(obstacles_, {part_}, {X_WV}, {d}); }
+  bool proves(const Eigen::Isometry3d& X_WV, const geometry::Displacement& d) {
+    return prove(obstacles_, {part_}, {X_WV}, {d});
+  }
   static Eigen::Isometry3d at_height(double z) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z)); }
 
   std::vector<Obstacle> obstacles_{{std::make_shared<ContactBody>(one_triangle(0.0))}};
@@ -49,7 +52,7 @@ class TwoTriangles : public ::testing::Test {
 };
 
 TEST_F(TwoTriangles, ApproachIsProvedDownToTheFloorAndNotBelow) {
-  const Displacement down{{0.0, 0.0, -1e-3}, Eigen::Vector3d::Zero()};
+  const geometry::Displacement down{{0.0, 0.0, -1e-3}, Eigen::Vector3d::Zero()};
   EXPECT_TRUE(proves(at_height(1e-3 + 1.01 * kFloor), down));
   EXPECT_FALSE(proves(at_height(1e-3 + 0.99 * kFloor), down));
 }
@@ -61,7 +64,7 @@ TEST_F(TwoTriangles, PassingThroughIsNotProvedThoughBothEndsAreFree) {
 
 TEST_F(TwoTriangles, TurningThroughIsNotProvedThoughBothEndsAreFree) {
   // Half a turn about x sweeps a triangle that stands beside the other through it.
-  const Displacement flip{{0.0, 0.0, 0.0}, {3.0, 0.0, 0.0}};
+  const geometry::Displacement flip{{0.0, 0.0, 0.0}, {3.0, 0.0, 0.0}};
   EXPECT_FALSE(proves(at_height(0.3), flip));
   EXPECT_TRUE(proves(at_height(3.0), flip));
 }
@@ -84,7 +87,7 @@ TEST(PathCertificate, WhatIsProvedHoldsAllAlongRandomPaths) {
     return Eigen::Vector3d(uniform(generator), uniform(generator), uniform(generator));
   };
   const auto random_triangle = [&] {
-    auto mesh = std::make_shared<collision::TriangleMesh>();
+    auto mesh = std::make_shared<geometry::TriangleMesh>();
     mesh->vertices = {random_vector(), random_vector(), random_vector()};
     mesh->triangles = {{0, 1, 2}};
     return mesh;
@@ -95,17 +98,17 @@ TEST(PathCertificate, WhatIsProvedHoldsAllAlongRandomPaths) {
     const std::vector<Obstacle> obstacles{{std::make_shared<ContactBody>(random_triangle())}};
     const auto part = std::make_shared<SlidingPart>(random_triangle());
     const Eigen::Isometry3d X_WV(Eigen::Translation3d(0.7 * random_vector()));
-    const Displacement d{0.5 * random_vector(), random_vector()};
+    const geometry::Displacement d{0.5 * random_vector(), random_vector()};
     if (!prove(obstacles, {part}, {X_WV}, {d})) {
       ++refused;
       continue;
     }
     ++proved;
     for (int i = 0; i <= 100; ++i) {
-      const Eigen::Isometry3d X = displaced(X_WV, part->p_Vref(), d.scaled(0.01 * i));
+      const Eigen::Isometry3d X = geometry::displaced(X_WV, part->p_Vref(), d.scaled(0.01 * i));
       const auto corner = [&](int c) -> Eigen::Vector3d { return X * part->tree.mesh().corner(0, c); };
-      const collision::TriangleDistance closest =
-          collision::triangle_distance(obstacles[0].placed().triangle_W(0), {corner(0), corner(1), corner(2)});
+      const geometry::TriangleDistance closest =
+          geometry::triangle_distance(placed(obstacles[0]).triangle_W(0), {corner(0), corner(1), corner(2)});
       ASSERT_GE(closest.distance, 0.95 * kFloor) << "trial " << trial << " at " << i << " %";
     }
   }

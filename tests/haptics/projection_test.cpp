@@ -1,9 +1,9 @@
+#include "solver/projection.h"
+
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
-
-#include <glissade/haptics/projection.h>
 
 namespace glissade::haptics {
 namespace {
@@ -15,7 +15,7 @@ ConstraintRow floor_at(double height, const Eigen::Vector3d& r = Eigen::Vector3d
 }
 
 TEST(Projection, LeavesAnUnhinderedDisplacementAsItIs) {
-  const Displacement wanted{{1e-3, 2e-3, -3e-3}, {0.01, 0.02, 0.03}};
+  const geometry::Displacement wanted{{1e-3, 2e-3, -3e-3}, {0.01, 0.02, 0.03}};
   const std::vector<ConstraintRow> rows{floor_at(4e-3)};
   const Projection result = ProjectionSolver().project(wanted, kProjectedStiffness, rows);
   EXPECT_EQ(result.status, ProjectionStatus::kSolved);
@@ -24,7 +24,7 @@ TEST(Projection, LeavesAnUnhinderedDisplacementAsItIs) {
 }
 
 TEST(Projection, SlidesAlongAFloorAndReportsTheForceThatTakes) {
-  const Displacement wanted{{1e-3, 0.0, -3e-3}, Eigen::Vector3d::Zero()};
+  const geometry::Displacement wanted{{1e-3, 0.0, -3e-3}, Eigen::Vector3d::Zero()};
   const std::vector<ConstraintRow> rows{floor_at(1e-3)};
   const Projection result = ProjectionSolver().project(wanted, kProjectedStiffness, rows);
   EXPECT_TRUE(result.displacement().v.isApprox(Eigen::Vector3d(1e-3, 0.0, -1e-3), 1e-12));
@@ -67,7 +67,7 @@ TEST(Projection, MeetsTheOptimalityConditionsOnRandomProgrammes) {
       rows.push_back({random_vector().normalized(), 0.05 * random_vector(), -1e-4 * std::abs(uniform(generator))});
       if (i % 5 == 4) rows.push_back(rows.back());  // repeated rows are common in practice
     }
-    const Displacement wanted{1e-3 * random_vector(), 0.02 * random_vector()};
+    const geometry::Displacement wanted{1e-3 * random_vector(), 0.02 * random_vector()};
     const Projection result = ProjectionSolver().project(wanted, kProjectedStiffness, rows);
     ASSERT_EQ(result.status, ProjectionStatus::kSolved) << "trial " << trial;
     for (const ConstraintRow& row : rows) {

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
+#include "loop/proxy.h"
 
-#include <glissade/haptics/proxy.h>
+#include <gtest/gtest.h>
 
 #include "poses.h"
 

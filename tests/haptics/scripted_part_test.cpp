@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/brute_force.h>
-#include <glissade/haptics/sliding_method.h>
+#include <glissade/haptics/sliding.h>
+#include <glissade/reference/brute_force.h>
 
 #include "held_part.h"
 #include "poses.h"
@@ -25,7 +25,7 @@ constexpr double kTwoMargins = 20e-6;
 /// A cube of 40 mm that goes along x at 0.1 m/s, from -30 mm to -20 mm: its face from -10 mm to 0.
 ScriptedPart ram() {
   return {.part_B = cube(0.04),
-          .script_X_WB = devices::PoseTrajectory(
+          .script_X_WB = geometry::PoseTrajectory(
               {{milliseconds(0), pose({-0.03, 0.0, 0.0})}, {milliseconds(100), pose({-0.02, 0.0, 0.0})}}),
           .name = "the ram"};
 }
@@ -44,7 +44,7 @@ void wait(Sliding& sliding, int calls) {
   const Isometry3d X_WG = sliding.result().X_WG;
   for (int i = 0; i < calls; ++i) {
     sliding.advance(X_WG);
-    ASSERT_FALSE(collision::brute_force_intersects(cube(0.04)->tree.mesh(), sliding.part().tree.mesh(),
+    ASSERT_FALSE(reference::brute_force_intersects(cube(0.04)->tree.mesh(), sliding.part().tree.mesh(),
                                                    sliding.scripted_X_WB()[0].inverse() * sliding.result().X_WV));
   }
 }
@@ -102,7 +102,7 @@ TEST(ScriptedPart, GoesOnWhileNobodyHoldsThePartWhichIsAnObstacleThen) {
 TEST(ScriptedPart, LeavesThePartAloneWhereTheyDoNotMeet) {
   Sliding alone({wall(0.02)}, cube(0.02), pose({0.005, 0.0, 0.0}));
   ScriptedPart aside = ram();
-  aside.script_X_WB = devices::PoseTrajectory(
+  aside.script_X_WB = geometry::PoseTrajectory(
       {{milliseconds(0), pose({-0.03, 0.2, 0.0})}, {milliseconds(100), pose({0.03, 0.2, 0.0})}});
   Sliding beside = cube_before(aside, 0.02);
   for (int i = 0; i < 100; ++i) {
@@ -115,9 +115,9 @@ TEST(ScriptedPart, LeavesThePartAloneWhereTheyDoNotMeet) {
 TEST(ScriptedPart, IsToldInContactsWhereItIsNow) {
   // It comes near, by 1 mm in 10 ms, and goes away again, and never touches.
   ScriptedPart visitor = ram();
-  visitor.script_X_WB = devices::PoseTrajectory({{milliseconds(0), pose({-0.0262, 0.0, 0.0})},
-                                                 {milliseconds(10), pose({-0.0252, 0.0, 0.0})},
-                                                 {milliseconds(20), pose({-0.0262, 0.0, 0.0})}});
+  visitor.script_X_WB = geometry::PoseTrajectory({{milliseconds(0), pose({-0.0262, 0.0, 0.0})},
+                                                  {milliseconds(10), pose({-0.0252, 0.0, 0.0})},
+                                                  {milliseconds(20), pose({-0.0262, 0.0, 0.0})}});
   Sliding sliding = cube_before(visitor, 1.0);
   int told = 0;
   for (int i = 0; i < 20; ++i) {
@@ -133,7 +133,7 @@ TEST(ScriptedPart, IsToldInContactsWhereItIsNow) {
 }
 
 TEST(ScriptedPart, IsNeitherShakenNorLedOut) {
-  const SlidingOptions options{.rules = {.overlap = OverlapRule::kLeadOut, .anti_jam = true}};
+  const SlidingOptions options{.rules = {.overlap = OverlapRule::kDepenetrate, .spiral_search = true}};
   Sliding waiting({wall(0.018)}, cube(0.02), pose({0.005, 0.0, 0.0}), options, {ram()});
   wait(waiting, 200);
   const Isometry3d X_WB = waiting.scripted_X_WB()[0];

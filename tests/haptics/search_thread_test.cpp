@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/haptics/joint_sliding.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/haptics/sliding.h>
 
 #include "held_part.h"
@@ -75,8 +75,8 @@ class Twins {
     return rules;
   }
 
-  JointSliding without_;
-  JointSliding with_;
+  MultiPartSliding without_;
+  MultiPartSliding with_;
   int pushed_ = 0;
 };
 
@@ -102,11 +102,11 @@ INSTANTIATE_TEST_SUITE_P(ByName, SearchThreadInScene,
 
 /// A block whose upper face is z = 0.
 Obstacle finely_cut_block() {
-  return test_support::obstacle_of(collision::make_box({0.4, 0.4, 0.1}, 300), pose({0.0, 0.0, -0.05}));
+  return test_support::obstacle_of(geometry::make_box({0.4, 0.4, 0.1}, 300), pose({0.0, 0.0, -0.05}));
 }
 
 std::shared_ptr<const SlidingPart> finely_cut_cube() {
-  return test_support::part_of(collision::make_box({0.02, 0.02, 0.02}, 48));
+  return test_support::part_of(geometry::make_box({0.02, 0.02, 0.02}, 48));
 }
 
 /// Somewhere about the block's upper face, also below it.
@@ -118,7 +118,7 @@ Isometry3d random_ghost(test_support::RandomNumbers& random) {
 TEST(SearchThread, ChangesNoBitWhereAPartIsLedOut) {
   const Isometry3d X_WV = pose({0.0, 0.0, 0.005});
   Twins twins({finely_cut_block()}, {{.part_V = finely_cut_cube(), .X_WV_start = X_WV}},
-              {.overlap = OverlapRule::kLeadOut});
+              {.overlap = OverlapRule::kDepenetrate});
   for (int i = 0; i < 200; ++i) {
     const Isometry3d X_WG = pose({2e-4 * i, 0.0, 0.004}, turn(0.002 * i, Vector3d::UnitZ()));
     ASSERT_NO_FATAL_FAILURE(twins.advance({&X_WG, 1})) << "tick " << i;

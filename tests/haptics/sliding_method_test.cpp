@@ -5,17 +5,18 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/haptics/paper_sliding.h>
-#include <glissade/haptics/sliding_method.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/haptics/sliding.h>
+
+#include "paper/paper_sliding.h"
 
 namespace glissade::haptics {
 namespace {
 
 std::unique_ptr<SlidingSimulation> box_above_floor(SlidingMethod method, double height, Metaphor metaphor) {
-  const auto mesh = [](const collision::TriangleMesh& m) { return std::make_shared<collision::TriangleMesh>(m); };
-  return make_sliding(method, {{std::make_shared<ContactBody>(mesh(collision::make_plate({0.5, 0.5}, 2)))}},
-                      std::make_shared<SlidingPart>(mesh(collision::make_box({0.1, 0.06, 0.04}, 12))),
+  const auto mesh = [](const geometry::TriangleMesh& m) { return std::make_shared<geometry::TriangleMesh>(m); };
+  return make_sliding(method, {{std::make_shared<ContactBody>(mesh(geometry::make_plate({0.5, 0.5}, 2)))}},
+                      std::make_shared<SlidingPart>(mesh(geometry::make_box({0.1, 0.06, 0.04}, 12))),
                       Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, height)), {.metaphor = metaphor});
 }
 

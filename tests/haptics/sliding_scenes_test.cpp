@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/collision/dop_query.h>
-#include <glissade/haptics/motion.h>
+#include <glissade/geometry/displacement.h>
 #include <glissade/haptics/sliding.h>
 
 #include "sanitizers.h"
@@ -49,8 +49,9 @@ TEST_P(SlidingScenes, TheGhostDoesNotJump) {
   const SlidingScene scene = make_sliding_scene(GetParam());
   const SlidingPart& part = *scene.part_V;
   for (int tick = 1; tick <= scene.ticks; ++tick) {
-    const Displacement d = displacement_between(scene.ghost(tick - 1), scene.ghost(tick), part.p_Vref());
-    ASSERT_LE(motion_bound(d, part.radius()), 6e-3) << "tick " << tick;
+    const geometry::Displacement d =
+        geometry::displacement_between(scene.ghost(tick - 1), scene.ghost(tick), part.p_Vref());
+    ASSERT_LE(geometry::motion_bound(d, part.radius()), 6e-3) << "tick " << tick;
   }
 }
 

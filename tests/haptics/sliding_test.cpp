@@ -12,8 +12,8 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/mesh_operations.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 
@@ -24,9 +24,9 @@
 namespace glissade::haptics {
 namespace {
 
-using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using geometry::TriangleMesh;
 using test_support::kBoxSize;
 using test_support::pose;
 using test_support::turn_from_to;
@@ -44,24 +44,24 @@ struct Tessellation {
   }
 };
 
-std::vector<Obstacle> obstacle_of(const std::vector<TriangleMesh>& meshes, const Tessellation& tessellation) {
-  TriangleMesh mesh = collision::merge(meshes);
-  if (tessellation.flipped) mesh = collision::flip_randomly(mesh, 17);
-  return {{std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(std::move(mesh)))}};
+std::vector<Obstacle> obstacle_of(const std::vector<geometry::TriangleMesh>& meshes, const Tessellation& tessellation) {
+  geometry::TriangleMesh mesh = geometry::merge(meshes);
+  if (tessellation.flipped) mesh = geometry::flip_randomly(mesh, 17);
+  return {{std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(std::move(mesh)))}};
 }
 
 std::shared_ptr<const SlidingPart> box_part(const Tessellation& tessellation) {
-  TriangleMesh mesh = collision::make_box(kBoxSize, tessellation.triangles);
-  if (tessellation.flipped) mesh = collision::flip_randomly(mesh, 18);
-  return std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(std::move(mesh)));
+  geometry::TriangleMesh mesh = geometry::make_box(kBoxSize, tessellation.triangles);
+  if (tessellation.flipped) mesh = geometry::flip_randomly(mesh, 18);
+  return std::make_shared<SlidingPart>(std::make_shared<geometry::TriangleMesh>(std::move(mesh)));
 }
 
 /// A square sheet of 0.5 m through the origin, with the given normal.
-TriangleMesh sheet(const Vector3d& normal, const Tessellation& tessellation) {
+geometry::TriangleMesh sheet(const Vector3d& normal, const Tessellation& tessellation) {
   const Vector3d axis = Vector3d::UnitZ().cross(normal);
   Isometry3d X = Isometry3d::Identity();
   if (!axis.isZero()) X.linear() = Eigen::AngleAxisd(std::acos(normal.z()), axis.normalized()).toRotationMatrix();
-  return collision::transformed(collision::make_plate({0.5, 0.5}, tessellation.triangles), X);
+  return geometry::transformed(geometry::make_plate({0.5, 0.5}, tessellation.triangles), X);
 }
 
 /// Leads the ghost in a straight line through some calls, and lets `check` see every one of them.
@@ -119,8 +119,8 @@ TEST_P(BoxOnFaces, PressedIntoACornerItStopsThere) {
   lead(sliding, pose(seat - Vector3d(4e-3, 2e-3, 1e-3)), 200, [&](const SlidingResult& result) {
     ASSERT_LT((result.X_WV.translation() - seat).norm(), 2.0 * sliding.margin());
     ASSERT_LT(Eigen::AngleAxisd(result.X_WV.linear()).angle(), 1e-4);
-    const Wrench wrench =
-        spring_wrench(sliding.stiffness(), displacement_between(result.X_WV, result.X_WG, sliding.part().p_Vref()));
+    const Wrench wrench = spring_wrench(
+        sliding.stiffness(), geometry::displacement_between(result.X_WV, result.X_WG, sliding.part().p_Vref()));
     // The springs of the three axes, each shortened by the margin at most.
     const Vector3d expected = sliding.stiffness().translational * (seat - result.X_WG.translation());
     ASSERT_LT((wrench.f - expected).norm(), sliding.stiffness().translational * 2.0 * sliding.margin());
@@ -129,9 +129,9 @@ TEST_P(BoxOnFaces, PressedIntoACornerItStopsThere) {
 
 TEST_P(BoxOnFaces, ObstaclesMayShareABodyAndLieAnywhere) {
   // The corner of before, of one sheet in three poses, and the same sheet once more out of reach.
-  TriangleMesh mesh = collision::make_plate({0.5, 0.5}, tessellation().triangles);
-  if (tessellation().flipped) mesh = collision::flip_randomly(mesh, 17);
-  const auto sheet_O = std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(std::move(mesh)));
+  geometry::TriangleMesh mesh = geometry::make_plate({0.5, 0.5}, tessellation().triangles);
+  if (tessellation().flipped) mesh = geometry::flip_randomly(mesh, 17);
+  const auto sheet_O = std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(std::move(mesh)));
   const auto facing = [](const Vector3d& normal) {
     return pose(Vector3d::Zero(), turn_from_to(Vector3d::UnitZ(), normal));
   };
@@ -157,8 +157,8 @@ TEST_P(BoxOnFaces, TheWrenchIsExactlyZeroWheneverNothingIsInTheWay) {
   Sliding sliding(obstacle_of({sheet(Vector3d::UnitZ(), tessellation())}, tessellation()), box_part(tessellation()),
                   pose({-0.1, 0.0, 0.03}));
   const auto no_wrench = [&](const SlidingResult& result) {
-    const Wrench wrench =
-        spring_wrench(sliding.stiffness(), displacement_between(result.X_WV, result.X_WG, sliding.part().p_Vref()));
+    const Wrench wrench = spring_wrench(
+        sliding.stiffness(), geometry::displacement_between(result.X_WV, result.X_WG, sliding.part().p_Vref()));
     ASSERT_EQ(result.state, SlidingState::kFree);
     ASSERT_EQ(wrench.f, Vector3d::Zero());
     ASSERT_EQ(wrench.t, Vector3d::Zero());
@@ -180,8 +180,8 @@ INSTANTIATE_TEST_SUITE_P(Tessellations, BoxOnFaces,
 TEST(Sliding, AThinSheetAtFiveMetresPerSecondIsNeverCrossed) {
   const Tessellation tessellation{400, true};
   const auto obstacle = obstacle_of({sheet(Vector3d::UnitZ(), tessellation)}, tessellation);
-  TriangleMesh plate = collision::flip_randomly(collision::make_plate({0.1, 0.06}, 200), 3);
-  const auto part = std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(std::move(plate)));
+  geometry::TriangleMesh plate = geometry::flip_randomly(geometry::make_plate({0.1, 0.06}, 200), 3);
+  const auto part = std::make_shared<SlidingPart>(std::make_shared<geometry::TriangleMesh>(std::move(plate)));
   for (const Metaphor metaphor : {Metaphor::kForceFeedback, Metaphor::kRubberBandSpring}) {
     for (const double side : {1.0, -1.0}) {
       for (const double tilt : {0.0, 0.02, 0.7, std::numbers::pi / 2}) {
@@ -204,19 +204,19 @@ TEST(Sliding, AThinSheetAtFiveMetresPerSecondIsNeverCrossed) {
 double greatest_catch_up(Metaphor metaphor, double milliseconds = 1.0) {
   const Tessellation tessellation{12, false};
   const auto plate =
-      std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(collision::make_plate({0.2, 0.2}, 100)));
+      std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.2, 0.2}, 100)));
   Sliding sliding({{plate}}, box_part(tessellation), pose({0.0, 0.0, 0.03}), {.metaphor = metaphor});
   lead(sliding, pose({0.0, 0.0, 0.015}), 200, [](const SlidingResult&) {});
   double greatest = 0.0;
   Isometry3d X_WG = sliding.result().X_WG;
-  Displacement lag = sliding.error();
+  geometry::Displacement lag = sliding.error();
   lead(
       sliding, pose({0.17, 0.0, 0.015}), 500,
       [&](const SlidingResult& result) {
         const Vector3d& p_Vref = sliding.part().p_Vref();
         const double radius = sliding.part().radius();
-        const double ghost = motion_bound(displacement_between(X_WG, result.X_WG, p_Vref), radius);
-        const Displacement now = sliding.error();
+        const double ghost = geometry::motion_bound(geometry::displacement_between(X_WG, result.X_WG, p_Vref), radius);
+        const geometry::Displacement now = sliding.error();
         greatest = std::max(greatest, (now.v - lag.v).norm() + radius * (now.w - lag.w).norm() - ghost);
         X_WG = result.X_WG;
         lag = now;
@@ -246,9 +246,9 @@ TEST(Sliding, AGhostThatTurnsFarInOneCallDoesNotCarryThePartThroughAWall) {
   X_wall.linear() = Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitX()).toRotationMatrix();
   X_wall.translation().y() = 9e-3;
   const auto wall = std::make_shared<ContactBody>(
-      std::make_shared<TriangleMesh>(collision::transformed(collision::make_plate({0.3, 0.3}, 2), X_wall)));
-  const auto rod =
-      std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(collision::make_box({0.2, 0.01, 0.01}, 12)));
+      std::make_shared<geometry::TriangleMesh>(geometry::transformed(geometry::make_plate({0.3, 0.3}, 2), X_wall)));
+  const auto rod = std::make_shared<SlidingPart>(
+      std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.2, 0.01, 0.01}, 12)));
   for (const Metaphor metaphor : {Metaphor::kForceFeedback, Metaphor::kRubberBandSpring}) {
     for (const double angle : {0.3, 1.5, 3.0}) {
       Sliding sliding({{wall}}, rod, Isometry3d::Identity(), {.metaphor = metaphor});
@@ -270,12 +270,12 @@ TEST(Sliding, AGhostThatJumpsOutOfANarrowSlotLeavesThePartInside) {
   const Vector3d normal = q * Vector3d::UnitZ();
   const Vector3d middle(0.6, -0.4, 0.8);
   constexpr double kHalfSlot = 2e-3 + 3e-6;
-  const TriangleMesh plate = collision::make_plate({0.5, 0.5}, 2);
-  const auto slot = obstacle_of({collision::transformed(plate, pose(middle + kHalfSlot * normal, q)),
-                                 collision::transformed(plate, pose(middle - kHalfSlot * normal, q))},
+  const geometry::TriangleMesh plate = geometry::make_plate({0.5, 0.5}, 2);
+  const auto slot = obstacle_of({geometry::transformed(plate, pose(middle + kHalfSlot * normal, q)),
+                                 geometry::transformed(plate, pose(middle - kHalfSlot * normal, q))},
                                 {2, false});
-  const auto part =
-      std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(collision::make_box({0.1, 0.06, 0.004}, 12)));
+  const auto part = std::make_shared<SlidingPart>(
+      std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.06, 0.004}, 12)));
   std::mt19937 generator(kSlidingSeed);
   SCOPED_TRACE("seed " + std::to_string(kSlidingSeed));
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);

@@ -98,10 +98,10 @@ TortureCounts run_all(const Arguments& arguments, const Threads& threads) {
         std::fprintf(stderr, "\r%zu of %zu scenes, %.0f s", finished, scenes, watch.seconds());
     }
   };
-  std::vector<std::thread> crew;
+  std::vector<std::thread> pool;
   for (int i = 0; i < threads.scenes; ++i)
-    crew.emplace_back(work);
-  for (std::thread& thread : crew)
+    pool.emplace_back(work);
+  for (std::thread& thread : pool)
     thread.join();
   if (!arguments.quiet) std::fprintf(stderr, "\n");
   print_most_jammed(counts);

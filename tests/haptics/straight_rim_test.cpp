@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
+#include <glissade/geometry/mesh_generators.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 
@@ -30,12 +30,12 @@ class BoxOnAFinelyCutTable : public ::testing::Test {
   static constexpr double kPressed_m = 1e-3;
 
   explicit BoxOnAFinelyCutTable()
-      : sliding_({{std::make_shared<ContactBody>(std::make_shared<collision::TriangleMesh>(table()))}},
-                 std::make_shared<SlidingPart>(std::make_shared<collision::TriangleMesh>(
-                     collision::make_box({2.0 * kHalf_m, 2.0 * kHalf_m, 2.0 * kHalf_m}, 1200))),
+      : sliding_({{std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(table()))}},
+                 std::make_shared<SlidingPart>(std::make_shared<geometry::TriangleMesh>(
+                     geometry::make_box({2.0 * kHalf_m, 2.0 * kHalf_m, 2.0 * kHalf_m}, 1200))),
                  turned_at({0.0, 0.0, kHalf_m + 1e-3})) {}
 
-  static collision::TriangleMesh table() { return collision::make_plate({0.2, 0.2}, 5000); }
+  static geometry::TriangleMesh table() { return geometry::make_plate({0.2, 0.2}, 5000); }
 
   /// Leads the ghost straight on, `calls` milliseconds long.
   template <typename Check>

@@ -9,27 +9,27 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/haptics/motion.h>
+#include <glissade/geometry/displacement.h>
+#include <glissade/geometry/mesh_generators.h>
 
 #include "poses.h"
 
 namespace glissade::test_support {
 namespace {
 
-using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-using haptics::Displacement;
+using geometry::Displacement;
+using geometry::TriangleMesh;
 
-std::vector<haptics::Obstacle> obstacles_of(const TriangleMesh& mesh) {
-  return {{std::make_shared<haptics::ContactBody>(std::make_shared<TriangleMesh>(mesh))}};
+std::vector<haptics::Obstacle> obstacles_of(const geometry::TriangleMesh& mesh) {
+  return {{std::make_shared<haptics::ContactBody>(std::make_shared<geometry::TriangleMesh>(mesh))}};
 }
 
-const TriangleMesh kSheet = collision::make_plate({0.2, 0.2}, 50);
+const geometry::TriangleMesh kSheet = geometry::make_plate({0.2, 0.2}, 50);
 
 TEST(SweptCheck, SeesASheetGoThroughAnotherThoughNeitherEndCollides) {
-  SweptCheck check(obstacles_of(kSheet), collision::make_plate({0.05, 0.05}, 8), Vector3d::Zero());
+  SweptCheck check(obstacles_of(kSheet), geometry::make_plate({0.05, 0.05}, 8), Vector3d::Zero());
   const Isometry3d above = pose({0.0, 0.0, 1e-3});
   EXPECT_TRUE(check.fault_of(above, {{0.0, 0.0, -2e-3}, Vector3d::Zero()}));
   EXPECT_TRUE(check.fault_of(above, {{0.05, 0.0, -2e-3}, {0.01, 0.0, 0.0}}));
@@ -39,25 +39,25 @@ TEST(SweptCheck, SeesASheetGoThroughAnotherThoughNeitherEndCollides) {
 
 TEST(SweptCheck, SeesWhatOnlyTheMiddleOfATurnMeets) {
   // A rod of 0.2 m beside a needle; turned by 90° its end passes 1 µm before or behind the needle's tip.
-  const TriangleMesh rod{{{-0.1, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.1, 0.0, 1e-3}}, {{0, 1, 2}}};
+  const geometry::TriangleMesh rod{{{-0.1, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.1, 0.0, 1e-3}}, {{0, 1, 2}}};
   for (const double sign : {1.0, -1.0}) {
     const double reach = (0.1 + sign * 1e-6) / std::sqrt(2.0);
-    const TriangleMesh needle{{{reach, reach, 0.5e-3}, {0.2, 0.2, 0.0}, {0.2, 0.2, 1e-3}}, {{0, 1, 2}}};
+    const geometry::TriangleMesh needle{{{reach, reach, 0.5e-3}, {0.2, 0.2, 0.0}, {0.2, 0.2, 1e-3}}, {{0, 1, 2}}};
     SweptCheck check(obstacles_of(needle), rod, Vector3d::Zero());
-    const Displacement quarter{Vector3d::Zero(), {0.0, 0.0, std::numbers::pi / 2}};
+    const geometry::Displacement quarter{Vector3d::Zero(), {0.0, 0.0, std::numbers::pi / 2}};
     EXPECT_EQ(check.fault_of(Isometry3d::Identity(), quarter).has_value(), sign < 0.0);
     EXPECT_FALSE(check.fault_of(Isometry3d::Identity(), quarter.scaled(0.4)));
   }
 }
 
 TEST(SweptCheck, ProvesLongWaysOverAFaceANanometreAway) {
-  SweptCheck check(obstacles_of(kSheet), collision::make_box({0.05, 0.05, 0.02}, 108), Vector3d::Zero());
+  SweptCheck check(obstacles_of(kSheet), geometry::make_box({0.05, 0.05, 0.02}, 108), Vector3d::Zero());
   EXPECT_FALSE(check.fault_of(pose({-0.05, 0.0, 0.01 + 1e-9}), {{0.1, 0.02, 0.0}, {0.0, 0.0, 0.3}}));
   EXPECT_TRUE(check.fault_of(pose({-0.05, 0.0, 0.01 + 1e-9}), {{0.1, 0.02, 0.0}, {1e-6, 0.0, 0.3}}));
 }
 
 TEST(SweptCheck, TellsDistancesAndTheirPoints) {
-  SweptCheck check(obstacles_of(kSheet), collision::make_box({0.05, 0.05, 0.02}, 12), Vector3d::Zero());
+  SweptCheck check(obstacles_of(kSheet), geometry::make_box({0.05, 0.05, 0.02}, 12), Vector3d::Zero());
   EXPECT_NEAR(check.distance(pose({0.0, 0.0, 0.01 + 3e-6}), 1e-3), 3e-6, 1e-15);
   EXPECT_EQ(check.distance(pose({0.0, 0.0, 0.1}), 1e-3), 1e-3);
   EXPECT_EQ(check.distance(pose({0.0, 0.0, 0.0}), 1e-3), 0.0);

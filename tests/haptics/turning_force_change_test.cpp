@@ -48,7 +48,7 @@ class RandomMotion {
       const Isometry3d X_to = pose(X_middle.translation() + random_.point(reach),
                                    turn(random_.uniform(-largest_turn, largest_turn), random_.direction()) *
                                        Eigen::Quaterniond(X_middle.linear()));
-      Displacement stretch = sliding_.error();
+      geometry::Displacement stretch = sliding_.error();
       Isometry3d X_WG = sliding_.result().X_WG;
       test_support::lead(sliding_, X_to, 40, [&](const SlidingResult& result) {
         look(stretch, X_WG, result);
@@ -63,14 +63,15 @@ class RandomMotion {
   int in_contact = 0;            ///< ticks
 
  private:
-  void look(const Displacement& stretch_then, const Isometry3d& X_WG_then, const SlidingResult& result) {
+  void look(const geometry::Displacement& stretch_then, const Isometry3d& X_WG_previous, const SlidingResult& result) {
     const CouplingStiffness& K = sliding_.stiffness();
     const double radius = sliding_.part().radius();
-    const Displacement stretch = sliding_.error();
-    const Displacement change{stretch.v - stretch_then.v, stretch.w - stretch_then.w};
-    const Displacement ghost = displacement_between(X_WG_then, result.X_WG, sliding_.part().p_Vref());
+    const geometry::Displacement stretch = sliding_.error();
+    const geometry::Displacement change{stretch.v - stretch_then.v, stretch.w - stretch_then.w};
+    const geometry::Displacement ghost =
+        geometry::displacement_between(X_WG_previous, result.X_WG, sliding_.part().p_Vref());
     greatest_ratio = std::max(greatest_ratio, test_support::length_in(K, change) / test_support::length_in(K, ghost));
-    greatest_excess = std::max(greatest_excess, change.v.norm() - motion_bound(ghost, radius));
+    greatest_excess = std::max(greatest_excess, change.v.norm() - geometry::motion_bound(ghost, radius));
     in_contact += result.pushing > 0 ? 1 : 0;
   }
 
@@ -85,7 +86,7 @@ std::vector<Obstacle> half_spaces(int count) {
   for (const Vector3d& axis : std::vector<Vector3d>{Vector3d::UnitZ(), Vector3d::UnitX(), Vector3d::UnitY()}) {
     if (count-- == 0) break;
     const Vector3d middle = -0.5 * kEdge * axis + 0.25 * kEdge * (Vector3d::Ones() - axis);
-    obstacles.push_back(test_support::obstacle_of(collision::make_box(Vector3d::Constant(kEdge), 12), pose(middle)));
+    obstacles.push_back(test_support::obstacle_of(geometry::make_box(Vector3d::Constant(kEdge), 12), pose(middle)));
   }
   return obstacles;
 }
@@ -122,7 +123,7 @@ TEST(ForceChangeOfATurningPart, UnderForceFeedbackIsLimitedInAnyScene) {
     std::vector<Obstacle> obstacles;
     for (int i = 0; i < 8; ++i) {
       const Vector3d p = 0.1 * Vector3d(i % 2 == 0 ? 1 : -1, i / 2 % 2 == 0 ? 1 : -1, i / 4 == 0 ? 1 : -1);
-      obstacles.push_back(test_support::obstacle_of(collision::make_sphere(0.07, 300), pose(p)));
+      obstacles.push_back(test_support::obstacle_of(geometry::make_sphere(0.07, 300), pose(p)));
     }
     const auto part = test_support::part_of(test_support::random_convex_mesh(random, 0.03));
     Sliding sliding(obstacles, part, Isometry3d::Identity());

@@ -103,6 +103,11 @@ TEST(RunPeriodic, RefusesAPeriodThatIsNotPositive) {
   EXPECT_THROW(PeriodicThread(clock, {.period = nanoseconds(-1)}, stop_at_once), std::invalid_argument);
 }
 
+TEST(PeriodicThread, NeedsATick) {
+  SteadyClock clock;
+  EXPECT_THROW(PeriodicThread(clock, {}, {}), std::invalid_argument);
+}
+
 TEST(PeriodicThread, RunsUntilTheTickSaysSo) {
   SteadyClock clock;
   std::uint64_t calls = 0;

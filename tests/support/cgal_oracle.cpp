@@ -11,7 +11,7 @@
 namespace glissade::test_support {
 namespace {
 
-using collision::TrianglePoints;
+using geometry::TrianglePoints;
 
 template <typename Kernel>
 typename Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) {
@@ -19,7 +19,7 @@ typename Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) {
 }
 
 template <typename Kernel>
-typename Kernel::Triangle_3 to_cgal(const TrianglePoints& t) {
+typename Kernel::Triangle_3 to_cgal(const geometry::TrianglePoints& t) {
   return {to_cgal<Kernel>(t[0]), to_cgal<Kernel>(t[1]), to_cgal<Kernel>(t[2])};
 }
 
@@ -36,7 +36,7 @@ bool meets_flat(const typename Kernel::Triangle_3& triangle, const typename Kern
 
 }  // namespace
 
-bool cgal_intersect(const TrianglePoints& a, const TrianglePoints& b) {
+bool cgal_intersect(const geometry::TrianglePoints& a, const geometry::TrianglePoints& b) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   const Kernel::Triangle_3 triangle_a = to_cgal<Kernel>(a);
   const Kernel::Triangle_3 triangle_b = to_cgal<Kernel>(b);
@@ -44,17 +44,17 @@ bool cgal_intersect(const TrianglePoints& a, const TrianglePoints& b) {
                                     : CGAL::do_intersect(triangle_a, triangle_b);
 }
 
-bool cgal_is_degenerate(const TrianglePoints& triangle) {
+bool cgal_is_degenerate(const geometry::TrianglePoints& triangle) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   return to_cgal<Kernel>(triangle).is_degenerate();
 }
 
-double cgal_distance(const TrianglePoints& a, const TrianglePoints& b) {
+double cgal_distance(const geometry::TrianglePoints& a, const geometry::TrianglePoints& b) {
   using Kernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
   return std::sqrt(CGAL::to_double(CGAL::squared_distance(to_cgal<Kernel>(a), to_cgal<Kernel>(b))));
 }
 
-double cgal_distance(const Eigen::Vector3d& point, const TrianglePoints& triangle) {
+double cgal_distance(const Eigen::Vector3d& point, const geometry::TrianglePoints& triangle) {
   using Kernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
   return std::sqrt(CGAL::to_double(CGAL::squared_distance(to_cgal<Kernel>(point), to_cgal<Kernel>(triangle))));
 }

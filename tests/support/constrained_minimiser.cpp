@@ -8,7 +8,7 @@
 
 #include <Eigen/Cholesky>
 
-#include <glissade/haptics/motion.h>
+#include <glissade/geometry/displacement.h>
 
 #include "hull_oracle.h"
 
@@ -20,7 +20,7 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-using haptics::Displacement;
+using geometry::Displacement;
 
 constexpr double kFirstBarrier = 1e-3;  // of the energy at the start
 constexpr double kLastBarrier = 1e-13;  // joules
@@ -76,7 +76,7 @@ class BarrierMethod {
     return state;
   }
 
-  bool minimise(State& state, double barrier) {
+  bool minimize(State& state, double barrier) {
     for (int i = 0; i < kNewtonSteps; ++i) {
       differentiate(state, barrier);
       const VectorXd step = newton_step();
@@ -89,7 +89,7 @@ class BarrierMethod {
   }
 
   double energy(const Isometry3d& X_WV) const {
-    const Displacement error = haptics::displacement_between(X_WV, X_WG_, problem_.p_Vref);
+    const geometry::Displacement error = geometry::displacement_between(X_WV, X_WG_, problem_.p_Vref);
     return 0.5 * (problem_.stiffness.translational * error.v.squaredNorm() +
                   problem_.stiffness.rotational * error.w.squaredNorm());
   }
@@ -142,7 +142,7 @@ class BarrierMethod {
 
   /// Along exp(s w) the length a of the rotation vector has second derivative 1 along itself and (a/2) cot(a/2) across.
   void differentiate_energy(const Isometry3d& X_WV) {
-    const Displacement error = haptics::displacement_between(X_WV, X_WG_, problem_.p_Vref);
+    const geometry::Displacement error = geometry::displacement_between(X_WV, X_WG_, problem_.p_Vref);
     gradient_.segment<3>(0) = -problem_.stiffness.translational * error.v;
     gradient_.segment<3>(3) = -problem_.stiffness.rotational * error.w;
     const double half = 0.5 * error.w.norm();
@@ -217,8 +217,8 @@ class BarrierMethod {
   }
 
   State moved(const State& state, const VectorXd& step) const {
-    const Displacement d{step.segment<3>(0), step.segment<3>(3)};
-    State next{haptics::displaced(state.X_WV, problem_.p_Vref, d), state.planes};
+    const geometry::Displacement d{step.segment<3>(0), step.segment<3>(3)};
+    State next{geometry::displaced(state.X_WV, problem_.p_Vref, d), state.planes};
     for (std::size_t p = 0; p < next.planes.size(); ++p) {
       Plane& plane = next.planes[p];
       const auto at = static_cast<Eigen::Index>(6 + 3 * p);
@@ -256,14 +256,14 @@ RestOptimum find_rest(const RestProblem& problem, const Isometry3d& X_WG, const 
   State state = method.start_at(X_WV_start);
   RestOptimum optimum;
   for (double barrier = kFirstBarrier * method.energy(X_WV_start); barrier > kLastBarrier; barrier *= kBarrierFactor)
-    optimum.converged = method.minimise(state, barrier);
+    optimum.converged = method.minimize(state, barrier);
   optimum.X_WV = state.X_WV;
   optimum.energy = method.energy(state.X_WV);
   optimum.least_distance = least_distance(problem, state.X_WV);
   return optimum;
 }
 
-ConvexPiece piece_of(const collision::TriangleMesh& mesh, const Isometry3d& X) {
+ConvexPiece piece_of(const geometry::TriangleMesh& mesh, const Isometry3d& X) {
   ConvexPiece piece;
   for (const Vector3d& x : mesh.vertices)
     piece.emplace_back(X * x);

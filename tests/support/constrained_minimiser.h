@@ -15,8 +15,9 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/collision/triangle_mesh.h>
-#include <glissade/haptics/projection.h>
+#include <glissade/geometry/triangle_mesh.h>
+
+#include "solver/projection.h"
 
 namespace glissade::test_support {
 
@@ -49,6 +50,6 @@ RestOptimum find_rest(const RestProblem& problem, const Eigen::Isometry3d& X_WG,
                       double longest_step = std::numeric_limits<double>::infinity());
 
 /// The corners of a mesh as one piece, whose hull the mesh is supposed to be.
-ConvexPiece piece_of(const collision::TriangleMesh& mesh, const Eigen::Isometry3d& X = Eigen::Isometry3d::Identity());
+ConvexPiece piece_of(const geometry::TriangleMesh& mesh, const Eigen::Isometry3d& X = Eigen::Isometry3d::Identity());
 
 }  // namespace glissade::test_support

@@ -1,14 +1,14 @@
 #include "convex_shapes.h"
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/mesh_operations.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 namespace glissade::test_support {
 
 using Eigen::Vector3d;
 
-collision::TriangleMesh hull_mesh(std::span<const Vector3d> points) {
-  collision::TriangleMesh mesh;
+geometry::TriangleMesh hull_mesh(std::span<const Vector3d> points) {
+  geometry::TriangleMesh mesh;
   mesh.vertices.assign(points.begin(), points.end());
   const auto count = static_cast<std::int32_t>(points.size());
   const auto point = [&](std::int32_t i) { return points[static_cast<std::size_t>(i)]; };
@@ -24,19 +24,19 @@ collision::TriangleMesh hull_mesh(std::span<const Vector3d> points) {
       }
     }
   }
-  return collision::weld(mesh);
+  return geometry::weld(mesh);
 }
 
-collision::TriangleMesh random_convex_mesh(RandomNumbers& random, double radius) {
+geometry::TriangleMesh random_convex_mesh(RandomNumbers& random, double radius) {
   switch (random.integer(0, 2)) {
     case 0: {
       const double x = random.uniform(0.5, 2.0);
       const double y = random.uniform(0.5, 2.0);
       const double z = random.uniform(0.5, 2.0);
-      return collision::make_box(radius * Vector3d(x, y, z), random.chance(0.5) ? 12 : 200);
+      return geometry::make_box(radius * Vector3d(x, y, z), random.chance(0.5) ? 12 : 200);
     }
     case 1:
-      return collision::make_sphere(radius, 300);
+      return geometry::make_sphere(radius, 300);
     default:
       break;
   }

@@ -5,16 +5,16 @@
 #include <span>
 #include <vector>
 
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 #include "random_numbers.h"
 
 namespace glissade::test_support {
 
 /// The hull of a few points in general position, by trying all triples: cost O(n⁴).
-collision::TriangleMesh hull_mesh(std::span<const Eigen::Vector3d> points);
+geometry::TriangleMesh hull_mesh(std::span<const Eigen::Vector3d> points);
 
 /// A box, a sphere or a random hull, about the origin, of about this radius (metres).
-collision::TriangleMesh random_convex_mesh(RandomNumbers& random, double radius);
+geometry::TriangleMesh random_convex_mesh(RandomNumbers& random, double radius);
 
 }  // namespace glissade::test_support

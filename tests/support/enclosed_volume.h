@@ -4,14 +4,14 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 namespace glissade::test_support {
 
 /// Cubic metres, positive where triangles face outward. Of an open mesh it means nothing.
-inline double enclosed_volume(const collision::TriangleMesh& mesh) {
+inline double enclosed_volume(const geometry::TriangleMesh& mesh) {
   double volume = 0;
-  for (const collision::Triangle& t : mesh.triangles) {
+  for (const geometry::Triangle& t : mesh.triangles) {
     const auto at = [&](std::size_t i) { return mesh.vertices[static_cast<std::size_t>(t[i])]; };
     volume += at(0).dot(at(1).cross(at(2))) / 6;
   }

@@ -32,9 +32,9 @@ int hold_until_rest(haptics::SlidingSimulation& sliding, int most_calls) {
   for (int call = 1; call <= most_calls; ++call) {
     const Isometry3d X_WV = sliding.result().X_WV;
     sliding.advance(X_WG);
-    const haptics::Displacement moved =
-        haptics::displacement_between(X_WV, sliding.result().X_WV, sliding.part().p_Vref());
-    still = haptics::motion_bound(moved, sliding.part().radius()) < 1e-12 ? still + 1 : 0;
+    const geometry::Displacement moved =
+        geometry::displacement_between(X_WV, sliding.result().X_WV, sliding.part().p_Vref());
+    still = geometry::motion_bound(moved, sliding.part().radius()) < 1e-12 ? still + 1 : 0;
     if (still == 20) return call;
   }
   return -1;
@@ -67,7 +67,7 @@ double imbalance(const haptics::SlidingSimulation& sliding) {
   return norm(spring.f + contacts.f, spring.t + contacts.t) / norm(spring.f, spring.t);
 }
 
-double length_in(const haptics::CouplingStiffness& stiffness, const haptics::Displacement& d) {
+double length_in(const haptics::CouplingStiffness& stiffness, const geometry::Displacement& d) {
   return std::sqrt(stiffness.translational * d.v.squaredNorm() + stiffness.rotational * d.w.squaredNorm());
 }
 

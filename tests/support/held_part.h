@@ -11,8 +11,8 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/mesh_operations.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 
@@ -28,24 +28,23 @@ constexpr double kRestPosition_m = 0.5e-6;
 constexpr double kRestRotation_rad = 0.02e-3 * std::numbers::pi / 180.0;
 constexpr double kRestBalance = 1e-6;
 
-inline std::shared_ptr<const haptics::SlidingPart> part_of(collision::TriangleMesh mesh) {
-  return std::make_shared<const haptics::SlidingPart>(std::make_shared<const collision::TriangleMesh>(std::move(mesh)));
+inline std::shared_ptr<const haptics::SlidingPart> part_of(geometry::TriangleMesh mesh) {
+  return std::make_shared<const haptics::SlidingPart>(std::make_shared<const geometry::TriangleMesh>(std::move(mesh)));
 }
 
-inline haptics::Obstacle obstacle_of(collision::TriangleMesh mesh,
+inline haptics::Obstacle obstacle_of(geometry::TriangleMesh mesh,
                                      const Eigen::Isometry3d& X_WO = Eigen::Isometry3d::Identity()) {
-  return {
-      std::make_shared<const haptics::ContactBody>(std::make_shared<const collision::TriangleMesh>(std::move(mesh))),
-      X_WO};
+  return {std::make_shared<const haptics::ContactBody>(std::make_shared<const geometry::TriangleMesh>(std::move(mesh))),
+          X_WO};
 }
 
 inline std::shared_ptr<const haptics::SlidingPart> cube(double edge) {
-  return part_of(collision::make_box({edge, edge, edge}, 12));
+  return part_of(geometry::make_box({edge, edge, edge}, 12));
 }
 
 /// A sheet of 0.4 m across the x axis.
 inline haptics::Obstacle wall(double x) {
-  return obstacle_of(collision::make_plate({0.4, 0.4}, 2),
+  return obstacle_of(geometry::make_plate({0.4, 0.4}, 2),
                      pose({x, 0.0, 0.0}, turn(0.5 * std::numbers::pi, Eigen::Vector3d::UnitY())));
 }
 
@@ -71,6 +70,6 @@ haptics::Wrench spring_on_part(const haptics::SlidingSimulation& sliding);
 double imbalance(const haptics::SlidingSimulation& sliding);
 
 /// ‖ξ‖_K = √(ξᵀ K ξ).
-double length_in(const haptics::CouplingStiffness& stiffness, const haptics::Displacement& d);
+double length_in(const haptics::CouplingStiffness& stiffness, const geometry::Displacement& d);
 
 }  // namespace glissade::test_support

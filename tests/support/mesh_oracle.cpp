@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <glissade/collision/triangle_distance.h>
+#include <glissade/geometry/triangle_pair.h>
 
 #include "cgal_oracle.h"
 #include "triangle_points.h"
@@ -10,14 +10,14 @@
 namespace glissade::test_support {
 
 using collision::ClosePair;
-using collision::TriangleMesh;
-using collision::TrianglePoints;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using geometry::TriangleMesh;
+using geometry::TrianglePoints;
 
 namespace {
 
-double radius_of(const TriangleMesh& mesh) {
+double radius_of(const geometry::TriangleMesh& mesh) {
   double radius = 0.0;
   for (const Vector3d& vertex : mesh.vertices)
     radius = std::max(radius, vertex.norm());
@@ -26,7 +26,7 @@ double radius_of(const TriangleMesh& mesh) {
 
 }  // namespace
 
-MeshOracle::MeshOracle(const TriangleMesh& mesh_A, const TriangleMesh& mesh_B)
+MeshOracle::MeshOracle(const geometry::TriangleMesh& mesh_A, const geometry::TriangleMesh& mesh_B)
     : mesh_A_(mesh_A), mesh_B_(mesh_B), radius_A_(radius_of(mesh_A)), radius_B_(radius_of(mesh_B)) {
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh_A_.triangles.size()); ++i) {
     if (cgal_is_degenerate(points_of(mesh_A_, i))) continue;
@@ -42,20 +42,20 @@ MeshOracle::MeshOracle(const TriangleMesh& mesh_A, const TriangleMesh& mesh_B)
   }
 }
 
-MeshOracle::BoxedTriangle MeshOracle::boxed(const TrianglePoints& points, std::int32_t index) {
+MeshOracle::BoxedTriangle MeshOracle::boxed(const geometry::TrianglePoints& points, std::int32_t index) {
   return {points, points[0].cwiseMin(points[1]).cwiseMin(points[2]), points[0].cwiseMax(points[1]).cwiseMax(points[2]),
           index};
 }
 
-TrianglePoints MeshOracle::points_A(std::int32_t triangle) const {
+geometry::TrianglePoints MeshOracle::points_A(std::int32_t triangle) const {
   return points_of(mesh_A_, triangle);
 }
 
-TrianglePoints MeshOracle::points_B(std::int32_t triangle, const Isometry3d& X_AB) const {
+geometry::TrianglePoints MeshOracle::points_B(std::int32_t triangle, const Isometry3d& X_AB) const {
   return points_of(mesh_B_, triangle, X_AB);
 }
 
-bool MeshOracle::visit_near(const Isometry3d& X_AB, double distance, const Visit& visit) const {
+bool MeshOracle::traverse_near(const Isometry3d& X_AB, double distance, const Visit& visit) const {
   // A little more than asked for, so that rounding of the boxes loses nothing.
   const double reach = distance * 1.000001;
   for (const std::int32_t i : triangles_B_) {
@@ -73,13 +73,13 @@ bool MeshOracle::visit_near(const Isometry3d& X_AB, double distance, const Visit
 }
 
 bool MeshOracle::intersects(const Isometry3d& X_AB) const {
-  return visit_near(X_AB, 0.0,
-                    [](const BoxedTriangle& a, const BoxedTriangle& b) { return cgal_intersect(a.points, b.points); });
+  return traverse_near(
+      X_AB, 0.0, [](const BoxedTriangle& a, const BoxedTriangle& b) { return cgal_intersect(a.points, b.points); });
 }
 
 std::vector<collision::TrianglePair> MeshOracle::intersecting_pairs(const Isometry3d& X_AB) const {
   std::vector<collision::TrianglePair> pairs;
-  visit_near(X_AB, 0.0, [&](const BoxedTriangle& a, const BoxedTriangle& b) {
+  traverse_near(X_AB, 0.0, [&](const BoxedTriangle& a, const BoxedTriangle& b) {
     if (cgal_intersect(a.points, b.points)) pairs.push_back({a.index, b.index});
     return false;
   });
@@ -89,8 +89,8 @@ std::vector<collision::TrianglePair> MeshOracle::intersecting_pairs(const Isomet
 
 std::vector<ClosePair> MeshOracle::pairs_within(const Isometry3d& X_AB, double distance) const {
   std::vector<ClosePair> pairs;
-  visit_near(X_AB, distance, [&](const BoxedTriangle& a, const BoxedTriangle& b) {
-    const collision::TriangleDistance closest = collision::triangle_distance(a.points, b.points);
+  traverse_near(X_AB, distance, [&](const BoxedTriangle& a, const BoxedTriangle& b) {
+    const geometry::TriangleDistance closest = geometry::triangle_distance(a.points, b.points);
     if (closest.distance <= distance) pairs.push_back({{a.index, b.index}, closest.distance, closest.p_a, closest.p_b});
     return false;
   });

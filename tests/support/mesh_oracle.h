@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <glissade/collision/dop_query.h>
-#include <glissade/collision/triangle_intersection.h>
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/triangle_mesh.h>
+#include <glissade/geometry/triangle_pair.h>
 
 namespace glissade::test_support {
 
@@ -16,7 +16,7 @@ namespace glissade::test_support {
 /// Immutable, so any number of threads may ask.
 class MeshOracle {
  public:
-  MeshOracle(const collision::TriangleMesh& mesh_A, const collision::TriangleMesh& mesh_B);
+  MeshOracle(const geometry::TriangleMesh& mesh_A, const geometry::TriangleMesh& mesh_B);
 
   /// Whether any two triangles intersect, by CGAL.
   bool intersects(const Eigen::Isometry3d& X_AB) const;
@@ -28,8 +28,8 @@ class MeshOracle {
   std::vector<collision::ClosePair> pairs_within(const Eigen::Isometry3d& X_AB, double distance) const;
 
   /// The corners of both triangles in A.
-  collision::TrianglePoints points_A(std::int32_t triangle) const;
-  collision::TrianglePoints points_B(std::int32_t triangle, const Eigen::Isometry3d& X_AB) const;
+  geometry::TrianglePoints points_A(std::int32_t triangle) const;
+  geometry::TrianglePoints points_B(std::int32_t triangle, const Eigen::Isometry3d& X_AB) const;
 
   /// The farthest vertex of A, and of B, from its own origin.
   double radius_A() const { return radius_A_; }
@@ -37,18 +37,18 @@ class MeshOracle {
 
  private:
   struct BoxedTriangle {
-    collision::TrianglePoints points;
+    geometry::TrianglePoints points;
     Eigen::Array3d low;
     Eigen::Array3d high;
     std::int32_t index;
   };
   using Visit = std::function<bool(const BoxedTriangle&, const BoxedTriangle&)>;
 
-  static BoxedTriangle boxed(const collision::TrianglePoints& points, std::int32_t index);
-  bool visit_near(const Eigen::Isometry3d& X_AB, double distance, const Visit& visit) const;
+  static BoxedTriangle boxed(const geometry::TrianglePoints& points, std::int32_t index);
+  bool traverse_near(const Eigen::Isometry3d& X_AB, double distance, const Visit& visit) const;
 
-  collision::TriangleMesh mesh_A_;
-  collision::TriangleMesh mesh_B_;
+  geometry::TriangleMesh mesh_A_;
+  geometry::TriangleMesh mesh_B_;
   std::vector<BoxedTriangle> triangles_A_;  ///< in the order of their lower ends along x
   std::vector<std::int32_t> triangles_B_;   ///< those of positive area
   Eigen::Array3d low_A_ = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());

@@ -5,9 +5,8 @@
 #include <utility>
 
 #include <glissade/collision/dop_query.h>
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/triangle_distance.h>
-#include <glissade/collision/triangle_intersection.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_pair.h>
 
 #include "sweep_meshes.h"
 #include "tree_triangles.h"
@@ -15,16 +14,16 @@
 namespace glissade::test_support {
 namespace {
 
-using collision::TrianglePoints;
 using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
+using geometry::TrianglePoints;
 using haptics::PlacedBody;
 using haptics::TreeItem;
 
 /// A triangle with an area where it is placed.
 struct PlacedTriangle {
   std::int32_t number;
-  TrianglePoints points;
+  geometry::TrianglePoints points;
   AlignedBox3d box;
 };
 
@@ -53,40 +52,40 @@ const PlacedBody& body_of(std::span<const PlacedBody> bodies, std::int32_t numbe
 }
 
 /// The least distance of a part from all bodies of lower number.
-double clearance(const haptics::Surroundings& surroundings, std::size_t part) {
+double clearance(const haptics::ContactScene& scene, std::size_t part) {
   collision::QueryWorkspace workspace;
-  const std::size_t number = surroundings.body_of_part(part);
-  const PlacedBody& placed = surroundings.bodies()[number];
+  const std::size_t number = scene.body_of_part(part);
+  const PlacedBody& placed = scene.bodies()[number];
   double least = std::numeric_limits<double>::infinity();
-  for (const PlacedBody& other : surroundings.bodies().first(number)) {
-    const Isometry3d X_OP = other.X_WB.inverse(Eigen::Isometry) * placed.X_WB;
-    least = std::min(least, collision::gap_lower_bound(other.body->tree, placed.body->tree, X_OP, workspace));
+  for (const PlacedBody& other : scene.bodies().first(number)) {
+    const Isometry3d X_OV = other.X_WB.inverse(Eigen::Isometry) * placed.X_WB;
+    least = std::min(least, collision::gap_lower_bound(other.body->tree, placed.body->tree, X_OV, workspace));
   }
   return least;
 }
 
 /// Brings a part from far away towards a point, straight, until its clearance is hardly more than `gap`.
-void approach(haptics::Surroundings& surroundings, std::size_t part, double far, double gap, RandomNumbers& random) {
-  const haptics::ContactBody& body = *surroundings.bodies()[surroundings.body_of_part(part)].body;
+void approach(haptics::ContactScene& scene, std::size_t part, double far, double gap, RandomNumbers& random) {
+  const haptics::ContactBody& body = *scene.bodies()[scene.body_of_part(part)].body;
   const Eigen::Vector3d direction = random.direction();
   Isometry3d X_WV = Isometry3d::Identity();
   X_WV.linear() = random.chance(0.5) ? random.rotation() : random.cube_rotation();
   X_WV.translation() = far * direction + random.point(0.1 * far) - X_WV.linear() * body.tree.center();
-  surroundings.place(part, X_WV);
+  scene.place(part, X_WV);
   // A body comes nearer by no more than it goes.
   for (int i = 0; i < 30; ++i) {
-    const double now = clearance(surroundings, part);
+    const double now = clearance(scene, part);
     X_WV.translation() -= (now - gap) * direction;
     if (now < 1.1 * gap || X_WV.translation().dot(direction) < -far) return;  // there, or past them all
-    surroundings.place(part, X_WV);
+    scene.place(part, X_WV);
   }
 }
 
 }  // namespace
 
 double distance_of(std::span<const PlacedBody> bodies, const haptics::TrianglesOfBodies& pair) {
-  return collision::triangle_distance(body_of(bodies, pair.bodies.obstacle).triangle_W(pair.obstacle_triangle),
-                                      body_of(bodies, pair.bodies.part).triangle_W(pair.part_triangle))
+  return geometry::triangle_distance(body_of(bodies, pair.bodies.obstacle).triangle_W(pair.obstacle_triangle),
+                                     body_of(bodies, pair.bodies.part).triangle_W(pair.part_triangle))
       .distance;
 }
 
@@ -101,7 +100,7 @@ std::map<haptics::TrianglesOfBodies, double> near_triangles(std::span<const Plac
       for (const PlacedTriangle& o : placed[other]) {
         for (const PlacedTriangle& p : placed[part]) {
           if (o.box.exteriorDistance(p.box) > 1.001 * radius) continue;
-          const double distance = collision::triangle_distance(o.points, p.points).distance;
+          const double distance = geometry::triangle_distance(o.points, p.points).distance;
           if (distance > radius) continue;
           const haptics::BodyPair pair{static_cast<std::int32_t>(other), static_cast<std::int32_t>(part)};
           near[{pair, o.number, p.number}] = distance;
@@ -113,26 +112,28 @@ std::map<haptics::TrianglesOfBodies, double> near_triangles(std::span<const Plac
 }
 
 std::vector<haptics::TrianglesOfBodies> triangles_of(std::span<const PlacedBody> bodies,
-                                                     const haptics::Obligation& obligation) {
-  const std::vector<std::int32_t> of_P = triangles_of(*body_of(bodies, obligation.bodies.part).body, obligation.item_P);
+                                                     const haptics::PairToCertify& pair_to_certify) {
+  const std::vector<std::int32_t> of_V =
+      triangles_of(*body_of(bodies, pair_to_certify.bodies.part).body, pair_to_certify.item_V);
   std::vector<haptics::TrianglesOfBodies> pairs;
-  for (const std::int32_t o : triangles_of(*body_of(bodies, obligation.bodies.obstacle).body, obligation.item_O)) {
-    for (const std::int32_t p : of_P)
-      pairs.push_back({obligation.bodies, o, p});
+  for (const std::int32_t o :
+       triangles_of(*body_of(bodies, pair_to_certify.bodies.obstacle).body, pair_to_certify.item_O)) {
+    for (const std::int32_t p : of_V)
+      pairs.push_back({pair_to_certify.bodies, o, p});
   }
   return pairs;
 }
 
 std::shared_ptr<const haptics::SlidingPart> random_part(double size, RandomNumbers& random) {
-  auto mesh = std::make_shared<collision::TriangleMesh>();
+  auto mesh = std::make_shared<geometry::TriangleMesh>();
   const int kind = random.integer(0, 3);
-  if (kind == 0) *mesh = collision::make_plate({size, size * random.uniform(0.2, 1.0)}, random.integer(20, 120));
-  if (kind == 1) *mesh = collision::make_torus(0.6 * size, 0.2 * size, random.integer(60, 120));
+  if (kind == 0) *mesh = geometry::make_plate({size, size * random.uniform(0.2, 1.0)}, random.integer(20, 120));
+  if (kind == 1) *mesh = geometry::make_torus(0.6 * size, 0.2 * size, random.integer(60, 120));
   if (kind >= 2) *mesh = random_mesh(size, random.point(size), random).mesh;
   return std::make_shared<const haptics::SlidingPart>(std::move(mesh));
 }
 
-std::unique_ptr<haptics::Surroundings> random_surroundings(double size, double margin, double gap,
+std::unique_ptr<haptics::ContactScene> random_surroundings(double size, double margin, double gap,
                                                            RandomNumbers& random) {
   std::vector<haptics::Obstacle> obstacles;
   const int obstacle_count = random.integer(1, 2);
@@ -147,10 +148,10 @@ std::unique_ptr<haptics::Surroundings> random_surroundings(double size, double m
   for (int i = 0; i < part_count; ++i)
     parts.push_back(random_part(size * random.uniform(0.3, 1.0), random));
   const std::vector<double> margins(parts.size(), margin);
-  auto surroundings = std::make_unique<haptics::Surroundings>(obstacles, parts, margins);
+  auto scene = std::make_unique<haptics::ContactScene>(obstacles, parts, margins);
   for (std::size_t p = 0; p < parts.size(); ++p)
-    approach(*surroundings, p, 8.0 * size, gap, random);
-  return surroundings;
+    approach(*scene, p, 8.0 * size, gap, random);
+  return scene;
 }
 
 }  // namespace glissade::test_support

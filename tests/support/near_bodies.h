@@ -9,9 +9,8 @@
 #include <span>
 #include <vector>
 
-#include <glissade/haptics/proof_front.h>
-#include <glissade/haptics/surroundings.h>
-
+#include "certificate/pairs_to_certify.h"
+#include "scene/contact_scene.h"
 #include "random_numbers.h"
 
 namespace glissade::test_support {
@@ -24,16 +23,16 @@ double distance_of(std::span<const haptics::PlacedBody> bodies, const haptics::T
 std::map<haptics::TrianglesOfBodies, double> near_triangles(std::span<const haptics::PlacedBody> bodies,
                                                             std::size_t first_part, double radius);
 
-/// All pairs of triangles that an obligation holds.
+/// All pairs of triangles that an pair_to_certify holds.
 std::vector<haptics::TrianglesOfBodies> triangles_of(std::span<const haptics::PlacedBody> bodies,
-                                                     const haptics::Obligation& obligation);
+                                                     const haptics::PairToCertify& pair_to_certify);
 
 /// A part or obstacle of about this size (metres): what `random_mesh` makes, or a finely cut plate, or a torus.
 std::shared_ptr<const haptics::SlidingPart> random_part(double size, RandomNumbers& random);
 
 /// One or two obstacles and one or two parts of about this size, all with the same margin, that lie so that no two of
 /// them are nearer than `gap` (metres), and mostly one pair is hardly further apart.
-std::unique_ptr<haptics::Surroundings> random_surroundings(double size, double margin, double gap,
+std::unique_ptr<haptics::ContactScene> random_surroundings(double size, double margin, double gap,
                                                            RandomNumbers& random);
 
 }  // namespace glissade::test_support

@@ -13,16 +13,16 @@
 namespace glissade::test_support {
 
 using collision::ClosePair;
-using collision::TriangleMesh;
-using collision::TrianglePoints;
 using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
+using geometry::TriangleMesh;
+using geometry::TrianglePoints;
 
 namespace {
 
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
 
-std::vector<std::int32_t> triangles_with_area(const TriangleMesh& mesh) {
+std::vector<std::int32_t> triangles_with_area(const geometry::TriangleMesh& mesh) {
   std::vector<std::int32_t> result;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh.triangles.size()); ++i) {
     if (!cgal_is_degenerate(points_of(mesh, i))) result.push_back(i);
@@ -30,16 +30,16 @@ std::vector<std::int32_t> triangles_with_area(const TriangleMesh& mesh) {
   return result;
 }
 
-AlignedBox3d box_of(const TrianglePoints& points) {
+AlignedBox3d box_of(const geometry::TrianglePoints& points) {
   AlignedBox3d box(points[0]);
   return box.extend(points[1]).extend(points[2]);
 }
 
-double extent_of(const TrianglePoints& a, const TrianglePoints& b) {
+double extent_of(const geometry::TrianglePoints& a, const geometry::TrianglePoints& b) {
   return box_of(a).merged(box_of(b)).diagonal().norm();
 }
 
-double largest_coordinate(const TrianglePoints& a, const TrianglePoints& b) {
+double largest_coordinate(const geometry::TrianglePoints& a, const geometry::TrianglePoints& b) {
   const AlignedBox3d box = box_of(a).merged(box_of(b));
   return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
 }
@@ -70,29 +70,29 @@ void DistanceErrors::print() const {
       worst_relative_.load(), worst_of_extent_.load());
 }
 
-NearPairs::NearPairs(const TriangleMesh& mesh_A, const TriangleMesh& mesh_B)
+NearPairs::NearPairs(const geometry::TriangleMesh& mesh_A, const geometry::TriangleMesh& mesh_B)
     : mesh_A_(mesh_A),
       mesh_B_(mesh_B),
       triangles_A_(triangles_with_area(mesh_A)),
       triangles_B_(triangles_with_area(mesh_B)) {}
 
-TrianglePoints NearPairs::points_A(std::int32_t triangle) const {
+geometry::TrianglePoints NearPairs::points_A(std::int32_t triangle) const {
   return points_of(mesh_A_, triangle);
 }
 
-TrianglePoints NearPairs::points_B(std::int32_t triangle, const Isometry3d& X_AB) const {
+geometry::TrianglePoints NearPairs::points_B(std::int32_t triangle, const Isometry3d& X_AB) const {
   return points_of(mesh_B_, triangle, X_AB);
 }
 
 std::vector<NearPair> NearPairs::within(const Isometry3d& X_AB, double limit) const {
-  std::vector<std::pair<TrianglePoints, AlignedBox3d>> placed_B;
+  std::vector<std::pair<geometry::TrianglePoints, AlignedBox3d>> placed_B;
   for (const std::int32_t j : triangles_B_) {
-    const TrianglePoints points = points_B(j, X_AB);
+    const geometry::TrianglePoints points = points_B(j, X_AB);
     placed_B.emplace_back(points, box_of(points));
   }
   std::vector<NearPair> result;
   for (const std::int32_t i : triangles_A_) {
-    const TrianglePoints a = points_A(i);
+    const geometry::TrianglePoints a = points_A(i);
     const AlignedBox3d box_a = box_of(a);
     for (std::size_t j = 0; j < placed_B.size(); ++j) {
       const auto& [b, box_b] = placed_B[j];
@@ -113,8 +113,8 @@ std::vector<NearPair> NearPairs::within(const Isometry3d& X_AB, double limit) co
 
 std::string NearPairs::fault_of(const ClosePair& actual, const NearPair& expected, const Isometry3d& X_AB,
                                 DistanceErrors& errors) const {
-  const TrianglePoints a = points_A(expected.triangles.triangle_A);
-  const TrianglePoints b = points_B(expected.triangles.triangle_B, X_AB);
+  const geometry::TrianglePoints a = points_A(expected.triangles.triangle_A);
+  const geometry::TrianglePoints b = points_B(expected.triangles.triangle_B, X_AB);
   const double error = std::abs(actual.distance - expected.distance);
   errors.add(error, expected.distance, extent_of(a, b));
   if (!(error <= expected.doubt)) return "distance is wrong: " + expected.text();

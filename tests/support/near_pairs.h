@@ -10,8 +10,8 @@
 #include <Eigen/Geometry>
 
 #include <glissade/collision/dop_query.h>
-#include <glissade/collision/triangle_intersection.h>
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/triangle_mesh.h>
+#include <glissade/geometry/triangle_pair.h>
 
 namespace glissade::test_support {
 
@@ -39,7 +39,7 @@ class DistanceErrors {
 /// Immutable, so any number of threads may ask.
 class NearPairs {
  public:
-  NearPairs(const collision::TriangleMesh& mesh_A, const collision::TriangleMesh& mesh_B);
+  NearPairs(const geometry::TriangleMesh& mesh_A, const geometry::TriangleMesh& mesh_B);
 
   /// Every pair within `limit`, in ascending order, and some that are a little farther apart.
   std::vector<NearPair> within(const Eigen::Isometry3d& X_AB, double limit) const;
@@ -49,11 +49,11 @@ class NearPairs {
                        DistanceErrors& errors) const;
 
  private:
-  collision::TrianglePoints points_A(std::int32_t triangle) const;
-  collision::TrianglePoints points_B(std::int32_t triangle, const Eigen::Isometry3d& X_AB) const;
+  geometry::TrianglePoints points_A(std::int32_t triangle) const;
+  geometry::TrianglePoints points_B(std::int32_t triangle, const Eigen::Isometry3d& X_AB) const;
 
-  const collision::TriangleMesh& mesh_A_;
-  const collision::TriangleMesh& mesh_B_;
+  const geometry::TriangleMesh& mesh_A_;
+  const geometry::TriangleMesh& mesh_B_;
   std::vector<std::int32_t> triangles_A_;  ///< those that have an area
   std::vector<std::int32_t> triangles_B_;
 };

@@ -103,7 +103,7 @@ OdeHeldPart::~OdeHeldPart() {
 
 /// Spring to the ghost and damper to the world.
 void OdeHeldPart::State::pull(const Isometry3d& X_WV, const Isometry3d& X_WG) const {
-  const haptics::Displacement error = haptics::displacement_between(X_WV, X_WG, Vector3d::Zero());
+  const geometry::Displacement error = geometry::displacement_between(X_WV, X_WG, Vector3d::Zero());
   const Vector3d f = stiffness.translational * error.v -
                      2.0 * std::sqrt(stiffness.translational * kMass_kg) * vector(dBodyGetLinearVel(body));
   const Vector3d t = stiffness.rotational * error.w -

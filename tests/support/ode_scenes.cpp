@@ -121,10 +121,10 @@ std::vector<haptics::Obstacle> obstacles_of(const OdeScene& scene) {
   std::vector<haptics::Obstacle> obstacles;
   for (const OdePlane& plane : scene.planes) {
     const Quaterniond q = turn_from_to(Vector3d::UnitZ(), plane.n);
-    obstacles.push_back(obstacle_of(collision::make_plate({0.5, 0.5}, 2), pose(plane.d * plane.n, q)));
+    obstacles.push_back(obstacle_of(geometry::make_plate({0.5, 0.5}, 2), pose(plane.d * plane.n, q)));
   }
   for (const OdeBlock& block : scene.blocks)
-    obstacles.push_back(obstacle_of(collision::make_box(block.size, 12), block.X_W));
+    obstacles.push_back(obstacle_of(geometry::make_box(block.size, 12), block.X_W));
   return obstacles;
 }
 
@@ -151,8 +151,8 @@ std::vector<OdeScene> ode_scenes() {
 }
 
 OdeComparison compare_with_ode(const OdeScene& scene) {
-  const auto part = part_of(scene.part.radius > 0.0 ? collision::make_sphere(scene.part.radius, 50'000)
-                                                    : collision::make_box(scene.part.size, 12));
+  const auto part = part_of(scene.part.radius > 0.0 ? geometry::make_sphere(scene.part.radius, 50'000)
+                                                    : geometry::make_box(scene.part.size, 12));
   haptics::Sliding sliding(obstacles_of(scene), part, scene.X_start,
                            {.metaphor = haptics::Metaphor::kRubberBandSpring});
   lead(sliding, scene.X_WG, kWay_ms);
@@ -166,9 +166,9 @@ OdeComparison compare_with_ode(const OdeScene& scene) {
   const std::optional<int> steps = ode.settle(scene.X_WG);
   comparison.at_rest = comparison.at_rest && steps.has_value();
   comparison.ode_steps = steps.value_or(-1);
-  comparison.difference = haptics::displacement_between(ode.X_WV(), sliding.result().X_WV, Vector3d::Zero());
+  comparison.difference = geometry::displacement_between(ode.X_WV(), sliding.result().X_WV, Vector3d::Zero());
 
-  const haptics::Displacement stretch = haptics::displacement_between(ode.X_WV(), scene.X_WG, Vector3d::Zero());
+  const geometry::Displacement stretch = geometry::displacement_between(ode.X_WV(), scene.X_WG, Vector3d::Zero());
   const haptics::Wrench on_hand = haptics::spring_wrench(sliding.stiffness(), stretch);
   const haptics::Wrench ours = spring_on_part(sliding);
   const haptics::Wrench contacts = ode.contact_wrench();

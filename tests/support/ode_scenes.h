@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/haptics/motion.h>
+#include <glissade/geometry/displacement.h>
 
 #include "ode_reference.h"
 
@@ -35,15 +35,15 @@ std::vector<OdeScene> ode_scenes();
 
 /// Where both have come to rest with the ghost at `X_WG`, led there in 200 ms.
 struct OdeComparison {
-  bool at_rest = false;              ///< both
-  haptics::Displacement difference;  ///< from ODE's part to ours
-  double force = 0.0;                ///< of ODE's spring, newtons
-  double torque = 0.0;               ///< of ODE's spring, newton metres
-  double force_difference = 0.0;     ///< in parts of the force
-  double wrench_difference = 0.0;    ///< in parts of the wrench, in the norm √(|f|²/k_t + |t|²/k_r)
-  double ode_imbalance = 0.0;        ///< the same for spring and contacts of ODE
-  int ode_steps = 0;                 ///< to come to rest
-  int contacts = 0;                  ///< of ours that push
+  bool at_rest = false;               ///< both
+  geometry::Displacement difference;  ///< from ODE's part to ours
+  double force = 0.0;                 ///< of ODE's spring, newtons
+  double torque = 0.0;                ///< of ODE's spring, newton metres
+  double force_difference = 0.0;      ///< in parts of the force
+  double wrench_difference = 0.0;     ///< in parts of the wrench, in the norm √(|f|²/k_t + |t|²/k_r)
+  double ode_imbalance = 0.0;         ///< the same for spring and contacts of ODE
+  int ode_steps = 0;                  ///< to come to rest
+  int contacts = 0;                   ///< of ours that push
 };
 
 OdeComparison compare_with_ode(const OdeScene& scene);

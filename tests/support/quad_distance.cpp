@@ -8,7 +8,7 @@
 namespace glissade::test_support {
 namespace {
 
-using collision::TrianglePoints;
+using geometry::TrianglePoints;
 
 #if defined(__SIZEOF_FLOAT128__)
 __extension__ using Quad = __float128;
@@ -52,7 +52,7 @@ Point<Real> point(const Eigen::Vector3d& p) {
 }
 
 template <typename Real>
-Corners<Real> corners(const TrianglePoints& t) {
+Corners<Real> corners(const geometry::TrianglePoints& t) {
   return {point<Real>(t[0]), point<Real>(t[1]), point<Real>(t[2])};
 }
 
@@ -125,15 +125,15 @@ double root(Quad squared) {
 
 }  // namespace
 
-double quad_distance(const TrianglePoints& a, const TrianglePoints& b) {
+double quad_distance(const geometry::TrianglePoints& a, const geometry::TrianglePoints& b) {
   return root(squared_distance(corners<Quad>(a), corners<Quad>(b)));
 }
 
-double quad_distance(const Eigen::Vector3d& p, const TrianglePoints& triangle) {
+double quad_distance(const Eigen::Vector3d& p, const geometry::TrianglePoints& triangle) {
   return root(squared_to_triangle(point<Quad>(p), corners<Quad>(triangle)));
 }
 
-double rough_distance(const TrianglePoints& a, const TrianglePoints& b) {
+double rough_distance(const geometry::TrianglePoints& a, const geometry::TrianglePoints& b) {
   return static_cast<double>(std::sqrt(squared_distance(corners<long double>(a), corners<long double>(b))));
 }
 

@@ -3,17 +3,17 @@
 /// The distance of two triangles by going through all of their features in quadruple precision: slow, plain and
 /// independent of `triangle_distance.h`.
 
-#include <glissade/collision/triangle_intersection.h>
+#include <glissade/geometry/triangle_pair.h>
 
 namespace glissade::test_support {
 
 /// Distance of two closed triangles that do not intersect, rounded once; of those that do, the distance of their
 /// boundaries or less. Any of them may lack an area. Some tens of microseconds.
-double quad_distance(const collision::TrianglePoints& a, const collision::TrianglePoints& b);
+double quad_distance(const geometry::TrianglePoints& a, const geometry::TrianglePoints& b);
 
-double quad_distance(const Eigen::Vector3d& point, const collision::TrianglePoints& triangle);
+double quad_distance(const Eigen::Vector3d& point, const geometry::TrianglePoints& triangle);
 
 /// The same with a relative error of about 1e-6, in a microsecond.
-double rough_distance(const collision::TrianglePoints& a, const collision::TrianglePoints& b);
+double rough_distance(const geometry::TrianglePoints& a, const geometry::TrianglePoints& b);
 
 }  // namespace glissade::test_support

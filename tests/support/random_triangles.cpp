@@ -8,8 +8,8 @@
 namespace glissade::test_support {
 namespace {
 
-using collision::TrianglePoints;
 using Eigen::Vector3d;
+using geometry::TrianglePoints;
 
 bool has_area(const TrianglePair& pair) {
   return !cgal_is_degenerate(pair.a) && !cgal_is_degenerate(pair.b);
@@ -17,7 +17,7 @@ bool has_area(const TrianglePair& pair) {
 
 TrianglePair scaled(const TrianglePair& pair, double scale, const Vector3d& offset) {
   TrianglePair result = pair;
-  for (TrianglePoints* triangle : {&result.a, &result.b}) {
+  for (geometry::TrianglePoints* triangle : {&result.a, &result.b}) {
     for (Vector3d& corner : *triangle) {
       corner = scale * corner + offset;
     }
@@ -44,7 +44,7 @@ Vector3d RandomTriangles::point_in_cube(double half_edge) {
 TrianglePair RandomTriangles::anywhere() {
   TrianglePair pair;
   do {
-    for (TrianglePoints* triangle : {&pair.a, &pair.b}) {
+    for (geometry::TrianglePoints* triangle : {&pair.a, &pair.b}) {
       for (Vector3d& corner : *triangle) {
         corner = point_in_cube(1.0);
       }
@@ -56,7 +56,7 @@ TrianglePair RandomTriangles::anywhere() {
 TrianglePair RandomTriangles::on_lattice(int side) {
   TrianglePair pair;
   do {
-    for (TrianglePoints* triangle : {&pair.a, &pair.b}) {
+    for (geometry::TrianglePoints* triangle : {&pair.a, &pair.b}) {
       for (Vector3d& corner : *triangle) {
         for (double& coordinate : corner) {
           coordinate = integer(0, side);
@@ -67,7 +67,7 @@ TrianglePair RandomTriangles::on_lattice(int side) {
   return pair;
 }
 
-Vector3d RandomTriangles::point_of(const TrianglePoints& triangle) {
+Vector3d RandomTriangles::point_of(const geometry::TrianglePoints& triangle) {
   switch (integer(0, 3)) {
     case 0:
       return triangle[0];

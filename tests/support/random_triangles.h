@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <random>
 
-#include <glissade/collision/triangle_intersection.h>
+#include <glissade/geometry/triangle_pair.h>
 
 namespace glissade::test_support {
 
 struct TrianglePair {
-  collision::TrianglePoints a;
-  collision::TrianglePoints b;
+  geometry::TrianglePoints a;
+  geometry::TrianglePoints b;
 };
 
 /// A stream of pairs of triangles of positive area.
@@ -36,7 +36,7 @@ class RandomTriangles {
   TrianglePair nearly_coplanar();
 
  private:
-  Eigen::Vector3d point_of(const collision::TrianglePoints& triangle);
+  Eigen::Vector3d point_of(const geometry::TrianglePoints& triangle);
   Eigen::Vector3d moved_by_ulps(const Eigen::Vector3d& p);
 
   std::mt19937_64 random_;

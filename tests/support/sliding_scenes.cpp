@@ -7,12 +7,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/mesh_operations.h>
-#include <glissade/collision/peg_and_hole.h>
-#include <glissade/collision/screw_thread.h>
-#include <glissade/collision/slide_in_unit.h>
-#include <glissade/collision/spur_gear.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
+#include <glissade/shapes/peg_and_hole.h>
+#include <glissade/shapes/screw_thread.h>
+#include <glissade/shapes/slide_in_unit.h>
+#include <glissade/shapes/spur_gear.h>
 
 #include "held_part.h"
 #include "poses.h"
@@ -21,23 +21,24 @@
 namespace glissade::test_support {
 namespace {
 
-using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using geometry::TriangleMesh;
 using haptics::ContactBody;
 using std::numbers::pi;
 
-const collision::ThreadShape kBolt{.turns = 16};
-const collision::ThreadShape kNut{.turns = 4};
+const shapes::ThreadShape kBolt{.turns = 16};
+const shapes::ThreadShape kNut{.turns = 4};
 constexpr double kNutStartTurns = 1.0;
 
-std::shared_ptr<const ContactBody> body_of(TriangleMesh mesh) {
-  return std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(std::move(mesh)));
+std::shared_ptr<const ContactBody> body_of(geometry::TriangleMesh mesh) {
+  return std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(std::move(mesh)));
 }
 
-TriangleMesh flipped(const TriangleMesh& mesh, const Tessellation& tessellation, std::uint64_t seed) {
-  return tessellation.flipped ? collision::flip_randomly(mesh, seed) : mesh;
+geometry::TriangleMesh flipped(const geometry::TriangleMesh& mesh, const Tessellation& tessellation,
+                               std::uint64_t seed) {
+  return tessellation.flipped ? geometry::flip_randomly(mesh, seed) : mesh;
 }
 
 /// The box before planes through the origin that face `normals`, led through poses a second apart.
@@ -45,10 +46,10 @@ SlidingScene box_on_planes(const std::string& name, const std::vector<Vector3d>&
                            const Tessellation& tessellation, const std::vector<Isometry3d>& poses_WG) {
   SlidingScene scene;
   scene.name = name;
-  const auto sheet = body_of(flipped(collision::make_plate({0.5, 0.5}, tessellation.triangles), tessellation, 17));
+  const auto sheet = body_of(flipped(geometry::make_plate({0.5, 0.5}, tessellation.triangles), tessellation, 17));
   for (const Vector3d& normal : normals)
     scene.obstacles.push_back({sheet, pose(Vector3d::Zero(), turn_from_to(Vector3d::UnitZ(), normal)), "a plane"});
-  scene.part_V = part_of(flipped(collision::make_box(kBoxSize, std::max(12, tessellation.triangles)), tessellation, 3));
+  scene.part_V = part_of(flipped(geometry::make_box(kBoxSize, std::max(12, tessellation.triangles)), tessellation, 3));
   std::vector<Waypoint> waypoints;
   for (const Isometry3d& X_WG : poses_WG)
     waypoints.push_back({static_cast<int>(1000 * waypoints.size()), X_WG});
@@ -105,8 +106,8 @@ SlidingScene corner_scene(const Tessellation& tessellation) {
 
 SlidingScene peg_scene(const PegTrial& trial) {
   RandomNumbers random(trial.seed);
-  const collision::PegShape peg;
-  const collision::HoledPlateShape plate{.hole_radius = peg.radius + 52e-6};
+  const shapes::PegShape peg;
+  const shapes::HoledPlateShape plate{.hole_radius = peg.radius + 52e-6};
   const auto across = [&] {
     const double angle = random.uniform(-pi, pi);
     return Vector3d(std::cos(angle), std::sin(angle), 0.0);
@@ -120,8 +121,8 @@ SlidingScene peg_scene(const PegTrial& trial) {
   const Quaterniond first_tilt = turn(first_angle, across());
   SlidingScene scene;
   scene.name = "peg";
-  scene.obstacles.push_back({body_of(collision::make_holed_plate(plate)), Isometry3d::Identity(), "the plate"});
-  scene.part_V = part_of(collision::make_peg(peg));
+  scene.obstacles.push_back({body_of(shapes::make_holed_plate(plate)), Isometry3d::Identity(), "the plate"});
+  scene.part_V = part_of(shapes::make_peg(peg));
   scene.X_WV_start = pose(first_offset + Vector3d(0.0, 0.0, 10e-3), first_tilt * yaw);
   scene.ticks = 2500;
   scene.ghost = led_through({{0, scene.X_WV_start},
@@ -135,8 +136,8 @@ SlidingScene gear_scene() {
   const Quaterniond quarter = turn(pi / 2, Vector3d::UnitZ());
   SlidingScene scene;
   scene.name = "gear";
-  scene.obstacles.push_back({body_of(collision::make_gear_base({})), Isometry3d::Identity(), "the base"});
-  scene.part_V = part_of(collision::make_spur_gear({}));
+  scene.obstacles.push_back({body_of(shapes::make_gear_base({})), Isometry3d::Identity(), "the base"});
+  scene.part_V = part_of(shapes::make_spur_gear({}));
   scene.X_WV_start = pose({0.3e-3, -0.2e-3, 20e-3}, turn(0.02, {1.0, 0.0, 0.0}));
   scene.ticks = 4000;
   scene.ghost = led_through({{0, scene.X_WV_start},
@@ -151,8 +152,8 @@ SlidingScene nut_scene(double play) {
   constexpr int kTurns = 10;
   SlidingScene scene;
   scene.name = "nut";
-  scene.obstacles.push_back({body_of(collision::make_bolt(kBolt)), Isometry3d::Identity(), "the bolt"});
-  scene.part_V = part_of(collision::make_nut(kNut, play));
+  scene.obstacles.push_back({body_of(shapes::make_bolt(kBolt)), Isometry3d::Identity(), "the bolt"});
+  scene.part_V = part_of(shapes::make_nut(kNut, play));
   scene.X_WV_start = pose({0.0, 0.0, kNutStartTurns * kBolt.pitch});
   scene.ticks = 1000 * kTurns;
   scene.ghost = [X_WV_start = scene.X_WV_start, ticks = scene.ticks](int tick) -> Isometry3d {
@@ -171,13 +172,13 @@ double nut_pitch() {
 }
 
 SlidingScene bay_scene(bool tongues_give_way) {
-  const collision::SlideInShape shape;
-  collision::BayWithTongues bay = collision::make_bay_with_tongues(shape);
+  const shapes::SlideInShape shape;
+  shapes::BayWithTongues bay = shapes::make_bay_with_tongues(shape);
   SlidingScene scene;
   scene.name = "bay";
-  if (tongues_give_way) bay.mesh = collision::without_triangles(bay.mesh, bay.tongue_triangles);
+  if (tongues_give_way) bay.mesh = geometry::without_triangles(bay.mesh, bay.tongue_triangles);
   scene.obstacles.push_back({body_of(std::move(bay.mesh)), Isometry3d::Identity(), "the bay"});
-  scene.part_V = part_of(collision::make_slide_in_unit(shape));
+  scene.part_V = part_of(shapes::make_slide_in_unit(shape));
   scene.X_WV_start = pose({1e-3, -0.19, -1e-3}, turn(0.02, {0.3, 1.0, 0.2}));
   scene.ticks = 4000;
   scene.ghost = led_through({{0, scene.X_WV_start},
@@ -204,9 +205,9 @@ SlidingScene clutter_scene(std::uint64_t seed) {
     const Quaterniond q_WO(random.rotation());
     const Isometry3d X_WO = pose(random.point(kRoom), q_WO);
     if (X_WO.translation().norm() < 0.5 * size.norm() + 0.04) continue;  // the part starts there
-    scene.obstacles.push_back({body_of(collision::make_box(size, 108)), X_WO, "a box"});
+    scene.obstacles.push_back({body_of(geometry::make_box(size, 108)), X_WO, "a box"});
   }
-  scene.part_V = part_of(collision::make_box({0.06, 0.04, 0.03}, 108));
+  scene.part_V = part_of(geometry::make_box({0.06, 0.04, 0.03}, 108));
   scene.ticks = 4000;
   const Vector3d frequency = uniform_box(0.2, 0.5);  // Hz
   const Vector3d axis = random.direction();
@@ -221,15 +222,15 @@ SlidingScene clutter_scene(std::uint64_t seed) {
 SlidingScene housing_scene(int triangles, Fit fit) {
   const Vector3d room(0.2, 0.16, 0.1);
   SlidingScene scene;
-  scene.obstacles.push_back({body_of(collision::make_box(room, triangles)), Isometry3d::Identity(), "the housing"});
+  scene.obstacles.push_back({body_of(geometry::make_box(room, triangles)), Isometry3d::Identity(), "the housing"});
   Quaterniond q = Quaterniond::Identity();
   Vector3d half_size;  // how far the part reaches
   if (fit == Fit::kFlush) {
     const Vector3d size(0.06, 0.05, 0.04);
-    scene.part_V = part_of(collision::make_box(size, triangles));
+    scene.part_V = part_of(geometry::make_box(size, triangles));
     half_size = 0.5 * size;
   } else {
-    scene.part_V = part_of(collision::make_torus(0.03, 0.01, triangles));
+    scene.part_V = part_of(geometry::make_torus(0.03, 0.01, triangles));
     q = turn(0.6, {1.0, 0.4, 0.0});
     half_size = Vector3d::Constant(0.04);  // more than it is
   }
@@ -256,8 +257,8 @@ SlidingScene sheets_scene(std::uint64_t seed) {
   const Quaterniond q_WO(random.rotation());
   const Isometry3d X_WO = pose(random.point(0.5), q_WO);
   scene.obstacles.push_back(
-      {body_of(flipped(collision::make_plate({0.6, 0.6}, cut.triangles), cut, seed)), X_WO, "the sheet"});
-  scene.part_V = part_of(flipped(collision::make_plate({0.1, 0.06}, random.integer(2, 200)), cut, seed + 1));
+      {body_of(flipped(geometry::make_plate({0.6, 0.6}, cut.triangles), cut, seed)), X_WO, "the sheet"});
+  scene.part_V = part_of(flipped(geometry::make_plate({0.1, 0.06}, random.integer(2, 200)), cut, seed + 1));
   Quaterniond q_OV = turn(random.uniform(-pi, pi), Vector3d::UnitZ());
   if (!random.chance(1.0 / 3.0)) q_OV = Quaterniond(random.rotation());
   const double side = random.chance(0.5) ? 1.0 : -1.0;

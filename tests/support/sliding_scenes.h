@@ -11,7 +11,8 @@
 #include <Eigen/Geometry>
 
 #include <glissade/haptics/contact_body.h>
-#include <glissade/haptics/surroundings.h>
+
+#include "scene/contact_scene.h"
 
 namespace glissade::test_support {
 

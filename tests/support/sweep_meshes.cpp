@@ -5,27 +5,27 @@
 #include <utility>
 #include <vector>
 
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/mesh_operations.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 #include "cgal_oracle.h"
 
 namespace glissade::test_support {
 namespace {
 
-using collision::Triangle;
-using collision::TriangleMesh;
 using Eigen::Vector3d;
+using geometry::Triangle;
+using geometry::TriangleMesh;
 
-void add_triangle(const Vector3d& p, const Vector3d& q, const Vector3d& r, TriangleMesh& mesh) {
+void add_triangle(const Vector3d& p, const Vector3d& q, const Vector3d& r, geometry::TriangleMesh& mesh) {
   const auto first = static_cast<std::int32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), {p, q, r});
   mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
-TriangleMesh soup(int triangles, RandomNumbers& random) {
+geometry::TriangleMesh soup(int triangles, RandomNumbers& random) {
   const double edge = random.uniform(0.05, 0.4);
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   for (int i = 0; i < triangles; ++i) {
     const Vector3d p = random.point(0.6);
     const Vector3d q = p + random.point(edge);
@@ -35,8 +35,8 @@ TriangleMesh soup(int triangles, RandomNumbers& random) {
 }
 
 // Triangles far longer than wide, also so thin that their area is lost when they are moved.
-TriangleMesh needles(int triangles, RandomNumbers& random) {
-  TriangleMesh mesh;
+geometry::TriangleMesh needles(int triangles, RandomNumbers& random) {
+  geometry::TriangleMesh mesh;
   for (int i = 0; i < triangles; ++i) {
     const Vector3d p = random.point(0.6);
     const Vector3d along = random.uniform(0.1, 1.0) * random.direction();
@@ -46,23 +46,23 @@ TriangleMesh needles(int triangles, RandomNumbers& random) {
   return mesh;
 }
 
-TriangleMesh ribs(int triangles, RandomNumbers& random) {
+geometry::TriangleMesh ribs(int triangles, RandomNumbers& random) {
   const int count = random.integer(1, 6);
   const double width = random.power_of_ten(-3.0, -1.5);
-  std::vector<TriangleMesh> boxes;
+  std::vector<geometry::TriangleMesh> boxes;
   for (int i = 0; i < count; ++i) {
-    boxes.push_back(collision::make_box({2.0, width, 10.0 * width}, std::max(12, triangles / count)));
+    boxes.push_back(geometry::make_box({2.0, width, 10.0 * width}, std::max(12, triangles / count)));
     for (Vector3d& vertex : boxes.back().vertices)
       vertex.y() += 3.0 * width * i;
   }
-  return collision::merge(boxes);
+  return geometry::merge(boxes);
 }
 
 // Coplanar triangles in several planes, some less than a rounding error of their size apart.
-TriangleMesh layers(int triangles, RandomNumbers& random) {
+geometry::TriangleMesh layers(int triangles, RandomNumbers& random) {
   const int count = random.integer(1, 5);
   const double step = random.power_of_ten(-17.0, -1.0);
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   for (int i = 0; i < triangles; ++i) {
     const double z = step * (i % count);
     const auto point = [&] { return Vector3d(random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7), z); };
@@ -73,22 +73,22 @@ TriangleMesh layers(int triangles, RandomNumbers& random) {
   return mesh;
 }
 
-Triangle shuffled(const Triangle& triangle, RandomNumbers& random) {
-  Triangle result = triangle;
+geometry::Triangle shuffled(const geometry::Triangle& triangle, RandomNumbers& random) {
+  geometry::Triangle result = triangle;
   std::swap(result[0], result[static_cast<std::size_t>(random.integer(0, 2))]);
   std::swap(result[1], result[static_cast<std::size_t>(random.integer(1, 2))]);
   return result;
 }
 
 // Repeats some triangles, in any order of their corners, and adds some without an area.
-void spoil(TriangleMesh& mesh, RandomNumbers& random) {
+void spoil(geometry::TriangleMesh& mesh, RandomNumbers& random) {
   const auto count = mesh.triangles.size();
   const auto any_triangle = [&] {
     return mesh.triangles[static_cast<std::size_t>(random.integer(0, static_cast<int>(count) - 1))];
   };
   const int additions = random.integer(1, static_cast<int>(count) / 2);
   for (int i = 0; i < additions; ++i) {
-    const Triangle triangle = any_triangle();
+    const geometry::Triangle triangle = any_triangle();
     const int kind = random.integer(0, 3);
     if (kind == 0) mesh.triangles.push_back({triangle[0], triangle[0], triangle[0]});
     if (kind == 1) mesh.triangles.push_back({triangle[1], triangle[0], triangle[1]});
@@ -96,14 +96,14 @@ void spoil(TriangleMesh& mesh, RandomNumbers& random) {
   }
 }
 
-bool has_area(const TriangleMesh& mesh) {
+bool has_area(const geometry::TriangleMesh& mesh) {
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh.triangles.size()); ++i) {
     if (!cgal_is_degenerate({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)})) return true;
   }
   return false;
 }
 
-std::pair<TriangleMesh, std::string> random_unit_mesh(RandomNumbers& random) {
+std::pair<geometry::TriangleMesh, std::string> random_unit_mesh(RandomNumbers& random) {
   const int triangles = random.chance(0.2) ? random.integer(60, 200) : random.integer(10, 60);
   switch (random.integer(0, 6)) {
     case 0:
@@ -115,14 +115,14 @@ std::pair<TriangleMesh, std::string> random_unit_mesh(RandomNumbers& random) {
     case 3:
       return {layers(triangles, random), "layers"};
     case 4:
-      return {collision::make_box({random.uniform(0.2, 1.2), random.uniform(0.2, 1.2), 1.0}, triangles), "box"};
+      return {geometry::make_box({random.uniform(0.2, 1.2), random.uniform(0.2, 1.2), 1.0}, triangles), "box"};
     default:
       return {random_surface(triangles, random), "surface"};
   }
 }
 
-TriangleMesh integer_soup(int reach, int triangles, RandomNumbers& random) {
-  TriangleMesh mesh;
+geometry::TriangleMesh integer_soup(int reach, int triangles, RandomNumbers& random) {
+  geometry::TriangleMesh mesh;
   const auto point = [&] {
     const int x = random.integer(-reach, reach);
     const int y = random.integer(-reach, reach);
@@ -137,8 +137,8 @@ TriangleMesh integer_soup(int reach, int triangles, RandomNumbers& random) {
 }
 
 // All six faces of unit cubes, split along a random diagonal; where cubes meet, faces coincide.
-TriangleMesh cubes(int reach, int count, RandomNumbers& random) {
-  TriangleMesh mesh;
+geometry::TriangleMesh cubes(int reach, int count, RandomNumbers& random) {
+  geometry::TriangleMesh mesh;
   for (int i = 0; i < count; ++i) {
     const int x = random.integer(-reach, reach - 1);
     const int y = random.integer(-reach, reach - 1);
@@ -160,7 +160,8 @@ TriangleMesh cubes(int reach, int count, RandomNumbers& random) {
   return mesh;
 }
 
-SweepMesh finished(const TriangleMesh& unit_mesh, double size, const Vector3d& center, const std::string& kind) {
+SweepMesh finished(const geometry::TriangleMesh& unit_mesh, double size, const Vector3d& center,
+                   const std::string& kind) {
   SweepMesh result{unit_mesh, size, center, kind + ", " + std::to_string(unit_mesh.triangles.size()) + " triangles"};
   for (Vector3d& vertex : result.mesh.vertices)
     vertex = center + size * vertex;
@@ -192,8 +193,8 @@ SweepMesh random_grid_mesh(double cell, const Vector3d& center, RandomNumbers& r
   const int reach = kReaches[static_cast<std::size_t>(random.integer(0, 5))];
   for (;;) {
     const bool soup_of_triangles = random.chance(0.5);
-    TriangleMesh mesh = soup_of_triangles ? integer_soup(reach, random.integer(5, 60), random)
-                                          : cubes(reach, random.integer(1, 8), random);
+    geometry::TriangleMesh mesh = soup_of_triangles ? integer_soup(reach, random.integer(5, 60), random)
+                                                    : cubes(reach, random.integer(1, 8), random);
     const std::string kind = soup_of_triangles ? "integer soup" : "cubes";
     if (random.chance(0.2)) spoil(mesh, random);
     SweepMesh result = finished(mesh, cell, center, kind + " of reach " + std::to_string(reach));
@@ -202,7 +203,7 @@ SweepMesh random_grid_mesh(double cell, const Vector3d& center, RandomNumbers& r
   }
 }
 
-void deform(TriangleMesh& mesh, double size, RandomNumbers& random) {
+void deform(geometry::TriangleMesh& mesh, double size, RandomNumbers& random) {
   const std::vector<Vector3d> vertices = mesh.vertices;
   const auto any_vertex = [&] {
     return static_cast<std::size_t>(random.integer(0, static_cast<int>(vertices.size()) - 1));
@@ -216,18 +217,18 @@ void deform(TriangleMesh& mesh, double size, RandomNumbers& random) {
   } while (!has_area(mesh));
 }
 
-TriangleMesh random_surface(int triangles, RandomNumbers& random) {
+geometry::TriangleMesh random_surface(int triangles, RandomNumbers& random) {
   switch (random.integer(0, 4)) {
     case 0:
-      return collision::make_sphere(1.0, triangles);
+      return geometry::make_sphere(1.0, triangles);
     case 1:
-      return collision::make_torus(0.8, random.uniform(0.05, 0.5), triangles);
+      return geometry::make_torus(0.8, random.uniform(0.05, 0.5), triangles);
     case 2:
-      return collision::make_hyperboloid(random.uniform(0.1, 0.5), 0.8, 1.0, triangles);
+      return geometry::make_hyperboloid(random.uniform(0.1, 0.5), 0.8, 1.0, triangles);
     case 3:
-      return collision::make_tube(random.uniform(0.02, 0.5), 1.5, triangles);
+      return geometry::make_tube(random.uniform(0.02, 0.5), 1.5, triangles);
     default:
-      return collision::make_plate({random.uniform(0.1, 1.5), 1.5}, triangles);
+      return geometry::make_plate({random.uniform(0.1, 1.5), 1.5}, triangles);
   }
 }
 

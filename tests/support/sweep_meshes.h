@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/triangle_mesh.h>
 
 #include "random_numbers.h"
 
@@ -13,7 +13,7 @@ namespace glissade::test_support {
 
 /// A mesh somewhere in its own frame.
 struct SweepMesh {
-  collision::TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   double size;             ///< about its radius, metres
   Eigen::Vector3d center;  ///< of its bounding box
   std::string description;
@@ -28,9 +28,9 @@ SweepMesh random_grid_mesh(double cell, const Eigen::Vector3d& center, RandomNum
 
 /// Moves the vertices by up to their mesh's `size` or a small part of it, and some onto others, so that triangles lose
 /// their area; not all of them.
-void deform(collision::TriangleMesh& mesh, double size, RandomNumbers& random);
+void deform(geometry::TriangleMesh& mesh, double size, RandomNumbers& random);
 
 /// A smooth sphere, torus or plate of about `triangles` triangles, of radius about 1 and about the origin.
-collision::TriangleMesh random_surface(int triangles, RandomNumbers& random);
+geometry::TriangleMesh random_surface(int triangles, RandomNumbers& random);
 
 }  // namespace glissade::test_support

@@ -9,10 +9,10 @@
 namespace glissade::test_support {
 namespace {
 
-using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using geometry::TriangleMesh;
 
 constexpr double kLargestCenter_m = 5e8;  // trees take coordinates up to 1e9
 constexpr double kSmallestSize_m = 1e-6;
@@ -35,7 +35,7 @@ constexpr std::array<SweepFamily, 15> kFamilies{{
     {Placement::kGrid, Approach::kTouching},
 }};
 
-std::string name(Placement placement) {
+std::string name_of(Placement placement) {
   switch (placement) {
     case Placement::kNear:
       return "near";
@@ -51,7 +51,7 @@ std::string name(Placement placement) {
   return "unknown";
 }
 
-std::string name(Approach approach) {
+std::string name_of(Approach approach) {
   switch (approach) {
     case Approach::kAnywhere:
       return "anywhere";
@@ -75,12 +75,12 @@ Isometry3d meeting(const Matrix3d& R_AB, const Vector3d& p_A, const Vector3d& p_
   return placed(R_AB, p_A - R_AB * p_B);
 }
 
-std::int32_t any_triangle(const TriangleMesh& mesh, RandomNumbers& random) {
+std::int32_t any_triangle(const geometry::TriangleMesh& mesh, RandomNumbers& random) {
   return random.integer(0, static_cast<int>(mesh.triangles.size()) - 1);
 }
 
 // A corner, the middle or another point of an edge, or a point of the face.
-Vector3d feature_point(const TriangleMesh& mesh, std::int32_t triangle, RandomNumbers& random) {
+Vector3d feature_point(const geometry::TriangleMesh& mesh, std::int32_t triangle, RandomNumbers& random) {
   const Vector3d& p = mesh.corner(triangle, 0);
   const Vector3d along = mesh.corner(triangle, 1) - p;
   const Vector3d across = mesh.corner(triangle, 2) - p;
@@ -99,7 +99,7 @@ Vector3d feature_point(const TriangleMesh& mesh, std::int32_t triangle, RandomNu
 }
 
 // Axes along an edge, along the normal and across; the identity if the triangle has no area.
-Matrix3d frame_of(const TriangleMesh& mesh, std::int32_t triangle) {
+Matrix3d frame_of(const geometry::TriangleMesh& mesh, std::int32_t triangle) {
   const Vector3d along = (mesh.corner(triangle, 1) - mesh.corner(triangle, 0)).normalized();
   const Vector3d normal = along.cross(mesh.corner(triangle, 2) - mesh.corner(triangle, 0));
   const Vector3d across = along.cross(normal.normalized()).normalized();
@@ -153,7 +153,7 @@ Isometry3d pose_touching(const SweepPair& pair, RandomNumbers& random) {
   return meeting(R, p_A + nudge(pair, random), feature_point(pair.B.mesh, triangle_B, random));
 }
 
-const Vector3d& farthest_along(const Vector3d& direction, const TriangleMesh& mesh) {
+const Vector3d& farthest_along(const Vector3d& direction, const geometry::TriangleMesh& mesh) {
   return *std::max_element(mesh.vertices.begin(), mesh.vertices.end(),
                            [&](const Vector3d& u, const Vector3d& v) { return direction.dot(u) < direction.dot(v); });
 }
@@ -206,7 +206,7 @@ std::span<const SweepFamily> sweep_families() {
 }
 
 std::string family_name(const SweepFamily& family) {
-  return name(family.placement) + "/" + name(family.approach);
+  return name_of(family.placement) + "/" + name_of(family.approach);
 }
 
 SweepPair random_pair(Placement placement, RandomNumbers& random) {

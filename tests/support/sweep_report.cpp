@@ -73,7 +73,7 @@ void SweepCounts::print(double seconds) const {
   }
   std::printf("\n%-30s", "poses checked");
   for (const collision::InstructionSet set : sets_)
-    std::printf(" %10s", std::string(collision::name(set)).c_str());
+    std::printf(" %10s", std::string(collision::name_of(set)).c_str());
   std::printf("\n");
   const std::vector<collision::DopTreeOptions> variants = all_tree_options();
   for (std::size_t v = 0; v < variants.size(); ++v) {

@@ -13,7 +13,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include <glissade/collision/instruction_set.h>
+#include "kernels/instruction_set.h"
 
 namespace glissade::test_support {
 

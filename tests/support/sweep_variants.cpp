@@ -25,7 +25,7 @@ std::string variant_name(const DopTreeOptions& options) {
 }
 
 std::vector<collision::DopTree> trees_of_all_options(const SweepMesh& mesh, RandomNumbers& random) {
-  const auto shared = std::make_shared<collision::TriangleMesh>(mesh.mesh);
+  const auto shared = std::make_shared<geometry::TriangleMesh>(mesh.mesh);
   const bool refitted = random.chance(0.2);
   if (refitted) deform(*shared, mesh.size, random);
   std::vector<collision::DopTree> trees;
@@ -42,7 +42,7 @@ std::vector<collision::DopTree> trees_of_all_options(const SweepMesh& mesh, Rand
 std::vector<InstructionSet> instruction_sets(const std::string& only) {
   std::vector<InstructionSet> chosen;
   for (const InstructionSet set : collision::available_instruction_sets()) {
-    if (only.empty() || collision::name(set) == only) chosen.push_back(set);
+    if (only.empty() || collision::name_of(set) == only) chosen.push_back(set);
   }
   if (chosen.empty()) throw std::invalid_argument("instruction set '" + only + "' is not available");
   return chosen;

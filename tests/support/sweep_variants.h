@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <glissade/collision/dop_tree.h>
-#include <glissade/collision/instruction_set.h>
 
+#include "kernels/instruction_set.h"
 #include "random_numbers.h"
 #include "sweep_meshes.h"
 

@@ -6,34 +6,34 @@
 #include <cstdio>
 #include <limits>
 
-#include <glissade/collision/triangle_distance.h>
+#include <glissade/geometry/triangle_pair.h>
 
 namespace glissade::test_support {
 
-using collision::TrianglePoints;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using geometry::TrianglePoints;
 
 namespace {
 
 constexpr int kMostHalvings = 40;
 constexpr double kRounding = 1e-14;
 
-bool has_area(const TrianglePoints& t) {
-  return !collision::is_degenerate(t);
+bool has_area(const geometry::TrianglePoints& t) {
+  return !geometry::is_degenerate(t);
 }
 
-double lowest(const Vector3d& n, const TrianglePoints& t) {
+double lowest(const Vector3d& n, const geometry::TrianglePoints& t) {
   return std::min({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])});
 }
 
-double highest(const Vector3d& n, const TrianglePoints& t) {
+double highest(const Vector3d& n, const geometry::TrianglePoints& t) {
   return std::max({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])});
 }
 
 // Unit normals of the axes along which two triangles may be apart: both faces, all pairs of edges, and the edges of
 // each in its own plane. Returns the one with the widest gap, from obstacle to part; zero if there is none.
-Vector3d widest_gap(const TrianglePoints& part, const TrianglePoints& obstacle) {
+Vector3d widest_gap(const geometry::TrianglePoints& part, const geometry::TrianglePoints& obstacle) {
   Vector3d best = Vector3d::Zero();
   double best_gap = 0.0;
   const auto try_axis = [&](const Vector3d& axis) {
@@ -74,15 +74,15 @@ struct SweptCheck::Motion {
   Vector3d axis;
   double angle;
 
-  TrianglePoints at(double t, const TrianglePoints& triangle_V) const {
+  geometry::TrianglePoints at(double t, const geometry::TrianglePoints& triangle_V) const {
     const Eigen::Matrix3d R = Eigen::AngleAxisd(t * angle, axis).toRotationMatrix();
-    TrianglePoints points;
+    geometry::TrianglePoints points;
     for (std::size_t i = 0; i < 3; ++i)
       points[i] = p_W + t * v + R * (X_WV * triangle_V[i] - p_W);
     return points;
   }
 
-  double bend(const TrianglePoints& triangle_V, double duration) const {
+  double bend(const geometry::TrianglePoints& triangle_V, double duration) const {
     double radius = 0.0;
     for (const Vector3d& x_V : triangle_V)
       radius = std::max(radius, (X_WV * x_V - p_W).norm());
@@ -91,7 +91,7 @@ struct SweptCheck::Motion {
 
   // Whether the pair is apart at all times from t0 to t1: along one direction at both ends by more than the path bends,
   // or so in both halves.
-  bool apart(const TrianglePoints& triangle_V, const TrianglePoints& obstacle, double t0, double t1,
+  bool apart(const geometry::TrianglePoints& triangle_V, const geometry::TrianglePoints& obstacle, double t0, double t1,
              int halvings) const {
     const double middle = 0.5 * (t0 + t1);
     const Vector3d n = widest_gap(at(middle, triangle_V), obstacle);
@@ -105,25 +105,25 @@ struct SweptCheck::Motion {
   }
 };
 
-SweptCheck::SweptCheck(const std::vector<haptics::Obstacle>& obstacles, const collision::TriangleMesh& part_V,
+SweptCheck::SweptCheck(const std::vector<haptics::Obstacle>& obstacles, const geometry::TriangleMesh& part_V,
                        const Vector3d& p_Vref)
     : p_Vref_(p_Vref) {
   for (const haptics::Obstacle& obstacle : obstacles) {
-    const collision::TriangleMesh& mesh = obstacle.body->tree.mesh();
+    const geometry::TriangleMesh& mesh = obstacle.body->tree.mesh();
     for (std::int32_t i = 0; i < std::ssize(mesh.triangles); ++i) {
       if (!has_area({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)})) continue;
-      const TrianglePoints points{obstacle.X_WO * mesh.corner(i, 0), obstacle.X_WO * mesh.corner(i, 1),
-                                  obstacle.X_WO * mesh.corner(i, 2)};
+      const geometry::TrianglePoints points{obstacle.X_WO * mesh.corner(i, 0), obstacle.X_WO * mesh.corner(i, 1),
+                                            obstacle.X_WO * mesh.corner(i, 2)};
       obstacles_W_.push_back({points, box_of(points, 0.0)});
     }
   }
   for (std::int32_t i = 0; i < std::ssize(part_V.triangles); ++i) {
-    const TrianglePoints points{part_V.corner(i, 0), part_V.corner(i, 1), part_V.corner(i, 2)};
+    const geometry::TrianglePoints points{part_V.corner(i, 0), part_V.corner(i, 1), part_V.corner(i, 2)};
     if (has_area(points)) part_V_.push_back(points);
   }
 }
 
-SweptCheck::Box SweptCheck::box_of(const TrianglePoints& points, double margin) {
+SweptCheck::Box SweptCheck::box_of(const geometry::TrianglePoints& points, double margin) {
   return {points[0].cwiseMin(points[1]).cwiseMin(points[2]).array() - margin,
           points[0].cwiseMax(points[1]).cwiseMax(points[2]).array() + margin};
 }
@@ -136,15 +136,15 @@ void SweptCheck::select_obstacles(const Box& box) {
   }
 }
 
-std::optional<std::string> SweptCheck::fault_of(const Isometry3d& X_WV, const haptics::Displacement& d) {
+std::optional<std::string> SweptCheck::fault_of(const Isometry3d& X_WV, const geometry::Displacement& d) {
   const double angle = d.w.norm();
   const Motion motion{X_WV, X_WV * p_Vref_, d.v, angle > 0.0 ? Vector3d(d.w / angle) : Vector3d::UnitX(), angle};
   placed_.clear();
   Box all{Eigen::Array3d::Constant(std::numeric_limits<double>::infinity()),
           Eigen::Array3d::Constant(-std::numeric_limits<double>::infinity())};
-  for (const TrianglePoints& triangle_V : part_V_) {
+  for (const geometry::TrianglePoints& triangle_V : part_V_) {
     const double bend = motion.bend(triangle_V, 1.0);
-    const TrianglePoints first = motion.at(0.0, triangle_V);
+    const geometry::TrianglePoints first = motion.at(0.0, triangle_V);
     const Box from = box_of(first, bend);
     const Box to = box_of(motion.at(1.0, triangle_V), bend);
     placed_.push_back({first, {from.low.min(to.low), from.high.max(to.high)}});
@@ -159,8 +159,8 @@ std::optional<std::string> SweptCheck::fault_of(const Isometry3d& X_WV, const ha
                     "triangle %zu of the part is not proved apart from triangle %td of the obstacles: distance %.3g m "
                     "at the start, %.3g m at the end",
                     i, obstacle - obstacles_W_.data(),
-                    collision::triangle_distance(obstacle->points, placed_[i].points).distance,
-                    collision::triangle_distance(obstacle->points, motion.at(1.0, part_V_[i])).distance);
+                    geometry::triangle_distance(obstacle->points, placed_[i].points).distance,
+                    geometry::triangle_distance(obstacle->points, motion.at(1.0, part_V_[i])).distance);
       return text;
     }
   }
@@ -168,12 +168,12 @@ std::optional<std::string> SweptCheck::fault_of(const Isometry3d& X_WV, const ha
 }
 
 template <typename Visit>
-void SweptCheck::visit_near(const Isometry3d& X_WV, double limit, const Visit& visit) {
+void SweptCheck::traverse_near(const Isometry3d& X_WV, double limit, const Visit& visit) {
   placed_.clear();
   Box all{Eigen::Array3d::Constant(std::numeric_limits<double>::infinity()),
           Eigen::Array3d::Constant(-std::numeric_limits<double>::infinity())};
-  for (const TrianglePoints& t : part_V_) {
-    const TrianglePoints points{X_WV * t[0], X_WV * t[1], X_WV * t[2]};
+  for (const geometry::TrianglePoints& t : part_V_) {
+    const geometry::TrianglePoints points{X_WV * t[0], X_WV * t[1], X_WV * t[2]};
     placed_.push_back({points, box_of(points, limit)});
     all = {all.low.min(placed_.back().box.low), all.high.max(placed_.back().box.high)};
   }
@@ -181,7 +181,7 @@ void SweptCheck::visit_near(const Isometry3d& X_WV, double limit, const Visit& v
   for (const BoxedTriangle& placed : placed_) {
     for (const BoxedTriangle* obstacle : selected_) {
       if (!obstacle->box.meets(placed.box)) continue;
-      const collision::TriangleDistance d = collision::triangle_distance(obstacle->points, placed.points);
+      const geometry::TriangleDistance d = geometry::triangle_distance(obstacle->points, placed.points);
       if (d.distance <= limit && !visit(d)) return;
     }
   }
@@ -190,7 +190,7 @@ void SweptCheck::visit_near(const Isometry3d& X_WV, double limit, const Visit& v
 const std::vector<SweptCheck::NearPair>& SweptCheck::near_pairs(const Isometry3d& X_WV, double limit,
                                                                 std::size_t most) {
   near_.clear();
-  visit_near(X_WV, limit, [&](const collision::TriangleDistance& d) {
+  traverse_near(X_WV, limit, [&](const geometry::TriangleDistance& d) {
     near_.push_back({d.distance, d.p_b, d.p_a});
     return near_.size() < most;
   });
@@ -199,7 +199,7 @@ const std::vector<SweptCheck::NearPair>& SweptCheck::near_pairs(const Isometry3d
 
 double SweptCheck::distance(const Isometry3d& X_WV, double limit) {
   double least = limit;
-  visit_near(X_WV, limit, [&](const collision::TriangleDistance& d) {
+  traverse_near(X_WV, limit, [&](const geometry::TriangleDistance& d) {
     least = std::min(least, d.distance);
     return true;
   });

@@ -14,9 +14,10 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/collision/triangle_intersection.h>
-#include <glissade/haptics/motion.h>
-#include <glissade/haptics/surroundings.h>
+#include <glissade/geometry/displacement.h>
+#include <glissade/geometry/triangle_pair.h>
+
+#include "scene/contact_scene.h"
 
 namespace glissade::test_support {
 
@@ -25,11 +26,11 @@ class SweptCheck {
  public:
   /// Triangles without area are left out, as the queries do. `p_Vref` is the point p of the motion at t = 0, in the
   /// part's frame.
-  SweptCheck(const std::vector<haptics::Obstacle>& obstacles, const collision::TriangleMesh& part_V,
+  SweptCheck(const std::vector<haptics::Obstacle>& obstacles, const geometry::TriangleMesh& part_V,
              const Eigen::Vector3d& p_Vref);
 
   /// What could not be proved apart on the motion that begins at X_WV, in words; nothing if all was.
-  std::optional<std::string> fault_of(const Eigen::Isometry3d& X_WV, const haptics::Displacement& motion);
+  std::optional<std::string> fault_of(const Eigen::Isometry3d& X_WV, const geometry::Displacement& motion);
 
   /// Two triangles that are near and the points where they are nearest, world axes.
   struct NearPair {
@@ -50,18 +51,18 @@ class SweptCheck {
     bool meets(const Box& other) const { return (low <= other.high).all() && (other.low <= high).all(); }
   };
   struct BoxedTriangle {
-    collision::TrianglePoints points;
+    geometry::TrianglePoints points;
     Box box;
   };
   struct Motion;
 
-  static Box box_of(const collision::TrianglePoints& points, double margin);
+  static Box box_of(const geometry::TrianglePoints& points, double margin);
   void select_obstacles(const Box& box);
   template <typename Visit>
-  void visit_near(const Eigen::Isometry3d& X_WV, double limit, const Visit& visit);
+  void traverse_near(const Eigen::Isometry3d& X_WV, double limit, const Visit& visit);
 
   std::vector<BoxedTriangle> obstacles_W_;
-  std::vector<collision::TrianglePoints> part_V_;
+  std::vector<geometry::TrianglePoints> part_V_;
   Eigen::Vector3d p_Vref_;
   std::vector<const BoxedTriangle*> selected_;
   std::vector<BoxedTriangle> placed_;

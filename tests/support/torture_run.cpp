@@ -9,9 +9,9 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/collision/grid_check.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
+#include <glissade/reference/grid_check.h>
 
 #include "random_numbers.h"
 #include "swept_check.h"
@@ -64,7 +64,7 @@ SlidingOptions random_options(Metaphor metaphor, const SlidingPart& part, bool h
     options.rules.friction.at_rest = random.uniform(0.0, 0.8);
     options.rules.friction.sliding = random.uniform(0.0, 1.0) * options.rules.friction.at_rest;
   }
-  options.rules.anti_jam = random.chance(0.2);
+  options.rules.spiral_search = random.chance(0.2);
   return options;
 }
 
@@ -83,7 +83,7 @@ class TortureRun {
     milliseconds_ = random_.chance(0.1) ? 3.0 : 1.0;
     distance_ = swept_.distance(scene_.X_WV_start, sliding_.margin());
     start_distance_ = distance_;
-    started_near_ = distance_ < sliding_.floor();
+    started_near_ = distance_ < sliding_.min_clearance();
     counts_.scenes = 1;
     counts_.hash = kFnvOffset;
   }
@@ -95,19 +95,19 @@ class TortureRun {
   }
 
  private:
-  std::vector<collision::PlacedMesh> placed() const {
-    std::vector<collision::PlacedMesh> meshes;
+  std::vector<reference::PlacedMesh> placed() const {
+    std::vector<reference::PlacedMesh> meshes;
     for (const Obstacle& obstacle : scene_.obstacles)
-      meshes.push_back({std::make_shared<collision::TriangleMesh>(obstacle.body->tree.mesh()), obstacle.X_WO});
+      meshes.push_back({std::make_shared<geometry::TriangleMesh>(obstacle.body->tree.mesh()), obstacle.X_WO});
     return meshes;
   }
 
   const SlidingPart& part() const { return *scene_.part_V; }
 
-  double length(const Displacement& d) const { return motion_bound(d, part().radius()); }
+  double length(const geometry::Displacement& d) const { return geometry::motion_bound(d, part().radius()); }
 
-  Displacement between(const Isometry3d& from, const Isometry3d& to) const {
-    return displacement_between(from, to, part().p_Vref());
+  geometry::Displacement between(const Isometry3d& from, const Isometry3d& to) const {
+    return geometry::displacement_between(from, to, part().p_Vref());
   }
 
   void fault(const std::string& what) {
@@ -116,11 +116,11 @@ class TortureRun {
                              std::string(name_of(metaphor_)) + ", at most " +
                              std::to_string(options_.rules.max_cycles) + " cycles, " +
                              (options_.rules.friction.is_on() ? "with friction, " : "") +
-                             (options_.rules.anti_jam ? "shaken, " : "") + scene_.description);
+                             (options_.rules.spiral_search ? "shaken, " : "") + scene_.description);
   }
 
   void tick() {
-    const Isometry3d X_WG_then = sliding_.result().X_WG;
+    const Isometry3d X_WG_previous = sliding_.result().X_WG;
     const Isometry3d X_WV_then = sliding_.result().X_WV;
     const Isometry3d& X_WG = hand_.next();
     const bool released = sliding_.result().state == SlidingState::kReleased;
@@ -144,7 +144,7 @@ class TortureRun {
       check_distance(result);
     }
     if (hand_.holds()) {
-      const double ghost_motion = grasps ? 0.0 : length(between(X_WG_then, result.X_WG));
+      const double ghost_motion = grasps ? 0.0 : length(between(X_WG_previous, result.X_WG));
       check_force(ghost_motion);
       check_progress(length(between(X_WV_then, result.X_WV)), ghost_motion);
     } else {
@@ -190,16 +190,16 @@ class TortureRun {
   void check_distance(const SlidingResult& result) {
     const double before = distance_;
     distance_ = swept_.distance(result.X_WV, sliding_.margin());
-    if (distance_ >= sliding_.floor()) started_near_ = false;
-    if (!started_near_) counts_.least_of_floor = std::min(counts_.least_of_floor, distance_ / sliding_.floor());
+    if (distance_ >= sliding_.min_clearance()) started_near_ = false;
+    if (!started_near_) counts_.least_of_floor = std::min(counts_.least_of_floor, distance_ / sliding_.min_clearance());
     const double magnitude = result.X_WV.translation().cwiseAbs().maxCoeff() + part().radius();
     const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * magnitude;
-    const double allowed = std::min(sliding_.floor(), 0.95 * start_distance_);
+    const double allowed = std::min(sliding_.min_clearance(), 0.95 * start_distance_);
     if (distance_ >= allowed * (1.0 - 1e-9) - rounding) return;
     ++counts_.below_floor;
     char text[160];
     std::snprintf(text, sizeof text, "the distance is %.6g m, before it was %.6g m, the floor is %.6g m", distance_,
-                  before, sliding_.floor());
+                  before, sliding_.min_clearance());
     fault(text);
   }
 
@@ -215,7 +215,7 @@ class TortureRun {
   // Whether a part that stands still although it is wanted elsewhere had to. Friction may hold it anywhere.
   void check_progress(double moved, double ghost_motion) {
     if (options_.rules.friction.is_on()) return;
-    const Displacement error = sliding_.error();
+    const geometry::Displacement error = sliding_.error();
     const double away = length(error);
     if (!(away > kFarFromGhost_m || (ghost_motion > kGhostMoves_m && away > kGhostMoves_m))) return;
     ++counts_.wanted;
@@ -225,7 +225,7 @@ class TortureRun {
   }
 
   // The displacement that what is left of the spring's force, after the contacts' forces, would lead to.
-  Displacement unbalanced_step(const Displacement& error) const {
+  geometry::Displacement unbalanced_step(const geometry::Displacement& error) const {
     const CouplingStiffness& k = sliding_.stiffness();
     Vector3d f = k.translational * error.v;
     Vector3d t = k.rotational * error.w;
@@ -240,17 +240,17 @@ class TortureRun {
   // Projects the error on planes across the shortest lines between near triangles, and tries a short step that way: it
   // counts if it is proved free, does not go into the margin any further, and lowers the energy by a hundredth of what
   // the spring's force would do along its own direction.
-  bool could_move(const Displacement& error) {
+  bool could_move(const geometry::Displacement& error) {
     const CouplingStiffness& k = sliding_.stiffness();
     const double margin = sliding_.margin();
     const double step = std::min(kLongestTrial_m, kTrialOfRadius * part().radius());
     const Isometry3d& X_WV = sliding_.result().X_WV;
     if (!project_on_near_pairs(error, X_WV, margin + 1.5 * step)) return false;
     if (length(projection_.displacement()) < step) return false;
-    const Displacement trial =
-        projection_.displacement().scaled(fraction_within(projection_.displacement(), part().radius(), step));
-    const Isometry3d X_WV_trial = displaced(X_WV, part().p_Vref(), trial);
-    const auto energy = [&](const Displacement& d) {
+    const geometry::Displacement trial =
+        projection_.displacement().scaled(geometry::fraction_within(projection_.displacement(), part().radius(), step));
+    const Isometry3d X_WV_trial = geometry::displaced(X_WV, part().p_Vref(), trial);
+    const auto energy = [&](const geometry::Displacement& d) {
       return 0.5 * (k.translational * d.v.squaredNorm() + k.rotational * d.w.squaredNorm());
     };
     const double before = energy(error);
@@ -260,7 +260,7 @@ class TortureRun {
     return !swept_.fault_of(X_WV, trial);
   }
 
-  bool project_on_near_pairs(const Displacement& error, const Isometry3d& X_WV, double reach) {
+  bool project_on_near_pairs(const geometry::Displacement& error, const Isometry3d& X_WV, double reach) {
     const Vector3d p_Wref = X_WV * part().p_Vref();
     const auto& near = swept_.near_pairs(X_WV, reach, kMostTrialRows);
     if (near.size() == kMostTrialRows) return false;
@@ -281,7 +281,7 @@ class TortureRun {
   SlidingOptions options_;
   Sliding sliding_;
   TortureHand hand_;
-  collision::GridCheck grid_;
+  reference::GridCheck grid_;
   SweptCheck swept_;
   double milliseconds_;
   double distance_;

@@ -6,21 +6,21 @@
 #include <cstdio>
 #include <utility>
 
-#include <glissade/collision/grid_check.h>
-#include <glissade/collision/mesh_generators.h>
-#include <glissade/collision/mesh_operations.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
+#include <glissade/reference/grid_check.h>
 
 #include "sweep_meshes.h"
 
 namespace glissade::test_support {
 
-using collision::GridCheck;
-using collision::TriangleMesh;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using geometry::TriangleMesh;
 using haptics::ContactBody;
 using haptics::Obstacle;
 using haptics::SlidingPart;
+using reference::GridCheck;
 
 namespace {
 
@@ -40,8 +40,8 @@ SweepMesh random_torture_mesh(double size, RandomNumbers& random) {
   if (!random.chance(0.25)) return random_mesh(size, center, random);
   SweepMesh sheet;
   sheet.mesh =
-      collision::make_plate({size * random.uniform(0.5, 2.0), size * random.uniform(0.5, 2.0)}, random.integer(2, 60));
-  sheet.mesh = collision::flip_randomly(sheet.mesh, static_cast<std::uint64_t>(random.integer(0, 1000)));
+      geometry::make_plate({size * random.uniform(0.5, 2.0), size * random.uniform(0.5, 2.0)}, random.integer(2, 60));
+  sheet.mesh = geometry::flip_randomly(sheet.mesh, static_cast<std::uint64_t>(random.integer(0, 1000)));
   sheet.size = size;
   sheet.center = Vector3d::Zero();
   sheet.description = "sheet, " + std::to_string(sheet.mesh.triangles.size()) + " triangles";
@@ -49,8 +49,8 @@ SweepMesh random_torture_mesh(double size, RandomNumbers& random) {
 }
 
 /// Moves the part along a straight line until just before it collides, so that it starts nearer than any margin.
-void bring_near(TortureScene& scene, const GridCheck& check, RandomNumbers& random) {
-  const TriangleMesh& part = scene.part_V->tree.mesh();
+void bring_near(TortureScene& scene, const reference::GridCheck& check, RandomNumbers& random) {
+  const geometry::TriangleMesh& part = scene.part_V->tree.mesh();
   const Vector3d towards = scene.room * random.direction();
   const auto moved = [&](double t) {
     Isometry3d X_WV = scene.X_WV_start;
@@ -79,7 +79,7 @@ void add_obstacles(TortureScene& scene, RandomNumbers& random) {
       const double size = std::min(5.0, scene.size * random.power_of_ten(-0.5, 1.0));
       SweepMesh mesh = random_torture_mesh(size, random);
       scene.description += (i == 0 ? " among " : " and ") + mesh.description;
-      body = std::make_shared<ContactBody>(std::make_shared<TriangleMesh>(std::move(mesh.mesh)));
+      body = std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(std::move(mesh.mesh)));
       scene.room = std::max(scene.room, 0.7 * size);
     }
     scene.obstacles.push_back({body, random_pose(scene.origin, scene.room, random)});
@@ -97,12 +97,12 @@ TortureScene random_torture_scene(RandomNumbers& random) {
   char size_text[40];
   std::snprintf(size_text, sizeof size_text, " of %.3g mm", 1e3 * scene.size);
   scene.description = mesh.description + size_text;
-  scene.part_V = std::make_shared<SlidingPart>(std::make_shared<TriangleMesh>(std::move(mesh.mesh)));
+  scene.part_V = std::make_shared<SlidingPart>(std::make_shared<geometry::TriangleMesh>(std::move(mesh.mesh)));
   add_obstacles(scene, random);
-  std::vector<collision::PlacedMesh> placed;
+  std::vector<reference::PlacedMesh> placed;
   for (const Obstacle& obstacle : scene.obstacles)
-    placed.push_back({std::make_shared<TriangleMesh>(obstacle.body->tree.mesh()), obstacle.X_WO});
-  const GridCheck check(placed);
+    placed.push_back({std::make_shared<geometry::TriangleMesh>(obstacle.body->tree.mesh()), obstacle.X_WO});
+  const reference::GridCheck check(placed);
   do {
     scene.X_WV_start = random_pose(scene.origin, scene.room, random);
     scene.room *= 1.02;  // until there is some place
@@ -134,7 +134,7 @@ void TortureHand::begin_stretch() {
     // Into an obstacle: some corner of one of its triangles.
     const auto number = static_cast<std::size_t>(random_.integer(0, static_cast<int>(scene_.obstacles.size()) - 1));
     const Obstacle& obstacle = scene_.obstacles[number];
-    const TriangleMesh& mesh = obstacle.body->tree.mesh();
+    const geometry::TriangleMesh& mesh = obstacle.body->tree.mesh();
     const int triangle = random_.integer(0, static_cast<int>(mesh.triangles.size()) - 1);
     target_ = obstacle.X_WO * mesh.corner(triangle, random_.integer(0, 2));
   }

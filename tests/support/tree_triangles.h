@@ -7,6 +7,8 @@
 
 #include <glissade/collision/dop_tree.h>
 
+#include "tree/tree_nodes.h"
+
 namespace glissade::test_support {
 
 /// Adds the triangles with an area of a leaf.

@@ -4,19 +4,19 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/collision/triangle_intersection.h>
-#include <glissade/collision/triangle_mesh.h>
+#include <glissade/geometry/triangle_mesh.h>
+#include <glissade/geometry/triangle_pair.h>
 
 namespace glissade::test_support {
 
 /// The corners of a triangle, in the frame of its mesh.
-inline collision::TrianglePoints points_of(const collision::TriangleMesh& mesh, std::int32_t triangle) {
+inline geometry::TrianglePoints points_of(const geometry::TriangleMesh& mesh, std::int32_t triangle) {
   return {mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)};
 }
 
 /// The same in a frame in which the mesh is at X.
-inline collision::TrianglePoints points_of(const collision::TriangleMesh& mesh, std::int32_t triangle,
-                                           const Eigen::Isometry3d& X) {
+inline geometry::TrianglePoints points_of(const geometry::TriangleMesh& mesh, std::int32_t triangle,
+                                          const Eigen::Isometry3d& X) {
   return {X * mesh.corner(triangle, 0), X * mesh.corner(triangle, 1), X * mesh.corner(triangle, 2)};
 }
 

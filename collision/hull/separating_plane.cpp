@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glissade/base/assert.h>
+#include <glissade/collision/convex_hull.h>
+
+#include "hull/gjk_search.h"
+#include "hull/hull_pair.h"
+
+namespace glissade::collision {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr int kPerceptronLoops = 300;  // paper §2.2
+constexpr int kLearningSteps = 12;     // before GJK, after a large movement
+constexpr int kWideningSteps = 2;
+constexpr double kWideningTurn = 0.12;  // radians, about
+constexpr double kGoodGap = 0.7;        // of the distance of two corners
+constexpr std::int8_t kPlanesToLeave = 15;
+
+// Of the radii: how far hulls reach beyond the old plane when it has turned by some degrees, and what GJK had in hand
+// is of no use.
+constexpr double kLargeMovement = 1e-3;
+
+// Whether the corners that are remembered can be those of these hulls.
+[[maybe_unused]] bool belongs_to(const HullMemory& memory, const ConvexHull& hull_A, const ConvexHull& hull_B) {
+  const auto has = [](const ConvexHull& hull, std::int32_t corner) {
+    return corner >= 0 && static_cast<std::size_t>(corner) < hull.vertices().size();
+  };
+  if (memory.simplex_count < 0 || memory.simplex_count > 4) return false;
+  for (int i = 0; i < memory.simplex_count; ++i) {
+    const auto& corners = memory.simplex[static_cast<std::size_t>(i)];
+    if (!has(hull_A, corners[0]) || !has(hull_B, corners[1])) return false;
+  }
+  return has(hull_A, memory.corner_A) && has(hull_B, memory.corner_B);
+}
+
+// The plane between two hulls: whether the old one still separates them, and new ones.
+class PlaneSearch {
+ public:
+  explicit PlaneSearch(HullPair& hulls) : hulls_(hulls), memory_(hulls.memory()), n_guess_(memory_.n_A) {}
+
+  // The plane as it is fixed to A, then to B: only the other hull has to be looked at.
+  bool old_plane_separates() {
+    if (!memory_.has_plane) return false;
+    const Vector3d against_B = -(hulls_.R_AB().transpose() * memory_.n_A);
+    memory_.corner_B = hulls_.hull_B().support(against_B, memory_.corner_B);
+    const double gap_A =
+        memory_.n_A.dot(hulls_.p_AB()) - against_B.dot(hulls_.vertex_B(memory_.corner_B)) - memory_.reach_A;
+    if (gap_A > hulls_.climbing_margin()) {
+      memory_.gap = gap_A - hulls_.climbing_margin();
+      memory_.n_gap_A = memory_.n_A;
+      return true;
+    }
+    const Vector3d n = hulls_.R_AB() * memory_.n_B;
+    memory_.corner_A = hulls_.hull_A().support(n, memory_.corner_A);
+    const double gap_B = n.dot(hulls_.p_AB()) - memory_.reach_B - n.dot(hulls_.vertex_A(memory_.corner_A));
+    moved_far_ = -gap_B > kLargeMovement * (hulls_.hull_A().radius() + hulls_.hull_B().radius());
+    // What B reaches along n differs if R is not quite a rotation.
+    const double margin =
+        hulls_.climbing_margin() + (hulls_.R_AB().transpose() * n - memory_.n_B).lpNorm<1>() * hulls_.hull_B().reach();
+    if (!(gap_B > margin)) return false;
+    memory_.gap = gap_B - margin;
+    memory_.n_gap_A = n;
+    return true;
+  }
+
+  // From the centres, if nothing is remembered.
+  Vector3d first_normal() const {
+    if (memory_.has_plane) return memory_.n_A;
+    const Vector3d between = hulls_.R_AB() * hulls_.hull_B().center() + hulls_.p_AB() - hulls_.hull_A().center();
+    const double length = between.norm();
+    return length > 0.0 ? Vector3d(between / length) : Vector3d::UnitX();
+  }
+
+  // Begins anew if what is remembered is too old to help.
+  bool gjk_after_movement() {
+    if (memory_.has_plane && !moved_far_) return gjk_separates(hulls_, n_guess_);
+    memory_.simplex_count = 0;
+    const Vector3d n = first_normal();
+    memory_.corner_A = hulls_.hull_A().start_toward(n);
+    memory_.corner_B = hulls_.hull_B().start_toward(-(hulls_.R_AB().transpose() * n));
+    return learn(kLearningSteps) || gjk_separates(hulls_, n_guess_);
+  }
+
+  // The learning rule of the perceptron, for the two corners that are most on the wrong side: both are added to the
+  // plane at once, which leaves its distance from the origin out of account. Steps get smaller, so that it settles.
+  bool learn(int most_loops) {
+    Vector3d n = first_normal();
+    for (int loop = 0; loop < most_loops; ++loop) {
+      ++memory_.loops;
+      const Vector3d w = hulls_.extreme(n);
+      const double gap = n.dot(w);
+      if (gap > hulls_.margin()) {
+        hulls_.remember_plane(n, gap);
+        return true;
+      }
+      const double square = w.squaredNorm();
+      if (!(square > 0.0)) return false;
+      // Far enough to put these two on their sides, and a share of the step beyond.
+      const double temperature = 1.0 - static_cast<double>(loop) / most_loops;
+      n += (1.0 + temperature) * ((hulls_.margin() - gap) / square) * w;
+      const double length = n.norm();
+      if (!(length > 1e-6)) return false;
+      n /= length;
+    }
+    n_guess_ = n;
+    return false;
+  }
+
+  // Turns a new plane a little toward where the two corners are that it met first, while that makes the gap larger: so
+  // it holds for longer. They are no nearer to each other than the hulls, so most of their distance is good enough.
+  // Where hulls nearly touch there is little to be won, so after a try in vain some planes are left as they are.
+  void widen() {
+    if (memory_.planes_to_leave > 0) {
+      --memory_.planes_to_leave;
+      return;
+    }
+    for (int step = 0; step < kWideningSteps; ++step) {
+      const Vector3d w = hulls_.point(memory_.corner_A, memory_.corner_B).w;
+      const double distance = w.norm();
+      if (!(memory_.gap < kGoodGap * distance)) return;
+      const Vector3d difference = w / distance - memory_.n_A;
+      const double angle = difference.norm();
+      const Vector3d n = (memory_.n_A + std::min(1.0, kWideningTurn / angle) * difference).normalized();
+      const HullMemory before = memory_;
+      const double gap = n.dot(hulls_.extreme(n));
+      if (!(gap - hulls_.climbing_margin() > memory_.gap)) {
+        memory_ = before;
+        if (step == 0) memory_.planes_to_leave = kPlanesToLeave;
+        return;
+      }
+      hulls_.remember_plane(n, gap);
+    }
+  }
+
+ private:
+  HullPair& hulls_;
+  HullMemory& memory_;
+  Vector3d n_guess_;  ///< where the normal may be, if there is a plane in memory
+  bool moved_far_ = false;
+};
+
+}  // namespace
+
+bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Isometry3d& X_AB, HullMemory& memory,
+                 HullTest test) noexcept {
+  GLISSADE_ASSERT(belongs_to(memory, hull_A, hull_B));
+  HullPair hulls(hull_A, hull_B, X_AB, memory);
+  PlaneSearch search(hulls);
+  bool apart = false;
+  if (test == HullTest::kPerceptron) {
+    apart = search.old_plane_separates() || search.learn(kPerceptronLoops);
+  } else if (memory.met) {
+    apart = !old_corners_meet(hulls) && gjk_separates(hulls, memory.n_A);
+  } else {
+    apart = search.old_plane_separates() || search.gjk_after_movement();
+  }
+  // A plane that is new has but the gap that it was found with.
+  if (apart && test == HullTest::kExact && memory.loops > 0) search.widen();
+  memory.met = !apart;
+  return apart;
+}
+
+}  // namespace glissade::collision

@@ -1,0 +1,72 @@
+// How far cross products of two edges keep triangles apart, for 16 pairs at once. Compiled once for each instruction
+// set.
+#if defined(GLISSADE_COLLISION_LEAF_EDGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef GLISSADE_COLLISION_LEAF_EDGES_INL_H_
+#undef GLISSADE_COLLISION_LEAF_EDGES_INL_H_
+#else
+#define GLISSADE_COLLISION_LEAF_EDGES_INL_H_
+#endif
+
+#include <cstddef>
+
+#include <hwy/highway.h>
+
+#include "kernels/child_pairs.h"
+#include "kernels/leaf_frame.h"
+#include "kernels/leaf_pair.h"
+#include "kernels/triangle_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace glissade::collision::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Shorter vectors separate nothing, because the square of a gap may underflow. It is then off by 2^-149 at most, which
+// makes the gap along a vector of this length or more too large by less than kUnderflow, the root of 2^-149 over it.
+constexpr float kLeastSquare = 1e-28F;
+constexpr float kUnderflow = 4e-9F;
+
+// The square of the gap along a vector of any length, with its sign.
+template <class V>
+HWY_INLINE V signed_square_of_gap(const Vector3<V>& n, const Vector3<V> (&p)[3], const Vector3<V> (&q)[3]) {
+  const hn::DFromV<V> d;
+  const V p0 = dot(n, p[0]);
+  const V p1 = dot(n, p[1]);
+  const V p2 = dot(n, p[2]);
+  const V q0 = dot(n, q[0]);
+  const V q1 = dot(n, q[1]);
+  const V q2 = dot(n, q[2]);
+  const V gap = hn::Max(hn::Sub(hn::Min(p0, hn::Min(p1, p2)), hn::Max(q0, hn::Max(q1, q2))),
+                        hn::Sub(hn::Min(q0, hn::Min(q1, q2)), hn::Max(p0, hn::Max(p1, p2))));
+  const V square = dot(n, n);
+  return hn::IfThenElseZero(hn::Ge(square, hn::Set(d, kLeastSquare)), hn::Div(hn::Mul(gap, hn::Abs(gap)), square));
+}
+
+PairMask edges(const LeafFrame& frame, float distance, PairMask pairs, LeafPair& leaves) {
+  const hn::CappedTag<float, kPairs> d;
+  using V = hn::Vec<decltype(d)>;
+  PairMask mask = 0;
+  for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
+    const PairMask asked = pairs >> first & ((1U << hn::Lanes(d)) - 1U);
+    if (asked == 0) continue;
+    Vector3<V> p[3];
+    Vector3<V> q[3];
+    load_corners(d, leaves, first, p, q);
+    V most = hn::Zero(d);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector3<V> edge_M = minus(p[(i + 1) % 3], p[i]);
+      for (std::size_t j = 0; j < 3; ++j)
+        most = hn::Max(most, signed_square_of_gap(times(edge_M, minus(q[(j + 1) % 3], q[j])), p, q));
+    }
+    const V along_edges = hn::MulSub(hn::Sqrt(most), hn::Set(d, 0.999999F), hn::Set(d, frame.uncertainty + kUnderflow));
+    float* const gaps = leaves.gaps.gap.data() + first;
+    const V gap = hn::Max(along_edges, hn::Load(d, gaps));
+    hn::Store(gap, d, gaps);
+    mask |= bits_of(d, hn::Not(hn::Gt(gap, hn::Set(d, distance)))) << first;
+  }
+  return mask & pairs;
+}
+
+}  // namespace glissade::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

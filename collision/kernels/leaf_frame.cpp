@@ -1,0 +1,30 @@
+#include "kernels/leaf_frame.h"
+
+#include "kernels/round_up.h"
+
+namespace glissade::collision {
+
+LeafFrame::LeafFrame(const QueryFrame& frame) {
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      matrix[row][column] = static_cast<float>(
+          frame.ratio * frame.R_MN(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)));
+    }
+    p_MN[row] = static_cast<float>(frame.p_MN[static_cast<Eigen::Index>(row)]);
+  }
+  // In units of 2^-24, which is the spacing of single precision below 1, and by coordinate. Corners lie within the unit
+  // sphere and are rounded once: half a unit, for N of each coordinate, of which a row of the rotation sums up √3. Then
+  // corners of N are multiplied by rounded factors, one unit of the length, and the products rounded where there is no
+  // fused multiplication, another one, and summed up in three steps on top of a rounded translation. A unit vector sums
+  // up three coordinates (√3), and a projection rounds three products and sums of either corner once more.
+  const double reach = frame.p_MN.lpNorm<Eigen::Infinity>();
+  const double corner_M = 0.5;
+  const double corner_N = 6.0 * frame.ratio + 4.0 * reach;
+  const double projections = 5.0 * (1.0 + frame.ratio + reach);
+  corner_uncertainty = round_up_to_float(0x1p-24 * (corner_M + corner_N) + frame.uncertainty);
+  edge_uncertainty_M = round_up_to_float(0x1p-24 * (2.0 * corner_M) + 2.0 * frame.uncertainty);
+  uncertainty = round_up_to_float(1.75 * static_cast<double>(corner_uncertainty) + 0x1p-24 * 1.75 * projections +
+                                  frame.uncertainty);
+}
+
+}  // namespace glissade::collision

@@ -1,0 +1,98 @@
+#pragma once
+
+/// What the queries ask of each pair of triangles that may be near.
+
+#include <vector>
+
+#include <glissade/collision/query_types.h>
+#include <glissade/geometry/triangle_pair.h>
+
+#include "query/placed_trees.h"
+#include "query/triangle_visitor.h"
+
+namespace glissade::collision {
+
+/// Whether two triangles are within a tolerance, and their distance if that had to be found out.
+struct Nearness {
+  bool near;
+  double distance;
+};
+
+inline Nearness nearness(const geometry::TrianglePoints& a, const geometry::TrianglePoints& b, double tolerance) {
+  if (tolerance == 0.0) {
+    const bool meet = geometry::triangles_intersect(a, b);
+    return {meet, meet ? 0.0 : -1.0};
+  }
+  const double distance = geometry::triangle_distance(a, b).distance;
+  return {distance <= tolerance, distance};
+}
+
+/// Looks up the triangles of a visit.
+class PlacedVisitor : public TriangleVisitor {
+ public:
+  double distance(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) override {
+    const TrianglePair triangles = placed_.triangles(leaf_M, leaf_N, pair);
+    return geometry::triangle_distance(placed_.points_A(triangles), placed_.points_B(triangles)).distance;
+  }
+
+ protected:
+  explicit PlacedVisitor(const PlacedTrees& placed) : placed_(placed) {}
+  ~PlacedVisitor() = default;
+
+  const PlacedTrees& placed_;
+};
+
+/// Stops at the first pair within the tolerance.
+class AnyPair final : public PlacedVisitor {
+ public:
+  AnyPair(const PlacedTrees& placed, double tolerance) : PlacedVisitor(placed), tolerance_(tolerance) {}
+
+  PairOutcome visit(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) override {
+    const TrianglePair triangles = placed_.triangles(leaf_M, leaf_N, pair);
+    const Nearness found = nearness(placed_.points_A(triangles), placed_.points_B(triangles), tolerance_);
+    return {found.near, found.distance};
+  }
+  PairOutcome found(std::uint32_t, std::uint32_t, int) override { return {true, 0.0}; }
+
+ private:
+  double tolerance_;
+};
+
+/// Notes every pair within the tolerance: as triangles, or with their closest points.
+template <typename Pair>
+class PairCollector final : public PlacedVisitor {
+ public:
+  PairCollector(const PlacedTrees& placed, double tolerance, std::vector<Pair>& pairs)
+      : PlacedVisitor(placed), tolerance_(tolerance), pairs_(pairs) {}
+
+  PairOutcome visit(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) override {
+    return note(placed_.triangles(leaf_M, leaf_N, pair), false);
+  }
+  PairOutcome found(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) override {
+    return note(placed_.triangles(leaf_M, leaf_N, pair), true);
+  }
+
+ private:
+  PairOutcome note(const TrianglePair& triangles, bool intersect);
+
+  double tolerance_;
+  std::vector<Pair>& pairs_;
+};
+
+template <>
+inline PairOutcome PairCollector<TrianglePair>::note(const TrianglePair& triangles, bool intersect) {
+  const Nearness found =
+      intersect ? Nearness{true, 0.0} : nearness(placed_.points_A(triangles), placed_.points_B(triangles), tolerance_);
+  if (found.near) pairs_.push_back(triangles);
+  return {false, found.distance};
+}
+
+template <>
+inline PairOutcome PairCollector<ClosePair>::note(const TrianglePair& triangles, bool /*intersect*/) {
+  const geometry::TriangleDistance closest =
+      geometry::triangle_distance(placed_.points_A(triangles), placed_.points_B(triangles));
+  if (closest.distance <= tolerance_) pairs_.push_back({triangles, closest.distance, closest.p_a, closest.p_b});
+  return {false, closest.distance};
+}
+
+}  // namespace glissade::collision

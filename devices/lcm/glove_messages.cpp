@@ -1,0 +1,217 @@
+#include "lcm/glove_messages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glissade/lcmtypes/glove_command_t.hpp>
+#include <glissade/lcmtypes/glove_state_t.hpp>
+#include <glissade/lcmtypes/haptic_state_t.hpp>
+
+namespace glissade::devices {
+namespace {
+
+// Beyond these a number is an error of the sender, whatever the device.
+constexpr double kLargestPosition = 1e3;         // m
+constexpr double kLargestVelocity = 1e3;         // m/s
+constexpr double kLargestAngularVelocity = 1e4;  // rad/s
+constexpr double kLargestAngle = 2.0 * std::numbers::pi;
+constexpr double kLargestForce = 1e6;   // N
+constexpr double kLargestTorque = 1e6;  // Nm
+constexpr double kQuaternionTolerance = 1e-3;
+
+void put(const Eigen::Vector3d& vector, double (&out)[3]) {
+  std::copy_n(vector.data(), 3, out);
+}
+
+void put(const Eigen::Matrix3d& R, double (&wxyz)[4]) {
+  const Eigen::Quaterniond q(R);
+  wxyz[0] = q.w();
+  wxyz[1] = q.x();
+  wxyz[2] = q.y();
+  wxyz[3] = q.z();
+}
+
+Eigen::Isometry3d pose_of(const double (&position_m)[3], const double (&wxyz)[4]) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.translation() = Eigen::Vector3d(position_m);
+  X.linear() = Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized().toRotationMatrix();
+  return X;
+}
+
+template <typename Message>
+std::vector<std::uint8_t> to_bytes(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+template <typename Message>
+MessageError from_bytes(std::span<const std::uint8_t> bytes, Message& message) noexcept {
+  const int size = message.getEncodedSize();
+  if (bytes.size() != static_cast<std::size_t>(size)) return MessageError::kWrongSize;
+  return message.decode(bytes.data(), 0, size) == size ? MessageError::kNone : MessageError::kUndecodable;
+}
+
+/// Collects the worst that was found in the fields of a message.
+class FieldCheck {
+ public:
+  template <std::size_t N>
+  void magnitude(const double (&values)[N], double largest) noexcept {
+    for (const double value : values) {
+      is_finite_ = is_finite_ && std::isfinite(value);
+      is_in_range_ = is_in_range_ && std::abs(value) <= largest;
+    }
+  }
+  void unit_quaternion(const double (&wxyz)[4]) noexcept {
+    magnitude(wxyz, 2.0);
+    const double norm = Eigen::Vector4d(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).norm();
+    is_in_range_ = is_in_range_ && std::abs(norm - 1.0) <= kQuaternionTolerance;
+  }
+  void not_negative(std::int64_t value) noexcept { is_in_range_ = is_in_range_ && value >= 0; }
+
+  MessageError result() const noexcept {
+    if (!is_finite_) return MessageError::kNotFinite;
+    return is_in_range_ ? MessageError::kNone : MessageError::kOutOfRange;
+  }
+
+ private:
+  bool is_finite_ = true;
+  bool is_in_range_ = true;
+};
+
+MessageError check(const glove_state_t& message) noexcept {
+  FieldCheck fields;
+  fields.not_negative(message.sequence);
+  fields.not_negative(message.time_ns);
+  fields.magnitude(message.position_WH_m, kLargestPosition);
+  fields.unit_quaternion(message.orientation_WH_wxyz);
+  fields.magnitude(message.v_WH_m_per_s, kLargestVelocity);
+  fields.magnitude(message.w_WH_rad_per_s, kLargestAngularVelocity);
+  fields.magnitude(message.joint_angles_rad, kLargestAngle);
+  return fields.result();
+}
+
+MessageError check(const glove_command_t& message) noexcept {
+  FieldCheck fields;
+  fields.not_negative(message.sequence);
+  fields.not_negative(message.state_sequence);
+  fields.not_negative(message.time_ns);
+  fields.magnitude(message.force_H_W_N, kLargestForce);
+  fields.magnitude(message.torque_H_W_Nm, kLargestTorque);
+  fields.magnitude(message.joint_torques_Nm, kLargestTorque);
+  return fields.result();
+}
+
+MessageError check(const haptic_state_t& message) noexcept {
+  FieldCheck fields;
+  fields.not_negative(message.sequence);
+  fields.not_negative(message.time_ns);
+  fields.magnitude(message.position_WG_m, kLargestPosition);
+  fields.unit_quaternion(message.orientation_WG_wxyz);
+  fields.magnitude(message.position_WV_m, kLargestPosition);
+  fields.unit_quaternion(message.orientation_WV_wxyz);
+  fields.magnitude(message.force_on_hand_W_N, kLargestForce);
+  fields.magnitude(message.torque_on_hand_V_W_Nm, kLargestTorque);
+  fields.not_negative(message.contact_count);
+  fields.not_negative(message.contact_set_age_ns);
+  return fields.result();
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode(const GloveState& state) {
+  glove_state_t message{};
+  message.sequence = state.sequence;
+  message.time_ns = state.time.count();
+  put(Eigen::Vector3d(state.X_WH.translation()), message.position_WH_m);
+  put(Eigen::Matrix3d(state.X_WH.linear()), message.orientation_WH_wxyz);
+  put(state.v_WH, message.v_WH_m_per_s);
+  put(state.w_WH, message.w_WH_rad_per_s);
+  std::copy(state.joint_angles.begin(), state.joint_angles.end(), message.joint_angles_rad);
+  return to_bytes(message);
+}
+
+std::vector<std::uint8_t> encode(const GloveCommand& command) {
+  glove_command_t message{};
+  message.sequence = command.sequence;
+  message.state_sequence = command.state_sequence;
+  message.time_ns = command.time.count();
+  put(command.f_H_W, message.force_H_W_N);
+  put(command.t_H_W, message.torque_H_W_Nm);
+  std::copy(command.joint_torques.begin(), command.joint_torques.end(), message.joint_torques_Nm);
+  return to_bytes(message);
+}
+
+std::vector<std::uint8_t> encode(const HapticState& state) {
+  haptic_state_t message{};
+  message.sequence = state.sequence;
+  message.time_ns = state.time.count();
+  put(Eigen::Vector3d(state.X_WG.translation()), message.position_WG_m);
+  put(Eigen::Matrix3d(state.X_WG.linear()), message.orientation_WG_wxyz);
+  put(Eigen::Vector3d(state.X_WV.translation()), message.position_WV_m);
+  put(Eigen::Matrix3d(state.X_WV.linear()), message.orientation_WV_wxyz);
+  put(state.force_on_hand_W, message.force_on_hand_W_N);
+  put(state.torque_on_hand_V_W, message.torque_on_hand_V_W_Nm);
+  message.part_state = static_cast<std::int32_t>(state.part_state);
+  message.contact_count = state.contact_count;
+  message.contact_set_age_ns = state.contact_set_age.count();
+  const auto flag = [](bool is_set, std::int32_t value) { return is_set ? value : 0; };
+  message.flags = flag(state.is_in_contact, haptic_state_t::FLAG_IN_CONTACT) +
+                  flag(state.is_force_limited, haptic_state_t::FLAG_FORCE_LIMITED) +
+                  flag(state.is_contact_set_late, haptic_state_t::FLAG_CONTACT_SET_LATE) +
+                  flag(state.has_no_device, haptic_state_t::FLAG_NO_DEVICE);
+  return to_bytes(message);
+}
+
+MessageError decode(std::span<const std::uint8_t> bytes, GloveState& state) noexcept {
+  glove_state_t message{};
+  MessageError error = from_bytes(bytes, message);
+  if (error == MessageError::kNone) error = check(message);
+  if (error != MessageError::kNone) return error;
+  state.sequence = message.sequence;
+  state.time = std::chrono::nanoseconds(message.time_ns);
+  state.X_WH = pose_of(message.position_WH_m, message.orientation_WH_wxyz);
+  state.v_WH = Eigen::Vector3d(message.v_WH_m_per_s);
+  state.w_WH = Eigen::Vector3d(message.w_WH_rad_per_s);
+  std::copy_n(message.joint_angles_rad, kGloveJoints, state.joint_angles.begin());
+  return MessageError::kNone;
+}
+
+MessageError decode(std::span<const std::uint8_t> bytes, GloveCommand& command) noexcept {
+  glove_command_t message{};
+  MessageError error = from_bytes(bytes, message);
+  if (error == MessageError::kNone) error = check(message);
+  if (error != MessageError::kNone) return error;
+  command.sequence = message.sequence;
+  command.state_sequence = message.state_sequence;
+  command.time = std::chrono::nanoseconds(message.time_ns);
+  command.f_H_W = Eigen::Vector3d(message.force_H_W_N);
+  command.t_H_W = Eigen::Vector3d(message.torque_H_W_Nm);
+  std::copy_n(message.joint_torques_Nm, kGloveJoints, command.joint_torques.begin());
+  return MessageError::kNone;
+}
+
+MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noexcept {
+  haptic_state_t message{};
+  MessageError error = from_bytes(bytes, message);
+  if (error == MessageError::kNone) error = check(message);
+  if (error != MessageError::kNone) return error;
+  state.sequence = message.sequence;
+  state.time = std::chrono::nanoseconds(message.time_ns);
+  state.X_WG = pose_of(message.position_WG_m, message.orientation_WG_wxyz);
+  state.X_WV = pose_of(message.position_WV_m, message.orientation_WV_wxyz);
+  state.force_on_hand_W = Eigen::Vector3d(message.force_on_hand_W_N);
+  state.torque_on_hand_V_W = Eigen::Vector3d(message.torque_on_hand_V_W_Nm);
+  state.part_state = part_state_from_number(message.part_state);
+  state.contact_count = message.contact_count;
+  state.contact_set_age = std::chrono::nanoseconds(message.contact_set_age_ns);
+  const auto has = [&](std::int32_t flag) { return (message.flags & flag) != 0; };
+  state.is_in_contact = has(haptic_state_t::FLAG_IN_CONTACT);
+  state.is_force_limited = has(haptic_state_t::FLAG_FORCE_LIMITED);
+  state.is_contact_set_late = has(haptic_state_t::FLAG_CONTACT_SET_LATE);
+  state.has_no_device = has(haptic_state_t::FLAG_NO_DEVICE);
+  return MessageError::kNone;
+}
+
+}  // namespace glissade::devices

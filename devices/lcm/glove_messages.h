@@ -1,0 +1,31 @@
+#pragma once
+
+/// Between our types and bytes on the wire. Nothing that came over the wire is believed before it has passed here.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glissade/devices/glove_device.h>
+#include <glissade/devices/haptic_state.h>
+
+#include "lcm/link_monitor.h"
+
+namespace glissade::devices {
+
+inline constexpr const char* kGloveStateChannel = "GLOVE_STATE";
+inline constexpr const char* kGloveCommandChannel = "GLOVE_COMMAND";
+inline constexpr const char* kHapticStateChannel = "HAPTIC_STATE";
+
+std::vector<std::uint8_t> encode(const GloveState& state);
+std::vector<std::uint8_t> encode(const GloveCommand& command);
+std::vector<std::uint8_t> encode(const HapticState& state);
+
+/// Decodes and checks. Anything but kNone leaves the output alone. Never throws, whatever the bytes.
+MessageError decode(std::span<const std::uint8_t> bytes, GloveState& state) noexcept;
+MessageError decode(std::span<const std::uint8_t> bytes, GloveCommand& command) noexcept;
+/// A state of the part that this program does not know is none to it, `PartState::kUnknown`, and no error: a viewer may
+/// be older than the simulation.
+MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noexcept;
+
+}  // namespace glissade::devices

@@ -1,0 +1,48 @@
+#include "contact/contact_motion.h"
+
+#include <utility>
+
+namespace glissade::haptics {
+
+Contact carried(const Contact& contact, const Eigen::Isometry3d& X_W, const Eigen::Isometry3d& X_W_obstacle) {
+  const Eigen::Vector3d p_W = X_W * contact.p_W;
+  const Eigen::Vector3d q_W = X_W_obstacle * contact.q_W();
+  Contact moved = contact;
+  moved.gap = contact.gap + contact.n_W.dot(p_W - contact.p_W) - contact.n_W.dot(q_W - contact.q_W());
+  const bool is_vertex_of_part = contact.kind == ContactKind::kVertexFace || contact.kind == ContactKind::kVertexEdge ||
+                                 contact.kind == ContactKind::kVertexVertex;
+  moved.p_W = is_vertex_of_part ? p_W : Eigen::Vector3d(q_W + moved.gap * contact.n_W);
+  return moved;
+}
+
+Contact mirrored(const Contact& contact, std::int32_t body_of_part, std::int32_t other_part) {
+  Contact mirror = contact;
+  switch (contact.kind) {
+    case ContactKind::kVertexFace:
+      mirror.kind = ContactKind::kFaceVertex;
+      break;
+    case ContactKind::kFaceVertex:
+      mirror.kind = ContactKind::kVertexFace;
+      break;
+    case ContactKind::kVertexEdge:
+      mirror.kind = ContactKind::kEdgeVertex;
+      break;
+    case ContactKind::kEdgeVertex:
+      mirror.kind = ContactKind::kVertexEdge;
+      break;
+    case ContactKind::kEdgeEdge:
+    case ContactKind::kVertexVertex:
+    case ContactKind::kOverlap:
+      break;
+  }
+  std::swap(mirror.part_triangle, mirror.obstacle_triangle);
+  std::swap(mirror.part_feature, mirror.obstacle_feature);
+  mirror.part = other_part;
+  mirror.obstacle = body_of_part;
+  mirror.n_W = -contact.n_W;
+  mirror.p_W = contact.q_W();
+  mirror.friction_W = -contact.friction_W;
+  return mirror;
+}
+
+}  // namespace glissade::haptics

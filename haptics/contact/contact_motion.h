@@ -1,0 +1,23 @@
+#pragma once
+
+/// Contacts after their bodies have moved, and contacts of two parts as the other part sees them.
+
+#include <cstdint>
+
+#include <Eigen/Geometry>
+
+#include <glissade/haptics/sliding_result.h>
+
+namespace glissade::haptics {
+
+/// The contact after its part has moved by X_W and its obstacle by X_W_obstacle (both in the world), to first order:
+/// the normal stays; a vertex of the part stays where it is on the part, otherwise the obstacle's point stays where it
+/// is on the obstacle.
+Contact carried(const Contact& contact, const Eigen::Isometry3d& X_W,
+                const Eigen::Isometry3d& X_W_obstacle = Eigen::Isometry3d::Identity());
+
+/// A contact of two parts as the other one sees it: `body_of_part` is the number among the bodies of the part that has
+/// the contact, `other_part` the number among the parts of the other.
+Contact mirrored(const Contact& contact, std::int32_t body_of_part, std::int32_t other_part);
+
+}  // namespace glissade::haptics

@@ -1,0 +1,281 @@
+#include "contact/contact_search.h"
+
+#include <algorithm>
+
+#include "contact/triangle_features.h"
+
+namespace glissade::haptics {
+namespace {
+
+using geometry::MeshTopology;
+using geometry::TriangleMesh;
+using geometry::TrianglePoints;
+
+/// In margins: how near contacts are whose rims are looked at, by how much two gaps may differ that count as the same,
+/// and how far past its end an edge is looked for that goes straight on there.
+constexpr double kNearRims = 2.0;
+constexpr double kAsNear = 0.1;
+constexpr double kPastEnd = 0.1;
+
+/// One side of a pair, part or obstacle: its mesh in world coordinates and what its triangle answers for.
+class Side {
+ public:
+  explicit Side(double sign) : sign_(sign) {}
+
+  /// The body must stay where it is until the next call.
+  void select(const PlacedBody& placed, std::int32_t triangle) {
+    mesh_ = &placed.body->tree.mesh();
+    topology_ = &placed.body->topology;
+    X_WB_ = &placed.X_WB;
+    triangle_ = triangle;
+    points_ = placed.triangle_W(triangle);
+    bounds_ = Eigen::AlignedBox3d(points_[0]);
+    bounds_.extend(points_[1]).extend(points_[2]);
+  }
+
+  /// Whether the selected triangle may be within `distance` of that of the other side.
+  bool may_be_near(const Side& other, double distance) const {
+    return bounds_.squaredExteriorDistance(other.bounds_) <= distance * distance;
+  }
+
+  std::int32_t triangle() const { return triangle_; }
+  const Eigen::Vector3d& corner(int i) const { return points_[static_cast<std::size_t>(i)]; }
+
+  /// Numbers in the mesh of corner / edge i.
+  std::int32_t vertex(int i) const {
+    return mesh_->triangles[static_cast<std::size_t>(triangle_)][static_cast<std::size_t>(i)];
+  }
+  std::int32_t edge(int i) const { return topology_->edges_of(triangle_)[static_cast<std::size_t>(i)]; }
+
+  /// Whether the selected triangle answers for its corner / edge i, and that feature can stop anything.
+  bool owns_corner(int i) const { return topology_->answers_for_corner(triangle_, i); }
+  bool owns_edge(int i) const { return topology_->answers_for_edge(triangle_, i); }
+  /// Whether a point on the line of edge i, at the part s of it, is inside the edge, or past an end by no more than
+  /// `tolerance` where the rim goes straight on: what crosses a rim just there must not slip through between two edges.
+  bool is_on_edge(int i, double s, double tolerance) const {
+    if (s > 0.0 && s < 1.0) return true;
+    const int end = s <= 0.0 ? i : (i + 1) % 3;
+    const double past = s <= 0.0 ? -s : s - 1.0;
+    const double squared_length = (corner((i + 1) % 3) - corner(i)).squaredNorm();
+    return past * past * squared_length <= tolerance * tolerance && !topology_->can_stop(vertex(end));
+  }
+  /// The point of the selected triangle closest to x. Where that is a vertex inside a straight rim, the one of its
+  /// edges that x lies beside, as `is_on_edge` has it.
+  ClosestOnTriangle closest_to(const Eigen::Vector3d& x, double tolerance) const {
+    const ClosestOnTriangle on = closest_on_triangle(x, points_);
+    if (on.region != Region::kVertex || topology_->can_stop(vertex(on.index))) return on;
+    for (const int i : {on.index, (on.index + 2) % 3}) {
+      if (!owns_edge(i)) continue;
+      const Eigen::Vector3d along = corner((i + 1) % 3) - corner(i);
+      const double s = along.dot(x - corner(i)) / along.squaredNorm();
+      if (is_on_edge(i, s, tolerance)) return {corner(i) + s * along, Region::kEdge, i};
+    }
+    return on;
+  }
+  /// Whether no neighbor of corner / edge i lies nearer to the other side than it by more than `tolerance`, along the
+  /// normal n (from obstacle to part).
+  bool corner_is_nearest(int i, const Eigen::Vector3d& n, double tolerance) const {
+    return none_nearer(topology_->neighbors_of(vertex(i)), corner(i), n, tolerance);
+  }
+  bool edge_is_nearest(int i, const Eigen::Vector3d& n, double tolerance) const {
+    return none_nearer(topology_->apexes_of(edge(i)), corner(i), n, tolerance);
+  }
+  /// The edge of the selected triangle, not flat, that x lies within `tolerance` of; −1 if there is none.
+  std::int32_t rim_near(const Eigen::Vector3d& x, double tolerance) const {
+    for (int i = 0; i < 3; ++i) {
+      if (topology_->edges()[static_cast<std::size_t>(edge(i))].flat) continue;
+      const Eigen::Vector3d along = corner((i + 1) % 3) - corner(i);
+      if (along.cross(x - corner(i)).squaredNorm() <= tolerance * tolerance * along.squaredNorm()) return edge(i);
+    }
+    return -1;
+  }
+
+ private:
+  bool none_nearer(std::span<const std::int32_t> vertices, const Eigen::Vector3d& x_W, const Eigen::Vector3d& n,
+                   double tolerance) const {
+    for (const std::int32_t v : vertices) {
+      const Eigen::Vector3d y_W = *X_WB_ * mesh_->vertices[static_cast<std::size_t>(v)];
+      if (sign_ * n.dot(y_W - x_W) < -tolerance) return false;
+    }
+    return true;
+  }
+
+  const geometry::TriangleMesh* mesh_ = nullptr;
+  const geometry::MeshTopology* topology_ = nullptr;
+  const Eigen::Isometry3d* X_WB_ = nullptr;
+  double sign_;  // +1 for the part, from which the normal points away; −1 for the obstacle
+  std::int32_t triangle_ = -1;
+  geometry::TrianglePoints points_;
+  Eigen::AlignedBox3d bounds_;  // of these
+};
+
+class ContactSearch {
+ public:
+  ContactSearch(std::span<const PlacedBody> bodies, std::size_t first_part, double reach, double margin,
+                std::vector<Contact>& contacts)
+      : bodies_(bodies),
+        first_part_(static_cast<std::int32_t>(first_part)),
+        reach_(reach),
+        margin_(margin),
+        contacts_(contacts) {}
+
+  void search(const CandidatePair& pair) {
+    obstacle_number_ = pair.bodies.obstacle;
+    part_number_ = pair.bodies.part - first_part_;
+    part_.select(bodies_[static_cast<std::size_t>(pair.bodies.part)], pair.part_triangle);
+    obstacle_.select(bodies_[static_cast<std::size_t>(pair.bodies.obstacle)], pair.obstacle_triangle);
+    // Candidates were near where the parts were some steps ago.
+    if (!part_.may_be_near(obstacle_, reach_)) return;
+    for (int i = 0; i < 3; ++i) {
+      if (part_.owns_corner(i)) search_part_corner(i);
+      if (obstacle_.owns_corner(i)) search_obstacle_corner(i);
+      if (part_.owns_edge(i)) search_part_edge(i);
+    }
+  }
+
+  /// A vertex over a face, no further from a rim of it than the margin, where one of its edges crosses that rim: past
+  /// the rim there is room, which both constraints together would deny. The one of the edges is as near, and enough.
+  void leave_out_what_rims_hold() {
+    std::erase_if(rims_, [&](const AtRim& rim) { return !rim_holds(contacts_[rim.contact], rim.edge); });
+    std::size_t kept = 0;
+    auto rim = rims_.begin();
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      if (rim != rims_.end() && rim->contact == i) {
+        ++rim;
+      } else {
+        contacts_[kept++] = contacts_[i];
+      }
+    }
+    contacts_.resize(kept);
+  }
+
+ private:
+  /// A contact of a vertex that is over a face near an edge of it.
+  struct AtRim {
+    std::size_t contact;
+    std::int32_t edge;
+  };
+
+  /// Of the contact that is added next.
+  void note_rim(std::int32_t edge) {
+    if (edge >= 0) rims_.push_back({contacts_.size(), edge});
+  }
+
+  bool rim_holds(const Contact& contact, std::int32_t edge) const {
+    const bool is_part_vertex = contact.kind == ContactKind::kVertexFace;
+    const auto body = static_cast<std::size_t>(is_part_vertex ? contact.part + first_part_ : contact.obstacle);
+    const geometry::MeshTopology& topology = bodies_[body].body->topology;
+    const std::int32_t vertex = is_part_vertex ? contact.part_feature : contact.obstacle_feature;
+    return std::any_of(crossings_.begin(), crossings_.end(), [&](std::size_t i) {
+      const Contact& other = contacts_[i];
+      if (other.part != contact.part || other.obstacle != contact.obstacle ||
+          other.gap > contact.gap + kAsNear * margin_ ||
+          (is_part_vertex ? other.obstacle_feature : other.part_feature) != edge) {
+        return false;
+      }
+      const std::int32_t crossing = is_part_vertex ? other.part_feature : other.obstacle_feature;
+      const auto& ends = topology.edges()[static_cast<std::size_t>(crossing)].vertices;
+      return ends[0] == vertex || ends[1] == vertex;
+    });
+  }
+
+  void search_part_corner(int i) {
+    const Eigen::Vector3d& x = part_.corner(i);
+    const ClosestOnTriangle on = obstacle_.closest_to(x, kPastEnd * margin_);
+    Eigen::Vector3d n;
+    const double gap = gap_and_normal(on.point, x, n);
+    if (gap < 0.0) return;
+    switch (on.region) {
+      case Region::kFace:
+        if (gap <= kNearRims * margin_) note_rim(obstacle_.rim_near(on.point, margin_));
+        add(ContactKind::kVertexFace, part_.vertex(i), obstacle_.triangle(), n, x, gap);
+        break;
+      case Region::kEdge:
+        if (obstacle_.owns_edge(on.index) && obstacle_.edge_is_nearest(on.index, n, margin_) &&
+            part_.corner_is_nearest(i, n, margin_)) {
+          add(ContactKind::kVertexEdge, part_.vertex(i), obstacle_.edge(on.index), n, x, gap);
+        }
+        break;
+      case Region::kVertex:
+        if (obstacle_.owns_corner(on.index) && obstacle_.corner_is_nearest(on.index, n, margin_) &&
+            part_.corner_is_nearest(i, n, margin_)) {
+          add(ContactKind::kVertexVertex, part_.vertex(i), obstacle_.vertex(on.index), n, x, gap);
+        }
+        break;
+    }
+  }
+
+  void search_obstacle_corner(int i) {
+    const Eigen::Vector3d& y = obstacle_.corner(i);
+    const ClosestOnTriangle on = part_.closest_to(y, kPastEnd * margin_);
+    Eigen::Vector3d n;
+    const double gap = gap_and_normal(y, on.point, n);
+    if (gap < 0.0 || on.region == Region::kVertex) return;  // vertex–vertex is found from the part's side
+    if (on.region == Region::kFace) {
+      if (gap <= kNearRims * margin_) note_rim(part_.rim_near(on.point, margin_));
+      add(ContactKind::kFaceVertex, part_.triangle(), obstacle_.vertex(i), n, on.point, gap);
+    } else if (part_.owns_edge(on.index) && part_.edge_is_nearest(on.index, n, margin_) &&
+               obstacle_.corner_is_nearest(i, n, margin_)) {
+      add(ContactKind::kEdgeVertex, part_.edge(on.index), obstacle_.vertex(i), n, on.point, gap);
+    }
+  }
+
+  void search_part_edge(int i) {
+    for (int j = 0; j < 3; ++j) {
+      if (!obstacle_.owns_edge(j)) continue;
+      SegmentPoints closest;
+      if (!closest_points_of_lines(part_.corner(i), part_.corner((i + 1) % 3), obstacle_.corner(j),
+                                   obstacle_.corner((j + 1) % 3), closest) ||
+          !part_.is_on_edge(i, closest.along_p, kPastEnd * margin_) ||
+          !obstacle_.is_on_edge(j, closest.along_q, kPastEnd * margin_)) {
+        continue;
+      }
+      Eigen::Vector3d n;
+      const double gap = gap_and_normal(closest.q, closest.p, n);
+      if (gap < 0.0 || !part_.edge_is_nearest(i, n, margin_) || !obstacle_.edge_is_nearest(j, n, margin_)) continue;
+      if (gap <= (kNearRims + kAsNear) * margin_) crossings_.push_back(contacts_.size());
+      add(ContactKind::kEdgeEdge, part_.edge(i), obstacle_.edge(j), n, closest.p, gap);
+    }
+  }
+
+  /// The gap between a point of the obstacle and one of the part, −1 where it is out of reach or has no direction.
+  double gap_and_normal(const Eigen::Vector3d& q, const Eigen::Vector3d& p, Eigen::Vector3d& n) const {
+    n = p - q;
+    const double gap = n.norm();
+    if (gap > reach_ || gap == 0.0) return -1.0;
+    n /= gap;
+    return gap;
+  }
+
+  void add(ContactKind kind, std::int32_t part_feature, std::int32_t obstacle_feature, const Eigen::Vector3d& n,
+           const Eigen::Vector3d& p, double gap) {
+    contacts_.push_back({kind, part_.triangle(), obstacle_number_, obstacle_.triangle(), n, p, gap, 0.0, part_feature,
+                         obstacle_feature, part_number_});
+  }
+
+  std::span<const PlacedBody> bodies_;
+  std::int32_t first_part_;
+  Side part_{1.0};
+  Side obstacle_{-1.0};
+  std::int32_t obstacle_number_ = -1;
+  std::int32_t part_number_ = 0;
+  double reach_;
+  double margin_;
+  std::vector<Contact>& contacts_;
+  std::vector<AtRim> rims_;             // ascending
+  std::vector<std::size_t> crossings_;  // contacts of two edges that are near
+};
+
+}  // namespace
+
+void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part,
+                   std::span<const CandidatePair> candidates, double reach, double margin,
+                   std::vector<Contact>& contacts) {
+  contacts.clear();
+  ContactSearch search(bodies, first_part, reach, margin, contacts);
+  for (const CandidatePair& pair : candidates)
+    search.search(pair);
+  search.leave_out_what_rims_hold();
+}
+
+}  // namespace glissade::haptics

@@ -1,0 +1,46 @@
+#include <algorithm>
+#include <stdexcept>
+
+#include <glissade/devices/glove_device.h>
+#include <glissade/haptics/coupling.h>
+
+namespace glissade::haptics {
+
+CouplingStiffness default_stiffness(double radius) {
+  constexpr double kTranslational_N_per_m = 1000.0;
+  return {kTranslational_N_per_m, kTranslational_N_per_m * radius * radius};
+}
+
+Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted) {
+  constexpr double kDampingTime_s = 5e-3;
+  if (!(device.max_stiffness > 0.0 && device.max_rotational_stiffness > 0.0)) {
+    throw std::invalid_argument("device '" + device.name +
+                                "': it must render some stiffness against translation and rotation");
+  }
+  Coupling coupling;
+  coupling.stiffness.translational = std::min(wanted.translational, device.max_stiffness);
+  coupling.stiffness.rotational = std::min(wanted.rotational, device.max_rotational_stiffness);
+  coupling.damping.translational = std::min(kDampingTime_s * coupling.stiffness.translational, device.max_damping);
+  coupling.damping.rotational = kDampingTime_s * coupling.stiffness.rotational;
+  return coupling;
+}
+
+Wrench about_point(const Wrench& wrench, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  return {wrench.f, wrench.t + (from - to).cross(wrench.f)};
+}
+
+Wrench spring_wrench(const CouplingStiffness& stiffness, const geometry::Displacement& error) {
+  return {-stiffness.translational * error.v, -stiffness.rotational * error.w};
+}
+
+Wrench damper_wrench(const CouplingDamping& damping, const Wrench& spring, const Velocity& ghost) {
+  const auto along = [](const Eigen::Vector3d& push, double coefficient, const Eigen::Vector3d& velocity) {
+    const double magnitude = push.norm();
+    if (magnitude == 0.0) return Eigen::Vector3d(Eigen::Vector3d::Zero());
+    const Eigen::Vector3d direction = push / magnitude;
+    return Eigen::Vector3d(std::clamp(-coefficient * velocity.dot(direction), -magnitude, magnitude) * direction);
+  };
+  return {along(spring.f, damping.translational, ghost.v), along(spring.t, damping.rotational, ghost.w)};
+}
+
+}  // namespace glissade::haptics

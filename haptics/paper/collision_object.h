@@ -1,0 +1,59 @@
+#pragma once
+
+/// The founding paper's collision object (§3.1): an invisible copy of the part that may be put anywhere, to see whether
+/// it collides there.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/collision/dop_query.h>
+#include <glissade/haptics/contact_body.h>
+
+#include "scene/contact_scene.h"
+
+namespace glissade::haptics {
+
+/// Two triangles that touch: p of the part and q of an obstacle.
+struct TouchingPair {
+  std::int32_t obstacle;           ///< number among the obstacles
+  std::int32_t obstacle_triangle;  ///< q
+  std::int32_t part_triangle;      ///< p
+
+  auto operator<=>(const TouchingPair&) const = default;
+};
+
+/// Static, exact checks (`dop_query.h`) of the part against each obstacle. Deterministic. Not thread-safe.
+class CollisionObject {
+ public:
+  /// Throws std::invalid_argument when there is no obstacle, and for an obstacle whose pose is none.
+  CollisionObject(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_C);
+
+  std::span<const Obstacle> obstacles() const { return obstacles_; }
+  const SlidingPart& part() const { return *part_C_; }
+
+  /// The number of an obstacle that the part at X_WC touches, −1 if there is none.
+  int obstacle_hit_at(const Eigen::Isometry3d& X_WC);
+  bool collides(const Eigen::Isometry3d& X_WC) { return obstacle_hit_at(X_WC) >= 0; }
+
+  /// Replaces `pairs` by all triangles of the part at X_WC and of obstacles that touch, in ascending order.
+  void touching_pairs(const Eigen::Isometry3d& X_WC, std::vector<TouchingPair>& pairs);
+
+  /// How often any of this was asked.
+  std::int64_t queries() const { return queries_; }
+
+ private:
+  Eigen::Isometry3d pose_in_obstacle(std::size_t obstacle, const Eigen::Isometry3d& X_WC) const;
+
+  std::vector<Obstacle> obstacles_;
+  std::shared_ptr<const SlidingPart> part_C_;
+  // Poses of one bisection jump about, too far for what coherent queries remember.
+  collision::QueryWorkspace workspace_;
+  std::vector<collision::TrianglePair> triangles_;
+  std::int64_t queries_ = 0;
+};
+
+}  // namespace glissade::haptics

@@ -1,0 +1,265 @@
+#include "paper/paper_sliding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <glissade/geometry/rigid_pose.h>
+
+#include "sliding/wanted_pose.h"
+
+namespace glissade::haptics {
+namespace {
+
+constexpr double kLeastBracket_m = 1e-9;  // bisection ends far above rounding
+constexpr double kNoProgress = 1.0;       // brackets: less is none
+constexpr double kRoom = 0.5;             // brackets: a contact that is nearer asks for so much
+
+ContactKind told_kind(PaperContactKind kind) {
+  switch (kind) {
+    case PaperContactKind::kVertexFace:
+      return ContactKind::kVertexFace;
+    case PaperContactKind::kFaceVertex:
+      return ContactKind::kFaceVertex;
+    case PaperContactKind::kEdgeEdge:
+      return ContactKind::kEdgeEdge;
+    case PaperContactKind::kUnclear:
+      break;
+  }
+  return ContactKind::kVertexVertex;
+}
+
+}  // namespace
+
+PaperSliding::PaperSliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,
+                           const Eigen::Isometry3d& X_WV_start, const PaperSlidingOptions& options)
+    : collision_object_(std::move(obstacles), std::move(part_V)),
+      stiffness_(options.stiffness.value_or(default_stiffness(part().radius()))),
+      metaphor_(options.metaphor),
+      bracket_(options.bracket),
+      max_cycles_(options.max_cycles) {
+  if (!(bracket_ >= kLeastBracket_m)) {
+    throw std::invalid_argument("a bracket of " + std::to_string(1e9 * bracket_) + " nm is less than a nanometre");
+  }
+  const std::optional<Eigen::Isometry3d> X_WV = geometry::rigid_pose(X_WV_start);
+  if (!X_WV) throw std::invalid_argument("the start pose of the part is not a rotation and translation");
+  if (const int hit = collision_object_.obstacle_hit_at(*X_WV); hit >= 0) {
+    const std::string& name = collision_object_.obstacles()[static_cast<std::size_t>(hit)].name;
+    throw std::invalid_argument("the part collides with " + name + " at its start pose");
+  }
+  result_.X_WG = *X_WV;
+  result_.X_WT = *X_WV;
+  result_.X_WV = *X_WV;
+}
+
+void PaperSliding::grasp(const Eigen::Isometry3d& X_WG) {
+  const std::optional<Eigen::Isometry3d> rigid = geometry::rigid_pose(X_WG);
+  if (!rigid) return;
+  result_.X_WG = *rigid;
+  let_rest(SlidingState::kFree);
+}
+
+void PaperSliding::release() {
+  result_.X_WG = result_.X_WV;
+  let_rest(SlidingState::kReleased);
+}
+
+/// Nothing is wanted of the part, so nothing pushes it.
+void PaperSliding::let_rest(SlidingState state) {
+  result_.X_WT = result_.X_WV;
+  result_.state = state;
+  result_.contacts.clear();
+  result_.pushing = 0;
+  result_.cycles = 0;
+  states_.clear();
+}
+
+const SlidingResult& PaperSliding::advance(const Eigen::Isometry3d& X_WG_given, double milliseconds) {
+  const std::optional<Eigen::Isometry3d> rigid = geometry::rigid_pose(X_WG_given);
+  if (!rigid || result_.state == SlidingState::kReleased) return result_;
+  X_WG_previous_ = result_.X_WG;
+  result_.X_WG = *rigid;
+  want();
+  const double ghost_motion =
+      geometry::motion_bound(geometry::displacement_between(X_WG_previous_, *rigid, part().p_Vref()), part().radius());
+  budget_ = metaphor_ == Metaphor::kForceFeedback ? kSlew_m * milliseconds + 2.0 * ghost_motion
+                                                  : std::numeric_limits<double>::infinity();
+  moved_ = 0.0;
+  moved_in_cycle_ = 0.0;
+  stalled_cycles_ = 0;
+  contacts_.clear();
+  result_.cycles = 0;
+  states_.clear();
+  for (PaperState state = PaperState::kMoving; state != PaperState::kDone; state = next_state(state, work(state)))
+    states_.push_back(state);
+  states_.push_back(PaperState::kDone);
+  tell_contacts();
+  result_.state = summary();
+  return result_;
+}
+
+void PaperSliding::want() {
+  result_.X_WT = wanted_pose(metaphor_, result_.X_WV, X_WG_previous_, result_.X_WG, part().p_Vref());
+}
+
+PaperEvent PaperSliding::work(PaperState state) {
+  switch (state) {
+    case PaperState::kMoving:
+      return go(error());
+    case PaperState::kBisecting:
+      return bisect();
+    case PaperState::kClassifying:
+      return classify();
+    case PaperState::kNewDirection:
+      return choose_direction();
+    case PaperState::kCriterion:
+      return evaluate_criterion();
+    case PaperState::kSliding:
+      return go(direction_);
+    case PaperState::kDone:
+      break;
+  }
+  return PaperEvent::kStop;
+}
+
+/// Moves the collision object, and the visible one after it where it is free.
+PaperEvent PaperSliding::go(const geometry::Displacement& displacement) {
+  const double fraction = geometry::fraction_within(displacement, part().radius(), budget_);
+  attempt_ = displacement.scaled(fraction);
+  const bool whole_way = fraction == 1.0 && states_.back() == PaperState::kMoving;
+  // An arrival copies the wanted pose, so that the coupling wrench is zero and not merely small.
+  X_WC_ = whole_way ? result_.X_WT : geometry::displaced(result_.X_WV, part().p_Vref(), attempt_);
+  if (collision_object_.collides(X_WC_)) return PaperEvent::kCollision;
+  place_visible(X_WC_, geometry::motion_bound(attempt_, part().radius()));
+  return PaperEvent::kFree;
+}
+
+/// Interval bisection between the visible object, which is free, and the collision object, which is not.
+PaperEvent PaperSliding::bisect() {
+  ++result_.cycles;
+  const double length = attempt_.v.norm() + attempt_.w.norm() * part().radius();
+  double free = 0.0;
+  double colliding = 1.0;
+  Eigen::Isometry3d X_WV = result_.X_WV;
+  while ((colliding - free) * length > bracket_) {
+    const double middle = 0.5 * (free + colliding);
+    const Eigen::Isometry3d X_W = geometry::displaced(result_.X_WV, part().p_Vref(), attempt_.scaled(middle));
+    if (collision_object_.collides(X_W)) {
+      colliding = middle;
+      X_WC_ = X_W;
+    } else {
+      free = middle;
+      X_WV = X_W;
+    }
+  }
+  if (free > 0.0) place_visible(X_WV, geometry::motion_bound(attempt_.scaled(free), part().radius()));
+  return PaperEvent::kWorked;
+}
+
+void PaperSliding::place_visible(const Eigen::Isometry3d& X_WV, double length) {
+  result_.X_WV = X_WV;
+  budget_ -= length;
+  moved_ += length;
+  moved_in_cycle_ += length;
+  if (metaphor_ == Metaphor::kRubberBand) want();  // it wants what turns with the part
+}
+
+/// Contacts that were left behind hold no more; of one that is found again, the newer account counts.
+PaperEvent PaperSliding::classify() {
+  std::erase_if(contacts_, [&](const PaperContact& c) { return c.gap_at(result_.X_WV) > held_within(); });
+  collision_object_.touching_pairs(X_WC_, touching_);
+  found_.clear();
+  classify_contacts(collision_object_.obstacles(), part(), touching_, X_WC_, result_.X_WV, held_within(), found_);
+  found_.insert(found_.end(), contacts_.begin(), contacts_.end());
+  keep_first_of_each(found_);
+  found_contact_ = found_.size() > contacts_.size();
+  contacts_.swap(found_);
+  return PaperEvent::kWorked;
+}
+
+/// With rotation first. A rotation that ends at once at the contacts it was to turn about, as the room of a bracket is
+/// soon used up by the bend of its path, is left out the next time. A contact that the part touches but for rounding
+/// would let it go nowhere, so contacts ask for half a bracket of room (ours) where not in each other's way.
+PaperEvent PaperSliding::choose_direction() {
+  const bool progress = moved_in_cycle_ >= kNoProgress * bracket_ || found_contact_;
+  stalled_cycles_ = progress ? 0 : stalled_cycles_ + 1;
+  moved_in_cycle_ = 0.0;
+  if (stalled_cycles_ == 0) {
+    const std::optional<geometry::Displacement> with_room =
+        new_motion(error(), stiffness_, contact_rows(kRoom * bracket_), solver_);
+    direction_ = with_room
+                     ? *with_room
+                     : new_motion(error(), stiffness_, contact_rows(0.0), solver_).value_or(geometry::Displacement{});
+  } else {
+    normals_.clear();
+    for (const PaperContact& contact : contacts_)
+      normals_.push_back(contact.n_W);
+    direction_ = {new_translation(error().v, normals_).v, Eigen::Vector3d::Zero()};
+  }
+  return PaperEvent::kWorked;
+}
+
+/// The number of iterations, and three distances: how far the part came in this cycle, how far the new direction leads,
+/// and what the metaphor's speed leaves.
+PaperEvent PaperSliding::evaluate_criterion() {
+  const double least = kNoProgress * bracket_;
+  const bool stop = result_.cycles >= max_cycles_ || stalled_cycles_ > 1 ||
+                    geometry::motion_bound(direction_, part().radius()) < least || budget_ < least;
+  return stop ? PaperEvent::kStop : PaperEvent::kGoOn;
+}
+
+/// Contacts nearer than `room` (metres) ask for it.
+std::span<const ConstraintRow> PaperSliding::contact_rows(double room) {
+  const Eigen::Vector3d p_Wref = result_.X_WV * part().p_Vref();
+  rows_.clear();
+  for (const PaperContact& contact : contacts_)
+    rows_.push_back(
+        {contact.n_W, result_.X_WV * contact.p_V - p_Wref, std::clamp(room - contact.gap_at(result_.X_WV), 0.0, room)});
+  return rows_;
+}
+
+void PaperSliding::tell_contacts() {
+  std::erase_if(contacts_, [&](const PaperContact& c) { return c.gap_at(result_.X_WV) > held_within(); });
+  result_.contacts.clear();
+  for (const PaperContact& contact : contacts_) {
+    Contact told{};
+    told.kind = told_kind(contact.features.kind);
+    if (contact.features.kind != PaperContactKind::kUnclear) {
+      told.part_feature = contact.features.of_part;
+      told.obstacle_feature = contact.features.of_obstacle;
+    }
+    told.part_triangle = contact.part_triangle;
+    told.obstacle = contact.features.obstacle;
+    told.obstacle_triangle = contact.obstacle_triangle;
+    told.n_W = contact.n_W;
+    told.p_W = result_.X_WV * contact.p_V;
+    told.gap = std::max(contact.gap_at(result_.X_WV), std::numeric_limits<double>::min());
+    told.margin = margin();
+    result_.contacts.push_back(told);
+  }
+  const Projection shares = solver_.project(error(), stiffness_, contact_rows(0.0));
+  result_.pushing = shares.status == ProjectionStatus::kSolved ? shares.active_count : 0;
+  for (int i = 0; i < result_.pushing; ++i) {
+    const auto slot = static_cast<std::size_t>(i);
+    result_.contacts[static_cast<std::size_t>(shares.active[slot])].force = shares.force[slot];
+  }
+  result_.X_WV_of_contacts = result_.X_WV;
+  result_.reach = held_within();
+}
+
+std::string PaperSliding::trace() const {
+  std::string names;
+  for (const PaperState state : states_)
+    names += (names.empty() ? "" : ">") + std::string(name_of(state));
+  return names;
+}
+
+SlidingState PaperSliding::summary() const {
+  if (result_.X_WV.matrix() == result_.X_WT.matrix()) return SlidingState::kFree;
+  if (result_.pushing == 0) return SlidingState::kCatchingUp;
+  return moved_ > bracket_ ? SlidingState::kSliding : SlidingState::kResting;
+}
+
+}  // namespace glissade::haptics

@@ -1,0 +1,45 @@
+#include "scene/contact_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <glissade/geometry/rigid_pose.h>
+
+namespace glissade::haptics {
+namespace {
+
+void check_margin(double margin, const std::string& whose) {
+  if (margin > 0.0 && margin <= kGreatestMargin_m) return;
+  throw std::invalid_argument("the margin " + whose + " is " + std::to_string(1e3 * margin) +
+                              " mm; it must be positive and at most " + std::to_string(1e3 * kGreatestMargin_m) +
+                              " mm");
+}
+
+}  // namespace
+
+ContactScene::ContactScene(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> parts,
+                           std::span<const double> margins)
+    : obstacles_(std::move(obstacles)), parts_(std::move(parts)) {
+  if (obstacles_.size() + parts_.size() < 2) throw std::invalid_argument("there is nothing that the part could touch");
+  for (Obstacle& obstacle : obstacles_) {
+    const std::optional<Eigen::Isometry3d> X_WO = geometry::rigid_pose(obstacle.X_WO);
+    if (!X_WO) throw std::invalid_argument("the pose of " + obstacle.name + " is not a rotation and translation");
+    if (obstacle.margin) check_margin(*obstacle.margin, "of " + obstacle.name);
+    obstacle.X_WO = *X_WO;
+    bodies_.push_back({obstacle.body.get(), obstacle.X_WO});
+  }
+  for (const double margin : margins) {
+    check_margin(margin, "of a part");
+    for (const Obstacle& obstacle : obstacles_)
+      margins_.push_back(obstacle.margin.value_or(margin));
+    for (const double other : margins)
+      margins_.push_back(std::min(margin, other));
+  }
+  for (const double margin : margins_)
+    min_clearances_.push_back(kMinClearanceOfMargin * margin);
+  for (const auto& part_V : parts_)
+    bodies_.push_back({part_V.get(), Eigen::Isometry3d::Identity()});
+}
+
+}  // namespace glissade::haptics

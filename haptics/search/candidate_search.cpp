@@ -1,0 +1,81 @@
+#include "search/candidate_search.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace glissade::haptics {
+namespace {
+
+constexpr int kObstacles = 0;  // groups of the interest matrix
+constexpr int kPart = 1;
+
+// The other processors belong to the haptic thread and to whoever shows the scene.
+collision::PipelineOptions pipeline_options(double greatest_distance) {
+  return {.query = collision::PairQuery::kClosePairs, .greatest_distance = greatest_distance, .threads = 1};
+}
+
+Eigen::Vector3d direction_of(const collision::ClosePair& pair) {
+  if (pair.distance < kSharpDistance_m) return Eigen::Vector3d::Zero();
+  return (pair.p_B - pair.p_A).normalized();
+}
+
+template <typename Body>
+collision::ObjectDescription description(const std::shared_ptr<const Body>& body, const Eigen::Isometry3d& X_WB,
+                                         int group) {
+  return {.tree = {body, &body->tree},
+          .hull = {body, &body->hull},
+          .X_WO = X_WB,
+          .group = group,
+          .selection = {body, &body->features}};
+}
+
+}  // namespace
+
+CandidateSearch::CandidateSearch(const ContactScene& scene, double greatest_radius)
+    : scene_(scene),
+      bodies_(scene.bodies().begin(), scene.bodies().end()),
+      world_(static_cast<int>(bodies_.size())),
+      pipeline_(world_, clock_, pipeline_options(greatest_radius)) {
+  world_.disable_groups(kObstacles, kObstacles);
+  for (const Obstacle& obstacle : scene.obstacles())
+    world_.add(description(obstacle.body, obstacle.X_WO, kObstacles));
+  for (const auto& part_V : scene.parts())
+    part_ids_.push_back(world_.add(description(part_V, Eigen::Isometry3d::Identity(), kPart)));
+}
+
+void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
+  for (std::size_t p = 0; p < part_ids_.size(); ++p) {
+    if (!world_.move(part_ids_[p], request.X_WV[p]))
+      throw std::invalid_argument("a part cannot be at a pose that is none");
+    bodies_[scene_.body_of_part(p)].X_WB = request.X_WV[p];
+  }
+  const collision::FrameResult& near = pipeline_.step(request.radius);
+  set.report = near.report;
+  collect_pairs(near, request.ignored, set.pairs);
+  find_pairs_to_certify(scene_, bodies_, request.radius, request.ignored, workspace_, set.to_certify);
+}
+
+void CandidateSearch::collect_pairs(const collision::FrameResult& near, std::span<const BodyPair> ignored,
+                                    std::vector<CandidatePair>& pairs) const {
+  pairs.clear();
+  for (std::size_t i = 0; i < near.meeting.size(); ++i) {
+    const BodyPair bodies{static_cast<std::int32_t>(near.meeting[i].object_A.index),
+                          static_cast<std::int32_t>(near.meeting[i].object_B.index)};
+    if (std::find(ignored.begin(), ignored.end(), bodies) != ignored.end()) continue;
+    const PlacedBody& obstacle = bodies_[static_cast<std::size_t>(bodies.obstacle)];
+    const PlacedBody& part = bodies_[static_cast<std::size_t>(bodies.part)];
+    for (const collision::ClosePair& pair : near.close_pairs(i)) {
+      if (!obstacle.body->topology.can_stop_each_other(pair.triangles.triangle_A, part.body->topology,
+                                                       pair.triangles.triangle_B)) {
+        continue;
+      }
+      pairs.push_back({{bodies, pair.triangles.triangle_A, pair.triangles.triangle_B},
+                       pair.distance,
+                       obstacle.X_WB.linear() * direction_of(pair)});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const CandidatePair& a, const CandidatePair& b) { return a.distance < b.distance; });
+}
+
+}  // namespace glissade::haptics

@@ -1,0 +1,62 @@
+#include "sliding/allowed_fraction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sliding/sliding_constants.h"
+
+namespace glissade::haptics {
+namespace {
+
+/// The largest fraction of a displacement `d` of the part for which its lag, which was `previous` and is `now`, changes
+/// by at most `most` metres, or by as much as it has changed already.
+double fraction_with_lag(const geometry::Displacement& previous, const geometry::Displacement& now,
+                         const geometry::Displacement& d, double radius, double most) {
+  // Rotations by the angle between them: their vectors may change faster than the rotations themselves.
+  const Eigen::Quaterniond q_previous = geometry::rotation_by(previous.w);
+  const Eigen::Quaterniond q_now = geometry::rotation_by(now.w);
+  const auto changed = [&](double fraction) {
+    const Eigen::Quaterniond q = q_now * geometry::rotation_by(fraction * d.w).conjugate();
+    return (now.v - fraction * d.v - previous.v).norm() + radius * q.angularDistance(q_previous);
+  };
+  most = std::max(most, changed(0.0));
+  if (changed(1.0) <= most) return 1.0;
+  double allowed = 0.0;
+  double refused = 1.0;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = 0.5 * (allowed + refused);
+    (changed(middle) <= most ? allowed : refused) = middle;
+  }
+  return allowed;
+}
+
+}  // namespace
+
+std::array<double, kMaxParts> allowed_fractions(const SimulatedParts& shared, const Displacements& d,
+                                                std::span<const CoupledRow> rows, double reach) {
+  std::array<double, kMaxParts> fractions{};
+  const double share = (reach - shared.largest_margin) / static_cast<double>(shared.count());
+  for (std::size_t p = 0; p < shared.count(); ++p) {
+    const HeldPartState& part = shared.states[p];
+    const double radius = part.part_V->radius();
+    fractions[p] = geometry::fraction_within(d[p], radius, share);
+    if (part.slew != kUnbounded && part.is_held()) {
+      const double by_lag = fraction_with_lag(part.previous_lag, part.lag(), d[p], radius, part.slew);
+      fractions[p] = std::min(fractions[p], by_lag);
+    }
+    const double angle = d[p].w.norm();
+    const double largest_angle = std::sqrt(part.margin / radius);
+    if (!rows.empty() && angle * fractions[p] > largest_angle) fractions[p] = largest_angle / angle;
+  }
+  for (std::size_t pass = 1; pass < shared.count(); ++pass) {
+    for (const CoupledRow& row : rows) {
+      if (row.other < 0) continue;
+      double& a = fractions[static_cast<std::size_t>(row.part)];
+      double& b = fractions[static_cast<std::size_t>(row.other)];
+      a = b = std::min(a, b);
+    }
+  }
+  return fractions;
+}
+
+}  // namespace glissade::haptics

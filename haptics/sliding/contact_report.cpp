@@ -1,0 +1,68 @@
+#include "sliding/contact_report.h"
+
+#include <algorithm>
+#include <array>
+
+#include "contact/contact_motion.h"
+
+namespace glissade::haptics {
+namespace {
+
+void add_overlaps(const SimulatedParts& shared, const Overlaps& overlaps, std::vector<Contact>& contacts) {
+  const auto obstacles = static_cast<std::int32_t>(shared.scene.obstacles().size());
+  for (const WayOut& way : overlaps.ways_out()) {
+    Contact& contact = contacts.emplace_back();
+    contact.kind = ContactKind::kOverlap;
+    contact.part = way.bodies.part - obstacles;
+    contact.obstacle = way.bodies.obstacle;
+    contact.n_W = way.n_W;
+    const HeldPartState& part = shared.states[static_cast<std::size_t>(contact.part)];
+    contact.p_W = part.result.X_WV_of_contacts * part.p_Vref();
+    contact.gap = -way.depth;
+    contact.margin = shared.scene.margin(way.bodies.obstacle, way.bodies.part);
+  }
+}
+
+/// Each result has one pose for its contacts, that of its part; so the other side must be where it is now.
+void distribute(SimulatedParts& shared, const std::vector<Contact>& contacts) {
+  std::vector<HeldPartState>& parts = shared.states;
+  const auto obstacles = static_cast<std::int32_t>(shared.scene.obstacles().size());
+  std::array<Eigen::Isometry3d, kMaxParts> motions;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    SlidingResult& result = parts[p].result;
+    motions[p] = result.X_WV * result.X_WV_of_contacts.inverse(Eigen::Isometry);
+    result.X_WV_of_contacts = result.X_WV;
+    result.contacts.clear();
+  }
+  for (const Contact& found : contacts) {
+    const auto number = static_cast<std::size_t>(found.part);
+    const std::int32_t other = found.obstacle - obstacles;
+    const Contact contact = other < 0 ? carried(found, motions[number])
+                                      : carried(found, motions[number], motions[static_cast<std::size_t>(other)]);
+    parts[number].result.contacts.push_back(contact);
+    if (other < 0) continue;
+    parts[static_cast<std::size_t>(other)].result.contacts.push_back(
+        mirrored(contact, static_cast<std::int32_t>(shared.scene.body_of_part(number)), other));
+  }
+}
+
+}  // namespace
+
+void report_contacts(SimulatedParts& shared, const Overlaps& overlaps, std::vector<Contact>& contacts) {
+  add_overlaps(shared, overlaps, contacts);
+  if (shared.count() == 1) {
+    std::swap(shared.states.front().result.contacts, contacts);
+  } else {
+    distribute(shared, contacts);
+  }
+  for (HeldPartState& part : shared.states) {
+    SlidingResult& result = part.result;
+    result.pushing = static_cast<int>(std::count_if(result.contacts.begin(), result.contacts.end(),
+                                                    [](const Contact& contact) { return contact.force > 0.0; }));
+    if (part.is_held()) continue;
+    result.contacts.clear();
+    result.pushing = 0;
+  }
+}
+
+}  // namespace glissade::haptics

@@ -1,0 +1,106 @@
+#include "sliding/contact_rows.h"
+
+#include <algorithm>
+
+#include "contact/contact_search.h"
+#include "sliding/sliding_constants.h"
+
+namespace glissade::haptics {
+
+void ContactRows::find(double reach) {
+  const ContactScene& scene = shared_.scene;
+  shared_.candidates.within(reach, pairs_);
+  find_contacts(scene.bodies(), scene.obstacles().size(), pairs_, reach, shared_.largest_margin, contacts_);
+  for (HeldPartState& part : shared_.states)
+    part.result.X_WV_of_contacts = part.result.X_WV;
+  rows_.clear();
+  for (Contact& contact : contacts_) {
+    const auto body = static_cast<std::int32_t>(scene.body_of_part(static_cast<std::size_t>(contact.part)));
+    contact.margin = scene.margin(contact.obstacle, body);
+    // A contact closer than its margin asks for some of it back.
+    const double missing = contact.margin - contact.gap;
+    const double bound = missing > 0.0 ? 0.7 * missing : missing;
+    add(contact.obstacle, static_cast<std::size_t>(contact.part), contact.n_W, contact.p_W, bound);
+  }
+}
+
+void ContactRows::keep_contacts_only() {
+  rows_.resize(contacts_.size());
+  proof_contacts_.clear();
+}
+
+void ContactRows::add(std::int32_t obstacle, std::size_t part, const Eigen::Vector3d& n_W, const Eigen::Vector3d& p_W,
+                      double bound) {
+  const std::vector<HeldPartState>& states = shared_.states;
+  CoupledRow& row = rows_.emplace_back();
+  row.n = n_W;
+  row.r = p_W - states[part].p_Wref();
+  row.bound = bound;
+  row.part = static_cast<std::int32_t>(part);
+  const auto obstacles = static_cast<std::int32_t>(shared_.scene.obstacles().size());
+  bool is_held_by_any = states[part].is_held();
+  if (obstacle >= obstacles) {
+    row.other = obstacle - obstacles;
+    const auto other = static_cast<std::size_t>(row.other);
+    row.r_other = p_W - states[other].p_Wref();
+    is_held_by_any = is_held_by_any || states[other].is_held();
+  }
+  // Two released parts give no margin back.
+  if (!is_held_by_any) row.bound = -kUnbounded;
+}
+
+void ContactRows::add_failures(std::span<const UncertifiedPair> failures) {
+  const ContactScene& scene = shared_.scene;
+  for (const UncertifiedPair& failure : failures) {
+    const PlacedBody& obstacle = scene.bodies()[static_cast<std::size_t>(failure.bodies.obstacle)];
+    const PlacedBody& part = scene.bodies()[static_cast<std::size_t>(failure.bodies.part)];
+    const std::size_t number = static_cast<std::size_t>(failure.bodies.part) - scene.obstacles().size();
+    const double margin = scene.margin(failure.bodies.obstacle, failure.bodies.part);
+    double top = -kUnbounded;
+    for (const Eigen::Vector3d& y_W : obstacle.triangle_W(failure.obstacle_triangle))
+      top = std::max(top, failure.n_W.dot(y_W));
+    for (const Eigen::Vector3d& x_W : part.triangle_W(failure.part_triangle)) {
+      const double gap = failure.n_W.dot(x_W) - top;
+      add(failure.bodies.obstacle, number, failure.n_W, x_W, std::min(0.0, margin - gap));
+      Contact& contact =
+          proof_contacts_.emplace_back(Contact{ContactKind::kVertexFace, failure.part_triangle, failure.bodies.obstacle,
+                                               failure.obstacle_triangle, failure.n_W, x_W, gap});
+      contact.part = static_cast<std::int32_t>(number);
+      contact.margin = margin;
+    }
+  }
+}
+
+void ContactRows::allow_standing_still() {
+  for (CoupledRow& row : rows_)
+    row.bound = std::min(row.bound, 0.0);
+}
+
+void ContactRows::take_forces(std::span<const RowForce> forces) {
+  const std::size_t found = contacts_.size();
+  pushed_.clear();
+  for (const RowForce& force : forces) {
+    const auto row = static_cast<std::size_t>(force.row);
+    Contact& contact = row < found ? contacts_[row] : contacts_.emplace_back(proof_contacts_[row - found]);
+    contact.force = force.normal;
+    contact.friction_W = force.across_W;
+    if (shared_.rules.friction.is_on()) pushed_.push_back(contact);
+  }
+}
+
+void ContactRows::recall_forces(std::vector<RowForce>& forces) const {
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& contact = contacts_[i];
+    if (rows_[i].bound == -kUnbounded) continue;  // two released parts
+    for (const Contact& before : pushed_) {
+      if (before.part != contact.part || before.obstacle != contact.obstacle || before.kind != contact.kind ||
+          before.part_feature != contact.part_feature || before.obstacle_feature != contact.obstacle_feature) {
+        continue;
+      }
+      forces.push_back({static_cast<std::int32_t>(i), before.force, before.friction_W});
+      break;
+    }
+  }
+}
+
+}  // namespace glissade::haptics

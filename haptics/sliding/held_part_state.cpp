@@ -1,0 +1,79 @@
+#include "sliding/held_part_state.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sliding/sliding_constants.h"
+#include "sliding/wanted_pose.h"
+
+namespace glissade::haptics {
+
+geometry::Displacement HeldPartState::lag() const {
+  return geometry::displacement_between(result.X_WV, result.X_WT, p_Vref());
+}
+
+void HeldPartState::rest(SlidingState state) {
+  result.X_WT = result.X_WV;
+  X_WS = result.X_WV;
+  previous_lag = {};
+  offset = {};
+  closing = 0.0;
+  spiral_search = SpiralSearch(part_V->radius());
+  result.state = state;
+  result.contacts.clear();
+  result.pushing = 0;
+  result.cycles = 0;
+}
+
+bool HeldPartState::grasp(const Eigen::Isometry3d& X_WG) {
+  result.X_WG = X_WG;
+  const bool rests = !is_held() || metaphor != Metaphor::kForceFeedback;
+  if (rests) rest(SlidingState::kFree);
+  if (metaphor == Metaphor::kForceFeedback) offset = geometry::displacement_between(X_WG, result.X_WT, p_Vref());
+  return rests;
+}
+
+void HeldPartState::begin_tick() {
+  moved = 0.0;
+  ghost_motion = 0.0;
+  X_WV_before_last = std::exchange(X_WV_before, result.X_WV);
+  X_WG_previous = result.X_WG;
+}
+
+void HeldPartState::follow(const Eigen::Isometry3d& X_WG, double milliseconds) {
+  result.X_WG = X_WG;
+  ghost_motion =
+      geometry::motion_bound(geometry::displacement_between(X_WG_previous, X_WG, p_Vref()), part_V->radius());
+  const double left = offset.v.norm() + part_V->radius() * offset.w.norm();
+  closing = std::min(left, kClosing_m * milliseconds);
+  offset = closing < left ? offset.scaled(1.0 - closing / left) : geometry::Displacement{};
+  result.X_WT = wanted_pose(metaphor, result.X_WV, X_WG_previous, X_WG, p_Vref());
+  if (!offset.is_zero()) result.X_WT = geometry::displaced(X_WG, p_Vref(), offset);
+  aim();
+}
+
+void HeldPartState::turn_target() {
+  if (metaphor != Metaphor::kRubberBand) return;
+  result.X_WT = wanted_pose(metaphor, result.X_WV, X_WG_previous, result.X_WG, p_Vref());
+  aim();
+}
+
+void HeldPartState::aim() {
+  X_WS = may_search ? spiral_search.aim(result.X_WT, p_Vref()) : result.X_WT;
+}
+
+void HeldPartState::end_tick(int cycles, double reach, double milliseconds) {
+  result.cycles = cycles;
+  result.reach = reach;
+  result.state = classify();
+  previous_lag = lag();
+  if (may_search) spiral_search.observe(previous_lag, moved, result.pushing > 0, milliseconds);
+}
+
+SlidingState HeldPartState::classify() const {
+  if (result.X_WV.matrix() == result.X_WT.matrix()) return SlidingState::kFree;
+  if (result.pushing == 0) return SlidingState::kCatchingUp;
+  return moved > kNotWorthIt * margin ? SlidingState::kSliding : SlidingState::kResting;
+}
+
+}  // namespace glissade::haptics

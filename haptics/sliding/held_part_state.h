@@ -1,0 +1,68 @@
+#pragma once
+
+/// One held part of a simulation: its holder, its ghost and target, and its motion over the last calls.
+
+#include <memory>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include <glissade/geometry/displacement.h>
+#include <glissade/haptics/contact_body.h>
+#include <glissade/haptics/coupling.h>
+#include <glissade/haptics/sliding_result.h>
+#include <glissade/haptics/sliding_rules.h>
+
+#include "sliding/spiral_search.h"
+
+namespace glissade::haptics {
+
+/// Not thread-safe.
+struct HeldPartState {
+  std::shared_ptr<const SlidingPart> part_V;
+  Metaphor metaphor;
+  CouplingStiffness stiffness;
+  double margin;     // metres
+  bool is_scripted;  // neither spiral search nor depenetration moves it
+  bool may_search;   // in a spiral
+  SpiralSearch spiral_search;
+
+  SlidingResult result{};
+  Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();           // where steps aim, mostly X_WT
+  Eigen::Isometry3d X_WG_previous = Eigen::Isometry3d::Identity();  // the ghost in the last call
+  double ghost_motion = 0.0;                                        // metres, of this tick
+  geometry::Displacement offset{};  // from the ghost to the target, since the hand took hold
+  double closing = 0.0;             // metres by which the offset shrank in this tick
+  double moved = 0.0;               // metres, in this tick
+  // The part before the last call and before this one: friction compares them to see which contacts slip.
+  Eigen::Isometry3d X_WV_before_last = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d X_WV_before = Eigen::Isometry3d::Identity();
+  geometry::Displacement previous_lag{};  // from the part to its target, at the end of the last call
+  double slew = 0.0;                      // metres by which this lag may change in this tick
+
+  bool is_held() const { return result.state != SlidingState::kReleased; }
+  const Eigen::Vector3d& p_Vref() const { return part_V->p_Vref(); }
+  Eigen::Vector3d p_Wref() const { return result.X_WV * p_Vref(); }
+  /// From the part to its target.
+  geometry::Displacement lag() const;
+
+  /// The part stays where it is: nothing is wanted of it, so nothing pushes it.
+  void rest(SlidingState state);
+  /// The hand takes hold at a rigid pose. Returns whether the part rests: one held by force feedback keeps its lag.
+  bool grasp(const Eigen::Isometry3d& X_WG);
+
+  /// A call begins.
+  void begin_tick();
+  /// The ghost of this call is at a rigid pose; `milliseconds` as in `advance`.
+  void follow(const Eigen::Isometry3d& X_WG, double milliseconds);
+  /// The rubber band's target turns with the part.
+  void turn_target();
+  /// A call ends, after `cycles` of which contacts within `reach` are known.
+  void end_tick(int cycles, double reach, double milliseconds);
+
+ private:
+  void aim();
+  SlidingState classify() const;
+};
+
+}  // namespace glissade::haptics

@@ -1,0 +1,46 @@
+#include "sliding/search_radius.h"
+
+#include <algorithm>
+
+#include "sliding/sliding_constants.h"
+
+namespace glissade::haptics {
+namespace {
+
+constexpr double kSmallestReach_m = 30e-6;
+constexpr double kTicksAhead = 6.0;  // of the ghosts' motion
+constexpr double kLeastLookAhead_m = 45e-6;
+constexpr double kSmallestReachLimit_m = 1e-3;
+constexpr std::size_t kAffordablePairs = 30'000;
+
+}  // namespace
+
+SearchRadius::SearchRadius() : limit_(kLargestReach_m) {}
+
+void SearchRadius::choose(const SimulatedParts& shared, double depenetration) {
+  const double ghosts = shared.ghost_motion();
+  double slew = 0.0;
+  for (const HeldPartState& part : shared.states)
+    slew = std::max(slew, part.slew);
+  double reach = 1.5 * std::max(ghosts, last_step_) + 2.0 * shared.largest_margin;
+  if (last_clipped_) reach *= 2.0;
+  reach = std::max(reach, depenetration + 2.0 * shared.largest_margin);
+  reach_ = std::clamp(std::min(reach, slew + ghosts + 2.0 * shared.largest_margin), kSmallestReach_m, limit_);
+}
+
+/// Where finely cut surfaces lie close there are very many pairs. A part that falls behind would look farther with
+/// every search and so fall behind more; the limit on the reach ends that.
+bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignored) {
+  const double ahead = std::clamp(kTicksAhead * shared.ghost_motion(), kLeastLookAhead_m, kMostLookAhead_m);
+  if (!shared.candidates.look(reach_, ahead, ignored)) return false;
+  const bool too_many = shared.candidates.size() > kAffordablePairs;
+  limit_ = std::clamp((too_many ? 0.5 : 1.25) * limit_, kSmallestReachLimit_m, kLargestReach_m);
+  return true;
+}
+
+void SearchRadius::note(const Step& step) {
+  last_step_ = step.length;
+  last_clipped_ = step.clipped;
+}
+
+}  // namespace glissade::haptics

@@ -1,0 +1,105 @@
+#include "sliding/simulated_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <glissade/geometry/rigid_pose.h>
+
+#include "sliding/sliding_constants.h"
+
+namespace glissade::haptics {
+namespace {
+
+double default_margin(const SlidingPart& part_V) {
+  return std::clamp(1e-4 * part_V.radius(), 2e-6, 10e-6);
+}
+
+void check_stiffness(const HeldPart& part) {
+  const auto is_stiffness = [](double k) { return k > 0.0 && std::isfinite(k); };
+  if (!part.stiffness) return;
+  if (is_stiffness(part.stiffness->translational) && is_stiffness(part.stiffness->rotational)) return;
+  throw std::invalid_argument("the stiffness with which " + part.name + " is held is not a positive number");
+}
+
+void check_rules(const SlidingRules& rules) {
+  if (rules.max_cycles < 1) {
+    throw std::invalid_argument("a call of sliding needs at least one cycle, not " + std::to_string(rules.max_cycles));
+  }
+  const Friction& friction = rules.friction;
+  if (friction.sliding >= 0.0 && friction.at_rest >= friction.sliding && std::isfinite(friction.at_rest)) return;
+  throw std::invalid_argument("the coefficients of friction must be numbers, 0 <= sliding <= at rest, not " +
+                              std::to_string(friction.sliding) + " and " + std::to_string(friction.at_rest));
+}
+
+const std::vector<HeldPart>& checked(const std::vector<HeldPart>& parts, const SlidingRules& rules) {
+  if (parts.empty() || parts.size() > kMaxParts) {
+    throw std::invalid_argument(std::to_string(parts.size()) + " parts cannot be held at once; 1 to " +
+                                std::to_string(kMaxParts) + " can");
+  }
+  for (const HeldPart& part : parts) {
+    if (part.part_V == nullptr) throw std::invalid_argument(part.name + " needs a body, not a null pointer");
+    check_stiffness(part);
+  }
+  check_rules(rules);
+  return parts;
+}
+
+std::vector<std::shared_ptr<const SlidingPart>> bodies_of(const std::vector<HeldPart>& parts) {
+  std::vector<std::shared_ptr<const SlidingPart>> bodies;
+  for (const HeldPart& part : parts)
+    bodies.push_back(part.part_V);
+  return bodies;
+}
+
+std::vector<double> margins_of(const std::vector<HeldPart>& parts, const SlidingRules& rules) {
+  std::vector<double> margins;
+  for (const HeldPart& part : parts)
+    margins.push_back(rules.margin.value_or(default_margin(*part.part_V)));
+  return margins;
+}
+
+HeldPartState state_at_start(const HeldPart& held, const Eigen::Isometry3d& X_WV, const SlidingRules& rules) {
+  HeldPartState state{.part_V = held.part_V,
+                      .metaphor = held.metaphor,
+                      .stiffness = held.stiffness.value_or(default_stiffness(held.part_V->radius())),
+                      .margin = rules.margin.value_or(default_margin(*held.part_V)),
+                      .is_scripted = held.is_scripted,
+                      .may_search = rules.spiral_search && !held.is_scripted,
+                      .spiral_search = SpiralSearch(held.part_V->radius())};
+  state.result.X_WG = X_WV;
+  state.result.X_WT = X_WV;
+  state.result.X_WV = X_WV;
+  state.result.X_WV_of_contacts = X_WV;
+  state.X_WS = X_WV;
+  state.X_WV_before = X_WV;
+  return state;
+}
+
+}  // namespace
+
+SimulatedParts::SimulatedParts(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts,
+                               const SlidingRules& sliding_rules)
+    : rules(sliding_rules),
+      scene(std::move(obstacles), bodies_of(checked(parts, sliding_rules)), margins_of(parts, sliding_rules)),
+      candidates(scene, kLargestReach_m + kMostLookAhead_m, sliding_rules.has_search_thread) {
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const std::optional<Eigen::Isometry3d> X_WV = geometry::rigid_pose(parts[p].X_WV_start);
+    if (!X_WV) throw std::invalid_argument("the start pose of " + parts[p].name + " is not a rotation and translation");
+    scene.place(p, *X_WV);
+    states.push_back(state_at_start(parts[p], *X_WV, rules));
+    largest_margin = std::max(largest_margin, states.back().margin);
+  }
+  for (const Obstacle& obstacle : scene.obstacles())
+    largest_margin = std::max(largest_margin, obstacle.margin.value_or(0.0));
+}
+
+double SimulatedParts::ghost_motion() const {
+  double sum = 0.0;
+  for (const HeldPartState& part : states)
+    sum += part.ghost_motion + part.closing;
+  return sum;
+}
+
+}  // namespace glissade::haptics

@@ -1,0 +1,49 @@
+#pragma once
+
+/// The data that all stages of a simulation cycle share: the held parts, the bodies round them, and what is near.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <glissade/geometry/displacement.h>
+#include <glissade/haptics/contact_body.h>
+#include <glissade/haptics/sliding_rules.h>
+
+#include "scene/contact_scene.h"
+#include "search/candidate_pairs.h"
+#include "sliding/held_part_state.h"
+
+namespace glissade::haptics {
+
+/// One displacement for each part; those beyond the number of parts are zero.
+using Displacements = std::array<geometry::Displacement, kMaxParts>;
+
+/// Not thread-safe.
+struct SimulatedParts {
+  /// Throws std::invalid_argument as `MultiPartSliding` does, but does not look for overlaps.
+  SimulatedParts(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const SlidingRules& rules);
+
+  std::size_t count() const { return states.size(); }
+  std::span<const geometry::Displacement> of_parts(const Displacements& d) const { return {d.data(), count()}; }
+  /// Metres that all ghosts together moved in this tick, and by which their offsets shrank.
+  double ghost_motion() const;
+
+  SlidingRules rules;
+  ContactScene scene;
+  CandidatePairs candidates;
+  std::vector<HeldPartState> states;
+  double largest_margin = 0.0;  // metres
+};
+
+/// A displacement of all parts that is certified free of collisions, and how it came about.
+struct Step {
+  Displacements displacements{};
+  std::array<double, kMaxParts> lengths{};  ///< their motion bounds, metres
+  std::array<bool, kMaxParts> arrives{};    ///< nothing shortened or turned it
+  double length = 0.0;                      ///< the sum of the lengths: two bodies come nearer by at most this
+  bool clipped = false;                     ///< shortened by the reach, the slew or a missing certificate
+};
+
+}  // namespace glissade::haptics

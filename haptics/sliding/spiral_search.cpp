@@ -1,0 +1,61 @@
+#include "sliding/spiral_search.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace glissade::haptics {
+namespace {
+
+constexpr double kLeastLag_m = 0.1e-3;
+constexpr double kStill_m = 0.5e-6;  // a call
+constexpr double kPatience_ms = 100.0;
+constexpr double kLongestShaking_ms = 2000.0;
+constexpr double kWantedElsewhere_m = 0.3e-3;
+
+constexpr double kOffset_m = 1.6e-3;
+constexpr double kTilt = 1.4 * std::numbers::pi / 180.0;
+constexpr double kTurns_per_ms = 0.01;
+
+}  // namespace
+
+void SpiralSearch::observe(const geometry::Displacement& error, double moved, bool is_held, double milliseconds) {
+  const bool is_wanted_elsewhere = is_held && geometry::motion_bound(error, radius_) > kLeastLag_m;
+  if (!is_wanted_elsewhere) {
+    is_searching_ = false;
+    has_given_up_ = false;
+    still_ms_ = 0.0;
+    return;
+  }
+  if (has_given_up_) {
+    const geometry::Displacement change{error.v - stuck_.v, error.w - stuck_.w};
+    has_given_up_ = geometry::motion_bound(change, radius_) < kWantedElsewhere_m;
+    return;
+  }
+  if (is_searching_) {
+    searched_ms_ += milliseconds;
+    if (searched_ms_ < kLongestShaking_ms) return;
+    is_searching_ = false;
+    has_given_up_ = true;
+    stuck_ = error;
+    still_ms_ = 0.0;
+    return;
+  }
+  still_ms_ = moved < kStill_m ? still_ms_ + milliseconds : 0.0;
+  if (still_ms_ < kPatience_ms) return;
+  is_searching_ = true;
+  searched_ms_ = 0.0;
+  stuck_ = error;
+}
+
+Eigen::Isometry3d SpiralSearch::aim(const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& p_Vref) const {
+  if (!is_searching_) return X_WT;
+  const Eigen::Vector3d axis = stuck_.v.norm() > 0.0 ? stuck_.v.normalized() : stuck_.w.normalized();
+  const Eigen::Vector3d first = axis.unitOrthogonal();
+  const double angle = 2.0 * std::numbers::pi * kTurns_per_ms * searched_ms_;
+  const Eigen::Vector3d beside = std::cos(angle) * first + std::sin(angle) * axis.cross(first);
+  // Turned so that what is ahead of the reference point goes the same way, and further: that end is stuck.
+  const double growth = searched_ms_ / kLongestShaking_ms;
+  return geometry::displaced(X_WT, p_Vref, {growth * kOffset_m * beside, growth * kTilt * axis.cross(beside)});
+}
+
+}  // namespace glissade::haptics

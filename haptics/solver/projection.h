@@ -1,0 +1,82 @@
+#pragma once
+
+/// The quadratic programme at the heart of sliding: the displacement nearest to a wanted one, in the metric of the
+/// coupling, that half-space constraints allow.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <glissade/geometry/displacement.h>
+#include <glissade/haptics/contact_set.h>
+#include <glissade/haptics/coupling.h>
+#include <glissade/haptics/sliding_rules.h>
+
+#include "solver/projection_status.h"
+
+namespace glissade::haptics {
+
+inline constexpr std::size_t kMaxActive = 6;  ///< a displacement has six degrees of freedom
+
+/// A constraint on the displacements of several parts: on that of `part`, and where the contact is with another of
+/// them, on its displacement relative to that one.
+struct CoupledRow : ConstraintRow {
+  std::int32_t part = 0;
+  std::int32_t other = -1;                            ///< −1 for an obstacle
+  Eigen::Vector3d r_other = Eigen::Vector3d::Zero();  ///< as r, for the other part
+
+  double velocity(std::span<const geometry::Displacement> d) const {
+    const double own = ConstraintRow::velocity(d[static_cast<std::size_t>(part)]);
+    return other < 0 ? own : own - ConstraintRow{n, r_other, 0.0}.velocity(d[static_cast<std::size_t>(other)]);
+  }
+};
+
+/// `active` are the rows that hold with equality and push; `force` is newtons along the normal of each of them: their
+/// shares of K (ξ* − ξ). Displacements are valid only when solved.
+template <std::size_t kParts>
+struct ProjectionOf {
+  ProjectionStatus status = ProjectionStatus::kSolved;
+  std::array<geometry::Displacement, kParts> displacements{};
+  int active_count = 0;
+  std::array<std::int32_t, kMaxActive * kParts> active{};
+  std::array<double, kMaxActive * kParts> force{};
+
+  const geometry::Displacement& displacement() const { return displacements[0]; }
+};
+
+using Projection = ProjectionOf<1>;
+using CoupledProjection = ProjectionOf<kMaxParts>;
+
+/// Minimises ½ (ξ − wanted)ᵀ K (ξ − wanted) subject to rows, by the dual active-set method of Goldfarb and Idnani
+/// (1983) in the whitened coordinates K^½ ξ, six for each part. The normals of the active rows are kept as an
+/// orthonormal basis and a triangle, so that a change of the active set costs some hundred operations.
+///
+/// Bounded work: at most 32 + 4 rows changes of the active set, O(rows) each. Deterministic. Not thread-safe.
+class ProjectionSolver {
+ public:
+  /// Allocates for so many rows of one part; a call allocates only when it is given more than any before.
+  explicit ProjectionSolver(std::size_t rows = 0);
+
+  Projection project(const geometry::Displacement& wanted, const CouplingStiffness& stiffness,
+                     std::span<const ConstraintRow> rows);
+
+  /// For up to kMaxParts parts; `wanted` and `stiffness` have one entry for each. A part of infinite stiffness stands
+  /// still, whatever is wanted of it.
+  CoupledProjection project(std::span<const geometry::Displacement> wanted,
+                            std::span<const CouplingStiffness> stiffness, std::span<const CoupledRow> rows);
+
+ private:
+  template <std::size_t kParts, typename Row>
+  ProjectionOf<kParts> solve(std::span<const geometry::Displacement> wanted,
+                             std::span<const CouplingStiffness> stiffness, std::span<const Row> rows);
+
+  std::vector<double> normals_;  // one column after the other: a coordinate of all normals
+  std::vector<double> bounds_;
+  std::vector<double> slacks_;
+};
+
+}  // namespace glissade::haptics

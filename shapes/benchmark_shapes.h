@@ -1,0 +1,64 @@
+#pragma once
+
+/// Objects like those that collision detection is measured with: car parts of many curved and flat components, thin
+/// shells within each other, and bulk in the interior, at any number of triangles (paper, figure 1). For benchmarks and
+/// tests; `mesh_generators.h` has the simple surfaces.
+///
+/// Every object keeps its shape while `triangle_count` refines its tessellation, and is deterministic. From 1,000 to
+/// 1,000,000 triangles the count is met within 15 %; a smaller one is exceeded where the shape needs more. Below
+/// 8,000 triangles small details (screws, ribs, teeth, mirrors) are left out. Sizes are in metres, those of the object
+/// with its details; from 8,000 triangles on they are kept within 3 %. Cost is linear in the count.
+///
+/// The tessellation is that of a CAD model on purpose: faces are tessellated one by one and not welded to their
+/// neighbors, whose vertices may not meet theirs; triangles are of uneven size, long and thin on flat faces and
+/// cylinders, fans around holes and on caps; sheet metal has no thickness; components overlap, and some are turned
+/// inside out. No triangle has zero area. Every function throws std::invalid_argument, naming the argument and its
+/// value, for a count outside 1 ... 50,000,000.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <glissade/geometry/triangle_mesh.h>
+
+namespace glissade::shapes {
+
+/// Car headlight: fluted lens, bezel, three reflectors with bulbs and sockets, double-walled housing with cooling ribs,
+/// covers, and fastening tabs. About 0.52 m wide along x, 0.24 m deep along y, 0.22 m
+/// high along z; it shines along y.
+geometry::TriangleMesh make_headlight(std::int64_t triangle_count);
+
+/// Lock of a car door: punched plates, a rotary latch with its pawl, levers, rivets, springs, a worm gear with its
+/// motor, and a ribbed housing around them. About 0.13 m × 0.1 m × 0.05 m, the plates across z.
+geometry::TriangleMesh make_door_lock(std::int64_t triangle_count);
+
+/// Body of a car in sheet metal without thickness, with open windows and wheel arches, and its seats: two in front, a
+/// bench behind, dashboard and steering wheel. About 4.1 m along x (forward), 1.7 m along y (2 m with its mirrors), z
+/// from 0.19 m to 1.44 m above the road.
+geometry::TriangleMesh make_car_body(std::int64_t triangle_count);
+
+/// Hose of a car engine: bellows and an inner wall along a path bent in space, with cuffs, clamps and flanges at its
+/// ends. About 0.6 m along x, 0.27 m along y, 0.3 m along z.
+geometry::TriangleMesh make_engine_hose(std::int64_t triangle_count);
+
+/// Open sheet without thickness about the origin whose height is a smooth field of bumps: `wave_count` waves along each
+/// edge, z from -bump_height / 2 to bump_height / 2. Two of them lying parallel at a small distance along z are the
+/// worst case of any hierarchy of bounding volumes: they are close everywhere and touch nowhere. One welded component
+/// of about square cells. Throws std::invalid_argument also for a size or height that is not positive and finite, and
+/// for a wave count outside 1 ... 10,000.
+geometry::TriangleMesh make_bumpy_plate(const Eigen::Vector2d& size, double bump_height, int wave_count,
+                                        std::int64_t triangle_count);
+
+/// One object of the suite: its name and its mesh with about so many triangles.
+struct BenchmarkShape {
+  std::string name;
+  geometry::TriangleMesh (*make)(std::int64_t triangle_count);
+};
+
+/// The suite (paper, figure 1), in the paper's order: headlight, door-lock, car-body, hose, sphere, hyperboloid, torus.
+/// The last three are about 1 m in size, their triangles welded.
+const std::vector<BenchmarkShape>& benchmark_shapes();
+
+}  // namespace glissade::shapes

@@ -1,0 +1,42 @@
+#pragma once
+
+/// A round peg and a plate with a hole for it, both with the flat facets of a tessellation: the narrow fit that sliding
+/// contact is measured with.
+///
+/// Radii are those of the facets, that is of the circle that touches all of them from within; corners lie further out
+/// by the factor 1 / cos(π / segments). A peg and a hole of equally many segments, both unturned and coaxial, have
+/// parallel facets, and their gap is exactly the difference of the radii. Turned by half a facet, the peg's corners
+/// face the hole's facets, and the gap is less by radius (1 / cos(π / segments) - 1): 5 µm of a radius of 4 mm and 64
+/// segments. Meshes are closed, face outward, and have no triangle without area.
+///
+/// Sizes are in metres. The functions throw std::invalid_argument, naming the argument and its value, for sizes that
+/// are not positive and finite or do not fit together, and for counts out of range.
+
+#include <glissade/geometry/triangle_mesh.h>
+
+namespace glissade::shapes {
+
+struct PegShape {
+  double radius = 4e-3;
+  double length = 50e-3;
+  double chamfer = 0.5e-3;  ///< at both ends, 45°; less than the radius and than half the length
+  int segments = 64;        ///< facets around, 3 ... 100,000
+  int rows = 1;             ///< cells along the straight wall, 1 ... 100,000
+};
+
+/// Peg about z from z = 0 to z = length. 2 segments (rows + 3) triangles.
+geometry::TriangleMesh make_peg(const PegShape& peg);
+
+struct HoledPlateShape {
+  double hole_radius = 4.052e-3;
+  double size = 40e-3;      ///< edge of the square plate, more than the hole's diameter over its corners
+  double thickness = 9e-3;  ///< the depth of the hole
+  int segments = 64;        ///< facets around the hole, a multiple of 8 up to 100,000
+  int rows = 1;             ///< cells along the wall of the hole, 1 ... 100,000
+};
+
+/// Square plate about z, its upper face at z = 0, with a through hole about z whose rims are sharp.
+/// 2 segments (rows + 3) triangles.
+geometry::TriangleMesh make_holed_plate(const HoledPlateShape& plate);
+
+}  // namespace glissade::shapes

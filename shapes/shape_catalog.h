@@ -1,0 +1,22 @@
+#pragma once
+
+/// The generators of `mesh_generators.h`, `benchmark_shapes.h`, `car_door_parts.h` and of the machine elements
+/// (`peg_and_hole.h`, `screw_thread.h`, `slide_in_unit.h`, `spur_gear.h`) by name, for scene files and command lines.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <glissade/geometry/triangle_mesh.h>
+#include <glissade/shapes/shape.h>
+
+namespace glissade::shapes {
+
+/// Every shape, in alphabetical order.
+const std::vector<Shape>& shape_catalog();
+
+/// The mesh of shape `name`; parameters not given take their defaults.
+/// Throws std::invalid_argument, naming what is known, for an unknown shape or parameter, and for a value out of range.
+geometry::TriangleMesh make_shape(const std::string& name, const std::map<std::string, double>& parameters);
+
+}  // namespace glissade::shapes

@@ -1,0 +1,46 @@
+#pragma once
+
+/// A spur gear with a bore, and the base with a post that it is put on: a flat seat with a round guide.
+///
+/// Teeth are involutes, 1 module high above the pitch circle and 1.25 deep below it; below the base circle flanks go
+/// straight to the root. Radii of bore and post are those of their facets, as in `peg_and_hole.h`: the corners of the
+/// post lie further out by the factor 1 / cos(π / segments), and with these inside the bore's radius the gear turns
+/// freely. Meshes are closed, face outward, and have no triangle without area.
+///
+/// Sizes are in metres. The functions throw std::invalid_argument, naming the argument and its value, for sizes that
+/// are not positive and finite or do not fit together, and for counts out of range.
+
+#include <numbers>
+
+#include <glissade/geometry/triangle_mesh.h>
+
+namespace glissade::shapes {
+
+struct GearShape {
+  int teeth = 24;                                       ///< 8 ... 1000
+  double module = 1e-3;                                 ///< pitch diameter per tooth
+  double width = 10e-3;                                 ///< along z
+  double bore_radius = 5.5e-3;                          ///< less than 0.8 of the root radius, module (teeth / 2 - 1.25)
+  double pressure_angle = 20 * std::numbers::pi / 180;  ///< radians, between 0.2 and 0.5
+  int flank_points = 5;                                 ///< on each flank of a tooth, 2 ... 1000
+  int rows = 1;                                         ///< cells along the width, 1 ... 10,000
+};
+
+/// Gear about z from z = 0 to z = width; the middle of a tooth is on the x axis. The bore has two facets for each
+/// tooth. 4 teeth (flank_points + 1) (rows + 1) triangles or, where the root circle lies within the base circle, 4
+/// teeth (flank_points + 2) (rows + 1).
+geometry::TriangleMesh make_spur_gear(const GearShape& gear);
+
+struct GearBaseShape {
+  double size = 40e-3;      ///< edge of the square base
+  double thickness = 5e-3;  ///< of the base
+  double post_radius = 5e-3;
+  double post_height = 15e-3;
+  double chamfer = 1e-3;  ///< at the end of the post, 45°; less than its radius and height
+  int segments = 64;      ///< facets around the post, a multiple of 8 up to 100,000
+};
+
+/// Base whose seat is its upper face at z = 0, with a post about z that stands up from there. 10 segments triangles.
+geometry::TriangleMesh make_gear_base(const GearBaseShape& base);
+
+}  // namespace glissade::shapes

@@ -1,0 +1,185 @@
+// Visits of what is near, for those who take on more than triangles, against plain loops.
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/collision/dual_tree_traversal.h>
+#include <glissade/geometry/mesh_generators.h>
+
+#include "allocation_counter.h"
+#include "mesh_oracle.h"
+#include "random_numbers.h"
+#include "sanitizers.h"
+#include "sweep_meshes.h"
+#include "tree_triangles.h"
+
+namespace glissade::collision {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using test_support::RandomNumbers;
+using test_support::triangles_below;
+
+/// Two children that the visitor has taken on.
+struct TakenPair {
+  TreeChild child_A;
+  TreeChild child_B;
+};
+
+/// Takes on a share of what it is asked about, and always the same of it.
+class Taker final : public DualTreeVisitor {
+ public:
+  explicit Taker(std::uint64_t sixteenths) : sixteenths_(sixteenths) {}
+
+  bool accepts(const TreeChild& child_A, const TreeChild& child_B) override {
+    const std::uint64_t children = (std::uint64_t{child_A.node} << 32U) + child_B.node;
+    const std::uint64_t hash =
+        (children * 4U + static_cast<std::uint64_t>(child_A.child)) * 4U + static_cast<std::uint64_t>(child_B.child);
+    if ((hash * 0x9e3779b97f4a7c15U) >> 60U >= sixteenths_) return false;
+    taken.push_back({child_A, child_B});
+    return true;
+  }
+  void visit(const ClosePair& pair) override { seen.push_back(pair); }
+
+  std::vector<TakenPair> taken;
+  std::vector<ClosePair> seen;
+
+ private:
+  std::uint64_t sixteenths_;
+};
+
+/// Two random meshes, one of them up to ten times as large as the other, and a pose at which they are close.
+struct RandomPair {
+  explicit RandomPair(RandomNumbers& random) : A(mesh_of(random)), B(mesh_of(random)), size(std::min(A.size, B.size)) {
+    X_AB.linear() = random.rotation();
+    X_AB.translation() = A.center + random.point(A.size + B.size) - X_AB.linear() * B.center;
+  }
+  static test_support::SweepMesh mesh_of(RandomNumbers& random) {
+    const double size = random.power_of_ten(-1.0, 0.0);
+    return random_mesh(size, random.point(size), random);
+  }
+
+  test_support::SweepMesh A;
+  test_support::SweepMesh B;
+  double size;
+  Isometry3d X_AB = Isometry3d::Identity();
+  DopTree tree_A{std::make_shared<geometry::TriangleMesh>(A.mesh)};
+  DopTree tree_B{std::make_shared<geometry::TriangleMesh>(B.mesh)};
+};
+
+/// How often each pair of triangles was seen, or is below what was taken.
+std::map<TrianglePair, int> times_answered(const RandomPair& pair, const Taker& visitor) {
+  std::map<TrianglePair, int> times;
+  for (const ClosePair& close : visitor.seen)
+    ++times[close.triangles];
+  for (const TakenPair& taken : visitor.taken) {
+    for (const std::int32_t a : triangles_below(pair.tree_A, taken.child_A.node, taken.child_A.child)) {
+      for (const std::int32_t b : triangles_below(pair.tree_B, taken.child_B.node, taken.child_B.child))
+        ++times[{a, b}];
+    }
+  }
+  return times;
+}
+
+class NearVisit : public ::testing::Test {
+ protected:
+  static constexpr std::uint64_t kSeed = 20;
+
+  NearVisit() : random_(kSeed) { RecordProperty("seed", static_cast<int>(kSeed)); }
+
+  RandomNumbers random_;
+  QueryWorkspace workspace_;
+};
+
+TEST_F(NearVisit, OfOneWhoTakesNothingShowsThePairsWithinTheDistance) {
+  std::size_t pairs = 0;
+  for (int trial = 0; trial < test_support::affordable(300); ++trial) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
+    const RandomPair pair(random_);
+    const double distance = random_.chance(0.2) ? 0.0 : pair.size * random_.power_of_ten(-3.0, 0.0);
+    Taker visitor(0);
+    traverse_near(pair.tree_A, pair.tree_B, pair.X_AB, distance, workspace_, visitor);
+    std::sort(visitor.seen.begin(), visitor.seen.end(),
+              [](const ClosePair& a, const ClosePair& b) { return a.triangles < b.triangles; });
+    const std::vector<ClosePair> expected =
+        test_support::MeshOracle(pair.A.mesh, pair.B.mesh).pairs_within(pair.X_AB, distance);
+    ASSERT_EQ(visitor.seen.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      ASSERT_EQ(visitor.seen[i].triangles, expected[i].triangles);
+      ASSERT_EQ(visitor.seen[i].distance, expected[i].distance);
+      ASSERT_EQ(visitor.seen[i].p_A, expected[i].p_A);
+      ASSERT_EQ(visitor.seen[i].p_B, expected[i].p_B);
+    }
+    pairs += expected.size();
+  }
+  EXPECT_GT(pairs, 100U);
+}
+
+TEST_F(NearVisit, ShowsEveryPairOnceOrLeavesItToWhoTookWhatHoldsIt) {
+  std::size_t taken = 0;
+  std::size_t seen = 0;
+  for (int trial = 0; trial < test_support::affordable(300); ++trial) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
+    const RandomPair pair(random_);
+    const double distance = pair.size * random_.power_of_ten(-3.0, 0.0);
+    Taker visitor(static_cast<std::uint64_t>(random_.integer(1, 8)));
+    traverse_near(pair.tree_A, pair.tree_B, pair.X_AB, distance, workspace_, visitor);
+    const std::map<TrianglePair, int> times = times_answered(pair, visitor);
+    for (const ClosePair& near : test_support::MeshOracle(pair.A.mesh, pair.B.mesh).pairs_within(pair.X_AB, distance)) {
+      const auto found = times.find(near.triangles);
+      ASSERT_NE(found, times.end()) << near.triangles.triangle_A << ", " << near.triangles.triangle_B;
+      ASSERT_EQ(found->second, 1) << near.triangles.triangle_A << ", " << near.triangles.triangle_B;
+    }
+    taken += visitor.taken.size();
+    seen += visitor.seen.size();
+  }
+  EXPECT_GT(taken, 5U);
+  EXPECT_GT(seen, 50U);
+}
+
+TEST_F(NearVisit, LooksAtNothingBelowWhatWasTaken) {
+  const DopTree plate(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({1.0, 1.0}, 2000)));
+  Taker all(16);
+  traverse_near(plate, plate, Isometry3d(Eigen::Translation3d(0.0, 0.0, 1e-3)), 2e-3, workspace_, all);
+  EXPECT_TRUE(all.seen.empty());
+  EXPECT_LE(all.taken.size(), 16U) << "the children of the roots";
+  EXPECT_EQ(workspace_.counters().triangle_tests, 0);
+}
+
+TEST_F(NearVisit, OfBodiesThatAreFarAsksNothing) {
+  const DopTree plate(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({1.0, 1.0}, 200)));
+  Taker visitor(8);
+  traverse_near(plate, plate, Isometry3d(Eigen::Translation3d(0.0, 0.0, 3.0)), 0.5, workspace_, visitor);
+  EXPECT_TRUE(visitor.taken.empty());
+  EXPECT_TRUE(visitor.seen.empty());
+}
+
+TEST_F(NearVisit, AllocatesNothingOnceTheWorkspaceHasGrown) {
+  if (!test_support::allocations_are_counted()) GTEST_SKIP() << "a sanitizer has its own allocator";
+  /// Counts, so that it needs no memory of its own.
+  class Counter final : public DualTreeVisitor {
+   public:
+    bool accepts(const TreeChild& child_A, const TreeChild& child_B) override {
+      return (child_A.node + child_B.node + static_cast<std::uint32_t>(child_A.child)) % 7 == 6;
+    }
+    void visit(const ClosePair& /*pair*/) override { ++seen; }
+    int seen = 0;
+  } counter;
+  const DopTree sphere(std::make_shared<geometry::TriangleMesh>(geometry::make_sphere(1.0, 3000)));
+  const Isometry3d X_AB(Eigen::Translation3d(1.9, 0.1, 0.2));
+  traverse_near(sphere, sphere, X_AB, 0.01, workspace_, counter);
+  EXPECT_GT(counter.seen, 0);
+  const std::int64_t before = test_support::allocations_of_this_thread();
+  traverse_near(sphere, sphere, X_AB, 0.01, workspace_, counter);
+  EXPECT_EQ(test_support::allocations_of_this_thread() - before, 0);
+}
+
+}  // namespace
+}  // namespace glissade::collision

@@ -1,0 +1,153 @@
+// What steps have to be proved free of: nothing that is near is left out, and what is promised of each item is true.
+
+#include "certificate/pairs_to_certify.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/geometry/mesh_generators.h>
+
+#include "held_part.h"
+#include "near_bodies.h"
+#include "poses.h"
+#include "sanitizers.h"
+
+namespace glissade::haptics {
+namespace {
+
+using Eigen::Vector3d;
+using test_support::RandomNumbers;
+
+constexpr double kSize = 0.02;  // metres, of most bodies here
+
+std::vector<PairToCertify> pairs_to_certify_of(const ContactScene& scene, double radius,
+                                               const std::vector<BodyPair>& ignored = {}) {
+  collision::QueryWorkspace workspace;
+  std::vector<PairToCertify> to_certify(3);  // they are replaced
+  find_pairs_to_certify(scene, scene.bodies(), radius, ignored, workspace, to_certify);
+  return to_certify;
+}
+
+/// How far apart n holds two triangles.
+double gap_along(const Vector3d& n, const geometry::TrianglePoints& obstacle, const geometry::TrianglePoints& part) {
+  double top = -std::numeric_limits<double>::infinity();
+  double bottom = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    top = std::max(top, n.dot(obstacle[i]));
+    bottom = std::min(bottom, n.dot(part[i]));
+  }
+  return bottom - top;
+}
+
+class PairsToCertify : public ::testing::Test {
+ protected:
+  static constexpr std::uint64_t kSeed = 41;
+
+  PairsToCertify() : random_(kSeed) { RecordProperty("seed", static_cast<int>(kSeed)); }
+
+  double random_margin() { return random_.power_of_ten(-5.5, -3.7); }
+
+  RandomNumbers random_;
+};
+
+TEST_F(PairsToCertify, HoldsEveryPairOfTrianglesWithinTheRadiusOnce) {
+  std::size_t boxes = 0;
+  std::size_t triangles = 0;
+  for (int trial = 0; trial < test_support::affordable(300); ++trial) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
+    const double margin = random_margin();
+    const auto scene = test_support::random_surroundings(kSize, margin, margin * random_.uniform(0.3, 2.0), random_);
+    const double radius = random_.power_of_ten(-4.0, -2.0);
+    std::map<TrianglesOfBodies, int> held;
+    for (const PairToCertify& pair_to_certify : pairs_to_certify_of(*scene, radius)) {
+      const bool is_box = pair_to_certify.item_O.kind != TreeItem::Kind::kTriangle;
+      ++(is_box ? boxes : triangles);
+      for (const TrianglesOfBodies& pair : test_support::triangles_of(scene->bodies(), pair_to_certify))
+        ++held[pair];
+    }
+    for (const auto& [pair, distance] :
+         test_support::near_triangles(scene->bodies(), scene->obstacles().size(), radius)) {
+      ASSERT_EQ(held[pair], 1) << pair.bodies.obstacle << ": " << pair.obstacle_triangle << ", " << pair.bodies.part
+                               << ": " << pair.part_triangle << " at " << distance;
+    }
+  }
+  EXPECT_GT(boxes, 50U);
+  EXPECT_GT(triangles, 50U);
+}
+
+TEST_F(PairsToCertify, TellsLowerBoundsOfDistancesInAscendingOrder) {
+  for (int trial = 0; trial < test_support::affordable(80); ++trial) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
+    const double margin = random_margin();
+    const auto scene = test_support::random_surroundings(kSize, margin, margin, random_);
+    const std::span<const PlacedBody> bodies = scene->bodies();
+    const std::vector<PairToCertify> to_certify = pairs_to_certify_of(*scene, random_.power_of_ten(-4.0, -3.0));
+    EXPECT_TRUE(std::is_sorted(to_certify.begin(), to_certify.end(),
+                               [](const PairToCertify& a, const PairToCertify& b) { return a.distance < b.distance; }));
+    for (const PairToCertify& pair_to_certify : to_certify) {
+      ASSERT_NEAR(pair_to_certify.n_W.norm(), 1.0, 1e-12);
+      for (const TrianglesOfBodies& pair : test_support::triangles_of(bodies, pair_to_certify)) {
+        constexpr double kRounding = 1e-14;
+        const double distance = test_support::distance_of(bodies, pair);
+        const auto& O = bodies[static_cast<std::size_t>(pair.bodies.obstacle)];
+        const auto& P = bodies[static_cast<std::size_t>(pair.bodies.part)];
+        ASSERT_GE(distance, pair_to_certify.distance - kRounding);
+        ASSERT_GE(
+            gap_along(pair_to_certify.n_W, O.triangle_W(pair.obstacle_triangle), P.triangle_W(pair.part_triangle)),
+            pair_to_certify.distance - kRounding)
+            << "from the obstacle to the part";
+        // A direction between points a micrometre apart is good to 1e-10.
+        if (pair_to_certify.item_O.kind == TreeItem::Kind::kTriangle) {
+          ASSERT_NEAR(distance, pair_to_certify.distance, 1e-10);
+        }
+      }
+    }
+  }
+}
+
+TEST_F(PairsToCertify, LeavesOutBodiesThatAreIgnored) {
+  int others = 0;
+  for (int trial = 0; trial < test_support::affordable(40); ++trial) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
+    const auto scene = test_support::random_surroundings(kSize, 1e-4, 1e-4, random_);
+    const BodyPair ignored{0, static_cast<std::int32_t>(scene->body_of_part(0))};
+    const std::vector<PairToCertify> all = pairs_to_certify_of(*scene, 1e-3);
+    const std::vector<PairToCertify> rest = pairs_to_certify_of(*scene, 1e-3, {ignored});
+    const auto of_ignored =
+        std::count_if(all.begin(), all.end(), [&](const PairToCertify& o) { return o.bodies == ignored; });
+    EXPECT_EQ(rest.size(), all.size() - static_cast<std::size_t>(of_ignored));
+    for (const PairToCertify& pair_to_certify : rest)
+      ASSERT_FALSE(pair_to_certify.bodies == ignored);
+    others += rest.empty() ? 0 : 1;
+  }
+  EXPECT_GT(others, 0);
+}
+
+/// A plate one margin above another, each cut into so many triangles.
+std::size_t obligations_of_flush_plates(std::int64_t triangles, double gap) {
+  constexpr double kMargin = 2e-6;
+  const ContactScene scene = [&] {
+    std::vector<Obstacle> obstacles{test_support::obstacle_of(geometry::make_plate({0.5, 0.5}, triangles))};
+    ContactScene made(obstacles, {test_support::part_of(geometry::make_plate({0.1, 0.06}, triangles))},
+                      std::vector<double>{kMargin});
+    made.place(0, test_support::pose({0.03, 0.02, gap * kMargin}, test_support::turn(0.4, Vector3d::UnitZ())));
+    return made;
+  }();
+  return pairs_to_certify_of(scene, 0.5e-3).size();
+}
+
+TEST_F(PairsToCertify, IsAsSmallForFinelyCutFlushPlatesAsForCoarseOnes) {
+  EXPECT_LE(obligations_of_flush_plates(20, 1.0), 16U) << "the children of the roots";
+  EXPECT_LE(obligations_of_flush_plates(5000, 1.0), 16U);
+  EXPECT_GT(obligations_of_flush_plates(5000, 0.5), 300U) << "nearer than boxes are taken on";
+}
+
+}  // namespace
+}  // namespace glissade::haptics

@@ -1,0 +1,53 @@
+// Uses something of every installed component, and checks that it works there as it does in the tree.
+
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+
+#include <glissade/collision/dop_query.h>
+#include <glissade/devices/safety_limits.h>
+#include <glissade/devices/simulated_glove.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/haptics/sliding.h>
+#include <glissade/realtime/triple_buffer.h>
+
+namespace {
+
+using namespace glissade;
+
+std::shared_ptr<const geometry::TriangleMesh> box(double edge) {
+  return std::make_shared<geometry::TriangleMesh>(geometry::make_box({edge, edge, edge}, 300));
+}
+
+Eigen::Isometry3d at(double z) {
+  return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z));
+}
+
+void expect(bool truth, const char* what) {
+  if (truth) return;
+  std::cerr << "not so: " << what << '\n';
+  std::exit(1);
+}
+
+}  // namespace
+
+int main() {
+  const auto table_W = std::make_shared<haptics::ContactBody>(box(0.2));
+  const auto cube_V = std::make_shared<haptics::SlidingPart>(box(0.05));
+  collision::QueryWorkspace workspace;
+  expect(collision::intersects(table_W->tree, cube_V->tree, at(0.12), workspace), "overlapping boxes intersect");
+  expect(!collision::intersects(table_W->tree, cube_V->tree, at(0.13), workspace), "boxes apart do not intersect");
+
+  haptics::Sliding sliding({{table_W}}, cube_V, at(0.13));
+  for (int millisecond = 0; millisecond < 100; ++millisecond)
+    sliding.advance(at(0.12));
+  expect(sliding.result().state == haptics::SlidingState::kResting, "the cube comes to rest on the table");
+  expect(!collision::intersects(table_W->tree, cube_V->tree, sliding.result().X_WV, workspace), "it rests outside");
+
+  devices::GloveCommand command;
+  command.f_H_W = {0.0, 0.0, 1e6};
+  realtime::TripleBuffer<devices::LimitedCommand> buffer;
+  buffer.publish(devices::limit_command(command, devices::simulated_glove_descriptor()));
+  expect(buffer.latest().reasons.force_limited, "a glove is not sent a million newtons");
+  std::cout << "The installed package works.\n";
+}
