@@ -22,21 +22,18 @@ namespace glissade::apps {
 namespace {
 
 constexpr const char* kCollideDescription =
-    "Whether two meshes collide at each of many poses, and with how many pairs of triangles";
+    "Test two meshes for collision at many poses, and count the colliding pairs of triangles";
 
 constexpr const char* kCollideFooter =
-    "The poses file has the columns x_m,y_m,z_m,qw,qx,qy,qz: the pose of mesh B in the frame of mesh A, in metres and "
-    "as\n"
-    "a unit quaternion (w first; off by at most 1e-3). The answer has the columns pose (counted from 0), colliding (0 "
-    "or 1)\n"
-    "and, with --pairs, pairs. Touching counts as colliding; with --tolerance-m T, so does being not further apart "
-    "than T.\n"
+    "Poses: columns x_m,y_m,z_m,qw,qx,qy,qz. Each row is the pose of mesh B in the frame of mesh A: a position in\n"
+    "metres and a unit quaternion, w first, whose length may deviate from 1 by up to 1e-3.\n"
     "\n"
-    "With --cache the trees are kept in the files A.dop-tree and B.dop-tree, which saves most of the time to build "
-    "them.\n"
-    "They belong to the content of the meshes: when that has changed, or a file is damaged, it is written anew and a "
-    "line\n"
-    "on standard error says so. A file that cannot be written is no failure.\n"
+    "Output: one row per pose with the columns pose (counted from 0), colliding (0 or 1) and, with --pairs, pairs.\n"
+    "Meshes that touch collide. With --tolerance-m T, meshes at a distance of at most T collide too.\n"
+    "\n"
+    "--cache keeps the trees in the files A.dop-tree and B.dop-tree, which saves most of the time to build them. A\n"
+    "file that is damaged, or does not fit the content of its mesh, is written anew; a line on standard error says\n"
+    "so. If a file cannot be written, a line on standard error says so, and the command goes on.\n"
     "\n"
     "Examples:\n"
     "  glissade collide door.stl motor.obj --poses poses.csv\n"
@@ -94,15 +91,15 @@ void add_collide_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("collide", kCollideDescription);
   command->footer(kCollideFooter);
   command->add_option("A", options->mesh_A, "Mesh file: OBJ, STL, PLY or glTF, in metres")->required();
-  command->add_option("B", options->mesh_B, "The other mesh file")->required();
-  command->add_option("--poses", options->poses, "Poses of B in the frame of A, see below")->required();
-  command->add_flag("--pairs", options->question.count_pairs, "Count the pairs of colliding triangles");
-  command->add_option("--tolerance-m", options->question.tolerance, "Distance in metres that still counts")
+  command->add_option("B", options->mesh_B, "Second mesh file")->required();
+  command->add_option("--poses", options->poses, "CSV file of the poses of B in the frame of A, see below")->required();
+  command->add_flag("--pairs", options->question.count_pairs, "Count the colliding pairs of triangles");
+  command->add_option("--tolerance-m", options->question.tolerance, "Distance in metres up to which triangles collide")
       ->capture_default_str();
-  command->add_option("--method", options->method, "How to find out")
+  command->add_option("--method", options->method, "Search with DOP-trees, or compare all pairs as a check")
       ->check(CLI::IsMember(collide_method_names()))
       ->capture_default_str();
-  command->add_option("--out", options->out, "CSV file for the answer, - for standard output")->capture_default_str();
+  command->add_option("--out", options->out, "CSV file for the output, - for standard output")->capture_default_str();
   command->add_flag("--cache", options->cache, kCacheHelp);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

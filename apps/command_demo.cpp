@@ -24,15 +24,17 @@ namespace glissade::apps {
 namespace {
 
 constexpr const char* kDemoDescription =
-    "The whole system without hardware: a simulated glove carries a part to its seat";
+    "Run the whole system without hardware: a simulated glove carries a part to its seat";
 
 constexpr const char* kDemoFooter =
-    "Without --scene, the glove carries a window motor into a car door: through the access hole of the inner panel, "
-    "past\n"
-    "the side-impact tube and back against the panel. The hand follows a script, squeezed or stretched to the seconds\n"
-    "given, and yields to the forces it is sent. In real time glove and server talk over LCM, 1000 times a second;\n"
-    "offline everything happens in one thread on a simulated clock, with the same result every time.\n"
-    "Every visible pose is checked afterwards by brute force; a collision makes the exit code 1.\n"
+    "Without --scene, the glove carries a window motor into a car door: through the access hole of the inner panel,\n"
+    "past the side-impact tube and back against the panel. The hand follows a script, which is scaled in time to\n"
+    "--seconds, and yields to the forces that it receives. In real time, glove and server communicate over LCM, 1000\n"
+    "times a second. With --offline, everything runs in one thread on a simulated clock, with the same result every\n"
+    "time.\n"
+    "\n"
+    "Brute force checks every visible pose after the run. If a pose collides, the exit code is 1.\n"
+    "Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples:\n"
     "  glissade demo\n"
@@ -100,15 +102,15 @@ void add_demo_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<DemoOptions>();
   CLI::App* command = app.add_subcommand("demo", kDemoDescription);
   command->footer(std::string(kDemoFooter) + kSceneFileHelp);
-  command->add_option("--seconds", options->seconds, "How long the script takes, in seconds")->capture_default_str();
-  command->add_option("--scene", options->scene, "Another scene (YAML) with one movable object and a script");
+  command->add_option("--seconds", options->seconds, "Duration of the script in seconds")->capture_default_str();
+  command->add_option("--scene", options->scene, "Scene file (YAML) with one movable object and a script");
   CLI::Option* offline =
-      command->add_flag("--offline", options->offline, "Deterministic, on a simulated clock, in one thread");
+      command->add_flag("--offline", options->offline, "Run deterministically, on a simulated clock, in one thread");
   command->add_flag("--json", options->json, "Print the summary as JSON");
-  command->add_option("--lcm", options->lcm_url, "LCM address that glove and server meet at")
+  command->add_option("--lcm", options->lcm_url, "LCM address that glove and server share")
       ->capture_default_str()
       ->excludes(offline);
-  command->add_option("--report", options->report, "Folder for an HTML page with the plots of force and lag")
+  command->add_option("--report", options->report, "Folder for a page, index.html, with the summary and plots of force, lag and states")
       ->take_last();
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -19,13 +19,13 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kGloveDescription = "A simulated force-feedback glove as a process of its own";
+constexpr const char* kGloveDescription = "Simulate a force-feedback glove in a process of its own";
 
 constexpr const char* kGloveFooter =
-    "The hand follows a script, t_s,x_m,y_m,z_m,qw,qx,qy,qz: the pose X_WH of the hand root over time; without one, "
-    "that\n"
-    "of the car door demonstration. It waits at the script's start until a server sends the first command, yields to\n"
-    "the forces it is sent, and ends when the script does.\n"
+    "Script: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is the pose X_WH of the hand root at a time; times rise.\n"
+    "Without --script, the hand follows the script of the car door demonstration. It waits at the first pose until a\n"
+    "server sends a command, and yields to the forces that it receives. The process ends with the script or with\n"
+    "Ctrl-C.\n"
     "\n"
     "Example, with 'glissade run' in another terminal:\n"
     "  glissade glove --lcm 'udpm://239.255.76.67:7667?ttl=0' --script hand.csv";
@@ -69,11 +69,11 @@ void add_glove_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<GloveOptions>();
   CLI::App* command = app.add_subcommand("glove", kGloveDescription);
   command->footer(kGloveFooter);
-  command->add_option("--side", options->side, "Which hand wears it")
+  command->add_option("--side", options->side, "Hand that wears the glove")
       ->check(CLI::IsMember({"left", "right"}))
       ->capture_default_str();
-  command->add_option("--lcm", options->lcm_url, "LCM address to meet the server at")->capture_default_str();
-  command->add_option("--script", options->script, "What the hand does (CSV), see below");
+  command->add_option("--lcm", options->lcm_url, "LCM address that glove and server share")->capture_default_str();
+  command->add_option("--script", options->script, "Trajectory of the hand root (CSV), see below");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -20,11 +20,11 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kInfoDescription = "What a mesh is made of, its defects, and the statistics of its DOP-tree";
+constexpr const char* kInfoDescription = "Print the size and the defects of a mesh, and the statistics of its DOP-tree";
 
 constexpr const char* kInfoFooter =
-    "None of the defects keeps a mesh from being used; triangles without area are left out. Vertices at the\n"
-    "same position are welded first, and polygons are triangulated.\n"
+    "A mesh with defects can be used all the same. On import, vertices at equal positions are welded, polygons are\n"
+    "triangulated, and triangles without area are left out. Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples:\n"
     "  glissade info door.stl\n"

@@ -21,14 +21,16 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kRunDescription = "The haptic server: glove states in over LCM, forces out, 1000 times a second";
+constexpr const char* kRunDescription = "Run the haptic server: receive glove states over LCM and send forces, 1000 times a second";
 
 constexpr const char* kRunFooter =
-    "The scene's one movable object is the part in the hand. It is grasped rigidly, where it lies, when the first "
-    "glove\n"
-    "state arrives on the channel GLOVE_STATE; commands go out on GLOVE_COMMAND, and every tick on HAPTIC_STATE for\n"
-    "viewers and loggers. Ends after the seconds given, counted from the first glove state, or with Ctrl-C, and then\n"
-    "prints a summary; the poses of the last minute are checked by brute force.\n"
+    "The part in the hand is the only movable object of the scene. The hand grasps it rigidly, at its pose in the\n"
+    "scene, when the first glove state arrives on the channel GLOVE_STATE. Commands to the glove go out on\n"
+    "GLOVE_COMMAND. The state of every tick goes out on HAPTIC_STATE, for viewers and loggers.\n"
+    "\n"
+    "The run ends --seconds after the first glove state, or with Ctrl-C, and prints a summary. Brute force then\n"
+    "checks the visible poses; without --seconds, those of the last minute. If a pose collides, the exit code is 1.\n"
+    "Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
     "Example, with a simulated glove in a second terminal:\n"
     "  glissade run examples/scenes/car_door.yaml --lcm 'udpm://239.255.76.67:7667?ttl=0' --seconds 12\n"
@@ -76,11 +78,11 @@ void add_run_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("run", kRunDescription);
   command->footer(std::string(kRunFooter) + kSceneFileHelp);
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
-  command->add_option("--lcm", options->lcm_url, "LCM address of the glove")->capture_default_str();
-  command->add_option("--seconds", options->seconds, "Ends so long after the first glove state; 0: on Ctrl-C")
+  command->add_option("--lcm", options->lcm_url, "LCM address that glove and server share")->capture_default_str();
+  command->add_option("--seconds", options->seconds, "Duration in seconds from the first glove state; 0: until Ctrl-C")
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print the summary as JSON");
-  command->add_option("--report", options->report, "Folder for an HTML page with the plots of force and lag");
+  command->add_option("--report", options->report, "Folder for a page, index.html, with the summary and plots of force, lag and states");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

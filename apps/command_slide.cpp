@@ -29,45 +29,51 @@ namespace glissade::apps {
 namespace {
 
 constexpr const char* kSlideDescription =
-    "Lead a part through a scene along a trajectory, offline and deterministically";
+    "Move a part through a scene along a trajectory, offline and deterministically";
 
 constexpr const char* kSlideFooter =
-    "The trajectory has the columns t_s,x_m,y_m,z_m,qw,qx,qy,qz: the pose X_WG of the ghost, which is where the hand\n"
-    "wants the part, at rising times; between rows it moves straight and turns evenly. The part starts at the first\n"
-    "row's pose, which must be free (but see --depenetrate). The answer has one row per millisecond: ghost pose, "
-    "visible\n"
-    "pose, the wrench on the hand at the part's origin in world axes, the number of contacts that push, and the "
-    "state.\n"
+    "Trajectory: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is the pose X_WG of the ghost, where the hand wants\n"
+    "the part, at a time; times rise. Between rows, translation is linear and rotation follows the shorter arc at\n"
+    "constant speed. The part starts at the first row, where it must not collide (but see --depenetrate).\n"
+    "\n"
+    "Output: one row per millisecond with the time, the poses of ghost and visible part, the wrench on the hand about\n"
+    "the part's origin in world axes, the number of contacts with a force, and the state of the part.\n"
     "\n"
     "Metaphors:\n"
-    "  force-feedback      rigid grasp: the device holds the hand back, the part catches up at a limited speed\n"
-    "  rubber-band         the part hangs on the ghost by its middle; only what it touches turns it, no torque\n"
-    "  rubber-band-spring  rubber band and spiral spring: the part catches up at once\n"
-    "  incremental         the part repeats each motion of the ghost from where it is; what is refused is forgotten\n"
-    "\n"
-    "--contacts has one row for each contact that touches and each millisecond: its number, which it keeps as long\n"
-    "as it lasts, the two features (a triangle, and the number of the vertex, edge or face in the mesh), the points\n"
-    "on part and obstacle, the normal from obstacle to part, gap, force along the normal, and age. --patches has the\n"
-    "same merged, where contacts lie in one plane: centre and sum of the forces on the part, their number and extent.\n"
-    "\n"
-    "Objects of the scene with 'moves: FILE', at most three, move on their own, on the clock of the trajectory; "
-    "before\n"
-    "and after their rows they stand still. They push the part out of their way, wait where it cannot give way, and\n"
-    "must not touch anything at first. --moving has one row for each of them and each millisecond.\n"
-    "\n"
-    "--spiral-search: a part that stands still for 0.1 s though it is wanted elsewhere is aimed at a spiral round its\n"
-    "target, up to 1.6 mm wide, as a hand looks for a hole. --depenetrate: an obstacle that overlaps the part at the\n"
-    "start does not hold it, but pushes it out at 0.2 m/s at most.\n"
+    "  force-feedback      rigid grasp; the device holds the hand back, and the part catches up at a limited speed\n"
+    "  rubber-band         the part hangs on the ghost by the centre of its bounding box; contacts alone turn it, and\n"
+    "                      the hand feels no torque\n"
+    "  rubber-band-spring  a rubber band and a spiral spring tie the part to the ghost; it catches up at once\n"
+    "  incremental         the part repeats each motion of the ghost from where it is; refused motion is forgotten\n"
     "\n"
     "Methods:\n"
-    "  projection          the default: contacts within reach, projection, and a proof for every step\n"
-    "  paper               the founding paper's, for comparison: bisection to the contact, its class, a new\n"
-    "                      direction; a column more tells the states of its machine that each row went through\n"
+    "  projection          the default: projection on the contacts within reach, and a certificate for every step\n"
+    "  paper               the founding paper's method, for comparison: bisection to the contact, its classification,\n"
+    "                      a new direction; the last column lists the states of its state machine in each row\n"
     "\n"
-    "Several trajectories, or --summary or --report, ask for an assembly check: one row for each trajectory, which\n"
-    "tells whether the part came to the scene's goal (or else to where its trajectory ends), how far from it it was\n"
-    "left, the greatest force and torque on the hand, the least clearance and when, and for how long contacts pushed.\n"
-    "One that does not start in free space has no row, a line on standard error, and exit code 1 for all.\n"
+    "Rules:\n"
+    "  --spiral-search     A part that stands still for 0.1 s away from its target is aimed beside the target, in a\n"
+    "                      spiral that grows to 1.6 mm in two seconds, as a hand searches for a hole.\n"
+    "  --depenetrate       An obstacle that overlaps the part at the start does not hold the part, but pushes it out\n"
+    "                      at 0.2 m/s at most.\n"
+    "\n"
+    "Contacts: --contacts writes one row per touching contact and millisecond. A row has the number of the contact,\n"
+    "which stays the same as long as the contact lasts; the triangle and the feature (face, edge or vertex of the\n"
+    "mesh) of part and obstacle; the contact point on each; the normal from obstacle to part; gap, force along the\n"
+    "normal, age and friction. --patches merges the contacts of one obstacle in one plane: their number, the centre\n"
+    "and the sum of the forces on the part, and the extent.\n"
+    "\n"
+    "Moving objects: objects of the scene with 'moves: FILE', at most three, move on their own, on the clock of the\n"
+    "trajectory. Before their first and after their last row they stand still. They push the part out of their way,\n"
+    "wait where it cannot give way, and must touch nothing at the start. --moving writes one row per object and\n"
+    "millisecond.\n"
+    "\n"
+    "Assembly check, for several trajectories or with --summary or --report: one row per trajectory. It says whether\n"
+    "the part reached the goal of the scene (by default the last row of the trajectory) and how far from it the part\n"
+    "ended; the greatest force and torque on the hand; the smallest clearance and its time; how long contacts pushed.\n"
+    "A trajectory whose start is not free has no row, but a line on standard error; the exit code is then 1.\n"
+    "\n"
+    "All columns: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples:\n"
     "  glissade slide door.yaml --part motor --trajectory hand.csv --out motion.csv\n"
@@ -143,7 +149,7 @@ void add_row(CsvWriter& out, double time_s, haptics::SlidingMethod method, const
   out.end_row();
 }
 
-/// One row for each object that moves on its own.
+/// One row per object that moves on its own.
 void add_moving_rows(CsvWriter& out, double time_s, const HapticScene& scene,
                      const haptics::SlidingSimulation& sliding) {
   const std::size_t first = scene.obstacles.size() + 1;
@@ -163,7 +169,7 @@ std::unique_ptr<haptics::SlidingSimulation> start(const HapticScene& scene, cons
   }
 }
 
-/// At most a day: some 20 GB of rows, and more is a slip of the unit of t_s.
+/// Longest duration: a day, which writes some 20 GB of rows. More is an error in the unit of t_s.
 void check_duration(const geometry::PoseTrajectory& trajectory, const std::string& file) {
   constexpr std::chrono::hours kLongest{24};
   if (trajectory.duration() <= kLongest) return;
@@ -201,7 +207,7 @@ void slide(const HapticScene& scene, const SlideCheckOptions& check_options, con
   if (moving) moving->close();
 }
 
-/// Every trajectory by whatever processor is free.
+/// Checks all trajectories, each on the next free processor.
 std::vector<SlideCheck> check_all(const HapticScene& scene, const std::vector<std::string>& files,
                                   const SlideCheckOptions& options) {
   std::vector<geometry::PoseTrajectory> trajectories;
@@ -210,10 +216,10 @@ std::vector<SlideCheck> check_all(const HapticScene& scene, const std::vector<st
   std::vector<SlideCheck> checks(files.size());
   std::atomic<std::size_t> next = 0;
   std::atomic<std::int64_t> done = 0;
-  const auto work = [&](const auto& tell) {
+  const auto work = [&](const auto& report_progress) {
     for (std::size_t i = next++; i < files.size(); i = next++) {
       checks[i] = check_slide(scene, trajectories[i], files[i], options);
-      tell(++done);
+      report_progress(++done);
     }
   };
   std::vector<std::jthread> helpers;
@@ -246,27 +252,27 @@ haptics::SlidingOptions sliding_options(const SlideOptions& options) {
   sliding.rules.friction.sliding = options.friction.empty() ? 0.0 : options.friction.front();
   sliding.rules.friction.at_rest = options.friction.empty() ? 0.0 : options.friction.back();
   if (sliding.rules.friction.at_rest < sliding.rules.friction.sliding) {
-    throw std::invalid_argument("--friction: the second number, at rest, must not be less than the first");
+    throw std::invalid_argument("--friction: the second coefficient, at rest, must not be less than the first, sliding");
   }
   sliding.rules.spiral_search = options.spiral_search;
   if (options.depenetrate) sliding.rules.overlap = haptics::OverlapRule::kDepenetrate;
   return sliding;
 }
 
-/// Two tables in one file would be none.
+/// Two tables must not share a file.
 void check_files(const SlideOptions& options) {
   const std::vector<std::pair<std::string, std::string>> files{{"--out", options.out.empty() ? "-" : options.out},
                                                                {"--contacts", options.contacts.contacts},
                                                                {"--patches", options.contacts.patches},
                                                                {"--moving", options.moving}};
   if (options.is_check() && (options.contacts.any() || !options.moving.empty())) {
-    throw std::invalid_argument("--contacts, --patches, --moving: are for one trajectory, not for a check");
+    throw std::invalid_argument("--contacts, --patches, --moving: apply to one trajectory, not to an assembly check");
   }
   for (std::size_t i = 0; i < files.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (files[i].second.empty() || files[i].second != files[j].second) continue;
-      throw std::invalid_argument(files[i].first + ": " + in_quotes(files[i].second) + " is where " + files[j].first +
-                                  " writes");
+      throw std::invalid_argument(files[i].first + ": " + in_quotes(files[i].second) + " is already the file of " +
+                                  files[j].first);
     }
   }
 }
@@ -275,10 +281,10 @@ int run(const SlideOptions& options) {
   const SlideCheckOptions check_options{sliding_options(options), parse_method(options.method),
                                         options.goal_tolerance_m, options.goal_tolerance_deg};
   if (check_options.method == haptics::SlidingMethod::kPaper && options.has_rules()) {
-    throw std::invalid_argument("--method: the paper's knows no --friction, --spiral-search and --depenetrate");
+    throw std::invalid_argument("--method: paper does not support --friction, --spiral-search and --depenetrate");
   }
   if (options.is_check() && !options.out.empty()) {
-    throw std::invalid_argument("--out: is for the rows of one trajectory; a check writes to --summary and --report");
+    throw std::invalid_argument("--out: applies to one trajectory; an assembly check writes to --summary and --report");
   }
   check_files(options);
   for (const std::string& file : options.trajectories) {
@@ -288,11 +294,11 @@ int run(const SlideOptions& options) {
   }
   const HapticScene scene = make_haptic_scene(read_scene(options.scene), options.part);
   if (check_options.method == haptics::SlidingMethod::kPaper && !scene.moving.empty()) {
-    throw std::invalid_argument("--method: the paper's knows nothing that moves on its own, as " +
-                                scene.moving.front().name + " does");
+    throw std::invalid_argument("--method: paper does not support objects that move on their own, such as " +
+                                scene.moving.front().name);
   }
   if (!options.moving.empty() && scene.moving.empty()) {
-    throw std::invalid_argument("--moving: nothing moves on its own in " + scene.source);
+    throw std::invalid_argument("--moving: no object moves on its own in " + scene.source);
   }
   if (options.contacts.any() || !options.moving.empty()) check_names_fit_csv(scene);
   if (options.is_check()) return check(scene, check_options, options);
@@ -309,27 +315,27 @@ void add_slide_command(CLI::App& app, Command& chosen) {
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
   command->add_option("--part", options->part, "Name of the object in the hand")->required();
   command
-      ->add_option("--trajectory", options->trajectories, "Poses of the ghost over time (CSV), see below; or several")
+      ->add_option("--trajectory", options->trajectories, "Trajectory of the ghost (CSV), see below; several for an assembly check")
       ->required();
-  command->add_option("--metaphor", options->metaphor, "How hand and part are tied")->capture_default_str();
-  command->add_option("--method", options->method, "How sliding is computed")->capture_default_str();
+  command->add_option("--metaphor", options->metaphor, "Metaphor that ties hand and part, see below")->capture_default_str();
+  command->add_option("--method", options->method, "Sliding method, see below")->capture_default_str();
   command
-      ->add_option("--friction", options->friction, "Coefficient of Coulomb friction; or two, of sliding and at rest")
+      ->add_option("--friction", options->friction, "Coefficient of Coulomb friction; or two, sliding and at rest")
       ->expected(1, 2)
       ->check(CLI::NonNegativeNumber);
-  command->add_flag("--spiral-search", options->spiral_search, "Shake a part that is stuck, see below");
+  command->add_flag("--spiral-search", options->spiral_search, "Move a part that is stuck in a spiral, see below");
   command->add_flag("--depenetrate", options->depenetrate,
-                    "Lead a part that starts inside an obstacle out of it, see below");
-  command->add_option("--out", options->out, "CSV file for the answer (default: standard output)");
+                    "Push a part that starts inside an obstacle out of it, see below");
+  command->add_option("--out", options->out, "CSV file for the motion (default: standard output)");
   command->add_option("--contacts", options->contacts.contacts, "CSV file for the contacts, see below");
-  command->add_option("--patches", options->contacts.patches, "CSV file for the contacts merged to patches, see below");
-  command->add_option("--moving", options->moving, "CSV file for what moves on its own, see below");
-  command->add_option("--summary", options->summary, "CSV file for the check, - for standard output");
-  command->add_option("--report", options->report, "Folder for the check as a page, index.html");
-  command->add_option("--goal-tolerance-m", options->goal_tolerance_m, "The goal is reached within this")
+  command->add_option("--patches", options->contacts.patches, "CSV file for patches of contacts, see below");
+  command->add_option("--moving", options->moving, "CSV file for the moving objects, see below");
+  command->add_option("--summary", options->summary, "CSV file for the assembly check, - for standard output");
+  command->add_option("--report", options->report, "Folder for the assembly check as a page, index.html");
+  command->add_option("--goal-tolerance-m", options->goal_tolerance_m, "Greatest distance from the goal that counts as reached")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--goal-tolerance-deg", options->goal_tolerance_deg, "and this")
+  command->add_option("--goal-tolerance-deg", options->goal_tolerance_deg, "Greatest angle from the goal that counts as reached")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });

@@ -7,7 +7,7 @@ namespace glissade::apps {
 void check_reaches_other_processes(const std::string& lcm_url) {
   if (!lcm_url.starts_with("memq:")) return;
   throw std::invalid_argument("--lcm: '" + lcm_url +
-                              "' lives inside one process, so server and glove cannot meet there; take a udpm:// one");
+                              "' connects threads of one process only; server and glove need a udpm:// address");
 }
 
 }  // namespace glissade::apps

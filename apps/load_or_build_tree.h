@@ -12,7 +12,7 @@ namespace glissade::apps {
 
 /// The option's help.
 inline constexpr const char* kCacheHelp =
-    "Keep DOP-trees in files next to the meshes, MESH.dop-tree, and read them from there";
+    "Keep the DOP-tree of each mesh in a file beside it, MESH.dop-tree, and read it from there";
 
 /// The tree of a mesh: built, or where `mesh_path` is not empty, read from the file next to it if that is of use, else
 /// built and written there. What is wrong with that file is told on standard error. Throws as DopTree does.

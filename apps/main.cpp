@@ -23,8 +23,8 @@ constexpr const char* kDescription =
     "Metres, newtons, seconds and radians everywhere; quaternions are w, x, y, z.";
 
 constexpr const char* kFooter =
-    "Each command explains itself: glissade COMMAND --help\n"
-    "Exit code: 0 when done, 1 when a run failed, 2 when the input or the usage is wrong (one line on standard error).";
+    "Help on a command: glissade COMMAND --help\n"
+    "Exit code: 0 on success, 1 if a run fails, 2 for wrong input or usage. An error is one line on standard error.";
 
 int fail(int exit_code, const std::string& message) {
   std::cerr << "glissade: " << glissade::apps::one_line(message) << '\n';

@@ -36,7 +36,7 @@ inline constexpr const char* kSceneFileHelp =
     "    - {name: door, mesh: door.stl, scale: 0.001}\n"
     "    - {name: motor, shape: {type: box}, pose: {position_m: [0, -0.2, 0]}, movable: true}\n"
     "  script: hand.csv\n"
-    "An unknown key or shape is an error that lists the known ones. Scene files: docs/scene_files.md in the sources.";
+    "An unknown key or shape is an error that lists the known ones. All keys: docs/scene_files.md in the sources.";
 
 /// How an object moves on its own, or in the other hand.
 struct SceneMotion {

@@ -3,7 +3,7 @@
 /// Intersection of two meshes without any hierarchy: every triangle of one against every triangle of the other. The
 /// plain answer that faster queries are compared with; use `dop_query.h` for work.
 ///
-/// Pairs whose boxes are apart are dropped; the others go through the exact predicate of `triangle_intersection.h`, on
+/// Pairs whose boxes are apart are dropped; the others go through the exact predicate of `triangle_pair.h`, on
 /// the same coordinates as in `dop_query.h`: the vertices of A, and those of B after X_AB in double precision. Only
 /// triangles of positive area take part; touching counts. Cost O(n·m).
 

@@ -70,7 +70,8 @@ std::vector<Subject> on_other_instruction_sets(const std::string& prefix) {
   std::vector<Subject> subjects;
   const InstructionSet in_use = default_instruction_set();
   for (const InstructionSet set : collision::available_instruction_sets()) {
-    if (set != in_use) subjects.push_back(make_subject<Workspace>(prefix + std::string(collision::name_of(set)), {}, set));
+    if (set != in_use)
+      subjects.push_back(make_subject<Workspace>(prefix + std::string(collision::name_of(set)), {}, set));
   }
   return subjects;
 }

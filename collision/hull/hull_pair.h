@@ -3,11 +3,13 @@
 /// Two convex hulls at a pose, with what is remembered of them: points of their Minkowski difference B − A, and the
 /// plane between them.
 
+#include <cmath>
 #include <cstdint>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <glissade/base/assert.h>
 #include <glissade/collision/convex_hull.h>
 
 #include "hull/gjk_simplex.h"
@@ -48,9 +50,10 @@ class HullPair {
     return {R_AB_ * vertex_B(corner_B) + p_AB_ - vertex_A(corner_A), corner_A, corner_B};
   }
 
-  /// The point of B − A that is least along n, a unit vector: surely, if it lies beyond the margin. The memory has its
-  /// corners.
+  /// The point of B − A that is least along n, which must be of unit length: surely, if it lies beyond the margin. The
+  /// memory has its corners.
   Eigen::Vector3d extreme(const Eigen::Vector3d& n) {
+    GLISSADE_ASSERT(std::abs(n.squaredNorm() - 1.0) < 1e-9);
     const Eigen::Vector3d against_B = -(R_AB_.transpose() * n);
     memory_.corner_A = hull_A_.support(n, memory_.corner_A);
     memory_.corner_B = hull_B_.support(against_B, memory_.corner_B);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The test of `triangle_intersection.h` in plain double precision, which settles all but a few pairs: nearly
+/// The test of `triangle_pair.h` in plain double precision, which settles all but a few pairs: nearly
 /// degenerate ones are left to exact arithmetic.
 
 #include <algorithm>

@@ -105,16 +105,14 @@ class Sweep {
       const DopTree& tree_B = asked.trees_B[variant];
       const std::vector<TrianglePair>& expected = asked.expected[p];
       if (intersects(tree_A, tree_B, asked.poses[p], workspace) == expected.empty())
-        report(asked, set, variant, p,
-                         expected.empty() ? "collides but should not" : "does not collide but should");
+        report(asked, set, variant, p, expected.empty() ? "collides but should not" : "does not collide but should");
       intersecting_pairs(tree_A, tree_B, asked.poses[p], workspace, pairs);
       if (pairs != expected) report(asked, set, variant, p, first_difference(pairs, expected));
       counts_.add_check(variant, set);
     }
   }
 
-  void report(const Case& asked, std::size_t set, std::size_t variant, std::size_t pose,
-                        const std::string& what) {
+  void report(const Case& asked, std::size_t set, std::size_t variant, std::size_t pose, const std::string& what) {
     differences_.add(what + "\n  --seed " + std::to_string(arguments_.seed) + " --only-case " +
                      std::to_string(asked.index) + ", pose " + std::to_string(pose) + ", " +
                      std::string(name_of(sets_[set])) + ", " + variant_name(all_tree_options()[variant]) + ", " +

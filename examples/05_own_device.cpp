@@ -1,0 +1,80 @@
+// A part from an STL file, a world of twenty objects, and a force-feedback device of one's own on the haptic server.
+
+#include <iomanip>
+#include <iostream>
+
+#include <glissade/collision/collision_pipeline.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/mesh_import.h>
+#include <glissade/haptics/haptic_server.h>
+#include <glissade/haptics/sliding.h>
+#include <glissade/haptics/tracked_contacts.h>
+
+using namespace glissade;
+
+Eigen::Isometry3d at(double x, double y, double z) {
+  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
+// A driver, called once a millisecond; it must not wait. This one moves the hand down by 4 mm.
+class MyGlove final : public devices::GloveDevice {
+ public:
+  const devices::DeviceDescriptor& descriptor() const noexcept override { return descriptor_; }
+  bool read(devices::GloveState& newest) noexcept override {
+    const double depth = std::min(4e-3, 20e-6 * static_cast<double>(state_.sequence++));
+    state_.X_WH = at(0.0, 0.0, 0.002 - depth);
+    newest = state_;
+    return true;
+  }
+  void command(const devices::GloveCommand& command) noexcept override { newest_ = command; }
+  const devices::GloveCommand& newest() const { return newest_; }  // once the server has stopped
+
+ private:
+  devices::DeviceDescriptor descriptor_{.name = "my glove",
+                                        .max_force = 20.0,
+                                        .max_torque = 2.0,
+                                        .max_stiffness = 1000.0,
+                                        .max_rotational_stiffness = 5.0};
+  devices::GloveState state_;
+  devices::GloveCommand newest_;
+};
+
+int main(int argc, char** argv) {
+  if (argc < 2) return 2;  // own_device PART.stl, in millimetres
+  const auto mesh = std::make_shared<geometry::TriangleMesh>(geometry::import_mesh(argv[1], 1e-3).mesh);
+  const auto part_V = std::make_shared<haptics::SlidingPart>(mesh);
+  const auto block = std::make_shared<haptics::ContactBody>(
+      std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.1, 0.02}, 300)));
+
+  // Twenty objects: nineteen blocks side by side, their upper faces at z = 0, and the part 2 mm above the first.
+  collision::World world(20);
+  std::vector<haptics::Obstacle> obstacles;
+  for (int i = 0; i < 19; ++i) {
+    obstacles.push_back({.body = block, .X_WO = at(0.11 * i, 0.0, -0.01), .name = "block " + std::to_string(i)});
+    world.add({.tree = {block, &block->tree}, .X_WO = obstacles.back().X_WO});
+  }
+  world.add({.tree = {part_V, &part_V->tree}, .X_WO = at(0.0, 0.0, 0.002)});
+  realtime::SteadyClock clock;
+  collision::CollisionPipeline pipeline(world, clock, {.greatest_distance = 0.005});
+  std::cout << pipeline.step(0.005).meeting.size() << " pair of objects is closer than 5 mm\n" << std::fixed;
+
+  // Slide: the ghost goes 2 mm into the block and along it; the visible part stays on the surface.
+  haptics::Sliding sliding(obstacles, part_V, at(0.0, 0.0, 0.002));
+  haptics::ContactTracker tracker(sliding.margin());
+  for (int ms = 1; ms <= 200; ++ms)
+    sliding.advance(at(2e-5 * ms, 0.0, std::max(-0.002, 0.002 - 1e-4 * ms)));
+  for (const haptics::TrackedContact& contact : tracker.update(sliding.result()))
+    std::cout << "contact " << contact.id << " with "
+              << obstacles[static_cast<std::size_t>(contact.contact.obstacle)].name << ": " << std::setprecision(2)
+              << contact.contact.force << " N\n";
+  const haptics::Wrench wrench = haptics::spring_wrench(sliding.stiffness(), sliding.error());
+  std::cout << "wrench on the hand: " << wrench.f.transpose() << " N, " << wrench.t.transpose() << " Nm\n";
+  // The same part on the device, in real time for two seconds.
+  MyGlove glove;
+  haptics::Sliding live(obstacles, part_V, at(0.0, 0.0, 0.002));
+  haptics::HapticServer server(glove, live, clock, [](const devices::HapticState&) {}, {.ticks = 2000});
+  while (!server.is_done())
+    clock.sleep_until(clock.now() + std::chrono::milliseconds(10));
+  server.stop();
+  std::cout << "my glove pushes back with " << glove.newest().f_H_W.z() << " N\n";
+}
