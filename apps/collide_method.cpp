@@ -20,7 +20,7 @@ using geometry::TrianglePoints;
 constexpr const char* kDopTree = "dop-tree";
 constexpr const char* kBruteForce = "brute-force";
 
-/// The trees of two meshes and room for their queries.
+/// The trees of two meshes and the workspace of their queries.
 class TreeMethod {
  public:
   TreeMethod(const std::shared_ptr<const geometry::TriangleMesh>& mesh_A,
@@ -50,12 +50,12 @@ class TreeMethod {
   std::vector<collision::ClosePair> close_pairs_;
 };
 
-/// The triangles of `mesh` that have an area, in the frame to which X leads from that of the mesh.
+/// The triangles of `mesh` that have an area, with their corners p at X * p.
 std::vector<geometry::TrianglePoints> triangles_of(const geometry::TriangleMesh& mesh, const Eigen::Isometry3d& X) {
   std::vector<geometry::TrianglePoints> triangles;
   triangles.reserve(mesh.triangles.size());
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh.triangles.size()); ++i) {
-    // Decided before the pose is applied, as the trees do.
+    // Degeneracy is decided before the pose is applied, as in the trees.
     if (geometry::is_degenerate({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)})) continue;
     triangles.push_back({X * mesh.corner(i, 0), X * mesh.corner(i, 1), X * mesh.corner(i, 2)});
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The ways the command `collide` can answer: with the DOP-trees, or by brute force to check them.
+/// The methods of the command `collide`: DOP-trees, or brute force as a check.
 
 #include <cstdint>
 #include <functional>
@@ -14,32 +14,32 @@
 
 namespace glissade::apps {
 
-/// What is asked at every pose.
+/// The question at every pose.
 struct CollideQuestion {
-  double tolerance = 0.0;    ///< metres, ≥ 0: how far apart triangles may be and still count
-  bool count_pairs = false;  ///< otherwise one pair settles a pose
+  double tolerance = 0.0;    ///< metres, ≥ 0: triangles at most this far apart collide
+  bool count_pairs = false;  ///< without it, the first pair ends the search at a pose
 };
 
-/// What is found at one pose.
+/// The answer at one pose.
 struct CollideAnswer {
   bool colliding;
-  std::int64_t pairs;  ///< pairs of triangles within the tolerance; meaningless unless they were to be counted
+  std::int64_t pairs;  ///< pairs of triangles within the tolerance; meaningless without `count_pairs`
 };
 
-/// The mesh files next to which trees are kept (`load_or_build_tree.h`); empty: they are not.
+/// Mesh files beside which the trees are kept (`load_or_build_tree.h`); with empty paths, trees are not kept.
 struct TreeFiles {
   std::string mesh_A;
   std::string mesh_B;
 };
 
-/// Answers for the pose X_AB of mesh B in the frame of mesh A. Keeps scratch memory: one per thread.
+/// Answers for the pose X_AB of mesh B in the frame of mesh A. Keeps scratch memory: use one per thread.
 using CollideMethod = std::function<CollideAnswer(const Eigen::Isometry3d& X_AB)>;
 
 /// The names that `make_collide_method` knows; the first is the default.
 const std::vector<std::string>& collide_method_names();
 
-/// Prepares the method `name` for two meshes. Throws std::invalid_argument for another name and for what `DopTree`
-/// refuses.
+/// Prepares the method `name` for two meshes. Throws std::invalid_argument for an unknown name and for a mesh that
+/// `DopTree` refuses.
 CollideMethod make_collide_method(const std::string& name, std::shared_ptr<const geometry::TriangleMesh> mesh_A,
                                   std::shared_ptr<const geometry::TriangleMesh> mesh_B, const CollideQuestion& question,
                                   const TreeFiles& files = {});

@@ -1,7 +1,7 @@
 #pragma once
 
-/// How a command of the program plugs in: `add_<name>_command(app, chosen)` declares its options and, when the user
-/// names it, sets `chosen` to the work to do. Parsing is then over before any work starts.
+/// The commands of the program. `add_<name>_command(app, chosen)` declares the options of a command. When the user
+/// names the command, parsing sets `chosen` to its work, so all parsing ends before any work starts.
 
 #include <functional>
 
@@ -11,7 +11,7 @@ class App;
 
 namespace glissade::apps {
 
-/// The work of a command line; returns the exit code. Throws std::invalid_argument for bad input (exit code 2) and
+/// The work of a command; returns the exit code. Throws std::invalid_argument for bad input (exit code 2) and
 /// anything else for a failure while running (exit code 1).
 using Command = std::function<int()>;
 

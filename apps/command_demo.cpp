@@ -110,7 +110,9 @@ void add_demo_command(CLI::App& app, Command& chosen) {
   command->add_option("--lcm", options->lcm_url, "LCM address that glove and server share")
       ->capture_default_str()
       ->excludes(offline);
-  command->add_option("--report", options->report, "Folder for a page, index.html, with the summary and plots of force, lag and states")
+  command
+      ->add_option("--report", options->report,
+                   "Folder for a page, index.html, with the summary and plots of force, lag and states")
       ->take_last();
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

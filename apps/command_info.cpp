@@ -36,9 +36,9 @@ struct InfoOptions {
   bool cache = false;
 };
 
-/// What the command tells.
+/// The figures that the command prints.
 struct Info {
-  geometry::MeshReport report;  ///< of the imported mesh, which has no degenerate triangle left
+  geometry::MeshReport report;  ///< of the imported mesh, without degenerate triangles
   std::int64_t degenerate_triangles;
   std::int64_t polygons_triangulated;
   std::int64_t tree_nodes;

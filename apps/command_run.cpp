@@ -21,7 +21,8 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kRunDescription = "Run the haptic server: receive glove states over LCM and send forces, 1000 times a second";
+constexpr const char* kRunDescription =
+    "Run the haptic server: receive glove states over LCM and send forces, 1000 times a second";
 
 constexpr const char* kRunFooter =
     "The part in the hand is the only movable object of the scene. The hand grasps it rigidly, at its pose in the\n"
@@ -54,7 +55,7 @@ int run(const RunOptions& options) {
   if (!options.report.empty()) prepare_report_folder(options.report);
   const auto bus = std::make_shared<devices::LcmBus>(options.lcm_url);
   const StopSignal stop_signal;
-  // Announced from within the session, when nothing can go wrong in setting it up any more.
+  // Announced from within the session, after its set-up has succeeded.
   bool said_that_it_waits = false;
   bool said_that_it_holds = false;
   const auto watch = [&](std::int64_t ticks) {
@@ -82,7 +83,8 @@ void add_run_command(CLI::App& app, Command& chosen) {
   command->add_option("--seconds", options->seconds, "Duration in seconds from the first glove state; 0: until Ctrl-C")
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print the summary as JSON");
-  command->add_option("--report", options->report, "Folder for a page, index.html, with the summary and plots of force, lag and states");
+  command->add_option("--report", options->report,
+                      "Folder for a page, index.html, with the summary and plots of force, lag and states");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -252,7 +252,8 @@ haptics::SlidingOptions sliding_options(const SlideOptions& options) {
   sliding.rules.friction.sliding = options.friction.empty() ? 0.0 : options.friction.front();
   sliding.rules.friction.at_rest = options.friction.empty() ? 0.0 : options.friction.back();
   if (sliding.rules.friction.at_rest < sliding.rules.friction.sliding) {
-    throw std::invalid_argument("--friction: the second coefficient, at rest, must not be less than the first, sliding");
+    throw std::invalid_argument(
+        "--friction: the second coefficient, at rest, must not be less than the first, sliding");
   }
   sliding.rules.spiral_search = options.spiral_search;
   if (options.depenetrate) sliding.rules.overlap = haptics::OverlapRule::kDepenetrate;
@@ -315,12 +316,13 @@ void add_slide_command(CLI::App& app, Command& chosen) {
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
   command->add_option("--part", options->part, "Name of the object in the hand")->required();
   command
-      ->add_option("--trajectory", options->trajectories, "Trajectory of the ghost (CSV), see below; several for an assembly check")
+      ->add_option("--trajectory", options->trajectories,
+                   "Trajectory of the ghost (CSV), see below; several for an assembly check")
       ->required();
-  command->add_option("--metaphor", options->metaphor, "Metaphor that ties hand and part, see below")->capture_default_str();
+  command->add_option("--metaphor", options->metaphor, "Metaphor that ties hand and part, see below")
+      ->capture_default_str();
   command->add_option("--method", options->method, "Sliding method, see below")->capture_default_str();
-  command
-      ->add_option("--friction", options->friction, "Coefficient of Coulomb friction; or two, sliding and at rest")
+  command->add_option("--friction", options->friction, "Coefficient of Coulomb friction; or two, sliding and at rest")
       ->expected(1, 2)
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--spiral-search", options->spiral_search, "Move a part that is stuck in a spiral, see below");
@@ -332,10 +334,14 @@ void add_slide_command(CLI::App& app, Command& chosen) {
   command->add_option("--moving", options->moving, "CSV file for the moving objects, see below");
   command->add_option("--summary", options->summary, "CSV file for the assembly check, - for standard output");
   command->add_option("--report", options->report, "Folder for the assembly check as a page, index.html");
-  command->add_option("--goal-tolerance-m", options->goal_tolerance_m, "Greatest distance from the goal that counts as reached")
+  command
+      ->add_option("--goal-tolerance-m", options->goal_tolerance_m,
+                   "Greatest distance from the goal that counts as reached")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--goal-tolerance-deg", options->goal_tolerance_deg, "Greatest angle from the goal that counts as reached")
+  command
+      ->add_option("--goal-tolerance-deg", options->goal_tolerance_deg,
+                   "Greatest angle from the goal that counts as reached")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });

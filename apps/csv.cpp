@@ -15,7 +15,7 @@ std::string at_line(const std::string& source, std::size_t line) {
   return source + ":" + std::to_string(line);
 }
 
-/// Takes the next line off `text`, without its line break (either kind).
+/// Removes the next line from `text` and returns it without its line break, LF or CR LF.
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   std::string_view line = text.substr(0, end);

@@ -23,10 +23,10 @@ struct CsvTable {
 /// Reads a file whose header row is exactly `columns`.
 ///
 /// Throws std::invalid_argument, naming file, line, column and value, for a file that is missing, a folder or not
-/// readable, another header, no rows, a wrong number of columns, and anything that is not a finite number.
+/// readable, for another header, no rows or a wrong number of columns, and for a value that is not a finite number.
 CsvTable read_csv(const std::string& path, const std::vector<std::string>& columns);
 
-/// The same for a text that is already in memory; `source` stands in for the file's name in messages.
+/// The same for a text in memory; `source` replaces the file's name in messages.
 CsvTable parse_csv(std::string_view text, const std::string& source, const std::vector<std::string>& columns);
 
 /// Writes a CSV file row by row; numbers read back as exactly the values written. Not thread-safe.
@@ -45,8 +45,8 @@ class CsvWriter {
   /// Ends the row; it must have one value per column.
   void end_row();
 
-  /// Flushes. Throws std::runtime_error when not everything could be written (say, on a full disk). Call it at the end;
-  /// the destructor cannot tell anyone.
+  /// Flushes. Throws std::runtime_error when not everything could be written, for example on a full disk. Call it at
+  /// the end: the destructor reports no failure.
   void close();
 
  private:

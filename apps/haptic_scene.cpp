@@ -14,7 +14,7 @@ namespace glissade::apps {
 
 namespace {
 
-/// Where it lies: far from the origin, rounding may leave nothing of a small object.
+/// Whether the mesh has area at its pose: far from the origin, rounding can collapse a small object.
 bool has_area(const geometry::TriangleMesh& mesh, const Eigen::Isometry3d& X_WB) {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.triangles.size()); ++t) {
     if (!geometry::is_degenerate({X_WB * mesh.corner(t, 0), X_WB * mesh.corner(t, 1), X_WB * mesh.corner(t, 2)})) {
@@ -24,7 +24,7 @@ bool has_area(const geometry::TriangleMesh& mesh, const Eigen::Isometry3d& X_WB)
   return false;
 }
 
-/// Throws when an object, where it lies, is of no use.
+/// Throws when an object at its pose cannot be simulated.
 void check(const Scene& scene, const SceneObject& object) {
   const std::string where = scene.source + ": object " + in_quotes(object.name);
   for (std::size_t i = 0; i < object.mesh->vertices.size(); ++i) {
@@ -36,13 +36,13 @@ void check(const Scene& scene, const SceneObject& object) {
   }
 }
 
-/// What of the mesh holds parts.
+/// The mesh without the triangles that give way.
 std::shared_ptr<const geometry::TriangleMesh> holding(const SceneObject& object) {
   if (object.giving_way.empty()) return object.mesh;
   return std::make_shared<geometry::TriangleMesh>(geometry::without_triangles(*object.mesh, object.giving_way));
 }
 
-/// A body of the object, or an error that names it.
+/// The body of an object. An error names the object.
 template <typename Body>
 std::shared_ptr<const Body> make_body(const Scene& scene, const SceneObject& object) {
   try {
@@ -130,7 +130,7 @@ std::string only_movable_object(const Scene& scene) {
 void check_names_fit_csv(const HapticScene& scene) {
   for (std::size_t body = 0; body < scene.body_names.size(); ++body) {
     const std::string& name = scene.body_names[body];
-    if (body == scene.obstacles.size()) continue;  // the part, which no row tells
+    if (body == scene.obstacles.size()) continue;  // the part, which no row names
     if (name.find_first_of(",\"\n\r") == std::string::npos) continue;
     throw std::invalid_argument(scene.source + ": object " + in_quotes(name) +
                                 " has a comma, quote or line break in its name, which a CSV file cannot hold");

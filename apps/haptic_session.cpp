@@ -17,17 +17,17 @@ namespace glissade::apps {
 namespace {
 
 constexpr int kFifoPriority = 80;
-/// What a run without an end keeps of its ticks: the last minute.
+/// Ticks kept of a run without an end: the last minute.
 constexpr std::size_t kKeptTicks = 60'000;
 
-/// The part is held as stiffly as the device can render.
+/// Options with the default stiffness of the part, lowered to the limits of the device.
 haptics::SlidingOptions sliding_options(const HapticScene& scene, const devices::DeviceDescriptor& device,
                                         const haptics::SlidingRules& rules) {
   const haptics::Coupling coupling = haptics::coupling_for(device, haptics::default_stiffness(scene.part_V->radius()));
   return {.metaphor = haptics::Metaphor::kForceFeedback, .stiffness = coupling.stiffness, .rules = rules};
 }
 
-/// A part that starts inside an obstacle is the scene's fault.
+/// Starts the simulation. The error for a part that starts inside an obstacle names the scene.
 haptics::Sliding start_sliding(const HapticScene& scene, const haptics::SlidingOptions& options) {
   try {
     return haptics::Sliding(scene.obstacles, scene.part_V, scene.X_WV_start, options);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Runs of the haptic loop, as the commands `demo` and `run` need them.
+/// Runs of the haptic loop for the commands `demo` and `run`.
 
 #include <cstdint>
 #include <functional>
@@ -13,12 +13,13 @@
 
 namespace glissade::apps {
 
-/// The whole system on a simulated clock: `ticks` milliseconds of a simulated glove that follows `script_X_WH`.
+/// Runs the whole system on a simulated clock: `ticks` milliseconds of a simulated glove that follows `script_X_WH`.
 /// Throws std::invalid_argument, naming scene and part, when the part collides at its start.
 Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks);
 
-/// The haptic server in real time, with the glove on `bus`: for `ticks` ticks with a device, or, for 0, until
-/// `should_stop` says so. Calls `watch` ten times a second with the ticks done. Publishes HAPTIC_STATE on the bus.
+/// Runs the haptic server in real time with the glove on `bus`, for `ticks` ticks with a device, or until `should_stop`
+/// returns true; `ticks` 0 sets no limit. Calls `watch` ten times a second with the number of ticks so far. Publishes
+/// HAPTIC_STATE on the bus.
 /// Throws std::invalid_argument, naming scene and part, when the part collides at its start.
 Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, std::int64_t ticks,
                     const std::function<bool()>& should_stop, const std::function<void(std::int64_t)>& watch);

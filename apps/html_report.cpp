@@ -61,7 +61,7 @@ std::string summary_table(const std::vector<std::pair<std::string, std::string>>
   return html + "</table>\n</section>\n";
 }
 
-/// Names and colours of the lines; a single line is told by the plot's title.
+/// Names and colours of the lines; a single line needs none, because the plot's title names it.
 std::string legend(const std::vector<PlotSeries>& series) {
   if (series.size() < 2) return "";
   std::string html = "<ul class=\"legend\">\n";

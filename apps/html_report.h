@@ -10,22 +10,22 @@
 
 namespace glissade::apps {
 
-/// What the page shows, from top to bottom.
+/// The content of the page, from top to bottom.
 struct Report {
   std::string title;
-  std::vector<std::pair<std::string, std::string>> summary;  ///< rows of a table: what, and its value with unit
+  std::vector<std::pair<std::string, std::string>> summary;  ///< rows of a table: name, and value with unit
   std::vector<Plot> plots;
 };
 
 /// The page as HTML; texts are plain text and escaped here.
 std::string html_report(const Report& report);
 
-/// Makes `folder` where needed, so that a run need not end before it turns out that its report has no place.
-/// Throws std::invalid_argument, naming the folder, when it cannot be made or nothing can be written there.
+/// Creates `folder` if necessary. Call it before a run, so that no run ends without a place for its report.
+/// Throws std::invalid_argument, naming the folder, when it cannot be created or is not writable.
 void prepare_report_folder(const std::string& folder);
 
-/// Writes the page to `folder`/index.html, making the folder where needed, and returns that path.
-/// Throws std::invalid_argument when the folder or the file cannot be made, std::runtime_error when writing fails.
+/// Writes the page to `folder`/index.html, creates the folder if necessary, and returns that path.
+/// Throws std::invalid_argument when the folder or the file cannot be created, std::runtime_error when writing fails.
 std::string write_html_report(const Report& report, const std::string& folder);
 
 }  // namespace glissade::apps

@@ -6,7 +6,7 @@
 
 namespace glissade::apps {
 
-/// Throws std::invalid_argument, naming the option, when nobody in another process can be met at `lcm_url`.
+/// Throws std::invalid_argument, naming the option, when `lcm_url` does not reach other processes.
 void check_reaches_other_processes(const std::string& lcm_url);
 
 }  // namespace glissade::apps

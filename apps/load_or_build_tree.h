@@ -1,6 +1,6 @@
 #pragma once
 
-/// What `--cache` means to the commands that take meshes.
+/// The option --cache of the commands that read meshes.
 
 #include <memory>
 #include <string>
@@ -14,8 +14,9 @@ namespace glissade::apps {
 inline constexpr const char* kCacheHelp =
     "Keep the DOP-tree of each mesh in a file beside it, MESH.dop-tree, and read it from there";
 
-/// The tree of a mesh: built, or where `mesh_path` is not empty, read from the file next to it if that is of use, else
-/// built and written there. What is wrong with that file is told on standard error. Throws as DopTree does.
+/// The tree of a mesh. With an empty `mesh_path` it is built. Otherwise it is read from the file beside the mesh; if
+/// that file does not hold the tree of this mesh, the tree is built and written there. A line on standard error reports
+/// a file that cannot be used or written. Throws as DopTree does.
 collision::DopTree load_or_build_tree(const std::shared_ptr<const geometry::TriangleMesh>& mesh,
                                       const std::string& mesh_path);
 

@@ -1,5 +1,5 @@
-/// The program `glissade`: sets up its commands, parses, runs the one that was chosen, and turns errors into one line
-/// and an exit code.
+/// The program `glissade`: declares its commands, parses, runs the chosen command, and turns an error into one line and
+/// an exit code.
 
 #include <exception>
 #include <iostream>
@@ -36,7 +36,7 @@ int parse_and_run(int argc, char** argv) {
   app.footer(kFooter);
   app.set_version_flag("--version", "glissade " GLISSADE_VERSION, "Print the version and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
-  app.require_subcommand(0, 1);  // none has a message of its own below
+  app.require_subcommand(0, 1);  // a missing command gets a message of our own below
   Command chosen;
   glissade::apps::add_demo_command(app, chosen);
   glissade::apps::add_info_command(app, chosen);
@@ -55,7 +55,7 @@ int parse_and_run(int argc, char** argv) {
   return chosen();
 }
 
-/// What was printed may still be on its way, and a full disk shows only now.
+/// Flushes standard output: a full disk shows only then.
 int flush_output(int exit_code) {
   std::cout.flush();
   if (std::cout || exit_code != 0) return exit_code;

@@ -14,7 +14,7 @@ void append_point(const PlotSeries& from, std::size_t index, PlotSeries& to) {
   to.y.push_back(from.y[index]);
 }
 
-/// Appends the least and the greatest value of the points `begin` to `end` in their order, or one gap when none is
+/// Appends the minimum and the maximum of the points `begin` to `end` in their order, or one gap when no value is
 /// finite.
 void append_extremes(const PlotSeries& from, std::size_t begin, std::size_t end, PlotSeries& to) {
   std::size_t least = end;

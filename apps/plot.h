@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a line plot shows, and how a long line is thinned without losing its peaks.
+/// The data of a line plot, and a decimation of long lines that keeps their peaks.
 
 #include <cstddef>
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace glissade::apps {
 
-/// One line of a plot; `x` ascending, as many values in `y`. A value that is not finite interrupts the line.
+/// One line of a plot. `x` ascends; `y` has as many values. A value that is not finite interrupts the line.
 struct PlotSeries {
   std::string name;
   std::vector<double> x;
   std::vector<double> y;
 };
 
-/// One plot. The labels carry the units, say "force [N]".
+/// One plot. The labels carry the units, for example "force [N]".
 struct Plot {
   std::string title;
   std::string x_label;
@@ -23,8 +23,8 @@ struct Plot {
   std::vector<PlotSeries> series;
 };
 
-/// At most `most` (≥ 4) points that look like `series` when drawn: the first, the last, and the least and the greatest
-/// value of each stretch between, so that no peak is lost.
+/// At most `most` (≥ 4) points that look like `series` when drawn: the first, the last, and the minimum and maximum of
+/// each stretch between them, so that no peak is lost.
 PlotSeries decimated(const PlotSeries& series, std::size_t most);
 
 }  // namespace glissade::apps

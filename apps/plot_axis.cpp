@@ -49,7 +49,7 @@ AxisTicks axis_ticks(double low, double high, int most) {
 }
 
 AxisRange rounded_range(double low, double high, int most) {
-  // A flat line is drawn in the middle; below the resolution of the numbers themselves everything is flat.
+  // A flat line is drawn in the middle; variation below the resolution of the numbers is flat.
   const double smallest_extent = 1e-9 * std::max(std::abs(low), std::abs(high));
   if (high - low <= smallest_extent) {
     const double room = low == 0.0 ? 1.0 : 0.5 * std::abs(low);

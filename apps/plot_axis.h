@@ -7,10 +7,10 @@
 
 namespace glissade::apps {
 
-/// Ticks at multiples of a 1, 2 or 5 times a power of ten.
+/// Ticks at multiples of 1, 2 or 5 times a power of ten.
 struct AxisTicks {
   double step;
-  std::vector<double> values;       ///< ascending, all within the range asked for
+  std::vector<double> values;       ///< ascending, all within the given range
   std::vector<std::string> labels;  ///< one per value, all with the same number of decimals
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The one rule for poses in files.
+/// Validation of poses in files.
 
 #include <string>
 
@@ -8,13 +8,13 @@
 
 namespace glissade::apps {
 
-/// The collision queries promise to be exact so far out.
+/// Largest coordinate for which collision queries are exact.
 inline constexpr double kLargestCoordinate_m = 1e9;
 
 /// The pose at `position` (metres) with the rotation `q` scaled to unit length.
 ///
-/// Throws std::invalid_argument, beginning with `where` ("file:line"), when the quaternion is zero or off unit length
-/// by more than 1e-3, and when the position is beyond kLargestCoordinate_m.
+/// Throws std::invalid_argument, beginning with `where` ("file:line"), when the length of the quaternion deviates from
+/// 1 by more than 1e-3, and when a coordinate of the position is beyond ±kLargestCoordinate_m.
 Eigen::Isometry3d checked_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& q, const std::string& where);
 
 }  // namespace glissade::apps

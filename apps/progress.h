@@ -8,8 +8,8 @@
 
 namespace glissade::apps {
 
-/// Shows on standard error how much of some counted work is done, only when that is a terminal and only once the work
-/// has taken a second; wiped when destroyed. Not thread-safe; may block on the terminal.
+/// Shows the progress of counted work on standard error, if that is a terminal and once the work has taken a second.
+/// The destructor erases it. Not thread-safe; may block on the terminal.
 class ProgressBar {
  public:
   /// `total` > 0 is the amount of work.
@@ -18,8 +18,8 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// Tells that `done` of the work is done. Cheap enough for every step of a loop of microseconds: it draws 10 times a
-  /// second.
+  /// Reports that `done` of `total` is done. Draws at most 10 times a second, so it is cheap enough for loops whose
+  /// steps take microseconds.
   void update(std::int64_t done);
 
  private:
@@ -32,7 +32,7 @@ class ProgressBar {
   std::chrono::steady_clock::time_point next_draw_;
 };
 
-/// The line that the bar shows: the label, a bar of `width` cells and the percentage.
+/// The line shown: the label, a bar of `width` cells and the percentage.
 std::string progress_line(const std::string& label, std::int64_t done, std::int64_t total, int width);
 
 }  // namespace glissade::apps

@@ -20,7 +20,7 @@ namespace {
 
 using geometry::TriangleMesh;
 
-/// Reads the parts of one scene file.
+/// Reads one scene file.
 class SceneReader {
  public:
   SceneReader(std::string source, std::filesystem::path base_folder)
@@ -45,7 +45,7 @@ class SceneReader {
   }
 
  private:
-  /// What objects may share: those of the same file or of the same shape do.
+  /// A mesh that all objects of the same file, or of the same shape, share.
   struct Geometry {
     std::shared_ptr<const geometry::TriangleMesh> mesh;
     std::int64_t degenerate_triangles = 0;

@@ -38,21 +38,21 @@ inline constexpr const char* kSceneFileHelp =
     "  script: hand.csv\n"
     "An unknown key or shape is an error that lists the known ones. All keys: docs/scene_files.md in the sources.";
 
-/// How an object moves on its own, or in the other hand.
+/// Motion of an object that moves on its own, or in another hand.
 struct SceneMotion {
   geometry::PoseTrajectory script_X_WB;
-  std::optional<double> grip_N_per_m{};  ///< none: that of `haptics::ScriptedPart`
+  std::optional<double> grip_N_per_m{};  ///< default: that of `haptics::ScriptedPart`
 };
 
 /// One object at its initial pose.
 struct SceneObject {
   std::string name;
-  std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< in metres, in the object's frame B; equal ones are shared
+  std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< metres, in the object's frame B; equal meshes are shared
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   bool movable = false;
   std::optional<SceneMotion> motion{};
   std::optional<double> margin_m{};
-  std::vector<std::int32_t> giving_way{};  ///< triangles, ascending
+  std::vector<std::int32_t> giving_way{};  ///< triangles that give way, ascending
   std::int64_t degenerate_triangles = 0;   ///< left out of the mesh, see `import_mesh`
 };
 
@@ -71,8 +71,8 @@ struct Scene {
 /// Throws std::invalid_argument, one line with file, line and key or value, for every deviation from the format.
 Scene read_scene(const std::string& path);
 
-/// The same for a text that is already in memory: `source` stands in for the file's name in messages, and paths in the
-/// scene are relative to `base_folder`.
+/// The same for a text in memory: `source` replaces the file's name in messages, and paths in the scene are relative to
+/// `base_folder`.
 Scene parse_scene(const std::string& text, const std::string& source, const std::string& base_folder);
 
 }  // namespace glissade::apps

@@ -43,7 +43,7 @@ std::uint64_t hash_of(const std::vector<devices::HapticState>& samples) {
 }
 
 std::int64_t count_colliding(const std::vector<devices::HapticState>& samples, const HapticScene& scene) {
-  // A part at rest shows the same pose many times over: once is enough to check.
+  // A part at rest repeats its pose, which is checked once.
   std::vector<Eigen::Isometry3d> poses;
   std::vector<std::int64_t> repetitions;
   for (const devices::HapticState& sample : samples) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a run of the haptic loop left behind, and what is to be said of it.
+/// The record of a run of the haptic loop, its summary, and its output.
 
 #include <array>
 #include <cstddef>
@@ -19,7 +19,7 @@
 
 namespace glissade::apps {
 
-/// Keeps the newest samples of a run in memory allocated beforehand, for the haptic thread to fill.
+/// Keeps the newest samples of a run in preallocated memory. The haptic thread fills it.
 class SessionRecorder {
  public:
   explicit SessionRecorder(std::size_t capacity) : samples_(capacity) {}
@@ -30,9 +30,9 @@ class SessionRecorder {
     ++total_;
   }
 
-  /// Ticks recorded, those that were overwritten included. After the run.
+  /// Number of recorded ticks, including overwritten ones. Call it after the run.
   std::int64_t total() const { return total_; }
-  /// The kept samples, oldest first. After the run.
+  /// The kept samples, oldest first. Call it after the run.
   std::vector<devices::HapticState> samples() const;
 
  private:
@@ -40,18 +40,18 @@ class SessionRecorder {
   std::int64_t total_ = 0;
 };
 
-/// What only a run in real time has.
+/// Figures that only a run in real time has.
 struct RealTimeFigures {
   haptics::HapticServerStatistics server;
-  realtime::PeriodicStatistics bare_timer;  ///< of an empty loop beside it
+  realtime::PeriodicStatistics bare_timer;  ///< of an empty loop that runs beside it
 };
 
 /// A finished run.
 struct Session {
   std::int64_t ticks = 0;
-  std::int64_t objects = 0;           ///< of the scene, the part among them
-  std::int64_t collision_frames = 0;  ///< how often the simulation looked around
-  collision::FrameReport collision;   ///< the sum of the accounts of these
+  std::int64_t objects = 0;           ///< of the scene, including the part
+  std::int64_t collision_frames = 0;  ///< searches for contacts, one frame each
+  collision::FrameReport collision;   ///< sum of the reports of these frames
   std::vector<devices::HapticState> samples;
   std::optional<RealTimeFigures> real_time;  ///< none for an offline run
 };
@@ -71,20 +71,19 @@ struct SessionSummary {
   std::uint64_t hash = 0;  ///< of all visible poses and wrenches
 };
 
-/// Computes the summary; the visible poses are checked by brute force that shares nothing with the DOP-tree, with a
-/// progress bar.
+/// Computes the summary. Checks the visible poses by brute force, independent of the DOP-trees, with a progress bar.
 SessionSummary summarize(const Session& session, const HapticScene& scene);
 
 /// The summary as one JSON object; figures that an offline run does not have are null.
 nlohmann::json to_json(const SessionSummary& summary, const Session& session);
-/// The summary for a person, some lines.
+/// The summary as lines of text.
 std::string to_text(const SessionSummary& summary, const Session& session);
 /// An HTML page with the summary and the plots of force, lag and states in `folder`; returns its path.
 std::string write_session_report(const SessionSummary& summary, const Session& session, const std::string& title,
                                  const std::string& folder);
 
-/// Prints the summary as text or JSON, and writes the report where a folder is given. Throws std::runtime_error when a
-/// visible pose collides.
+/// Prints the summary as text or JSON, and writes the report unless `report_folder` is empty. Throws std::runtime_error
+/// when a visible pose collides.
 void conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json,
               const std::string& report_folder);
 

@@ -1,4 +1,4 @@
-// How a session is told: as text, as JSON, as a page.
+// The output of a session: text, JSON, and a page.
 
 #include <algorithm>
 #include <array>
@@ -54,7 +54,7 @@ std::string stage_text(const collision::StageReport& stage, std::int64_t frames)
   return formatted("%.1f in, %.1f out, %.1f us", each(stage.in), each(stage.out), each(microseconds(stage.time)));
 }
 
-// What looking around cost, a frame of the collision pipeline each time.
+// Cost of the searches for contacts, one frame of the collision pipeline each.
 void add_collision_rows(const Session& session, Rows& rows) {
   const std::int64_t frames = session.collision_frames;
   const collision::FrameReport& sum = session.collision;
@@ -113,7 +113,7 @@ PlotSeries series_of(const std::vector<devices::HapticState>& samples, const std
   return series;
 }
 
-/// A state may last a millisecond, less than a pixel: so for each stretch of the run how much of it was spent in each.
+/// The share of each state in each stretch of the run: a state may last a millisecond, which is less than a pixel.
 Plot plot_of_states(const std::vector<devices::HapticState>& samples) {
   constexpr std::size_t kMostStretches = 300;
   const std::size_t stretch = std::max<std::size_t>(1, (samples.size() + kMostStretches - 1) / kMostStretches);

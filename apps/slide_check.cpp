@@ -23,7 +23,7 @@ double seconds(std::chrono::nanoseconds time) {
   return std::chrono::duration<double>(time).count();
 }
 
-/// The distance of the visible part from all that it must not touch.
+/// The distance of the visible part from all obstacles and moving objects.
 class Clearance {
  public:
   explicit Clearance(const HapticScene& scene)
@@ -89,7 +89,7 @@ std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& sce
 std::chrono::nanoseconds slide_to(std::int64_t tick, const geometry::PoseTrajectory& trajectory,
                                   haptics::SlidingSimulation& sliding) {
   const std::chrono::nanoseconds time = trajectory.first_time() + tick * milliseconds(1);
-  // The first row tells what is there at its time, and nothing has had time to move.
+  // The first row shows the start: no time has passed yet.
   sliding.advance(trajectory.pose_at(time), tick == 0 ? 0.0 : 1.0);
   return time;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What became of a part on its way through a scene: the assembly check of one trajectory.
+/// The assembly check of a trajectory: whether the part reaches its goal, and with which forces and clearance.
 
 #include <chrono>
 #include <cstdint>
@@ -29,7 +29,7 @@ struct SlideCheckOptions {
 
 struct SlideCheck {
   std::string trajectory;              ///< the file's name
-  std::optional<std::string> problem;  ///< why there is no answer, as one sentence; then all else is meaningless
+  std::optional<std::string> problem;  ///< one sentence: why the check was impossible; then all else is meaningless
   bool goal_reached = false;
   double goal_distance_m = 0.0;  ///< of the part's origin, at the end
   double goal_angle_deg = 0.0;
@@ -38,28 +38,28 @@ struct SlideCheck {
   double clearance_min_m = 0.0;  ///< of the visible part, by exact queries
   double clearance_min_at_s = 0.0;
   double duration_s = 0.0;
-  double contact_s = 0.0;  ///< contacts pushed for so long
+  double contact_s = 0.0;  ///< time during which contacts pushed
   PlotSeries force;        ///< newtons over seconds
 };
 
-/// The simulation of the scene; it begins at the time and pose of the trajectory's first row, and what moves on its own
-/// begins where it is at that time. Throws std::invalid_argument, as one sentence, where anything is not free then.
+/// The simulation of the scene from the first row of the trajectory on. The part starts at the pose of that row;
+/// objects that move on their own start at their poses of that time. Throws std::invalid_argument, with one sentence,
+/// when a body is not free there.
 std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& scene,
                                                           const geometry::PoseTrajectory& trajectory,
                                                           const SlideCheckOptions& options);
 
-/// Goes on to a tick of the trajectory and returns its time. Ticks are a millisecond each, and must come in order: 0,
-/// 1, 2 and so on.
+/// Advances to a tick of the trajectory and returns its time. A tick is a millisecond. Call it with 0, 1, 2 and so on.
 std::chrono::nanoseconds slide_to(std::int64_t tick, const geometry::PoseTrajectory& trajectory,
                                   haptics::SlidingSimulation& sliding);
 
-/// Leads the part along the trajectory in steps of a millisecond, offline, and keeps account. The goal is the scene's,
-/// or else where the trajectory ends. A start that is not free is told as a `problem`. Different checks of one scene
-/// may run at once.
+/// Moves the part along the trajectory in steps of a millisecond, offline. The goal is that of the scene, by default
+/// the last row of the trajectory. A start that is not free is reported as `problem`. Checks of one scene may run in
+/// several threads at once.
 SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory& trajectory, const std::string& name,
                        const SlideCheckOptions& options);
 
-/// One row for each check, in their order; `path` as for `CsvWriter`.
+/// Writes one row per check, in their order; `path` as for `CsvWriter`.
 void write_checks(const std::vector<SlideCheck>& checks, const std::string& path);
 
 /// The page of all checks.

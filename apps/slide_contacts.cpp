@@ -65,7 +65,7 @@ void SlideContactsWriter::write(double time_s) {
   }
 }
 
-/// Metres that no point of what moves on its own has moved more since the last call.
+/// Upper bound, in metres, of the motion of all points of moving objects since the last call.
 double SlideContactsWriter::travel_of_obstacles() {
   double most = 0.0;
   const auto X_WB = sliding_.scripted_X_WB();

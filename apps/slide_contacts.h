@@ -1,7 +1,6 @@
 #pragma once
 
-/// The contacts of `glissade slide` as files: one row for each contact, or each patch of merged contacts, and
-/// millisecond.
+/// The contacts of `glissade slide` as files: one row per contact, or per patch of merged contacts, and millisecond.
 
 #include <memory>
 #include <string>
@@ -16,7 +15,7 @@
 
 namespace glissade::apps {
 
-/// Where to write; an empty path means not at all, "-" standard output.
+/// The paths of the files. An empty path writes no file; "-" is standard output.
 struct SlideContactsFiles {
   std::string contacts;
   std::string patches;
@@ -24,15 +23,15 @@ struct SlideContactsFiles {
   bool any() const { return !contacts.empty() || !patches.empty(); }
 };
 
-/// Writes what touches, tick by tick. Not thread-safe.
+/// Writes the touching contacts of each tick. Not thread-safe.
 class SlideContactsWriter {
  public:
-  /// Throws std::invalid_argument when a file cannot be created. The scene's names must fit, see `check_names_fit_csv`;
-  /// `scene` and `sliding` must outlive this object.
+  /// Throws std::invalid_argument when a file cannot be created. The names of the scene must pass
+  /// `check_names_fit_csv`. `scene` and `sliding` must outlive this object.
   SlideContactsWriter(const SlideContactsFiles& files, const HapticScene& scene,
                       const haptics::SlidingSimulation& sliding);
 
-  /// The rows of the newest result, told as those of `time_s`. Once for every call of `advance`.
+  /// Writes the rows of the newest result, with the time `time_s`. Call it once after every call of `advance`.
   void write(double time_s);
 
   /// Throws std::runtime_error when not everything could be written.

@@ -7,7 +7,7 @@ namespace glissade::apps {
 
 namespace {
 
-// A signal may come on any thread, and a handler may touch nothing that locks.
+// A signal may arrive on any thread, and a handler must not lock.
 std::atomic<bool> stop_requested = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 

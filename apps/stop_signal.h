@@ -1,16 +1,16 @@
 #pragma once
 
-/// Ctrl-C as a wish to end, for commands that run until they are told to stop.
+/// Ctrl-C as a request to stop, for commands that run until the user ends them.
 
 namespace glissade::apps {
 
-/// From its construction on, the first SIGINT or SIGTERM does not end the process but makes `requested()` true; the
-/// second ends it, so that a command that does not come to its end can be stopped. One per process.
+/// After construction, the first SIGINT or SIGTERM makes `requested()` true instead of ending the process. The second
+/// ends the process, in case the command does not react. One per process.
 class StopSignal {
  public:
   StopSignal();
 
-  /// Any thread.
+  /// For any thread.
   static bool requested();
 };
 

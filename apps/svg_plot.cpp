@@ -22,7 +22,7 @@ constexpr int kMostTicksX = 10;
 constexpr int kMostTicksY = 6;
 constexpr std::size_t kMostPoints = 2000;
 
-/// Where data land in the drawing.
+/// The mapping from data to the drawing.
 struct Canvas {
   AxisRange x;
   AxisRange y;
@@ -40,7 +40,7 @@ std::string coordinate(double value) {
   return buffer.data();
 }
 
-/// Least and greatest finite value over all series, or an empty range (low > high) when there is none.
+/// Smallest and greatest finite value over all series; an empty range (low > high) without finite values.
 AxisRange extent_of(const std::vector<PlotSeries>& series, std::vector<double> PlotSeries::*values) {
   AxisRange extent{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const PlotSeries& one : series) {

@@ -9,13 +9,13 @@
 
 namespace glissade::apps {
 
-/// Lines take the style classes `c0`, `c1`, ... in turn; the page defines this many.
+/// Number of the style classes `c0`, `c1`, ... that lines take in turn. The page defines them.
 inline constexpr std::size_t kPlotColors = 6;
 
 /// The plot as one `<svg>` element, without its title; each line has at most 2000 points.
 std::string svg_plot(const Plot& plot);
 
-/// `text` with the characters that mean something in HTML and XML replaced.
+/// `text` with the special characters of HTML and XML escaped.
 std::string html_escaped(const std::string& text);
 
 }  // namespace glissade::apps

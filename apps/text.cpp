@@ -55,7 +55,7 @@ std::string one_line(std::string_view text) {
 
 std::string read_text_file(const std::string& path) {
   if (path.empty()) throw std::invalid_argument("the name of a file is empty");
-  // A folder opens like a file and fails only later, with a less helpful reason; a pipe or a device may never end.
+  // A folder opens like a file and fails only later, with a less helpful reason. A pipe or a device may never end.
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (std::filesystem::is_directory(status)) throw std::invalid_argument(path + ": is a folder, not a file");

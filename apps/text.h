@@ -1,6 +1,6 @@
 #pragma once
 
-/// Small text helpers that the file readers and the error messages share.
+/// Text helpers shared by the file readers and the error messages.
 
 #include <optional>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace glissade::apps {
 
-/// The whole of `text` as a number with a decimal point, whatever the locale; nothing when it is anything else. "inf",
+/// The whole of `text` as a number with a decimal point, in any locale; nothing if it is not one. "inf",
 /// "nan" and values beyond the range of a double are not numbers here.
 std::optional<double> parse_number(std::string_view text);
 

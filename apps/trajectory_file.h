@@ -10,11 +10,11 @@
 namespace glissade::apps {
 
 /// Reads a trajectory; times are rounded to nanoseconds.
-/// Throws std::invalid_argument, naming file, line and value, when a time does not rise above the one before or is
-/// beyond ±1e9 s, and for what `read_csv` and `checked_pose` refuse.
+/// Throws std::invalid_argument, naming file, line and value, when a time does not exceed that of the row before or is
+/// beyond ±1e9 s, and for all that `read_csv` and `checked_pose` reject.
 geometry::PoseTrajectory read_trajectory(const std::string& path);
 
-/// The same for a text that is already in memory; `source` stands in for the file's name in messages.
+/// The same for a text in memory; `source` replaces the file's name in messages.
 geometry::PoseTrajectory parse_trajectory(std::string_view text, const std::string& source);
 
 }  // namespace glissade::apps

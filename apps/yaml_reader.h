@@ -1,6 +1,6 @@
 #pragma once
 
-/// Typed access to YAML that tolerates nothing unexpected: every error is one line with file, line and key.
+/// Strict typed access to YAML: every deviation is an error of one line with file, line and key.
 
 #include <span>
 #include <string>
@@ -11,7 +11,8 @@
 
 namespace glissade::apps {
 
-/// Reads the nodes of one file. Every function but `where` throws std::invalid_argument, beginning with `where(node)`.
+/// Reads the nodes of one file. Every function except `where` throws std::invalid_argument, beginning with
+/// `where(node)`.
 class YamlReader {
  public:
   /// `source` is the file's name, for messages.
@@ -32,11 +33,11 @@ class YamlReader {
   /// The same; in addition, every key must be one of `known`.
   void check_keys(const YAML::Node& map, const std::string& what, std::span<const std::string_view> known) const;
 
-  /// The value of `key`, which must be there.
+  /// The value of `key`, which must exist.
   YAML::Node required(const YAML::Node& map, const std::string& what, const std::string& key) const;
 
-  /// `node` as text that is not empty, a finite number, true or false, or a list of `count` finite numbers. `key` names
-  /// it.
+  /// `node` as a non-empty text, a finite number, true or false, or a list of `count` finite numbers. Messages name it
+  /// `key`.
   std::string text(const YAML::Node& node, const std::string& key) const;
   double number(const YAML::Node& node, const std::string& key) const;
   bool boolean(const YAML::Node& node, const std::string& key) const;

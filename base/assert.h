@@ -2,12 +2,12 @@
 
 /// Checks of preconditions that a function documents with "must" and does not throw for.
 ///
-/// GLISSADE_ASSERT(condition) reports the file, the line and the condition to the standard error and ends the program.
-/// The CMake option GLISSADE_ASSERTIONS turns it on; without it the condition is compiled, but never evaluated.
-/// Real-time code may use it: a check that holds allocates nothing and makes no system call.
+/// GLISSADE_ASSERT(condition): if the condition is false, reports file, line and condition to the standard error and
+/// ends the program. The CMake option GLISSADE_ASSERTIONS turns it on; without it the condition is compiled, but never
+/// evaluated. Real-time code may use it: a check that holds allocates nothing and makes no system call.
 ///
 /// Public headers must not use it. They are compiled with the options of the user's program, so one inline function
-/// could then mean two things in one program; sources and headers of rooms always see the options of the library.
+/// could have two definitions in one program. Sources and private headers always see the options of the library.
 
 #ifdef GLISSADE_ASSERTIONS
 

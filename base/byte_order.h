@@ -1,6 +1,6 @@
 #pragma once
 
-/// Numbers as bytes in files.
+/// Conversion between numbers and their bytes in files.
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace glissade::base {
 
-/// The number at `offset`, which must be within `bytes` with all of its size.
+/// The number whose bytes start at `offset`; all of them must lie within `bytes`.
 template <class Number>
 Number number_at(std::string_view bytes, std::size_t offset, std::endian order = std::endian::little) {
   GLISSADE_ASSERT(offset <= bytes.size() && bytes.size() - offset >= sizeof(Number));
@@ -24,7 +24,7 @@ Number number_at(std::string_view bytes, std::size_t offset, std::endian order =
   return std::bit_cast<Number>(raw);
 }
 
-/// Appends the number, lowest byte first.
+/// Appends the bytes of the number in little-endian order.
 template <class Number>
 void append_number(std::string& bytes, Number number) {
   auto raw = std::bit_cast<std::array<char, sizeof(Number)>>(number);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Argument checks of set-up code: each throws std::invalid_argument in a sentence that names the argument and its
+/// Argument checks of set-up code. Each throws std::invalid_argument, with a sentence that names the argument and its
 /// value.
 
 #include <cmath>

@@ -12,7 +12,7 @@ namespace {
 
 using TimeOfCase = std::map<std::string, double>;
 
-// Every nine digits that are there: enough to recompute anything, and equal runs give equal files.
+// Nine digits: enough to recompute every figure, and equal runs give equal files.
 std::string number(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.9g", value);

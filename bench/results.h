@@ -1,6 +1,6 @@
 #pragma once
 
-/// The figures of a run: rows of `bench,case,subject,metric,value,unit`, as results.csv holds them.
+/// The figures of a run: the rows of results.csv, `bench,case,subject,metric,value,unit`.
 
 #include <filesystem>
 #include <string>
@@ -24,11 +24,12 @@ class Results {
   void add(Row row) { rows_.push_back(std::move(row)); }
   const std::vector<Row>& rows() const { return rows_; }
 
-  /// Appends to a bench its cases `geomean` and `worst`: how many times faster than each peer (`ratio_to_fcl`, larger
-  /// is better) Glissade is, and each variant of it that ran in all of the cases.
+  /// Appends to a bench the cases `geomean` and `worst`: the ratio of the time of each peer to that of Glissade, and to
+  /// that of each variant that ran in all cases (`ratio_to_fcl`; larger is better).
   void add_ratios(const std::string& bench, const std::vector<std::string>& peers);
 
-  /// The same for some cases, those that end so, as the cases `GROUP-geomean` and `GROUP-worst`; only of `time`.
+  /// The same for the cases whose names end in one of `endings`, as the cases `GROUP-geomean` and `GROUP-worst`; only
+  /// for the metric `time`.
   void add_group_ratios(const std::string& bench, const std::string& group, const std::vector<std::string>& endings,
                         const std::vector<std::string>& peers);
 

@@ -31,7 +31,7 @@ const PipelineOptions& checked(const PipelineOptions& options) {
 
 }  // namespace
 
-// The data that the stages share, and the stages in their order.
+// The data shared by the stages, and the stages in their order.
 class CollisionPipeline::Frame {
  public:
   Frame(World& world, const realtime::Clock& clock, const PipelineOptions& options)

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The collision thread (paper §2.3): a pipeline that computes frame after frame beside its users, who move objects and
-/// read results without ever waiting for it.
+/// The collision thread (paper §2.3): runs a pipeline frame after frame. Other threads move objects and read results
+/// without ever waiting for it.
 
 #include <chrono>
 #include <memory>
@@ -18,22 +18,22 @@ namespace glissade::collision {
 
 struct CollisionThreadOptions {
   PipelineOptions pipeline;
-  /// Metres, as in `CollisionPipeline::step`; no more than the pipeline's greatest distance.
+  /// Metres, as in `CollisionPipeline::step`; at most the greatest distance of the pipeline.
   double distance = 0.0;
-  /// From the beginning of a frame to that of the next. A frame that takes longer makes the next begin at the next
-  /// multiple after its end.
+  /// Time from the beginning of one frame to that of the next. After a frame that takes longer, the next one begins at
+  /// the next multiple of the period.
   std::chrono::nanoseconds period{std::chrono::milliseconds(1)};
-  /// Threads that read results.
+  /// Number of threads that read results.
   int readers = 1;
 };
 
-/// One end of the hand-over, for one thread at a time. All is wait-free and allocates nothing.
+/// Reads the frames of a `CollisionThread`, for one thread at a time. All functions are wait-free and allocate nothing.
 class FrameReader {
  public:
-  /// Takes the newest frame. Returns whether there is one that was not taken before.
+  /// Takes the newest frame. Returns whether it is newer than the last one taken.
   bool update() noexcept { return frames_.update(); }
 
-  /// The frame last taken, number 0 if none was. It stays as it is until the next `update`.
+  /// The frame taken last; its number is 0 if there is none. It does not change until the next `update`.
   const FrameResult& frame() const noexcept { return frames_.value(); }
 
  private:
@@ -41,24 +41,24 @@ class FrameReader {
   realtime::TripleBuffer<FrameResult> frames_;
 };
 
-/// Runs from its construction to `stop` or its destruction. Thread-safety: one thread owns the object; each reader is
-/// for a thread of its own; the world is for all.
+/// Runs from construction to `stop` or destruction. Thread-safety: one thread owns the object, each reader serves one
+/// thread, and any thread may use the world.
 class CollisionThread {
  public:
-  /// World and clock must outlive the thread, which is the one consumer of the world. Throws std::invalid_argument for
-  /// options that make no sense, std::system_error when there is no thread to be had.
+  /// World and clock must outlive the thread, which is the only consumer of the world. Throws std::invalid_argument for
+  /// options out of range, and std::system_error if no thread can be started.
   CollisionThread(World& world, realtime::Clock& clock, const CollisionThreadOptions& options = {});
   CollisionThread(const CollisionThread&) = delete;
   CollisionThread& operator=(const CollisionThread&) = delete;
   ~CollisionThread() { stop(); }
 
-  /// Number 0 to `readers` − 1 of the options.
+  /// The reader of that number, 0 to `readers` − 1 of the options. Throws std::out_of_range for any other.
   FrameReader& reader(int number = 0) { return *readers_.at(static_cast<std::size_t>(number)); }
 
-  /// Waits for the frame that is under way, which is still published.
+  /// Ends the thread after the current frame, which is still published. Blocks until then.
   void stop() { thread_->stop(); }
 
-  /// The account of the frames, once `stop` has returned.
+  /// Timing statistics of the frames, valid once `stop` has returned.
   const realtime::PeriodicStatistics& statistics() const { return thread_->statistics(); }
 
  private:

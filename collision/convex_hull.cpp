@@ -18,11 +18,12 @@ namespace {
 using Eigen::Vector3d;
 using Points = std::span<const Vector3d>;
 
-// Of all coordinates that take part. What is thinner is a hull of fewer dimensions, whose thickness is among `outside`.
+// Relative to all coordinates that take part. A thinner set of points is a hull of fewer dimensions, and its thickness
+// is part of `outside`.
 constexpr double kRoundingOfPoints = 1e-15;
 
-// The sum of two coordinates in a corner of a facet, for a point of Qhull's points that lies above: they are 3 across,
-// and the way up from a point to the facet is not longer. See `climbing_error_of`.
+// Bound on s + t of `climbing_error_of`, times the altitude of the facets: Qhull's points are 3 across, and the height
+// of a facet above a point is not greater.
 constexpr double kReachOfFacets = 12.0;
 
 std::vector<Vector3d> corners_of(const geometry::TriangleMesh& mesh) {
@@ -40,7 +41,7 @@ std::vector<Vector3d> corners_of(const geometry::TriangleMesh& mesh) {
   return corners;
 }
 
-// The point where `value` is greatest.
+// The index of the point with the greatest `value`.
 template <typename Value>
 std::size_t furthest_of(Points points, const Value& value) {
   std::size_t best = 0;
@@ -55,8 +56,8 @@ std::size_t furthest_of(Points points, const Value& value) {
   return best;
 }
 
-// Directions in which a set of points extends, each from a point to the furthest one, and how far it extends beyond
-// them: beyond a point, a line, a plane.
+// Extents of a set of points along three axes: from a point to the one farthest from it, from the line through both to
+// the point farthest from that, and from the plane of the first two axes.
 struct Extents {
   std::array<std::size_t, 2> ends;
   std::array<Vector3d, 3> axis;    ///< orthonormal
@@ -89,8 +90,8 @@ Extents extents_of(Points points) {
   return e;
 }
 
-// Coordinates along the first `dimension` axes, from the middle. All extents become 1: neighbors on a hull stay
-// neighbors however it is stretched, and Qhull never sees anything flat.
+// Coordinates along the first `dimension` axes, relative to the middle and scaled to extents of 1. Neighbors on a hull
+// stay neighbors under any stretching, and Qhull never sees flat input.
 std::vector<double> unit_coordinates(Points points, const Extents& extents, int dimension) {
   const Vector3d origin = 0.5 * (points[extents.ends[0]] + points[extents.ends[1]]);
   std::vector<double> coordinates;
@@ -119,11 +120,12 @@ std::vector<std::array<std::int32_t, 2>> edges_of(const std::vector<std::array<s
   return edges;
 }
 
-// Let climbing stop at v, where no edge e goes up by more than δ, which rounding hides, and let x be higher. What lies
-// below the facets of v lies in the cone of its edges; so straight above x there is a point v + s a + t b of a facet
-// with edges a and b, s and t not negative. It is higher than v by no more than (s + t) δ, and s + t is its distance
-// from v by that of v from the side opposite, at most. Stretching changes neither s nor t. That facets are not quite
-// convex to each other, and Qhull's coordinates rounded, adds what `outside` is made of.
+// Bound of the climbing error. Let climbing stop at v, where no edge e rises by more than δ, an amount that rounding
+// hides, and let x be higher. Everything below the facets of v lies in the cone of its edges, so vertically above x
+// there is a point v + s a + t b of a facet with edges a and b, with s and t not negative. It is higher than v by at
+// most (s + t) δ. s + t is at most its distance from v, divided by the distance of v from the opposite side. Stretching
+// changes neither s nor t. The facets are not exactly convex to each other, and the coordinates given to Qhull are
+// rounded: that adds the terms of `outside`.
 double climbing_error_of(const HullFacets& hull, double reach, double outside) {
   return 4.0 * outside + kReachOfFacets / hull.altitude * 4.0 * kRoundingOfPoints * reach;
 }
@@ -210,7 +212,7 @@ void ConvexHull::find_starts() {
   }
 }
 
-// Neighbors get numbers near each other, because they are looked at together.
+// Neighbors get numbers close to each other, because they are read together.
 void ConvexHull::take_corners(Points points, const std::vector<Edge>& edges) {
   std::vector<std::int32_t> number(points.size(), -1);
   std::vector<std::int32_t> point_of;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The DOP-tree: a hierarchy of discretely oriented polytopes over a triangle soup (paper §2.1).
-/// Build one per mesh, share it between objects and threads, and query pairs of them with `dop_query.h`.
+/// The DOP-tree: a bounding-volume hierarchy of discretely oriented polytopes over a triangle soup (paper §2.1). Build
+/// one per mesh and share it between objects and threads. The queries of `dop_query.h` take two trees.
 
 #include <cstdint>
 #include <memory>
@@ -17,56 +17,56 @@ namespace glissade::collision {
 struct NodeHead;
 struct SlabLine;
 struct TriangleLeaf;
+struct TreeNodes;
 struct TreeShape;
-struct VertexGroup;
 class DopVertices;
 
-/// How the nodes of one tree are brought into the frame of the other.
+/// How a query encloses the nodes of one tree in DOPs aligned to the other tree.
 enum class Realignment {
-  kAffine,      ///< three old offsets make a new one: O(k) (paper §2.1, eq. 1)
-  kBruteForce,  ///< every vertex of the node is projected on every direction: O(k²) (paper §2.1.1)
+  kAffine,      ///< each new offset combines three old ones: O(k) (paper §2.1, eq. 1)
+  kBruteForce,  ///< projects every vertex of a node on every direction: O(k²) (paper §2.1.1)
 };
 
-/// What to build. The defaults are the fastest; the others are there to be compared with.
+/// Options of construction. The defaults are the fastest; the others serve comparison.
 struct DopTreeOptions {
-  int directions = 24;    ///< k: 6, 14, 18, 24 or 26
-  bool thin_slab = true;  ///< an extra slab along a node's own thin direction, where that helps
+  int directions = 24;    ///< k, the number of half-spaces: 6, 14, 18, 24 or 26
+  bool thin_slab = true;  ///< adds a slab along a node's own thin direction, where that helps
   Realignment realignment = Realignment::kAffine;
 
   bool operator==(const DopTreeOptions&) const = default;
 };
 
-/// The children of a node: first those that are nodes, then those that are leaves; each kind is numbered consecutively.
+/// The children of a node: inner nodes first, then leaves. Each kind is numbered consecutively.
 struct TreeNode {
-  std::uint32_t first_node;  ///< of the children that are nodes
-  std::uint32_t first_leaf;  ///< of the children that are leaves
+  std::uint32_t first_node;  ///< number of the first child that is a node
+  std::uint32_t first_leaf;  ///< number of the first child that is a leaf
   int node_count;
   int leaf_count;
 
   int child_count() const { return node_count + leaf_count; }
   bool is_leaf(int child) const { return child >= node_count; }
-  /// The number of a child among the nodes, or among the leaves.
+  /// The number of child c, counted among the nodes if it is a node and among the leaves if it is a leaf.
   std::uint32_t child(int c) const {
     return is_leaf(c) ? first_leaf + static_cast<std::uint32_t>(c - node_count)
                       : first_node + static_cast<std::uint32_t>(c);
   }
 };
 
-/// A bounding-volume hierarchy in the object's own frame: nodes of four children, leaves of up to four triangles.
+/// A bounding-volume hierarchy in the object's own frame: nodes with up to four children, leaves with up to four
+/// triangles.
 ///
-/// Thread-safety: any number of threads may query a tree at once; `refit` needs it alone.
+/// Thread-safety: any number of threads may query a tree at once. During `refit` no other thread may use it.
 class DopTree {
  public:
-  /// Most children of a node, and most triangles of a leaf.
+  /// Maximum number of children of a node, and of triangles of a leaf.
   static constexpr int kWidth = 4;
 
-  /// Builds the hierarchy by binned surface-area heuristic, on several threads when the mesh is large; the result does
-  /// not depend on their number. Degenerate triangles (zero area) take part in no query.
+  /// Builds the hierarchy by a binned surface-area heuristic, with several threads if the mesh is large. The result
+  /// does not depend on the number of threads. Degenerate triangles (zero area) take part in no query.
   ///
-  /// Throws std::invalid_argument when the mesh is null, has no triangle of positive area or more than 5 million
-  /// triangles, an index out of range, or a coordinate that is not finite or beyond ±1e9, and for options that do not
-  /// exist.
-  /// Cost O(n log n).
+  /// Throws std::invalid_argument for a null mesh, for one without a triangle of positive area or with more than 5
+  /// million triangles, for an index out of range, for a coordinate that is not finite or beyond ±1e9, and for an
+  /// unsupported number of directions. Cost O(n log n).
   explicit DopTree(const std::shared_ptr<const geometry::TriangleMesh>& mesh, const DopTreeOptions& options = {});
   DopTree(const DopTree& other);
   DopTree(DopTree&&) noexcept;
@@ -74,9 +74,10 @@ class DopTree {
   DopTree& operator=(DopTree&&) noexcept;
   ~DopTree();
 
-  /// Encloses the vertices where they are now, after the owner of the mesh has moved them; the triangles must be the
-  /// same. Queries stay exact; they get slower the more neighbors have parted. Allocates nothing. Cost O(n log n).
-  /// Throws std::invalid_argument, and leaves the tree as it was, for a coordinate the constructor would refuse.
+  /// Fits all boxes to the present vertices, after the owner of the mesh has moved them. The triangles must be
+  /// unchanged. Queries stay exact, but become slower as triangles that share a node move apart. Allocates nothing.
+  /// Cost O(n log n). Throws std::invalid_argument for a coordinate that the constructor would reject; the tree is then
+  /// unchanged.
   void refit();
 
   const geometry::TriangleMesh& mesh() const { return *mesh_; }
@@ -84,36 +85,32 @@ class DopTree {
 
   std::size_t node_count() const;
   std::size_t leaf_count() const;
-  /// A node by its number, below `node_count`. Node 0 is the root; it has at least one child.
+  /// The node of that number, which must be below `node_count`. Node 0 is the root; it has at least one child.
   TreeNode node(std::uint32_t number) const;
-  /// The triangles of a leaf by its number, below `leaf_count`: numbers in the mesh, negative where there is none or it
-  /// has no area.
+  /// The triangles of the leaf of that number, which must be below `leaf_count`, as indices into the mesh. A negative
+  /// entry is an unused place or a triangle without area.
   std::span<const std::int32_t, kWidth> triangles_of_leaf(std::uint32_t leaf) const;
 
-  /// Another number for every tree and every refit of this process; 0 is none.
+  /// The number of the fitted tree: construction and each refit give a new one, unique in this process and never 0.
+  /// Copies have the same.
   std::uint64_t id() const { return id_; }
 
   std::int64_t degenerate_triangles() const { return degenerate_triangles_; }
   /// Levels of nodes below the root, leaves not counted.
   int depth() const { return depth_; }
-  /// Centre of the bounding box and radius in metres of a sphere about it that holds every vertex of the tree.
+  /// Centre of the axis-aligned bounding box, and radius of a sphere about it that encloses every vertex (metres).
   const Eigen::Vector3d& center() const { return center_; }
   double radius() const { return radius_; }
-  /// One over it, for those who would divide often.
+  /// 1 / radius.
   double inverse_radius() const { return inverse_radius_; }
-  /// Half the edges of the bounding box in metres, rounded up.
+  /// Half the edge lengths of the bounding box in metres, rounded up.
   const Eigen::Vector3d& half_size() const { return half_size_; }
 
-  /// Bytes of the tree itself, without the mesh it shares.
+  /// Bytes of the tree itself, without the shared mesh.
   std::size_t memory_bytes() const;
 
-  // Nodes and leaves as the kernels read them; their types are private (`tree/tree_nodes.h`).
-  std::span<const NodeHead> nodes() const;
-  const SlabLine* slabs(std::uint32_t node) const;
-  std::span<const VertexGroup> vertices(std::uint32_t node) const;
-  std::span<const TriangleLeaf> leaves() const;
-
  private:
+  friend struct TreeNodes;
   friend DopTree tree_of_shape(std::shared_ptr<const geometry::TriangleMesh> mesh, const DopTreeOptions& options,
                                TreeShape&& shape);
   DopTree(std::shared_ptr<const geometry::TriangleMesh> mesh, const DopTreeOptions& options, TreeShape&& shape);
@@ -122,7 +119,7 @@ class DopTree {
   DopTreeOptions options_;
   std::vector<NodeHead> heads_;
   std::vector<SlabLine> slabs_;
-  std::unique_ptr<DopVertices> vertices_;  // of trees realigned by brute force only
+  std::unique_ptr<DopVertices> vertices_;  // only with Realignment::kBruteForce
   std::vector<TriangleLeaf> leaves_;
   std::size_t lines_of_node_ = 0;
   std::uint64_t id_ = 0;

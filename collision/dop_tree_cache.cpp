@@ -20,10 +20,11 @@
 namespace glissade::collision {
 namespace {
 
-// To be raised with every change of the format, and of `build_shape`: an old shape would be right, but not the same.
+// Raise this with every change of the format and of `build_shape`: a tree of an old shape would be correct, but not the
+// same.
 constexpr std::uint32_t kVersion = 2;
 
-// The head of a file, then the code of the shape, then the checksum of both.
+// A file consists of the head, the code of the shape, and the checksum of both.
 constexpr std::string_view kMagic = "DOP-tree";
 constexpr std::size_t kVersionAt = 8;
 constexpr std::size_t kOptionsAt = 12;
@@ -89,12 +90,12 @@ CachedTree read_bytes(std::string_view bytes, std::shared_ptr<const geometry::Tr
   return {CacheState::kRead, "", tree_of_shape(std::move(mesh), options, std::move(shape))};
 }
 
-// Why the last call to the system failed.
+// The reason why the last system call failed.
 std::string system_reason() {
   return std::generic_category().message(errno);
 }
 
-// A file of a name of its own next to `path`, that takes this name once it is complete.
+// A file with a temporary name next to `path`, renamed to `path` once it is complete.
 class NewFile {
  public:
   explicit NewFile(const std::filesystem::path& path) : path_(path), draft_(path) {
@@ -114,7 +115,7 @@ class NewFile {
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(system_reason());
   }
 
-  // No waiting for the disk: what a power failure leaves is rejected by its checksum.
+  // Does not wait for the disk: a file that a power failure left incomplete is rejected by its checksum.
   void complete() {
     if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(system_reason());
     std::error_code error;
@@ -168,7 +169,7 @@ CachedTree read_tree_cache(const std::filesystem::path& path, std::shared_ptr<co
   std::ifstream file(path, std::ios::binary);
   if (!file) return rejected(CacheState::kDamaged, system_reason());
 
-  // One byte more than such a file can have is enough to see that it is none.
+  // Reads one byte more than a valid file can have, which is enough to recognise a longer one.
   std::string bytes(kHeadSize + longest_shape_code(mesh->triangles.size()) + kChecksumSize + 1, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (file.bad()) return rejected(CacheState::kDamaged, "cannot be read");

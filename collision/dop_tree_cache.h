@@ -1,16 +1,15 @@
 #pragma once
 
-/// DOP-trees kept in a file next to their mesh, so that a large mesh need not be built a tree again in every run.
+/// DOP-trees in files next to their meshes, so that a program need not rebuild the tree of a large mesh in every run.
 ///
-/// The file holds the shape of the tree only: which triangles share a leaf, and which leaves a node. Boxes are fitted
-/// to the mesh at hand when it is read, and the shape is checked to be one tree of all triangles. So whatever a file
-/// holds, damaged or forged, it is either rejected or gives a tree whose answers are right. Finding the shape is the
-/// greater part of building: with 100,000 triangles reading takes 31 ms of processor time, building 102 ms; the file
-/// takes 4.4 bytes a triangle.
+/// A file holds the shape of a tree only: which triangles share a leaf, and which leaves share a node. A reader checks
+/// that the shape is one tree of all triangles, and fits the boxes to the mesh at hand. So a damaged or forged file is
+/// either rejected or gives a tree with correct answers. Finding the shape is most of the work of building: with
+/// 100,000 triangles, reading takes 31 ms of processor time and building 102 ms. The file takes 4.4 bytes a triangle.
 ///
-/// A file is bound to the vertices and triangles of its mesh, to the options and to the version of its format, which
-/// counts ways to build as well. Bytes are in the same order on every machine. The last eight are a checksum of all
-/// others: it notices every change of one byte, and all but one in 2^64 of other changes.
+/// A file is bound to the vertices and triangles of its mesh, to the options, and to the version of the format, which
+/// also changes with the method of building. The byte order is the same on every machine. The last eight bytes are a
+/// checksum of all others. It detects every change of one byte, and all but one in 2^64 of other changes.
 
 #include <cstddef>
 #include <filesystem>
@@ -26,45 +25,45 @@ namespace glissade::collision {
 
 enum class CacheState {
   kRead,
-  kMissing,  ///< there is no such file
-  kStale,    ///< of another mesh, other options or another version
-  kDamaged,  ///< truncated, changed, not a cache at all, or cannot be read
+  kMissing,  ///< the file does not exist
+  kStale,    ///< belongs to another mesh, other options or another version
+  kDamaged,  ///< truncated, altered, not a cache file, or unreadable
 };
 
-/// What became of a file.
+/// Result of reading a file.
 struct CachedTree {
   CacheState state;
-  std::string reason;           ///< why it was not read, in a few words
-  std::optional<DopTree> tree;  ///< when it was
+  std::string reason;           ///< why the file was not read, in a few words
+  std::optional<DopTree> tree;  ///< empty if it was not read
 
   explicit operator bool() const { return tree.has_value(); }
 };
 
-/// The file that belongs to a mesh file: its name followed by ".dop-tree".
+/// The cache file of a mesh file: the name of the mesh file followed by ".dop-tree".
 std::filesystem::path tree_cache_path(const std::filesystem::path& mesh_path);
 
-/// Writes the file anew. It appears complete or not at all: until then it has another name, and is deleted when it
-/// cannot be completed. Throws std::runtime_error, in one line that names the file and the reason. May block on the
-/// disk.
+/// Writes or replaces the file. It appears complete or not at all: it has another name until it is complete, and is
+/// deleted if it cannot be completed. Throws std::runtime_error with one line that names the file and the reason. May
+/// block on the disk.
 void write_tree_cache(const std::filesystem::path& path, const DopTree& tree);
 
-/// Reads a file for the tree that DopTree(mesh, options) would build. A file that is of no use is not an error, but
-/// throws as DopTree does what DopTree refuses of `mesh` and `options`. Cost O(n log n); may block on the disk.
+/// Reads the tree that DopTree(mesh, options) would build. An unusable file is not an error: see `CachedTree::state`.
+/// Throws as DopTree does for a `mesh` or `options` that DopTree rejects. Cost O(n log n). May block on the disk.
 CachedTree read_tree_cache(const std::filesystem::path& path, std::shared_ptr<const geometry::TriangleMesh> mesh,
                            const DopTreeOptions& options = {});
 
-/// The same for the bytes of a file.
+/// The same, from the bytes of a file.
 CachedTree read_tree_cache_bytes(std::span<const std::byte> bytes, std::shared_ptr<const geometry::TriangleMesh> mesh,
                                  const DopTreeOptions& options = {});
 
-/// A tree, and what its user should know about the file.
+/// A tree, and a note about its file.
 struct LoadedTree {
   DopTree tree;
-  std::string note;  ///< one line that names the file; empty when it was read, or written for the first time
+  std::string note;  ///< one line that names the file; empty if it was read, or written for the first time
 };
 
-/// Reads the tree from the file that belongs to `mesh_path`. Where that is missing or of no use, builds the tree and
-/// writes the file; one that cannot be written is told in the note. Throws as DopTree does.
+/// Reads the tree from the cache file of `mesh_path`. If that file is missing or unusable, builds the tree and writes
+/// the file. The note reports an unusable file and a file that cannot be written. Throws as DopTree does.
 LoadedTree load_or_build_tree(const std::filesystem::path& mesh_path,
                               const std::shared_ptr<const geometry::TriangleMesh>& mesh,
                               const DopTreeOptions& options = {});

@@ -11,7 +11,7 @@
 namespace glissade::collision {
 namespace {
 
-/// Hands over what a traversal finds.
+/// Passes the pairs of a traversal on to the visitor.
 class NearPairs final : public PlacedVisitor {
  public:
   NearPairs(const PlacedTrees& placed, double distance, DualTreeVisitor& visitor)

@@ -1,7 +1,7 @@
 #pragma once
 
-/// All that is near of two trees, for those who know better than by triangles: a visitor may take on what two children
-/// of nodes hold as a whole, such as two plane patches that lie flush, and then nothing below them is looked at.
+/// Dual-tree traversal with a user-defined cut-off. A visitor may accept a pair of children as a whole, for example two
+/// flush plane patches; the traversal then skips all pairs below it.
 
 #include <cstdint>
 
@@ -12,26 +12,27 @@
 
 namespace glissade::collision {
 
-/// A child of a node, which must have it.
+/// Child number `child` of node number `node`, below the `child_count` of that node.
 struct TreeChild {
   std::uint32_t node;
   int child;
 };
 
-/// What is asked, and told, in the order of the traversal.
+/// Receives the pairs in the order of the traversal.
 class DualTreeVisitor {
  public:
-  /// Two children whose boxes may be near: whether the visitor takes on all that both hold.
+  /// Whether the visitor accepts two children whose boxes may be near. All pairs below them are then skipped.
   virtual bool accepts(const TreeChild& child_A, const TreeChild& child_B) = 0;
-  /// A pair of triangles not further apart than the distance, of children that were not taken.
+  /// Receives a triangle pair within the distance that does not lie below an accepted pair.
   virtual void visit(const ClosePair& pair) = 0;
 
  protected:
   ~DualTreeVisitor() = default;
 };
 
-/// Shows the visitor all pairs of triangles not further apart than `distance` (metres, ≥ 0), but for what it takes on.
-/// Deterministic. Allocates nothing once the workspace has grown.
+/// Passes to the visitor all triangle pairs at most `distance` (metres, ≥ 0) apart, except those below accepted pairs
+/// of children. Deterministic. Allocates nothing once the workspace has grown. Throws as the queries of `dop_query.h`
+/// do.
 void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                    QueryWorkspace& workspace, DualTreeVisitor& visitor);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the collision pipeline finds out in one frame, and where the time went.
+/// Result of one frame of the collision pipeline, with the work and time of each stage.
 
 #include <chrono>
 #include <cstddef>
@@ -14,23 +14,24 @@
 
 namespace glissade::collision {
 
-/// What is to be known of objects that meet.
+/// Detail that a pipeline computes for objects that meet.
 enum class PairQuery : std::uint8_t {
-  kVerdict,        ///< that they do
-  kTrianglePairs,  ///< and in which pairs of triangles
-  kClosePairs,     ///< and where these are closest; of objects with selections, by selected triangles only
+  kVerdict,        ///< only that they meet
+  kTrianglePairs,  ///< also the triangle pairs in which they meet
+  kClosePairs,     ///< also their closest points; between objects with selections, pairs with a selected triangle only
 };
 
 struct PipelineOptions {
   PairQuery query = PairQuery::kVerdict;
   HullTest hull_test = HullTest::kExact;
-  /// Metres. Objects meet when they are not further apart than what `step` is told, which is no more than this.
+  /// Upper limit of the distance given to `CollisionPipeline::step` (metres). Two objects meet if their distance is at
+  /// most that of the step.
   double greatest_distance = 0.0;
-  /// That work on a frame, the caller's among them. 0: as many as the machine has.
+  /// Number of threads that work on a frame, including the calling one. 0: as many as the machine has processors.
   int threads = 0;
 };
 
-/// Two objects of a world, the one of lower index first: that is A of the query, the other B.
+/// Two objects of a world. The one of lower index is A of the query, the other is B.
 struct ObjectPair {
   ObjectId object_A;
   ObjectId object_B;
@@ -38,7 +39,7 @@ struct ObjectPair {
   auto operator<=>(const ObjectPair&) const = default;
 };
 
-/// How many pairs came to a stage of the pipeline and how many it passed on, and what that took.
+/// Number of items that entered a stage of the pipeline, number that it passed on, and its time.
 struct StageReport {
   std::int64_t in = 0;
   std::int64_t out = 0;
@@ -52,18 +53,23 @@ struct StageReport {
   }
 };
 
-/// The account of one frame. Objects that rest cost nothing, so the stages see only pairs with an object that moved.
+/// Work of one frame. Stages see only pairs with an object that moved, because objects at rest cost nothing.
 struct FrameReport {
-  std::int64_t objects = 0;       ///< in the world
-  std::int64_t neighbors = 0;     ///< pairs of them whose fat boxes overlap, at rest or not
-  StageReport queue;              ///< objects that somebody moved, added or removed; the objects that have a new pose
-  StageReport neighbor_finding;   ///< those; pairs whose fat boxes overlap, and which are of interest
-  StageReport separating_planes;  ///< those that may have come together since their gap was last known; not separated
-  StageReport exact;              ///< those; pairs that meet
-  StageReport result;             ///< pairs that have met or parted; all pairs that meet
+  std::int64_t objects = 0;    ///< in the world
+  std::int64_t neighbors = 0;  ///< pairs of objects whose fattened boxes overlap, at rest or not
+  /// In: objects that were moved, added or removed. Out: objects that are new or have moved.
+  StageReport queue;
+  /// In: objects that are new or have moved. Out: their enabled pairs whose fattened boxes overlap.
+  StageReport neighbor_finding;
+  /// In: pairs that may have used up the gap known from an earlier frame. Out: pairs that no plane separates.
+  StageReport separating_planes;
+  /// In: pairs that no plane separates. Out: pairs among them that meet.
+  StageReport exact;
+  /// In: pairs that have begun or ceased to meet. Out: all pairs that meet, at rest or not.
+  StageReport result;
   std::chrono::nanoseconds total{0};
 
-  /// The account of both: divide by the number of frames for means.
+  /// Adds the work of another frame. For means, divide by the number of frames.
   FrameReport& operator+=(const FrameReport& other) {
     objects += other.objects;
     neighbors += other.neighbors;
@@ -77,23 +83,24 @@ struct FrameReport {
   }
 };
 
-/// One frame: which objects meet. What else there is depends on the pipeline's `PairQuery`.
+/// The pairs of objects that meet in one frame, with the detail that the pipeline's `PairQuery` requires.
 struct FrameResult {
   std::uint64_t frame = 0;                    ///< number of the frame, from 1; 0: none yet
   std::chrono::nanoseconds time_of_poses{0};  ///< when the poses were taken, by the pipeline's clock
 
-  /// How old the poses are at the time `now` of that clock. What the frame took is in the report.
+  /// Age of the poses at the time `now` of that clock. The duration of the frame is in the report.
   std::chrono::nanoseconds age(std::chrono::nanoseconds now) const { return now - time_of_poses; }
 
   std::vector<ObjectPair> meeting;  ///< ascending
 
-  /// Of `meeting[i]`, in ascending order of triangles.
+  /// Triangle pairs of `meeting[i]`, in ascending order of the triangle indices. Empty unless the `PairQuery` of the
+  /// pipeline is kTrianglePairs or kClosePairs, respectively.
   std::span<const TrianglePair> triangle_pairs(std::size_t i) const { return part_of(all_triangle_pairs, i); }
   std::span<const ClosePair> close_pairs(std::size_t i) const { return part_of(all_close_pairs, i); }
 
-  std::vector<TrianglePair> all_triangle_pairs;  ///< of PairQuery::kTrianglePairs
-  std::vector<ClosePair> all_close_pairs;        ///< of PairQuery::kClosePairs
-  std::vector<std::size_t> ends;  ///< where those of `meeting[i]` end, unless only verdicts are asked for
+  std::vector<TrianglePair> all_triangle_pairs;  ///< with PairQuery::kTrianglePairs
+  std::vector<ClosePair> all_close_pairs;        ///< with PairQuery::kClosePairs
+  std::vector<std::size_t> ends;                 ///< end of the pairs of `meeting[i]`; unused for verdicts
 
   FrameReport report;
 
@@ -106,7 +113,7 @@ struct FrameResult {
   }
 };
 
-/// The pose of B in the frame of A as the pipeline computes it, for who wants to compare bit for bit.
+/// The pose X_AB of object B in the frame of object A, as the pipeline computes it, for comparison to the bit.
 Eigen::Isometry3d relative_pose(const WorldObject& object_A, const WorldObject& object_B);
 
 }  // namespace glissade::collision

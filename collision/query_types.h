@@ -1,6 +1,6 @@
 #pragma once
 
-/// What queries of DOP-trees are given and answer: pairs of triangles, selections, and the memory of a query.
+/// Arguments and results of DOP-tree queries: triangle pairs, selections of triangles, and workspaces.
 
 #include <cstdint>
 #include <functional>
@@ -22,8 +22,8 @@ struct TrianglePair {
   auto operator<=>(const TrianglePair&) const = default;
 };
 
-/// Two triangles and the points where they are closest, in the frame of A. Distance 0 when they intersect; the two
-/// points are then one point of the intersection as well as rounding allows.
+/// Two triangles and their closest points, in the frame of A, metres. If they intersect, the distance is 0, and both
+/// points are the same point of the intersection up to rounding.
 struct ClosePair {
   TrianglePair triangles;
   double distance;
@@ -38,7 +38,7 @@ struct QueryCounters {
   std::int64_t triangle_tests = 0;  ///< pairs of triangles tested
 };
 
-/// Scratch memory and counters of the queries. Keep one per thread and reuse it: after a few queries nothing is
+/// Scratch memory and counters of queries. Keep one per thread and reuse it: after the first few queries nothing is
 /// allocated. Not thread-safe.
 class QueryWorkspace {
  public:
@@ -50,6 +50,7 @@ class QueryWorkspace {
   /// Work of the last query.
   const QueryCounters& counters() const;
 
+  // For the queries; the type is private.
   struct Memory;
   Memory& memory() { return *memory_; }
 
@@ -59,9 +60,9 @@ class QueryWorkspace {
 
 class CoherentFront;
 
-/// A workspace that remembers the last query of one pair of trees, which makes queries of a pair that moves little from
-/// one to the next much cheaper. Answers are the same, bit for bit, as without it. Use one for each pair; a query of
-/// other trees, or of a tree that was refitted, makes it start afresh. Not thread-safe.
+/// A workspace that exploits temporal coherence: it remembers the last query of one pair of trees, which makes the next
+/// one much cheaper if the trees have moved little. The answers are the same to the bit as without it. Use one for each
+/// pair. It starts afresh when it is used for other trees, or for a tree that was refitted. Not thread-safe.
 class CoherentWorkspace {
  public:
   CoherentWorkspace();
@@ -72,9 +73,10 @@ class CoherentWorkspace {
   /// Work of the last query.
   const QueryCounters& counters() const { return workspace_.counters(); }
 
-  /// Starts afresh.
+  /// Forgets all earlier queries.
   void forget();
 
+  // For the queries; the type of the front is private.
   QueryWorkspace& workspace() { return workspace_; }
   CoherentFront& front() { return *front_; }
 
@@ -83,23 +85,23 @@ class CoherentWorkspace {
   std::unique_ptr<CoherentFront> front_;
 };
 
-/// Which children of each node hold selected triangles, and which triangles of each leaf are selected: a byte for each.
-/// Immutable after construction, so safe to share between threads.
+/// A set of triangles of one tree, as a byte for each node (which children hold selected triangles) and a byte for each
+/// leaf (which triangles are selected). Immutable after construction, so safe to share between threads.
 class TriangleSelection {
  public:
-  /// Asks `is_selected` once for every triangle, by its number in the mesh. Serves the tree that it was made for, also
-  /// after a refit, and copies of it. Throws std::invalid_argument for an empty function. Cost O(n).
+  /// Calls `is_selected` once for each triangle, with its index in the mesh. The selection is valid for `tree`, also
+  /// after a refit, and for copies of it. Throws std::invalid_argument for an empty function. Cost O(n).
   TriangleSelection(const DopTree& tree, const std::function<bool(std::int32_t)>& is_selected);
 
-  /// By node: bit c, whether there is a selected triangle below its child c.
+  /// By node: bit c is set if there is a selected triangle below child c.
   std::span<const std::uint8_t> nodes() const { return nodes_; }
-  /// By leaf: bit t, whether its triangle t is selected.
+  /// By leaf: bit t is set if triangle t of the leaf is selected.
   std::span<const std::uint8_t> leaves() const { return leaves_; }
 
-  /// Whether the selection can be of a tree, by the numbers of its nodes and leaves.
+  /// Whether the selection can belong to `tree`: compares the numbers of nodes and leaves.
   bool is_of(const DopTree& tree) const;
 
-  /// Another number for every selection of this process, from 1. Copies have the same.
+  /// A number that is unique in this process, from 1. Copies have the same.
   std::uint64_t id() const { return id_; }
 
  private:
@@ -108,8 +110,8 @@ class TriangleSelection {
   std::uint64_t id_;
 };
 
-/// A query of two trees with this answers those pairs of triangles of which at least one is selected. Without a
-/// selection all triangles of a tree count as selected, so that both are needed to leave anything out.
+/// Restricts a query to triangle pairs of which at least one triangle is selected. A null selection selects all
+/// triangles of its tree, so a restriction needs two selections.
 struct PairSelection {
   const TriangleSelection* of_A = nullptr;
   const TriangleSelection* of_B = nullptr;

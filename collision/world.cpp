@@ -18,29 +18,30 @@
 
 namespace glissade::collision {
 
-// How movers, editors and the consumer meet.
+// Protocol of movers, editors and the consumer.
 //
 // One mover is inside a slot at a time. It enters by setting kInside in the slot's state, which succeeds only while the
 // state is that of its own object and nobody is inside. It writes the pose that is not the newest, and leaves by
-// counting it, which makes it the newest. An editor removes an object by clearing the slot's generation, which never
-// waits for a mover inside; and gives the slot to another by entering as a mover does: with the other's first pose, and
-// leaving with its generation in the state. So poses have one writer at any time. Entering acquires what leaving has
-// released, so writers follow each other properly, whichever threads they are.
+// incrementing the count of poses, which makes that pose the newest. An editor removes an object by clearing the slot's
+// generation, which never waits for a mover inside. It gives the slot to another object by entering as a mover does: it
+// writes the first pose of the new object, and leaves with the new generation in the state. So poses have one writer at
+// any time. Entering acquires what leaving has released, so writers are ordered, whichever threads they are.
 //
 // The consumer reads the state, the newest pose, and the state again. If generation and count are the same, nobody has
-// written that pose meanwhile: who is inside writes the other one. (Numbers of the pose are released one by one and
-// acquired one by one; who sees one that was written later sees the state that was there before.) It is used only for
-// an object of this generation, so poses of an object that was removed move nothing.
+// written that pose meanwhile, because a mover inside writes the other one. (Numbers of the pose are released and
+// acquired one by one: a reader that sees a number of a later pose also sees the state from before that pose was
+// written.) The pose is used only for an object of this generation, so poses of an object that was removed move
+// nothing.
 //
-// Newest wins: the mover leaves, then sets the slot's bit in `moved_` (release). The consumer clears bits (acquire),
-// then reads the pose. Where it has seen the bit, it sees that pose or a newer one; where it has not, the bit stays for
+// The newest pose wins: the mover leaves, then sets the slot's bit in `moved_` (release). The consumer clears bits
+// (acquire), then reads the pose. If it has seen the bit, it sees that pose or a newer one; if not, the bit stays for
 // the next take. All changes of the bits are read-modify-write, so a bit that was set twice releases both poses. A
-// mover that is pre-empted anywhere holds up its own poses and no other.
+// mover that is pre-empted anywhere delays its own poses only.
 namespace {
 
 constexpr std::uint64_t kInside = 1;
 constexpr std::uint64_t kOnePose = 2;
-constexpr std::uint64_t kPoses = 0xffff'fffe;  // their number, modulo a power of two
+constexpr std::uint64_t kPoses = 0xffff'fffe;  // count of poses, modulo a power of two
 constexpr std::uint32_t kBitsOfWord = 64;
 constexpr int kMaxCapacity = 1000000;
 
@@ -65,7 +66,8 @@ bool enter(std::atomic<std::uint64_t>& state, std::uint64_t expected) {
                                        std::memory_order_relaxed);
 }
 
-// The upper three rows of the matrix, by columns. Written out, so that compilers keep them in registers.
+// The upper three rows of the matrix, column by column. Accessed by index sequences, so that compilers keep them in
+// registers.
 using PoseNumbers = std::array<std::atomic<double>, 12>;
 constexpr std::make_index_sequence<12> kPoseNumbers;
 
@@ -110,9 +112,9 @@ struct World::State {
 
   /// The newest pose, and room for the next.
   struct alignas(64) Slot {
-    std::atomic<std::uint64_t> state{0};                            ///< generation, number of poses, kInside
+    std::atomic<std::uint64_t> state{0};                            ///< generation, count of poses, kInside
     std::atomic<std::uint32_t> generation{0};                       ///< of the object that is here; 0: none
-    std::array<std::array<std::atomic<double>, 12>, 2> poses_WO{};  ///< by the last bit of that number
+    std::array<std::array<std::atomic<double>, 12>, 2> poses_WO{};  ///< by the last bit of that count
   };
 
   bool is_alive(ObjectId id) const;
@@ -124,11 +126,11 @@ struct World::State {
   void take_poses();
   bool take_pose(std::uint32_t slot);
 
-  // What movers write.
+  // Written by movers.
   std::vector<Slot> slots_;
   std::vector<std::atomic<std::uint64_t>> moved_;  ///< a bit for each slot whose pose the consumer has not taken
 
-  // What editors write, under the mutex.
+  // Written by editors, under the mutex.
   std::mutex edits_;
   std::vector<WorldObject> registered_;
   std::vector<std::uint32_t> free_;
@@ -138,7 +140,7 @@ struct World::State {
   InterestMatrix interest_;
   bool interest_edited_ = false;
 
-  // What the consumer has.
+  // Owned by the consumer.
   std::vector<WorldObject> objects_;
   std::vector<WorldObject> retired_;
   InterestMatrix interest_taken_;
@@ -244,7 +246,7 @@ const WorldChanges& World::State::take_changes() {
   changes_.added.clear();
   changes_.moved.clear();
   take_edits();
-  retired_.clear();  // outside of the lock: large trees take their time
+  retired_.clear();  // outside of the lock, because destroying large trees takes long
   take_poses();
   return changes_;
 }
@@ -260,7 +262,8 @@ void World::State::require_alive(ObjectId id) const {
   }
 }
 
-// The slot that was freed last and has no mover inside; its state is that of the next object.
+// Takes the free slot that was freed last among those without a mover inside. Its state is then that of the next
+// object.
 std::uint32_t World::State::take_free_slot(const Eigen::Isometry3d& X_WO) {
   for (std::size_t i = free_.size(); i > 0; --i) {
     const std::uint32_t number = free_[i - 1];
@@ -268,7 +271,7 @@ std::uint32_t World::State::take_free_slot(const Eigen::Isometry3d& X_WO) {
     const std::uint64_t state = slot.state.load(std::memory_order_relaxed) & ~kInside;
     if (!enter(slot.state, state)) continue;
     free_.erase(free_.begin() + static_cast<std::ptrdiff_t>(i - 1));
-    // Generation 0 is no object, also when the count begins anew.
+    // Skips generation 0, which means no object, when the count wraps around.
     const std::uint32_t generation = std::max(generation_of(state) + 1, std::uint32_t{1});
     const std::uint64_t next = with_generation(with_next_pose(state), generation);
     write_pose(X_WO, slot.poses_WO[newest(next)], kPoseNumbers);
@@ -297,7 +300,7 @@ void World::State::take_edits() {
 void World::State::take_edit(std::uint32_t slot) {
   is_edited_[slot] = 0;
   WorldObject& object = objects_[slot];
-  if (object.id == registered_[slot].id) return;  // came and went between two takes
+  if (object.id == registered_[slot].id) return;  // the object came and went between two takes
   if (object.id != ObjectId{}) {
     changes_.removed.push_back(slot);
     retired_.push_back(std::move(object));
@@ -320,7 +323,7 @@ void World::State::take_poses() {
   }
 }
 
-// Whether the slot still is that of the object that the consumer has there.
+// Returns whether the slot still belongs to the object that the consumer has there.
 bool World::State::take_pose(std::uint32_t slot) {
   WorldObject& object = objects_[slot];
   const Slot& source = slots_[slot];

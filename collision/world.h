@@ -1,8 +1,8 @@
 #pragma once
 
-/// The objects of a scene, their poses, and which pairs of them matter: the front end of the collision pipeline (paper
-/// §2, §2.3). Any number of threads add, remove and move objects while one, the consumer, computes; the consumer takes
-/// what has changed at the beginning of its next frame, and only that.
+/// The objects of a scene, their poses, and which pairs of them are enabled: the front end of the collision pipeline
+/// (paper §2, §2.3). Any number of threads add, remove and move objects while one thread, the consumer, computes. At
+/// the beginning of each frame the consumer takes the changes since the last one.
 
 #include <compare>
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace glissade::collision {
 class ConvexHull;
 class TriangleSelection;
 
-/// Names one object for ever: an object that comes to the same slot later has another generation.
+/// Identifies one object permanently: a later object in the same slot has another generation.
 struct ObjectId {
   std::uint32_t index = 0;       ///< the slot
   std::uint32_t generation = 0;  ///< 0: no object
@@ -30,14 +30,15 @@ struct ObjectId {
 
 struct ObjectDescription {
   std::shared_ptr<const DopTree> tree;
-  std::shared_ptr<const ConvexHull> hull;  ///< of the same mesh; null: no filter by hulls
+  std::shared_ptr<const ConvexHull> hull;  ///< of the same mesh; null: no test of hulls
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   int group = 0;  ///< row and column of the interest matrix, 0 to 63
-  /// Of the tree. Where both objects have one, `PairQuery::kClosePairs` is after pairs with a selected triangle.
+  /// Selected triangles of the tree; null: no selection. If both objects of a pair have a selection,
+  /// `PairQuery::kClosePairs` is restricted to triangle pairs with a selected triangle.
   std::shared_ptr<const TriangleSelection> selection = nullptr;
 };
 
-/// What a slot holds. Without an object: the default.
+/// Content of a slot. Default-constructed if the slot is empty.
 struct WorldObject {
   ObjectId id;
   std::shared_ptr<const DopTree> tree;
@@ -47,19 +48,20 @@ struct WorldObject {
   std::shared_ptr<const TriangleSelection> selection;
 };
 
-/// What is not as it was at the take before. Slot numbers ascend.
+/// Changes since the last take. Slot numbers ascend.
 struct WorldChanges {
   std::vector<std::uint32_t> removed;  ///< slots whose former object is gone
-  std::vector<std::uint32_t> added;    ///< slots with an object that is new; may have been freed before, see `removed`
-  std::vector<std::uint32_t> moved;    ///< slots whose object was there before, and may have another pose
-  bool interest = false;               ///< answers of `is_enabled` may differ for pairs that were there before
+  std::vector<std::uint32_t> added;    ///< slots with a new object; may be in `removed` as well, for the former object
+  std::vector<std::uint32_t> moved;    ///< slots whose object is not new and may have another pose
+  bool interest = false;               ///< `is_enabled` may have changed for pairs of objects that are not new
 };
 
-/// Thread-safety: editors and movers may be any threads at any time; the consumer is one thread. A default-constructed
-/// id and one of an object that was removed count as stale; those of other worlds must not be used.
+/// Thread-safety: any thread may edit or move at any time; one thread is the consumer. An id is stale if it is
+/// default-constructed or if its object was removed. Ids of other worlds must not be used.
 class World {
  public:
-  /// Room for `capacity` objects; takes about 0.9 kB for each. Throws std::invalid_argument unless 1 to 1,000,000.
+  /// A world with room for `capacity` objects, at about 0.9 kB each. Throws std::invalid_argument unless `capacity` is
+  /// 1 to 1,000,000.
   explicit World(int capacity = 4096);
   ~World();
   World(const World&) = delete;
@@ -67,44 +69,48 @@ class World {
 
   int capacity() const;
 
-  // Editors: any thread; may block on each other and, for as long as it copies edits, on the consumer.
+  // Editors: any thread. They may block on each other and, while it copies edits, on the consumer.
 
-  /// Throws std::invalid_argument for a null tree, one with other options than those of the objects here, a selection
-  /// of another tree, a group beyond 0 to 63, or a pose `move` would refuse; std::length_error when the world is full:
-  /// also for as long as a mover is still inside the only slot that is free.
+  /// Adds an object. Throws std::invalid_argument for a null tree, for a tree with other options than those of the
+  /// objects here, for a selection of another tree, for a group outside 0 to 63, and for a pose that `move` would
+  /// reject. Throws std::length_error if the world is full; a free slot counts as occupied until its last mover has
+  /// left.
   ObjectId add(const ObjectDescription& object);
 
-  /// Throws std::invalid_argument for a stale id. Pairs of this object need no more be ignored. The tree is let go at
-  /// the consumer's next take, or at once if no take has seen the object.
+  /// Removes an object and forgets its disabled pairs. Throws std::invalid_argument for a stale id. The tree is
+  /// released at the consumer's next take, or at once if no take has seen the object.
   void remove(ObjectId id);
 
-  /// As in `InterestMatrix`; `disable_pair` and `enable_pair` throw std::invalid_argument for a stale id. A frame may
-  /// fall between `add` and `disable_pair`: what must never be compared goes into groups.
+  /// The collision interest matrix. A pair of objects is enabled if its groups are enabled and the pair itself is not
+  /// disabled. At first everything is enabled. All four functions are symmetric; `group_a` may equal `group_b`.
+  /// `enable_pair` undoes `disable_pair`; it does not override groups. They throw std::invalid_argument for a group
+  /// outside 0 to 63 and for a stale id. A frame may fall between `add` and `disable_pair`: use groups for objects that
+  /// must never be compared.
   void enable_groups(int group_a, int group_b);
   void disable_groups(int group_a, int group_b);
   void enable_pair(ObjectId a, ObjectId b);
   void disable_pair(ObjectId a, ObjectId b);
 
-  // Movers: any thread, one at a time for each object. Wait-free, and allocates nothing.
+  // Movers: any thread, one at a time for each object. Wait-free; allocates nothing.
 
-  /// The pose of the object in the world, made a rotation and translation by `rigid_pose`. The consumer's next take has
-  /// this one or one that was newer. Returns false, and does nothing, for a stale id, while another thread is moving
-  /// the same object, and for what is no pose to `rigid_pose`. Returns true for an object that is being removed at the
-  /// same time, whose pose nobody will see.
+  /// Sets the pose of the object in the world, corrected to a rotation and translation by `rigid_pose`. The consumer's
+  /// next take has this pose or a newer one. Returns false and does nothing for a stale id, for a pose that
+  /// `rigid_pose` rejects, and while another thread moves the same object. For an object that is being removed at the
+  /// same time it may return true, but the pose is never seen.
   bool move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept;
 
   // The consumer: one thread.
 
-  /// Makes `objects` what editors and movers have made of it by now, and says what is different. Blocks on editors for
-  /// the length of one edit, never on movers; looks again at a pose that was renewed meanwhile. Cost
-  /// O(changes + capacity / 64), and a copy of the interest matrix when that has changed. Objects that were removed are
-  /// destroyed here, if nobody else holds them. The result is overwritten by the next call.
+  /// Updates `objects` to all edits and poses so far, and returns the changes. Blocks on editors for the duration of
+  /// one edit, never on movers. Reads a pose again if it was renewed meanwhile. Cost O(changes + capacity / 64), plus a
+  /// copy of the interest matrix if that has changed. Trees of removed objects are destroyed here if nobody else holds
+  /// them. The next call overwrites the result.
   const WorldChanges& take_changes();
 
-  /// By slot, as of the last take; `capacity` of them.
+  /// By slot, as of the last take; there are `capacity` of them.
   std::span<const WorldObject> objects() const;
 
-  /// Whether the pair matters, as of the last take. Both slots must have objects. Cost O(1).
+  /// Whether the pair is enabled, as of the last take. Both slots must hold objects. Cost O(1).
   bool is_enabled(std::uint32_t slot_a, std::uint32_t slot_b) const;
 
  private:

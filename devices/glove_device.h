@@ -1,7 +1,7 @@
 #pragma once
 
-/// A force-feedback glove as the haptic loop sees it: its state, the command it obeys, its limits, and the interface of
-/// a device driver. Frames: W world, H hand root.
+/// A force-feedback glove as the haptic loop sees it: its state, its commands, its limits, and the interface of a
+/// device driver. Frames: W world, H hand root.
 
 #include <array>
 #include <chrono>
@@ -19,7 +19,7 @@ inline constexpr int kGloveJoints = 22;
 /// One number per joint, in CyberGlove order (`kGloveJointNames`).
 using JointValues = std::array<double, kGloveJoints>;
 
-/// Abduction is the angle between the two neighbors.
+/// Joint names in CyberGlove order. An abduction named after two fingers is the angle between them.
 inline constexpr std::array<std::string_view, kGloveJoints> kGloveJointNames{"thumb_roll",
                                                                              "thumb_mcp",
                                                                              "thumb_ip",
@@ -43,9 +43,9 @@ inline constexpr std::array<std::string_view, kGloveJoints> kGloveJointNames{"th
                                                                              "wrist_flexion",
                                                                              "wrist_abduction"};
 
-/// A glove's hand, measured.
+/// Measured state of the hand in a glove, in SI units.
 struct GloveState {
-  std::int64_t sequence = 0;         ///< ≥ 0, rises with every state
+  std::int64_t sequence = 0;         ///< ≥ 0, increases with every state
   std::chrono::nanoseconds time{0};  ///< of the measurement, on the glove's clock
   Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
   Eigen::Vector3d v_WH = Eigen::Vector3d::Zero();  ///< of the origin of H, in world axes
@@ -53,9 +53,9 @@ struct GloveState {
   JointValues joint_angles{};
 };
 
-/// What the glove shall exert on the hand. The default is no force at all.
+/// Forces (N) and torques (Nm) that the glove shall exert on the hand. By default, all are zero.
 struct GloveCommand {
-  std::int64_t sequence = 0;                        ///< ≥ 0, rises with every command
+  std::int64_t sequence = 0;                        ///< ≥ 0, increases with every command
   std::int64_t state_sequence = 0;                  ///< of the state that it answers
   std::chrono::nanoseconds time{0};                 ///< of the computation, on the sender's clock
   Eigen::Vector3d f_H_W = Eigen::Vector3d::Zero();  ///< on the hand at the origin of H, in world axes
@@ -63,15 +63,15 @@ struct GloveCommand {
   JointValues joint_torques{};                      ///< positive toward larger joint angles
 };
 
-/// What a device can do. Everything is SI: N, Nm, N/m, Nm/rad, N s/m, rad, Hz.
+/// Capabilities and limits of a device, in SI units: N, Nm, N/m, Nm/rad, N s/m, rad, Hz.
 struct DeviceDescriptor {
   std::string name;
   double max_force = 0.0;                 ///< norm of the force on the hand
   double max_torque = 0.0;                ///< norm of the torque on the hand
-  double max_stiffness = 0.0;             ///< largest that may be rendered without shaking
+  double max_stiffness = 0.0;             ///< largest that the device renders without shaking
   double max_rotational_stiffness = 0.0;  ///< likewise
   double max_damping = 0.0;               ///< likewise
-  double max_joint_torque = 0.0;          ///< each joint
+  double max_joint_torque = 0.0;          ///< of each joint
   JointValues joint_lower{};
   JointValues joint_upper{};
   double update_rate = 0.0;
@@ -81,8 +81,9 @@ struct DeviceDescriptor {
 /// lower limit is not below its upper one, or the update rate is not positive.
 void validate(const DeviceDescriptor& descriptor);
 
-/// Thread-safety: one thread, the haptic one, calls `read` and `command`. Both are wait-free, allocate nothing and make
-/// no system call; whatever has to wait for a device does so in a thread of the implementation.
+/// The interface of a device driver. Thread-safety: one thread, the haptic thread, calls `read` and `command`. Both are
+/// wait-free, allocate nothing and make no system call; a driver that has to wait for its device does so in a thread of
+/// its own.
 class GloveDevice {
  public:
   virtual ~GloveDevice() = default;
@@ -90,11 +91,11 @@ class GloveDevice {
   /// Fixed for the life of the device.
   virtual const DeviceDescriptor& descriptor() const noexcept = 0;
 
-  /// Puts the newest state into `newest`; returns false, and leaves it alone, until the first one has come. The state's
-  /// sequence tells whether it is a new one.
+  /// Copies the newest state to `newest` and returns true. Until the first state has arrived, leaves `newest` unchanged
+  /// and returns false. A state is new if its sequence differs from that of the last call.
   virtual bool read(GloveState& newest) noexcept = 0;
 
-  /// Sends `command`; one that was not sent yet is overtaken.
+  /// Sends `command`. It replaces an earlier command that has not been sent yet.
   virtual void command(const GloveCommand& command) noexcept = 0;
 };
 

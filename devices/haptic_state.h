@@ -11,23 +11,23 @@
 
 namespace glissade::devices {
 
-/// What the simulation does with the part, as it is told on the wire: these numbers never change their meaning.
+/// State of the part in the simulation, as sent over the wire: the numbers never change their meaning.
 enum class PartState : std::int32_t {
-  kUnknown = 0,     ///< none is told, or one that this program does not know
+  kUnknown = 0,     ///< not reported, or not known to this program
   kReleased = 1,    ///< nobody holds the part
-  kFree = 2,        ///< it is where the hand wants it
-  kSliding = 3,     ///< contacts push, it moves along them
-  kResting = 4,     ///< contacts push, it stands still
-  kCatchingUp = 5,  ///< nothing pushes, but it is not there yet
+  kFree = 2,        ///< the part is at its target
+  kSliding = 3,     ///< contacts push, the part moves along them
+  kResting = 4,     ///< contacts push, the part stands still
+  kCatchingUp = 5,  ///< nothing pushes, but the part is not at its target yet
 };
 
-/// As many as there are; their numbers are 0 to this less one.
+/// Number of part states; their values run from 0 to kPartStates − 1.
 inline constexpr std::int32_t kPartStates = 6;
 
-/// "sliding", say; "unknown" for anything that is no state.
+/// The name of a state, such as "sliding"; "unknown" for any other value.
 std::string_view name_of(PartState state);
 
-/// The state with this number; kUnknown where there is none.
+/// The state with this number; kUnknown for any other number.
 PartState part_state_from_number(std::int32_t number) noexcept;
 
 struct HapticState {
@@ -41,7 +41,7 @@ struct HapticState {
   std::int32_t contact_count = 0;
   std::chrono::nanoseconds contact_set_age{0};
   bool is_in_contact = false;
-  bool is_force_limited = false;     ///< the wrench was cut to the device's limits
+  bool is_force_limited = false;     ///< the wrench was reduced to the device's limits
   bool is_contact_set_late = false;  ///< the simulation had not renewed the contact set in time
   bool has_no_device = false;        ///< no fresh glove state
 };

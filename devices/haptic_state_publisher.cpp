@@ -9,7 +9,7 @@ namespace glissade::devices {
 
 HapticStatePublisher::HapticStatePublisher(std::shared_ptr<LcmBus> bus, std::size_t capacity)
     : bus_(checked_bus(std::move(bus), "A publisher of haptic states")), ring_(capacity) {
-  constexpr std::chrono::milliseconds kPeriod(5);  // a viewer sees no delay below a frame
+  constexpr std::chrono::milliseconds kPeriod(5);  // a delay that no viewer sees, shorter than a frame
   thread_ = std::make_unique<realtime::PeriodicThread>(clock_, realtime::PeriodicThreadOptions{.period = kPeriod},
                                                        [this](const realtime::PeriodicTick&) {
                                                          publish_all();
@@ -22,7 +22,7 @@ HapticStatePublisher::~HapticStatePublisher() {
   publish_all();
 }
 
-// Viewers can do without a tick: one that cannot be sent is lost.
+// A state that cannot be sent is lost: viewers can do without a tick.
 void HapticStatePublisher::publish_all() noexcept {
   try {
     HapticState state;

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Tells viewers and recorders, on the LCM channel HAPTIC_STATE, about every haptic tick, without holding up the loop.
+/// Publishes every haptic tick to viewers and recorders on the LCM channel HAPTIC_STATE, without delaying the haptic
+/// loop.
 
 #include <chrono>
 #include <cstddef>
@@ -14,17 +15,17 @@
 
 namespace glissade::devices {
 
-/// A ring that the haptic thread fills, and a thread of its own that empties and publishes it.
+/// A ring buffer that the haptic thread fills, and a thread of its own that publishes the contents.
 class HapticStatePublisher {
  public:
   static constexpr std::size_t kDefaultCapacity = 1024;  ///< a second of ticks
 
   /// Throws std::invalid_argument when the bus is null or `capacity` is 0.
   explicit HapticStatePublisher(std::shared_ptr<LcmBus> bus, std::size_t capacity = kDefaultCapacity);
-  /// Publishes what is left.
+  /// Publishes the remaining states.
   ~HapticStatePublisher();
 
-  /// Haptic thread: takes `state` along; returns false, and counts it as dropped, when the ring is full. Wait-free.
+  /// Haptic thread: queues `state`. Returns false, and counts it as dropped, when the ring is full. Wait-free.
   bool push(const HapticState& state) noexcept { return ring_.push(state); }
 
   /// States dropped so far. Any thread.

@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t kLongestChannelName = 15;
 constexpr int kRetryMilliseconds = 10;
 
-/// liblcm takes a subscription's channel for a regular expression, so nothing but plain characters may pass.
+/// liblcm interprets the channel of a subscription as a regular expression, so only plain characters are allowed.
 void check_channel(const std::string& channel) {
   const auto is_allowed = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; };
   if (!channel.empty() && channel.size() <= kLongestChannelName &&
@@ -77,9 +77,9 @@ class LcmBus::Connection {
   std::mutex set_up_mutex_;  ///< one subscription at a time
   std::thread thread_;
 
-  // liblcm may still call a subscription that another thread has just ended. So its own subscriptions, one for each
-  // channel, last as long as the bus, and handlers come and go here.
-  std::mutex handlers_mutex_;  ///< held while handlers run, so that one that was removed is not running either
+  // liblcm may still call a subscription that another thread has just ended. So liblcm's subscriptions, one for each
+  // channel, last as long as the bus, and handlers are added and removed here.
+  std::mutex handlers_mutex_;  ///< held while handlers run, so that a removed handler is not running
   std::map<std::string, std::vector<std::pair<std::int64_t, Handler>>, std::less<>> handlers_;
   std::int64_t next_id_ = 0;
 };
@@ -157,7 +157,7 @@ void LcmBus::Connection::receive(int lcm_fd) {
     } else if (errno == EINTR) {
       continue;
     }
-    // Something failed, perhaps for want of memory. A glove must not fall silent for good because of that.
+    // Something failed, perhaps for lack of memory. Try again, because a glove must not fall silent for good.
     if (poll(files, 1, kRetryMilliseconds) > 0) return;
   }
 }

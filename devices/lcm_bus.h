@@ -1,9 +1,9 @@
 #pragma once
 
-/// One connection to LCM, shared by everything in a process that sends or receives messages.
+/// A connection to LCM, shared by all senders and receivers of a process.
 ///
-/// `memq://` connects the ends inside one process: only ends that share one LcmBus hear each other. `udpm://` connects
-/// processes and hosts by UDP multicast: `udpm://239.255.76.67:7667?ttl=0` stays on this machine.
+/// `memq://` connects senders and receivers inside one process, and only those that share one LcmBus. `udpm://`
+/// connects processes and hosts by UDP multicast: `udpm://239.255.76.67:7667?ttl=0` stays on this machine.
 
 #include <cstdint>
 #include <functional>
@@ -13,23 +13,24 @@
 
 namespace glissade::devices {
 
-/// Raw messages by channel. One thread, started by the first subscription, receives for all subscribers; it has the
-/// scheduling of the thread that subscribes first. Channel names are 1 to 15 characters of A–Z, 0–9 and `_`.
+/// Sends and receives raw messages by channel. One thread, started by the first subscription, receives for all
+/// subscribers; it inherits the scheduling of the thread that subscribes first. Channel names are 1 to 15 characters of
+/// A–Z, 0–9 and `_`.
 ///
-/// Thread-safety: any number of threads may subscribe and publish at once. Everything here may block and allocate: none
-/// of it belongs into a real-time thread.
+/// Thread-safety: any number of threads may subscribe and publish at once. All functions may block and allocate, so
+/// none of them belongs in a real-time thread.
 class LcmBus {
  public:
-  /// Called in the receive thread, one message after the other. The bytes are only valid during the call. What it
-  /// throws is swallowed. It must not subscribe, or end a subscription.
+  /// Called in the receive thread, one message at a time. The bytes are valid only during the call. Exceptions are
+  /// swallowed. A handler must neither subscribe nor end a subscription.
   using Handler = std::function<void(std::span<const std::uint8_t> message)>;
 
-  /// Ends with its life: once the destructor returns, the handler is not running and will not run. The bus must live
-  /// longer.
+  /// A subscription, which its destructor ends: once that returns, the handler is not running and will not run again.
+  /// The bus must outlive the subscription.
   class Subscription;
 
   /// Throws std::invalid_argument, naming the URL, when it is not a correct memq or udpm address, or when this machine
-  /// has no way to send to it.
+  /// cannot send to it.
   explicit LcmBus(const std::string& url);
   LcmBus(const LcmBus&) = delete;
   LcmBus& operator=(const LcmBus&) = delete;
@@ -38,12 +39,13 @@ class LcmBus {
 
   const std::string& url() const noexcept;
 
-  /// Throws std::invalid_argument when the channel's name is not allowed, the handler is empty, or nothing can be
-  /// received from the URL.
+  /// Calls `handler` for every message on `channel`, until the returned subscription is destroyed. Throws
+  /// std::invalid_argument when the channel's name is not allowed, the handler is empty, or nothing can be received
+  /// from the URL.
   [[nodiscard]] std::unique_ptr<Subscription> subscribe(const std::string& channel, Handler handler);
 
-  /// Returns false when the system refused to send. Over memq, a message nobody has subscribed to is lost at once.
-  /// Throws std::invalid_argument when the channel's name is not allowed.
+  /// Sends `message`; returns false when the system refuses. Over memq, a message on a channel without subscribers is
+  /// lost at once. Throws std::invalid_argument when the channel's name is not allowed.
   bool publish(const std::string& channel, std::span<const std::uint8_t> message);
 
  private:
@@ -64,13 +66,13 @@ class LcmBus::Subscription {
   std::int64_t id_;
 };
 
-/// Messages received so far. `lost` counts the gaps in the sequences of the accepted ones.
+/// Numbers of messages so far. `lost` counts the sequence numbers that are missing between accepted messages.
 struct LinkStatistics {
   std::uint64_t accepted = 0;
   std::uint64_t wrong_size = 0;       ///< not the encoded size of the message's type
   std::uint64_t undecodable = 0;      ///< right in size but of another type
   std::uint64_t not_finite = 0;       ///< with a NaN or an infinity
-  std::uint64_t out_of_range = 0;     ///< with a number beyond any sense, or a quaternion that is none
+  std::uint64_t out_of_range = 0;     ///< with an implausibly large number, or a quaternion without unit norm
   std::uint64_t out_of_sequence = 0;  ///< not newer than the last accepted one
   std::uint64_t lost = 0;
 

@@ -46,7 +46,7 @@ void LcmGlove::command(const GloveCommand& command) noexcept {
   commands_.publish(command);
 }
 
-// A command that cannot be encoded or sent is as good as lost on the way: the glove's watchdog answers for both.
+// A command that cannot be encoded or sent counts as lost on the way: the glove's command timeout covers both.
 void LcmGlove::send(const GloveCommand& command) noexcept {
   try {
     if (bus_->publish(kGloveCommandChannel, encode(limit_command(command, descriptor_).command))) {

@@ -17,16 +17,17 @@ namespace glissade::devices {
 class LinkMonitor;
 
 struct LcmGloveOptions {
-  /// How often the send thread looks for a new command. Looking costs the haptic thread nothing, whereas waking the
-  /// send thread would cost it a system call for every command.
+  /// Period at which the send thread polls for a new command. Polling costs the haptic thread nothing, whereas waking
+  /// the send thread would cost it a system call for every command.
   std::chrono::nanoseconds send_period{std::chrono::microseconds(250)};
-  /// After so long without an accepted state, one of any sequence is accepted: the glove may have been restarted.
+  /// After this time without an accepted state, a state with any sequence is accepted: the glove may have been
+  /// restarted.
   std::chrono::nanoseconds restart_silence{std::chrono::milliseconds(500)};
 };
 
-/// Receives states on the channel GLOVE_STATE and sends commands on GLOVE_COMMAND, each in a thread other than the
-/// caller's. Commands are limited to the descriptor on their way out; after the last one comes, on destruction, a
-/// command of no force.
+/// The haptic loop's end of the link: receives states on the channel GLOVE_STATE and sends commands on GLOVE_COMMAND,
+/// each in a thread other than the caller's. Commands are limited to the descriptor before they are sent. If any was
+/// sent, the destructor sends a last command that is zero.
 class LcmGlove final : public GloveDevice {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive, the descriptor is not valid, or the send
@@ -38,7 +39,7 @@ class LcmGlove final : public GloveDevice {
   bool read(GloveState& newest) noexcept override;
   void command(const GloveCommand& command) noexcept override;
 
-  /// What came from the glove. Any thread.
+  /// Statistics of the messages from the glove. Any thread.
   LinkStatistics statistics() const noexcept;
   /// Commands sent so far. Any thread.
   std::uint64_t commands_sent() const noexcept { return commands_sent_.load(std::memory_order_relaxed); }
@@ -63,11 +64,12 @@ class LinkMonitor;
 struct LcmGloveHostOptions {
   /// A command older than this is no longer obeyed: the server may be gone.
   std::chrono::nanoseconds command_timeout{std::chrono::milliseconds(100)};
-  /// After so long without an accepted command, one of any sequence is accepted: the server may have been restarted.
+  /// After this time without an accepted command, a command with any sequence is accepted: the server may have been
+  /// restarted.
   std::chrono::nanoseconds restart_silence{std::chrono::milliseconds(500)};
 };
 
-/// Sends states on the channel GLOVE_STATE and receives commands on GLOVE_COMMAND.
+/// The glove driver's end of the link: sends states on the channel GLOVE_STATE and receives commands on GLOVE_COMMAND.
 /// Thread-safety: one thread, the glove's, calls `publish` and `newest_command`.
 class LcmGloveHost {
  public:
@@ -75,14 +77,14 @@ class LcmGloveHost {
   explicit LcmGloveHost(std::shared_ptr<LcmBus> bus, const LcmGloveHostOptions& options = {});
   ~LcmGloveHost();
 
-  /// Sends `state`; returns false when the system refused. May block.
+  /// Sends `state`; returns false when the system refuses. May block.
   bool publish(const GloveState& state);
 
-  /// The newest command, with all its forces zero once it is older than the timeout; before the first one, a default
-  /// GloveCommand. Wait-free.
+  /// The newest command, or a default GloveCommand before the first one. Its forces and torques are zero once it is
+  /// older than the timeout. Wait-free.
   GloveCommand newest_command() noexcept;
 
-  /// What came from the server. Any thread.
+  /// Statistics of the messages from the server. Any thread.
   LinkStatistics statistics() const noexcept;
 
  private:

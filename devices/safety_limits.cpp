@@ -10,9 +10,10 @@ double usable(double limit) noexcept {
   return limit > 0.0 ? limit : 0.0;
 }
 
-/// Scales `vector` to at most the norm `limit`; returns whether it had to.
+/// Scales `vector` down to the norm `limit` if it exceeds it; returns whether it did.
 bool limit_norm(Eigen::Vector3d& vector, double limit) noexcept {
-  // The largest component goes first: the squares of huge ones would overflow, and so might their sum.
+  // Division by the largest component comes first: the squares of huge components would overflow, and so might their
+  // sum.
   const double largest = vector.lpNorm<Eigen::Infinity>();
   if (largest <= limit && vector.norm() <= limit) return false;
   vector /= largest;

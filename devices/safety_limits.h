@@ -1,30 +1,30 @@
 #pragma once
 
-/// The last gate before a device: whatever was computed, this is what it may be sent.
+/// The last check before a device: any command, reduced to the limits of the device.
 
 #include <glissade/devices/glove_device.h>
 
 namespace glissade::devices {
 
-/// What had to be changed, and why.
+/// Reasons for changes to a command.
 struct LimitReasons {
   bool not_finite = false;      ///< a number was NaN or infinite, so everything was set to zero
-  bool force_limited = false;   ///< the force was scaled down to the device's greatest
-  bool torque_limited = false;  ///< likewise the torque
-  bool joints_limited = false;  ///< at least one joint torque was cut off
+  bool force_limited = false;   ///< the force was scaled down to the device's maximum
+  bool torque_limited = false;  ///< the torque was scaled down to the device's maximum
+  bool joints_limited = false;  ///< at least one joint torque was clamped
 
   bool any() const noexcept { return not_finite || force_limited || torque_limited || joints_limited; }
 };
 
-/// A command within the limits.
+/// A command within the limits, and the reasons for its changes.
 struct LimitedCommand {
   GloveCommand command;
   LimitReasons reasons;
 };
 
 /// Scales force and torque down to the norms the device allows, keeping their directions, and clamps each joint torque.
-/// A command with any number that is not finite becomes no force at all. Sequences and time pass through. The result
-/// never exceeds a limit, not even by rounding; a limit that is NaN or negative allows nothing. Real-time safe.
+/// If any of these numbers is not finite, all become zero. Sequences and time are kept. The result never exceeds a
+/// limit, not even by rounding; a limit that is NaN or negative counts as 0. Real-time safe.
 LimitedCommand limit_command(const GloveCommand& command, const DeviceDescriptor& descriptor) noexcept;
 
 }  // namespace glissade::devices

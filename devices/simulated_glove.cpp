@@ -118,29 +118,29 @@ GloveState SimulatedGlove::step(std::chrono::nanoseconds dt, const GloveCommand&
 }
 
 void SimulatedGlove::move_hand(double h, const GloveCommand& command) noexcept {
-  const Eigen::Vector3d p_WS = script_X_WH_.pose_at(state_.time).translation();
-  const Eigen::Vector3d v_WS = script_X_WH_.velocity_at(state_.time).v_WB;
-  const Eigen::Vector3d f_H_W = parameters_.wearer_stiffness * (p_WS - state_.X_WH.translation()) +
-                                parameters_.wearer_damping * (v_WS - state_.v_WH) -
+  const Eigen::Vector3d p_WScript = script_X_WH_.pose_at(state_.time).translation();
+  const Eigen::Vector3d v_WScript = script_X_WH_.velocity_at(state_.time).v_WB;
+  const Eigen::Vector3d f_H_W = parameters_.wearer_stiffness * (p_WScript - state_.X_WH.translation()) +
+                                parameters_.wearer_damping * (v_WScript - state_.v_WH) -
                                 parameters_.arm_damping * state_.v_WH + command.f_H_W;
   state_.v_WH += h / parameters_.mass * f_H_W;
   state_.X_WH.translation() += h * state_.v_WH;
 }
 
 void SimulatedGlove::turn_hand(double h, const GloveCommand& command) noexcept {
-  const Eigen::Quaterniond q_WS(script_X_WH_.pose_at(state_.time).linear());
-  const Eigen::Vector3d w_WS = script_X_WH_.velocity_at(state_.time).w_WB;
-  const Eigen::Vector3d to_script_W = rotation_vector(q_WS * q_WH_.conjugate());
+  const Eigen::Quaterniond q_WScript(script_X_WH_.pose_at(state_.time).linear());
+  const Eigen::Vector3d w_WScript = script_X_WH_.velocity_at(state_.time).w_WB;
+  const Eigen::Vector3d to_script_W = rotation_vector(q_WScript * q_WH_.conjugate());
   // The inertia is the same about every axis, so there is no gyroscopic torque.
   const Eigen::Vector3d t_H_W = parameters_.wearer_rotational_stiffness * to_script_W +
-                                parameters_.wearer_rotational_damping * (w_WS - state_.w_WH) -
+                                parameters_.wearer_rotational_damping * (w_WScript - state_.w_WH) -
                                 parameters_.arm_rotational_damping * state_.w_WH + command.t_H_W;
   state_.w_WH += h / parameters_.rotational_inertia * t_H_W;
   q_WH_ = (from_rotation_vector(h * state_.w_WH) * q_WH_).normalized();
   state_.X_WH.linear() = q_WH_.toRotationMatrix();
 }
 
-// Fingers weigh little: each goes to the balance of the wearer's grip and the torque without swinging.
+// Fingers weigh little: each approaches the equilibrium of the wearer's grip and the torque without overshoot.
 void SimulatedGlove::move_fingers(double h, const GloveCommand& command) noexcept {
   const double part = -std::expm1(-h / parameters_.finger_time_constant);
   for (std::size_t i = 0; i < kGloveJoints; ++i) {

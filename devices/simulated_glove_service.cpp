@@ -26,7 +26,7 @@ void SimulatedGloveService::tick(std::chrono::nanoseconds deadline) noexcept {
   script_time_.store(script_time() + passed, std::memory_order_relaxed);
 }
 
-// A state that cannot be encoded or sent is as good as lost on the way: the server sees the gap in the sequence.
+// A state that cannot be encoded or sent counts as lost on the way: the server sees the gap in the sequence.
 void SimulatedGloveService::send(const GloveState& state) noexcept {
   try {
     host_.publish(state);

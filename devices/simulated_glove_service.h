@@ -1,6 +1,7 @@
 #pragma once
 
-/// A simulated glove that lives on an LCM bus like a real one: its own thread at 1 kHz, states out, commands in.
+/// A simulated glove on an LCM bus: like a real one, it publishes states and receives commands, in a thread of its own
+/// at 1 kHz.
 
 #include <atomic>
 #include <chrono>
@@ -16,20 +17,20 @@
 namespace glissade::devices {
 
 /// Starts in its constructor and ends with its destructor. The hand waits at the start of its script until the first
-/// command arrives, so that server and glove may be started in any order; from then on the script runs by the clock,
-/// whatever ticks the thread misses.
+/// command arrives, so that server and glove may be started in any order. From then on the script follows the clock,
+/// even if the thread misses ticks.
 class SimulatedGloveService {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive. The clock must outlive the service.
   SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock);
 
-  /// How much of the script is done. Any thread.
+  /// Elapsed time of the script. Any thread.
   std::chrono::nanoseconds script_time() const noexcept { return script_time_.load(std::memory_order_relaxed); }
 
   /// Ends the thread; afterwards the figures below are final.
   void stop() { thread_->stop(); }
 
-  /// Greatest norm of a force the hand was sent, N. Valid after `stop`.
+  /// Greatest norm of a commanded force, N. Valid after `stop`.
   double greatest_force() const noexcept { return greatest_force_; }
   LinkStatistics link_statistics() const noexcept { return host_.statistics(); }
 
@@ -39,7 +40,7 @@ class SimulatedGloveService {
 
   LcmGloveHost host_;
   SimulatedGlove glove_;
-  std::optional<std::chrono::nanoseconds> last_deadline_;  ///< once there is a server
+  std::optional<std::chrono::nanoseconds> last_deadline_;  ///< set once a command has arrived
   std::atomic<std::chrono::nanoseconds> script_time_{std::chrono::nanoseconds(0)};
   double greatest_force_ = 0.0;
   std::unique_ptr<realtime::PeriodicThread> thread_;

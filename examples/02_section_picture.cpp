@@ -1,6 +1,7 @@
-// Draws what the demonstration does: a window motor slides to its seat in a car door, seen along the car. The motor is
-// cut through the middle of its drum, the door where the drum ends up. Usage: section_picture SCRIPT.csv PICTURE.svg
-// The script is that of `examples/scenes`: the pose X_WG of the ghost over time.
+// Draws the demonstration in section, seen along the car: a window motor slides to its seat in a car door. The section
+// of the motor is through the middle of its drum, that of the door at the final position of the drum. Usage:
+// section_picture SCRIPT.csv PICTURE.svg SCRIPT.csv holds the pose X_WG of the ghost over time, like the script in
+// `examples/scenes`.
 
 #include <fstream>
 #include <iostream>
@@ -38,7 +39,8 @@ std::vector<Eigen::Isometry3d> read_poses(const std::string& path) {
   return poses;
 }
 
-// The lines in which the plane x_B = cut cuts the triangles, as an SVG path: y_W to the right, z_W up, in millimetres.
+// The intersection of the plane x = cut_m of B with the triangles, as an SVG path: y_W to the right, z_W up,
+// millimetres.
 std::string section(const geometry::TriangleMesh& mesh_B, double cut_m, const Eigen::Isometry3d& X_WB) {
   std::ostringstream path;
   path.precision(5);

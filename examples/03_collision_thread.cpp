@@ -1,5 +1,5 @@
-// A hundred balls swing about their places while the collision thread says which of them meet. The loop that moves them
-// never waits for it.
+// A hundred balls oscillate while the collision thread finds the colliding pairs. The loop that moves the balls never
+// waits for that thread.
 
 #include <algorithm>
 #include <chrono>
@@ -18,7 +18,7 @@ int main() {
   const auto tree = std::make_shared<collision::DopTree>(mesh);  // one for all balls
   const auto hull = std::make_shared<collision::ConvexHull>(*mesh);
 
-  // Ball i in a given millisecond.
+  // The pose of ball i in a given millisecond.
   const auto place = [](int i, int millisecond) {
     const int row = i / 10;
     const double swing = 0.03 * std::sin(0.02 * millisecond + i);
@@ -39,7 +39,7 @@ int main() {
   for (int millisecond = 0; millisecond < 500; ++millisecond) {
     for (int i = 0; i < 100; ++i)
       world.move(balls[static_cast<std::size_t>(i)], place(i, millisecond));
-    if (thread.reader().update()) {  // a frame that is new to us
+    if (thread.reader().update()) {  // a new frame
       const collision::FrameResult& frame = thread.reader().frame();
       most = std::max(most, frame.meeting.size());
       sum += frame.report;
@@ -51,8 +51,8 @@ int main() {
     return 1e-3 * static_cast<double>(time.count()) / static_cast<double>(frames);
   };
   std::cout << "Up to " << most << " pairs of balls meet at once. A frame took " << us_each(sum.total) << " us:\n"
-            << "  who has moved        " << us_each(sum.queue.time) << " us\n"
-            << "  who is near          " << us_each(sum.neighbor_finding.time) << " us\n"
+            << "  moved objects        " << us_each(sum.queue.time) << " us\n"
+            << "  neighboring pairs    " << us_each(sum.neighbor_finding.time) << " us\n"
             << "  separating planes    " << us_each(sum.separating_planes.time) << " us\n"
             << "  triangles            " << us_each(sum.exact.time) << " us\n";
   return most > 0 ? 0 : 1;

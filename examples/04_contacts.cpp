@@ -1,5 +1,5 @@
-// Leads a box down a step, from one plate to another, and prints what it touches: each contact when it begins, and from
-// time to time what a display would draw.
+// Moves a box down a step, from one plate to another, and prints its contacts: each one when it begins, and every 250
+// ms the patches that a display would draw.
 
 #include <cstdio>
 #include <memory>
@@ -23,7 +23,7 @@ int main() {
   haptics::ContactTracker tracker(sliding.margin());
   haptics::ContactPatches patches(box_V->radius());
   for (int millisecond = 0; millisecond <= 1000; ++millisecond) {
-    // The hand wants the box at the height of the lower step, and pushes it along x.
+    // The hand holds the box at the height of the lower step and pushes it along x.
     const Eigen::Isometry3d X_WG(Eigen::Translation3d(-0.05 + 1.3e-4 * millisecond, 0.0, 0.003));
     const haptics::SlidingResult& result = sliding.advance(X_WG);
     for (const haptics::TrackedContact& tracked : tracker.update(result)) {

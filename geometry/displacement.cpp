@@ -50,7 +50,7 @@ double motion_bound(const Displacement& d, double radius) {
 double fraction_within(const Displacement& d, double radius, double longest) {
   longest = std::max(0.0, longest);
   if (motion_bound(d, radius) <= longest) return 1.0;
-  // 2 sin(f a / 2) ≤ f a; whereas 2 sin(f a / 2) may exceed f · 2 sin(a / 2).
+  // For the angle a, the chord 2 sin(f a / 2) is at most the arc f a, but may exceed the scaled chord f · 2 sin(a / 2).
   return longest / (d.v.norm() + d.w.norm() * radius);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Small rigid motions of a part about its reference point, and how far they can carry any point of it.
+/// Displacements of a rigid part about its reference point, and bounds on the motion of its points.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -10,8 +10,8 @@ namespace glissade::geometry {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 /// A displacement of a rigid part: translation `v` of its reference point (metres) and rotation vector `w` about that
-/// point (radians), both in world axes. Applied over a path parameter t in [0, 1] it is the motion
-/// x(t) = p + t v + exp(t w) (x − p) of a point x, p being the reference point at t = 0.
+/// point (radians), both in world axes. Over the path parameter t in [0, 1], a point x of the part moves as
+/// x(t) = p + t v + exp(t w) (x − p), where p is the reference point at t = 0.
 struct Displacement {
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
   Eigen::Vector3d w = Eigen::Vector3d::Zero();
@@ -24,20 +24,22 @@ struct Displacement {
 /// The rotation by the angle |w| (radians) about w.
 Eigen::Quaterniond rotation_by(const Eigen::Vector3d& w);
 
-/// The pose of a part after a displacement from X_WV; `p_Vref` is the reference point in the part's frame.
-/// The result's rotation is orthonormal to rounding however many displacements are chained.
+/// The pose of a part after a displacement from X_WV; `p_Vref` is the reference point in the part's frame. The rotation
+/// of the result stays orthonormal to rounding, however many displacements are chained.
 Eigen::Isometry3d displaced(const Eigen::Isometry3d& X_WV, const Eigen::Vector3d& p_Vref, const Displacement& d);
 
-/// The displacement that takes the part from X_WV to X_WG: (p_G − p_V, log(R_G R_Vᵀ)).
+/// The displacement that takes the part from X_WV to X_WG: (p_G − p_V, log(R_G R_Vᵀ)), where p is the position of the
+/// reference point, `p_Vref` in the part's frame.
 Displacement displacement_between(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WG,
                                   const Eigen::Vector3d& p_Vref);
 
-/// Metres that no point of a part moves more than, on the whole path of a displacement: |v| + 2 sin(|w|/2) ρ, where
-/// `radius` ρ is the largest distance of its points from the reference point.
+/// Upper bound, in metres, on the motion of any point of a part along the whole path of a displacement:
+/// |v| + 2 sin(|w|/2) ρ, where `radius` ρ is the largest distance of its points from the reference point. An angle |w|
+/// beyond π counts as π.
 double motion_bound(const Displacement& d, double radius);
 
-/// A fraction f in [0, 1] with motion_bound(d.scaled(f), radius) ≤ `longest`: 1 where that holds for d itself. The
-/// bound is not linear in d, so this is not simply their quotient.
+/// A fraction f in [0, 1] with motion_bound(d.scaled(f), radius) ≤ `longest`; 1 if d itself satisfies this. The bound
+/// is not linear in d, so f is not simply `longest` / motion_bound(d, radius).
 double fraction_within(const Displacement& d, double radius, double longest);
 
 }  // namespace glissade::geometry

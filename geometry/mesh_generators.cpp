@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Cells along two directions of the given lengths, about square, about `triangle_count` / 2 in all.
+/// Numbers of nearly square cells along two directions of the given lengths, about `triangle_count` / 2 in all.
 std::pair<int, int> about_square_cells(double length_u, double length_v, std::int64_t triangle_count, int least_u,
                                        int least_v) {
   const double cells = std::max(1.0, static_cast<double>(triangle_count) / 2);
@@ -25,7 +25,7 @@ std::pair<int, int> about_square_cells(double length_u, double length_v, std::in
   return {cells_u, cells_v};
 }
 
-/// The quads between row `row_a` of vertices and row `row_b`, each of `count` vertices, closed to a ring.
+/// Adds the quads between two rows of `count` vertices, which begin at `row_a` and `row_b`, closed to a ring.
 void add_ring(std::int32_t row_a, std::int32_t row_b, std::int32_t count, std::vector<Triangle>& triangles) {
   for (std::int32_t i = 0; i < count; ++i) {
     const std::int32_t next = (i + 1) % count;
@@ -34,7 +34,8 @@ void add_ring(std::int32_t row_a, std::int32_t row_b, std::int32_t count, std::v
   }
 }
 
-/// i-th of n + 1 even steps from -length/2 to length/2, with equal bits wherever the arguments are equal.
+/// The i-th of n + 1 evenly spaced values from -length/2 to length/2. Two faces of a box get the same bits along their
+/// common edge, so that they can be welded.
 double lattice(double length, int i, int n) {
   return length * (static_cast<double>(2 * i - n) / (2.0 * n));
 }
@@ -75,7 +76,7 @@ Eigen::Vector3d spline_point(std::span<const Eigen::Vector3d> points, double s) 
   const auto i = std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(std::floor(s)), 0, last - 1);
   const double t = s - static_cast<double>(i);
   const auto at = [&](std::ptrdiff_t k) -> Eigen::Vector3d {
-    // Beyond the ends the curve goes on as the mirror image of its first and last step.
+    // Beyond the ends, the first and the last step are repeated.
     if (k < 0) return 2 * points[0] - points[1];
     if (k > last) {
       return 2 * points[static_cast<std::size_t>(last)] - points[static_cast<std::size_t>(last - 1)];
@@ -122,8 +123,9 @@ std::vector<Eigen::Vector3d> even_points(const std::vector<Eigen::Vector3d>& pol
   return points;
 }
 
-/// `across`, perpendicular to `from`, turned by the smallest rotation that takes the direction `from` to `to`: it keeps
-/// a hose free of twist. In closed form, because Eigen's FromTwoVectors brings in an SVD that takes long to compile.
+/// Parallel transport: `across`, perpendicular to `from`, turned by the smallest rotation that takes the direction
+/// `from` to `to`. This keeps a hose free of twist. In closed form, because Eigen's FromTwoVectors brings in an SVD
+/// that takes long to compile.
 Eigen::Vector3d carried_along(const Eigen::Vector3d& across, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const double one_plus_cos = 1 + from.dot(to);
   if (one_plus_cos < 1e-12) return across;  // turned back: half a turn about `across` itself

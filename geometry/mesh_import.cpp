@@ -21,7 +21,7 @@ namespace {
 struct Format {
   const char* extension;
   VettedFile (*vetted)(const std::filesystem::path&, std::string_view);
-  const char* hint;  // what the importer library is told about the clean file
+  const char* hint;  // format of the clean file, for the importer library
 };
 
 constexpr std::array<Format, 5> kFormats{{{".obj", &vetted_obj, "obj"},
@@ -64,28 +64,29 @@ Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
   return result;
 }
 
-/// Adds the triangles of the node N, whose parent's frame is `M_SP` in the scene S, and of all nodes below it. The
-/// matrices may scale and shear.
-void add_node(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& M_SP, TriangleMesh& mesh_S) {
-  const Eigen::Matrix4d M_SN = M_SP * matrix(node.mTransformation);
+/// Adds the triangles of a node and of all nodes below it to `mesh_Scene`, in the frame of the scene. `M_SceneParent`
+/// maps from the frame of the node's parent. The matrices may scale and shear.
+void add_node(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& M_SceneParent,
+              TriangleMesh& mesh_Scene) {
+  const Eigen::Matrix4d M_SceneNode = M_SceneParent * matrix(node.mTransformation);
   for (unsigned m = 0; m < node.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[node.mMeshes[m]];
-    const auto offset = static_cast<std::int32_t>(mesh_S.vertices.size());
+    const auto offset = static_cast<std::int32_t>(mesh_Scene.vertices.size());
     for (unsigned v = 0; v < part.mNumVertices; ++v) {
       const aiVector3D& p = part.mVertices[v];
-      const Eigen::Vector4d p_N(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), 1.0);
-      mesh_S.vertices.emplace_back((M_SN * p_N).head<3>());
+      const Eigen::Vector4d p_Node(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), 1.0);
+      mesh_Scene.vertices.emplace_back((M_SceneNode * p_Node).head<3>());
     }
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const aiFace& face = part.mFaces[f];
       if (face.mNumIndices != 3) continue;
-      mesh_S.triangles.push_back({offset + static_cast<std::int32_t>(face.mIndices[0]),
-                                  offset + static_cast<std::int32_t>(face.mIndices[1]),
-                                  offset + static_cast<std::int32_t>(face.mIndices[2])});
+      mesh_Scene.triangles.push_back({offset + static_cast<std::int32_t>(face.mIndices[0]),
+                                      offset + static_cast<std::int32_t>(face.mIndices[1]),
+                                      offset + static_cast<std::int32_t>(face.mIndices[2])});
     }
   }
   for (unsigned c = 0; c < node.mNumChildren; ++c) {
-    add_node(scene, *node.mChildren[c], M_SN, mesh_S);
+    add_node(scene, *node.mChildren[c], M_SceneNode, mesh_Scene);
   }
 }
 
@@ -124,7 +125,7 @@ ImportedMesh import_mesh(const std::filesystem::path& path, double scale) {
   }
   result.mesh = weld(soup);
   result.degenerate_triangles = drop_degenerate(result.mesh);
-  if (result.degenerate_triangles > 0) result.mesh = weld(result.mesh);  // drops the vertices only they used
+  if (result.degenerate_triangles > 0) result.mesh = weld(result.mesh);  // drops the vertices that only they used
   if (result.mesh.triangles.empty()) {
     reject(path, "None of its " + std::to_string(result.degenerate_triangles) + " triangles has an area");
   }

@@ -11,7 +11,7 @@
 namespace glissade::geometry {
 namespace {
 
-/// One triangle's side: its vertices in ascending order, and whether the triangle runs through it in that order.
+/// A side of a triangle: its vertices in ascending order, and whether the triangle traverses it in that order.
 struct Side {
   std::int32_t low;
   std::int32_t high;

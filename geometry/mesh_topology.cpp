@@ -12,8 +12,9 @@
 namespace glissade::geometry {
 namespace {
 
-/// Two triangles continue each other where the sine of the angle between their planes is below this: well above what
-/// single-precision vertices make of a tessellated plane, well below any bend that matters to a contact.
+/// Two triangles continue each other in one plane if the sine of the angle between their planes is at most this. The
+/// value is well above the rounding errors of a tessellated plane with single-precision vertices, and well below any
+/// bend that matters to a contact.
 constexpr double kFlatSine = 1e-4;
 
 /// One side of one triangle.
@@ -29,7 +30,8 @@ bool continues_flat(const TriangleMesh& mesh, const std::array<std::int32_t, 2>&
     return mesh.vertices[static_cast<std::size_t>(v)];
   };
   const Eigen::Vector3d along = point(edge[1]) - point(edge[0]);
-  // With the edge walked the same way both times, a flat continuation has opposite normals and a fold equal ones.
+  // Both cross products use the same direction of the edge, so a flat continuation has opposite normals and a fold
+  // equal ones.
   const Eigen::Vector3d n1 = along.cross(point(apex_1) - point(edge[0]));
   const Eigen::Vector3d n2 = along.cross(point(apex_2) - point(edge[0]));
   return n1.dot(n2) < 0.0 && n1.cross(n2).norm() <= kFlatSine * n1.norm() * n2.norm();

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Which triangles of a mesh meet in which edges and vertices, without any use of their orientation: what contact
-/// constraints need to know of a mesh straight from CAD.
+/// Edges and vertices of a mesh with the triangles that meet there, and the features that contact constraints need. The
+/// orientation of triangles is not used, so meshes straight from CAD will do.
 
 #include <array>
 #include <cstdint>
@@ -12,14 +12,18 @@
 
 namespace glissade::geometry {
 
-/// Edges and vertices of a mesh with their neighborhoods. Degenerate triangles take no part.
-/// Immutable after construction, so safe to share between threads.
+/// Edges and vertices of a mesh with their neighborhoods. Each edge and each vertex has one owner among its triangles,
+/// so that every contact is found once, always with the same numbers. Degenerate triangles are ignored. Immutable after
+/// construction, so safe to share between threads.
+///
+/// Features are the edges that are not flat and the vertices that can stop another mesh. In every contact of two
+/// meshes, a vertex of one meets a face, edge or vertex of the other, or an edge of one meets an edge of the other.
 class MeshTopology {
  public:
   struct Edge {
     std::array<std::int32_t, 2> vertices;
-    std::int32_t owner;  ///< the one of its triangles that answers for it
-    bool flat;           ///< exactly two triangles meet here, and they continue each other in one plane
+    std::int32_t owner;  ///< the triangle that owns the edge
+    bool flat;           ///< exactly two triangles meet here, side by side in one plane
   };
 
   /// Cost O(n log n).
@@ -31,26 +35,28 @@ class MeshTopology {
   const std::array<std::int32_t, 3>& edges_of(std::int32_t triangle) const {
     return triangle_edges_[static_cast<std::size_t>(triangle)];
   }
-  /// The corners that face an edge, one for each of its triangles.
+  /// The vertices opposite an edge, one for each of its triangles.
   std::span<const std::int32_t> apexes_of(std::int32_t edge) const { return apexes_.of(edge); }
   /// The vertices joined to a vertex by an edge.
   std::span<const std::int32_t> neighbors_of(std::int32_t vertex) const { return neighbors_.of(vertex); }
-  /// The one of a vertex's triangles that answers for it, −1 if it has none.
+  /// The triangle that owns a vertex; −1 if no triangle, or only degenerate ones, use the vertex.
   std::int32_t owner_of(std::int32_t vertex) const { return vertex_owner_[static_cast<std::size_t>(vertex)]; }
-  /// Whether a vertex can stop another mesh. One inside a plane patch, where every edge is flat, cannot, as others
-  /// bound the patch; nor can one inside a straight rim, where all edges are flat but two that continue each other,
-  /// within 0.1 µm of the chord: what it could stop, the ends of the rim stop, or its edges.
+  /// Whether a vertex can stop another mesh. A vertex inside a plane patch cannot: all its edges are flat, and the
+  /// features that bound the patch suffice. Neither can a vertex inside a straight rim: exactly two of its edges are
+  /// not flat, these two continue each other, and it lies within 0.1 µm of the rim's chord. The edges and the ends of
+  /// the rim suffice.
   bool can_stop(std::int32_t vertex) const { return can_stop_[static_cast<std::size_t>(vertex)] != 0; }
-  /// Whether a triangle answers for any edge that is not flat or vertex that can stop: only those stop another mesh.
+  /// Whether a triangle owns any feature. A triangle that owns none stops only vertices of other meshes, with its face.
   bool answers_for_features(std::int32_t triangle) const { return answers_[static_cast<std::size_t>(triangle)] != 0; }
-  /// Whether two triangles of two meshes can stop each other: not those of which one answers for edges only and the
-  /// other for none, as an edge is stopped by edges and vertices.
+  /// Whether two triangles of two meshes can stop each other with the features that they own. A vertex stops any
+  /// triangle, but an edge stops only edges and vertices. So one of the triangles must own a vertex, or both must own
+  /// features.
   bool can_stop_each_other(std::int32_t triangle, const MeshTopology& other, std::int32_t triangle_of_other) const {
     const int mine = answers_[static_cast<std::size_t>(triangle)];
     const int others = other.answers_[static_cast<std::size_t>(triangle_of_other)];
     return (mine & kCorners) != 0 || (others & kCorners) != 0 || (mine != 0 && others != 0);
   }
-  /// Whether it answers for its corner i, and for its edge i.
+  /// Whether corner i, or edge i, of a triangle is a feature that the triangle owns.
   bool answers_for_corner(std::int32_t triangle, int i) const { return answers(triangle, i); }
   bool answers_for_edge(std::int32_t triangle, int i) const { return answers(triangle, 3 + i); }
 
@@ -80,7 +86,7 @@ class MeshTopology {
   std::vector<std::array<std::int32_t, 3>> triangle_edges_;
   std::vector<std::int32_t> vertex_owner_;
   std::vector<char> can_stop_;
-  std::vector<std::uint8_t> answers_;  // bits 0 to 2 for the corners of a triangle, 3 to 5 for its edges
+  std::vector<std::uint8_t> answers_;  // by triangle, features that it owns: bits 0 to 2 corners, 3 to 5 edges
   Lists apexes_;
   Lists neighbors_;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A scripted motion: poses at rising times, and every pose between them.
+/// A scripted motion: poses at increasing times, with interpolation between them.
 
 #include <chrono>
 #include <cstddef>
@@ -17,18 +17,18 @@ struct TimedPose {
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
 };
 
-/// How fast a frame B moves.
+/// Velocity of a frame B.
 struct FrameVelocity {
-  Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();  ///< of the origin of B, in world axes, m/s
-  Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();  ///< in world axes, rad/s
+  Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();  ///< of the origin of B, in world axes; m/s
+  Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();  ///< in world axes; rad/s
 };
 
-/// Between rows the translation is linear and the rotation a slerp along the shorter arc; outside, the first or last
-/// pose holds. Immutable, so any number of threads may read one.
+/// A pose for every time. Between two rows the translation is linear and the rotation a slerp along the shorter arc.
+/// Before the first row and after the last, the pose is constant. Immutable, so any number of threads may read it.
 class PoseTrajectory {
  public:
-  /// Throws std::invalid_argument when there is no row, and, naming the row (counted from 0), when its time does not
-  /// rise above the one before, or its pose is not finite or its rotation not a rotation to within 1e-3.
+  /// Throws std::invalid_argument when there is no row; and, naming the row (counted from 0), when a time is not
+  /// greater than the one before, when a pose is not finite, or when its matrix is not a rotation to within 1e-3.
   explicit PoseTrajectory(const std::vector<TimedPose>& rows);
 
   std::chrono::nanoseconds first_time() const noexcept { return times_.front(); }
@@ -38,16 +38,17 @@ class PoseTrajectory {
   /// The pose X_WB at `time`. Real-time safe; O(log rows).
   Eigen::Isometry3d pose_at(std::chrono::nanoseconds time) const noexcept;
 
-  /// The exact velocity of `pose_at`: constant between two rows, that of the following piece at a row, zero outside.
-  /// Real-time safe; O(log rows).
+  /// The exact velocity of `pose_at`: constant between two rows, and at a row that of the piece that starts there. Zero
+  /// before the first row, and from the last row on. Real-time safe; O(log rows).
   FrameVelocity velocity_at(std::chrono::nanoseconds time) const noexcept;
 
-  /// The same path from the same first time, stretched or squeezed to take `duration`. Throws std::invalid_argument
-  /// when `duration` is not positive, or so short that two rows would fall on one nanosecond.
+  /// The same path from the same first time, with the times scaled so that it takes `duration`. Throws
+  /// std::invalid_argument when `duration` is not positive, or so short that two rows would fall on one nanosecond.
   PoseTrajectory time_scaled(std::chrono::nanoseconds duration) const;
 
  private:
-  /// Index of the row that starts the piece with `time`; meaningful from the first time to below the last.
+  /// Index of the row that starts the piece containing `time`, which must be at least the first time and below the
+  /// last.
   std::size_t piece_at(std::chrono::nanoseconds time) const noexcept;
 
   std::vector<std::chrono::nanoseconds> times_;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Matrices that are almost rotations: how far off they are, and the rigid pose nearest to one.
+/// The rigid pose nearest to an almost rigid one, and measures of the deviation from a rotation.
 
 #include <cmath>
 #include <optional>
@@ -10,14 +10,14 @@
 
 namespace glissade::geometry {
 
-/// The pose itself if the entries of RᵀR − 1 add up to less than 1e-12, as those of every product of a few rotations
-/// do; with the nearest rotation instead if they add up to less than 1e-4; else none, nor for a reflection, or for a
-/// coordinate that is not finite or beyond ±1e9 m. So bounds that hold for rotations hold for what is returned. Cost:
-/// some ten nanoseconds.
+/// The rigid pose nearest to an almost rigid X = (R, p). Returns X itself if its `rotation_defect` is below 1e-12, as
+/// it is for every product of a few rotations. Replaces R by the nearest rotation if the defect is below 1e-4. Returns
+/// nothing for a larger defect, for a reflection, and for a coordinate of p that is not finite or beyond ±1e9 m. So
+/// bounds that hold for rotations hold for the result. Cost: about ten nanoseconds.
 std::optional<Eigen::Isometry3d> rigid_pose(const Eigen::Isometry3d& X) noexcept;
 
-/// The absolute values of the entries of RᵀR − 1, added up: 0 of a true rotation or reflection, and a bound of any
-/// norm. Not a number when an entry of R is not finite.
+/// The defect δ: the sum of the absolute entries of RᵀR − 1. It is 0 for an exact rotation or reflection, and an upper
+/// bound of every common norm of RᵀR − 1. It is not finite when an entry of R is not.
 inline double rotation_defect(const Eigen::Matrix3d& R) {
   const Eigen::Vector3d x = R.col(0);
   const Eigen::Vector3d y = R.col(1);
@@ -26,7 +26,8 @@ inline double rotation_defect(const Eigen::Matrix3d& R) {
          2.0 * (std::abs(x.dot(y)) + std::abs(y.dot(z)) + std::abs(z.dot(x)));
 }
 
-/// No less than `rotation_defect`, if that is little, and 0 of a true rotation; more than 1 of a reflection. Quicker.
+/// An upper bound of `rotation_defect` where that is small, and faster to compute. It is 0 for an exact rotation, and
+/// more than 1 for a reflection.
 inline double rotation_defect_bound(const Eigen::Matrix3d& R) {
   const Eigen::Vector3d x = R.col(0);
   const Eigen::Vector3d y = R.col(1);
@@ -34,7 +35,7 @@ inline double rotation_defect_bound(const Eigen::Matrix3d& R) {
   return 3.0 * xy + 7.0 * (x.cross(y) - R.col(2)).lpNorm<1>();
 }
 
-/// Whether R, of little defect, is a rotation and not a reflection.
+/// Whether R, a matrix of small defect, approximates a rotation rather than a reflection.
 inline bool is_right_handed(const Eigen::Matrix3d& R) {
   return R.col(0).cross(R.col(1)).dot(R.col(2)) > 0.0;
 }

@@ -47,8 +47,8 @@ struct Obstacle {
   std::shared_ptr<const ContactBody> body;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   std::string name = "an obstacle";  ///< for messages
-  /// Metres at which this obstacle holds parts away, where that is not to be the part's own margin: smaller for a
-  /// tighter fit, larger for a body that needs air; at most kGreatestMargin_m.
+  /// Metres at which this obstacle holds parts away; default: the part's own margin. Smaller for a tighter fit, larger
+  /// for more clearance; at most kGreatestMargin_m.
   std::optional<double> margin{};
 };
 

@@ -26,20 +26,21 @@ struct ConstraintRow {
   double velocity(const geometry::Displacement& d) const { return n.dot(d.v + d.w.cross(r)); }
 };
 
-/// Room for contacts in a set. At most six contacts of a part push at once; the others are the nearest of those that
-/// may push soon. Finely cut faces that lie flush have more, and the rest is missing until the next set.
+/// Capacity of a contact set. At most six contacts of a part push at once; the other rows are the nearest contacts,
+/// which may push soon. Finely tessellated faces that lie flush have more contacts; the excess is missing until the
+/// next set.
 inline constexpr std::size_t kMaxContactRows = 64;
 
 /// The simulation's answer to one ghost pose.
 struct ContactSet {
   std::int64_t sequence = 0;                                       ///< rises by one with every set; 0 before the first
-  std::chrono::nanoseconds time{0};                                ///< of the ghost pose that it answers
+  std::chrono::nanoseconds time{0};                                ///< time of the ghost pose that it answers
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();          ///< the visible part
-  Eigen::Isometry3d X_WV_of_rows = Eigen::Isometry3d::Identity();  ///< the part when the rows were found
-  double reach = 0.0;  ///< metres: the rows hold every constraint this near to that pose
+  Eigen::Isometry3d X_WV_of_rows = Eigen::Isometry3d::Identity();  ///< the pose at which the rows were found
+  double reach = 0.0;  ///< metres from that pose within which all constraints are known
   SlidingState state = SlidingState::kFree;
   std::int32_t pushing = 0;                                ///< contacts with a force
-  std::int32_t dropped = 0;                                ///< contacts for which there was no room
+  std::int32_t dropped = 0;                                ///< contacts beyond the capacity
   std::int32_t row_count = 0;                              ///< rows in use
   std::array<ConstraintRow, kMaxContactRows> row_array{};  ///< pushing ones first, then the nearest
 

@@ -30,17 +30,17 @@ struct HapticTick {
 /// Real-time safe: bounded work, no allocation, no lock, no system call after construction. Not thread-safe.
 class HapticKernel {
  public:
-  /// The hand grasps the part rigidly where both are when the first state arrives; the part is at X_WV_start then. The
-  /// coupling is `coupling_for` the device and the `stiffness` with which the simulation holds the part. Throws as
-  /// `coupling_for` does.
+  /// The hand grasps the part rigidly when the first state arrives, with the part at X_WV_start. The coupling is
+  /// `coupling_for` the device and `stiffness`, with which the simulation holds the part. Throws as `coupling_for`
+  /// does.
   HapticKernel(const SlidingPart& part_V, const CouplingStiffness& stiffness, const devices::DeviceDescriptor& device,
                const Eigen::Isometry3d& X_WV_start);
   ~HapticKernel();
   HapticKernel(const HapticKernel&) = delete;
   HapticKernel& operator=(const HapticKernel&) = delete;
 
-  /// The tick for the newest state and the newest contact set. A hand pose that is not finite gives no force and leaves
-  /// the ghost where it was.
+  /// Computes the tick for the newest state and the newest contact set. A hand pose that is not finite gives zero force
+  /// and leaves the ghost unchanged.
   HapticTick tick(const devices::GloveState& state, const ContactSet& set) noexcept;
 
   const Coupling& coupling() const noexcept { return coupling_; }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The system in real time: a haptic thread at 1 kHz between a device and the newest contact set, and a simulation
-/// thread that answers the newest ghost pose as fast as collision queries allow. Neither waits for the other.
+/// thread that answers the newest ghost pose as fast as collision queries allow. Neither thread waits for the other.
 
 #include <atomic>
 #include <chrono>
@@ -21,31 +21,31 @@
 namespace glissade::haptics {
 
 struct HapticServerOptions {
-  /// Ends by itself after so many ticks with a device; 0 goes on until `stop`.
+  /// Ticks with a device after which the server ends by itself; with 0 it runs until `stop`.
   std::int64_t ticks = 0;
-  /// SCHED_FIFO priority the haptic thread asks for; 0 asks for none.
+  /// SCHED_FIFO priority that the haptic thread requests; 0 requests none.
   int fifo_priority = 80;
-  /// A device that has sent nothing new for so long gets no force.
+  /// A device whose newest state arrived longer ago than this gets no force.
   std::chrono::nanoseconds device_timeout{std::chrono::milliseconds(50)};
 };
 
-/// What the server measured. Complete after `stop`.
+/// Measurements of the server. Complete after `stop`.
 struct HapticServerStatistics {
-  realtime::PeriodicStatistics haptic;         ///< the haptic thread's ticks, those before the first state included
-  realtime::LatencyHistogram simulation;       ///< time one answer of the simulation took
-  realtime::LatencyHistogram contact_set_age;  ///< at the ticks that used it
+  realtime::PeriodicStatistics haptic;         ///< all ticks of the haptic thread, also before the first state
+  realtime::LatencyHistogram simulation;       ///< duration of each answer of the simulation
+  realtime::LatencyHistogram contact_set_age;  ///< at each tick, that of the set it used
   bool has_fifo_scheduling = false;
 };
 
-/// Thread-safety: one thread owns the object. Between construction and the end of `stop`, `device` and `simulation`
-/// belong to the server's threads.
+/// Runs both threads from construction to `stop`. Thread-safety: one thread owns the object. Between construction and
+/// the end of `stop`, `device` and `simulation` belong to the server's threads.
 class HapticServer {
  public:
   /// Called by the haptic thread for each tick with a device; must be real-time safe.
   using Sink = std::function<void(const devices::HapticState&)>;
 
-  /// Starts both threads. The references must outlive the server. The part is grasped where it is when the first state
-  /// of the device arrives. The coupling is `coupling_for` the device and the stiffness of the simulation. Throws
+  /// Starts both threads. The references must outlive the server. The hand grasps the part where it is when the first
+  /// state of the device arrives. The coupling is `coupling_for` the device and the stiffness of the simulation. Throws
   /// std::invalid_argument for an empty sink, and as `coupling_for` does.
   HapticServer(devices::GloveDevice& device, SlidingSimulation& simulation, realtime::Clock& clock, Sink sink,
                const HapticServerOptions& options = {});
@@ -53,13 +53,13 @@ class HapticServer {
   HapticServer& operator=(const HapticServer&) = delete;
   ~HapticServer() { stop(); }
 
-  /// Whether the given number of ticks has been done. Wait-free, any thread.
+  /// Whether the number of ticks in the options has been reached. Wait-free, any thread.
   bool is_done() const noexcept { return done_.load(std::memory_order_acquire); }
 
   /// Ticks with a device so far. Wait-free, any thread.
   std::int64_t ticks() const noexcept { return ticks_.load(std::memory_order_relaxed); }
 
-  /// Ends both threads; may block for the length of one answer of the simulation.
+  /// Stops both threads. May block for the duration of one answer of the simulation.
   void stop();
 
   /// Valid after `stop`.
@@ -80,18 +80,18 @@ class HapticServer {
   Sink sink_;
   HapticServerOptions options_;
 
-  // Of the haptic thread.
+  // Haptic thread only.
   HapticKernel kernel_;
   devices::GloveState state_;
   std::int64_t state_sequence_ = -1;
   std::chrono::nanoseconds state_arrival_{0};
 
-  // Of the simulation thread.
+  // Simulation thread only.
   std::int64_t set_sequence_ = 0;
-  std::chrono::nanoseconds answered_{0};  // time of the last ghost that was answered
+  std::chrono::nanoseconds answered_{0};  // time of the last answered ghost
   std::vector<std::int32_t> scratch_;
 
-  // Between them.
+  // Shared by both threads.
   realtime::TripleBuffer<Ghost> ghosts_;
   realtime::TripleBuffer<ContactSet> sets_;
 

@@ -16,7 +16,8 @@
 
 namespace glissade::haptics {
 
-/// The whole cycle: look around, project, certify, move; again until all parts have arrived or nothing moves any more.
+/// The whole cycle: look around, project, certify, move. It repeats until all parts have arrived or hardly move any
+/// more.
 class MultiPartSliding::Cycle {
  public:
   Cycle(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const SlidingRules& rules)
@@ -55,10 +56,10 @@ class MultiPartSliding::Cycle {
   }
 
  private:
-  /// In rounding errors of coordinates: closer bodies count as overlapping at the start.
+  /// In units of `StepFinder::certain_distance`: bodies closer than this count as overlapping at the start.
   static constexpr double kTouching = 4.0;
 
-  /// Takes the poses that are rigid, for held parts. False when there is none.
+  /// Moves the ghosts of held parts to those poses that are rigid. Returns whether any ghost was moved.
   bool follow_ghosts(std::span<const Eigen::Isometry3d> X_WG, double milliseconds) {
     bool any = false;
     double ghosts = 0.0;
@@ -71,13 +72,13 @@ class MultiPartSliding::Cycle {
       part.follow(*rigid, milliseconds);
       ghosts += part.ghost_motion;
     }
-    // A part may be pushed by another as fast as the ghost of that one moves.
+    // One part may push another as fast as its own ghost moves.
     for (HeldPartState& part : shared_.states)
       part.slew = part.metaphor == Metaphor::kForceFeedback ? kSlew_m * milliseconds + ghosts : kUnbounded;
     return any;
   }
 
-  /// One cycle. Returns whether it was the last one that is worth it.
+  /// One cycle. Returns whether another one is not worth it.
   bool take_step() {
     radius_.choose(shared_, starts_.depenetration());
     if (radius_.look(shared_, starts_.overlaps().pairs())) starts_.restore_min_clearances();

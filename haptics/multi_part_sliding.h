@@ -58,7 +58,7 @@ class MultiPartSliding {
   double margin(std::size_t part) const;
 
   const SearchAccount& search_account() const;
-  /// The bodies and where they are, for tests; the type is private.
+  /// The bodies and their poses, for tests; the type is private.
   const ContactScene& scene() const;
 
  private:

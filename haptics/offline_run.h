@@ -12,9 +12,9 @@
 
 namespace glissade::haptics {
 
-/// Runs `ticks` milliseconds and passes the state of each to `sink`. As in real time, a tick works with the contact set
-/// of the ghost one tick before. The part is grasped where it is at the first tick, and coupled as by `HapticServer`.
-/// Throws std::invalid_argument for an empty sink, and as `coupling_for` does.
+/// Runs `ticks` milliseconds and passes the state of each to `sink`. As in real time, a tick uses the contact set that
+/// answers the previous tick's ghost. The hand grasps the part where it is at the first tick; the coupling is that of
+/// `HapticServer`. Throws std::invalid_argument for an empty sink, and as `coupling_for` does.
 void run_offline(devices::SimulatedGlove& glove, SlidingSimulation& simulation, std::int64_t ticks,
                  const std::function<void(const devices::HapticState&)>& sink);
 

@@ -20,10 +20,11 @@ std::vector<HeldPart> held_parts(std::shared_ptr<const SlidingPart> part_V, cons
                                .metaphor = options.metaphor,
                                .stiffness = options.stiffness}};
   for (const ScriptedPart& part : scripted) {
+    if (part.part_B == nullptr) throw std::invalid_argument(part.name + " needs a body, not a null pointer");
     const double radius = part.part_B->radius();
     parts.push_back({.part_V = part.part_B,
                      .X_WV_start = pose_at(part, {}),
-                     .metaphor = Metaphor::kRubberBandSpring,  // it lags behind its script by nothing but contacts
+                     .metaphor = Metaphor::kRubberBandSpring,  // only contacts make it lag behind its script
                      .stiffness = CouplingStiffness{part.grip_N_per_m, part.grip_N_per_m * radius * radius},
                      .name = part.name,
                      .is_scripted = true});

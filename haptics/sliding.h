@@ -33,15 +33,16 @@ struct ScriptedPart {
   std::shared_ptr<const SlidingPart> part_B;
   geometry::PoseTrajectory script_X_WB;
   std::chrono::nanoseconds start{0};  ///< the script's time at which the simulation begins
-  /// Stiffness against translation; against rotation it is k_r = k_t ρ². The default is a thousand times that of a
-  /// hand, so that the part pushes and is hardly pushed. With a hand's stiffness it is another hand.
+  /// Stiffness against translation; the stiffness against rotation is k_r = k_t ρ². The default is a thousand times
+  /// that of a hand, so that the part pushes others and is hardly pushed. With a hand's stiffness, the script acts as
+  /// another hand.
   double grip_N_per_m = 1e6;
   std::string name = "a moving part";  ///< for messages
 };
 
-/// The simulation of one part among obstacles that stand still and parts that follow scripts: `MultiPartSliding` with
-/// the part first and the scripted parts after it. Deterministic: the same calls give the same bits. Not thread-safe;
-/// several simulations may share bodies.
+/// The simulation of one part among fixed obstacles and scripted parts: `MultiPartSliding` with the part first and the
+/// scripted parts after it. Deterministic: the same calls give the same bits. Not thread-safe; several simulations may
+/// share bodies.
 class Sliding final : public SlidingSimulation {
  public:
   /// Throws std::invalid_argument as `MultiPartSliding` does.
@@ -51,7 +52,7 @@ class Sliding final : public SlidingSimulation {
 
   void grasp(const Eigen::Isometry3d& X_WG) override { sliding_.grasp(0, X_WG); }
   void release() override { sliding_.release(0); }
-  /// Scripts advance by as much, whoever holds the part, and whatever X_WG is.
+  /// Advances the scripts by `milliseconds` too, even while the part is released or when X_WG is rejected.
   const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) override;
 
   const SlidingResult& result() const override { return sliding_.result(0); }
@@ -61,17 +62,17 @@ class Sliding final : public SlidingSimulation {
   std::span<const Eigen::Isometry3d> scripted_X_WB() const override { return scripted_X_WB_; }
   SearchAccount search_account() const override { return sliding_.search_account(); }
 
-  /// Metres that every certified path keeps away from obstacles without a margin of their own, unless it started
-  /// nearer.
+  /// Minimum clearance (metres) of every certified path from obstacles without a margin of their own, unless the path
+  /// starts nearer.
   double min_clearance() const { return kMinClearanceOfMargin * margin(); }
-  /// The bodies and where they are, for tests; the type is private.
+  /// The bodies and their poses, for tests; the type is private.
   const ContactScene& scene() const { return sliding_.scene(); }
 
  private:
   MultiPartSliding sliding_;
   std::vector<ScriptedPart> scripted_;
   std::vector<Eigen::Isometry3d> scripted_X_WB_;
-  std::vector<Eigen::Isometry3d> ghosts_X_WG_;           // of all parts
+  std::vector<Eigen::Isometry3d> ghosts_X_WG_;           // one for each part
   std::chrono::duration<double, std::milli> time_{0.0};  // since the simulation began
 };
 

@@ -36,8 +36,8 @@ struct Contact {
   Eigen::Vector3d p_W;  ///< the contact point on the part, metres
   double gap;           ///< metres; negative only for kOverlap
   double force = 0.0;   ///< newtons along n_W; 0 while the contact does not push
-  /// The feature of either side: the triangle of a face, the number of an edge in `geometry::MeshTopology`, the number
-  /// of a vertex in the mesh; −1 where the method does not report it.
+  /// The feature on either side: the triangle of a face, the number of an edge in `geometry::MeshTopology`, or the
+  /// number of a vertex in the mesh; −1 where the method does not report it.
   std::int32_t part_feature = -1;
   std::int32_t obstacle_feature = -1;
   std::int32_t part = 0;                                 ///< number among the parts
@@ -48,9 +48,9 @@ struct Contact {
   Eigen::Vector3d q_W() const { return p_W - gap * n_W; }
 };
 
-/// What a part does.
+/// The state of a part at the end of a call.
 enum class SlidingState : std::uint8_t {
-  kReleased,    ///< nobody holds the part; it stands still
+  kReleased,    ///< no hand holds the part; it stands still
   kFree,        ///< the visible part is at its target
   kSliding,     ///< contacts push, the part moves along them
   kResting,     ///< contacts push, the part stands still

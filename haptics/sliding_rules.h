@@ -55,13 +55,13 @@ inline constexpr double kMinClearanceOfMargin = 0.3;
 /// Parts in one simulation, at most.
 inline constexpr std::size_t kMaxParts = 4;
 
-/// What happens to a part that overlaps an obstacle at its start. Two parts must never overlap at their start.
+/// The treatment of a part that overlaps an obstacle at its start. Two parts must never overlap at their start.
 enum class OverlapRule : std::uint8_t {
   kRefuse,  ///< the constructor throws
-  /// The part goes a short way out, straight and without turning, by kSlew_m a millisecond, wherever the hand wants it.
-  /// Once both are a margin apart it follows the hand again, and the obstacle is like any other. Other obstacles hold
-  /// the part meanwhile, so it stays where one is in its way. Out of several obstacles it goes one after the other, the
-  /// deepest first.
+  /// The part moves out by a short way, straight and without turning, by kSlew_m a millisecond, wherever the hand wants
+  /// it. Once both are a margin apart, the part follows the hand again, and the obstacle is like any other. Other
+  /// obstacles hold the part meanwhile, so it stays where one is in its way. With several overlaps, the deepest comes
+  /// first.
   kDepenetrate,
 };
 
@@ -74,16 +74,16 @@ struct SlidingRules {
   std::optional<double> margin{};
   Friction friction{};
   OverlapRule overlap = OverlapRule::kRefuse;
-  /// A part that contacts hold although it is wanted elsewhere searches in a growing spiral, as a hand looks for a hole
-  /// with a peg: up to 1.6 mm and 1.4°, for two seconds at most.
+  /// Starts a spiral search when contacts hold a part away from its target: the part then aims at a growing spiral
+  /// around the target, as a hand looks for a hole with a peg, up to 1.6 mm and 1.4° from it, for two seconds at most.
   bool spiral_search = false;
   /// Searches for near triangles in a thread of its own, ahead of need, so that few calls wait; for simulations in real
   /// time. Poses and forces are the same to the bit.
   bool has_search_thread = false;
 };
 
-/// One of the parts and its holder. A part that moves on its own is held by a script, with a stiffer grip than the
-/// parts it pushes; it waits for obstacles that it cannot push out of its way.
+/// One of the parts and its holder. A script holds a part that moves on its own, with a stiffer grip than the parts it
+/// pushes; the part waits for obstacles that it cannot push out of its way.
 struct HeldPart {
   std::shared_ptr<const SlidingPart> part_V;
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();

@@ -19,9 +19,9 @@
 
 namespace glissade::haptics {
 
-/// The work of searching for contacts. Searches for pairs to certify are as many and not included.
+/// The work of searching for contacts. The equally many searches for pairs to certify are not included.
 struct SearchAccount {
-  std::int64_t searches = 0;       ///< whose answers were used
+  std::int64_t searches = 0;       ///< searches whose answers were used
   collision::FrameReport reports;  ///< the sum of their reports
 };
 
@@ -33,20 +33,20 @@ class SlidingSimulation {
   SlidingSimulation& operator=(const SlidingSimulation&) = delete;
   virtual ~SlidingSimulation() = default;
 
-  /// The hand takes hold of the part, or takes another hold of it: the ghost is at X_WG from now on, wherever the part
-  /// is. Nothing moves yet. Where ghost and part do not coincide, `force-feedback` closes the gap at its limited speed
+  /// The hand takes hold of the part, or takes another hold of it: from now on the ghost is at X_WG, wherever the part
+  /// is. Nothing moves yet. If ghost and part do not coincide, `force-feedback` closes the gap at its limited speed
   /// (`Sliding` without pulling, the paper's method against its full spring), the rubber bands close it at once, and
-  /// `incremental` keeps it: there, `grasp` and `release` are the clutch. Needed only after `release`. Ignores poses
+  /// `incremental` keeps it, so that `grasp` and `release` are its clutch. Required only after `release`. Ignores poses
   /// that `geometry::rigid_pose` rejects.
   virtual void grasp(const Eigen::Isometry3d& X_WG) = 0;
 
   /// The hand lets go: the part stays where it is, the ghost is where the part is, and no contact pushes.
   virtual void release() = 0;
 
-  /// Moves the visible part towards its target, once per millisecond of motion. `geometry::rigid_pose` makes X_WG a
-  /// rotation and translation; a pose that it rejects leaves the part where it is, as does a call while the part is
-  /// released. `milliseconds`, finite and not negative, is the time since the ghost of the last call; a caller that
-  /// comes late may catch up for all of it.
+  /// Moves the visible part towards its target; to be called once per millisecond of motion. `geometry::rigid_pose`
+  /// makes X_WG a rotation and translation; a pose that it rejects leaves the part where it is, as does a call while
+  /// the part is released. `milliseconds`, finite and not negative, is the time since the ghost of the last call; a
+  /// late caller may pass all of it to catch up.
   virtual const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) = 0;
 
   virtual const SlidingResult& result() const = 0;
@@ -71,8 +71,8 @@ class SlidingSimulation {
   geometry::Displacement error() const;
 };
 
-/// The contact set of the newest `result` of a part, as the answer to the ghost pose of `time`. `scratch` is memory
-/// that calls reuse. Works for every method and for each of several parts. Cost O(contacts).
+/// The contact set of the newest `result` of a part, in answer to the ghost pose of `time`. `scratch` is memory that
+/// calls reuse. Works for every method and for each of several parts. Cost O(contacts).
 ContactSet make_contact_set(const SlidingResult& result, const SlidingPart& part, std::int64_t sequence,
                             std::chrono::nanoseconds time, std::vector<std::int32_t>& scratch);
 

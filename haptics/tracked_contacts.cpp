@@ -12,20 +12,20 @@ namespace {
 
 constexpr double kCosOfSameNormal = 0.984807753012208;    // 10°
 constexpr double kCosOfOneDirection = 0.999847695156391;  // 1°
-constexpr std::int64_t kUnited = -1;                      // for an id: the contact is part of another
+constexpr std::int64_t kUnited = -1;                      // as an id: the contact is merged into another
 
 auto features_of(const Contact& c) {
   return std::make_tuple(c.part, c.obstacle, c.kind, c.part_feature, c.obstacle_feature, c.part_triangle,
                          c.obstacle_triangle);
 }
 
-/// Whether two contacts are the same to a user: with one obstacle, at one place, in one direction.
+/// Whether two contacts are one to the user: same obstacle, same place, same direction.
 bool are_one(const Contact& a, const Contact& b, double margin) {
   return a.part == b.part && a.obstacle == b.obstacle && a.n_W.dot(b.n_W) >= kCosOfOneDirection &&
          (a.p_W - b.p_W).norm() <= margin && (a.q_W() - b.q_W()).norm() <= margin;
 }
 
-/// A total order: two contacts that are told with the same features are told apart by where they are.
+/// A total order: contacts with the same features are ordered by place.
 bool comes_before(const Contact& a, const Contact& b) {
   const auto place = [](const Contact& c) {
     return std::make_tuple(c.p_W.x(), c.p_W.y(), c.p_W.z(), c.n_W.x(), c.n_W.y(), c.n_W.z(), c.force);
@@ -118,7 +118,7 @@ void ContactTracker::unite_coincident() {
   std::erase_if(now_, [](const TrackedContact& contact) { return contact.id == kUnited; });
 }
 
-/// Both lists are in order, so that one walk along them finds what is in both.
+/// Both lists are sorted, so one pass along them finds the contacts that are in both.
 void ContactTracker::match_features() {
   ended_.clear();
   auto now = now_.begin();
@@ -161,8 +161,8 @@ void ContactTracker::match_places(const Eigen::Isometry3d& X_WV, double obstacle
   }
 }
 
-/// Which of the contacts that have ended `contact` continues, −1 for none; `widest` is the longest way that any of
-/// them can have come.
+/// The index of the ended contact that `contact` continues, −1 if there is none; `widest` (metres) is the largest
+/// travel of any of them.
 std::int32_t ContactTracker::predecessor_of(const Contact& contact, double widest) const {
   const auto candidate = [&](const Ended& ended) -> const TrackedContact& {
     return before_[static_cast<std::size_t>(ended.index)];
@@ -187,7 +187,7 @@ std::int32_t ContactTracker::predecessor_of(const Contact& contact, double wides
   return best;
 }
 
-/// What is new and does not touch is none of the user's business yet.
+/// A new contact that does not touch yet gets no number and is not reported.
 void ContactTracker::number_new_ones() {
   std::erase_if(now_, [&](const TrackedContact& now) { return now.id == 0 && !touches(now.contact); });
   touching_.clear();

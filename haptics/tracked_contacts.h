@@ -1,7 +1,7 @@
 #pragma once
 
-/// Contacts for lists, logs and displays: each with a number that it keeps over time, and merged into patches. The
-/// simulation itself needs neither.
+/// Contacts for lists, logs and displays: each contact keeps a number over time, and contacts in one plane merge into
+/// patches. The simulation itself uses neither.
 
 #include <cstdint>
 #include <span>
@@ -16,41 +16,42 @@ namespace glissade::haptics {
 
 /// A contact with its identity. Point, normal and gap are those at the visible pose.
 struct TrackedContact {
-  std::int64_t id = 0;   ///< from 1 on; each new contact has the next number
-  std::int64_t age = 0;  ///< updates since it got the number
+  std::int64_t id = 0;   ///< from 1; each new contact gets the next number
+  std::int64_t age = 0;  ///< updates since the contact got its number
   Contact contact;
 };
 
-/// Follows the contacts of one part from one result to the next; of several parts each has a tracker. Not thread-safe.
+/// Tracks the contacts of one part from one result to the next; several parts need a tracker each. Not thread-safe.
 ///
 /// A contact **touches** when it pushes or its gap is at most two margins: contacts hold the part one margin away.
 ///
-/// Contacts with one obstacle whose points lie within a margin and whose normals within 1° are **one** to the user: a
-/// vertex over the seam of several triangles of a plane, each of which counts it as over its inside, or an edge that
-/// crosses two others at the vertex they share. The one that comes first in the order of the list stands for all, with
-/// the sum of their forces.
+/// Contacts with one obstacle count as one and are merged when their points lie within a margin and their normals
+/// within 1°. Examples: a vertex over the seam of several triangles of a plane, where it lies over the inside of each;
+/// an edge that crosses two other edges at their common vertex. The first contact in the order of the list represents
+/// them all, with the sum of their forces.
 ///
-/// A contact gets its number when it first touches, and **keeps** it until it neither pushes nor is nearer than three
-/// margins, so that one that flickers about the limit stays the same. It is the same contact from one update to the
-/// next when
+/// A contact gets its number when it first touches. It **keeps** the number while it pushes or its gap is at most three
+/// margins, so that a contact that flickers about the limit stays the same. Contacts of two successive updates are the
+/// same when
 /// - obstacle, kind and features are the same; or else
-/// - it takes the place of one that has ended in the same update, of the same obstacle, with both contact points no
-///   further from the old ones than the part's motion there has carried that point (and three margins), and a normal
-///   within 10°. So a contact stays the same when its point passes from one triangle or edge to the next on a flat or
-///   smooth face, and becomes another where it goes round a corner. Of several that have ended, it continues one with
-///   which it has a feature in common, then the nearest, then the oldest.
+/// - the new contact replaces one that ended in this update: the obstacle is the same, the normals are within 10°, and
+///   both points are no farther from the old points than the part's motion at the old point, plus `obstacle_travel` and
+///   three margins.
+///
+/// By the second rule, a contact stays the same when its point passes from one triangle or edge to the next on a flat
+/// or smooth face, and becomes another one when it goes round a corner. If several ended contacts fit, the new contact
+/// continues one with a common feature, then the nearest, then the oldest.
 class ContactTracker {
  public:
-  /// `margin` (metres) is that of the simulation, see `SlidingSimulation::margin`; where obstacles have margins of
-  /// their own, the greatest.
+  /// `margin` (metres): the margin of the simulation (`SlidingSimulation::margin`), or the largest margin if obstacles
+  /// have margins of their own.
   explicit ContactTracker(double margin) : margin_(margin) {}
 
-  /// The contacts that touch according to `result`, the next result of the same simulation, in ascending order of
-  /// obstacle, kind, the part's feature and the obstacle's. Simulations tell their contacts as
-  /// they were before the last cycle moved the part; here they are carried along with it, which is exact for
-  /// translations along a face. `obstacle_travel` (metres): no point of an obstacle or another part has moved more
-  /// since the last update. Valid until the next update. Cost O(n log n) for n contacts; allocates only when there are
-  /// more than ever before.
+  /// Returns the touching contacts of `result`, which must be the next result of the same simulation, in ascending
+  /// order of obstacle, kind, part feature and obstacle feature. A simulation reports contacts at the poses before its
+  /// last step; the tracker carries them along with the part, which is exact for translations along a face.
+  /// `obstacle_travel` (metres) bounds the motion of every point of an obstacle or another part since the last update.
+  /// Valid until the next update. Cost O(n log n) for n contacts; allocates only when there are more than ever before.
   std::span<const TrackedContact> update(const SlidingResult& result, double obstacle_travel = 0.0);
 
   /// The contacts of the last update.
@@ -67,7 +68,7 @@ class ContactTracker {
   bool touches(const Contact& contact) const { return contact.force > 0.0 || contact.gap <= 2.0 * margin_; }
   bool lasts(const Contact& contact) const { return contact.force > 0.0 || contact.gap <= 3.0 * margin_; }
 
-  /// A contact of the last update that has ended, and how far its points can have come since.
+  /// A contact of the last update that has ended, and how far its points may have moved since (metres).
   struct Ended {
     std::int32_t index;
     double travel;
@@ -77,41 +78,41 @@ class ContactTracker {
   double margin_;
   std::int64_t last_id_ = 0;
   Eigen::Isometry3d X_WV_ = Eigen::Isometry3d::Identity();  // of the last update
-  std::vector<TrackedContact> before_;                      // in order
-  std::vector<TrackedContact> now_;                         // in order; id 0 until it is known
-  std::vector<std::int32_t> by_x_;                          // numbers in `now_`
+  std::vector<TrackedContact> before_;                      // sorted
+  std::vector<TrackedContact> now_;                         // sorted; id 0 until it is known
+  std::vector<std::int32_t> by_x_;                          // indices into `now_`
   std::vector<Ended> ended_;                                // by p_W.x
   std::vector<TrackedContact> touching_;
 };
 
 /// Contacts with one obstacle that lie in one plane.
 struct ContactPatch {
-  std::int64_t id = 0;  ///< that of its oldest contact, the one with the lowest number
+  std::int64_t id = 0;  ///< the lowest id among its contacts, that of the oldest one
   std::int32_t obstacle = 0;
-  std::int32_t count = 0;  ///< of contacts
-  Eigen::Vector3d p_W =
-      Eigen::Vector3d::Zero();  ///< centre of the forces on the part; where nothing pushes, the mean of the points
-  Eigen::Vector3d n_W = Eigen::Vector3d::UnitZ();  ///< unit, from the obstacle to the part: the mean of the normals,
-                                                   ///< weighted in the same way
+  std::int32_t count = 0;  ///< number of contacts
+  /// Centre of the forces on the part, or the mean of the points if nothing pushes; metres.
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
+  /// Unit, from the obstacle to the part: the mean of the normals, weighted in the same way.
+  Eigen::Vector3d n_W = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d force_on_part_W = Eigen::Vector3d::Zero();  ///< newtons, friction included
-  double gap = 0.0;                                           ///< the least, metres
-  double extent = 0.0;  ///< how far the furthest contact point is from p_W, metres
+  double gap = 0.0;                                           ///< smallest gap, metres
+  double extent = 0.0;  ///< distance of the farthest contact point from p_W, metres
 };
 
-/// Merges contacts. Not thread-safe.
+/// Merges contacts into patches. Not thread-safe.
 ///
-/// The oldest contact that belongs to no patch yet founds one. Every contact with the same obstacle joins it whose
-/// normal is within 10° of the founder's, and whose point is no further than 1 % of ρ from the plane through the
-/// founder's point. How far apart they are within that plane does not matter, as the four corners of a box that lies
-/// flat are one patch. Patches keep their founders as long as these touch, and so their ids.
+/// The oldest contact without a patch founds one. Every contact with the same obstacle joins the patch if its normal is
+/// within 10° of the founder's and its point within 1 % of ρ of the plane through the founder's point. Distance within
+/// that plane does not matter: the four corners of a box that lies flat are one patch. A patch keeps its founder, and
+/// with it its id, as long as the founder touches.
 class ContactPatches {
  public:
   /// `radius` (metres) is ρ of the part.
   explicit ContactPatches(double radius) : plane_tolerance_(0.01 * radius) {}
 
-  /// The patches of `contacts`, which `ContactTracker` tells, in ascending order of their ids. Nothing is remembered
-  /// from one call to the next, and the order of `contacts` matters to rounding only. Valid until the next call.
-  /// Cost O(n log n) and O(n) for each patch; allocates only when there are more contacts than ever before.
+  /// Returns the patches of `contacts`, a list of `ContactTracker`, in ascending order of their ids. Nothing is kept
+  /// from one call to the next; the order of `contacts` affects rounding only. Valid until the next call. Cost
+  /// O(n log n), and O(n) for each patch; allocates only when there are more contacts than ever before.
   std::span<const ContactPatch> merge(std::span<const TrackedContact> contacts);
 
  private:

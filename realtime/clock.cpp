@@ -15,8 +15,8 @@ std::chrono::nanoseconds SteadyClock::now() const noexcept {
 void SteadyClock::sleep_until(std::chrono::nanoseconds deadline) noexcept {
   const auto seconds = std::chrono::floor<std::chrono::seconds>(deadline);
   const timespec time{.tv_sec = seconds.count(), .tv_nsec = (deadline - seconds).count()};
-  // An absolute deadline makes it safe to sleep again after a signal. A deadline before the epoch is an error and
-  // returns.
+  // An absolute deadline makes it safe to sleep again after a signal. For a deadline before the epoch, the call fails
+  // and returns at once.
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) == EINTR) {
   }
 }

@@ -1,13 +1,13 @@
 #pragma once
 
-/// Time as the loops see it: the machine's, or a simulated one that makes a loop deterministic and as fast as it can
-/// run.
+/// Clocks for loops: the machine's, and a simulated one, with which a loop is deterministic and runs as fast as it can.
 
 #include <chrono>
 
 namespace glissade::realtime {
 
-/// Tells the time and waits. Times are nanoseconds since an epoch that is arbitrary but fixed for the clock's life.
+/// A source of time that can also wait. Times are nanoseconds since an epoch that is arbitrary but fixed for the
+/// clock's life.
 class Clock {
  public:
   virtual ~Clock() = default;
@@ -18,14 +18,14 @@ class Clock {
   virtual void sleep_until(std::chrono::nanoseconds deadline) noexcept = 0;
 };
 
-/// CLOCK_MONOTONIC, the same epoch for every process of a machine. Any number of threads may use one.
+/// CLOCK_MONOTONIC, with the same epoch for every process of a machine. Any number of threads may use one object.
 class SteadyClock final : public Clock {
  public:
   std::chrono::nanoseconds now() const noexcept override;
   void sleep_until(std::chrono::nanoseconds deadline) noexcept override;
 };
 
-/// A clock that stands still until it is moved; it starts at 0 and sleeping moves it. For one thread at a time.
+/// A clock that starts at 0 and moves only by `sleep_until` and `advance`. For one thread at a time.
 class SimulatedClock final : public Clock {
  public:
   std::chrono::nanoseconds now() const noexcept override { return now_; }
@@ -33,7 +33,7 @@ class SimulatedClock final : public Clock {
     if (deadline > now_) now_ = deadline;
   }
 
-  /// Lets `duration` (≥ 0) pass, for example the time that a tick is to take.
+  /// Lets `duration` (≥ 0) pass, for example the simulated duration of a tick.
   void advance(std::chrono::nanoseconds duration) noexcept { now_ += duration; }
 
  private:

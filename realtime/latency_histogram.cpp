@@ -6,9 +6,9 @@
 
 namespace glissade::realtime {
 
-// A value below 2^(kLinearBits + 1) is its own bucket. Above, the leading kLinearBits + 1 bits choose the bucket within
-// the power of two: `shift` bits are cut off, and each shift owns the 2^kLinearBits buckets after those of the one
-// before.
+// Each value below 2^(kLinearBits + 1) has a bucket of its own. Of a larger value, the leading kLinearBits + 1 bits
+// choose the bucket: `shift` bits are cut off, and each shift has 2^kLinearBits buckets, after those of the previous
+// shift.
 std::size_t LatencyHistogram::bucket_of(std::int64_t nanoseconds) noexcept {
   constexpr std::int64_t kLargest = (std::int64_t{1} << kValueBits) - 1;
   const auto value = static_cast<std::uint64_t>(std::clamp(nanoseconds, std::int64_t{0}, kLargest));
@@ -36,7 +36,7 @@ std::chrono::nanoseconds LatencyHistogram::quantile(double p) const noexcept {
   std::uint64_t seen = 0;
   for (std::size_t i = 0; i < kBuckets; ++i) {
     seen += counts_[i];
-    // The last bucket also holds everything beyond its range, of which only the maximum is known.
+    // The last bucket also holds all durations beyond its range, of which only the maximum is known.
     if (seen >= rank) return std::chrono::nanoseconds(i + 1 == kBuckets ? max_ : std::min(largest_in(i), max_));
   }
   return std::chrono::nanoseconds(0);

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Durations in fixed memory: record millions of them in a real-time loop, ask for quantiles afterwards.
+/// A histogram of durations in fixed memory: record millions of them in a real-time loop, and read quantiles
+/// afterwards.
 
 #include <array>
 #include <chrono>
@@ -15,20 +16,20 @@ namespace glissade::realtime {
 /// Thread-safety: none; read it in the thread that records, or after that thread has been joined.
 class LatencyHistogram {
  public:
-  /// A quantile is never below the exact one and above it by at most this part of it.
+  /// A reported quantile is never below the exact one, and exceeds it by at most this fraction.
   static constexpr double kRelativeError = 1.0 / 64.0;
 
-  /// Adds one duration. Negative ones count as 0; ones of 2^40 ns or more are only exact in `max()`. Wait-free, no
+  /// Adds one duration. A negative one counts as 0; one of 2^40 ns or more is exact in `max()` only. Wait-free, no
   /// allocation.
   void record(std::chrono::nanoseconds duration) noexcept;
 
   std::uint64_t count() const noexcept { return count_; }
 
-  /// The largest recorded duration, exact; 0 when there is none.
+  /// The largest recorded duration, exact; 0 when nothing was recorded.
   std::chrono::nanoseconds max() const noexcept { return std::chrono::nanoseconds(max_); }
 
-  /// The smallest duration that at least the part `p` (clamped to 0…1) of all durations does not exceed, rounded up by
-  /// at most `kRelativeError`; 0 when there is none. quantile(0.5) is the median, quantile(1) is max().
+  /// The smallest duration that at least the fraction `p` (clamped to 0…1) of all durations does not exceed, rounded up
+  /// by at most `kRelativeError`; 0 when nothing was recorded. quantile(0.5) is the median, quantile(1) is max().
   std::chrono::nanoseconds quantile(double p) const noexcept;
 
  private:

@@ -1,15 +1,16 @@
 #pragma once
 
-/// A loop that runs at a fixed rate and keeps account of how punctual it was.
+/// A loop that runs at a fixed rate and records how punctual it was.
 ///
-/// The rule: the deadlines are a fixed grid, start + k · period. A tick that starts a whole period or more after its
-/// deadline, so that its successor's deadline has passed too, counts late. After each tick the loop goes on with the
-/// first deadline of the grid whose own period is not over yet; those before it are skipped and counted. So ticks never
-/// bunch up to catch up, the loop never drifts, and after a short overrun the next tick starts at once.
+/// The rule: the deadlines are a fixed grid, start + k · period. A tick counts as late when it starts at or after the
+/// next deadline. After each tick, the loop continues with the first later deadline whose period is not over yet;
+/// deadlines before that are skipped and counted. So ticks never run in bursts to catch up, the loop never drifts, and
+/// after a short overrun the next tick starts at once.
 ///
-/// It waits by plain absolute sleep. Spinning through the last 100 µs would bring the median lateness (20 µs under
-/// SCHED_FIFO, a little more otherwise) to about 0, but takes a tenth of a core at 1 kHz, which on a small machine the
-/// simulation needs more; and where a host takes the processor away for milliseconds, the tail stays as it was.
+/// The loop waits by a plain absolute sleep. Spinning through the last 100 µs would bring the median lateness (20 µs
+/// under SCHED_FIFO, a little more otherwise) to about 0. But it would take a tenth of a core at 1 kHz, which the
+/// simulation needs more on a small machine, and it would not shorten the tail where a host takes the processor away
+/// for milliseconds.
 
 #include <chrono>
 #include <cstdint>
@@ -19,27 +20,26 @@
 
 namespace glissade::realtime {
 
-/// The account of one loop. Runs add to it, so that a loop may be run in slices.
+/// Statistics of one loop. Each run adds to them, so that a loop may be run in slices.
 struct PeriodicStatistics {
   std::uint64_t ticks = 0;
-  std::uint64_t late_ticks = 0;  ///< ticks that started after their successor's deadline
-  std::uint64_t skipped_deadlines =
-      0;                      ///< deadlines that got no tick, because an earlier tick or wake-up took too long
-  LatencyHistogram lateness;  ///< start of the tick minus its deadline
-  LatencyHistogram duration;  ///< end of the tick minus its start
+  std::uint64_t late_ticks = 0;         ///< ticks that started at or after the next deadline
+  std::uint64_t skipped_deadlines = 0;  ///< deadlines without a tick, because an earlier tick or wake-up took too long
+  LatencyHistogram lateness;            ///< start of the tick minus its deadline
+  LatencyHistogram duration;            ///< end of the tick minus its start
 };
 
-/// What a tick is told.
+/// The argument of a tick.
 struct PeriodicTick {
   std::uint64_t index;                ///< 0, 1, 2, … within this run; counts ticks, not deadlines
-  std::chrono::nanoseconds deadline;  ///< when it should have started
-  std::chrono::nanoseconds start;     ///< when it did
+  std::chrono::nanoseconds deadline;  ///< scheduled start of this tick
+  std::chrono::nanoseconds start;     ///< actual start of this tick
 };
 
-/// The bookkeeping of the rule above, without a clock. `run_periodic` is the loop to use.
+/// The bookkeeping of the rule above, without a clock; `run_periodic` is the complete loop.
 class PeriodicSchedule {
  public:
-  /// `period` > 0, otherwise std::invalid_argument. The first deadline is `start`.
+  /// The first deadline is `start`. Throws std::invalid_argument when `period` is not positive.
   PeriodicSchedule(std::chrono::nanoseconds start, std::chrono::nanoseconds period);
 
   std::chrono::nanoseconds deadline() const noexcept { return deadline_; }

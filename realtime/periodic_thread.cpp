@@ -27,7 +27,7 @@ ThreadScheduling request_punctual_scheduling(int priority) noexcept {
 }  // namespace
 
 PeriodicThread::PeriodicThread(Clock& clock, const PeriodicThreadOptions& options, Tick tick) {
-  // Bad arguments have to be found here: an exception could not leave the thread.
+  // Bad arguments must be found here, because an exception could not leave the thread.
   const PeriodicSchedule check(clock.now(), options.period);
   if (!tick) throw std::invalid_argument("A periodic thread needs a tick.");
   std::promise<ThreadScheduling> scheduling;

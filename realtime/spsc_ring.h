@@ -1,7 +1,7 @@
 #pragma once
 
-/// A bounded queue from one thread to another that drops and counts instead of waiting.
-/// For logs and recordings, where every value counts; use `TripleBuffer` where only the newest one does.
+/// A bounded queue from one thread to another. When it is full, new values are dropped and counted; no thread ever
+/// waits. For logs and recordings, where every value matters; use `TripleBuffer` where only the newest does.
 
 #include <atomic>
 #include <bit>
@@ -14,9 +14,8 @@
 
 namespace glissade::realtime {
 
-/// Thread-safety: one producer thread and one consumer thread; the counters may be read by any.
-/// Progress: push and pop are wait-free and bounded. Nothing is allocated after construction unless T's assignment
-/// does.
+/// Thread-safety: one producer thread and one consumer thread; any thread may read the counters. Progress: push and pop
+/// are wait-free and bounded. Nothing is allocated after construction unless T's assignment does.
 template <typename T>
 class SpscRing {
  public:
@@ -60,7 +59,7 @@ class SpscRing {
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
  private:
-  /// Bytes. Our own: std::hardware_destructive_interference_size may differ between translation units.
+  /// Bytes. Not std::hardware_destructive_interference_size, which may differ between translation units.
   static constexpr std::size_t kCacheLineBytes = 64;
 
   static std::size_t checked_capacity(std::size_t capacity) {
@@ -73,8 +72,8 @@ class SpscRing {
   std::vector<T> slots_;
   std::size_t mask_;
 
-  // Positions count up for ever; each side keeps a copy of the other's, so that it touches the other's cache line only
-  // when its copy says full or empty.
+  // Positions only increase. Each side keeps a copy of the other's position, so that it touches the other's cache line
+  // only when the ring looks full or empty by that copy.
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> end_{0};
   std::uint64_t begin_seen_by_producer_ = 0;
   std::atomic<std::uint64_t> dropped_{0};

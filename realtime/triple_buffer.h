@@ -1,7 +1,7 @@
 #pragma once
 
-/// The newest value, from one thread to another, with no lock and no waiting on either side.
-/// For states and commands, where an old value is worth nothing; use `SpscRing` where every value counts.
+/// The newest value, passed from one thread to another, with no lock and no waiting on either side. For states and
+/// commands, where an old value is worth nothing; use `SpscRing` where every value matters.
 
 #include <array>
 #include <atomic>
@@ -11,11 +11,11 @@
 
 namespace glissade::realtime {
 
-/// Three slots: one belongs to the writer, one to the reader, and one lies between them. Publishing and updating each
-/// exchange the own slot for the one between.
+/// Three slots: one belongs to the writer, one to the reader, and one lies between them. `publish` exchanges the
+/// writer's slot for the one between, `update` the reader's.
 ///
 /// Thread-safety: one writer thread and one reader thread. Progress: every function is wait-free and bounded, whatever
-/// the other thread does or wherever it was pre-empted. Nothing is allocated unless T's assignment does.
+/// the other thread does and wherever it was pre-empted. Nothing is allocated unless T's assignment does.
 template <typename T>
 class TripleBuffer {
  public:
@@ -25,7 +25,7 @@ class TripleBuffer {
   TripleBuffer(const TripleBuffer&) = delete;
   TripleBuffer& operator=(const TripleBuffer&) = delete;
 
-  /// Writer: makes `value` the newest. One the reader has not taken yet is overwritten.
+  /// Writer: makes `value` the newest. A value that the reader has not taken yet is overwritten.
   void publish(const T& value) noexcept(std::is_nothrow_copy_assignable_v<T>) {
     write_slot() = value;
     publish();
@@ -56,7 +56,7 @@ class TripleBuffer {
   }
 
  private:
-  /// Bytes. Our own: std::hardware_destructive_interference_size may differ between translation units.
+  /// Bytes. Not std::hardware_destructive_interference_size, which may differ between translation units.
   static constexpr std::size_t kCacheLineBytes = 64;
   static constexpr std::uint8_t kIndex = 3;
   static constexpr std::uint8_t kFresh = 4;  ///< set in `between_` from a publish to the update that takes it

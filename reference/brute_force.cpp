@@ -15,22 +15,22 @@ struct BoxedTriangle {
   std::int32_t index;
 };
 
-// The triangles of mesh_M in the frame of A. `place` takes a vertex there; whether a triangle has an area is decided
-// before it is placed, so that it does not depend on the pose.
+// The triangles of `mesh` in the frame of A; `place` maps a vertex to that frame. Whether a triangle has an area is
+// decided in the frame of the mesh, independently of the pose.
 template <typename Place>
-std::vector<BoxedTriangle> boxed_triangles(const geometry::TriangleMesh& mesh_M, const Place& place) {
+std::vector<BoxedTriangle> boxed_triangles(const geometry::TriangleMesh& mesh, const Place& place) {
   std::vector<Eigen::Vector3d> vertices_A;
-  vertices_A.reserve(mesh_M.vertices.size());
-  for (const Eigen::Vector3d& vertex : mesh_M.vertices)
+  vertices_A.reserve(mesh.vertices.size());
+  for (const Eigen::Vector3d& vertex : mesh.vertices)
     vertices_A.push_back(place(vertex));
 
   std::vector<BoxedTriangle> triangles;
-  triangles.reserve(mesh_M.triangles.size());
-  for (std::size_t i = 0; i < mesh_M.triangles.size(); ++i) {
+  triangles.reserve(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto index = static_cast<std::int32_t>(i);
-    if (geometry::is_degenerate({mesh_M.corner(index, 0), mesh_M.corner(index, 1), mesh_M.corner(index, 2)})) continue;
+    if (geometry::is_degenerate({mesh.corner(index, 0), mesh.corner(index, 1), mesh.corner(index, 2)})) continue;
     const auto corner_A = [&](std::size_t corner) -> const Eigen::Vector3d& {
-      return vertices_A[static_cast<std::size_t>(mesh_M.triangles[i][corner])];
+      return vertices_A[static_cast<std::size_t>(mesh.triangles[i][corner])];
     };
     const geometry::TrianglePoints points{corner_A(0), corner_A(1), corner_A(2)};
     triangles.push_back({points, points[0].cwiseMin(points[1]).cwiseMin(points[2]),
@@ -39,7 +39,7 @@ std::vector<BoxedTriangle> boxed_triangles(const geometry::TriangleMesh& mesh_M,
   return triangles;
 }
 
-// Calls visit(triangle_A, triangle_B) for every intersecting pair until it returns true; returns whether it did.
+// Calls visit(triangle_A, triangle_B) for every intersecting pair until it returns true. Returns whether it did.
 template <typename Visit>
 bool visit_intersecting(const geometry::TriangleMesh& mesh_A, const geometry::TriangleMesh& mesh_B,
                         const Eigen::Isometry3d& X_AB, const Visit& visit) {

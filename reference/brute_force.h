@@ -1,11 +1,11 @@
 #pragma once
 
-/// Intersection of two meshes without any hierarchy: every triangle of one against every triangle of the other. The
-/// plain answer that faster queries are compared with; use `dop_query.h` for work.
+/// Intersection of two meshes by brute force: every triangle of one against every triangle of the other. A reference
+/// that faster queries are compared with; use `dop_query.h` for all other purposes.
 ///
-/// Pairs whose boxes are apart are dropped; the others go through the exact predicate of `triangle_pair.h`, on
-/// the same coordinates as in `dop_query.h`: the vertices of A, and those of B after X_AB in double precision. Only
-/// triangles of positive area take part; touching counts. Cost O(n·m).
+/// Pairs with disjoint axis-aligned bounding boxes are skipped; the others are decided by the exact predicate of
+/// `triangle_pair.h`. The coordinates are the same as in `dop_query.h`: the vertices of A, and the vertices of B
+/// transformed by X_AB in double precision. Only triangles of positive area take part; touching counts. Cost O(n·m).
 
 #include <vector>
 

@@ -22,7 +22,8 @@ const Vector3d& vertex_of(const geometry::TriangleMesh& mesh, const geometry::Tr
   return mesh.vertices[static_cast<std::size_t>(triangle[corner])];
 }
 
-// In the mesh's own frame, where triangles without area have it exactly more often than after a rotation.
+// Decided in the mesh's own frame: there the computed area of a degenerate triangle is exactly zero more often than
+// after a rotation.
 bool has_area(const geometry::TriangleMesh& mesh, const geometry::Triangle& triangle) {
   const Vector3d& p0 = vertex_of(mesh, triangle, 0);
   return (vertex_of(mesh, triangle, 1) - p0).cross(vertex_of(mesh, triangle, 2) - p0) != Vector3d::Zero();
@@ -100,8 +101,7 @@ void GridCheck::fill_cells() {
       }
     }
   };
-  // Counting sort: first how many triangles each cell has, which fixes where its run ends, then the runs from their
-  // ends.
+  // Counting sort. The number of triangles in each cell fixes the end of its run; then each run is filled from its end.
   cell_begin_.assign(static_cast<std::size_t>(cell_counts_.prod()) + 1, 0);
   block_occupied_.assign(static_cast<std::size_t>(block_counts_.prod()), 0);
   for_each_entry([&](std::size_t, const Array3i& cell) {
@@ -117,18 +117,20 @@ void GridCheck::fill_cells() {
   });
 }
 
-// Leaves out the cells that a slanted triangle's box covers but its plane does not meet.
+// False for cells that the box of a slanted triangle covers but its plane does not meet.
 bool GridCheck::plane_meets_cell(const Obstacle& obstacle, const Array3i& cell) const {
   const Vector3d normal = (obstacle.corners[1] - obstacle.corners[0]).cross(obstacle.corners[2] - obstacle.corners[0]);
   const Vector3d center = low_ + cell_size_ * (cell.cast<double>() + 0.5).matrix();
-  // A little more than half a cell, and the rounding of needles: a triangle along a border must not be lost.
+  // A little more than half a cell, plus a bound of rounding errors for needle triangles: a triangle along a border
+  // must not be lost.
   const double extent = (obstacle.high - obstacle.low).lpNorm<1>() + cell_size_;
   const double half_width = 0.501 * cell_size_ * normal.lpNorm<1>() + 1e-14 * extent * extent * extent;
   return std::abs(normal.dot(center - obstacle.corners[0])) <= half_width;
 }
 
 GridCheck::CellBox GridCheck::cells_of(const Vector3d& low, const Vector3d& high) const {
-  // Clamped before the conversion: a part may be far away. Monotonic, so boxes that overlap share a cell.
+  // Clamped before the conversion to int, because a part may be far away. The function is monotonic, so boxes that
+  // overlap share a cell.
   const auto cell_at = [&](const Vector3d& p) -> Array3i {
     return ((p - low_) / cell_size_).array().floor().max(0.0).min((cell_counts_ - 1).cast<double>()).cast<int>();
   };

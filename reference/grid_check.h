@@ -1,12 +1,12 @@
 #pragma once
 
-/// An independent check that poses of a part are free of collision with static obstacles, for verdicts after a run.
+/// An independent check that poses of a part are free of collision with static obstacles, for use after a run.
 ///
-/// It shares no code with the DOP-tree nor with the exact predicates: the obstacles' triangles are binned into one
-/// uniform grid, and every triangle of the part goes through a separating-axis test in double precision against every
-/// obstacle triangle that shares a cell with it. A pair counts as free only when some axis certainly separates it, so a
-/// gap below about 1e-14 of the triangles' extent, touching, and intersecting are all collisions. Triangles whose area
-/// is zero in double precision are left out.
+/// It shares no code with the DOP-tree or the exact predicates. The obstacles' triangles are binned into a uniform
+/// grid. Every triangle of the part is compared with every obstacle triangle in the same cells, by a separating-axis
+/// test in double precision. A pair counts as free only when some axis certainly separates it, so intersecting,
+/// touching, and a gap below about 1e-14 of the triangles' extent are all collisions. Triangles whose area is zero in
+/// double precision are left out.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,27 +21,27 @@
 
 namespace glissade::reference {
 
-/// A mesh and where it is in the world: the pose X_WB of its frame B.
+/// A mesh and the pose X_WB of its frame B in the world.
 struct PlacedMesh {
   std::shared_ptr<const geometry::TriangleMesh> mesh;
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
 };
 
-/// The obstacles in their grid. Immutable, so any number of threads may ask at once.
+/// The obstacles in their grid. Immutable, so any number of threads may query it at once.
 class GridCheck {
  public:
   /// Called with the number of poses done so far, from the threads that work on them, one call at a time.
   using Progress = std::function<void(std::size_t)>;
 
-  /// Cost O(triangles + cells they cover); at most 2^24 cells. Throws std::invalid_argument for a missing mesh or a
+  /// Cost O(triangles + cells they cover); at most 2^24 cells. Throws std::invalid_argument for a null mesh or a
   /// coordinate that is not finite.
   explicit GridCheck(const std::vector<PlacedMesh>& obstacles);
 
-  /// Whether the part in pose X_WV collides with any obstacle. Allocates; may be called from any thread.
-  /// Throws std::invalid_argument when a vertex in the world is not finite.
+  /// Whether the part at pose X_WV collides with any obstacle. Allocates; may be called from any thread. Throws
+  /// std::invalid_argument when a vertex in the world is not finite.
   bool collides(const geometry::TriangleMesh& part_V, const Eigen::Isometry3d& X_WV) const;
 
-  /// The same for many poses on all processors: one entry per pose, 1 when it collides.
+  /// The same for many poses, in parallel on all processors: one entry per pose, 1 if the part collides there, else 0.
   std::vector<char> collisions(const geometry::TriangleMesh& part_V, std::span<const Eigen::Isometry3d> poses_WV,
                                const Progress& progress = {}) const;
 

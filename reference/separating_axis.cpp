@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Both triangles relative to one corner, so that rounding scales with their extent and not with where they are.
+// Both triangles relative to one corner, so that rounding errors scale with their extent and not with their position.
 class AxisTest {
  public:
   AxisTest(const CheckTriangle& a, const CheckTriangle& b)

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A triangle-triangle test in plain double arithmetic for `grid_check.h`. It shares nothing with the exact
-/// predicates, so that a mistake in one shows in the other.
+/// A triangle-triangle test in plain double arithmetic for `grid_check.h`. It shares no code with the exact predicates,
+/// so that comparison reveals a mistake in either.
 
 #include <Eigen/Core>
 
@@ -15,8 +15,8 @@ struct CheckTriangle {
 };
 
 /// Whether some axis (the normals, the cross products of edges, and those of edges with normals for coplanar triangles)
-/// certainly separates the two triangles. Where the gap is lost in rounding (about 1e-14 of their extent) the answer is
-/// no: whoever takes "not separated" for a collision never misses one.
+/// certainly separates the two triangles. False where the gap is lost in rounding (about 1e-14 of their extent): a
+/// caller that treats "not separated" as a collision never misses one.
 bool separated(const CheckTriangle& a, const CheckTriangle& b);
 
 }  // namespace glissade::reference

@@ -15,7 +15,7 @@ def geometric_mean(values):
 
 
 class Figures:
-    """The rows of one bench. What was not measured is None; what is a pattern of bits stays text."""
+    """The rows of one bench. A figure that was not measured is None; hashes stay text."""
 
     def __init__(self, rows):
         self.values = {}
@@ -40,7 +40,7 @@ class Figures:
         return [subject for subject in self.subjects if subject.startswith("glissade")]
 
     def count_disagreements(self, subject):
-        """How many answers differ from Glissade's, over all cases; None when none were compared."""
+        """Number of answers that differ from Glissade's, over all cases; None if no answers were compared."""
         found = [value for (_, who, metric), value in self.values.items() if who == subject and metric == "disagreements"]
         return sum(found) if found else None
 
@@ -63,7 +63,7 @@ def split_case(case):
 
 
 def shapes(figures):
-    """The shapes that were measured at two sizes or more, in order, each with its (triangles, case)."""
+    """The shapes measured at two sizes or more, in order, each with its (triangles, case)."""
     found = {}
     for case in figures.cases:
         shape, triangles = split_case(case)
@@ -73,7 +73,7 @@ def shapes(figures):
 
 
 class HullCase(typing.NamedTuple):
-    """What "sphere-1000-0.05deg-gap-1e-4" says: corners of each hull, degrees a step, "gap-1e-4" or "depth-1e-3"."""
+    """The fields of a case such as "sphere-1000-0.05deg-gap-1e-4": corners of each hull, degrees a step, "gap-1e-4" or "depth-1e-3"."""
     shape: str
     corners: int
     degrees: float

@@ -66,7 +66,7 @@ def draw_growth(path, figures):
 
 
 def directions_sweep(figures, suffix=""):
-    """(k, time of each k by that of the default: geometric mean over the cases where all were measured)."""
+    """(k, time relative to that of the default k: geometric mean over the cases in which all were measured)."""
     cases = [case for case in figures.measured_cases() if figures.get(case, "glissade-k6", "time") is not None]
     points = []
     for k, subject in DIRECTIONS.items():
@@ -148,7 +148,7 @@ def hull_points(times, subject, x, fixed):
 def hull_panels(times):
     """(title, x, settings, fields of the solid lines, of the dashed ones). Sizes that are missing are replaced by the nearest.
 
-    Spheres on the left, as in the paper; the line of centres, where some begin, tells little of ellipsoids."""
+    Spheres on the left, as in the paper; the line of centres, where some begin, is not typical of ellipsoids."""
     ticks = ", ".join(f"'{title}' {i}" for i, title in enumerate(HULL_GAPS.values()))
     by_gap = f"set xtics ({ticks})\nset xrange [-0.3:3.3]\nset xlabel 'gap, by the size'\n"
     by_pace = "set logscale x\nset xtics (0.05, 0.5, 5)\nset format x '%g'\nset xrange [0.04:6.3]\nset xlabel 'degrees a step'\n"

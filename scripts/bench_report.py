@@ -49,7 +49,7 @@ def number(value):
 
 
 def ratio_table(figures):
-    """How many times faster than each peer: geometric mean, worst."""
+    """The ratio to each peer: geometric mean, worst."""
     peers = [peer for peer in PEERS if figures.get("geomean", "glissade", "ratio_to_" + peer) is not None]
     header = ["times faster than (geometric mean, worst case)"] + [PEER_TITLES[peer] for peer in peers]
     rows = []
@@ -93,7 +93,7 @@ def picture(drawn, name, title):
 
 
 def query_tables(figures):
-    """What every bench of queries ends with."""
+    """The end of the section of every bench of queries."""
     text = disagreements(figures)
     main = ["glissade", "glissade-coherent", "fcl"]
     text += folded("Mean time of a query, µs", time_table(figures, main))
@@ -173,7 +173,7 @@ STAGES = ["queue", "neighbor_finding", "separating_planes", "exact"]
 
 
 def stage_table(figures):
-    """Pairs into each stage of the pipeline and out of it, and its time."""
+    """Pairs that enter and leave each stage of the pipeline, and its time."""
     rows = []
     for case in figures.cases:
         if figures.get(case, "glissade", "exact_us") is None:
@@ -187,7 +187,7 @@ def stage_table(figures):
 
 
 def means_table(figures):
-    """What medians leave out: mean and 99th percentile of the frames, and the factor over the fastest peer."""
+    """Mean and 99th percentile of the frames, and the factor over the fastest peer: medians hide slow frames."""
     subjects = [who for who in ["glissade"] + PEERS if who in figures.subjects]
     rows = []
     for case in figures.cases:
@@ -242,7 +242,7 @@ COST = {"queries_per_tick": "queries a tick", "tick_p50": "p50, µs", "tick_p99"
 
 
 def by_method(figures, columns):
-    """One row for each scene and method that have any of these figures."""
+    """One row for each scene and method with any of these figures."""
     rows = []
     for case in figures.cases:
         for who in METHODS:
@@ -253,19 +253,19 @@ def by_method(figures, columns):
 
 
 def share_table(figures, case, metric, title):
-    """How many of the trials of a case ended so."""
+    """The number of trials of a case counted by `metric`."""
     rows = [[who, number(figures.get(case, who, metric)), number(figures.get(case, who, "trials"))]
             for who in METHODS if figures.get(case, who, "trials") is not None]
     return table([title, metric, "of"], rows) if rows else ""
 
 
 PEG_CASES = {"pegs-0.3mm-0.5deg": "0.3 mm and 0.5°", "pegs-1mm-1.5deg": "1 mm and 1.5°",
-             "pegs-1mm-1.5deg-anti-jam": "1 mm and 1.5°, with spiral search"}
+             "pegs-1mm-1.5deg-spiral-search": "1 mm and 1.5°, with spiral search"}
 NUT = {"turns": "turns", "pitch": "pitch, mm", "advance_per_turn": "advance a turn, mm", "worst_deviation": "worst deviation, µm",
        "tick_mean": "ms a tick"}
 TORTURE = {"scenes": "scenes", "milliseconds": "ms", "collisions": "colliding poses", "paths": "paths checked in full",
            "last_steps": "others, checked in their last step", "unproved_paths": "not proved",
-           "below_floor": "poses too near", "not_finite": "not finite", "least_of_floor": "least distance over the minimum clearance",
+           "below_min_clearance": "poses below the minimum clearance", "not_finite": "not finite", "least_of_min_clearance": "least distance over the minimum clearance",
            "jammed_share": "jammed, % of the ticks with the target elsewhere",
            "off_balance_share": "at rest off balance, % of these", "greatest_force_jump": "force jump over the bound for a tick",
            "hash": "hash", "hash_again": "again, on other threads"}
@@ -285,7 +285,7 @@ def nut_table(figures):
 
 
 def torture_table(figures):
-    """Random scenes and hands, by sliding_torture; the method of the paper makes no promise that this could check."""
+    """Random scenes and hands, by sliding_torture; only for Glissade, because the paper's method makes no promises to check."""
     if figures.get("torture", "glissade", "scenes") is None:
         return ""
     values = {metric: figures.get("torture", "glissade", metric) for metric in TORTURE}
@@ -314,7 +314,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("results", type=pathlib.Path)
     parser.add_argument("page", type=pathlib.Path)
-    parser.add_argument("--command", required=True, help="what was typed to get these results")
+    parser.add_argument("--command", required=True, help="the command that produced the results")
     arguments = parser.parse_args()
 
     text = arguments.page.read_text()

@@ -18,7 +18,7 @@ text.title { font-weight: bold; font-size: 14px; }
 
 
 def colors(palette):
-    """The rules that differ between light and dark; no variables, which not every viewer knows."""
+    """The rules that differ between light and dark, without CSS variables, which some viewers do not support."""
     rules = ".page { fill: %(page)s; } text, .dot { fill: %(text)s; } text.quiet { fill: %(quiet)s; }\n"
     rules += ".solid { fill: %(solid)s; stroke: %(edge)s; } .line, .box { stroke: %(edge)s; } .head { fill: %(edge)s; }\n"
     rules += ".thin { stroke: %(quiet)s; } .allowed { fill: %(good)s; }\n"

@@ -1,19 +1,19 @@
 #pragma once
 
-/// Objects like those that collision detection is measured with: car parts of many curved and flat components, thin
-/// shells within each other, and bulk in the interior, at any number of triangles (paper, figure 1). For benchmarks and
-/// tests; `mesh_generators.h` has the simple surfaces.
+/// Objects for benchmarks and tests of collision detection, at any number of triangles (paper, figure 1): car parts
+/// with many curved and flat components, nested thin shells, and bulk in the interior. `mesh_generators.h` has the
+/// simple surfaces.
 ///
-/// Every object keeps its shape while `triangle_count` refines its tessellation, and is deterministic. From 1,000 to
-/// 1,000,000 triangles the count is met within 15 %; a smaller one is exceeded where the shape needs more. Below
-/// 8,000 triangles small details (screws, ribs, teeth, mirrors) are left out. Sizes are in metres, those of the object
-/// with its details; from 8,000 triangles on they are kept within 3 %. Cost is linear in the count.
+/// `triangle_count` refines the tessellation and leaves the shape unchanged. The result is deterministic. From 1,000 to
+/// 1,000,000 triangles the count is met within 15 %; below 1,000 it is exceeded where the shape needs more. Below 8,000
+/// triangles small details (screws, ribs, teeth, mirrors) are left out. Sizes are in metres and include the details;
+/// from 8,000 triangles on they hold within 3 %. Cost is linear in the count.
 ///
-/// The tessellation is that of a CAD model on purpose: faces are tessellated one by one and not welded to their
-/// neighbors, whose vertices may not meet theirs; triangles are of uneven size, long and thin on flat faces and
-/// cylinders, fans around holes and on caps; sheet metal has no thickness; components overlap, and some are turned
-/// inside out. No triangle has zero area. Every function throws std::invalid_argument, naming the argument and its
-/// value, for a count outside 1 ... 50,000,000.
+/// The tessellation imitates that of a CAD model: faces are tessellated one by one and not welded, so the vertices of
+/// adjacent faces need not coincide; triangles are of uneven size, long and thin on flat faces and cylinders, fans
+/// around holes and on caps; sheet metal has no thickness; components overlap, and some are inside out. No triangle has
+/// zero area. Every function throws std::invalid_argument, naming the argument and its value, for a count outside
+/// 1 ... 50,000,000.
 
 #include <cstdint>
 #include <string>
@@ -26,8 +26,7 @@
 namespace glissade::shapes {
 
 /// Car headlight: fluted lens, bezel, three reflectors with bulbs and sockets, double-walled housing with cooling ribs,
-/// covers, and fastening tabs. About 0.52 m wide along x, 0.24 m deep along y, 0.22 m
-/// high along z; it shines along y.
+/// covers, and fastening tabs. About 0.52 m wide along x, 0.24 m deep along y, 0.22 m high along z; it shines along y.
 geometry::TriangleMesh make_headlight(std::int64_t triangle_count);
 
 /// Lock of a car door: punched plates, a rotary latch with its pawl, levers, rivets, springs, a worm gear with its
@@ -44,14 +43,14 @@ geometry::TriangleMesh make_car_body(std::int64_t triangle_count);
 geometry::TriangleMesh make_engine_hose(std::int64_t triangle_count);
 
 /// Open sheet without thickness about the origin whose height is a smooth field of bumps: `wave_count` waves along each
-/// edge, z from -bump_height / 2 to bump_height / 2. Two of them lying parallel at a small distance along z are the
-/// worst case of any hierarchy of bounding volumes: they are close everywhere and touch nowhere. One welded component
-/// of about square cells. Throws std::invalid_argument also for a size or height that is not positive and finite, and
-/// for a wave count outside 1 ... 10,000.
+/// edge, z from -bump_height / 2 to bump_height / 2. Two parallel copies at a small distance along z are the worst case
+/// of every bounding-volume hierarchy: they are close everywhere and touch nowhere. One welded component of about
+/// square cells. Throws std::invalid_argument also for a size or height that is not positive and finite, and for a wave
+/// count outside 1 ... 10,000.
 geometry::TriangleMesh make_bumpy_plate(const Eigen::Vector2d& size, double bump_height, int wave_count,
                                         std::int64_t triangle_count);
 
-/// One object of the suite: its name and its mesh with about so many triangles.
+/// One object of the suite: its name, and the function that makes its mesh with about `triangle_count` triangles.
 struct BenchmarkShape {
   std::string name;
   geometry::TriangleMesh (*make)(std::int64_t triangle_count);

@@ -26,12 +26,12 @@ std::int64_t scaled(double triangles, double detail) {
   return std::llround(triangles * detail);
 }
 
-/// The sheet's plane (x, y) as the door's plane (x, -z), its normal as the outward y.
+/// Pose of a sheet at `y`: its (x, y) plane is the (x, -z) plane of the door, its normal points outwards along y.
 Eigen::Isometry3d upright(double y) {
-  Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
-  X_WS.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-  X_WS.translation().y() = y;
-  return X_WS;
+  Eigen::Isometry3d X_WSheet = Eigen::Isometry3d::Identity();
+  X_WSheet.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  X_WSheet.translation().y() = y;
+  return X_WSheet;
 }
 
 RoundedRectangle outline(double x, double z, double width, double height, double corner_radius) {
@@ -98,10 +98,11 @@ geometry::TriangleMesh make_door_outer_panel(double detail) {
 }
 
 geometry::TriangleMesh make_door_impact_tube(double detail) {
-  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
-  X_WT.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // the tube's z along x
-  X_WT.translation() << 0, kImpactTubeY, kImpactTubeZ;
-  return geometry::transformed(geometry::make_tube(kImpactTubeRadius, kImpactTubeLength, scaled(5'000, detail)), X_WT);
+  Eigen::Isometry3d X_WTube = Eigen::Isometry3d::Identity();
+  X_WTube.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // the tube's z along x
+  X_WTube.translation() << 0, kImpactTubeY, kImpactTubeZ;
+  return geometry::transformed(geometry::make_tube(kImpactTubeRadius, kImpactTubeLength, scaled(5'000, detail)),
+                               X_WTube);
 }
 
 geometry::TriangleMesh make_door_hose(double detail) {

@@ -3,11 +3,11 @@
 /// The assembly of the demonstration: a window motor is carried through the access hole of a car door's inner panel,
 /// past the side-impact tube, to its seat on the back of the inner panel.
 ///
-/// All parts but the motor are given in the world frame W: x forward along the car, y outwards from the cabin (the hand
-/// is at y < 0), z up. The motor is given in its own frame V, whose axes are those of W when it is seated and whose
-/// origin is about its middle. `detail` scales the number of triangles: 1 gives about 50,000 for the motor and 50,000
-/// for the four door parts together. No dimension depends on it. Each function throws std::invalid_argument when
-/// `detail` is not within 0.001 ... 100. Sheet metal is open and has no thickness.
+/// All parts except the motor are given in the world frame W: x forward along the car, y outwards from the cabin (the
+/// hand is at y < 0), z up. The motor is given in its own frame V, whose axes are parallel to those of W when it is
+/// seated, and whose origin is near its centre. `detail` scales the number of triangles: 1 gives about 50,000 for the
+/// motor and 50,000 for the four door parts together. No dimension depends on it. Each function throws
+/// std::invalid_argument when `detail` is not within 0.001 ... 100. Sheet metal is open and has no thickness.
 
 #include <Eigen/Geometry>
 
@@ -34,22 +34,22 @@ inline constexpr double kImpactTubeRadius = 0.016;
 inline constexpr double kImpactTubeLength = 0.86;
 
 /// The bead above the seat that stops the bracket: the foot of its lower flank is the line z = kStopBeadZ, y = 0.
-/// It rises towards y > 0; the panel between it and the access hole is exactly flat but for the bolt holes.
+/// It rises towards y > 0; the panel between it and the access hole is exactly flat except for the bolt holes.
 inline constexpr double kStopBeadZ = 0.2;
 
-/// The motor's outermost dimensions: x in [-0.09, 0.09], y in [-0.038, 0.038], z in [-0.055, 0.055] of V.
+/// Bounds of the motor: x in [-0.09, 0.09], y in [-0.038, 0.038], z in [-0.055, 0.055] of V.
 inline constexpr double kMotorHalfWidth = 0.09;
 inline constexpr double kMotorHalfDepth = 0.038;
 inline constexpr double kMotorHalfHeight = 0.055;
 
-/// The motor's drum, the only part that reaches deeper than y_V = 0.02: about the line x = 0.04, z = -0.005 of V.
+/// The motor's drum, around the line x = 0.04, z = -0.005 of V: the only part of the motor beyond y = 0.02 of V.
 inline constexpr double kDrumRadius = 0.026;
 
-/// Where the motor starts: in the cabin before the access hole, clear of everything.
+/// Start pose of the motor: in the cabin in front of the access hole, clear of everything.
 Eigen::Isometry3d start_pose_WV();
 
-/// Where the motor is seated: its bracket lies flush on the back of the inner panel and its upper edge meets the foot
-/// of the stop bead, both at a distance of exactly zero.
+/// Seat pose of the motor: its bracket lies flush on the back of the inner panel, and its upper edge meets the foot of
+/// the stop bead, both at a distance of exactly zero.
 Eigen::Isometry3d seat_pose_WV();
 
 /// Inner panel with access hole, stiffening beads and the bolt holes of the motor's bracket.

@@ -1,13 +1,15 @@
 #pragma once
 
-/// A round peg and a plate with a hole for it, both with the flat facets of a tessellation: the narrow fit that sliding
-/// contact is measured with.
+/// A round peg and a plate with a hole for it, both with the flat facets of a tessellation: a narrow fit, for
+/// measurements of sliding contact.
 ///
-/// Radii are those of the facets, that is of the circle that touches all of them from within; corners lie further out
-/// by the factor 1 / cos(π / segments). A peg and a hole of equally many segments, both unturned and coaxial, have
-/// parallel facets, and their gap is exactly the difference of the radii. Turned by half a facet, the peg's corners
-/// face the hole's facets, and the gap is less by radius (1 / cos(π / segments) - 1): 5 µm of a radius of 4 mm and 64
-/// segments. Meshes are closed, face outward, and have no triangle without area.
+/// Radii are those of the inscribed circle, which touches all facets; corners lie farther out by the factor
+/// 1 / cos(π / segments). A peg and a hole with equally many segments, coaxial and not turned, have parallel facets,
+/// and their gap is exactly the difference of the radii. If the peg is turned by half a facet, its corners face the
+/// facets of the hole, and the gap is smaller by radius (1 / cos(π / segments) - 1): 5 µm for a radius of 4 mm and 64
+/// segments.
+///
+/// Meshes are closed, face outward, and have no triangle without area.
 ///
 /// Sizes are in metres. The functions throw std::invalid_argument, naming the argument and its value, for sizes that
 /// are not positive and finite or do not fit together, and for counts out of range.

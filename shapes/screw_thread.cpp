@@ -13,8 +13,8 @@
 namespace glissade::shapes {
 namespace {
 
-// Radii and heights, within one pitch, of the four helices at the edges of a thread: where the lower flank begins and
-// ends, and where the upper one does.
+// Radii and heights, within one pitch, of the four helices at the edges of a thread: the beginning and the end of the
+// lower flank, and those of the upper flank.
 struct ThreadProfile {
   std::array<double, 4> radius;
   std::array<double, 4> height;
@@ -41,15 +41,15 @@ ThreadProfile profile_of(const ThreadShape& thread, double play) {
 enum class Material { kInside, kOutside };
 
 // Quadrilaterals between neighboring helices. A flank is a saddle, so the diagonal that halves a quadrilateral decides
-// on which side of the true flank its triangles lie; both flanks of one thread need the same one to keep them on the
-// side of the material. The sheet faces away from it.
+// on which side of the true flank its triangles lie. Both flanks of a thread need the same diagonal, so that all
+// triangles lie on the side of the material. The sheet faces away from the material.
 geometry::TriangleMesh helical_sheet(const ThreadShape& thread, const ThreadProfile& profile, double scale,
                                      Material material) {
   const int steps = thread.turns * thread.segments;
   geometry::TriangleMesh mesh;
   for (std::size_t helix = 0; helix < 4; ++helix) {
     for (int i = 0; i <= steps; ++i) {
-      // Each turn has the bits of the first.
+      // Each turn repeats the coordinates of the first to the bit.
       const double angle = 2 * std::numbers::pi * (i % thread.segments) / thread.segments;
       const double radius = scale * profile.radius[helix];
       mesh.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle),

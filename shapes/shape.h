@@ -7,7 +7,7 @@
 
 namespace glissade::shapes {
 
-/// One parameter of a shape: its name with its unit (`radius_m`, `segments`), what it is, and its default.
+/// One parameter of a shape: its name with its unit (`radius_m`, `segments`), its meaning, and its default.
 struct ShapeParameter {
   std::string name;
   std::string description;

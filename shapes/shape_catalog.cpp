@@ -21,7 +21,7 @@ using Values = ShapeValues;
 using Entry = ShapeEntry;
 
 ShapeParameter triangles_parameter(double default_value) {
-  return {"triangles", "about so many triangles", default_value};
+  return {"triangles", "approximate number of triangles", default_value};
 }
 
 std::int64_t triangles_of(const Values& values) {

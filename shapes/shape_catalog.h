@@ -15,8 +15,9 @@ namespace glissade::shapes {
 /// Every shape, in alphabetical order.
 const std::vector<Shape>& shape_catalog();
 
-/// The mesh of shape `name`; parameters not given take their defaults.
-/// Throws std::invalid_argument, naming what is known, for an unknown shape or parameter, and for a value out of range.
+/// The mesh of shape `name`; parameters that are not given take their defaults.
+/// Throws std::invalid_argument, listing the known names, for an unknown shape or parameter, and for a value out of
+/// range.
 geometry::TriangleMesh make_shape(const std::string& name, const std::map<std::string, double>& parameters);
 
 }  // namespace glissade::shapes

@@ -13,7 +13,7 @@
 namespace glissade::shapes {
 namespace {
 
-// Nearer than this to an edge of a bead's flank, a vertex is on it: flat regions must be flat to the last bit.
+// A vertex nearer than this to an edge of a bead's flank counts as on it: flat regions must be flat to the last bit.
 constexpr double kOnOutline = 2e-7;
 
 [[noreturn]] void reject_outline(const std::string& what, const RoundedRectangle& outline) {
@@ -51,8 +51,8 @@ void check(const SheetMetal& sheet) {
   }
 }
 
-/// The longest edge that shows the outline well near `point`, where edges are about `edge` long: short at its corners,
-/// so that they are arcs, and shorter than its width elsewhere. Further away edges may grow with the distance.
+/// The longest edge that still resolves the outline near `point`, where edges are about `edge` long: short at its
+/// corners, so that they are arcs, and shorter than its width elsewhere. Farther away edges may grow with the distance.
 double allowed_edge(const RoundedRectangle& outline, const Eigen::Vector2d& point, double edge) {
   const double width = outline.size.minCoeff();
   double allowed = std::max(0.8 * width, 2.0 * (std::abs(signed_distance(outline, point)) - edge / 2));
@@ -125,7 +125,7 @@ geometry::TriangleMesh make_sheet(const SheetMetal& sheet, std::int64_t triangle
   const auto wanted = static_cast<double>(triangle_count);
   double cell = std::sqrt(2 * sheet.size.x() * sheet.size.y() / wanted);
   geometry::TriangleMesh mesh = sheet_with_cells(sheet, cell);
-  // Outlines add triangles and holes take some away: correct the cells by what came out.
+  // Outlines add triangles and holes remove some: correct the cell size by the resulting count.
   for (int attempt = 0; attempt < 3; ++attempt) {
     const double ratio = static_cast<double>(mesh.triangles.size()) / wanted;
     if (std::abs(ratio - 1) < 0.05) break;

@@ -23,7 +23,7 @@ struct RoundedRectangle {
 double signed_distance(const RoundedRectangle& outline, const Eigen::Vector2d& point);
 
 /// A raised (height > 0) or sunk (height < 0) plateau within `foot`; its flank rises linearly over `flank_width`.
-/// Outside of the foot the sheet stays exactly flat.
+/// Outside the foot the sheet stays exactly flat.
 struct Bead {
   RoundedRectangle foot;
   double height;
@@ -38,13 +38,13 @@ struct SheetMetal {
   std::vector<Bead> beads;
 };
 
-/// The sheet with about `triangle_count` triangles, facing +z. Holes and beads keep their shape at any count: their
-/// surroundings are never coarser than they need, so very small counts are exceeded. Vertices on outlines are on them
-/// to 1e-7 m.
+/// The sheet with about `triangle_count` triangles, facing +z. Holes and beads keep their shape at any count: the mesh
+/// around them is never coarser than they require, so very small counts are exceeded. Vertices of outlines lie on them
+/// within 1e-7 m.
 ///
 /// Throws std::invalid_argument for a size that is not positive, a corner radius that does not fit, a flank wider than
-/// the bead allows, or a hole or bead that is not within the sheet. Holes and beads should not overlap: where they do,
-/// the hole wins and the last bead counts.
+/// the bead allows, or a hole or bead that is not within the sheet. Holes and beads should not overlap: where a
+/// hole and a bead do, the hole wins; where two beads do, the later one.
 geometry::TriangleMesh make_sheet(const SheetMetal& sheet, std::int64_t triangle_count);
 
 }  // namespace glissade::shapes

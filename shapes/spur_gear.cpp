@@ -65,15 +65,15 @@ Loop bore_of(const GearShape& gear) {
   return loop;
 }
 
-// The face between bore and outline, upwards where `faces_up`: each tooth is a ladder of quadrilaterals between its
-// flanks, and stands on the ring around the bore.
+// Adds the face between bore and outline, upwards if `faces_up`: each tooth is a ladder of quadrilaterals between its
+// flanks and stands on the ring around the bore.
 void add_face(LoopMesh& mesh, int outline, int bore, int teeth, int points_per_flank, bool faces_up) {
   const auto add = [&](std::array<LoopMesh::Point, 4> corners) {
     if (!faces_up) std::ranges::reverse(corners);
     mesh.add_quad(corners);
   };
   for (int tooth = 0; tooth < teeth; ++tooth) {
-    const int left = 2 * tooth * points_per_flank;  // foot of the flank that the outline comes up
+    const int left = 2 * tooth * points_per_flank;  // foot of the flank that rises along the outline
     const int right = left + 2 * points_per_flank - 1;
     const int below = 2 * tooth;
     add({{{bore, below}, {outline, left}, {outline, right}, {bore, below + 1}}});

@@ -1,11 +1,11 @@
 #pragma once
 
-/// A spur gear with a bore, and the base with a post that it is put on: a flat seat with a round guide.
+/// A spur gear with a bore, and a base with a post for the bore: a flat seat with a round guide.
 ///
-/// Teeth are involutes, 1 module high above the pitch circle and 1.25 deep below it; below the base circle flanks go
-/// straight to the root. Radii of bore and post are those of their facets, as in `peg_and_hole.h`: the corners of the
-/// post lie further out by the factor 1 / cos(π / segments), and with these inside the bore's radius the gear turns
-/// freely. Meshes are closed, face outward, and have no triangle without area.
+/// Teeth are involutes, 1 module high above the pitch circle and 1.25 modules deep below it; below the base circle the
+/// flanks are straight down to the root. Radii of bore and post are those of inscribed circles, as in `peg_and_hole.h`:
+/// the corners of the post lie farther out by the factor 1 / cos(π / segments). The gear turns freely if the bore's
+/// radius exceeds that of these corners. Meshes are closed, face outward, and have no triangle without area.
 ///
 /// Sizes are in metres. The functions throw std::invalid_argument, naming the argument and its value, for sizes that
 /// are not positive and finite or do not fit together, and for counts out of range.
@@ -40,7 +40,7 @@ struct GearBaseShape {
   int segments = 64;      ///< facets around the post, a multiple of 8 up to 100,000
 };
 
-/// Base whose seat is its upper face at z = 0, with a post about z that stands up from there. 10 segments triangles.
+/// Base with its upper face, the seat, at z = 0 and a post about z on it. 10 segments triangles.
 geometry::TriangleMesh make_gear_base(const GearBaseShape& base);
 
 }  // namespace glissade::shapes

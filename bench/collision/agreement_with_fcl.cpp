@@ -1,6 +1,6 @@
-// Compares the collision verdicts of Glissade's DOP-tree with those of FCL on two meshes, half of the poses within 1e-3
-// of the size of a contact. Each difference is printed with the exact verdict (brute force in exact arithmetic, and
-// CGAL) and with how close the call was, so that one can see whose mistake it is.
+// Compares the collision verdicts of Glissade's DOP-tree with those of FCL on two meshes, at poses half of which are
+// within 1e-3 of the size of a contact. For each difference it prints the exact verdict (brute force in exact
+// arithmetic, and CGAL) and the depth or the gap, which show whose error it is.
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,7 @@ bool fcl_intersects(const FclTree& model_A, const FclTree& model_B, const Isomet
   return fcl::collide(&model_A, Isometry3d::Identity(), &model_B, X_AB, request, result) > 0;
 }
 
-// Random poses of B: alternately about a contact and anywhere within reach.
+// Random poses of B: alternately near a contact and anywhere within reach.
 class PoseSource {
  public:
   PoseSource(const DopTree& tree_A, const DopTree& tree_B, std::uint64_t seed)
@@ -91,7 +91,7 @@ class PoseSource {
     return X_AB;
   }
 
-  // Comes in from afar towards a point of A until it collides, bisects, and steps off the contact by up to 1e-3.
+  // Approaches a point of A from afar until it collides, bisects, and moves away from the contact by up to 1e-3.
   void append_near_contact(std::vector<Isometry3d>& poses) {
     const Eigen::Matrix3d R_AB = random_rotation();
     const Vector3d direction = random_direction();
@@ -121,7 +121,7 @@ class PoseSource {
   QueryWorkspace workspace_;
 };
 
-// How far a triangle reaches beyond the plane of another one, on the side where it reaches less far.
+// Distance by which a triangle reaches beyond the plane of another one, on the side with the smaller distance.
 double depth_beyond_plane(const geometry::TrianglePoints& triangle, const geometry::TrianglePoints& plane) {
   const Vector3d normal = (plane[1] - plane[0]).cross(plane[2] - plane[0]).normalized();
   double above = 0.0;
@@ -158,7 +158,7 @@ void explain_gap(const DopTree& tree_A, const DopTree& tree_B, const Isometry3d&
   }
   for (const ClosePair& pair : pairs)
     distance = std::min(distance, pair.distance);
-  std::printf("  exactly: nothing intersects, the gap is %.3g m\n", distance);
+  std::printf("  exactly: no pair intersects, the gap is %.3g m\n", distance);
 }
 
 void explain(const DopTree& tree_A, const DopTree& tree_B, const Isometry3d& X_AB, double size) {
@@ -205,7 +205,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Compares collision verdicts with those of FCL"};
   app.add_option("A", arguments.path_A, "Mesh A, fixed")->required();
   app.add_option("B", arguments.path_B, "Mesh B, moved")->required();
-  app.add_option("--poses", arguments.poses, "Number of poses, half of them about contact")->check(CLI::PositiveNumber);
+  app.add_option("--poses", arguments.poses, "Number of poses, half of them near contact")->check(CLI::PositiveNumber);
   app.add_option("--seed", arguments.seed, "Seed of the poses");
   app.add_option("--scale-a", arguments.scale_A, "Metres per unit of A");
   app.add_option("--scale-b", arguments.scale_B, "Metres per unit of B");

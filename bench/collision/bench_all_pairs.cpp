@@ -16,7 +16,7 @@ using geometry::TriangleMesh;
 
 constexpr const char* kAllPairsName = "all-pairs";
 
-// Between a third of the way to contact and contact, so that objects overlap as parts do that a hand pushes together.
+// Between a third of the contact distance and contact, so that objects overlap like parts that a hand pushes together.
 std::vector<Isometry3d> overlapping_poses(const DopTree& tree, const BenchOptions& options) {
   PoseSource source(tree, tree, options.seed);
   const std::size_t wanted = options.quick ? 30 : 100;

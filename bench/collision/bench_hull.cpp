@@ -32,7 +32,7 @@ const std::vector<Shape> kShapes{{"sphere", {0.5, 0.5, 0.5}}, {"ellipsoid", {0.5
 
 struct Gap {
   const char* name;
-  double size;  // metres, which is also by the size
+  double size;  // metres; also a fraction of the size, which is 1 m
   const char* group;
 };
 const std::vector<Gap> kGaps{{"gap-1e-2", 1e-2, "separated"},
@@ -54,8 +54,8 @@ HullModel make_model(const Shape& shape, std::int64_t vertices) {
   return HullModel(std::move(mesh));
 }
 
-// B from far away along the direction of the translation, to where the hulls touch; `memory` knows the plane between
-// them.
+// Moves B along the direction of its translation, from far away to contact of the hulls; `memory` then holds the plane
+// between them.
 void approach(const ConvexHull& hull, Isometry3d& X_AB, HullMemory& memory) {
   const Vector3d direction = X_AB.translation();
   double near = 0.0;
@@ -69,8 +69,8 @@ void approach(const ConvexHull& hull, Isometry3d& X_AB, HullMemory& memory) {
   if (!collision::hulls_apart(hull, hull, X_AB, memory)) throw std::logic_error("the bench has lost its contact");
 }
 
-// B turns about itself and goes round A, at the same pace about different axes; at each step it stands off by a gap
-// along the normal of contact.
+// B turns about itself and circles A, at the same pace about different axes. At each step its distance along the normal
+// of contact is `gap`.
 Poses walk(const ConvexHull& hull, double gap, double degrees, int steps) {
   const double angle = degrees * std::numbers::pi / 180.0;
   const Vector3d spin = Vector3d(1.0, 2.0, 3.0).normalized();
@@ -88,7 +88,7 @@ Poses walk(const ConvexHull& hull, double gap, double degrees, int steps) {
   return poses;
 }
 
-// Whether the hulls meet, proved: what Glissade claims is verified in exact arithmetic, or else CGAL decides.
+// Whether the hulls meet, exactly: the claim of Glissade is verified in exact arithmetic; otherwise CGAL decides.
 std::vector<bool> exact_answers(const ConvexHull& hull, const Poses& poses) {
   std::vector<bool> answers;
   HullMemory memory;

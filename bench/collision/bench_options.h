@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the command line asks of a run.
+/// The options of the command line.
 
 #include <cstdint>
 #include <filesystem>

@@ -20,7 +20,7 @@ using collision::FrameReport;
 using collision::StageReport;
 
 constexpr const char* kSceneName = "scene";
-// Of the box, by the bounding spheres of the objects.
+// Fraction of the box that the bounding spheres of the objects fill.
 constexpr double kFilled = 0.12;
 
 using Records = std::vector<std::vector<FrameRecord>>;
@@ -62,7 +62,7 @@ class SceneRows {
     row(subject, "meeting", mean(frames, [](const FrameRecord& frame) { return frame.meeting.size(); }), "1");
   }
 
-  // Means over the frames of the pairs that come to a stage and leave it, medians of the times.
+  // Means over the frames of the pairs that enter and leave a stage, medians of the times.
   void add_stages(const std::string& subject, const std::vector<FrameRecord>& frames) {
     row(subject, "neighbors", mean(frames, [](const FrameRecord& frame) { return frame.report.neighbors; }), "1");
     for (const Stage& stage : kStages) {
@@ -74,8 +74,8 @@ class SceneRows {
     }
   }
 
-  // Of the first subject, Glissade, to the others, on the frames that each took. Medians say what a frame takes mostly;
-  // what remembers can afford a few slow frames beside them, and only means hold that against it.
+  // Ratios of the other subjects to the first, Glissade, on the frames that both have. Medians are the time of a
+  // typical frame; a subject with memory may have a few slow frames, which only means include.
   void add_ratios(const std::vector<SceneLibrary>& libraries, const Records& records) {
     add_ratios_of(median_us, "ratio_to_", libraries, records);
     add_ratios_of(mean_us, "mean_ratio_to_", libraries, records);
@@ -118,8 +118,8 @@ void say(const std::string& case_name, const std::vector<SceneLibrary>& librarie
   std::fputc('\n', stderr);
 }
 
-// Processor time by time that passes. Below 1 the machine has other work, and slow subjects look slower than they are:
-// their frames last longer than a thread is left alone, fast ones fall between the interruptions.
+// Processor time divided by wall-clock time. Below 1 the machine has other work, and slow subjects look slower than
+// they are: their frames are longer than the time between interruptions, while fast frames fall between them.
 class CpuShare {
  public:
   double value() const {
@@ -152,7 +152,7 @@ void run_objects(const SceneCast& cast, std::size_t count, bool off_each_other, 
   say(case_name, cast.libraries(), records);
 }
 
-// Of the ratios of all cases, those of medians and those of means.
+// Geometric means and minima of the ratios of all cases, for medians and for means.
 void add_means(Results& results) {
   std::map<std::string, std::vector<double>> ratios;
   for (const Row& row : results.rows()) {
@@ -165,7 +165,7 @@ void add_means(Results& results) {
   }
 }
 
-// What objects that rest cost: both scenes take turns.
+// Cost of objects at rest: both scenes take turns.
 void run_resting(const BenchOptions& options, Results& results) {
   const SceneCast cast({glissade_scenes(1)}, options);
   const std::array<std::size_t, 2> resting{10, 1000};
@@ -175,7 +175,7 @@ void run_resting(const BenchOptions& options, Results& results) {
     scenes.push_back(one_among_resting(cast.radii(), count, kFilled, options.seed));
     subjects.push_back(std::move(cast.start(scenes.back())[0]));
   }
-  // In both only object 0 moves, and in the same way.
+  // In both scenes only object 0 moves, and in the same way.
   const Records records = replay(scenes[0], subjects, {.frames = options.quick ? 1000 : 4000});
   for (std::size_t i = 0; i < records.size(); ++i) {
     SceneRows rows("rest-" + std::to_string(resting[i]), results);

@@ -29,7 +29,7 @@ std::vector<Isometry3d> nested_poses(PoseSource& source, std::size_t count) {
   return poses;
 }
 
-// B above A, the bumps of one in the dents of the other: shifts along the plate stay small beside the gap.
+// B above A, with the bumps of one in the dents of the other: shifts along the plate are small against the gap.
 std::vector<Isometry3d> stacked_poses(PoseSource& source, std::size_t count) {
   std::vector<Isometry3d> poses;
   while (poses.size() < count) {

@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kThreadsName = "threads";
 
-// 1, 2, 4 and 8, as far as the machine has them; 2 always, so that there is something to compare.
+// 1, 2, 4 and 8, up to the number of processors, but always 1 and 2, for a comparison.
 std::vector<int> thread_counts() {
   std::vector<int> counts{1, 2};
   for (const int count : {4, 8}) {
@@ -48,7 +48,7 @@ void add_rows(const std::string& case_name, const std::vector<double>& us, std::
   std::fputc('\n', stderr);
 }
 
-// What there was to do, means over the frames.
+// The amount of work: means over the frames.
 void add_counts(const std::string& case_name, const std::vector<FrameRecord>& frames, Results& results) {
   double neighbors = 0.0;
   double exact = 0.0;
@@ -60,8 +60,8 @@ void add_counts(const std::string& case_name, const std::vector<FrameRecord>& fr
   results.add({kThreadsName, case_name, "glissade", "exact_in", exact, "1"});
 }
 
-// In turns of one frame, threads that were needed for the last one have gone to sleep, and caches hold the others'
-// objects, as in a loop with pauses. In longer turns one frame follows the other, as in a loop that has none.
+// In turns of one frame, the threads of the last frame have gone to sleep, and caches hold the objects of the others,
+// as in a loop with pauses. In longer turns frames follow each other directly, as in a loop without pauses.
 constexpr int kFramesOfLongTurns = 20;
 
 void run_scene_of(const SceneCast& cast, const std::string& case_name, std::size_t objects, double filled, int turn,

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The Bullet model that every comparison uses: a GImpact shape, the only one for two concave meshes, without collision
-/// margin, in single precision as the package builds it.
+/// The Bullet model of all comparisons: a GImpact shape, the only one for two concave meshes, without collision margin,
+/// in single precision as the package builds it.
 
 #include <memory>
 #include <vector>
@@ -26,7 +26,7 @@ inline btTransform transform(const Eigen::Isometry3d& X_WO) {
   return btTransform(rotation, vector(X_WO.translation()));
 }
 
-// Bullet refers to the arrays it is given.
+// Bullet refers to the arrays that it receives.
 class BulletModel : public Model {
  public:
   explicit BulletModel(const geometry::TriangleMesh& mesh) {

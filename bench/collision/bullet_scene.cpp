@@ -1,5 +1,5 @@
-// Bullet: its dynamic trees of boxes, and GImpact for the pairs that they give, as in the other benches. What a
-// collision world does beside that, keeping contacts from frame to frame, is left out.
+// Bullet: its dynamic trees of boxes, and GImpact for their pairs, as in the other benches. The other work of a
+// collision world, keeping contacts from frame to frame, is left out.
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
@@ -11,7 +11,7 @@
 namespace glissade::bench {
 namespace {
 
-// Only whether there is a contact.
+// Records only whether there is a contact.
 class ContactFlag : public btManifoldResult {
  public:
   using btManifoldResult::btManifoldResult;

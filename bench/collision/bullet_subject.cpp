@@ -1,6 +1,6 @@
 // Bullet: GImpact, its only algorithm for two concave meshes, without collision margin, as the package builds it
-// (single precision). It has no query that only says yes or no: it collects all overlapping pairs of boxes, then makes
-// contacts of them; neither can be stopped early from outside.
+// (single precision). It has no boolean query: it collects all overlapping pairs of boxes, then
+// makes contacts of them; neither step can be stopped early from outside.
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>

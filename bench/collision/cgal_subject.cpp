@@ -1,5 +1,5 @@
-// CGAL: its rigid-motion collision detection over AABB-trees, which leaves the trees alone and decides exactly. It
-// answers yes or no only.
+// CGAL: its rigid-motion collision detection over AABB-trees, which leaves the trees unchanged and decides exactly.
+// Boolean queries only.
 
 #include <array>
 #include <stdexcept>
@@ -48,12 +48,12 @@ class CgalQuery : public Query {
     return !detection_.get_all_intersections(id_A_).empty();
   }
   std::int64_t count_pairs(const Isometry3d&) override {
-    throw std::logic_error("CGAL's collision detection names no pairs of triangles");
+    throw std::logic_error("CGAL's collision detection does not report pairs of triangles");
   }
 
  private:
-  // One component is a white lie that saves looking for one point of each: those serve only to find a mesh inside
-  // another.
+  // Declaring one component saves the search for one point of each component: the points serve only to detect a mesh
+  // inside another.
   std::size_t add(const Model& model) {
     const auto& cgal = dynamic_cast<const CgalModel&>(model);
     return detection_.add_mesh(*cgal.tree, cgal.surface, CGAL::parameters::apply_per_connected_component(false));

@@ -1,4 +1,4 @@
-/// The collision benchmarks: parses, runs what was asked for, writes results.csv.
+/// The collision benchmarks: parses, runs the chosen benches, writes results.csv.
 
 #include <algorithm>
 #include <cstdio>
@@ -22,8 +22,8 @@ constexpr int kFailed = 1;
 constexpr int kBadInput = 2;
 
 constexpr const char* kDescription =
-    "Measures Glissade's collision queries beside FCL, ODE, Bullet and CGAL, in one thread (but for the bench\n"
-    "threads), on the same poses.\n"
+    "Measure Glissade's collision queries beside FCL, ODE, Bullet and CGAL, on the same poses, in one thread (except\n"
+    "for the bench threads).\n"
     "\n"
     "  zachmann   two copies of an object at all distances from 0 to just apart, boolean query\n"
     "  close      two copies of an object 0.1 %, 0.3 % and 1 % of the size apart, boolean query\n"
@@ -35,16 +35,16 @@ constexpr const char* kDescription =
     "  scene      10 to 1000 objects bounce about in a box: which pairs meet, frame by frame\n"
     "  threads    dense and sparse scenes and all pairs of large meshes, Glissade on 1, 2, 4 and 8 threads\n"
     "\n"
-    "Each subject goes over all poses in turn, again and again; times are medians over these passes. Answers are\n"
-    "compared, too. Progress goes to standard error, the figures to results.csv, whose columns are\n"
+    "Subjects take turns; each turn is a pass over all poses, and times are medians over the passes. Answers are\n"
+    "compared, too. Progress goes to standard error, the figures to results.csv with the columns\n"
     "bench,case,subject,metric,value,unit.";
 
 constexpr const char* kFooter =
     "Examples:\n"
     "  collision_bench --quick --only zachmann --out /tmp\n"
     "  collision_bench --only zachmann,close --mesh gear.stl --mesh housing.obj\n"
-    "scripts/bench builds and runs this and renews docs/benchmarks.md.\n"
-    "Exit code: 0 when done, 1 when a run failed, 2 when the usage or a mesh is wrong.";
+    "scripts/bench builds and runs this program and renews docs/benchmarks.md.\n"
+    "Exit code: 0 on success, 1 if a run fails, 2 for wrong usage or a wrong mesh.";
 
 using Bench = void (*)(const BenchOptions&, Results&);
 
@@ -71,7 +71,7 @@ void choose_instruction_set_named(const std::string& wanted) {
     if (glissade::collision::name_of(set) == wanted) return choose_instruction_set(set);
     names += " " + std::string(glissade::collision::name_of(set));
   }
-  throw std::invalid_argument("--instruction-set: " + wanted + " is not available here, but only" + names);
+  throw std::invalid_argument("--instruction-set: " + wanted + " is not available; available are" + names);
 }
 
 void fill_in_suite(Suite& suite, bool quick) {
@@ -104,14 +104,14 @@ void fill_in_suite(Suite& suite, bool quick) {
 void run_all(BenchOptions options) {
   fill_in_suite(options.suite, options.quick);
   for (const std::string& name : options.only) {
-    if (!exists(name)) throw std::invalid_argument("--only: there is no bench " + name);
+    if (!exists(name)) throw std::invalid_argument("--only: unknown bench " + name);
   }
   Results results;
   std::filesystem::create_directories(options.folder);
   for (const auto& [name, run] : benches()) {
     if (!options.only.empty() && !options.only.contains(name)) continue;
     run(options, results);
-    results.write_csv(options.folder / "results.csv");  // after each: a run that is stopped has not been for nothing
+    results.write_csv(options.folder / "results.csv");  // after each bench: a run that is stopped keeps its results
   }
 }
 
@@ -120,14 +120,15 @@ int parse_and_run(int argc, char** argv) {
   std::string instruction_set;
   CLI::App app{kDescription, "collision_bench"};
   app.footer(kFooter);
-  app.add_option("--only", options.only, "Run only these, separated by commas")->delimiter(',');
+  app.add_option("--only", options.only, "Run only these benches, separated by commas")->delimiter(',');
   app.add_flag("--quick", options.quick, "Fewer meshes and poses: each bench within a minute");
-  app.add_option("--out", options.folder, "Folder for results.csv, made if need be")->capture_default_str();
+  app.add_option("--out", options.folder, "Folder for results.csv, created if necessary")->capture_default_str();
   app.add_option("--mesh", options.suite.files, "Another mesh (OBJ, STL, PLY, glTF); may be repeated");
-  app.add_option("--instruction-set", instruction_set, "Glissade's vector instructions (default: the best there are)");
+  app.add_option("--instruction-set", instruction_set, "Glissade's vector instructions (default: the best available)");
   app.add_option("--seed", options.seed, "Seed of the poses")->capture_default_str();
-  app.add_option("--shapes", options.suite.shapes, "Only these generated shapes, separated by commas")->delimiter(',');
-  app.add_option("--triangles", options.suite.triangles, "Only these numbers of triangles, separated by commas")
+  app.add_option("--shapes", options.suite.shapes, "Use only these generated shapes, separated by commas")
+      ->delimiter(',');
+  app.add_option("--triangles", options.suite.triangles, "Use only these numbers of triangles, separated by commas")
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
   try {

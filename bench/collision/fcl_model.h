@@ -1,6 +1,6 @@
 #pragma once
 
-/// The FCL model that every comparison uses: a tree of OBBs with rectangle swept spheres, FCL's best for rigid meshes.
+/// The FCL model of all comparisons: a tree of OBBs with rectangle swept spheres, FCL's best for rigid meshes.
 
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/OBBRSS.h>

@@ -1,7 +1,7 @@
 // FCL: a dynamic tree of boxes over the objects, and the test of two meshes that the other benches use, in its
 // callback.
-// update() of the whole tree takes half the time of update() with a list of all objects, and no longer than the same
-// tree in an array; all that is little beside the time of the meshes.
+// update() of the whole tree takes half the time of update() with a list of all objects, and no longer than with the
+// same tree in an array; all of these are small beside the time of the mesh tests.
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/narrowphase/collision.h>

@@ -46,7 +46,7 @@ class GlissadeQuery : public Query {
   std::vector<collision::TrianglePair> pairs_;
 };
 
-// What the processor is best at, or what was asked for on the command line.
+// The best instruction set of the processor, or the one chosen on the command line.
 InstructionSet& default_instruction_set() {
   static InstructionSet chosen = collision::available_instruction_sets().front();
   return chosen;

@@ -32,7 +32,7 @@ class GlissadeHulls : public HullQuery {
   HullMemory memory_;
 };
 
-// What libccd asks about.
+// The object of libccd's callbacks.
 struct CcdObject {
   const ConvexHull* hull;
   Isometry3d X_WO;
@@ -46,7 +46,7 @@ ccd_vec3_t ccd_vector(const Vector3d& v) {
 }
 
 void ccd_support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* result) {
-  auto* o = static_cast<CcdObject*>(const_cast<void*>(object));  // libccd passes on what it is given
+  auto* o = static_cast<CcdObject*>(const_cast<void*>(object));  // libccd passes its argument on
   const Vector3d direction_O =
       o->X_WO.linear().transpose() * Vector3d(direction->v[0], direction->v[1], direction->v[2]);
   o->corner = o->hull->support(direction_O, o->corner);

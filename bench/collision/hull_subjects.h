@@ -1,7 +1,7 @@
 #pragma once
 
-/// Who tells convex hulls apart: Glissade and other libraries, each behind a small adapter. All that can climb from
-/// corner to corner do so on the same neighbors, beginning where they were.
+/// Separation tests of convex hulls: Glissade and other libraries, each behind a small adapter. All subjects that can
+/// climb from corner to corner use the same adjacency and start at their last corner.
 
 #include <functional>
 #include <memory>
@@ -15,7 +15,7 @@
 
 namespace glissade::bench {
 
-/// A convex mesh, all of whose vertices are corners.
+/// A convex mesh whose vertices are all corners.
 struct HullModel {
   explicit HullModel(geometry::TriangleMesh convex) : mesh(std::move(convex)), hull(mesh) {}
 
@@ -23,7 +23,7 @@ struct HullModel {
   collision::ConvexHull hull;
 };
 
-/// Says whether two copies of a model meet.
+/// The query whether two copies of a model collide.
 class HullQuery : public Query {
  public:
   std::int64_t count_pairs(const Eigen::Isometry3d& X_AB) override { return intersects(X_AB) ? 1 : 0; }
@@ -42,7 +42,7 @@ HullSubject libccd_gjk();
 HullSubject libccd_mpr();
 /// FCL's own GJK on `fcl::Convex`.
 HullSubject fcl_hulls();
-/// `btGjkPairDetector` on `btConvexHullShape`: single precision, every corner looked at for each support.
+/// `btGjkPairDetector` on `btConvexHullShape`: single precision, a support function over all corners.
 HullSubject bullet_hulls();
 
 }  // namespace glissade::bench

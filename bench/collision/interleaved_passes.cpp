@@ -24,7 +24,7 @@ void ask(Query& query, const Isometry3d& X_AB, Operation operation) {
   }
 }
 
-// The subject before has filled the caches with its own model.
+// The previous subject has filled the caches with its own model.
 void warm_up(Query& query, Parts parts, Operation operation) {
   const Clock::time_point start = Clock::now();
   query.start();

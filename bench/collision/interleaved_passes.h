@@ -1,8 +1,8 @@
 #pragma once
 
-/// The clock of all benchmarks: a pass goes over all poses with one subject; subjects take turns, pass by pass, so that
-/// a slow moment of the machine hits all of them alike. The first round does not count, nor do the first two
-/// milliseconds of each turn, which warm the caches. What is reported are medians over passes.
+/// The timing of all benchmarks. A pass goes over all poses with one subject. Subjects take turns, pass by pass, so
+/// that a slow moment of the machine affects all of them alike. The first round does not count, nor do the first two
+/// milliseconds of each turn, which warm the caches. Reported times are medians over passes.
 
 #include <cstdint>
 #include <functional>
@@ -17,13 +17,13 @@ namespace glissade::bench {
 
 enum class Operation { kIntersects, kCountPairs };
 
-/// Poses one after the other; parts are timed apart as well, in the same pass. Slow subjects take the first part only.
+/// Poses in order. Each part is also timed by itself, in the same pass. Slow subjects take the first part only.
 using PoseParts = std::vector<std::vector<Eigen::Isometry3d>>;
 
 struct PassLimits {
   int least = 3;          ///< passes of every subject, however long they take; one for slow subjects
   int most = 101;         ///< passes of a fast one
-  double seconds = 0.25;  ///< after which a subject that has made its least passes stops
+  double seconds = 0.25;  ///< after which a subject stops that has made `least` passes
 };
 
 struct Contestant {
@@ -34,7 +34,7 @@ struct Contestant {
 /// Mean time of a query in nanoseconds: median over passes.
 struct PassTimes {
   double all_ns = 0.0;
-  std::vector<double> part_ns;  ///< of a slow subject the first part only
+  std::vector<double> part_ns;  ///< for a slow subject the first part only
 };
 
 /// One entry for each contestant, in order. Slow ones have no warming round: they have just given their answers.

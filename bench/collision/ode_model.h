@@ -1,6 +1,6 @@
 #pragma once
 
-/// The ODE model that every comparison uses: triangles in its own tree, shared by all geoms of the mesh.
+/// The ODE model of all comparisons: triangles in its own tree, shared by all geoms of the mesh.
 
 #include <cstdarg>
 #include <vector>
@@ -24,7 +24,7 @@ inline void keep_ode_alive() {
   static const Session session;
 }
 
-// ODE refers to the arrays it is given.
+// ODE refers to the arrays that it receives.
 class OdeModel : public Model {
  public:
   explicit OdeModel(const geometry::TriangleMesh& mesh) {
@@ -55,14 +55,14 @@ inline dGeomID ode_geom(const Model& model) {
   return dCreateTriMesh(nullptr, dynamic_cast<const OdeModel&>(model).data(), nullptr, nullptr, nullptr);
 }
 
-inline void place(dGeomID geom, const Eigen::Isometry3d& X_WG) {
+inline void place(dGeomID geom, const Eigen::Isometry3d& X_WO) {
   dMatrix3 rotation = {};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column)
-      rotation[4 * row + column] = X_WG(row, column);
+      rotation[4 * row + column] = X_WO(row, column);
   }
   dGeomSetRotation(geom, rotation);
-  dGeomSetPosition(geom, X_WG(0, 3), X_WG(1, 3), X_WG(2, 3));
+  dGeomSetPosition(geom, X_WO(0, 3), X_WO(1, 3), X_WO(2, 3));
 }
 
 }  // namespace glissade::bench

@@ -1,5 +1,5 @@
-// ODE: a space of geoms, and in its callback dCollide of two trimeshes as in the other benches. Its space that sweeps
-// and prunes took half the time of its hash table and its quadtree here, which is little beside that of the meshes.
+// ODE: a space of geoms, and in its callback dCollide of two trimeshes as in the other benches. Its sweep-and-prune
+// space took half the time of its hash space and its quadtree here, which is small beside the time of the mesh tests.
 
 #include "ode_model.h"
 #include "scene_subject.h"

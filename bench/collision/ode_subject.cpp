@@ -1,5 +1,5 @@
-// ODE: triangle mesh against triangle mesh by dCollide. It has no query that only says yes or no: the boolean asks for
-// one contact of any quality, but ODE collects all overlapping pairs of boxes first.
+// ODE: triangle mesh against triangle mesh by dCollide. It has no boolean query: here the query requests one
+// contact of any quality, but ODE collects all overlapping pairs of boxes first.
 
 #include "ode_model.h"
 
@@ -23,7 +23,7 @@ class OdeQuery : public Query {
     return collide(X_AB, static_cast<int>(CONTACTS_UNIMPORTANT | 1U)) > 0;
   }
 
-  // Pairs of triangles with several contacts give them one after the other.
+  // The contacts of one pair of triangles follow each other.
   std::int64_t count_pairs(const Isometry3d& X_AB) override {
     const int count = collide(X_AB, kMostContacts);
     std::int64_t pairs = 0;

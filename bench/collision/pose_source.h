@@ -20,11 +20,11 @@ class PoseSource {
   Eigen::Vector3d direction();
   Eigen::Matrix3d rotation();
 
-  /// How far B must move along the unit vector `axis` for the bounding box of A and that of the turned B to be apart.
+  /// Distance along the unit vector `axis` at which the bounding boxes of A and of the rotated B come apart.
   double box_separation(const Eigen::Matrix3d& R_AB, const Eigen::Vector3d& axis) const;
 
-  /// A place along `axis` where the turned B comes as close to A as `gap`: there it is just further away than that, and
-  /// a hair nearer to the centre just not. Nothing when B is not that close even at the centre.
+  /// Distance along `axis` at which the rotated B reaches the gap `gap` to A: there it is just farther away, and
+  /// slightly nearer to the centre it is not. Nothing if B is farther away even at the centre.
   std::optional<double> approach(const Eigen::Matrix3d& R_AB, const Eigen::Vector3d& axis, double gap);
 
  private:

@@ -72,7 +72,7 @@ std::int64_t sum(const std::vector<std::int64_t>& values) {
   return total;
 }
 
-// Adds the rows of one subject after the other.
+// Adds the rows, subject by subject.
 class Reporter {
  public:
   Reporter(const QueryCase& query_case, Results& results) : case_(query_case), results_(results) {}

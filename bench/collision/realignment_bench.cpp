@@ -1,7 +1,7 @@
 /// Time and operations of one realignment: three weighted offsets for each new one (paper §2.1, eq. 1) beside the
 /// projection of all vertices (§2.1.1), which the paper counts as 6k and 6k² + 17k floating-point operations.
 ///
-/// The nodes fit into the first-level cache, so this is arithmetic alone. Both ways take turns; times are medians.
+/// The nodes fit into the first-level cache, so only arithmetic counts. Both methods take turns; times are medians.
 
 #include <algorithm>
 #include <array>
@@ -29,10 +29,10 @@ namespace geometry = glissade::geometry;
 using namespace glissade::collision;
 
 constexpr int kRounds = 1001;
-constexpr double kRound_ns = 20e3;  // short: other programs interrupt few of them
+constexpr double kRound_ns = 20e3;  // short, so that other programs interrupt few rounds
 constexpr std::uint32_t kNodes = 8;
 
-// Multiplications, additions and comparisons count equal.
+// Multiplications, additions and comparisons count as one operation each.
 constexpr int kOperationsOfOffset = 3 + 3;          // three products, and sums of them and the constant
 constexpr int kOperationsOfProjection = 3 + 2 + 2;  // a dot product, the greatest and the least
 constexpr int kOperationsOfDirection = 2;           // a constant to be added to both
@@ -44,7 +44,7 @@ struct Bench {
         k(directions) {
     X_AB.linear() = Eigen::Quaterniond(0.5, 0.1, -0.3, 0.8).normalized().toRotationMatrix();
     X_AB.translation() = Eigen::Vector3d(0.3, -0.2, 0.5);
-    const auto count = static_cast<std::uint32_t>(tree.nodes().size());
+    const auto count = static_cast<std::uint32_t>(nodes_of(tree).size());
     for (std::uint32_t i = 0; i < kNodes; ++i)
       nodes[i] = i * count / kNodes;
   }
@@ -52,7 +52,7 @@ struct Bench {
   double vertices_of_child() const {
     double groups = 0.0;
     for (const std::uint32_t node : nodes)
-      groups += static_cast<double>(tree.vertices(node).size());
+      groups += static_cast<double>(vertices_of(tree, node).size());
     return 4.0 * groups / kNodes;
   }
 
@@ -62,7 +62,7 @@ struct Bench {
   std::array<std::uint32_t, kNodes> nodes{};
 };
 
-// Realigns the nodes again and again; every realignment starts from memory and ends there.
+// Realigns the nodes repeatedly. Every realignment reads from memory and writes to memory.
 template <typename Realign>
 class Stopwatch {
  public:
@@ -112,10 +112,10 @@ void run(const Bench& bench, InstructionSet instruction_set) {
   const RealignVertices realign_by_vertices = realign_vertices();
 
   Stopwatch by_offsets(bench, [&](std::uint32_t node, AlignedNode& aligned) {
-    kernels.realign(affine, bench.tree.slabs(node), aligned);
+    kernels.realign(affine, slabs_of(bench.tree, node), aligned);
   });
   Stopwatch by_vertices(bench, [&](std::uint32_t node, AlignedNode& aligned) {
-    realign_by_vertices(brute_force, bench.tree.vertices(node), aligned);
+    realign_by_vertices(brute_force, vertices_of(bench.tree, node), aligned);
   });
   for (int round = 0; round < kRounds; ++round) {
     by_offsets.measure();
@@ -124,7 +124,7 @@ void run(const Bench& bench, InstructionSet instruction_set) {
   const std::string with = "-" + std::string(name_of(instruction_set));
   const double affine_time = by_offsets.median();
   const double vertex_time = by_vertices.median();
-  // Of one child; the code does four at a time.
+  // Per child; the code realigns four at a time.
   print(bench.k, "affine" + with, "time", affine_time, "ns");
   print(bench.k, "brute-force" + with, "time", vertex_time, "ns");
   print(bench.k, "brute-force" + with, "ratio_to_affine", vertex_time / affine_time, "x");

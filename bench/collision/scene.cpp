@@ -21,7 +21,7 @@ struct Coordinate {
   double speed;
 };
 
-// Of something that moves evenly and bounces off both ends.
+// A coordinate that changes at constant speed and bounces off both ends.
 Coordinate bounced(double unbounded, double speed, double low, double high) {
   const double way = high - low;
   const double from_low = unbounded - low;
@@ -136,7 +136,7 @@ Scene objects_apart(std::span<const double> radii, std::size_t count, double fil
     };
     Vector3d p_WO = anywhere(flight, chance);
     for (int i = 0; !is_free(p_WO); ++i) {
-      if (i == kPlacements) throw std::invalid_argument("the box is too full for objects that are to be apart");
+      if (i == kPlacements) throw std::invalid_argument("the box is too full to place all objects apart");
       p_WO = anywhere(flight, chance);
     }
     placed.push_back(&flight);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The meshes that scenes are made of, and what each library has built of them, once for all objects and scenes.
+/// The meshes of the scenes, and the models that each library has built of them, once for all objects and scenes.
 
 #include <map>
 #include <memory>
@@ -18,7 +18,7 @@ class SceneCast {
   SceneCast(std::vector<SceneLibrary> libraries, const BenchOptions& options);
 
   const std::vector<SceneLibrary>& libraries() const { return libraries_; }
-  /// Of the bounding spheres of the meshes about their origins, metres.
+  /// Radii of the bounding spheres of the meshes about their origins, metres.
   const std::vector<double>& radii() const { return radii_; }
   /// The objects of the scene in every library, in their order. The cast must outlive them.
   std::vector<std::unique_ptr<SceneSubject>> start(const Scene& scene) const;

@@ -21,13 +21,13 @@ std::vector<NumberPair> in_order(std::vector<NumberPair> pairs) {
   return pairs;
 }
 
-// One subject on its way through the frames.
+// The progress of one subject through the frames.
 class Player {
  public:
   Player(const Scene& scene, SceneSubject& subject, const ReplayLimits& limits)
       : scene_(scene), subject_(subject), limits_(limits) {}
 
-  // Slow ones stop early, after a tenth of their time: they take the first of these frames only.
+  // A slow subject stops early, after a tenth of its time: it takes the first of these frames only.
   void run_in() {
     const double most_us = 1e6 * limits_.seconds / 10.0;
     double spent_us = step(0);
@@ -66,7 +66,7 @@ class Player {
   double spent_us_ = 0.0;
 };
 
-// Calls visit(record, other) for the frames that both took.
+// Calls visit(record, other) for the frames that both have.
 template <typename Visit>
 void for_common_frames(std::span<const FrameRecord> frames, std::span<const FrameRecord> others, const Visit& visit) {
   auto other = others.begin();
@@ -110,7 +110,7 @@ std::vector<std::vector<FrameRecord>> replay(const Scene& scene,
   for (int first = limits.run_in; first < end; first += limits.turn) {
     for (Player* const player : order)
       player->take_turn(first, std::min(first + limits.turn, end));
-    // Who comes first finds the shared models out of the cache; the next time it is another.
+    // The first subject finds the shared models out of the cache; the next time another one is first.
     std::rotate(order.begin(), order.begin() + 1, order.end());
   }
   std::vector<std::vector<FrameRecord>> all;
@@ -130,7 +130,7 @@ double mean_us(std::span<const FrameRecord> frames, std::span<const FrameRecord>
 
 double percentile_99_us(std::span<const FrameRecord> frames) {
   std::vector<double> times = common_times_us(frames, frames);
-  const std::size_t above = times.size() / 100;  // how many may take longer
+  const std::size_t above = times.size() / 100;  // number of frames that may take longer
   const auto found = times.end() - 1 - static_cast<std::ptrdiff_t>(above);
   std::nth_element(times.begin(), found, times.end());
   return *found;

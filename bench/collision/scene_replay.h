@@ -1,7 +1,7 @@
 #pragma once
 
-/// The clock of the benches of scenes: subjects take turns of some frames each, so that a slow moment of the machine
-/// hits all of them alike, and another one comes first every time.
+/// The timing of the benches of scenes. Subjects take turns of some frames each, so that a slow moment of the machine
+/// affects all of them alike; each round begins with another subject.
 
 #include <span>
 #include <vector>
@@ -13,11 +13,11 @@
 namespace glissade::bench {
 
 struct ReplayLimits {
-  int run_in = 20;       ///< frames that do not count: what remembers fills its memory
+  int run_in = 20;       ///< frames that do not count: subjects with memory fill it
   int frames = 2000;     ///< after those
   int turn = 50;         ///< frames
-  int warm_up = 5;       ///< frames of a turn that do not count: they find the caches full of others' models
-  double seconds = 8.0;  ///< after which a subject drops out, and so has taken the first frames only
+  int warm_up = 5;       ///< frames of a turn that do not count: caches hold the models of others
+  double seconds = 8.0;  ///< after which a subject stops; it has then taken the first frames only
   int least = 3;         ///< frames, however long they take
 };
 
@@ -29,24 +29,24 @@ struct FrameRecord {
   collision::FrameReport report;
 };
 
-/// Lets the objects bounce off each other for so many frames; the referee says which meet.
+/// Lets the objects bounce off each other for `frames` frames. The referee decides which of them meet.
 void play(Scene& scene, SceneSubject& referee, int frames);
 
-/// The frames of each subject that count, in order.
+/// The counted frames of each subject, in order.
 std::vector<std::vector<FrameRecord>> replay(const Scene& scene,
                                              std::span<const std::unique_ptr<SceneSubject>> subjects,
                                              const ReplayLimits& limits);
 
-/// Median time of the frames that `others` took, too.
+/// Median time of the frames that `others` has, too.
 double median_us(std::span<const FrameRecord> frames, std::span<const FrameRecord> others);
 
-/// Mean time of the same frames, in which the few that take long count.
+/// Mean time of the same frames, which includes the few slow ones.
 double mean_us(std::span<const FrameRecord> frames, std::span<const FrameRecord> others);
 
-/// One frame of a hundred takes longer; of fewer than a hundred the slowest.
+/// The 99th percentile of the times; for fewer than a hundred frames the greatest time.
 double percentile_99_us(std::span<const FrameRecord> frames);
 
-/// How many pairs meet in one but not in the other, over the frames that both took.
+/// Number of pairs that meet in one record but not in the other, over the frames that both have.
 std::int64_t differences(std::span<const FrameRecord> frames, std::span<const FrameRecord> others);
 
 }  // namespace glissade::bench

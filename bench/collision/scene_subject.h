@@ -1,7 +1,7 @@
 #pragma once
 
-/// Who says which objects of a scene meet: Glissade's collision pipeline, or another library with its broad phase and
-/// its test of two meshes, put together as its manual has it. Each is made the same by a small adapter.
+/// The subjects of the benches of scenes: Glissade's collision pipeline, and other libraries with their broad phase and
+/// their test of two meshes, combined as their manuals describe. Small adapters give all of them one interface.
 
 #include <cstddef>
 #include <functional>
@@ -28,15 +28,15 @@ class SceneSubject {
  public:
   virtual ~SceneSubject() = default;
 
-  /// A frame: takes new poses, finds out which pairs of all objects meet. This is what is timed.
+  /// One frame: takes new poses and finds all pairs of objects that meet. Only this function is timed.
   virtual void step(std::span<const MovedObject> moved) = 0;
-  /// Those, in any order.
+  /// The pairs found, in any order.
   virtual std::vector<NumberPair> meeting() const = 0;
-  /// Account of the last frame, from who keeps one.
+  /// Report on the last frame; null for subjects without one.
   virtual const collision::FrameReport* report() const { return nullptr; }
 };
 
-/// An object as a subject is given it; its number is its place among them.
+/// An object as a subject receives it. Its index is its number.
 struct SceneObject {
   const Model* model;  ///< shared by all objects of the same mesh
   Eigen::Isometry3d X_WO;
@@ -44,7 +44,7 @@ struct SceneObject {
 
 struct SceneLibrary {
   std::string name;
-  std::string model;  ///< libraries of the same `model` share what was built
+  std::string model;  ///< libraries with the same `model` share the models built
   std::function<std::unique_ptr<Model>(const geometry::TriangleMesh&)> build;
   std::function<std::unique_ptr<SceneSubject>(std::span<const SceneObject> objects)> start;
 };

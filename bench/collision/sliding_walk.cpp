@@ -11,7 +11,7 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kTurn = 0.05;   // how fast the directions of motion change at random, per step
+constexpr double kTurn = 0.05;   // random change of the directions of motion per step
 constexpr double kNormal = 0.5;  // share of a step that goes towards or away from A
 
 class Walker {
@@ -19,7 +19,7 @@ class Walker {
   Walker(const DopTree& tree_A, const DopTree& tree_B, const SlidingStep& step, std::uint64_t seed)
       : tree_A_(tree_A), tree_B_(tree_B), step_(step), source_(tree_A, tree_B, seed) {}
 
-  // To a place at a distance `gap` from A.
+  // Moves to a position at the distance `gap` from A.
   void start(double gap) {
     do {
       R_AB_ = source_.rotation();
@@ -42,7 +42,7 @@ class Walker {
   }
 
  private:
-  // Towards A when further away than the gap, else away from it. Inside, it first sinks and then goes along.
+  // Moves towards A if farther away than the gap, otherwise away from it. Inside, it first sinks and then moves along.
   void advance(double gap, bool inside) {
     const Vector3d outward = p_AB_.norm() > step_.length ? Vector3d(p_AB_.normalized()) : Vector3d::UnitX();
     const bool close = collision::intersects(tree_A_, tree_B_, pose(R_AB_, p_AB_), workspace_, gap);

@@ -10,10 +10,10 @@
 
 namespace glissade::bench {
 
-/// One stretch of the path: how far the objects stay apart.
+/// One stretch of the path, with the gap between the objects.
 struct SlidingPhase {
   const char* name;
-  double gap;  ///< in metres; negative: it goes on to slide inside the other object, about so deep
+  double gap;  ///< metres; negative: depth at which it slides inside the other object, about
 };
 
 struct SlidingStep {
@@ -21,8 +21,9 @@ struct SlidingStep {
   double angle;   ///< of every step, in radians
 };
 
-/// One part for each phase, of `frames` poses each; all steps are equal in length and angle, but turn smoothly about at
-/// random. The gap is that of the phase to within a few steps, after the way from one phase to the next.
+/// One part for each phase, of `frames` poses each. All steps have equal length and angle; their directions change
+/// smoothly at random. After the transition from one phase to the next, the gap is that of the phase within a few
+/// steps.
 std::vector<std::vector<Eigen::Isometry3d>> sliding_walk(const collision::DopTree& tree_A,
                                                          const collision::DopTree& tree_B,
                                                          const std::vector<SlidingPhase>& phases, std::size_t frames,

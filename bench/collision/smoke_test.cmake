@@ -1,5 +1,5 @@
-# Runs the collision benchmark on meshes of 200 triangles and checks what it writes: results.csv has the columns and rows that
-# are promised, FCL gives Glissade's answers, and the page of benchmarks takes the figures up.
+# Runs the collision benchmark on meshes of 200 triangles and checks its output: results.csv has the promised columns and
+# rows, FCL gives Glissade's answers, and the figures appear on the page of benchmarks.
 # Takes BENCH (the program), SOURCE_DIR (the repository) and WORK_DIR.
 
 function(expect condition_name)

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is measured: Glissade, a variant of it, or another library. Each is made the same by a small adapter.
+/// The subjects of the benches: Glissade, its variants, and other libraries. Small adapters give them one interface.
 
 #include <cstdint>
 #include <functional>
@@ -17,7 +17,7 @@
 
 namespace glissade::bench {
 
-/// What a library has built of one mesh, with its own copy of what it needs of it.
+/// The model that a library has built of a mesh, with its own copy of the data that it needs.
 class Model {
  public:
   virtual ~Model() = default;
@@ -28,11 +28,11 @@ class Query {
  public:
   virtual ~Query() = default;
 
-  /// Called before each pass over the poses: forget what was learnt, choose global settings.
+  /// Called before each pass over the poses: clears memory of earlier queries and applies global settings.
   virtual void start() {}
   /// X_AB is the pose of B in the frame of A.
   virtual bool intersects(const Eigen::Isometry3d& X_AB) = 0;
-  /// Number of intersecting pairs of triangles. The library must find out which they are.
+  /// Number of intersecting pairs of triangles. The library must identify the pairs.
   virtual std::int64_t count_pairs(const Eigen::Isometry3d& X_AB) = 0;
   /// Work of the last query, for subjects that count it.
   virtual std::optional<collision::QueryCounters> counters() const { return std::nullopt; }
@@ -40,22 +40,23 @@ class Query {
 
 struct Subject {
   std::string name;
-  std::string model;  ///< subjects of the same `model` share what was built
+  std::string model;  ///< subjects with the same `model` share the models built
   std::function<std::unique_ptr<Model>(const geometry::TriangleMesh&)> build;
   std::function<std::unique_ptr<Query>(const Model& model_A, const Model& model_B)> query;
-  bool slow = false;  ///< takes only a sample of the poses, or the benchmarks would take hours
+  bool slow = false;  ///< takes only a sample of the poses: all would take hours
 };
 
-/// What the subjects use that are not named after another one. Throws std::invalid_argument when it is not available.
+/// Sets the instruction set of all subjects whose names mention none. Throws std::invalid_argument if it is not
+/// available.
 void choose_instruction_set(collision::InstructionSet set);
 
-/// Glissade as users get it; every ratio is that of its time.
+/// Glissade with default options; all ratios refer to its time.
 Subject glissade_subject();
 /// The same with a workspace that remembers the last query.
 Subject glissade_coherent();
 /// The same on the other instruction sets of this machine: `glissade-avx2`.
 std::vector<Subject> glissade_instruction_sets();
-/// Those of `glissade_coherent`: `glissade-coherent-avx2`.
+/// The same for `glissade_coherent`: `glissade-coherent-avx2`.
 std::vector<Subject> glissade_coherent_instruction_sets();
 /// Pure DOP-trees as in the founding paper, without the extra slab: `glissade-no-slab`, and `glissade-brute-force` with
 /// its O(k²) realignment.
@@ -69,7 +70,7 @@ Subject bullet_subject();
 Subject cgal_subject();
 /// All other libraries.
 std::vector<Subject> peers();
-/// Those that can name all intersecting pairs of triangles.
+/// The libraries that identify all intersecting pairs of triangles.
 std::vector<Subject> peers_that_count_pairs();
 
 }  // namespace glissade::bench

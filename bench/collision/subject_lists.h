@@ -1,6 +1,6 @@
 #pragma once
 
-/// Which subjects a bench compares.
+/// Lists of subjects that benches compare.
 
 #include <initializer_list>
 #include <vector>

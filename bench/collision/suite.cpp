@@ -56,7 +56,7 @@ std::vector<SuiteMesh> suite_meshes(const Suite& suite, const std::vector<std::i
   for (const std::filesystem::path& file : suite.files) {
     const auto mesh = std::make_shared<const geometry::TriangleMesh>(geometry::import_mesh(file).mesh);
     std::string name = file.stem().string();
-    std::replace(name.begin(), name.end(), ',', '_');  // results.csv knows no quoting
+    std::replace(name.begin(), name.end(), ',', '_');  // results.csv has no quoting
     meshes.push_back({name, [mesh, size] { return centered(*mesh, size); }});
   }
   return meshes;

@@ -12,10 +12,10 @@
 
 namespace glissade::bench {
 
-/// Largest extent of every mesh but in `coherent`, in metres (Zachmann's procedure: objects of size 2).
+/// Largest extent in metres of every mesh, except in `coherent` (Zachmann's procedure: objects of size 2).
 inline constexpr double kSize = 2.0;
 
-/// One mesh of the suite, made when it is needed: a million triangles are not kept for later.
+/// One mesh of the suite, made when it is needed: a mesh of a million triangles is not kept.
 struct SuiteMesh {
   std::string name;  ///< "sphere-20k", or the file's stem
   std::function<geometry::TriangleMesh()> make;
@@ -32,10 +32,10 @@ struct Suite {
   std::vector<std::filesystem::path> files;
 };
 
-/// Names of all shapes that can be generated: those of collision/benchmark_shapes.h.
+/// Names of all generated shapes, those of shapes/benchmark_shapes.h.
 std::vector<std::string> all_shapes();
 
-/// The shape with about so many triangles, centred on the origin, its largest extent `size`. Throws
+/// The shape with about `triangles` triangles, centred on the origin, with the largest extent `size`. Throws
 /// std::invalid_argument for an unknown name.
 geometry::TriangleMesh make_shape(const std::string& shape, std::int64_t triangles, double size);
 

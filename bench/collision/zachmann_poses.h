@@ -13,9 +13,9 @@ namespace glissade::bench {
 /// Distances along each axis of approach.
 inline constexpr std::size_t kZachmannDistances = 10;
 
-/// For random orientations, and for each of them five random axes: distances evenly from 0, where the centres coincide,
-/// to where the bounding boxes have just come apart: by a thousandth, because parts have flat faces on their boxes, and
-/// whether touching boxes touch would be a matter of rounding. Poses of one axis follow each other.
+/// Random orientations, and five random axes for each. Along each axis, distances at equal steps from 0, where the
+/// centres coincide, to 1.001 times the separation of the bounding boxes: some parts have flat faces on their boxes,
+/// and at exactly touching boxes rounding would decide. Poses of one axis follow each other.
 inline std::vector<Eigen::Isometry3d> zachmann_poses(PoseSource& source, bool quick) {
   const int orientations = quick ? 10 : 20;
   constexpr int kAxes = 5;

@@ -12,24 +12,24 @@ namespace glissade::bench {
 namespace {
 
 constexpr double kInserted_m = 7e-3;       // the ghost goes 8 mm deep
-constexpr int kShakenMilliseconds = 2000;  // for so long anti-jam tries
+constexpr int kSearchMilliseconds = 2000;  // duration of a spiral search
 
-/// How pegs are led, and by which method.
+/// One setting of the trials with pegs.
 struct PegSetting {
   const char* name;
   const SlidingSubject& subject;
   int trials;
   double offset_m;
   double tilt_deg;
-  int more_ticks;  ///< in which the ghost stands at the bottom
+  int more_ticks;  ///< with the ghost at rest at the bottom
   bool spiral_search;
 };
 
 const std::array<PegSetting, 4> kSettings{
     PegSetting{"pegs-0.3mm-0.5deg", kSlidingSubjects[0], 200, 0.3e-3, 0.5, 0, false},
     PegSetting{"pegs-0.3mm-0.5deg", kSlidingSubjects[1], 50, 0.3e-3, 0.5, 0, false},
-    PegSetting{"pegs-1mm-1.5deg", kSlidingSubjects[0], 200, 1e-3, 1.5, kShakenMilliseconds, false},
-    PegSetting{"pegs-1mm-1.5deg-anti-jam", kSlidingSubjects[0], 200, 1e-3, 1.5, kShakenMilliseconds, true}};
+    PegSetting{"pegs-1mm-1.5deg", kSlidingSubjects[0], 200, 1e-3, 1.5, kSearchMilliseconds, false},
+    PegSetting{"pegs-1mm-1.5deg-spiral-search", kSlidingSubjects[0], 200, 1e-3, 1.5, kSearchMilliseconds, true}};
 
 bool is_inserted(const PegSetting& setting, std::uint64_t seed) {
   const double tilt = setting.tilt_deg * std::numbers::pi / 180.0;

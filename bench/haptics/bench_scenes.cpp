@@ -9,7 +9,7 @@
 namespace glissade::bench {
 namespace {
 
-/// The nut takes minutes, and does the same all the time.
+/// Number of ticks. The nut takes minutes, and its motion is uniform.
 int ticks_of(const test_support::SlidingScene& scene, bool quick) {
   if (scene.name == "nut") return std::min(scene.ticks, quick ? 50 : 1000);
   if (scene.name.ends_with("50k") && quick) return std::min(scene.ticks, 400);
@@ -43,8 +43,8 @@ void run_scenes(const SlidingBenchOptions& options, Results& results) {
       accounts.push_back(account_of(subject, scene, ticks));
       add(name, subject.name, accounts.back(), results);
     }
-    // Methods take turns, so that a slow moment of the machine hits both. What happens in one run only, such as a wait
-    // for the search thread, counts like anything else.
+    // Methods take turns, so that a slow moment of the machine affects both. Events of a single run, such as a wait for
+    // the search thread, count too.
     std::vector<std::vector<double>> times(kSlidingSubjects.size());
     const int rounds = options.quick ? 1 : 3;
     for (int round = 0; round < rounds; ++round) {

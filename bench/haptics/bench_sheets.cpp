@@ -21,7 +21,7 @@ bool crosses(const SlidingSubject& subject, std::uint64_t seed) {
   return false;
 }
 
-/// What is promised never to happen is tried most often.
+/// Most trials for the method that promises never to cross.
 int trials_of(const SlidingSubject& subject, bool quick) {
   if (quick) return 100;
   return subject.method == haptics::SlidingMethod::kProjection ? 10'000 : 1'000;

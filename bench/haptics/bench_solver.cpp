@@ -17,7 +17,7 @@ using haptics::ConstraintRow;
 constexpr haptics::CouplingStiffness kStiffness{1000.0, 10.0};
 constexpr double kRadius = 0.1;  // metres; k_r = k_t ρ²
 
-/// A part that is pressed, and turned, against contacts on one side of it that lean at random.
+/// A part that is pressed and turned against contacts on one side of it, with random normals.
 struct Programme {
   geometry::Displacement wanted;
   std::vector<ConstraintRow> rows;

@@ -1,4 +1,4 @@
-/// The benchmarks of sliding contact: parses, runs what was asked for, writes results.csv.
+/// The benchmarks of sliding contact: parses, runs the chosen parts, writes results.csv.
 
 #include <cstdio>
 #include <exception>
@@ -21,23 +21,23 @@ constexpr int kFailed = 1;
 constexpr int kBadInput = 2;
 
 constexpr const char* kDescription =
-    "Measures sliding contact: Glissade's method beside the founding paper's own (glissade-paper).\n"
+    "Measure sliding contact: Glissade's method beside that of the founding paper (glissade-paper).\n"
     "\n"
-    "  scenes   a part led through each scene: how far it lags, jams, force jumps, collisions, queries, times\n"
-    "  sheets   thin sheets led through thin sheets at up to 5 m/s\n"
-    "  pegs     pegs led into holes with 52 um of clearance, off by 0.3 mm and 0.5 degrees, or by 1 mm and 1.5\n"
-    "  nut      a nut turned ten times on its bolt by a ghost that does not move along it\n"
+    "  scenes   a part that follows a ghost in each scene: lag, jams, force jumps, collisions, queries, times\n"
+    "  sheets   thin sheets whose ghosts pass through thin sheets at up to 5 m/s\n"
+    "  pegs     pegs that enter holes with 52 um of clearance, off by 0.3 mm and 0.5 degrees, or by 1 mm and 1.5\n"
+    "  nut      a nut that turns ten times on its bolt, by a ghost that does not move along it\n"
     "  solver   the projection on up to 64 contacts\n"
     "\n"
-    "Progress goes to standard error, the figures to results.csv, whose columns are\n"
+    "Progress goes to standard error, the figures to results.csv with the columns\n"
     "bench,case,subject,metric,value,unit.";
 
 constexpr const char* kFooter =
     "Examples:\n"
     "  haptics_bench --quick --out /tmp\n"
     "  haptics_bench --parts scenes --scenes plane,corner\n"
-    "scripts/bench --only sliding builds and runs this and renews docs/benchmarks.md.\n"
-    "Exit code: 0 when done, 1 when a run failed, 2 when the usage is wrong.";
+    "scripts/bench --only sliding builds and runs this program and renews docs/benchmarks.md.\n"
+    "Exit code: 0 on success, 1 if a run fails, 2 for wrong usage.";
 
 using Part = void (*)(const SlidingBenchOptions&, Results&);
 const std::vector<std::pair<std::string, Part>> kParts{
@@ -57,10 +57,12 @@ int parse_and_run(int argc, char** argv) {
   std::vector<std::string> names;
   for (const auto& [name, run] : kParts)
     names.push_back(name);
-  app.add_option("--parts", chosen, "Run only these, separated by commas")->delimiter(',')->check(CLI::IsMember(names));
-  app.add_option("--scenes", options.scenes, "Only these scenes, separated by commas")->delimiter(',');
+  app.add_option("--parts", chosen, "Run only these parts, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember(names));
+  app.add_option("--scenes", options.scenes, "Run only these scenes, separated by commas")->delimiter(',');
   app.add_flag("--quick", options.quick, "Shorter runs, fewer trials: within two minutes");
-  app.add_option("--out", folder, "Folder for results.csv, made if need be")->capture_default_str();
+  app.add_option("--out", folder, "Folder for results.csv, created if necessary")->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {
@@ -73,7 +75,7 @@ int parse_and_run(int argc, char** argv) {
   for (const auto& [name, run] : kParts) {
     if (!chosen.empty() && !chosen.contains(name)) continue;
     run(options, results);
-    results.write_csv(folder / "results.csv");  // after each: a run that is stopped has not been for nothing
+    results.write_csv(folder / "results.csv");  // after each part: a run that is stopped keeps its results
   }
   return 0;
 }

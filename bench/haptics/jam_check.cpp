@@ -32,9 +32,9 @@ bool JamCheck::could_move(const Isometry3d& X_WV, const geometry::Displacement& 
   geometry::Displacement step = allowed(X_WV, wanted, stiffness, hold);
   if (geometry::motion_bound(step, radius) < kTrialStep_m) return false;
   step = step.scaled(geometry::fraction_within(step, radius, kTrialStep_m));
-  const Isometry3d X_WV_then = geometry::displaced(X_WV, scene_.part_V->p_Vref(), step);
-  const geometry::Displacement wanted_then{wanted.v - step.v, wanted.w - step.w};
-  return energy(wanted_then, stiffness) < energy(wanted, stiffness) && !collides(X_WV_then);
+  const Isometry3d X_WV_next = geometry::displaced(X_WV, scene_.part_V->p_Vref(), step);
+  const geometry::Displacement wanted_next{wanted.v - step.v, wanted.w - step.w};
+  return energy(wanted_next, stiffness) < energy(wanted, stiffness) && !collides(X_WV_next);
 }
 
 geometry::Displacement JamCheck::allowed(const Isometry3d& X_WV, const geometry::Displacement& wanted,

@@ -1,28 +1,28 @@
 #pragma once
 
-/// Whether a part that stands still could have moved: the independent judge of jammed ticks.
+/// Independent check for jams: whether a part that stands still could have moved.
 
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include <glissade/collision/dop_query.h>
-
 #include <glissade/haptics/sliding_result.h>
+
 #include "search/candidate_pairs.h"
 #include "sliding_scenes.h"
 #include "solver/projection.h"
 
 namespace glissade::bench {
 
-/// Not thread-safe. Knows nothing of the method that moves the part.
+/// Not thread-safe. Independent of the method that moves the part.
 class JamCheck {
  public:
   explicit JamCheck(const test_support::SlidingScene& scene);
 
-  /// Whether the part at X_WV, which wants to go by `wanted`, can do a step of kTrialStep_m at least towards that: what
-  /// all contacts within reach allow of it, contacts being held at a distance of `hold` metres, is as long; the pose
-  /// at its end collides with nothing; and the energy of the coupling is less there.
+  /// Whether a part at X_WV with the lag `wanted` can move by at least kTrialStep_m. The step is the projection of
+  /// `wanted` on all contacts within reach, which hold the part at a distance of `hold` metres. It must be long enough,
+  /// lead to a pose without collision, and reduce the energy of the coupling.
   bool could_move(const Eigen::Isometry3d& X_WV, const geometry::Displacement& wanted,
                   const haptics::CouplingStiffness& stiffness, double hold);
 

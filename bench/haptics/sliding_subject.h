@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the benchmarks of sliding contact compare: the methods of `haptics::SlidingMethod`.
+/// The subjects of the benchmarks of sliding contact: the methods of `haptics::SlidingMethod`.
 
 #include <array>
 #include <cstdint>
@@ -8,7 +8,6 @@
 #include <memory>
 #include <string>
 
-#include <glissade/haptics/sliding.h>
 #include <glissade/haptics/sliding.h>
 
 #include "sliding_scenes.h"
@@ -27,7 +26,7 @@ inline const std::array<SlidingSubject, 2> kSlidingSubjects{
 /// A simulation at the start of a scene.
 struct SlidingRun {
   std::unique_ptr<haptics::SlidingSimulation> sliding;
-  std::function<std::int64_t()> queries;  ///< of the collision detection, so far
+  std::function<std::int64_t()> queries;  ///< queries of the collision detection so far
 };
 
 SlidingRun start(const SlidingSubject& subject, const test_support::SlidingScene& scene,

@@ -1,5 +1,5 @@
-# Runs the benchmark of sliding contact on its smallest scenes and checks what it writes: results.csv has the columns and rows
-# that are promised, no visible pose collides, and the page of benchmarks takes the figures up.
+# Runs the benchmark of sliding contact on its smallest scenes and checks its output: results.csv has the promised columns
+# and rows, no visible pose collides, and the figures appear on the page of benchmarks.
 # Takes BENCH (the program), SOURCE_DIR (the repository) and WORK_DIR.
 
 function(expect condition_name)
@@ -31,7 +31,7 @@ foreach(case plane sheets)
   expect("no jam in ${case}" results MATCHES "sliding,${case},glissade,jammed_ticks,0,1")
 endforeach()
 expect("no sheet through another" results MATCHES "sliding,open-sheets,glissade,crossed,0,1")
-foreach(case pegs-0.3mm-0.5deg pegs-1mm-1.5deg pegs-1mm-1.5deg-anti-jam)
+foreach(case pegs-0.3mm-0.5deg pegs-1mm-1.5deg pegs-1mm-1.5deg-spiral-search)
   expect("pegs of ${case}" results MATCHES "sliding,${case},glissade,inserted,[0-9]+,1")
 endforeach()
 foreach(rows 1 64)
@@ -47,5 +47,5 @@ expect("the new section" page MATCHES "<!-- begin sliding -->\n[^\n]*smoke test.
 expect("the prose by hand" page MATCHES "## How it is measured")
 
 execute_process(COMMAND ${BENCH} --scenes nowhere --parts scenes --out ${WORK_DIR} RESULT_VARIABLE status ERROR_VARIABLE said)
-expect("exit code 2 for a scene that is not there" status EQUAL 2)
+expect("exit code 2 for an unknown scene" status EQUAL 2)
 expect("its name" said MATCHES "nowhere")

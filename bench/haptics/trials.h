@@ -1,7 +1,7 @@
 #pragma once
 
-/// Counts what becomes of many trials, each of a seed of its own, on all processors. For counts only: times taken side
-/// by side would be those of trials that wait for each other.
+/// Counts successful trials, each with a seed of its own, on all processors. For counts only: the times of trials that
+/// run side by side would include their waiting for each other.
 
 #include <atomic>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace glissade::bench {
 
-/// How many of the trials 1 to `trials` `succeeds` is true of. It is called by several threads at once.
+/// The number of trials from 1 to `trials` for which `succeeds` returns true. Several threads call it at once.
 template <typename Succeeds>
 int count_trials(int trials, const Succeeds& succeeds) {
   std::atomic<int> count = 0;

@@ -13,8 +13,8 @@ using Eigen::Vector3d;
 constexpr int kRounds = 128;
 constexpr int kAttempts = 3;
 
-// Radians, about. A pair that moves little has its new plane within the first of the old one; what three old points
-// span is worth a look within the second.
+// Radians, approximately. The new plane of a pair that moves little lies within the first angle of the old one. A plane
+// spanned by three old points is worth a test within the second.
 constexpr double kFirstTurn = 0.06;
 constexpr double kSmallTurn = 0.02;
 
@@ -31,7 +31,7 @@ class GjkSearch {
  public:
   GjkSearch(HullPair& hulls, const Vector3d& n_guess) : hulls_(hulls), memory_(hulls.memory()), n_guess_(n_guess) {}
 
-  // To the end, from what it had in hand last time. What rounding has led astray begins anew.
+  // Runs to the end, starting from the last simplex. Starts anew if rounding has misled the search.
   bool run() {
     GjkSimplex simplex = simplex_of_memory(hulls_);
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -45,7 +45,8 @@ class GjkSearch {
   }
 
  private:
-  // Whether a plane separates them; if not, the simplex encloses the origin, or rounding prevents a decision.
+  // Returns whether a plane separates the hulls. If not, the simplex encloses the origin, or rounding prevents a
+  // decision.
   bool attempt_from(GjkSimplex& simplex) {
     double turn = kFirstTurn;
     if (old_points_separate(simplex)) return true;
@@ -66,8 +67,8 @@ class GjkSearch {
     return false;
   }
 
-  // Three points that were nearest to the origin last time mostly still span the plane that it needs, even if the
-  // nearest point of that plane is now a little beside them.
+  // Three points that were nearest to the origin last time mostly still span the right plane, even if the point of that
+  // plane nearest to the origin now lies slightly outside of their triangle.
   bool old_points_separate(GjkSimplex& simplex) {
     if (simplex.count() != 3 || !memory_.has_plane) return false;
     const Vector3d nearest = simplex.nearest_of_plane();
@@ -77,9 +78,9 @@ class GjkSearch {
     return look_along(n, nearest, simplex) == Step::kApart;
   }
 
-  // The old normal turned so far toward n, if that is not far enough. Where hulls nearly touch, the nearest point of a
-  // few corners lies in a direction far from the normal, and the way there and back over thousands of corners takes
-  // long.
+  // The old normal turned toward n by the angle `turn`; nothing if n lies within that angle. Where hulls nearly touch,
+  // the nearest point of a few corners lies in a direction far from the normal, and climbing there and back over
+  // thousands of corners takes long.
   std::optional<Vector3d> turned_toward(const Vector3d& n, double turn) const {
     if (!memory_.has_plane || turn > 1.0) return std::nullopt;
     const Vector3d difference = n - n_guess_;
@@ -90,8 +91,8 @@ class GjkSearch {
 
   enum class Step : std::uint8_t { kApart, kNearer, kStuck };
 
-  // Whether the plane along n separates; else the simplex gets the extreme point, if that brings it nearer to the
-  // origin.
+  // Tests the plane with normal n. If it does not separate, adds the extreme point to the simplex if that brings the
+  // simplex nearer to the origin.
   Step look_along(const Vector3d& n, const Vector3d& nearest, GjkSimplex& simplex) {
     const Vector3d w = hulls_.extreme(n);
     const double gap = n.dot(w);

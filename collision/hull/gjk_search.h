@@ -1,6 +1,6 @@
 #pragma once
 
-/// Whether two hulls are apart, by the algorithm of Gilbert, Johnson and Keerthi from where it was last time.
+/// The test whether two hulls are apart by the algorithm of Gilbert, Johnson and Keerthi, starting from the last query.
 
 #include <Eigen/Core>
 
@@ -8,12 +8,12 @@
 
 namespace glissade::collision {
 
-/// Whether the corners that the last search enclosed the origin with still do: then the hulls meet.
+/// Whether the corners with which the last search enclosed the origin still enclose it. If so, the hulls meet.
 bool old_corners_meet(const HullPair& hulls);
 
-/// To the end. Returns whether a plane separates the hulls, which is then remembered; otherwise remembers the corners
-/// that enclose the origin, unless rounding prevents a decision. `n_guess` is where the normal may be, if a plane is
-/// remembered.
+/// Runs GJK to its end. Returns whether a plane separates the hulls; if so, remembers the plane. Otherwise remembers
+/// the corners that enclose the origin, unless rounding prevents a decision. `n_guess` is an estimate of the normal,
+/// used if a plane is remembered.
 bool gjk_separates(HullPair& hulls, const Eigen::Vector3d& n_guess);
 
 }  // namespace glissade::collision

@@ -11,18 +11,19 @@ using Eigen::Vector3d;
 
 namespace {
 
-// The faces of four points, each with the point that is not part of it last.
+// The faces of four points, each followed by the point that is not part of it.
 constexpr std::array<std::array<int, 4>, 4> kFaces{{{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}}};
 
-// A triangle so narrow, in squares of its width by its length, is a segment but for rounding.
+// A triangle narrower than this, as the square of width over length, is a segment up to rounding.
 constexpr double kNarrowest = 1e-30;
 
-// Six products of three coordinates each and a dozen roundings.
+// Bound on the rounding error of a volume: six products of three coordinates each, with a dozen roundings.
 double rounding_of_volume(const Vector3d& u, const Vector3d& v, const Vector3d& w) {
   return 32.0 * std::numeric_limits<double>::epsilon() * u.lpNorm<1>() * v.lpNorm<1>() * w.lpNorm<1>();
 }
 
-// What is left of x at right angles to u. Twice is enough: once leaves a rounding error of x, which may be the longer.
+// The component of x perpendicular to u. Two steps are enough; a single one leaves a rounding error of x, which may be
+// longer than the result.
 Vector3d across(const Vector3d& x, const Vector3d& u, double u_u) {
   const Vector3d once = x - x.dot(u) / u_u * u;
   return once - once.dot(u) / u_u * u;
@@ -39,7 +40,7 @@ bool GjkSimplex::has(std::int32_t corner_A, std::int32_t corner_B) const {
 
 bool GjkSimplex::encloses_origin() const {
   if (count_ < 4) return false;
-  // The origin sees all four faces from the side of the fourth point.
+  // The origin is inside if it lies on the same side of all four faces as the opposite points.
   int positive = 0;
   int negative = 0;
   for (const auto& face : kFaces) {
@@ -54,7 +55,7 @@ bool GjkSimplex::encloses_origin() const {
   return positive == 4 || negative == 4;
 }
 
-// Whether the origin lies on that side of a face where the fourth point is.
+// Whether the origin certainly lies on that side of a face where the fourth point is.
 bool GjkSimplex::surely_sees_no_origin(const Face& face) const {
   const Vector3d ab = w(face[1]) - w(face[0]);
   const Vector3d ac = w(face[2]) - w(face[0]);
@@ -74,8 +75,8 @@ GjkSimplex::Nearest GjkSimplex::nearest_of_segment(int a, int b) const {
   return {across(w(a), along, length), {a, b, 0}, 2};
 }
 
-// Measured along the longest edge and across, where narrow triangles keep their precision: u is that edge, v the way
-// from its line to the third corner, q the way from the origin to its line.
+// Computed along the longest edge and perpendicular to it, where narrow triangles keep their precision: u is that edge,
+// v the vector from its line to the third corner, q the vector from the origin to its line.
 std::optional<Vector3d> GjkSimplex::nearest_inside(int a, int b, int c) const {
   const Vector3d u = w(b) - w(a);
   const double u_u = u.squaredNorm();
@@ -110,7 +111,7 @@ GjkSimplex::Nearest GjkSimplex::nearest_of_triangle(int a, int b, int c) const {
 }
 
 GjkSimplex::Nearest GjkSimplex::nearest_of_tetrahedron() const {
-  // Of the faces that see the origin from outside, or, if rounding hides which, of all.
+  // The nearest of the faces that see the origin from outside. If rounding hides which these are, the nearest of all.
   Nearest nearest{Vector3d::Constant(std::numeric_limits<double>::infinity()), {0, 0, 0}, 0};
   for (const bool any_face : {false, true}) {
     for (const auto& face : kFaces) {

@@ -1,7 +1,8 @@
 #pragma once
 
-/// Up to four points of the Minkowski difference B − A, and where in their hull the origin is nearest (E. G.
-/// Gilbert, D. W. Johnson and S. S. Keerthi 1988; the regions of a triangle after C. Ericson 2005).
+/// The simplex of GJK: up to four points of the Minkowski difference B − A, and the point of their hull that is nearest
+/// to the origin (E. G. Gilbert, D. W. Johnson and S. S. Keerthi 1988; the regions of a triangle after C. Ericson
+/// 2005).
 
 #include <array>
 #include <cstdint>
@@ -14,7 +15,7 @@
 namespace glissade::collision {
 
 struct GjkPoint {
-  Eigen::Vector3d w;  ///< corner of B less corner of A, in the frame of A
+  Eigen::Vector3d w;  ///< corner of B minus corner of A, in the frame of A
   std::int32_t corner_A;
   std::int32_t corner_B;
 };
@@ -28,21 +29,22 @@ class GjkSimplex {
   }
   bool has(std::int32_t corner_A, std::int32_t corner_B) const;
 
-  /// There must be less than four.
+  /// The simplex must have fewer than four points.
   void add(const GjkPoint& point) {
     GLISSADE_ASSERT(count_ < 4);
     points_[static_cast<std::size_t>(count_++)] = point;
   }
 
-  /// Whether four points certainly enclose the origin.
+  /// Whether the simplex has four points that certainly enclose the origin.
   bool encloses_origin() const;
 
-  /// Keeps the points, of which there must be one, that the nearest point of their hull depends on, and returns that.
-  /// Exact but for rounding, which may call the origin outside of four points that barely enclose it.
+  /// Returns the point of the hull that is nearest to the origin, and keeps only the points of the simplex on which it
+  /// depends. The simplex must not be empty. Exact except for rounding, which may put the origin outside of four points
+  /// that barely enclose it.
   Eigen::Vector3d reduce_to_nearest();
 
-  /// Of the plane of three points, of which there must be as many, the point that is nearest to the origin. Not finite
-  /// if there is no such plane.
+  /// The point nearest to the origin on the plane of the three points of the simplex, which must have exactly three.
+  /// Not finite if the points do not span a plane.
   Eigen::Vector3d nearest_of_plane() const;
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Two convex hulls at a pose, with what is remembered of them: points of their Minkowski difference B − A, and the
-/// plane between them.
+/// Two convex hulls at a relative pose, with the memory of their last query: points of their Minkowski difference B −
+/// A, and the plane between them.
 
 #include <cmath>
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace glissade::collision {
 
-/// Of one query. All lengths are metres, in the frame of A.
+/// The two hulls of one query. All lengths are in metres, all vectors in the frame of A.
 class HullPair {
  public:
   HullPair(const ConvexHull& hull_A, const ConvexHull& hull_B, const Eigen::Isometry3d& X_AB, HullMemory& memory)
@@ -34,9 +34,9 @@ class HullPair {
   const Eigen::Vector3d& p_AB() const { return p_AB_; }
   HullMemory& memory() const { return memory_; }
 
-  /// A greater gap is certain but for rounding.
+  /// A gap between extreme corners is certain if it exceeds this margin, which covers rounding.
   double margin() const { return margin_; }
-  /// The same, if climbing may have stopped too early.
+  /// The margin for corners found by climbing, which may have stopped too early.
   double climbing_margin() const { return climbing_margin_; }
 
   const Eigen::Vector3d& vertex_A(std::int32_t corner) const {
@@ -50,8 +50,8 @@ class HullPair {
     return {R_AB_ * vertex_B(corner_B) + p_AB_ - vertex_A(corner_A), corner_A, corner_B};
   }
 
-  /// The point of B − A that is least along n, which must be of unit length: surely, if it lies beyond the margin. The
-  /// memory has its corners.
+  /// The point of B − A that is least along the unit vector n. It is certainly the least if it lies beyond the margin.
+  /// The memory then has its corners.
   Eigen::Vector3d extreme(const Eigen::Vector3d& n) {
     GLISSADE_ASSERT(std::abs(n.squaredNorm() - 1.0) < 1e-9);
     const Eigen::Vector3d against_B = -(R_AB_.transpose() * n);
@@ -60,13 +60,13 @@ class HullPair {
     const Eigen::Vector3d w = point(memory_.corner_A, memory_.corner_B).w;
     const double gap = n.dot(w);
     if (!(gap > margin_) || gap > climbing_margin_) return w;
-    // What climbing may have missed is looked for only where it matters.
+    // Examines all corners only where an error of climbing would matter.
     memory_.corner_A = hull_A_.furthest(n);
     memory_.corner_B = hull_B_.furthest(against_B);
     return point(memory_.corner_A, memory_.corner_B).w;
   }
 
-  /// Remembers the plane along n that separates by `gap` the corners in memory, which are extreme.
+  /// Remembers the plane with normal n, which separates the extreme corners in memory by `gap`.
   void remember_plane(const Eigen::Vector3d& n, double gap) {
     memory_.n_A = n;
     memory_.n_gap_A = n;
@@ -78,7 +78,7 @@ class HullPair {
   }
 
  private:
-  // Of all coordinates that take part: each is rounded a few times.
+  // Relative to the sum of all coordinates that take part, each of which is rounded a few times.
   static constexpr double kRoundingOfGap = 1e-14;
 
   const ConvexHull& hull_A_;

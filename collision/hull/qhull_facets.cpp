@@ -13,7 +13,7 @@
 namespace glissade::collision {
 namespace {
 
-// Qhull writes what it has to say to a file; nobody reads it.
+// Qhull writes its messages to a file; this one discards them.
 std::FILE* no_file() {
   static const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen("/dev/null", "w"), std::fclose);
   return file.get();
@@ -21,7 +21,7 @@ std::FILE* no_file() {
 
 using Corner = Eigen::Vector3d;
 
-// From x to the segment.
+// The distance of x from the segment.
 double distance_of_segment(const Corner& x, const Corner& a, const Corner& b) {
   const Corner along = b - a;
   const double square = along.squaredNorm();
@@ -50,7 +50,7 @@ class Qhull {
   Qhull& operator=(const Qhull&) = delete;
 
   bool run(std::span<double> coordinates, int dimension) {
-    // Qt: facets of more than three corners, which Qhull makes of nearly coplanar ones, are cut into triangles.
+    // Qt: cuts facets of more than three corners, which Qhull makes of nearly coplanar ones, into triangles.
     std::array<char, 12> options{"qhull Qt Pp"};
     const auto points = static_cast<int>(coordinates.size()) / dimension;
     return qh_new_qhull(&qh_, dimension, points, coordinates.data(), False, options.data(), nullptr, no_file()) == 0;
@@ -71,7 +71,7 @@ class Qhull {
       result.altitude = std::min(result.altitude, least_altitude(places, dimension));
       result.facets.push_back(corners);
     }
-    // Every point is below the outer plane of every facet, and every corner above the inner one.
+    // All points lie below the outer planes of the facets, and all corners above the inner ones.
     result.thickness = qh_maxouter(&qh_) - qh_.min_vertex;
     return result;
   }

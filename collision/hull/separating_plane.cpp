@@ -17,14 +17,14 @@ constexpr int kPerceptronLoops = 300;  // paper §2.2
 constexpr int kLearningSteps = 12;     // before GJK, after a large movement
 constexpr int kWideningSteps = 2;
 constexpr double kWideningTurn = 0.12;  // radians, about
-constexpr double kGoodGap = 0.7;        // of the distance of two corners
+constexpr double kGoodGap = 0.7;        // as a fraction of the distance of two corners
 constexpr std::int8_t kPlanesToLeave = 15;
 
-// Of the radii: how far hulls reach beyond the old plane when it has turned by some degrees, and what GJK had in hand
-// is of no use.
+// As a fraction of the radii: if hulls reach farther beyond the old plane, it has turned by some degrees, and the last
+// simplex of GJK is of no use.
 constexpr double kLargeMovement = 1e-3;
 
-// Whether the corners that are remembered can be those of these hulls.
+// Whether the remembered corners can be corners of these hulls.
 [[maybe_unused]] bool belongs_to(const HullMemory& memory, const ConvexHull& hull_A, const ConvexHull& hull_B) {
   const auto has = [](const ConvexHull& hull, std::int32_t corner) {
     return corner >= 0 && static_cast<std::size_t>(corner) < hull.vertices().size();
@@ -37,12 +37,12 @@ constexpr double kLargeMovement = 1e-3;
   return has(hull_A, memory.corner_A) && has(hull_B, memory.corner_B);
 }
 
-// The plane between two hulls: whether the old one still separates them, and new ones.
+// The search for a separating plane: the old one, if it still separates, or a new one.
 class PlaneSearch {
  public:
   explicit PlaneSearch(HullPair& hulls) : hulls_(hulls), memory_(hulls.memory()), n_guess_(memory_.n_A) {}
 
-  // The plane as it is fixed to A, then to B: only the other hull has to be looked at.
+  // Tests the plane fixed to A, then the plane fixed to B. Only the other hull has to be examined.
   bool old_plane_separates() {
     if (!memory_.has_plane) return false;
     const Vector3d against_B = -(hulls_.R_AB().transpose() * memory_.n_A);
@@ -58,7 +58,7 @@ class PlaneSearch {
     memory_.corner_A = hulls_.hull_A().support(n, memory_.corner_A);
     const double gap_B = n.dot(hulls_.p_AB()) - memory_.reach_B - n.dot(hulls_.vertex_A(memory_.corner_A));
     moved_far_ = -gap_B > kLargeMovement * (hulls_.hull_A().radius() + hulls_.hull_B().radius());
-    // What B reaches along n differs if R is not quite a rotation.
+    // The extent of B along n changes if R is not exactly a rotation.
     const double margin =
         hulls_.climbing_margin() + (hulls_.R_AB().transpose() * n - memory_.n_B).lpNorm<1>() * hulls_.hull_B().reach();
     if (!(gap_B > margin)) return false;
@@ -67,7 +67,7 @@ class PlaneSearch {
     return true;
   }
 
-  // From the centres, if nothing is remembered.
+  // The remembered normal, or the direction between the centres.
   Vector3d first_normal() const {
     if (memory_.has_plane) return memory_.n_A;
     const Vector3d between = hulls_.R_AB() * hulls_.hull_B().center() + hulls_.p_AB() - hulls_.hull_A().center();
@@ -75,7 +75,7 @@ class PlaneSearch {
     return length > 0.0 ? Vector3d(between / length) : Vector3d::UnitX();
   }
 
-  // Begins anew if what is remembered is too old to help.
+  // Starts anew if the memory is too old to help.
   bool gjk_after_movement() {
     if (memory_.has_plane && !moved_far_) return gjk_separates(hulls_, n_guess_);
     memory_.simplex_count = 0;
@@ -85,8 +85,8 @@ class PlaneSearch {
     return learn(kLearningSteps) || gjk_separates(hulls_, n_guess_);
   }
 
-  // The learning rule of the perceptron, for the two corners that are most on the wrong side: both are added to the
-  // plane at once, which leaves its distance from the origin out of account. Steps get smaller, so that it settles.
+  // The learning rule of the perceptron for the two corners that violate the plane most. Adding both to the plane at
+  // once eliminates its distance from the origin. Steps decrease, so that it converges.
   bool learn(int most_loops) {
     Vector3d n = first_normal();
     for (int loop = 0; loop < most_loops; ++loop) {
@@ -99,7 +99,7 @@ class PlaneSearch {
       }
       const double square = w.squaredNorm();
       if (!(square > 0.0)) return false;
-      // Far enough to put these two on their sides, and a share of the step beyond.
+      // The step brings these two corners to their sides, and a share of the step farther.
       const double temperature = 1.0 - static_cast<double>(loop) / most_loops;
       n += (1.0 + temperature) * ((hulls_.margin() - gap) / square) * w;
       const double length = n.norm();
@@ -110,9 +110,10 @@ class PlaneSearch {
     return false;
   }
 
-  // Turns a new plane a little toward where the two corners are that it met first, while that makes the gap larger: so
-  // it holds for longer. They are no nearer to each other than the hulls, so most of their distance is good enough.
-  // Where hulls nearly touch there is little to be won, so after a try in vain some planes are left as they are.
+  // Turns a new plane slightly toward the direction between the two corners that it would meet first, while that
+  // enlarges the gap: so it holds for longer. These corners are at least as far apart as the hulls, so a gap of most of
+  // their distance is good enough. Where hulls nearly touch there is little to gain, so after a failed attempt some
+  // planes are left as they are.
   void widen() {
     if (memory_.planes_to_leave > 0) {
       --memory_.planes_to_leave;
@@ -139,7 +140,7 @@ class PlaneSearch {
  private:
   HullPair& hulls_;
   HullMemory& memory_;
-  Vector3d n_guess_;  ///< where the normal may be, if there is a plane in memory
+  Vector3d n_guess_;  ///< estimate of the normal, if there is a plane in memory
   bool moved_far_ = false;
 };
 
@@ -158,7 +159,7 @@ bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Isome
   } else {
     apart = search.old_plane_separates() || search.gjk_after_movement();
   }
-  // A plane that is new has but the gap that it was found with.
+  // A new plane has only the gap at which it was found; widening may enlarge it.
   if (apart && test == HullTest::kExact && memory.loops > 0) search.widen();
   memory.met = !apart;
   return apart;

@@ -32,7 +32,7 @@ AlignmentTable make_table(int k) {
         table.weights[3 * term + axis][slot] =
             static_cast<float>(vertex.weights_of_direction(row, static_cast<Eigen::Index>(axis)));
       }
-      // What faces `above` is bounded the other way.
+      // The bounds that face `above` are those of the opposite half-spaces.
       const QuarterLine own = quarter(vertex.half_spaces[term]);
       const QuarterLine opposite = quarter(directions.opposite(vertex.half_spaces[term]));
       table.source[2 * slot][2 * term] = opposite;

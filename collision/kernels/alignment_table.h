@@ -1,6 +1,6 @@
 #pragma once
 
-/// What `align` needs to know of a set of directions, in the layout of its vector code.
+/// Constants of a set of directions for `align`, in the layout of its vector code.
 
 #include <array>
 #include <cstdint>
@@ -16,14 +16,14 @@ inline constexpr std::size_t kMostGenericVertices = 2 * kMostSlabs - 2;
 inline constexpr std::size_t kVertexEntries = 32;
 static_assert(kMostGenericVertices <= kVertexEntries);
 
-/// From the vertices of the generic DOP (`generic_dop.h`), one of each mirrored pair.
+/// Data of the vertices of the generic DOP (`generic_dop.h`), one of each mirrored pair.
 struct alignas(64) AlignmentTable {
   int slabs;
   int vertex_count;
   alignas(64) std::array<std::array<float, kAlignmentLanes>, 3> direction;  ///< of each slab; 0 beyond the last
   std::array<std::array<float, 3>, kMostGenericVertices> position;          ///< of each vertex
-  std::array<std::int32_t, kMostGenericVertices> number;                    ///< 0, 1, 2 ...: it is quicker to load
-  alignas(64) std::array<std::array<float, kVertexEntries>, 9> weights;     ///< entry 3 · term + axis of each vertex
+  std::array<std::int32_t, kMostGenericVertices> number;                 ///< 0, 1, 2, …: faster to load than to count
+  alignas(64) std::array<std::array<float, kVertexEntries>, 9> weights;  ///< [3 · term + axis][vertex]
   std::array<std::array<QuarterLine, 6>, 2 * kMostGenericVertices> source;  ///< [2 · vertex + mirrored][2 · term]
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Pairs of the four children of one node, or of the four triangles of one leaf, with those of another, numbered
-/// 4 · child_M + child_N.
+/// Pairs of a child of one node and a child of another, or of triangles of two leaves: 16 pairs, numbered 4 · child_M +
+/// child_N.
 
 #include <array>
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace glissade::collision {
 using PairMask = std::uint32_t;
 inline constexpr PairMask kAllPairs = 0xffff;
 
-/// How far the boxes of each pair overlap along the slab where they do least, in grid steps of M; when negative, the
-/// boxes are certainly at least so far apart.
+/// For each pair, the least overlap of the two boxes over all slabs, in grid steps of M. If it is negative, the boxes
+/// are certainly apart by at least its absolute value.
 struct alignas(32) PairOverlaps {
   std::array<std::int16_t, kWidth * kWidth> overlap;
 };

@@ -21,7 +21,7 @@ constexpr float kLargestValue = 32767.0F;
 using Tag = hn::CappedTag<float, kAlignmentLanes>;
 using V = hn::Vec<Tag>;
 
-// The correspondence of some slabs: where it is, and what it weighs.
+// The correspondence of some slabs: the source of their terms, and the weights.
 struct alignas(64) Side {
   std::int32_t weight[3][kAlignmentLanes];
   std::int32_t offset[kAlignmentLanes];
@@ -34,9 +34,9 @@ struct alignas(64) Correspondence {
 
 using Indices = hn::Vec<hn::RebindToSigned<Tag>>;
 
-// The vertex of the generic DOP that is furthest along each direction or its opposite, as its number. The number is
-// kept in the lowest bits of the reach, so that one maximum finds both; which of two nearly equal vertices wins is no
-// matter.
+// The number of the vertex of the generic DOP that is farthest along each direction or its opposite. The number is kept
+// in the lowest bits of the reach, so that one maximum finds both. It does not matter which of two nearly equal
+// vertices wins.
 HWY_INLINE Indices furthest_vertex(const AlignmentTable& table, const V (&direction)[3]) {
   const Tag d;
   const hn::RebindToSigned<Tag> d32;
@@ -48,7 +48,7 @@ HWY_INLINE Indices furthest_vertex(const AlignmentTable& table, const V (&direct
                                hn::MulAdd(direction[1], hn::Set(d, x[1]), hn::Mul(direction[2], hn::Set(d, x[2]))));
     return hn::BitCast(d, hn::OrAnd(hn::Set(d32, table.number[i]), hn::BitCast(d32, exact), reach_bits));
   };
-  // Every other vertex on its own, so that maxima do not wait for each other. The number of vertices is even.
+  // Even and odd vertices separately, so that maxima do not wait for each other. The number of vertices is even.
   V most[2] = {hn::Zero(d), hn::Zero(d)};
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.vertex_count); i += 2) {
     most[0] = hn::Max(most[0], reach(i));
@@ -87,12 +87,12 @@ HWY_INLINE void find_correspondence(const AlignmentTable& table, const QueryFram
     weight[term] =
         hn::MulAdd(direction[0], entry(0), hn::MulAdd(direction[1], entry(1), hn::Mul(direction[2], entry(2))));
   }
-  // All weights of a mirrored vertex are of the other sign.
+  // For a mirrored vertex, all weights have the opposite sign.
   const V sum = hn::Add(weight[0], hn::Add(weight[1], weight[2]));
   const auto mirrored = hn::And(hn::SignBit(d), sum);
   const V unit = hn::Set(d, kWeightUnit * component(frame.ratio));
   hn::Vec<decltype(d32)> weight_of[3];
-  V residual = hn::Zero(d);  // what the rounded, non-negative weights leave of the direction, at most
+  V residual = hn::Zero(d);  // bound on the error of the direction after rounding weights to non-negative ones
   for (std::size_t term = 0; term < 3; ++term) {
     const V exact = hn::Mul(hn::Xor(weight[term], mirrored), unit);
     const V rounded = hn::Round(hn::Max(hn::Zero(d), hn::Min(exact, hn::Set(d, kLargestValue))));
@@ -102,8 +102,9 @@ HWY_INLINE void find_correspondence(const AlignmentTable& table, const QueryFram
   const auto mirrored_bit = hn::ShiftRight<31>(hn::BitCast(d32, mirrored));  // 0 or −1
   hn::Store(hn::Sub(hn::Add(vertex, vertex), mirrored_bit), d32, found.vertex + first);
 
-  // Grid steps: the residual, over all of N; half a step for rounding each of three products; what single precision did
-  // to the weights (their matrices are of norm 3 at most) and to the centre; what double precision did before.
+  // In grid steps: the residual times the radius of N; half a step for the rounding of each of three products; a
+  // quarter for single precision in the weights (their matrices have norm 3 at most) and in the centre; and the
+  // uncertainty of double precision.
   const V padding = hn::MulAdd(residual, hn::Set(d, kGridRadius / kWeightUnit * 1.001F),
                                hn::Set(d, 1.5F + 0.25F + component(kGridRadius * frame.uncertainty * 1.001)));
   const auto coordinate = [&](int axis) HWY_ATTR { return hn::Set(d, component(kGridRadius * frame.p_MN[axis])); };
@@ -111,8 +112,8 @@ HWY_INLINE void find_correspondence(const AlignmentTable& table, const QueryFram
       hn::MulAdd(slab[0], coordinate(0), hn::MulAdd(slab[1], coordinate(1), hn::Mul(slab[2], coordinate(2))));
   for (const bool is_above : {true, false}) {
     const V exact = hn::Ceil(is_above ? hn::Add(padding, center) : hn::Sub(padding, center));
-    // An offset beyond 16 bits: on the far side it means that nothing is separated there, which no weight must change;
-    // on the near side a smaller offset is safe.
+    // An offset may exceed 16 bits. On the far side this means that nothing is separated there, and no weight may
+    // change that. On the near side a smaller offset is safe.
     const auto is_far = hn::Gt(exact, hn::Set(d, kLargestValue));
     const V kept = hn::Max(hn::Min(exact, hn::Set(d, kLargestValue)), hn::Set(d, -kLargestValue));
     Side& side = is_above ? found.above : found.below;
@@ -122,7 +123,8 @@ HWY_INLINE void find_correspondence(const AlignmentTable& table, const QueryFram
   }
 }
 
-// Eight lanes for each of four values and more: one for each child that it faces `below`, then `above`.
+// Eight lanes for each of four or more values: for each child the value that faces `below`, then the value that faces
+// `above`.
 #if HWY_TARGET == HWY_AVX3
 
 HWY_INLINE void spread(const std::int32_t* below, const std::int32_t* above, std::size_t rows, std::int16_t* lanes) {

@@ -22,7 +22,7 @@ std::size_t find_expired(std::span<const float> expiry, float clock, std::span<s
     const auto kept = hn::Gt(hn::LoadU(d, expiry.data() + first), limit);
     const auto chosen = hn::RebindMask(d32, hn::Not(kept));
     const auto place = hn::Iota(d32, static_cast<std::uint32_t>(first));
-    // A whole vector is stored each time. Compressed in registers: to memory it is slow.
+    // Stores a whole vector each time. Compresses in registers, because compressing to memory is slow.
     hn::StoreU(hn::Compress(place, chosen), d32, expired.data() + count);
     count += hn::CountTrue(d32, chosen);
   }

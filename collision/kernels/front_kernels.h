@@ -8,12 +8,11 @@
 
 namespace glissade::collision {
 
-/// The number of values must be a multiple of it.
+/// The number of values must be a multiple of this.
 inline constexpr std::size_t kFrontPadding = 16;
 
-/// Writes the places of all values that are not greater than `clock` to `expired`, in ascending order, and returns how
-/// many there are. `expired` must have room for all
-/// values.
+/// Writes the indices of all values that are at most `clock` to `expired`, in ascending order, and returns their
+/// number. `expired` must have room for all values.
 std::size_t find_expired(std::span<const float> expiry, float clock, std::span<std::uint32_t> expired);
 
 }  // namespace glissade::collision

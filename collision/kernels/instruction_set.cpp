@@ -17,7 +17,7 @@ struct Target {
   std::string_view name;
 };
 
-// The best first. Plain C++ is what every processor has.
+// The best first. Every processor supports plain C++.
 constexpr std::array<Target, 5> kTargets{{{InstructionSet::kAvx512, HWY_AVX3, "avx512"},
                                           {InstructionSet::kAvx2, HWY_AVX2, "avx2"},
                                           {InstructionSet::kSse4, HWY_SSE4, "sse4"},

@@ -1,5 +1,5 @@
-// Whether triangles cross, for 16 pairs at once, where single precision is certain of it. Compiled once for each
-// instruction set.
+// Intersection of triangles, for 16 pairs at once, decided only where single precision is certain. Compiled once for
+// each instruction set.
 #if defined(GLISSADE_COLLISION_LEAF_CROSSING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef GLISSADE_COLLISION_LEAF_CROSSING_INL_H_
 #undef GLISSADE_COLLISION_LEAF_CROSSING_INL_H_
@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace glissade::collision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The corners of a triangle, first the one that is alone on its side of the other's plane.
+// The corners of a triangle. The apex is alone on its side of the other triangle's plane.
 template <class V>
 struct Apex {
   Vector3<V> apex;
@@ -44,7 +44,7 @@ HWY_INLINE Apex<V> find_apex(D d, const Vector3<V> (&corner)[3], const V (&side)
           hn::IfThenElse(alone0, side[0], hn::IfThenElse(alone1, side[1], side[2]))};
 }
 
-// Three corners of each of two triangles, as seen by single precision.
+// The corners of two triangles, in single precision.
 template <class V>
 struct TwoTriangles {
   Vector3<V> p[3];
@@ -58,12 +58,12 @@ struct DeterminantErrors {
   V of_orientation;
 };
 
-// A determinant of three differences u, v, w of corners, each component of which is off by e_u, e_v, e_w, is off by
-// √3 (e_u |v||w| + e_v |u||w| + e_w |u||v|), where lengths are those after an error. Differences of two corners of N
-// are off by 2 ε, those between M and N by ε, and those within M, which is not moved, by `edge_uncertainty_M`. No
-// difference between the triangles is longer than the one of their first corners and both extents together, none within
-// a triangle longer than two extents. Nine roundings on the way of each product add 2^-24 of it at most, and the
-// products of all components add up to less than 1.16 times |u||v||w|.
+// The error of a determinant of three differences u, v, w of corners, whose components have errors of at most e_u, e_v,
+// e_w, is at most √3 (e_u |v||w| + e_v |u||w| + e_w |u||v|), with lengths that include the errors. Let ε be
+// `corner_uncertainty`. The error is 2 ε for differences of two corners of N, ε for those between M and N, and
+// `edge_uncertainty_M` for those within M, which is not moved. No difference between the triangles is longer than that
+// of their first corners plus both extents; none within a triangle is longer than two extents. Each product undergoes
+// nine roundings of at most 2^-24 of its value, and the products of all components add up to less than 1.16 |u||v||w|.
 template <class D, class V>
 HWY_INLINE DeterminantErrors<V> determinant_errors(D d, const LeafFrame& frame, const TwoTriangles<V>& t, V extent_p,
                                                    V extent_q) {
@@ -80,7 +80,7 @@ HWY_INLINE DeterminantErrors<V> determinant_errors(D d, const LeafFrame& frame, 
   const V one_of_both = hn::Set(d, of_both);
   const V of_p = hn::Set(d, kRoot3 * frame.edge_uncertainty_M);
   const V two_of_p = hn::Set(d, 2.0F * kRoot3 * frame.edge_uncertainty_M);
-  // `of_corners`: what the errors of corners do; `whole`: |u||v||w|.
+  // `of_corners`: contribution of the errors of corners; `whole`: |u||v||w|.
   const auto error_of = [&](V of_corners, V whole)
                             HWY_ATTR { return hn::Add(of_corners, hn::MulAdd(rounding, whole, smallest)); };
   const V q_most = hn::Mul(q, most);
@@ -91,7 +91,7 @@ HWY_INLINE DeterminantErrors<V> determinant_errors(D d, const LeafFrame& frame, 
                    hn::Mul(hn::Add(p, p), hn::Mul(most, most)))};
 }
 
-// On which side of a plane three corners lie.
+// For three corners, determinants whose signs are their sides of a plane.
 template <class V>
 struct Sides {
   V side[3];
@@ -112,8 +112,8 @@ HWY_INLINE hn::Mask<D> all_on_one_side(D d, const Sides<V>& sides) {
   return hn::And(same_sign(d, sides.side[0], sides.side[1]), same_sign(d, sides.side[1], sides.side[2]));
 }
 
-// The two orientations that tell whether the triangles cut the line where their planes meet in the same place: they do
-// if `left` is negative and `right` positive.
+// Two orientations that decide whether the triangles overlap on the line in which their planes intersect: they do if
+// `left` is negative and `right` is positive.
 template <class V>
 struct Orientations {
   V left;
@@ -153,7 +153,7 @@ CertainPairs cross(const LeafFrame& frame, const LeafPair& leaves) {
         t.q,
         {of_M(d, normal_M[0].data(), first), of_M(d, normal_M[1].data(), first), of_M(d, normal_M[2].data(), first)},
         t.p[0]);
-    // Where one plane has all of the other triangle on one side, there is no apex; that is for `test` to find.
+    // If one triangle lies entirely on one side of the other's plane, there is no apex; `test` finds that case.
     const auto sides_certain =
         hn::AndNot(hn::Or(all_on_one_side(d, sides_p), all_on_one_side(d, sides_q)),
                    hn::And(hn::Gt(sides_p.least, errors.of_sides_p), hn::Gt(sides_q.least, errors.of_sides_q)));

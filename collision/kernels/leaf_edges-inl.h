@@ -1,4 +1,4 @@
-// How far cross products of two edges keep triangles apart, for 16 pairs at once. Compiled once for each instruction
+// Gaps between triangles along cross products of their edges, for 16 pairs at once. Compiled once for each instruction
 // set.
 #if defined(GLISSADE_COLLISION_LEAF_EDGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef GLISSADE_COLLISION_LEAF_EDGES_INL_H_
@@ -20,12 +20,13 @@ HWY_BEFORE_NAMESPACE();
 namespace glissade::collision::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Shorter vectors separate nothing, because the square of a gap may underflow. It is then off by 2^-149 at most, which
-// makes the gap along a vector of this length or more too large by less than kUnderflow, the root of 2^-149 over it.
+// Cross products whose square is below kLeastSquare are ignored, because the square of a gap may underflow. An
+// underflow changes that square by at most 2^-149, so the gap along any other cross product is too large by less than
+// kUnderflow, which exceeds the root of 2^-149 / kLeastSquare.
 constexpr float kLeastSquare = 1e-28F;
 constexpr float kUnderflow = 4e-9F;
 
-// The square of the gap along a vector of any length, with its sign.
+// The signed square of the gap along n, a vector of any length.
 template <class V>
 HWY_INLINE V signed_square_of_gap(const Vector3<V>& n, const Vector3<V> (&p)[3], const Vector3<V> (&q)[3]) {
   const hn::DFromV<V> d;

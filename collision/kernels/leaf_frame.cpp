@@ -12,11 +12,11 @@ LeafFrame::LeafFrame(const QueryFrame& frame) {
     }
     p_MN[row] = static_cast<float>(frame.p_MN[static_cast<Eigen::Index>(row)]);
   }
-  // In units of 2^-24, which is the spacing of single precision below 1, and by coordinate. Corners lie within the unit
-  // sphere and are rounded once: half a unit, for N of each coordinate, of which a row of the rotation sums up √3. Then
-  // corners of N are multiplied by rounded factors, one unit of the length, and the products rounded where there is no
-  // fused multiplication, another one, and summed up in three steps on top of a rounded translation. A unit vector sums
-  // up three coordinates (√3), and a projection rounds three products and sums of either corner once more.
+  // By coordinate, in units of 2^-24, the spacing of single precision below 1. Corners lie within the unit sphere and
+  // are rounded once: half a unit. For N this affects each coordinate, and a row of the rotation adds up √3 of it. Then
+  // corners of N are multiplied by rounded factors (one unit of the length), products are rounded where there is no
+  // fused multiplication (another unit), and they are summed in three steps to a rounded translation. A unit vector
+  // adds up three coordinates (√3). A projection rounds three products and sums of either corner once more.
   const double reach = frame.p_MN.lpNorm<Eigen::Infinity>();
   const double corner_M = 0.5;
   const double corner_N = 6.0 * frame.ratio + 4.0 * reach;

@@ -40,8 +40,8 @@ HWY_INLINE void find_normals(LeafTriangles& t) {
     n[axis] = hn::NegMulAdd(u[z], v[y], hn::Mul(u[y], v[z]));
   }
   const Four square = square_of(n);
-  // Any vector may separate. Its inverse length is a little too short, because gaps along it are taken for distances;
-  // where the square underflows, it is 0, and nothing is separated.
+  // Any vector is a valid separating axis. Gaps along it are taken for distances, so its inverse length is rounded
+  // down. If the square underflows, the inverse length is 0, and nothing is separated.
   const auto usable = hn::Ge(square, hn::Set(d, 1e-36F));
   hn::Store(hn::IfThenElseZero(usable, hn::Div(hn::Set(d, 0.999999F), hn::Sqrt(square))), d, t.inverse_length.data());
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -69,7 +69,7 @@ void prepare_M(const TriangleLeaf& leaf_M, LeafPair& leaves) {
       hn::Store(hn::Load(d, leaf_M.corner[axis][c].data()), d, leaves.p.corner[axis][c].data());
   }
   find_normals(leaves.p);
-  // Four bits for each.
+  // The row of four pairs for each triangle in the mask.
   alignas(32) static constexpr std::uint16_t kRows[16] = {0x0000, 0x000f, 0x00f0, 0x00ff, 0x0f00, 0x0f0f,
                                                           0x0ff0, 0x0fff, 0xf000, 0xf00f, 0xf0f0, 0xf0ff,
                                                           0xff00, 0xff0f, 0xfff0, 0xffff};
@@ -94,7 +94,7 @@ void prepare_N(const LeafFrame& frame, const TriangleLeaf& leaf_N, LeafPair& lea
   leaves.present_N = 0x1111U * present(leaf_N);
 }
 
-// Values of four triangles of M and four of N, as many as fit.
+// Values of four triangles of M and four of N, as many as fit into a vector.
 template <class D>
 HWY_INLINE hn::Vec<D> of_both(D d, const float* values_M, const float* values_N, std::size_t first) {
   if constexpr (hn::MaxLanes(D()) == kWidth) {
@@ -136,7 +136,7 @@ float leaf_gap(const LeafFrame& frame, const LeafPair& leaves) {
   return hn::GetLane(hn::MaxOfLanes(d, most)) - frame.uncertainty;
 }
 
-// How far three corners lie beyond the interval [low, high] along a normal, on either side of it.
+// Gap of three corners beyond the interval [low, high] along a normal, on either side of it.
 template <class D, class Normal, class Corner>
 HWY_INLINE hn::Vec<D> gap_along(D, const Normal& n, hn::Vec<D> low, hn::Vec<D> high, const Corner& corner_of) {
   const auto project = [&](std::size_t c) HWY_ATTR {
@@ -172,7 +172,7 @@ PairMask test(const LeafFrame& frame, float distance, LeafPair& leaves) {
   return mask & leaves.present();
 }
 
-// Gaps of other pairs are infinite.
+// Ignores the gaps of all other pairs.
 float least_gap(const LeafPair& leaves, PairMask pairs) {
   alignas(64) static constexpr std::int32_t kBit[kPairs] = {1,   2,   4,    8,    16,   32,   64,    128,
                                                             256, 512, 1024, 2048, 4096, 8192, 16384, 32768};

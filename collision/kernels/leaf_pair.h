@@ -1,6 +1,6 @@
 #pragma once
 
-/// Two leaves brought into one frame, and what is found of the pairs of their triangles.
+/// Two leaves in one frame, and the gaps between their triangles.
 
 #include <array>
 
@@ -9,19 +9,19 @@
 
 namespace glissade::collision {
 
-/// For each pair of triangles (4 · triangle_M + triangle_N), a certain lower bound of its distance in radii of M: how
-/// far the normals of either triangle keep the two apart. Negative when they do not.
+/// For each pair of triangles (4 · triangle_M + triangle_N), a certain lower bound of its distance in radii of M: the
+/// largest gap along the axes that were tested. Negative if none of them separates the pair.
 struct alignas(64) TriangleGaps {
   std::array<float, kWidth * kWidth> gap;
 };
 
-/// Four triangles in the frame of M, with what their own normals see of them.
+/// Four triangles in the frame of M, with their extents along their own normals.
 struct alignas(64) LeafTriangles {
   using Four = std::array<float, kWidth>;
   std::array<std::array<Four, 3>, 3> corner;  ///< [axis][corner][triangle]
   std::array<Four, 3> normal;                 ///< of any length
   Four inverse_length;
-  Four low;  ///< least and greatest projection of the own corners on the normal
+  Four low;  ///< least and greatest projection of a triangle's corners on its normal
   Four high;
   Four extent;  ///< the longer of the two edges at corner 0, rounded up
 };
@@ -30,14 +30,14 @@ struct alignas(64) LeafTriangles {
 struct LeafPair {
   LeafTriangles p;
   LeafTriangles q;
-  TriangleGaps gaps;       ///< once they were tested
-  PairMask present_M = 0;  ///< pairs whose triangle of M is there and has an area
-  PairMask present_N = 0;  ///< and whose triangle of N
+  TriangleGaps gaps;       ///< set by `LeafKernels::test`
+  PairMask present_M = 0;  ///< pairs whose triangle of M exists and has an area
+  PairMask present_N = 0;  ///< the same for the triangle of N
 
   PairMask present() const { return present_M & present_N; }
 };
 
-/// Pairs of triangles that single precision is certain of.
+/// Pairs of triangles that are decided with certainty in single precision.
 struct CertainPairs {
   PairMask intersect;
   PairMask apart;

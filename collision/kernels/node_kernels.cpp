@@ -71,7 +71,7 @@ void realign(const DopAlignment& alignment, const SlabLine* node_N, AlignedNode&
   }
 }
 
-// Turning the four children of each quarter by 0 to 3 places brings every pair together.
+// Rotating the four children of each quarter by 0 to 3 places brings every pair together.
 template <int kRegisters, int kTurn>
 HWY_INLINE __m512i least_overlaps(const __m512i* node_M, const __m512i* facing) {
   __m512i least = _mm512_adds_epi16(node_M[0], _mm512_ror_epi64(facing[0], 16 * kTurn));
@@ -90,7 +90,7 @@ HWY_INLINE PairMask compare(const SlabLine* node_M, const __m512i (&q)[kRegister
   const __m512i turn1 = least_overlaps<kRegisters, 1>(p, q);
   const __m512i turn2 = least_overlaps<kRegisters, 2>(p, q);
   const __m512i turn3 = least_overlaps<kRegisters, 3>(p, q);
-  // Eight quarters of each turn become four, two, one.
+  // The eight quarters of each rotation are reduced to four, two, one.
   const __m512i turns01 =
       _mm512_min_epi16(_mm512_shuffle_i64x2(turn0, turn1, 0x44), _mm512_shuffle_i64x2(turn0, turn1, 0xee));
   const __m512i turns23 =
@@ -98,7 +98,7 @@ HWY_INLINE PairMask compare(const SlabLine* node_M, const __m512i (&q)[kRegister
   const __m512i two =
       _mm512_min_epi16(_mm512_shuffle_i64x2(turns01, turns23, 0x88), _mm512_shuffle_i64x2(turns01, turns23, 0xdd));
   const __m512i one = _mm512_min_epi16(two, _mm512_shuffle_epi32(two, _MM_PERM_BADC));
-  // Pair (p, q) is lane p of the turn by q − p.
+  // Pair (p, q) is lane p of the rotation by q − p.
   alignas(32) static constexpr std::int16_t kLaneOfPair[kPairs] = {0,  8,  16, 24, 25, 1,  9,  17,
                                                                    18, 26, 2,  10, 11, 19, 27, 3};
   const __m256i index = _mm256_load_si256(reinterpret_cast<const __m256i*>(kLaneOfPair));
@@ -156,7 +156,7 @@ PairMask realign_and_test(const DopAlignment& alignment, const SlabLine* node_M,
 void realign(const DopAlignment& alignment, const SlabLine* node_N, AlignedNode& aligned) {
   const hn::FixedTag<std::int16_t, 8> d;
   const hn::FixedTag<std::uint8_t, 16> d8;
-  // A term that is read from `above` changes the places of `above` and `below`.
+  // A term whose source is `above` exchanges the places of `above` and `below`.
   alignas(16) static constexpr std::uint8_t kPlaces[2][16] = {{8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7},
                                                               {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}};
   for (std::size_t i = 0; i < static_cast<std::size_t>(alignment.slabs); ++i) {
@@ -177,7 +177,7 @@ PairMask test(const SlabLine* node_M, const AlignedNode& aligned, int slabs, int
   const hn::CappedTag<std::int16_t, kPairs> d;
   const hn::Repartition<std::uint8_t, decltype(d)> d8;
   const hn::Repartition<std::uint64_t, decltype(d)> d64;
-  // Bytes of `above` of each child of M, four times; those of `below` are eight further on.
+  // Bytes of `above` of each child of M, four times. Bytes of `below` are eight places farther on.
   alignas(32) static constexpr std::uint8_t kChildOfP[2 * kPairs] = {0, 1, 0, 1, 0, 1, 0, 1, 2, 3, 2, 3, 2, 3, 2, 3,
                                                                      4, 5, 4, 5, 4, 5, 4, 5, 6, 7, 6, 7, 6, 7, 6, 7};
   PairMask mask = 0;
@@ -211,7 +211,7 @@ PairMask realign_and_test(const DopAlignment& alignment, const SlabLine* node_M,
 
 #endif
 
-// The greatest value of the pairs in the mask, which is not 0, where value_of(tag, overlaps, first pair).
+// The greatest value_of(tag, overlaps, first pair) of the pairs in the mask, which must not be 0.
 template <class Value>
 HWY_INLINE int greatest(const PairOverlaps& overlaps, PairMask pairs, const Value& value_of) {
   alignas(32) static constexpr std::int16_t kBit[kPairs] = {1,   2,   4,    8,    16,   32,   64,    128,
@@ -231,7 +231,7 @@ int most_overlap(const PairOverlaps& overlaps, PairMask pairs) {
   return greatest(overlaps, pairs, [](auto, auto overlap, std::size_t) HWY_ATTR { return overlap; });
 }
 
-// The number of a pair takes the place of the lowest bits of its overlap, so that one maximum finds both.
+// The number of a pair replaces the lowest bits of its overlap, so that one maximum finds both.
 int deepest(const PairOverlaps& overlaps, PairMask pairs) {
   alignas(32) static constexpr std::int16_t kNumber[kPairs] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   const auto tagged = [](auto d, auto overlap, std::size_t first) HWY_ATTR {

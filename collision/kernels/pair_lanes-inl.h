@@ -19,7 +19,7 @@ namespace glissade::collision::HWY_NAMESPACE {
 
 constexpr std::size_t kPairs = kWidth * kWidth;
 
-// Of a vector that starts at pair `first`: the value of M of each pair.
+// For a vector that starts at pair `first`: the value of M for each pair.
 template <class D>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> of_M(D d, const float* values, std::size_t first) {
   namespace hn = hwy::HWY_NAMESPACE;
@@ -31,7 +31,7 @@ HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> of_M(D d, const float* values, std::size_t
   }
 }
 
-// The value of N of each pair, wherever the vector starts.
+// The value of N for each pair. It is the same wherever the vector starts.
 template <class D>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> of_N(D d, const float* values) {
   return hwy::HWY_NAMESPACE::LoadDup128(d, values);
@@ -40,7 +40,7 @@ HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> of_N(D d, const float* values) {
 // One bit for each lane.
 template <class D>
 HWY_INLINE std::uint32_t bits_of(D d, hwy::HWY_NAMESPACE::Mask<D> mask) {
-  std::uint8_t bits[8] = {};  // StoreMaskBits may write so many
+  std::uint8_t bits[8] = {};  // StoreMaskBits may write 8 bytes
   hwy::HWY_NAMESPACE::StoreMaskBits(d, mask, bits);
   return static_cast<std::uint32_t>(bits[0] | bits[1] << 8);
 }

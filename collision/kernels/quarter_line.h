@@ -1,14 +1,14 @@
 #pragma once
 
-/// How alignments name the values of a node that they combine.
+/// Numbers of the groups of four offsets that an alignment combines.
 
 #include <cstddef>
 #include <cstdint>
 
 namespace glissade::collision {
 
-/// A quarter line (FourValues) of a node, two for each row: its number, and in the sign bit whether that is 16 or more,
-/// for vector code that looks up 16 at once.
+/// The number of a quarter line (FourValues) of a node; each row has two. The sign bit is set if the number is 16 or
+/// more, for vector code that looks up 16 at once.
 using QuarterLine = std::uint64_t;
 constexpr QuarterLine quarter_line(std::size_t number) {
   return number | (number >= 16 ? std::uint64_t{1} << 63 : 0);

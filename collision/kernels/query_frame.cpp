@@ -39,7 +39,7 @@ QueryFrame::QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen
 
 bool QueryFrame::spheres_apart(double tolerance) const {
   if (!(tolerance >= 0.0)) throw std::invalid_argument("a query's tolerance or distance is negative or not a number");
-  // The last term covers the sum itself.
+  // `uncertainty` and the factor below cover the rounding of the sum itself.
   const double reach = 1.0 + ratio + in_base_radii(tolerance) + uncertainty;
   return p_MN.squaredNorm() > reach * reach * (1.0 + 1e-12);
 }

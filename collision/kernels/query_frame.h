@@ -1,9 +1,9 @@
 #pragma once
 
-/// How the two trees of a query lie to each other, and how much rounding may have moved what.
+/// The relative pose of the two trees of a query, with bounds of its errors.
 ///
-/// The tree of larger radius is the base M; nodes of the other tree, N, are realigned into its frame. Both are seen
-/// from their centres; lengths are in radii of M.
+/// The tree of larger radius is the base M; nodes of the other tree, N, are realigned into its frame. Coordinates are
+/// relative to the centres of the trees; lengths are in radii of M.
 
 #include <Eigen/Geometry>
 
@@ -12,11 +12,11 @@
 namespace glissade::collision {
 
 struct QueryFrame {
-  /// X_AB as the queries take it. Throws std::invalid_argument when it is not finite or its matrix not a rotation
-  /// (`rotation_defect` below 1e-3), and for trees of different options.
+  /// Takes X_AB as the queries do. Throws std::invalid_argument if it is not finite or if its matrix is not a rotation
+  /// (`rotation_defect` below 1e-3), and for trees with different options.
   QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB);
 
-  /// Which of two trees is the base.
+  /// Whether the first of two trees is the base.
   static bool base_is_first(const DopTree& tree_A, const DopTree& tree_B) { return tree_A.radius() >= tree_B.radius(); }
 
   bool base_is_A;
@@ -25,20 +25,21 @@ struct QueryFrame {
   double ratio;          ///< radius of N over radius of M, ≤ 1
   double base_radius;    ///< of M, in metres
 
-  /// How far double precision may have moved a point of N, in radii of M: rounding of poses and differences, and what
-  /// keeps the matrix from being a rotation.
+  /// Bound on the error of a point of N in double precision, in radii of M: rounding of poses and differences, and the
+  /// deviation of the matrix from a rotation.
   double uncertainty;
-  /// The absolute values of the entries of RᵀR − 1, added up: 0 of a true rotation, and a bound of any norm.
+  /// The sum of the absolute entries of RᵀR − 1: 0 for an exact rotation, and an upper bound of any norm of that
+  /// matrix.
   double rotation_defect;
 
   /// A lower bound of the gap between the two bounding spheres, in radii of M; negative when they overlap.
   double gap_of_spheres() const { return (p_MN.norm() - 1.0 - ratio) * (1.0 - 1e-12) - uncertainty; }
 
-  /// The two bounding spheres are certainly further apart than `tolerance` (metres). Throws std::invalid_argument when
-  /// that is negative or not a number.
+  /// Whether the two bounding spheres are certainly farther apart than `tolerance` (metres). Throws
+  /// std::invalid_argument if `tolerance` is negative or not a number.
   bool spheres_apart(double tolerance) const;
 
-  /// An upper bound, in radii of M, of distances in M's frame that are `distance` metres in the frame of A.
+  /// An upper bound, in radii of M, of a distance in the frame of M that is `distance` metres in the frame of A.
   double in_base_radii(double distance) const {
     return distance / base_radius * (1.0 + 2.0 * rotation_defect) * (1.0 + 1e-12);
   }

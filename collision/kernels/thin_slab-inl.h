@@ -55,13 +55,14 @@ HWY_INLINE hn::Vec<D> to_float(D d, hn::Vec<hn::Rebind<std::int16_t, D>> values)
   return hn::ConvertTo(d, hn::PromoteTo(hn::RebindToSigned<D>(), values));
 }
 
-// How far pairs overlap along the thinner of their two slabs.
+// For each pair, the lesser of its overlaps along the normals of the two slabs.
 template <class D, class V>
 HWY_INLINE V thin_overlap(D d, const ThinLanes<V>& p, const ThinLanes<V>& q) {
   const auto dot = [](const V(&u)[3], const V(&v)[3])
                        HWY_ATTR { return hn::MulAdd(u[0], v[0], hn::MulAdd(u[1], v[1], hn::Mul(u[2], v[2]))); };
   const V cosine = dot(p.normal, q.normal);
-  // The chord between the normals, turned to the same side, bounds the sine; its error is that of the normals' length.
+  // The chord between the normals, one of them reversed if they point to opposite sides, bounds the sine. Its error is
+  // that of the lengths of the normals.
   V between[3];
   V chord[3];
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -79,10 +80,11 @@ HWY_INLINE V thin_overlap(D d, const ThinLanes<V>& p, const ThinLanes<V>& q) {
   return hn::Min(hn::Sub(reach_M, apart_M), hn::Sub(reach_N, apart_N));
 }
 
-// What to add for the nearest integer to be no less: a half, and more than single precision loses of that.
+// Added before rounding to the nearest integer, so that the result is not less than the exact value: a half, and more
+// than single precision loses.
 constexpr float kRoundUp = 0.51F;
 
-// Lowers the overlaps from pair `first` on, and says which are enough.
+// Lowers the overlaps from pair `first` on. Returns the pairs that still overlap by at least `least_overlap`.
 template <class D, class V>
 HWY_INLINE PairMask lower_overlaps(D d, const ThinSlabFrame& frame, const ThinLanes<V>& p, const ThinLanes<V>& q,
                                    int least_overlap, std::size_t first, PairOverlaps& overlaps) {
@@ -96,7 +98,8 @@ HWY_INLINE PairMask lower_overlaps(D d, const ThinSlabFrame& frame, const ThinLa
 
 constexpr float kNormalStep = 1.0F / 32767.0F;
 
-// In registers of 16 lanes: what a node says fits three of them, from which each pair takes the values of its child.
+// For registers of 16 lanes: the data of a node fit into three registers, from which each pair takes the values of its
+// child.
 template <class D>
 HWY_INLINE ThinLanes<hn::Vec<D>> thin_of_pairs(D d, const NodeHead& head, const SlabLine* node,
                                                const std::int32_t (&child_of_pair)[kPairs]) {
@@ -129,7 +132,7 @@ HWY_INLINE ThinLanes<hn::Vec<D>> thin_of_pairs(D d, const NodeHead& head, const 
           spread(bounds_z_and_sizes, 3)};
 }
 
-// In shorter registers: a lane for each child.
+// For shorter registers: a lane for each child.
 using Four = hn::Vec<hn::FixedTag<float, kWidth>>;
 HWY_INLINE ThinLanes<Four> thin_of_children(const NodeHead& head, const SlabLine* node) {
   const hn::FixedTag<float, kWidth> d;
@@ -145,7 +148,7 @@ HWY_INLINE ThinLanes<Four> thin_of_children(const NodeHead& head, const SlabLine
           floats(head.radius)};
 }
 
-// All nine values, each changed by change(array of four) to a lane for each pair.
+// Expands all nine values from a lane for each child to a lane for each pair, by change(array of four).
 template <class V, class Change>
 HWY_INLINE ThinLanes<V> spread_to_pairs(const ThinLanes<Four>& children, const Change& change) {
   const auto spread = [&](Four values) HWY_ATTR {

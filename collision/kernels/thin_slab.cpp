@@ -14,8 +14,8 @@ ThinSlabFrame::ThinSlabFrame(const QueryFrame& frame) {
     p_MN[row] = static_cast<float>(kGridRadius * frame.p_MN[static_cast<Eigen::Index>(row)]);
   }
   ratio = round_up_to_float(frame.ratio);
-  // Single precision: differences of coordinates of at most this size, three products of them with the components of a
-  // normal, and a dozen operations more; each rounding is at most 2^-24 of it.
+  // Rounding in single precision: differences of coordinates of at most this size, their three products with the
+  // components of a normal, and a dozen further operations. Each rounding is at most 2^-24 of it.
   const double largest = kGridRadius * (1.0 + frame.ratio + frame.p_MN.norm());
   padding = round_up_to_float(0x1p-24 * 64.0 * largest + 4.0 * kGridRadius * frame.uncertainty);
 }

@@ -1,11 +1,11 @@
 #pragma once
 
-/// The test of thin slabs: boxes of fixed directions close in on a smooth surface only linearly as they get smaller, a
-/// slab along the surface's own normal does so quadratically. That decides what close parallel surfaces cost.
+/// The test of thin slabs. Boxes of fixed directions converge to a smooth surface only linearly as they get smaller; a
+/// slab along the surface's own normal converges quadratically. That determines the cost of close parallel surfaces.
 ///
-/// The points of a child lie within a distance `half_width` of a plane and within `radius` of a point c. Along the
-/// normal of the other child they reach at most half_width · |cos| + radius · sin of the angle between the normals. The
-/// slab of either child may separate the pair.
+/// All points of a child lie within a distance `half_width` of a plane and within `radius` of a point c. Along the
+/// normal of the other child they extend by at most half_width · |cos θ| + radius · sin θ, where θ is the angle between
+/// the normals. The slab of either child may separate the pair.
 
 #include <array>
 
@@ -13,14 +13,14 @@
 
 namespace glissade::collision {
 
-/// From grid steps of N to those of M, in single precision.
+/// Maps grid steps of N to grid steps of M, in single precision.
 struct ThinSlabFrame {
   explicit ThinSlabFrame(const QueryFrame& frame);
 
   std::array<std::array<float, 3>, 3> R_MN;
   std::array<float, 3> p_MN;  ///< in grid steps of M
-  float ratio;                ///< grid steps of M in one of N
-  float padding;              ///< grid steps of M; what rounding may have moved
+  float ratio;                ///< one grid step of N in grid steps of M
+  float padding;              ///< bound on rounding errors, in grid steps of M
 };
 
 }  // namespace glissade::collision

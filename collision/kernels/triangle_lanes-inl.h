@@ -1,4 +1,4 @@
-// Vectors in space whose components have a lane for each pair of triangles. Compiled once for each instruction set.
+// Vectors in space whose components have a lane for each triangle pair. Compiled once for each instruction set.
 #if defined(GLISSADE_COLLISION_TRIANGLE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef GLISSADE_COLLISION_TRIANGLE_LANES_INL_H_
 #undef GLISSADE_COLLISION_TRIANGLE_LANES_INL_H_

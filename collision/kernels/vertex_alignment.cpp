@@ -11,9 +11,9 @@ VertexAlignment::VertexAlignment(const DopDirections& directions, const QueryFra
     for (std::size_t axis = 0; axis < 3; ++axis)
       direction[i][axis] = static_cast<float>(direction_N[static_cast<Eigen::Index>(axis)]);
 
-    // Single precision rounds the direction, the vertex, their products and the sum of these, by 2^-24 each time: six
-    // roundings of what is no larger than a corner of the grid. So it does this offset and its sum with the others.
-    // Twice as much is paid back, for what double precision loses is far less than that.
+    // Single precision rounds the direction, the vertex, their products and the sum of these: six roundings by 2^-24 of
+    // values no larger than a corner of the grid. It also rounds this offset and its sum with the others. The padding
+    // is twice that, because errors of double precision are far smaller.
     const double center = kGridRadius * directions.unit[i].dot(frame.p_MN);
     const double largest = 2.0 * kGridRadius * frame.ratio + std::abs(center);
     const double padding = std::ldexp(largest, -20) + kGridRadius * frame.uncertainty;

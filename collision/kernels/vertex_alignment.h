@@ -1,10 +1,10 @@
 #pragma once
 
-/// Realignment by brute force (Klosowski et al. 1998; paper §2.1.1): the nodes of one tree, represented by their
-/// vertices, are enclosed by DOPs of another frame by taking the least and the greatest projection of all vertices on
-/// each direction. That is the tightest DOP there is, for O(k²) operations a node.
+/// Realignment by brute force (Klosowski et al. 1998; paper §2.1.1): encloses the nodes of one tree, given by their
+/// vertices, in DOPs aligned to the other, by the least and the greatest projection of all vertices on each direction.
+/// The result is the tightest DOP, at a cost of O(k²) a node.
 ///
-/// Here to be compared with `DopAlignment`, whose results are looser by rounding only.
+/// Serves comparison with `DopAlignment`, whose DOPs are looser by rounding only.
 
 #include <array>
 #include <span>
@@ -16,20 +16,21 @@
 
 namespace glissade::collision {
 
-/// The directions of the base seen by the nodes: turning those once saves turning every vertex.
+/// The directions of the base in the frame of the nodes: rotating them once saves rotating every vertex.
 struct VertexAlignment {
   VertexAlignment(const DopDirections& directions, const QueryFrame& frame);
 
-  std::array<std::array<float, 3>, kMostSlabs> direction;  ///< grid steps of the base in one of the other tree
-  std::array<float, kMostSlabs> above;  ///< grid steps of the base to be added to the greatest projection
-  std::array<float, kMostSlabs> below;  ///< and to the negative of the least
+  /// In axes of N, scaled so that projections of vertices in grid steps of N are in grid steps of M.
+  std::array<std::array<float, 3>, kMostSlabs> direction;
+  std::array<float, kMostSlabs> above;  ///< added to the greatest projection, in grid steps of M
+  std::array<float, kMostSlabs> below;  ///< added to the negative of the least projection
   int slabs;
 };
 
 using RealignVertices = void (*)(const VertexAlignment& alignment, std::span<const VertexGroup> node_N,
                                  AlignedNode& aligned);
 
-/// That of the instruction set in use; realigns the four children of a node. O(k²).
+/// The function of the instruction set in use; realigns the four children of a node. Cost O(k²).
 RealignVertices realign_vertices();
 
 }  // namespace glissade::collision

@@ -15,7 +15,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr std::size_t kGroupLanes = 4 * kWidth;
 
-// Combines the vertices of each child, which lie four lanes apart.
+// Reduces the vertices of each child, which lie four lanes apart, to one value.
 template <class D, class Combine>
 HWY_INLINE auto fold(D /*d*/, hn::Vec<D> lanes, const Combine& combine) {
   if constexpr (hn::MaxLanes(D()) == kWidth) {
@@ -35,7 +35,7 @@ HWY_INLINE void store_rounded_up(V reach, std::int16_t* to) {
   hn::Store(hn::DemoteTo(d16, hn::ConvertTo(d32, whole)), d16, to);
 }
 
-// A few rows at once: vertices are loaded less often, and no row waits for its last extreme.
+// Several rows at once: vertices are loaded less often, and no row waits for its previous extreme.
 template <std::size_t kRows>
 HWY_INLINE void realign_rows(const VertexAlignment& alignment, std::span<const VertexGroup> node_N, std::size_t first,
                              AlignedNode& aligned) {

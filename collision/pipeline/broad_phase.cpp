@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-// Boost 1.74 includes a header of its own that it tells others not to.
+// Boost 1.74 includes one of its own deprecated headers.
 #define BOOST_ALLOW_DEPRECATED_HEADERS
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
@@ -17,10 +17,10 @@
 namespace glissade::collision {
 namespace {
 
-// Measured: larger boxes save more time here than the pairs they add can take (docs/collision.md).
+// Measured: larger boxes save more time here than their additional pairs cost (docs/collision.md).
 constexpr double kFatOfSize = 0.1;     // of the mean edge
 constexpr double kFramesAhead = 32.0;  // of the last frame's step
-constexpr double kLongestAhead = 1.0;  // of the mean edge: a leap is no speed
+constexpr double kLongestAhead = 1.0;  // of the mean edge, because a leap does not predict motion
 
 Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by) {
   const Eigen::Vector3d border = Eigen::Vector3d::Constant(by);
@@ -53,7 +53,7 @@ class BroadPhase::BoxTree {
     GLISSADE_ASSERT(removed == 1);
   }
 
-  /// Appends the slots whose boxes overlap this one, touching ones too, in no order.
+  /// Appends the slots whose boxes overlap or touch this one, in no particular order.
   void find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& slots) const {
     const auto append = [&slots](const Entry& entry) { slots.push_back(entry.second); };
     tree_.query(boost::geometry::index::intersects(boost_box(box)), boost::make_function_output_iterator(append));
@@ -92,7 +92,7 @@ Eigen::AlignedBox3d BroadPhase::set(std::uint32_t slot, const Eigen::AlignedBox3
   GLISSADE_ASSERT(slot < slots_.size() && !box.isEmpty() && box.min().allFinite() && box.max().allFinite());
   Slot& object = slots_[slot];
   if (!object.fat_box.isEmpty()) fat_boxes_->remove(slot, object.fat_box);
-  // Two roundings are paid back: of what is added here on either side.
+  // Compensates for the two roundings of this addition.
   const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   const Eigen::AlignedBox3d wide = grown(box, half_margin_ + (largest + half_margin_) * 0x1p-51);
   object.fat_box = fattened(wide, step);
@@ -112,7 +112,8 @@ void BroadPhase::remove(std::uint32_t slot) {
   object.neighbors.clear();
 }
 
-// Differences are entered at both ends at once, so the other end, if it is stale as well, does not find them again.
+// Differences are entered at both ends at once, so that the other end, if it is stale as well, does not find them
+// again.
 void BroadPhase::update() {
   began_.clear();
   ended_.clear();
@@ -147,7 +148,7 @@ void BroadPhase::find_pairs(std::uint32_t slot) {
   former.assign(found_.begin(), found_.end());
 }
 
-// Of the two lists of neighbors these change that of `neighbor` only: the other is being gone through.
+// These change the list of `neighbor` only, because the list of `slot` is being traversed.
 void BroadPhase::join(std::uint32_t slot, std::uint32_t neighbor) {
   std::vector<std::uint32_t>& others = slots_[neighbor].neighbors;
   others.insert(std::lower_bound(others.begin(), others.end(), slot), slot);

@@ -1,11 +1,12 @@
 #pragma once
 
-/// Which objects are near each other: the first stage of neighbor finding (paper §2). Objects are slots with boxes in
-/// the world; the broad phase keeps the set of pairs whose boxes may overlap, and says how it changes.
+/// The broad phase: finds the objects that are near each other, the first stage of neighbor finding (paper §2). Each
+/// object is a slot with an axis-aligned bounding box in the world. The broad phase keeps the set of pairs whose boxes
+/// may overlap and reports its changes.
 ///
-/// Boxes are fattened: by a share of their size, and to where they will be soon if they go on as they do. While an
-/// object stays in its fat box, nothing needs to be done for it, so a frame costs what has moved, and pairs do not
-/// come and go with every tremor. A pair is two fat boxes that overlap.
+/// Boxes are fattened by a fraction of their size, and extended to where they will soon be if their motion continues.
+/// While an object stays in its fat box it costs nothing, so the cost of a frame follows the motion, and pairs do not
+/// come and go with every tremor. A pair is two objects whose fat boxes overlap.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,33 +30,32 @@ struct SlotPair {
 /// Thread-safety: that of a standard container. Allocates as the set of pairs changes.
 class BroadPhase {
  public:
-  /// Slots are 0 to `capacity` − 1; all are empty. Objects are also near each other when their boxes are not more than
-  /// `margin` metres apart. Throws std::invalid_argument when that is negative or not finite, or there is no slot.
+  /// Creates the slots 0 to `capacity` − 1, all empty. Boxes that are at most `margin` metres apart count as near, too.
+  /// Throws std::invalid_argument if `margin` is negative or not finite, or if `capacity` is 0.
   explicit BroadPhase(std::size_t capacity, double margin = 0.0);
   ~BroadPhase();
   BroadPhase(BroadPhase&&) noexcept;
   BroadPhase& operator=(BroadPhase&&) noexcept;
 
-  /// Where the object in this slot is from now on, whether there was one or not, and how far it has come in the last
-  /// frame. The box must be finite and not empty. Returns how far the box may move along each axis, which it may do
-  /// without this being called again: a box about the origin. Cost: O(log n).
+  /// Sets the box of the object in this slot, whether the slot was empty or not, and the object's step in the last
+  /// frame. The box must be finite and not empty. Returns the room to move: a box about the origin that holds the
+  /// translations of the box for which `set` need not be called again. Cost O(log n).
   Eigen::AlignedBox3d set(std::uint32_t slot, const Eigen::AlignedBox3d& box,
                           const Eigen::Vector3d& step = Eigen::Vector3d::Zero());
 
-  /// Empties the slot, which must have an object. All its pairs end, also when it is set again before the next
-  /// `update`.
+  /// Empties the slot, which must have an object. All its pairs end, even if it is set again before the next `update`.
   void remove(std::uint32_t slot);
 
-  /// Finds the pairs of what was set since the last call. Cost: O(log n + neighbors) for each of those; nothing for
-  /// all others.
+  /// Finds the pairs of the objects that were set since the last call. Cost: O(log n + neighbors) for each of these,
+  /// nothing for all others.
   void update();
 
-  /// What the last update has changed, ascending: first `ended` left the set of pairs, then `began` joined it. A pair
-  /// is in both when an object was removed and its successor in the slot is near as well.
+  /// Changes of the last update, ascending: first the pairs that left the set, then those that joined it. A pair is in
+  /// both if an object was removed and its successor in the slot is near as well.
   std::span<const SlotPair> ended() const { return ended_; }
   std::span<const SlotPair> began() const { return began_; }
 
-  /// As of the last update, the slots that this one is in a pair with, ascending.
+  /// The slots paired with this one as of the last update, ascending.
   std::span<const std::uint32_t> neighbors(std::uint32_t slot) const { return slots_[slot].neighbors; }
   std::size_t pair_count() const { return pair_count_; }
   /// All pairs, ascending. Cost O(capacity + pairs).
@@ -65,7 +65,7 @@ class BroadPhase {
   struct Slot {
     Eigen::AlignedBox3d fat_box;  ///< empty: no object
     std::vector<std::uint32_t> neighbors;
-    bool is_stale = false;  ///< its pairs are not those of its fat box
+    bool is_stale = false;  ///< its pairs do not match its fat box yet
   };
   class BoxTree;
 

@@ -21,22 +21,22 @@ struct PlacedPair {
   const DopTree& tree_A;
   const DopTree& tree_B;
   Eigen::Isometry3d X_AB;
-  PairSelection selection;  ///< where close pairs are asked for
+  PairSelection selection;  ///< for PairQuery::kClosePairs only
 };
 
 namespace {
 
-// Pairs from now, for the steps of `prefetch`: a query takes about as long as memory.
+// By step of `prefetch`: the number of queries ahead. A query takes about as long as an access to memory.
 constexpr std::array<std::size_t, 4> kPrefetchAhead{6, 4, 2, 1};
 
-// A pair that takes so long is begun with.
+// Queries that take longer are begun first.
 constexpr float kLong_ns = 20'000.0F;
 
-// Where more pairs of triangles than this meet, looking at all of them is most of the work, and a front that remembers
-// what was apart costs more than it saves.
+// If more triangle pairs than this meet, testing them is most of the work, and a front that remembers the others costs
+// more than it saves.
 constexpr std::size_t kManyPairs = 100;
 
-// What the work of a query takes, roughly; only the order of pairs and the number of threads depend on it.
+// Rough estimate of the time of a query by its work. Only the order of pairs and the number of threads depend on it.
 float expected_time_ns(const QueryCounters& counters, std::size_t found) {
   return 150.0F + 5.0F * static_cast<float>(counters.node_tests) + 2.0F * static_cast<float>(counters.triangle_tests) +
          20.0F * static_cast<float>(found);
@@ -85,7 +85,7 @@ void ExactStage::put_long_queries_first(std::vector<PairTable::Number>& near) co
             [&](PairTable::Number m, PairTable::Number n) { return pairs_[m].expected_ns > pairs_[n].expected_ns; });
 }
 
-// Of those that come after this one, before `end`: others may be in other hands.
+// Prefetches for the queries after this one, up to `end`; other threads may have the pairs beyond.
 void ExactStage::prefetch(const std::vector<PairTable::Number>& near, std::size_t i, std::size_t end) {
   for (std::size_t step = 0; step < kPrefetchAhead.size(); ++step) {
     const std::size_t next = i + kPrefetchAhead[step];
@@ -93,8 +93,8 @@ void ExactStage::prefetch(const std::vector<PairTable::Number>& near, std::size_
   }
 }
 
-// Has the memory ready soon that the pair's query will look at; step 0 first, then 1, 2 and 3, each with some queries
-// of other pairs in between.
+// Prefetches the memory that the query of the pair reads: step 0 first, then 1, 2 and 3, each with queries of other
+// pairs in between.
 void ExactStage::prefetch(const TrackedPair& pair, const PairMemory& memory, int step) const {
   const WorldObject& a = world_.objects()[pair.slots.a];
   const WorldObject& b = world_.objects()[pair.slots.b];
@@ -113,7 +113,7 @@ void ExactStage::prefetch(const TrackedPair& pair, const PairMemory& memory, int
   if (step == 3) memory.front->last_hit()->prefetch_corners(base, other);
 }
 
-// Whether the objects are not further apart than `distance`, and all else that is asked for.
+// Determines whether the objects are at most `distance` apart, and everything else that the options require.
 void ExactStage::query(TrackedPair& pair, PairMemory& memory, double distance, int worker) {
   const WorldObject& a = world_.objects()[pair.slots.a];
   const WorldObject& b = world_.objects()[pair.slots.b];

@@ -30,12 +30,12 @@ class ExactStage {
         pool_(pool),
         scratch_(static_cast<std::size_t>(pool.threads())) {}
 
-  /// Finds out which of the pairs are not further apart than `distance` (metres), with the triangles that the options
-  /// ask for, and tells the list of meetings what is new. Changes the order of `near`: long queries come first, so that
-  /// the threads end together.
+  /// Determines which pairs are at most `distance` metres apart, with the triangles that the options require, and
+  /// reports changes to the list of meetings. Reorders `near`: long queries come first, so that all threads end
+  /// together.
   void query(std::vector<PairTable::Number>& near, double distance, StageReport& report);
 
-  /// Whether the last call was shared by several threads; the next one then probably is.
+  /// Whether several threads shared the last call; then they will probably share the next one.
   bool was_shared() const { return was_shared_; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The pairs that meet, kept from frame to frame: each frame says only what has begun and what has ended.
+/// The pairs that meet, kept from frame to frame: each frame reports only the changes.
 
 #include <vector>
 
@@ -15,26 +15,26 @@ namespace glissade::collision {
 
 class MeetingList {
  public:
-  /// A pair that has just been found to meet, and did not before.
+  /// Adds a pair that was found to meet and did not meet before.
   void begin(const TrackedPair& pair, PairTable::Number number) { met_.push_back({pair.slots, number}); }
 
-  /// A pair that has just been found not to meet, and did before.
+  /// Removes a pair that met before and was found to meet no longer.
   void end(const TrackedPair& pair, PairTable::Number number) { parted_.push_back({pair.slots, number}); }
 
-  /// A pair that is apart without a test, whether it met before or not.
+  /// Notes that a pair is apart, without a test. It may have met before or not.
   void part(TrackedPair& pair, PairTable::Number number) {
     if (pair.meets) end(pair, number);
     pair.meets = false;
   }
 
-  /// Brings the pairs that meet, and the account, in `result` up to date. Returns whether they have changed.
+  /// Updates the pairs that meet in `result`, and their counts in its report. Returns whether the pairs have changed.
   bool update(const World& world, FrameResult& result);
 
   /// Copies the triangles of all pairs that meet into `result`.
   void copy_details(PairTable& pairs, FrameResult& result) const;
 
  private:
-  /// Two objects that meet, or did. In the order of their slots.
+  /// Two objects that meet or have met. Ordered by slots.
   struct Meeting {
     SlotPair slots;
     PairTable::Number number;

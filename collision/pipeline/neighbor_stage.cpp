@@ -5,9 +5,9 @@
 namespace glissade::collision {
 namespace {
 
-// What looking at a pair takes, before anything is known about it.
+// Estimated time of the first query of a pair.
 constexpr float kFirstQuery_ns = 5'000.0F;
-// One over the share of objects from which on all pairs are gone through.
+// If more than one object in this many has changed, all pairs are visited.
 constexpr std::ptrdiff_t kMostMove = 4;
 
 }  // namespace
@@ -76,7 +76,7 @@ void NeighborStage::consider_changed(const QueueStage& queue) {
   }
 }
 
-// In the order of memory, each pair once: where most objects move, this is twice as fast as by objects.
+// Visits each pair once, in the order of memory. If most objects move, this is twice as fast as visiting by objects.
 void NeighborStage::consider_changed_in_order(const QueueStage& queue) {
   for (const std::uint32_t slot : queue.changed())
     has_changed_[slot] = 1;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Stage 1 of the pipeline: the pairs that may have come near each other or met, or parted again.
+/// Stage 1 of the pipeline: finds the pairs that may have come near each other or met, or parted again.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,9 +22,9 @@ class NeighborStage {
   NeighborStage(const World& world, const PlacedObjects& placed, BroadPhase& broad_phase, PairTable& pairs,
                 MeetingList& meetings);
 
-  /// Replaces `candidates` by the pairs of interest that may be within `distance` (metres), of those with an object
-  /// that has moved; of all that are tracked where the distance is not that of the frame before. `frame` is the number
-  /// of the frame.
+  /// Replaces `candidates` by the enabled pairs that may be within `distance` (metres). Considers pairs with an object
+  /// that has moved, or all tracked pairs if the distance differs from that of the last frame. `frame` is the number of
+  /// the frame.
   void find(const QueueStage& queue, std::uint64_t frame, double distance, std::vector<PairTable::Number>& candidates,
             StageReport& report);
 
@@ -42,7 +42,7 @@ class NeighborStage {
   PairTable& pairs_;
   MeetingList& meetings_;
 
-  // Of the frame under way.
+  // State of the current frame.
   std::uint32_t frame_ = 0;  ///< low bits of its number
   double distance_ = 0.0;
   std::vector<PairTable::Number>* candidates_ = nullptr;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The pairs that are tracked, by number, and those of an object.
+/// The tracked pairs, by number and by object.
 
 #include <cstdint>
 #include <span>
@@ -12,18 +12,18 @@
 
 namespace glissade::collision {
 
-/// Not thread-safe; but different pairs may be worked on at once.
+/// Not thread-safe, but several threads may work on different pairs at once.
 class PairTable {
  public:
   using Number = std::uint32_t;
 
-  /// Begins to track two different objects, which must not be tracked yet. O(1).
+  /// Begins to track a pair of different objects, which must not be tracked yet. Returns its number. Cost O(1).
   Number add(const SlotPair& slots);
 
-  /// The number of two objects, which must be tracked. O(pairs of one object).
+  /// The number of a pair of objects, which must be tracked. Cost O(pairs of one object).
   Number number_of(const SlotPair& slots) const;
 
-  /// Forgets a pair, which must be tracked; the number may be given to another. O(pairs of either object).
+  /// Ceases to track a pair, which must be tracked. Its number may be reused. Cost O(pairs of either object).
   void remove(Number number);
 
   TrackedPair& operator[](Number number) {
@@ -39,10 +39,10 @@ class PairTable {
     return memories_[number];
   }
 
-  /// Pairs that are tracked.
+  /// Number of tracked pairs.
   std::size_t size() const { return pairs_.size() - free_.size(); }
 
-  /// Calls visit(number) for each, in no particular order.
+  /// Calls visit(number) for each tracked pair, in no particular order.
   template <typename Visit>
   void for_each(const Visit& visit) const {
     for (Number number = 0; number < pairs_.size(); ++number) {

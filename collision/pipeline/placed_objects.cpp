@@ -8,9 +8,9 @@
 namespace glissade::collision {
 namespace {
 
-// Entries of RᵀR − 1, added up: less than this in a world.
+// Bound on the sum of the absolute entries of RᵀR − 1 in a world.
 constexpr double kRotation = 1e-12;
-// Of coordinates: rounded a few times.
+// Relative to coordinates, which are rounded a few times.
 constexpr double kRounding = 1e-14;
 
 }  // namespace
@@ -26,10 +26,10 @@ void PlacedObjects::place(std::uint32_t slot, const WorldObject& object) {
   places_[slot] = {object.X_WO * tree.center(), 0.0};
 }
 
-// A difference of rotations has the singular values s, s and 0: Frobenius' norm is √2 times the largest.
+// A difference of two rotations has the singular values s, s and 0, so its Frobenius norm is √2 times the largest.
 //
-// What is rounded later is paid for here: places are rounded in proportion to where the object has come, and sums of
-// `turned` in proportion to that.
+// Later rounding is compensated here: the error of places is proportional to the coordinates of the object, and the
+// error of sums of `turned` to `turned`.
 Eigen::Vector3d PlacedObjects::move(std::uint32_t slot, const WorldObject& object) {
   Body& body = bodies_[slot];
   Place& place = places_[slot];
@@ -69,7 +69,8 @@ Eigen::Vector3d PlacedObjects::between(std::uint32_t slot_a, std::uint32_t slot_
   return places_[slot_b].c_W - places_[slot_a].c_W;
 }
 
-// Poses seen from each other are rounded, and rotations keep lengths and directions but for their defect.
+// Compensates for the rounding of relative poses, and for the defect of rotations, by which lengths and directions
+// change.
 Separation PlacedObjects::separation(std::uint32_t slot_a, std::uint32_t slot_b, const Eigen::Vector3d& n_W,
                                      double gap) const {
   const Place& a = places_[slot_a];

@@ -7,10 +7,10 @@
 namespace glissade::collision {
 namespace {
 
-// What a test takes.
+// Estimated time of a test of hulls.
 constexpr double kHullTest_ns = 200.0;
 
-// Of the smaller radius. Pairs further apart than that are not near any more, and their memory goes to others.
+// As a fraction of the smaller radius. Pairs farther apart than this are no longer near, and their memory is freed.
 constexpr double kNear = 0.25;
 
 }  // namespace
@@ -37,12 +37,12 @@ bool PlaneStage::may_be_near(PairTable::Number number, double distance) {
   return pair.meets || !are_separated(pair, pairs_.memory(number), distance);
 }
 
-// Whether the hulls are certainly further apart than `distance`. Notes for how long.
+// Whether the hulls are certainly farther apart than `distance`. Notes their separation.
 bool PlaneStage::are_separated(TrackedPair& pair, PairMemory& memory, double distance) const {
   const WorldObject& a = world_.objects()[pair.slots.a];
   const WorldObject& b = world_.objects()[pair.slots.b];
   if (!a.hull || !b.hull) return false;
-  // Boxes are fat, so what enters is mostly not near yet.
+  // Boxes are fat, so most new pairs are not near yet.
   const double gap_of_spheres = memory.hulls.has_plane ? 0.0 : placed_.gap_of_spheres(pair.slots.a, pair.slots.b);
   if (gap_of_spheres > certain_distance(distance)) {
     const Eigen::Vector3d n_W = placed_.between(pair.slots.a, pair.slots.b);

@@ -21,8 +21,9 @@ class PlaneStage {
              ThreadPool& pool)
       : world_(world), placed_(placed), options_(options), pairs_(pairs), pool_(pool) {}
 
-  /// Replaces `near` by the candidates that no plane certainly keeps further apart than `distance` (metres), and notes
-  /// for how long the others are apart. A pair that met in the last frame mostly still does, and is not tested.
+  /// Replaces `near` by the candidates that no plane certainly separates by more than `distance` (metres), and notes
+  /// the separation of the others. A pair that met in the last frame is passed on without a test, because mostly it
+  /// still meets.
   void filter(const std::vector<PairTable::Number>& candidates, double distance, std::vector<PairTable::Number>& near,
               StageReport& report);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Stage 0 of the pipeline: the changes of the world since the last frame, and where they leave its objects.
+/// Stage 0 of the pipeline: applies the changes of the world since the last frame to its objects.
 
 #include <cstdint>
 #include <span>
@@ -19,16 +19,16 @@ class QueueStage {
   QueueStage(World& world, PlacedObjects& placed, BroadPhase& broad_phase)
       : world_(world), placed_(placed), broad_phase_(broad_phase) {}
 
-  /// Takes the changes, and gives objects new boxes in the broad phase where they have left their old ones.
+  /// Takes the changes, and gives new boxes in the broad phase to the objects that have left their old ones.
   void take_changes(StageReport& report);
 
   /// Slots of the objects that are new or have moved.
   std::span<const std::uint32_t> changed() const { return changed_; }
 
-  /// Whether pairs may be of interest that were not, or the other way round.
+  /// Whether pairs may have been enabled or disabled.
   bool interest_changed() const { return interest_changed_; }
 
-  /// Objects in the world.
+  /// Number of objects in the world.
   std::int64_t objects() const { return objects_; }
 
  private:

@@ -7,7 +7,8 @@
 namespace glissade::collision {
 namespace {
 
-// After work, and after a call: the next stage, or the work that was announced, comes within that time, mostly.
+// How long threads stay awake after work and after a call of `wake`. Mostly, the next stage or the announced work comes
+// within this time.
 constexpr std::chrono::microseconds kAwake{500};
 
 int number_of(int threads) {
@@ -18,7 +19,7 @@ int number_of(int threads) {
 
 ThreadPool::ThreadPool(int threads)
     : threads_(number_of(threads)), arena_(threads_), parts_(static_cast<std::size_t>(threads_)) {
-  // oneTBB keeps no more threads than the machine has, unless it is told to.
+  // oneTBB keeps no more threads than the machine has processors, unless allowed to.
   if (threads_ > oneapi::tbb::info::default_concurrency()) {
     allowance_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_));
   }
@@ -78,7 +79,7 @@ void ThreadPool::serve(int worker) {
   }
 }
 
-// Whether there was one to join.
+// Works on the current job, if there is one. Returns whether there was.
 bool ThreadPool::join_job(int worker) {
   std::uint32_t state = open_and_inside_.load(std::memory_order_relaxed);
   while ((state & kOpen) != 0) {

@@ -1,10 +1,9 @@
 #pragma once
 
-/// Independent pieces of work done by several threads, each piece by whoever is free (paper §2.3, coarse
-/// grain).
+/// A thread pool for independent pieces of work: an idle thread takes the next piece (paper §2.3, coarse grain).
 ///
-/// The threads are our own because frames are short: a thread of oneTBB was seen to take part 0.3 to 1.4 ms after it
-/// was asked to, if at all, one that waits for a futex after 50 µs.
+/// The pool has threads of its own because frames are short: a thread of oneTBB was seen to start 0.3 to 1.4 ms after
+/// the request, or not at all; one that waits for a futex starts after 50 µs.
 
 #include <algorithm>
 #include <atomic>
@@ -21,10 +20,10 @@
 
 namespace glissade::collision {
 
-/// Not thread-safe: one thread gives work, and does its share.
+/// Not thread-safe: one thread calls it, and does its share of the work.
 class ThreadPool {
  public:
-  /// With that thread. 0: as many as the machine has.
+  /// `threads` includes the calling thread. 0: as many as the machine has processors.
   explicit ThreadPool(int threads);
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
@@ -32,27 +31,27 @@ class ThreadPool {
 
   int threads() const { return threads_; }
 
-  /// Work that is worth sharing will come soon: whoever sleeps gets up meanwhile, and sleeps again if it does not come.
+  /// Announces work that is worth sharing. Sleeping threads wake up and sleep again if no work comes soon.
   void wake();
 
-  /// Calls work(begin, end, worker) for pieces that make up 0 to `count`; calls with the same `worker` (below
-  /// `threads()`) do not overlap. Whoever is free takes the next `chunk` of them, which must not be 0; who comes too
-  /// late is not waited for. The calling thread does it all when `expected_ns` is not worth sharing. Deterministic if
-  /// pieces do not depend on each other. `work` must not throw.
+  /// Calls work(begin, end, worker) for ranges that make up 0 to `count`; calls with the same `worker` (below
+  /// `threads()`) do not overlap. An idle thread takes the next range of `chunk` pieces; `chunk` must not be 0. Threads
+  /// that come too late are not waited for. The calling thread does everything if `expected_ns` is not worth sharing.
+  /// Deterministic if pieces do not depend on each other. `work` must not throw.
   template <typename Work>
   void for_each(std::size_t count, std::size_t chunk, double expected_ns, const Work& work);
 
-  /// How many of `count` pieces of work to hand out at a time, if all together take `expected_ns`: so many that it is
-  /// large beside the cost of that, and small beside a frame.
+  /// A chunk size for `count` pieces that take `expected_ns` together: the work of a chunk is large compared with the
+  /// cost of handing it out, and small compared with a frame.
   static std::size_t chunk_of(std::size_t count, double expected_ns) {
     const double each = std::max(expected_ns / static_cast<double>(std::max<std::size_t>(count, 1)), 1.0);
     return static_cast<std::size_t>(std::max(1.0, kChunk_ns / each));
   }
 
-  /// Whether so much work is shared.
+  /// Whether work of that expected duration is shared.
   bool is_worth_sharing(double expected_ns) const { return threads_ > 1 && expected_ns >= kWorthSharing_ns; }
 
-  /// Calls work() where tasks of oneTBB that it begins have as many threads as this pool.
+  /// Calls work() in an arena where tasks of oneTBB have as many threads as this pool.
   template <typename Work>
   void run(const Work& work) {
     arena_.execute(work);
@@ -62,7 +61,7 @@ class ThreadPool {
   static constexpr double kWorthSharing_ns = 120'000.0;
   static constexpr double kChunk_ns = 20'000.0;
 
-  /// What is being done. Lives on the stack of `for_each`.
+  /// The current work. Lives on the stack of `for_each`.
   struct Job {
     void (*do_share)(const Job& job, ThreadPool& pool, int worker);
     const void* work;
@@ -70,8 +69,8 @@ class ThreadPool {
     std::size_t chunk;
   };
 
-  /// A worker begins with a part of its own, the same of equal work in every frame, so that what it needs is in the
-  /// cache of its processor; then it takes from the others'.
+  /// Each worker begins with a part of its own. For equal work this is the same part in every frame, so that its data
+  /// are in the cache of the worker's processor. Then it takes from the parts of others.
   struct alignas(64) Part {
     std::atomic<std::size_t> next{0};
     std::size_t end = 0;
@@ -89,13 +88,13 @@ class ThreadPool {
   std::optional<oneapi::tbb::global_control> allowance_;
   oneapi::tbb::task_arena arena_;
 
-  // The caller sets `job_`, then opens it; a worker enters while it is open, and may use it until it leaves. The caller
-  // closes it when nothing is left to be taken, and waits for those inside.
+  // The caller sets `job_`, then opens it. A worker enters while it is open, and may use it until it leaves. The caller
+  // closes it when nothing is left to take, and waits for the workers inside.
   static constexpr std::uint32_t kOpen = 1U << 31;
   std::vector<Part> parts_;  ///< one for each worker
   const Job* job_ = nullptr;
-  std::atomic<std::uint32_t> open_and_inside_{0};  ///< kOpen, and how many workers are inside
-  std::atomic<std::uint32_t> calls_{0};            ///< for those who sleep
+  std::atomic<std::uint32_t> open_and_inside_{0};  ///< kOpen, plus the number of workers inside
+  std::atomic<std::uint32_t> calls_{0};            ///< counts calls of `wake`; sleeping workers wait for a change
   std::atomic<bool> should_stop_{false};
   std::vector<std::thread> workers_;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Two objects whose boxes overlap, and what the pipeline knows of them from frame to frame.
+/// The state of two objects whose boxes overlap, kept from frame to frame.
 
 #include <cstdint>
 #include <memory>
@@ -16,28 +16,28 @@
 
 namespace glissade::collision {
 
-/// What only pairs have that meet in more than a verdict.
+/// Data of pairs that meet, for pipelines that compute more than verdicts.
 struct MeetingDetails {
   ParallelWorkspace workspace;
   std::vector<TrianglePair> triangle_pairs;
   std::vector<ClosePair> close_pairs;
 };
 
-/// What every frame looks at, of many pairs.
+/// Data that every frame reads, for many pairs.
 struct TrackedPair {
-  SlotPair slots{0, 0};      ///< of the world; object a is A of every query; equal ones: no pair
-  Separation separation;     ///< the last that is known
-  std::uint32_t frame = 0;   ///< the last that looked at it; low bits of the number
-  float expected_ns = 0.0F;  ///< of the exact query, by what the last one did
+  SlotPair slots{0, 0};      ///< in the world; object a is A of every query; equal slots: no pair
+  Separation separation;     ///< the last known one
+  std::uint32_t frame = 0;   ///< the last frame that considered the pair; low bits of its number
+  float expected_ns = 0.0F;  ///< of the exact query, estimated from the last one
   bool is_of_interest = false;
   bool meets = false;
 };
 
-/// What only queries look at, of few.
+/// Data that only queries read, for few pairs.
 struct PairMemory {
   HullMemory hulls;
   std::unique_ptr<CoherentFront> front;     ///< while the pair is near
-  std::unique_ptr<MeetingDetails> details;  ///< the same, if they are asked for
+  std::unique_ptr<MeetingDetails> details;  ///< the same, if the options require them
 };
 
 }  // namespace glissade::collision

@@ -2,11 +2,12 @@
 
 namespace glissade::collision {
 
-// A vertex is c + d with |d_i| ≤ h_i and |d| ≤ r, and R d reaches |R| h along the axes, and r, R being a rotation.
+// A vertex is c + d with |d_i| ≤ h_i and |d| ≤ r. R d extends by at most |R| h along the axes and, because R is a
+// rotation, by at most r.
 //
-// What queries see is not quite that: R is a rotation to 1e-12 only, and they take R_A transposed for its inverse,
-// which puts a point of A that is u from A's origin off by as much of |u|; and they round sums of the coordinates of
-// both objects. Each object's box grows by its own share of both, many times over.
+// Queries differ from that in two ways. R is a rotation to 1e-12 only, and they take the transpose of R_A for its
+// inverse, which moves a point of A at distance |u| from A's origin by up to 1e-12 |u|. They also round sums of the
+// coordinates of both objects. The box of each object grows by its own share of both, many times over.
 Eigen::AlignedBox3d world_box(const DopTree& tree, const Eigen::Isometry3d& X_WO) {
   const Eigen::Vector3d center = X_WO * tree.center();
   const Eigen::Vector3d turned = X_WO.linear().cwiseAbs() * tree.half_size();

@@ -15,12 +15,12 @@ namespace {
 
 constexpr float kExpired = -1.0F;
 constexpr float kNever = std::numeric_limits<float>::infinity();  // beyond any clock, which has a bound
-// A front that has grown to this many times its first size is mostly beside the point. Until that is known, because all
-// queries ended early, it may have as many entries as the trees have leaves.
+// A front that has grown to this many times its first size is mostly out of date. Its first size is unknown as long as
+// all queries end early; until then it may have as many entries as the trees have leaves.
 constexpr std::size_t kMostGrowth = 2;
 constexpr std::size_t kSmallFront = 64;
-// Beyond this share of expired entries, beginning at the roots is no dearer. The sum of motions has a bound too,
-// because it is compared in single precision.
+// If more than one entry in this many has expired, restarting at the roots costs no more. The sum of motions is bounded
+// as well, because it is compared in single precision.
 constexpr std::size_t kMostExpired = 2;
 constexpr double kMostMotion = 0.25;
 
@@ -36,7 +36,7 @@ void CoherentFront::start_afresh(const DopTree& base, const DopTree& other) {
   entries_.clear();
   expiry_.clear();
   complete_ = false;
-  most_entries_ = base.leaves().size() + other.leaves().size();
+  most_entries_ = leaves_of(base).size() + leaves_of(other).size();
   moved_ = 0.0;
   add({0, 0, kAllPairs}, false, 0);
 }
@@ -62,7 +62,7 @@ void CoherentFront::holds_for(std::size_t entry, double gap) {
   expiry_[entry] = static_cast<float>((moved_ + gap) * (1.0 - 0x1p-23));  // rounded down if positive
 }
 
-// Brings the clock up to this pose.
+// Advances the clock to this pose.
 void CoherentFront::follow(const DopTree& base, const DopTree& other, const QueryFrame& frame,
                            const VisitSelection& selection) {
   if (base_id_ != base.id() || other_id_ != other.id() || selection_ids_ != selection.ids()) {
@@ -91,7 +91,7 @@ bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, 
   DopVisit step(base, other, frame, distance, alignment, selection);
   if (goal == Goal::kAnyPair && last_hit_) {
     if (last_hit_->still_answers(visitor)) return true;
-    // It looks for crossings, which are not all that counts when there is a distance.
+    // This search finds crossings only, which do not suffice for a distance greater than 0.
     if (!step.has_distance() && last_hit_->wander(step, counters, visitor)) return true;
     last_hit_.reset();
   }
@@ -112,7 +112,7 @@ bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, 
     if (!entries_[entry].is_leaf) {
       visit_nodes(entry, step, counters);
     } else if (visit_leaves(entry, frame, step, leaves, counters, visitor)) {
-      return true;  // what was still open has expired and stays so
+      return true;  // entries that are still open remain expired
     }
   }
   if (!complete_) most_entries_ = kMostGrowth * entries_.size() + kSmallFront;
@@ -120,7 +120,7 @@ bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, 
   return false;
 }
 
-// Children that have come near get entries of their own; the others set the time.
+// Pairs of children that have come near get entries of their own; the others determine the expiry.
 void CoherentFront::visit_nodes(std::size_t entry, DopVisit& step, QueryCounters& counters) {
   const NodePair nodes = entries_[entry].pair;
   PairOverlaps overlaps;
@@ -135,7 +135,7 @@ void CoherentFront::visit_nodes(std::size_t entry, DopVisit& step, QueryCounters
     holds_for(entry, step.least_gap(overlaps, apart));
   }
 
-  // The pair that overlaps most comes last, which is looked at first.
+  // The pair that overlaps most comes last, because the last entry is visited first.
   const std::size_t first = open_.size();
   while (near != 0) {
     const int pair = step.deepest(overlaps, near);
@@ -158,7 +158,7 @@ bool CoherentFront::visit_leaves(std::size_t entry, const QueryFrame& frame, Dop
   }
   PairMask near = step.leaves(leaves, counters);
   const CertainPairs certain = near == 0 ? CertainPairs{} : step.cross(leaves);
-  // What answers the query at once goes first, and what is needed only if nothing does, last.
+  // Pairs that answer the query at once come first; work needed only without an answer comes last.
   const auto answers = [&](int pair, const PairOutcome& outcome) {
     if (outcome.stop) take_last_hit(entry, pair);
     return outcome.stop;

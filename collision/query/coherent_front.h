@@ -1,12 +1,12 @@
 #pragma once
 
-/// What a query of two trees remembers for the next query of the same two: the front where its traversal ended.
+/// The front where the traversal of a query ended, kept for the next query of the same two trees.
 ///
-/// Every pair of triangles, or every one that was selected, is covered by an entry: a visit of two nodes, for the
-/// children that were apart then, or of two leaves. An entry holds good until the part has moved by the least gap it
-/// saw; the sum of all motions is the clock by which it expires. So a query looks again only at what has expired, and
-/// first of all at the pair of triangles that answered the last one. J. Klosowski et al. (1998) begin at such a front
-/// too, and visit all of it.
+/// Every triangle pair, or every selected one, is covered by an entry. An entry is a visit of two nodes, which covers
+/// the pairs of children that were apart then, or a visit of two leaves. It stays valid until the relative motion of
+/// the trees exceeds the least gap that the visit found; the sum of all motions is the clock by which entries expire. A
+/// query examines the triangle pair that answered the last one, then the expired entries, and nothing else. J.
+/// Klosowski et al. (1998) also begin at such a front, but visit all of it.
 
 #include <array>
 #include <cstdint>
@@ -24,7 +24,7 @@
 
 namespace glissade::collision {
 
-/// The pair of triangles that was nearest.
+/// The nearest triangle pair of the last gap query.
 struct NearestPair {
   std::uint64_t base_id;
   std::uint64_t other_id;
@@ -39,16 +39,16 @@ class CoherentFront {
   /// Forgets everything.
   void clear();
 
-  /// Shows the visitor every pair of triangles that may be within `distance` (metres), until it says stop; when any
-  /// pair will do, the one that made it stop last time comes first. Returns whether it did.
+  /// Passes to the visitor every triangle pair that may be within `distance` (metres), until the visitor stops. For
+  /// Goal::kAnyPair, the pair at which it stopped last time comes first. Returns whether the visitor stopped.
   bool query(Goal goal, const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
              DopAlignment& alignment, QueryCounters& counters, TriangleVisitor& visitor,
              const VisitSelection& selection = {});
 
-  /// Where the last query found that the trees meet, if it did.
+  /// The triangle pair at which the last query stopped, if it did.
   const std::optional<LastHit>& last_hit() const { return last_hit_; }
 
-  /// For queries of the gap, which begin with what answered the last one and need no front.
+  /// For gap queries, which begin with the result of the last one and need no front.
   std::optional<NearestPair>& nearest() { return nearest_; }
 
  private:
@@ -72,15 +72,15 @@ class CoherentFront {
   std::array<std::uint64_t, 2> selection_ids_{};
   Eigen::Matrix3d R_MN_ = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_MN_ = Eigen::Vector3d::Zero();
-  double moved_ = 0.0;            ///< since the front was begun, at most, in radii of M
-  bool complete_ = false;         ///< a query has gone through all entries
-  std::size_t most_entries_ = 0;  ///< more, and the front is begun anew
+  double moved_ = 0.0;            ///< bound on the motion since the front began, in radii of M
+  bool complete_ = false;         ///< a query has visited all entries
+  std::size_t most_entries_ = 0;  ///< with more entries the front starts afresh
   std::optional<LastHit> last_hit_;
   std::optional<NearestPair> nearest_;
   std::vector<Entry> entries_;
-  std::vector<float> expiry_;           ///< of each entry: what `moved_` may become; padded by what never expires
-  std::vector<std::uint32_t> expired_;  ///< by the clock; room for all
-  std::vector<std::uint32_t> open_;     ///< entries to be looked at
+  std::vector<float> expiry_;  ///< by entry: the greatest `moved_` for which it is valid; padding never expires
+  std::vector<std::uint32_t> expired_;  ///< entries that the clock has passed; has room for all
+  std::vector<std::uint32_t> open_;     ///< entries to visit
 };
 
 }  // namespace glissade::collision

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Coherent queries for who has many pairs. What a pair needs to remember lies apart from scratch memory, of
-/// which a thread needs only one.
+/// Coherent queries for callers with many pairs. The memory of a pair is separate from scratch memory, of which each
+/// thread needs only one.
 
 #include <vector>
 

@@ -1,5 +1,5 @@
-// The least distance of two trees, by branch and bound: pairs of nodes in the order of what they promise, as long as
-// that is less than what has been found.
+// The least distance of two trees, by branch and bound: pairs of nodes in ascending order of their lower bounds, as
+// long as these are below the least distance found.
 
 #include <algorithm>
 #include <bit>
@@ -24,10 +24,10 @@ class GapSearch {
         step_(placed.base(), placed.other(), placed.frame, std::numeric_limits<double>::infinity(), memory.alignment),
         least_(limit) {}
 
-  /// Begins with this pair of triangles, which is of no consequence but for the work.
+  /// Begins with this triangle pair. The choice affects the amount of work only.
   void begin_with(const NearestPair& pair) { compare(pair.leaf_M, pair.leaf_N, pair.pair); }
 
-  /// The pair that was nearest, if any is nearer than the limit.
+  /// The nearest pair, if its distance is below the limit.
   const std::optional<NearestPair>& nearest() const { return nearest_; }
 
   double run() {
@@ -92,14 +92,14 @@ class GapSearch {
   std::optional<NearestPair> nearest_;
 };
 
-// What the search finds is the least of all distances as they are computed, wherever it begins: boxes and normals never
-// promise more than that, by far more than distances are rounded.
+// The search finds the least of all computed distances, wherever it begins: bounds by boxes and normals are below true
+// distances by far more than the rounding of distances.
 double bound(const PlacedTrees& placed, double limit, QueryWorkspace::Memory& memory,
              std::optional<NearestPair>& nearest) {
   memory.counters = {};
   const double rounding = 4.0 * placed.frame.uncertainty * placed.frame.base_radius;
   if (placed.frame.spheres_apart(limit)) return limit;
-  // So far off boxes cannot be told apart.
+  // At this distance boxes cannot be distinguished: their gaps may leave the range of 16 bits.
   const double between_spheres = placed.frame.base_radius * placed.frame.gap_of_spheres();
   if (between_spheres > placed.frame.base_radius) return std::min(between_spheres, limit);
   GapSearch search(placed, limit, memory);

@@ -13,7 +13,7 @@ class Traversal {
   Traversal(DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor)
       : step_(step), memory_(memory), visitor_(visitor) {}
 
-  /// Stops at the first answer: one pair of children after the other, what overlaps most first.
+  /// Stops at the first answer. Visits one pair of children after another, the greatest overlap first.
   bool find_any() {
     memory_.stack.clear();
     if (dive()) return true;
@@ -43,7 +43,7 @@ class Traversal {
     step_.prefetch(nodes, near);
   }
 
-  /// All children of two nodes are opened before any goes on: so their tests overlap in time.
+  /// Opens all children of two nodes before descending further, so that their tests overlap in time.
   bool continue_all(std::int64_t node_tests) {
     while (!memory_.stack.empty()) {
       if (memory_.counters.node_tests > node_tests) return false;
@@ -64,7 +64,7 @@ class Traversal {
   }
 
  private:
-  // Follows what overlaps most down to two leaves. Only if these do not answer are thin slabs of use.
+  // Follows the greatest overlap down to two leaves. Thin slabs help only if these leaves give no answer.
   bool dive() {
     for (Descent descent{{0, 0, kAllPairs}, false, 0}; !descent.is_leaf;) {
       OpenPair open{descent.next, 0, {}};
@@ -81,7 +81,7 @@ class Traversal {
     return false;
   }
 
-  // Takes the pair of children that overlaps most from those that are still to be looked at.
+  // Takes the pair of children with the greatest overlap of those still to visit.
   Descent next_of(OpenPair& open) const {
     const bool is_only = (open.near & (open.near - 1)) == 0;
     const int pair = is_only ? std::countr_zero(open.near) : step_.deepest(open.overlaps, open.near);

@@ -1,8 +1,8 @@
 #pragma once
 
-/// The simultaneous traversal of both trees from the roots (paper §2.1), for queries that remember nothing: depth
-/// first, opening both nodes of a pair at once. Whoever looks for any pair follows what overlaps most first; whoever
-/// looks for all pairs goes in the order of memory.
+/// Dual-tree traversal from the roots (paper §2.1), for queries without memory: depth first, opening both nodes of a
+/// pair at once. A query for any pair follows the greatest overlap first; a query for all pairs follows the order of
+/// memory.
 
 #include <cstdint>
 #include <vector>
@@ -16,14 +16,14 @@
 
 namespace glissade::collision {
 
-/// Two nodes whose children are being looked at.
+/// Two nodes whose children are being visited.
 struct OpenPair {
   NodePair nodes;
-  PairMask near;  ///< pairs of children still to be looked at
+  PairMask near;  ///< pairs of children still to visit
   PairOverlaps overlaps;
 };
 
-/// Two nodes that are at least so far apart, in metres.
+/// Two nodes, and a lower bound of their distance in metres.
 struct PromisingPair {
   NodePair nodes;
   double gap;
@@ -33,26 +33,27 @@ struct QueryWorkspace::Memory {
   DopAlignment alignment;
   std::vector<OpenPair> stack;
   std::vector<PromisingPair> promising;
-  std::vector<std::uint64_t> places;  ///< of pairs of triangles in the order of answers
+  std::vector<std::uint64_t> places;  ///< sort keys of triangle pairs
   hwy::Sorter sort_places;
   QueryCounters counters;
 };
 
-/// What a traversal is after decides when thin slabs are worth their test.
+/// The goal of a traversal. It decides when thin slabs are worth their test.
 enum class Goal {
-  kAnyPair,   ///< some pair of triangles: dive to the first leaves without thin slabs, they are of use only if that
-              ///< fails
-  kEveryPair  ///< all of them
+  /// Any one triangle pair. Dives to the first leaves without thin slabs, which are worthwhile only if that fails.
+  kAnyPair,
+  /// All triangle pairs.
+  kEveryPair
 };
 
-/// Shows the visitor every pair of triangles that may be near, until it says stop. Returns whether it did.
+/// Passes to the visitor every triangle pair that may be near, until the visitor stops. Returns whether it did.
 bool traverse(Goal goal, DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor);
 
-/// The same for a visitor that never says stop, in pieces. First, the stack is made to hold the roots.
+/// The same in pieces, for a visitor that never stops. This function puts the roots on the stack.
 void begin_all(DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor);
 
-/// Goes on with what is on the stack, until the counter of node tests exceeds `node_tests`. Returns whether nothing is
-/// left. What is left may be divided: the pairs on the stack have nothing to do with each other.
+/// Continues with the stack until the counter of node tests exceeds `node_tests`. Returns whether the stack is empty.
+/// The rest may be divided among threads, because the pairs on the stack are independent.
 bool continue_all(DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor, std::int64_t node_tests);
 
 }  // namespace glissade::collision

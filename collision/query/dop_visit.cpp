@@ -12,15 +12,15 @@
 namespace glissade::collision {
 namespace {
 
-// The pairs of a child of M in one set with a child of N in another.
+// All pairs of a child of M in one set and a child of N in the other.
 PairMask product(std::uint32_t children_M, std::uint32_t children_N) {
   return rows_of(children_M) & columns_of(children_N);
 }
 
 void prefetch_child(const DopTree& tree, std::uint32_t node, int c) {
-  const NodeHead& head = tree.nodes()[node];
+  const NodeHead& head = nodes_of(tree)[node];
   if (head.is_leaf(c)) {
-    prefetch_lines(&tree.leaves()[head.child(c)], sizeof(TriangleLeaf));
+    prefetch_lines(&leaves_of(tree)[head.child(c)], sizeof(TriangleLeaf));
   } else {
     prefetch_node(tree, head.child(c));
   }
@@ -64,39 +64,39 @@ bool DopVisit::boxes_apart() const {
 }
 
 PairMask DopVisit::pairs_of(const NodePair& pair) const {
-  return pair.pairs & product(all_children(base_.nodes()[pair.node_M]), all_children(other_.nodes()[pair.node_N])) &
+  return pair.pairs & product(all_children(nodes_of(base_)[pair.node_M]), all_children(nodes_of(other_)[pair.node_N])) &
          selection_.pairs_of_nodes(pair.node_M, pair.node_N);
 }
 
 PairMask DopVisit::nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCounters& counters) {
   const PairMask pairs = pairs_of(pair);
-  if (pairs == 0) return 0;  // the roots, where nothing is selected
+  if (pairs == 0) return 0;  // happens at the roots only, if nothing is selected
   if (!thin_frame_) begin_nodes();
-  const int children_N = other_.nodes()[pair.node_N].child_count();
+  const int children_N = nodes_of(other_)[pair.node_N].child_count();
   counters.realignments += children_N;
-  counters.node_tests += base_.nodes()[pair.node_M].child_count() * children_N;
+  counters.node_tests += nodes_of(base_)[pair.node_M].child_count() * children_N;
 
   return pairs & (always_near_ | realign_and_test(pair, overlaps));
 }
 
 PairMask DopVisit::realign_and_test(const NodePair& pair, PairOverlaps& overlaps) const {
-  const SlabLine* slabs_M = base_.slabs(pair.node_M);
+  const SlabLine* slabs_M = slabs_of(base_, pair.node_M);
   if (!vertex_alignment_) {
-    return node_kernels_.realign_and_test(alignment_, slabs_M, other_.slabs(pair.node_N), least_overlap_, overlaps);
+    return node_kernels_.realign_and_test(alignment_, slabs_M, slabs_of(other_, pair.node_N), least_overlap_, overlaps);
   }
   AlignedNode aligned;
-  realign_vertices()(*vertex_alignment_, other_.vertices(pair.node_N), aligned);
+  realign_vertices()(*vertex_alignment_, vertices_of(other_, pair.node_N), aligned);
   return node_kernels_.test(slabs_M, aligned, vertex_alignment_->slabs, least_overlap_, overlaps);
 }
 
 PairMask DopVisit::thin_slabs(const NodePair& pair, PairMask near, PairOverlaps& overlaps) const {
-  const NodeHead& head_M = base_.nodes()[pair.node_M];
-  const NodeHead& head_N = other_.nodes()[pair.node_N];
+  const NodeHead& head_M = nodes_of(base_)[pair.node_M];
+  const NodeHead& head_N = nodes_of(other_)[pair.node_N];
   const PairMask thin = near & product(head_M.thin, head_N.thin);
   if (thin == 0) return near;
   return near & (~thin | always_near_ |
-                 node_kernels_.test_thin(*thin_frame_, head_M, base_.slabs(pair.node_M), head_N,
-                                         other_.slabs(pair.node_N), least_overlap_, overlaps));
+                 node_kernels_.test_thin(*thin_frame_, head_M, slabs_of(base_, pair.node_M), head_N,
+                                         slabs_of(other_, pair.node_N), least_overlap_, overlaps));
 }
 
 void DopVisit::prefetch(const NodePair& pair, PairMask near) const {
@@ -108,8 +108,8 @@ void DopVisit::prefetch(const NodePair& pair, PairMask near) const {
 
 void DopVisit::prepare(std::uint32_t leaf_M, std::uint32_t leaf_N, VisitedLeaves& leaves) {
   if (!leaf_frame_) leaf_frame_.emplace(frame_);
-  if (leaves.leaf_M != leaf_M) leaf_kernels_.prepare_M(base_.leaves()[leaf_M], leaves);
-  if (leaves.leaf_N != leaf_N) leaf_kernels_.prepare_N(*leaf_frame_, other_.leaves()[leaf_N], leaves);
+  if (leaves.leaf_M != leaf_M) leaf_kernels_.prepare_M(leaves_of(base_)[leaf_M], leaves);
+  if (leaves.leaf_N != leaf_N) leaf_kernels_.prepare_N(*leaf_frame_, leaves_of(other_)[leaf_N], leaves);
   leaves.leaf_M = leaf_M;
   leaves.leaf_N = leaf_N;
   leaves.selected = selection_.pairs_of_leaves(leaf_M, leaf_N);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// One step of a traversal: two nodes, or two leaves, of one pair of trees.
+/// One step of a dual-tree traversal: the test of two nodes, or of two leaves.
 
 #include <cstdint>
 #include <optional>
@@ -19,89 +19,91 @@
 
 namespace glissade::collision {
 
-/// Two nodes to be compared, and which pairs of their children. Where one tree ends above the other, its leaf stays a
-/// child of the node it belongs to, and fewer pairs are of interest.
+/// Two nodes to test, and the pairs of their children to consider. Where one tree ends above the other, its leaf stays
+/// a child of its node, and only the pairs with this leaf are considered.
 struct NodePair {
   std::uint32_t node_M;
   std::uint32_t node_N;
   PairMask pairs;
 };
 
-/// Where a traversal goes from a pair of children.
+/// The next step of a traversal from a pair of children.
 struct Descent {
-  NodePair next;       ///< nodes, or leaves if both children are
-  bool is_leaf;        ///< both are
-  PairMask including;  ///< the pairs of children that this takes care of
+  NodePair next;       ///< two nodes, or two leaves if both children are leaves
+  bool is_leaf;        ///< `next` has two leaves
+  PairMask including;  ///< the pairs of children that this step covers
 };
 
-/// The two leaves of the last visit; often the next one has one of them again. Of one query only.
+/// The two leaves of the last visit: often the next visit has one of them again. Valid within one query.
 struct VisitedLeaves : LeafPair {
   static constexpr std::uint32_t kNone = UINT32_MAX;
   std::uint32_t leaf_M = kNone;
   std::uint32_t leaf_N = kNone;
   PairMask selected = kAllPairs;
 
-  /// Pairs of triangles that the query is after.
+  /// Triangle pairs that exist and are selected.
   PairMask of_interest() const { return present() & selected; }
 };
 
 /// Compares nodes and leaves of two trees in one frame.
 class DopVisit {
  public:
-  /// Pairs that are certainly further apart than `distance` (metres) are dropped, and those that have nothing of the
-  /// selection. `alignment` is scratch memory.
+  /// Drops pairs that are certainly farther apart than `distance` (metres), and pairs without a selected triangle.
+  /// `alignment` is scratch memory.
   DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance, DopAlignment& alignment,
            const VisitSelection& selection = {});
 
-  /// The bounding boxes of both trees, turned as these are, are certainly further apart than the distance.
+  /// Whether the oriented bounding boxes of both trees are certainly farther apart than the distance.
   bool boxes_apart() const;
 
-  /// The pairs of children there are, among those of interest, with something selected.
+  /// The pairs of `pair` in which both children exist and a triangle is selected.
   PairMask pairs_of(const NodePair& pair) const;
 
-  /// The pairs of children whose boxes may be near; `overlaps` of all pairs, in grid steps of the base.
+  /// The pairs of children whose boxes may be near. Sets the overlaps of all pairs, in grid steps of the base.
   PairMask nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCounters& counters);
 
-  /// Those of the pairs `near` whose thin slabs may be near too, where both have one; lowers their overlaps.
+  /// The pairs of `near` without those that thin slabs separate. Tests the pairs in which both children have a thin
+  /// slab, and lowers their overlaps.
   PairMask thin_slabs(const NodePair& pair, PairMask near, PairOverlaps& overlaps) const;
 
-  /// Has the memory ready soon of all children with a pair in the mask: they would be waited for one by one.
+  /// Prefetches all children with a pair in the mask. Without this, visits would wait for one after another.
   void prefetch(const NodePair& pair, PairMask near) const;
 
-  /// Of the pairs of children in the mask, which is not 0, one that overlaps about most.
+  /// A pair of children in the mask, which must not be 0, whose overlap is about the greatest.
   int deepest(const PairOverlaps& overlaps, PairMask pairs) const { return node_kernels_.deepest(overlaps, pairs); }
 
-  /// The descent from one pair of children. Where a leaf meets a node, the node is opened, for all leaves that meet it
-  /// according to `near`.
+  /// The next step from one pair of children. If one child is a leaf and the other a node, the node is opened for all
+  /// leaves that are paired with it in `near`.
   Descent descend(const NodePair& nodes, PairMask near, int pair) const;
 
-  /// Brings two leaves together for the functions below.
+  /// Transforms two leaves into one frame for the functions below.
   void prepare(std::uint32_t leaf_M, std::uint32_t leaf_N, VisitedLeaves& leaves);
 
-  /// A certain lower bound of the distance of two leaves as a whole, in radii of the base; may be negative.
+  /// A certain lower bound of the distance of two whole leaves, in radii of the base; may be negative.
   double leaf_gap(const LeafPair& leaves, QueryCounters& counters) const;
 
-  /// The pairs of triangles that their normals may let be near.
+  /// The selected triangle pairs that no normal certainly separates by more than the distance.
   PairMask leaves(VisitedLeaves& leaves, QueryCounters& counters) const;
 
-  /// Of those, the ones that certainly intersect, and the ones that certainly do not. Nothing is certain when pairs
-  /// within a distance are looked for.
+  /// The triangle pairs that certainly intersect, and those that certainly do not. Both sets are empty for a distance
+  /// greater than 0.
   CertainPairs cross(const LeafPair& leaves) const;
 
-  /// Of the pairs in the mask, those that cross products of edges do not certainly keep further apart than the distance
-  /// looked for; raises their gaps.
+  /// The pairs in the mask that no cross product of edges certainly separates by more than the distance. Raises their
+  /// gaps.
   PairMask edges(LeafPair& leaves, PairMask pairs) const;
 
-  /// The least gap that is known of some pairs of triangles, in radii of the base; 1e30 of none.
+  /// The least known gap of the triangle pairs in the mask, in radii of the base; 1e30 for an empty mask.
   double least_gap(const LeafPair& leaves, PairMask pairs) const;
 
-  /// The same of some pairs of children, which must not be none, in radii of the base.
+  /// The least gap of the pairs of children in the mask, which must not be 0, in radii of the base.
   double least_gap(const PairOverlaps& overlaps, PairMask pairs) const;
 
-  /// Whether pairs further apart than 0 are looked for. If not, the predicate costs no more than the edges.
+  /// Whether the distance is greater than 0. If it is 0, the exact predicate costs no more than the cross products of
+  /// edges.
   bool has_distance() const { return distance_ > 0.0F; }
 
-  /// Whether a gap is more than the distance looked for.
+  /// Whether a gap (radii of the base) is greater than the distance.
   bool beyond(double gap) const { return gap > static_cast<double>(distance_); }
 
  private:
@@ -114,19 +116,19 @@ class DopVisit {
   const QueryFrame& frame_;
   DopAlignment& alignment_;
   const VisitSelection selection_;
-  std::optional<ThinSlabFrame> thin_frame_;          ///< once a node is visited: some coherent queries see leaves only
+  std::optional<ThinSlabFrame> thin_frame_;          ///< set by the first visit of nodes, which may never come
   std::optional<VertexAlignment> vertex_alignment_;  ///< the same, for realignment by brute force
-  std::optional<LeafFrame> leaf_frame_;              ///< once a leaf is
+  std::optional<LeafFrame> leaf_frame_;              ///< set by the first visit of leaves
   const NodeKernels& node_kernels_;
   const LeafKernels& leaf_kernels_;
   int least_overlap_;
-  PairMask always_near_;  ///< all pairs when the distance goes beyond what 16 bits can tell
+  PairMask always_near_;  ///< all pairs if the distance exceeds the range of 16 bits
   float distance_;
 };
 
 inline Descent DopVisit::descend(const NodePair& nodes, PairMask near, int pair) const {
-  const NodeHead& head_M = base_.nodes()[nodes.node_M];
-  const NodeHead& head_N = other_.nodes()[nodes.node_N];
+  const NodeHead& head_M = nodes_of(base_)[nodes.node_M];
+  const NodeHead& head_N = nodes_of(other_)[nodes.node_N];
   const int p = pair / kWidth;
   const int q = pair % kWidth;
   if (head_M.is_leaf(p) == head_N.is_leaf(q)) {

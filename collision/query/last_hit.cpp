@@ -36,7 +36,7 @@ bool LastHit::try_leaves(std::uint32_t leaf_M, std::uint32_t leaf_N, DopVisit& s
   return true;
 }
 
-// Down along what overlaps most.
+// Descends along the greatest overlap.
 bool LastHit::dive(NodePair nodes, DopVisit& step, QueryCounters& counters, TriangleVisitor& visitor) {
   for (;;) {
     put_below(nodes);
@@ -56,8 +56,8 @@ void LastHit::put_below(const NodePair& nodes) {
 }
 
 void LastHit::prefetch_leaves(const DopTree& base, const DopTree& other) const {
-  prefetch_lines(&base.leaves()[leaf_P_], sizeof(TriangleLeaf));
-  prefetch_lines(&other.leaves()[leaf_Q_], sizeof(TriangleLeaf));
+  prefetch_lines(&leaves_of(base)[leaf_P_], sizeof(TriangleLeaf));
+  prefetch_lines(&leaves_of(other)[leaf_Q_], sizeof(TriangleLeaf));
 }
 
 void LastHit::prefetch_triangles(const DopTree& base, const DopTree& other) const {

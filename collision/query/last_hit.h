@@ -1,7 +1,7 @@
 #pragma once
 
-/// Where two meshes were found to meet. From one query to the next the crossing of two surfaces wanders to
-/// triangles next to where it was, so the next search begins there.
+/// The place where two meshes were found to meet. Between queries, the intersection of two surfaces moves to adjacent
+/// triangles, so the next search begins there.
 
 #include <array>
 #include <cstdint>
@@ -14,27 +14,28 @@
 
 namespace glissade::collision {
 
-/// A pair of triangles that answered a query, and the nodes above them.
+/// The triangle pair that answered a query, and the pairs of nodes above it.
 class LastHit {
  public:
-  /// `pair` of two leaves, see `TriangleVisitor`.
+  /// `pair` is numbered as in `TriangleVisitor`.
   LastHit(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) : leaf_P_(leaf_M), leaf_Q_(leaf_N), pair_(pair) {}
 
-  /// The next pair of nodes above those that were added.
+  /// Adds the next pair of nodes above those added so far.
   void add_above(const NodePair& nodes) {
     if (!is_full()) above_[static_cast<std::size_t>(levels_++)] = nodes;
   }
   bool is_full() const { return levels_ == kLevels; }
 
-  /// Whether the visitor says stop at this pair of triangles.
+  /// Whether the visitor stops at this triangle pair.
   bool still_answers(TriangleVisitor& visitor) const { return visitor.visit(leaf_P_, leaf_Q_, pair_).stop; }
 
-  /// Looks for another pair that certainly intersects: in the same two leaves, then below each of the nodes above, at
-  /// last below the roots. Becomes that one if the visitor says stop. A search that fails says nothing.
+  /// Searches for another triangle pair that certainly intersects: in the same two leaves, then below each of the nodes
+  /// above, finally below the roots. If the visitor stops at one, remembers that pair and returns true. A failed search
+  /// proves nothing.
   bool wander(DopVisit& step, QueryCounters& counters, TriangleVisitor& visitor);
 
-  /// Have the memory ready soon that a query will look at: to be called one after the other, with other work in
-  /// between, because each needs what the one before has asked for.
+  /// Prefetch the memory that a query will read. Call them in this order, with other work in between: each reads what
+  /// the previous one has fetched.
   void prefetch_leaves(const DopTree& base, const DopTree& other) const;
   void prefetch_triangles(const DopTree& base, const DopTree& other) const;
   void prefetch_corners(const DopTree& base, const DopTree& other) const;
@@ -46,10 +47,10 @@ class LastHit {
   void put_below(const NodePair& nodes);
 
   std::int32_t triangle_M(const DopTree& base) const {
-    return base.leaves()[leaf_P_].triangle[static_cast<std::size_t>(pair_ / kWidth)];
+    return leaves_of(base)[leaf_P_].triangle[static_cast<std::size_t>(pair_ / kWidth)];
   }
   std::int32_t triangle_N(const DopTree& other) const {
-    return other.leaves()[leaf_Q_].triangle[static_cast<std::size_t>(pair_ % kWidth)];
+    return leaves_of(other)[leaf_Q_].triangle[static_cast<std::size_t>(pair_ % kWidth)];
   }
 
   static constexpr int kLevels = 4;

@@ -19,7 +19,7 @@ bool boxes_apart(const DopTree& base, const DopTree& other, const QueryFrame& fr
   if (((p.cwiseAbs() - half_M - abs_R * half_N).array() > margin).any()) return true;
   const Vector3d seen_from_N = R.transpose() * p;
   if (((seen_from_N.cwiseAbs() - half_N - abs_R.transpose() * half_M).array() > margin).any()) return true;
-  // Cross products of edges are hardly longer than 1, so that gaps along them are overrated within the margin at most.
+  // Cross products of edges exceed length 1 by so little that the margin covers the overestimated gap.
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const int k = (i + 2) % 3;

@@ -1,7 +1,8 @@
 #pragma once
 
-/// Whether the bounding boxes of two whole meshes are apart, each box as its mesh is turned. Realigned nodes know the
-/// faces of one tree only; two box-like parts that are close to each other are told apart by those of the other.
+/// Separating-axis test between the oriented bounding boxes of two whole meshes. Realigned nodes have the face
+/// directions of one tree only. Two box-like parts close to each other may be separated only by directions of the other
+/// tree, or of both.
 
 #include <glissade/collision/dop_tree.h>
 
@@ -9,8 +10,8 @@
 
 namespace glissade::collision {
 
-/// The boxes of both trees are certainly further apart than `distance` (radii of the base), by one of the fifteen axes
-/// that decide it (S. Gottschalk et al. 1996).
+/// Whether the boxes of both trees are certainly farther apart than `distance` (radii of the base) along one of the
+/// fifteen axes that decide whether they are disjoint (S. Gottschalk et al. 1996).
 bool boxes_apart(const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance);
 
 }  // namespace glissade::collision

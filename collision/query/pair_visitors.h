@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the queries ask of each pair of triangles that may be near.
+/// Visitors that test the triangle pairs of a query exactly.
 
 #include <vector>
 
@@ -12,7 +12,7 @@
 
 namespace glissade::collision {
 
-/// Whether two triangles are within a tolerance, and their distance if that had to be found out.
+/// Whether two triangles are within a tolerance, and their distance; negative if it was not computed.
 struct Nearness {
   bool near;
   double distance;
@@ -58,7 +58,7 @@ class AnyPair final : public PlacedVisitor {
   double tolerance_;
 };
 
-/// Notes every pair within the tolerance: as triangles, or with their closest points.
+/// Collects every pair within the tolerance, as triangle indices or with closest points.
 template <typename Pair>
 class PairCollector final : public PlacedVisitor {
  public:

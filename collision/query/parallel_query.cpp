@@ -17,8 +17,8 @@
 namespace glissade::collision {
 namespace {
 
-// A box test and the triangle tests that follow it take 10 to 20 ns. Sleeping threads need 50 us to wake, if not more,
-// so a query is shared when it has gone on for about that long; pieces are large beside the cost of handing one over,
+// A box test and the triangle tests that follow it take 10 to 20 ns. Sleeping threads need at least 50 us to wake, so a
+// query is shared once it has taken about that long. A piece takes long compared with handing it over, which costs
 // about a microsecond.
 constexpr std::int64_t kTestsWorthSharing = 4'000;
 constexpr std::int64_t kTestsOfPiece = 1'500;
@@ -34,10 +34,10 @@ struct ParallelWorkspace::Memory {
   oneapi::tbb::enumerable_thread_specific<Worker> workers;
   QueryWorkspace scratch;  ///< of the calling thread
   QueryCounters counters;
-  // oneTBB puts a piece after its giving and the end of the wait after all pieces; these say so once more, because the
-  // thread sanitizer does not look into the library.
-  std::atomic<int> pieces{0};  ///< given
-  std::atomic<int> done{0};    ///< of these
+  // oneTBB orders a piece after its submission, and the end of the wait after all pieces. These counters repeat that
+  // order, because the thread sanitizer does not look into the library.
+  std::atomic<int> pieces{0};  ///< submitted
+  std::atomic<int> done{0};    ///< completed
 };
 
 ParallelWorkspace::ParallelWorkspace() : memory_(std::make_unique<Memory>()) {}
@@ -72,7 +72,8 @@ QueryCounters& operator+=(QueryCounters& sum, const QueryCounters& c) {
   return sum;
 }
 
-// Takes the older half of what is still to be done: nodes nearer to the roots, so the larger part of the work.
+// Removes the older half of the remaining work from the stack and returns it: nodes nearer to the roots, so the larger
+// part of the work.
 Stack older_half(Stack& stack) {
   const auto middle = stack.begin() + static_cast<std::ptrdiff_t>(stack.size() / 2);
   Stack half(stack.begin(), middle);
@@ -80,20 +81,20 @@ Stack older_half(Stack& stack) {
   return half;
 }
 
-// One query that has turned out to be large.
+// A query that has turned out to be large.
 template <typename Pair>
 class SharedQuery {
  public:
   SharedQuery(const PlacedTrees& placed, double distance, ParallelWorkspace::Memory& memory)
       : placed_(placed), distance_(distance), memory_(memory) {}
 
-  // Does what is on the stack of the calling thread, and appends what is found.
+  // Completes the work on the stack of the calling thread, and appends the pairs found.
   void run(Stack& stack, std::vector<Pair>& pairs) {
     for (Worker& worker : memory_.workers) {
       pairs_of(worker, static_cast<const Pair*>(nullptr)).clear();
       worker.scratch.memory().counters = {};
     }
-    // A thread that waits here must not begin anything else, which might take long.
+    // A thread that waits here must not begin unrelated tasks, which might take long.
     oneapi::tbb::this_task_arena::isolate([&] {
       hand_over(older_half(stack));
       hand_over(std::move(stack));

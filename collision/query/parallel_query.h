@@ -1,8 +1,8 @@
 #pragma once
 
-/// Queries of all pairs by several threads, for pairs of objects that meet in so many triangles that one thread would
-/// be long about it (paper §2.3, fine grain). Whether it is worth waking others shows while the query goes on: it
-/// begins in the calling thread alone, and only when that has seen enough work divides what is still before it.
+/// Queries for all triangle pairs by several threads, for objects that meet in so many triangles that one thread would
+/// take long (paper §2.3, fine grain). A query begins in the calling thread alone. It divides the rest only once it has
+/// done enough work to make waking other threads worthwhile.
 
 #include <memory>
 #include <vector>
@@ -13,8 +13,7 @@
 
 namespace glissade::collision {
 
-/// Scratch memory and counters of such queries. Keep one for each query that is under way and reuse it. Not
-/// thread-safe.
+/// Scratch memory and counters of such queries. Keep one for each query in progress and reuse it. Not thread-safe.
 class ParallelWorkspace {
  public:
   ParallelWorkspace();
@@ -22,9 +21,9 @@ class ParallelWorkspace {
   ParallelWorkspace(ParallelWorkspace&&) noexcept;
   ParallelWorkspace& operator=(ParallelWorkspace&&) noexcept;
 
-  /// Work of the last query, of all threads together: the same however many there are.
+  /// Work of the last query, summed over all threads; independent of their number.
   const QueryCounters& counters() const;
-  /// Pieces of the last query that could go to other threads; 0 when the calling thread did it all.
+  /// Number of pieces of the last query that other threads could take; 0 if the calling thread did everything.
   int pieces() const;
 
   struct Memory;
@@ -34,8 +33,8 @@ class ParallelWorkspace {
   std::unique_ptr<Memory> memory_;
 };
 
-/// As the functions of `dop_query.h`: the same pairs in the same order, whatever the number of threads. The threads are
-/// oneTBB's, those of the arena that the caller is in. May block and allocate.
+/// As in `dop_query.h`: the same pairs in the same order for any number of threads. Runs on the threads of the oneTBB
+/// arena of the caller. May block and allocate.
 void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                         ParallelWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance = 0.0);
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,

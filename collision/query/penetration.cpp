@@ -13,13 +13,13 @@ using Eigen::Vector3d;
 constexpr int kTriedDirections = 48;
 constexpr std::size_t kTriedPairs = 16;                               // of triangles, whose normals are tried
 constexpr std::array<double, 4> kTriedShares{0.995, 0.5, 0.25, 0.1};  // of the best length
-constexpr double kLeastGain = 0.99;                                   // a direction nearby must be this much better
-constexpr double kLengthPrecision = 1e-3;                             // of a length
-constexpr double kFirstTilt = 0.4;                                    // radians
+constexpr double kLeastGain = 0.99;        // a nearby direction must shorten the way to this share
+constexpr double kLengthPrecision = 1e-3;  // relative to a length
+constexpr double kFirstTilt = 0.4;         // radians
 constexpr double kLastTilt = 0.005;
 constexpr int kTriedNearby = 6;
 
-// Evenly all around: a spiral from pole to pole, whose turns are golden sections.
+// Directions spread evenly over the sphere: a spiral from pole to pole with turns by the golden angle.
 Vector3d spiral_direction(int i) {
   const double z = 1.0 - (2.0 * i + 1.0) / kTriedDirections;
   const double angle = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
@@ -62,7 +62,7 @@ class WayOut {
     return !intersects(tree_A_, tree_B_, X, workspace_, clearance_);
   }
 
-  // How far the bounding spheres have to go along n until they are apart.
+  // Length of the translation along n after which the bounding spheres are apart.
   double surely_free(const Vector3d& n) const {
     const double apart = 1.001 * (tree_A_.radius() + tree_B_.radius() + clearance_);
     const double along = n.dot(between_);
@@ -70,7 +70,8 @@ class WayOut {
     return across < apart * apart ? std::max(0.0, std::sqrt(apart * apart - across) - along) : 0.0;
   }
 
-  // A length along n where they are apart, and a little less is too little, from one where they are.
+  // Given a length along n at which the meshes are apart, returns a length at which they are apart and slightly below
+  // which they are not.
   double shortened(const Vector3d& n, double free) {
     double inside = 0.0;
     while (free - inside > kLengthPrecision * free) {
@@ -105,7 +106,7 @@ class WayOut {
     }
   }
 
-  // Round the best direction, in rings that get narrower.
+  // Tries directions around the best one, in rings of decreasing radius.
   void look_nearby() {
     for (double turn = kFirstTilt; turn > kLastTilt;) {
       const Vector3d u = n_.unitOrthogonal();
@@ -125,7 +126,7 @@ class WayOut {
   const Eigen::Isometry3d& X_AB_;
   QueryWorkspace& workspace_;
   double clearance_;
-  Vector3d between_;  ///< the centres of the trees
+  Vector3d between_;  ///< from the centre of tree A to that of tree B
   Vector3d n_;        ///< the best direction so far
   double length_ = 0.0;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The two trees of a query where they lie. All corners are in the frame of A.
+/// The two trees of a query at their relative pose. All corners are in the frame of A.
 
 #include <Eigen/Geometry>
 
@@ -14,7 +14,7 @@
 
 namespace glissade::collision {
 
-/// Two trees at a pose, and their triangles one pair at a time.
+/// Two trees at a relative pose, with access to their triangle pairs.
 struct PlacedTrees {
   const DopTree& tree_A;
   const DopTree& tree_B;
@@ -32,8 +32,8 @@ struct PlacedTrees {
   }
 
   TrianglePair triangles(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) const {
-    const std::int32_t triangle_M = base().leaves()[leaf_M].triangle[static_cast<std::size_t>(pair / kWidth)];
-    const std::int32_t triangle_N = other().leaves()[leaf_N].triangle[static_cast<std::size_t>(pair % kWidth)];
+    const std::int32_t triangle_M = leaves_of(base())[leaf_M].triangle[static_cast<std::size_t>(pair / kWidth)];
+    const std::int32_t triangle_N = leaves_of(other())[leaf_N].triangle[static_cast<std::size_t>(pair % kWidth)];
     return frame.base_is_A ? TrianglePair{triangle_M, triangle_N} : TrianglePair{triangle_N, triangle_M};
   }
   geometry::TrianglePoints points_A(const TrianglePair& pair) const {

@@ -8,7 +8,7 @@
 namespace glissade::collision {
 namespace {
 
-// Orders pairs as their own comparison does, in one step.
+// A key that orders pairs as their own comparison does, in one step.
 std::uint64_t place_of(const TrianglePair& pair) {
   return static_cast<std::uint64_t>(static_cast<std::uint32_t>(pair.triangle_A)) << 32 |
          static_cast<std::uint32_t>(pair.triangle_B);
@@ -19,8 +19,8 @@ TrianglePair pair_at(std::uint64_t place) {
 
 }  // namespace
 
-// Numbers can be sorted by vectors, in a third of the time. Highway asks the system for random numbers to do so: this
-// allocates nothing, but it is a system call.
+// Integers can be sorted with vector instructions, in a third of the time. Highway asks the system for random numbers
+// to do so, which allocates nothing but is a system call.
 void sort_pairs(std::vector<TrianglePair>& pairs, QueryWorkspace::Memory& memory) {
   constexpr std::size_t kWorthVectors = 64;
   if (pairs.size() < kWorthVectors) {

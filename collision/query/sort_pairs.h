@@ -1,6 +1,6 @@
 #pragma once
 
-/// Brings the pairs that a query found into ascending order of their triangles.
+/// Sorts the pairs that a query found into ascending order of their triangles.
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a query asks of every pair of triangles that a traversal cannot rule out.
+/// The test that a query makes of every triangle pair that a traversal cannot exclude.
 
 #include <cstdint>
 
@@ -10,19 +10,19 @@ namespace glissade::collision {
 
 struct NodePair;
 
-/// What is known of a pair of triangles after a visit.
+/// Result of a visit of a triangle pair.
 struct PairOutcome {
   bool stop;        ///< the query is answered
-  double distance;  ///< in metres, no greater than the true one but for rounding; negative when it was not looked for
+  double distance;  ///< metres; up to rounding, at most the true distance; negative: not computed
 };
 
-/// Pair of triangles: 4 · triangle of leaf_M + triangle of leaf_N.
+/// Triangle pairs are numbered 4 · triangle of leaf_M + triangle of leaf_N.
 class TriangleVisitor {
  public:
-  /// Of the pairs of children of two nodes that may be near, those that are to be opened: all of them, unless the
-  /// visitor knows better. Only asked where every pair is looked for.
+  /// The pairs of children to open, out of `near`, the pairs that may be near. By default all of them. Called only for
+  /// Goal::kEveryPair.
   virtual PairMask to_open(const NodePair& /*nodes*/, PairMask near) { return near; }
-  /// Finds out about a pair.
+  /// Tests a triangle pair.
   virtual PairOutcome visit(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) = 0;
   /// The same for a pair that is known to intersect.
   virtual PairOutcome found(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) = 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Which pairs of the children of two nodes, or of the triangles of two leaves, have something that was selected.
+/// The pairs of the children of two nodes, or of the triangles of two leaves, that hold something selected.
 
 #include <array>
 #include <cstdint>
@@ -21,7 +21,7 @@ constexpr PairMask column_of(int child_N) {
   return 0x1111U << child_N;
 }
 
-/// For each set of children of M, a bit for each, its pairs with any child of N.
+/// For each set of children of M (one bit per child), all pairs with these children.
 inline constexpr auto kRowsOf = [] {
   std::array<std::uint16_t, 1U << kWidth> rows{};
   for (std::uint32_t children = 0; children < rows.size(); ++children) {
@@ -31,7 +31,7 @@ inline constexpr auto kRowsOf = [] {
   return rows;
 }();
 
-/// The pairs of a set of children.
+/// All pairs with a set of children.
 constexpr PairMask rows_of(std::uint32_t children_M) {
   return kRowsOf[children_M];
 }
@@ -39,33 +39,33 @@ constexpr PairMask columns_of(std::uint32_t children_N) {
   return children_N * column_of(0);
 }
 
-/// The selections of both trees where they lie, in the roles that these have in a query.
+/// The selections of both trees, by their roles M and N in a query.
 class VisitSelection {
  public:
-  /// All pairs.
+  /// Selects all pairs.
   VisitSelection() = default;
 
-  /// The pairs with something of either selection; all of them where one is null. Throws std::invalid_argument for a
-  /// selection that cannot be of its tree.
+  /// Selects the pairs in which either side is selected; all pairs if one selection is null. Throws
+  /// std::invalid_argument for a selection that cannot belong to its tree.
   VisitSelection(const DopTree& base, const DopTree& other, const TriangleSelection* of_M,
                  const TriangleSelection* of_N) {
     check(base, of_M);
     check(other, of_N);
     if (of_M == nullptr || of_N == nullptr) return;
-    of_P_ = of_M;
-    of_Q_ = of_N;
+    of_M_ = of_M;
+    of_N_ = of_N;
   }
 
   PairMask pairs_of_nodes(std::uint32_t node_M, std::uint32_t node_N) const {
-    return of_P_ == nullptr ? kAllPairs : rows_of(of_P_->nodes()[node_M]) | columns_of(of_Q_->nodes()[node_N]);
+    return of_M_ == nullptr ? kAllPairs : rows_of(of_M_->nodes()[node_M]) | columns_of(of_N_->nodes()[node_N]);
   }
   PairMask pairs_of_leaves(std::uint32_t leaf_M, std::uint32_t leaf_N) const {
-    return of_P_ == nullptr ? kAllPairs : rows_of(of_P_->leaves()[leaf_M]) | columns_of(of_Q_->leaves()[leaf_N]);
+    return of_M_ == nullptr ? kAllPairs : rows_of(of_M_->leaves()[leaf_M]) | columns_of(of_N_->leaves()[leaf_N]);
   }
 
   /// Numbers of the selections, 0 where there are none.
   std::array<std::uint64_t, 2> ids() const {
-    return of_P_ == nullptr ? std::array<std::uint64_t, 2>{} : std::array{of_P_->id(), of_Q_->id()};
+    return of_M_ == nullptr ? std::array<std::uint64_t, 2>{} : std::array{of_M_->id(), of_N_->id()};
   }
 
  private:
@@ -74,8 +74,8 @@ class VisitSelection {
     throw std::invalid_argument("a selection of triangles was made for another tree than that of the query");
   }
 
-  const TriangleSelection* of_P_ = nullptr;  ///< both or none
-  const TriangleSelection* of_Q_ = nullptr;
+  const TriangleSelection* of_M_ = nullptr;  ///< both or none
+  const TriangleSelection* of_N_ = nullptr;
 };
 
 }  // namespace glissade::collision

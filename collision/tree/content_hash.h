@@ -1,6 +1,6 @@
 #pragma once
 
-/// A hash to notice changes by; no guard against forgery.
+/// A hash that detects changes. Not secure against forgery.
 
 #include <cstdint>
 #include <string>
@@ -10,7 +10,8 @@
 
 namespace glissade::collision {
 
-// Of 64-bit words. Every step can be undone, so sequences that differ in one word never share a value.
+// Hash of a sequence of 64-bit words. Every step is a bijection, so sequences that differ in exactly one word have
+// different values.
 class ContentHash {
  public:
   void add(std::uint64_t word) {

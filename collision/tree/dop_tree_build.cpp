@@ -15,13 +15,13 @@ namespace glissade::collision {
 namespace {
 
 constexpr std::size_t kBins = 32;
-constexpr std::size_t kSweepAtMost = 64;  // so few triangles are sorted rather than binned
+constexpr std::size_t kSweepAtMost = 64;  // up to this many triangles are sorted rather than binned
 
-// Triangles worth a task of their own. oneTBB's hand-over of tasks is not visible to the thread sanitizer, which would
-// see a race in every triangle.
+// Number of triangles that is worth a task of its own. The thread sanitizer does not see how oneTBB hands over tasks,
+// and would report a race for every triangle.
 #if defined(__SANITIZE_THREAD__)
 #define GLISSADE_THREAD_SANITIZER
-#elif defined(__has_feature)  // clang's way to tell
+#elif defined(__has_feature)  // clang's equivalent
 #if __has_feature(thread_sanitizer)
 #define GLISSADE_THREAD_SANITIZER
 #endif
@@ -55,14 +55,15 @@ struct Item {
 };
 using Items = std::span<Item>;
 
-// A split before item `at`, once items are in the order (sweep) or on the sides (bins) that it stands for.
+// A split before item `at`. It applies once items are in the order of the sweep, or on the sides of the bins, that it
+// was found for.
 struct Split {
   float cost = std::numeric_limits<float>::infinity();
   int axis = -1;
   std::size_t at = 0;  // of the sweep: an item; of the bins: the first bin of the upper side
 };
 
-// What it costs to visit so many triangles: as many leaves, and a node for each four of them.
+// The cost of visiting that number of triangles: its leaves, and a node for each four leaves.
 float cost_of(std::size_t triangles) {
   const std::size_t leaves = (triangles + kWidth - 1) / kWidth;
   const std::size_t nodes = (leaves + kWidth - 1) / kWidth;
@@ -84,7 +85,7 @@ void sort_along(Items items, int axis) {
   });
 }
 
-// The best split of few items, at multiples of a leaf, so that leaves are full.
+// Finds the best split of few items, at multiples of a leaf so that leaves are full.
 std::size_t split_by_sweep(Items items) {
   std::array<float, kSweepAtMost + 1> area_above{};
   Split best;
@@ -123,7 +124,7 @@ class Binning {
       high = high.max(center);
     }
     const Eigen::Array3f scale = static_cast<float>(kBins) * 0.9999F / (high - low_);
-    // All centres in one place, or as good as: one bin for all.
+    // If all centres coincide, or nearly so, they get one bin.
     scale_ = scale.isFinite().select(scale, 0.0F);
     for (const Item& item : items) {
       const Eigen::Array3f center = item.box.low + item.box.high;
@@ -172,7 +173,7 @@ class Binning {
   std::array<std::array<Bin, kBins>, 3> bins_;
 };
 
-// Puts the items of one side before those of the other and returns where these begin.
+// Puts the items of one side before those of the other and returns the index of the first of the latter.
 std::size_t split(Items items) {
   if (items.size() <= kSweepAtMost) return split_by_sweep(items);
   const Binning binning(items);
@@ -184,7 +185,7 @@ std::size_t split(Items items) {
   return static_cast<std::size_t>(middle - items.begin());
 }
 
-// A node to be, before nodes have numbers.
+// A future node, before nodes have numbers.
 struct Part {
   Items items;
   std::array<std::unique_ptr<Part>, kWidth> children;
@@ -193,7 +194,7 @@ struct Part {
   bool is_leaf() const { return items.size() <= kWidth; }
 };
 
-// Splits the part of the largest surface until there are four, then each of them.
+// Splits the part of largest surface until there are four, then divides each of these.
 void divide(Part& part) {
   std::array<Items, kWidth> pieces{part.items};
   std::array<float, kWidth> areas{box_of(part.items).half_area()};
@@ -237,7 +238,7 @@ TriangleLeaf leaf_of(Items items) {
   return leaf;
 }
 
-// Numbers the parts in the order of a depth-first walk, the children of a node side by side.
+// Numbers the parts in depth-first order, with the children of a node side by side.
 void number(const Part& part, std::size_t node, int depth, TreeShape& shape) {
   shape.depth = std::max(shape.depth, depth);
   std::array<const Part*, kWidth> inner{};

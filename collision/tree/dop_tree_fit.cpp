@@ -17,10 +17,11 @@ using Eigen::Vector3d;
 
 constexpr double kNormalUnit = 32767.0;
 
-// Grid steps: corners in single precision are half a unit in the last place of the radius off, along each coordinate.
+// In grid steps: rounding of corners to single precision, half a unit in the last place of the radius along each
+// coordinate.
 constexpr double kCornerRounding = 0.002;
 
-// A thin slab is worth its test where it is thinner than the box by more than this.
+// A thin slab is worth its test if it is thinner than the thinnest slab of the box by more than this factor.
 constexpr double kThinEnough = 0.5;
 
 Vector3d corner_of(const TriangleLeaf& leaf, std::size_t corner, std::size_t triangle) {
@@ -38,7 +39,7 @@ void for_each_corner(std::span<const TriangleLeaf> leaves, const Visit& visit) {
   }
 }
 
-// Any direction will do for a thin slab, but it must be one.
+// Falls back to some unit vector: a thin slab may have any direction.
 Vector3d longest_axis(const Eigen::Matrix3d& tensor) {
   const Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>().computeDirect(tensor).eigenvectors().col(2);
   return std::abs(axis.norm() - 1.0) < 1e-9 ? axis : Vector3d::UnitX();
@@ -60,8 +61,9 @@ class Fitting {
         heads_(heads),
         slabs_(slabs) {}
 
-  // Fills a node and what is below it, the leaves up to `leaf_end`. Returns Σ area · n nᵀ of its triangles, whose
-  // longest axis is the direction in which the whole is thin; it does not care which way triangles face.
+  // Fits a node and everything below it, with leaves up to `leaf_end`. Returns Σ area · n nᵀ of its triangles. The
+  // longest axis of this tensor is the direction in which the whole is thin; it does not depend on which way triangles
+  // face.
   Eigen::Matrix3d fit(std::size_t node, std::size_t leaf_end) {
     NodeHead& head = heads_[node];
     head.thin = 0;
@@ -191,7 +193,7 @@ TreeGrid grid_of(const geometry::TriangleMesh& mesh) {
   for_each_vertex([&](const Vector3d& x) { grid.radius = std::max(grid.radius, (x - grid.center).squaredNorm()); });
   grid.half_size = ((high - grid.center.array()).max(grid.center.array() - low) * (1.0 + 1e-12)).matrix();
   grid.radius = std::sqrt(grid.radius) * (1.0 + 1e-12);
-  if (!(grid.radius > 0.0)) grid.radius = 1.0;  // all in one point: no length of its own, but there must be one
+  if (!(grid.radius > 0.0)) grid.radius = 1.0;  // all in one point: any positive radius will do
   return grid;
 }
 

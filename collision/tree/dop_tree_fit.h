@@ -1,6 +1,6 @@
 #pragma once
 
-/// Encloses the vertices of a mesh by the boxes and thin slabs of a tree, from the leaves up.
+/// Fits the boxes and thin slabs of a tree to the vertices of a mesh, from the leaves up.
 
 #include <cstdint>
 #include <span>
@@ -13,21 +13,23 @@
 
 namespace glissade::collision {
 
-/// Where the grid of a tree lies.
+/// The grid of a tree, in the frame of its mesh, metres.
 struct TreeGrid {
   Eigen::Vector3d center;
   Eigen::Vector3d half_size;
   double radius;
 };
 
-/// The bounding box of all corners, rounded outward, and the radius about its centre.
+/// The axis-aligned bounding box of all corners, rounded outward, and the radius of a sphere about its centre that
+/// encloses them.
 TreeGrid grid_of(const geometry::TriangleMesh& mesh);
 
-/// Fills the corners of all leaves, and marks triangles without area; returns their number. No allocation.
+/// Sets the corners of all leaves and marks triangles without area. Returns the number of triangles without area.
+/// Allocates nothing.
 std::int64_t fit_leaves(const geometry::TriangleMesh& mesh, const TreeGrid& grid, std::span<TriangleLeaf> leaves);
 
-/// Fills the boxes of all nodes, of k = `directions`, and, where asked for, their thin slabs. No allocation. Cost O(n
-/// log n).
+/// Sets the DOPs of all nodes, with k = `directions`, and their thin slabs if `thin_slab` is true. Allocates nothing.
+/// Cost O(n log n).
 void fit_nodes(int directions, bool thin_slab, std::span<const TriangleLeaf> leaves, std::span<NodeHead> heads,
                std::span<SlabLine> slabs);
 

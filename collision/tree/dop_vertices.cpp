@@ -9,9 +9,9 @@
 namespace glissade::collision {
 namespace {
 
-// Vertices are found in integers: directions are small integers, and plane offsets are rounded up to whole parts of a
-// grid step. The determinant of three directions of components −1, 0 and 1 is at most 4, so that twelvefold vertices
-// have whole coordinates, and so have the other quotients by such a determinant below.
+// Vertices are computed in integers: directions are small integers, and plane offsets are rounded up to whole parts of
+// a grid step. The determinant of three directions with components −1, 0 and 1 is at most 4. Therefore vertices times
+// twelve have integer coordinates, and so have the other quotients by such a determinant below.
 using IntegerVector = Eigen::Matrix<std::int64_t, 3, 1>;
 constexpr std::int64_t kPartsOfStep = 64;
 constexpr std::int64_t kTwelve = 12;
@@ -27,7 +27,7 @@ struct HalfSpace {
 struct Polytope {
   std::array<HalfSpace, 2 * kMostSlabs> half_spaces;
   std::size_t half_space_count = 0;
-  std::array<IntegerVector, kMostVertices> vertices;  // twelvefold
+  std::array<IntegerVector, kMostVertices> vertices;  // times twelve
   std::size_t vertex_count = 0;
 
   void set_half_spaces(const DopDirections& directions, const SlabLine* node, std::size_t child) {
@@ -45,7 +45,7 @@ struct Polytope {
     }
   }
 
-  // Every vertex is an end of the part that some line, in which two planes meet, has within all half-spaces.
+  // Every vertex is an end of a segment: the part of a line of two planes that lies within all half-spaces.
   void find_vertices() {
     vertex_count = 0;
     for (std::size_t i = 0; i < half_space_count; ++i) {
@@ -58,7 +58,7 @@ struct Polytope {
     const IntegerVector along = a.normal.cross(b.normal);
     const std::int64_t square = along.squaredNorm();
     if (square == 0) return;
-    // Points of the line are (start + t · along) / square; t is twelvefold, too.
+    // Points of the line are (start + t · along) / square; t is multiplied by twelve, too.
     const IntegerVector start = a.offset * b.normal.cross(along) + b.offset * along.cross(a.normal);
     std::int64_t first = std::numeric_limits<std::int64_t>::min();
     std::int64_t last = std::numeric_limits<std::int64_t>::max();
@@ -101,7 +101,7 @@ void DopVertices::fit(std::span<const NodeHead> heads, std::span<const SlabLine>
     counts_[node] = static_cast<std::uint8_t>(count);
     for (std::size_t v = 0; v < 4 * count; ++v) {
       for (std::size_t c = 0; c < kWidth; ++c) {
-        const Polytope& child = children[c < child_count ? c : 0];  // a child that is not there may be anything
+        const Polytope& child = children[c < child_count ? c : 0];  // an absent child may have any vertices
         const IntegerVector& x = child.vertices[v < child.vertex_count ? v : 0];
         VertexGroup& group = groups_[node * stride_ + v / 4];
         for (std::size_t axis = 0; axis < 3; ++axis) {

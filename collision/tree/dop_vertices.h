@@ -1,6 +1,6 @@
 #pragma once
 
-/// Nodes as the vertices of their DOPs, for realignment by brute force (paper §2.1.1). Only trees of
+/// The vertices of the DOPs of all nodes, for realignment by brute force (paper §2.1.1). Only trees of
 /// `Realignment::kBruteForce` keep them.
 
 #include <array>
@@ -19,7 +19,7 @@ struct alignas(64) VertexGroup {
   std::array<std::array<float, 4 * kWidth>, 3> coordinate;  ///< [axis][4 · vertex + child], in grid steps
 };
 
-/// Vertices of a DOP of k half-spaces: so many when every vertex lies on three planes, fewer otherwise.
+/// Maximum number of vertices of a DOP of k half-spaces. It is reached if every vertex lies on exactly three planes.
 constexpr int most_vertices(int k) {
   return 2 * k - 4;
 }
@@ -30,13 +30,14 @@ class DopVertices {
   DopVertices() = default;
   DopVertices(int k, std::size_t nodes);
 
-  /// Finds the vertices of all nodes, `slabs` as in the tree. Allocates nothing. Cost O(k³) a node.
+  /// Computes the vertices of all nodes from the heads and slabs of the tree. Allocates nothing. Cost O(k³) a node.
   ///
-  /// Their hull holds the DOP but for the rounding to single precision: each may be off by half a unit in the last
-  /// place of its coordinates. It is larger than the DOP by a few hundredths of a grid step at most.
+  /// The convex hull of the vertices encloses the DOP except for rounding to single precision: each coordinate may be
+  /// off by half a unit in its last place. The hull is larger than the DOP by a few hundredths of a grid step at most.
   void fit(std::span<const NodeHead> heads, std::span<const SlabLine> slabs);
 
-  /// As many groups as the child of most vertices needs; lanes left over repeat a vertex.
+  /// The vertices of the children of a node: as many groups as the child with most vertices needs. Unused lanes repeat
+  /// a vertex.
   std::span<const VertexGroup> of(std::uint32_t node) const { return {&groups_[node * stride_], counts_[node]}; }
 
   std::size_t memory_bytes() const { return groups_.capacity() * sizeof(VertexGroup) + counts_.capacity(); }

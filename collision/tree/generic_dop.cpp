@@ -10,8 +10,8 @@
 namespace glissade::collision {
 namespace {
 
-/// Planes tangent to the unit sphere are all needed, but more than three may meet in a point. A small irregular shift
-/// of the offsets, the same for opposite planes, tears such points apart and keeps every plane needed.
+/// All planes tangent to the unit sphere support faces, but more than three of them may meet in a point. A small
+/// irregular shift of the offsets, the same for opposite planes, separates such points and keeps every face.
 double generic_offset(const DopDirections& directions, int half_space) {
   constexpr double kGoldenRatioFraction = 0.6180339887498949;
   const double step = (half_space % directions.slabs + 1) * kGoldenRatioFraction;
@@ -26,7 +26,7 @@ bool inside_all(const DopDirections& directions, const Eigen::Vector3d& x, const
   return true;
 }
 
-// The first of two mirrored vertices is the one found with the lowest half-space, which then is a positive one.
+// Of two mirrored vertices, keeps the one found with the lowest half-space, which is then one of positive direction.
 std::vector<GenericVertex> compute_vertices(const DopDirections& directions) {
   const auto seen_mirrored = [&](const std::vector<GenericVertex>& vertices, const Eigen::Vector3d& x) {
     for (const GenericVertex& vertex : vertices) {
@@ -43,7 +43,7 @@ std::vector<GenericVertex> compute_vertices(const DopDirections& directions) {
         Eigen::Matrix3d planes;  // one direction a row
         planes << directions.half_space(i).transpose(), directions.half_space(j).transpose(),
             directions.half_space(l).transpose();
-        if (std::abs(planes.determinant()) < 0.1) continue;  // of such small integers it is 0 or much larger
+        if (std::abs(planes.determinant()) < 0.1) continue;  // determinants of such directions are 0 or much larger
         const Eigen::Vector3d x =
             planes.inverse() * Eigen::Vector3d(generic_offset(directions, i), generic_offset(directions, j),
                                                generic_offset(directions, l));

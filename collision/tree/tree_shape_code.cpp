@@ -12,7 +12,7 @@
 namespace glissade::collision {
 namespace {
 
-// Nodes are walked recursively, here and when boxes are fitted. Trees as they are built have a tenth of this.
+// Bounds the recursion over nodes, here and in the fit of boxes. Built trees have a tenth of this depth.
 constexpr int kMostDepth = 256;
 
 constexpr std::size_t kCountsSize = 8;
@@ -30,7 +30,7 @@ std::size_t triangle_count(const TriangleLeaf& leaf) {
                                   leaf.triangle.begin());
 }
 
-// Links the nodes of a shape whose numbers of nodes and leaves are set, from the numbers of their children.
+// Links the nodes of a shape, whose numbers of nodes and leaves are set, by the numbers of their children.
 class Linking {
  public:
   Linking(std::string_view children, TreeShape& shape) : children_(children), shape_(shape) {}
@@ -48,7 +48,7 @@ class Linking {
     NodeHead head{};
     head.node_count = static_cast<std::uint8_t>(code >> 4U);
     head.leaf_count = static_cast<std::uint8_t>(code & 15U);
-    // An only child makes sense only where there is a single leaf; elsewhere it would let nodes outnumber triangles.
+    // A node has one child only in a tree of one leaf. Elsewhere, only children would let nodes outnumber triangles.
     const bool is_single_leaf = node == 0 && code == 1;
     require(is_single_leaf || (head.child_count() >= 2 && head.child_count() <= kWidth), "a wrong number of children");
     head.first_leaf = static_cast<std::uint32_t>(next_leaf_);
@@ -88,13 +88,13 @@ void fill_leaves(std::string_view sizes, std::string_view triangles, std::size_t
 }  // namespace
 
 void append_shape_code(const DopTree& tree, std::string& bytes) {
-  base::append_number(bytes, static_cast<std::uint32_t>(tree.nodes().size()));
-  base::append_number(bytes, static_cast<std::uint32_t>(tree.leaves().size()));
-  for (const NodeHead& head : tree.nodes())
+  base::append_number(bytes, static_cast<std::uint32_t>(nodes_of(tree).size()));
+  base::append_number(bytes, static_cast<std::uint32_t>(leaves_of(tree).size()));
+  for (const NodeHead& head : nodes_of(tree))
     base::append_number(bytes, static_cast<std::uint8_t>(head.node_count << 4U | head.leaf_count));
-  for (const TriangleLeaf& leaf : tree.leaves())
+  for (const TriangleLeaf& leaf : leaves_of(tree))
     base::append_number(bytes, static_cast<std::uint8_t>(triangle_count(leaf)));
-  for (const TriangleLeaf& leaf : tree.leaves()) {
+  for (const TriangleLeaf& leaf : leaves_of(tree)) {
     for (std::size_t t = 0; t < triangle_count(leaf); ++t)
       base::append_number(bytes, static_cast<std::uint32_t>(triangle_of(leaf.triangle[t])));
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The bus that an end of a link was given.
+/// A null check for the bus given to an end of a link.
 
 #include <memory>
 #include <stdexcept>
@@ -11,7 +11,7 @@
 
 namespace glissade::devices {
 
-/// The bus itself. Throws std::invalid_argument, in a sentence about its `user`, when there is none.
+/// Returns `bus`. Throws std::invalid_argument, with a sentence that names its `user`, when it is null.
 inline std::shared_ptr<LcmBus> checked_bus(std::shared_ptr<LcmBus> bus, const std::string& user) {
   if (bus == nullptr) throw std::invalid_argument(user + " needs an LCM bus.");
   return bus;

@@ -11,7 +11,7 @@
 namespace glissade::devices {
 namespace {
 
-// Beyond these a number is an error of the sender, whatever the device.
+// Numbers beyond these limits are errors of the sender, for any device.
 constexpr double kLargestPosition = 1e3;         // m
 constexpr double kLargestVelocity = 1e3;         // m/s
 constexpr double kLargestAngularVelocity = 1e4;  // rad/s
@@ -53,7 +53,7 @@ MessageError from_bytes(std::span<const std::uint8_t> bytes, Message& message) n
   return message.decode(bytes.data(), 0, size) == size ? MessageError::kNone : MessageError::kUndecodable;
 }
 
-/// Collects the worst that was found in the fields of a message.
+/// Checks the fields of a message and keeps the most serious error.
 class FieldCheck {
  public:
   template <std::size_t N>

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Between our types and bytes on the wire. Nothing that came over the wire is believed before it has passed here.
+/// Conversion between our types and bytes on the wire. Every received message is checked here before it is used.
 
 #include <cstdint>
 #include <span>
@@ -21,11 +21,12 @@ std::vector<std::uint8_t> encode(const GloveState& state);
 std::vector<std::uint8_t> encode(const GloveCommand& command);
 std::vector<std::uint8_t> encode(const HapticState& state);
 
-/// Decodes and checks. Anything but kNone leaves the output alone. Never throws, whatever the bytes.
+/// Decodes and checks a message. With any result other than kNone, the output is unchanged. Never throws, for any
+/// bytes.
 MessageError decode(std::span<const std::uint8_t> bytes, GloveState& state) noexcept;
 MessageError decode(std::span<const std::uint8_t> bytes, GloveCommand& command) noexcept;
-/// A state of the part that this program does not know is none to it, `PartState::kUnknown`, and no error: a viewer may
-/// be older than the simulation.
+/// A part state that this program does not know becomes `PartState::kUnknown`. This is no error: a viewer may be older
+/// than the simulation.
 MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noexcept;
 
 }  // namespace glissade::devices

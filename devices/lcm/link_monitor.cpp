@@ -12,7 +12,7 @@ bool LinkMonitor::admit(MessageError error, std::int64_t sequence, std::chrono::
   }
   counts_[static_cast<std::size_t>(error)].fetch_add(1, std::memory_order_relaxed);
   if (error != MessageError::kNone) return false;
-  // The first message of a sequence loses nothing: the other end may have started long before.
+  // Nothing counts as lost before the first message of a sequence: the other end may have started long before.
   if (last_sequence_ >= 0) {
     lost_.fetch_add(static_cast<std::uint64_t>(sequence - last_sequence_ - 1), std::memory_order_relaxed);
   }

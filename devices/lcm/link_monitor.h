@@ -1,6 +1,6 @@
 #pragma once
 
-/// The gate behind the decoder: keeps sequences rising and counts what passes and what does not.
+/// The filter behind the decoder: admits increasing sequences only, and counts admitted and rejected messages.
 
 #include <array>
 #include <atomic>
@@ -13,10 +13,10 @@ namespace glissade::devices {
 
 enum class MessageError { kNone, kWrongSize, kUndecodable, kNotFinite, kOutOfRange, kOutOfSequence };
 
-/// Thread-safety: `admit` from the receive thread, `statistics` from any.
+/// Thread-safety: `admit` in the receive thread, `statistics` in any.
 class LinkMonitor {
  public:
-  /// After `restart_silence` without an accepted message any sequence is accepted: the other end may have been
+  /// After `restart_silence` without an accepted message, any sequence is accepted: the other end may have been
   /// restarted.
   explicit LinkMonitor(std::chrono::nanoseconds restart_silence) : restart_silence_(restart_silence) {}
 

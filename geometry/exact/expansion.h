@@ -3,9 +3,9 @@
 /// Exact sums and products of doubles, kept as expansions (J. R. Shewchuk, "Adaptive precision floating-point
 /// arithmetic and fast robust geometric predicates", 1997).
 ///
-/// An expansion is a sum of doubles that do not overlap, from the least significant on, without zeros. Its sign is that
-/// of its last component. Exact as long as no product underflows or overflows; needs rounding to nearest and no
-/// value-changing compiler options (no -ffast-math, -ffp-contract=off).
+/// An expansion is a sum of nonzero doubles that do not overlap, in order of increasing magnitude. Its sign is that of
+/// its last component. All results are exact as long as no product underflows or overflows. This requires rounding to
+/// nearest and no value-changing compiler options (no -ffast-math, -ffp-contract=off).
 
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ class Expansion {
   std::size_t size() const { return size_; }
   double operator[](std::size_t i) const { return components_[i]; }
 
-  /// Appends a component that is more significant than those before; zeros are left out.
+  /// Appends a component, which must be more significant than all before it. Zeros are left out.
   void push(double component) {
     if (component != 0.0) {
       components_[size_++] = component;
@@ -41,7 +41,7 @@ class Expansion {
   std::size_t size_ = 0;
 };
 
-/// A rounded result and what the rounding took away: `value + error` is exact.
+/// A rounded result and its rounding error: `value + error` is exact.
 struct Rounded {
   double value;
   double error;
@@ -76,7 +76,7 @@ Expansion<n + m> combine(const Expansion<n>& e, const Expansion<m>& f, double si
   std::size_t j = 0;
   double carry = 0.0;
   while (i < e.size() || j < f.size()) {
-    // Components are taken in the order of their magnitude.
+    // The components of both are taken in order of increasing magnitude.
     const bool from_e = j == f.size() || (i < e.size() && std::abs(e[i]) < std::abs(f[j]));
     const Rounded sum = exact_sum(carry, from_e ? e[i++] : sign * f[j++]);
     result.push(sum.error);
@@ -112,7 +112,7 @@ Expansion<2 * n> operator*(const Expansion<n>& e, double factor) {
   return result;
 }
 
-/// Product with a difference of two doubles.
+/// Product with an expansion of two components, such as a difference of two doubles.
 template <std::size_t n>
 Expansion<4 * n> operator*(const Expansion<n>& e, const Expansion<2>& f) {
   Expansion<4 * n> result;

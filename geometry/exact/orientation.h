@@ -1,9 +1,9 @@
 #pragma once
 
-/// Exact orientation signs of points in double precision, the ground the triangle predicates stand on.
+/// Exact orientation predicates for points in double precision, the basis of the triangle predicates.
 ///
-/// A rounded determinant with an error bound settles nearly every call; the rest is decided in exact arithmetic. Exact
-/// for coordinates that are 0 or of magnitude 1e-75 to 1e75, where nothing underflows or overflows. No allocation.
+/// A rounded determinant with an error bound decides nearly every call; exact arithmetic decides the rest. Exact for
+/// coordinates that are 0 or of magnitude 1e-75 to 1e75, where nothing underflows or overflows. No allocation.
 
 #include <Eigen/Core>
 

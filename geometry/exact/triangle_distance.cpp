@@ -11,15 +11,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A point on each triangle and the square of their distance; that is taken from differences of corners, which are more
-// accurate than differences of the rounded points when the coordinates are large.
+// A point on each triangle, and the square of their distance. The distance is computed from differences of corners,
+// which are more accurate than differences of the rounded points when the coordinates are large.
 struct Candidate {
   Vector3d p_a;
   Vector3d p_b;
   double squared_distance;
 };
 
-// A triangle with what the features share: edge i goes from corner i to corner i + 1.
+// A triangle with quantities that its features share. Edge i goes from corner i to corner i + 1.
 struct Face {
   explicit Face(const TrianglePoints& points)
       : corners(points),
@@ -35,7 +35,7 @@ struct Face {
   double squared_normal;
 };
 
-// 0 for what is not a number, which is the parameter along an edge without length.
+// NaN, which is the parameter along an edge without length, becomes 0.
 double clamp_to_unit(double parameter) {
   return parameter > 0.0 ? std::min(parameter, 1.0) : 0.0;
 }
@@ -47,9 +47,9 @@ struct EdgePair {
   Vector3d gap;
 };
 
-// The parameter on the first edge is that of the two lines, from cross products because they lose no digits on nearly
-// parallel edges; projecting back and forth then brings both points to where the squared distance, convex in the two
-// parameters, is least. Whatever parallel edges start from is as good.
+// The parameter on the first edge starts at the closest points of the two lines, by cross products, which lose no
+// digits on nearly parallel edges. Projection to the second edge and back then reaches the minimum of the squared
+// distance, which is convex in the two parameters. For parallel edges any start is as good.
 EdgePair closest_on_edges(const Face& a, std::size_t i, const Face& b, std::size_t j) {
   const Vector3d& along_a = a.edges[i];
   const Vector3d& along_b = b.edges[j];
@@ -63,8 +63,9 @@ EdgePair closest_on_edges(const Face& a, std::size_t i, const Face& b, std::size
   return {s, t, offset + t * along_b - s * along_a};
 }
 
-// Whether the slab across the gap between two edges keeps the third corners apart too: then no other points are closer.
-// Only when that is certain, because over a small gap a slightly tilted slab would hide closer points far away from it.
+// Whether the slab across the gap between two edges certainly separates the third corners too: no other points are then
+// closer. Certainty is required because rounding tilts a slab across a small gap, which could hide closer points far
+// from the gap.
 bool edges_are_closest(const EdgePair& pair, const Face& a, std::size_t i, const Face& b, std::size_t j,
                        double uncertainty) {
   const Vector3d to_corner_a = -a.edges[(i + 2) % 3] - pair.s * a.edges[i];
@@ -90,8 +91,9 @@ FaceCoordinates face_coordinates(const Face& face, const Vector3d& vector) {
   return {face.edges[2].dot(turned) / face.squared_normal, face.edges[0].dot(turned) / face.squared_normal};
 }
 
-// The vector from `point` to the nearest point of the face's plane, if that lies inside of the face; `inside` tells.
-// A second step on the remainder removes what the rounded normal of a thin triangle spoils in the first.
+// The vector from `point` to the nearest point of the face's plane. `inside` reports whether that point lies inside the
+// face. A second step on the remainder removes the error that the rounded normal of a thin triangle causes in the
+// first.
 Vector3d gap_to_face(const Vector3d& point, const Face& face, bool& inside) {
   const Vector3d offset = face.corners[0] - point;
   const FaceCoordinates first = face_coordinates(face, -offset);
@@ -137,8 +139,8 @@ Candidate closest_features(const Face& a, const Face& b) {
   return best;
 }
 
-// Where the edges of `piercing` cross the plane of `face` inside of it. `swapped` when `piercing` is the second
-// triangle.
+// Tries the points where edges of `piercing` cross the plane of `face` inside the face. `swapped`: `piercing` is the
+// second triangle.
 void keep_closer_crossings(const Face& piercing, const Face& face, bool swapped, Candidate& best) {
   for (std::size_t i = 0; i < 3; ++i) {
     const double height = (piercing.corners[i] - face.corners[0]).dot(face.normal);
@@ -171,7 +173,7 @@ TriangleDistance triangle_distance(const TrianglePoints& a, const TrianglePoints
     keep_closer_crossings(face_b, face_a, true, best);
     return {0.0, best.p_a, best.p_b};
   }
-  // Triangles that do not meet are apart, also where the gap is lost in rounding.
+  // Triangles that do not intersect have a positive distance, even where rounding loses the gap.
   const double distance = std::max(std::sqrt(best.squared_distance), std::numeric_limits<double>::min());
   return {distance, best.p_a, best.p_b};
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The test of `triangle_pair.h` in plain double precision, which settles all but a few pairs: nearly
-/// degenerate ones are left to exact arithmetic.
+/// A filter for `triangles_intersect` in plain double precision with error bounds. It decides all but a few pairs, and
+/// leaves nearly degenerate ones to exact arithmetic.
 
 #include <algorithm>
 #include <cmath>
@@ -17,29 +17,31 @@ enum class Verdict { kApart, kIntersect, kUnsure };
 
 namespace filter {
 
-/// A value with a certain sign, or 0.
+/// The sign of a value known to within ± `error`; 0 if the sign is uncertain.
 inline int certain_sign(double value, double error) {
   return (value > error) - (value < -error);
 }
 
-/// Which corner is alone on its side; all three signs are certain and not equal.
+/// The corner that is alone on its side. The three signs must be certain, and not all equal.
 inline std::size_t lone_corner(const std::array<int, 3>& side) {
   return side[1] == side[2] ? 0 : side[0] == side[2] ? 1 : 2;
 }
 
 }  // namespace filter
 
-/// Decides whether two closed triangles share a point, or leaves it open. P. Guigue and O. Devillers, "Fast and robust
-/// triangle-triangle overlap test using orientation predicates", 2003; see there for why two last orientations decide.
+/// Whether two closed triangles share a point, or kUnsure. After P. Guigue and O. Devillers, "Fast and robust
+/// triangle-triangle overlap test using orientation predicates", 2003, who prove that the last two orientations decide.
 inline Verdict filtered_intersection(const TrianglePoints& a, const TrianglePoints& b) {
   using Eigen::Vector3d;
-  // Everything relative to one corner, so that determinants are as large as the triangles make them.
+  // Coordinates relative to one corner, so that rounding errors scale with the extent of the pair and not with its
+  // position.
   const std::array<Vector3d, 3> p{a[0] - b[0], a[1] - b[0], a[2] - b[0]};
   const std::array<Vector3d, 3> q{Vector3d::Zero(), b[1] - b[0], b[2] - b[0]};
   const double largest = std::max({p[0].cwiseAbs().maxCoeff(), p[1].cwiseAbs().maxCoeff(), p[2].cwiseAbs().maxCoeff(),
                                    q[1].cwiseAbs().maxCoeff(), q[2].cwiseAbs().maxCoeff()});
-  // A determinant of three vectors is six products of at most `largest`³ (first step: the vectors are rounded once) or
-  // eight times that (second and third step: rounded twice); each factor, product and sum adds half an epsilon.
+  // A determinant of three vectors is a sum of six products. Each is at most `largest`³ in the first step, where
+  // vectors are rounded once, and eight times that in the second and third, where vectors are rounded twice. Each
+  // factor, product and sum adds half an epsilon.
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   const double cube = largest * largest * largest;
   const double error = 32.0 * kEpsilon * cube;

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// On which side of the plane of a triangle the corners of another one lie.
+// The sides of a triangle's plane on which the corners of another triangle lie.
 struct Sides {
   int s0;
   int s1;
@@ -27,19 +27,19 @@ Sides sides_of_plane(const TrianglePoints& plane, const TrianglePoints& triangle
           orient3d_sign(plane[0], plane[1], plane[2], triangle[2])};
 }
 
-// A triangle by its corners, one of them apart: the plane of the other triangle separates (weakly) the corner `apex`
-// from `left` and `right`, and neither edge from the apex lies in that plane. So both edges cross it in exactly one
-// point.
+// The corners of a triangle, with `apex` apart from the others: the plane of the other triangle weakly separates it
+// from `left` and `right`, and contains neither edge from the apex. So each of these edges crosses the plane in exactly
+// one point.
 struct Apex {
   const Vector3d* apex;
   const Vector3d* left;
   const Vector3d* right;
-  bool above;  // the apex is on the positive side of the plane, or the others on the negative side
+  bool above;  // the apex is on the positive side of the plane, or in it with the others on the negative side
 };
 
 Apex find_apex(const TrianglePoints& t, const Sides& s) {
-  // A corner is apart when no other is on its side and the two others are not on both sides of the plane; and it may
-  // be in the plane only if the two others are both strictly outside, which makes it the one point of contact.
+  // A corner in the plane is apart if the two others are strictly on one side; it is then the only point in the plane.
+  // Any other corner is apart if none of the others is strictly on its side.
   const auto apart = [](int apex, int left, int right) {
     if (apex == 0) {
       return left * right > 0;
@@ -55,12 +55,12 @@ Apex find_apex(const TrianglePoints& t, const Sides& s) {
   return {&t[2], &t[0], &t[1], s.s2 > 0 || (s.s2 == 0 && s.s0 < 0)};
 }
 
-// Both triangles cut the line common to their planes in an interval whose ends lie on the two edges from the apex. With
-// each apex on the positive side of the other's plane, the order of two ends along that line is the orientation of the
-// two edges they lie on, and the intervals are [left, right] for a and [right, left] for b. After P. Guigue and
-// O. Devillers, "Fast and robust triangle-triangle overlap test using orientation predicates", 2003.
+// Each triangle meets the common line of the two planes in an interval, whose ends lie on the two edges from its apex.
+// With each apex on the positive side of the other's plane, the orientation of two edges gives the order of their ends
+// along the line, and the intervals are [left, right] for a and [right, left] for b. After P. Guigue and O. Devillers,
+// "Fast and robust triangle-triangle overlap test using orientation predicates", 2003.
 bool intervals_overlap(Apex a, Apex b) {
-  // Seen from the other side, a triangle turns the other way round.
+  // Seen from the other side, a triangle has the opposite orientation.
   if (!a.above) {
     std::swap(b.left, b.right);
   }
@@ -71,7 +71,8 @@ bool intervals_overlap(Apex a, Apex b) {
          orient3d_sign(*a.apex, *a.right, *b.apex, *b.right) >= 0;
 }
 
-// Whether some edge of `t`, whose projection along `axis` turns as `turn` says, has all of `other` strictly outside.
+// Whether all of `other` is strictly outside some edge of `t`, in the projection along `axis`; `turn` is the
+// orientation of `t` in it.
 bool edge_separates(const TrianglePoints& t, int turn, const TrianglePoints& other, int axis) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3d& from = t[i];
@@ -84,8 +85,8 @@ bool edge_separates(const TrianglePoints& t, int turn, const TrianglePoints& oth
   return false;
 }
 
-// Two triangles of one plane: projected along an axis that is not parallel to it, where both keep an area, two convex
-// polygons are disjoint exactly if an edge of one separates them.
+// Two triangles in one plane are projected along an axis that is not parallel to it, so that both keep an area. Two
+// convex polygons are disjoint if and only if an edge of one separates them.
 bool coplanar_triangles_intersect(const TrianglePoints& a, const TrianglePoints& b) {
   for (int axis = 0; axis < 3; ++axis) {
     const int turn_a = orient2d_sign(a[0], a[1], a[2], axis);
@@ -144,7 +145,8 @@ bool segment_meets(const std::array<Vector3d, 2>& s, const TrianglePoints& t) {
   if (start * end > 0) {
     return false;
   }
-  // The segment crosses the plane; its line passes all edges on the same side, if it passes through the triangle.
+  // The segment crosses the plane. Its line passes through the triangle if and only if it has all edges on the same
+  // side.
   const int edge0 = orient3d_sign(s[0], s[1], t[0], t[1]);
   const int edge1 = orient3d_sign(s[0], s[1], t[1], t[2]);
   const int edge2 = orient3d_sign(s[0], s[1], t[2], t[0]);

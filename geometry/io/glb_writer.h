@@ -1,6 +1,6 @@
 #pragma once
 
-/// A GLB file in the making: a document and one binary chunk.
+/// Writer of a GLB file: a JSON document and one binary chunk.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,10 +12,11 @@ namespace glissade::geometry {
 
 class GlbWriter {
  public:
-  /// The document; accessors, their views and the buffer are added by the functions below.
+  /// The JSON document. The functions below add accessors, their views and the buffer.
   nlohmann::json& document() { return document_; }
 
-  /// Appends elements to the binary chunk; returns the number of their accessor.
+  /// Appends elements to the binary chunk; returns the index of their accessor. `component` and `type` are those of
+  /// glTF.
   std::size_t add_accessor(const std::string& bytes, std::uint64_t component, const char* type, std::size_t count);
 
   /// The bytes of the whole file.

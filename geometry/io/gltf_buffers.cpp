@@ -10,7 +10,7 @@
 namespace glissade::geometry {
 namespace {
 
-/// The bytes of a base64 text; nothing is taken for granted.
+/// The bytes of a base64 text; rejects a text with any other character.
 std::string decoded_base64(const std::filesystem::path& path, const std::string& where, std::string_view text) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   while (text.ends_with('=')) {

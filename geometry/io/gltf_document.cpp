@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-/// glTF itself needs about ten; the JSON library's functions recurse.
+/// Levels of nesting: glTF needs about ten. The limit protects the stack, because the JSON library's functions recurse.
 constexpr int kDeepestNesting = 100;
 
 }  // namespace
@@ -49,7 +49,7 @@ void GltfDocument::check_version() const {
 const json& GltfDocument::entry(const char* key, const json& index) const {
   const std::size_t size = root_.contains(key) ? root_.at(key).size() : 0;
   if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= size) {
-    // What is not a number may be of any size.
+    // A value that is not a number may be of any length, so only its type is shown.
     const std::string shown = index.is_number() ? index.dump() : std::string(index.type_name());
     reject(path_, std::string(key) + "[" + shown + "] is out of range, there are " + std::to_string(size));
   }

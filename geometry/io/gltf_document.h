@@ -1,8 +1,8 @@
 #pragma once
 
 /// A glTF document with the content of its buffers: safe access to its entries and to the elements of its accessors.
-/// Everything throws std::invalid_argument for an entry that makes no sense, naming the file and the entry, and
-/// exceptions of the JSON library for one that is missing or of the wrong kind.
+/// All functions throw std::invalid_argument for an entry with an invalid value, naming the file and the entry, and
+/// exceptions of the JSON library for an entry that is missing or of the wrong type.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace glissade::geometry {
 
-/// The values of componentType.
+/// Values of componentType; the integers are unsigned.
 inline constexpr std::uint64_t kGltfByte = 5121;
 inline constexpr std::uint64_t kGltfShort = 5123;
 inline constexpr std::uint64_t kGltfInt = 5125;
@@ -24,29 +24,29 @@ inline constexpr std::uint64_t kGltfFloat = 5126;
 /// The JSON of a document. Throws std::invalid_argument for text that is not JSON or nested too deeply.
 nlohmann::json parsed_gltf(const std::filesystem::path& path, std::string_view text);
 
-/// Path and JSON must outlive it.
+/// A parsed document with the content of its buffers. Path and JSON must outlive it.
 class GltfDocument {
  public:
-  /// `binary` is the chunk of a GLB. Reads the buffers that lie in files of their own.
+  /// `binary` is the binary chunk of a GLB. Reads buffers in separate files.
   GltfDocument(const std::filesystem::path& path, const nlohmann::json& root, std::string_view binary);
 
   const std::filesystem::path& path() const { return path_; }
   const nlohmann::json& root() const { return root_; }
 
-  /// Rejects other versions than 2, and extensions without which the geometry cannot be read.
+  /// Rejects versions other than 2, and required extensions that may change the geometry.
   void check_version() const;
 
   /// Entry `index` of the array `key` of the document.
   const nlohmann::json& entry(const char* key, const nlohmann::json& index) const;
 
-  /// The whole number `key` of an object; `where` is the object.
+  /// The natural number `key` of an object, or `otherwise` if it has none; `where` names the object in messages.
   std::uint64_t natural_or(const nlohmann::json& object, const char* key, std::uint64_t otherwise,
                            const std::string& where) const;
 
   /// The componentType of the accessor `index`.
   std::uint64_t component(const nlohmann::json& index) const;
 
-  /// The elements of an accessor: where each begins within its buffer.
+  /// The elements of an accessor: element i begins at byte `begin` + i · `stride` of its buffer `bytes`.
   struct Elements {
     std::string_view bytes;
     std::size_t begin;

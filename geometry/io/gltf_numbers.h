@@ -1,6 +1,6 @@
 #pragma once
 
-/// Whole numbers of glTF documents.
+/// Natural numbers in glTF documents.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,9 +12,9 @@
 
 namespace glissade::geometry {
 
-/// The entry `key` of `object`, which must be a whole number from 0: the JSON library's own conversion also takes
-/// fractions, truth values and -1, and is undefined for 1e99. `where` is the object. An entry that is missing comes as
-/// an exception of the JSON library.
+/// The natural number `key` of `object`; any other value is rejected. The JSON library's own conversion also accepts
+/// fractions, booleans and -1, and is undefined for 1e99. `where` names the object in messages. Throws an exception of
+/// the JSON library for a missing entry.
 inline std::uint64_t natural_at(const std::filesystem::path& path, const nlohmann::json& object, const char* key,
                                 const std::string& where) {
   const nlohmann::json& value = object.at(key);

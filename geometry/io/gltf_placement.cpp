@@ -15,7 +15,7 @@ using nlohmann::json;
 
 std::vector<double> numbers(const std::filesystem::path& path, const json& value, std::size_t length,
                             const std::string& where) {
-  // The JSON library's own conversion takes truth values too.
+  // The JSON library's own conversion accepts booleans too.
   const bool are_numbers = std::all_of(value.begin(), value.end(), [](const json& v) { return v.is_number(); });
   if (!value.is_array() || !are_numbers || value.size() != length)
     reject(path, where + " must have " + std::to_string(length) + " numbers");
@@ -32,7 +32,7 @@ void check_last_row(const std::filesystem::path& path, const json& matrix, const
   if (row != json{0.0, 0.0, 0.0, 1.0}) reject(path, where + ": its last row is " + row.dump() + ", not 0, 0, 0, 1");
 }
 
-/// Rounding is forgiven, but a quaternion of another length would scale the mesh.
+/// A deviation from unit length by rounding is removed; any other would scale the mesh, and is rejected.
 std::vector<double> unit_quaternion(const std::filesystem::path& path, const json& given, const std::string& where) {
   auto xyzw = given.get<std::vector<double>>();
   const double length = std::sqrt(std::inner_product(xyzw.begin(), xyzw.end(), xyzw.begin(), 0.0));

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where a glTF node stands in its parent.
+/// The placement of a glTF node in its parent.
 
 #include <filesystem>
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace glissade::geometry {
 
-/// A copy of the node with nothing but its matrix, or its translation, rotation and scale; the rotation has exactly
-/// unit length. Throws std::invalid_argument for numbers that place nothing, naming the file and `where`, the node.
+/// A copy of the node with its placement only: its matrix, or its translation, rotation and scale, with the quaternion
+/// scaled to unit length. Throws std::invalid_argument for an invalid placement, naming the file and the node `where`.
 nlohmann::json copied_placement(const std::filesystem::path& path, const nlohmann::json& node,
                                 const std::string& where);
 

@@ -11,7 +11,7 @@
 namespace glissade::geometry {
 
 void reject(const std::filesystem::path& path, const std::string& what) {
-  // Names from the file may be of any length and hold anything; the message is one line.
+  // Names from the file may have any length and content, but the message is one line.
   constexpr std::size_t kLongest = 1000;
   std::string line = what.size() > kLongest ? what.substr(0, kLongest) + " ..." : what;
   std::replace_if(

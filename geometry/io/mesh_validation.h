@@ -1,10 +1,10 @@
 #pragma once
 
-/// Strict reading of mesh files before the importer library sees them.
+/// Strict validation of mesh files before the importer library reads them.
 ///
-/// The library crashes, hangs or makes up geometry on broken files. So each function here reads a whole file, throws
-/// std::invalid_argument for the first thing that is wrong, naming the file and the place, and returns a clean file of
-/// the same format with nothing but the geometry in it.
+/// The library crashes, hangs or invents geometry on broken files. So each `vetted_` function reads `bytes`, the
+/// content of the whole file, and returns a clean file of the same format that contains the geometry only. It throws
+/// std::invalid_argument for the first error, naming the file and the place.
 
 #include <cstdint>
 #include <filesystem>
@@ -21,16 +21,17 @@ struct VettedFile {
 VettedFile vetted_obj(const std::filesystem::path& path, std::string_view bytes);
 VettedFile vetted_stl(const std::filesystem::path& path, std::string_view bytes);
 VettedFile vetted_ply(const std::filesystem::path& path, std::string_view bytes);
-/// Both kinds come back as one GLB. Reads the buffers that lie in files of their own.
+/// Both kinds of glTF become one GLB. Buffers in separate files are read too.
 VettedFile vetted_gltf(const std::filesystem::path& path, std::string_view bytes);
 VettedFile vetted_glb(const std::filesystem::path& path, std::string_view bytes);
 
-/// The whole content of a regular file that is not empty.
+/// The whole content of a file; rejects a file that is missing, not regular, unreadable or empty.
 std::string file_content(const std::filesystem::path& path);
 
+/// Throws std::invalid_argument: `path` and `what` in one line, shortened and without control characters.
 [[noreturn]] void reject(const std::filesystem::path& path, const std::string& what);
 
-/// Rejects coordinates that are not finite or beyond ±1e9; `where` is the line or element.
+/// Rejects a coordinate that is not finite or beyond ±1e9; `where` names the line or element.
 void check_coordinate(const std::filesystem::path& path, const std::string& where, double value);
 
 }  // namespace glissade::geometry

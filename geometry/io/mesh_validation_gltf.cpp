@@ -21,11 +21,12 @@ using nlohmann::json;
 constexpr std::uint64_t kTriangles = 4;
 constexpr std::uint64_t kTriangleFan = 6;
 
-/// Points and corners of all triangles, in the file and after its nodes have placed them: a few bytes may ask for the
-/// same ones again and again. So many, of 12 and 4 bytes, still fit the lengths of 32 bits in a GLB.
+/// Limit for the points and corners of all triangles, both in the file and after its nodes have placed them: a small
+/// file may refer to the same ones again and again. This many, of 12 and 4 bytes each, still fit the 32-bit lengths of
+/// a GLB.
 constexpr std::uint64_t kMostPointsAndCorners = 200'000'000;
 
-/// Reads a glTF document and writes the triangles and the nodes that place them anew.
+/// Reads a glTF document, and writes a new one of its triangles and the nodes that place them.
 class GltfReader {
  public:
   explicit GltfReader(const GltfDocument& document) : document_(document) {}
@@ -54,7 +55,7 @@ class GltfReader {
           reject(document_.path(), where + ": the mode " + std::to_string(mode) + " is not known");
         if (mode >= kTriangles) primitives.push_back(read_primitive(given.at(p), mode, where));
       }
-      // A mesh of lines and points only stays in its place, so that indices of meshes remain valid.
+      // A mesh of lines and points only is kept, without primitives, so that indices of meshes remain valid.
       mesh_sizes_.push_back(read_ - read_before);
       output_.document()["meshes"].push_back({{"primitives", primitives}});
     }
@@ -127,7 +128,7 @@ class GltfReader {
     output_.document()["scene"] = 0;
   }
 
-  /// Copies a node and what hangs on it; gives its new index.
+  /// Copies a node and its descendants; returns its new index.
   std::size_t copied_node(const json& index, int depth) {
     const json& node = document_.entry("nodes", index);
     const std::string where = "nodes[" + index.dump() + "]";
@@ -163,12 +164,12 @@ class GltfReader {
   const GltfDocument& document_;
   GlbWriter output_;
   std::uint64_t read_ = 0;                 // points and corners in the clean file
-  std::uint64_t placed_ = 0;               // and after the nodes have placed them
-  std::vector<std::uint64_t> mesh_sizes_;  // the same for each mesh; 0 where it has lines and points only
+  std::uint64_t placed_ = 0;               // the same after the nodes have placed them
+  std::vector<std::uint64_t> mesh_sizes_;  // points and corners in each mesh; 0 if it has no triangles
   std::set<std::size_t> visited_;
 };
 
-/// Runs the reader; entries that are missing or of the wrong kind come as exceptions of the JSON library.
+/// Runs the reader; the JSON library throws for entries that are missing or of the wrong type.
 std::string cleaned(const std::filesystem::path& path, std::string_view text, std::string_view binary) {
   const json document = parsed_gltf(path, text);
   try {

@@ -27,7 +27,8 @@ class ObjReader {
       } else if (std::any_of(words_[0].begin(), words_[0].end(), [](char c) { return c >= 0 && c < ' '; })) {
         reject(path_, where_ + ": this is not text");
       }
-      // Whatever else there is has no polygons in it: normals, groups, materials, curves, and what exporters invent.
+      // All other statements are skipped, because they hold no polygons: normals, groups, materials, curves, and
+      // extensions of exporters.
     }
     if (face_begins_.empty()) reject(path_, "The file has no faces");
     if (largest_index_ > static_cast<std::int64_t>(vertices_.size())) {
@@ -39,7 +40,7 @@ class ObjReader {
   }
 
  private:
-  /// The words of the next line, joined with the lines that a backslash at its end adds.
+  /// Reads the words of the next line, joined with its continuations after a backslash; false at the end of the file.
   bool next_statement() {
     if (!lines_.next()) return false;
     where_ = lines_.where();
@@ -72,7 +73,7 @@ class ObjReader {
     for (std::size_t i = 1; i < words_.size(); ++i) {
       const auto value = parse_number(words_[i]);
       if (!value) reject(path_, where_ + ": '" + printable(words_[i]) + "' is not a number");
-      if (i <= 3) {  // what follows is a weight or a colour
+      if (i <= 3) {  // further values are a weight or a colour
         check_coordinate(path_, where_, *value);
         point[i - 1] = *value;
       }
@@ -122,7 +123,8 @@ class ObjReader {
     }
   }
 
-  /// The vertex of `vertex`, `vertex/texture`, `vertex//normal` or `vertex/texture/normal`, counted from 1.
+  /// The vertex index, counted from 1, of a corner `vertex`, `vertex/texture`, `vertex//normal` or
+  /// `vertex/texture/normal`.
   std::int64_t corner(std::string_view word) const {
     const std::size_t end = std::min(word.find('/'), word.size());
     const auto index = parse_integer(word.substr(0, end));

@@ -58,9 +58,9 @@ bool is_integer(Scalar type) {
   return type != Scalar::kFloat && type != Scalar::kDouble;
 }
 
-/// What the lines up to "end_header" say, and the rest of the file.
+/// The content of the header, up to "end_header", and the rest of the file.
 struct Header {
-  std::optional<std::endian> byte_order;  // none for text
+  std::optional<std::endian> byte_order;  // empty for text
   std::vector<Element> elements;
   std::string_view body;
   std::int64_t lines = 0;
@@ -134,7 +134,7 @@ class HeaderReader {
   Header header_;
 };
 
-/// Reads the numbers after the header, whatever their form.
+/// Reads the numbers after the header, in text or binary form.
 class BodyReader {
  public:
   BodyReader(const std::filesystem::path& path, const Header& header)
@@ -144,12 +144,12 @@ class BodyReader {
         words_(header.body),
         header_lines_(header.lines) {}
 
-  /// The next number; `where` is the element it belongs to.
+  /// The next number; `where` names its element in messages.
   double next(Scalar type, const std::string& where) {
     return byte_order_ ? next_binary(type, where) : next_word(where);
   }
 
-  /// Rejects what is left, but for blanks.
+  /// Rejects any remaining content other than blanks.
   void expect_end() {
     const bool has_more =
         byte_order_ ? bytes_.find_first_not_of(" \t\r\n", offset_) != std::string_view::npos : words_.has_word();
@@ -214,7 +214,7 @@ class PlyReader {
   VettedFile clean() {
     check_layout();
     for (const Element& element : header_.elements) {
-      // An element without properties takes no room in the file, however many there are.
+      // Elements without properties take no room in the file, however many there are.
       if (element.properties.empty()) continue;
       for (std::int64_t i = 0; i < element.count; ++i) {
         read(element, i);
@@ -287,14 +287,14 @@ class PlyReader {
     if (is_face) face_corners_.push_back(static_cast<std::uint32_t>(count));
   }
 
-  /// Only now, because faces may stand before the vertices.
+  /// Runs after all elements have been read, because faces may precede the vertices.
   void check_indices() const {
     std::size_t next = 0;
     for (std::size_t face = 0; face < face_corners_.size(); ++face) {
       for (std::uint32_t k = 0; k < face_corners_[face]; ++k) {
         const double index = corners_[next++];
         if (index >= 0 && index < static_cast<double>(vertices_.size()) && index == std::floor(index)) continue;
-        // In a text file it may be a fraction, beyond every integer or not a number at all.
+        // In a text file the index may be a fraction, beyond every integer, or not a number at all.
         std::array<char, 32> digits{};
         const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), index).ptr;
         reject(path_, "face " + std::to_string(face) + ": the vertex index " +

@@ -120,7 +120,8 @@ class TextStlReader {
   std::vector<float> coordinates_;
 };
 
-/// Binary files may begin with "solid" too, so their exact size comes first, and zero bytes, which no text has, second.
+/// Binary files may begin with "solid" too. So the exact size of a binary file is tested first, and zero bytes, which
+/// no text has, second.
 bool is_text(std::string_view bytes) {
   if (bytes.size() >= kHeaderSize &&
       bytes.size() == kHeaderSize + kTriangleSize * std::uint64_t{base::number_at<std::uint32_t>(bytes, 80)}) {

@@ -11,8 +11,8 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Ve
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// The polygon seen against its normal (Newell's, which also holds for concave and bent polygons), so that it runs
-/// counter-clockwise.
+/// The polygon projected along the axis nearest to its normal, in counter-clockwise order. The normal is Newell's,
+/// which also holds for concave and bent polygons.
 std::vector<Eigen::Vector2d> flattened(std::span<const Eigen::Vector3d> points) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -30,8 +30,8 @@ std::vector<Eigen::Vector2d> flattened(std::span<const Eigen::Vector3d> points) 
   return flat;
 }
 
-/// Whether the corner at `position` of the remaining polygon can be cut off: it is convex and no other corner is in the
-/// way.
+/// Whether the corner at `position` of the remaining polygon can be cut off: it is convex, and its triangle contains no
+/// other corner.
 bool is_ear(const std::vector<Eigen::Vector2d>& flat, const std::vector<std::size_t>& remaining, std::size_t position) {
   const std::size_t n = remaining.size();
   const Eigen::Vector2d& a = flat[remaining[(position + n - 1) % n]];
@@ -63,12 +63,12 @@ std::vector<std::array<std::size_t, 3>> triangulated(std::span<const Eigen::Vect
     while (has_ears && tried < n && !is_ear(flat, remaining, (position + tried) % n)) {
       ++tried;
     }
-    // Where no corner is an ear, the polygon crosses itself or the rest of it has no area: cut off any from now on.
+    // If no corner is an ear, the polygon crosses itself or its rest has no area: cut off any corner from now on.
     has_ears = has_ears && tried < n;
     if (has_ears) position = (position + tried) % n;
     triangles.push_back({remaining[(position + n - 1) % n], remaining[position], remaining[(position + 1) % n]});
     remaining.erase(remaining.begin() + static_cast<std::ptrdiff_t>(position));
-    // Going on two corners further, rather than beside the cut, avoids fans of slivers.
+    // Continuing two corners farther, rather than next to the cut, avoids fans of slivers.
     position = (position + 1) % remaining.size();
   }
   return triangles;

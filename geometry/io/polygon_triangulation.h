@@ -1,6 +1,6 @@
 #pragma once
 
-/// Polygons of mesh files into triangles.
+/// Triangulation of the polygons in mesh files.
 
 #include <array>
 #include <cstddef>
@@ -11,12 +11,14 @@
 
 namespace glissade::geometry {
 
-/// The time to cut a polygon grows with the square of its corners, so larger ones are refused.
+/// Largest number of corners: larger polygons are refused, because the time to triangulate grows with the square of
+/// this number.
 inline constexpr std::size_t kMostCorners = 5000;
 
-/// Cuts the polygon through `points` into points.size() - 2 triangles, given by positions within `points`, oriented as
-/// the polygon is. Concave polygons are covered exactly; for those that cross or leave their plane any cut will do. The
-/// importer library's own triangulation covers some concave polygons twice. Cost O(n²) for ordinary polygons.
+/// Triangulates the polygon through `points` by ear clipping, into points.size() - 2 triangles. Triangles are given by
+/// indices into `points` and oriented as the polygon is. A plane concave polygon is covered exactly. Of a polygon that
+/// crosses itself or leaves its plane, an arbitrary triangulation is returned. The importer library's own triangulation
+/// covers some concave polygons twice. Cost O(n²) for ordinary polygons.
 std::vector<std::array<std::size_t, 3>> triangulated(std::span<const Eigen::Vector3d> points);
 
 }  // namespace glissade::geometry

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Reading text by lines and words, with line numbers for messages.
+/// Readers of text by lines and words, with line numbers for messages.
 
 #include <algorithm>
 #include <charconv>
@@ -16,12 +16,12 @@ namespace glissade::geometry {
 
 inline constexpr std::string_view kBlanks = " \t\r\v\f";
 
-/// Splits a text into its lines; their end may be LF or CR LF.
+/// Splits a text into lines, which may end in LF or CR LF.
 class LineScanner {
  public:
   explicit LineScanner(std::string_view text) : rest_(text) {}
 
-  // Moves on to the next line; false at the end of the text.
+  // Advances to the next line; false at the end of the text.
   bool next() {
     if (rest_.empty()) return false;
     const std::size_t end = rest_.find('\n');
@@ -35,7 +35,7 @@ class LineScanner {
   // Counted from 1.
   std::int64_t number() const { return number_; }
   std::string where() const { return "line " + std::to_string(number_); }
-  // What follows the current line.
+  // The text after the current line.
   std::string_view rest() const { return rest_; }
 
  private:
@@ -44,7 +44,7 @@ class LineScanner {
   std::int64_t number_ = 0;
 };
 
-/// Replaces `words` by the words of `line`.
+/// Replaces `words` by the words of `line`, which are separated by blanks.
 inline void split(std::string_view line, std::vector<std::string_view>& words) {
   words.clear();
   for (std::size_t begin = line.find_first_not_of(kBlanks); begin != std::string_view::npos;) {
@@ -54,12 +54,12 @@ inline void split(std::string_view line, std::vector<std::string_view>& words) {
   }
 }
 
-/// The words of a text, wherever its lines end.
+/// Splits a text into words, across its lines.
 class WordScanner {
  public:
   explicit WordScanner(std::string_view text) : lines_(text) {}
 
-  // Whether another word is there; if so, the line is the one that it stands in.
+  // Whether there is another word; if so, `lines()` is at its line.
   bool has_word() {
     while (next_ >= words_.size()) {
       if (!lines_.next()) return false;
@@ -79,15 +79,16 @@ class WordScanner {
   std::size_t next_ = 0;
 };
 
-/// The whole word as a number, "nan" and "inf" included; nothing if it is not one. A value too large for a double
-/// counts as infinite, one too small as zero.
+/// The whole word as a number, "nan" and "inf" included; nothing if it is not a number. A value too large for a double
+/// counts as infinite, a value too small as zero.
 inline std::optional<double> parse_number(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size() || word.empty()) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
-    return std::strtod(std::string(word).c_str(), nullptr);  // unlike from_chars it tells overflow from underflow
+    // Unlike from_chars, strtod distinguishes overflow from underflow.
+    return std::strtod(std::string(word).c_str(), nullptr);
   }
   if (error != std::errc{}) return std::nullopt;
   return value;

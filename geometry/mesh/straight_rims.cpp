@@ -8,7 +8,7 @@
 namespace glissade::geometry {
 namespace {
 
-constexpr double kStraight_m = 1e-7;  // what single-precision vertices make of a straight rim, and less than any margin
+constexpr double kStraight_m = 1e-7;  // the rounding error of single-precision vertices, and less than any margin
 constexpr double kStraightSine = 1e-4;
 
 class StraightRims {
@@ -20,13 +20,13 @@ class StraightRims {
   }
 
   std::vector<char> find() {
-    // Which vertices a line has must be known before any of them is taken out of it.
+    // All lines are collected first: `keep_bends` changes the marks that `extend` follows.
     std::vector<std::vector<std::int32_t>> lines;
     for (std::size_t v = 0; v < inside_.size(); ++v) {
       if (inside_[v] != 0 && seen_[v] == 0) lines.push_back(line_through(static_cast<std::int32_t>(v)));
     }
     for (const std::vector<std::int32_t>& line : lines) {
-      inside_[static_cast<std::size_t>(line.front())] = 0;  // of a ring, where it was begun
+      inside_[static_cast<std::size_t>(line.front())] = 0;  // matters for a ring only: its start becomes an end
       keep_bends(line);
     }
     return std::move(inside_);
@@ -43,7 +43,7 @@ class StraightRims {
     return in.dot(out) > 0.0 && in.cross(out).norm() <= kStraightSine * in.norm() * out.norm();
   }
 
-  /// All that go on in one line from an end that does not to the other; of a ring, from v around to v.
+  /// The vertices of the straight line through v, from one end to the other; of a ring, from v around to v.
   std::vector<std::int32_t> line_through(std::int32_t v) {
     std::vector<std::int32_t> line{v};
     seen_[static_cast<std::size_t>(v)] = 1;
@@ -54,7 +54,8 @@ class StraightRims {
     return line;
   }
 
-  /// Goes on from the last vertex of a line to `next` and beyond, until one does not go on, or was there before.
+  /// Appends `next` and its successors to a line, up to the first vertex that does not continue straight or was seen
+  /// before.
   void extend(std::vector<std::int32_t>& line, std::int32_t next) {
     while (true) {
       const std::int32_t before = line.back();
@@ -66,7 +67,7 @@ class StraightRims {
     }
   }
 
-  /// Of a line between two ends, the vertex furthest from their chord ends two lines if it is too far.
+  /// Splits a line at the vertex farthest from its chord, as long as that is too far away (Douglas–Peucker).
   void keep_bends(const std::vector<std::int32_t>& line) {
     std::vector<std::pair<std::size_t, std::size_t>> stretches{{0, line.size() - 1}};
     while (!stretches.empty()) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Which vertices of a mesh lie inside straight lines of edges.
+/// Vertices in the interior of straight rims: straight lines of edges that are not flat.
 
 #include <array>
 #include <cstdint>
@@ -11,15 +11,16 @@
 
 namespace glissade::geometry {
 
-/// For each vertex, the number of its edges that are not flat, and where the first two of them lead.
+/// The edges of one vertex that are not flat: their number, and the vertices at the other end of the first two.
 struct RimEdges {
   int count = 0;
   std::array<std::int32_t, 2> to{};
 };
 
-/// For each vertex, whether exactly two edges that are not flat meet there and go on in one line: without a bend, and
-/// within 0.1 µm of the chord between the nearest vertices of that line of which this is not so. Bends of a fine curve
-/// add up, so one vertex and its neighbors do not tell. Cost O(n log n).
+/// For each vertex, 1 if it lies inside a straight rim, else 0; `rims` has one entry per vertex. A vertex lies inside
+/// if exactly two of its edges are not flat, these two continue each other without a bend, and it lies within 0.1 µm of
+/// the chord between the nearest vertices of the rim that do not lie inside. The chord is needed because the bends of a
+/// fine curve add up: a vertex and its neighbors alone do not show them. Cost O(n log n).
 std::vector<char> inside_straight_rims(const TriangleMesh& mesh, std::span<const RimEdges> rims);
 
 }  // namespace glissade::geometry

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The triangles of a leaf of a tree where they are, to see quickly which of two leaves are near.
+/// The triangles of a tree's leaf in world coordinates, with bounding boxes that reject most pairs of two leaves
+/// quickly.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 namespace glissade::haptics {
 
-/// Those without area are left out.
+/// Triangles without area are left out.
 struct LeafInWorld {
   LeafInWorld(const PlacedBody& placed, std::uint32_t leaf) {
     for (const std::int32_t triangle : placed.body->tree.triangles_of_leaf(leaf)) {
@@ -24,14 +25,14 @@ struct LeafInWorld {
     }
   }
 
-  /// Whether triangle i of this one may be within `distance` (metres) of triangle j of another.
+  /// Whether triangle i of this leaf may be within `distance` (metres) of triangle j of another.
   bool may_be_near(int i, const LeafInWorld& other, int j, double distance) const {
     const auto& mine = bounds_W[static_cast<std::size_t>(i)];
     return mine.squaredExteriorDistance(other.bounds_W[static_cast<std::size_t>(j)]) <= distance * distance;
   }
 
   int count = 0;
-  std::array<std::int32_t, collision::DopTree::kWidth> triangles{};  ///< of the mesh
+  std::array<std::int32_t, collision::DopTree::kWidth> triangles{};  ///< numbers in the mesh
   std::array<geometry::TrianglePoints, collision::DopTree::kWidth> points_W;
   std::array<Eigen::AlignedBox3d, collision::DopTree::kWidth> bounds_W;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <glissade/base/assert.h>
+
 namespace glissade::haptics {
 
 MovingBodies::MovingBodies(const ContactScene& scene)
@@ -20,6 +22,7 @@ MovingBodies::MovingBodies(const ContactScene& scene)
 }
 
 void MovingBodies::begin_step(std::span<const geometry::Displacement> displacements) {
+  GLISSADE_ASSERT(displacements.size() == paths_.size());
   for (std::size_t p = 0; p < paths_.size(); ++p) {
     Path& path = paths_[p];
     path.displacement = displacements[p];

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where bodies are at any moment of a step: obstacles stand still, each part goes along a displacement.
+/// Poses of the bodies at any moment of a step: obstacles stand still, each part follows its displacement.
 
 #include <array>
 #include <cstdint>
@@ -19,29 +19,29 @@ namespace glissade::haptics {
 /// Bodies are numbered as in the scene. Not thread-safe.
 class MovingBodies {
  public:
-  /// A step is cut into 2^5 stretches; a moment is the number of one of their ends.
+  /// A step is divided into 2^5 equal stretches. A moment is the number of a stretch end, from 0 to kMoments.
   static constexpr int kMoments = 32;
 
   /// The scene must outlive this object.
   explicit MovingBodies(const ContactScene& scene);
 
-  /// A step begins where the parts are placed now; `displacements` has one for each of them.
+  /// Begins a step at the present poses of the parts; `displacements` has one entry for each part.
   void begin_step(std::span<const geometry::Displacement> displacements);
 
   /// Whether a body moves at all.
   bool moves(std::int32_t body) const { return is_part(body) && path(body).moves; }
-  /// Metres that no point of a body moves more than in the whole step.
+  /// Bound (metres) of the motion of every point of a body in the whole step.
   double motion(std::int32_t body) const { return is_part(body) ? path(body).motion : 0.0; }
-  /// Metres that a point of a body may be off the chord between two moments: |w|² ρ / 8, as the second derivative of
-  /// its path is at most |w|² ρ.
+  /// Bound (metres) of the deviation of every point of a body from its chord between two moments: |w|² ρ / 8, where w
+  /// is the rotation vector between them, because the second derivative of the path is at most |w|² ρ.
   double curvature(std::int32_t body, int begin, int end) const;
 
   /// The pose of a body at a moment.
   const Eigen::Isometry3d& pose(std::int32_t body, int moment);
-  /// One of its triangles at a moment, in world coordinates.
+  /// A triangle of a body at a moment, in world coordinates.
   geometry::TrianglePoints triangle_W(std::int32_t body, std::int32_t triangle, int moment);
 
-  /// Metres: of bodies where they are placed now, less than this is no certain distance.
+  /// Smallest distance (metres) that is certain in spite of rounding, for the present poses of the bodies.
   double certain_distance() const;
 
  private:
@@ -52,7 +52,7 @@ class MovingBodies {
     bool moves;
     double motion;
     std::array<Eigen::Isometry3d, kMoments + 1> X_WV_at;
-    std::array<bool, kMoments + 1> known{};  ///< which of them have been computed
+    std::array<bool, kMoments + 1> known{};  ///< which of these poses have been computed
   };
 
   bool is_part(std::int32_t body) const { return body >= first_part_; }

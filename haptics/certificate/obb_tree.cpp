@@ -15,10 +15,10 @@ using collision::TreeNode;
 using Eigen::Vector3d;
 using geometry::TriangleMesh;
 
-/// More than the errors of the sums here, relative to the largest coordinate.
+/// Bound of the rounding errors of the sums here, relative to the largest coordinate.
 constexpr double kRounding = 32.0 * std::numeric_limits<double>::epsilon();
 
-/// Corners of triangles, and the box that holds them.
+/// The corners of triangles, and the box around them.
 class BoxFit {
  public:
   BoxFit(const geometry::TriangleMesh& mesh, std::span<const std::int32_t> triangles)
@@ -70,7 +70,7 @@ class BoxFit {
     mesh_normal_ = largest.stableNormalized();
   }
 
-  /// The directions in which the corners spread, the least first.
+  /// The principal directions of the corners, the one of least spread first.
   void find_spread() {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     for_each_corner([&](const Vector3d& x) {
@@ -94,7 +94,7 @@ class BoxFit {
     Vector3d best = Vector3d::UnitX();
     double least = std::numeric_limits<double>::infinity();
     for (const Vector3d& n : directions) {
-      if (!(std::abs(n.norm() - 1.0) < 1e-9)) continue;  // none stood out
+      if (!(std::abs(n.norm() - 1.0) < 1e-9)) continue;  // the triangles have no such direction
       const double t = thickness(n);
       if (!(t < least)) continue;
       least = t;
@@ -109,7 +109,7 @@ class BoxFit {
     double least = std::numeric_limits<double>::infinity();
     const auto look = [&](const Vector3d& direction) {
       const Vector3d across = thin.cross(direction);
-      if (!(across.norm() > 0.1 * direction.norm())) return;  // too near to be exactly across
+      if (!(across.norm() > 0.1 * direction.norm())) return;  // almost parallel to `thin`: ill-conditioned
       const Vector3d u = (across - thin * thin.dot(across)).normalized();
       const double area = thickness(u) * thickness(thin.cross(u));
       if (!(area < least)) return;
@@ -135,7 +135,7 @@ Obb box_of(const geometry::TriangleMesh& mesh, std::span<const std::int32_t> tri
   return BoxFit(mesh, triangles).box();
 }
 
-/// Visits nodes depth first, so that the triangles below each stand together.
+/// Visits nodes depth first, so that the triangles below each node are contiguous.
 class Builder {
  public:
   Builder(const DopTree& tree, std::vector<Obb>& boxes) : tree_(tree), boxes_(boxes) {}

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Oriented boxes of a DOP-tree's nodes at full precision. The tree's own slabs are on a grid of 16 bits, which is fine
-/// to tell what may be near; proofs at micrometres need more.
+/// OBB tree: oriented bounding boxes of a DOP-tree's nodes in full precision. The slabs of the DOP-tree itself lie on a
+/// 16-bit grid. That suffices to find near pairs; certificates at micrometres need more.
 
 #include <cstdint>
 #include <vector>
@@ -13,16 +13,16 @@
 
 namespace glissade::haptics {
 
-/// Holds points x with |axes.col(i)·(x − c)| ≤ half_size[i], and |x − c| ≤ radius; metres. The axes are orthonormal,
-/// and the first is that of the least thickness: what lies in a plane patch has a box as flat as rounding, however
-/// large it is. A negative radius: it holds nothing.
+/// All points x with |axes.col(i)·(x − c)| ≤ half_size[i] and |x − c| ≤ radius; metres. The axes are orthonormal, the
+/// first is the direction of least thickness: the box of a plane patch is as flat as rounding allows, however large the
+/// patch is. A negative radius marks an empty box.
 struct Obb {
   Eigen::Vector3d c;
   Eigen::Matrix3d axes;
   Eigen::Vector3d half_size;
   double radius;
 
-  /// How far its points are from c along a unit vector n at most.
+  /// Half of the extent of the box along a unit vector n, metres.
   double extent_along(const Eigen::Vector3d& n) const { return half_size.dot((axes.transpose() * n).cwiseAbs()); }
 };
 
@@ -33,7 +33,7 @@ class ObbTree {
   /// The tree must not be refitted afterwards. Cost O(n log n).
   explicit ObbTree(const collision::DopTree& tree);
 
-  /// That of the triangles below a child, which the node must have.
+  /// The box of the triangles below a child, which the node must have.
   const Obb& box(std::uint32_t node, int child) const {
     return boxes_[static_cast<std::size_t>(collision::DopTree::kWidth) * node + static_cast<std::size_t>(child)];
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <glissade/base/assert.h>
 #include <glissade/collision/dual_tree_traversal.h>
 
 namespace glissade::haptics {
@@ -11,12 +12,12 @@ namespace {
 
 using Kind = TreeItem::Kind;
 
-/// Of the margin: the gap with which boxes are taken on. Contacts hold parts one margin apart, and proofs want no more
-/// than the floor.
+/// Fraction of the margin: the gap from which on box pairs are accepted. Contacts hold parts one margin apart, and
+/// certificates need the minimum clearance only.
 constexpr double kEnough = 0.6;
 static_assert(kEnough > kMinClearanceOfMargin);
 
-/// Takes on pairs of boxes that the plane of the flat side of either separates.
+/// Accepts box pairs that the plane of the flat side of either box separates.
 class FrontSearch final : public collision::DualTreeVisitor {
  public:
   FrontSearch(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
@@ -35,7 +36,7 @@ class FrontSearch final : public collision::DualTreeVisitor {
   bool accepts(const collision::TreeChild& child_O, const collision::TreeChild& child_V) override {
     const Obb& box_O = obstacle_.body->obbs->box(child_O.node, child_O.child);
     const Obb& box_V = part_.body->obbs->box(child_V.node, child_V.child);
-    if (box_O.radius < 0.0 || box_V.radius < 0.0) return true;  // nothing is in there
+    if (box_O.radius < 0.0 || box_V.radius < 0.0) return true;  // an empty box
     const Eigen::Vector3d between_O = X_OV_ * box_V.c - box_O.c;
     for (const Eigen::Vector3d& n_O : {box_O.axes.col(0).eval(), (X_OV_.linear() * box_V.axes.col(0)).eval()}) {
       const double along = n_O.dot(between_O);
@@ -59,7 +60,8 @@ class FrontSearch final : public collision::DualTreeVisitor {
       top = std::max(top, n_O.dot(mesh_O.corner(pair.triangles.triangle_A, corner)));
       bottom = std::min(bottom, n_O.dot(X_OV_ * mesh_V.corner(pair.triangles.triangle_B, corner)));
     }
-    // Of points a few nanometres apart the direction is not sharp, and keeps the triangles less apart than they are.
+    // The direction between points a few nanometres apart is ill-conditioned: it separates the triangles by less than
+    // their distance.
     add({Kind::kTriangle, static_cast<std::uint32_t>(pair.triangles.triangle_A), nullptr},
         {Kind::kTriangle, static_cast<std::uint32_t>(pair.triangles.triangle_B), nullptr}, bottom - top, n_O);
   }
@@ -77,7 +79,7 @@ class FrontSearch final : public collision::DualTreeVisitor {
   std::vector<PairToCertify>& to_certify_;
 };
 
-/// Whether the spheres about two bodies are further apart than `distance` (metres).
+/// Whether the bounding spheres of two bodies are farther apart than `distance` (metres).
 bool are_far_apart(const PlacedBody& a, const PlacedBody& b, double distance) {
   const collision::DopTree& tree_a = a.body->tree;
   const collision::DopTree& tree_b = b.body->tree;
@@ -89,6 +91,7 @@ bool are_far_apart(const PlacedBody& a, const PlacedBody& b, double distance) {
 
 TreeItem child_of(const ContactBody& body, std::uint32_t node, int child) {
   const collision::TreeNode head = body.tree.node(node);
+  GLISSADE_ASSERT(child < head.child_count());
   return {head.is_leaf(child) ? Kind::kLeaf : Kind::kNode, head.child(child), &body.obbs->box(node, child)};
 }
 
@@ -100,7 +103,7 @@ void find_pairs_to_certify(const ContactScene& scene, std::span<const PlacedBody
     for (std::size_t other = 0; other < part; ++other) {
       const BodyPair pair{static_cast<std::int32_t>(other), static_cast<std::int32_t>(part)};
       if (std::find(ignored.begin(), ignored.end(), pair) != ignored.end()) continue;
-      if (are_far_apart(bodies[other], bodies[part], radius)) continue;  // as most are in a scene of many
+      if (are_far_apart(bodies[other], bodies[part], radius)) continue;  // as most bodies are in a large scene
       FrontSearch search(pair, bodies[other], bodies[part], scene.margin(pair.obstacle, pair.part), to_certify);
       collision::traverse_near(search.tree_O(), search.tree_V(), search.X_OV(), radius, workspace, search);
     }

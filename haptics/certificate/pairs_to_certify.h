@@ -1,7 +1,7 @@
 #pragma once
 
-/// What steps have to be proved free of: pairs of boxes of the bodies' trees, and of triangles
-/// where boxes do not tell enough, that hold all pairs of triangles which are near.
+/// Pairs a step must be certified against: box pairs, refined to triangle pairs where boxes are too coarse. Together
+/// they cover every triangle pair within the search radius.
 
 #include <cstdint>
 #include <span>
@@ -16,16 +16,16 @@
 
 namespace glissade::haptics {
 
-/// A node of a body's tree, a leaf of it, or a triangle.
+/// A node, a leaf or a triangle of a body's tree.
 struct TreeItem {
   enum class Kind : std::uint8_t { kNode, kLeaf, kTriangle };
 
   Kind kind;
   std::uint32_t number;
-  const Obb* box;  ///< of what it holds; none of a triangle
+  const Obb* box;  ///< box of its triangles; null for a triangle
 };
 
-/// A child of a node, which must have it.
+/// A child of a node as an item; the node must have it.
 TreeItem child_of(const ContactBody& body, std::uint32_t node, int child);
 
 /// Two items that a step must keep apart.
@@ -33,13 +33,13 @@ struct PairToCertify {
   BodyPair bodies;
   TreeItem item_O;
   TreeItem item_V;
-  double distance;      ///< metres that n_W keeps them apart where the bodies were placed
+  double distance;      ///< metres: their separation along n_W at the poses of the search
   Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part; zero where triangles touched
 };
 
-/// Replaces `to_certify` by all that is within `radius` (metres) of the bodies where they are placed here, but of
-/// those that are `ignored`; the nearest first. The bodies are those of the scene, which are asked for margins
-/// only.
+/// Replaces `to_certify` by the pairs within `radius` (metres) of each other at the poses of `bodies`, nearest first,
+/// except pairs of `ignored` bodies. `bodies` has the bodies of the scene in their order; the scene itself supplies
+/// margins only.
 void find_pairs_to_certify(const ContactScene& scene, std::span<const PlacedBody> bodies, double radius,
                            std::span<const BodyPair> ignored, collision::QueryWorkspace& workspace,
                            std::vector<PairToCertify>& to_certify);

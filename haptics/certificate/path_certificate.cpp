@@ -32,7 +32,7 @@ void PathCertificate::prove(const PairToCertify& pair_to_certify) {
   if (!separates(pair_to_certify.n_W, item_O, item_V)) walk(item_O, item_V);
 }
 
-/// Makes them the ones that are proved.
+/// Makes `bodies` the pair at hand.
 void PathCertificate::select(const BodyPair& bodies) {
   obstacle_ = moving(bodies.obstacle);
   part_ = moving(bodies.part);
@@ -53,7 +53,7 @@ PathCertificate::MovingItem PathCertificate::moving(const TreeItem& item, const 
   return {item, {*body.X_WB[0] * item.box->c, *body.X_WB[1] * item.box->c}};
 }
 
-/// Proves all that two items hold; opens the larger one where they are not proved as a whole.
+/// Certifies the contents of two items; opens the larger item if they cannot be certified as a whole.
 void PathCertificate::walk(const MovingItem& item_O, const MovingItem& item_V) {
   if (are_apart(item_O, item_V)) return;
   const bool is_leaf_O = item_O.item.kind == TreeItem::Kind::kLeaf;
@@ -76,7 +76,7 @@ void PathCertificate::walk(const MovingItem& item_O, const MovingItem& item_V) {
   }
 }
 
-/// Whether all that two items hold is certainly the min_clearance apart on the whole path.
+/// Whether the contents of two items certainly keep the minimum clearance on the whole path.
 bool PathCertificate::are_apart(const MovingItem& item_O, const MovingItem& item_V) const {
   const Obb& box_O = *item_O.item.box;
   const Obb& box_V = *item_V.item.box;
@@ -87,7 +87,7 @@ bool PathCertificate::are_apart(const MovingItem& item_O, const MovingItem& item
          separates(part_.X_WB[0]->linear() * box_V.axes.col(0), item_O, item_V);
 }
 
-/// Whether one direction, or its opposite, does so.
+/// Whether the direction n_W, or its opposite, separates the contents of two items on the whole path.
 bool PathCertificate::separates(const Eigen::Vector3d& n_W, const MovingItem& item_O, const MovingItem& item_V) const {
   const double sign = n_W.dot(item_V.c_W[0] - item_O.c_W[0]) < 0.0 ? -1.0 : 1.0;
   const auto gap = [&](std::size_t end) {

@@ -1,13 +1,13 @@
 #pragma once
 
-/// The proof that a step of the parts stays clear of everything on its whole way, not only at its end. Two sheets
-/// without thickness can pass through each other without any pose in between that collides; a path certificate rules
+/// The certificate that a step of the parts keeps clear of all bodies on its whole path, not only at its end. Two
+/// sheets without thickness can pass through each other with no colliding pose in between; a path certificate rules
 /// that out.
 ///
-/// Pairs of boxes are proved apart as a whole where the plane of the flat side of either separates all that both hold,
-/// at the start and at the end of the step, by more than the min_clearance and the curvature of the paths: so a plane
-/// patch that slides over another is proved free at once, however finely it is cut. Boxes that are not are opened, down
-/// to pairs of triangles (`triangle_certificate.h`).
+/// A box pair is certified as a whole if one direction, such as the normal of the flat side of either box, separates
+/// the contents of both at the start and at the end of the step by more than the minimum clearance and the curvature of
+/// the paths. So a plane patch that slides over another one is certified at once, however finely it is tessellated.
+/// Boxes that fail are opened, down to triangle pairs (`triangle_certificate.h`).
 
 #include <array>
 #include <cstdint>
@@ -24,7 +24,7 @@
 
 namespace glissade::haptics {
 
-/// A pair that could not be proved apart, and the direction that held it apart at the start of the step.
+/// A triangle pair that could not be certified, and the direction that separated it at the start of the step.
 struct UncertifiedPair : TrianglesOfBodies {
   Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part
 };
@@ -35,22 +35,22 @@ class PathCertificate {
   /// The scene must outlive this object.
   explicit PathCertificate(const ContactScene& scene) : scene_(scene), bodies_(scene) {}
 
-  /// Tries to keep all `to_certify` while every part goes from where it is placed along its displacement, all of them
-  /// at once; `displacements` has one for each. Replaces `failures` by the pairs of triangles it could not prove apart.
-  /// Returns whether there are none.
+  /// Certifies all of `to_certify` for a step in which all parts move at once, each from its present pose along its
+  /// displacement; `displacements` has one entry for each part. Replaces `failures` by the triangle pairs that could
+  /// not be certified. Returns whether there are none.
   bool prove(std::span<const geometry::Displacement> displacements, std::span<const PairToCertify> to_certify,
              std::vector<UncertifiedPair>& failures);
 
-  /// Metres: of bodies where they are placed, less than this is no certain distance.
+  /// Smallest distance (metres) that is certain in spite of rounding, for the present poses of the bodies.
   double certain_distance() const { return bodies_.certain_distance(); }
 
  private:
-  /// An item whose box is, at the beginning and at the end of the step, about `c_W`.
+  /// An item with the centre of its box, in the world, at the beginning and at the end of the step.
   struct MovingItem {
     TreeItem item;
     std::array<Eigen::Vector3d, 2> c_W;
   };
-  /// One of the bodies of an pair_to_certify.
+  /// A body of the pair at hand.
   struct MovingBody {
     std::int32_t number = -1;
     const ContactBody* body = nullptr;
@@ -69,16 +69,16 @@ class PathCertificate {
 
   const ContactScene& scene_;
   MovingBodies bodies_;
-  double rounding_ = 0.0;  // metres: distances below this are not certain
+  double rounding_ = 0.0;  // metres: smaller distances are not certain
   std::vector<UncertifiedPair>* failures_ = nullptr;
 
-  // Of the pair of bodies that is being proved:
+  // Of the pair of bodies at hand:
   MovingBody obstacle_;
   MovingBody part_;
   bool moves_ = false;
   double min_clearance_ = 0.0;
-  double far_ = 0.0;     // metres at which nothing can come as near as the min_clearance
-  double needed_ = 0.0;  // metres of gap at both ends, so that the min_clearance is kept in between
+  double far_ = 0.0;     // metres: items farther apart keep the minimum clearance in any case
+  double needed_ = 0.0;  // metres of gap at both ends that keep the minimum clearance in between
 };
 
 }  // namespace glissade::haptics

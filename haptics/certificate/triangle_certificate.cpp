@@ -11,7 +11,7 @@ namespace {
 using geometry::TriangleDistance;
 using geometry::TrianglePoints;
 
-/// By how much the direction n separates the part's triangle from the obstacle's.
+/// Metres by which the direction n separates the part's triangle from the obstacle's.
 double gap_along(const Eigen::Vector3d& n, const geometry::TrianglePoints& obstacle,
                  const geometry::TrianglePoints& part) {
   const double obstacle_top = std::max({n.dot(obstacle[0]), n.dot(obstacle[1]), n.dot(obstacle[2])});
@@ -27,14 +27,14 @@ Eigen::Vector3d direction(const geometry::TriangleDistance& closest) {
   return (closest.p_b - closest.p_a).normalized();
 }
 
-/// Of the face normals and the common normals of edges that which separates the triangles most.
+/// The face normal, or common normal of two edges, that separates the triangles most.
 Eigen::Vector3d sharpest_direction(const geometry::TrianglePoints& obstacle, const geometry::TrianglePoints& part) {
   Eigen::Vector3d sharpest = face_normal(obstacle);
   double widest = -std::numeric_limits<double>::infinity();
   const auto look = [&](const Eigen::Vector3d& normal) {
     for (const Eigen::Vector3d& n : {normal, Eigen::Vector3d(-normal)}) {
       const double gap = gap_along(n, obstacle, part);
-      if (!(gap > widest)) continue;  // nor where parallel edges have none
+      if (!(gap > widest)) continue;  // parallel edges have no common normal
       widest = gap;
       sharpest = n;
     }
@@ -54,8 +54,8 @@ bool TriangleCertificate::prove(const Eigen::Vector3d& n_hint, Eigen::Vector3d& 
   const Moment start = at(0);
   const Moment end = at(MovingBodies::kMoments);
   const Stretch whole{start, end, needed(0, MovingBodies::kMoments)};
-  // What separated a pair some steps ago still does mostly; of flush faces that slide over each other, where the
-  // closest points of neighboring triangles lie askew, a face normal separates the others.
+  // The direction that separated a pair some steps ago mostly still does. On flush faces that slide over each other,
+  // the closest points of neighboring triangles lie askew; a face normal separates those pairs.
   if (separates(n_hint, whole)) return true;
   for (const Eigen::Vector3d& normal : {face_normal(start.obstacle), face_normal(start.part)}) {
     const Eigen::Vector3d n = normal.dot(start.part[0] - start.obstacle[0]) < 0.0 ? (-normal).eval() : normal;
@@ -63,9 +63,10 @@ bool TriangleCertificate::prove(const Eigen::Vector3d& n_hint, Eigen::Vector3d& 
   }
 
   const geometry::TriangleDistance closest = geometry::triangle_distance(start.obstacle, start.part);
-  // Of points a few nanometres apart the direction is not sharp enough for triangles of a metre; their features' is.
+  // The direction between points a few nanometres apart is too ill-conditioned for triangles of a metre; normals of
+  // features are not.
   n_start = closest.distance < kSharpDistance_m ? sharpest_direction(start.obstacle, start.part) : direction(closest);
-  if (!(closest.distance > rounding_)) return false;  // nothing can be kept of no distance at all
+  if (!(closest.distance > rounding_)) return false;  // there is no distance to keep
   if (closest.distance >
       bodies_.motion(pair_.bodies.obstacle) + bodies_.motion(pair_.bodies.part) + min_clearance_ + rounding_)
     return true;
@@ -95,7 +96,7 @@ bool TriangleCertificate::prove_stretch(int begin, int end) {
   return prove_stretch(begin, middle) && prove_stretch(middle, end);
 }
 
-/// Whether n separates the pair by the min_clearance on the whole stretch.
+/// Whether n separates the pair by the minimum clearance on the whole stretch.
 bool TriangleCertificate::separates(const Eigen::Vector3d& n, const Stretch& stretch) const {
   return gap_along(n, stretch.begin.obstacle, stretch.begin.part) >= stretch.needed &&
          gap_along(n, stretch.end.obstacle, stretch.end.part) >= stretch.needed;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The proof that two triangles stay apart on the whole way of a step: what `path_certificate.h` comes down to where
-/// it cannot prove more at once.
+/// The certificate that two triangles stay apart on the whole path of a step, for pairs that `path_certificate.h`
+/// cannot certify as boxes.
 
 #include <cstdint>
 
@@ -13,20 +13,20 @@
 
 namespace glissade::haptics {
 
-/// Proves pairs of triangles apart along the step that `bodies` are in. Not thread-safe.
+/// Certifies one triangle pair along the present step of `bodies`. Not thread-safe.
 ///
-/// A pair must keep the min_clearance of its bodies; one that starts the step nearer keeps 0.95 of its distance, and
-/// one that touches cannot be proved apart at all. It is apart over a stretch of the path if one direction separates it
-/// at both ends by more than the curvature of the paths can take away in between; otherwise the stretch is halved, up
-/// to five times.
+/// A pair must keep the minimum clearance of its bodies. A pair that starts the step nearer must keep 0.95 of its
+/// distance; a pair that touches cannot be certified. A pair stays apart over a stretch of the path if one direction
+/// separates it at both ends by more than the curvature of the paths can take away in between. Otherwise the stretch is
+/// halved, up to five times.
 class TriangleCertificate {
  public:
-  /// Metres: distances below `rounding` are not certain. `bodies` must outlive this object.
+  /// `min_clearance` in metres; distances below `rounding` (metres) are not certain. `bodies` must outlive this object.
   TriangleCertificate(MovingBodies& bodies, const TrianglesOfBodies& pair, double min_clearance, double rounding)
       : bodies_(bodies), pair_(pair), min_clearance_(min_clearance), rounding_(rounding) {}
 
-  /// Whether the pair is proved apart; the direction `n_hint` is tried first. If not, `n_start` is the unit direction,
-  /// from the obstacle to the part, that holds it apart at the start of the step.
+  /// Whether the pair is certified; the direction `n_hint` is tried first. If it is not, `n_start` is the unit
+  /// direction, from the obstacle to the part, that separates the pair at the start of the step.
   bool prove(const Eigen::Vector3d& n_hint, Eigen::Vector3d& n_start);
 
  private:
@@ -39,7 +39,7 @@ class TriangleCertificate {
   struct Stretch {
     const Moment& begin;
     const Moment& end;
-    double needed;  ///< metres of gap at both ends, so that the min_clearance is kept in between
+    double needed;  ///< metres of gap at both ends that keep the minimum clearance in between
   };
 
   bool prove_stretch(int begin, int end);

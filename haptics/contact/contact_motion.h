@@ -10,14 +10,14 @@
 
 namespace glissade::haptics {
 
-/// The contact after its part has moved by X_W and its obstacle by X_W_obstacle (both in the world), to first order:
-/// the normal stays; a vertex of the part stays where it is on the part, otherwise the obstacle's point stays where it
-/// is on the obstacle.
+/// The contact after its part has moved by X_W and its obstacle by X_W_obstacle (both in the world), to first order.
+/// The normal stays. A vertex of the part keeps its place on the part; otherwise the obstacle's point keeps its place
+/// on the obstacle.
 Contact carried(const Contact& contact, const Eigen::Isometry3d& X_W,
                 const Eigen::Isometry3d& X_W_obstacle = Eigen::Isometry3d::Identity());
 
-/// A contact of two parts as the other one sees it: `body_of_part` is the number among the bodies of the part that has
-/// the contact, `other_part` the number among the parts of the other.
+/// A contact of two parts as the other one sees it. `body_of_part` is the body number of the part that has the contact,
+/// `other_part` is the part number of the other.
 Contact mirrored(const Contact& contact, std::int32_t body_of_part, std::int32_t other_part);
 
 }  // namespace glissade::haptics

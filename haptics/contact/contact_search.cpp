@@ -11,13 +11,13 @@ using geometry::MeshTopology;
 using geometry::TriangleMesh;
 using geometry::TrianglePoints;
 
-/// In margins: how near contacts are whose rims are looked at, by how much two gaps may differ that count as the same,
-/// and how far past its end an edge is looked for that goes straight on there.
+/// In margins: the gap up to which a vertex over a face is checked for rims; the difference up to which two gaps count
+/// as equal; the length past its end to which an edge is considered where it goes straight on.
 constexpr double kNearRims = 2.0;
 constexpr double kAsNear = 0.1;
 constexpr double kPastEnd = 0.1;
 
-/// One side of a pair, part or obstacle: its mesh in world coordinates and what its triangle answers for.
+/// One side of a pair, part or obstacle: a triangle in world coordinates, and the features that it answers for.
 class Side {
  public:
   explicit Side(double sign) : sign_(sign) {}
@@ -33,7 +33,7 @@ class Side {
     bounds_.extend(points_[1]).extend(points_[2]);
   }
 
-  /// Whether the selected triangle may be within `distance` of that of the other side.
+  /// Whether the selected triangle may be within `distance` (metres) of that of the other side.
   bool may_be_near(const Side& other, double distance) const {
     return bounds_.squaredExteriorDistance(other.bounds_) <= distance * distance;
   }
@@ -50,8 +50,9 @@ class Side {
   /// Whether the selected triangle answers for its corner / edge i, and that feature can stop anything.
   bool owns_corner(int i) const { return topology_->answers_for_corner(triangle_, i); }
   bool owns_edge(int i) const { return topology_->answers_for_edge(triangle_, i); }
-  /// Whether a point on the line of edge i, at the part s of it, is inside the edge, or past an end by no more than
-  /// `tolerance` where the rim goes straight on: what crosses a rim just there must not slip through between two edges.
+  /// Whether the point at parameter s of the line of edge i is inside the edge, or past an end by at most `tolerance`
+  /// (metres) where the rim goes straight on. Otherwise an edge that crosses the rim just there could slip through
+  /// between two edges.
   bool is_on_edge(int i, double s, double tolerance) const {
     if (s > 0.0 && s < 1.0) return true;
     const int end = s <= 0.0 ? i : (i + 1) % 3;
@@ -59,8 +60,8 @@ class Side {
     const double squared_length = (corner((i + 1) % 3) - corner(i)).squaredNorm();
     return past * past * squared_length <= tolerance * tolerance && !topology_->can_stop(vertex(end));
   }
-  /// The point of the selected triangle closest to x. Where that is a vertex inside a straight rim, the one of its
-  /// edges that x lies beside, as `is_on_edge` has it.
+  /// The point of the selected triangle closest to x. If that is a vertex inside a straight rim, the point on the edge
+  /// beside which x lies, in the sense of `is_on_edge`.
   ClosestOnTriangle closest_to(const Eigen::Vector3d& x, double tolerance) const {
     const ClosestOnTriangle on = closest_on_triangle(x, points_);
     if (on.region != Region::kVertex || topology_->can_stop(vertex(on.index))) return on;
@@ -72,15 +73,15 @@ class Side {
     }
     return on;
   }
-  /// Whether no neighbor of corner / edge i lies nearer to the other side than it by more than `tolerance`, along the
-  /// normal n (from obstacle to part).
+  /// Whether corner / edge i is nearest to the other side among its neighbors: none is nearer by more than `tolerance`
+  /// (metres) along the normal n (from obstacle to part).
   bool corner_is_nearest(int i, const Eigen::Vector3d& n, double tolerance) const {
     return none_nearer(topology_->neighbors_of(vertex(i)), corner(i), n, tolerance);
   }
   bool edge_is_nearest(int i, const Eigen::Vector3d& n, double tolerance) const {
     return none_nearer(topology_->apexes_of(edge(i)), corner(i), n, tolerance);
   }
-  /// The edge of the selected triangle, not flat, that x lies within `tolerance` of; −1 if there is none.
+  /// An edge of the selected triangle that is not flat and within `tolerance` (metres) of x; −1 if there is none.
   std::int32_t rim_near(const Eigen::Vector3d& x, double tolerance) const {
     for (int i = 0; i < 3; ++i) {
       if (topology_->edges()[static_cast<std::size_t>(edge(i))].flat) continue;
@@ -103,10 +104,10 @@ class Side {
   const geometry::TriangleMesh* mesh_ = nullptr;
   const geometry::MeshTopology* topology_ = nullptr;
   const Eigen::Isometry3d* X_WB_ = nullptr;
-  double sign_;  // +1 for the part, from which the normal points away; −1 for the obstacle
+  double sign_;  // +1 for the part, towards which normals point; −1 for the obstacle
   std::int32_t triangle_ = -1;
   geometry::TrianglePoints points_;
-  Eigen::AlignedBox3d bounds_;  // of these
+  Eigen::AlignedBox3d bounds_;  // of the triangle
 };
 
 class ContactSearch {
@@ -124,7 +125,7 @@ class ContactSearch {
     part_number_ = pair.bodies.part - first_part_;
     part_.select(bodies_[static_cast<std::size_t>(pair.bodies.part)], pair.part_triangle);
     obstacle_.select(bodies_[static_cast<std::size_t>(pair.bodies.obstacle)], pair.obstacle_triangle);
-    // Candidates were near where the parts were some steps ago.
+    // Candidates are near at the poses of a search some steps ago.
     if (!part_.may_be_near(obstacle_, reach_)) return;
     for (int i = 0; i < 3; ++i) {
       if (part_.owns_corner(i)) search_part_corner(i);
@@ -133,8 +134,9 @@ class ContactSearch {
     }
   }
 
-  /// A vertex over a face, no further from a rim of it than the margin, where one of its edges crosses that rim: past
-  /// the rim there is room, which both constraints together would deny. The one of the edges is as near, and enough.
+  /// Leaves out a vertex over a face within a margin of the face's rim, if one of the vertex's edges crosses that rim:
+  /// past the rim there is room, which both constraints together would deny. The contact of the edges is as near and
+  /// sufficient.
   void leave_out_what_rims_hold() {
     std::erase_if(rims_, [&](const AtRim& rim) { return !rim_holds(contacts_[rim.contact], rim.edge); });
     std::size_t kept = 0;
@@ -150,13 +152,13 @@ class ContactSearch {
   }
 
  private:
-  /// A contact of a vertex that is over a face near an edge of it.
+  /// A contact of a vertex over a face, near an edge of that face.
   struct AtRim {
     std::size_t contact;
     std::int32_t edge;
   };
 
-  /// Of the contact that is added next.
+  /// Notes that the contact added next is near the rim `edge`; −1 means no rim.
   void note_rim(std::int32_t edge) {
     if (edge >= 0) rims_.push_back({contacts_.size(), edge});
   }
@@ -263,7 +265,7 @@ class ContactSearch {
   double margin_;
   std::vector<Contact>& contacts_;
   std::vector<AtRim> rims_;             // ascending
-  std::vector<std::size_t> crossings_;  // contacts of two edges that are near
+  std::vector<std::size_t> crossings_;  // near contacts of two edges
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Closest points between the features of triangles, with the feature they lie on.
+/// Closest points of triangle features, with the feature on which each point lies.
 
 #include <algorithm>
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace glissade::haptics {
 
-/// Where on a triangle a point lies.
+/// The kind of feature on which a point of a triangle lies.
 enum class Region : std::uint8_t { kFace, kEdge, kVertex };
 
 struct ClosestOnTriangle {
   Eigen::Vector3d point;
   Region region;
-  int index;  ///< of the edge (joining corners index and index + 1) or of the vertex
+  int index;  ///< number of the edge (joins corners index and index + 1) or of the vertex
 };
 
 /// The point of a triangle closest to x, by the triangle's Voronoi regions.
@@ -45,7 +45,7 @@ inline ClosestOnTriangle closest_on_triangle(const Eigen::Vector3d& x, const geo
   return {t[static_cast<std::size_t>(nearest)], Region::kVertex, nearest};
 }
 
-/// Where the lines through two segments are closest, and how far along the segments that is: 0 at the first end, 1 at
+/// Closest points of the lines through two segments, and their positions along the segments: 0 at the first end, 1 at
 /// the second.
 struct SegmentPoints {
   Eigen::Vector3d p;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The record of one haptic tick, made of what the kernel computed and the contact set it used.
+/// The record of one haptic tick: the kernel's outcome and the contact set that it used.
 
 #include <chrono>
 
@@ -12,11 +12,11 @@ namespace glissade::haptics {
 /// A contact set older than this is late: the simulation takes longer than a few ticks for an answer.
 inline constexpr std::chrono::milliseconds kLateContactSet{5};
 
-/// The state as it is told on the wire.
+/// The state as sent on the wire.
 devices::PartState part_state_of(SlidingState state) noexcept;
 
-/// The state to tell viewers and recorders, at time `now` of the haptic clock. The wrench is the one sent to the
-/// device, moved to the origin of the visible part. Real-time safe.
+/// The state for viewers and recorders, at time `now` of the haptic clock. The wrench is the one sent to the device,
+/// moved to the origin of the visible part. Real-time safe.
 devices::HapticState make_sample(const HapticTick& tick, const ContactSet& set, const Eigen::Vector3d& p_WH,
                                  std::chrono::nanoseconds now) noexcept;
 

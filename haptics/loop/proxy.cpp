@@ -19,8 +19,8 @@ Eigen::Isometry3d Proxy::target(const ContactSet& set, const Eigen::Isometry3d& 
   const geometry::Displacement wanted = geometry::displacement_between(set.X_WV_of_rows, X_WG, p_Vref_);
   const Projection projection = solver_.project(wanted, stiffness_, set.rows());
   if (projection.status != ProjectionStatus::kSolved) return X_WP_;
-  // Nothing known is in the way. Beyond the reach of the set something might be; but holding the hand back there would
-  // make a late simulation feel like drag, and the visible part is safe whatever the proxy does.
+  // No known contact is in the way. Beyond the reach of the set an unknown one may be; but holding the hand back there
+  // would make a late simulation feel like drag, and the visible part is safe whatever the proxy does.
   if (projection.active_count == 0) return X_WG;
   const double fraction = geometry::fraction_within(projection.displacement(), radius_, set.reach);
   return geometry::displaced(set.X_WV_of_rows, p_Vref_, projection.displacement().scaled(fraction));

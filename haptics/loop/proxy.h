@@ -1,7 +1,7 @@
 #pragma once
 
-/// The proxy: where the part would be *now*, by the newest contact set, which may be some milliseconds old. It gives
-/// the haptic thread a force that follows the hand at its own rate, without any collision query.
+/// The proxy: where the part would be *now*, according to the newest contact set, which may be some milliseconds old.
+/// It gives the haptic thread a force that follows the hand at its own rate, without any collision query.
 
 #include <Eigen/Geometry>
 

@@ -9,7 +9,9 @@ namespace glissade::haptics {
 CollisionObject::CollisionObject(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_C)
     : obstacles_(std::move(obstacles)), part_C_(std::move(part_C)) {
   if (obstacles_.empty()) throw std::invalid_argument("there is nothing that the part could touch");
+  if (part_C_ == nullptr) throw std::invalid_argument("the part needs a body, not a null pointer");
   for (Obstacle& obstacle : obstacles_) {
+    if (obstacle.body == nullptr) throw std::invalid_argument(obstacle.name + " needs a body, not a null pointer");
     const std::optional<Eigen::Isometry3d> X_WO = geometry::rigid_pose(obstacle.X_WO);
     if (!X_WO) throw std::invalid_argument("the pose of " + obstacle.name + " is not a rotation and translation");
     obstacle.X_WO = *X_WO;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The founding paper's collision object (§3.1): an invisible copy of the part that may be put anywhere, to see whether
-/// it collides there.
+/// The founding paper's collision object (§3.1): an invisible copy of the part that may be placed anywhere, to check
+/// for collisions there.
 
 #include <cstdint>
 #include <memory>
@@ -29,20 +29,21 @@ struct TouchingPair {
 /// Static, exact checks (`dop_query.h`) of the part against each obstacle. Deterministic. Not thread-safe.
 class CollisionObject {
  public:
-  /// Throws std::invalid_argument when there is no obstacle, and for an obstacle whose pose is none.
+  /// Throws std::invalid_argument when there is no obstacle, for null pointers, and for an obstacle whose pose
+  /// `geometry::rigid_pose` rejects.
   CollisionObject(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_C);
 
   std::span<const Obstacle> obstacles() const { return obstacles_; }
   const SlidingPart& part() const { return *part_C_; }
 
-  /// The number of an obstacle that the part at X_WC touches, −1 if there is none.
+  /// The number of an obstacle that the part at X_WC touches; −1 if it touches none.
   int obstacle_hit_at(const Eigen::Isometry3d& X_WC);
   bool collides(const Eigen::Isometry3d& X_WC) { return obstacle_hit_at(X_WC) >= 0; }
 
   /// Replaces `pairs` by all triangles of the part at X_WC and of obstacles that touch, in ascending order.
   void touching_pairs(const Eigen::Isometry3d& X_WC, std::vector<TouchingPair>& pairs);
 
-  /// How often any of this was asked.
+  /// Number of checks since construction.
   std::int64_t queries() const { return queries_; }
 
  private:
@@ -50,7 +51,7 @@ class CollisionObject {
 
   std::vector<Obstacle> obstacles_;
   std::shared_ptr<const SlidingPart> part_C_;
-  // Poses of one bisection jump about, too far for what coherent queries remember.
+  // Not a coherent workspace: the poses of a bisection jump too far for it to help.
   collision::QueryWorkspace workspace_;
   std::vector<collision::TrianglePair> triangles_;
   std::int64_t queries_ = 0;

@@ -14,13 +14,13 @@ namespace {
 
 using geometry::TrianglePoints;
 
-constexpr double kSmallestGap_m = 1e-10;  // below it a difference of coordinates has no direction
+constexpr double kSmallestGap_m = 1e-10;  // the direction of a shorter difference is rounding
 
-/// How many polygons touch another one across each edge.
+/// For each edge of a polygon, the number of polygons across it that touch the same other polygon.
 class EdgeCounts {
  public:
-  /// `side_of` gives the topology of the polygon whose edges are counted, its number, and which other polygon it
-  /// touches.
+  /// `side_of` returns, for a pair, the topology and the number of the polygon whose edges are counted, the obstacle,
+  /// and the other polygon.
   template <typename SideOf>
   EdgeCounts(std::span<const TouchingPair> pairs, const SideOf& side_of) {
     keys_.reserve(3 * pairs.size());
@@ -43,12 +43,12 @@ class EdgeCounts {
   std::vector<Key> keys_;
 };
 
-/// One polygon of a touching pair with what is needed of its body.
+/// One polygon of a touching pair, with its body and its corners at both poses.
 struct Polygon {
   const ContactBody* body;
   std::int32_t triangle;
-  geometry::TrianglePoints touching;  // world coordinates when it touches
-  geometry::TrianglePoints free;      // and when the visible part is there
+  geometry::TrianglePoints touching;  // world coordinates at the touching pose
+  geometry::TrianglePoints free;      // and at the visible pose
 
   std::int32_t edge(std::size_t i) const { return body->topology.edges_of(triangle)[i]; }
   std::int32_t vertex(std::size_t i) const {
@@ -66,7 +66,7 @@ bool any(const EdgeFlags& flags) {
   return flags[0] || flags[1] || flags[2];
 }
 
-/// Which edges of `a` meet the triangle `b` where they touch.
+/// The edges of `a` that meet the triangle `b` at the touching pose.
 EdgeFlags edges_that_meet(const Polygon& a, const Polygon& b) {
   EdgeFlags meet{};
   if (geometry::is_degenerate(b.touching)) return meet;
@@ -77,8 +77,8 @@ EdgeFlags edges_that_meet(const Polygon& a, const Polygon& b) {
   return meet;
 }
 
-/// The vertex of `a` that passes the plane of `b` between the two poses, from within `near` of `b`; the one nearest to
-/// it if there are several.
+/// The vertex of `a` that passes the plane of `b` between the two poses and is within `near` (metres) of `b` at the
+/// visible pose; the nearest if there are several.
 std::optional<std::size_t> vertex_through(const Polygon& a, const Polygon& b, double near) {
   const Eigen::Vector3d n_free = (b.free[1] - b.free[0]).cross(b.free[2] - b.free[0]);
   const Eigen::Vector3d n_touching = (b.touching[1] - b.touching[0]).cross(b.touching[2] - b.touching[0]);
@@ -154,7 +154,7 @@ class Classification {
   }
 
  private:
-  /// The paper's n; `across` tells over which edges the counted polygons lie.
+  /// The paper's n; `across` flags the edges across which the counted polygons lie.
   int count(const Polygon& polygon, const EdgeCounts& counts, std::int32_t other, EdgeFlags& across) const {
     int n = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -185,7 +185,7 @@ class Classification {
     return true;
   }
 
-  /// Of the edges in question, those two that are closest.
+  /// Adds the contact of the two closest among the flagged edges.
   bool add_edge_edge(const EdgeFlags& edges_of_p, const EdgeFlags& edges_of_q) {
     double nearest = near_;
     PaperContact::Features features{PaperContactKind::kEdgeEdge, -1, pair_.obstacle, -1};
@@ -226,7 +226,7 @@ class Classification {
         apart.p_b, apart.p_a);
   }
 
-  /// The normal is given up to its sign.
+  /// The sign of `n_W` is arbitrary.
   void add(const PaperContact::Features& features, const Eigen::Vector3d& n_W, const Eigen::Vector3d& x_W,
            const Eigen::Vector3d& y_W) {
     double side = n_W.dot(x_W - y_W);
@@ -236,7 +236,7 @@ class Classification {
         {features, pair_.part_triangle, pair_.obstacle_triangle, side < 0.0 ? Eigen::Vector3d(-n_W) : n_W, p_V, y_W});
   }
 
-  /// From the visible pose to where the polygons touch, of a point of the part.
+  /// The motion of a point of the part from the visible pose to the touching pose.
   Eigen::Vector3d motion_of(const Eigen::Vector3d& x_W) const { return X_WC_ * (X_VW_ * x_W) - x_W; }
 
   std::span<const Obstacle> obstacles_;

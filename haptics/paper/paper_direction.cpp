@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::size_t kMostNormals = 32;
 constexpr double kSameNormal = 1.0 - 1e-9;    // cosine
-constexpr double kNoLineSineSquared = 1e-12;  // planes more parallel than that do not meet in a line
-constexpr double kInto = -1e-9;               // of the wanted length: less than this is along a plane
+constexpr double kNoLineSineSquared = 1e-12;  // planes more parallel than this have no line in common
+constexpr double kInto = -1e-9;               // of the wanted length: a smaller approach is along the plane
 
 /// Different normals, the most opposed to the motion first.
 class OpposedNormals {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <glissade/base/assert.h>
 #include <glissade/geometry/rigid_pose.h>
 
 #include "sliding/wanted_pose.h"
@@ -14,8 +15,8 @@ namespace glissade::haptics {
 namespace {
 
 constexpr double kLeastBracket_m = 1e-9;  // bisection ends far above rounding
-constexpr double kNoProgress = 1.0;       // brackets: less is none
-constexpr double kRoom = 0.5;             // brackets: a contact that is nearer asks for so much
+constexpr double kNoProgress = 1.0;       // brackets: less motion counts as none
+constexpr double kRoom = 0.5;             // brackets: contacts that are nearer demand this distance
 
 ContactKind told_kind(PaperContactKind kind) {
   switch (kind) {
@@ -66,7 +67,7 @@ void PaperSliding::release() {
   let_rest(SlidingState::kReleased);
 }
 
-/// Nothing is wanted of the part, so nothing pushes it.
+/// The target is the pose of the part itself, so nothing pushes it.
 void PaperSliding::let_rest(SlidingState state) {
   result_.X_WT = result_.X_WV;
   result_.state = state;
@@ -77,6 +78,7 @@ void PaperSliding::let_rest(SlidingState state) {
 }
 
 const SlidingResult& PaperSliding::advance(const Eigen::Isometry3d& X_WG_given, double milliseconds) {
+  GLISSADE_ASSERT(milliseconds >= 0.0 && std::isfinite(milliseconds));
   const std::optional<Eigen::Isometry3d> rigid = geometry::rigid_pose(X_WG_given);
   if (!rigid || result_.state == SlidingState::kReleased) return result_;
   X_WG_previous_ = result_.X_WG;
@@ -163,10 +165,10 @@ void PaperSliding::place_visible(const Eigen::Isometry3d& X_WV, double length) {
   budget_ -= length;
   moved_ += length;
   moved_in_cycle_ += length;
-  if (metaphor_ == Metaphor::kRubberBand) want();  // it wants what turns with the part
+  if (metaphor_ == Metaphor::kRubberBand) want();  // its target turns with the part
 }
 
-/// Contacts that were left behind hold no more; of one that is found again, the newer account counts.
+/// Drops contacts that the part has left. A contact that is found again replaces the old one.
 PaperEvent PaperSliding::classify() {
   std::erase_if(contacts_, [&](const PaperContact& c) { return c.gap_at(result_.X_WV) > held_within(); });
   collision_object_.touching_pairs(X_WC_, touching_);
@@ -179,9 +181,10 @@ PaperEvent PaperSliding::classify() {
   return PaperEvent::kWorked;
 }
 
-/// With rotation first. A rotation that ends at once at the contacts it was to turn about, as the room of a bracket is
-/// soon used up by the bend of its path, is left out the next time. A contact that the part touches but for rounding
-/// would let it go nowhere, so contacts ask for half a bracket of room (ours) where not in each other's way.
+/// Tries a direction with rotation first. A rotation can end at once at the contacts about which it turns, because the
+/// curvature of its path soon uses up the room of a bracket; the next cycle then omits it. A contact that the part
+/// touches up to rounding would stop all motion. Therefore contacts demand half a bracket of room (ours), unless these
+/// demands contradict each other.
 PaperEvent PaperSliding::choose_direction() {
   const bool progress = moved_in_cycle_ >= kNoProgress * bracket_ || found_contact_;
   stalled_cycles_ = progress ? 0 : stalled_cycles_ + 1;
@@ -201,8 +204,8 @@ PaperEvent PaperSliding::choose_direction() {
   return PaperEvent::kWorked;
 }
 
-/// The number of iterations, and three distances: how far the part came in this cycle, how far the new direction leads,
-/// and what the metaphor's speed leaves.
+/// The criterion has the number of iterations and three distances: the motion of this cycle, the length of the new
+/// direction, and the motion that the metaphor's speed still allows.
 PaperEvent PaperSliding::evaluate_criterion() {
   const double least = kNoProgress * bracket_;
   const bool stop = result_.cycles >= max_cycles_ || stalled_cycles_ > 1 ||
@@ -210,7 +213,7 @@ PaperEvent PaperSliding::evaluate_criterion() {
   return stop ? PaperEvent::kStop : PaperEvent::kGoOn;
 }
 
-/// Contacts nearer than `room` (metres) ask for it.
+/// Rows of the contacts; those nearer than `room` (metres) demand it.
 std::span<const ConstraintRow> PaperSliding::contact_rows(double room) {
   const Eigen::Vector3d p_Wref = result_.X_WV * part().p_Vref();
   rows_.clear();

@@ -1,17 +1,19 @@
 #pragma once
 
-/// Sliding contact as the founding paper tells it (§3): bisect to the contact, classify it, go on in a new direction.
-/// For comparison; `sliding.h` is the method to use. What this one cannot do, and why, is in docs/sliding.md.
+/// Sliding contact as the founding paper describes it (§3): bisect to the contact, classify it, continue in a new
+/// direction. For comparison; `sliding.h` is the method to use. The limits of this one, and their reasons, are in
+/// docs/sliding.md.
 ///
-/// The collision object (`collision_object.h`) is put where the metaphor wants the part. Where it collides, the path to
-/// there, straight and evenly turning, is halved by static exact checks until the first contact on it is known to a
-/// fraction of a micrometre. The visible object is put at the free end of that bracket, so it stays a small distance
-/// before the contact, and never at a colliding pose. The polygons that touch at the other end are classified
-/// (`paper_classification.h`), the contacts turn what is left of the motion (`paper_direction.h`), and the collision
-/// object goes that way, until a stopping criterion ends it: a finite state machine (`paper_states.h`).
+/// The collision object (`collision_object.h`) is placed where the metaphor wants the part. If it collides there, the
+/// path to that pose, straight and turning evenly, is bisected with static exact checks until a contact on it is known
+/// to a fraction of a micrometre. The visible object is placed at the free end of that bracket, so it stays a small
+/// distance before the contact and never at a colliding pose. The polygons that touch at the other end are classified
+/// (`paper_classification.h`), the contacts deflect the remaining motion (`paper_direction.h`), and the collision
+/// object continues in that direction until a stopping criterion ends the call. A finite state machine runs these steps
+/// (`paper_states.h`).
 ///
-/// Only poses are checked, not the paths between them: a thin sheet can be passed. Contacts hold while the part stays
-/// within some brackets of them, but for one call at most.
+/// Only poses are checked, not the paths between them: the part can pass through a thin sheet. A contact holds while
+/// the part stays within kHeldWithin brackets of it, and no longer than one call.
 
 #include <cstdint>
 #include <memory>
@@ -33,11 +35,11 @@ namespace glissade::haptics {
 
 struct PaperSlidingOptions {
   Metaphor metaphor = Metaphor::kForceFeedback;
-  /// By default that of `default_stiffness`.
+  /// Default: `default_stiffness` of the part's radius.
   std::optional<CouplingStiffness> stiffness{};
-  /// Metres that any point of the part moves at most between the two ends of a bisection.
+  /// Bound (metres) of the motion of any point of the part between the two ends of a finished bisection.
   double bracket = 0.5e-6;
-  /// Bisections in one call.
+  /// Bisections in one call, at most.
   int max_cycles = 20;
 };
 
@@ -45,17 +47,18 @@ struct PaperSlidingOptions {
 /// Not thread-safe; several simulations may share bodies.
 class PaperSliding final : public SlidingSimulation {
  public:
-  /// The margins of obstacles are of no concern here. Throws std::invalid_argument when there is no obstacle, when the
-  /// part collides with one at X_WV_start, and for a bracket that is not positive.
+  /// Ignores the margins of obstacles. Throws std::invalid_argument when there is no obstacle, for null pointers, for
+  /// poses that `geometry::rigid_pose` rejects, when the part collides with an obstacle at X_WV_start, and for a
+  /// bracket of less than a nanometre.
   PaperSliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,
                const Eigen::Isometry3d& X_WV_start, const PaperSlidingOptions& options = {});
 
   void grasp(const Eigen::Isometry3d& X_WG) override;
   void release() override;
-  /// The result's contacts are those that hold the part at the end; the force of each is its share of the coupling's
-  /// spring: the part of K ξ* along contact normals that the projection of `projection.h` on their tangent planes takes
-  /// away. Where the part is jammed short of its optimum, as this method may be, the shares do not add up to K ξ*.
-  /// Contacts that are unclear are told as those of two vertices without numbers.
+  /// The contacts of the result are those that hold the part at the end. The force of each is its share of the
+  /// coupling's spring: its multiplier in the projection (`projection.h`) of ξ* on all tangent planes. Where this
+  /// method jams the part short of its optimum, the shares do not add up to K ξ*. Unclear contacts are reported as
+  /// vertex/vertex without feature numbers.
   const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) override;
 
   const SlidingResult& result() const override { return result_; }
@@ -64,14 +67,14 @@ class PaperSliding final : public SlidingSimulation {
   double margin() const override { return kHeldWithin * bracket_; }
   std::string trace() const override;
 
-  /// The states of the last call, in the order they were in, `done` last; none before the first call and while
+  /// The states of the last call in their order, `done` last; empty before the first call and while the part is
   /// released.
   std::span<const PaperState> states() const { return states_; }
-  /// Checks for collision since construction.
+  /// Collision checks since construction.
   std::int64_t queries() const { return collision_object_.queries(); }
   double bracket() const { return bracket_; }
 
-  /// Brackets that the part may be from a contact that holds it.
+  /// Largest distance, in brackets, between a part and a contact that holds it.
   static constexpr double kHeldWithin = 4.0;
 
  private:
@@ -107,15 +110,15 @@ class PaperSliding final : public SlidingSimulation {
 
   // Of this call.
   Eigen::Isometry3d X_WG_previous_ = Eigen::Isometry3d::Identity();
-  double budget_ = 0.0;  // metres that the metaphor lets the part move yet
+  double budget_ = 0.0;  // metres that the metaphor still allows
   double moved_ = 0.0;   // metres
   // Of this cycle, from one bisection to the next.
-  geometry::Displacement attempt_;                          // that collided
+  geometry::Displacement attempt_;                          // the displacement that collided
   Eigen::Isometry3d X_WC_ = Eigen::Isometry3d::Identity();  // the colliding end of the bracket
-  geometry::Displacement direction_;                        // the new one
+  geometry::Displacement direction_;                        // the new displacement
   double moved_in_cycle_ = 0.0;                             // metres
-  bool found_contact_ = false;                              // that was not known
-  int stalled_cycles_ = 0;                                  // in a row, without any of both
+  bool found_contact_ = false;                              // a new one
+  int stalled_cycles_ = 0;                                  // in a row, without motion or new contact
 };
 
 }  // namespace glissade::haptics

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The finite state machine of the founding paper's sliding simulation (§3.1 and Figure 6), apart from what is done in
-/// its states: `paper_sliding.h` does that.
+/// The finite state machine of the founding paper's sliding simulation (§3.1 and Figure 6). The work of its states is
+/// in `paper_sliding.h`.
 
 #include <array>
 #include <cstdint>
@@ -10,22 +10,22 @@
 namespace glissade::haptics {
 
 enum class PaperState : std::uint8_t {
-  kMoving,        ///< under the user's control: the collision object goes to where the metaphor wants it
-  kBisecting,     ///< it penetrates: the contact is approximated, the visible object goes up to it
-  kClassifying,   ///< what touches there is made contacts
-  kNewDirection,  ///< the contacts turn the rest of the motion
-  kCriterion,     ///< is it worth another cycle?
+  kMoving,        ///< under the user's control: the collision object goes to the target
+  kBisecting,     ///< it penetrates: the contact is approximated, the visible object goes up to the contact
+  kClassifying,   ///< polygons that touch there become contacts
+  kNewDirection,  ///< the contacts deflect the remaining motion
+  kCriterion,     ///< decides whether another cycle is worth it
   kSliding,       ///< under the simulation's control: the collision object goes in the new direction
-  kDone,          ///< the answer to this pose of the hand is there
+  kDone,          ///< this pose of the hand is answered
 };
 
-/// What became of a state's work.
+/// The outcome of a state's work.
 enum class PaperEvent : std::uint8_t {
   kFree,       ///< the collision object collides with nothing
-  kCollision,  ///< it does
-  kWorked,     ///< what the state is for is done
-  kGoOn,       ///< the criterion asks for another cycle
-  kStop,       ///< it does not
+  kCollision,  ///< the collision object collides
+  kWorked,     ///< the state's work is done
+  kGoOn,       ///< the criterion demands another cycle
+  kStop,       ///< the criterion ends the call
 };
 
 inline constexpr std::array<std::string_view, 7> kPaperStateNames{
@@ -35,7 +35,7 @@ inline std::string_view name_of(PaperState state) {
   return kPaperStateNames[static_cast<std::size_t>(state)];
 }
 
-/// The state that follows:
+/// The next state:
 ///
 ///   state          event       next
 ///   moving         free        done           the visible object follows the hand
@@ -48,7 +48,7 @@ inline std::string_view name_of(PaperState state) {
 ///   sliding        free        moving         back under the user's control
 ///   sliding        collision   bisecting
 ///
-/// A state that has no such event, and `done` itself, leads to `done`.
+/// Every other event, and every event of `done`, leads to `done`.
 PaperState next_state(PaperState state, PaperEvent event);
 
 }  // namespace glissade::haptics

@@ -23,6 +23,7 @@ ContactScene::ContactScene(std::vector<Obstacle> obstacles, std::vector<std::sha
     : obstacles_(std::move(obstacles)), parts_(std::move(parts)) {
   if (obstacles_.size() + parts_.size() < 2) throw std::invalid_argument("there is nothing that the part could touch");
   for (Obstacle& obstacle : obstacles_) {
+    if (obstacle.body == nullptr) throw std::invalid_argument(obstacle.name + " needs a body, not a null pointer");
     const std::optional<Eigen::Isometry3d> X_WO = geometry::rigid_pose(obstacle.X_WO);
     if (!X_WO) throw std::invalid_argument("the pose of " + obstacle.name + " is not a rotation and translation");
     if (obstacle.margin) check_margin(*obstacle.margin, "of " + obstacle.name);

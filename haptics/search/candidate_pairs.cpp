@@ -10,7 +10,7 @@ template <typename Pair>
 void CandidatePairs::Search::collect(const std::vector<Pair>& pairs, double reach, std::vector<Pair>& found) const {
   found.clear();
   for (const Pair& pair : pairs) {
-    if (pair.distance > reach + drift) return;  // and so are the others
+    if (pair.distance > reach + drift) return;  // as are all that follow
     if (still_apart(pair.bodies, pair.distance, pair.n_W) <= reach) found.push_back(pair);
   }
 }
@@ -56,7 +56,7 @@ void CandidatePairs::ask(Search& search, double reach, double ahead, std::span<c
   if (thread_) thread_->begin(search_, search.request, search.set);
 }
 
-/// Has the answer to a request. Without a thread it is looked for only now, when it is certain to be needed.
+/// Gets the answer to a request. Without a thread, the search runs only now, when its answer is certainly needed.
 void CandidatePairs::answer(Search& search) {
   if (thread_) {
     thread_->wait();
@@ -91,7 +91,7 @@ void CandidatePairs::clear() {
   if (thread_) thread_->wait();
 }
 
-/// Also what a search that threw has left behind.
+/// Also called before a search, which may throw and leave its answer unfinished.
 void CandidatePairs::forget() {
   now_.is_there = false;
   next_.is_there = false;

@@ -1,18 +1,18 @@
 #pragma once
 
-/// What the parts could reach soon, kept over several steps: one search serves as long as nothing has certainly moved
-/// further than it looked. The next one is asked for ahead of need, when half of that way is used up, and taken when
-/// all of it is. Where each begins and is taken depends on the motion alone; so a thread of its own may work on it
-/// meanwhile, and the bits are the same without one.
+/// Pairs that the parts may reach soon, kept over several steps: one search serves until the motion of the parts has
+/// used up its look-ahead. The next search is requested ahead of need, when half of the look-ahead is used up, and its
+/// answer is taken when all of it is. Both moments depend on the motion alone; therefore a thread of its own may run
+/// the search meanwhile without changing a bit.
 
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "scene/contact_scene.h"
 #include <glissade/haptics/sliding_simulation.h>
 
+#include "scene/contact_scene.h"
 #include "search/candidate_search.h"
 #include "search/search_thread.h"
 
@@ -21,58 +21,59 @@ namespace glissade::haptics {
 /// Not thread-safe.
 class CandidatePairs {
  public:
-  /// The scene must outlive this object. Nothing further than `greatest_radius` (metres) can be asked for.
+  /// The scene must outlive this object. In `look`, reach + ahead must not exceed `greatest_radius` (metres).
   CandidatePairs(const ContactScene& scene, double greatest_radius, bool has_own_thread = false);
   CandidatePairs(const CandidatePairs&) = delete;
   CandidatePairs& operator=(const CandidatePairs&) = delete;
   ~CandidatePairs();
 
-  /// Makes sure that every pair within `reach` (metres) of where the parts are placed is among the candidates, but
-  /// those of bodies that are `ignored`; whoever looks looks `ahead` (metres) further. Pairs that are ignored must be
-  /// the same in all calls until `clear`. Returns whether the candidates are others than before. What a search
-  /// throws, for memory that is not to be had or a pose that is none, reaches the caller; nothing is covered then.
+  /// Makes every pair within `reach` (metres) of the parts' present poses a candidate, except pairs of `ignored`
+  /// bodies. A new search uses radius reach + `ahead` (metres). Returns whether the candidates changed. `ignored` must
+  /// be the same in all calls until `clear`. Exceptions of a search (no memory, or a pose that `geometry::rigid_pose`
+  /// rejects) reach the caller; nothing is covered then.
   bool look(double reach, double ahead, std::span<const BodyPair> ignored);
 
-  /// The parts are placed elsewhere now.
+  /// To be called when parts have been placed at other poses.
   void moved();
 
-  /// Forgets everything: covers nothing until the next search.
+  /// Discards all candidates: nothing is covered until the next `look`.
   void clear();
 
-  /// Whether every pair within `reach` of the parts' present poses is certainly among the candidates.
+  /// Whether every pair within `reach` (metres) of the parts' present poses is certainly among the candidates.
   bool covers(double reach) const { return now_.covers(reach); }
 
-  /// Replaces `pairs` by the candidates that may be within `reach` of the parts' present poses, nearest first by the
-  /// poses of the search.
+  /// Replaces `pairs` by the candidates that may be within `reach` (metres) of the parts' present poses, in ascending
+  /// order of the distance at the poses of the search.
   void within(double reach, std::vector<CandidatePair>& pairs) const { now_.collect(now_.set.pairs, reach, pairs); }
-  /// The same of all pairs, with features or not, in boxes as large as proofs take them.
+  /// The same for the pairs to certify, which hold all triangles, with features or without, in the largest boxes that
+  /// separate.
   void within(double reach, std::vector<PairToCertify>& to_certify) const {
     now_.collect(now_.set.to_certify, reach, to_certify);
   }
 
-  /// Number of pairs, and of to_certify.
+  /// Number of candidate pairs plus number of pairs to certify.
   std::size_t size() const { return now_.set.pairs.size() + now_.set.to_certify.size(); }
 
   const SearchAccount& account() const { return account_; }
 
  private:
-  /// How a body has moved since a search: no point of it by more than `turn` off `v`.
+  /// The motion of a body since a search: each point moved by v_W, with a deviation of at most `turn`.
   struct Motion {
     Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  // metres
     double turn = 0.0;                              // metres
   };
-  /// A search, and how far the bodies have come since its poses.
+  /// A search, and the motions of the bodies since its poses.
   struct Search {
     CandidateRequest request;
     CandidateSet set;
     std::vector<Motion> motions;  // of each body
-    double half = 0.0;            // metres of drift at which the next one is asked for
-    double drift = 0.0;           // metres: no two points of different bodies have come nearer by more
-    bool is_there = false;        // or will be, when the thread is done with it
+    double half = 0.0;            // metres of drift at which the next search is requested
+    double drift = 0.0;           // metres: bound of how much nearer two bodies have come
+    bool is_there = false;        // requested; a thread may still be working on it
 
     bool covers(double reach) const { return is_there && reach + drift <= request.radius; }
-    /// Metres that two triangles or boxes are certainly apart still, where the unit vector n_W kept them `distance`
-    /// apart; or, where n_W is zero, nobody knows which.
+    /// Lower bound (metres) of the present distance of two triangles or boxes that the unit vector n_W separated by
+    /// `distance`. If n_W is zero, that direction is unknown.
     double still_apart(const BodyPair& bodies, double distance, const Eigen::Vector3d& n_W) const {
       const Motion& of_obstacle = motions[static_cast<std::size_t>(bodies.obstacle)];
       const Motion& of_part = motions[static_cast<std::size_t>(bodies.part)];
@@ -94,7 +95,7 @@ class CandidatePairs {
   Search now_;
   Search next_;
   SearchAccount account_;
-  std::optional<SearchThread> thread_;  // last: it works on the others
+  std::optional<SearchThread> thread_;  // last: it uses the members above
 };
 
 }  // namespace glissade::haptics

@@ -9,7 +9,7 @@ namespace {
 constexpr int kObstacles = 0;  // groups of the interest matrix
 constexpr int kPart = 1;
 
-// The other processors belong to the haptic thread and to whoever shows the scene.
+// A single thread: the other processors belong to the haptic thread and to the viewer.
 collision::PipelineOptions pipeline_options(double greatest_distance) {
   return {.query = collision::PairQuery::kClosePairs, .greatest_distance = greatest_distance, .threads = 1};
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The collision detection of sliding contact (paper §3.1): what is near parts at given poses. It knows poses from its
-/// requests only, so it may work on one in a thread of its own while the simulation goes on (paper Figure 7).
+/// The collision detection of sliding contact (paper §3.1): finds all pairs near the parts at given poses. It takes
+/// poses from requests only, so it may run in a thread of its own while the simulation goes on (paper Figure 7).
 
 #include <cstdint>
 #include <span>
@@ -16,33 +16,35 @@
 
 namespace glissade::haptics {
 
-/// A pair of triangles that may make a contact: either answers for an edge or vertex that can stop the part.
+/// A triangle pair that may yield a contact: at least one of the triangles answers for an edge or vertex that can stop
+/// the other body (`geometry::MeshTopology`).
 struct CandidatePair : TrianglesOfBodies {
   double distance;      ///< metres, at the poses of the request
-  Eigen::Vector3d n_W;  ///< unit, from the obstacle's to the part's closest point then; zero where it is not sharp
+  Eigen::Vector3d n_W;  ///< unit, from the obstacle's closest point to the part's; zero below kSharpDistance_m
 };
 
-/// What is asked for.
+/// Poses of the parts, radius, and body pairs to leave out.
 struct CandidateRequest {
-  std::vector<Eigen::Isometry3d> X_WV;  ///< of each part
+  std::vector<Eigen::Isometry3d> X_WV;  ///< one for each part
   double radius = 0.0;                  ///< metres
-  std::vector<BodyPair> ignored;        ///< pairs of bodies
+  std::vector<BodyPair> ignored;        ///< body pairs to leave out
 };
 
-/// The answer: all pairs within the radius, the nearest first.
+/// The answer: all pairs within the radius, nearest first.
 struct CandidateSet {
   std::vector<CandidatePair> pairs;       ///< for contacts
-  std::vector<PairToCertify> to_certify;  ///< for proofs
-  collision::FrameReport report;          ///< what it took, without the to_certify
+  std::vector<PairToCertify> to_certify;  ///< for path certificates
+  collision::FrameReport report;          ///< the work of finding `pairs` alone
 };
 
-/// Not thread-safe, but apart from the scene: these may be changed while a request is worked on.
+/// Not thread-safe. Reads neither poses nor minimum clearances of the scene, so these may change during a search.
 class CandidateSearch {
  public:
   /// The scene must outlive this object. Requests may have radii up to `greatest_radius` (metres).
   CandidateSearch(const ContactScene& scene, double greatest_radius);
 
-  /// Replaces `set`. The answer depends on the request only. Throws std::invalid_argument for a pose that is none.
+  /// Replaces `set` by the answer, which depends on the request only. Throws std::invalid_argument for a pose that
+  /// `geometry::rigid_pose` rejects.
   void find(const CandidateRequest& request, CandidateSet& set);
 
  private:

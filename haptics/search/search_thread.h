@@ -1,6 +1,6 @@
 #pragma once
 
-/// A thread that works on one request of the collision detection at a time.
+/// A thread that runs one candidate search at a time.
 
 #include <condition_variable>
 #include <exception>
@@ -11,19 +11,20 @@
 
 namespace glissade::haptics {
 
-/// Thread-safety: one thread owns the object. It may lock and wait, so that is never the haptic thread.
+/// Thread-safety: one thread owns the object, never the haptic thread, because calls may lock and wait.
 class SearchThread {
  public:
-  /// Begins to search at once. None of the references may be used by others until `wait` has returned.
+  /// Starts a search. The search before must have ended in `wait`. The three objects must not be used until `wait` has
+  /// returned.
   void begin(CandidateSearch& search, const CandidateRequest& request, CandidateSet& set);
 
-  /// Returns when the search is done; at once if there is none. Rethrows what it threw.
+  /// Waits until the search is done; returns at once if there is none. Rethrows the exception of the search.
   void wait();
 
   SearchThread();
   SearchThread(const SearchThread&) = delete;
   SearchThread& operator=(const SearchThread&) = delete;
-  /// Waits for the search that is under way.
+  /// Waits for a search that is under way.
   ~SearchThread() = default;
 
  private:
@@ -37,9 +38,9 @@ class SearchThread {
 
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  Job job_;  // none when it is done
+  Job job_;  // null when it is done
   std::exception_ptr error_;
-  std::jthread thread_;  // last, so that it ends before what it uses
+  std::jthread thread_;  // last: it ends before the members that it uses
 };
 
 }  // namespace glissade::haptics

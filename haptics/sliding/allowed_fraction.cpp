@@ -8,11 +8,11 @@
 namespace glissade::haptics {
 namespace {
 
-/// The largest fraction of a displacement `d` of the part for which its lag, which was `previous` and is `now`, changes
-/// by at most `most` metres, or by as much as it has changed already.
+/// The largest fraction of a displacement `d` for which the lag of the part, `now` before the displacement, differs
+/// from the `previous` lag by at most `most` metres, or by as much as it does already.
 double fraction_with_lag(const geometry::Displacement& previous, const geometry::Displacement& now,
                          const geometry::Displacement& d, double radius, double most) {
-  // Rotations by the angle between them: their vectors may change faster than the rotations themselves.
+  // Rotations are compared by the angle between them: rotation vectors may change faster than the rotations themselves.
   const Eigen::Quaterniond q_previous = geometry::rotation_by(previous.w);
   const Eigen::Quaterniond q_now = geometry::rotation_by(now.w);
   const auto changed = [&](double fraction) {

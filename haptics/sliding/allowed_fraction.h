@@ -1,6 +1,6 @@
 #pragma once
 
-/// How much of a projected displacement each part may go.
+/// The fraction of its projected displacement that each part may take in a step.
 
 #include <array>
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace glissade::haptics {
 
-/// The fractions that the reach (metres), the slew and the linearisation of rotations allow. Parts that touch, or may
-/// soon, are shortened alike: a row between two parts holds for both displacements together.
+/// The fractions that the reach (metres), the slew and the linearisation of rotations allow. Two parts with a common
+/// row get the same fraction, because the row holds for both displacements together.
 std::array<double, kMaxParts> allowed_fractions(const SimulatedParts& shared, const Displacements& d,
                                                 std::span<const CoupledRow> rows, double reach);
 

@@ -23,7 +23,8 @@ void add_overlaps(const SimulatedParts& shared, const Overlaps& overlaps, std::v
   }
 }
 
-/// Each result has one pose for its contacts, that of its part; so the other side must be where it is now.
+/// A result has one pose for its contacts, that of its part. Therefore contacts are carried along to the present poses
+/// of both sides.
 void distribute(SimulatedParts& shared, const std::vector<Contact>& contacts) {
   std::vector<HeldPartState>& parts = shared.states;
   const auto obstacles = static_cast<std::int32_t>(shared.scene.obstacles().size());

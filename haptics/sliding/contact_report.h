@@ -11,8 +11,8 @@
 
 namespace glissade::haptics {
 
-/// Gives each part its own contacts, as it sees them, and adds those of overlaps. `contacts` is memory that calls
-/// reuse; its contents are arbitrary afterwards.
+/// Gives each part its own contacts, seen from its side, and adds the contacts of overlaps. `contacts` are those of the
+/// last cycle; their memory is reused, so their contents are arbitrary afterwards.
 void report_contacts(SimulatedParts& shared, const Overlaps& overlaps, std::vector<Contact>& contacts);
 
 }  // namespace glissade::haptics

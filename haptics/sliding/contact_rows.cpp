@@ -17,7 +17,7 @@ void ContactRows::find(double reach) {
   for (Contact& contact : contacts_) {
     const auto body = static_cast<std::int32_t>(scene.body_of_part(static_cast<std::size_t>(contact.part)));
     contact.margin = scene.margin(contact.obstacle, body);
-    // A contact closer than its margin asks for some of it back.
+    // A contact closer than its margin demands part of it back.
     const double missing = contact.margin - contact.gap;
     const double bound = missing > 0.0 ? 0.7 * missing : missing;
     add(contact.obstacle, static_cast<std::size_t>(contact.part), contact.n_W, contact.p_W, bound);
@@ -26,7 +26,7 @@ void ContactRows::find(double reach) {
 
 void ContactRows::keep_contacts_only() {
   rows_.resize(contacts_.size());
-  proof_contacts_.clear();
+  failure_contacts_.clear();
 }
 
 void ContactRows::add(std::int32_t obstacle, std::size_t part, const Eigen::Vector3d& n_W, const Eigen::Vector3d& p_W,
@@ -62,9 +62,9 @@ void ContactRows::add_failures(std::span<const UncertifiedPair> failures) {
     for (const Eigen::Vector3d& x_W : part.triangle_W(failure.part_triangle)) {
       const double gap = failure.n_W.dot(x_W) - top;
       add(failure.bodies.obstacle, number, failure.n_W, x_W, std::min(0.0, margin - gap));
-      Contact& contact =
-          proof_contacts_.emplace_back(Contact{ContactKind::kVertexFace, failure.part_triangle, failure.bodies.obstacle,
-                                               failure.obstacle_triangle, failure.n_W, x_W, gap});
+      Contact& contact = failure_contacts_.emplace_back(Contact{ContactKind::kVertexFace, failure.part_triangle,
+                                                                failure.bodies.obstacle, failure.obstacle_triangle,
+                                                                failure.n_W, x_W, gap});
       contact.part = static_cast<std::int32_t>(number);
       contact.margin = margin;
     }
@@ -81,7 +81,7 @@ void ContactRows::take_forces(std::span<const RowForce> forces) {
   pushed_.clear();
   for (const RowForce& force : forces) {
     const auto row = static_cast<std::size_t>(force.row);
-    Contact& contact = row < found ? contacts_[row] : contacts_.emplace_back(proof_contacts_[row - found]);
+    Contact& contact = row < found ? contacts_[row] : contacts_.emplace_back(failure_contacts_[row - found]);
     contact.force = force.normal;
     contact.friction_W = force.across_W;
     if (shared_.rules.friction.is_on()) pushed_.push_back(contact);

@@ -20,21 +20,25 @@ class ContactRows {
   /// `shared` must outlive this object.
   explicit ContactRows(SimulatedParts& shared) : shared_(shared) {}
 
-  /// Replaces the contacts by those within `reach` (metres) of where the parts are, and the rows by theirs.
+  /// Finds the contacts within `reach` (metres) at the present poses, and one row for each. Replaces all contacts and
+  /// rows.
   void find(double reach);
   /// Drops the rows of failed certificates.
   void keep_contacts_only();
-  /// Keeps each triangle that could not be certified on its side of the plane that separated it.
+  /// Adds rows for failed certificates: each keeps the part's triangle on its side of the plane that separated the
+  /// pair.
   void add_failures(std::span<const UncertifiedPair> failures);
-  /// Asks for no margin back: standing still is always allowed then.
+  /// Demands no margin back, so that standing still is allowed.
   void allow_standing_still();
 
   std::span<const CoupledRow> rows() const { return rows_; }
   std::vector<Contact>& contacts() { return contacts_; }
 
-  /// Notes the forces of the step that is taken at the contacts; a row of a failed certificate becomes a contact too.
+  /// Notes the forces of the step that is taken at the contacts. A row of a failed certificate that pushes becomes a
+  /// contact too.
   void take_forces(std::span<const RowForce> forces);
-  /// The forces of the last step where the same features still touch, by row: the start of a friction solution.
+  /// Appends the forces of the last step, by row, where the same features still touch: the starting point of the
+  /// friction solver.
   void recall_forces(std::vector<RowForce>& forces) const;
   /// Forgets the forces of the last step.
   void forget_forces() { pushed_.clear(); }
@@ -44,11 +48,11 @@ class ContactRows {
            double bound);
 
   SimulatedParts& shared_;
-  std::vector<CandidatePair> pairs_;     // within reach
-  std::vector<Contact> contacts_;        // one for each of the first rows
-  std::vector<CoupledRow> rows_;         // of contacts, then of failed certificates
-  std::vector<Contact> proof_contacts_;  // one for each of the latter
-  std::vector<Contact> pushed_;          // in the last step, where there is friction
+  std::vector<CandidatePair> pairs_;       // within reach
+  std::vector<Contact> contacts_;          // one for each of the first rows
+  std::vector<CoupledRow> rows_;           // of contacts, then of failed certificates
+  std::vector<Contact> failure_contacts_;  // one for each row of a failed certificate
+  std::vector<Contact> pushed_;            // the contacts that pushed in the last step; with friction only
 };
 
 }  // namespace glissade::haptics

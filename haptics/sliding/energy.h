@@ -8,10 +8,10 @@
 
 namespace glissade::haptics {
 
-/// Joules, with the parts displaced from where they aim by `errors`.
+/// Energy (joules) of parts that are displaced by `errors` from the poses at which they aim.
 double energy(std::span<const HeldPartState> parts, const Displacements& errors);
 
-/// Joules by which contacts that ask for their margin back may raise it.
+/// Energy (joules) by which contacts that demand their margin back may raise it.
 double energy_allowance(std::span<const HeldPartState> parts, const Displacements& errors, double largest_margin);
 
 }  // namespace glissade::haptics

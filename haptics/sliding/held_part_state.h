@@ -30,15 +30,15 @@ struct HeldPartState {
   SlidingResult result{};
   Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();           // where steps aim, mostly X_WT
   Eigen::Isometry3d X_WG_previous = Eigen::Isometry3d::Identity();  // the ghost in the last call
-  double ghost_motion = 0.0;                                        // metres, of this tick
+  double ghost_motion = 0.0;                                        // metres, in this tick
   geometry::Displacement offset{};  // from the ghost to the target, since the hand took hold
   double closing = 0.0;             // metres by which the offset shrank in this tick
   double moved = 0.0;               // metres, in this tick
-  // The part before the last call and before this one: friction compares them to see which contacts slip.
+  // Poses before the last call and before this one: friction compares them to find the contacts that slip.
   Eigen::Isometry3d X_WV_before_last = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d X_WV_before = Eigen::Isometry3d::Identity();
   geometry::Displacement previous_lag{};  // from the part to its target, at the end of the last call
-  double slew = 0.0;                      // metres by which this lag may change in this tick
+  double slew = 0.0;                      // metres by which the lag may change in this tick
 
   bool is_held() const { return result.state != SlidingState::kReleased; }
   const Eigen::Vector3d& p_Vref() const { return part_V->p_Vref(); }
@@ -46,18 +46,19 @@ struct HeldPartState {
   /// From the part to its target.
   geometry::Displacement lag() const;
 
-  /// The part stays where it is: nothing is wanted of it, so nothing pushes it.
+  /// Leaves the part where it is: its target is its own pose, so nothing pushes it.
   void rest(SlidingState state);
-  /// The hand takes hold at a rigid pose. Returns whether the part rests: one held by force feedback keeps its lag.
+  /// The hand takes hold, with the ghost at the rigid pose X_WG. Returns whether the part rests; a part already held by
+  /// force feedback keeps its lag.
   bool grasp(const Eigen::Isometry3d& X_WG);
 
-  /// A call begins.
+  /// Begins a call.
   void begin_tick();
-  /// The ghost of this call is at a rigid pose; `milliseconds` as in `advance`.
+  /// Moves the ghost to the rigid pose X_WG and chooses the target; `milliseconds` as in `advance`.
   void follow(const Eigen::Isometry3d& X_WG, double milliseconds);
-  /// The rubber band's target turns with the part.
+  /// Turns the target of the rubber band with the part.
   void turn_target();
-  /// A call ends, after `cycles` of which contacts within `reach` are known.
+  /// Ends a call after `cycles` cycles; all contacts within `reach` (metres) are known.
   void end_tick(int cycles, double reach, double milliseconds);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Obstacles that overlap a part at its start, and how it is led out of them.
+/// Obstacles that overlap a part at its start, and the ways of its depenetration.
 
 #include <optional>
 #include <span>
@@ -14,15 +14,14 @@
 
 namespace glissade::haptics {
 
-/// A way out of one of them, from where the part is now.
+/// A way out of an obstacle, from the present pose of the part.
 struct WayOut {
   BodyPair bodies;
   Eigen::Vector3d n_W;  ///< unit
-  double depth;         ///< metres to go along it until the part is a margin away
+  double depth;         ///< metres along n_W until both are a margin apart
 };
 
-/// The pairs of an obstacle and a part that overlapped at the start and are not free of each other yet. Not
-/// thread-safe.
+/// The pairs of an obstacle and a part that overlapped at the start and are not yet a margin apart. Not thread-safe.
 class Overlaps {
  public:
   /// The scene must outlive this object.
@@ -32,13 +31,13 @@ class Overlaps {
   std::span<const BodyPair> pairs() const { return pairs_; }
   bool empty() const { return pairs_.empty(); }
 
-  /// Looks for the ways out from where the parts are placed, and forgets pairs that are apart by their margin. Returns
-  /// whether any were. Cost: some hundred queries a pair.
+  /// Finds the ways out from the present poses, and drops pairs that are a margin apart. Returns whether it dropped
+  /// any. Cost: some hundred queries a pair.
   bool update();
 
-  /// As `update` found them, the deepest first.
+  /// The ways that `update` found, the deepest overlap first.
   std::span<const WayOut> ways_out() const { return ways_out_; }
-  /// The deepest of one part, null when it has none.
+  /// The way out of the deepest overlap of a part; null if it has none.
   const WayOut* way_out_of(std::size_t part) const;
 
  private:

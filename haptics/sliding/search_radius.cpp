@@ -28,8 +28,8 @@ void SearchRadius::choose(const SimulatedParts& shared, double depenetration) {
   reach_ = std::clamp(std::min(reach, slew + ghosts + 2.0 * shared.largest_margin), kSmallestReach_m, limit_);
 }
 
-/// Where finely cut surfaces lie close there are very many pairs. A part that falls behind would look farther with
-/// every search and so fall behind more; the limit on the reach ends that.
+/// Finely tessellated surfaces that lie close together have very many pairs. A part that falls behind would look
+/// farther with every search and so fall behind more; the limit on the reach ends that.
 bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignored) {
   const double ahead = std::clamp(kTicksAhead * shared.ghost_motion(), kLeastLookAhead_m, kMostLookAhead_m);
   if (!shared.candidates.look(reach_, ahead, ignored)) return false;

@@ -11,18 +11,18 @@ class SearchRadius {
  public:
   SearchRadius();
 
-  /// Chooses the reach (metres) of the next cycle; `depenetration` (metres) is how far a part may be moved out of an
-  /// obstacle in this tick.
+  /// Chooses the reach (metres) of the next cycle. `depenetration` (metres) bounds the motion out of an obstacle in
+  /// this tick.
   void choose(const SimulatedParts& shared, double depenetration);
   double reach() const { return reach_; }
 
-  /// Makes sure that every pair within reach is a candidate. A search looks some ticks ahead. Returns whether the
-  /// candidates changed.
+  /// Makes every pair within reach a candidate, except pairs of `ignored` bodies. A search looks some ticks ahead.
+  /// Returns whether the candidates changed.
   bool look(SimulatedParts& shared, std::span<const BodyPair> ignored);
 
-  /// The step that was taken: the next reach follows it.
+  /// Notes the step that was taken; the next reach depends on it.
   void note(const Step& step);
-  /// Metres of the last step.
+  /// Length of the last step, metres.
   double last_step() const { return last_step_; }
 
  private:

@@ -33,7 +33,7 @@ void check_rules(const SlidingRules& rules) {
                               std::to_string(friction.sliding) + " and " + std::to_string(friction.at_rest));
 }
 
-const std::vector<HeldPart>& checked(const std::vector<HeldPart>& parts, const SlidingRules& rules) {
+const SlidingRules& checked(const SlidingRules& rules, const std::vector<HeldPart>& parts) {
   if (parts.empty() || parts.size() > kMaxParts) {
     throw std::invalid_argument(std::to_string(parts.size()) + " parts cannot be held at once; 1 to " +
                                 std::to_string(kMaxParts) + " can");
@@ -43,7 +43,7 @@ const std::vector<HeldPart>& checked(const std::vector<HeldPart>& parts, const S
     check_stiffness(part);
   }
   check_rules(rules);
-  return parts;
+  return rules;
 }
 
 std::vector<std::shared_ptr<const SlidingPart>> bodies_of(const std::vector<HeldPart>& parts) {
@@ -81,9 +81,9 @@ HeldPartState state_at_start(const HeldPart& held, const Eigen::Isometry3d& X_WV
 
 SimulatedParts::SimulatedParts(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts,
                                const SlidingRules& sliding_rules)
-    : rules(sliding_rules),
-      scene(std::move(obstacles), bodies_of(checked(parts, sliding_rules)), margins_of(parts, sliding_rules)),
-      candidates(scene, kLargestReach_m + kMostLookAhead_m, sliding_rules.has_search_thread) {
+    : rules(checked(sliding_rules, parts)),
+      scene(std::move(obstacles), bodies_of(parts), margins_of(parts, rules)),
+      candidates(scene, kLargestReach_m + kMostLookAhead_m, rules.has_search_thread) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const std::optional<Eigen::Isometry3d> X_WV = geometry::rigid_pose(parts[p].X_WV_start);
     if (!X_WV) throw std::invalid_argument("the start pose of " + parts[p].name + " is not a rotation and translation");

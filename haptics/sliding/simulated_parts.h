@@ -1,6 +1,6 @@
 #pragma once
 
-/// The data that all stages of a simulation cycle share: the held parts, the bodies round them, and what is near.
+/// The data that all stages of a simulation cycle share: held parts, contact scene and candidate pairs.
 
 #include <array>
 #include <cstddef>
@@ -22,12 +22,12 @@ using Displacements = std::array<geometry::Displacement, kMaxParts>;
 
 /// Not thread-safe.
 struct SimulatedParts {
-  /// Throws std::invalid_argument as `MultiPartSliding` does, but does not look for overlaps.
+  /// Throws std::invalid_argument as `MultiPartSliding` does, except for overlaps, which are not checked here.
   SimulatedParts(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const SlidingRules& rules);
 
   std::size_t count() const { return states.size(); }
   std::span<const geometry::Displacement> of_parts(const Displacements& d) const { return {d.data(), count()}; }
-  /// Metres that all ghosts together moved in this tick, and by which their offsets shrank.
+  /// Metres that all ghosts together moved in this tick, plus those by which their offsets shrank.
   double ghost_motion() const;
 
   SlidingRules rules;
@@ -41,7 +41,7 @@ struct SimulatedParts {
 struct Step {
   Displacements displacements{};
   std::array<double, kMaxParts> lengths{};  ///< their motion bounds, metres
-  std::array<bool, kMaxParts> arrives{};    ///< nothing shortened or turned it
+  std::array<bool, kMaxParts> arrives{};    ///< nothing shortened or turned the displacement
   double length = 0.0;                      ///< the sum of the lengths: two bodies come nearer by at most this
   bool clipped = false;                     ///< shortened by the reach, the slew or a missing certificate
 };

@@ -14,7 +14,7 @@ inline constexpr double kNotWorthIt = 0.05;  ///< of the margin: a shorter step 
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// Metres a millisecond by which the offset of a grasp shrinks under force feedback: half of the slew, so that the part
-/// can slide and be led meanwhile.
+/// can also slide and follow the ghost meanwhile.
 inline constexpr double kClosing_m = 0.5 * kSlew_m;
 
 }  // namespace glissade::haptics

@@ -7,9 +7,9 @@ namespace glissade::haptics {
 namespace {
 
 constexpr double kLeastLag_m = 0.1e-3;
-constexpr double kStill_m = 0.5e-6;  // a call
+constexpr double kStill_m = 0.5e-6;  // in a call
 constexpr double kPatience_ms = 100.0;
-constexpr double kLongestShaking_ms = 2000.0;
+constexpr double kLongestSearch_ms = 2000.0;
 constexpr double kWantedElsewhere_m = 0.3e-3;
 
 constexpr double kOffset_m = 1.6e-3;
@@ -33,7 +33,7 @@ void SpiralSearch::observe(const geometry::Displacement& error, double moved, bo
   }
   if (is_searching_) {
     searched_ms_ += milliseconds;
-    if (searched_ms_ < kLongestShaking_ms) return;
+    if (searched_ms_ < kLongestSearch_ms) return;
     is_searching_ = false;
     has_given_up_ = true;
     stuck_ = error;
@@ -53,8 +53,8 @@ Eigen::Isometry3d SpiralSearch::aim(const Eigen::Isometry3d& X_WT, const Eigen::
   const Eigen::Vector3d first = axis.unitOrthogonal();
   const double angle = 2.0 * std::numbers::pi * kTurns_per_ms * searched_ms_;
   const Eigen::Vector3d beside = std::cos(angle) * first + std::sin(angle) * axis.cross(first);
-  // Turned so that what is ahead of the reference point goes the same way, and further: that end is stuck.
-  const double growth = searched_ms_ / kLongestShaking_ms;
+  // Tilted so that the end ahead of the reference point goes the same way, and farther: that end is stuck.
+  const double growth = searched_ms_ / kLongestSearch_ms;
   return geometry::displaced(X_WT, p_Vref, {growth * kOffset_m * beside, growth * kTilt * axis.cross(beside)});
 }
 

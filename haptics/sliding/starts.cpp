@@ -50,7 +50,7 @@ void Starts::depenetrate(double most) {
   }
 }
 
-/// Metres between two bodies, or `limit` if that is less.
+/// Distance (metres) of two bodies, at most `limit`.
 double Starts::gap_of(const BodyPair& pair, double limit) {
   const PlacedBody& obstacle = shared_.scene.bodies()[static_cast<std::size_t>(pair.obstacle)];
   const PlacedBody& part = shared_.scene.bodies()[static_cast<std::size_t>(pair.part)];

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Bodies that are too close at the start: overlaps are refused or depenetrated, and a minimum clearance that is not
-/// there yet is restored as the bodies come apart.
+/// Bodies that are too close at the start: overlaps are refused or depenetrated; a minimum clearance that was lowered
+/// at the start is restored as the bodies come apart.
 
 #include <vector>
 
@@ -16,18 +16,19 @@ namespace glissade::haptics {
 /// Not thread-safe.
 class Starts {
  public:
-  /// Looks for overlaps; `touching` (metres): closer bodies count as overlapping. `shared` must outlive this object.
+  /// Finds overlaps; bodies closer than `touching` (metres) count as overlapping. `shared` must outlive this object.
   /// Throws std::invalid_argument for an overlap that the rules refuse.
   Starts(SimulatedParts& shared, const std::vector<HeldPart>& parts, double touching);
 
   const Overlaps& overlaps() const { return overlaps_; }
 
-  /// Aims parts that overlap an obstacle out of it, by at most so many metres.
+  /// Aims parts that overlap an obstacle out of it, by at most `most` metres.
   void depenetrate(double most);
   /// Metres by which `depenetrate` may move a part in this tick; 0 when none overlaps.
   double depenetration() const { return depenetration_; }
 
-  /// Raises the minimum clearance of bodies that have come apart since their start, up to the rule's.
+  /// Raises the minimum clearance of bodies that have come apart since their start, up to kMinClearanceOfMargin of the
+  /// margin.
   void restore_min_clearances();
 
  private:
@@ -36,7 +37,7 @@ class Starts {
 
   SimulatedParts& shared_;
   Overlaps overlaps_;
-  std::vector<BodyPair> near_starts_;  // closer than their minimum clearance would be
+  std::vector<BodyPair> near_starts_;  // pairs whose minimum clearance is lowered
   collision::QueryWorkspace workspace_;
   double depenetration_ = 0.0;  // metres
 };

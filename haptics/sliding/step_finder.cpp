@@ -35,8 +35,8 @@ Step StepFinder::find() {
     if (!parts[p].is_held()) continue;
     wanted[p] = geometry::displacement_between(parts[p].result.X_WV, parts[p].X_WS, parts[p].p_Vref());
   }
-  // A step that gains energy beyond this went over a bend of the contact that the projection did not see, and is tried
-  // again with damping.
+  // A step that gains more energy than this has passed a bend of the contact that the linear rows do not describe. It
+  // is repeated with damping.
   const double most_energy = energy(parts, wanted) + energy_allowance(parts, wanted, shared_.largest_margin);
   for (int trial = 0; trial < kDampings; ++trial) {
     Displacements damped;
@@ -86,7 +86,7 @@ Step StepFinder::certified(const Displacements& wanted) {
     first = step;
     first_forces_ = forces_;
   }
-  // Rows of failed certificates forbid more than they must, and may leave nothing where a shorter step would be free.
+  // Rows of failed certificates forbid more than necessary. They may leave nothing where a shorter step would be free.
   if (is_certified && projections > 1 && step.length < kNotWorthIt * shared_.largest_margin) {
     is_certified = false;
     step = first;
@@ -120,7 +120,7 @@ bool StepFinder::halve_until_certified(Step& step) {
   return false;
 }
 
-/// The parts of the pairs that could not be certified; all parts where the pairs were not even known.
+/// The parts of the pairs that could not be certified; all parts if the candidates did not even cover the step.
 std::array<bool, kMaxParts> StepFinder::parts_that_fail() const {
   std::array<bool, kMaxParts> fails{};
   if (failures_.empty()) fails.fill(true);
@@ -133,7 +133,7 @@ std::array<bool, kMaxParts> StepFinder::parts_that_fail() const {
   return fails;
 }
 
-/// Makes `step` those displacements and returns whether they are certified.
+/// Sets the displacements of `step`, and returns whether they are certified.
 bool StepFinder::certify(const Displacements& displacements, Step& step) {
   step.displacements = displacements;
   step.length = 0.0;
@@ -150,7 +150,7 @@ bool StepFinder::certify(const Displacements& displacements, Step& step) {
   return certificate_.prove(shared_.of_parts(displacements), to_certify_, failures_);
 }
 
-/// Projects on all rows; false when the solver finds nothing, which leaves standing still.
+/// Projects on all rows. Returns false if the solver finds no solution; then the parts stand still.
 bool StepFinder::project(const Displacements& wanted) {
   const std::span<const geometry::Displacement> of_parts = shared_.of_parts(wanted);
   CoupledProjection projection = solver_.project(of_parts, grips_, rows_.rows());
@@ -183,7 +183,7 @@ void StepFinder::solve_friction(const Displacements& wanted) {
   friction_solver_.solve(shared_.of_parts(wanted), grips_, rows_.rows(), coefficients_, projected_, forces_);
 }
 
-/// Whether the two sides slid past each other in the last call, whatever motion they had in common.
+/// Whether the two sides slid past each other in the last call; their common motion does not count.
 bool StepFinder::slipped(const CoupledRow& row) const {
   double still = kUnbounded;  // a shorter slip does not count
   double curved = 0.0;        // the error of a step that holds this point to first order

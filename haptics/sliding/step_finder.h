@@ -1,7 +1,7 @@
 #pragma once
 
-/// The step of one cycle: the wanted displacements projected on the contact rows, shortened to what is known, and
-/// certified free of collisions.
+/// The step of one cycle: the wanted displacements projected on the contact rows, limited to the reach and the slew,
+/// and certified free of collisions.
 
 #include <array>
 #include <cstddef>
@@ -24,16 +24,15 @@ class StepFinder {
   /// `shared` must outlive this object.
   explicit StepFinder(SimulatedParts& shared);
 
-  /// Finds the contacts within `reach` (metres); steps are taken on their rows from then on.
+  /// Finds the contacts within `reach` (metres), whose rows constrain the steps from then on.
   void look(double reach);
 
-  /// The step towards the poses at which the parts aim that is certified and gains no energy; no step when there is
-  /// none.
+  /// A certified step that gains no energy, towards the poses at which the parts aim; a step of zero if there is none.
   Step find();
 
   ContactRows& rows() { return rows_; }
   std::span<const RowForce> forces() const { return forces_; }
-  /// Metres below which the distance of two bodies is uncertain, where they are placed.
+  /// Smallest distance (metres) of two bodies at their present poses that is certain in spite of rounding.
   double certain_distance() const { return certificate_.certain_distance(); }
 
  private:
@@ -56,8 +55,8 @@ class StepFinder {
   std::vector<double> coefficients_;  // of friction, one for each row
   Displacements projected_;
   std::vector<RowForce> forces_;
-  std::vector<RowForce> first_forces_;     // of the contacts alone
-  std::vector<PairToCertify> to_certify_;  // in the step at hand
+  std::vector<RowForce> first_forces_;     // of the projection on contacts alone
+  std::vector<PairToCertify> to_certify_;  // pairs that the step at hand may reach
   std::vector<UncertifiedPair> failures_;
   double damping_ = 0.0;  // Levenberg–Marquardt
 };

@@ -18,17 +18,18 @@ namespace glissade::haptics {
 /// The half-spaces a_i·y ≥ b_i, i < count.
 template <int kDof>
 struct HalfSpaces {
-  Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, kDof>> normals;  ///< a row for each
+  Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, kDof>> normals;  ///< one row for each half-space
   Eigen::Map<const Eigen::VectorXd> bounds;
 };
 
-/// Projects y on half-spaces. One object for one projection.
+/// Projects y on half-spaces. Each object serves one projection.
 template <int kDof>
 class DualActiveSet {
  public:
   using Vector = Eigen::Matrix<double, kDof, 1>;
 
-  /// A half-space counts as met that is missed by no more than `tolerance`. `slacks` is room for one number for each.
+  /// A half-space counts as met if it is violated by at most `tolerance`. `slacks` is scratch memory with one entry for
+  /// each half-space.
   DualActiveSet(const Vector& y, const HalfSpaces<kDof>& half_spaces, double tolerance,
                 const Eigen::Map<Eigen::VectorXd>& slacks)
       : half_spaces_(half_spaces), slacks_(slacks), tolerance_(tolerance), y_(y) {}
@@ -50,28 +51,29 @@ class DualActiveSet {
 
  private:
   static constexpr auto kSize = static_cast<std::size_t>(kDof);
-  /// A normal whose part outside the span of the active ones is below this fraction adds no direction of its own.
+  /// A normal depends on the active ones if less than this fraction of it lies outside their span.
   static constexpr double kDependent = 1e-9;
 
   std::int32_t most_violated() noexcept {
     if (slacks_.size() == 0) return -1;
     slacks_ = -half_spaces_.bounds;
     slacks_.noalias() += half_spaces_.normals * y_;
-    // The smallest first, then where: a search with branches would cost more than the products.
+    // Finds the minimum first, then its place: a search with branches would cost more than the products.
     const double worst = slacks_.minCoeff();
     if (!(worst < -tolerance_)) return -1;
     return static_cast<std::int32_t>(std::find(slacks_.begin(), slacks_.end(), worst) - slacks_.begin());
   }
 
-  /// Moves to the optimum with half-space `i` among the active ones, dropping those that no longer push. False if there
-  /// is none.
+  /// Moves to the optimum with half-space `i` active as well, and drops active ones that no longer push. Returns false
+  /// if there is no such optimum.
   bool activate(std::int32_t i) noexcept {
     const Vector a = half_spaces_.normals.row(i).transpose();
     const double length = a.norm();
     double multiplier = 0.0;
-    // Each pass but the last drops one of the active ones.
+    // Each pass except the last drops one active half-space.
     for (int pass = 0; pass <= kDof; ++pass) {
-      // a = basis c + z; the active normals are basis · triangle. Taken off twice, or rounding would tilt the basis.
+      // a = basis c + z; the active normals are basis · triangle. Orthogonalised twice, otherwise rounding would tilt
+      // the basis.
       std::array<double, kSize> c{};
       Vector z = a;
       for (int sweep = 0; sweep < 2; ++sweep) {
@@ -82,7 +84,7 @@ class DualActiveSet {
         }
       }
       std::array<double, kSize> r = c;                             // triangle r = c: the active normals' shares of a
-      double dual_step = std::numeric_limits<double>::infinity();  // until one of the active ones stops pushing
+      double dual_step = std::numeric_limits<double>::infinity();  // until an active half-space stops pushing
       int leaving = -1;
       for (int j = count_ - 1; j >= 0; --j) {
         double& share = r[static_cast<std::size_t>(j)];
@@ -120,7 +122,7 @@ class DualActiveSet {
     return false;
   }
 
-  /// Takes out a column of the triangle, and makes it a triangle again by turning pairs of basis vectors.
+  /// Removes a column of the triangular factor, and makes it triangular again by Givens rotations of the basis.
   void drop(int leaving) noexcept {
     --count_;
     for (int j = leaving; j < count_; ++j) {

@@ -5,12 +5,14 @@
 
 #include <Eigen/LU>
 
+#include <glissade/base/assert.h>
+
 namespace glissade::haptics {
 namespace {
 
 constexpr int kMostSweeps = 500;
 constexpr int kMostHeatings = 8;
-constexpr double kSettled = 1e-10;  // of what is wanted
+constexpr double kSettled = 1e-10;  // of the wanted displacement
 
 /// The directions n, t, t' at a point, as whitened displacements of a part.
 Eigen::Matrix<double, 6, 3> whitened(const Eigen::Matrix3d& directions_W, const Eigen::Vector3d& r,
@@ -28,6 +30,7 @@ void FrictionSolver::solve(std::span<const geometry::Displacement> wanted, std::
                            std::span<const CoupledRow> rows, std::span<const double> coefficients,
                            std::array<geometry::Displacement, kMaxParts>& displacements,
                            std::vector<RowForce>& forces) {
+  GLISSADE_ASSERT(coefficients.size() == rows.size() && stiffness.size() == wanted.size());
   prepare(stiffness, rows, coefficients);
   double size = 0.0;
   for (std::size_t p = 0; p < wanted.size(); ++p) {
@@ -93,7 +96,7 @@ void FrictionSolver::prepare(std::span<const CouplingStiffness> stiffness, std::
   }
 }
 
-/// Returns by how much the displacements changed, in the metric of K.
+/// Relaxes every row of the working set once. Returns the largest change of the displacements, in the metric of K.
 double FrictionSolver::sweep() {
   double change = 0.0;
   for (Row& row : rows_) {
@@ -102,7 +105,8 @@ double FrictionSolver::sweep() {
   return change;
 }
 
-/// Makes one contact consistent with the others as they are.
+/// Makes one contact consistent with the present forces of the others. Returns the change of the displacements, in the
+/// metric of K.
 double FrictionSolver::relax(Row& row) {
   const auto motion = [&]() -> Eigen::Vector3d {
     Eigen::Vector3d u = row.J_part.transpose() * y_[static_cast<std::size_t>(row.part)];
@@ -128,7 +132,7 @@ double FrictionSolver::relax(Row& row) {
   return std::sqrt(change.x() * change.x() * row.normal_response + change_across.squaredNorm() * row.largest_response);
 }
 
-/// Whether rows are in the way that were not before; from now on they take part.
+/// Adds violated rows to the working set. Returns whether there were any.
 bool FrictionSolver::extend_working_set(double tolerance) {
   bool found = false;
   for (Row& row : rows_) {

@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glissade/base/assert.h>
+
 #include "solver/dual_active_set.h"
 
 namespace glissade::haptics {
 namespace {
 
-/// Violations below this many metres, and below this part of what is wanted, count as met: far below any margin, far
-/// above rounding. Whoever takes the displacement proves it free all the same.
+/// Violations below this many metres, or below this fraction of the wanted motion, count as met: far below any margin,
+/// far above rounding. The step is certified afterwards all the same.
 constexpr double kTolerance_m = 1e-12;
 constexpr double kRelativeTolerance = 1e-9;
 
-/// The square roots of a part's stiffnesses: K^½ ξ has the unit √J in each coordinate. And their reciprocals.
+/// Square roots of a part's stiffnesses, which give K^½ ξ the unit √J in each coordinate, and their reciprocals.
 struct Whitening {
   Whitening() = default;
   explicit Whitening(const CouplingStiffness& k)
@@ -124,6 +126,7 @@ CoupledProjection ProjectionSolver::project(std::span<const geometry::Displaceme
                                             std::span<const CouplingStiffness> stiffness,
                                             std::span<const CoupledRow> rows) {
   static_assert(kMaxParts == 4);
+  GLISSADE_ASSERT(!wanted.empty() && wanted.size() <= kMaxParts && stiffness.size() == wanted.size());
   switch (wanted.size()) {
     case 1:
       return widened(solve<1, CoupledRow>(wanted, stiffness, rows));

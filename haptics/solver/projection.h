@@ -1,7 +1,7 @@
 #pragma once
 
-/// The quadratic programme at the heart of sliding: the displacement nearest to a wanted one, in the metric of the
-/// coupling, that half-space constraints allow.
+/// The quadratic programme at the heart of sliding: among the displacements that half-space constraints allow, the one
+/// nearest to a wanted displacement, in the metric of the coupling.
 
 #include <array>
 #include <cstddef>
@@ -22,8 +22,8 @@ namespace glissade::haptics {
 
 inline constexpr std::size_t kMaxActive = 6;  ///< a displacement has six degrees of freedom
 
-/// A constraint on the displacements of several parts: on that of `part`, and where the contact is with another of
-/// them, on its displacement relative to that one.
+/// A constraint on the displacements of several parts: on the displacement of `part`, or for a contact of two parts, on
+/// that of `part` relative to `other`.
 struct CoupledRow : ConstraintRow {
   std::int32_t part = 0;
   std::int32_t other = -1;                            ///< −1 for an obstacle
@@ -35,8 +35,8 @@ struct CoupledRow : ConstraintRow {
   }
 };
 
-/// `active` are the rows that hold with equality and push; `force` is newtons along the normal of each of them: their
-/// shares of K (ξ* − ξ). Displacements are valid only when solved.
+/// `active` are the rows that hold with equality and push. `force` (newtons) is the multiplier of each, along its
+/// normal: its share of K (ξ − ξ*). Displacements are valid only when solved.
 template <std::size_t kParts>
 struct ProjectionOf {
   ProjectionStatus status = ProjectionStatus::kSolved;
@@ -53,19 +53,19 @@ using CoupledProjection = ProjectionOf<kMaxParts>;
 
 /// Minimises ½ (ξ − wanted)ᵀ K (ξ − wanted) subject to rows, by the dual active-set method of Goldfarb and Idnani
 /// (1983) in the whitened coordinates K^½ ξ, six for each part. The normals of the active rows are kept as an
-/// orthonormal basis and a triangle, so that a change of the active set costs some hundred operations.
+/// orthonormal basis and a triangular factor, so that a change of the active set costs some hundred operations.
 ///
-/// Bounded work: at most 32 + 4 rows changes of the active set, O(rows) each. Deterministic. Not thread-safe.
+/// Bounded work: at most 32 + 4 · rows changes of the active set, O(rows) each. Deterministic. Not thread-safe.
 class ProjectionSolver {
  public:
-  /// Allocates for so many rows of one part; a call allocates only when it is given more than any before.
+  /// Allocates memory for `rows` rows of one part. A call allocates only for more rows than any call before.
   explicit ProjectionSolver(std::size_t rows = 0);
 
   Projection project(const geometry::Displacement& wanted, const CouplingStiffness& stiffness,
                      std::span<const ConstraintRow> rows);
 
-  /// For up to kMaxParts parts; `wanted` and `stiffness` have one entry for each. A part of infinite stiffness stands
-  /// still, whatever is wanted of it.
+  /// The same for up to kMaxParts parts; `wanted` and `stiffness` have one entry for each part. A part of infinite
+  /// stiffness stands still, whatever its wanted displacement.
   CoupledProjection project(std::span<const geometry::Displacement> wanted,
                             std::span<const CouplingStiffness> stiffness, std::span<const CoupledRow> rows);
 
@@ -74,7 +74,7 @@ class ProjectionSolver {
   ProjectionOf<kParts> solve(std::span<const geometry::Displacement> wanted,
                              std::span<const CouplingStiffness> stiffness, std::span<const Row> rows);
 
-  std::vector<double> normals_;  // one column after the other: a coordinate of all normals
+  std::vector<double> normals_;  // column-major, one row for each normal
   std::vector<double> bounds_;
   std::vector<double> slacks_;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-/// How a projection on half-spaces ended.
+/// The outcome of a projection on half-spaces.
 
 #include <cstdint>
 

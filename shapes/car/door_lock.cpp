@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using std::numbers::pi;
 
-// Where things turn.
+// Axes of latch, pawl and gear.
 constexpr double kLatchX = -0.02, kLatchY = 0.016;
 constexpr double kPawlX = 0.022, kPawlY = 0.014;
 constexpr double kGearX = 0.032, kGearY = -0.016;

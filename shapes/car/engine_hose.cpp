@@ -92,7 +92,7 @@ void add_flange(PatchWork& work, const SharedSpine& spine, double t, bool is_com
     flange.add(bolt, shifted(-0.05, 0, 0), 2);
     flange.add(bolt, shifted(0.05, 0, 0), 2);
   }
-  // Local z from the end inwards; what reaches beyond the end goes on straight.
+  // Local z points from the end inwards; beyond the end, the flange continues straight.
   const Vector3d end = spine->point(t, Vector2d::Zero());
   const Vector3d inwards = (spine->point(t + side * 0.01, Vector2d::Zero()) - end).normalized();
   work.add(

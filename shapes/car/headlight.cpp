@@ -109,7 +109,7 @@ void add_reflector(PatchWork& work, double radius, double focus) {
   add_revolution(work, profile, 8);
 }
 
-/// Glass, base, flange and socket in one, and what is within the glass; along z, the flange at z = -0.012.
+/// A bulb along z: glass with its filament, base, flange (at z = -0.012) and socket.
 void add_bulb(PatchWork& work, bool is_complete) {
   if (!is_complete) {
     add_revolution(work, rounded_path({{0, 0.034}, {0.007, 0.034}, {0.008, 0}, {0.02, -0.012}, {0, -0.034}}, false), 6);
@@ -196,7 +196,7 @@ void add_tabs(PatchWork& work) {
   place(0.05, 0.0, -0.09, pi / 2);
 }
 
-/// Ribs along the top and across the back that lead heat away.
+/// Cooling ribs along the top and across the back.
 void add_cooling_ribs(PatchWork& work) {
   PatchWork top_rib;
   add_box(top_rib, {0.002, 0.07, 0.02});

@@ -50,27 +50,27 @@ geometry::TriangleMesh turned(const Profile& profile, double triangle_count) {
   const double circumference = area / length;
   const double step = std::sqrt(2 * area / triangle_count);
   const int segments = std::max(8, 4 * static_cast<int>(std::lround(circumference / step / 4)));
-  // What the rounding of the segments gained or lost is made up along the profile.
+  // The steps along the profile compensate for the rounding of the segments.
   const double profile_step = 2 * length * segments / triangle_count;
   return geometry::make_revolution(divided(profile, profile_step), false, segments);
 }
 
-/// Frame with its z along the y of V, for parts that turn about the gear's axis.
+/// Pose in V of the gear's frame, whose z axis is the gear's axis, parallel to y of V.
 Eigen::Isometry3d gear_axis() {
-  Eigen::Isometry3d X_VA = Eigen::Isometry3d::Identity();
-  X_VA.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-  X_VA.translation() << kGearX, 0, kGearZ;
-  return X_VA;
+  Eigen::Isometry3d X_VGear = Eigen::Isometry3d::Identity();
+  X_VGear.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  X_VGear.translation() << kGearX, 0, kGearZ;
+  return X_VGear;
 }
 
 geometry::TriangleMesh motor_can(double triangle_count) {
   // From the flat end with its bearing cap at x = -0.09 into the gearbox.
   const Profile profile{{0, 0},         {0.008, 0},     {0.008, 0.004}, {0.022, 0.004},
                         {0.026, 0.008}, {0.026, 0.075}, {0.022, 0.079}, {0.022, 0.100}};
-  Eigen::Isometry3d X_VC = Eigen::Isometry3d::Identity();
-  X_VC.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // the can's z along x
-  X_VC.translation() << -kMotorHalfWidth, -0.004, 0.010;
-  return geometry::transformed(turned(profile, triangle_count), X_VC);
+  Eigen::Isometry3d X_VCan = Eigen::Isometry3d::Identity();
+  X_VCan.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // the can's z along x
+  X_VCan.translation() << -kMotorHalfWidth, -0.004, 0.010;
+  return geometry::transformed(turned(profile, triangle_count), X_VCan);
 }
 
 geometry::TriangleMesh gearbox(double triangle_count) {
@@ -93,12 +93,12 @@ void add_ribs(double triangle_count, std::vector<geometry::TriangleMesh>& parts)
       geometry::make_box({0.014, 0.003, 0.006}, std::llround(std::max(12.0, triangle_count / kRibs)));
   for (int i = 0; i < kRibs; ++i) {
     const Eigen::AngleAxisd turn(2 * std::numbers::pi * i / kRibs, Eigen::Vector3d::UnitZ());
-    const Eigen::Isometry3d X_AR = turn * Eigen::Translation3d(0.037, 0, -0.007);
-    parts.push_back(geometry::transformed(rib, gear_axis() * X_AR));
+    const Eigen::Isometry3d X_GearRib = turn * Eigen::Translation3d(0.037, 0, -0.007);
+    parts.push_back(geometry::transformed(rib, gear_axis() * X_GearRib));
   }
 }
 
-/// The sheet-metal bracket in the plane y = -kMotorHalfDepth, its bolt holes where the panel has its own.
+/// The sheet-metal bracket in the plane y = -kMotorHalfDepth, with its bolt holes at those of the panel.
 geometry::TriangleMesh bracket(double triangle_count) {
   const Eigen::Vector2d center(0.0125, 0.005);  // x and z of V
   SheetMetal sheet;
@@ -110,10 +110,10 @@ geometry::TriangleMesh bracket(double triangle_count) {
     }
   }
   sheet.holes.push_back({{kGearX - center.x(), -(kGearZ - center.y())}, {0.03, 0.03}, 0.015});
-  Eigen::Isometry3d X_VS = Eigen::Isometry3d::Identity();
-  X_VS.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-  X_VS.translation() << center.x(), -kMotorHalfDepth, center.y();
-  return geometry::transformed(make_sheet(sheet, std::llround(std::max(1.0, triangle_count))), X_VS);
+  Eigen::Isometry3d X_VSheet = Eigen::Isometry3d::Identity();
+  X_VSheet.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  X_VSheet.translation() << center.x(), -kMotorHalfDepth, center.y();
+  return geometry::transformed(make_sheet(sheet, std::llround(std::max(1.0, triangle_count))), X_VSheet);
 }
 
 /// Three spacers between bracket and gearbox.
@@ -122,8 +122,8 @@ void add_spacers(double triangle_count, std::vector<geometry::TriangleMesh>& par
       turned({{0, -0.0375}, {0.006, -0.0375}, {0.006, -0.03}, {0, -0.03}}, triangle_count / 3);
   for (int i = 0; i < 3; ++i) {
     const Eigen::AngleAxisd turn(2 * std::numbers::pi * i / 3, Eigen::Vector3d::UnitZ());
-    const Eigen::Isometry3d X_AS = turn * Eigen::Translation3d(0.032, 0, 0);
-    parts.push_back(geometry::transformed(spacer, gear_axis() * X_AS));
+    const Eigen::Isometry3d X_GearSpacer = turn * Eigen::Translation3d(0.032, 0, 0);
+    parts.push_back(geometry::transformed(spacer, gear_axis() * X_GearSpacer));
   }
 }
 
@@ -139,10 +139,10 @@ geometry::TriangleMesh make_window_motor(double detail) {
                                             bracket(11'000 * detail)};
   add_ribs(2'400 * detail, parts);
   add_spacers(1'500 * detail, parts);
-  Eigen::Isometry3d X_VP = Eigen::Isometry3d::Identity();
-  X_VP.translation() << -0.02, -0.004, 0.038;  // the connector sits on top of the can
+  Eigen::Isometry3d X_VPlug = Eigen::Isometry3d::Identity();
+  X_VPlug.translation() << -0.02, -0.004, 0.038;  // the connector sits on top of the can
   parts.push_back(geometry::transformed(
-      geometry::make_box({0.03, 0.02, 0.016}, std::llround(std::max(12.0, 1'100 * detail))), X_VP));
+      geometry::make_box({0.03, 0.02, 0.016}, std::llround(std::max(12.0, 1'100 * detail))), X_VPlug));
   return geometry::merge(parts);
 }
 

@@ -13,7 +13,7 @@
 namespace glissade::shapes {
 namespace {
 
-// A count that came as a number of any kind, rounded. The generators check its range.
+// A count that was given as a real number, rounded. The generators check its range.
 int count_of(const ShapeValues& values, const std::string& name) {
   const double count = values.at(name);
   if (!(std::abs(count) <= 1e9)) {
@@ -109,7 +109,7 @@ ShapeEntry gear_base_entry() {
             {"thickness_m", "thickness of the base", d.thickness},
             {"post_radius_m", "radius of the post's facets", d.post_radius},
             {"post_height_m", "height of the post", d.post_height},
-            {"chamfer_m", "chamfer at its end", d.chamfer},
+            {"chamfer_m", "chamfer at the end of the post", d.chamfer},
             count_parameter("segments", "facets around the post, a multiple of 8", d.segments)}},
           [](const ShapeValues& v) {
             return make_gear_base({v.at("size_m"), v.at("thickness_m"), v.at("post_radius_m"), v.at("post_height_m"),
@@ -123,11 +123,11 @@ std::vector<ShapeParameter> slide_in_parameters() {
           {"height_m", "height of the body, along z", d.height},
           {"depth_m", "depth of the body, along y", d.depth},
           {"bezel_thickness_m", "thickness of the bezel", d.bezel_thickness},
-          {"bezel_border_m", "by how much it reaches beyond the body", d.bezel_border},
-          {"clearance_m", "between body and bay", d.clearance},
-          {"overlap_m", "of the bay's tongues and the seated body", d.overlap},
+          {"bezel_border_m", "how far bezel and flange reach beyond the body", d.bezel_border},
+          {"clearance_m", "gap between body and bay", d.clearance},
+          {"overlap_m", "overlap of each tongue with the seated unit", d.overlap},
           count_parameter("tongues_per_side", "tongues at each side", d.tongues_per_side),
-          count_parameter("triangles", "about so many triangles", static_cast<int>(d.triangles))};
+          count_parameter("triangles", "approximate number of triangles", static_cast<int>(d.triangles))};
 }
 
 SlideInShape slide_in_of(const ShapeValues& v) {
@@ -148,7 +148,7 @@ ShapeEntry bay_entry() {
 }
 
 ShapeEntry bay_tongues_entry() {
-  return {{"bay_tongues", "spring tongues of that bay", slide_in_parameters()},
+  return {{"bay_tongues", "spring tongues of the bay of the slide-in unit", slide_in_parameters()},
           [](const ShapeValues& v) { return geometry::merge(make_bay_tongues(slide_in_of(v))); }};
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Bodies about the axis z, laid from closed loops of points.
+/// Meshes about the z axis, built from closed loops of points.
 
 #include <array>
 #include <cstdint>
@@ -29,22 +29,22 @@ class LoopMesh {
   // Adds a loop at the height z; returns its number.
   int add_loop(const Loop& loop, double z);
 
-  // The band of quadrilaterals between two loops of equally many points. It faces away from the axis where `upper` lies
-  // above `lower`, and up where they are of one height and `upper` lies within `lower`.
+  // Adds the band of quadrilaterals between two loops with equally many points. It faces away from the axis if `upper`
+  // lies above `lower`, and up if both have the same height and `upper` lies inside `lower`.
   void add_band(int lower, int upper);
 
-  // A straight wall between two heights in `rows` bands; returns its last loop.
+  // Adds a straight wall between two heights in `rows` bands; returns its last loop.
   int add_wall(int from, const Loop& loop, double z_from, double z_to, int rows);
 
-  // A fan about the axis that fills the loop.
+  // Adds a fan about the axis that fills the loop.
   void add_cap(int loop, bool faces_up);
 
-  // A point of a loop. Points are counted around and around.
+  // A point of a loop. The index wraps around.
   struct Point {
     int loop;
     int index;
   };
-  // A quadrilateral that faces where its corners are counterclockwise.
+  // Adds a quadrilateral. It faces the side from which its corners run counterclockwise.
   void add_quad(const std::array<Point, 4>& corners);
 
   const geometry::TriangleMesh& mesh() const { return mesh_; }

@@ -61,7 +61,7 @@ PlaneCurve curve_of(std::vector<Piece> pieces, bool is_closed, int least) {
   return curve;
 }
 
-/// How far the curve reaches from the origin.
+/// The greatest distance of the curve from the origin.
 double reach(const PlaneCurve& curve) {
   double radius = 0;
   for (std::size_t i = 0; i < curve.axis.spans.size(); ++i) {
@@ -231,7 +231,7 @@ Spine::Spine(const std::function<Vector3d(double)>& curve, int samples) {
   const std::size_t last = positions_.size() - 1;
   for (std::size_t i = 0; i <= last; ++i) {
     const Vector3d along = (positions_[std::min(i + 1, last)] - positions_[i == 0 ? 0 : i - 1]).normalized();
-    // The samples are near each other, so that projecting the frame before is as good as carrying it along.
+    // The samples are close to each other, so the projection of the previous frame approximates parallel transport.
     const Vector3d before = i == 0 ? Vector3d(along.unitOrthogonal()) : first_.back();
     first_.push_back((before - before.dot(along) * along).normalized());
     second_.push_back(along.cross(first_.back()));

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Parts for a patchwork: turned, punched, swept.
+/// Solids and sheets for a patchwork: revolutions, prisms, plates with holes, walls and wires.
 
 #include <functional>
 #include <memory>
@@ -58,7 +58,7 @@ struct Tile {
   double hole_radius = 0;
 };
 
-/// One face of a plate at the height z: long triangles where there is no hole, rings about holes.
+/// One face of a plate at the height z: long triangles in tiles without a hole, rings around holes.
 void add_tiles(PatchWork& work, const std::vector<Tile>& tiles, double z);
 
 /// Both faces of a plate and the walls of its holes. Its outer border is left open.
@@ -67,12 +67,12 @@ void add_tiled_plate(PatchWork& work, const std::vector<Tile>& tiles, double low
 /// A wall along a curve from z = low to z = high.
 void add_wall(PatchWork& work, const PlaneCurve& curve, double low, double high);
 
-/// A curve in space with a frame that follows it without twist. Sampled once, then cheap to ask.
+/// A curve in space with a frame that follows it without twist. Sampled once; queries are cheap.
 class Spine {
  public:
   Spine(const std::function<Eigen::Vector3d(double)>& curve, int samples);
 
-  // The point of the curve at the part t (0 ... 1) of its length, off it by `across` in the plane across the curve.
+  // The point at the fraction t (0 ... 1) of the length, offset by `across` in the plane normal to the curve.
   Eigen::Vector3d point(double t, const Eigen::Vector2d& across) const;
   double length() const { return arc_.back(); }
 

@@ -25,8 +25,8 @@ std::int64_t cells(const Axis& axis, double edge) {
 }  // namespace
 
 void PatchWork::add(Axis u, Axis v, Surface surface, Poles poles) {
-  // No two neighbors are equally fine: patches of equal size do not gain a row at the same moment, so that counts grow
-  // evenly, and no two faces look alike, as in a CAD model. Multiples of the golden ratio spread most evenly.
+  // Every patch has another fineness: patches of equal size do not gain a row at the same edge length, so that counts
+  // grow evenly, and no two faces look alike, as in a CAD model. Multiples of the golden ratio spread most evenly.
   constexpr double kGoldenRatio = 0.6180339887498949;
   const double turn = kGoldenRatio * static_cast<double>(patches_.size());
   const double fineness = 0.85 + 0.3 * (turn - std::floor(turn));
@@ -53,7 +53,7 @@ std::int64_t PatchWork::count(double edge) const {
 
 geometry::TriangleMesh PatchWork::tessellated(std::int64_t triangle_count) const {
   base::require_triangle_count(triangle_count);
-  // Bisection of the edge's logarithm: the count never grows with the edge.
+  // Bisection on the logarithm of the edge length: the count does not increase with the edge length.
   double fine = 1e-6;
   double coarse = 100;
   for (int i = 0; i < 60; ++i) {

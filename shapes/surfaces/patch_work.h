@@ -1,7 +1,7 @@
 #pragma once
 
-/// Objects as a patchwork of curved quadrilaterals that is tessellated as finely as asked for, the way CAD programs
-/// tessellate the faces of a model one by one.
+/// Objects as a patchwork of curved quadrilaterals, tessellated one by one at any resolution, as CAD programs
+/// tessellate the faces of a model.
 
 #include <cstdint>
 #include <functional>
@@ -14,11 +14,11 @@
 
 namespace glissade::shapes {
 
-/// From so many triangles on, objects have their small details.
+/// Smallest triangle count at which objects have their small details.
 inline constexpr std::int64_t kDetailsFrom = 8'000;
 
-/// A piece of a patch along one direction. Its ends are always lines of the tessellation, so sharp edges lie there;
-/// `length` in metres tells how many cells it gets, never fewer than `least`.
+/// A piece of a patch along one direction. Its ends are always lines of the tessellation, so sharp edges lie there. Its
+/// `length` in metres determines its number of cells, at least `least`.
 struct Span {
   double length;
   int least = 1;
@@ -36,7 +36,7 @@ class PatchWork {
   using Surface = std::function<Eigen::Vector3d(double u, double v)>;
   using Map = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
 
-  // Rows v that shrink to a point and become a fan.
+  // Whether the first and the last row v shrink to a point and become a fan.
   struct Poles {
     bool is_first = false;
     bool is_last = false;
@@ -45,11 +45,12 @@ class PatchWork {
   void add(Axis u, Axis v, Surface surface, Poles poles);
   void add(Axis u, Axis v, Surface surface) { add(std::move(u), std::move(v), std::move(surface), Poles{}); }
 
-  // The patches of `part`, moved by `map`, with edges shorter by the factor `fineness` than they would be.
+  // Adds the patches of `part`, moved by `map`, with edges shortened by the factor `fineness`.
   void add(const PatchWork& part, const Map& map, double fineness = 1);
 
-  // About `triangle_count` triangles: all patches with edges as long as that takes, but no patch with fewer cells than
-  // its spans demand. Every patch has vertices of its own. Throws std::invalid_argument for a count out of range.
+  // A mesh of about `triangle_count` triangles: one edge length for all patches that yields this count, but no fewer
+  // cells than the spans require. Every patch has vertices of its own. Throws std::invalid_argument for a count out of
+  // range.
   geometry::TriangleMesh tessellated(std::int64_t triangle_count) const;
 
  private:

@@ -11,9 +11,9 @@
 namespace glissade::shapes {
 namespace {
 
-// Nearer than this a vertex counts as on a curve.
+// A vertex nearer than this to a curve counts as on it.
 constexpr double kOnCurve = 1e-7;
-// A vertex nearer to a curve than this part of its shortest edge is moved onto it rather than left beside it.
+// A vertex nearer to a curve than this fraction of its shortest edge is moved onto the curve.
 constexpr double kSnapPart = 0.3;
 
 using Edge = std::pair<std::int32_t, std::int32_t>;
@@ -104,7 +104,7 @@ void PlanarTriangulation::cut(const std::function<double(const Eigen::Vector2d&)
   std::vector<geometry::Triangle> pieces;
   pieces.reserve(triangles_.size());
   for (const geometry::Triangle& triangle : triangles_) {
-    // Turn the triangle so that its last two edges (b, c) and (c, a) hold the crossings there are.
+    // Turn the triangle so that its last two edges (b, c) and (c, a) hold all crossings.
     auto [a, b, c] = triangle;
     for (int turn = 0; turn < 2 && (crosses(a, b) || (!crosses(b, c) && crosses(c, a))); ++turn) {
       const std::int32_t first = a;
@@ -139,13 +139,14 @@ void PlanarTriangulation::cut(const std::function<double(const Eigen::Vector2d&)
 
 void PlanarTriangulation::discard_beyond(const std::function<double(const Eigen::Vector2d&)>& level) {
   std::erase_if(triangles_, [&](const geometry::Triangle& triangle) {
-    // The corner furthest from the curve tells the side: the centroid of a thin triangle may lie beyond a curved chord.
-    double furthest = 0;
+    // The corner farthest from the curve decides the side: the centroid of a thin triangle may lie beyond a curved
+    // chord.
+    double farthest = 0;
     for (const std::int32_t corner : triangle) {
       const double phi = level(vertices_[index(corner)]);
-      if (std::abs(phi) > std::abs(furthest)) furthest = phi;
+      if (std::abs(phi) > std::abs(farthest)) farthest = phi;
     }
-    return (std::abs(furthest) < kOnCurve ? level(centroid(triangle)) : furthest) > 0;
+    return (std::abs(farthest) < kOnCurve ? level(centroid(triangle)) : farthest) > 0;
   });
 }
 
@@ -165,7 +166,7 @@ std::int32_t PlanarTriangulation::add_vertex(const Eigen::Vector2d& position, bo
   return static_cast<std::int32_t>(vertices_.size()) - 1;
 }
 
-/// Moves vertices onto the curve where they are near it. Returns the level at each vertex, exactly 0 on the curve.
+/// Moves vertices near the curve onto it. Returns the level at each vertex, exactly 0 on the curve.
 std::vector<double> PlanarTriangulation::snap(const std::function<double(const Eigen::Vector2d&)>& level) {
   std::vector<std::vector<std::int32_t>> triangles_at(vertices_.size());
   std::vector<double> shortest_edge(vertices_.size(), std::numeric_limits<double>::infinity());

@@ -17,15 +17,15 @@ class PlanarTriangulation {
   // The rectangle of `size` about the origin in about square cells with edges of about `cell`, each of two triangles.
   PlanarTriangulation(const Eigen::Vector2d& size, double cell);
 
-  // Bisects triangles (newest-vertex bisection, so angles stay those of the first cells) until for none of them
-  // `longest_edge` > allowed(centroid, longest_edge). Must come before the first cut.
+  // Bisects triangles (newest-vertex bisection, which keeps the angles of the first cells) until every triangle has
+  // `longest_edge` <= allowed_edge(centroid, longest_edge). Call it before the first cut.
   void refine(const std::function<double(const Eigen::Vector2d&, double)>& allowed_edge);
 
-  // Makes the zero set of `level`, a signed distance in metres, a chain of edges: moves near vertices onto it where
-  // that spoils no triangle, and splits the edges that still cross it.
+  // Makes the zero set of `level`, a signed distance in metres, a chain of edges: moves near vertices onto it where no
+  // triangle becomes too small, and splits the edges that still cross it.
   void cut(const std::function<double(const Eigen::Vector2d&)>& level);
 
-  // Drops the triangles on the positive side of a curve that has been cut along.
+  // Drops the triangles on the positive side of a curve along which the mesh has been cut.
   void discard_beyond(const std::function<double(const Eigen::Vector2d&)>& level);
 
   const std::vector<Eigen::Vector2d>& vertices() const { return vertices_; }

@@ -179,7 +179,7 @@ TEST(DopTree, HoldsEveryTriangleInOneLeaf) {
     SCOPED_TRACE(count);
     const DopTree tree(piece_of_torus(count));
     std::vector<std::int32_t> triangles;
-    for (const TriangleLeaf& leaf : tree.leaves()) {
+    for (const TriangleLeaf& leaf : leaves_of(tree)) {
       EXPECT_NE(leaf.triangle[0], kNoTriangle);
       // Free places come last.
       EXPECT_TRUE(std::is_partitioned(leaf.triangle.begin(), leaf.triangle.end(),
@@ -195,14 +195,14 @@ TEST(DopTree, HoldsEveryTriangleInOneLeaf) {
     // Each node but the root, and each leaf, is the child of one.
     std::size_t nodes = 1;
     std::size_t leaves = 0;
-    for (const NodeHead& head : tree.nodes()) {
+    for (const NodeHead& head : nodes_of(tree)) {
       EXPECT_GE(head.child_count(), count <= 4 ? 1 : 2);
       EXPECT_LE(head.child_count(), 4);
       nodes += head.node_count;
       leaves += head.leaf_count;
     }
-    EXPECT_EQ(nodes, tree.nodes().size());
-    EXPECT_EQ(leaves, tree.leaves().size());
+    EXPECT_EQ(nodes, nodes_of(tree).size());
+    EXPECT_EQ(leaves, leaves_of(tree).size());
     EXPECT_GT(expect_right_answers(tree, DopTree(shared(geometry::make_sphere(0.1, 100))), 40), 0U);
   }
 }

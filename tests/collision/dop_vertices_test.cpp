@@ -31,7 +31,7 @@ DopTree tree(const geometry::TriangleMesh& mesh, int k, Realignment realignment 
 
 std::vector<Vector3d> vertices_of(const DopTree& tree, std::uint32_t node, std::size_t child) {
   std::vector<Vector3d> vertices;
-  for (const VertexGroup& group : tree.vertices(node)) {
+  for (const VertexGroup& group : vertices_of(tree, node)) {
     for (std::size_t v = 0; v < 4; ++v) {
       const auto axis = [&](std::size_t a) { return static_cast<double>(group.coordinate[a][kWidth * v + child]); };
       vertices.emplace_back(axis(0), axis(1), axis(2));
@@ -56,18 +56,18 @@ class Vertices : public ::testing::Test {
 
 TEST_F(Vertices, OfABoxOfThreeSlabsAreItsCorners) {
   const DopTree box = tree(geometry::make_box({2.0, 1.0, 0.5}, 100), 6);
-  for (std::uint32_t node = 0; node < box.nodes().size(); ++node) {
-    for (std::size_t c = 0; c < static_cast<std::size_t>(box.nodes()[node].child_count()); ++c) {
+  for (std::uint32_t node = 0; node < nodes_of(box).size(); ++node) {
+    for (std::size_t c = 0; c < static_cast<std::size_t>(nodes_of(box)[node].child_count()); ++c) {
       std::vector<Vector3d> corners;
       for (int i = 0; i < 8; ++i) {
         Vector3d corner;
         for (int axis = 0; axis < 3; ++axis) {
-          const SlabRow& row = box.slabs(node)->rows[static_cast<std::size_t>(axis)];
+          const SlabRow& row = slabs_of(box, node)->rows[static_cast<std::size_t>(axis)];
           corner[axis] = (i >> axis & 1) != 0 ? row.above[c] : -row.below[c];
         }
         corners.push_back(corner);
       }
-      ASSERT_EQ(box.vertices(node).size(), 2U);
+      ASSERT_EQ(vertices_of(box, node).size(), 2U);
       const std::vector<Vector3d> vertices = vertices_of(box, node, c);
       EXPECT_TRUE(std::is_permutation(vertices.begin(), vertices.end(), corners.begin()));
     }
@@ -78,12 +78,12 @@ TEST_F(Vertices, LieWithinAllHalfSpacesAndOnThreePlanes) {
   for (const int k : kDirectionCounts) {
     const DopDirections& directions = dop_directions(k);
     const DopTree torus = tree(geometry::make_torus(0.7, 0.3, 500), k);
-    for (std::uint32_t node = 0; node < torus.nodes().size(); ++node) {
-      for (std::size_t c = 0; c < static_cast<std::size_t>(torus.nodes()[node].child_count()); ++c) {
+    for (std::uint32_t node = 0; node < nodes_of(torus).size(); ++node) {
+      for (std::size_t c = 0; c < static_cast<std::size_t>(nodes_of(torus)[node].child_count()); ++c) {
         for (const Vector3d& x : vertices_of(torus, node, c)) {
           int planes = 0;
           for (std::size_t i = 0; i < static_cast<std::size_t>(directions.slabs); ++i) {
-            const SlabRow& row = torus.slabs(node)[i / 4].rows[i % 4];
+            const SlabRow& row = slabs_of(torus, node)[i / 4].rows[i % 4];
             const double room_above = row.above[c] - directions.unit[i].dot(x);
             const double room_below = row.below[c] + directions.unit[i].dot(x);
             ASSERT_GE(std::min(room_above, room_below), -0.02) << "k " << k;  // a 64th of a step, and single precision
@@ -101,12 +101,12 @@ TEST_F(Vertices, RealignmentByTheIdentityChangesNothing) {
   for (const int k : kDirectionCounts) {
     const DopTree torus = tree(geometry::make_torus(0.7, 0.3, 500), k);
     const VertexAlignment alignment(dop_directions(k), QueryFrame(torus, torus, Isometry3d::Identity()));
-    for (std::uint32_t node = 0; node < torus.nodes().size(); ++node) {
+    for (std::uint32_t node = 0; node < nodes_of(torus).size(); ++node) {
       AlignedNode aligned;
-      realign_vertices()(alignment, torus.vertices(node), aligned);
-      for (std::size_t c = 0; c < static_cast<std::size_t>(torus.nodes()[node].child_count()); ++c) {
+      realign_vertices()(alignment, vertices_of(torus, node), aligned);
+      for (std::size_t c = 0; c < static_cast<std::size_t>(nodes_of(torus)[node].child_count()); ++c) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(alignment.slabs); ++i) {
-          const SlabRow& row = torus.slabs(node)[i / 4].rows[i % 4];
+          const SlabRow& row = slabs_of(torus, node)[i / 4].rows[i % 4];
           ASSERT_NEAR(aligned.facing[8 * i + c], row.below[c], 3) << "k " << k;
           ASSERT_NEAR(aligned.facing[8 * i + 4 + c], row.above[c], 3) << "k " << k;
         }
@@ -126,13 +126,13 @@ TEST_F(Vertices, RealignNoLooserThanThreeOffsetsDo) {
       DopAlignment affine;
       align(k, frame, affine);
       const VertexAlignment brute_force(dop_directions(k), frame);
-      for (std::uint32_t node = 0; node < torus.nodes().size(); ++node) {
+      for (std::uint32_t node = 0; node < nodes_of(torus).size(); ++node) {
         AlignedNode by_offsets;
         AlignedNode by_vertices;
-        node_kernels().realign(affine, torus.slabs(node), by_offsets);
-        realign_vertices()(brute_force, torus.vertices(node), by_vertices);
+        node_kernels().realign(affine, slabs_of(torus, node), by_offsets);
+        realign_vertices()(brute_force, vertices_of(torus, node), by_vertices);
         for (std::size_t lane = 0; lane < 8 * static_cast<std::size_t>(affine.slabs); ++lane) {
-          if (lane % 4 >= static_cast<std::size_t>(torus.nodes()[node].child_count())) continue;
+          if (lane % 4 >= static_cast<std::size_t>(nodes_of(torus)[node].child_count())) continue;
           // Both are rounded up to whole steps, from bounds that are padded for rounding.
           ASSERT_LE(by_vertices.facing[lane], by_offsets.facing[lane] + 1) << "k " << k;
           excess += by_offsets.facing[lane] - by_vertices.facing[lane];

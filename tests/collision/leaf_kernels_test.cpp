@@ -38,8 +38,8 @@ class LeafKernelsTest : public Kernels {
     const double radius = placed.frame.base_radius;
     const double rounding = 1e-12 * (tree_A.center().norm() + X_AB.translation().norm()) / radius;
     const LeafFrame frame(placed.frame);
-    for (std::uint32_t leaf_M = 0; leaf_M < placed.base().leaves().size(); ++leaf_M) {
-      for (std::uint32_t leaf_N = 0; leaf_N < placed.other().leaves().size(); ++leaf_N) {
+    for (std::uint32_t leaf_M = 0; leaf_M < leaves_of(placed.base()).size(); ++leaf_M) {
+      for (std::uint32_t leaf_N = 0; leaf_N < leaves_of(placed.other()).size(); ++leaf_N) {
         std::array<double, 16> distance;
         for (int pair = 0; pair < 16; ++pair) {
           const TrianglePair triangles = placed.triangles(leaf_M, leaf_N, pair);
@@ -50,8 +50,8 @@ class LeafKernelsTest : public Kernels {
                      : -1.0;
         }
         LeafPair leaves;
-        leaf_kernels().prepare_M(placed.base().leaves()[leaf_M], leaves);
-        leaf_kernels().prepare_N(frame, placed.other().leaves()[leaf_N], leaves);
+        leaf_kernels().prepare_M(leaves_of(placed.base())[leaf_M], leaves);
+        leaf_kernels().prepare_N(frame, leaves_of(placed.other())[leaf_N], leaves);
         check(Visit{frame, leaves, distance, rounding});
       }
     }
@@ -167,8 +167,8 @@ TEST_P(LeafKernelsTest, CertaintiesHoldWhereTrianglesBarelyMeet) {
     const PlacedTrees placed{tree_A, tree_B, X_AB};
     const LeafFrame frame(placed.frame);
     LeafPair leaves;
-    leaf_kernels().prepare_M(placed.base().leaves()[0], leaves);
-    leaf_kernels().prepare_N(frame, placed.other().leaves()[0], leaves);
+    leaf_kernels().prepare_M(leaves_of(placed.base())[0], leaves);
+    leaf_kernels().prepare_N(frame, leaves_of(placed.other())[0], leaves);
     ASSERT_TRUE(!intersect || has(leaf_kernels().test(frame, 0.0F, leaves), 0)) << "trial " << trial;
     const CertainPairs certain = leaf_kernels().cross(frame, leaves);
     ASSERT_FALSE(has(intersect ? certain.apart : certain.intersect, 0)) << "trial " << trial << ", off " << off;

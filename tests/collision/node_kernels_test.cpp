@@ -21,12 +21,12 @@ using Eigen::Vector3d;
 // Triangles below child c of a node.
 void collect(const DopTree& tree, const NodeHead& head, int c, std::vector<std::int32_t>& triangles) {
   if (head.is_leaf(c)) {
-    for (const std::int32_t t : tree.leaves()[head.child(c)].triangle) {
+    for (const std::int32_t t : leaves_of(tree)[head.child(c)].triangle) {
       if (t != kNoTriangle) triangles.push_back(t);
     }
     return;
   }
-  const NodeHead& child = tree.nodes()[head.child(c)];
+  const NodeHead& child = nodes_of(tree)[head.child(c)];
   for (int grandchild = 0; grandchild < child.child_count(); ++grandchild)
     collect(tree, child, grandchild, triangles);
 }
@@ -63,13 +63,13 @@ TEST_P(Kernels, RealignedNodesEncloseEveryTransformedPoint) {
         const Isometry3d X_MN = frame.base_is_A ? X_AB : X_AB.inverse();
         DopAlignment alignment;
         align(k, frame, alignment);
-        for (std::uint32_t node = 0; node < other.nodes().size(); ++node) {
+        for (std::uint32_t node = 0; node < nodes_of(other).size(); ++node) {
           AlignedNode aligned[2];
-          node_kernels().realign(alignment, other.slabs(node), aligned[0]);
-          realign_vertices()(VertexAlignment(directions, frame), other.vertices(node), aligned[1]);
-          for (int c = 0; c < other.nodes()[node].child_count(); ++c) {
+          node_kernels().realign(alignment, slabs_of(other, node), aligned[0]);
+          realign_vertices()(VertexAlignment(directions, frame), vertices_of(other, node), aligned[1]);
+          for (int c = 0; c < nodes_of(other)[node].child_count(); ++c) {
             std::vector<std::int32_t> triangles;
-            collect(other, other.nodes()[node], c, triangles);
+            collect(other, nodes_of(other)[node], c, triangles);
             for (const std::int32_t t : triangles) {
               for (int corner = 0; corner < 3; ++corner) {
                 const Vector3d x =
@@ -101,16 +101,16 @@ TEST_P(Kernels, OverlapsOfPairsBoundTheirDistance) {
         const Isometry3d X_MN = frame.base_is_A ? X_AB : X_AB.inverse();
         DopAlignment alignment;
         align(24, frame, alignment);
-        for (std::uint32_t p = 0; p < base.nodes().size(); p += test_support::kSanitized ? 30 : 3) {
-          for (std::uint32_t q = 0; q < other.nodes().size(); q += 5) {
+        for (std::uint32_t p = 0; p < nodes_of(base).size(); p += test_support::kSanitized ? 30 : 3) {
+          for (std::uint32_t q = 0; q < nodes_of(other).size(); q += 5) {
             AlignedNode aligned;
             PairOverlaps overlaps;
-            const NodeHead& head_M = base.nodes()[p];
-            const NodeHead& head_N = other.nodes()[q];
-            node_kernels().realign(alignment, other.slabs(q), aligned);
-            PairMask near = node_kernels().test(base.slabs(p), aligned, 12, 0, overlaps);
+            const NodeHead& head_M = nodes_of(base)[p];
+            const NodeHead& head_N = nodes_of(other)[q];
+            node_kernels().realign(alignment, slabs_of(other, q), aligned);
+            PairMask near = node_kernels().test(slabs_of(base, p), aligned, 12, 0, overlaps);
             if (with_thin_slabs) {
-              near = node_kernels().test_thin(ThinSlabFrame(frame), head_M, base.slabs(p), head_N, other.slabs(q), 0,
+              near = node_kernels().test_thin(ThinSlabFrame(frame), head_M, slabs_of(base, p), head_N, slabs_of(other, q), 0,
                                               overlaps);
             }
             for (int i = 0; i < head_M.child_count(); ++i) {

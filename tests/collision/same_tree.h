@@ -22,13 +22,13 @@ bool same_bytes(std::span<const Part> a, std::span<const Part> b) {
 
 inline std::span<const SlabLine> all_slabs(const DopTree& tree) {
   const auto lines = static_cast<std::size_t>(slab_lines(dop_directions(tree.options().directions).slabs));
-  return {tree.slabs(0), tree.nodes().size() * lines};
+  return {slabs_of(tree, 0), nodes_of(tree).size() * lines};
 }
 
 inline void expect_same_tree(const DopTree& a, const DopTree& b) {
   EXPECT_EQ(a.options(), b.options());
-  EXPECT_TRUE(same_bytes(a.nodes(), b.nodes()));
-  EXPECT_TRUE(same_bytes(a.leaves(), b.leaves()));
+  EXPECT_TRUE(same_bytes(nodes_of(a), nodes_of(b)));
+  EXPECT_TRUE(same_bytes(leaves_of(a), leaves_of(b)));
   EXPECT_TRUE(same_bytes(all_slabs(a), all_slabs(b)));
   EXPECT_EQ(a.degenerate_triangles(), b.degenerate_triangles());
   EXPECT_EQ(a.depth(), b.depth());

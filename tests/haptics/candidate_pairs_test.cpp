@@ -89,7 +89,7 @@ TEST(CandidatePairs, HoldEverythingWithinTheReachOverManySteps) {
   int kept = 0;  // steps that an earlier search served
   std::int64_t searches = 0;
   for (int trial = 0; trial < test_support::affordable(60); ++trial) {
-    const auto scene = test_support::random_surroundings(0.02, 1e-4, 2e-4, random);
+    const auto scene = test_support::random_contact_scene(0.02, 1e-4, 2e-4, random);
     CandidatePairs candidates(*scene, kGreatest);
     EXPECT_FALSE(candidates.covers(0.0)) << "before the first search";
     for (int step = 0; step < 40; ++step) {
@@ -155,7 +155,7 @@ TEST(CandidatePairs, AreTheSameWithAThreadOfTheirOwn) {
   RandomNumbers random(kSeed);
   int renewed = 0;
   for (int trial = 0; trial < test_support::affordable(60); ++trial) {
-    const auto scene = test_support::random_surroundings(0.02, 1e-4, 2e-4, random);
+    const auto scene = test_support::random_contact_scene(0.02, 1e-4, 2e-4, random);
     CandidatePairs without(*scene, kGreatest);
     CandidatePairs with(*scene, kGreatest, true);
     for (int step = 0; step < 60; ++step) {

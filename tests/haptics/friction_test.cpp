@@ -137,9 +137,10 @@ class BoxOnCarriage : public ::testing::Test {
   /// The motion is in world axes, about the middle of the carriage.
   void start(const Vector3d& p_box, const Isometry3d& X_motion) {
     motion_ = X_motion;
-    const Isometry3d X_WC = pose({0.0, 0.0, -0.01});
-    const geometry::PoseTrajectory script(
-        {{milliseconds(0), X_WC}, {milliseconds(kWaits), X_WC}, {milliseconds(kWaits + kMoves), X_motion * X_WC}});
+    const Isometry3d X_WCarriage = pose({0.0, 0.0, -0.01});
+    const geometry::PoseTrajectory script({{milliseconds(0), X_WCarriage},
+                                           {milliseconds(kWaits), X_WCarriage},
+                                           {milliseconds(kWaits + kMoves), X_motion * X_WCarriage}});
     const auto carriage = test_support::part_of(geometry::make_box({0.4, 0.4, 0.02}, 12));
     const auto box = test_support::part_of(geometry::make_box({0.06, 0.04, 0.02}, 12));
     sliding_ = std::make_unique<Sliding>(
@@ -159,7 +160,9 @@ class BoxOnCarriage : public ::testing::Test {
         << "the carriage went";
   }
   /// Where the box is on the carriage.
-  Vector3d p_CV() const { return (sliding_->scripted_X_WB()[0].inverse() * sliding_->result().X_WV).translation(); }
+  Vector3d p_CarriageV() const {
+    return (sliding_->scripted_X_WB()[0].inverse() * sliding_->result().X_WV).translation();
+  }
 
   Isometry3d motion_;
   std::unique_ptr<Sliding> sliding_;
@@ -168,18 +171,18 @@ class BoxOnCarriage : public ::testing::Test {
 TEST_F(BoxOnCarriage, IsCarriedAlongByWhatHoldsItAtRest) {
   start({0.0, 0.0, 0.0}, pose({0.01, 0.0, 0.0}));
   lead({kPulled, 0.0, 0.01 - kPressed}, kWaits / 2);
-  const Vector3d before = p_CV();
+  const Vector3d before = p_CarriageV();
   go_along();
-  EXPECT_LT((p_CV() - before).norm(), 1e-5);
+  EXPECT_LT((p_CarriageV() - before).norm(), 1e-5);
 }
 
 TEST_F(BoxOnCarriage, IsCarriedAlongAroundACorner) {
   // A turn by 180°/s, 0.1 m from its axis.
   start({0.1, 0.0, 0.0}, pose({0.0, 0.0, 0.0}, turn(0.1 * std::numbers::pi, Vector3d::UnitZ())));
   lead({0.1, kPulled, 0.01 - kPressed}, kWaits / 2);
-  const Vector3d before = p_CV();
+  const Vector3d before = p_CarriageV();
   go_along();
-  const Vector3d moved = p_CV() - before;
+  const Vector3d moved = p_CarriageV() - before;
   EXPECT_NEAR(moved.y(), 0.0, 0.1 * (kPulled - kWhileSliding * kPressed)) << "held against the pull";
   const double turned = 1e-3 * std::numbers::pi;  // in a call
   EXPECT_NEAR(moved.x(), 0.0, 1.2 * kMoves * 0.5 * turned * turned * 0.1) << "creeps outwards to second order";
@@ -189,7 +192,7 @@ TEST_F(BoxOnCarriage, SlipsWhereTheHandHoldsItBackAndFeelsTheForceOfSliding) {
   constexpr double kWay_m = 0.01;
   start({0.0, 0.0, 0.0}, pose({kWay_m, 0.0, 0.0}));
   lead({0.0, 0.0, 0.01 - kPressed}, kWaits / 2 + kMoves);
-  EXPECT_LT(p_CV().x(), -0.9 * kWay_m + kAtRest * kPressed);
+  EXPECT_LT(p_CarriageV().x(), -0.9 * kWay_m + kAtRest * kPressed);
   EXPECT_NEAR(sliding_->result().X_WV.translation().x(), kWhileSliding * kPressed, 1e-5);
 }
 

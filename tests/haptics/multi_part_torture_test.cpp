@@ -177,7 +177,7 @@ TEST(MultiPartTorture, NothingIsEverInsideAnything) {
   int paths = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const double size = random.power_of_ten(-2.5, 0.0);
-    const auto scene = test_support::random_surroundings(size, kMargin_m, 2.0 * kMargin_m, random);
+    const auto scene = test_support::random_contact_scene(size, kMargin_m, 2.0 * kMargin_m, random);
     std::vector<HeldPart> parts;
     std::vector<Hand> hands;
     for (std::size_t p = 0; p < scene->parts().size(); ++p) {

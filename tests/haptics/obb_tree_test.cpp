@@ -45,8 +45,8 @@ using SeeBox = std::function<void(const Obb& box, const std::vector<std::int32_t
 
 /// Shows every box of a tree with the triangles that it has to hold.
 void for_each_box(const DopTree& tree, const ObbTree& boxes, const SeeBox& see) {
-  for (std::uint32_t node = 0; node < tree.nodes().size(); ++node) {
-    for (int c = 0; c < tree.nodes()[node].child_count(); ++c)
+  for (std::uint32_t node = 0; node < tree.node_count(); ++node) {
+    for (int c = 0; c < tree.node(node).child_count(); ++c)
       see(boxes.box(node, c), test_support::triangles_below(tree, node, c));
   }
 }

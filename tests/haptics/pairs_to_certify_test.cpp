@@ -63,7 +63,7 @@ TEST_F(PairsToCertify, HoldsEveryPairOfTrianglesWithinTheRadiusOnce) {
   for (int trial = 0; trial < test_support::affordable(300); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     const double margin = random_margin();
-    const auto scene = test_support::random_surroundings(kSize, margin, margin * random_.uniform(0.3, 2.0), random_);
+    const auto scene = test_support::random_contact_scene(kSize, margin, margin * random_.uniform(0.3, 2.0), random_);
     const double radius = random_.power_of_ten(-4.0, -2.0);
     std::map<TrianglesOfBodies, int> held;
     for (const PairToCertify& pair_to_certify : pairs_to_certify_of(*scene, radius)) {
@@ -86,7 +86,7 @@ TEST_F(PairsToCertify, TellsLowerBoundsOfDistancesInAscendingOrder) {
   for (int trial = 0; trial < test_support::affordable(80); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     const double margin = random_margin();
-    const auto scene = test_support::random_surroundings(kSize, margin, margin, random_);
+    const auto scene = test_support::random_contact_scene(kSize, margin, margin, random_);
     const std::span<const PlacedBody> bodies = scene->bodies();
     const std::vector<PairToCertify> to_certify = pairs_to_certify_of(*scene, random_.power_of_ten(-4.0, -3.0));
     EXPECT_TRUE(std::is_sorted(to_certify.begin(), to_certify.end(),
@@ -116,7 +116,7 @@ TEST_F(PairsToCertify, LeavesOutBodiesThatAreIgnored) {
   int others = 0;
   for (int trial = 0; trial < test_support::affordable(40); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
-    const auto scene = test_support::random_surroundings(kSize, 1e-4, 1e-4, random_);
+    const auto scene = test_support::random_contact_scene(kSize, 1e-4, 1e-4, random_);
     const BodyPair ignored{0, static_cast<std::int32_t>(scene->body_of_part(0))};
     const std::vector<PairToCertify> all = pairs_to_certify_of(*scene, 1e-3);
     const std::vector<PairToCertify> rest = pairs_to_certify_of(*scene, 1e-3, {ignored});

@@ -94,7 +94,7 @@ TEST(PathCertificate, WhatIsProvedOfRandomMeshesHoldsAllAlong) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     const double margin = random.power_of_ten(-5.0, -3.7);
     const double gap = margin * random.uniform(0.2, 4.0);
-    const auto scene = test_support::random_surroundings(0.02, margin, gap, random);
+    const auto scene = test_support::random_contact_scene(0.02, margin, gap, random);
     for (int step = 0; step < 5; ++step) {
       std::vector<geometry::Displacement> displacements;
       double motion = 0.0;

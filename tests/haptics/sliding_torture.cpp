@@ -1,8 +1,8 @@
-// Sliding contact under torture: random scenes of soups, sheets, slivers and needles from 1 mm to 5 m, random hands up
-// to 5 m/s that jump, press, turn and let go. Every visible pose and every path between two of them that is known is
-// checked by code that shares nothing with the simulation. The hash that is printed depends on the seed, the number of
-// scenes and the milliseconds only; with --again everything is run a second time on another number of threads, each
-// scene with a search thread of its own, and the hash must be the same.
+// Torture test of sliding contact: random scenes of soups, sheets, slivers and needles from 1 mm to 5 m, and random
+// hands up to 5 m/s that jump, press, turn and let go. Every visible pose, and every known path between two of them, is
+// checked by code independent of the simulation. The printed hash depends only on the seed, the number of scenes and
+// the milliseconds. With --again all scenes run a second time on another number of threads, each with a search thread
+// of its own, and the hash must be the same.
 
 #include <algorithm>
 #include <atomic>
@@ -36,10 +36,10 @@ struct Arguments {
   std::string csv;
 };
 
-/// On what a run is made; no answer may depend on it.
+/// The threads of a run. No result may depend on them.
 struct Threads {
-  int scenes;               ///< over which they are spread
-  bool has_search = false;  ///< each simulation has one more to search for candidates
+  int scenes;               ///< threads that run scenes
+  bool has_search = false;  ///< each simulation has a search thread
 };
 
 class Stopwatch {
@@ -50,7 +50,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// A scene that cannot even be run is a fault of it.
+// An exception is a fault of the scene.
 TortureCounts run_one(const Arguments& arguments, std::int64_t index, const Threads& threads) {
   try {
     return run_torture_scene(arguments.seed, index, arguments.milliseconds, threads.has_search);
@@ -67,7 +67,7 @@ long long count(std::int64_t number) {
   return static_cast<long long>(number);
 }
 
-// Jams gather in few scenes.
+// Jams occur in few scenes.
 void print_most_jammed(const std::vector<TortureCounts>& counts) {
   constexpr std::size_t kPrinted = 8;
   std::vector<std::pair<std::int64_t, std::size_t>> jams;
@@ -82,7 +82,7 @@ void print_most_jammed(const std::vector<TortureCounts>& counts) {
   if (!jams.empty()) std::printf("\n");
 }
 
-// Scenes go to whichever thread is free; their counts are added up in their own order.
+// Each scene runs on the next free thread; the counts are added in the order of the scenes.
 TortureCounts run_all(const Arguments& arguments, const Threads& threads) {
   if (arguments.only_scene >= 0) return run_one(arguments, arguments.only_scene, threads);
   const auto scenes = static_cast<std::size_t>(arguments.scenes);
@@ -123,14 +123,13 @@ void print(const TortureCounts& c, double seconds) {
   std::printf("visible poses in collision       %lld\n", count(c.collisions));
   std::printf("paths not proved free            %lld of %lld, and of the last steps of %lld more\n",
               count(c.unproved_paths), count(c.paths), count(c.partial_paths));
-  std::printf("poses nearer than allowed        %lld, least distance %.4f of the floor\n", count(c.below_floor),
-              c.least_of_floor);
+  std::printf("poses nearer than allowed        %lld, least distance %.4f of the minimum clearance\n",
+              count(c.below_min_clearance), c.least_of_min_clearance);
   std::printf("poses or forces not finite       %lld\n", count(c.not_finite));
   const double percent = 100.0 / static_cast<double>(std::max<std::int64_t>(1, c.wanted));
-  std::printf("jammed ticks                     %lld of %lld in which the part was wanted elsewhere (%.4f %%)\n",
-              count(c.jammed), count(c.wanted), percent * static_cast<double>(c.jammed));
-  std::printf("jammed where they started nearer than the floor, and not yet away from there: %lld\n",
-              count(c.jammed_near));
+  std::printf("jammed ticks                     %lld of %lld with the target elsewhere (%.4f %%)\n", count(c.jammed),
+              count(c.wanted), percent * static_cast<double>(c.jammed));
+  std::printf("jammed, nearer than the minimum clearance since the start: %lld\n", count(c.jammed_near));
   std::printf("standing still off balance       %lld (%.4f %%)\n", count(c.unbalanced),
               percent * static_cast<double>(c.unbalanced));
   std::printf("greatest force jump              %.3g kt (0.2 mm + |dG|), under force feedback\n", c.force_jump);
@@ -139,7 +138,7 @@ void print(const TortureCounts& c, double seconds) {
   for (std::size_t i = 0; i < std::min(kPrinted, c.faults.size()); ++i)
     std::printf("FAULT: %s\n", c.faults[i].c_str());
   std::printf("%lld faults\n", count(c.fault_count));
-  std::fflush(stdout);  // with --again there is a long way to go
+  std::fflush(stdout);  // with --again a second run follows
 }
 
 /// The figures of `print` as rows of figure, value and unit; `again` is the hash of a second run, if there was one.
@@ -155,8 +154,8 @@ void write_csv(const std::string& path, const TortureCounts& c, const std::strin
   row("paths", c.paths, "1");
   row("last_steps", c.partial_paths, "1");
   row("unproved_paths", c.unproved_paths, "1");
-  row("below_floor", c.below_floor, "1");
-  row("least_of_floor", c.least_of_floor, "x");
+  row("below_min_clearance", c.below_min_clearance, "1");
+  row("least_of_min_clearance", c.least_of_min_clearance, "x");
   row("not_finite", c.not_finite, "1");
   row("wanted_elsewhere", c.wanted, "1");
   row("jammed", c.jammed, "1");
@@ -168,7 +167,7 @@ void write_csv(const std::string& path, const TortureCounts& c, const std::strin
   if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
-/// What is promised of many scenes together: hardly a tick jams, and no force jumps.
+/// Promises about many scenes together: few ticks jam, and no force jumps.
 bool keeps_promises(const TortureCounts& counts) {
   constexpr double kMostJammed = 1e-3;
   const bool jams = static_cast<double>(counts.jammed) > kMostJammed * static_cast<double>(counts.wanted) + 20.0;
@@ -204,20 +203,20 @@ int main(int argc, char** argv) {
   using namespace glissade::test_support;
   Arguments arguments;
   CLI::App app{"Random scenes and hands for sliding contact, with every visible pose and path checked independently"};
-  app.add_option("--scenes", arguments.scenes, "How many scenes; a twentieth under a sanitizer")
+  app.add_option("--scenes", arguments.scenes, "Number of scenes; a twentieth of it under a sanitizer")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--ms", arguments.milliseconds, "Milliseconds of each scene")
+  app.add_option("--ms", arguments.milliseconds, "Duration of each scene in milliseconds")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--seed", arguments.seed, "Seed of everything random")->capture_default_str();
-  app.add_option("--threads", arguments.threads, "Threads that scenes are spread over")
+  app.add_option("--seed", arguments.seed, "Seed of all random choices")->capture_default_str();
+  app.add_option("--threads", arguments.threads, "Number of threads that run scenes")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  app.add_option("--only-scene", arguments.only_scene, "Repeat the one scene that a fault names")
+  app.add_option("--only-scene", arguments.only_scene, "Run only this scene, as named by a fault")
       ->check(CLI::NonNegativeNumber);
   app.add_flag("--again", arguments.again,
-               "Run all of it again on another number of threads, with search threads, and compare the hashes");
+               "Run all scenes again on another number of threads, with search threads, and compare the hashes");
   app.add_flag("--quiet", arguments.quiet, "No progress");
   app.add_option("--csv", arguments.csv,
                  "Write the figures of the first run, and the hash of the second, to this file: figure,value,unit");

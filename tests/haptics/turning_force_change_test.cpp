@@ -63,11 +63,12 @@ class RandomMotion {
   int in_contact = 0;            ///< ticks
 
  private:
-  void look(const geometry::Displacement& stretch_then, const Isometry3d& X_WG_previous, const SlidingResult& result) {
+  void look(const geometry::Displacement& stretch_previous, const Isometry3d& X_WG_previous,
+            const SlidingResult& result) {
     const CouplingStiffness& K = sliding_.stiffness();
     const double radius = sliding_.part().radius();
     const geometry::Displacement stretch = sliding_.error();
-    const geometry::Displacement change{stretch.v - stretch_then.v, stretch.w - stretch_then.w};
+    const geometry::Displacement change{stretch.v - stretch_previous.v, stretch.w - stretch_previous.w};
     const geometry::Displacement ghost =
         geometry::displacement_between(X_WG_previous, result.X_WG, sliding_.part().p_Vref());
     greatest_ratio = std::max(greatest_ratio, test_support::length_in(K, change) / test_support::length_in(K, ghost));

@@ -190,9 +190,9 @@ TEST(BumpyPlate, TwoOfThemAreCloseEverywhereAndTouchNowhere) {
   const collision::DopTree tree(
       std::make_shared<const geometry::TriangleMesh>(make_bumpy_plate({0.2, 0.2}, 0.01, 4, 2'000)));
   const double gap = 1e-4;
-  const Eigen::Isometry3d X_LU(Eigen::Translation3d(0, 0, gap));
+  const Eigen::Isometry3d X_LowerUpper(Eigen::Translation3d(0, 0, gap));
   collision::QueryWorkspace workspace;
-  EXPECT_FALSE(intersects(tree, tree, X_LU, workspace));
+  EXPECT_FALSE(intersects(tree, tree, X_LowerUpper, workspace));
   EXPECT_TRUE(intersects(tree, tree, Eigen::Isometry3d(Eigen::Translation3d(0.01, 0, gap)), workspace));
 }
 

@@ -1,13 +1,13 @@
 #pragma once
 
-/// What CGAL says about two triangles, to compare our own predicates with. Exact, and independent of them.
+/// CGAL's predicates on two triangles, an exact and independent reference for our own.
 
 #include <glissade/geometry/triangle_pair.h>
 
 namespace glissade::test_support {
 
-/// Whether two closed triangles share a point, decided exactly. The second may have lost its area: it then stands for
-/// the segment or point that is left. Thread-safe.
+/// Whether two closed triangles share a point, decided exactly. The second may be degenerate: it then stands
+/// for its segment or point. Thread-safe.
 bool cgal_intersect(const geometry::TrianglePoints& a, const geometry::TrianglePoints& b);
 
 /// Whether the triangle has no area, decided exactly. Thread-safe.

@@ -33,7 +33,7 @@ struct Plane {
   double d;
 };
 
-/// A point of the space that is searched.
+/// A point of the search space.
 struct State {
   Isometry3d X_WV;
   std::vector<Plane> planes;
@@ -57,7 +57,7 @@ class BarrierMethod {
     }
   }
 
-  /// A plane for every pair of pieces, in the middle of what is between them.
+  /// A plane for every pair of pieces, halfway between them.
   State start_at(const Isometry3d& X_WV) const {
     State state{X_WV, {}};
     for (const ConvexPiece& piece : problem_.part_V) {
@@ -65,7 +65,7 @@ class BarrierMethod {
         const HullOracle hulls(obstacle, piece, X_WV);
         const Vector3d between = hulls.difference();
         if (!(between.norm() > problem_.margin))
-          throw std::invalid_argument("the part starts no further than the margin from an obstacle");
+          throw std::invalid_argument("the part starts no farther than the margin from an obstacle");
         Plane plane{between.normalized(), -std::numeric_limits<double>::infinity()};
         for (const Vector3d& a : obstacle)
           plane.d = std::max(plane.d, plane.n.dot(a));
@@ -81,7 +81,7 @@ class BarrierMethod {
       differentiate(state, barrier);
       const VectorXd step = newton_step();
       const double decrease = -gradient_.dot(step);
-      // Half of it is what is still to gain.
+      // Half of the decrement estimates the possible gain.
       if (decrease < 1e-3 * barrier) return true;
       if (!walk(state, step, decrease, barrier)) return decrease < 0.1 * barrier;
     }
@@ -95,7 +95,7 @@ class BarrierMethod {
   }
 
  private:
-  /// What is minimised; infinite where a constraint does not hold.
+  /// The objective; infinite where a constraint is violated.
   double value(const State& state, double barrier) const {
     double sum_of_logs = 0.0;
     double least = std::numeric_limits<double>::infinity();
@@ -190,7 +190,7 @@ class BarrierMethod {
     hessian_.block<3, 3>(at, at) += H.bottomRightCorner<3, 3>();
   }
 
-  /// Where the Hessian is not positive, as much of a positive one is added as makes it so.
+  /// Where the Hessian is not positive definite, enough of a positive definite matrix is added.
   VectorXd newton_step() const {
     const VectorXd scale = hessian_.diagonal().cwiseAbs().cwiseSqrt().cwiseMax(1e-12).cwiseInverse();
     const MatrixXd scaled = scale.asDiagonal() * hessian_ * scale.asDiagonal();
@@ -202,7 +202,7 @@ class BarrierMethod {
     }
   }
 
-  /// Goes as far along `step` as the value falls enough; false if it does not fall.
+  /// Moves along `step` as far as the value decreases sufficiently; false if it does not decrease.
   bool walk(State& state, const VectorXd& step, double decrease, double barrier) const {
     const double before = value(state, barrier);
     const double length = step.segment<3>(0).norm() + step.segment<3>(3).norm() * radius_;

@@ -8,7 +8,7 @@
 
 namespace glissade::test_support {
 
-/// Cubic metres, positive where triangles face outward. Of an open mesh it means nothing.
+/// Cubic metres, positive if triangles face outward. Meaningless for an open mesh.
 inline double enclosed_volume(const geometry::TriangleMesh& mesh) {
   double volume = 0;
   for (const geometry::Triangle& t : mesh.triangles) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Checks on errors for bad input: the right type, and a message on one line that names what is wrong.
+/// Checks of errors for bad input: the right type, and a message on one line that names the fault.
 
 #include <stdexcept>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace glissade::test_support {
 
-/// Expects that `call` throws std::invalid_argument with a one-line message that holds every one of `parts`.
+/// Expects that `call` throws std::invalid_argument with a one-line message that contains all of `parts`.
 template <typename Call>
 void expect_bad_input(Call call, const std::vector<std::string>& parts) {
   try {

@@ -19,7 +19,7 @@ void lead(haptics::SlidingSimulation& sliding, const Isometry3d& X_WG, int calls
           const std::function<void(const haptics::SlidingResult&)>& see) {
   const Isometry3d X_WG_from = sliding.result().X_WG;
   for (int i = 1; i <= calls; ++i) {
-    // The last pose is the one asked for, bit for bit.
+    // The last pose is X_WG to the bit.
     const haptics::SlidingResult& result =
         sliding.advance(i == calls ? X_WG : between(X_WG_from, X_WG, static_cast<double>(i) / calls));
     if (see) see(result);

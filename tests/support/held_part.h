@@ -1,7 +1,7 @@
 #pragma once
 
-/// What tests of sliding share: bodies made of meshes, how near to a reference they have to come to rest, a ghost that
-/// is led and then held, and the sum of the contacts.
+/// Shared by tests of sliding: bodies of meshes, tolerances of rest poses, motions of the ghost, and the sum of the
+/// contact forces.
 
 #include <functional>
 #include <memory>
@@ -20,10 +20,10 @@
 
 namespace glissade::test_support {
 
-/// Of the box that most of these tests hold, metres.
+/// Size of the box in most of these tests, metres.
 inline const Eigen::Vector3d kBoxSize(0.1, 0.06, 0.04);
 
-/// How far a part at rest may be from where a reference has it, and its forces from balance, relatively.
+/// Greatest deviation of a part at rest from the reference pose, and relative imbalance of its forces.
 constexpr double kRestPosition_m = 0.5e-6;
 constexpr double kRestRotation_rad = 0.02e-3 * std::numbers::pi / 180.0;
 constexpr double kRestBalance = 1e-6;
@@ -42,31 +42,31 @@ inline std::shared_ptr<const haptics::SlidingPart> cube(double edge) {
   return part_of(geometry::make_box({edge, edge, edge}, 12));
 }
 
-/// A sheet of 0.4 m across the x axis.
+/// A square sheet of 0.4 m, normal to the x axis.
 inline haptics::Obstacle wall(double x) {
   return obstacle_of(geometry::make_plate({0.4, 0.4}, 2),
                      pose({x, 0.0, 0.0}, turn(0.5 * std::numbers::pi, Eigen::Vector3d::UnitY())));
 }
 
-/// The pose at the fraction `t` of the way from one to another, straight and by the shorter turn.
+/// The pose at the fraction `t` of the motion from one pose to another: straight, and by the shorter rotation.
 Eigen::Isometry3d between(const Eigen::Isometry3d& X_from, const Eigen::Isometry3d& X_to, double t);
 
-/// Leads the ghost from where it is to X_WG in so many calls; `see` is shown each answer.
+/// Moves the ghost from its pose to X_WG in `calls` calls; `see` receives each result.
 void lead(haptics::SlidingSimulation& sliding, const Eigen::Isometry3d& X_WG, int calls,
           const std::function<void(const haptics::SlidingResult&)>& see = {});
 
-/// Holds the ghost where it is until the part has moved less than a picometre in each of twenty calls. Returns how many
-/// calls that took, or -1 if it did not happen within `most_calls`.
+/// Holds the ghost at its pose until the part has moved less than a picometre in each of twenty calls. Returns the
+/// number of calls, or -1 if the part did not come to rest within `most_calls`.
 int hold_until_rest(haptics::SlidingSimulation& sliding, int most_calls = 2000);
 
-/// What the contacts do to the part, about its reference point: at rest, K ξ* plus this is zero.
+/// Wrench of all contacts on the part about its reference point: at rest, its sum with K ξ* is zero.
 haptics::Wrench sum_of_contacts(const haptics::SlidingSimulation& sliding);
 
-/// The spring's force and torque on the part, K ξ*.
+/// Wrench of the spring on the part, K ξ*.
 haptics::Wrench spring_on_part(const haptics::SlidingSimulation& sliding);
 
-/// How far spring and contacts are from balance, in parts of the spring; both are measured in the norm |F|² = |f|²/k_t
-/// + |t|²/k_r, in which a force and a torque that store the same energy weigh the same.
+/// Sum of the wrenches of spring and contacts, relative to that of the spring, in the norm |F|² = |f|²/k_t + |t|²/k_r.
+/// In this norm, a force and a torque that store the same energy are equal.
 double imbalance(const haptics::SlidingSimulation& sliding);
 
 /// ‖ξ‖_K = √(ξᵀ K ξ).

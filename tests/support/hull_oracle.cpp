@@ -27,7 +27,7 @@ std::vector<Kernel::Point_3> cgal_points(const std::vector<Vector3d>& points) {
   return result;
 }
 
-// Three products of doubles, each exact; only their sum is rounded.
+// Sum of three exact products of doubles; only the sum is rounded.
 Quad height(const Vector3d& n, const Vector3d& x) {
   return Quad(n.x()) * Quad(x.x()) + Quad(n.y()) * Quad(x.y()) + Quad(n.z()) * Quad(x.z());
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Whether the hulls of two sets of points meet, in exact arithmetic and independent of `separating_plane.h`: by CGAL's
-/// quadratic programming, which is slow, or by proofs that somebody claims and that are verified here.
+/// Exact test whether the hulls of two sets of points meet, independent of `separating_plane.h`: by CGAL's quadratic
+/// programming, which is slow, or by verification of given proofs.
 
 #include <array>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace glissade::test_support {
 
-/// The points of B are transformed in double precision; from there on nothing is rounded.
+/// The points of B are transformed in double precision; all further arithmetic is exact.
 class HullOracle {
  public:
   HullOracle(std::span<const Eigen::Vector3d> points_A, std::span<const Eigen::Vector3d> points_B,
@@ -20,20 +20,19 @@ class HullOracle {
   /// A point of A and one of B, each in its own frame.
   using PointPair = std::array<Eigen::Vector3d, 2>;
 
-  /// Whether A and B are certainly further apart than `gap` metres along this normal, which need not be of unit length:
-  /// quadruple precision with a bound of its error.
+  /// Whether A and B are certainly farther apart than `gap` metres along the normal `n_A` of any length: in quadruple
+  /// precision with an error bound.
   bool proves_apart(const Eigen::Vector3d& n_A, double gap) const;
 
-  /// Whether the origin is inside of four differences of points, which proves that the hulls meet.
-  /// Pairs that are not of the points prove nothing.
+  /// Whether the origin lies inside the tetrahedron of the four differences, which proves that the hulls meet. Pairs of
+  /// other points prove nothing.
   bool proves_meeting(const std::array<PointPair, 4>& pairs) const;
 
-  /// The distance in metres; it is rounded, but it is 0 only if the hulls meet. For hundreds of points about a
-  /// millisecond.
+  /// The distance in metres, rounded, but 0 only if the hulls meet. Takes about a millisecond for hundreds of points.
   double distance() const;
 
-  /// From the point of A that is nearest to B to the point of B nearest to it, in the frame of A; rounded. Zero if they
-  /// meet. Cost as of `distance`.
+  /// The vector from the closest point of A to that of B, in the frame of A, rounded. Zero if the hulls meet. Same cost
+  /// as `distance`.
   Eigen::Vector3d difference() const;
 
  private:

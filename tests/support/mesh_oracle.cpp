@@ -56,7 +56,7 @@ geometry::TrianglePoints MeshOracle::points_B(std::int32_t triangle, const Isome
 }
 
 bool MeshOracle::traverse_near(const Isometry3d& X_AB, double distance, const Visit& visit) const {
-  // A little more than asked for, so that rounding of the boxes loses nothing.
+  // Slightly more than required, so that rounding of the boxes loses no pair.
   const double reach = distance * 1.000001;
   for (const std::int32_t i : triangles_B_) {
     const BoxedTriangle b = boxed(points_B(i, X_AB), i);

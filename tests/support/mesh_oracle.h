@@ -1,6 +1,6 @@
 #pragma once
 
-/// Answers of CGAL and of plain loops about two meshes, to compare the tree's answers with.
+/// Answers of CGAL and of plain loops about two meshes, a reference for the answers of the trees.
 
 #include <functional>
 #include <limits>
@@ -12,8 +12,8 @@
 
 namespace glissade::test_support {
 
-/// Two meshes whose triangles are compared one by one; only boxes apart are passed over, found along a sorted axis.
-/// Immutable, so any number of threads may ask.
+/// Compares the triangles of two meshes one by one, except pairs with separate boxes, found by sorting along an axis.
+/// Immutable, so any number of threads may use it.
 class MeshOracle {
  public:
   MeshOracle(const geometry::TriangleMesh& mesh_A, const geometry::TriangleMesh& mesh_B);

@@ -20,7 +20,7 @@ using geometry::TrianglePoints;
 using haptics::PlacedBody;
 using haptics::TreeItem;
 
-/// A triangle with an area where it is placed.
+/// A triangle with area at the pose of its body.
 struct PlacedTriangle {
   std::int32_t number;
   geometry::TrianglePoints points;
@@ -51,7 +51,7 @@ const PlacedBody& body_of(std::span<const PlacedBody> bodies, std::int32_t numbe
   return bodies[static_cast<std::size_t>(number)];
 }
 
-/// The least distance of a part from all bodies of lower number.
+/// The smallest distance between a part and all bodies with lower numbers.
 double clearance(const haptics::ContactScene& scene, std::size_t part) {
   collision::QueryWorkspace workspace;
   const std::size_t number = scene.body_of_part(part);
@@ -64,7 +64,7 @@ double clearance(const haptics::ContactScene& scene, std::size_t part) {
   return least;
 }
 
-/// Brings a part from far away towards a point, straight, until its clearance is hardly more than `gap`.
+/// Moves a part from far away straight towards a point, until its clearance is hardly more than `gap`.
 void approach(haptics::ContactScene& scene, std::size_t part, double far, double gap, RandomNumbers& random) {
   const haptics::ContactBody& body = *scene.bodies()[scene.body_of_part(part)].body;
   const Eigen::Vector3d direction = random.direction();
@@ -72,11 +72,11 @@ void approach(haptics::ContactScene& scene, std::size_t part, double far, double
   X_WV.linear() = random.chance(0.5) ? random.rotation() : random.cube_rotation();
   X_WV.translation() = far * direction + random.point(0.1 * far) - X_WV.linear() * body.tree.center();
   scene.place(part, X_WV);
-  // A body comes nearer by no more than it goes.
+  // The distance decreases by at most the length of the motion.
   for (int i = 0; i < 30; ++i) {
     const double now = clearance(scene, part);
     X_WV.translation() -= (now - gap) * direction;
-    if (now < 1.1 * gap || X_WV.translation().dot(direction) < -far) return;  // there, or past them all
+    if (now < 1.1 * gap || X_WV.translation().dot(direction) < -far) return;  // arrived, or past all bodies
     scene.place(part, X_WV);
   }
 }
@@ -133,8 +133,8 @@ std::shared_ptr<const haptics::SlidingPart> random_part(double size, RandomNumbe
   return std::make_shared<const haptics::SlidingPart>(std::move(mesh));
 }
 
-std::unique_ptr<haptics::ContactScene> random_surroundings(double size, double margin, double gap,
-                                                           RandomNumbers& random) {
+std::unique_ptr<haptics::ContactScene> random_contact_scene(double size, double margin, double gap,
+                                                            RandomNumbers& random) {
   std::vector<haptics::Obstacle> obstacles;
   const int obstacle_count = random.integer(1, 2);
   for (int i = 0; i < obstacle_count; ++i) {

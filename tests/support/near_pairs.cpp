@@ -96,7 +96,7 @@ std::vector<NearPair> NearPairs::within(const Isometry3d& X_AB, double limit) co
     const AlignedBox3d box_a = box_of(a);
     for (std::size_t j = 0; j < placed_B.size(); ++j) {
       const auto& [b, box_b] = placed_B[j];
-      // More than asked for, so that no rounding loses a pair.
+      // More than required, so that no rounding loses a pair.
       const double reach = 1.001 * limit + 1e-9 * (box_a.merged(box_b)).diagonal().norm();
       if (box_a.exteriorDistance(box_b) > reach) continue;
       double distance = 0.0;
@@ -123,7 +123,7 @@ std::string NearPairs::fault_of(const ClosePair& actual, const NearPair& expecte
   if (!(quad_distance(actual.p_A, a) <= tolerance)) return "p_A is not on triangle A: " + expected.text();
   if (!(quad_distance(actual.p_B, b) <= tolerance)) return "p_B is not on triangle B: " + expected.text();
   const double apart = (actual.p_A - actual.p_B).norm();
-  // Where a needle meets a face flush with it, a common point is known no better than the needle is wide.
+  // If a needle intersects a face flush with it, a common point is accurate to the width of the needle only.
   const double slack = expected.distance > 0.0 ? 1e-12 * expected.distance : 1e-8 * extent_of(a, b);
   if (!(std::abs(apart - expected.distance) <= slack + tolerance)) return "points are not closest: " + expected.text();
   return "";

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Pairs of triangles of two meshes and their distances, by plain loops, CGAL and quadruple precision, and whether
-/// answers of the queries agree with them.
+/// Pairs of triangles of two meshes and their distances, by plain loops, CGAL and quadruple precision, and the
+/// comparison of query answers with them.
 
 #include <atomic>
 #include <string>
@@ -19,7 +19,7 @@ namespace glissade::test_support {
 struct NearPair {
   collision::TrianglePair triangles;
   double distance;  ///< 0 exactly if they intersect
-  double doubt;     ///< how far double precision may be off
+  double doubt;     ///< bound of the error in double precision
 
   std::string text() const;
 };
@@ -36,15 +36,15 @@ class DistanceErrors {
   std::atomic<double> worst_of_extent_ = 0.0;  ///< of all, in rounding units of the extent
 };
 
-/// Immutable, so any number of threads may ask.
+/// Immutable, so any number of threads may use it.
 class NearPairs {
  public:
   NearPairs(const geometry::TriangleMesh& mesh_A, const geometry::TriangleMesh& mesh_B);
 
-  /// Every pair within `limit`, in ascending order, and some that are a little farther apart.
+  /// Every pair within `limit`, in ascending order, and some slightly beyond it.
   std::vector<NearPair> within(const Eigen::Isometry3d& X_AB, double limit) const;
 
-  /// What is wrong with the distance and the points of `actual`; empty if nothing.
+  /// The error in the distance or the points of `actual`, in words; empty if they are right.
   std::string fault_of(const collision::ClosePair& actual, const NearPair& expected, const Eigen::Isometry3d& X_AB,
                        DistanceErrors& errors) const;
 
@@ -54,7 +54,7 @@ class NearPairs {
 
   const geometry::TriangleMesh& mesh_A_;
   const geometry::TriangleMesh& mesh_B_;
-  std::vector<std::int32_t> triangles_A_;  ///< those that have an area
+  std::vector<std::int32_t> triangles_A_;  ///< triangles with area
   std::vector<std::int32_t> triangles_B_;
 };
 

@@ -24,7 +24,7 @@ void keep_ode_alive() {
   struct Session {
     Session() {
       dInitODE2(0);
-      // The solver says so when contacts are redundant, as four feet on a plane are; it goes on without one of them.
+      // The solver's message about redundant contacts, such as four feet on a plane; it then drops one of them.
       dSetMessageHandler([](int, const char*, va_list) {});
     }
     ~Session() { dCloseODE(); }

@@ -1,8 +1,7 @@
 #pragma once
 
-/// ODE as the physics of a held part: a rigid body on a spring and damper to the ghost, among planes and boxes that
-/// stand still. Once it has settled, damping and inertia are out of it, and what remains is the optimum that sliding
-/// contact looks for.
+/// ODE as the physics of a held part: a rigid body on a spring and damper to the ghost, among fixed planes and boxes.
+/// When it has settled, damping and inertia vanish, and its pose is the optimum that sliding contact computes.
 ///
 /// Only for primitives: a contact of a box or sphere with a plane or box has the depth and normal of the shapes
 /// themselves. ODE knows no margin; callers move its obstacles by it.
@@ -34,20 +33,20 @@ struct OdeBox {
 struct OdeWorld {
   std::vector<OdePlane> planes;
   std::vector<OdeBox> boxes;
-  /// Coulomb's coefficient, used as ODE's dContactApprox1 does: a pyramid instead of the cone, whose height is the
-  /// normal force. It agrees with the cone along the directions `slip_W` and across.
+  /// Coulomb's coefficient in ODE's dContactApprox1: a pyramid instead of the cone, with the normal force as height. It
+  /// agrees with the cone along `slip_W` and across.
   double friction = 0.0;
   Eigen::Vector3d slip_W = Eigen::Vector3d::UnitX();
 };
 
-/// A sphere, or a box where `size` is given; its reference point is its middle, at the origin of its frame.
+/// A sphere, or a box if `size` is not zero. Its reference point is its centre, at the origin of its frame.
 struct OdePart {
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
   double radius = 0.0;
 };
 
-/// The part's mass is 1 kg, its inertia isotropic and such that both springs swing alike; the damping is critical.
-/// Not thread-safe.
+/// The part has a mass of 1 kg and an isotropic inertia for which both springs have the same frequency; the damping is
+/// critical. Not thread-safe.
 class OdeHeldPart {
  public:
   OdeHeldPart(const OdeWorld& world, const OdePart& part, const haptics::CouplingStiffness& stiffness,
@@ -59,16 +58,16 @@ class OdeHeldPart {
   /// One step of a millisecond with the ghost at X_WG.
   void step(const Eigen::Isometry3d& X_WG);
 
-  /// Steps until no point of a part of 0.1 m has been faster than 1e-9 m/s for 20 steps. Returns their number, or
-  /// nothing if that did not happen in time.
+  /// Steps until no point of a part of 0.1 m has been faster than 1e-9 m/s for 20 steps. Returns the number of steps,
+  /// or nothing if `most_steps` did not suffice.
   std::optional<int> settle(const Eigen::Isometry3d& X_WG, int most_steps = 20'000);
 
   Eigen::Isometry3d X_WV() const;
 
-  /// What the contacts did to the part in the last step, about its middle.
+  /// Wrench of the contacts on the part in the last step, about its centre.
   haptics::Wrench contact_wrench() const;
 
-  /// Speed of the middle, m/s.
+  /// Speed of the centre, m/s.
   double speed() const;
 
  private:

@@ -97,7 +97,7 @@ std::vector<OdeScene> scenes_on_blocks() {
   };
 }
 
-/// Turned anyhow, so that spheres lie on facets of their meshes, which ODE's do not have.
+/// An arbitrary rotation, so that spheres lie on facets of their meshes, which those of ODE do not have.
 std::vector<OdeScene> scenes_of_spheres() {
   const OdePart sphere{Vector3d::Zero(), 5e-3};
   const double sagitta = sphere.radius * (1.0 - std::cos(0.02));

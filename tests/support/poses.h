@@ -1,6 +1,6 @@
 #pragma once
 
-/// Poses and turns, written shortly.
+/// Short functions for poses and rotations.
 
 #include <numbers>
 
@@ -15,7 +15,7 @@ inline Eigen::Isometry3d pose(const Eigen::Vector3d& p, const Eigen::Quaterniond
   return X;
 }
 
-/// Unturned, at these coordinates.
+/// The pose at these coordinates without rotation.
 inline Eigen::Isometry3d at(double x, double y = 0.0, double z = 0.0) {
   return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
 }
@@ -25,7 +25,7 @@ inline Eigen::Quaterniond turn(double angle, const Eigen::Vector3d& axis) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
 }
 
-/// The shortest turn that takes one direction to another. Eigen's FromTwoVectors brings in an SVD that takes long to
+/// The shortest rotation from one direction to another. Eigen's FromTwoVectors includes an SVD that takes long to
 /// compile.
 inline Eigen::Quaterniond turn_from_to(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const double length = from.norm() * to.norm();

@@ -13,7 +13,7 @@ using geometry::TrianglePoints;
 #if defined(__SIZEOF_FLOAT128__)
 __extension__ using Quad = __float128;
 #else
-using Quad = long double;  // quadruple where the other is not, by the ABI of 64-bit ARM
+using Quad = long double;  // is quadruple precision where __float128 is missing, on 64-bit ARM
 static_assert(std::numeric_limits<Quad>::digits >= 113);
 #endif
 
@@ -65,7 +65,7 @@ Real squared_to_segment(const Point<Real>& p, const Point<Real>& from, const Poi
   return dot(gap, gap);
 }
 
-// Where the closest points of the lines are inside of both edges; otherwise `otherwise`.
+// Distance of the lines if their closest points lie inside both edges; otherwise `otherwise`.
 template <typename Real>
 Real squared_between_edges(const Point<Real>& p, const Point<Real>& p_end, const Point<Real>& q,
                            const Point<Real>& q_end, Real otherwise) {
@@ -81,7 +81,7 @@ Real squared_between_edges(const Point<Real>& p, const Point<Real>& p_end, const
   return dot(gap, gap);
 }
 
-// Where the foot of the perpendicular is inside of the triangle; otherwise `otherwise`.
+// Distance from the plane if the foot of the perpendicular lies inside the triangle; otherwise `otherwise`.
 template <typename Real>
 Real squared_to_face(const Point<Real>& p, const Corners<Real>& t, Real otherwise) {
   const Point<Real> u = t[1] - t[0];
@@ -105,8 +105,8 @@ Real squared_to_triangle(const Point<Real>& p, const Corners<Real>& t) {
   return std::min(least, squared_to_face(p, t, least));
 }
 
-// Every feature of one with every feature of the other that a closest pair of points can lie on. Each candidate is the
-// distance of two points of the triangles, so that rounding can make none too small.
+// All pairs of features that can hold the closest points. Each candidate is the distance of two points of the
+// triangles, so rounding makes none too small.
 template <typename Real>
 Real squared_distance(const Corners<Real>& a, const Corners<Real>& b) {
   Real least = squared_to_triangle(a[0], b);

@@ -1,14 +1,14 @@
 #pragma once
 
-/// The distance of two triangles by going through all of their features in quadruple precision: slow, plain and
-/// independent of `triangle_distance.h`.
+/// The distance of two triangles over all pairs of their features in quadruple precision: slow, plain and independent
+/// of `triangle_distance.h`.
 
 #include <glissade/geometry/triangle_pair.h>
 
 namespace glissade::test_support {
 
-/// Distance of two closed triangles that do not intersect, rounded once; of those that do, the distance of their
-/// boundaries or less. Any of them may lack an area. Some tens of microseconds.
+/// Distance of two closed triangles, rounded once. If they intersect, at most the distance of their boundaries. Either
+/// may be degenerate. Takes some tens of microseconds.
 double quad_distance(const geometry::TrianglePoints& a, const geometry::TrianglePoints& b);
 
 double quad_distance(const Eigen::Vector3d& point, const geometry::TrianglePoints& triangle);

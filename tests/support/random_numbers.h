@@ -1,8 +1,8 @@
 #pragma once
 
-/// Random numbers, directions and rotations that depend on nothing but the seed and the order of the calls. C++ leaves
-/// open in which order the operands of one expression are called, so what uses several of them in one draws another
-/// case with another compiler. Not thread-safe.
+/// Random numbers, directions and rotations that depend only on the seed and the order of the calls. C++ leaves the
+/// order of evaluation within an expression open, so an expression with several calls draws other cases with another
+/// compiler. Not thread-safe.
 
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Seeded pairs of triangles that land on the hard cases of a predicate far more often than chance would.
+/// Seeded pairs of triangles that hit the hard cases of a predicate far more often than uniform sampling.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,8 +29,8 @@ class RandomTriangles {
   /// Corners on the integer points of a cube of `side` + 1 points an edge: full of shared, coplanar and touching
   /// features.
   TrianglePair on_lattice(int side);
-  /// A feature of b (corner, or a point of an edge) is put on a corner, an edge, the inside or the plane of a, and then
-  /// off by at most a few units in the last place; the scale and the offset from the origin vary.
+  /// A feature of b (corner, or a point of an edge) lies on a corner, an edge, the inside or the plane of a, and is
+  /// then moved by at most a few units in the last place. The scale and the offset from the origin vary.
   TrianglePair nearly_touching();
   /// Both in one generic plane as far as rounding allows.
   TrianglePair nearly_coplanar();

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Runs a program as its users do and keeps what it said.
+/// Runs a program as its users do and keeps its output.
 
 #include <string>
 #include <vector>

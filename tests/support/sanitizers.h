@@ -4,7 +4,7 @@
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define GLISSADE_SANITIZED 1
-#elif defined(__has_feature)  // clang's way to tell
+#elif defined(__has_feature)  // clang
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define GLISSADE_SANITIZED 1
 #endif

@@ -41,7 +41,7 @@ geometry::TriangleMesh flipped(const geometry::TriangleMesh& mesh, const Tessell
   return tessellation.flipped ? geometry::flip_randomly(mesh, seed) : mesh;
 }
 
-/// The box before planes through the origin that face `normals`, led through poses a second apart.
+/// The box in front of planes through the origin with the normals `normals`; the ghost takes poses a second apart.
 SlidingScene box_on_planes(const std::string& name, const std::vector<Vector3d>& normals,
                            const Tessellation& tessellation, const std::vector<Isometry3d>& poses_WG) {
   SlidingScene scene;
@@ -224,7 +224,7 @@ SlidingScene housing_scene(int triangles, Fit fit) {
   SlidingScene scene;
   scene.obstacles.push_back({body_of(geometry::make_box(room, triangles)), Isometry3d::Identity(), "the housing"});
   Quaterniond q = Quaterniond::Identity();
-  Vector3d half_size;  // how far the part reaches
+  Vector3d half_size;  // extent of the part
   if (fit == Fit::kFlush) {
     const Vector3d size(0.06, 0.05, 0.04);
     scene.part_V = part_of(geometry::make_box(size, triangles));
@@ -232,7 +232,7 @@ SlidingScene housing_scene(int triangles, Fit fit) {
   } else {
     scene.part_V = part_of(geometry::make_torus(0.03, 0.01, triangles));
     q = turn(0.6, {1.0, 0.4, 0.0});
-    half_size = Vector3d::Constant(0.04);  // more than it is
+    half_size = Vector3d::Constant(0.04);  // an upper bound
   }
   scene.name = std::string(fit == Fit::kFlush ? "flush" : "light") + "_" + std::to_string(triangles / 1000) + "k";
   // Along the floor and a wall, and through the corner between them; the tilted torus rolls on its rim.

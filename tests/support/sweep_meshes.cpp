@@ -34,7 +34,7 @@ geometry::TriangleMesh soup(int triangles, RandomNumbers& random) {
   return mesh;
 }
 
-// Triangles far longer than wide, also so thin that their area is lost when they are moved.
+// Triangles far longer than wide, some so thin that a motion makes them degenerate.
 geometry::TriangleMesh needles(int triangles, RandomNumbers& random) {
   geometry::TriangleMesh mesh;
   for (int i = 0; i < triangles; ++i) {
@@ -178,7 +178,7 @@ SweepMesh random_mesh(double size, const Vector3d& center, RandomNumbers& random
       kind = "spoilt " + kind;
     }
     if (random.chance(0.5)) {
-      // Not all planes and edges along the axes.
+      // So that not all planes and edges are parallel to the axes.
       const Eigen::Matrix3d R = random.rotation();
       for (Vector3d& vertex : unit_mesh.vertices)
         vertex = R * vertex;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Small meshes that are hard on collision queries: soups, needles, ribs, layers, duplicates, triangles without area,
-/// and meshes on an integer grid, where touching and coplanar triangles are the rule.
+/// Small meshes that are difficult for collision queries: soups, needles, ribs, layers, duplicates, triangles without
+/// area, and meshes on an integer grid, where touching and coplanar triangles are the rule.
 
 #include <string>
 
@@ -19,15 +19,16 @@ struct SweepMesh {
   std::string description;
 };
 
-/// About `size` large and about `center`, of a random kind, 10 to 200 triangles; at least one of them has an area.
+/// A mesh of a random kind about `center`, with about the radius `size` and 10 to 200 triangles, at least one with
+/// area.
 SweepMesh random_mesh(double size, const Eigen::Vector3d& center, RandomNumbers& random);
 
 /// The same with all vertices on a grid of spacing `cell` through the origin; exact if `cell` is a power of two and
 /// `center` a multiple of it.
 SweepMesh random_grid_mesh(double cell, const Eigen::Vector3d& center, RandomNumbers& random);
 
-/// Moves the vertices by up to their mesh's `size` or a small part of it, and some onto others, so that triangles lose
-/// their area; not all of them.
+/// Moves the vertices by up to `size` or a small fraction of it, and some onto others, so that some triangles lose
+/// their area, but not all.
 void deform(geometry::TriangleMesh& mesh, double size, RandomNumbers& random);
 
 /// A smooth sphere, torus or plate of about `triangles` triangles, of radius about 1 and about the origin.

@@ -127,7 +127,7 @@ Isometry3d pose_on_grid(const SweepPair& pair, double cell, RandomNumbers& rando
   return meeting(random.cube_rotation(), pair.A.center + cell * offset, pair.B.center);
 }
 
-// A rotation that is anything, or takes axes to axes, or makes two faces and their edges parallel.
+// A rotation that is random, or maps axes to axes, or makes two faces and their edges parallel.
 Matrix3d touching_rotation(const SweepPair& pair, std::int32_t triangle_A, std::int32_t triangle_B,
                            RandomNumbers& random) {
   switch (random.integer(0, 3)) {
@@ -158,7 +158,7 @@ const Vector3d& farthest_along(const Vector3d& direction, const geometry::Triang
                            [&](const Vector3d& u, const Vector3d& v) { return direction.dot(u) < direction.dot(v); });
 }
 
-// The meshes lie on either side of a plane, mostly one that bounds DOPs; now and then with a gap.
+// The meshes lie on either side of a plane, mostly one that bounds DOPs; sometimes with a gap.
 Isometry3d pose_side_by_side(const SweepPair& pair, RandomNumbers& random) {
   const Matrix3d R =
       touching_rotation(pair, any_triangle(pair.A.mesh, random), any_triangle(pair.B.mesh, random), random);
@@ -258,7 +258,7 @@ std::vector<Isometry3d> random_poses(const SweepFamily& family, const SweepPair&
     }
   }
   if (!on_grid && random.chance(0.1)) {
-    // Matrices that are rotations only nearly, as files and other programs give them.
+    // Matrices that are only approximately rotations, like those of files and other programs.
     const double error = random.power_of_ten(-16.0, -4.0);
     for (Isometry3d& X_AB : poses)
       X_AB.linear() += error * random.rotation();

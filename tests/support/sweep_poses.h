@@ -1,7 +1,8 @@
 #pragma once
 
-/// Pairs of meshes and poses that are hard on collision queries: anywhere, within rounding errors of contact, flush and
-/// touching, exactly degenerate on integer grids; at all scales, of very different size, and far from their origins.
+/// Pairs of meshes and poses that are difficult for collision queries: anywhere, within rounding errors of contact,
+/// flush and touching, exactly degenerate on integer grids; at all scales, of very different sizes, and far from their
+/// origins.
 
 #include <algorithm>
 #include <functional>
@@ -16,7 +17,7 @@
 
 namespace glissade::test_support {
 
-/// Where the meshes are and how large.
+/// Positions and sizes of the meshes.
 enum class Placement {
   kNear,     ///< about 1 m large, at their origins
   kScaled,   ///< 1 µm to 1 km, both about the same
@@ -25,11 +26,11 @@ enum class Placement {
   kGrid,     ///< all vertices on an integer grid
 };
 
-/// How a pose comes about.
+/// The construction of a pose.
 enum class Approach {
   kAnywhere,  ///< random, about half of them colliding; on the integer grid: onto the grid
-  kBisected,  ///< about a contact that was found by bisection along a line
-  kTouching,  ///< a corner, or a point of an edge or face, of one on one of the other; often flush; or side by side
+  kBisected,  ///< near a contact found by bisection along a line
+  kTouching,  ///< points of features coincide, often flush; or side by side
 };
 
 struct SweepFamily {
@@ -44,7 +45,7 @@ std::string family_name(const SweepFamily& family);
 struct SweepPair {
   SweepMesh A;
   SweepMesh B;
-  double cell = 0.0;  ///< of the grid that all vertices are on, if they are
+  double cell = 0.0;  ///< spacing of the grid of all vertices; 0 without a grid
 
   /// The smaller size.
   double scale() const { return std::min(A.size, B.size); }

@@ -18,13 +18,13 @@ int run_sweep(int argc, char** argv, const std::string& description, const std::
   SweepArguments arguments;
   arguments.count = default_count;
   CLI::App app{description};
-  app.add_option("--" + unit, arguments.count, "How many " + unit + " to try; a twentieth under a sanitizer")
+  app.add_option("--" + unit, arguments.count, "Number of " + unit + " to try; a twentieth of it under a sanitizer")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--seconds", arguments.seconds, "Stop after so long, if earlier")->check(CLI::PositiveNumber);
-  app.add_option("--seed", arguments.seed, "Seed of everything random")->capture_default_str();
+  app.add_option("--seconds", arguments.seconds, "Stop after this time, in seconds")->check(CLI::PositiveNumber);
+  app.add_option("--seed", arguments.seed, "Seed of all random choices")->capture_default_str();
   app.add_option("--only-instruction-set", arguments.only_instruction_set, "scalar, sse4, avx2, avx512 or neon");
-  app.add_option("--only-case", arguments.only_case, "Repeat the one case that a difference names")
+  app.add_option("--only-case", arguments.only_case, "Run only this case, as named by a difference")
       ->check(CLI::NonNegativeNumber);
   try {
     app.parse(argc, argv);

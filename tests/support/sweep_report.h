@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the sweeps have in common: their command line, their clock, and the account of differences.
+/// Shared by the sweeps: command line, timing, and the record of differences.
 
 #include <algorithm>
 #include <array>
@@ -23,11 +23,11 @@ struct SweepArguments {
   double seconds = 1e9;    ///< to stop after, if earlier
   std::uint64_t seed = 1;
   std::string only_instruction_set;
-  std::int64_t only_case = -1;  ///< to repeat what a difference was found in
+  std::int64_t only_case = -1;  ///< to repeat the case of a difference
 };
 
-/// Parses the command line and runs the sweep, which returns whether it found no difference. The result is what main
-/// returns: 0, 1 after a difference or failure, 2 after bad usage. `unit` is what is counted ("poses").
+/// Parses the command line and runs the sweep, which returns whether it found no difference. The result is the
+/// exit code: 0, 1 after a difference or failure, 2 after bad usage. `unit` names the counted objects ("poses").
 int run_sweep(int argc, char** argv, const std::string& description, const std::string& unit,
               std::int64_t default_count, bool (*sweep)(const SweepArguments&));
 
@@ -38,7 +38,7 @@ class SweepDifferences {
 
   std::int64_t count() const { return count_; }
 
-  /// Prints the first few and the number of all.
+  /// Prints the first few differences and their total number.
   void print() const;
 
  private:
@@ -48,7 +48,7 @@ class SweepDifferences {
   std::vector<std::string> descriptions_;
 };
 
-/// How much was compared, by family of poses, and by variant and instruction set. Thread-safe.
+/// Numbers of comparisons, by family of poses, and by variant and instruction set. Thread-safe.
 class SweepCounts {
  public:
   explicit SweepCounts(const std::vector<collision::InstructionSet>& sets) : sets_(sets) {}
@@ -68,7 +68,7 @@ class SweepCounts {
   std::array<Counters, kMost> checks_{};  ///< by variant and instruction set
 };
 
-/// Calls run_batch(first case, number of cases) for as many poses as were asked for, or for the one case; stops when
+/// Calls run_batch(first case, number of cases) for the number of poses in `arguments`, or for the one case; stops when
 /// the time is up.
 template <typename RunBatch>
 void run_batches(const SweepArguments& arguments, int poses_per_case, int cases_per_batch, const RunBatch& run_batch);

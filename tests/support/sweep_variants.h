@@ -1,6 +1,6 @@
 #pragma once
 
-/// Every way to build a tree, and every instruction set to query it with.
+/// All variants of trees, and all instruction sets of their queries.
 
 #include <memory>
 #include <string>
@@ -18,11 +18,12 @@ namespace glissade::test_support {
 std::vector<collision::DopTreeOptions> all_tree_options();
 std::string variant_name(const collision::DopTreeOptions& options);
 
-/// A tree for each of `all_tree_options`. One in five times they are built for vertices that are elsewhere, some of
-/// them on others, and then refitted.
+/// A tree for each of `all_tree_options`. In one of five cases they are built for displaced vertices, some of which
+/// coincide, and then refitted.
 std::vector<collision::DopTree> trees_of_all_options(const SweepMesh& mesh, RandomNumbers& random);
 
-/// Those this machine has; `only`, if it is not empty. Throws std::invalid_argument if it has not.
+/// The instruction sets of this machine, or `only` that one unless it is empty. Throws std::invalid_argument if the
+/// machine lacks it.
 std::vector<collision::InstructionSet> instruction_sets(const std::string& only);
 
 }  // namespace glissade::test_support

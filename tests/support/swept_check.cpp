@@ -31,8 +31,9 @@ double highest(const Vector3d& n, const geometry::TrianglePoints& t) {
   return std::max({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])});
 }
 
-// Unit normals of the axes along which two triangles may be apart: both faces, all pairs of edges, and the edges of
-// each in its own plane. Returns the one with the widest gap, from obstacle to part; zero if there is none.
+// The separating axis of two triangles with the widest gap, a unit vector from obstacle to part; zero if there is none.
+// Candidates: both face normals, cross products of all pairs of edges, and the edge normals in the plane of each
+// triangle.
 Vector3d widest_gap(const geometry::TrianglePoints& part, const geometry::TrianglePoints& obstacle) {
   Vector3d best = Vector3d::Zero();
   double best_gap = 0.0;
@@ -66,7 +67,7 @@ Vector3d widest_gap(const geometry::TrianglePoints& part, const geometry::Triang
 
 }  // namespace
 
-// A motion of the part, and how far corners leave the chord of their path.
+// A motion of the part, and the deviation of its corners from the chords of their paths.
 struct SweptCheck::Motion {
   Isometry3d X_WV;
   Vector3d p_W;
@@ -89,8 +90,8 @@ struct SweptCheck::Motion {
     return duration * duration * angle * angle * radius / 8.0;
   }
 
-  // Whether the pair is apart at all times from t0 to t1: along one direction at both ends by more than the path bends,
-  // or so in both halves.
+  // Whether the pair is apart at all times from t0 to t1: along one direction, at both ends, by more than the deviation
+  // of the path from its chord; otherwise both halves must be.
   bool apart(const geometry::TrianglePoints& triangle_V, const geometry::TrianglePoints& obstacle, double t0, double t1,
              int halvings) const {
     const double middle = 0.5 * (t0 + t1);
@@ -128,7 +129,7 @@ SweptCheck::Box SweptCheck::box_of(const geometry::TrianglePoints& points, doubl
           points[0].cwiseMax(points[1]).cwiseMax(points[2]).array() + margin};
 }
 
-// The obstacles' triangles that the box of all placed triangles meets.
+// Selects the triangles of the obstacles that meet the box of all placed triangles.
 void SweptCheck::select_obstacles(const Box& box) {
   selected_.clear();
   for (const BoxedTriangle& obstacle : obstacles_W_) {

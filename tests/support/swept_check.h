@@ -1,12 +1,12 @@
 #pragma once
 
-/// Proves that a rigid motion of a part keeps it apart from obstacles, and measures how near it is to them. Plain loops
-/// over triangles: it shares no code with the DOP-tree, nor with the path certificate of sliding.
+/// Proves that a rigid motion of a part is free of collisions with obstacles, and measures its distance from them.
+/// Plain loops over triangles, without code shared with the DOP-tree or the path certificate of sliding.
 ///
-/// What a proof says: no triangle of the part meets one of the obstacles at any instant of the motion
-/// x(t) = p + t v + exp(t w) (x - p), t from 0 to 1, but for the rounding of double precision, against which
-/// separations must exceed 1e-14 of the coordinates. Where nothing is proved the motion collides, or comes so near that
-/// 40 halvings of the time do not tell.
+/// A proof states: no triangle of the part meets one of the obstacles at any instant of the motion
+/// x(t) = p + t v + exp(t w) (x - p), t from 0 to 1. Separations must exceed 1e-14 of the coordinates, because of
+/// rounding in double precision. Without a proof, the motion collides, or comes so near that 40 halvings of the time do
+/// not decide.
 
 #include <optional>
 #include <string>
@@ -21,7 +21,7 @@
 
 namespace glissade::test_support {
 
-/// Of one part among obstacles that stand still. Not thread-safe: it keeps scratch memory.
+/// The check of one part among fixed obstacles. Not thread-safe: it keeps scratch memory.
 class SweptCheck {
  public:
   /// Triangles without area are left out, as the queries do. `p_Vref` is the point p of the motion at t = 0, in the
@@ -29,19 +29,19 @@ class SweptCheck {
   SweptCheck(const std::vector<haptics::Obstacle>& obstacles, const geometry::TriangleMesh& part_V,
              const Eigen::Vector3d& p_Vref);
 
-  /// What could not be proved apart on the motion that begins at X_WV, in words; nothing if all was.
+  /// A description of the triangles not proved apart on the motion that begins at X_WV; nothing if all are.
   std::optional<std::string> fault_of(const Eigen::Isometry3d& X_WV, const geometry::Displacement& motion);
 
-  /// Two triangles that are near and the points where they are nearest, world axes.
+  /// Two near triangles and their closest points, in the world.
   struct NearPair {
     double distance;
     Eigen::Vector3d p_part;
     Eigen::Vector3d p_obstacle;
   };
-  /// The pairs that are at most `limit` metres apart, but no more than `most` of them.
+  /// The pairs at most `limit` metres apart, at most `most` of them.
   const std::vector<NearPair>& near_pairs(const Eigen::Isometry3d& X_WV, double limit, std::size_t most);
 
-  /// The least distance in metres, or `limit` if it is more.
+  /// The smallest distance in metres, at most `limit`.
   double distance(const Eigen::Isometry3d& X_WV, double limit);
 
  private:

@@ -7,7 +7,7 @@
 
 namespace glissade::test_support {
 
-/// A new empty folder, deleted with all it holds when destroyed. Throws std::filesystem::filesystem_error.
+/// A new empty folder. The destructor deletes it with its content. Throws std::filesystem::filesystem_error.
 class TemporaryFolder {
  public:
   TemporaryFolder();

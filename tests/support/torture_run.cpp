@@ -24,15 +24,16 @@ using namespace haptics;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// A part is wanted elsewhere when it is further away than this, or the ghost has moved by more than that in this tick.
+// The target is elsewhere if the lag exceeds kFarFromGhost_m, or if both lag and motion of the ghost exceed
+// kGhostMoves_m.
 constexpr double kFarFromGhost_m = 0.1e-3;
 constexpr double kGhostMoves_m = 10e-6;
-// A part that stands still is jammed if a step of this length is free and brings it nearer. It is so short that the
-// motion of a turning part is straight to a thousandth.
+// A part that stands still is jammed if a step of this length is free and brings it nearer to the target. The step is
+// so short that the paths of a turning part are straight to a thousandth.
 constexpr double kLongestTrial_m = 20e-6;
 constexpr double kTrialOfRadius = 2e-3;
 constexpr double kStraight = 1e-3;
-constexpr std::int64_t kMostFaultsTold = 5;  // of one scene
+constexpr std::int64_t kMostFaultsKept = 5;  // of one scene
 constexpr std::size_t kMostTrialRows = 2000;
 
 constexpr std::uint64_t kFnvOffset = 14695981039346656037U;
@@ -111,17 +112,17 @@ class TortureRun {
   }
 
   void fault(const std::string& what) {
-    if (++counts_.fault_count > kMostFaultsTold) return;
+    if (++counts_.fault_count > kMostFaultsKept) return;
     counts_.faults.push_back(what + "\n  " + label_ + ", tick " + std::to_string(tick_) + ", " +
                              std::string(name_of(metaphor_)) + ", at most " +
                              std::to_string(options_.rules.max_cycles) + " cycles, " +
                              (options_.rules.friction.is_on() ? "with friction, " : "") +
-                             (options_.rules.spiral_search ? "shaken, " : "") + scene_.description);
+                             (options_.rules.spiral_search ? "with spiral search, " : "") + scene_.description);
   }
 
   void tick() {
     const Isometry3d X_WG_previous = sliding_.result().X_WG;
-    const Isometry3d X_WV_then = sliding_.result().X_WV;
+    const Isometry3d X_WV_previous = sliding_.result().X_WV;
     const Isometry3d& X_WG = hand_.next();
     const bool released = sliding_.result().state == SlidingState::kReleased;
     if (!hand_.holds() && !released) sliding_.release();
@@ -137,18 +138,18 @@ class TortureRun {
       fault("the visible pose is not finite");
       return;
     }
-    if (result.X_WV.matrix() != X_WV_then.matrix()) {
+    if (result.X_WV.matrix() != X_WV_previous.matrix()) {
       ++counts_.moved;
       check_pose(result.X_WV);
-      check_path(X_WV_then, result);
+      check_path(X_WV_previous, result);
       check_distance(result);
     }
     if (hand_.holds()) {
       const double ghost_motion = grasps ? 0.0 : length(between(X_WG_previous, result.X_WG));
       check_force(ghost_motion);
-      check_progress(length(between(X_WV_then, result.X_WV)), ghost_motion);
+      check_progress(length(between(X_WV_previous, result.X_WV)), ghost_motion);
     } else {
-      force_.setZero();  // letting go takes it away at once
+      force_.setZero();  // a release ends the force at once
     }
   }
 
@@ -170,9 +171,9 @@ class TortureRun {
     fault("the visible part collides");
   }
 
-  // A call with one cycle is one motion, one with two cycles two, at whose meeting the last contacts were found. Of
-  // more cycles the last one is known.
-  void check_path(const Isometry3d& X_WV_then, const SlidingResult& result) {
+  // A call with one cycle is one motion; a call with two cycles is two motions, with X_WV_of_contacts in between. With
+  // more cycles, only the motion of the last one is known.
+  void check_path(const Isometry3d& X_WV_previous, const SlidingResult& result) {
     const bool known = result.cycles <= 2;
     ++(known ? counts_.paths : counts_.partial_paths);
     const auto check = [&](const Isometry3d& from, const Isometry3d& to) {
@@ -182,24 +183,25 @@ class TortureRun {
       ++counts_.unproved_paths;
       fault(*what);
     };
-    if (known) check(X_WV_then, result.X_WV_of_contacts);
+    if (known) check(X_WV_previous, result.X_WV_of_contacts);
     check(result.X_WV_of_contacts, result.X_WV);
   }
 
-  // What starts nearer than the floor keeps 95 % of that.
+  // A part that starts nearer than the minimum clearance keeps 95 % of its initial distance.
   void check_distance(const SlidingResult& result) {
     const double before = distance_;
     distance_ = swept_.distance(result.X_WV, sliding_.margin());
     if (distance_ >= sliding_.min_clearance()) started_near_ = false;
-    if (!started_near_) counts_.least_of_floor = std::min(counts_.least_of_floor, distance_ / sliding_.min_clearance());
+    if (!started_near_)
+      counts_.least_of_min_clearance = std::min(counts_.least_of_min_clearance, distance_ / sliding_.min_clearance());
     const double magnitude = result.X_WV.translation().cwiseAbs().maxCoeff() + part().radius();
     const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * magnitude;
     const double allowed = std::min(sliding_.min_clearance(), 0.95 * start_distance_);
     if (distance_ >= allowed * (1.0 - 1e-9) - rounding) return;
-    ++counts_.below_floor;
-    char text[160];
-    std::snprintf(text, sizeof text, "the distance is %.6g m, before it was %.6g m, the floor is %.6g m", distance_,
-                  before, sliding_.min_clearance());
+    ++counts_.below_min_clearance;
+    char text[200];
+    std::snprintf(text, sizeof text, "the distance is %.6g m, before it was %.6g m, the minimum clearance is %.6g m",
+                  distance_, before, sliding_.min_clearance());
     fault(text);
   }
 
@@ -212,7 +214,7 @@ class TortureRun {
     force_ = force;
   }
 
-  // Whether a part that stands still although it is wanted elsewhere had to. Friction may hold it anywhere.
+  // Checks whether a part that stands still with its target elsewhere had to. With friction it may rest anywhere.
   void check_progress(double moved, double ghost_motion) {
     if (options_.rules.friction.is_on()) return;
     const geometry::Displacement error = sliding_.error();
@@ -224,7 +226,7 @@ class TortureRun {
     if (could_move(error)) ++(started_near_ ? counts_.jammed_near : counts_.jammed);
   }
 
-  // The displacement that what is left of the spring's force, after the contacts' forces, would lead to.
+  // The displacement that the sum of spring and contact forces would cause.
   geometry::Displacement unbalanced_step(const geometry::Displacement& error) const {
     const CouplingStiffness& k = sliding_.stiffness();
     Vector3d f = k.translational * error.v;
@@ -237,9 +239,9 @@ class TortureRun {
     return {f / k.translational, t / k.rotational};
   }
 
-  // Projects the error on planes across the shortest lines between near triangles, and tries a short step that way: it
-  // counts if it is proved free, does not go into the margin any further, and lowers the energy by a hundredth of what
-  // the spring's force would do along its own direction.
+  // Projects the error on planes normal to the shortest lines between near triangles, and tries a short step along the
+  // result. The step counts if it is proved free, does not reduce the distance within the margin, and lowers the energy
+  // by at least a hundredth of what a step along the spring's force would.
   bool could_move(const geometry::Displacement& error) {
     const CouplingStiffness& k = sliding_.stiffness();
     const double margin = sliding_.margin();
@@ -307,8 +309,8 @@ void TortureCounts::add(const TortureCounts& later) {
   paths += later.paths;
   partial_paths += later.partial_paths;
   unproved_paths += later.unproved_paths;
-  below_floor += later.below_floor;
-  least_of_floor = std::min(least_of_floor, later.least_of_floor);
+  below_min_clearance += later.below_min_clearance;
+  least_of_min_clearance = std::min(least_of_min_clearance, later.least_of_min_clearance);
   not_finite += later.not_finite;
   wanted += later.wanted;
   jammed += later.jammed;

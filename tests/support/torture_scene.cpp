@@ -28,7 +28,7 @@ constexpr double kFastest_m_per_ms = 5e-3;
 
 Isometry3d random_pose(const Vector3d& center, double room, RandomNumbers& random) {
   Isometry3d X = Isometry3d::Identity();
-  // Along the axes faces lie flush, and touching is the rule.
+  // Parallel to the axes, faces lie flush, and contact is the rule.
   X.linear() = random.chance(0.3) ? random.cube_rotation() : random.rotation();
   X.translation() = center + random.point(room);
   return X;
@@ -105,7 +105,7 @@ TortureScene random_torture_scene(RandomNumbers& random) {
   const reference::GridCheck check(placed);
   do {
     scene.X_WV_start = random_pose(scene.origin, scene.room, random);
-    scene.room *= 1.02;  // until there is some place
+    scene.room *= 1.02;  // until the part fits
   } while (check.collides(scene.part_V->tree.mesh(), scene.X_WV_start));
   if (random.chance(0.4)) bring_near(scene, check, random);
   return scene;
@@ -131,7 +131,7 @@ void TortureHand::begin_stretch() {
   turn_speed_ = random_.chance(0.5) ? 0.0 : random_.power_of_ten(-5.0, -1.5);
   target_ = random_place();
   if (motion_ == Motion::kPress) {
-    // Into an obstacle: some corner of one of its triangles.
+    // Into an obstacle: a random corner of one of its triangles.
     const auto number = static_cast<std::size_t>(random_.integer(0, static_cast<int>(scene_.obstacles.size()) - 1));
     const Obstacle& obstacle = scene_.obstacles[number];
     const geometry::TriangleMesh& mesh = obstacle.body->tree.mesh();

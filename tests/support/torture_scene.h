@@ -1,8 +1,8 @@
 #pragma once
 
 /// Random scenes and random hands for sliding contact: soups, sheets, slivers, needles and smooth surfaces from 1 mm to
-/// 5 m, and ghosts that wander, press, turn, jump and let go. A seed gives a scene, whatever the machine
-/// or thread; see `RandomNumbers` for what it depends on.
+/// 5 m, and ghosts that wander, press, turn, jump and let go. The scene of a seed does not depend on machine or thread,
+/// only on the compiler, see `RandomNumbers`.
 
 #include <cstdint>
 #include <memory>
@@ -14,8 +14,8 @@
 
 #include <glissade/haptics/contact_body.h>
 
-#include "scene/contact_scene.h"
 #include "random_numbers.h"
+#include "scene/contact_scene.h"
 
 namespace glissade::test_support {
 
@@ -23,7 +23,7 @@ namespace glissade::test_support {
 struct TortureScene {
   std::string description;
   double size = 1.0;  ///< about the part's radius, metres
-  double room = 1.0;  ///< half the edge of the cube about `origin` that everything lies in, metres
+  double room = 1.0;  ///< half the edge of the cube about `origin` that holds all bodies, metres
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   std::vector<haptics::Obstacle> obstacles;
   std::shared_ptr<const haptics::SlidingPart> part_V;
@@ -32,12 +32,12 @@ struct TortureScene {
 
 TortureScene random_torture_scene(RandomNumbers& random);
 
-/// A hand that holds the part, in stretches of 20 to 200 ms of one kind of motion each.
+/// A hand that holds the part. Its motion consists of stretches of 20 to 200 ms of one kind each.
 class TortureHand {
  public:
   TortureHand(const TortureScene& scene, RandomNumbers& random);
 
-  /// Where the ghost is a millisecond later.
+  /// The pose of the ghost a millisecond later.
   const Eigen::Isometry3d& next();
 
   /// Whether the hand holds the part in this millisecond.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a DOP-tree holds below a place, by going there.
+/// The triangles below a node or a child of a DOP-tree, by traversal.
 
 #include <cstdint>
 #include <vector>
@@ -11,18 +11,18 @@
 
 namespace glissade::test_support {
 
-/// Adds the triangles with an area of a leaf.
+/// Adds the triangles of a leaf that have an area.
 inline void add_triangles_of_leaf(const collision::DopTree& tree, std::uint32_t leaf,
                                   std::vector<std::int32_t>& triangles) {
-  for (const std::int32_t triangle : tree.leaves()[leaf].triangle) {
+  for (const std::int32_t triangle : leaves_of(tree)[leaf].triangle) {
     if (triangle >= 0) triangles.push_back(triangle);
   }
 }
 
-/// The same of all leaves below a node.
+/// The same for all leaves below a node.
 inline void add_triangles_of_node(const collision::DopTree& tree, std::uint32_t node,
                                   std::vector<std::int32_t>& triangles) {
-  const collision::NodeHead& head = tree.nodes()[node];
+  const collision::NodeHead& head = nodes_of(tree)[node];
   for (int c = 0; c < head.child_count(); ++c) {
     if (head.is_leaf(c)) {
       add_triangles_of_leaf(tree, head.child(c), triangles);
@@ -32,9 +32,9 @@ inline void add_triangles_of_node(const collision::DopTree& tree, std::uint32_t 
   }
 }
 
-/// The triangles with an area below a child of a node.
+/// The triangles below a child of a node that have an area.
 inline std::vector<std::int32_t> triangles_below(const collision::DopTree& tree, std::uint32_t node, int child) {
-  const collision::NodeHead& head = tree.nodes()[node];
+  const collision::NodeHead& head = nodes_of(tree)[node];
   std::vector<std::int32_t> triangles;
   if (head.is_leaf(child)) {
     add_triangles_of_leaf(tree, head.child(child), triangles);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Trees of meshes that nobody else needs.
+/// Trees that own their meshes.
 
 #include <memory>
 #include <utility>
