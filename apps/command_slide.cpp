@@ -325,9 +325,9 @@ void add_slide_command(CLI::App& app, Command& chosen) {
   command->add_option("--friction", options->friction, "Coefficient of Coulomb friction; or two, sliding and at rest")
       ->expected(1, 2)
       ->check(CLI::NonNegativeNumber);
-  command->add_flag("--spiral-search", options->spiral_search, "Move a part that is stuck in a spiral, see below");
+  command->add_flag("--spiral-search", options->spiral_search, "Search in a spiral when the part is stuck, see below");
   command->add_flag("--depenetrate", options->depenetrate,
-                    "Push a part that starts inside an obstacle out of it, see below");
+                    "Push a part out of obstacles that overlap it at the start, see below");
   command->add_option("--out", options->out, "CSV file for the motion (default: standard output)");
   command->add_option("--contacts", options->contacts.contacts, "CSV file for the contacts, see below");
   command->add_option("--patches", options->contacts.patches, "CSV file for patches of contacts, see below");

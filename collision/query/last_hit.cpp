@@ -9,7 +9,7 @@
 namespace glissade::collision {
 
 bool LastHit::wander(DopVisit& step, QueryCounters& counters, TriangleVisitor& visitor) {
-  if (try_leaves(leaf_P_, leaf_Q_, step, counters, visitor)) return true;
+  if (try_leaves(leaf_M_, leaf_N_, step, counters, visitor)) return true;
   const std::array<NodePair, kLevels> above = above_;
   const int levels = levels_;
   for (int level = 0; level < levels; ++level) {
@@ -30,8 +30,8 @@ bool LastHit::try_leaves(std::uint32_t leaf_M, std::uint32_t leaf_N, DopVisit& s
   if (near == 0) return false;
   const int pair = std::countr_zero(near);
   if (!visitor.found(leaf_M, leaf_N, pair).stop) return false;
-  leaf_P_ = leaf_M;
-  leaf_Q_ = leaf_N;
+  leaf_M_ = leaf_M;
+  leaf_N_ = leaf_N;
   pair_ = pair;
   return true;
 }
@@ -56,8 +56,8 @@ void LastHit::put_below(const NodePair& nodes) {
 }
 
 void LastHit::prefetch_leaves(const DopTree& base, const DopTree& other) const {
-  prefetch_lines(&leaves_of(base)[leaf_P_], sizeof(TriangleLeaf));
-  prefetch_lines(&leaves_of(other)[leaf_Q_], sizeof(TriangleLeaf));
+  prefetch_lines(&leaves_of(base)[leaf_M_], sizeof(TriangleLeaf));
+  prefetch_lines(&leaves_of(other)[leaf_N_], sizeof(TriangleLeaf));
 }
 
 void LastHit::prefetch_triangles(const DopTree& base, const DopTree& other) const {

@@ -18,7 +18,7 @@ namespace glissade::collision {
 class LastHit {
  public:
   /// `pair` is numbered as in `TriangleVisitor`.
-  LastHit(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) : leaf_P_(leaf_M), leaf_Q_(leaf_N), pair_(pair) {}
+  LastHit(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) : leaf_M_(leaf_M), leaf_N_(leaf_N), pair_(pair) {}
 
   /// Adds the next pair of nodes above those added so far.
   void add_above(const NodePair& nodes) {
@@ -27,7 +27,7 @@ class LastHit {
   bool is_full() const { return levels_ == kLevels; }
 
   /// Whether the visitor stops at this triangle pair.
-  bool still_answers(TriangleVisitor& visitor) const { return visitor.visit(leaf_P_, leaf_Q_, pair_).stop; }
+  bool still_answers(TriangleVisitor& visitor) const { return visitor.visit(leaf_M_, leaf_N_, pair_).stop; }
 
   /// Searches for another triangle pair that certainly intersects: in the same two leaves, then below each of the nodes
   /// above, finally below the roots. If the visitor stops at one, remembers that pair and returns true. A failed search
@@ -47,16 +47,16 @@ class LastHit {
   void put_below(const NodePair& nodes);
 
   std::int32_t triangle_M(const DopTree& base) const {
-    return leaves_of(base)[leaf_P_].triangle[static_cast<std::size_t>(pair_ / kWidth)];
+    return leaves_of(base)[leaf_M_].triangle[static_cast<std::size_t>(pair_ / kWidth)];
   }
   std::int32_t triangle_N(const DopTree& other) const {
-    return leaves_of(other)[leaf_Q_].triangle[static_cast<std::size_t>(pair_ % kWidth)];
+    return leaves_of(other)[leaf_N_].triangle[static_cast<std::size_t>(pair_ % kWidth)];
   }
 
   static constexpr int kLevels = 4;
 
-  std::uint32_t leaf_P_;
-  std::uint32_t leaf_Q_;
+  std::uint32_t leaf_M_;
+  std::uint32_t leaf_N_;
   int pair_;
   int levels_ = 0;
   std::array<NodePair, kLevels> above_{};  ///< the lowest first

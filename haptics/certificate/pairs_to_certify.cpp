@@ -18,9 +18,9 @@ constexpr double kEnough = 0.6;
 static_assert(kEnough > kMinClearanceOfMargin);
 
 /// Accepts box pairs that the plane of the flat side of either box separates.
-class FrontSearch final : public collision::DualTreeVisitor {
+class PairSearch final : public collision::DualTreeVisitor {
  public:
-  FrontSearch(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
+  PairSearch(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
               std::vector<PairToCertify>& to_certify)
       : bodies_(bodies),
         obstacle_(obstacle),
@@ -104,7 +104,7 @@ void find_pairs_to_certify(const ContactScene& scene, std::span<const PlacedBody
       const BodyPair pair{static_cast<std::int32_t>(other), static_cast<std::int32_t>(part)};
       if (std::find(ignored.begin(), ignored.end(), pair) != ignored.end()) continue;
       if (are_far_apart(bodies[other], bodies[part], radius)) continue;  // as most bodies are in a large scene
-      FrontSearch search(pair, bodies[other], bodies[part], scene.margin(pair.obstacle, pair.part), to_certify);
+      PairSearch search(pair, bodies[other], bodies[part], scene.margin(pair.obstacle, pair.part), to_certify);
       collision::traverse_near(search.tree_O(), search.tree_V(), search.X_OV(), radius, workspace, search);
     }
   }

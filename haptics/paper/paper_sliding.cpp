@@ -18,7 +18,7 @@ constexpr double kLeastBracket_m = 1e-9;  // bisection ends far above rounding
 constexpr double kNoProgress = 1.0;       // brackets: less motion counts as none
 constexpr double kRoom = 0.5;             // brackets: contacts that are nearer demand this distance
 
-ContactKind told_kind(PaperContactKind kind) {
+ContactKind contact_kind_of(PaperContactKind kind) {
   switch (kind) {
     case PaperContactKind::kVertexFace:
       return ContactKind::kVertexFace;
@@ -97,7 +97,7 @@ const SlidingResult& PaperSliding::advance(const Eigen::Isometry3d& X_WG_given, 
   for (PaperState state = PaperState::kMoving; state != PaperState::kDone; state = next_state(state, work(state)))
     states_.push_back(state);
   states_.push_back(PaperState::kDone);
-  tell_contacts();
+  report_contacts();
   result_.state = summary();
   return result_;
 }
@@ -223,24 +223,24 @@ std::span<const ConstraintRow> PaperSliding::contact_rows(double room) {
   return rows_;
 }
 
-void PaperSliding::tell_contacts() {
+void PaperSliding::report_contacts() {
   std::erase_if(contacts_, [&](const PaperContact& c) { return c.gap_at(result_.X_WV) > held_within(); });
   result_.contacts.clear();
   for (const PaperContact& contact : contacts_) {
-    Contact told{};
-    told.kind = told_kind(contact.features.kind);
+    Contact reported{};
+    reported.kind = contact_kind_of(contact.features.kind);
     if (contact.features.kind != PaperContactKind::kUnclear) {
-      told.part_feature = contact.features.of_part;
-      told.obstacle_feature = contact.features.of_obstacle;
+      reported.part_feature = contact.features.of_part;
+      reported.obstacle_feature = contact.features.of_obstacle;
     }
-    told.part_triangle = contact.part_triangle;
-    told.obstacle = contact.features.obstacle;
-    told.obstacle_triangle = contact.obstacle_triangle;
-    told.n_W = contact.n_W;
-    told.p_W = result_.X_WV * contact.p_V;
-    told.gap = std::max(contact.gap_at(result_.X_WV), std::numeric_limits<double>::min());
-    told.margin = margin();
-    result_.contacts.push_back(told);
+    reported.part_triangle = contact.part_triangle;
+    reported.obstacle = contact.features.obstacle;
+    reported.obstacle_triangle = contact.obstacle_triangle;
+    reported.n_W = contact.n_W;
+    reported.p_W = result_.X_WV * contact.p_V;
+    reported.gap = std::max(contact.gap_at(result_.X_WV), std::numeric_limits<double>::min());
+    reported.margin = margin();
+    result_.contacts.push_back(reported);
   }
   const Projection shares = solver_.project(error(), stiffness_, contact_rows(0.0));
   result_.pushing = shares.status == ProjectionStatus::kSolved ? shares.active_count : 0;

@@ -88,7 +88,7 @@ class PaperSliding final : public SlidingSimulation {
   void place_visible(const Eigen::Isometry3d& X_WV, double length);
   void want();
   std::span<const ConstraintRow> contact_rows(double room);
-  void tell_contacts();
+  void report_contacts();
   SlidingState summary() const;
   double held_within() const { return kHeldWithin * bracket_; }
   void let_rest(SlidingState state);

@@ -46,7 +46,7 @@ CandidateSearch::CandidateSearch(const ContactScene& scene, double greatest_radi
 void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
   for (std::size_t p = 0; p < part_ids_.size(); ++p) {
     if (!world_.move(part_ids_[p], request.X_WV[p]))
-      throw std::invalid_argument("a part cannot be at a pose that is none");
+      throw std::invalid_argument("the pose of a part must be a rotation and translation");
     bodies_[scene_.body_of_part(p)].X_WB = request.X_WV[p];
   }
   const collision::FrameResult& near = pipeline_.step(request.radius);

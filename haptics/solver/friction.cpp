@@ -11,7 +11,7 @@ namespace glissade::haptics {
 namespace {
 
 constexpr int kMostSweeps = 500;
-constexpr int kMostHeatings = 8;
+constexpr int kMostExtensions = 8;
 constexpr double kSettled = 1e-10;  // of the wanted displacement
 
 /// The directions n, t, t' at a point, as whitened displacements of a part.
@@ -45,7 +45,7 @@ void FrictionSolver::solve(std::span<const geometry::Displacement> wanted, std::
     row.in_working_set = true;
     push(row, row.force_contact);
   }
-  for (int heating = 0; heating < kMostHeatings; ++heating) {
+  for (int extension = 0; extension < kMostExtensions; ++extension) {
     for (int i = 0; i < kMostSweeps; ++i) {
       if (sweep() <= kSettled * size) break;
     }

@@ -16,8 +16,8 @@ namespace glissade::shapes {
 namespace {
 
 // The axis of gearbox and drum, along y_V.
-constexpr double kGearX = 0.04;
-constexpr double kGearZ = -0.005;
+constexpr double kMotorGearX = 0.04;
+constexpr double kMotorGearZ = -0.005;
 constexpr double kGearRadius = 0.05;
 
 /// A corner of a profile of revolution: radius and position along the axis.
@@ -59,7 +59,7 @@ geometry::TriangleMesh turned(const Profile& profile, double triangle_count) {
 Eigen::Isometry3d gear_axis() {
   Eigen::Isometry3d X_VGear = Eigen::Isometry3d::Identity();
   X_VGear.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-  X_VGear.translation() << kGearX, 0, kGearZ;
+  X_VGear.translation() << kMotorGearX, 0, kMotorGearZ;
   return X_VGear;
 }
 
@@ -109,7 +109,7 @@ geometry::TriangleMesh bracket(double triangle_count) {
       sheet.holes.push_back({{x_V - center.x(), -(z_V - center.y())}, {0.007, 0.007}, 0.0035});
     }
   }
-  sheet.holes.push_back({{kGearX - center.x(), -(kGearZ - center.y())}, {0.03, 0.03}, 0.015});
+  sheet.holes.push_back({{kMotorGearX - center.x(), -(kMotorGearZ - center.y())}, {0.03, 0.03}, 0.015});
   Eigen::Isometry3d X_VSheet = Eigen::Isometry3d::Identity();
   X_VSheet.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   X_VSheet.translation() << center.x(), -kMotorHalfDepth, center.y();

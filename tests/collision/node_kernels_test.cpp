@@ -110,8 +110,8 @@ TEST_P(Kernels, OverlapsOfPairsBoundTheirDistance) {
             node_kernels().realign(alignment, slabs_of(other, q), aligned);
             PairMask near = node_kernels().test(slabs_of(base, p), aligned, 12, 0, overlaps);
             if (with_thin_slabs) {
-              near = node_kernels().test_thin(ThinSlabFrame(frame), head_M, slabs_of(base, p), head_N, slabs_of(other, q), 0,
-                                              overlaps);
+              near = node_kernels().test_thin(ThinSlabFrame(frame), head_M, slabs_of(base, p), head_N,
+                                              slabs_of(other, q), 0, overlaps);
             }
             for (int i = 0; i < head_M.child_count(); ++i) {
               for (int j = 0; j < head_N.child_count(); ++j) {
