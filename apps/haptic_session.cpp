@@ -38,7 +38,7 @@ haptics::Sliding start_sliding(const HapticScene& scene, const haptics::SlidingO
 
 Session finished(std::int64_t ticks, const HapticScene& scene, const haptics::Sliding& sliding,
                  const SessionRecorder& recorder, std::optional<RealTimeFigures> real_time) {
-  const haptics::SearchAccount account = sliding.search_account();
+  const haptics::SearchStatistics account = sliding.search_statistics();
   return {ticks,
           std::ssize(scene.obstacles) + 1,
           account.searches,

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The collision pipeline (paper §2): finds the pairs of objects of a world that meet, frame by frame. The cost follows
-/// the number of near pairs that moved, not the number of objects.
+/// The collision pipeline (paper §2): finds the pairs of objects of a world that meet, frame by frame. The cost of a
+/// frame grows with the number of near pairs that moved, not with the number of objects.
 ///
 ///   queue → interest matrix → neighbor finding → separating planes → DOP-trees
 ///
@@ -16,28 +16,29 @@
 
 namespace glissade::collision {
 
-/// Deterministic: the answers depend on the poses alone, not on the number of threads or on earlier frames. Not
-/// thread-safe, but other threads may edit the world and move its objects at any time. If memory runs out in a frame
-/// that several threads share, the program ends.
+/// Deterministic: the answers of a frame depend on its poses and its distance alone, not on the number of threads or on
+/// earlier frames. Not thread-safe, but other threads may edit the world and move its objects at any time. If memory
+/// runs out in a frame that several threads share, the program ends.
 class CollisionPipeline {
  public:
-  /// Becomes the consumer of `world`, which must have no other. World and clock must outlive the pipeline. The clock
-  /// serves measurement only. Throws std::invalid_argument for a greatest distance that is negative or not finite, and
-  /// for a negative number of threads.
+  /// Becomes the consumer of `world` (`World::take_changes`), which must have no other consumer. World and clock must
+  /// outlive the pipeline. The clock serves measurement only. Throws std::invalid_argument for a greatest distance that
+  /// is negative or not finite, and for a negative number of threads.
   CollisionPipeline(World& world, const realtime::Clock& clock, const PipelineOptions& options = {});
   ~CollisionPipeline();
   CollisionPipeline(const CollisionPipeline&) = delete;
   CollisionPipeline& operator=(const CollisionPipeline&) = delete;
 
-  /// Computes a frame with the newest poses: all enabled pairs of objects that are at most `distance` metres apart (0:
-  /// that touch). Exact: the answers are those of the queries of `dop_query.h` at the pose X_AB given by
-  /// `relative_pose`. With PairQuery::kClosePairs, two objects that both have a selection (`ObjectDescription`) meet if
-  /// a triangle pair with a selected triangle is within the distance; other queries ignore selections. The next call
-  /// overwrites the result. Throws std::invalid_argument for a distance that is negative, not a number, or greater than
-  /// that of the options. Cost: see `FrameReport`.
+  /// Computes a frame with the newest poses: finds all enabled pairs of objects that meet, that is, whose distance is
+  /// at most `distance` (metres). With `distance` 0, objects meet if they touch. The answers are exact: they are the
+  /// answers of the queries of `dop_query.h` at the pose X_AB given by `relative_pose`. With PairQuery::kClosePairs,
+  /// two objects that both have a selection (`ObjectDescription`) meet only if a triangle pair with a selected triangle
+  /// is within the distance; other queries ignore selections. The next call overwrites the result. Throws
+  /// std::invalid_argument for a distance that is negative, not a number, or greater than
+  /// `PipelineOptions::greatest_distance`. Cost: see `FrameReport`.
   const FrameResult& step(double distance = 0.0);
 
-  /// The result of the last step; its frame number is 0 before the first.
+  /// The result of the last `step`. Before the first `step`, its frame number is 0.
   const FrameResult& result() const;
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The collision thread (paper §2.3): runs a pipeline frame after frame. Other threads move objects and read results
-/// without ever waiting for it.
+/// without ever waiting for the collision thread.
 
 #include <chrono>
 #include <memory>
@@ -18,22 +18,25 @@ namespace glissade::collision {
 
 struct CollisionThreadOptions {
   PipelineOptions pipeline;
-  /// Metres, as in `CollisionPipeline::step`; at most the greatest distance of the pipeline.
+  /// Two objects meet if their distance is at most this (metres), as in `CollisionPipeline::step`. At most
+  /// `pipeline.greatest_distance`.
   double distance = 0.0;
-  /// Time from the beginning of one frame to that of the next. After a frame that takes longer, the next one begins at
-  /// the next multiple of the period.
+  /// Time from the beginning of one frame to the beginning of the next. If a frame takes longer than the period, the
+  /// next frame begins at once, and missed frames are not made up for.
   std::chrono::nanoseconds period{std::chrono::milliseconds(1)};
-  /// Number of threads that read results.
+  /// Number of readers, one for each thread that reads results. At least 1.
   int readers = 1;
 };
 
-/// Reads the frames of a `CollisionThread`, for one thread at a time. All functions are wait-free and allocate nothing.
+/// Reads the frames of a `CollisionThread`. One thread at a time may use a reader. All functions are wait-free and
+/// allocate nothing.
 class FrameReader {
  public:
-  /// Takes the newest frame. Returns whether it is newer than the last one taken.
+  /// Takes the newest frame. Returns whether this frame is newer than the frame taken before.
   bool update() noexcept { return frames_.update(); }
 
-  /// The frame taken last; its number is 0 if there is none. It does not change until the next `update`.
+  /// The frame taken last. The frame number is 0 until a frame has been taken. The frame does not change until the next
+  /// `update`.
   const FrameResult& frame() const noexcept { return frames_.value(); }
 
  private:
@@ -41,21 +44,23 @@ class FrameReader {
   realtime::TripleBuffer<FrameResult> frames_;
 };
 
-/// Runs from construction to `stop` or destruction. Thread-safety: one thread owns the object, each reader serves one
-/// thread, and any thread may use the world.
+/// The thread runs from construction to `stop` or destruction. Thread-safety: one thread owns the object, each reader
+/// serves one thread, and any thread may use the world.
 class CollisionThread {
  public:
-  /// World and clock must outlive the thread, which is the only consumer of the world. Throws std::invalid_argument for
-  /// options out of range, and std::system_error if no thread can be started.
+  /// World and clock must outlive the thread. No other pipeline may take changes of this world; any thread may edit the
+  /// world and move its objects. Throws std::invalid_argument for options out of range, and std::system_error if no
+  /// thread can be started.
   CollisionThread(World& world, realtime::Clock& clock, const CollisionThreadOptions& options = {});
   CollisionThread(const CollisionThread&) = delete;
   CollisionThread& operator=(const CollisionThread&) = delete;
   ~CollisionThread() { stop(); }
 
-  /// The reader of that number, 0 to `readers` − 1 of the options. Throws std::out_of_range for any other.
+  /// The reader with this number, from 0 to `CollisionThreadOptions::readers` − 1. Throws std::out_of_range for any
+  /// other number.
   FrameReader& reader(int number = 0) { return *readers_.at(static_cast<std::size_t>(number)); }
 
-  /// Ends the thread after the current frame, which is still published. Blocks until then.
+  /// Ends the thread after the current frame, which is still published. Blocks until the thread has ended.
   void stop() { thread_->stop(); }
 
   /// Timing statistics of the frames, valid once `stop` has returned.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The convex hull of an object, and the test whether two hulls are apart (paper §2.2). A hull encloses an object much
-/// tighter than a box, and the test takes nanoseconds for a pair that moves little between queries.
+/// more tightly than a box, and the test takes nanoseconds for a pair that moves little between queries.
 
 #include <algorithm>
 #include <array>
@@ -43,30 +43,31 @@ class ConvexHull {
   /// 3 for a solid, 2 for a polygon, 1 for a segment, 0 for a point.
   int dimension() const { return dimension_; }
 
-  /// Centre of the axis-aligned bounding box of the corners, and the largest distance of a corner from it (metres).
+  /// Centre of the axis-aligned bounding box of the corners, and the largest distance of a corner from this centre
+  /// (metres).
   const Eigen::Vector3d& center() const { return center_; }
   double radius() const { return radius_; }
 
   /// The largest distance of a corner from the origin of the object's frame (metres). Rounding errors of coordinates
-  /// are proportional to it.
+  /// are proportional to this distance.
   double reach() const { return reach_; }
 
-  /// How far an input point may lie outside the hull of `vertices()`, in metres: Qhull omits points that lie nearly in
-  /// a face.
+  /// The largest distance (metres) at which an input point may lie outside the hull of `vertices()`: Qhull omits points
+  /// that lie nearly in a face.
   double outside() const { return outside_; }
 
-  /// Support mapping: the corner farthest along `direction`, a vector of about unit length, found by climbing from
-  /// corner `start` from neighbor to neighbor. No corner is farther by more than `climbing_error`. Cost: the corners on
-  /// the way and their neighbors; about √n of them from an arbitrary start, very few from the result of a similar
-  /// direction.
+  /// Support mapping: the corner farthest along `direction`, a vector of about unit length. The search climbs from
+  /// neighbor to neighbor, beginning at corner `start`. No corner is farther than the result by more than
+  /// `climbing_error`. Cost: proportional to the number of corners on the way and their neighbors, about √n from an
+  /// arbitrary start, and very few from the result for a similar direction.
   std::int32_t support(const Eigen::Vector3d& direction, std::int32_t start) const;
 
-  /// A start for climbing when no better one is known: a corner that is farthest along a direction within a few degrees
-  /// of `direction`. Cost O(1).
+  /// A start for climbing when no better start is known: a corner that is farthest along a direction within a few
+  /// degrees of `direction`. Cost O(1).
   std::int32_t start_toward(const Eigen::Vector3d& direction) const { return starts_[cell_of(direction)]; }
 
-  /// How much farther than the result of `support` another corner may be, in metres. Climbing stops where rounding
-  /// hides the difference between neighbors, which matters where facets are narrow.
+  /// Upper bound (metres) of how much farther another corner may be than the result of `support`. Climbing stops where
+  /// rounding hides the difference between neighbors; this matters for narrow facets.
   double climbing_error() const { return climbing_error_; }
 
   /// The corner farthest along `direction`, found by examining all corners. Cost O(n).
@@ -75,8 +76,8 @@ class ConvexHull {
  private:
   using Edge = std::array<std::int32_t, 2>;
 
-  // Directions are classified by the cell of a cube that they point to. Each of its six faces has kCells by kCells
-  // cells.
+  // Directions are classified by the cell of a cube that they point to. Each of the cube's six faces has kCells by
+  // kCells cells.
   static constexpr int kCells = 8;
   static std::size_t cell_of(const Eigen::Vector3d& direction);
   void find_starts();
@@ -85,7 +86,7 @@ class ConvexHull {
   void take_corners(std::span<const Eigen::Vector3d> points, const std::vector<Edge>& edges);
 
   std::vector<Eigen::Vector3d> vertices_;
-  std::vector<std::int32_t> first_neighbor_;  ///< by corner, and the end of the last list
+  std::vector<std::int32_t> first_neighbor_;  ///< by corner; one more entry for the end of the last list
   std::vector<std::int32_t> neighbors_;
   std::vector<std::int32_t> starts_;  ///< by cell
   int dimension_ = 0;
@@ -125,47 +126,49 @@ inline std::int32_t ConvexHull::support(const Eigen::Vector3d& direction, std::i
   return best;
 }
 
-/// The test that follows if the plane of the last query no longer separates the hulls.
+/// The test that runs if the plane of the last query no longer separates the hulls.
 enum class HullTest : std::uint8_t {
-  kExact,       ///< GJK to its end, starting from the simplex of the last query
-  kPerceptron,  ///< the paper's: up to 300 learning steps; may miss that hulls are apart, never that they meet
+  kExact,  ///< GJK to its end, from the simplex of the last query; exact to rounding, see `hulls_apart`
+  /// Up to 300 learning steps, as in the paper. The answer "apart" is certain; the answer "not apart" may be wrong.
+  kPerceptron,
 };
 
-/// Results of the last query of a pair of hulls, which speed up the next one. They are guesses: the answer does not
-/// depend on them, except where rounding leaves it open. Keep one for each pair of objects, always in the same order.
-/// Not thread-safe.
+/// Results of the last query of a pair of hulls, which speed up the next query. The results serve as guesses: the
+/// answer does not depend on them, except where rounding leaves the answer open. Keep one `HullMemory` for each pair of
+/// objects, and always pass the two hulls in the same order. Not thread-safe.
 struct HullMemory {
   /// The separating plane, stored twice: fixed to A (n_A, reach_A) and fixed to B (n_B, reach_B). Normals are unit
   /// vectors from A to B.
   Eigen::Vector3d n_A = Eigen::Vector3d::Zero();
   Eigen::Vector3d n_B = Eigen::Vector3d::Zero();
-  double reach_A = 0.0;  ///< how far A reaches along n_A from its origin, metres
-  double reach_B = 0.0;  ///< how far B reaches against n_B from its origin, metres
+  double reach_A = 0.0;  ///< extent of A along n_A from the origin of A, metres
+  double reach_B = 0.0;  ///< extent of B along −n_B from the origin of B, metres
 
-  /// If the last answer was that the hulls are apart: a lower bound of their distance in metres, measured along the
-  /// unit vector n_gap_A from A to B, in the frame of A. Otherwise 0.
+  /// A lower bound of the distance of the hulls in metres, if the last answer was that they are apart; otherwise 0. The
+  /// bound is measured along n_gap_A, a unit vector from A to B in the frame of A.
   double gap = 0.0;
   Eigen::Vector3d n_gap_A = Eigen::Vector3d::Zero();
 
-  std::int32_t corner_A = 0;  ///< start of climbing
+  std::int32_t corner_A = 0;  ///< corner of A at which `support` starts
   std::int32_t corner_B = 0;
-  /// GJK's last simplex: for each point a corner of A and one of B.
+  /// GJK's last simplex: for each point a corner of A and a corner of B.
   std::array<std::array<std::int32_t, 2>, 4> simplex{};
   std::int8_t simplex_count = 0;
-  std::int8_t planes_to_leave = 0;  ///< number of new planes to keep as found, without an attempt to turn them
+  std::int8_t planes_to_leave = 0;  ///< number of new planes to keep as found, without an attempt to widen their gap
   bool has_plane = false;
-  bool met = false;  ///< the last answer was that they may meet
+  bool met = false;  ///< the last answer was that the hulls may meet
 
   std::int32_t loops = 0;  ///< learning steps and rounds of GJK in the last query
 };
 
-/// Whether two hulls are certainly apart, at the pose X_AB of B in the frame of A. HullTest::kExact is exact for the
-/// points that the hulls were made of, except for gaps of the size of rounding errors (1e-13 of all coordinates that
-/// take part, 1e-11 for needles, plus `ConvexHull::outside`), where the answer is false. Touching hulls are not apart.
+/// Whether two hulls are certainly apart, at the pose X_AB of B in the frame of A. Touching hulls are not apart. With
+/// HullTest::kExact the answer is exact for the points from which the hulls were made, with one exception: gaps as
+/// small as rounding errors give false. Such gaps are at most `ConvexHull::outside` of both hulls plus 1e-13 of the sum
+/// of all coordinates involved, 1e-11 for needles.
 ///
 /// Allocates nothing. Cost: about 20 ns while the remembered plane or simplex decides; otherwise less than a
 /// microsecond after a small movement and some microseconds after a large one; bounded in any case. Different threads
-/// may query the same hulls, each with a memory of its own.
+/// may query the same hulls, each with its own `HullMemory`.
 bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Eigen::Isometry3d& X_AB, HullMemory& memory,
                  HullTest test = HullTest::kExact) noexcept;
 

@@ -3,9 +3,9 @@
 /// Exact queries between two DOP-trees: whether the triangle soups intersect, which triangle pairs intersect or are
 /// near, how far the soups are apart, and how to separate them.
 ///
-/// Each query takes the pose X_AB of tree B in the frame of tree A. Exact means: the answer is that of real arithmetic
-/// for the vertices of A, and for the vertices of B after X_AB was applied to them in double precision. Touching counts
-/// as intersecting. Only triangles of positive area take part.
+/// Each query takes the pose X_AB of tree B in the frame of tree A. Exact means: X_AB is applied to the vertices of B
+/// in double precision; for these results and the vertices of A, the answer is the answer of real arithmetic. Touching
+/// counts as intersecting. Only triangles of positive area take part.
 ///
 /// Each query throws std::invalid_argument for trees that were built with different options, for a distance that is
 /// negative or not a number, for a pose that is not finite, and for a matrix that is not a rotation: the absolute
@@ -21,14 +21,15 @@
 
 namespace glissade::collision {
 
-/// Whether the two meshes are at most `tolerance` (metres, ≥ 0) apart; for 0, whether they intersect. (paper §2.1)
+/// Whether the two meshes are at most `tolerance` (metres, ≥ 0) apart; with tolerance 0, whether they intersect. (paper
+/// §2.1)
 bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, QueryWorkspace& workspace,
                 double tolerance = 0.0);
 bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                 CoherentWorkspace& workspace, double tolerance = 0.0);
 
-/// Replaces `pairs` by all triangle pairs at most `tolerance` (metres, ≥ 0) apart, for 0 by all that intersect, in
-/// ascending order.
+/// Replaces `pairs` by all triangle pairs at most `tolerance` (metres, ≥ 0) apart, in ascending order. With tolerance
+/// 0, these are the intersecting pairs.
 void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                         QueryWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance = 0.0);
 void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
@@ -36,15 +37,17 @@ void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eige
 
 /// Replaces `pairs` by all triangle pairs at most `distance` (metres, ≥ 0) apart, with their closest points, in
 /// ascending order of the triangle indices. A selection restricts the answer to pairs with a selected triangle; the
-/// cost then follows the number of these. Throws std::invalid_argument for a selection that was made for another tree.
+/// cost then grows with the number of such pairs. Throws std::invalid_argument for a selection that was made for
+/// another tree.
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   QueryWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   CoherentWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
 
-/// A certain lower bound of the distance of the two meshes in metres, at most `limit`. It is 0 if the meshes intersect,
-/// and the distance of their bounding spheres if that exceeds the larger radius. Otherwise it is the distance itself,
-/// less a few units in the last place of the coordinates.
+/// A certain lower bound of the distance of the two meshes in metres, at most `limit`. The bound is 0 if the meshes
+/// intersect. The bound is the distance of the bounding spheres if the spheres are farther apart than the larger of
+/// their radii. Otherwise the bound is the distance of the meshes, less a few units in the last place of the
+/// coordinates.
 double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                        QueryWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
 double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
@@ -52,21 +55,22 @@ double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen
 
 /// A translation that separates two meshes.
 struct Penetration {
-  /// Translation of B in the frame of A after which the meshes are apart (metres). Zero if they are apart already.
+  /// Translation of B in the frame of A after which the meshes are apart (metres). Zero if the meshes are apart
+  /// already.
   Eigen::Vector3d way_out_A = Eigen::Vector3d::Zero();
 
   double depth() const { return way_out_A.norm(); }
 };
 
 /// Finds a short translation of B, from its pose X_AB, after which the meshes are more than `clearance` (metres, ≥ 0)
-/// apart. The exact queries above confirm it.
+/// apart. The exact queries above confirm this distance.
 ///
 /// The depth is a certain upper bound of the translational penetration depth, because the translated pose was queried.
-/// It need not be the least: the search tries directions all around, the normals of intersecting triangles, and then
-/// directions ever closer to the best one so far, down to a few thousandths of its length. For convex bodies the depth
-/// is within a few per cent of the least. Meshes are surfaces without an inside: a body inside a closed surface that it
-/// does not touch is apart from it, and the shortest way out of a shell may lead inward. Only the translated pose is
-/// tested: on the way there, B may meet A or other objects.
+/// This depth need not be the least: the search tries directions all around, the normals of intersecting triangles, and
+/// then directions ever closer to the best direction so far, down to a few thousandths of a radian from it. For convex
+/// bodies the depth is within a few per cent of the least. Meshes are surfaces without an inside: a body that lies
+/// inside a closed surface without touching it is apart from the surface, and the shortest way out of a shell may lead
+/// inward. Only the translated pose is tested: on the way to this pose, B may meet A or other objects.
 ///
 /// Deterministic. Cost: a few hundred queries. Throws as the queries do.
 Penetration find_way_out(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,

@@ -1,7 +1,8 @@
 #pragma once
 
 /// The DOP-tree: a bounding-volume hierarchy of discretely oriented polytopes over a triangle soup (paper §2.1). Build
-/// one per mesh and share it between objects and threads. The queries of `dop_query.h` take two trees.
+/// one tree per mesh and share it between objects and threads. The queries of `dop_query.h` take two trees. In all
+/// names and comments, "node" means an inner node of a tree; leaves are not nodes.
 
 #include <cstdint>
 #include <memory>
@@ -23,20 +24,21 @@ class DopVertices;
 
 /// How a query encloses the nodes of one tree in DOPs aligned to the other tree.
 enum class Realignment {
-  kAffine,      ///< each new offset combines three old ones: O(k) (paper §2.1, eq. 1)
+  kAffine,      ///< each new offset combines three old offsets: O(k) (paper §2.1, eq. 1)
   kBruteForce,  ///< projects every vertex of a node on every direction: O(k²) (paper §2.1.1)
 };
 
-/// Options of construction. The defaults are the fastest; the others serve comparison.
+/// Options of construction. The defaults are the fastest; other values serve comparison.
 struct DopTreeOptions {
   int directions = 24;    ///< k, the number of half-spaces: 6, 14, 18, 24 or 26
-  bool thin_slab = true;  ///< adds a slab along a node's own thin direction, where that helps
+  bool thin_slab = true;  ///< adds a slab along a node's own thin direction, where the slab helps
   Realignment realignment = Realignment::kAffine;
 
   bool operator==(const DopTreeOptions&) const = default;
 };
 
-/// The children of a node: inner nodes first, then leaves. Each kind is numbered consecutively.
+/// The children of a node: first the children that are nodes, then the children that are leaves. Nodes and leaves of a
+/// tree are numbered separately. The numbers of the children of one kind are consecutive.
 struct TreeNode {
   std::uint32_t first_node;  ///< number of the first child that is a node
   std::uint32_t first_leaf;  ///< number of the first child that is a leaf
@@ -45,15 +47,15 @@ struct TreeNode {
 
   int child_count() const { return node_count + leaf_count; }
   bool is_leaf(int child) const { return child >= node_count; }
-  /// The number of child c, counted among the nodes if it is a node and among the leaves if it is a leaf.
+  /// The number of child c: its node number if the child is a node, its leaf number if it is a leaf.
   std::uint32_t child(int c) const {
     return is_leaf(c) ? first_leaf + static_cast<std::uint32_t>(c - node_count)
                       : first_node + static_cast<std::uint32_t>(c);
   }
 };
 
-/// A bounding-volume hierarchy in the object's own frame: nodes with up to four children, leaves with up to four
-/// triangles.
+/// A bounding-volume hierarchy in the object's own frame, made of nodes with up to four children and leaves with up to
+/// four triangles.
 ///
 /// Thread-safety: any number of threads may query a tree at once. During `refit` no other thread may use it.
 class DopTree {
@@ -64,7 +66,7 @@ class DopTree {
   /// Builds the hierarchy by a binned surface-area heuristic, with several threads if the mesh is large. The result
   /// does not depend on the number of threads. Degenerate triangles (zero area) take part in no query.
   ///
-  /// Throws std::invalid_argument for a null mesh, for one without a triangle of positive area or with more than 5
+  /// Throws std::invalid_argument for a null mesh, for a mesh without a triangle of positive area or with more than 5
   /// million triangles, for an index out of range, for a coordinate that is not finite or beyond ±1e9, and for an
   /// unsupported number of directions. Cost O(n log n).
   explicit DopTree(const std::shared_ptr<const geometry::TriangleMesh>& mesh, const DopTreeOptions& options = {});
@@ -85,20 +87,21 @@ class DopTree {
 
   std::size_t node_count() const;
   std::size_t leaf_count() const;
-  /// The node of that number, which must be below `node_count`. Node 0 is the root; it has at least one child.
+  /// The node with this number, which must be below `node_count`. Node 0 is the root; the root has at least one child.
   TreeNode node(std::uint32_t number) const;
-  /// The triangles of the leaf of that number, which must be below `leaf_count`, as indices into the mesh. A negative
+  /// The triangles of the leaf with this number, which must be below `leaf_count`, as indices into the mesh. A negative
   /// entry is an unused place or a triangle without area.
   std::span<const std::int32_t, kWidth> triangles_of_leaf(std::uint32_t leaf) const;
 
-  /// The number of the fitted tree: construction and each refit give a new one, unique in this process and never 0.
-  /// Copies have the same.
+  /// Identifies the tree and its fit by a number that is unique in this process and never 0. Construction and each
+  /// `refit` give a new number; a copy has the number of its original.
   std::uint64_t id() const { return id_; }
 
   std::int64_t degenerate_triangles() const { return degenerate_triangles_; }
   /// Levels of nodes below the root, leaves not counted.
   int depth() const { return depth_; }
-  /// Centre of the axis-aligned bounding box, and radius of a sphere about it that encloses every vertex (metres).
+  /// Centre of the axis-aligned bounding box, and radius of a sphere about this centre that encloses every vertex
+  /// (metres).
   const Eigen::Vector3d& center() const { return center_; }
   double radius() const { return radius_; }
   /// 1 / radius.
@@ -121,7 +124,7 @@ class DopTree {
   std::vector<SlabLine> slabs_;
   std::unique_ptr<DopVertices> vertices_;  // only with Realignment::kBruteForce
   std::vector<TriangleLeaf> leaves_;
-  std::size_t lines_of_node_ = 0;
+  std::size_t lines_of_node_ = 0;  // cache lines of slabs for each node, after its head
   std::uint64_t id_ = 0;
   std::int64_t degenerate_triangles_ = 0;
   int depth_ = 0;

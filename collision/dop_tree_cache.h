@@ -1,15 +1,17 @@
 #pragma once
 
-/// DOP-trees in files next to their meshes, so that a program need not rebuild the tree of a large mesh in every run.
+/// DOP-trees in files next to their mesh files, so that a program need not rebuild the tree of a large mesh in every
+/// run.
 ///
 /// A file holds the shape of a tree only: which triangles share a leaf, and which leaves share a node. A reader checks
 /// that the shape is one tree of all triangles, and fits the boxes to the mesh at hand. So a damaged or forged file is
 /// either rejected or gives a tree with correct answers. Finding the shape is most of the work of building: with
 /// 100,000 triangles, reading takes 31 ms of processor time and building 102 ms. The file takes 4.4 bytes a triangle.
 ///
-/// A file is bound to the vertices and triangles of its mesh, to the options, and to the version of the format, which
-/// also changes with the method of building. The byte order is the same on every machine. The last eight bytes are a
-/// checksum of all others. It detects every change of one byte, and all but one in 2^64 of other changes.
+/// A file is bound to the vertices and triangles of its mesh, to the options, and to the version of the format. The
+/// version also changes when the method of building changes. The byte order is the same on every machine. The last
+/// eight bytes are a checksum of all other bytes. The checksum detects every change of one byte, and all but one in
+/// 2^64 of other changes.
 
 #include <cstddef>
 #include <filesystem>
@@ -26,15 +28,15 @@ namespace glissade::collision {
 enum class CacheState {
   kRead,
   kMissing,  ///< the file does not exist
-  kStale,    ///< belongs to another mesh, other options or another version
-  kDamaged,  ///< truncated, altered, not a cache file, or unreadable
+  kStale,    ///< the file belongs to another mesh, other options or another version
+  kDamaged,  ///< the file is truncated, altered, unreadable, or not a cache file
 };
 
 /// Result of reading a file.
 struct CachedTree {
   CacheState state;
   std::string reason;           ///< why the file was not read, in a few words
-  std::optional<DopTree> tree;  ///< empty if it was not read
+  std::optional<DopTree> tree;  ///< empty if the file was not read
 
   explicit operator bool() const { return tree.has_value(); }
 };
@@ -42,9 +44,9 @@ struct CachedTree {
 /// The cache file of a mesh file: the name of the mesh file followed by ".dop-tree".
 std::filesystem::path tree_cache_path(const std::filesystem::path& mesh_path);
 
-/// Writes or replaces the file. It appears complete or not at all: it has another name until it is complete, and is
-/// deleted if it cannot be completed. Throws std::runtime_error with one line that names the file and the reason. May
-/// block on the disk.
+/// Writes or replaces the file. The file appears complete or not at all: it has another name until it is complete, and
+/// is deleted if it cannot be completed. Throws std::runtime_error with one line that names the file and the reason.
+/// May block on the disk.
 void write_tree_cache(const std::filesystem::path& path, const DopTree& tree);
 
 /// Reads the tree that DopTree(mesh, options) would build. An unusable file is not an error: see `CachedTree::state`.
@@ -52,18 +54,18 @@ void write_tree_cache(const std::filesystem::path& path, const DopTree& tree);
 CachedTree read_tree_cache(const std::filesystem::path& path, std::shared_ptr<const geometry::TriangleMesh> mesh,
                            const DopTreeOptions& options = {});
 
-/// The same, from the bytes of a file.
+/// The same as `read_tree_cache`, from the bytes of a file.
 CachedTree read_tree_cache_bytes(std::span<const std::byte> bytes, std::shared_ptr<const geometry::TriangleMesh> mesh,
                                  const DopTreeOptions& options = {});
 
 /// A tree, and a note about its file.
 struct LoadedTree {
   DopTree tree;
-  std::string note;  ///< one line that names the file; empty if it was read, or written for the first time
+  std::string note;  ///< one line that names the file; empty if the file was read, or written for the first time
 };
 
 /// Reads the tree from the cache file of `mesh_path`. If that file is missing or unusable, builds the tree and writes
-/// the file. The note reports an unusable file and a file that cannot be written. Throws as DopTree does.
+/// the file. The note reports a file that is unusable or cannot be written. Throws as DopTree does.
 LoadedTree load_or_build_tree(const std::filesystem::path& mesh_path,
                               const std::shared_ptr<const geometry::TriangleMesh>& mesh,
                               const DopTreeOptions& options = {});

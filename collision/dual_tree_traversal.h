@@ -1,7 +1,7 @@
 #pragma once
 
 /// Dual-tree traversal with a user-defined cut-off. A visitor may accept a pair of children as a whole, for example two
-/// flush plane patches; the traversal then skips all pairs below it.
+/// flush plane patches; the traversal then skips all pairs below the accepted pair.
 
 #include <cstdint>
 
@@ -12,16 +12,18 @@
 
 namespace glissade::collision {
 
-/// Child number `child` of node number `node`, below the `child_count` of that node.
+/// One child of the node with the number `node`. `child` counts the children of this node: 0 to `TreeNode::child_count`
+/// − 1.
 struct TreeChild {
   std::uint32_t node;
   int child;
 };
 
-/// Receives the pairs in the order of the traversal.
+/// Receives the pairs of children and of triangles in the order of the traversal.
 class DualTreeVisitor {
  public:
-  /// Whether the visitor accepts two children whose boxes may be near. All pairs below them are then skipped.
+  /// Whether the visitor accepts two children, whose boxes may be within the distance. The traversal skips all pairs
+  /// below two accepted children.
   virtual bool accepts(const TreeChild& child_A, const TreeChild& child_B) = 0;
   /// Receives a triangle pair within the distance that does not lie below an accepted pair.
   virtual void visit(const ClosePair& pair) = 0;
@@ -30,9 +32,9 @@ class DualTreeVisitor {
   ~DualTreeVisitor() = default;
 };
 
-/// Passes to the visitor all triangle pairs at most `distance` (metres, ≥ 0) apart, except those below accepted pairs
-/// of children. Deterministic. Allocates nothing once the workspace has grown. Throws as the queries of `dop_query.h`
-/// do.
+/// Passes to the visitor all triangle pairs at most `distance` (metres, ≥ 0) apart, except the triangle pairs below
+/// accepted pairs of children. Deterministic. Allocates nothing once the workspace has grown. Throws as the queries of
+/// `dop_query.h` do.
 void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                    QueryWorkspace& workspace, DualTreeVisitor& visitor);
 

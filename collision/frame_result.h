@@ -14,24 +14,27 @@
 
 namespace glissade::collision {
 
-/// Detail that a pipeline computes for objects that meet.
+/// The detail that a pipeline computes for pairs of objects that meet.
 enum class PairQuery : std::uint8_t {
-  kVerdict,        ///< only that they meet
-  kTrianglePairs,  ///< also the triangle pairs in which they meet
-  kClosePairs,     ///< also their closest points; between objects with selections, pairs with a selected triangle only
+  kVerdict,        ///< only whether two objects meet
+  kTrianglePairs,  ///< also the triangle pairs within the distance of the step
+  /// Also the closest points of each triangle pair. If both objects have a selection (`ObjectDescription`), only
+  /// triangle pairs with a selected triangle count.
+  kClosePairs,
 };
 
 struct PipelineOptions {
   PairQuery query = PairQuery::kVerdict;
+  /// The test of convex hulls in the stage of separating planes. Affects the duration of a frame, never its result.
   HullTest hull_test = HullTest::kExact;
-  /// Upper limit of the distance given to `CollisionPipeline::step` (metres). Two objects meet if their distance is at
-  /// most that of the step.
+  /// Upper limit (metres) of the distance given to `CollisionPipeline::step`. Two objects meet if their distance is at
+  /// most the distance given to the step.
   double greatest_distance = 0.0;
-  /// Number of threads that work on a frame, including the calling one. 0: as many as the machine has processors.
+  /// Number of threads that work on a frame, including the calling thread. 0: as many as the machine has processors.
   int threads = 0;
 };
 
-/// Two objects of a world. The one of lower index is A of the query, the other is B.
+/// Two objects of a world. In queries, the object with the lower index is A, the other is B.
 struct ObjectPair {
   ObjectId object_A;
   ObjectId object_B;
@@ -39,7 +42,7 @@ struct ObjectPair {
   auto operator<=>(const ObjectPair&) const = default;
 };
 
-/// Number of items that entered a stage of the pipeline, number that it passed on, and its time.
+/// Number of items that entered a stage of the pipeline, number of items that the stage passed on, and its duration.
 struct StageReport {
   std::int64_t in = 0;
   std::int64_t out = 0;
@@ -53,23 +56,25 @@ struct StageReport {
   }
 };
 
-/// Work of one frame. Stages see only pairs with an object that moved, because objects at rest cost nothing.
+/// Work of one frame. Stages see only pairs with an object that is new or has moved, so objects at rest cost nothing.
+/// Two exceptions: pairs that have just been enabled, and all neighbors if the distance of the step has changed.
 struct FrameReport {
-  std::int64_t objects = 0;    ///< in the world
-  std::int64_t neighbors = 0;  ///< pairs of objects whose fattened boxes overlap, at rest or not
-  /// In: objects that were moved, added or removed. Out: objects that are new or have moved.
+  std::int64_t objects = 0;    ///< objects in the world
+  std::int64_t neighbors = 0;  ///< pairs of objects whose fattened boxes overlap, including pairs at rest
+  /// In: objects that were added, moved or removed since the last frame. Out: objects that were added or moved.
   StageReport queue;
-  /// In: objects that are new or have moved. Out: their enabled pairs whose fattened boxes overlap.
+  /// In: objects that were added or moved. Out: enabled pairs of these objects whose fattened boxes overlap.
   StageReport neighbor_finding;
-  /// In: pairs that may have used up the gap known from an earlier frame. Out: pairs that no plane separates.
+  /// In: pairs that may have moved farther than the gap known from an earlier frame. Out: pairs that no plane
+  /// separates.
   StageReport separating_planes;
-  /// In: pairs that no plane separates. Out: pairs among them that meet.
+  /// In: pairs that no plane separates. Out: the pairs among them that meet.
   StageReport exact;
-  /// In: pairs that have begun or ceased to meet. Out: all pairs that meet, at rest or not.
+  /// In: pairs that have begun or ceased to meet. Out: all pairs that meet, including pairs at rest.
   StageReport result;
   std::chrono::nanoseconds total{0};
 
-  /// Adds the work of another frame. For means, divide by the number of frames.
+  /// Adds the work of another frame. For mean values, divide the sums by the number of frames.
   FrameReport& operator+=(const FrameReport& other) {
     objects += other.objects;
     neighbors += other.neighbors;
@@ -83,24 +88,26 @@ struct FrameReport {
   }
 };
 
-/// The pairs of objects that meet in one frame, with the detail that the pipeline's `PairQuery` requires.
+/// The pairs of objects that meet in one frame, with the detail that the `PairQuery` of the pipeline requires.
 struct FrameResult {
-  std::uint64_t frame = 0;                    ///< number of the frame, from 1; 0: none yet
-  std::chrono::nanoseconds time_of_poses{0};  ///< when the poses were taken, by the pipeline's clock
+  std::uint64_t frame = 0;                    ///< number of the frame, from 1; 0: no frame yet
+  std::chrono::nanoseconds time_of_poses{0};  ///< time at which the poses were taken, by the pipeline's clock
 
-  /// Age of the poses at the time `now` of that clock. The duration of the frame is in the report.
+  /// Age of the poses at the time `now` of the pipeline's clock. The duration of the frame is `report.total`.
   std::chrono::nanoseconds age(std::chrono::nanoseconds now) const { return now - time_of_poses; }
 
-  std::vector<ObjectPair> meeting;  ///< ascending
+  std::vector<ObjectPair> meeting;  ///< in ascending order
 
-  /// Triangle pairs of `meeting[i]`, in ascending order of the triangle indices. Empty unless the `PairQuery` of the
-  /// pipeline is kTrianglePairs or kClosePairs, respectively.
+  /// Triangle pairs of `meeting[i]`, in ascending order of the triangle indices. `triangle_pairs` is empty unless the
+  /// `PairQuery` of the pipeline is kTrianglePairs; `close_pairs` is empty unless it is kClosePairs.
   std::span<const TrianglePair> triangle_pairs(std::size_t i) const { return part_of(all_triangle_pairs, i); }
   std::span<const ClosePair> close_pairs(std::size_t i) const { return part_of(all_close_pairs, i); }
 
   std::vector<TrianglePair> all_triangle_pairs;  ///< with PairQuery::kTrianglePairs
   std::vector<ClosePair> all_close_pairs;        ///< with PairQuery::kClosePairs
-  std::vector<std::size_t> ends;                 ///< end of the pairs of `meeting[i]`; unused for verdicts
+  /// The triangle pairs of `meeting[i]` are the entries `ends[i - 1]` (0 for i = 0) to `ends[i]` − 1 of the list above
+  /// that the `PairQuery` fills. Empty with PairQuery::kVerdict.
+  std::vector<std::size_t> ends;
 
   FrameReport report;
 
@@ -113,7 +120,8 @@ struct FrameResult {
   }
 };
 
-/// The pose X_AB of object B in the frame of object A, as the pipeline computes it, for comparison to the bit.
+/// The pose X_AB of object B in the frame of object A, computed exactly as the pipeline does, so that results can be
+/// compared bit for bit.
 Eigen::Isometry3d relative_pose(const WorldObject& object_A, const WorldObject& object_B);
 
 }  // namespace glissade::collision

@@ -22,8 +22,8 @@ struct TrianglePair {
   auto operator<=>(const TrianglePair&) const = default;
 };
 
-/// Two triangles and their closest points, in the frame of A, metres. If they intersect, the distance is 0, and both
-/// points are the same point of the intersection up to rounding.
+/// Two triangles and their closest points, in the frame of A, metres. If the triangles intersect, the distance is 0,
+/// and both points are the same point of the intersection up to rounding.
 struct ClosePair {
   TrianglePair triangles;
   double distance;
@@ -50,7 +50,7 @@ class QueryWorkspace {
   /// Work of the last query.
   const QueryCounters& counters() const;
 
-  // For the queries; the type is private.
+  // For the queries; `Memory` is private to the component.
   struct Memory;
   Memory& memory() { return *memory_; }
 
@@ -61,8 +61,9 @@ class QueryWorkspace {
 class CoherentFront;
 
 /// A workspace that exploits temporal coherence: it remembers the last query of one pair of trees, which makes the next
-/// one much cheaper if the trees have moved little. The answers are the same to the bit as without it. Use one for each
-/// pair. It starts afresh when it is used for other trees, or for a tree that was refitted. Not thread-safe.
+/// query much cheaper if the trees have moved little. The answers are the same to the bit as with a `QueryWorkspace`.
+/// Use one workspace for each pair of trees. A workspace starts afresh when it is used for other trees, or for a tree
+/// that was refitted. Not thread-safe.
 class CoherentWorkspace {
  public:
   CoherentWorkspace();
@@ -76,7 +77,7 @@ class CoherentWorkspace {
   /// Forgets all earlier queries.
   void forget();
 
-  // For the queries; the type of the front is private.
+  // For the queries; `CoherentFront` is private to the component.
   QueryWorkspace& workspace() { return workspace_; }
   CoherentFront& front() { return *front_; }
 
@@ -85,12 +86,12 @@ class CoherentWorkspace {
   std::unique_ptr<CoherentFront> front_;
 };
 
-/// A set of triangles of one tree, as a byte for each node (which children hold selected triangles) and a byte for each
-/// leaf (which triangles are selected). Immutable after construction, so safe to share between threads.
+/// A set of selected triangles of one tree. A byte for each node records the children that hold selected triangles; a
+/// byte for each leaf records the selected triangles. Immutable after construction, so safe to share between threads.
 class TriangleSelection {
  public:
-  /// Calls `is_selected` once for each triangle, with its index in the mesh. The selection is valid for `tree`, also
-  /// after a refit, and for copies of it. Throws std::invalid_argument for an empty function. Cost O(n).
+  /// Calls `is_selected` once for each triangle, with its index in the mesh. The selection is valid for `tree` and its
+  /// copies, also after a refit. Throws std::invalid_argument for an empty function. Cost O(n).
   TriangleSelection(const DopTree& tree, const std::function<bool(std::int32_t)>& is_selected);
 
   /// By node: bit c is set if there is a selected triangle below child c.
@@ -101,7 +102,7 @@ class TriangleSelection {
   /// Whether the selection can belong to `tree`: compares the numbers of nodes and leaves.
   bool is_of(const DopTree& tree) const;
 
-  /// A number that is unique in this process, from 1. Copies have the same.
+  /// A number that is unique in this process, from 1. A copy has the number of its original.
   std::uint64_t id() const { return id_; }
 
  private:
@@ -110,8 +111,8 @@ class TriangleSelection {
   std::uint64_t id_;
 };
 
-/// Restricts a query to triangle pairs of which at least one triangle is selected. A null selection selects all
-/// triangles of its tree, so a restriction needs two selections.
+/// Restricts a query to triangle pairs with at least one selected triangle. A null selection selects all triangles of
+/// its tree, so it admits every pair: a query is restricted only if both selections are given.
 struct PairSelection {
   const TriangleSelection* of_A = nullptr;
   const TriangleSelection* of_B = nullptr;

@@ -98,7 +98,8 @@ std::size_t checked_capacity(int capacity) {
 
 }  // namespace
 
-struct World::State {
+class World::State {
+ public:
   explicit State(int capacity);
 
   ObjectId add(const ObjectDescription& object);
@@ -109,6 +110,9 @@ struct World::State {
   void disable_pair(ObjectId a, ObjectId b);
   bool move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept;
   const WorldChanges& take_changes();
+
+ private:
+  friend class World;
 
   /// The newest pose, and room for the next.
   struct alignas(64) Slot {

@@ -1,8 +1,8 @@
 #pragma once
 
-/// The objects of a scene, their poses, and which pairs of them are enabled: the front end of the collision pipeline
+/// The objects of a scene, their poses, and the enabled pairs of objects: the front end of the collision pipeline
 /// (paper §2, §2.3). Any number of threads add, remove and move objects while one thread, the consumer, computes. At
-/// the beginning of each frame the consumer takes the changes since the last one.
+/// the beginning of each frame the consumer takes the changes since the last frame. Frames: W world, O object.
 
 #include <compare>
 #include <cstdint>
@@ -20,9 +20,10 @@ namespace glissade::collision {
 class ConvexHull;
 class TriangleSelection;
 
-/// Identifies one object permanently: a later object in the same slot has another generation.
+/// Identifies one object permanently. Each object occupies one slot of the world; a later object in the same slot has
+/// another generation.
 struct ObjectId {
-  std::uint32_t index = 0;       ///< the slot
+  std::uint32_t index = 0;       ///< number of the slot
   std::uint32_t generation = 0;  ///< 0: no object
 
   auto operator<=>(const ObjectId&) const = default;
@@ -30,7 +31,7 @@ struct ObjectId {
 
 struct ObjectDescription {
   std::shared_ptr<const DopTree> tree;
-  std::shared_ptr<const ConvexHull> hull;  ///< of the same mesh; null: no test of hulls
+  std::shared_ptr<const ConvexHull> hull;  ///< hull of the mesh of `tree`; null: no test of hulls
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   int group = 0;  ///< row and column of the interest matrix, 0 to 63
   /// Selected triangles of the tree; null: no selection. If both objects of a pair have a selection,
@@ -38,7 +39,7 @@ struct ObjectDescription {
   std::shared_ptr<const TriangleSelection> selection = nullptr;
 };
 
-/// Content of a slot. Default-constructed if the slot is empty.
+/// The content of a slot. Default-constructed if the slot is empty.
 struct WorldObject {
   ObjectId id;
   std::shared_ptr<const DopTree> tree;
@@ -48,16 +49,17 @@ struct WorldObject {
   std::shared_ptr<const TriangleSelection> selection;
 };
 
-/// Changes since the last take. Slot numbers ascend.
+/// Changes since the last call of `World::take_changes`. Slot numbers are in ascending order.
 struct WorldChanges {
-  std::vector<std::uint32_t> removed;  ///< slots whose former object is gone
-  std::vector<std::uint32_t> added;    ///< slots with a new object; may be in `removed` as well, for the former object
+  std::vector<std::uint32_t> removed;  ///< slots whose former object was removed
+  std::vector<std::uint32_t> added;    ///< slots with a new object; also in `removed` if the slot had a former object
   std::vector<std::uint32_t> moved;    ///< slots whose object is not new and may have another pose
   bool interest = false;               ///< `is_enabled` may have changed for pairs of objects that are not new
 };
 
-/// Thread-safety: any thread may edit or move at any time; one thread is the consumer. An id is stale if it is
-/// default-constructed or if its object was removed. Ids of other worlds must not be used.
+/// Thread-safety: any thread may edit the world or move objects at any time; one thread is the consumer. A take is a
+/// call of `take_changes`. An id is stale if it is default-constructed or if its object was removed. Ids of other
+/// worlds must not be used.
 class World {
  public:
   /// A world with room for `capacity` objects, at about 0.9 kB each. Throws std::invalid_argument unless `capacity` is
@@ -69,12 +71,12 @@ class World {
 
   int capacity() const;
 
-  // Editors: any thread. They may block on each other and, while it copies edits, on the consumer.
+  // Editors: any thread. Editors may block on each other, and on the consumer while it copies edits.
 
-  /// Adds an object. Throws std::invalid_argument for a null tree, for a tree with other options than those of the
-  /// objects here, for a selection of another tree, for a group outside 0 to 63, and for a pose that `move` would
-  /// reject. Throws std::length_error if the world is full; a free slot counts as occupied until its last mover has
-  /// left.
+  /// Adds an object. Throws std::invalid_argument for a null tree, for a tree with other options than the trees of the
+  /// objects in this world, for a selection of another tree, for a group outside 0 to 63, and for a pose that `move`
+  /// would reject. Throws std::length_error if the world is full; the slot of a removed object counts as occupied while
+  /// a thread is still inside `move` for this object.
   ObjectId add(const ObjectDescription& object);
 
   /// Removes an object and forgets its disabled pairs. Throws std::invalid_argument for a stale id. The tree is
@@ -83,38 +85,38 @@ class World {
 
   /// The collision interest matrix. A pair of objects is enabled if its groups are enabled and the pair itself is not
   /// disabled. At first everything is enabled. All four functions are symmetric; `group_a` may equal `group_b`.
-  /// `enable_pair` undoes `disable_pair`; it does not override groups. They throw std::invalid_argument for a group
-  /// outside 0 to 63 and for a stale id. A frame may fall between `add` and `disable_pair`: use groups for objects that
-  /// must never be compared.
+  /// `enable_pair` undoes `disable_pair`, but does not override groups. All four functions throw std::invalid_argument
+  /// for a group outside 0 to 63 and for a stale id. A frame may fall between `add` and `disable_pair`: use groups for
+  /// objects that must never be compared.
   void enable_groups(int group_a, int group_b);
   void disable_groups(int group_a, int group_b);
   void enable_pair(ObjectId a, ObjectId b);
   void disable_pair(ObjectId a, ObjectId b);
 
-  // Movers: any thread, one at a time for each object. Wait-free; allocates nothing.
+  // Movers: any thread, one at a time for each object. Wait-free; they allocate nothing.
 
-  /// Sets the pose of the object in the world, corrected to a rotation and translation by `rigid_pose`. The consumer's
-  /// next take has this pose or a newer one. Returns false and does nothing for a stale id, for a pose that
-  /// `rigid_pose` rejects, and while another thread moves the same object. For an object that is being removed at the
-  /// same time it may return true, but the pose is never seen.
+  /// Sets the pose of the object in the world, corrected to a rotation and translation by `geometry::rigid_pose`. The
+  /// consumer's next take sees this pose or a newer one. Returns false and does nothing for a stale id, for a pose that
+  /// `rigid_pose` rejects, and while another thread moves the same object. If the object is removed at the same time,
+  /// the result may be true although no take sees the pose.
   bool move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept;
 
   // The consumer: one thread.
 
   /// Updates `objects` to all edits and poses so far, and returns the changes. Blocks on editors for the duration of
-  /// one edit, never on movers. Reads a pose again if it was renewed meanwhile. Cost O(changes + capacity / 64), plus a
-  /// copy of the interest matrix if that has changed. Trees of removed objects are destroyed here if nobody else holds
-  /// them. The next call overwrites the result.
+  /// one edit, never on movers. Reads a pose again if a mover has replaced the pose meanwhile. Cost O(changes +
+  /// capacity / 64), plus a copy of the interest matrix if the matrix has changed. Trees of removed objects are
+  /// destroyed here if no other owner holds them. The next call overwrites the result.
   const WorldChanges& take_changes();
 
-  /// By slot, as of the last take; there are `capacity` of them.
+  /// The objects by slot, as of the last take. There are `capacity` entries.
   std::span<const WorldObject> objects() const;
 
   /// Whether the pair is enabled, as of the last take. Both slots must hold objects. Cost O(1).
   bool is_enabled(std::uint32_t slot_a, std::uint32_t slot_b) const;
 
  private:
-  struct State;
+  class State;
   std::unique_ptr<State> state_;
 };
 

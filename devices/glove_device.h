@@ -16,10 +16,10 @@ namespace glissade::devices {
 
 inline constexpr int kGloveJoints = 22;
 
-/// One number per joint, in CyberGlove order (`kGloveJointNames`).
+/// One number per joint, in the order of `kGloveJointNames`.
 using JointValues = std::array<double, kGloveJoints>;
 
-/// Joint names in CyberGlove order. An abduction named after two fingers is the angle between them.
+/// Names of the joints, in CyberGlove order. An abduction named after two fingers is the angle between these fingers.
 inline constexpr std::array<std::string_view, kGloveJoints> kGloveJointNames{"thumb_roll",
                                                                              "thumb_mcp",
                                                                              "thumb_ip",
@@ -46,20 +46,20 @@ inline constexpr std::array<std::string_view, kGloveJoints> kGloveJointNames{"th
 /// Measured state of the hand in a glove, in SI units.
 struct GloveState {
   std::int64_t sequence = 0;         ///< ≥ 0, increases with every state
-  std::chrono::nanoseconds time{0};  ///< of the measurement, on the glove's clock
+  std::chrono::nanoseconds time{0};  ///< time of the measurement, on the glove's clock
   Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d v_WH = Eigen::Vector3d::Zero();  ///< of the origin of H, in world axes
-  Eigen::Vector3d w_WH = Eigen::Vector3d::Zero();  ///< in world axes
+  Eigen::Vector3d v_WH = Eigen::Vector3d::Zero();  ///< velocity of the origin of H, in world axes; m/s
+  Eigen::Vector3d w_WH = Eigen::Vector3d::Zero();  ///< angular velocity of H, in world axes; rad/s
   JointValues joint_angles{};
 };
 
-/// Forces (N) and torques (Nm) that the glove shall exert on the hand. By default, all are zero.
+/// Forces (N) and torques (Nm) that the glove shall exert on the hand. All are zero by default.
 struct GloveCommand {
   std::int64_t sequence = 0;                        ///< ≥ 0, increases with every command
-  std::int64_t state_sequence = 0;                  ///< of the state that it answers
-  std::chrono::nanoseconds time{0};                 ///< of the computation, on the sender's clock
-  Eigen::Vector3d f_H_W = Eigen::Vector3d::Zero();  ///< on the hand at the origin of H, in world axes
-  Eigen::Vector3d t_H_W = Eigen::Vector3d::Zero();  ///< about the origin of H, in world axes
+  std::int64_t state_sequence = 0;                  ///< `GloveState::sequence` of the state that the command answers
+  std::chrono::nanoseconds time{0};                 ///< time of the computation, on the sender's clock
+  Eigen::Vector3d f_H_W = Eigen::Vector3d::Zero();  ///< force on the hand at the origin of H, in world axes
+  Eigen::Vector3d t_H_W = Eigen::Vector3d::Zero();  ///< torque on the hand about the origin of H, in world axes
   JointValues joint_torques{};                      ///< positive toward larger joint angles
 };
 
@@ -68,10 +68,10 @@ struct DeviceDescriptor {
   std::string name;
   double max_force = 0.0;                 ///< norm of the force on the hand
   double max_torque = 0.0;                ///< norm of the torque on the hand
-  double max_stiffness = 0.0;             ///< largest that the device renders without shaking
-  double max_rotational_stiffness = 0.0;  ///< likewise
-  double max_damping = 0.0;               ///< likewise
-  double max_joint_torque = 0.0;          ///< of each joint
+  double max_stiffness = 0.0;             ///< largest translational stiffness rendered without shaking
+  double max_rotational_stiffness = 0.0;  ///< largest rotational stiffness rendered without shaking
+  double max_damping = 0.0;               ///< largest translational damping rendered without shaking
+  double max_joint_torque = 0.0;          ///< largest torque of each joint
   JointValues joint_lower{};
   JointValues joint_upper{};
   double update_rate = 0.0;
@@ -81,9 +81,9 @@ struct DeviceDescriptor {
 /// lower limit is not below its upper one, or the update rate is not positive.
 void validate(const DeviceDescriptor& descriptor);
 
-/// The interface of a device driver. Thread-safety: one thread, the haptic thread, calls `read` and `command`. Both are
-/// wait-free, allocate nothing and make no system call; a driver that has to wait for its device does so in a thread of
-/// its own.
+/// The interface of a device driver. Thread-safety: one thread, the haptic thread, calls `read` and `command`. Both
+/// functions are wait-free, allocate nothing and make no system call; a driver that has to wait for its device waits in
+/// a thread of its own.
 class GloveDevice {
  public:
   virtual ~GloveDevice() = default;
@@ -92,10 +92,10 @@ class GloveDevice {
   virtual const DeviceDescriptor& descriptor() const noexcept = 0;
 
   /// Copies the newest state to `newest` and returns true. Until the first state has arrived, leaves `newest` unchanged
-  /// and returns false. A state is new if its sequence differs from that of the last call.
+  /// and returns false. A state is new if its sequence differs from the sequence of the last call.
   virtual bool read(GloveState& newest) noexcept = 0;
 
-  /// Sends `command`. It replaces an earlier command that has not been sent yet.
+  /// Sends `command`. The new command replaces an earlier command that has not been sent yet.
   virtual void command(const GloveCommand& command) noexcept = 0;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// One haptic tick as viewers and recorders see it. Frames: W world, G ghost, V visible part.
+/// One haptic tick as viewers and recorders see it. Frames: W world; V visible part; G ghost, where the part would be
+/// if nothing were in the way.
 
 #include <chrono>
 #include <cstdint>
@@ -11,14 +12,15 @@
 
 namespace glissade::devices {
 
-/// State of the part in the simulation, as sent over the wire: the numbers never change their meaning.
+/// State of the part in the simulation, as sent over the wire. The numbers never change their meaning. The target is
+/// the pose that the hand wants of the part.
 enum class PartState : std::int32_t {
-  kUnknown = 0,     ///< not reported, or not known to this program
-  kReleased = 1,    ///< nobody holds the part
+  kUnknown = 0,     ///< the state was not reported, or its number is not known to this program
+  kReleased = 1,    ///< no hand holds the part; it stands still
   kFree = 2,        ///< the part is at its target
-  kSliding = 3,     ///< contacts push, the part moves along them
-  kResting = 4,     ///< contacts push, the part stands still
-  kCatchingUp = 5,  ///< nothing pushes, but the part is not at its target yet
+  kSliding = 3,     ///< contacts push, and the part moves along the contacts
+  kResting = 4,     ///< contacts push, and the part stands still
+  kCatchingUp = 5,  ///< no contact pushes, but the part is not at its target yet
 };
 
 /// Number of part states; their values run from 0 to kPartStates − 1.
@@ -42,8 +44,8 @@ struct HapticState {
   std::chrono::nanoseconds contact_set_age{0};
   bool is_in_contact = false;
   bool is_force_limited = false;     ///< the wrench was reduced to the device's limits
-  bool is_contact_set_late = false;  ///< the simulation had not renewed the contact set in time
-  bool has_no_device = false;        ///< no fresh glove state
+  bool is_contact_set_late = false;  ///< the contact set was older than 5 ms
+  bool has_no_device = false;        ///< the newest glove state was too old, so the device got no force
 };
 
 }  // namespace glissade::devices

@@ -15,17 +15,18 @@
 
 namespace glissade::devices {
 
-/// A ring buffer that the haptic thread fills, and a thread of its own that publishes the contents.
+/// The haptic thread fills a ring buffer; a thread of the publisher sends the contents.
 class HapticStatePublisher {
  public:
-  static constexpr std::size_t kDefaultCapacity = 1024;  ///< a second of ticks
+  static constexpr std::size_t kDefaultCapacity = 1024;  ///< the states of about one second
 
   /// Throws std::invalid_argument when the bus is null or `capacity` is 0.
   explicit HapticStatePublisher(std::shared_ptr<LcmBus> bus, std::size_t capacity = kDefaultCapacity);
   /// Publishes the remaining states.
   ~HapticStatePublisher();
 
-  /// Haptic thread: queues `state`. Returns false, and counts it as dropped, when the ring is full. Wait-free.
+  /// Haptic thread: queues `state` and returns true. When the ring is full, drops and counts the state, and returns
+  /// false. Wait-free.
   bool push(const HapticState& state) noexcept { return ring_.push(state); }
 
   /// States dropped so far. Any thread.

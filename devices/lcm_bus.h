@@ -2,8 +2,8 @@
 
 /// A connection to LCM, shared by all senders and receivers of a process.
 ///
-/// `memq://` connects senders and receivers inside one process, and only those that share one LcmBus. `udpm://`
-/// connects processes and hosts by UDP multicast: `udpm://239.255.76.67:7667?ttl=0` stays on this machine.
+/// `memq://` connects only senders and receivers that share one LcmBus, so all are in one process. `udpm://` connects
+/// processes and hosts by UDP multicast: `udpm://239.255.76.67:7667?ttl=0` stays on this machine.
 
 #include <cstdint>
 #include <functional>
@@ -14,23 +14,23 @@
 namespace glissade::devices {
 
 /// Sends and receives raw messages by channel. One thread, started by the first subscription, receives for all
-/// subscribers; it inherits the scheduling of the thread that subscribes first. Channel names are 1 to 15 characters of
-/// A–Z, 0–9 and `_`.
+/// subscribers; this thread inherits the scheduling of the thread that subscribes first. Channel names are 1 to 15
+/// characters of A–Z, 0–9 and `_`.
 ///
-/// Thread-safety: any number of threads may subscribe and publish at once. All functions may block and allocate, so
-/// none of them belongs in a real-time thread.
+/// Thread-safety: any number of threads may subscribe and publish at once. All functions may block and allocate, so do
+/// not call them in a real-time thread.
 class LcmBus {
  public:
-  /// Called in the receive thread, one message at a time. The bytes are valid only during the call. Exceptions are
-  /// swallowed. A handler must neither subscribe nor end a subscription.
+  /// The function that receives messages, called in the receive thread for one message at a time. The bytes are valid
+  /// only during the call. Exceptions are swallowed. A handler must neither subscribe nor end a subscription.
   using Handler = std::function<void(std::span<const std::uint8_t> message)>;
 
-  /// A subscription, which its destructor ends: once that returns, the handler is not running and will not run again.
-  /// The bus must outlive the subscription.
+  /// A subscription. The destructor ends it: once the destructor has returned, the handler is not running and will not
+  /// run again. The bus must outlive the subscription.
   class Subscription;
 
-  /// Throws std::invalid_argument, naming the URL, when it is not a correct memq or udpm address, or when this machine
-  /// cannot send to it.
+  /// Throws std::invalid_argument, naming the URL, when the URL is not a correct memq or udpm address, or when this
+  /// machine cannot send to this address.
   explicit LcmBus(const std::string& url);
   LcmBus(const LcmBus&) = delete;
   LcmBus& operator=(const LcmBus&) = delete;
@@ -66,15 +66,15 @@ class LcmBus::Subscription {
   std::int64_t id_;
 };
 
-/// Numbers of messages so far. `lost` counts the sequence numbers that are missing between accepted messages.
+/// Numbers of messages so far.
 struct LinkStatistics {
   std::uint64_t accepted = 0;
-  std::uint64_t wrong_size = 0;       ///< not the encoded size of the message's type
-  std::uint64_t undecodable = 0;      ///< right in size but of another type
-  std::uint64_t not_finite = 0;       ///< with a NaN or an infinity
+  std::uint64_t wrong_size = 0;       ///< other size than a message of the expected type
+  std::uint64_t undecodable = 0;      ///< right size, but a message of another type
+  std::uint64_t not_finite = 0;       ///< with a number that is NaN or infinite
   std::uint64_t out_of_range = 0;     ///< with an implausibly large number, or a quaternion without unit norm
-  std::uint64_t out_of_sequence = 0;  ///< not newer than the last accepted one
-  std::uint64_t lost = 0;
+  std::uint64_t out_of_sequence = 0;  ///< sequence number not greater than that of the last accepted message
+  std::uint64_t lost = 0;             ///< sequence numbers missing between accepted messages
 
   std::uint64_t rejected() const noexcept {
     return wrong_size + undecodable + not_finite + out_of_range + out_of_sequence;

@@ -18,7 +18,7 @@ class LinkMonitor;
 
 struct LcmGloveOptions {
   /// Period at which the send thread polls for a new command. Polling costs the haptic thread nothing, whereas waking
-  /// the send thread would cost it a system call for every command.
+  /// the send thread would cost the haptic thread a system call for every command.
   std::chrono::nanoseconds send_period{std::chrono::microseconds(250)};
   /// After this time without an accepted state, a state with any sequence is accepted: the glove may have been
   /// restarted.
@@ -26,8 +26,8 @@ struct LcmGloveOptions {
 };
 
 /// The haptic loop's end of the link: receives states on the channel GLOVE_STATE and sends commands on GLOVE_COMMAND,
-/// each in a thread other than the caller's. Commands are limited to the descriptor before they are sent. If any was
-/// sent, the destructor sends a last command that is zero.
+/// each in a thread other than the caller's. Commands are reduced to the limits of the descriptor before they are sent.
+/// If any command was sent, the destructor sends a last command with zero forces and torques.
 class LcmGlove final : public GloveDevice {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive, the descriptor is not valid, or the send
@@ -51,7 +51,7 @@ class LcmGlove final : public GloveDevice {
   DeviceDescriptor descriptor_;
   realtime::SteadyClock clock_;
   realtime::TripleBuffer<GloveState> states_;
-  bool has_state_ = false;  ///< of the haptic thread
+  bool has_state_ = false;  ///< used by the haptic thread only
   realtime::TripleBuffer<GloveCommand> commands_;
   std::atomic<std::uint64_t> commands_sent_{0};
   std::unique_ptr<LinkMonitor> monitor_;
@@ -59,10 +59,8 @@ class LcmGlove final : public GloveDevice {
   std::unique_ptr<realtime::PeriodicThread> sender_;
 };
 
-class LinkMonitor;
-
 struct LcmGloveHostOptions {
-  /// A command older than this is no longer obeyed: the server may be gone.
+  /// A command that arrived longer ago than this is no longer obeyed: the server may be gone.
   std::chrono::nanoseconds command_timeout{std::chrono::milliseconds(100)};
   /// After this time without an accepted command, a command with any sequence is accepted: the server may have been
   /// restarted.
@@ -80,8 +78,8 @@ class LcmGloveHost {
   /// Sends `state`; returns false when the system refuses. May block.
   bool publish(const GloveState& state);
 
-  /// The newest command, or a default GloveCommand before the first one. Its forces and torques are zero once it is
-  /// older than the timeout. Wait-free.
+  /// The newest command, or a default GloveCommand before the first command. Forces and torques are zero if the command
+  /// arrived longer ago than `command_timeout`. Wait-free.
   GloveCommand newest_command() noexcept;
 
   /// Statistics of the messages from the server. Any thread.

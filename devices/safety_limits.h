@@ -1,6 +1,6 @@
 #pragma once
 
-/// The last check before a device: any command, reduced to the limits of the device.
+/// The last check of a command before it goes to a device: reduces the command to the limits of the device.
 
 #include <glissade/devices/glove_device.h>
 
@@ -22,9 +22,10 @@ struct LimitedCommand {
   LimitReasons reasons;
 };
 
-/// Scales force and torque down to the norms the device allows, keeping their directions, and clamps each joint torque.
-/// If any of these numbers is not finite, all become zero. Sequences and time are kept. The result never exceeds a
-/// limit, not even by rounding; a limit that is NaN or negative counts as 0. Real-time safe.
+/// Scales force and torque down to the norms that the device allows, without changing their directions, and clamps each
+/// joint torque. If any component of force, torque or joint torques is not finite, all components become zero.
+/// Sequences and time are kept. The result never exceeds a limit, not even by rounding; a limit that is NaN or negative
+/// counts as 0. Real-time safe.
 LimitedCommand limit_command(const GloveCommand& command, const DeviceDescriptor& descriptor) noexcept;
 
 }  // namespace glissade::devices

@@ -1,7 +1,8 @@
 #pragma once
 
-/// A force-feedback glove without hardware: a hand on a grounded arm, moved by a wearer who follows a script but yields
-/// to the commanded forces. A pure kernel, without threads or clocks: the same inputs give the same bits.
+/// A force-feedback glove without hardware: a hand on a grounded force-feedback arm, moved by a wearer. The wearer
+/// follows a script, but yields to the commanded forces. A pure kernel, without threads or clocks: the same inputs give
+/// the same bits.
 
 #include <chrono>
 
@@ -13,11 +14,12 @@
 
 namespace glissade::devices {
 
-/// The glove and its wearer, in SI units. The wearer is a critically damped spring and damper toward the script, about
-/// as stiff as a relaxed to lightly tensed arm. A steady force F holds the hand F / stiffness away from the script.
+/// The glove and its wearer, in SI units. The wearer is a critically damped spring and damper between hand and script,
+/// about as stiff as a relaxed to lightly tensed human arm. A steady force F holds the hand F / stiffness away from the
+/// script.
 struct SimulatedGloveParameters {
   double mass = 0.8;                         ///< hand, forearm and arm of the device, as felt at the hand root; kg
-  double rotational_inertia = 0.003;         ///< the same about every axis; kg m²
+  double rotational_inertia = 0.003;         ///< about every axis of the hand root; kg m²
   double arm_damping = 2.0;                  ///< friction of the grounded arm; N s/m
   double arm_rotational_damping = 0.01;      ///< Nm s/rad
   double wearer_stiffness = 400.0;           ///< N/m
@@ -25,31 +27,32 @@ struct SimulatedGloveParameters {
   double wearer_rotational_stiffness = 4.0;  ///< Nm/rad
   double wearer_rotational_damping = 0.22;   ///< Nm s/rad
   double finger_stiffness = 0.5;             ///< Nm/rad
-  double finger_time_constant = 0.05;        ///< of a finger's approach to its equilibrium; s
-  JointValues grasp_posture{};               ///< the angles the wearer holds; rad
+  double finger_time_constant = 0.05;        ///< time constant of a finger's approach to its equilibrium; s
+  JointValues grasp_posture{};               ///< joint angles that the wearer holds; rad
 };
 
-/// Limits of the simulated glove: 20 N, 1 Nm, 4000 N/m, 1 kHz, like the stronger published grounded arms. The joint
-/// limits are those of the human hand.
+/// Limits of the simulated glove: 20 N, 1 Nm, 4000 N/m, 1 kHz, like the stronger grounded arms in the literature. The
+/// joint limits are the limits of the human hand.
 DeviceDescriptor simulated_glove_descriptor();
 
-/// The simulation, by semi-implicit Euler in steps of at most 1 ms. Thread-safety: none; step it in one thread. Nothing
-/// is allocated after construction.
+/// The simulation, by semi-implicit Euler in steps of at most 1 ms. Not thread-safe. Nothing is allocated after
+/// construction.
 class SimulatedGlove {
  public:
   /// Starts at rest at the first pose of the script, which gives the pose X_WH of the hand root. Throws
-  /// std::invalid_argument, naming the parameter, when one is not finite or not positive (damping may be 0, angles of
-  /// the posture any number), or when stiffness or damping is so large that steps of 1 ms would not be stable.
+  /// std::invalid_argument, naming the parameter, for a number that is not finite, for negative damping, and for any
+  /// other parameter that is not positive. Angles of the posture may have either sign. Also throws when stiffness or
+  /// damping is so large that steps of 1 ms would not be stable.
   explicit SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters = {});
 
   const DeviceDescriptor& descriptor() const noexcept { return descriptor_; }
 
-  /// The current state. The initial one has sequence 0 and the first time of the script.
+  /// The current state. The initial state has sequence 0 and the first time of the script.
   const GloveState& state() const noexcept { return state_; }
 
-  /// Lets `dt` pass under the constant command `newest`, which is limited to the descriptor first, as by a real device.
-  /// Returns the new state, with a sequence higher by one and a time later by `dt`. For dt ≤ 0, only the sequence
-  /// changes.
+  /// Lets `dt` pass under the constant command `newest`. The command is first reduced to the limits of the descriptor,
+  /// as by a real device. Returns the new state, with a sequence higher by one and a time later by `dt`. For dt ≤ 0,
+  /// only the sequence changes.
   GloveState step(std::chrono::nanoseconds dt, const GloveCommand& newest) noexcept;
 
  private:

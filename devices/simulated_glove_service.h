@@ -1,7 +1,7 @@
 #pragma once
 
-/// A simulated glove on an LCM bus: like a real one, it publishes states and receives commands, in a thread of its own
-/// at 1 kHz.
+/// A simulated glove on an LCM bus: like a real glove, it publishes states and receives commands, in a thread of its
+/// own at 1 kHz.
 
 #include <atomic>
 #include <chrono>
@@ -16,9 +16,9 @@
 
 namespace glissade::devices {
 
-/// Starts in its constructor and ends with its destructor. The hand waits at the start of its script until the first
-/// command arrives, so that server and glove may be started in any order. From then on the script follows the clock,
-/// even if the thread misses ticks.
+/// The service runs from construction to `stop` or destruction. The hand waits at the start of its script until the
+/// first command arrives, so that server and glove may be started in any order. From that moment on the script follows
+/// the clock, even if the thread misses ticks.
 class SimulatedGloveService {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive. The clock must outlive the service.
@@ -27,10 +27,10 @@ class SimulatedGloveService {
   /// Elapsed time of the script. Any thread.
   std::chrono::nanoseconds script_time() const noexcept { return script_time_.load(std::memory_order_relaxed); }
 
-  /// Ends the thread; afterwards the figures below are final.
+  /// Ends the thread. The figures below are final once this function has returned.
   void stop() { thread_->stop(); }
 
-  /// Greatest norm of a commanded force, N. Valid after `stop`.
+  /// Greatest norm of all commanded forces, N. Valid after `stop`.
   double greatest_force() const noexcept { return greatest_force_; }
   LinkStatistics link_statistics() const noexcept { return host_.statistics(); }
 

@@ -28,18 +28,18 @@ Eigen::Quaterniond rotation_by(const Eigen::Vector3d& w);
 /// of the result stays orthonormal to rounding, however many displacements are chained.
 Eigen::Isometry3d displaced(const Eigen::Isometry3d& X_WV, const Eigen::Vector3d& p_Vref, const Displacement& d);
 
-/// The displacement that takes the part from X_WV to X_WG: (p_G − p_V, log(R_G R_Vᵀ)), where p is the position of the
-/// reference point, `p_Vref` in the part's frame.
+/// The displacement that takes the part from X_WV to X_WG: (p_G − p_V, log(R_G R_Vᵀ)), where p_V and p_G are the
+/// positions of the reference point in the world before and after. `p_Vref` is the reference point in the part's frame.
 Displacement displacement_between(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WG,
                                   const Eigen::Vector3d& p_Vref);
 
-/// Upper bound, in metres, on the motion of any point of a part along the whole path of a displacement:
-/// |v| + 2 sin(|w|/2) ρ, where `radius` ρ is the largest distance of its points from the reference point. An angle |w|
-/// beyond π counts as π.
+/// Upper bound (metres) on the motion of any point of a part along the whole path of a displacement. The bound is
+/// |v| + 2 sin(|w|/2) ρ, where `radius` ρ is the largest distance of a point of the part from the reference point. An
+/// angle |w| beyond π counts as π.
 double motion_bound(const Displacement& d, double radius);
 
-/// A fraction f in [0, 1] with motion_bound(d.scaled(f), radius) ≤ `longest`; 1 if d itself satisfies this. The bound
-/// is not linear in d, so f is not simply `longest` / motion_bound(d, radius).
+/// A fraction f in [0, 1] with motion_bound(d.scaled(f), radius) ≤ `longest` (metres). The fraction is 1 if d itself
+/// satisfies this inequality. The bound is not linear in d, so f is not simply `longest` / motion_bound(d, radius).
 double fraction_within(const Displacement& d, double radius, double longest);
 
 }  // namespace glissade::geometry

@@ -2,11 +2,11 @@
 
 /// Triangle meshes of simple surfaces, for tests, benchmarks and scenes.
 ///
-/// Sizes are in metres. `triangle_count` is approximate: the result is the nearest even tessellation, within 25 % of
-/// the requested count if that is at least 200. All vertices lie on the surface, and adjacent triangles share vertices.
-/// Triangles are oriented consistently; those of closed surfaces face outward. Every function throws
-/// std::invalid_argument, naming the argument and its value, for a size that is not positive and finite or a count
-/// outside 1 ... 50,000,000.
+/// Sizes are in metres. `triangle_count` is approximate, because tessellations are even: for a `triangle_count` of at
+/// least 200, the number of triangles in the result deviates by at most 25 %. All vertices lie on the surface, and
+/// adjacent triangles share vertices. Triangles are oriented consistently; the triangles of closed surfaces face
+/// outward. Every function throws std::invalid_argument, naming the argument and its value, for a size that is not
+/// positive and finite or a count outside 1 ... 50,000,000.
 
 #include <cstdint>
 #include <span>
@@ -20,12 +20,12 @@ namespace glissade::geometry {
 /// Sphere about the origin, tessellated along parallels and meridians about z.
 TriangleMesh make_sphere(double radius, std::int64_t triangle_count);
 
-/// Torus about z: the tube of radius `minor_radius` around the circle of radius `major_radius`, which must be the
-/// larger of the two.
+/// Torus about z: the tube of radius `minor_radius` around the circle of radius `major_radius`. `major_radius` must be
+/// larger than `minor_radius`.
 TriangleMesh make_torus(double major_radius, double minor_radius, std::int64_t triangle_count);
 
-/// Hyperboloid of one sheet about z, open at both ends: radius `waist_radius` at z = 0, and `rim_radius`, which must be
-/// larger, at z = ± height/2.
+/// Hyperboloid of one sheet about z, open at both ends. The radius is `waist_radius` at z = 0 and `rim_radius` at
+/// z = ± height/2. `rim_radius` must be larger than `waist_radius`.
 TriangleMesh make_hyperboloid(double waist_radius, double rim_radius, double height, std::int64_t triangle_count);
 
 /// Box about the origin with edge lengths `size`; each face is a grid of nearly square cells.
@@ -42,10 +42,10 @@ TriangleMesh make_tube(double radius, double length, std::int64_t triangle_count
 /// bends too tightly, the shell may intersect itself; this is not checked.
 TriangleMesh make_hose(std::span<const Eigen::Vector3d> points, double radius, std::int64_t triangle_count);
 
-/// Surface of revolution about z: the polyline through `profile`, at least two points (r, z) with r ≥ 0, revolved in
-/// `segments` ≥ 3 steps. An end on the axis (r = 0) closes the surface there; `closed` joins the last point to the
-/// first. Triangles face to the right of the profile's direction, seen with r to the right and z up: away from the axis
-/// where the profile rises.
+/// Surface of revolution: the polyline through `profile`, revolved about z in `segments` ≥ 3 steps. The profile has at
+/// least two points (r, z) with r ≥ 0. An end of the profile on the axis (r = 0) closes the surface there. `closed`
+/// joins the last point to the first. Triangles face to the right of the profile's direction in a drawing with r to the
+/// right and z up: where the profile rises, they face away from the axis.
 TriangleMesh make_revolution(std::span<const Eigen::Vector2d> profile, bool closed, int segments);
 
 }  // namespace glissade::geometry

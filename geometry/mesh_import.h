@@ -16,18 +16,19 @@ struct ImportedMesh {
   std::int64_t polygons_triangulated = 0;  ///< faces of more than three corners in the file
 };
 
-/// Reads the geometry of a file into one mesh: all meshes of the file, placed by its nodes. Vertices at identical
-/// positions are welded, polygons are triangulated, and degenerate triangles are dropped. Normals, texture coordinates,
-/// materials, lines and points are ignored. Coordinates are multiplied by `scale` (metres per unit of the file).
+/// Reads all meshes of a file into one mesh, each placed by the transforms of the scene nodes of the file. Vertices at
+/// identical positions are welded, polygons are triangulated, and degenerate triangles are dropped. Normals, texture
+/// coordinates, materials, lines and points are ignored. Coordinates are multiplied by `scale` (metres per unit of the
+/// file).
 ///
-/// Coordinates are read in single precision, with a relative rounding error of up to 6e-8: 0.06 µm at one metre from
-/// the origin, but 0.06 mm at a kilometre. So meshes should lie near the origin of their file.
+/// Coordinates are read in single precision, with a relative rounding error of up to 6e-8. The error is 0.06 µm at one
+/// metre from the origin of the file, but 0.06 mm at a kilometre. So meshes should lie near the origin.
 ///
-/// Throws std::invalid_argument, in one line that names the file and the line, element or value, for a file that is
-/// missing, not a regular file, of unknown format, unreadable, empty, truncated or otherwise broken; for coordinates
-/// that are not finite or beyond ±1e9 before or after scaling; for indices out of range; when all triangles are
-/// degenerate; and for a scale that is not positive and finite. Compressed and sparse glTF is refused. May block on the
-/// disk.
+/// Throws std::invalid_argument for a file that is missing, not a regular file, of unknown format, unreadable, empty,
+/// truncated or otherwise broken; for coordinates that are not finite or beyond ±1e9, before or after scaling; for
+/// indices out of range; when all triangles are degenerate; for compressed or sparse glTF; and for a scale that is not
+/// positive and finite. The message is one line that names the file and the faulty line, element or value. May block on
+/// the disk.
 ImportedMesh import_mesh(const std::filesystem::path& path, double scale = 1.0);
 
 }  // namespace glissade::geometry

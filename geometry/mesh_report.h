@@ -1,6 +1,6 @@
 #pragma once
 
-/// Size and defects of a mesh, for its user's information. No defect keeps a mesh from being used in this library.
+/// Size and defects of a mesh, for the user's information. No defect keeps a mesh from being used in this library.
 
 #include <cstdint>
 
@@ -13,10 +13,10 @@ namespace glissade::geometry {
 /// Counts for a welded mesh: edges and components are found by shared vertex indices, not by positions. Degenerate
 /// triangles appear in `triangles` and `degenerate` only.
 struct MeshReport {
-  std::int64_t vertices = 0;            ///< including those that no triangle uses
-  std::int64_t triangles = 0;           ///< including degenerate ones
+  std::int64_t vertices = 0;            ///< including vertices that no triangle uses
+  std::int64_t triangles = 0;           ///< including degenerate triangles
   std::int64_t degenerate = 0;          ///< triangles without area
-  std::int64_t duplicates = 0;          ///< triangles with the same three vertices as an earlier one, in any order
+  std::int64_t duplicates = 0;          ///< triangles with the same three vertices as an earlier triangle
   std::int64_t open_edges = 0;          ///< edges with one triangle: the boundary
   std::int64_t nonmanifold_edges = 0;   ///< edges with more than two triangles
   std::int64_t inconsistent_edges = 0;  ///< edges that both of their triangles traverse in the same direction

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Edges and vertices of a mesh with the triangles that meet there, and the features that contact constraints need. The
-/// orientation of triangles is not used, so meshes straight from CAD will do.
+/// Edges and vertices of a mesh with the triangles that meet at each of them, and the features that contact constraints
+/// need. The orientation of triangles is not used, so meshes straight from CAD are suitable.
 
 #include <array>
 #include <cstdint>
@@ -13,11 +13,12 @@
 namespace glissade::geometry {
 
 /// Edges and vertices of a mesh with their neighborhoods. Each edge and each vertex has one owner among its triangles,
-/// so that every contact is found once, always with the same numbers. Degenerate triangles are ignored. Immutable after
-/// construction, so safe to share between threads.
+/// so that every contact is found once, always with the same feature numbers. Degenerate triangles are ignored.
+/// Immutable after construction, so safe to share between threads.
 ///
-/// Features are the edges that are not flat and the vertices that can stop another mesh. In every contact of two
-/// meshes, a vertex of one meets a face, edge or vertex of the other, or an edge of one meets an edge of the other.
+/// Features are the edges that are not flat (`Edge::flat`) and the vertices that can stop another mesh (`can_stop`). In
+/// every contact of two meshes, a vertex of one meets a face, edge or vertex of the other, or an edge of one meets an
+/// edge of the other.
 class MeshTopology {
  public:
   struct Edge {
@@ -31,32 +32,34 @@ class MeshTopology {
 
   const std::vector<Edge>& edges() const { return edges_; }
 
-  /// The edges of a triangle: entry i joins its corners i and i + 1. Entries are −1 for a degenerate triangle.
+  /// The numbers of the edges of a triangle: edge i joins corners i and i + 1, edge 2 joins corners 2 and 0. All are −1
+  /// for a degenerate triangle.
   const std::array<std::int32_t, 3>& edges_of(std::int32_t triangle) const {
     return triangle_edges_[static_cast<std::size_t>(triangle)];
   }
-  /// The vertices opposite an edge, one for each of its triangles.
+  /// The vertices opposite an edge, one for each triangle that meets there.
   std::span<const std::int32_t> apexes_of(std::int32_t edge) const { return apexes_.of(edge); }
   /// The vertices joined to a vertex by an edge.
   std::span<const std::int32_t> neighbors_of(std::int32_t vertex) const { return neighbors_.of(vertex); }
-  /// The triangle that owns a vertex; −1 if no triangle, or only degenerate ones, use the vertex.
+  /// The triangle that owns a vertex; −1 if no triangle with an area uses the vertex.
   std::int32_t owner_of(std::int32_t vertex) const { return vertex_owner_[static_cast<std::size_t>(vertex)]; }
-  /// Whether a vertex can stop another mesh. A vertex inside a plane patch cannot: all its edges are flat, and the
-  /// features that bound the patch suffice. Neither can a vertex inside a straight rim: exactly two of its edges are
-  /// not flat, these two continue each other, and it lies within 0.1 µm of the rim's chord. The edges and the ends of
-  /// the rim suffice.
+  /// Whether a vertex can stop another mesh. All vertices can, with two exceptions. In the interior of a plane patch,
+  /// all edges of a vertex are flat, and the features on the boundary of the patch stop other meshes instead. In the
+  /// interior of a straight rim, exactly two edges of a vertex are not flat, these two continue each other, and the
+  /// vertex lies within 0.1 µm of the rim's chord; the edges and the end vertices of the rim stop other meshes instead.
   bool can_stop(std::int32_t vertex) const { return can_stop_[static_cast<std::size_t>(vertex)] != 0; }
-  /// Whether a triangle owns any feature. A triangle that owns none stops only vertices of other meshes, with its face.
+  /// Whether a triangle owns any feature. A triangle without features of its own stops other meshes with its face only,
+  /// and a face stops only vertices.
   bool answers_for_features(std::int32_t triangle) const { return answers_[static_cast<std::size_t>(triangle)] != 0; }
   /// Whether two triangles of two meshes can stop each other with the features that they own. A vertex stops any
-  /// triangle, but an edge stops only edges and vertices. So one of the triangles must own a vertex, or both must own
-  /// features.
+  /// triangle, but an edge stops only edges and vertices. So the answer is true if either triangle owns a vertex that
+  /// can stop another mesh, or if both own edges that are not flat.
   bool can_stop_each_other(std::int32_t triangle, const MeshTopology& other, std::int32_t triangle_of_other) const {
     const int mine = answers_[static_cast<std::size_t>(triangle)];
     const int others = other.answers_[static_cast<std::size_t>(triangle_of_other)];
     return (mine & kCorners) != 0 || (others & kCorners) != 0 || (mine != 0 && others != 0);
   }
-  /// Whether corner i, or edge i, of a triangle is a feature that the triangle owns.
+  /// Whether corner i of a triangle, or edge i, is a feature that this triangle owns.
   bool answers_for_corner(std::int32_t triangle, int i) const { return answers(triangle, i); }
   bool answers_for_edge(std::int32_t triangle, int i) const { return answers(triangle, 3 + i); }
 

@@ -19,16 +19,18 @@ struct TimedPose {
 
 /// Velocity of a frame B.
 struct FrameVelocity {
-  Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();  ///< of the origin of B, in world axes; m/s
+  Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();  ///< velocity of the origin of B, in world axes; m/s
   Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();  ///< in world axes; rad/s
 };
 
 /// A pose for every time. Between two rows the translation is linear and the rotation a slerp along the shorter arc.
-/// Before the first row and after the last, the pose is constant. Immutable, so any number of threads may read it.
+/// Before the first row and after the last, the pose is constant. Immutable after construction, so safe to share
+/// between threads.
 class PoseTrajectory {
  public:
-  /// Throws std::invalid_argument when there is no row; and, naming the row (counted from 0), when a time is not
-  /// greater than the one before, when a pose is not finite, or when its matrix is not a rotation to within 1e-3.
+  /// Throws std::invalid_argument when there is no row. Also throws, naming the row (counted from 0), for a row whose
+  /// time is not greater than the time of the row before, whose pose is not finite, or whose matrix is not a rotation
+  /// to within 1e-3.
   explicit PoseTrajectory(const std::vector<TimedPose>& rows);
 
   std::chrono::nanoseconds first_time() const noexcept { return times_.front(); }
@@ -38,12 +40,13 @@ class PoseTrajectory {
   /// The pose X_WB at `time`. Real-time safe; O(log rows).
   Eigen::Isometry3d pose_at(std::chrono::nanoseconds time) const noexcept;
 
-  /// The exact velocity of `pose_at`: constant between two rows, and at a row that of the piece that starts there. Zero
-  /// before the first row, and from the last row on. Real-time safe; O(log rows).
+  /// The exact velocity of `pose_at`. Between two rows it is constant; at a row it is the velocity of the piece that
+  /// starts there. The velocity is zero before the first row, and from the last row on. Real-time safe; O(log rows).
   FrameVelocity velocity_at(std::chrono::nanoseconds time) const noexcept;
 
-  /// The same path from the same first time, with the times scaled so that it takes `duration`. Throws
-  /// std::invalid_argument when `duration` is not positive, or so short that two rows would fall on one nanosecond.
+  /// The same path with the same first time; all later times are scaled so that the path takes `duration`. Throws
+  /// std::invalid_argument when `duration` is not positive, or so short that two rows would have the same time in
+  /// nanoseconds.
   PoseTrajectory time_scaled(std::chrono::nanoseconds duration) const;
 
  private:

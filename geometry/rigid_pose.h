@@ -1,6 +1,6 @@
 #pragma once
 
-/// The rigid pose nearest to an almost rigid one, and measures of the deviation from a rotation.
+/// The rigid pose nearest to an almost rigid pose, and measures of the deviation of a matrix from a rotation.
 
 #include <cmath>
 #include <optional>
@@ -10,14 +10,14 @@
 
 namespace glissade::geometry {
 
-/// The rigid pose nearest to an almost rigid X = (R, p). Returns X itself if its `rotation_defect` is below 1e-12, as
-/// it is for every product of a few rotations. Replaces R by the nearest rotation if the defect is below 1e-4. Returns
-/// nothing for a larger defect, for a reflection, and for a coordinate of p that is not finite or beyond ±1e9 m. So
-/// bounds that hold for rotations hold for the result. Cost: about ten nanoseconds.
+/// The rigid pose nearest to an almost rigid X = (R, p). Returns X itself if the `rotation_defect` of R is below 1e-12,
+/// which holds for every product of a few rotations. Replaces R by the nearest rotation if the defect is below 1e-4.
+/// Returns nothing for a larger defect, for a reflection, and for a coordinate of p that is not finite or beyond
+/// ±1e9 m. Bounds that hold for rotations therefore hold for the result. Cost: about ten nanoseconds.
 std::optional<Eigen::Isometry3d> rigid_pose(const Eigen::Isometry3d& X) noexcept;
 
-/// The defect δ: the sum of the absolute entries of RᵀR − 1. It is 0 for an exact rotation or reflection, and an upper
-/// bound of every common norm of RᵀR − 1. It is not finite when an entry of R is not.
+/// The defect δ: the sum of the absolute entries of RᵀR − 1. The defect is 0 for an exact rotation or reflection, and
+/// an upper bound of every common norm of RᵀR − 1. The defect is not finite when R has an entry that is not finite.
 inline double rotation_defect(const Eigen::Matrix3d& R) {
   const Eigen::Vector3d x = R.col(0);
   const Eigen::Vector3d y = R.col(1);
@@ -26,8 +26,8 @@ inline double rotation_defect(const Eigen::Matrix3d& R) {
          2.0 * (std::abs(x.dot(y)) + std::abs(y.dot(z)) + std::abs(z.dot(x)));
 }
 
-/// An upper bound of `rotation_defect` where that is small, and faster to compute. It is 0 for an exact rotation, and
-/// more than 1 for a reflection.
+/// An upper bound of `rotation_defect` for matrices of small defect, faster to compute than the defect itself. The
+/// bound is 0 for an exact rotation, and more than 1 for a reflection.
 inline double rotation_defect_bound(const Eigen::Matrix3d& R) {
   const Eigen::Vector3d x = R.col(0);
   const Eigen::Vector3d y = R.col(1);

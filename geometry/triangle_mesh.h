@@ -1,7 +1,7 @@
 #pragma once
 
-/// A triangle soup with shared vertices, and simple operations on it, such as merge, transform and weld. The operations
-/// are pure functions, which any thread may call. Their cost is linear in the size of the input.
+/// A triangle soup with shared vertices, and simple operations on meshes, such as merge, transform and weld. The
+/// operations are pure functions, which any thread may call, at a cost that is linear in the size of the input.
 
 #include <array>
 #include <cstdint>
@@ -16,11 +16,11 @@ namespace glissade::geometry {
 /// Indices of a triangle's three vertices.
 using Triangle = std::array<std::int32_t, 3>;
 
-/// Triangles over an indexed set of vertices, in metres, in the frame of the object they belong to.
+/// Triangles over an indexed set of vertices, in metres, in the frame of their object.
 ///
 /// Nothing is assumed of the surface: it may be open, non-manifold, self-intersecting and inconsistently oriented, and
 /// triangles may be degenerate. Two triangles are adjacent only where they share vertex indices, so meshes should be
-/// welded (`import_mesh` does so).
+/// welded. `import_mesh` welds meshes.
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;
@@ -32,8 +32,8 @@ struct TriangleMesh {
   }
 };
 
-/// All triangles of `meshes`, in order, as one mesh. Vertices are copied, not welded: parts stay separate components.
-/// Throws std::invalid_argument when the result would have more than 2^31 - 1 vertices.
+/// All triangles of `meshes` as one mesh, in the order of the meshes. Vertices are copied, not welded: parts stay
+/// separate components. Throws std::invalid_argument when the result would have more than 2^31 - 1 vertices.
 TriangleMesh merge(std::span<const TriangleMesh> meshes);
 
 /// The mesh in coordinates of frame A; `mesh_B` is in coordinates of frame B.
@@ -43,16 +43,17 @@ TriangleMesh transformed(const TriangleMesh& mesh_B, const Eigen::Isometry3d& X_
 /// tests: nothing in this library may depend on the orientation of triangles.
 TriangleMesh flip_randomly(const TriangleMesh& mesh, std::uint64_t seed);
 
-/// The mesh with vertices at identical positions merged; 0 and -0 count as identical. Keeps all triangles in their
-/// order, including degenerate ones. Drops vertices that no triangle uses, and numbers the others by first use.
+/// The mesh with vertices at identical positions merged; 0 and -0 count as identical. Keeps all triangles, including
+/// degenerate triangles, in their order. Drops vertices that no triangle uses, and numbers the others by first use.
 TriangleMesh weld(const TriangleMesh& mesh);
 
 /// Indices of the triangles with all three corners in the box, in ascending order.
 std::vector<std::int32_t> triangles_inside(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box);
 
-/// The mesh with the given triangles (indices in ascending order) made degenerate, so that they take part in no query
-/// and all other triangles keep their indices. For parts that overlap by design once they are seated, such as a unit on
-/// its spring tongues: geometry that gives way in reality is removed from the obstacle beforehand.
+/// The mesh with the given triangles (indices in ascending order) made degenerate. Degenerate triangles take part in no
+/// query, and all other triangles keep their indices. Use this function for a part that overlaps an obstacle by design
+/// once it is seated, such as a unit on its spring tongues: remove the geometry that gives way in reality from the
+/// obstacle.
 TriangleMesh without_triangles(const TriangleMesh& mesh, std::span<const std::int32_t> triangles);
 
 }  // namespace glissade::geometry

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Two triangles: the exact intersection test, and the distance with its closest points.
+/// Exact intersection test, distance and closest points of two triangles.
 
 #include <array>
 
@@ -11,19 +11,19 @@ namespace glissade::geometry {
 /// The three corners of a triangle, all in one frame.
 using TrianglePoints = std::array<Eigen::Vector3d, 3>;
 
-/// Whether the three points lie on one line, decided exactly: such a triangle has no area.
+/// Whether a triangle has no area because its three points lie on one line. Decided exactly.
 bool is_degenerate(const TrianglePoints& triangle);
 
 /// Whether two closed triangles share a point, decided exactly for these coordinates; touching counts. Coplanar pairs,
-/// shared edges and shared vertices are ordinary cases. `a` must not be degenerate. `b` may have become degenerate by
-/// rounding when it was transformed; it is then the segment or point that is left.
+/// shared edges and shared vertices are ordinary cases. `a` must not be degenerate. `b` may be degenerate, for example
+/// by rounding in a transformation; it then counts as the segment or point that it has become.
 bool triangles_intersect(const TrianglePoints& a, const TrianglePoints& b);
 
-/// Distance in metres and the points where it is attained.
+/// The distance of two triangles in metres, and the two points at this distance.
 struct TriangleDistance {
   double distance;
   Eigen::Vector3d p_a;  ///< on the first triangle
-  Eigen::Vector3d p_b;  ///< on the second
+  Eigen::Vector3d p_b;  ///< on the second triangle
 };
 
 /// Closest points of two closed triangles. The distance is exactly 0 if and only if `triangles_intersect(a, b)`; both

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A mesh prepared for sliding contact, as the part in the hand or as an obstacle.
+/// A mesh prepared for sliding contact, for the part in the hand or for an obstacle.
 
 #include <memory>
 #include <optional>
@@ -29,11 +29,12 @@ struct ContactBody {
   std::unique_ptr<const ObbTree> obbs;  ///< for path certificates; private to the component
   collision::ConvexHull hull;
   geometry::MeshTopology topology;
-  collision::TriangleSelection features;  ///< triangles with an edge or vertex that can stop another body
+  collision::TriangleSelection features;  ///< triangles that own an edge or vertex that can stop another body
 };
 
-/// The part in the hand, in its own frame V. Displacements and the coupling act at a reference point fixed in it: the
-/// centre of its bounding box, where translation and rotation are as independent as its shape allows.
+/// The part in the hand, in its own frame V. Displacements and the coupling act at a reference point fixed in the part:
+/// the centre of the part's bounding box, where translation and rotation are as independent as the shape of the part
+/// allows.
 struct SlidingPart : ContactBody {
   using ContactBody::ContactBody;
 
@@ -42,13 +43,13 @@ struct SlidingPart : ContactBody {
   double radius() const { return tree.radius(); }
 };
 
-/// A body that stands still. Several may share one mesh.
+/// A body that stands still. Several obstacles may share one `ContactBody`.
 struct Obstacle {
   std::shared_ptr<const ContactBody> body;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   std::string name = "an obstacle";  ///< for messages
-  /// Metres at which this obstacle holds parts away; default: the part's own margin. Smaller for a tighter fit, larger
-  /// for more clearance; at most kGreatestMargin_m.
+  /// The distance (metres) at which this obstacle holds parts away; default: the margin of the part. A smaller margin
+  /// allows a tighter fit, a larger margin leaves more clearance. At most kGreatestMargin_m.
   std::optional<double> margin{};
 };
 

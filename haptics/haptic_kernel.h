@@ -1,7 +1,7 @@
 #pragma once
 
 /// One tick of the haptic thread as a pure function of its inputs: device state and contact set in, device command out.
-/// It owns no clock, no thread and no device, so the same code runs in real time, offline and in tests.
+/// The kernel owns no clock, no thread and no device, so the same code runs in real time, offline and in tests.
 
 #include <cstdint>
 #include <memory>
@@ -21,18 +21,18 @@ struct SlidingPart;
 /// The outcome of one tick.
 struct HapticTick {
   Eigen::Isometry3d X_WG;         ///< ghost
-  Eigen::Isometry3d X_WP;         ///< proxy
-  Wrench spring;                  ///< on the hand about the ghost's reference point, before the device's limits
-  devices::GloveCommand command;  ///< about the hand root, within the device's limits
+  Eigen::Isometry3d X_WP;         ///< proxy: the part's pose now, by the newest contact set
+  Wrench spring;                  ///< wrench on the hand about the ghost's reference point, before the device's limits
+  devices::GloveCommand command;  ///< wrench about the hand root, within the device's limits
   devices::LimitReasons limited;
 };
 
 /// Real-time safe: bounded work, no allocation, no lock, no system call after construction. Not thread-safe.
 class HapticKernel {
  public:
-  /// The hand grasps the part rigidly when the first state arrives, with the part at X_WV_start. The coupling is
-  /// `coupling_for` the device and `stiffness`, with which the simulation holds the part. Throws as `coupling_for`
-  /// does.
+  /// The first state with a finite hand pose fixes the grasp: the hand holds the part rigidly, with the part at
+  /// X_WV_start. `stiffness` is the stiffness with which the simulation holds the part. The coupling is the result of
+  /// `coupling_for` with `device` and `stiffness`. Throws as `coupling_for` does.
   HapticKernel(const SlidingPart& part_V, const CouplingStiffness& stiffness, const devices::DeviceDescriptor& device,
                const Eigen::Isometry3d& X_WV_start);
   ~HapticKernel();

@@ -21,7 +21,8 @@
 namespace glissade::haptics {
 
 struct HapticServerOptions {
-  /// Ticks with a device after which the server ends by itself; with 0 it runs until `stop`.
+  /// Number of counted ticks after which the server ends by itself; with 0 it runs until `stop`. A tick of the haptic
+  /// thread counts once the device has delivered its first state.
   std::int64_t ticks = 0;
   /// SCHED_FIFO priority that the haptic thread requests; 0 requests none.
   int fifo_priority = 80;
@@ -31,9 +32,9 @@ struct HapticServerOptions {
 
 /// Measurements of the server. Complete after `stop`.
 struct HapticServerStatistics {
-  realtime::PeriodicStatistics haptic;         ///< all ticks of the haptic thread, also before the first state
+  realtime::PeriodicStatistics haptic;         ///< all ticks of the haptic thread, counted or not
   realtime::LatencyHistogram simulation;       ///< duration of each answer of the simulation
-  realtime::LatencyHistogram contact_set_age;  ///< at each tick, that of the set it used
+  realtime::LatencyHistogram contact_set_age;  ///< age of the contact set at each counted tick
   bool has_fifo_scheduling = false;
 };
 
@@ -41,22 +42,24 @@ struct HapticServerStatistics {
 /// the end of `stop`, `device` and `simulation` belong to the server's threads.
 class HapticServer {
  public:
-  /// Called by the haptic thread for each tick with a device; must be real-time safe.
+  /// Receives the state of each counted tick (`HapticServerOptions::ticks`). Called by the haptic thread; must be
+  /// real-time safe.
   using Sink = std::function<void(const devices::HapticState&)>;
 
-  /// Starts both threads. The references must outlive the server. The hand grasps the part where it is when the first
-  /// state of the device arrives. The coupling is `coupling_for` the device and the stiffness of the simulation. Throws
-  /// std::invalid_argument for an empty sink, and as `coupling_for` does.
+  /// Starts both threads. The references must outlive the server. The hand grasps the part when the first state of the
+  /// device arrives; the part stays where it is. The coupling is the result of `coupling_for` with the descriptor of
+  /// the device and the stiffness of the simulation. Throws std::invalid_argument for an empty sink, and as
+  /// `coupling_for` does.
   HapticServer(devices::GloveDevice& device, SlidingSimulation& simulation, realtime::Clock& clock, Sink sink,
                const HapticServerOptions& options = {});
   HapticServer(const HapticServer&) = delete;
   HapticServer& operator=(const HapticServer&) = delete;
   ~HapticServer() { stop(); }
 
-  /// Whether the number of ticks in the options has been reached. Wait-free, any thread.
+  /// Whether the server has reached `HapticServerOptions::ticks`. Wait-free, any thread.
   bool is_done() const noexcept { return done_.load(std::memory_order_acquire); }
 
-  /// Ticks with a device so far. Wait-free, any thread.
+  /// Number of counted ticks so far. Wait-free, any thread.
   std::int64_t ticks() const noexcept { return ticks_.load(std::memory_order_relaxed); }
 
   /// Stops both threads. May block for the duration of one answer of the simulation.

@@ -161,8 +161,8 @@ double MultiPartSliding::margin(std::size_t part) const {
   return cycle_->part(part).margin;
 }
 
-const SearchAccount& MultiPartSliding::search_account() const {
-  return cycle_->shared().candidates.account();
+const SearchStatistics& MultiPartSliding::search_statistics() const {
+  return cycle_->shared().candidates.statistics();
 }
 
 const ContactScene& MultiPartSliding::scene() const {

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The whole system on a simulated clock and in one thread: glove, simulation and haptic kernel take turns, a
-/// millisecond each. The same inputs give the same bits.
+/// The whole system on a simulated clock and in one thread: glove, haptic kernel and simulation take turns, once per
+/// simulated millisecond. The same inputs give the same bits.
 
 #include <cstdint>
 #include <functional>
@@ -12,9 +12,10 @@
 
 namespace glissade::haptics {
 
-/// Runs `ticks` milliseconds and passes the state of each to `sink`. As in real time, a tick uses the contact set that
-/// answers the previous tick's ghost. The hand grasps the part where it is at the first tick; the coupling is that of
-/// `HapticServer`. Throws std::invalid_argument for an empty sink, and as `coupling_for` does.
+/// Runs `ticks` ticks of one millisecond and passes the state of each tick to `sink`. As in real time, a tick uses the
+/// contact set that answers the previous tick's ghost. The hand grasps the part at the first tick; the part stays where
+/// it is. The coupling is the result of `coupling_for` with the descriptor of the glove and the stiffness of the
+/// simulation. Throws std::invalid_argument for an empty sink, and as `coupling_for` does.
 void run_offline(devices::SimulatedGlove& glove, SlidingSimulation& simulation, std::int64_t ticks,
                  const std::function<void(const devices::HapticState&)>& sink);
 

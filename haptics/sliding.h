@@ -28,14 +28,14 @@ struct SlidingOptions {
   SlidingRules rules{};
 };
 
-/// A part that moves on its own, or in the other hand: it follows its script as any held part follows its ghost.
+/// A part that moves on its own or in the other hand. The part follows its script as any held part follows its ghost.
 struct ScriptedPart {
   std::shared_ptr<const SlidingPart> part_B;
   geometry::PoseTrajectory script_X_WB;
   std::chrono::nanoseconds start{0};  ///< the script's time at which the simulation begins
-  /// Stiffness against translation; the stiffness against rotation is k_r = k_t ρ². The default is a thousand times
-  /// that of a hand, so that the part pushes others and is hardly pushed. With a hand's stiffness, the script acts as
-  /// another hand.
+  /// Stiffness against translation; the stiffness against rotation is k_r = k_t ρ². The default is a thousand times the
+  /// default stiffness of a hand, so that the part pushes other parts and is hardly pushed. With the stiffness of a
+  /// hand, the script acts as another hand.
   double grip_N_per_m = 1e6;
   std::string name = "a moving part";  ///< for messages
 };
@@ -60,12 +60,12 @@ class Sliding final : public SlidingSimulation {
   const CouplingStiffness& stiffness() const override { return sliding_.stiffness(0); }
   double margin() const override { return sliding_.margin(0); }
   std::span<const Eigen::Isometry3d> scripted_X_WB() const override { return scripted_X_WB_; }
-  SearchAccount search_account() const override { return sliding_.search_account(); }
+  SearchStatistics search_statistics() const override { return sliding_.search_statistics(); }
 
-  /// Minimum clearance (metres) of every certified path from obstacles without a margin of their own, unless the path
-  /// starts nearer.
+  /// Minimum clearance (metres) that every certified path keeps from obstacles that have no margin of their own. A path
+  /// that starts nearer to an obstacle keeps 95 % of the distance at its start.
   double min_clearance() const { return kMinClearanceOfMargin * margin(); }
-  /// The bodies and their poses, for tests; the type is private.
+  /// The bodies and their poses, for tests; `ContactScene` is private to the component.
   const ContactScene& scene() const { return sliding_.scene(); }
 
  private:
@@ -82,19 +82,19 @@ enum class SlidingMethod : std::uint8_t {
   kPaper,       ///< the founding paper's bisection and classification (paper §3)
 };
 
-/// In the order of their numbers, as on the command line.
+/// Names of the methods, as on the command line, in the order of the values of `SlidingMethod`.
 inline constexpr std::array<std::string_view, 2> kSlidingMethodNames{"projection", "paper"};
 
 inline std::string_view name_of(SlidingMethod method) {
   return kSlidingMethodNames[static_cast<std::size_t>(method)];
 }
 
-/// The method of that name; nothing for an unknown name.
+/// The method with this name; nothing for an unknown name.
 std::optional<SlidingMethod> sliding_method_from_name(std::string_view name);
 
-/// The simulation of one part by either method. The paper's method uses the metaphor and stiffness of the options; it
-/// ignores the rules and throws std::invalid_argument for scripted parts. Throws otherwise as the constructor of
-/// `Sliding` does.
+/// The simulation of one part by either method. The paper's method uses the metaphor and stiffness of the options,
+/// ignores the rules, and throws std::invalid_argument for scripted parts. Apart from this, the function throws as the
+/// constructor of `Sliding` does.
 std::unique_ptr<SlidingSimulation> make_sliding(SlidingMethod method, std::vector<Obstacle> obstacles,
                                                 std::shared_ptr<const SlidingPart> part_V,
                                                 const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options = {},

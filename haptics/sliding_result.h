@@ -10,7 +10,7 @@
 
 namespace glissade::haptics {
 
-/// The two features in contact: the part's first, the obstacle's second.
+/// The two features in contact: first the feature of the part, then the feature of the obstacle.
 enum class ContactKind : std::uint8_t {
   kVertexFace,
   kFaceVertex,
@@ -18,31 +18,34 @@ enum class ContactKind : std::uint8_t {
   kVertexEdge,
   kEdgeVertex,
   kVertexVertex,
-  kOverlap,  ///< the part overlapped the obstacle at its start and is on its way out
+  kOverlap,  ///< the part overlapped the obstacle at its start and is moving out of it
 };
 
 std::string_view name_of(ContactKind kind);
 
 /// A place where a part and an obstacle are close.
 ///
-/// Obstacle, kind and the two features identify a contact: these numbers stay the same as long as the same features are
-/// close. The triangles follow from the features, because each edge and vertex has one triangle that answers for it.
+/// Obstacle, kind and the two features identify a contact: they stay the same as long as the same features are close.
+/// The triangles follow from the features, because one triangle owns each edge and each vertex
+/// (`geometry::MeshTopology`).
 struct Contact {
   ContactKind kind;
   std::int32_t part_triangle;
-  std::int32_t obstacle;  ///< number of the body: obstacles first, in their order, then the parts in theirs
+  /// Number of the other body: first the obstacles, then the parts, each in the order given to the constructor.
+  std::int32_t obstacle;
   std::int32_t obstacle_triangle;
   Eigen::Vector3d n_W;  ///< unit normal, from the obstacle to the part
   Eigen::Vector3d p_W;  ///< the contact point on the part, metres
   double gap;           ///< metres; negative only for kOverlap
   double force = 0.0;   ///< newtons along n_W; 0 while the contact does not push
-  /// The feature on either side: the triangle of a face, the number of an edge in `geometry::MeshTopology`, or the
-  /// number of a vertex in the mesh; −1 where the method does not report it.
+  /// The feature of the part and the feature of the obstacle. A face is given by the number of its triangle, an edge by
+  /// its number in `geometry::MeshTopology`, a vertex by its number in the mesh. −1 if the method does not report
+  /// features.
   std::int32_t part_feature = -1;
   std::int32_t obstacle_feature = -1;
-  std::int32_t part = 0;                                 ///< number among the parts
+  std::int32_t part = 0;                                 ///< number of the part among the parts
   Eigen::Vector3d friction_W = Eigen::Vector3d::Zero();  ///< newtons on the part, across n_W
-  double margin = 0.0;                                   ///< metres at which the contact holds both sides apart
+  double margin = 0.0;  ///< distance (metres) at which the contact holds both sides apart
 
   /// The contact point on the obstacle, metres.
   Eigen::Vector3d q_W() const { return p_W - gap * n_W; }
@@ -52,9 +55,9 @@ struct Contact {
 enum class SlidingState : std::uint8_t {
   kReleased,    ///< no hand holds the part; it stands still
   kFree,        ///< the visible part is at its target
-  kSliding,     ///< contacts push, the part moves along them
-  kResting,     ///< contacts push, the part stands still
-  kCatchingUp,  ///< nothing pushes, but the part is not at its target yet
+  kSliding,     ///< contacts push, and the part moves along the contacts
+  kResting,     ///< contacts push, and the part stands still
+  kCatchingUp,  ///< no contact pushes, but the part is not at its target yet
 };
 
 std::string_view name_of(SlidingState state);
@@ -62,16 +65,18 @@ std::string_view name_of(SlidingState state);
 /// The outcome of one call of `advance` for one part.
 struct SlidingResult {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< the ghost
-  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< the target: where the metaphor wants the part
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< the target: the pose that the metaphor wants of the part
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part
   SlidingState state = SlidingState::kFree;
-  /// The contacts of the last cycle and the pose at which they were found; those with a force push. With several parts,
-  /// contacts are carried along with the last step of both sides, and the pose is X_WV.
+  /// The contacts of the last cycle, and the pose of the part at which they were found. A contact pushes if its force
+  /// is positive. With several parts, the contacts are carried along with the last step of both sides; X_WV_of_contacts
+  /// is then X_WV.
   std::vector<Contact> contacts;
   Eigen::Isometry3d X_WV_of_contacts = Eigen::Isometry3d::Identity();
-  double reach = 0.0;  ///< metres from that pose within which all contacts are known
-  int pushing = 0;     ///< number of contacts with a force
-  int cycles = 0;      ///< projection cycles, or bisections, of the call
+  /// Metres: at X_WV_of_contacts, all contacts with a smaller gap are known.
+  double reach = 0.0;
+  int pushing = 0;  ///< number of contacts with a force
+  int cycles = 0;   ///< projection cycles in the call; bisections for the paper's method
 };
 
 }  // namespace glissade::haptics

@@ -19,10 +19,11 @@
 
 namespace glissade::haptics {
 
-/// The work of searching for contacts. The equally many searches for pairs to certify are not included.
-struct SearchAccount {
+/// The work of searching for contacts. Each search also collects the pairs that steps must be certified to keep apart;
+/// that work is not included in `reports`.
+struct SearchStatistics {
   std::int64_t searches = 0;       ///< searches whose answers were used
-  collision::FrameReport reports;  ///< the sum of their reports
+  collision::FrameReport reports;  ///< the sum of the reports of these searches
 };
 
 /// The simulation of one held part. Not thread-safe.
@@ -33,37 +34,41 @@ class SlidingSimulation {
   SlidingSimulation& operator=(const SlidingSimulation&) = delete;
   virtual ~SlidingSimulation() = default;
 
-  /// The hand takes hold of the part, or takes another hold of it: from now on the ghost is at X_WG, wherever the part
-  /// is. Nothing moves yet. If ghost and part do not coincide, `force-feedback` closes the gap at its limited speed
-  /// (`Sliding` without pulling, the paper's method against its full spring), the rubber bands close it at once, and
-  /// `incremental` keeps it, so that `grasp` and `release` are its clutch. Required only after `release`. Ignores poses
-  /// that `geometry::rigid_pose` rejects.
+  /// The hand takes hold of the part, or changes its hold: from now on the ghost is at X_WG, wherever the part is.
+  /// Nothing moves in this call. The metaphor determines how the next calls of `advance` treat the offset between ghost
+  /// and part. With `force-feedback` the part closes the offset at a limited speed; meanwhile the hand feels no force
+  /// from the offset in `Sliding`, and the full force of the spring in the paper's method. With the rubber bands the
+  /// part closes the offset without a limit of speed. With `incremental` the part keeps the offset, so that `release`
+  /// and `grasp` act as a clutch. The hand holds the part from the start; `grasp` is required only after `release`.
+  /// Ignores poses that `geometry::rigid_pose` rejects.
   virtual void grasp(const Eigen::Isometry3d& X_WG) = 0;
 
-  /// The hand lets go: the part stays where it is, the ghost is where the part is, and no contact pushes.
+  /// The hand lets go: the part stays where it is, the ghost is at the pose of the part, and no contact pushes.
   virtual void release() = 0;
 
-  /// Moves the visible part towards its target; to be called once per millisecond of motion. `geometry::rigid_pose`
-  /// makes X_WG a rotation and translation; a pose that it rejects leaves the part where it is, as does a call while
-  /// the part is released. `milliseconds`, finite and not negative, is the time since the ghost of the last call; a
-  /// late caller may pass all of it to catch up.
+  /// Moves the visible part towards its target (`SlidingResult::X_WT`) for the ghost at X_WG. Call this once per
+  /// millisecond of motion. X_WG is corrected to a rotation and translation by `geometry::rigid_pose`. The part stays
+  /// where it is if `rigid_pose` rejects X_WG or if the part is released. `milliseconds`, finite and not negative, is
+  /// the time from the ghost pose of the last call to this ghost pose; a caller that is late passes the whole time, so
+  /// that the part catches up.
   virtual const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) = 0;
 
   virtual const SlidingResult& result() const = 0;
 
-  /// Visible poses of the parts that scripts move, in the order in which they were given; empty for methods without.
+  /// Visible poses of the scripted parts, in the order given to the constructor. Empty for methods without scripted
+  /// parts.
   virtual std::span<const Eigen::Isometry3d> scripted_X_WB() const { return {}; }
 
   virtual const SlidingPart& part() const = 0;
   virtual const CouplingStiffness& stiffness() const = 0;
-  /// Metres at which contacts hold the part away from obstacles without a margin of their own.
+  /// The distance (metres) at which contacts hold the part away from obstacles that have no margin of their own.
   virtual double margin() const = 0;
 
   /// The work of searching so far; zero for methods without searches.
-  virtual SearchAccount search_account() const { return {}; }
+  virtual SearchStatistics search_statistics() const { return {}; }
 
-  /// States of the method's own state machine in the last call, in their order, such as "moving>bisecting>done"; empty
-  /// for methods without one.
+  /// The states that the method's state machine went through in the last call, in order, such as
+  /// "moving>bisecting>done". Empty for methods without a state machine.
   virtual std::string trace() const { return {}; }
 
   /// Displacement from the visible part to its target: the stretch of the coupling's spring. Exactly zero in free space
@@ -71,8 +76,9 @@ class SlidingSimulation {
   geometry::Displacement error() const;
 };
 
-/// The contact set of the newest `result` of a part, in answer to the ghost pose of `time`. `scratch` is memory that
-/// calls reuse. Works for every method and for each of several parts. Cost O(contacts).
+/// The contact set made from `result`, the newest result of `part`. `sequence` is the number of the contact set; `time`
+/// is the time of the ghost pose that the set answers. `scratch` is memory that calls reuse. Works for every method and
+/// for each of several parts. Cost O(contacts).
 ContactSet make_contact_set(const SlidingResult& result, const SlidingPart& part, std::int64_t sequence,
                             std::chrono::nanoseconds time, std::vector<std::int32_t>& scratch);
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Contacts for lists, logs and displays: each contact keeps a number over time, and contacts in one plane merge into
-/// patches. The simulation itself uses neither.
+/// patches. The simulation itself uses neither the numbers nor the patches.
 
 #include <cstdint>
 #include <span>
@@ -14,7 +14,7 @@
 
 namespace glissade::haptics {
 
-/// A contact with its identity. Point, normal and gap are those at the visible pose.
+/// A contact with its identity. Point, normal and gap are given at the visible pose.
 struct TrackedContact {
   std::int64_t id = 0;   ///< from 1; each new contact gets the next number
   std::int64_t age = 0;  ///< updates since the contact got its number
@@ -25,33 +25,34 @@ struct TrackedContact {
 ///
 /// A contact **touches** when it pushes or its gap is at most two margins: contacts hold the part one margin away.
 ///
-/// Contacts with one obstacle count as one and are merged when their points lie within a margin and their normals
-/// within 1°. Examples: a vertex over the seam of several triangles of a plane, where it lies over the inside of each;
-/// an edge that crosses two other edges at their common vertex. The first contact in the order of the list represents
-/// them all, with the sum of their forces.
+/// Contacts with one obstacle are merged into one contact when their points lie within a margin and their normals
+/// within 1°. Examples: a vertex over the seam of several triangles of a plane, which counts as over the inside of each
+/// triangle; an edge that crosses two other edges at the common vertex of both. The merged contact is the first in the
+/// order of the list, with the sum of all forces.
 ///
-/// A contact gets its number when it first touches. It **keeps** the number while it pushes or its gap is at most three
-/// margins, so that a contact that flickers about the limit stays the same. Contacts of two successive updates are the
-/// same when
+/// A contact gets its number when it first touches. A contact **keeps** the number while it pushes or its gap is at
+/// most three margins, so that a contact that flickers about the limit of touching keeps its number. Contacts of two
+/// successive updates are the same when
 /// - obstacle, kind and features are the same; or else
-/// - the new contact replaces one that ended in this update: the obstacle is the same, the normals are within 10°, and
-///   both points are no farther from the old points than the part's motion at the old point, plus `obstacle_travel` and
-///   three margins.
+/// - the new contact replaces a contact that ended in this update: the obstacle is the same, the normals are within
+///   10°, and both points are no farther from the old points than the part's motion at the old point, plus
+///   `obstacle_travel` and three margins.
 ///
 /// By the second rule, a contact stays the same when its point passes from one triangle or edge to the next on a flat
-/// or smooth face, and becomes another one when it goes round a corner. If several ended contacts fit, the new contact
-/// continues one with a common feature, then the nearest, then the oldest.
+/// or smooth face, and becomes another contact when its point goes round a corner. If several ended contacts fit,
+/// contacts with a common feature take precedence, then the nearest, then the oldest.
 class ContactTracker {
  public:
-  /// `margin` (metres): the margin of the simulation (`SlidingSimulation::margin`), or the largest margin if obstacles
-  /// have margins of their own.
+  /// `margin` (metres) is the margin of the simulation (`SlidingSimulation::margin`), or the largest of all margins if
+  /// obstacles have margins of their own.
   explicit ContactTracker(double margin) : margin_(margin) {}
 
   /// Returns the touching contacts of `result`, which must be the next result of the same simulation, in ascending
   /// order of obstacle, kind, part feature and obstacle feature. A simulation reports contacts at the poses before its
-  /// last step; the tracker carries them along with the part, which is exact for translations along a face.
+  /// last step; the tracker carries the contacts along with the part, which is exact for translations along a face.
   /// `obstacle_travel` (metres) bounds the motion of every point of an obstacle or another part since the last update.
-  /// Valid until the next update. Cost O(n log n) for n contacts; allocates only when there are more than ever before.
+  /// The returned span is valid until the next update. Cost O(n log n) for n contacts; allocates only when there are
+  /// more contacts than ever before.
   std::span<const TrackedContact> update(const SlidingResult& result, double obstacle_travel = 0.0);
 
   /// The contacts of the last update.
@@ -68,7 +69,7 @@ class ContactTracker {
   bool touches(const Contact& contact) const { return contact.force > 0.0 || contact.gap <= 2.0 * margin_; }
   bool lasts(const Contact& contact) const { return contact.force > 0.0 || contact.gap <= 3.0 * margin_; }
 
-  /// A contact of the last update that has ended, and how far its points may have moved since (metres).
+  /// A contact of the last update that has ended, and an upper bound (metres) of the motion of its points since then.
   struct Ended {
     std::int32_t index;
     double travel;
@@ -87,12 +88,13 @@ class ContactTracker {
 
 /// Contacts with one obstacle that lie in one plane.
 struct ContactPatch {
-  std::int64_t id = 0;  ///< the lowest id among its contacts, that of the oldest one
+  std::int64_t id = 0;  ///< the lowest id of its contacts, which is the id of the oldest
   std::int32_t obstacle = 0;
   std::int32_t count = 0;  ///< number of contacts
   /// Centre of the forces on the part, or the mean of the points if nothing pushes; metres.
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
-  /// Unit, from the obstacle to the part: the mean of the normals, weighted in the same way.
+  /// Unit normal from the obstacle to the part: the mean of the contact normals, weighted by force, or unweighted if
+  /// nothing pushes.
   Eigen::Vector3d n_W = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d force_on_part_W = Eigen::Vector3d::Zero();  ///< newtons, friction included
   double gap = 0.0;                                           ///< smallest gap, metres
@@ -101,18 +103,18 @@ struct ContactPatch {
 
 /// Merges contacts into patches. Not thread-safe.
 ///
-/// The oldest contact without a patch founds one. Every contact with the same obstacle joins the patch if its normal is
-/// within 10° of the founder's and its point within 1 % of ρ of the plane through the founder's point. Distance within
-/// that plane does not matter: the four corners of a box that lies flat are one patch. A patch keeps its founder, and
-/// with it its id, as long as the founder touches.
+/// The oldest contact without a patch founds a patch. A contact with the same obstacle joins the patch if its normal is
+/// within 10° of the founder's normal and its point is within 1 % of ρ from the plane through the founder's point,
+/// where ρ is the radius of the part. Distance within that plane does not matter: the contacts at the four corners of a
+/// box that lies flat are one patch. A patch keeps its founder, and thus its id, as long as the founder touches.
 class ContactPatches {
  public:
-  /// `radius` (metres) is ρ of the part.
+  /// `radius` (metres) is ρ, the radius of the part (`SlidingPart::radius`).
   explicit ContactPatches(double radius) : plane_tolerance_(0.01 * radius) {}
 
   /// Returns the patches of `contacts`, a list of `ContactTracker`, in ascending order of their ids. Nothing is kept
-  /// from one call to the next; the order of `contacts` affects rounding only. Valid until the next call. Cost
-  /// O(n log n), and O(n) for each patch; allocates only when there are more contacts than ever before.
+  /// from one call to the next; the order of `contacts` affects rounding only. The returned span is valid until the
+  /// next call. Cost O(n log n), and O(n) for each patch; allocates only when there are more contacts than ever before.
   std::span<const ContactPatch> merge(std::span<const TrackedContact> contacts);
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Clocks for loops: the machine's, and a simulated one, with which a loop is deterministic and runs as fast as it can.
+/// Clocks for loops: the clock of the machine, and a simulated clock. With the simulated clock, a loop is deterministic
+/// and runs as fast as it can.
 
 #include <chrono>
 
@@ -14,7 +15,7 @@ class Clock {
 
   virtual std::chrono::nanoseconds now() const noexcept = 0;
 
-  /// Returns once now() ≥ `deadline`; at once when it has passed. May block.
+  /// Returns once now() ≥ `deadline`, so at once when the deadline has passed. May block.
   virtual void sleep_until(std::chrono::nanoseconds deadline) noexcept = 0;
 };
 
@@ -25,7 +26,7 @@ class SteadyClock final : public Clock {
   void sleep_until(std::chrono::nanoseconds deadline) noexcept override;
 };
 
-/// A clock that starts at 0 and moves only by `sleep_until` and `advance`. For one thread at a time.
+/// A clock that starts at 0 and moves only by `sleep_until` and `advance`. Not thread-safe.
 class SimulatedClock final : public Clock {
  public:
   std::chrono::nanoseconds now() const noexcept override { return now_; }

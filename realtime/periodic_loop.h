@@ -2,15 +2,15 @@
 
 /// A loop that runs at a fixed rate and records how punctual it was.
 ///
-/// The rule: the deadlines are a fixed grid, start + k · period. A tick counts as late when it starts at or after the
-/// next deadline. After each tick, the loop continues with the first later deadline whose period is not over yet;
-/// deadlines before that are skipped and counted. So ticks never run in bursts to catch up, the loop never drifts, and
-/// after a short overrun the next tick starts at once.
+/// The rule: the deadlines form a fixed grid, start + k · period. A tick counts as late when it starts at or after the
+/// deadline that follows its own. After each tick, the loop continues with the first later deadline whose period is not
+/// over yet; earlier deadlines are skipped and counted. So ticks never run in bursts to catch up, the loop never
+/// drifts, and after an overrun the next tick starts at once.
 ///
 /// The loop waits by a plain absolute sleep. Spinning through the last 100 µs would bring the median lateness (20 µs
-/// under SCHED_FIFO, a little more otherwise) to about 0. But it would take a tenth of a core at 1 kHz, which the
-/// simulation needs more on a small machine, and it would not shorten the tail where a host takes the processor away
-/// for milliseconds.
+/// under SCHED_FIFO, a little more otherwise) to about 0. But spinning would cost a tenth of a core at 1 kHz, and on a
+/// small machine the simulation needs this time more. Spinning would not shorten the longest delays either, because the
+/// host of a virtual machine may take the processor away for milliseconds.
 
 #include <chrono>
 #include <cstdint>
@@ -20,23 +20,24 @@
 
 namespace glissade::realtime {
 
-/// Statistics of one loop. Each run adds to them, so that a loop may be run in slices.
+/// Statistics of one loop. Each run adds to the statistics, so that a loop may be run in slices.
 struct PeriodicStatistics {
   std::uint64_t ticks = 0;
-  std::uint64_t late_ticks = 0;         ///< ticks that started at or after the next deadline
+  std::uint64_t late_ticks = 0;         ///< ticks that started at or after the deadline that follows their own
   std::uint64_t skipped_deadlines = 0;  ///< deadlines without a tick, because an earlier tick or wake-up took too long
   LatencyHistogram lateness;            ///< start of the tick minus its deadline
   LatencyHistogram duration;            ///< end of the tick minus its start
 };
 
-/// The argument of a tick.
+/// The argument of a tick function.
 struct PeriodicTick {
   std::uint64_t index;                ///< 0, 1, 2, … within this run; counts ticks, not deadlines
   std::chrono::nanoseconds deadline;  ///< scheduled start of this tick
   std::chrono::nanoseconds start;     ///< actual start of this tick
 };
 
-/// The bookkeeping of the rule above, without a clock; `run_periodic` is the complete loop.
+/// The bookkeeping of deadlines by the rule at the head of this file, without a clock. `run_periodic` is the complete
+/// loop.
 class PeriodicSchedule {
  public:
   /// The first deadline is `start`. Throws std::invalid_argument when `period` is not positive.
@@ -44,7 +45,7 @@ class PeriodicSchedule {
 
   std::chrono::nanoseconds deadline() const noexcept { return deadline_; }
 
-  /// Accounts for a tick that ran from `started` to `ended` and moves on to the next deadline.
+  /// Accounts for a tick that ran from `started` to `ended`, and advances to the next deadline.
   void finish_tick(std::chrono::nanoseconds started, std::chrono::nanoseconds ended,
                    PeriodicStatistics& statistics) noexcept;
 
@@ -53,9 +54,9 @@ class PeriodicSchedule {
   std::chrono::nanoseconds deadline_;
 };
 
-/// Calls `tick(const PeriodicTick&) -> bool` every `period` in the calling thread, the first time one period from now,
-/// until it returns false. Adds to `statistics` in place. Allocates nothing, locks nothing; between ticks it sleeps on
-/// `clock`. Throws std::invalid_argument when `period` is not positive.
+/// Calls `tick(const PeriodicTick&) -> bool` every `period` in the calling thread until the tick returns false. The
+/// first call is one period from now. Adds to `statistics` in place. Allocates nothing, locks nothing; between ticks
+/// the loop sleeps on `clock`. Throws std::invalid_argument when `period` is not positive.
 template <typename Tick>
 void run_periodic(Clock& clock, std::chrono::nanoseconds period, PeriodicStatistics& statistics, Tick&& tick) {
   PeriodicSchedule schedule(clock.now() + period, period);

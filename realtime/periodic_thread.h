@@ -1,6 +1,6 @@
 #pragma once
 
-/// A thread that runs a tick at a fixed rate: `run_periodic` in a thread of its own.
+/// A thread that calls a tick function at a fixed rate: `run_periodic` in a thread of its own.
 
 #include <atomic>
 #include <chrono>
@@ -12,7 +12,7 @@
 
 namespace glissade::realtime {
 
-/// How a periodic thread runs.
+/// Period and priority of a periodic thread.
 struct PeriodicThreadOptions {
   std::chrono::nanoseconds period{std::chrono::milliseconds(1)};
   int fifo_priority = 0;  ///< SCHED_FIFO priority to request, 1 to 99; 0 requests nothing
@@ -20,20 +20,20 @@ struct PeriodicThreadOptions {
 
 /// Scheduling that the system granted to a thread.
 struct ThreadScheduling {
-  bool is_fifo = false;                  ///< runs under SCHED_FIFO: ahead of every ordinary thread
-  bool has_minimal_timer_slack = false;  ///< the kernel no longer delays its timers (by 50 µs) to batch wake-ups
+  bool is_fifo = false;                  ///< the thread runs under SCHED_FIFO, ahead of every ordinary thread
+  bool has_minimal_timer_slack = false;  ///< the kernel does not delay the thread's timers (by 50 µs) to batch wake-ups
 };
 
-/// The thread starts in the constructor. It ends when the tick returns false, on `stop()`, or in the destructor.
-/// Thread-safety: only the thread that owns the object may call its functions.
+/// The thread starts in the constructor. The thread ends when the tick function returns false, on `stop()`, or in the
+/// destructor. Thread-safety: only the thread that owns the object may call its functions.
 class PeriodicThread {
  public:
   /// Returns false to end the loop. Must not throw.
   using Tick = std::function<bool(const PeriodicTick&)>;
 
   /// `clock` must outlive the thread. Returns once the thread runs and its scheduling is known. Throws
-  /// std::invalid_argument when the period is not positive or the tick is empty, and std::system_error when the system
-  /// cannot start a thread.
+  /// std::invalid_argument when the period is not positive or the tick function is empty, and std::system_error when
+  /// the system cannot start a thread.
   PeriodicThread(Clock& clock, const PeriodicThreadOptions& options, Tick tick);
   PeriodicThread(const PeriodicThread&) = delete;
   PeriodicThread& operator=(const PeriodicThread&) = delete;
@@ -41,11 +41,11 @@ class PeriodicThread {
 
   const ThreadScheduling& scheduling() const noexcept { return scheduling_; }
 
-  /// Waits until the tick has returned false.
+  /// Waits until the tick function has returned false.
   void join();
 
-  /// Lets a running tick finish, starts no other, and waits for the thread, which ends at its next deadline: at most
-  /// about a period later.
+  /// Lets a running tick finish and starts no other. Waits for the thread, which ends at its next deadline, at most
+  /// about one period later.
   void stop();
 
   /// Statistics of the loop, valid once `join()` or `stop()` has returned.

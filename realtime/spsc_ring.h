@@ -1,7 +1,8 @@
 #pragma once
 
 /// A bounded queue from one thread to another. When it is full, new values are dropped and counted; no thread ever
-/// waits. For logs and recordings, where every value matters; use `TripleBuffer` where only the newest does.
+/// waits. Use it for logs and recordings, where every value matters; use `TripleBuffer` where only the newest value
+/// matters.
 
 #include <atomic>
 #include <bit>
@@ -19,8 +20,8 @@ namespace glissade::realtime {
 template <typename T>
 class SpscRing {
  public:
-  /// Room for `capacity` values, rounded up to a power of two. Throws std::invalid_argument when it is 0 or beyond
-  /// 2^32.
+  /// A ring with room for `capacity` values, rounded up to a power of two. Throws std::invalid_argument when `capacity`
+  /// is 0 or beyond 2^32.
   explicit SpscRing(std::size_t capacity) : slots_(checked_capacity(capacity)), mask_(slots_.size() - 1) {}
 
   SpscRing(const SpscRing&) = delete;
@@ -28,7 +29,8 @@ class SpscRing {
 
   std::size_t capacity() const noexcept { return slots_.size(); }
 
-  /// Producer: appends `value`; when the ring is full, drops it, counts that, and returns false.
+  /// Producer: appends `value` and returns true. When the ring is full, drops the value, counts the drop, and returns
+  /// false.
   bool push(const T& value) noexcept(std::is_nothrow_copy_assignable_v<T>) {
     const std::uint64_t end = end_.load(std::memory_order_relaxed);
     if (end - begin_seen_by_producer_ == slots_.size()) {
@@ -43,7 +45,8 @@ class SpscRing {
     return true;
   }
 
-  /// Consumer: moves the oldest value into `value`; returns false, and leaves `value` alone, when the ring is empty.
+  /// Consumer: moves the oldest value into `value` and returns true. When the ring is empty, leaves `value` unchanged
+  /// and returns false.
   bool pop(T& value) noexcept(std::is_nothrow_move_assignable_v<T>) {
     const std::uint64_t begin = begin_.load(std::memory_order_relaxed);
     if (begin == end_seen_by_consumer_) {
@@ -59,7 +62,7 @@ class SpscRing {
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
  private:
-  /// Bytes. Not std::hardware_destructive_interference_size, which may differ between translation units.
+  /// Bytes. A fixed number, because std::hardware_destructive_interference_size may differ between translation units.
   static constexpr std::size_t kCacheLineBytes = 64;
 
   static std::size_t checked_capacity(std::size_t capacity) {
@@ -72,8 +75,8 @@ class SpscRing {
   std::vector<T> slots_;
   std::size_t mask_;
 
-  // Positions only increase. Each side keeps a copy of the other's position, so that it touches the other's cache line
-  // only when the ring looks full or empty by that copy.
+  // Positions only increase. Each side keeps a copy of the other side's position, and reads the other side's cache line
+  // only when the ring looks full or empty by this copy.
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> end_{0};
   std::uint64_t begin_seen_by_producer_ = 0;
   std::atomic<std::uint64_t> dropped_{0};

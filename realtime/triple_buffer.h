@@ -1,7 +1,7 @@
 #pragma once
 
-/// The newest value, passed from one thread to another, with no lock and no waiting on either side. For states and
-/// commands, where an old value is worth nothing; use `SpscRing` where every value matters.
+/// The newest value, passed from one thread to another, with no lock and no waiting on either side. Use it for states
+/// and commands, where an old value is worth nothing; use `SpscRing` where every value matters.
 
 #include <array>
 #include <atomic>
@@ -12,14 +12,14 @@
 namespace glissade::realtime {
 
 /// Three slots: one belongs to the writer, one to the reader, and one lies between them. `publish` exchanges the
-/// writer's slot for the one between, `update` the reader's.
+/// writer's slot for the slot between; `update` exchanges the reader's slot for the slot between.
 ///
 /// Thread-safety: one writer thread and one reader thread. Progress: every function is wait-free and bounded, whatever
 /// the other thread does and wherever it was pre-empted. Nothing is allocated unless T's assignment does.
 template <typename T>
 class TripleBuffer {
  public:
-  /// All three slots start as `initial`; it does not count as published.
+  /// All three slots start as `initial`; this value does not count as published.
   explicit TripleBuffer(const T& initial = T{}) : slots_{Slot{initial}, Slot{initial}, Slot{initial}} {}
 
   TripleBuffer(const TripleBuffer&) = delete;
@@ -31,7 +31,8 @@ class TripleBuffer {
     publish();
   }
 
-  /// Writer: the slot to fill in place before `publish()`. It holds an arbitrary older value: write all of it.
+  /// Writer: the slot to fill in place before `publish()`. The slot holds an arbitrary older value: overwrite all of
+  /// it.
   T& write_slot() noexcept { return slots_[writer_].value; }
 
   /// Writer: makes the contents of `write_slot()` the newest.
@@ -39,14 +40,16 @@ class TripleBuffer {
     writer_ = between_.exchange(static_cast<std::uint8_t>(writer_ | kFresh), std::memory_order_acq_rel) & kIndex;
   }
 
-  /// Reader: takes the newest value, if one was published since the last call; returns whether there was one.
+  /// Reader: takes the newest value and returns true if a value was published since the last call; otherwise returns
+  /// false.
   bool update() noexcept {
     if ((between_.load(std::memory_order_relaxed) & kFresh) == 0) return false;
     reader_ = between_.exchange(reader_, std::memory_order_acq_rel) & kIndex;
     return true;
   }
 
-  /// Reader: the value last taken by `update()`, or the initial one. It stays as it is until the next `update()`.
+  /// Reader: the value last taken by `update()`, or the initial one. The value does not change until the next
+  /// `update()`.
   const T& value() const noexcept { return slots_[reader_].value; }
 
   /// Reader: `update()` and `value()` in one.
@@ -56,7 +59,7 @@ class TripleBuffer {
   }
 
  private:
-  /// Bytes. Not std::hardware_destructive_interference_size, which may differ between translation units.
+  /// Bytes. A fixed number, because std::hardware_destructive_interference_size may differ between translation units.
   static constexpr std::size_t kCacheLineBytes = 64;
   static constexpr std::uint8_t kIndex = 3;
   static constexpr std::uint8_t kFresh = 4;  ///< set in `between_` from a publish to the update that takes it

@@ -12,7 +12,7 @@ SlidingRun start(const SlidingSubject& subject, const test_support::SlidingScene
     run.queries = [paper] { return paper->queries(); };
   } else {
     const auto& projection = dynamic_cast<const haptics::Sliding&>(*run.sliding);
-    run.queries = [&projection] { return projection.search_account().searches; };
+    run.queries = [&projection] { return projection.search_statistics().searches; };
   }
   return run;
 }

@@ -21,7 +21,7 @@ static_assert(kEnough > kMinClearanceOfMargin);
 class PairSearch final : public collision::DualTreeVisitor {
  public:
   PairSearch(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
-              std::vector<PairToCertify>& to_certify)
+             std::vector<PairToCertify>& to_certify)
       : bodies_(bodies),
         obstacle_(obstacle),
         part_(part),

@@ -28,6 +28,7 @@ enum class PaperEvent : std::uint8_t {
   kStop,       ///< the criterion ends the call
 };
 
+/// Names of the states, in the order of the values of `PaperState`.
 inline constexpr std::array<std::string_view, 7> kPaperStateNames{
     "moving", "bisecting", "classifying", "new-direction", "criterion", "sliding", "done"};
 

@@ -14,7 +14,6 @@
 #include <Eigen/Geometry>
 
 #include <glissade/base/assert.h>
-#include <glissade/geometry/rigid_pose.h>
 #include <glissade/geometry/triangle_pair.h>
 #include <glissade/haptics/contact_body.h>
 #include <glissade/haptics/sliding_rules.h>
@@ -92,10 +91,9 @@ class ContactScene {
         std::min(kMinClearanceOfMargin * margin(obstacle, part_body), 0.95 * distance);
   }
 
-  /// Places a part at X_WV, which must be a rigid pose.
+  /// Places a part at X_WV, a rigid pose; after any other pose the next search for candidates throws.
   void place(std::size_t part, const Eigen::Isometry3d& X_WV) {
     GLISSADE_ASSERT(part < parts_.size());
-    GLISSADE_ASSERT(geometry::rotation_defect(X_WV.linear()) < 1e-9 && X_WV.translation().allFinite());
     bodies_[body_of_part(part)].X_WB = X_WV;
   }
 

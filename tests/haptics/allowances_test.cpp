@@ -1,5 +1,4 @@
-// Parts that overlap at their start, obstacles that give way or have margins of their own, parts that are
-// shaken: what is not plain contact, and its limits.
+// Overlaps at the start, obstacles that give way or have margins of their own, and spiral searches, with their limits.
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +48,7 @@ bool overlaps(const Sliding& sliding) {
   return false;
 }
 
-TEST(Overlap, IsRefusedUnlessTheRulesLeadOutOfIt) {
+TEST(Overlap, IsRefusedUnlessTheRulesDepenetrateIt) {
   EXPECT_THROW(Sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.009})), std::invalid_argument);
   EXPECT_NO_THROW(
       Sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.009}), {.rules = {.overlap = OverlapRule::kDepenetrate}}));
@@ -182,7 +181,7 @@ TEST(SpiralSearch, GetsAPegInThatIsHeldAskewAndLeavesAloneWhatIsNotStuck) {
   const auto depth_reached = [](bool spiral_search, const test_support::PegTrial& trial) {
     const test_support::SlidingScene scene = test_support::peg_scene(trial);
     Sliding sliding(scene.obstacles, scene.part_V, scene.X_WV_start, {.rules = {.spiral_search = spiral_search}});
-    for (int tick = 1; tick <= scene.ticks + 2000; ++tick)  // it is shaken for two seconds
+    for (int tick = 1; tick <= scene.ticks + 2000; ++tick)  // a spiral search lasts two seconds
       sliding.advance(scene.ghost(tick));
     return -sliding.result().X_WV.translation().z();
   };
@@ -209,7 +208,7 @@ TEST(SpiralSearch, IsForgottenWhenTheHandLetsGo) {
   EXPECT_EQ(sliding.advance(X_WV).X_WV.matrix(), X_WV.matrix());
 }
 
-TEST(SpiralSearch, DoesNotShakeAPartThatFollows) {
+TEST(SpiralSearch, DoesNotDeflectAPartThatFollows) {
   const auto last = [](bool spiral_search) {
     Sliding sliding({block()}, cube(0.02), pose({0.0, 0.0, 0.011}), {.rules = {.spiral_search = spiral_search}});
     for (int i = 0; i < 500; ++i)

@@ -108,7 +108,7 @@ TEST(CandidatePairs, HoldEverythingWithinTheReachOverManySteps) {
         ASSERT_EQ(what_is_missing(candidates, *scene, other), "");
       }
     }
-    searches += candidates.account().searches;
+    searches += candidates.statistics().searches;
   }
   EXPECT_GT(kept, 10);
   EXPECT_GT(searches, test_support::affordable(100));
@@ -145,7 +145,7 @@ std::vector<double> contents(const CandidatePairs& candidates, double reach) {
                                    1.0 * o.item_V.number, o.distance, o.n_W.x(), o.n_W.y(), o.n_W.z()});
   }
   numbers.push_back(static_cast<double>(candidates.size()));
-  numbers.push_back(static_cast<double>(candidates.account().searches));
+  numbers.push_back(static_cast<double>(candidates.statistics().searches));
   return numbers;
 }
 
@@ -224,7 +224,7 @@ TEST_P(CubeOverPlate, AJumpBeyondWhatWasAskedForIsSearchedAfresh) {
   EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
   EXPECT_TRUE(candidates_.covers(kReach + 0.9 * kAhead)) << "from here";
   EXPECT_EQ(what_is_missing(candidates_, scene_, kReach), "");
-  EXPECT_EQ(candidates_.account().searches, 2) << "what was not taken is not told";
+  EXPECT_EQ(candidates_.statistics().searches, 2) << "what was not taken is not told";
 }
 
 TEST_P(CubeOverPlate, IsToldOfThePosesAtWhichItWasAskedFor) {

@@ -168,7 +168,7 @@ TEST(ContactTracker, WhatIsToldTwiceAtOnePlaceIsOneContact) {
   EXPECT_EQ(tracker.update(result_of(contacts)).size(), 5u);
 }
 
-TEST(ContactTracker, APartThatIsLedOutOfAnObstacleTouchesIt) {
+TEST(ContactTracker, APartThatDepenetratesTouchesTheObstacle) {
   Contact overlap = vertex_over_face(-1, -1, Vector3d(0.1, 0, 0), -3e-3);
   overlap.kind = ContactKind::kOverlap;
   ContactTracker tracker(kTrackedMargin);

@@ -132,7 +132,7 @@ TEST(ScriptedPart, IsToldInContactsWhereItIsNow) {
   EXPECT_GT(told, 4);
 }
 
-TEST(ScriptedPart, IsNeitherShakenNorLedOut) {
+TEST(ScriptedPart, NeitherSearchesInASpiralNorIsDepenetrated) {
   const SlidingOptions options{.rules = {.overlap = OverlapRule::kDepenetrate, .spiral_search = true}};
   Sliding waiting({wall(0.018)}, cube(0.02), pose({0.005, 0.0, 0.0}), options, {ram()});
   wait(waiting, 200);

@@ -61,13 +61,13 @@ class Twins {
       ASSERT_EQ(bits_of(with_.result(p)), bits_of(without_.result(p))) << "part " << p;
       pushed_ += without_.result(p).pushing > 0 ? 1 : 0;
     }
-    ASSERT_EQ(with_.search_account().searches, without_.search_account().searches);
+    ASSERT_EQ(with_.search_statistics().searches, without_.search_statistics().searches);
   }
 
   const SlidingResult& result(std::size_t part) const { return without_.result(part); }
   /// Answers in which contacts pushed.
   int pushed() const { return pushed_; }
-  std::int64_t searches() const { return without_.search_account().searches; }
+  std::int64_t searches() const { return without_.search_statistics().searches; }
 
  private:
   static SlidingRules with_thread(SlidingRules rules) {
@@ -115,7 +115,7 @@ Isometry3d random_ghost(test_support::RandomNumbers& random) {
               turn(random.uniform(-1.0, 1.0), random.direction()));
 }
 
-TEST(SearchThread, ChangesNoBitWhereAPartIsLedOut) {
+TEST(SearchThread, ChangesNoBitWhereAPartDepenetrates) {
   const Isometry3d X_WV = pose({0.0, 0.0, 0.005});
   Twins twins({finely_cut_block()}, {{.part_V = finely_cut_cube(), .X_WV_start = X_WV}},
               {.overlap = OverlapRule::kDepenetrate});
