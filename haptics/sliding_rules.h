@@ -24,7 +24,7 @@ enum class Metaphor : std::uint8_t {
   kForceFeedback,     ///< rigid grasp: the device holds the hand back, and the part catches up at a limited speed
   kRubberBand,        ///< the part hangs on the ghost by its reference point; contacts alone turn it
   kRubberBandSpring,  ///< a rubber band and a spiral spring tie the part to the ghost; the part catches up at once
-  kIncremental,       ///< the part repeats each motion of the ghost from its own pose; refused motion is forgotten
+  kIncremental,       ///< the part repeats each motion of the ghost from its own pose; refused motion is lost
 };
 
 /// Names of the metaphors, as on the command line, in the order of the values of `Metaphor`.

@@ -213,7 +213,7 @@ TEST_F(Slide, StartingInsideAnObstacleIsAFailureWithItsReason) {
       {"hand.csv", "collides", "first row"});
 }
 
-TEST_F(Slide, APartThatStartsInsideIsLedOutIfAskedFor) {
+TEST_F(Slide, APartThatStartsInsideIsDepenetratedOnRequest) {
   const std::string hand = trajectory("0,0,0,0.019,1,0,0,0\n0.1,0,0,0.019,1,0,0,0\n");
   const auto rows = slide(scene({floor}), hand, {"--depenetrate"});
   EXPECT_LT(rows.front().at("vz_m"), 0.0193) << "at limited speed";
