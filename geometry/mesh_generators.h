@@ -2,8 +2,8 @@
 
 /// Triangle meshes of simple surfaces, for tests, benchmarks and scenes.
 ///
-/// Sizes are in metres. `triangle_count` is approximate, because tessellations are even: for a `triangle_count` of at
-/// least 200, the number of triangles in the result deviates by at most 25 %. All vertices lie on the surface, and
+/// Sizes are in metres. `triangle_count` is approximate, because triangles are spread evenly: for a `triangle_count` of
+/// at least 200, the number of triangles in the result deviates by at most 25 %. All vertices lie on the surface, and
 /// adjacent triangles share vertices. Triangles are oriented consistently; the triangles of closed surfaces face
 /// outward. Every function throws std::invalid_argument, naming the argument and its value, for a size that is not
 /// positive and finite or a count outside 1 ... 50,000,000.

@@ -43,10 +43,10 @@ class MeshTopology {
   std::span<const std::int32_t> neighbors_of(std::int32_t vertex) const { return neighbors_.of(vertex); }
   /// The triangle that owns a vertex; −1 if no triangle with an area uses the vertex.
   std::int32_t owner_of(std::int32_t vertex) const { return vertex_owner_[static_cast<std::size_t>(vertex)]; }
-  /// Whether a vertex can stop another mesh. All vertices can, with two exceptions. In the interior of a plane patch,
-  /// all edges of a vertex are flat, and the features on the boundary of the patch stop other meshes instead. In the
-  /// interior of a straight rim, exactly two edges of a vertex are not flat, these two continue each other, and the
-  /// vertex lies within 0.1 µm of the rim's chord; the edges and the end vertices of the rim stop other meshes instead.
+  /// Whether a vertex can stop another mesh. All vertices can, except two kinds. A vertex is inside a plane patch if
+  /// all its edges are flat; the features on the boundary of the patch stop other meshes instead. A vertex is inside a
+  /// straight rim if exactly two of its edges are not flat, these two continue each other, and the vertex lies within
+  /// 0.1 µm of the rim's chord; the edges and the end vertices of the rim stop other meshes instead.
   bool can_stop(std::int32_t vertex) const { return can_stop_[static_cast<std::size_t>(vertex)] != 0; }
   /// Whether a triangle owns any feature. A triangle without features of its own stops other meshes with its face only,
   /// and a face stops only vertices.

@@ -13,7 +13,8 @@ namespace glissade::geometry {
 /// The rigid pose nearest to an almost rigid X = (R, p). Returns X itself if the `rotation_defect` of R is below 1e-12,
 /// which holds for every product of a few rotations. Replaces R by the nearest rotation if the defect is below 1e-4.
 /// Returns nothing for a larger defect, for a reflection, and for a coordinate of p that is not finite or beyond
-/// ±1e9 m. Bounds that hold for rotations therefore hold for the result. Cost: about ten nanoseconds.
+/// ±1e9 m. The rotation of the result thus has a defect below 1e-12, so error bounds derived for rotations hold for it.
+/// Cost: about ten nanoseconds.
 std::optional<Eigen::Isometry3d> rigid_pose(const Eigen::Isometry3d& X) noexcept;
 
 /// The defect δ: the sum of the absolute entries of RᵀR − 1. The defect is 0 for an exact rotation or reflection, and

@@ -22,7 +22,7 @@ struct ConstraintRow {
   Eigen::Vector3d r;  ///< from the reference point to the contact point, world axes, metres
   double bound;       ///< metres; at most 0 if the constraint allows standing still
 
-  /// The left side of the constraint.
+  /// The left side of the constraint: the motion of the contact point along n, in metres.
   double velocity(const geometry::Displacement& d) const { return n.dot(d.v + d.w.cross(r)); }
 };
 
@@ -37,7 +37,8 @@ struct ContactSet {
   std::chrono::nanoseconds time{0};                        ///< time of the ghost pose that the set answers
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part
   Eigen::Isometry3d X_WV_of_rows = Eigen::Isometry3d::Identity();  ///< the pose at which the rows were found
-  /// Metres: at X_WV_of_rows, all contacts with a smaller gap are known.
+  /// Metres: at X_WV_of_rows, the simulation found every contact with a smaller gap. The rows hold all of these
+  /// contacts, less `dropped`.
   double reach = 0.0;
   SlidingState state = SlidingState::kFree;
   std::int32_t pushing = 0;                                ///< contacts with a force

@@ -18,9 +18,9 @@ namespace glissade::haptics {
 /// The period of the haptic loop. Force-feedback devices expect a rate of 1 kHz.
 inline constexpr std::chrono::milliseconds kTickPeriod{1};
 
-/// Under force feedback, the lag of a part changes in a tick by at most this (metres) plus the ghost's own motion. The
-/// lag is the displacement from the visible part to its target (`SlidingResult`). This limit bounds the change of the
-/// force when the part snaps into a gap.
+/// The lag of a part is the displacement from the visible part to its target (`SlidingResult`). Under force feedback,
+/// the lag changes in a tick by at most kSlew_m (metres) plus the ghost's own motion. This limit bounds the change of
+/// the force when the part snaps into a gap.
 inline constexpr double kSlew_m = 0.2e-3;
 
 /// Stiffness of the spring against translation (N/m) and rotation (Nm/rad) of the part's reference point. The stiffness
@@ -73,8 +73,9 @@ struct Velocity {
 };
 
 /// The damper's wrench on the hand. The damper acts along the spring's force and torque only, because a part moves
-/// freely across the contact normals of fixed obstacles. The damper never exceeds the spring's force and torque. So it
-/// sets in smoothly when contact is made, and never pulls the hand towards a contact that the hand leaves.
+/// freely in directions perpendicular to the contact normals of fixed obstacles. The damper never exceeds the spring's
+/// force and torque. So it sets in smoothly when contact is made, and never pulls the hand towards a contact that the
+/// hand leaves.
 Wrench damper_wrench(const CouplingDamping& damping, const Wrench& spring, const Velocity& ghost);
 
 }  // namespace glissade::haptics

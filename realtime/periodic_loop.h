@@ -3,9 +3,9 @@
 /// A loop that runs at a fixed rate and records how punctual it was.
 ///
 /// The rule: the deadlines form a fixed grid, start + k · period. A tick counts as late when it starts at or after the
-/// deadline that follows its own. After each tick, the loop continues with the first later deadline whose period is not
-/// over yet; earlier deadlines are skipped and counted. So ticks never run in bursts to catch up, the loop never
-/// drifts, and after an overrun the next tick starts at once.
+/// deadline that follows its own. After each tick, the loop continues with the first later deadline whose successor has
+/// not passed yet; the deadlines before it are skipped and counted. So ticks never run in bursts to catch up, the loop
+/// never drifts, and after an overrun the next tick starts at once.
 ///
 /// The loop waits by a plain absolute sleep. Spinning through the last 100 µs would bring the median lateness (20 µs
 /// under SCHED_FIFO, a little more otherwise) to about 0. But spinning would cost a tenth of a core at 1 kHz, and on a
