@@ -22,8 +22,8 @@ namespace glissade::collision {
 class CollisionPipeline {
  public:
   /// Becomes the consumer of `world` (`World::take_changes`), which must have no other consumer. World and clock must
-  /// outlive the pipeline. The clock serves measurement only. Throws std::invalid_argument for a greatest distance that
-  /// is negative or not finite, and for a negative number of threads.
+  /// outlive the pipeline. The clock serves measurement only. Throws std::invalid_argument if
+  /// `options` has a `greatest_distance` that is negative or not finite, or a negative number of threads.
   CollisionPipeline(World& world, const realtime::Clock& clock, const PipelineOptions& options = {});
   ~CollisionPipeline();
   CollisionPipeline(const CollisionPipeline&) = delete;
@@ -31,9 +31,10 @@ class CollisionPipeline {
 
   /// Computes a frame with the newest poses: finds all enabled pairs of objects that meet, that is, whose distance is
   /// at most `distance` (metres). With `distance` 0, objects meet if they touch. The answers are exact: they are the
-  /// answers of the queries of `dop_query.h` at the pose X_AB given by `relative_pose`. With PairQuery::kClosePairs,
-  /// two objects that both have a selection (`ObjectDescription`) meet only if a triangle pair with a selected triangle
-  /// is within the distance; other queries ignore selections. The next call overwrites the result. Throws
+  /// answers of the queries of `dop_query.h` at the pose X_AB given by `relative_pose`. An object may
+  /// have a selection of its triangles (`ObjectDescription`). With PairQuery::kClosePairs, two objects that both have a
+  /// selection meet only if two of their triangles, at least one of them selected, are within the distance. Other
+  /// queries ignore selections. The next call overwrites the result. Throws
   /// std::invalid_argument for a distance that is negative, not a number, or greater than
   /// `PipelineOptions::greatest_distance`. Cost: see `FrameReport`.
   const FrameResult& step(double distance = 0.0);

@@ -58,8 +58,8 @@ class ConvexHull {
 
   /// Support mapping: the corner farthest along `direction`, a vector of about unit length. The search climbs from
   /// neighbor to neighbor, beginning at corner `start`. No corner is farther than the result by more than
-  /// `climbing_error`. Cost: proportional to the number of corners on the way and their neighbors, about √n from an
-  /// arbitrary start, and very few from the result for a similar direction.
+  /// `climbing_error`. Cost: proportional to the number of corners on the way and their neighbors. The way has about
+  /// √n corners from an arbitrary start, and very few if `start` is the result for a similar direction.
   std::int32_t support(const Eigen::Vector3d& direction, std::int32_t start) const;
 
   /// A start for climbing when no better start is known: a corner that is farthest along a direction within a few
@@ -162,9 +162,9 @@ struct HullMemory {
 };
 
 /// Whether two hulls are certainly apart, at the pose X_AB of B in the frame of A. Touching hulls are not apart. With
-/// HullTest::kExact the answer is exact for the points from which the hulls were made, with one exception: gaps as
-/// small as rounding errors give false. Such gaps are at most `ConvexHull::outside` of both hulls plus 1e-13 of the sum
-/// of all coordinates involved, 1e-11 for needles.
+/// HullTest::kExact the answer is exact for the points from which the hulls were made, with one exception: if the
+/// gap is no larger than rounding errors, the answer is false. Such gaps are at most `ConvexHull::outside` of both
+/// hulls plus 1e-13 of the sum of all coordinates involved, 1e-11 for needles.
 ///
 /// Allocates nothing. Cost: about 20 ns while the remembered plane or simplex decides; otherwise less than a
 /// microsecond after a small movement and some microseconds after a large one; bounded in any case. Different threads

@@ -4,8 +4,8 @@
 /// near, how far the soups are apart, and how to separate them.
 ///
 /// Each query takes the pose X_AB of tree B in the frame of tree A. Exact means: X_AB is applied to the vertices of B
-/// in double precision; for these results and the vertices of A, the answer is the answer of real arithmetic. Touching
-/// counts as intersecting. Only triangles of positive area take part.
+/// in double precision; for the resulting vertices of B and the vertices of A, the answer is the one of real
+/// arithmetic. Touching counts as intersecting. Only triangles of positive area take part.
 ///
 /// Each query throws std::invalid_argument for trees that were built with different options, for a distance that is
 /// negative or not a number, for a pose that is not finite, and for a matrix that is not a rotation: the absolute

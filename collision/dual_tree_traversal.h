@@ -12,8 +12,8 @@
 
 namespace glissade::collision {
 
-/// One child of the node with the number `node`. `child` counts the children of this node: 0 to `TreeNode::child_count`
-/// − 1.
+/// One child of the node with the number `node`. `child` is the index of the child in this node, from 0 to
+/// `TreeNode::child_count` − 1.
 struct TreeChild {
   std::uint32_t node;
   int child;
@@ -22,8 +22,8 @@ struct TreeChild {
 /// Receives the pairs of children and of triangles in the order of the traversal.
 class DualTreeVisitor {
  public:
-  /// Whether the visitor accepts two children, whose boxes may be within the distance. The traversal skips all pairs
-  /// below two accepted children.
+  /// Whether the visitor accepts two children. Called only if the boxes of the children could not be shown to be
+  /// farther apart than the distance. The traversal skips all pairs below two accepted children.
   virtual bool accepts(const TreeChild& child_A, const TreeChild& child_B) = 0;
   /// Receives a triangle pair within the distance that does not lie below an accepted pair.
   virtual void visit(const ClosePair& pair) = 0;

@@ -20,8 +20,8 @@ struct LcmGloveOptions {
   /// Period at which the send thread polls for a new command. Polling costs the haptic thread nothing, whereas waking
   /// the send thread would cost the haptic thread a system call for every command.
   std::chrono::nanoseconds send_period{std::chrono::microseconds(250)};
-  /// After this time without an accepted state, a state with any sequence is accepted: the glove may have been
-  /// restarted.
+  /// Normally a state is accepted only if its sequence number is larger than that of the last accepted state. After
+  /// this time without an accepted state, any sequence number is accepted, because the glove may have been restarted.
   std::chrono::nanoseconds restart_silence{std::chrono::milliseconds(500)};
 };
 

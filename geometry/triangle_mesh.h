@@ -51,9 +51,9 @@ TriangleMesh weld(const TriangleMesh& mesh);
 std::vector<std::int32_t> triangles_inside(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box);
 
 /// The mesh with the given triangles (indices in ascending order) made degenerate. Degenerate triangles take part in no
-/// query, and all other triangles keep their indices. Use this function for a part that overlaps an obstacle by design
-/// once it is seated, such as a unit on its spring tongues: remove the geometry that gives way in reality from the
-/// obstacle.
+/// query, and all other triangles keep their indices. Use this function if a part, once seated, overlaps an obstacle by
+/// design, such as a unit on its spring tongues: remove from the obstacle's mesh the triangles that give way in
+/// reality.
 TriangleMesh without_triangles(const TriangleMesh& mesh, std::span<const std::int32_t> triangles);
 
 }  // namespace glissade::geometry

@@ -19,10 +19,11 @@ namespace glissade::haptics {
 
 struct SlidingPart;
 
-/// The connection between hand and part (paper §3).
+/// The connection between hand and part (paper §3). The ghost is the pose of the part as the hand commands it, without
+/// contacts.
 enum class Metaphor : std::uint8_t {
-  kForceFeedback,     ///< rigid grasp: the device holds the hand back, and the part catches up at a limited speed
-  kRubberBand,        ///< the part hangs on the ghost by its reference point; contacts alone turn it
+  kForceFeedback,     ///< rigid grasp: the device holds the hand back, and the part follows at a limited speed
+  kRubberBand,        ///< a rubber band ties the part's reference point to the ghost; only contacts turn the part
   kRubberBandSpring,  ///< a rubber band and a spiral spring tie the part to the ghost; the part catches up at once
   kIncremental,       ///< the part repeats each motion of the ghost from its own pose; refused motion is lost
 };
@@ -59,8 +60,8 @@ inline constexpr std::size_t kMaxParts = 4;
 /// The treatment of a part that overlaps an obstacle at its start. Two parts must never overlap at their start.
 enum class OverlapRule : std::uint8_t {
   kRefuse,  ///< the constructor throws
-  /// The part moves out of the obstacle by a short way, straight and without turning, by kSlew_m a millisecond,
-  /// wherever the hand wants the part. Once part and obstacle are one margin apart, the part follows the hand again,
+  /// The part moves out of the obstacle on a short straight way without turning, at kSlew_m (`coupling.h`) per
+  /// millisecond, regardless of the hand. Once part and obstacle are one margin apart, the part follows the hand again,
   /// and the obstacle is like any other. Other obstacles hold the part on its way out, so the part stops at an obstacle
   /// that is in its way. If a part overlaps several obstacles, it moves out of the deepest overlap first.
   kDepenetrate,
@@ -85,9 +86,9 @@ struct SlidingRules {
   bool has_search_thread = false;
 };
 
-/// One of the parts and its holder, a hand or a script. A script holds a part that moves on its own, with a stiffer
-/// grip than the grip on the parts that it pushes. A scripted part waits at obstacles, which it cannot push out of its
-/// way.
+/// One of the parts and its holder, a hand or a script. A script moves its part without a hand. The grip of a script is
+/// stiffer than the grips on the parts that the scripted part pushes. A scripted part waits at obstacles, which it
+/// cannot push out of its way.
 struct HeldPart {
   std::shared_ptr<const SlidingPart> part_V;
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();

@@ -26,17 +26,17 @@ struct TrackedContact {
 /// A contact **touches** when it pushes or its gap is at most two margins: contacts hold the part one margin away.
 ///
 /// Contacts with one obstacle are merged into one contact when their points lie within a margin and their normals
-/// within 1°. Examples: a vertex over the seam of several triangles of a plane, which counts as over the inside of each
-/// triangle; an edge that crosses two other edges at the common vertex of both. The merged contact is the first in the
-/// order of the list, with the sum of all forces.
+/// within 1°. Examples: a vertex over the common edge of coplanar triangles, which makes a contact with each of these
+/// triangles; an edge that crosses two other edges at their common vertex. The merged contact is the one that comes
+/// first in the order of `update`, with the sum of the forces of all.
 ///
 /// A contact gets its number when it first touches. A contact **keeps** the number while it pushes or its gap is at
 /// most three margins, so that a contact that flickers about the limit of touching keeps its number. Contacts of two
 /// successive updates are the same when
 /// - obstacle, kind and features are the same; or else
-/// - the new contact replaces a contact that ended in this update: the obstacle is the same, the normals are within
-///   10°, and both points are no farther from the old points than the part's motion at the old point, plus
-///   `obstacle_travel` and three margins.
+/// - the new contact continues a contact that ended in this update: the obstacle is the same, the normals are within
+///   10°, and the contact points on part and obstacle are each within the part's motion there, plus `obstacle_travel`,
+///   plus three margins, of the old ones.
 ///
 /// By the second rule, a contact stays the same when its point passes from one triangle or edge to the next on a flat
 /// or smooth face, and becomes another contact when its point goes round a corner. If several ended contacts fit,
@@ -49,7 +49,7 @@ class ContactTracker {
 
   /// Returns the touching contacts of `result`, which must be the next result of the same simulation, in ascending
   /// order of obstacle, kind, part feature and obstacle feature. A simulation reports contacts at the poses before its
-  /// last step; the tracker carries the contacts along with the part, which is exact for translations along a face.
+  /// last step. The tracker moves them with the part to the visible pose; this is exact for translations along a face.
   /// `obstacle_travel` (metres) bounds the motion of every point of an obstacle or another part since the last update.
   /// The returned span is valid until the next update. Cost O(n log n) for n contacts; allocates only when there are
   /// more contacts than ever before.
