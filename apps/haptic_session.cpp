@@ -38,13 +38,9 @@ haptics::Sliding start_sliding(const HapticScene& scene, const haptics::SlidingO
 
 Session finished(std::int64_t ticks, const HapticScene& scene, const haptics::Sliding& sliding,
                  const SessionRecorder& recorder, std::optional<RealTimeFigures> real_time) {
-  const haptics::SearchStatistics account = sliding.search_statistics();
-  return {ticks,
-          std::ssize(scene.obstacles) + 1,
-          account.searches,
-          account.reports,
-          recorder.samples(),
-          std::move(real_time)};
+  const haptics::SearchStatistics work = sliding.search_statistics();
+  return {
+      ticks, std::ssize(scene.obstacles) + 1, work.searches, work.reports, recorder.samples(), std::move(real_time)};
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ std::vector<Vector3d> corners_of(const geometry::TriangleMesh& mesh) {
 
 // The index of the point with the greatest `value`.
 template <typename Value>
-std::size_t furthest_of(Points points, const Value& value) {
+std::size_t farthest_of(Points points, const Value& value) {
   std::size_t best = 0;
   double most = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -66,9 +66,9 @@ struct Extents {
 
 Extents extents_of(Points points) {
   Extents e{};
-  e.ends[0] = furthest_of(points, [&](const Vector3d& x) { return (x - points[0]).squaredNorm(); });
+  e.ends[0] = farthest_of(points, [&](const Vector3d& x) { return (x - points[0]).squaredNorm(); });
   const Vector3d& origin = points[e.ends[0]];
-  e.ends[1] = furthest_of(points, [&](const Vector3d& x) { return (x - origin).squaredNorm(); });
+  e.ends[1] = farthest_of(points, [&](const Vector3d& x) { return (x - origin).squaredNorm(); });
   e.axis = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
   e.beyond[0] = (points[e.ends[1]] - origin).norm();
   if (!(e.beyond[0] > 0.0)) return e;
@@ -79,7 +79,7 @@ Extents extents_of(Points points) {
     return d - d.dot(e.axis[0]) * e.axis[0];
   };
   const Vector3d side =
-      off_line(points[furthest_of(points, [&](const Vector3d& x) { return off_line(x).squaredNorm(); })]);
+      off_line(points[farthest_of(points, [&](const Vector3d& x) { return off_line(x).squaredNorm(); })]);
   e.beyond[1] = side.norm();
   e.axis[1] = e.beyond[1] > 0.0 ? Vector3d(side / e.beyond[1]) : e.axis[0].unitOrthogonal();
   e.axis[1] = (e.axis[1] - e.axis[1].dot(e.axis[0]) * e.axis[0]).normalized();
@@ -160,8 +160,8 @@ ConvexHull::ConvexHull(Points points) {
   climbing_error_ = dimension_ < 2 ? 4.0 * kRoundingOfPoints * reach_ : climbing_error_of(facets, reach_, outside_);
 }
 
-std::int32_t ConvexHull::furthest(const Vector3d& direction) const {
-  return static_cast<std::int32_t>(furthest_of(vertices_, [&](const Vector3d& x) { return direction.dot(x); }));
+std::int32_t ConvexHull::farthest(const Vector3d& direction) const {
+  return static_cast<std::int32_t>(farthest_of(vertices_, [&](const Vector3d& x) { return direction.dot(x); }));
 }
 
 ConvexHull::ConvexHull(const geometry::TriangleMesh& mesh) : ConvexHull(Points(corners_of(mesh))) {}

@@ -71,7 +71,7 @@ class ConvexHull {
   double climbing_error() const { return climbing_error_; }
 
   /// The corner farthest along `direction`, found by examining all corners. Cost O(n).
-  std::int32_t furthest(const Eigen::Vector3d& direction) const;
+  std::int32_t farthest(const Eigen::Vector3d& direction) const;
 
  private:
   using Edge = std::array<std::int32_t, 2>;

@@ -6,6 +6,7 @@
 #include "query/pair_visitors.h"
 #include "query/placed_trees.h"
 #include "query/sort_pairs.h"
+#include "query/workspace_access.h"
 
 namespace glissade::collision {
 
@@ -13,7 +14,7 @@ namespace {
 
 bool visit_all(Goal goal, const PlacedTrees& placed, double distance, QueryWorkspace& workspace,
                TriangleVisitor& visitor) {
-  QueryWorkspace::Memory& memory = workspace.memory();
+  QueryMemory& memory = memory_of(workspace);
   memory.counters = {};
   const VisitSelection selection = placed.visit_selection();
   if (placed.frame.spheres_apart(distance)) return false;
@@ -23,20 +24,17 @@ bool visit_all(Goal goal, const PlacedTrees& placed, double distance, QueryWorks
 
 bool visit_all(Goal goal, const PlacedTrees& placed, double distance, const CoherentMemory& workspace,
                TriangleVisitor& visitor) {
-  QueryWorkspace::Memory& memory = workspace.scratch.memory();
+  QueryMemory& memory = memory_of(workspace.scratch);
   memory.counters = {};
   return workspace.front.query(goal, placed.base(), placed.other(), placed.frame, distance, memory.alignment,
                                memory.counters, visitor, placed.visit_selection());
 }
 
-QueryWorkspace::Memory& memory_of(QueryWorkspace& workspace) {
-  return workspace.memory();
-}
-QueryWorkspace::Memory& memory_of(const CoherentMemory& workspace) {
-  return workspace.scratch.memory();
+QueryMemory& memory_of(const CoherentMemory& workspace) {
+  return memory_of(workspace.scratch);
 }
 CoherentMemory memory_apart(CoherentWorkspace& workspace) {
-  return {workspace.workspace(), workspace.front()};
+  return {WorkspaceAccess::scratch(workspace), WorkspaceAccess::front(workspace)};
 }
 
 template <typename Workspace>

@@ -7,6 +7,7 @@
 #include "query/dop_traversal.h"
 #include "query/pair_visitors.h"
 #include "query/placed_trees.h"
+#include "query/workspace_access.h"
 
 namespace glissade::collision {
 namespace {
@@ -48,7 +49,7 @@ class NearPairs final : public PlacedVisitor {
 void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                    QueryWorkspace& workspace, DualTreeVisitor& visitor) {
   const PlacedTrees placed{tree_A, tree_B, X_AB};
-  QueryWorkspace::Memory& memory = workspace.memory();
+  QueryMemory& memory = memory_of(workspace);
   memory.counters = {};
   if (placed.frame.spheres_apart(distance)) return;
   DopVisit step(placed.base(), placed.other(), placed.frame, distance, memory.alignment);

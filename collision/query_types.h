@@ -12,7 +12,9 @@
 
 namespace glissade::collision {
 
+class CoherentFront;
 class DopTree;
+struct QueryMemory;
 
 /// Triangle indices into the meshes of tree A and tree B.
 struct TrianglePair {
@@ -50,15 +52,10 @@ class QueryWorkspace {
   /// Work of the last query.
   const QueryCounters& counters() const;
 
-  // For the queries; `Memory` is private to the component.
-  struct Memory;
-  Memory& memory() { return *memory_; }
-
  private:
-  std::unique_ptr<Memory> memory_;
+  friend struct WorkspaceAccess;
+  std::unique_ptr<QueryMemory> memory_;
 };
-
-class CoherentFront;
 
 /// A workspace that exploits temporal coherence: it remembers the last query of one pair of trees, which makes the next
 /// query much cheaper if the trees have moved little. The answers are the same to the bit as with a `QueryWorkspace`.
@@ -77,11 +74,8 @@ class CoherentWorkspace {
   /// Forgets all earlier queries.
   void forget();
 
-  // For the queries; `CoherentFront` is private to the component.
-  QueryWorkspace& workspace() { return workspace_; }
-  CoherentFront& front() { return *front_; }
-
  private:
+  friend struct WorkspaceAccess;
   QueryWorkspace workspace_;
   std::unique_ptr<CoherentFront> front_;
 };

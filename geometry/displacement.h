@@ -1,6 +1,7 @@
 #pragma once
 
-/// Displacements of a rigid part about its reference point, and bounds on the motion of its points.
+/// Displacements of a rigid part about its reference point, a point fixed in the part, and bounds on the motion of the
+/// part's points.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -33,13 +34,14 @@ Eigen::Isometry3d displaced(const Eigen::Isometry3d& X_WV, const Eigen::Vector3d
 Displacement displacement_between(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WG,
                                   const Eigen::Vector3d& p_Vref);
 
-/// Upper bound (metres) on the motion of any point of a part along the whole path of a displacement. The bound is
-/// |v| + 2 sin(|w|/2) ρ, where `radius` ρ is the largest distance of a point of the part from the reference point. An
-/// angle |w| beyond π counts as π.
+/// Upper bound (metres) on the distance |x(t) − x(0)| of any point x of a part from its start, for every t of the path
+/// of a displacement. The bound is |v| + 2 sin(|w|/2) ρ, where ρ = `radius` is the largest distance of a point of the
+/// part from the reference point. An angle |w| beyond π counts as π.
 double motion_bound(const Displacement& d, double radius);
 
-/// A fraction f in [0, 1] with motion_bound(d.scaled(f), radius) ≤ `longest` (metres). The fraction is 1 if d itself
-/// satisfies this inequality. The bound is not linear in d, so f is not simply `longest` / motion_bound(d, radius).
+/// A fraction f in [0, 1] with motion_bound(d.scaled(f), radius) ≤ `longest` (metres). The fraction is 1 if the whole
+/// displacement d satisfies this inequality. Because `motion_bound` is not linear in d, f is not simply `longest` /
+/// motion_bound(d, radius).
 double fraction_within(const Displacement& d, double radius, double longest);
 
 }  // namespace glissade::geometry

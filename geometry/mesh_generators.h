@@ -2,11 +2,11 @@
 
 /// Triangle meshes of simple surfaces, for tests, benchmarks and scenes.
 ///
-/// Sizes are in metres. `triangle_count` is approximate, because triangles are spread evenly: for a `triangle_count` of
-/// at least 200, the number of triangles in the result deviates by at most 25 %. All vertices lie on the surface, and
-/// adjacent triangles share vertices. Triangles are oriented consistently; the triangles of closed surfaces face
-/// outward. Every function throws std::invalid_argument, naming the argument and its value, for a size that is not
-/// positive and finite or a count outside 1 ... 50,000,000.
+/// Sizes are in metres. The number of triangles in the result approximates `triangle_count`, because triangles are
+/// spread evenly. For a `triangle_count` of at least 200, the number deviates by at most 25 %. All vertices lie on the
+/// surface, and adjacent triangles share vertices. Triangles are oriented consistently; the triangles of closed
+/// surfaces face outward. Every function throws std::invalid_argument, naming the argument and its value, for a size
+/// that is not positive and finite or a count outside 1 ... 50,000,000.
 
 #include <cstdint>
 #include <span>
@@ -43,9 +43,9 @@ TriangleMesh make_tube(double radius, double length, std::int64_t triangle_count
 TriangleMesh make_hose(std::span<const Eigen::Vector3d> points, double radius, std::int64_t triangle_count);
 
 /// Surface of revolution: the polyline through `profile`, revolved about z in `segments` ≥ 3 steps. The profile has at
-/// least two points (r, z) with r ≥ 0. An end of the profile on the axis (r = 0) closes the surface there. `closed`
-/// joins the last point to the first. Triangles face to the right of the profile's direction in a drawing with r to the
-/// right and z up: where the profile rises, they face away from the axis.
+/// least two points (r, z) with r ≥ 0. An end of the profile on the axis (r = 0) closes the surface there. If `closed`
+/// is true, a last segment joins the last point to the first. In a drawing with r to the right and z up, triangles face
+/// to the right of the profile's direction: where z increases along the profile, triangles face away from the axis.
 TriangleMesh make_revolution(std::span<const Eigen::Vector2d> profile, bool closed, int segments);
 
 }  // namespace glissade::geometry

@@ -16,7 +16,7 @@ struct ImportedMesh {
   std::int64_t polygons_triangulated = 0;  ///< faces of more than three corners in the file
 };
 
-/// Reads all meshes of a file into one mesh, each placed by the transforms of the scene nodes of the file. Vertices at
+/// Reads all meshes of a file into one mesh. The transforms of the file's scene nodes place each mesh. Vertices at
 /// identical positions are welded, polygons are triangulated, and degenerate triangles are dropped. Normals, texture
 /// coordinates, materials, lines and points are ignored. Coordinates are multiplied by `scale` (metres per unit of the
 /// file).

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Size and defects of a mesh, for the user's information. No defect keeps a mesh from being used in this library.
+/// Size and defects of a mesh, for the user's information. Meshes with these defects are valid input for this library.
 
 #include <cstdint>
 
@@ -17,9 +17,9 @@ struct MeshReport {
   std::int64_t triangles = 0;           ///< including degenerate triangles
   std::int64_t degenerate = 0;          ///< triangles without area
   std::int64_t duplicates = 0;          ///< triangles with the same three vertices as an earlier triangle
-  std::int64_t open_edges = 0;          ///< edges with one triangle: the boundary
-  std::int64_t nonmanifold_edges = 0;   ///< edges with more than two triangles
-  std::int64_t inconsistent_edges = 0;  ///< edges that both of their triangles traverse in the same direction
+  std::int64_t open_edges = 0;          ///< edges of only one triangle: the boundary
+  std::int64_t nonmanifold_edges = 0;   ///< edges of more than two triangles
+  std::int64_t inconsistent_edges = 0;  ///< edges that exactly two triangles share and traverse in the same direction
   std::int64_t components = 0;          ///< sets of triangles connected through shared vertices
   bool is_watertight = false;           ///< no open and no non-manifold edge, and at least one triangle
   double area = 0;                      ///< in m²

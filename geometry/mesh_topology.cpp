@@ -104,11 +104,12 @@ void MeshTopology::mark_flat(const TriangleMesh& mesh) {
 }
 
 void MeshTopology::mark_stops(const TriangleMesh& mesh) {
-  answers_.assign(mesh.triangles.size(), 0);
+  owned_features_.assign(mesh.triangles.size(), 0);
   const auto answer = [&](std::int32_t triangle, const std::array<std::int32_t, 3>& features, std::int32_t feature,
                           int first_bit) {
     const auto i = std::find(features.begin(), features.end(), feature) - features.begin();
-    answers_[static_cast<std::size_t>(triangle)] |= static_cast<std::uint8_t>(1U << (first_bit + static_cast<int>(i)));
+    owned_features_[static_cast<std::size_t>(triangle)] |=
+        static_cast<std::uint8_t>(1U << (first_bit + static_cast<int>(i)));
   };
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const Edge& edge = edges_[e];

@@ -1,7 +1,8 @@
 #pragma once
 
-/// Edges and vertices of a mesh with the triangles that meet at each of them, and the features that contact constraints
-/// need. The orientation of triangles is not used, so meshes straight from CAD are suitable.
+/// Edges and vertices of a mesh with the triangles that meet at each of them, and the mesh's features: the edges and
+/// vertices for which contact constraints are made. The orientation of triangles is not used, so meshes straight from
+/// CAD are suitable.
 
 #include <array>
 #include <cstdint>
@@ -12,13 +13,14 @@
 
 namespace glissade::geometry {
 
-/// Edges and vertices of a mesh with their neighborhoods. Each edge and each vertex has one owner among its triangles,
-/// so that every contact is found once, always with the same feature numbers. Degenerate triangles are ignored.
-/// Immutable after construction, so safe to share between threads.
+/// Edges and vertices of a mesh with their neighborhoods. Each edge and each vertex has one owner: one of the triangles
+/// that meet there. A contact search considers an edge or vertex only at its owner, so every contact is found once,
+/// always with the same feature numbers. Degenerate triangles are ignored. Immutable after construction, so safe to
+/// share between threads.
 ///
-/// Features are the edges that are not flat (`Edge::flat`) and the vertices that can stop another mesh (`can_stop`). In
-/// every contact of two meshes, a vertex of one meets a face, edge or vertex of the other, or an edge of one meets an
-/// edge of the other.
+/// Features are the edges that are not flat (`Edge::flat`) and the vertices that can stop another mesh (`can_stop`). A
+/// feature stops another mesh if a contact at this feature keeps the two meshes apart. In every contact of two meshes,
+/// a vertex of one meets a face, edge or vertex of the other, or an edge of one meets an edge of the other.
 class MeshTopology {
  public:
   struct Edge {
@@ -43,25 +45,29 @@ class MeshTopology {
   std::span<const std::int32_t> neighbors_of(std::int32_t vertex) const { return neighbors_.of(vertex); }
   /// The triangle that owns a vertex; −1 if no triangle with an area uses the vertex.
   std::int32_t owner_of(std::int32_t vertex) const { return vertex_owner_[static_cast<std::size_t>(vertex)]; }
-  /// Whether a vertex can stop another mesh. All vertices can, except two kinds. A vertex is inside a plane patch if
-  /// all its edges are flat; the features on the boundary of the patch stop other meshes instead. A vertex is inside a
-  /// straight rim if exactly two of its edges are not flat, these two continue each other, and the vertex lies within
-  /// 0.1 µm of the rim's chord; the edges and the end vertices of the rim stop other meshes instead.
+  /// Whether a vertex can stop another mesh. All vertices can, except vertices inside a plane patch and vertices inside
+  /// a straight rim. A vertex is inside a plane patch if all its edges are flat; the features on the boundary of the
+  /// patch stop other meshes instead. A rim is a line of edges that are not flat. A vertex is inside a straight rim if
+  /// exactly two of its edges are not flat, these two continue each other without a bend, and the vertex lies within
+  /// 0.1 µm of the chord between the ends of the rim. The edges and the end vertices of the rim stop other meshes
+  /// instead.
   bool can_stop(std::int32_t vertex) const { return can_stop_[static_cast<std::size_t>(vertex)] != 0; }
-  /// Whether a triangle owns any feature. A triangle without features of its own stops other meshes with its face only,
-  /// and a face stops only vertices.
-  bool answers_for_features(std::int32_t triangle) const { return answers_[static_cast<std::size_t>(triangle)] != 0; }
+  /// Whether a triangle owns any feature. A triangle that owns no feature stops other meshes with its face only, and a
+  /// face stops only vertices.
+  bool owns_stopping_feature(std::int32_t triangle) const {
+    return owned_features_[static_cast<std::size_t>(triangle)] != 0;
+  }
   /// Whether two triangles of two meshes can stop each other with the features that they own. A vertex stops any
   /// triangle, but an edge stops only edges and vertices. So the answer is true if either triangle owns a vertex that
   /// can stop another mesh, or if both own edges that are not flat.
   bool can_stop_each_other(std::int32_t triangle, const MeshTopology& other, std::int32_t triangle_of_other) const {
-    const int mine = answers_[static_cast<std::size_t>(triangle)];
-    const int others = other.answers_[static_cast<std::size_t>(triangle_of_other)];
+    const int mine = owned_features_[static_cast<std::size_t>(triangle)];
+    const int others = other.owned_features_[static_cast<std::size_t>(triangle_of_other)];
     return (mine & kCorners) != 0 || (others & kCorners) != 0 || (mine != 0 && others != 0);
   }
   /// Whether corner i of a triangle, or edge i, is a feature that this triangle owns.
-  bool answers_for_corner(std::int32_t triangle, int i) const { return answers(triangle, i); }
-  bool answers_for_edge(std::int32_t triangle, int i) const { return answers(triangle, 3 + i); }
+  bool owns_corner(std::int32_t triangle, int i) const { return owns(triangle, i); }
+  bool owns_edge(std::int32_t triangle, int i) const { return owns(triangle, 3 + i); }
 
  private:
   /// A list for each of n items, stored end to end.
@@ -76,8 +82,8 @@ class MeshTopology {
 
   static constexpr int kCorners = 7;
 
-  bool answers(std::int32_t triangle, int feature) const {
-    return (answers_[static_cast<std::size_t>(triangle)] >> feature & 1) != 0;
+  bool owns(std::int32_t triangle, int feature) const {
+    return (owned_features_[static_cast<std::size_t>(triangle)] >> feature & 1) != 0;
   }
 
   void collect_edges(const TriangleMesh& mesh);
@@ -89,7 +95,7 @@ class MeshTopology {
   std::vector<std::array<std::int32_t, 3>> triangle_edges_;
   std::vector<std::int32_t> vertex_owner_;
   std::vector<char> can_stop_;
-  std::vector<std::uint8_t> answers_;  // by triangle, features that it owns: bits 0 to 2 corners, 3 to 5 edges
+  std::vector<std::uint8_t> owned_features_;  // by triangle: bits 0 to 2 corners, 3 to 5 edges
   Lists apexes_;
   Lists neighbors_;
 };

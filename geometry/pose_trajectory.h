@@ -20,7 +20,7 @@ struct TimedPose {
 /// Velocity of a frame B.
 struct FrameVelocity {
   Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();  ///< velocity of the origin of B, in world axes; m/s
-  Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();  ///< in world axes; rad/s
+  Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();  ///< angular velocity of B, in world axes; rad/s
 };
 
 /// A pose for every time. Between two rows the translation is linear and the rotation a slerp along the shorter arc.
@@ -29,8 +29,9 @@ struct FrameVelocity {
 class PoseTrajectory {
  public:
   /// Throws std::invalid_argument when there is no row. Also throws, naming the row (counted from 0), for a row whose
-  /// time is not greater than the time of the row before, whose pose is not finite, or whose matrix is not a rotation
-  /// to within 1e-3.
+  /// time is not greater than the time of the row before, whose pose is not finite, or whose matrix R is not a
+  /// rotation. An R counts as a rotation if every entry of RᵀR − 1 (1: the identity matrix) is at most 1e-3 in absolute
+  /// value and R is not a reflection.
   explicit PoseTrajectory(const std::vector<TimedPose>& rows);
 
   std::chrono::nanoseconds first_time() const noexcept { return times_.front(); }
@@ -40,8 +41,9 @@ class PoseTrajectory {
   /// The pose X_WB at `time`. Real-time safe; O(log rows).
   Eigen::Isometry3d pose_at(std::chrono::nanoseconds time) const noexcept;
 
-  /// The exact velocity of `pose_at`. Between two rows it is constant; at a row it is the velocity of the piece that
-  /// starts there. The velocity is zero before the first row, and from the last row on. Real-time safe; O(log rows).
+  /// The exact time derivative of `pose_at`. Between two rows the velocity is constant. At a row, it is the velocity of
+  /// the piece that starts there. The velocity is zero before the first row, and from the last row on. Real-time safe;
+  /// O(log rows).
   FrameVelocity velocity_at(std::chrono::nanoseconds time) const noexcept;
 
   /// The same path with the same first time; all later times are scaled so that the path takes `duration`. Throws

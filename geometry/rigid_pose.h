@@ -10,15 +10,16 @@
 
 namespace glissade::geometry {
 
-/// The rigid pose nearest to an almost rigid X = (R, p). Returns X itself if the `rotation_defect` of R is below 1e-12,
-/// which holds for every product of a few rotations. Replaces R by the nearest rotation if the defect is below 1e-4.
-/// Returns nothing for a larger defect, for a reflection, and for a coordinate of p that is not finite or beyond
-/// ±1e9 m. The rotation of the result thus has a defect below 1e-12, so error bounds derived for rotations hold for it.
-/// Cost: about ten nanoseconds.
+/// The rigid pose nearest to an almost rigid X = (R, p). Returns X itself if the `rotation_defect` of R (declared
+/// below) is below 1e-12. Every product of a few rotations has so small a defect. Replaces R by the nearest rotation if
+/// the defect is between 1e-12 and 1e-4. Returns nothing for a larger defect, for a reflection, and for a coordinate of
+/// p that is not finite or beyond ±1e9 m. The rotation of a result thus has a defect below 1e-12, so error bounds
+/// derived for rotations hold for the result. Cost: about ten nanoseconds.
 std::optional<Eigen::Isometry3d> rigid_pose(const Eigen::Isometry3d& X) noexcept;
 
-/// The defect δ: the sum of the absolute entries of RᵀR − 1. The defect is 0 for an exact rotation or reflection, and
-/// an upper bound of every common norm of RᵀR − 1. The defect is not finite when R has an entry that is not finite.
+/// The defect δ: the sum of the absolute entries of RᵀR − 1, where 1 is the identity matrix. The defect is 0 for an
+/// exact rotation or reflection, and an upper bound of every common norm of RᵀR − 1. The defect is not finite when R
+/// has an entry that is not finite.
 inline double rotation_defect(const Eigen::Matrix3d& R) {
   const Eigen::Vector3d x = R.col(0);
   const Eigen::Vector3d y = R.col(1);

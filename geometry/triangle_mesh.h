@@ -32,8 +32,8 @@ struct TriangleMesh {
   }
 };
 
-/// All triangles of `meshes` as one mesh, in the order of the meshes. Vertices are copied, not welded: parts stay
-/// separate components. Throws std::invalid_argument when the result would have more than 2^31 - 1 vertices.
+/// All triangles of `meshes` as one mesh, in the order of the meshes. Vertices are copied, not welded: the input meshes
+/// stay separate components. Throws std::invalid_argument when the result would have more than 2^31 - 1 vertices.
 TriangleMesh merge(std::span<const TriangleMesh> meshes);
 
 /// The mesh in coordinates of frame A; `mesh_B` is in coordinates of frame B.
@@ -51,9 +51,9 @@ TriangleMesh weld(const TriangleMesh& mesh);
 std::vector<std::int32_t> triangles_inside(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box);
 
 /// The mesh with the given triangles (indices in ascending order) made degenerate. Degenerate triangles take part in no
-/// query, and all other triangles keep their indices. Use this function if a part, once seated, overlaps an obstacle by
-/// design, such as a unit on its spring tongues: remove from the obstacle's mesh the triangles that give way in
-/// reality.
+/// query, and all other triangles keep their indices. Use this function if a part in its final position overlaps an
+/// obstacle by design, such as a car radio that presses on the spring tongues of its slot: remove from the obstacle's
+/// mesh the triangles that bend out of the way in reality.
 TriangleMesh without_triangles(const TriangleMesh& mesh, std::span<const std::int32_t> triangles);
 
 }  // namespace glissade::geometry

@@ -16,7 +16,7 @@ bool is_degenerate(const TrianglePoints& triangle);
 
 /// Whether two closed triangles share a point, decided exactly for these coordinates; touching counts. Coplanar pairs,
 /// shared edges and shared vertices are ordinary cases. `a` must not be degenerate. `b` may be degenerate, for example
-/// by rounding in a transformation; it then counts as the segment or point that it has become.
+/// by rounding in a transformation; a degenerate `b` counts as the segment or point to which it has collapsed.
 bool triangles_intersect(const TrianglePoints& a, const TrianglePoints& b);
 
 /// The distance of two triangles in metres, and the two points at this distance.

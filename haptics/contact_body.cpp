@@ -17,10 +17,10 @@ const std::shared_ptr<const geometry::TriangleMesh>& checked(
 
 ContactBody::ContactBody(const std::shared_ptr<const geometry::TriangleMesh>& mesh)
     : tree(checked(mesh)),
-      obbs(std::make_unique<const ObbTree>(tree)),
       hull(*mesh),
       topology(*mesh),
-      features(tree, [this](std::int32_t triangle) { return topology.answers_for_features(triangle); }) {}
+      features(tree, [this](std::int32_t triangle) { return topology.owns_stopping_feature(triangle); }),
+      obbs_(std::make_unique<const ObbTree>(tree)) {}
 
 ContactBody::~ContactBody() = default;
 

@@ -26,10 +26,13 @@ struct ContactBody {
   ~ContactBody();
 
   collision::DopTree tree;
-  std::unique_ptr<const ObbTree> obbs;  ///< for path certificates; private to the component
   collision::ConvexHull hull;
   geometry::MeshTopology topology;
   collision::TriangleSelection features;  ///< triangles that own an edge or vertex that can stop another body
+
+ private:
+  friend struct ObbAccess;
+  std::unique_ptr<const ObbTree> obbs_;  // for path certificates
 };
 
 /// The part in the hand, in its own frame V. Displacements and the coupling act at a reference point fixed in the part:

@@ -32,7 +32,9 @@ class HapticKernel {
  public:
   /// The first state with a finite hand pose fixes the grasp: the hand holds the part rigidly, with the part at
   /// X_WV_start. `stiffness` is the stiffness with which the simulation holds the part. The coupling is the result of
-  /// `coupling_for` with `device` and `stiffness`. Throws as `coupling_for` does.
+  /// `coupling_for` with `device` and `stiffness`. If the simulation is stiffer than the device, the contact forces
+  /// that the simulation reports differ from the force on the hand; hold the part with the stiffness of `coupling_for`
+  /// to avoid this. Throws as `coupling_for` does.
   HapticKernel(const SlidingPart& part_V, const CouplingStiffness& stiffness, const devices::DeviceDescriptor& device,
                const Eigen::Isometry3d& X_WV_start);
   ~HapticKernel();

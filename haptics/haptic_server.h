@@ -47,10 +47,9 @@ class HapticServer {
   using Sink = std::function<void(const devices::HapticState&)>;
 
   /// Starts both threads. The references must outlive the server. The hand grasps the part when the first state of the
-  /// device arrives; the part stays where it is. The coupling is the result of `coupling_for` with the descriptor of
-  /// the device and the stiffness of the simulation. If the simulation is stiffer than the device, the contact forces
-  /// that it reports differ from the force on the hand; hold the part with the stiffness of `coupling_for` to avoid
-  /// this. Throws std::invalid_argument for an empty sink, and as `coupling_for` does.
+  /// device arrives; the part stays where it is. The coupling is that of a `HapticKernel` with the
+  /// stiffness of the simulation and the descriptor of the device. Throws std::invalid_argument for an empty sink, and
+  /// as `coupling_for` does.
   HapticServer(devices::GloveDevice& device, SlidingSimulation& simulation, realtime::Clock& clock, Sink sink,
                const HapticServerOptions& options = {});
   HapticServer(const HapticServer&) = delete;

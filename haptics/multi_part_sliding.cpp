@@ -169,4 +169,24 @@ const ContactScene& MultiPartSliding::scene() const {
   return cycle_->shared().scene;
 }
 
+PartOfSeveral::PartOfSeveral(MultiPartSliding& sliding, std::size_t part) : sliding_(sliding), part_(part) {
+  if (part >= sliding.part_count()) {
+    throw std::invalid_argument("there is no part number " + std::to_string(part) + " among " +
+                                std::to_string(sliding.part_count()) + ", counted from 0");
+  }
+  for (std::size_t p = 0; p < sliding.part_count(); ++p)
+    ghosts_X_WG_.push_back(sliding.result(p).X_WG);
+}
+
+void PartOfSeveral::lead_other(std::size_t other, const Eigen::Isometry3d& X_WG) {
+  GLISSADE_ASSERT(other < ghosts_X_WG_.size() && other != part_);
+  ghosts_X_WG_[other] = X_WG;
+}
+
+const SlidingResult& PartOfSeveral::advance(const Eigen::Isometry3d& X_WG, double milliseconds) {
+  ghosts_X_WG_[part_] = X_WG;
+  sliding_.advance(ghosts_X_WG_, milliseconds);
+  return result();
+}
+
 }  // namespace glissade::haptics

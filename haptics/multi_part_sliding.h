@@ -60,12 +60,42 @@ class MultiPartSliding {
   double margin(std::size_t part) const;
 
   const SearchStatistics& search_statistics() const;
-  /// The bodies and their poses, for tests; `ContactScene` is private to the component.
-  const ContactScene& scene() const;
 
  private:
+  friend struct SceneAccess;
   class Cycle;
+
+  const ContactScene& scene() const;
+
   std::unique_ptr<Cycle> cycle_;
+};
+
+/// One of several parts as a simulation of its own, so that a server or an offline run can lead it. Not thread-safe.
+class PartOfSeveral final : public SlidingSimulation {
+ public:
+  /// Leads the part with the number `part` of `sliding`, which must outlive this object. The ghosts of the other parts
+  /// stay where they are until `lead_other`. Throws std::invalid_argument unless `part` is below `part_count`.
+  PartOfSeveral(MultiPartSliding& sliding, std::size_t part);
+
+  /// From the next call of `advance` on, the ghost of the part with the number `other` is at X_WG. `other` must be
+  /// below `part_count` and not the number of this part.
+  void lead_other(std::size_t other, const Eigen::Isometry3d& X_WG);
+
+  void grasp(const Eigen::Isometry3d& X_WG) override { sliding_.grasp(part_, X_WG); }
+  void release() override { sliding_.release(part_); }
+  /// Advances all parts.
+  const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) override;
+
+  const SlidingResult& result() const override { return sliding_.result(part_); }
+  const SlidingPart& part() const override { return sliding_.part(part_); }
+  const CouplingStiffness& stiffness() const override { return sliding_.stiffness(part_); }
+  double margin() const override { return sliding_.margin(part_); }
+  SearchStatistics search_statistics() const override { return sliding_.search_statistics(); }
+
+ private:
+  MultiPartSliding& sliding_;
+  std::size_t part_;
+  std::vector<Eigen::Isometry3d> ghosts_X_WG_;  // one for each part
 };
 
 }  // namespace glissade::haptics

@@ -65,10 +65,9 @@ class Sliding final : public SlidingSimulation {
   /// Minimum clearance (metres) that every certified path keeps from obstacles that have no margin of their own. A path
   /// that starts nearer to an obstacle keeps 95 % of the distance at its start.
   double min_clearance() const { return kMinClearanceOfMargin * margin(); }
-  /// The bodies and their poses, for tests; `ContactScene` is private to the component.
-  const ContactScene& scene() const { return sliding_.scene(); }
 
  private:
+  friend struct SceneAccess;
   MultiPartSliding sliding_;
   std::vector<ScriptedPart> scripted_;
   std::vector<Eigen::Isometry3d> scripted_X_WB_;

@@ -85,10 +85,10 @@ std::span<const TrackedContact> ContactTracker::update(const SlidingResult& resu
 
 void ContactTracker::take(const SlidingResult& result) {
   const bool moves = result.X_WV.matrix() != result.X_WV_of_contacts.matrix();
-  const Eigen::Isometry3d X_W = result.X_WV * result.X_WV_of_contacts.inverse(Eigen::Isometry);
+  const Eigen::Isometry3d part_motion_W = result.X_WV * result.X_WV_of_contacts.inverse(Eigen::Isometry);
   now_.clear();
   for (const Contact& contact : result.contacts) {
-    TrackedContact tracked{0, 0, moves ? carried(contact, X_W) : contact};
+    TrackedContact tracked{0, 0, moves ? carried(contact, part_motion_W) : contact};
     if (lasts(tracked.contact)) now_.push_back(tracked);
   }
   std::sort(now_.begin(), now_.end(),
@@ -138,11 +138,11 @@ void ContactTracker::match_features() {
 
 void ContactTracker::match_places(const Eigen::Isometry3d& X_WV, double obstacle_travel) {
   if (ended_.empty()) return;
-  const Eigen::Isometry3d X_W = X_WV * X_WV_.inverse(Eigen::Isometry);
+  const Eigen::Isometry3d part_motion_W = X_WV * X_WV_.inverse(Eigen::Isometry);
   double widest = 0.0;
   for (Ended& ended : ended_) {
     const Eigen::Vector3d& p_W = before_[static_cast<std::size_t>(ended.index)].contact.p_W;
-    ended.travel = (X_W * p_W - p_W).norm() + obstacle_travel + 3.0 * margin_;
+    ended.travel = (part_motion_W * p_W - p_W).norm() + obstacle_travel + 3.0 * margin_;
     widest = std::max(widest, ended.travel);
   }
   std::sort(ended_.begin(), ended_.end(), [&](const Ended& a, const Ended& b) {

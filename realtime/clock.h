@@ -15,7 +15,7 @@ class Clock {
 
   virtual std::chrono::nanoseconds now() const noexcept = 0;
 
-  /// Returns once now() ≥ `deadline`, so at once when the deadline has passed. May block.
+  /// Returns as soon as now() ≥ `deadline`, and at once if the deadline has already passed. May block.
   virtual void sleep_until(std::chrono::nanoseconds deadline) noexcept = 0;
 };
 
@@ -34,7 +34,7 @@ class SimulatedClock final : public Clock {
     if (deadline > now_) now_ = deadline;
   }
 
-  /// Lets `duration` (≥ 0) pass, for example the simulated duration of a tick.
+  /// Lets `duration` (≥ 0) pass, for example the simulated duration of one cycle of a loop.
   void advance(std::chrono::nanoseconds duration) noexcept { now_ += duration; }
 
  private:

@@ -10,17 +10,18 @@
 
 namespace glissade::realtime {
 
-/// A log-linear histogram of nanoseconds: exact below 128 ns, 64 buckets per power of two above, up to 2^40 ns (18
-/// minutes).
+/// A log-linear histogram of durations in nanoseconds. Below 128 ns each duration has its own bucket. From there to
+/// 2^40 ns (18 minutes), each power of two has 64 buckets.
 ///
 /// Not thread-safe: read a histogram in the thread that records, or after that thread has been joined.
 class LatencyHistogram {
  public:
-  /// A reported quantile is never below the exact quantile, and exceeds it by at most this fraction.
+  /// A reported quantile is never below the exact quantile. A reported quantile below 18 minutes exceeds the exact
+  /// quantile by at most this fraction of the exact quantile.
   static constexpr double kRelativeError = 1.0 / 64.0;
 
-  /// Adds one duration. A negative duration counts as 0. Quantiles do not distinguish durations of 2^40 ns or more;
-  /// `max()` is exact for these too. Wait-free, no allocation.
+  /// Adds one duration. A negative duration counts as 0. All durations of 2^40 ns or more share the last bucket, so
+  /// quantiles do not distinguish them, but `max()` is exact. Wait-free, no allocation.
   void record(std::chrono::nanoseconds duration) noexcept;
 
   std::uint64_t count() const noexcept { return count_; }
@@ -29,8 +30,8 @@ class LatencyHistogram {
   std::chrono::nanoseconds max() const noexcept { return std::chrono::nanoseconds(max_); }
 
   /// The `p`-quantile: the smallest recorded duration d such that at least the fraction `p` of all durations is at most
-  /// d. `p` is clamped to 0…1. The result is rounded up by at most the fraction `kRelativeError`, and 0 when nothing
-  /// was recorded. quantile(0.5) is the median, quantile(1) is max().
+  /// d. `p` is clamped to 0…1. The result is rounded up as stated at `kRelativeError`. The result is 0 when nothing was
+  /// recorded. quantile(0.5) is the median, quantile(1) is max().
   std::chrono::nanoseconds quantile(double p) const noexcept;
 
  private:

@@ -1,16 +1,17 @@
 #pragma once
 
-/// A loop that runs at a fixed rate and records how punctual it was.
+/// A loop that calls a function at a fixed rate and records its punctuality. A tick is one call of this function.
 ///
 /// The rule: the deadlines form a fixed grid, start + k · period. A tick counts as late when it starts at or after the
-/// deadline that follows its own. After each tick, the loop continues with the first later deadline whose successor has
-/// not passed yet; the deadlines before it are skipped and counted. So ticks never run in bursts to catch up, the loop
-/// never drifts, and after an overrun the next tick starts at once.
+/// deadline that follows its own deadline. After each tick, the loop continues with the first later deadline whose
+/// successor has not passed yet. The loop skips and counts the deadlines in between. So ticks never run in bursts to
+/// catch up, the loop never drifts, and after an overrun the next tick starts at once.
 ///
-/// The loop waits by a plain absolute sleep. Spinning through the last 100 µs would bring the median lateness (20 µs
-/// under SCHED_FIFO, a little more otherwise) to about 0. But spinning would cost a tenth of a core at 1 kHz, and on a
-/// small machine the simulation needs this time more. Spinning would not shorten the longest delays either, because the
-/// host of a virtual machine may take the processor away for milliseconds.
+/// Between ticks, the loop only sleeps, until the absolute time of the next deadline. The median lateness is 20 µs
+/// under SCHED_FIFO, and a little more otherwise. Spinning through the last 100 µs would reduce the median to about 0.
+/// But spinning would cost a tenth of a core at 1 kHz, and on a small machine the simulation needs this processor time
+/// more. Spinning would not shorten the longest delays either, because the host of a virtual machine may take the
+/// processor away for milliseconds.
 
 #include <chrono>
 #include <cstdint>
@@ -20,10 +21,10 @@
 
 namespace glissade::realtime {
 
-/// Statistics of one loop. Each run adds to the statistics, so that a loop may be run in slices.
+/// Statistics of one loop. Each run adds to the statistics, so that one loop may be split into several runs.
 struct PeriodicStatistics {
   std::uint64_t ticks = 0;
-  std::uint64_t late_ticks = 0;         ///< ticks that started at or after the deadline that follows their own
+  std::uint64_t late_ticks = 0;         ///< ticks that started a period or more after their deadline
   std::uint64_t skipped_deadlines = 0;  ///< deadlines without a tick, because an earlier tick or wake-up took too long
   LatencyHistogram lateness;            ///< start of the tick minus its deadline
   LatencyHistogram duration;            ///< end of the tick minus its start
@@ -45,7 +46,7 @@ class PeriodicSchedule {
 
   std::chrono::nanoseconds deadline() const noexcept { return deadline_; }
 
-  /// Accounts for a tick that ran from `started` to `ended`, and advances to the next deadline.
+  /// Adds a tick that ran from `started` to `ended` to `statistics`, and advances to the next deadline by the rule.
   void finish_tick(std::chrono::nanoseconds started, std::chrono::nanoseconds ended,
                    PeriodicStatistics& statistics) noexcept;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A thread that calls a tick function at a fixed rate: `run_periodic` in a thread of its own.
+/// A thread that calls a function, the tick function, at a fixed rate: `run_periodic` in a thread of its own.
 
 #include <atomic>
 #include <chrono>
@@ -21,14 +21,14 @@ struct PeriodicThreadOptions {
 /// Scheduling that the system granted to a thread.
 struct ThreadScheduling {
   bool is_fifo = false;                  ///< the thread runs under SCHED_FIFO, ahead of every ordinary thread
-  bool has_minimal_timer_slack = false;  ///< the kernel does not delay the thread's timers (by 50 µs) to batch wake-ups
+  bool has_minimal_timer_slack = false;  ///< the kernel does not delay timers to batch wake-ups (default: by 50 µs)
 };
 
 /// The thread starts in the constructor. The thread ends when the tick function returns false, on `stop()`, or in the
 /// destructor. Thread-safety: only the thread that owns the object may call its functions.
 class PeriodicThread {
  public:
-  /// Returns false to end the loop. Must not throw.
+  /// The tick function. Returns false to end the loop. Must not throw.
   using Tick = std::function<bool(const PeriodicTick&)>;
 
   /// `clock` must outlive the thread. Returns once the thread runs and its scheduling is known. Throws
@@ -44,8 +44,8 @@ class PeriodicThread {
   /// Waits until the tick function has returned false.
   void join();
 
-  /// Lets a running tick finish and starts no other. Waits for the thread, which ends at its next deadline, at most
-  /// about one period later.
+  /// Lets a running call of the tick function finish, and makes no further call. Waits until the thread has ended. The
+  /// thread ends at its next deadline, at most about one period later.
   void stop();
 
   /// Statistics of the loop, valid once `join()` or `stop()` has returned.

@@ -1,8 +1,8 @@
 #pragma once
 
-/// A bounded queue from one thread to another. When it is full, new values are dropped and counted; no thread ever
-/// waits. Use it for logs and recordings, where every value matters; use `TripleBuffer` where only the newest value
-/// matters.
+/// A bounded queue from one thread to another. When the queue is full, new values are dropped and counted; no thread
+/// ever waits. Use the queue for logs and recordings, where every value matters; use `TripleBuffer` where only the
+/// newest value matters.
 
 #include <atomic>
 #include <bit>
@@ -16,7 +16,7 @@
 namespace glissade::realtime {
 
 /// Thread-safety: one producer thread and one consumer thread; any thread may read the counters. Progress: push and pop
-/// are wait-free and bounded. Nothing is allocated after construction unless T's assignment does.
+/// are wait-free and bounded. Nothing is allocated after construction, unless T's assignment allocates.
 template <typename T>
 class SpscRing {
  public:
@@ -58,7 +58,7 @@ class SpscRing {
     return true;
   }
 
-  /// Any thread: values dropped so far.
+  /// Any thread: number of values dropped so far.
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
  private:

@@ -1,7 +1,8 @@
 #pragma once
 
-/// The newest value, passed from one thread to another, with no lock and no waiting on either side. Use it for states
-/// and commands, where an old value is worth nothing; use `SpscRing` where every value matters.
+/// A buffer that passes the newest value from one thread to another, without locks and without waiting on either side.
+/// Use `TripleBuffer` for states and commands, where an old value is worth nothing; use `SpscRing` where every value
+/// matters.
 
 #include <array>
 #include <atomic>
@@ -11,11 +12,11 @@
 
 namespace glissade::realtime {
 
-/// Three slots: one belongs to the writer, one to the reader, and one lies between them. `publish` exchanges the
-/// writer's slot for the slot between; `update` exchanges the reader's slot for the slot between.
+/// Three slots: one belongs to the writer, one to the reader, and one, the slot between, to neither. `publish`
+/// exchanges the writer's slot for the slot between; `update` exchanges the reader's slot for the slot between.
 ///
 /// Thread-safety: one writer thread and one reader thread. Progress: every function is wait-free and bounded, whatever
-/// the other thread does and wherever it was pre-empted. Nothing is allocated unless T's assignment does.
+/// the other thread does and wherever it was pre-empted. Nothing is allocated, unless T's assignment allocates.
 template <typename T>
 class TripleBuffer {
  public:
@@ -25,7 +26,8 @@ class TripleBuffer {
   TripleBuffer(const TripleBuffer&) = delete;
   TripleBuffer& operator=(const TripleBuffer&) = delete;
 
-  /// Writer: makes `value` the newest. A value that the reader has not taken yet is overwritten.
+  /// Writer: makes `value` the newest. Overwrites a published value that the reader has not fetched by `update`
+  /// yet.
   void publish(const T& value) noexcept(std::is_nothrow_copy_assignable_v<T>) {
     write_slot() = value;
     publish();

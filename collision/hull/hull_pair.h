@@ -61,8 +61,8 @@ class HullPair {
     const double gap = n.dot(w);
     if (!(gap > margin_) || gap > climbing_margin_) return w;
     // Examines all corners only where an error of climbing would matter.
-    memory_.corner_A = hull_A_.furthest(n);
-    memory_.corner_B = hull_B_.furthest(against_B);
+    memory_.corner_A = hull_A_.farthest(n);
+    memory_.corner_B = hull_B_.farthest(against_B);
     return point(memory_.corner_A, memory_.corner_B).w;
   }
 

@@ -37,7 +37,7 @@ using Indices = hn::Vec<hn::RebindToSigned<Tag>>;
 // The number of the vertex of the generic DOP that is farthest along each direction or its opposite. The number is kept
 // in the lowest bits of the reach, so that one maximum finds both. It does not matter which of two nearly equal
 // vertices wins.
-HWY_INLINE Indices furthest_vertex(const AlignmentTable& table, const V (&direction)[3]) {
+HWY_INLINE Indices farthest_vertex(const AlignmentTable& table, const V (&direction)[3]) {
   const Tag d;
   const hn::RebindToSigned<Tag> d32;
   const auto number_bits = hn::Set(d32, kVertexEntries - 1);
@@ -79,7 +79,7 @@ HWY_INLINE void find_correspondence(const AlignmentTable& table, const QueryFram
                                  hn::MulAdd(slab[1], hn::Set(d, component(frame.R_MN(1, axis))),
                                             hn::Mul(slab[2], hn::Set(d, component(frame.R_MN(2, axis))))));
   }
-  const auto vertex = furthest_vertex(table, direction);
+  const auto vertex = farthest_vertex(table, direction);
 
   V weight[3];
   for (std::size_t term = 0; term < 3; ++term) {

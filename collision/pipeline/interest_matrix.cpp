@@ -31,7 +31,7 @@ void InterestMatrix::disable_groups(int group_a, int group_b) {
 
 bool InterestMatrix::forget(std::uint32_t slot) {
   const auto has_slot = [slot](std::uint64_t pair) { return (pair >> 32) == slot || (pair & 0xffffffffU) == slot; };
-  return std::erase_if(ignored_, has_slot) != 0;
+  return std::erase_if(disabled_pairs_, has_slot) != 0;
 }
 
 }  // namespace glissade::collision

@@ -29,8 +29,8 @@ class InterestMatrix {
 
   /// Disables the pair of these two objects, whatever their groups. `enable_pair` undoes that; it does not override
   /// groups.
-  void disable_pair(std::uint32_t slot_a, std::uint32_t slot_b) { ignored_.insert(key(slot_a, slot_b)); }
-  void enable_pair(std::uint32_t slot_a, std::uint32_t slot_b) { ignored_.erase(key(slot_a, slot_b)); }
+  void disable_pair(std::uint32_t slot_a, std::uint32_t slot_b) { disabled_pairs_.insert(key(slot_a, slot_b)); }
+  void enable_pair(std::uint32_t slot_a, std::uint32_t slot_b) { disabled_pairs_.erase(key(slot_a, slot_b)); }
   /// Forgets the disabled pairs of an object that was removed. Returns whether there were any. Cost O(disabled pairs).
   bool forget(std::uint32_t slot);
 
@@ -38,7 +38,7 @@ class InterestMatrix {
   bool is_enabled(std::uint32_t slot_a, int group_a, std::uint32_t slot_b, int group_b) const {
     GLISSADE_ASSERT(group_a >= 0 && group_a < kGroups && group_b >= 0 && group_b < kGroups);
     return slot_a != slot_b && (rows_[static_cast<std::size_t>(group_a)] >> group_b & 1U) != 0 &&
-           (ignored_.empty() || !ignored_.contains(key(slot_a, slot_b)));
+           (disabled_pairs_.empty() || !disabled_pairs_.contains(key(slot_a, slot_b)));
   }
 
  private:
@@ -47,7 +47,7 @@ class InterestMatrix {
   }
 
   std::array<std::uint64_t, kGroups> rows_;  ///< bit h of row g: the groups g and h are enabled for each other
-  std::unordered_set<std::uint64_t> ignored_;
+  std::unordered_set<std::uint64_t> disabled_pairs_;
 };
 
 }  // namespace glissade::collision

@@ -47,7 +47,7 @@ void NeighborStage::find(const QueueStage& queue, std::uint64_t frame, double di
 
 void NeighborStage::track(const SlotPair& slots) {
   const PairTable::Number number = pairs_.add(slots);
-  pairs_[number].is_of_interest = world_.is_enabled(slots.a, slots.b);
+  pairs_[number].is_enabled = world_.is_enabled(slots.a, slots.b);
   pairs_[number].expected_ns = kFirstQuery_ns;
 }
 
@@ -59,10 +59,10 @@ void NeighborStage::forget(const SlotPair& slots) {
 
 void NeighborStage::renew_interest(PairTable::Number number) {
   TrackedPair& pair = pairs_[number];
-  const bool was_of_interest = pair.is_of_interest;
-  pair.is_of_interest = world_.is_enabled(pair.slots.a, pair.slots.b);
-  if (!pair.is_of_interest) meetings_.part(pair, number);
-  if (pair.is_of_interest && !was_of_interest) consider(number);
+  const bool was_enabled = pair.is_enabled;
+  pair.is_enabled = world_.is_enabled(pair.slots.a, pair.slots.b);
+  if (!pair.is_enabled) meetings_.part(pair, number);
+  if (pair.is_enabled && !was_enabled) consider(number);
 }
 
 void NeighborStage::consider_changed(const QueueStage& queue) {
@@ -90,7 +90,7 @@ void NeighborStage::consider_changed_in_order(const QueueStage& queue) {
 
 void NeighborStage::consider(PairTable::Number number) {
   TrackedPair& pair = pairs_[number];
-  if (!pair.is_of_interest || pair.frame == frame_) return;
+  if (!pair.is_enabled || pair.frame == frame_) return;
   pair.frame = frame_;
   ++considered_;
   if (placed_.gap(pair.slots.a, pair.slots.b, pair.separation) > certain_distance(distance_)) {

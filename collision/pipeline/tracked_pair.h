@@ -29,7 +29,7 @@ struct TrackedPair {
   Separation separation;     ///< the last known one
   std::uint32_t frame = 0;   ///< the last frame that considered the pair; low bits of its number
   float expected_ns = 0.0F;  ///< of the exact query, estimated from the last one
-  bool is_of_interest = false;
+  bool is_enabled = false;
   bool meets = false;
 };
 

@@ -11,6 +11,7 @@
 #include "query/coherent_front.h"
 #include "query/dop_traversal.h"
 #include "query/placed_trees.h"
+#include "query/workspace_access.h"
 #include "tree/tree_nodes.h"
 
 namespace glissade::collision {
@@ -18,7 +19,7 @@ namespace {
 
 class GapSearch {
  public:
-  GapSearch(const PlacedTrees& placed, double limit, QueryWorkspace::Memory& memory)
+  GapSearch(const PlacedTrees& placed, double limit, QueryMemory& memory)
       : placed_(placed),
         memory_(memory),
         step_(placed.base(), placed.other(), placed.frame, std::numeric_limits<double>::infinity(), memory.alignment),
@@ -85,7 +86,7 @@ class GapSearch {
   }
 
   const PlacedTrees& placed_;
-  QueryWorkspace::Memory& memory_;
+  QueryMemory& memory_;
   DopVisit step_;
   double least_;  ///< metres
   VisitedLeaves leaves_;
@@ -94,8 +95,7 @@ class GapSearch {
 
 // The search finds the least of all computed distances, wherever it begins: bounds by boxes and normals are below true
 // distances by far more than the rounding of distances.
-double bound(const PlacedTrees& placed, double limit, QueryWorkspace::Memory& memory,
-             std::optional<NearestPair>& nearest) {
+double bound(const PlacedTrees& placed, double limit, QueryMemory& memory, std::optional<NearestPair>& nearest) {
   memory.counters = {};
   const double rounding = 4.0 * placed.frame.uncertainty * placed.frame.base_radius;
   if (placed.frame.spheres_apart(limit)) return limit;
@@ -116,12 +116,13 @@ double bound(const PlacedTrees& placed, double limit, QueryWorkspace::Memory& me
 double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                        QueryWorkspace& workspace, double limit) {
   std::optional<NearestPair> nearest;
-  return bound({tree_A, tree_B, X_AB}, limit, workspace.memory(), nearest);
+  return bound({tree_A, tree_B, X_AB}, limit, memory_of(workspace), nearest);
 }
 
 double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                        CoherentWorkspace& workspace, double limit) {
-  return bound({tree_A, tree_B, X_AB}, limit, workspace.workspace().memory(), workspace.front().nearest());
+  return bound({tree_A, tree_B, X_AB}, limit, memory_of(WorkspaceAccess::scratch(workspace)),
+               WorkspaceAccess::front(workspace).nearest());
 }
 
 }  // namespace glissade::collision

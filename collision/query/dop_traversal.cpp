@@ -10,7 +10,7 @@ namespace {
 
 class Traversal {
  public:
-  Traversal(DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor)
+  Traversal(DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor)
       : step_(step), memory_(memory), visitor_(visitor) {}
 
   /// Stops at the first answer. Visits one pair of children after another, the greatest overlap first.
@@ -108,26 +108,26 @@ class Traversal {
   }
 
   DopVisit& step_;
-  QueryWorkspace::Memory& memory_;
+  QueryMemory& memory_;
   TriangleVisitor& visitor_;
   VisitedLeaves leaves_;
 };
 
 }  // namespace
 
-bool traverse(Goal goal, DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor) {
+bool traverse(Goal goal, DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor) {
   if (goal == Goal::kAnyPair) return Traversal(step, memory, visitor).find_any();
   begin_all(step, memory, visitor);
   continue_all(step, memory, visitor, std::numeric_limits<std::int64_t>::max());
   return false;
 }
 
-void begin_all(DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor) {
+void begin_all(DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor) {
   memory.stack.clear();
   if (!step.boxes_apart()) Traversal(step, memory, visitor).open_if_near({0, 0, kAllPairs});
 }
 
-bool continue_all(DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor, std::int64_t node_tests) {
+bool continue_all(DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor, std::int64_t node_tests) {
   return Traversal(step, memory, visitor).continue_all(node_tests);
 }
 

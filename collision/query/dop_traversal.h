@@ -29,7 +29,7 @@ struct PromisingPair {
   double gap;
 };
 
-struct QueryWorkspace::Memory {
+struct QueryMemory {
   DopAlignment alignment;
   std::vector<OpenPair> stack;
   std::vector<PromisingPair> promising;
@@ -47,13 +47,13 @@ enum class Goal {
 };
 
 /// Passes to the visitor every triangle pair that may be near, until the visitor stops. Returns whether it did.
-bool traverse(Goal goal, DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor);
+bool traverse(Goal goal, DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor);
 
 /// The same in pieces, for a visitor that never stops. This function puts the roots on the stack.
-void begin_all(DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor);
+void begin_all(DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor);
 
 /// Continues with the stack until the counter of node tests exceeds `node_tests`. Returns whether the stack is empty.
 /// The rest may be divided among threads, because the pairs on the stack are independent.
-bool continue_all(DopVisit& step, QueryWorkspace::Memory& memory, TriangleVisitor& visitor, std::int64_t node_tests);
+bool continue_all(DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor, std::int64_t node_tests);
 
 }  // namespace glissade::collision

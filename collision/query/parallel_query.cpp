@@ -13,6 +13,7 @@
 #include "query/pair_visitors.h"
 #include "query/placed_trees.h"
 #include "query/sort_pairs.h"
+#include "query/workspace_access.h"
 
 namespace glissade::collision {
 namespace {
@@ -92,7 +93,7 @@ class SharedQuery {
   void run(Stack& stack, std::vector<Pair>& pairs) {
     for (Worker& worker : memory_.workers) {
       pairs_of(worker, static_cast<const Pair*>(nullptr)).clear();
-      worker.scratch.memory().counters = {};
+      memory_of(worker.scratch).counters = {};
     }
     // A thread that waits here must not begin unrelated tasks, which might take long.
     oneapi::tbb::this_task_arena::isolate([&] {
@@ -122,7 +123,7 @@ class SharedQuery {
 
   void do_piece(const Stack& piece) {
     Worker& worker = memory_.workers.local();
-    QueryWorkspace::Memory& scratch = worker.scratch.memory();
+    QueryMemory& scratch = memory_of(worker.scratch);
     scratch.stack = piece;
     DopVisit step(placed_.base(), placed_.other(), placed_.frame, distance_, scratch.alignment,
                   placed_.visit_selection());
@@ -147,7 +148,7 @@ void find_pairs(const PlacedTrees& placed, double distance, ParallelWorkspace::M
   memory.counters = {};
   const VisitSelection selection = placed.visit_selection();
   if (placed.frame.spheres_apart(distance)) return;
-  QueryWorkspace::Memory& scratch = memory.scratch.memory();
+  QueryMemory& scratch = memory_of(memory.scratch);
   scratch.counters = {};
   DopVisit step(placed.base(), placed.other(), placed.frame, distance, scratch.alignment, selection);
   PairCollector<Pair> visitor(placed, distance, pairs);

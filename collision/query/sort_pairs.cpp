@@ -21,7 +21,7 @@ TrianglePair pair_at(std::uint64_t place) {
 
 // Integers can be sorted with vector instructions, in a third of the time. Highway asks the system for random numbers
 // to do so, which allocates nothing but is a system call.
-void sort_pairs(std::vector<TrianglePair>& pairs, QueryWorkspace::Memory& memory) {
+void sort_pairs(std::vector<TrianglePair>& pairs, QueryMemory& memory) {
   constexpr std::size_t kWorthVectors = 64;
   if (pairs.size() < kWorthVectors) {
     std::sort(pairs.begin(), pairs.end());
@@ -34,7 +34,7 @@ void sort_pairs(std::vector<TrianglePair>& pairs, QueryWorkspace::Memory& memory
 }
 
 // In place and about twice as fast as std::sort here: comparing two numbers needs no branch.
-void sort_pairs(std::vector<ClosePair>& pairs, QueryWorkspace::Memory& /*memory*/) {
+void sort_pairs(std::vector<ClosePair>& pairs, QueryMemory& /*memory*/) {
   boost::sort::pdqsort_branchless(pairs.begin(), pairs.end(), [](const ClosePair& u, const ClosePair& v) {
     return place_of(u.triangles) < place_of(v.triangles);
   });

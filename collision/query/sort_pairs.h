@@ -10,7 +10,7 @@
 
 namespace glissade::collision {
 
-void sort_pairs(std::vector<TrianglePair>& pairs, QueryWorkspace::Memory& memory);
-void sort_pairs(std::vector<ClosePair>& pairs, QueryWorkspace::Memory& memory);
+void sort_pairs(std::vector<TrianglePair>& pairs, QueryMemory& memory);
+void sort_pairs(std::vector<ClosePair>& pairs, QueryMemory& memory);
 
 }  // namespace glissade::collision

@@ -5,7 +5,7 @@
 
 namespace glissade::collision {
 
-QueryWorkspace::QueryWorkspace() : memory_(std::make_unique<Memory>()) {}
+QueryWorkspace::QueryWorkspace() : memory_(std::make_unique<QueryMemory>()) {}
 QueryWorkspace::~QueryWorkspace() = default;
 QueryWorkspace::QueryWorkspace(QueryWorkspace&&) noexcept = default;
 QueryWorkspace& QueryWorkspace::operator=(QueryWorkspace&&) noexcept = default;

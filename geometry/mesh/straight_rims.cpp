@@ -73,18 +73,18 @@ class StraightRims {
     while (!stretches.empty()) {
       const auto [first, last] = stretches.back();
       stretches.pop_back();
-      std::size_t furthest = first;
+      std::size_t farthest = first;
       double distance = kStraight_m;
       for (std::size_t i = first + 1; i < last; ++i) {
         const double d = distance_from_chord(point(line[i]), point(line[first]), point(line[last]));
         if (!(d > distance)) continue;
         distance = d;
-        furthest = i;
+        farthest = i;
       }
-      if (furthest == first) continue;
-      inside_[static_cast<std::size_t>(line[furthest])] = 0;
-      stretches.push_back({first, furthest});
-      stretches.push_back({furthest, last});
+      if (farthest == first) continue;
+      inside_[static_cast<std::size_t>(line[farthest])] = 0;
+      stretches.push_back({first, farthest});
+      stretches.push_back({farthest, last});
     }
   }
 

@@ -7,6 +7,8 @@
 #include <glissade/base/assert.h>
 #include <glissade/collision/dual_tree_traversal.h>
 
+#include "certificate/obb_access.h"
+
 namespace glissade::haptics {
 namespace {
 
@@ -34,8 +36,8 @@ class PairSearch final : public collision::DualTreeVisitor {
   const Eigen::Isometry3d& X_OV() const { return X_OV_; }
 
   bool accepts(const collision::TreeChild& child_O, const collision::TreeChild& child_V) override {
-    const Obb& box_O = obstacle_.body->obbs->box(child_O.node, child_O.child);
-    const Obb& box_V = part_.body->obbs->box(child_V.node, child_V.child);
+    const Obb& box_O = obb_tree_of(*obstacle_.body).box(child_O.node, child_O.child);
+    const Obb& box_V = obb_tree_of(*part_.body).box(child_V.node, child_V.child);
     if (box_O.radius < 0.0 || box_V.radius < 0.0) return true;  // an empty box
     const Eigen::Vector3d between_O = X_OV_ * box_V.c - box_O.c;
     for (const Eigen::Vector3d& n_O : {box_O.axes.col(0).eval(), (X_OV_.linear() * box_V.axes.col(0)).eval()}) {
@@ -92,7 +94,7 @@ bool are_far_apart(const PlacedBody& a, const PlacedBody& b, double distance) {
 TreeItem child_of(const ContactBody& body, std::uint32_t node, int child) {
   const collision::TreeNode head = body.tree.node(node);
   GLISSADE_ASSERT(child < head.child_count());
-  return {head.is_leaf(child) ? Kind::kLeaf : Kind::kNode, head.child(child), &body.obbs->box(node, child)};
+  return {head.is_leaf(child) ? Kind::kLeaf : Kind::kNode, head.child(child), &obb_tree_of(body).box(node, child)};
 }
 
 void find_pairs_to_certify(const ContactScene& scene, std::span<const PlacedBody> bodies, double radius,

@@ -32,9 +32,10 @@ Eigen::Vector3d sharpest_direction(const geometry::TrianglePoints& obstacle, con
   Eigen::Vector3d sharpest = face_normal(obstacle);
   double widest = -std::numeric_limits<double>::infinity();
   const auto look = [&](const Eigen::Vector3d& normal) {
+    if (normal.isZero(0.0)) return;  // parallel edges have no common normal
     for (const Eigen::Vector3d& n : {normal, Eigen::Vector3d(-normal)}) {
       const double gap = gap_along(n, obstacle, part);
-      if (!(gap > widest)) continue;  // parallel edges have no common normal
+      if (!(gap > widest)) continue;
       widest = gap;
       sharpest = n;
     }

@@ -4,9 +4,10 @@
 
 namespace glissade::haptics {
 
-Contact carried(const Contact& contact, const Eigen::Isometry3d& X_W, const Eigen::Isometry3d& X_W_obstacle) {
-  const Eigen::Vector3d p_W = X_W * contact.p_W;
-  const Eigen::Vector3d q_W = X_W_obstacle * contact.q_W();
+Contact carried(const Contact& contact, const Eigen::Isometry3d& part_motion_W,
+                const Eigen::Isometry3d& obstacle_motion_W) {
+  const Eigen::Vector3d p_W = part_motion_W * contact.p_W;
+  const Eigen::Vector3d q_W = obstacle_motion_W * contact.q_W();
   Contact moved = contact;
   moved.gap = contact.gap + contact.n_W.dot(p_W - contact.p_W) - contact.n_W.dot(q_W - contact.q_W());
   const bool is_vertex_of_part = contact.kind == ContactKind::kVertexFace || contact.kind == ContactKind::kVertexEdge ||

@@ -10,11 +10,12 @@
 
 namespace glissade::haptics {
 
-/// The contact after its part has moved by X_W and its obstacle by X_W_obstacle (both in the world), to first order.
+/// The contact after its part and its obstacle have moved, to first order. A motion maps the coordinates of a point in
+/// the world before the motion to those after it.
 /// The normal stays. A vertex of the part keeps its place on the part; otherwise the obstacle's point keeps its place
 /// on the obstacle.
-Contact carried(const Contact& contact, const Eigen::Isometry3d& X_W,
-                const Eigen::Isometry3d& X_W_obstacle = Eigen::Isometry3d::Identity());
+Contact carried(const Contact& contact, const Eigen::Isometry3d& part_motion_W,
+                const Eigen::Isometry3d& obstacle_motion_W = Eigen::Isometry3d::Identity());
 
 /// A contact of two parts as the other one sees it. `body_of_part` is the body number of the part that has the contact,
 /// `other_part` is the part number of the other.

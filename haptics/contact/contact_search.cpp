@@ -17,7 +17,7 @@ constexpr double kNearRims = 2.0;
 constexpr double kAsNear = 0.1;
 constexpr double kPastEnd = 0.1;
 
-/// One side of a pair, part or obstacle: a triangle in world coordinates, and the features that it answers for.
+/// One side of a pair, part or obstacle: a triangle in world coordinates, and the features that it owns.
 class Side {
  public:
   explicit Side(double sign) : sign_(sign) {}
@@ -47,9 +47,9 @@ class Side {
   }
   std::int32_t edge(int i) const { return topology_->edges_of(triangle_)[static_cast<std::size_t>(i)]; }
 
-  /// Whether the selected triangle answers for its corner / edge i, and that feature can stop anything.
-  bool owns_corner(int i) const { return topology_->answers_for_corner(triangle_, i); }
-  bool owns_edge(int i) const { return topology_->answers_for_edge(triangle_, i); }
+  /// Whether the selected triangle owns its corner / edge i, and that feature can stop anything.
+  bool owns_corner(int i) const { return topology_->owns_corner(triangle_, i); }
+  bool owns_edge(int i) const { return topology_->owns_edge(triangle_, i); }
   /// Whether the point at parameter s of the line of edge i is inside the edge, or past an end by at most `tolerance`
   /// (metres) where the rim goes straight on. Otherwise an edge that crosses the rim just there could slip through
   /// between two edges.

@@ -22,7 +22,7 @@ namespace glissade::haptics {
 ///   wall.
 ///
 /// Edges and vertices inside plane patches and vertices inside straight rims are left out, because other features bound
-/// patch and rim. Each edge and vertex is considered only for the triangle that answers for it, which is among the
+/// patch and rim. Each edge and vertex is considered only for the triangle that owns it, which is among the
 /// candidates whenever the feature is within reach. `first_part` is the body number of the first part.
 void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part,
                    std::span<const CandidatePair> candidates, double reach, double margin,

@@ -147,13 +147,13 @@ PaperEvent PaperSliding::bisect() {
   Eigen::Isometry3d X_WV = result_.X_WV;
   while ((colliding - free) * length > bracket_) {
     const double middle = 0.5 * (free + colliding);
-    const Eigen::Isometry3d X_W = geometry::displaced(result_.X_WV, part().p_Vref(), attempt_.scaled(middle));
-    if (collision_object_.collides(X_W)) {
+    const Eigen::Isometry3d X_WC = geometry::displaced(result_.X_WV, part().p_Vref(), attempt_.scaled(middle));
+    if (collision_object_.collides(X_WC)) {
       colliding = middle;
-      X_WC_ = X_W;
+      X_WC_ = X_WC;
     } else {
       free = middle;
-      X_WV = X_W;
+      X_WV = X_WC;
     }
   }
   if (free > 0.0) place_visible(X_WV, geometry::motion_bound(attempt_.scaled(free), part().radius()));

@@ -63,8 +63,8 @@ void CandidatePairs::answer(Search& search) {
   } else {
     search_.find(search.request, search.set);
   }
-  ++account_.searches;
-  account_.reports += search.set.report;
+  ++statistics_.searches;
+  statistics_.reports += search.set.report;
 }
 
 void CandidatePairs::moved() {

@@ -54,7 +54,7 @@ class CandidatePairs {
   /// Number of candidate pairs plus number of pairs to certify.
   std::size_t size() const { return now_.set.pairs.size() + now_.set.to_certify.size(); }
 
-  const SearchStatistics& statistics() const { return account_; }
+  const SearchStatistics& statistics() const { return statistics_; }
 
  private:
   /// The motion of a body since a search: each point moved by v_W, with a deviation of at most `turn`.
@@ -94,7 +94,7 @@ class CandidatePairs {
   CandidateSearch search_;
   Search now_;
   Search next_;
-  SearchStatistics account_;
+  SearchStatistics statistics_;
   std::optional<SearchThread> thread_;  // last: it uses the members above
 };
 

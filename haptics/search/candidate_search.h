@@ -16,7 +16,7 @@
 
 namespace glissade::haptics {
 
-/// A triangle pair that may yield a contact: at least one of the triangles answers for an edge or vertex that can stop
+/// A triangle pair that may yield a contact: at least one of the triangles owns an edge or vertex that can stop
 /// the other body (`geometry::MeshTopology`).
 struct CandidatePair : TrianglesOfBodies {
   double distance;      ///< metres, at the poses of the request

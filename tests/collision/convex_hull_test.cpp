@@ -19,7 +19,7 @@ using test_support::RandomNumbers;
 
 constexpr unsigned kConvexHullSeed = 41;
 
-double furthest(const std::vector<Vector3d>& points, const Vector3d& direction) {
+double farthest(const std::vector<Vector3d>& points, const Vector3d& direction) {
   double most = -std::numeric_limits<double>::infinity();
   for (const Vector3d& x : points)
     most = std::max(most, direction.dot(x));
@@ -46,11 +46,11 @@ void expect_hull(const std::vector<Vector3d>& points, RandomNumbers& random) {
     const Vector3d direction = random.direction();
     const std::int32_t best = hull.support(direction, random.integer(0, corners - 1));
     const double reach = direction.dot(hull.vertices()[static_cast<std::size_t>(best)]);
-    ASSERT_LE(reach, furthest(points, direction));
-    ASSERT_GE(reach, furthest(points, direction) - hull.outside() - hull.climbing_error()) << "trial " << trial;
-    const std::int32_t surely_best = hull.furthest(direction);
+    ASSERT_LE(reach, farthest(points, direction));
+    ASSERT_GE(reach, farthest(points, direction) - hull.outside() - hull.climbing_error()) << "trial " << trial;
+    const std::int32_t surely_best = hull.farthest(direction);
     const double most = direction.dot(hull.vertices()[static_cast<std::size_t>(surely_best)]);
-    ASSERT_GE(most, furthest(points, direction) - hull.outside() - rounding) << "trial " << trial;
+    ASSERT_GE(most, farthest(points, direction) - hull.outside() - rounding) << "trial " << trial;
     ASSERT_LE(reach, most);
   }
 }
@@ -152,7 +152,7 @@ TEST_F(ConvexHulls, OfClustersAreClimbedAsFarAsTheyPromise) {
         const Vector3d edge = (hull.vertices()[static_cast<std::size_t>(next)] - at).normalized();
         const Vector3d direction = edge.cross(random_.direction()).normalized();
         const Vector3d& found = hull.vertices()[static_cast<std::size_t>(hull.support(direction, corner))];
-        ASSERT_GE(direction.dot(found), furthest(points, direction) - hull.outside() - hull.climbing_error())
+        ASSERT_GE(direction.dot(found), farthest(points, direction) - hull.outside() - hull.climbing_error())
             << "spread " << spread;
       }
     }

@@ -7,7 +7,7 @@
 namespace glissade::collision {
 namespace {
 
-TEST(InterestMatrix, AttendsToEveryPairAtFirstButToNoObjectAndItself) {
+TEST(InterestMatrix, EnablesEveryPairAtFirstExceptAnObjectWithItself) {
   const InterestMatrix matrix;
   EXPECT_TRUE(matrix.is_enabled(0, 0, 1, 0));
   EXPECT_TRUE(matrix.is_enabled(7, 63, 3, 1));

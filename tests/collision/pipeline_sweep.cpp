@@ -44,7 +44,7 @@ struct Counts {
   std::array<std::int64_t, 3> queries{};
 };
 
-// A world and a pipeline for each number of threads; all are told the same.
+// A world and a pipeline for each number of threads; all get the same calls.
 struct Copy {
   Copy(int threads, const PipelineOptions& options, const realtime::Clock& clock)
       : world(kCapacity), pipeline(world, clock, with_threads(options, threads)) {}
@@ -153,7 +153,7 @@ class Scene {
     const auto i = static_cast<std::size_t>(random_.integer(0, static_cast<int>(objects_.size()) - 1));
     for (const auto& copy : copies_)
       copy->world.remove(objects_[i].id);
-    std::erase_if(ignored_,
+    std::erase_if(disabled_pairs_,
                   [&](const auto& pair) { return pair.first == objects_[i].id || pair.second == objects_[i].id; });
     objects_.erase(objects_.begin() + static_cast<std::ptrdiff_t>(i));
   }
@@ -170,11 +170,11 @@ class Scene {
   void change_groups() {
     const int a = random_.integer(0, kGroups - 1);
     const int b = random_.integer(0, kGroups - 1);
-    const bool attend = random_.chance(0.6);
-    attended_[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] = attend;
-    attended_[static_cast<std::size_t>(b)][static_cast<std::size_t>(a)] = attend;
+    const bool enable = random_.chance(0.6);
+    enabled_groups_[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] = enable;
+    enabled_groups_[static_cast<std::size_t>(b)][static_cast<std::size_t>(a)] = enable;
     for (const auto& copy : copies_)
-      attend ? copy->world.enable_groups(a, b) : copy->world.disable_groups(a, b);
+      enable ? copy->world.enable_groups(a, b) : copy->world.disable_groups(a, b);
   }
 
   void change_pair() {
@@ -182,10 +182,10 @@ class Scene {
       return objects_[static_cast<std::size_t>(random_.integer(0, static_cast<int>(objects_.size()) - 1))].id;
     };
     const auto pair = std::minmax({any(), any()});
-    const bool attend = random_.chance(0.3);
-    attend ? static_cast<void>(ignored_.erase(pair)) : static_cast<void>(ignored_.insert(pair));
+    const bool enable = random_.chance(0.3);
+    enable ? static_cast<void>(disabled_pairs_.erase(pair)) : static_cast<void>(disabled_pairs_.insert(pair));
     for (const auto& copy : copies_)
-      attend ? copy->world.enable_pair(pair.first, pair.second) : copy->world.disable_pair(pair.second, pair.first);
+      enable ? copy->world.enable_pair(pair.first, pair.second) : copy->world.disable_pair(pair.second, pair.first);
   }
 
   void move(std::size_t i) {
@@ -205,8 +205,8 @@ class Scene {
   }
 
   bool is_enabled(const Object& a, const Object& b) const {
-    return attended_[static_cast<std::size_t>(a.group)][static_cast<std::size_t>(b.group)] &&
-           !ignored_.contains(std::minmax({a.id, b.id}));
+    return enabled_groups_[static_cast<std::size_t>(a.group)][static_cast<std::size_t>(b.group)] &&
+           !disabled_pairs_.contains(std::minmax({a.id, b.id}));
   }
 
   std::vector<Answer> brute_force() {
@@ -267,9 +267,9 @@ class Scene {
   double distance_ = 0.0;
   std::vector<Shape> shapes_;
   std::vector<Object> objects_;
-  std::array<std::array<bool, kGroups>, kGroups> attended_{
+  std::array<std::array<bool, kGroups>, kGroups> enabled_groups_{
       {{true, true, true, true}, {true, true, true, true}, {true, true, true, true}, {true, true, true, true}}};
-  std::set<std::pair<ObjectId, ObjectId>> ignored_;
+  std::set<std::pair<ObjectId, ObjectId>> disabled_pairs_;
   std::ptrdiff_t meeting_before_ = 0;
   QueryWorkspace workspace_;
 };

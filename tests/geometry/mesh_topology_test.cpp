@@ -64,7 +64,7 @@ TEST(MeshTopology, OfAFinelyCutBoxTheCornersCanStopAndTheRimsWithoutTheirVertice
     const bool has_corner = std::any_of(corners.begin(), corners.end(), [&](std::int32_t v) {
       return topology.can_stop(v) && topology.owner_of(v) == t;
     });
-    EXPECT_EQ(topology.answers_for_features(t), answers || has_corner);
+    EXPECT_EQ(topology.owns_stopping_feature(t), answers || has_corner);
   }
 }
 

@@ -19,6 +19,7 @@
 #include "held_part.h"
 #include "poses.h"
 #include "sanitizers.h"
+#include "scene/scene_access.h"
 #include "sliding_scenes.h"
 
 namespace glissade::haptics {
@@ -39,7 +40,7 @@ Obstacle block() {
 }
 
 bool overlaps(const Sliding& sliding) {
-  for (const PlacedBody& body : sliding.scene().bodies().first(sliding.scene().obstacles().size())) {
+  for (const PlacedBody& body : scene_of(sliding).bodies().first(scene_of(sliding).obstacles().size())) {
     if (reference::brute_force_intersects(body.body->tree.mesh(), sliding.part().tree.mesh(),
                                           body.X_WB.inverse() * sliding.result().X_WV)) {
       return true;

@@ -224,7 +224,7 @@ TEST_P(CubeOverPlate, AJumpBeyondWhatWasAskedForIsSearchedAfresh) {
   EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
   EXPECT_TRUE(candidates_.covers(kReach + 0.9 * kAhead)) << "from here";
   EXPECT_EQ(what_is_missing(candidates_, scene_, kReach), "");
-  EXPECT_EQ(candidates_.statistics().searches, 2) << "what was not taken is not told";
+  EXPECT_EQ(candidates_.statistics().searches, 2) << "a search that was not used does not count";
 }
 
 TEST_P(CubeOverPlate, IsToldOfThePosesAtWhichItWasAskedFor) {

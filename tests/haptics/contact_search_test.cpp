@@ -147,7 +147,7 @@ TEST(ContactSearch, TheFeaturesNamedAreThoseThatTouchWhateverTheKind) {
       const auto obstacle = corners(box, name[name.find('/') + 1], contact.obstacle_feature);
       ASSERT_LT(distance_from(part, X_WV.inverse() * contact.p_W), 1e-12) << name;
       ASSERT_LT(distance_from(obstacle, contact.q_W()), 1e-12) << name;
-      // The triangles told have these features.
+      // The reported triangles have these features.
       for (const auto& [of, triangle, feature] :
            {std::tuple(&mesh, contact.part_triangle, part), std::tuple(&box, contact.obstacle_triangle, obstacle)}) {
         const auto of_triangle = corners(*of, 'f', triangle);

@@ -1,4 +1,4 @@
-// What viewers and recorders are told of a tick.
+// The state of a tick that viewers and recorders receive.
 
 #include "loop/haptic_sample.h"
 
@@ -12,8 +12,8 @@ namespace {
 using devices::PartState;
 using std::chrono::milliseconds;
 
-TEST(HapticSample, EveryStateOfTheSlidingIsToldByItsName) {
-  std::set<PartState> told;
+TEST(HapticSample, EveryStateOfTheSlidingHasItsName) {
+  std::set<PartState> states;
   for (const SlidingState state : {SlidingState::kReleased, SlidingState::kFree, SlidingState::kSliding,
                                    SlidingState::kResting, SlidingState::kCatchingUp}) {
     ContactSet set;
@@ -21,9 +21,9 @@ TEST(HapticSample, EveryStateOfTheSlidingIsToldByItsName) {
     set.state = state;
     const devices::HapticState sample = make_sample({}, set, Eigen::Vector3d::Zero(), milliseconds(1));
     EXPECT_EQ(devices::name_of(sample.part_state), name_of(state));
-    told.insert(sample.part_state);
+    states.insert(sample.part_state);
   }
-  EXPECT_EQ(told.size(), 5u);
+  EXPECT_EQ(states.size(), 5u);
 }
 
 TEST(HapticSample, BeforeTheSimulationHasAnsweredTheStateIsUnknown) {

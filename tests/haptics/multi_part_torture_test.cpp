@@ -16,6 +16,7 @@
 
 #include "near_bodies.h"
 #include "sanitizers.h"
+#include "scene/scene_access.h"
 
 namespace glissade::haptics {
 namespace {
@@ -66,14 +67,14 @@ class Hand {
 
 /// Where all bodies are, in the order of their numbers.
 std::vector<PlacedBody> placed_bodies(const MultiPartSliding& sliding) {
-  return {sliding.scene().bodies().begin(), sliding.scene().bodies().end()};
+  return {scene_of(sliding).bodies().begin(), scene_of(sliding).bodies().end()};
 }
 
 /// Calls `check` with every pair of bodies that must not meet.
 template <typename Check>
 void for_each_pair(const MultiPartSliding& sliding, const Check& check) {
-  const auto bodies = static_cast<std::int32_t>(sliding.scene().bodies().size());
-  for (auto part = static_cast<std::int32_t>(sliding.scene().obstacles().size()); part < bodies; ++part) {
+  const auto bodies = static_cast<std::int32_t>(scene_of(sliding).bodies().size());
+  for (auto part = static_cast<std::int32_t>(scene_of(sliding).obstacles().size()); part < bodies; ++part) {
     for (std::int32_t other = 0; other < part; ++other)
       check(BodyPair{other, part});
   }
@@ -106,8 +107,8 @@ class PathProof {
   PathProof(const MultiPartSliding& sliding, std::vector<PlacedBody> before)
       : sliding_(sliding), before_(std::move(before)), bodies_(before_) {
     for (std::size_t p = 0; p < sliding.part_count(); ++p) {
-      const std::size_t body = sliding.scene().body_of_part(p);
-      displacements_.push_back(geometry::displacement_between(before_[body].X_WB, sliding.scene().bodies()[body].X_WB,
+      const std::size_t body = scene_of(sliding).body_of_part(p);
+      displacements_.push_back(geometry::displacement_between(before_[body].X_WB, scene_of(sliding).bodies()[body].X_WB,
                                                               sliding.part(p).p_Vref()));
     }
   }
@@ -126,11 +127,11 @@ class PathProof {
   bool keeps_floor(const BodyPair& pair, double begin, double end) {
     const double middle = 0.5 * (begin + end);
     for (std::size_t p = 0; p < displacements_.size(); ++p) {
-      const std::size_t body = sliding_.scene().body_of_part(p);
+      const std::size_t body = scene_of(sliding_).body_of_part(p);
       bodies_[body].X_WB =
           geometry::displaced(before_[body].X_WB, sliding_.part(p).p_Vref(), displacements_[p].scaled(middle));
     }
-    const double least = 0.999 * sliding_.scene().min_clearance(pair.obstacle, pair.part);
+    const double least = 0.999 * scene_of(sliding_).min_clearance(pair.obstacle, pair.part);
     const double covered = motion_of(pair.obstacle, 0.5 * (end - begin)) + motion_of(pair.part, 0.5 * (end - begin));
     const double gap = collision::gap_lower_bound(bodies_[static_cast<std::size_t>(pair.obstacle)].body->tree,
                                                   bodies_[static_cast<std::size_t>(pair.part)].body->tree,
@@ -142,7 +143,7 @@ class PathProof {
 
   /// Metres that no point of a body moves more than in such a part of the way.
   double motion_of(std::int32_t body, double fraction) const {
-    const auto first = static_cast<std::int32_t>(sliding_.scene().obstacles().size());
+    const auto first = static_cast<std::int32_t>(scene_of(sliding_).obstacles().size());
     if (body < first) return 0.0;
     const auto part = static_cast<std::size_t>(body - first);
     return geometry::motion_bound(displacements_[part].scaled(fraction), sliding_.part(part).radius());
@@ -228,7 +229,7 @@ TEST(MultiPartTorture, NothingIsEverInsideAnything) {
         if (parts[p].metaphor == Metaphor::kForceFeedback) {
           ASSERT_LE((lag_of(sliding, p) - lags[p]).norm(), allowed * (1.0 + 1e-9));
         }
-        moved += result.X_WV.matrix() != before[sliding.scene().body_of_part(p)].X_WB.matrix() ? 1 : 0;
+        moved += result.X_WV.matrix() != before[scene_of(sliding).body_of_part(p)].X_WB.matrix() ? 1 : 0;
         pushed_by_each_other +=
             static_cast<int>(std::count_if(result.contacts.begin(), result.contacts.end(), [&](const Contact& contact) {
               return contact.force > 0.0 && contact.obstacle >= static_cast<std::int32_t>(obstacles.size());

@@ -1,9 +1,11 @@
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <glissade/geometry/mesh_generators.h>
+#include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/haptics/offline_run.h>
 #include <glissade/haptics/sliding.h>
 
@@ -16,36 +18,90 @@ using Eigen::Vector3d;
 
 constexpr double kDepth = 0.01;  // metres that the wearer wants to go into the plate
 
-/// A box is pressed on a plate: down for half a second, then held for one.
-std::vector<HapticState> press_on_plate() {
-  using std::chrono::milliseconds;
-  const auto plate =
-      std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.5, 0.5}, 200)));
-  const auto box = std::make_shared<SlidingPart>(
+constexpr CouplingStiffness kStiffness{1000.0, 2.0};
+
+Isometry3d at_height(double z) {
+  return Isometry3d(Eigen::Translation3d(0.0, 0.0, z));
+}
+
+std::shared_ptr<const ContactBody> plate() {
+  return std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.5, 0.5}, 200)));
+}
+
+/// 40 mm high.
+std::shared_ptr<const SlidingPart> box() {
+  return std::make_shared<SlidingPart>(
       std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.06, 0.04}, 100)));
-  const Isometry3d X_WV_start(Eigen::Translation3d(0.0, 0.0, 0.03));
-  const Isometry3d X_WH_end(Eigen::Translation3d(0.0, 0.0, 0.02 - kDepth));
+}
+
+/// The hand moves down by 10 mm more than kDepth for half a second, and holds there for one.
+std::vector<HapticState> press_down(SlidingSimulation& simulation) {
+  using std::chrono::milliseconds;
+  const Isometry3d X_WH_start = simulation.result().X_WV;
+  const Isometry3d X_WH_end = at_height(X_WH_start.translation().z() - 0.01 - kDepth);
   devices::SimulatedGlove glove(geometry::PoseTrajectory(
-      {{milliseconds(0), X_WV_start}, {milliseconds(500), X_WH_end}, {milliseconds(1500), X_WH_end}}));
-  const Coupling coupling = coupling_for(glove.descriptor(), {1000.0, 2.0});
-  Sliding sliding({{plate}}, box, X_WV_start, {.stiffness = coupling.stiffness});
+      {{milliseconds(0), X_WH_start}, {milliseconds(500), X_WH_end}, {milliseconds(1500), X_WH_end}}));
   std::vector<HapticState> samples;
-  run_offline(glove, sliding, 1500, [&](const HapticState& sample) { samples.push_back(sample); });
+  run_offline(glove, simulation, 1500, [&](const HapticState& sample) { samples.push_back(sample); });
   return samples;
+}
+
+/// A box is pressed on a plate.
+std::vector<HapticState> press_on_plate(SlidingMethod method = SlidingMethod::kProjection) {
+  const auto sliding = make_sliding(method, {{plate()}}, box(), at_height(0.03), {.stiffness = kStiffness});
+  return press_down(*sliding);
+}
+
+/// The force (N) where two springs in a row, the wearer's arm and the coupling, share kDepth.
+double force_at_rest() {
+  const double arm = devices::SimulatedGloveParameters{}.wearer_stiffness;
+  const double coupling = kStiffness.translational;
+  return kDepth * arm * coupling / (arm + coupling);
 }
 
 TEST(OfflineRun, AHandPressedAgainstAPlateComesToRestWhereTheSpringsBalance) {
   const std::vector<HapticState> samples = press_on_plate();
   ASSERT_EQ(samples.size(), 1500u);
-  // Two springs in a row, the wearer's arm and the coupling, share the depth.
-  const double arm = devices::SimulatedGloveParameters{}.wearer_stiffness;
-  const double force = kDepth * arm * 1000.0 / (arm + 1000.0);
-  EXPECT_NEAR(samples.back().force_on_hand_W.z(), force, 0.01 * force);
+  EXPECT_NEAR(samples.back().force_on_hand_W.z(), force_at_rest(), 0.01 * force_at_rest());
   EXPECT_NEAR(samples.back().X_WV.translation().z(), 0.02, 20e-6);
   // ... and do not swing.
   for (std::size_t i = samples.size() - 100; i < samples.size(); ++i) {
     EXPECT_NEAR(samples[i].force_on_hand_W.z(), samples.back().force_on_hand_W.z(), 1e-3);
   }
+}
+
+TEST(OfflineRun, LeadsAPartByThePapersMethodToo) {
+  const std::vector<HapticState> samples = press_on_plate(SlidingMethod::kPaper);
+  EXPECT_NEAR(samples.back().force_on_hand_W.z(), force_at_rest(), 0.01 * force_at_rest());
+  EXPECT_NEAR(samples.back().X_WV.translation().z(), 0.02, 20e-6);
+}
+
+TEST(OfflineRun, LeadsOneOfSeveralPartsOntoAnother) {
+  const auto part = box();
+  MultiPartSliding parts({{plate()}}, {{.part_V = part, .X_WV_start = at_height(0.021), .stiffness = kStiffness},
+                                       {.part_V = part, .X_WV_start = at_height(0.071), .stiffness = kStiffness}});
+  parts.release(0);  // stays 1 mm above the plate, like an obstacle
+  PartOfSeveral upper(parts, 1);
+  const std::vector<HapticState> samples = press_down(upper);
+  EXPECT_NEAR(samples.back().force_on_hand_W.z(), force_at_rest(), 0.01 * force_at_rest());
+  EXPECT_NEAR(samples.back().X_WV.translation().z(), 0.061, 20e-6);
+  EXPECT_EQ(parts.result(0).X_WV.translation().z(), 0.021);
+}
+
+TEST(PartOfSeveral, AlsoLeadsTheOtherParts) {
+  MultiPartSliding parts({{plate()}}, {{.part_V = box(), .X_WV_start = at_height(0.03)},
+                                       {.part_V = box(), .X_WV_start = at_height(0.08)}});
+  PartOfSeveral lower(parts, 0);
+  lower.lead_other(1, at_height(0.09));
+  for (int i = 0; i < 200; ++i)
+    lower.advance(at_height(0.035));
+  EXPECT_EQ(parts.result(0).X_WV.translation().z(), 0.035);
+  EXPECT_EQ(parts.result(1).X_WV.translation().z(), 0.09);
+}
+
+TEST(PartOfSeveral, RefusesAPartThatDoesNotExist) {
+  MultiPartSliding parts({{plate()}}, {{.part_V = box(), .X_WV_start = at_height(0.03)}});
+  EXPECT_THROW(PartOfSeveral(parts, 1), std::invalid_argument);
 }
 
 TEST(OfflineRun, ShowsThePartWhereItIsFromTheFirstTickOn) {

@@ -131,7 +131,7 @@ TEST_F(PairsToCertify, LeavesOutBodiesThatAreIgnored) {
 }
 
 /// A plate one margin above another, each cut into so many triangles.
-std::size_t obligations_of_flush_plates(std::int64_t triangles, double gap) {
+std::size_t pairs_of_flush_plates(std::int64_t triangles, double gap) {
   constexpr double kMargin = 2e-6;
   const ContactScene scene = [&] {
     std::vector<Obstacle> obstacles{test_support::obstacle_of(geometry::make_plate({0.5, 0.5}, triangles))};
@@ -144,9 +144,9 @@ std::size_t obligations_of_flush_plates(std::int64_t triangles, double gap) {
 }
 
 TEST_F(PairsToCertify, IsAsSmallForFinelyCutFlushPlatesAsForCoarseOnes) {
-  EXPECT_LE(obligations_of_flush_plates(20, 1.0), 16U) << "the children of the roots";
-  EXPECT_LE(obligations_of_flush_plates(5000, 1.0), 16U);
-  EXPECT_GT(obligations_of_flush_plates(5000, 0.5), 300U) << "nearer than boxes are taken on";
+  EXPECT_LE(pairs_of_flush_plates(20, 1.0), 16U) << "the children of the roots";
+  EXPECT_LE(pairs_of_flush_plates(5000, 1.0), 16U);
+  EXPECT_GT(pairs_of_flush_plates(5000, 0.5), 300U) << "nearer than boxes are accepted";
 }
 
 }  // namespace

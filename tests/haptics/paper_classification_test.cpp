@@ -184,8 +184,8 @@ TEST(PaperClassification, ASheetIsTouchedFromEitherSide) {
 }
 
 TEST(PaperClassification, TwoSheetsThatLieOnEachOtherAreUnclear) {
-  // Exactly one on the other, in the same plane: no edge meets the other in one point only, but all that touches is
-  // told with the right normal.
+  // Exactly one on the other, in the same plane: no edge meets the other in one point only, but every touching pair is
+  // reported with the right normal.
   const geometry::TriangleMesh small{{{0, 0, kStep}, {0.01, 0, kStep}, {0, 0.01, kStep}}, {{0, 1, 2}}};
   const geometry::TriangleMesh large{{{-1, -1, 0}, {3, -1, 0}, {-1, 3, 0}}, {{0, 1, 2}}};
   const auto contacts = contacts_of(small, large, kDown);

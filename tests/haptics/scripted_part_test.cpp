@@ -119,17 +119,17 @@ TEST(ScriptedPart, IsToldInContactsWhereItIsNow) {
                                                   {milliseconds(10), pose({-0.0252, 0.0, 0.0})},
                                                   {milliseconds(20), pose({-0.0262, 0.0, 0.0})}});
   Sliding sliding = cube_before(visitor, 1.0);
-  int told = 0;
+  int seen = 0;
   for (int i = 0; i < 20; ++i) {
     sliding.advance(sliding.result().X_WG);
     const double gap = (x_of(sliding.result().X_WV) - 0.01) - (x_of(sliding.scripted_X_WB()[0]) + 0.02);
     for (const Contact& contact : sliding.result().contacts) {
       EXPECT_NEAR(contact.gap, gap, 1e-12) << "call " << i;
       EXPECT_NEAR(contact.q_W().x(), x_of(sliding.scripted_X_WB()[0]) + 0.02, 1e-12);
-      ++told;
+      ++seen;
     }
   }
-  EXPECT_GT(told, 4);
+  EXPECT_GT(seen, 4);
 }
 
 TEST(ScriptedPart, NeitherSearchesInASpiralNorIsDepenetrated) {
