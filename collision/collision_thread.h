@@ -21,8 +21,8 @@ struct CollisionThreadOptions {
   /// Two objects meet if their distance is at most this (metres), as in `CollisionPipeline::step`. At most
   /// `pipeline.greatest_distance`.
   double distance = 0.0;
-  /// Time from the beginning of one frame to the beginning of the next. If a frame takes longer than the period, the
-  /// next frame begins at once, and missed frames are not made up for.
+  /// Time from the beginning of one frame (one `CollisionPipeline::step`) to the beginning of the next. If a frame
+  /// takes longer than the period, the next frame begins at once, and missed frames are not made up for.
   std::chrono::nanoseconds period{std::chrono::milliseconds(1)};
   /// Number of readers, one for each thread that reads results. At least 1.
   int readers = 1;

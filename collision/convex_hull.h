@@ -62,12 +62,12 @@ class ConvexHull {
   /// √n corners from an arbitrary start, and very few if `start` is the result for a similar direction.
   std::int32_t support(const Eigen::Vector3d& direction, std::int32_t start) const;
 
-  /// A start for climbing when no better start is known: a corner that is farthest along a direction within a few
+  /// A start for climbing when no better start is known: a corner that is farthest along some direction within a few
   /// degrees of `direction`. Cost O(1).
   std::int32_t start_toward(const Eigen::Vector3d& direction) const { return starts_[cell_of(direction)]; }
 
-  /// Upper bound (metres) of how much farther another corner may be than the result of `support`. Climbing stops where
-  /// rounding hides the difference between neighbors; this matters for narrow facets.
+  /// Upper bound (metres) of how much farther along the direction another corner may be than the result of `support`.
+  /// Climbing stops where rounding hides the difference between neighbors; this matters for narrow facets.
   double climbing_error() const { return climbing_error_; }
 
   /// The corner farthest along `direction`, found by examining all corners. Cost O(n).
@@ -129,7 +129,8 @@ inline std::int32_t ConvexHull::support(const Eigen::Vector3d& direction, std::i
 /// The test that runs if the plane of the last query no longer separates the hulls.
 enum class HullTest : std::uint8_t {
   kExact,  ///< GJK to its end, from the simplex of the last query; exact to rounding, see `hulls_apart`
-  /// Up to 300 learning steps, as in the paper. The answer "apart" is certain; the answer "not apart" may be wrong.
+  /// Up to 300 learning steps of a perceptron (paper §2.2), each of which turns a trial plane. The answer "apart" is
+  /// certain; the answer "not apart" may be wrong.
   kPerceptron,
 };
 
@@ -162,13 +163,13 @@ struct HullMemory {
 };
 
 /// Whether two hulls are certainly apart, at the pose X_AB of B in the frame of A. Touching hulls are not apart. With
-/// HullTest::kExact the answer is exact for the points from which the hulls were made, with one exception: if the
-/// gap is no larger than rounding errors, the answer is false. Such gaps are at most `ConvexHull::outside` of both
-/// hulls plus 1e-13 of the sum of all coordinates involved, 1e-11 for needles.
+/// HullTest::kExact the answer is exact for the points from which the hulls were made, with one exception: if the gap
+/// is no larger than rounding errors, the answer is false. Such gaps are at most the `ConvexHull::outside` of both
+/// hulls plus 1e-13 of the sum of all coordinates involved (1e-11 of this sum for hulls like needles).
 ///
 /// Allocates nothing. Cost: about 20 ns while the remembered plane or simplex decides; otherwise less than a
-/// microsecond after a small movement and some microseconds after a large one; bounded in any case. Different threads
-/// may query the same hulls, each with its own `HullMemory`.
+/// microsecond after a small movement, and some microseconds after a large movement. The cost is bounded in any case.
+/// Different threads may query the same hulls, each with its own `HullMemory`.
 bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Eigen::Isometry3d& X_AB, HullMemory& memory,
                  HullTest test = HullTest::kExact) noexcept;
 

@@ -5,7 +5,9 @@
 ///
 /// Each query takes the pose X_AB of tree B in the frame of tree A. Exact means: X_AB is applied to the vertices of B
 /// in double precision; for the resulting vertices of B and the vertices of A, the answer is the one of real
-/// arithmetic. Touching counts as intersecting. Only triangles of positive area take part.
+/// arithmetic. With a tolerance or distance above 0, the distances of triangles that are compared with it are accurate
+/// to a few units in the last place of the largest coordinate. Touching counts as intersecting. Only triangles of
+/// positive area take part.
 ///
 /// Each query throws std::invalid_argument for trees that were built with different options, for a distance that is
 /// negative or not a number, for a pose that is not finite, and for a matrix that is not a rotation: the absolute
@@ -36,9 +38,9 @@ void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eige
                         CoherentWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance = 0.0);
 
 /// Replaces `pairs` by all triangle pairs at most `distance` (metres, ≥ 0) apart, with their closest points, in
-/// ascending order of the triangle indices. A selection restricts the answer to pairs with a selected triangle; the
-/// cost then grows with the number of such pairs. Throws std::invalid_argument for a selection that was made for
-/// another tree.
+/// ascending order of the triangle indices. If both trees have a selection, the answer is restricted to pairs with a
+/// selected triangle, and the cost grows with the number of such pairs. Throws std::invalid_argument for a selection
+/// that was made for another tree.
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   QueryWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
@@ -46,8 +48,8 @@ void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Iso
 
 /// A certain lower bound of the distance of the two meshes in metres, at most `limit`. The bound is 0 if the meshes
 /// intersect. The bound is the distance of the bounding spheres if the spheres are farther apart than the larger of
-/// their radii. Otherwise the bound is the distance of the meshes, less a few units in the last place of the
-/// coordinates.
+/// their radii. Otherwise the bound is the distance of the meshes, less an allowance: a few units in the last place of
+/// the coordinates, plus a share of the coordinates in proportion to the deviation of the matrix from a rotation.
 double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                        QueryWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
 double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
@@ -63,14 +65,14 @@ struct Penetration {
 };
 
 /// Finds a short translation of B, from its pose X_AB, after which the meshes are more than `clearance` (metres, ≥ 0)
-/// apart. The exact queries above confirm this distance.
+/// apart. A query at the translated pose has confirmed this.
 ///
-/// The depth is a certain upper bound of the translational penetration depth, because the translated pose was queried.
-/// This depth need not be the least: the search tries directions all around, the normals of intersecting triangles, and
-/// then directions ever closer to the best direction so far, down to a few thousandths of a radian from it. For convex
-/// bodies the depth is within a few per cent of the least. Meshes are surfaces without an inside: a body that lies
-/// inside a closed surface without touching it is apart from the surface, and the shortest way out of a shell may lead
-/// inward. Only the translated pose is tested: on the way to this pose, B may meet A or other objects.
+/// The depth is a certain upper bound of the translational penetration depth, because of this query. A shorter
+/// translation may exist: the search tries directions all around, the normals of intersecting triangles, and then
+/// directions ever closer to the best direction so far, down to a few thousandths of a radian from it. For convex
+/// bodies the depth is within a few per cent of the least depth. Meshes are surfaces without an inside: a body that
+/// lies inside a closed surface without touching it is apart from the surface, and the shortest way out of a shell may
+/// lead inward. Only the translated pose is tested: on the way to this pose, B may meet A or other objects.
 ///
 /// Deterministic. Cost: a few hundred queries. Throws as the queries do.
 Penetration find_way_out(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,

@@ -24,14 +24,14 @@ class DopVertices;
 
 /// How a query encloses the nodes of one tree in DOPs aligned to the other tree.
 enum class Realignment {
-  kAffine,      ///< each new offset combines three old offsets: O(k) (paper §2.1, eq. 1)
+  kAffine,      ///< each new plane offset combines three old ones: O(k) (paper §2.1, eq. 1)
   kBruteForce,  ///< projects every vertex of a node on every direction: O(k²) (paper §2.1.1)
 };
 
-/// Options of construction. The defaults are the fastest; other values serve comparison.
+/// Options of construction. The defaults are the fastest; the other values are for comparisons.
 struct DopTreeOptions {
   int directions = 24;    ///< k, the number of half-spaces: 6, 14, 18, 24 or 26
-  bool thin_slab = true;  ///< adds a slab along a node's own thin direction, where the slab helps
+  bool thin_slab = true;  ///< adds a slab along each child's mean normal, tested where much thinner than the DOP
   Realignment realignment = Realignment::kAffine;
 
   bool operator==(const DopTreeOptions&) const = default;
@@ -76,9 +76,9 @@ class DopTree {
   DopTree& operator=(DopTree&&) noexcept;
   ~DopTree();
 
-  /// Fits all boxes to the present vertices, after the owner of the mesh has moved them. The triangles must be
-  /// unchanged. Queries stay exact, but become slower as triangles that share a node move apart. Allocates nothing.
-  /// Cost O(n log n). Throws std::invalid_argument for a coordinate that the constructor would reject; the tree is then
+  /// Fits all DOPs to the present vertices, after the owner of the mesh has moved the vertices. The triangles must be
+  /// unchanged. Queries stay exact, but become slower as triangles below one node move apart. Allocates nothing. Cost
+  /// O(n log n). Throws std::invalid_argument for a coordinate that the constructor would reject; the tree is then
   /// unchanged.
   void refit();
 

@@ -3,15 +3,16 @@
 /// DOP-trees in files next to their mesh files, so that a program need not rebuild the tree of a large mesh in every
 /// run.
 ///
-/// A file holds the shape of a tree only: which triangles share a leaf, and which leaves share a node. A reader checks
-/// that the shape is one tree of all triangles, and fits the boxes to the mesh at hand. So a damaged or forged file is
-/// either rejected or gives a tree with correct answers. Finding the shape is most of the work of building: with
-/// 100,000 triangles, reading takes 31 ms of processor time and building 102 ms. The file takes 4.4 bytes a triangle.
+/// A file holds the shape of a tree only: which triangles share a leaf, and which leaves and nodes share a parent.
+/// Reading checks that the shape is one tree of all triangles, and fits the bounding volumes to the mesh at hand. So a
+/// damaged or forged file is either rejected or gives a tree with correct answers. Finding the shape is most of the
+/// work of building: with 100,000 triangles, reading takes 31 ms of processor time and building 102 ms. The file takes
+/// 4.4 bytes a triangle.
 ///
-/// A file is bound to the vertices and triangles of its mesh, to the options, and to the version of the format. The
+/// A file is valid only for the same vertices and triangles, the same options, and the same version of the format. The
 /// version also changes when the method of building changes. The byte order is the same on every machine. The last
-/// eight bytes are a checksum of all other bytes. The checksum detects every change of one byte, and all but one in
-/// 2^64 of other changes.
+/// eight bytes are a checksum of all other bytes. The checksum detects every change of one byte. Of other changes, it
+/// misses one in 2^64.
 
 #include <cstddef>
 #include <filesystem>
@@ -61,7 +62,7 @@ CachedTree read_tree_cache_bytes(std::span<const std::byte> bytes, std::shared_p
 /// A tree, and a note about its file.
 struct LoadedTree {
   DopTree tree;
-  std::string note;  ///< one line that names the file; empty if the file was read, or written for the first time
+  std::string note;  ///< one line that names the file; empty if the file was read, or was missing and has been written
 };
 
 /// Reads the tree from the cache file of `mesh_path`. If that file is missing or unusable, builds the tree and writes

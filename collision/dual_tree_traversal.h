@@ -1,7 +1,8 @@
 #pragma once
 
-/// Dual-tree traversal with a user-defined cut-off. A visitor may accept a pair of children as a whole, for example two
-/// flush plane patches; the traversal then skips all pairs below the accepted pair.
+/// Dual-tree traversal with a user-defined cut-off. The traversal visits pairs of children: a child of a node of tree A
+/// and a child of a node of tree B. A visitor may accept such a pair as a whole, for example two flush plane patches;
+/// the traversal then skips all pairs below the accepted pair.
 
 #include <cstdint>
 
@@ -22,8 +23,8 @@ struct TreeChild {
 /// Receives the pairs of children and of triangles in the order of the traversal.
 class DualTreeVisitor {
  public:
-  /// Whether the visitor accepts two children. Called only if the boxes of the children could not be shown to be
-  /// farther apart than the distance. The traversal skips all pairs below two accepted children.
+  /// Whether the visitor accepts two children. Called only for children whose bounding volumes may be within the
+  /// distance. The traversal skips all pairs below two accepted children.
   virtual bool accepts(const TreeChild& child_A, const TreeChild& child_B) = 0;
   /// Receives a triangle pair within the distance that does not lie below an accepted pair.
   virtual void visit(const ClosePair& pair) = 0;

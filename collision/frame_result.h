@@ -17,7 +17,7 @@ namespace glissade::collision {
 /// The detail that a pipeline computes for pairs of objects that meet.
 enum class PairQuery : std::uint8_t {
   kVerdict,        ///< only whether two objects meet
-  kTrianglePairs,  ///< also the triangle pairs within the distance of the step
+  kTrianglePairs,  ///< also the triangle pairs within the distance given to the step
   /// Also the closest points of each triangle pair. If both objects have a selection (`ObjectDescription`), only
   /// triangle pairs with a selected triangle count.
   kClosePairs,
@@ -57,18 +57,20 @@ struct StageReport {
 };
 
 /// Work of one frame. Stages see only pairs with an object that is new or has moved, so objects at rest cost nothing.
-/// Two exceptions: pairs that have just been enabled, and all neighbors if the distance of the step has changed.
+/// There are two exceptions. Stages also see pairs that have just been enabled. If the distance given to the step has
+/// changed, stages see all pairs of neighbors. Neighbors are objects whose fattened boxes overlap. A fattened box is an
+/// axis-aligned bounding box enlarged by some room to move.
 struct FrameReport {
   std::int64_t objects = 0;    ///< objects in the world
-  std::int64_t neighbors = 0;  ///< pairs of objects whose fattened boxes overlap, including pairs at rest
+  std::int64_t neighbors = 0;  ///< pairs of neighbors, including pairs at rest
   /// In: objects that were added, moved or removed since the last frame. Out: objects that were added or moved.
   StageReport queue;
-  /// In: objects that were added or moved. Out: enabled pairs of these objects whose fattened boxes overlap.
+  /// In: objects that were added or moved. Out: enabled pairs of neighbors with at least one of these objects.
   StageReport neighbor_finding;
-  /// In: pairs that may have moved farther than the gap known from an earlier frame. Out: pairs that no plane
-  /// separates.
+  /// In: pairs whose objects may have approached by more than the gap found in an earlier frame. Out: pairs that no
+  /// plane was found to separate, and pairs that met in the last frame, for which no plane is tried.
   StageReport separating_planes;
-  /// In: pairs that no plane separates. Out: the pairs among them that meet.
+  /// In: the pairs that left the stage of separating planes. Out: the pairs among them that meet.
   StageReport exact;
   /// In: pairs that have begun or ceased to meet. Out: all pairs that meet, including pairs at rest.
   StageReport result;
@@ -105,8 +107,8 @@ struct FrameResult {
 
   std::vector<TrianglePair> all_triangle_pairs;  ///< with PairQuery::kTrianglePairs
   std::vector<ClosePair> all_close_pairs;        ///< with PairQuery::kClosePairs
-  /// The triangle pairs of `meeting[i]` are the entries `ends[i - 1]` (0 for i = 0) to `ends[i]` − 1 of the list above
-  /// that the `PairQuery` fills. Empty with PairQuery::kVerdict.
+  /// The triangle pairs of `meeting[i]` are the entries `ends[i - 1]` (0 for i = 0) to `ends[i]` − 1 of the list that
+  /// the `PairQuery` fills, one of the two lists above. `ends` is empty with PairQuery::kVerdict.
   std::vector<std::size_t> ends;
 
   FrameReport report;

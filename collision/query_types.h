@@ -35,8 +35,8 @@ struct ClosePair {
 
 /// Work of one query.
 struct QueryCounters {
-  std::int64_t node_tests = 0;      ///< pairs of boxes tested
-  std::int64_t realignments = 0;    ///< boxes realigned
+  std::int64_t node_tests = 0;      ///< pairs of DOPs tested
+  std::int64_t realignments = 0;    ///< DOPs realigned
   std::int64_t triangle_tests = 0;  ///< pairs of triangles tested
 };
 
@@ -80,8 +80,9 @@ class CoherentWorkspace {
   std::unique_ptr<CoherentFront> front_;
 };
 
-/// A set of selected triangles of one tree. A byte for each node records the children that hold selected triangles; a
-/// byte for each leaf records the selected triangles. Immutable after construction, so safe to share between threads.
+/// A set of selected triangles of one tree. A byte for each node marks the children with a selected triangle below
+/// them; a byte for each leaf marks its selected triangles. Immutable after construction, so safe to share between
+/// threads.
 class TriangleSelection {
  public:
   /// Calls `is_selected` once for each triangle, with its index in the mesh. The selection is valid for `tree` and its
@@ -106,7 +107,8 @@ class TriangleSelection {
 };
 
 /// Restricts a query to triangle pairs with at least one selected triangle. A null selection selects all triangles of
-/// its tree, so it admits every pair: a query is restricted only if both selections are given.
+/// its tree, so every pair then has a selected triangle. Therefore a query is restricted only if both selections are
+/// given.
 struct PairSelection {
   const TriangleSelection* of_A = nullptr;
   const TriangleSelection* of_B = nullptr;

@@ -2,7 +2,8 @@
 
 /// The objects of a scene, their poses, and the enabled pairs of objects: the front end of the collision pipeline
 /// (paper §2, §2.3). Any number of threads add, remove and move objects while one thread, the consumer, computes. At
-/// the beginning of each frame the consumer takes the changes since the last frame. Frames: W world, O object.
+/// the beginning of each frame, i.e. each of its computations, the consumer takes the changes since the last frame.
+/// Coordinate frames: W world, O object.
 
 #include <compare>
 #include <cstdint>
@@ -20,8 +21,8 @@ namespace glissade::collision {
 class ConvexHull;
 class TriangleSelection;
 
-/// Identifies one object permanently. Each object occupies one slot of the world; a later object in the same slot has
-/// another generation.
+/// Identifies one object permanently. Each object occupies one slot, a numbered place in the world; a later object in
+/// the same slot has another generation.
 struct ObjectId {
   std::uint32_t index = 0;       ///< number of the slot
   std::uint32_t generation = 0;  ///< 0: no object
@@ -33,7 +34,7 @@ struct ObjectDescription {
   std::shared_ptr<const DopTree> tree;
   std::shared_ptr<const ConvexHull> hull;  ///< hull of the mesh of `tree`; null: no test of hulls
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
-  int group = 0;  ///< row and column of the interest matrix, 0 to 63
+  int group = 0;  ///< 0 to 63; `World::enable_groups` enables pairs of groups
   /// Selected triangles of the tree; null: no selection. If both objects of a pair have a selection,
   /// `PairQuery::kClosePairs` is restricted to triangle pairs with a selected triangle.
   std::shared_ptr<const TriangleSelection> selection = nullptr;
@@ -83,11 +84,11 @@ class World {
   /// released at the consumer's next take, or at once if no take has seen the object.
   void remove(ObjectId id);
 
-  /// The collision interest matrix. A pair of objects is enabled if its groups are enabled and the pair itself is not
-  /// disabled. At first everything is enabled. All four functions are symmetric; `group_a` may equal `group_b`.
-  /// `enable_pair` undoes `disable_pair`, but does not override groups. All four functions throw std::invalid_argument
-  /// for a group outside 0 to 63 and for a stale id. A frame may fall between `add` and `disable_pair`: use groups for
-  /// objects that must never be compared.
+  /// The collision interest matrix. The pipeline compares enabled pairs of objects only. A pair is enabled if its two
+  /// groups are enabled for each other and the pair itself is not disabled. At first everything is enabled. All four
+  /// functions are symmetric; `group_a` may equal `group_b`. `enable_pair` undoes `disable_pair`, but does not override
+  /// groups. All four functions throw std::invalid_argument for a group outside 0 to 63 and for a stale id. The
+  /// consumer may take changes between `add` and `disable_pair`: use groups for objects that must never be compared.
   void enable_groups(int group_a, int group_b);
   void disable_groups(int group_a, int group_b);
   void enable_pair(ObjectId a, ObjectId b);
@@ -104,7 +105,7 @@ class World {
   // The consumer: one thread.
 
   /// Updates `objects` to all edits and poses so far, and returns the changes. Blocks on editors for the duration of
-  /// one edit, never on movers. Reads a pose again if a mover has replaced the pose meanwhile. Cost O(changes +
+  /// one edit, never on movers. Reads a pose again if a mover has replaced this pose during reading. Cost O(changes +
   /// capacity / 64), plus a copy of the interest matrix if the matrix has changed. Trees of removed objects are
   /// destroyed here if no other owner holds them. The next call overwrites the result.
   const WorldChanges& take_changes();
@@ -112,7 +113,7 @@ class World {
   /// The objects by slot, as of the last take. There are `capacity` entries.
   std::span<const WorldObject> objects() const;
 
-  /// Whether the pair is enabled, as of the last take. Both slots must hold objects. Cost O(1).
+  /// Whether the pair is enabled, as of the last take. Both slots must have objects. Cost O(1).
   bool is_enabled(std::uint32_t slot_a, std::uint32_t slot_b) const;
 
  private:

@@ -34,9 +34,10 @@ struct alignas(64) Correspondence {
 
 using Indices = hn::Vec<hn::RebindToSigned<Tag>>;
 
-// The number of the vertex of the generic DOP that is farthest along each direction or its opposite. The number is kept
-// in the lowest bits of the reach, so that one maximum finds both. It does not matter which of two nearly equal
-// vertices wins.
+// For each direction, the number of the generic DOP's vertex with the greatest reach, that is, the greatest absolute
+// value of its projection on the direction. The number of a vertex replaces the lowest bits of its reach, so that one
+// maximum finds the greatest reach together with its number. Of two vertices with nearly equal reach, either may win:
+// any choice of a vertex is safe (docs/collision.md).
 HWY_INLINE Indices farthest_vertex(const AlignmentTable& table, const V (&direction)[3]) {
   const Tag d;
   const hn::RebindToSigned<Tag> d32;
@@ -112,8 +113,9 @@ HWY_INLINE void find_correspondence(const AlignmentTable& table, const QueryFram
       hn::MulAdd(slab[0], coordinate(0), hn::MulAdd(slab[1], coordinate(1), hn::Mul(slab[2], coordinate(2))));
   for (const bool is_above : {true, false}) {
     const V exact = hn::Ceil(is_above ? hn::Add(padding, center) : hn::Sub(padding, center));
-    // An offset may exceed 16 bits. On the far side this means that nothing is separated there, and no weight may
-    // change that. On the near side a smaller offset is safe.
+    // The exact offset may exceed 16 bits. Above 32767, the offset becomes 32767 and the weights become 0, so the sum
+    // stays 32767 and this half-space separates nothing. Below -32767, the offset is raised to -32767, which only makes
+    // the box larger.
     const auto is_far = hn::Gt(exact, hn::Set(d, kLargestValue));
     const V kept = hn::Max(hn::Min(exact, hn::Set(d, kLargestValue)), hn::Set(d, -kLargestValue));
     Side& side = is_above ? found.above : found.below;
