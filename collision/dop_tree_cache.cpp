@@ -67,7 +67,7 @@ CachedTree rejected(CacheState state, std::string reason) {
 
 CachedTree read_bytes(std::string_view bytes, std::shared_ptr<const geometry::TriangleMesh> mesh,
                       const DopTreeOptions& options) {
-  if (!bytes.starts_with(kMagic)) return rejected(CacheState::kDamaged, "not a kept tree");
+  if (!bytes.starts_with(kMagic)) return rejected(CacheState::kDamaged, "not a cached tree");
   if (bytes.size() < kHeadSize + kChecksumSize) return rejected(CacheState::kDamaged, "truncated");
   const std::string head = head_of(*mesh, options);
   const auto same = [&](std::size_t from, std::size_t to) {
@@ -189,7 +189,7 @@ LoadedTree load_or_build_tree(const std::filesystem::path& mesh_path,
   try {
     write_tree_cache(path, built.tree);
   } catch (const std::runtime_error& error) {
-    built.note += (built.note.empty() ? "" : "; ") + std::string("the tree cannot be kept: ") + error.what();
+    built.note += (built.note.empty() ? "" : "; ") + std::string("the tree cannot be saved: ") + error.what();
   }
   return built;
 }

@@ -111,7 +111,7 @@ TEST_F(Cli, CacheKeepsTheTreesNextToTheMeshes) {
   EXPECT_EQ(stale.standard_error, "glissade: " + other + ".dop-tree: of another mesh; built anew\n");
   folder.write("b.obj", kTetrahedronObj);
   folder.write("b.obj.dop-tree", "DOP-tr");
-  expect_answer("glissade: " + other + ".dop-tree: not a kept tree; built anew\n");
+  expect_answer("glissade: " + other + ".dop-tree: not a cached tree; built anew\n");
   expect_answer("");
 }
 
@@ -124,7 +124,7 @@ TEST_F(Cli, ATreeThatCannotBeKeptIsNoFailure) {
   EXPECT_EQ(std::count(result.standard_error.begin(), result.standard_error.end(), '\n'), 1);
   EXPECT_THAT(result.standard_error,
               testing::StartsWith("glissade: " + mesh + ".dop-tree: not a regular file; built "));
-  EXPECT_THAT(result.standard_error, HasSubstr("cannot be kept: " + mesh + ".dop-tree: "));
+  EXPECT_THAT(result.standard_error, HasSubstr("cannot be saved: " + mesh + ".dop-tree: "));
 }
 
 TEST_F(Cli, InfoTellsTheSameOfATreeThatWasKept) {

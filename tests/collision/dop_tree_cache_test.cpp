@@ -153,7 +153,7 @@ TEST_F(TreeCache, TakesNothingElseForATree) {
   expect_rejected(CacheState::kDamaged, "not a regular file");
   std::filesystem::remove(path);
   folder.write("torus.obj.dop-tree", std::string(1'000'000, 'v'));
-  expect_rejected(CacheState::kDamaged, "not a kept tree");
+  expect_rejected(CacheState::kDamaged, "not a cached tree");
 }
 
 TEST_F(TreeCache, NoticesEveryByteThatIsMissing) {
@@ -356,7 +356,7 @@ TEST_F(TreeCache, BuildsWhereNothingCanBeKept) {
   const std::string nowhere = folder.path("none/torus.obj");
   const LoadedTree loaded = load_or_build_tree(nowhere, mesh);
   expect_same_tree(loaded.tree, tree);
-  EXPECT_THAT(loaded.note, testing::StartsWith("the tree cannot be kept: " + nowhere + ".dop-tree: "));
+  EXPECT_THAT(loaded.note, testing::StartsWith("the tree cannot be saved: " + nowhere + ".dop-tree: "));
 }
 
 TEST_F(TreeCache, RefusesMeshesAsTheTreeDoes) {
