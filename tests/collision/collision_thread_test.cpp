@@ -85,70 +85,79 @@ TEST(CollisionThread, RefusesWhatMakesNoSense) {
   EXPECT_THROW(CollisionThread(world, clock, {.pipeline = {.threads = -2}}), std::invalid_argument);
 }
 
-// Movers shake their own boxes about fixed places, so what may meet is known: neighbors of one row. Editors add and
-// remove others far away from them, in a place of their own where all meet.
+constexpr int kMovers = 2;
+constexpr int kBoxesOfMover = 20;
+
+// The boxes stay about fixed places in the mover's own row, so what may meet is known: neighbors of one row.
+void shake_row(World& world, int mover, const std::vector<ObjectId>& row, unsigned seed,
+               const std::atomic<bool>& stop) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> shake(-0.04, 0.04);
+  while (!stop) {
+    for (int i = 0; i < kBoxesOfMover; ++i)
+      EXPECT_TRUE(world.move(row[static_cast<std::size_t>(i)], at(1.05 * i + shake(random), 5.0 * mover)));
+  }
+}
+
+// Far away from the movers' rows, in a place of its own where all meet.
+void add_and_remove_crowd(World& world, const std::atomic<bool>& stop) {
+  while (!stop) {
+    std::vector<ObjectId> crowd;
+    for (int i = 0; i < 10; ++i)
+      crowd.push_back(world.add(box(at(-50.0 + 0.1 * i))));
+    world.disable_pair(crowd[0], crowd[1]);
+    for (const ObjectId& id : crowd)
+      world.remove(id);
+  }
+}
+
+void expect_only_possible_pairs(const FrameResult& frame) {
+  EXPECT_TRUE(std::is_sorted(frame.meeting.begin(), frame.meeting.end()));
+  for (const ObjectPair& pair : frame.meeting) {
+    EXPECT_LT(pair.object_A.index, pair.object_B.index);
+    const auto movers_boxes = static_cast<std::uint32_t>(kMovers * kBoxesOfMover);
+    if (pair.object_B.index >= movers_boxes) {
+      EXPECT_GE(pair.object_A.index, movers_boxes) << "the crowd is far away";
+    } else {
+      EXPECT_EQ(pair.object_A.index + 1, pair.object_B.index) << "only neighbors can meet";
+    }
+  }
+}
+
+void read_frames(FrameReader& reader, const std::atomic<bool>& stop, std::atomic<std::int64_t>& frames_read) {
+  std::uint64_t last = 0;
+  while (!stop) {
+    if (!reader.update()) continue;
+    const FrameResult& frame = reader.frame();
+    EXPECT_GT(frame.frame, last) << "frames come in order";
+    expect_only_possible_pairs(frame);
+    last = frame.frame;
+    ++frames_read;
+  }
+}
+
 TEST(CollisionThreadStress, MoversEditorsAndReadersAtOnce) {
   constexpr unsigned kSeed = 5;
   SCOPED_TRACE("seed " + std::to_string(kSeed));
-  constexpr int kMovers = 2;
-  constexpr int kBoxesOfMover = 20;
   constexpr int kReaders = 2;
   World world(128);
   realtime::SteadyClock clock;
-  std::vector<std::vector<ObjectId>> boxes(kMovers);
+  std::vector<std::vector<ObjectId>> rows(kMovers);
   for (int m = 0; m < kMovers; ++m) {
     for (int i = 0; i < kBoxesOfMover; ++i)
-      boxes[static_cast<std::size_t>(m)].push_back(world.add(box(at(1.05 * i, 5.0 * m))));
+      rows[static_cast<std::size_t>(m)].push_back(world.add(box(at(1.05 * i, 5.0 * m))));
   }
   CollisionThread collision(world, clock, {.pipeline = {.threads = 2}, .period = 100us, .readers = kReaders});
   std::atomic<bool> stop{false};
+  std::atomic<std::int64_t> frames_read{0};
   std::vector<std::thread> threads;
   for (int m = 0; m < kMovers; ++m) {
-    threads.emplace_back([&, m] {
-      std::mt19937 random(kSeed + static_cast<unsigned>(m));
-      std::uniform_real_distribution<double> shake(-0.04, 0.04);
-      while (!stop) {
-        for (int i = 0; i < kBoxesOfMover; ++i) {
-          const ObjectId id = boxes[static_cast<std::size_t>(m)][static_cast<std::size_t>(i)];
-          EXPECT_TRUE(world.move(id, at(1.05 * i + shake(random), 5.0 * m)));
-        }
-      }
-    });
+    threads.emplace_back(
+        [&, m] { shake_row(world, m, rows[static_cast<std::size_t>(m)], kSeed + static_cast<unsigned>(m), stop); });
   }
-  threads.emplace_back([&] {
-    while (!stop) {
-      std::vector<ObjectId> crowd;
-      for (int i = 0; i < 10; ++i)
-        crowd.push_back(world.add(box(at(-50.0 + 0.1 * i))));
-      world.disable_pair(crowd[0], crowd[1]);
-      for (const ObjectId& id : crowd)
-        world.remove(id);
-    }
-  });
-  std::atomic<std::int64_t> frames_read{0};
-  for (int r = 0; r < kReaders; ++r) {
-    threads.emplace_back([&, r] {
-      FrameReader& reader = collision.reader(r);
-      std::uint64_t last = 0;
-      while (!stop) {
-        if (!reader.update()) continue;
-        const FrameResult& frame = reader.frame();
-        EXPECT_GT(frame.frame, last) << "frames come in order";
-        EXPECT_TRUE(std::is_sorted(frame.meeting.begin(), frame.meeting.end()));
-        for (const ObjectPair& pair : frame.meeting) {
-          EXPECT_LT(pair.object_A.index, pair.object_B.index);
-          const auto movers_boxes = static_cast<std::uint32_t>(kMovers * kBoxesOfMover);
-          if (pair.object_B.index >= movers_boxes) {
-            EXPECT_GE(pair.object_A.index, movers_boxes) << "the crowd is far away";
-          } else {
-            EXPECT_EQ(pair.object_A.index + 1, pair.object_B.index) << "only neighbors can meet";
-          }
-        }
-        last = frame.frame;
-        ++frames_read;
-      }
-    });
-  }
+  threads.emplace_back([&] { add_and_remove_crowd(world, stop); });
+  for (int r = 0; r < kReaders; ++r)
+    threads.emplace_back([&, r] { read_frames(collision.reader(r), stop, frames_read); });
   std::this_thread::sleep_for(1s);
   stop = true;
   for (std::thread& thread : threads)

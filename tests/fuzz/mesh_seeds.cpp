@@ -142,6 +142,104 @@ std::vector<Seed> ply_seeds() {
           {"uint32.ply", binary_ply_of<double, std::uint32_t>(box(), "double", "uint", false)}};
 }
 
+std::vector<std::string> obj_words() {
+  return {"\nv ",      "\nvt ",     "\nvn ",     "\nvp ",   "\nf ",    "\nl ", "\np ", "\ng ", "\no ",     "\ns 1",
+          "\nusemtl ", "\nmtllib ", "\ncstype ", "\ncurv ", "\nend\n", "\\\n", "//",   "/1/1", "\nf 1 2 3"};
+}
+
+std::vector<std::string> stl_words() {
+  return {"solid ", "facet normal 0 0 0", "outer loop", "vertex ", "endloop", "endfacet", "endsolid", "SOLID"};
+}
+
+std::vector<std::string> ply_words() {
+  return {"ply\n",
+          "format ascii 1.0\n",
+          "format binary_little_endian 1.0\n",
+          "format binary_big_endian 1.0\n",
+          "element ",
+          "element vertex ",
+          "element face ",
+          "property ",
+          "list ",
+          "property float x\n",
+          "property list uchar int vertex_indices\n",
+          "vertex_index",
+          "comment ",
+          "char ",
+          "uchar ",
+          "short ",
+          "ushort ",
+          "int ",
+          "uint ",
+          "float ",
+          "double ",
+          "int8 ",
+          "uint32 ",
+          "float64 ",
+          "end_header\n"};
+}
+
+std::vector<std::string> gltf_words() {
+  return {"\"accessors\":",
+          "\"asset\":",
+          "\"attributes\":",
+          "\"bufferView\":",
+          "\"bufferViews\":",
+          "\"buffer\":",
+          "\"buffers\":",
+          "\"byteLength\":",
+          "\"byteOffset\":",
+          "\"byteStride\":",
+          "\"children\":",
+          "\"count\":",
+          "\"indices\":",
+          "\"matrix\":",
+          "\"max\":",
+          "\"mesh\":",
+          "\"meshes\":",
+          "\"mode\":",
+          "\"nodes\":",
+          "\"normalized\":true",
+          "\"POSITION\":",
+          "\"NORMAL\":",
+          "\"primitives\":",
+          "\"rotation\":",
+          "\"scale\":",
+          "\"scene\":",
+          "\"scenes\":",
+          "\"sparse\":",
+          "\"translation\":",
+          "\"type\":",
+          "\"uri\":",
+          "\"data.bin\"",
+          "\"version\":",
+          "\"2.0\"",
+          "\"componentType\":",
+          "5121",
+          "5123",
+          "5125",
+          "5126",
+          "\"VEC3\"",
+          "\"SCALAR\"",
+          "data:;base64,",
+          "null",
+          "true",
+          "{},",
+          "[],",
+          "[0]",
+          "\"\\n\"",
+          "\"extensionsRequired\":",
+          "JSON",
+          std::string("BIN\0", 4)};
+}
+
+std::vector<std::string> words_of_format(const std::string& extension) {
+  if (extension == ".obj") return obj_words();
+  if (extension == ".stl") return stl_words();
+  if (extension == ".ply") return ply_words();
+  return gltf_words();
+}
+
 }  // namespace
 
 std::vector<Seed> mesh_seeds(const std::string& extension) {
@@ -153,91 +251,7 @@ std::vector<Seed> mesh_seeds(const std::string& extension) {
 
 std::vector<std::string> mesh_words(const std::string& extension) {
   const std::vector<std::string> numbers{"nan", "-inf", "1e9", "-1e9", "1e-45", "1e400", "-1", "2147483648", "0.1"};
-  std::vector<std::string> words;
-  if (extension == ".obj") {
-    words = {"\nv ",      "\nvt ",     "\nvn ",     "\nvp ",   "\nf ",    "\nl ", "\np ", "\ng ", "\no ",     "\ns 1",
-             "\nusemtl ", "\nmtllib ", "\ncstype ", "\ncurv ", "\nend\n", "\\\n", "//",   "/1/1", "\nf 1 2 3"};
-  } else if (extension == ".stl") {
-    words = {"solid ", "facet normal 0 0 0", "outer loop", "vertex ", "endloop", "endfacet", "endsolid", "SOLID"};
-  } else if (extension == ".ply") {
-    words = {"ply\n",
-             "format ascii 1.0\n",
-             "format binary_little_endian 1.0\n",
-             "format binary_big_endian 1.0\n",
-             "element ",
-             "element vertex ",
-             "element face ",
-             "property ",
-             "list ",
-             "property float x\n",
-             "property list uchar int vertex_indices\n",
-             "vertex_index",
-             "comment ",
-             "char ",
-             "uchar ",
-             "short ",
-             "ushort ",
-             "int ",
-             "uint ",
-             "float ",
-             "double ",
-             "int8 ",
-             "uint32 ",
-             "float64 ",
-             "end_header\n"};
-  } else {
-    words = {"\"accessors\":",
-             "\"asset\":",
-             "\"attributes\":",
-             "\"bufferView\":",
-             "\"bufferViews\":",
-             "\"buffer\":",
-             "\"buffers\":",
-             "\"byteLength\":",
-             "\"byteOffset\":",
-             "\"byteStride\":",
-             "\"children\":",
-             "\"count\":",
-             "\"indices\":",
-             "\"matrix\":",
-             "\"max\":",
-             "\"mesh\":",
-             "\"meshes\":",
-             "\"mode\":",
-             "\"nodes\":",
-             "\"normalized\":true",
-             "\"POSITION\":",
-             "\"NORMAL\":",
-             "\"primitives\":",
-             "\"rotation\":",
-             "\"scale\":",
-             "\"scene\":",
-             "\"scenes\":",
-             "\"sparse\":",
-             "\"translation\":",
-             "\"type\":",
-             "\"uri\":",
-             "\"data.bin\"",
-             "\"version\":",
-             "\"2.0\"",
-             "\"componentType\":",
-             "5121",
-             "5123",
-             "5125",
-             "5126",
-             "\"VEC3\"",
-             "\"SCALAR\"",
-             "data:;base64,",
-             "null",
-             "true",
-             "{},",
-             "[],",
-             "[0]",
-             "\"\\n\"",
-             "\"extensionsRequired\":",
-             "JSON",
-             std::string("BIN\0", 4)};
-  }
+  std::vector<std::string> words = words_of_format(extension);
   words.insert(words.end(), numbers.begin(), numbers.end());
   return words;
 }

@@ -122,12 +122,14 @@ TEST_F(BadMeshFile, Stl) {
   });
 }
 
-TEST_F(BadMeshFile, Gltf) {
+/// The good file, with another text in one place of its JSON.
+std::string altered_gltf(std::string_view from, std::string_view to) {
+  return glb(with(gltf(R"({"byteLength":72})"), from, to), gltf_binary());
+}
+
+TEST_F(BadMeshFile, GltfContainersAndBuffers) {
   const std::string good = gltf(R"({"byteLength":72})");
   const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
-  const auto file = [&](std::string_view from, std::string_view to) {
-    return glb(with(good, from, to), gltf_binary());
-  };
   std::string out_of_range = gltf_binary();
   out_of_range.replace(48, 2, bytes_of<std::uint16_t>({4}));
   std::string not_finite = gltf_binary();
@@ -136,8 +138,7 @@ TEST_F(BadMeshFile, Gltf) {
       {"a.gltf", "{", "byte", "JSON"},
       {"a.gltf", "[]", "", "wrong kind"},
       {"a.gltf", std::string(100'000, '['), "", "nested more than 100 deep"},
-      {"a.glb", file(R"("indices":1)", R"("indices":)" + deep), "", "nested more than 100 deep"},
-      {"a.glb", file(R"("indices":1)", R"("indices":[1])"), "accessors[array]", "out of range"},
+      {"a.glb", altered_gltf(R"("indices":1)", R"("indices":)" + deep), "", "nested more than 100 deep"},
       {"a.gltf", good, "buffers[0]", "should have 72"},
       {"a.gltf", gltf(R"({"byteLength":72,"uri":"missing.bin"})"), "buffers[0]", "missing.bin"},
       {"a.gltf", gltf(R"({"byteLength":72,"uri":"https://example.org/a.bin"})"), "buffers[0]", "only files"},
@@ -147,47 +148,59 @@ TEST_F(BadMeshFile, Gltf) {
       {"a.glb", glb(good, out_of_range), "meshes[0].primitives[0]", "index 0 is 4"},
       {"a.glb", glb(good, not_finite), "position 1", "not finite"},
       {"a.glb", glb(good, gltf_binary().substr(0, 60)), "buffers[0]", "60 bytes"},
-      {"a.glb", file(R"("count":12)", R"("count":15)"), "accessors[1]", "do not lie within"},
-      {"a.glb", file(R"("count":12)", R"("count":11)"), "primitives[0]", "do not make up triangles"},
-      {"a.glb", file(R"("count":12)", R"("count":0)"), "accessors[1]", "0 elements"},
-      {"a.glb", file(R"("count":12)", R"("count":18446744073709551615)"), "accessors[1]", "do not lie within"},
-      {"a.glb", file(R"("count":12)", R"("count":"many")"), "", "wrong kind"},
-      {"a.glb", file(R"("byteOffset":48)", R"("byteOffset":18446744073709551600)"), "bufferViews[1]", "beyond"},
-      {"a.glb", file(R"("byteLength":48)", R"("byteLength":48,"byteStride":4)"), "accessors[0]", "byteStride"},
-      {"a.glb", file(R"("bufferView":1)", R"("bufferView":2)"), "bufferViews[2]", "out of range"},
-      {"a.glb", file(R"("buffer":0)", R"("buffer":1)"), "buffers[1]", "out of range"},
-      {"a.glb", file(R"("indices":1)", R"("indices":7)"), "accessors[7]", "out of range"},
-      {"a.glb", file(R"("indices":1)", R"("indices":-1)"), "accessors[-1]", "out of range"},
-      {"a.glb", file(R"("indices":1)", R"("indices":0)"), "primitives[0]", "componentType"},
-      {"a.glb", file(R"("POSITION":0)", R"("POSITION":1)"), "primitives[0]", "componentType"},
-      {"a.glb", file(R"("POSITION":0)", R"("NORMAL":0)"), "", "POSITION"},
-      {"a.glb", file(R"("VEC3")", R"("VEC2")"), "accessors[0]", "VEC3"},
-      {"a.glb", file(R"("indices":1)", R"("indices":1,"mode":1)"), "", "no triangles"},
-      {"a.glb", file(R"("indices":1)", R"("indices":1,"mode":9)"), "primitives[0]", "mode 9"},
-      {"a.glb", file(R"({"mesh":0})", R"({"mesh":3})"), "meshes[3]", "out of range"},
-      {"a.glb", file(R"({"mesh":0})", R"({"mesh":0,"children":[0]})"), "nodes[0]", "twice"},
-      {"a.glb", file(R"("children":[1])", R"("children":[5])"), "nodes[5]", "out of range"},
-      {"a.glb", file(R"([0,0,0]},)", R"([0,0]},)"), "nodes[0].translation", "3 numbers"},
-      {"a.glb", file(R"([0,0,0]},)", R"([0,0,1e300]},)"), "nodes[0].translation", "beyond"},
-      {"a.glb", file(R"("scene":0)", R"("scene":1)"), "scenes[1]", "out of range"},
-      {"a.glb", file(R"([{"nodes":[0]}])", R"([{}])"), "", "no triangles"},
-      {"a.glb", file(R"("version":"2.0")", R"("version":"1.0")"), "version", "2"},
-      {"a.glb", file(R"("scene":0)", R"("extensionsRequired":["KHR_draco_mesh_compression"],"scene":0)"), "",
-       "KHR_draco_mesh_compression"},
-      {"a.glb", file(R"("count":12)", R"("count":12.0)"), "accessors[1].count", "12.0 is not a whole number"},
-      {"a.glb", file(R"("count":12)", R"("count":true)"), "accessors[1].count", "wrong kind"},
-      {"a.glb", file(R"("componentType":5123)", R"("componentType":5123e99)"), "accessors[1].componentType",
-       "wrong kind"},
-      {"a.glb", file(R"("byteLength":48)", R"("byteLength":48,"byteStride":-1)"), "bufferViews[0].byteStride", "-1"},
-      {"a.glb", file(R"("byteOffset":48)", R"("byteOffset":-1)"), "bufferViews[1].byteOffset", "-1"},
-      {"a.glb", file(R"("indices":1)", R"("indices":1,"mode":4.5)"), "primitives[0].mode", "4.5"},
       {"a.gltf", gltf(R"({"byteLength":7e99})"), "buffers[0].byteLength", "wrong kind"},
-      {"a.glb", file(R"([0,0,0]},)", R"([0,0,1e999]},)"), "", "beyond every double"},
-      {"a.glb", file(R"([0,0,0]},)", R"([0,0,true]},)"), "nodes[0].translation", "3 numbers"},
       {"a.gltf", gltf(R"({"byteLength":72,"uri":"two\nlines\t.bin"})"), "buffers[0]", "two?lines?.bin"},
       {"a.glb", tetrahedron_glb().substr(0, 15), "", "header"},
       {"a.glb", tetrahedron_glb() + "x", "", "too long"},
       {"a.glb", with(tetrahedron_glb(), std::string("glTF\2", 5), std::string("glTF\1", 5)), "version", "2"},
+  });
+}
+
+TEST_F(BadMeshFile, GltfAccessorsAndPrimitives) {
+  expect_errors({
+      {"a.glb", altered_gltf(R"("indices":1)", R"("indices":[1])"), "accessors[array]", "out of range"},
+      {"a.glb", altered_gltf(R"("count":12)", R"("count":15)"), "accessors[1]", "do not lie within"},
+      {"a.glb", altered_gltf(R"("count":12)", R"("count":11)"), "primitives[0]", "do not make up triangles"},
+      {"a.glb", altered_gltf(R"("count":12)", R"("count":0)"), "accessors[1]", "0 elements"},
+      {"a.glb", altered_gltf(R"("count":12)", R"("count":18446744073709551615)"), "accessors[1]", "do not lie within"},
+      {"a.glb", altered_gltf(R"("count":12)", R"("count":"many")"), "", "wrong kind"},
+      {"a.glb", altered_gltf(R"("byteOffset":48)", R"("byteOffset":18446744073709551600)"), "bufferViews[1]", "beyond"},
+      {"a.glb", altered_gltf(R"("byteLength":48)", R"("byteLength":48,"byteStride":4)"), "accessors[0]", "byteStride"},
+      {"a.glb", altered_gltf(R"("bufferView":1)", R"("bufferView":2)"), "bufferViews[2]", "out of range"},
+      {"a.glb", altered_gltf(R"("buffer":0)", R"("buffer":1)"), "buffers[1]", "out of range"},
+      {"a.glb", altered_gltf(R"("indices":1)", R"("indices":7)"), "accessors[7]", "out of range"},
+      {"a.glb", altered_gltf(R"("indices":1)", R"("indices":-1)"), "accessors[-1]", "out of range"},
+      {"a.glb", altered_gltf(R"("indices":1)", R"("indices":0)"), "primitives[0]", "componentType"},
+      {"a.glb", altered_gltf(R"("POSITION":0)", R"("POSITION":1)"), "primitives[0]", "componentType"},
+      {"a.glb", altered_gltf(R"("POSITION":0)", R"("NORMAL":0)"), "", "POSITION"},
+      {"a.glb", altered_gltf(R"("VEC3")", R"("VEC2")"), "accessors[0]", "VEC3"},
+      {"a.glb", altered_gltf(R"("indices":1)", R"("indices":1,"mode":1)"), "", "no triangles"},
+      {"a.glb", altered_gltf(R"("indices":1)", R"("indices":1,"mode":9)"), "primitives[0]", "mode 9"},
+      {"a.glb", altered_gltf(R"("count":12)", R"("count":12.0)"), "accessors[1].count", "12.0 is not a whole number"},
+      {"a.glb", altered_gltf(R"("count":12)", R"("count":true)"), "accessors[1].count", "wrong kind"},
+      {"a.glb", altered_gltf(R"("componentType":5123)", R"("componentType":5123e99)"), "accessors[1].componentType",
+       "wrong kind"},
+      {"a.glb", altered_gltf(R"("byteLength":48)", R"("byteLength":48,"byteStride":-1)"), "bufferViews[0].byteStride",
+       "-1"},
+      {"a.glb", altered_gltf(R"("byteOffset":48)", R"("byteOffset":-1)"), "bufferViews[1].byteOffset", "-1"},
+      {"a.glb", altered_gltf(R"("indices":1)", R"("indices":1,"mode":4.5)"), "primitives[0].mode", "4.5"},
+  });
+}
+
+TEST_F(BadMeshFile, GltfAssetAndScenes) {
+  expect_errors({
+      {"a.glb", altered_gltf(R"({"mesh":0})", R"({"mesh":3})"), "meshes[3]", "out of range"},
+      {"a.glb", altered_gltf(R"({"mesh":0})", R"({"mesh":0,"children":[0]})"), "nodes[0]", "twice"},
+      {"a.glb", altered_gltf(R"("children":[1])", R"("children":[5])"), "nodes[5]", "out of range"},
+      {"a.glb", altered_gltf(R"([0,0,0]},)", R"([0,0]},)"), "nodes[0].translation", "3 numbers"},
+      {"a.glb", altered_gltf(R"([0,0,0]},)", R"([0,0,1e300]},)"), "nodes[0].translation", "beyond"},
+      {"a.glb", altered_gltf(R"("scene":0)", R"("scene":1)"), "scenes[1]", "out of range"},
+      {"a.glb", altered_gltf(R"([{"nodes":[0]}])", R"([{}])"), "", "no triangles"},
+      {"a.glb", altered_gltf(R"("version":"2.0")", R"("version":"1.0")"), "version", "2"},
+      {"a.glb", altered_gltf(R"("scene":0)", R"("extensionsRequired":["KHR_draco_mesh_compression"],"scene":0)"), "",
+       "KHR_draco_mesh_compression"},
+      {"a.glb", altered_gltf(R"([0,0,0]},)", R"([0,0,1e999]},)"), "", "beyond every double"},
+      {"a.glb", altered_gltf(R"([0,0,0]},)", R"([0,0,true]},)"), "nodes[0].translation", "3 numbers"},
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -168,82 +169,127 @@ SlidingRules random_rules(RandomNumbers& random) {
   return rules;
 }
 
-TEST(MultiPartTorture, NothingIsEverInsideAnything) {
-  constexpr std::uint64_t kSeed = 71;
-  RecordProperty("seed", static_cast<int>(kSeed));
-  RandomNumbers random(kSeed);
+std::vector<HeldPart> random_held_parts(const ContactScene& scene, RandomNumbers& random) {
+  std::vector<HeldPart> parts;
+  for (std::size_t p = 0; p < scene.parts().size(); ++p) {
+    parts.push_back({.part_V = scene.parts()[p],
+                     .X_WV_start = scene.bodies()[scene.body_of_part(p)].X_WB,
+                     .metaphor = static_cast<Metaphor>(random.integer(0, std::ssize(kMetaphorNames) - 1))});
+  }
+  return parts;
+}
+
+/// Counted over all trials, because a torture in which nothing happens would prove nothing.
+struct TortureEvents {
   int pushed_by_each_other = 0;
   int grasps_at_an_offset = 0;  // under force feedback
   int moved = 0;
   int paths = 0;
+};
+
+/// The parts of a scene, each in a random hand.
+class TortureTrial {
+ public:
+  TortureTrial(const ContactScene& scene, double size, RandomNumbers& random, TortureEvents& events)
+      : random_(random),
+        events_(events),
+        parts_(random_held_parts(scene, random)),
+        rules_(random_rules(random)),
+        obstacles_(static_cast<std::int32_t>(scene.obstacles().size())),
+        sliding_({scene.obstacles().begin(), scene.obstacles().end()}, parts_, rules_) {
+    for (const HeldPart& part : parts_)
+      hands_.emplace_back(part.X_WV_start, size);
+  }
+
+  /// Ends at the first fatal failure.
+  void tick() {
+    const std::vector<PlacedBody> before = placed_bodies(sliding_);
+    const double milliseconds = random_.chance(0.1) ? 3.0 : 1.0;
+    allowed_ = kSlew_m * milliseconds;
+    lags_.clear();
+    X_WG_.clear();
+    for (std::size_t p = 0; p < hands_.size(); ++p)
+      lead(p, before);
+    sliding_.advance(X_WG_, milliseconds);
+    ASSERT_EQ(what_meets(sliding_), "");
+    if (rules_.max_cycles == 1) {
+      ASSERT_EQ(PathProof(sliding_, before).what_comes_too_near(), "");
+      ++events_.paths;
+    }
+    for (std::size_t p = 0; p < parts_.size() && !testing::Test::HasFatalFailure(); ++p)
+      check(p, before);
+  }
+
+ private:
+  /// Moves the hand of a part, which may let go of it or take it again.
+  void lead(std::size_t p, const std::vector<PlacedBody>& before) {
+    Hand& hand = hands_[p];
+    if (hand.is_done()) {
+      const auto body = static_cast<std::size_t>(random_.integer(0, static_cast<int>(before.size()) - 1));
+      hand.begin(before[body].X_WB * before[body].body->tree.center(), random_);
+    }
+    X_WG_.push_back(hand.next());
+    const bool is_released = sliding_.result(p).state == SlidingState::kReleased;
+    if (!hand.holds() && !is_released) sliding_.release(p);
+    if (hand.holds() && is_released) {
+      const double offset = (X_WG_[p].translation() - sliding_.result(p).X_WV.translation()).norm();
+      events_.grasps_at_an_offset += parts_[p].metaphor == Metaphor::kForceFeedback && offset > kSlew_m ? 1 : 0;
+      sliding_.grasp(p, X_WG_[p]);
+    }
+    lags_.push_back(lag_of(sliding_, p));
+    const geometry::Displacement of_ghost =
+        geometry::displacement_between(sliding_.result(p).X_WG, X_WG_[p], sliding_.part(p).p_Vref());
+    if (hand.holds()) allowed_ += geometry::motion_bound(of_ghost, sliding_.part(p).radius());
+  }
+
+  void check(std::size_t p, const std::vector<PlacedBody>& before) {
+    const SlidingResult& result = sliding_.result(p);
+    ASSERT_TRUE(result.X_WV.matrix().allFinite());
+    if (parts_[p].metaphor == Metaphor::kForceFeedback) {
+      ASSERT_LE((lag_of(sliding_, p) - lags_[p]).norm(), allowed_ * (1.0 + 1e-9));
+    }
+    events_.moved += result.X_WV.matrix() != before[scene_of(sliding_).body_of_part(p)].X_WB.matrix() ? 1 : 0;
+    events_.pushed_by_each_other +=
+        static_cast<int>(std::count_if(result.contacts.begin(), result.contacts.end(), [&](const Contact& contact) {
+          return contact.force > 0.0 && contact.obstacle >= obstacles_;
+        }));
+  }
+
+  RandomNumbers& random_;
+  TortureEvents& events_;
+  std::vector<HeldPart> parts_;  // drawn before the rules
+  SlidingRules rules_;
+  std::int32_t obstacles_;
+  MultiPartSliding sliding_;
+  std::vector<Hand> hands_;
+  std::vector<Isometry3d> X_WG_;  // in this tick
+  std::vector<Vector3d> lags_;    // before it
+  double allowed_ = 0.0;          // metres that a lag may change by in this tick
+};
+
+TEST(MultiPartTorture, NothingIsEverInsideAnything) {
+  constexpr std::uint64_t kSeed = 71;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  RandomNumbers random(kSeed);
+  TortureEvents events;
   for (int trial = 0; trial < kTrials; ++trial) {
     const double size = random.power_of_ten(-2.5, 0.0);
     const auto scene = test_support::random_contact_scene(size, kMargin_m, 2.0 * kMargin_m, random);
-    std::vector<HeldPart> parts;
-    std::vector<Hand> hands;
-    for (std::size_t p = 0; p < scene->parts().size(); ++p) {
-      const Isometry3d& X_WV = scene->bodies()[scene->body_of_part(p)].X_WB;
-      parts.push_back({.part_V = scene->parts()[p],
-                       .X_WV_start = X_WV,
-                       .metaphor = static_cast<Metaphor>(random.integer(0, std::ssize(kMetaphorNames) - 1))});
-      hands.emplace_back(X_WV, size);
-    }
-    const SlidingRules rules = random_rules(random);
-    const auto obstacles = scene->obstacles();
-    MultiPartSliding sliding({obstacles.begin(), obstacles.end()}, parts, rules);
+    TortureTrial torture(*scene, size, random, events);
     for (int tick = 0; tick < kTicks; ++tick) {
       SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", tick " +
                    std::to_string(tick) + ", parts of " + std::to_string(size) + " m");
-      const std::vector<PlacedBody> before = placed_bodies(sliding);
-      const double milliseconds = random.chance(0.1) ? 3.0 : 1.0;
-      double allowed = kSlew_m * milliseconds;
-      std::vector<Vector3d> lags;
-      std::vector<Isometry3d> X_WG;
-      for (std::size_t p = 0; p < hands.size(); ++p) {
-        if (hands[p].is_done()) {
-          const auto body = static_cast<std::size_t>(random.integer(0, static_cast<int>(before.size()) - 1));
-          hands[p].begin(before[body].X_WB * before[body].body->tree.center(), random);
-        }
-        X_WG.push_back(hands[p].next());
-        const bool is_released = sliding.result(p).state == SlidingState::kReleased;
-        if (!hands[p].holds() && !is_released) sliding.release(p);
-        if (hands[p].holds() && is_released) {
-          const double offset = (X_WG[p].translation() - sliding.result(p).X_WV.translation()).norm();
-          grasps_at_an_offset += parts[p].metaphor == Metaphor::kForceFeedback && offset > kSlew_m ? 1 : 0;
-          sliding.grasp(p, X_WG[p]);
-        }
-        lags.push_back(lag_of(sliding, p));
-        const geometry::Displacement of_ghost =
-            geometry::displacement_between(sliding.result(p).X_WG, X_WG[p], sliding.part(p).p_Vref());
-        if (hands[p].holds()) allowed += geometry::motion_bound(of_ghost, sliding.part(p).radius());
-      }
-      sliding.advance(X_WG, milliseconds);
-      ASSERT_EQ(what_meets(sliding), "");
-      if (rules.max_cycles == 1) {
-        ASSERT_EQ(PathProof(sliding, before).what_comes_too_near(), "");
-        ++paths;
-      }
-      for (std::size_t p = 0; p < parts.size(); ++p) {
-        const SlidingResult& result = sliding.result(p);
-        ASSERT_TRUE(result.X_WV.matrix().allFinite());
-        if (parts[p].metaphor == Metaphor::kForceFeedback) {
-          ASSERT_LE((lag_of(sliding, p) - lags[p]).norm(), allowed * (1.0 + 1e-9));
-        }
-        moved += result.X_WV.matrix() != before[scene_of(sliding).body_of_part(p)].X_WB.matrix() ? 1 : 0;
-        pushed_by_each_other +=
-            static_cast<int>(std::count_if(result.contacts.begin(), result.contacts.end(), [&](const Contact& contact) {
-              return contact.force > 0.0 && contact.obstacle >= static_cast<std::int32_t>(obstacles.size());
-            }));
-      }
+      torture.tick();
+      if (HasFatalFailure()) return;
     }
   }
-  EXPECT_GT(moved, 100);
-  EXPECT_GT(paths, 100);
-  RecordProperty("pushed_by_each_other", pushed_by_each_other);
-  RecordProperty("grasps_at_an_offset", grasps_at_an_offset);
+  EXPECT_GT(events.moved, 100);
+  EXPECT_GT(events.paths, 100);
+  RecordProperty("pushed_by_each_other", events.pushed_by_each_other);
+  RecordProperty("grasps_at_an_offset", events.grasps_at_an_offset);
   // So few, for the forty trials that sanitizers afford.
-  EXPECT_GT(pushed_by_each_other, 20);
-  EXPECT_GT(grasps_at_an_offset, 0);
+  EXPECT_GT(events.pushed_by_each_other, 20);
+  EXPECT_GT(events.grasps_at_an_offset, 0);
 }
 
 }  // namespace
