@@ -29,11 +29,12 @@ constexpr const char* kCollideFooter =
     "metres and a unit quaternion, w first, whose length may deviate from 1 by up to 1e-3.\n"
     "\n"
     "Output: one row per pose with the columns pose (counted from 0), colliding (0 or 1) and, with --pairs, pairs.\n"
-    "Meshes that touch collide. With --tolerance-m T, meshes at a distance of at most T collide too.\n"
+    "Touching counts as colliding. With --tolerance-m T, so does any distance of at most T.\n"
     "\n"
-    "--cache keeps the trees in the files A.dop-tree and B.dop-tree, which saves most of the time to build them. A\n"
-    "file that is damaged, or does not fit the content of its mesh, is written anew; a line on standard error says\n"
-    "so. If a file cannot be written, a line on standard error says so, and the command goes on.\n"
+    "--cache stores the DOP-trees (bounding-volume hierarchies) of the meshes in the files A.dop-tree and B.dop-tree.\n"
+    "A later run reads these files, which takes far less time than to build the trees. If a file is damaged, or does\n"
+    "not fit the content of its mesh, the file is written anew, and a line on standard error says so. If a file cannot\n"
+    "be written, a line on standard error says so, and the command goes on.\n"
     "\n"
     "Examples:\n"
     "  glissade collide door.stl motor.obj --poses poses.csv\n"
@@ -96,7 +97,7 @@ void add_collide_command(CLI::App& app, Command& chosen) {
   command->add_flag("--pairs", options->question.count_pairs, "Count the colliding pairs of triangles");
   command->add_option("--tolerance-m", options->question.tolerance, "Distance in metres up to which triangles collide")
       ->capture_default_str();
-  command->add_option("--method", options->method, "Search with DOP-trees, or compare all pairs as a check")
+  command->add_option("--method", options->method, "Method: DOP-trees (bounding-volume hierarchies), or all pairs of triangles as a check")
       ->check(CLI::IsMember(collide_method_names()))
       ->capture_default_str();
   command->add_option("--out", options->out, "CSV file for the output, - for standard output")->capture_default_str();

@@ -33,7 +33,8 @@ constexpr const char* kDemoFooter =
     "times a second. With --offline, everything runs in one thread on a simulated clock, with the same result every\n"
     "time.\n"
     "\n"
-    "Brute force checks every visible pose after the run. If a pose collides, the exit code is 1.\n"
+    "After the run, brute force checks every visible pose, i.e. every pose at which the part was shown. If a pose\n"
+    "collides, the exit code is 1.\n"
     "Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples:\n"
@@ -107,12 +108,13 @@ void add_demo_command(CLI::App& app, Command& chosen) {
   CLI::Option* offline =
       command->add_flag("--offline", options->offline, "Run deterministically, on a simulated clock, in one thread");
   command->add_flag("--json", options->json, "Print the summary as JSON");
-  command->add_option("--lcm", options->lcm_url, "LCM address that glove and server share")
+  command->add_option("--lcm", options->lcm_url, "LCM address that the glove and the haptic server share")
       ->capture_default_str()
       ->excludes(offline);
   command
       ->add_option("--report", options->report,
-                   "Folder for a page, index.html, with the summary and plots of force, lag and states")
+                   "Folder for a page, index.html, with the summary and plots of force, lag (distance from the visible "
+                   "part to the pose that the hand asks for) and states")
       ->take_last();
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// A force-feedback glove as the haptic loop sees it: its state, its commands, its limits, and the interface of a
-/// device driver. Frames: W world, H hand root.
+/// device driver. Frames: W world, H hand root, i.e. the frame of the hand whose pose the glove reports.
 
 #include <array>
 #include <chrono>
@@ -53,7 +53,7 @@ struct GloveState {
   JointValues joint_angles{};
 };
 
-/// Forces (N) and torques (Nm) that the glove shall exert on the hand. All are zero by default.
+/// Forces (N) and torques (Nm) that the glove is to exert on the hand. All are zero by default.
 struct GloveCommand {
   std::int64_t sequence = 0;                        ///< ≥ 0, increases with every command
   std::int64_t state_sequence = 0;                  ///< `GloveState::sequence` of the state that the command answers
@@ -66,19 +66,19 @@ struct GloveCommand {
 /// Capabilities and limits of a device, in SI units: N, Nm, N/m, Nm/rad, N s/m, rad, Hz.
 struct DeviceDescriptor {
   std::string name;
-  double max_force = 0.0;                 ///< norm of the force on the hand
-  double max_torque = 0.0;                ///< norm of the torque on the hand
+  double max_force = 0.0;                 ///< largest norm of the force on the hand
+  double max_torque = 0.0;                ///< largest norm of the torque on the hand
   double max_stiffness = 0.0;             ///< largest translational stiffness rendered without shaking
   double max_rotational_stiffness = 0.0;  ///< largest rotational stiffness rendered without shaking
   double max_damping = 0.0;               ///< largest translational damping rendered without shaking
   double max_joint_torque = 0.0;          ///< largest torque of each joint
-  JointValues joint_lower{};
-  JointValues joint_upper{};
-  double update_rate = 0.0;
+  JointValues joint_lower{};              ///< lower limits of the joint angles
+  JointValues joint_upper{};              ///< upper limits of the joint angles
+  double update_rate = 0.0;               ///< updates per second
 };
 
-/// Throws std::invalid_argument, naming the device and the field, when a limit is negative or not finite, a joint's
-/// lower limit is not below its upper one, or the update rate is not positive.
+/// Throws std::invalid_argument, naming the device and the field, in these cases: a number is not finite; a limit with
+/// the prefix `max_` is negative; a joint's lower limit is not below its upper limit; the update rate is not positive.
 void validate(const DeviceDescriptor& descriptor);
 
 /// The interface of a device driver. Thread-safety: one thread, the haptic thread, calls `read` and `command`. Both
@@ -88,14 +88,15 @@ class GloveDevice {
  public:
   virtual ~GloveDevice() = default;
 
-  /// Fixed for the life of the device.
+  /// Does not change during the life of the device.
   virtual const DeviceDescriptor& descriptor() const noexcept = 0;
 
   /// Copies the newest state to `newest` and returns true. Until the first state has arrived, leaves `newest` unchanged
-  /// and returns false. A state is new if its sequence differs from the sequence of the last call.
+  /// and returns false. Later calls return true even if no new state has arrived; then `sequence` is that of the last
+  /// call.
   virtual bool read(GloveState& newest) noexcept = 0;
 
-  /// Sends `command`. The new command replaces an earlier command that has not been sent yet.
+  /// Hands over `command` for sending. If an earlier command has not been sent yet, `command` replaces it.
   virtual void command(const GloveCommand& command) noexcept = 0;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// One haptic tick as viewers and recorders see it. Frames: W world; V visible part; G ghost, where the part would be
-/// if nothing were in the way.
+/// The state after one haptic tick, i.e. one cycle of the 1 kHz loop that computes the force, as viewers and recorders
+/// see it. Frames: W world; V visible part; G ghost, where the part would be if nothing were in the way.
 
 #include <chrono>
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace glissade::devices {
 
-/// State of the part in the simulation, as sent over the wire. The numbers never change their meaning. The target is
-/// the pose that the hand wants of the part.
+/// State of the part in the simulation. Messages carry its number. The numbers keep their meaning in all versions. The
+/// target is the pose to which the hand pulls the part.
 enum class PartState : std::int32_t {
-  kUnknown = 0,     ///< the state was not reported, or its number is not known to this program
+  kUnknown = 0,     ///< the state was not reported, or this program has no state with that number
   kReleased = 1,    ///< no hand holds the part; it stands still
   kFree = 2,        ///< the part is at its target
   kSliding = 3,     ///< contacts push, and the part moves along the contacts
@@ -26,26 +26,28 @@ enum class PartState : std::int32_t {
 /// Number of part states; their values run from 0 to kPartStates − 1.
 inline constexpr std::int32_t kPartStates = 6;
 
-/// The name of a state, such as "sliding"; "unknown" for any other value.
+/// The name of a state, such as "sliding"; "unknown" for a value that is none of the above.
 std::string_view name_of(PartState state);
 
 /// The state with this number; kUnknown for any other number.
 PartState part_state_from_number(std::int32_t number) noexcept;
 
+/// One haptic tick. The contact set is the newest data that the simulation passed to the haptic loop: the pose X_WV and
+/// the contacts of the part.
 struct HapticState {
-  std::int64_t sequence = 0;
-  std::chrono::nanoseconds time{0};
+  std::int64_t sequence = 0;         ///< ≥ 0, increases with every tick
+  std::chrono::nanoseconds time{0};  ///< time of the tick, on the haptic loop's clock
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();
   Eigen::Vector3d force_on_hand_W = Eigen::Vector3d::Zero();     ///< N
   Eigen::Vector3d torque_on_hand_V_W = Eigen::Vector3d::Zero();  ///< Nm, about the origin of V, in world axes
   PartState part_state = PartState::kUnknown;
-  std::int32_t contact_count = 0;
-  std::chrono::nanoseconds contact_set_age{0};
-  bool is_in_contact = false;
-  bool is_force_limited = false;     ///< the wrench was reduced to the device's limits
-  bool is_contact_set_late = false;  ///< the contact set was older than 5 ms
-  bool has_no_device = false;        ///< the newest glove state was too old, so the device got no force
+  std::int32_t contact_count = 0;               ///< contacts that push
+  std::chrono::nanoseconds contact_set_age{0};  ///< time since the ghost pose that the contact set answers
+  bool is_in_contact = false;                   ///< at least one contact pushes
+  bool is_force_limited = false;                ///< the wrench was reduced to the device's limits
+  bool is_contact_set_late = false;             ///< the contact set was older than 5 ms
+  bool has_no_device = false;                   ///< the newest glove state was too old, so the device got no force
 };
 
 }  // namespace glissade::devices

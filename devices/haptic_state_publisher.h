@@ -1,7 +1,7 @@
 #pragma once
 
-/// Publishes every haptic tick to viewers and recorders on the LCM channel HAPTIC_STATE, without delaying the haptic
-/// loop.
+/// Publishes the state of every tick of the haptic loop to viewers and recorders, on the LCM channel HAPTIC_STATE,
+/// without delaying the loop.
 
 #include <chrono>
 #include <cstddef>
@@ -15,14 +15,15 @@
 
 namespace glissade::devices {
 
-/// The haptic thread fills a ring buffer; a thread of the publisher sends the contents.
+/// The haptic thread, i.e. the thread of the haptic loop, fills a ring buffer. A second thread, which the publisher
+/// starts, sends the contents.
 class HapticStatePublisher {
  public:
   static constexpr std::size_t kDefaultCapacity = 1024;  ///< the states of about one second
 
   /// Throws std::invalid_argument when the bus is null or `capacity` is 0.
   explicit HapticStatePublisher(std::shared_ptr<LcmBus> bus, std::size_t capacity = kDefaultCapacity);
-  /// Publishes the remaining states.
+  /// Publishes the states still in the ring.
   ~HapticStatePublisher();
 
   /// Haptic thread: queues `state` and returns true. When the ring is full, drops and counts the state, and returns

@@ -1,9 +1,11 @@
 #pragma once
 
-/// A connection to LCM, shared by all senders and receivers of a process.
+/// A connection to LCM (Lightweight Communications and Marshalling), shared by all senders and receivers of a process.
+/// The URL of the connection selects the transport.
 ///
-/// `memq://` connects only senders and receivers that share one LcmBus, so all are in one process. `udpm://` connects
-/// processes and hosts by UDP multicast: `udpm://239.255.76.67:7667?ttl=0` stays on this machine.
+/// `memq://` connects only senders and receivers that share one LcmBus, and therefore one process. `udpm://` connects
+/// processes and hosts by UDP multicast: messages to `udpm://239.255.76.67:7667?ttl=0` stay on this
+/// machine.
 
 #include <cstdint>
 #include <functional>
@@ -14,19 +16,20 @@
 namespace glissade::devices {
 
 /// Sends and receives raw messages by channel. One thread, started by the first subscription, receives for all
-/// subscribers; this thread inherits the scheduling of the thread that subscribes first. Channel names are 1 to 15
-/// characters of A–Z, 0–9 and `_`.
+/// subscribers. This receive thread inherits the scheduling policy of the thread that subscribes first. Channel names
+/// are 1 to 15 characters of A–Z, 0–9 and `_`.
 ///
 /// Thread-safety: any number of threads may subscribe and publish at once. All functions may block and allocate, so do
 /// not call them in a real-time thread.
 class LcmBus {
  public:
-  /// The function that receives messages, called in the receive thread for one message at a time. The bytes are valid
-  /// only during the call. Exceptions are swallowed. A handler must neither subscribe nor end a subscription.
+  /// The function that receives messages. The receive thread calls it with one message at a time. The bytes are valid
+  /// only during the call. Exceptions that the function throws are ignored. A handler must neither subscribe nor end a
+  /// subscription.
   using Handler = std::function<void(std::span<const std::uint8_t> message)>;
 
-  /// A subscription. The destructor ends it: once the destructor has returned, the handler is not running and will not
-  /// run again. The bus must outlive the subscription.
+  /// A subscription, which its destructor ends: once the destructor has returned, the handler is not running and will
+  /// not run again. The bus must outlive the subscription.
   class Subscription;
 
   /// Throws std::invalid_argument, naming the URL, when the URL is not a correct memq or udpm address, or when this
@@ -34,7 +37,7 @@ class LcmBus {
   explicit LcmBus(const std::string& url);
   LcmBus(const LcmBus&) = delete;
   LcmBus& operator=(const LcmBus&) = delete;
-  /// Stops receiving at once. Messages that were published but not yet handled are lost.
+  /// Stops receiving at once. Messages not yet passed to a handler are lost.
   ~LcmBus();
 
   const std::string& url() const noexcept;
@@ -44,8 +47,8 @@ class LcmBus {
   /// from the URL.
   [[nodiscard]] std::unique_ptr<Subscription> subscribe(const std::string& channel, Handler handler);
 
-  /// Sends `message`; returns false when the system refuses. Over memq, a message on a channel without subscribers is
-  /// lost at once. Throws std::invalid_argument when the channel's name is not allowed.
+  /// Sends `message`; returns false when the operating system does not accept it. Over memq, a message on a channel
+  /// without subscribers is lost at once. Throws std::invalid_argument when the channel's name is not allowed.
   bool publish(const std::string& channel, std::span<const std::uint8_t> message);
 
  private:
@@ -66,14 +69,14 @@ class LcmBus::Subscription {
   std::int64_t id_;
 };
 
-/// Numbers of messages so far.
+/// Numbers of messages that one receiver has accepted, rejected for each reason, and missed so far.
 struct LinkStatistics {
   std::uint64_t accepted = 0;
-  std::uint64_t wrong_size = 0;       ///< other size than a message of the expected type
-  std::uint64_t undecodable = 0;      ///< right size, but a message of another type
-  std::uint64_t not_finite = 0;       ///< with a number that is NaN or infinite
-  std::uint64_t out_of_range = 0;     ///< with an implausibly large number, or a quaternion without unit norm
-  std::uint64_t out_of_sequence = 0;  ///< sequence number not greater than that of the last accepted message
+  std::uint64_t wrong_size = 0;       ///< the size is not that of the expected type
+  std::uint64_t undecodable = 0;      ///< the size is right, but the type is another
+  std::uint64_t not_finite = 0;       ///< a number is NaN or infinite
+  std::uint64_t out_of_range = 0;     ///< a number is implausibly large, or a quaternion is not a unit quaternion
+  std::uint64_t out_of_sequence = 0;  ///< the sequence number is not greater than that of the last accepted message
   std::uint64_t lost = 0;             ///< sequence numbers missing between accepted messages
 
   std::uint64_t rejected() const noexcept {

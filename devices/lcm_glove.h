@@ -1,6 +1,7 @@
 #pragma once
 
-/// The two ends of a glove's LCM link: `LcmGlove` for the haptic loop, `LcmGloveHost` for the driver of the glove.
+/// The two ends of a glove's LCM link: `LcmGlove` for the server, i.e. the program with the haptic loop, and
+/// `LcmGloveHost` for the program that drives the glove.
 
 #include <atomic>
 #include <chrono>
@@ -26,7 +27,7 @@ struct LcmGloveOptions {
 };
 
 /// The haptic loop's end of the link: receives states on the channel GLOVE_STATE and sends commands on GLOVE_COMMAND,
-/// each in a thread other than the caller's. Commands are reduced to the limits of the descriptor before they are sent.
+/// each in a thread of its own. Commands are reduced to the limits of the descriptor before they are sent.
 /// If any command was sent, the destructor sends a last command with zero forces and torques.
 class LcmGlove final : public GloveDevice {
  public:
@@ -60,22 +61,22 @@ class LcmGlove final : public GloveDevice {
 };
 
 struct LcmGloveHostOptions {
-  /// A command that arrived longer ago than this is no longer obeyed: the server may be gone.
+  /// Forces and torques of a command count as zero after this time since its arrival: the server may be gone.
   std::chrono::nanoseconds command_timeout{std::chrono::milliseconds(100)};
-  /// After this time without an accepted command, a command with any sequence is accepted: the server may have been
+  /// After this time without an accepted command, any sequence number is accepted: the server may have been
   /// restarted.
   std::chrono::nanoseconds restart_silence{std::chrono::milliseconds(500)};
 };
 
 /// The glove driver's end of the link: sends states on the channel GLOVE_STATE and receives commands on GLOVE_COMMAND.
-/// Thread-safety: one thread, the glove's, calls `publish` and `newest_command`.
+/// Thread-safety: one thread, the driver's, calls `publish` and `newest_command`.
 class LcmGloveHost {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive.
   explicit LcmGloveHost(std::shared_ptr<LcmBus> bus, const LcmGloveHostOptions& options = {});
   ~LcmGloveHost();
 
-  /// Sends `state`; returns false when the system refuses. May block.
+  /// Sends `state`; returns false when the operating system does not accept it. May block.
   bool publish(const GloveState& state);
 
   /// The newest command, or a default GloveCommand before the first command. Forces and torques are zero if the command

@@ -8,7 +8,7 @@ namespace glissade::devices {
 
 /// Reasons for changes to a command.
 struct LimitReasons {
-  bool not_finite = false;      ///< a number was NaN or infinite, so everything was set to zero
+  bool not_finite = false;      ///< a number was NaN or infinite, so all forces and torques were set to zero
   bool force_limited = false;   ///< the force was scaled down to the device's maximum
   bool torque_limited = false;  ///< the torque was scaled down to the device's maximum
   bool joints_limited = false;  ///< at least one joint torque was clamped
@@ -24,8 +24,8 @@ struct LimitedCommand {
 
 /// Scales force and torque down to the norms that the device allows, without changing their directions, and clamps each
 /// joint torque. If any component of force, torque or joint torques is not finite, all components become zero.
-/// Sequences and time are kept. The result never exceeds a limit, not even by rounding; a limit that is NaN or negative
-/// counts as 0. Real-time safe.
+/// The sequence numbers and the time do not change. The result never exceeds a limit, not even by rounding. A limit
+/// that is NaN or negative counts as 0. Real-time safe.
 LimitedCommand limit_command(const GloveCommand& command, const DeviceDescriptor& descriptor) noexcept;
 
 }  // namespace glissade::devices

@@ -1,8 +1,8 @@
 #pragma once
 
 /// A force-feedback glove without hardware: a hand on a grounded force-feedback arm, moved by a wearer. The wearer
-/// follows a script, but yields to the commanded forces. A pure kernel, without threads or clocks: the same inputs give
-/// the same bits.
+/// follows a script, i.e. a given trajectory of the hand, but yields to the commanded forces. The simulation has
+/// neither threads nor clocks: the same inputs give bit-identical outputs.
 
 #include <chrono>
 
@@ -15,33 +15,33 @@
 namespace glissade::devices {
 
 /// The glove and its wearer, in SI units. The wearer is a critically damped spring and damper between hand and script,
-/// about as stiff as a relaxed to lightly tensed human arm. A steady force F holds the hand F / stiffness away from the
-/// script.
+/// about as stiff as a relaxed to lightly tensed human arm. A steady force F displaces the hand from the script by
+/// F / stiffness.
 struct SimulatedGloveParameters {
-  double mass = 0.8;                         ///< hand, forearm and arm of the device, as felt at the hand root; kg
+  double mass = 0.8;                         ///< effective at the hand root: hand, forearm and the device's arm; kg
   double rotational_inertia = 0.003;         ///< about every axis of the hand root; kg m²
-  double arm_damping = 2.0;                  ///< friction of the grounded arm; N s/m
+  double arm_damping = 2.0;                  ///< viscous friction of the grounded arm; N s/m
   double arm_rotational_damping = 0.01;      ///< Nm s/rad
   double wearer_stiffness = 400.0;           ///< N/m
-  double wearer_damping = 35.0;              ///< against the velocity of the script; N s/m
+  double wearer_damping = 35.0;              ///< acts on the velocity relative to the script; N s/m
   double wearer_rotational_stiffness = 4.0;  ///< Nm/rad
   double wearer_rotational_damping = 0.22;   ///< Nm s/rad
   double finger_stiffness = 0.5;             ///< Nm/rad
   double finger_time_constant = 0.05;        ///< time constant of a finger's approach to its equilibrium; s
-  JointValues grasp_posture{};               ///< joint angles that the wearer holds; rad
+  JointValues grasp_posture{};               ///< joint angles to which the wearer's fingers return; rad
 };
 
-/// Limits of the simulated glove: 20 N, 1 Nm, 4000 N/m, 1 kHz, like the stronger grounded arms in the literature. The
-/// joint limits are the limits of the human hand.
+/// Limits of the simulated glove: 20 N, 1 Nm, 4000 N/m and 1000 updates per second, like the stronger grounded arms in
+/// the literature. The joint limits are the limits of the human hand.
 DeviceDescriptor simulated_glove_descriptor();
 
 /// The simulation, by semi-implicit Euler in steps of at most 1 ms. Not thread-safe. Nothing is allocated after
 /// construction.
 class SimulatedGlove {
  public:
-  /// Starts at rest at the first pose of the script, which gives the pose X_WH of the hand root. Throws
+  /// Starts at rest at the first pose of `script_X_WH`, the intended trajectory of the hand root. Throws
   /// std::invalid_argument, naming the parameter, for a number that is not finite, for negative damping, and for any
-  /// other parameter that is not positive. Angles of the posture may have either sign. Also throws when stiffness or
+  /// other parameter that is not positive. Angles of the posture may be zero or negative. Also throws when stiffness or
   /// damping is so large that steps of 1 ms would not be stable.
   explicit SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters = {});
 
@@ -50,9 +50,9 @@ class SimulatedGlove {
   /// The current state. The initial state has sequence 0 and the first time of the script.
   const GloveState& state() const noexcept { return state_; }
 
-  /// Lets `dt` pass under the constant command `newest`. The command is first reduced to the limits of the descriptor,
-  /// as by a real device. Returns the new state, with a sequence higher by one and a time later by `dt`. For dt ≤ 0,
-  /// only the sequence changes.
+  /// Advances the simulation by `dt` under the constant command `newest`. The command is first reduced to the limits of
+  /// the descriptor, as a real device reduces commands. Returns the new state: its sequence is higher by one, its time
+  /// later by `dt`. For dt ≤ 0, only the sequence changes.
   GloveState step(std::chrono::nanoseconds dt, const GloveCommand& newest) noexcept;
 
  private:

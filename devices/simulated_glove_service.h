@@ -16,9 +16,10 @@
 
 namespace glissade::devices {
 
-/// The service runs from construction to `stop` or destruction. The hand waits at the start of its script until the
-/// first command arrives, so that server and glove may be started in any order. From that moment on the script follows
-/// the clock, even if the thread misses ticks.
+/// The service runs from construction to `stop` or destruction. The simulated hand waits at the start of its script,
+/// i.e. of its given trajectory, until the first command arrives. So the server, which sends the commands, and the
+/// glove may start in either order. From the first command on, the script follows the clock, even if the thread misses
+/// periods.
 class SimulatedGloveService {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive. The clock must outlive the service.
@@ -27,11 +28,12 @@ class SimulatedGloveService {
   /// Elapsed time of the script. Any thread.
   std::chrono::nanoseconds script_time() const noexcept { return script_time_.load(std::memory_order_relaxed); }
 
-  /// Ends the thread. The figures below are final once this function has returned.
+  /// Ends the thread. Once this function has returned, the results of the functions below no longer change.
   void stop() { thread_->stop(); }
 
   /// Greatest norm of all commanded forces, N. Valid after `stop`.
   double greatest_force() const noexcept { return greatest_force_; }
+  /// Statistics of the messages from the server. Any thread.
   LinkStatistics link_statistics() const noexcept { return host_.statistics(); }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A mesh prepared for sliding contact, for the part in the hand or for an obstacle.
+/// A mesh prepared for sliding contact: as a part, i.e. an object that a hand moves, or as an obstacle.
 
 #include <memory>
 #include <optional>
@@ -28,16 +28,19 @@ struct ContactBody {
   collision::DopTree tree;
   collision::ConvexHull hull;
   geometry::MeshTopology topology;
-  collision::TriangleSelection features;  ///< triangles that own an edge or vertex that can stop another body
+  /// The triangles that own an edge or a vertex that can stop another body. `MeshTopology` assigns each edge and each
+  /// vertex to one triangle, its owner.
+  collision::TriangleSelection features;
 
  private:
   friend struct ObbAccess;
   std::unique_ptr<const ObbTree> obbs_;  // for path certificates
 };
 
-/// The part in the hand, in its own frame V. Displacements and the coupling act at a reference point fixed in the part:
-/// the centre of the part's bounding box, where translation and rotation are as independent as the shape of the part
-/// allows.
+/// The part in the hand, in its own frame V. A displacement of the part is the translation of a reference point and a
+/// rotation about that point; the coupling, the virtual spring between hand and part, acts at the same point. It is the
+/// centre of the part's bounding box, where translation and rotation depend on each other as little as the shape of the
+/// part allows.
 struct SlidingPart : ContactBody {
   using ContactBody::ContactBody;
 
@@ -51,8 +54,8 @@ struct Obstacle {
   std::shared_ptr<const ContactBody> body;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   std::string name = "an obstacle";  ///< for messages
-  /// The distance (metres) at which this obstacle holds parts away; default: the margin of the part. A smaller margin
-  /// allows a tighter fit, a larger margin leaves more clearance. At most kGreatestMargin_m.
+  /// The gap (metres) at which contacts with this obstacle stop a part; default: the margin of the part. A smaller
+  /// margin allows a tighter fit, a larger margin leaves more clearance. At most kGreatestMargin_m (`sliding_rules.h`).
   std::optional<double> margin{};
 };
 

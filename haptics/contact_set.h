@@ -1,7 +1,7 @@
 #pragma once
 
-/// The hand-over from the simulation to the haptic thread: the visible pose of a part and the constraints near that
-/// pose, as plain data of a fixed size.
+/// What the simulation passes to the haptic thread (the 1 kHz loop that computes the force): the visible pose of a part
+/// and the constraints of the contacts near that pose, as plain data of a fixed size.
 
 #include <array>
 #include <chrono>
@@ -16,7 +16,8 @@
 
 namespace glissade::haptics {
 
-/// A constraint n·(v + w × r) ≥ bound on a displacement (v, w) of the part.
+/// The constraint of one contact, n·(v + w × r) ≥ bound, on a displacement (v, w) of the part: v is the translation of
+/// the part's reference point in metres, w the rotation vector about that point in radians.
 struct ConstraintRow {
   Eigen::Vector3d n;  ///< unit normal, from the obstacle to the part, world axes
   Eigen::Vector3d r;  ///< from the reference point to the contact point, world axes, metres
@@ -31,18 +32,19 @@ struct ConstraintRow {
 /// farthest contacts.
 inline constexpr std::size_t kMaxContactRows = 64;
 
-/// The simulation's answer to one ghost pose.
+/// The simulation's answer to one pose of the ghost, i.e. to a pose that the part would have if nothing were in the
+/// way.
 struct ContactSet {
   std::int64_t sequence = 0;                               ///< 1, 2, 3, … in the order of the sets; 0: no set yet
   std::chrono::nanoseconds time{0};                        ///< time of the ghost pose that the set answers
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part
   Eigen::Isometry3d X_WV_of_rows = Eigen::Isometry3d::Identity();  ///< the pose at which the rows were found
-  /// Metres: at X_WV_of_rows, the simulation found every contact with a smaller gap. The rows hold all of these
-  /// contacts, less `dropped`.
+  /// Metres: with the part at X_WV_of_rows, the simulation found every contact with a gap smaller than this. The set
+  /// has a row for each contact found, except for the `dropped` ones.
   double reach = 0.0;
   SlidingState state = SlidingState::kFree;
   std::int32_t pushing = 0;                                ///< contacts with a force
-  std::int32_t dropped = 0;                                ///< contacts omitted because of kMaxContactRows
+  std::int32_t dropped = 0;                                ///< contacts without a row, beyond kMaxContactRows
   std::int32_t row_count = 0;                              ///< rows in use
   std::array<ConstraintRow, kMaxContactRows> row_array{};  ///< first the pushing contacts, then the nearest
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The virtual coupling: the spring and damper between the hand and the visible part, their limits, and the wrench that
-/// the hand feels. Frames: W world, G ghost, V visible part.
+/// the hand feels. The ghost is the pose that the part would have if nothing were in the way.
 
 #include <chrono>
 
@@ -19,19 +19,21 @@ namespace glissade::haptics {
 inline constexpr std::chrono::milliseconds kTickPeriod{1};
 
 /// The lag of a part is the displacement from the visible part to its target (`SlidingResult`). Under force feedback,
-/// the lag changes in a tick by at most kSlew_m (metres) plus the ghost's own motion. This limit bounds the change of
-/// the force when the part snaps into a gap.
+/// the lag changes in a tick (one period of the haptic loop) by at most kSlew_m (metres) plus the motion of the ghost,
+/// or of all ghosts if there are several parts. This limit bounds the change of the force when the part snaps into a
+/// gap.
 inline constexpr double kSlew_m = 0.2e-3;
 
-/// Stiffness of the spring against translation (N/m) and rotation (Nm/rad) of the part's reference point. The stiffness
-/// is also the metric of the projection on the contacts, so that the coupling wrench is exactly a sum of contact
+/// Stiffness of the spring against translation (N/m) of the part's reference point and rotation (Nm/rad) about it. The
+/// simulation projects the wanted displacement of the part on the displacements that the contacts allow. The stiffness
+/// is also the metric of this projection, so that the wrench of the spring is exactly a sum of forces along contact
 /// normals.
 struct CouplingStiffness {
   double translational;
   double rotational;
 };
 
-/// Damping against translation (N s/m) and rotation (Nm s/rad) of the part's reference point.
+/// Damping against translation (N s/m) of the ghost's reference point and rotation (Nm s/rad) about it.
 struct CouplingDamping {
   double translational;
   double rotational;
@@ -43,12 +45,13 @@ struct Coupling {
   CouplingDamping damping;
 };
 
-/// The stiffness with which a part of the given radius (metres) is held by default: k_t = 1000 N/m, k_r = k_t ρ².
+/// The default stiffness for a part of radius ρ (metres): 1000 N/m against translation and ρ² times that against
+/// rotation.
 CouplingStiffness default_stiffness(double radius);
 
 /// The coupling that a device can render without shaking. The stiffness is `wanted`, lowered to the limits of the
-/// descriptor. The damping is 5 ms times this stiffness; the translational damping is lowered to the descriptor's limit
-/// too. Throws std::invalid_argument, naming the device, when the device cannot render any stiffness against
+/// descriptor. The damping is 5 ms times this stiffness; the translational damping is at most the descriptor's limit.
+/// Throws std::invalid_argument, naming the device, when the device cannot render any stiffness against
 /// translation or rotation.
 Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted);
 
@@ -63,7 +66,8 @@ Wrench about_point(const Wrench& wrench, const Eigen::Vector3d& from, const Eige
 
 /// The spring's wrench on the hand about the ghost's reference point: −K ξ*, where K is `stiffness` and ξ* is `error`,
 /// the displacement from the visible part to the ghost. Exactly zero when part and ghost coincide. Because the part was
-/// projected on the contacts in the metric of K, the wrench is a sum of contact normals: sliding is frictionless.
+/// projected on the contacts in the metric K, the wrench is a sum of forces along contact normals: without
+/// `SlidingRules::friction`, the hand feels no friction.
 Wrench spring_wrench(const CouplingStiffness& stiffness, const geometry::Displacement& error);
 
 /// Velocity of the ghost's reference point (m/s) and angular velocity of the ghost (rad/s), in world axes.
@@ -72,10 +76,10 @@ struct Velocity {
   Eigen::Vector3d w = Eigen::Vector3d::Zero();
 };
 
-/// The damper's wrench on the hand. The damper acts along the spring's force and torque only, because a part moves
-/// freely in directions perpendicular to the contact normals of fixed obstacles. The damper never exceeds the spring's
-/// force and torque. So it sets in smoothly when contact is made, and never pulls the hand towards a contact that the
-/// hand leaves.
+/// The damper's wrench on the hand. The damper acts along the spring's force and torque only, so that it does not brake
+/// motion perpendicular to the contact normals, in which fixed obstacles leave the part free. The damper's force never
+/// exceeds the spring's force, nor its torque the spring's torque. So the damper sets in smoothly at a new contact, and
+/// never pulls the hand towards a contact that the hand leaves.
 Wrench damper_wrench(const CouplingDamping& damping, const Wrench& spring, const Velocity& ghost);
 
 }  // namespace glissade::haptics

@@ -1,7 +1,7 @@
 #pragma once
 
-/// One tick of the haptic thread as a pure function of its inputs: device state and contact set in, device command out.
-/// The kernel owns no clock, no thread and no device, so the same code runs in real time, offline and in tests.
+/// One tick (1 ms) of the haptic thread: device state and contact set in, device command out. The kernel owns no clock,
+/// no thread and no device, so the same code runs in real time, offline and in tests.
 
 #include <cstdint>
 #include <memory>
@@ -20,8 +20,8 @@ struct SlidingPart;
 
 /// The outcome of one tick.
 struct HapticTick {
-  Eigen::Isometry3d X_WG;         ///< ghost
-  Eigen::Isometry3d X_WP;         ///< proxy: the part's pose now, by the newest contact set
+  Eigen::Isometry3d X_WG;         ///< ghost: the part's pose if nothing were in the way
+  Eigen::Isometry3d X_WP;         ///< proxy: estimate of the part's pose now, from the contact set
   Wrench spring;                  ///< wrench on the hand about the ghost's reference point, before the device's limits
   devices::GloveCommand command;  ///< wrench about the hand root, within the device's limits
   devices::LimitReasons limited;
@@ -30,11 +30,11 @@ struct HapticTick {
 /// Real-time safe: bounded work, no allocation, no lock, no system call after construction. Not thread-safe.
 class HapticKernel {
  public:
-  /// The first state with a finite hand pose fixes the grasp: the hand holds the part rigidly, with the part at
-  /// X_WV_start. `stiffness` is the stiffness with which the simulation holds the part. The coupling is the result of
-  /// `coupling_for` with `device` and `stiffness`. If the simulation is stiffer than the device, the contact forces
-  /// that the simulation reports differ from the force on the hand; hold the part with the stiffness of `coupling_for`
-  /// to avoid this. Throws as `coupling_for` does.
+  /// At the first state with a finite hand pose, the ghost is at X_WV_start; from then on, the ghost moves rigidly with
+  /// the hand. `stiffness` is the stiffness of the simulation (`SlidingSimulation::stiffness`). The kernel's coupling
+  /// is the result of `coupling_for` with `device` and `stiffness`. If the simulation is stiffer than the device
+  /// allows, the contact forces that the simulation reports differ from the force on the hand. To avoid this, construct
+  /// the simulation with the stiffness that `coupling_for` returns. Throws as `coupling_for` does.
   HapticKernel(const SlidingPart& part_V, const CouplingStiffness& stiffness, const devices::DeviceDescriptor& device,
                const Eigen::Isometry3d& X_WV_start);
   ~HapticKernel();

@@ -1,7 +1,9 @@
 #pragma once
 
-/// The system in real time: a haptic thread at 1 kHz between a device and the newest contact set, and a simulation
-/// thread that answers the newest ghost pose as fast as collision queries allow. Neither thread waits for the other.
+/// The system in real time, with two threads. The haptic thread runs at 1 kHz: from the state of the device and the
+/// newest contact set, it computes the force and the pose of the ghost, i.e. the part's pose if nothing were in the
+/// way. The simulation thread answers the newest pose of the ghost with a contact set, once per millisecond if the
+/// collision queries are fast enough. Neither thread waits for the other.
 
 #include <atomic>
 #include <chrono>
@@ -21,20 +23,20 @@
 namespace glissade::haptics {
 
 struct HapticServerOptions {
-  /// Number of counted ticks after which the server ends by itself; with 0 it runs until `stop`. A tick of the haptic
-  /// thread counts once the device has delivered its first state.
+  /// Number of counted ticks of the haptic thread after which that thread ends by itself; with 0 it runs until `stop`.
+  /// Ticks before the first state of the device are not counted.
   std::int64_t ticks = 0;
   /// SCHED_FIFO priority that the haptic thread requests; 0 requests none.
   int fifo_priority = 80;
-  /// A device whose newest state arrived longer ago than this gets no force.
+  /// The force on the device is zero while its newest state is older than this, measured from the state's arrival.
   std::chrono::nanoseconds device_timeout{std::chrono::milliseconds(50)};
 };
 
 /// Measurements of the server. Complete after `stop`.
 struct HapticServerStatistics {
   realtime::PeriodicStatistics haptic;         ///< all ticks of the haptic thread, counted or not
-  realtime::LatencyHistogram simulation;       ///< duration of each answer of the simulation
-  realtime::LatencyHistogram contact_set_age;  ///< age of the contact set at each counted tick
+  realtime::LatencyHistogram simulation;       ///< duration of each call of the simulation
+  realtime::LatencyHistogram contact_set_age;  ///< at each counted tick: age of the ghost that the set answers
   bool has_fifo_scheduling = false;
 };
 
@@ -47,9 +49,9 @@ class HapticServer {
   using Sink = std::function<void(const devices::HapticState&)>;
 
   /// Starts both threads. The references must outlive the server. The hand grasps the part when the first state of the
-  /// device arrives; the part stays where it is. The coupling is that of a `HapticKernel` with the
-  /// stiffness of the simulation and the descriptor of the device. Throws std::invalid_argument for an empty sink, and
-  /// as `coupling_for` does.
+  /// device arrives; the part stays where it is. The coupling is the result of `coupling_for` with the descriptor of
+  /// the device and the stiffness of the simulation. Throws std::invalid_argument for an empty sink, and as
+  /// `coupling_for` does.
   HapticServer(devices::GloveDevice& device, SlidingSimulation& simulation, realtime::Clock& clock, Sink sink,
                const HapticServerOptions& options = {});
   HapticServer(const HapticServer&) = delete;
@@ -62,7 +64,7 @@ class HapticServer {
   /// Number of counted ticks so far. Wait-free, any thread.
   std::int64_t ticks() const noexcept { return ticks_.load(std::memory_order_relaxed); }
 
-  /// Stops both threads. May block for the duration of one answer of the simulation.
+  /// Stops both threads. May block for the duration of one call of the simulation.
   void stop();
 
   /// Valid after `stop`.

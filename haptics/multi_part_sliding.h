@@ -1,15 +1,17 @@
 #pragma once
 
-/// Sliding contact of several parts at once, each held by a hand or by a script (paper §3). Each visible part follows
-/// its ghost as closely as obstacles and the other parts allow. No part is ever inside anything, neither at rest nor on
-/// its way.
+/// Sliding contact of several parts at once, each held by a hand or by a script (paper §3). The ghost of a part is the
+/// pose that the part would have if nothing were in the way. Each visible part follows its ghost as closely as the
+/// obstacles and the other parts allow. No part is ever inside anything, neither at rest nor on its way.
 ///
-/// The method is sequential projection with a margin and a certificate. Each cycle finds the contacts within reach,
-/// projects the wanted displacements on the constraints in the metric of the couplings, and takes the step only when
-/// every triangle pair within reach is certified apart on the whole path of the step. The paper's bisection instead
-/// finds the instant of contact and derives a new direction from the contact. At that instant the gap is zero: an exact
-/// intersection test, for which touching counts, already reports a collision, and no further motion is possible.
-/// Therefore contacts here hold parts one margin away.
+/// The method is sequential projection with a margin and a certificate. A call consists of cycles. Each cycle finds the
+/// contacts with a gap below a search radius, the reach. It then projects the wanted displacements of the parts on the
+/// displacements that these contacts allow, in the metric of the coupling stiffness. The result is a step. The parts
+/// take the step only with a certificate: a proof that every triangle pair within reach stays apart on the whole path.
+///
+/// The paper's bisection instead finds the instant of contact and derives a new direction from the contact. At that
+/// instant the gap is zero: an exact intersection test, for which touching counts, already reports a collision, and no
+/// further motion is possible. Therefore the contacts here stop parts at a positive gap, the margin.
 
 #include <cstddef>
 #include <memory>
@@ -32,19 +34,18 @@ class ContactScene;
 /// Not thread-safe; several simulations may share bodies.
 class MultiPartSliding {
  public:
-  /// Throws std::invalid_argument for no part or more than kMaxParts, for a single part without obstacles, for null
-  /// pointers, for poses and numbers out of range, when parts overlap each other at their start, and when a part
-  /// overlaps an obstacle at its start unless the rules depenetrate it (`OverlapRule`). Bodies closer than the rounding
-  /// of their coordinates count as overlapping.
+  /// Throws std::invalid_argument for no part or more than kMaxParts parts, for a single part without obstacles, for
+  /// null pointers, for poses and numbers out of range, and for overlaps at the start that `OverlapRule` refuses.
+  /// Bodies closer than the rounding of their coordinates count as overlapping.
   MultiPartSliding(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const SlidingRules& rules = {});
   MultiPartSliding(MultiPartSliding&&) noexcept;
   MultiPartSliding& operator=(MultiPartSliding&&) noexcept;
   ~MultiPartSliding();
 
   /// As in `SlidingSimulation`, for one part; `part` is its number, below `part_count`. A released part stands still
-  /// like an obstacle. Under force feedback, the target of a part that was released starts at the pose of the part, and
-  /// the target of a part that was held stays where it was. From there the target approaches the ghost by half of
-  /// kSlew_m a millisecond, so neither part nor force jumps.
+  /// like an obstacle. Under force feedback, `grasp` does not move the target at once to the new ghost: if the part was
+  /// released, the target starts at the pose of the part; if the part was already held, the target stays where it was.
+  /// From there the target approaches the ghost by half of kSlew_m a millisecond, so neither part nor force jumps.
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG);
   void release(std::size_t part);
 
@@ -56,7 +57,7 @@ class MultiPartSliding {
   const SlidingResult& result(std::size_t part) const;
   const SlidingPart& part(std::size_t part) const;
   const CouplingStiffness& stiffness(std::size_t part) const;
-  /// The distance (metres) at which contacts hold the part away from obstacles that have no margin of their own.
+  /// The gap (metres) at which contacts with obstacles that have no margin of their own stop the part.
   double margin(std::size_t part) const;
 
   const SearchStatistics& search_statistics() const;
@@ -70,11 +71,12 @@ class MultiPartSliding {
   std::unique_ptr<Cycle> cycle_;
 };
 
-/// One of several parts as a simulation of its own, so that a server or an offline run can lead it. Not thread-safe.
+/// One of several parts as a simulation of its own, for a `HapticServer` or `run_offline`. Not thread-safe.
 class PartOfSeveral final : public SlidingSimulation {
  public:
-  /// Leads the part with the number `part` of `sliding`, which must outlive this object. The ghosts of the other parts
-  /// stay where they are until `lead_other`. Throws std::invalid_argument unless `part` is below `part_count`.
+  /// For the part with the number `part` of `sliding`, which must outlive this object. The ghosts of the other parts
+  /// stay where they are until `lead_other` moves them. Throws std::invalid_argument unless `part` is below
+  /// `part_count`.
   PartOfSeveral(MultiPartSliding& sliding, std::size_t part);
 
   /// From the next call of `advance` on, the ghost of the part with the number `other` is at X_WG. `other` must be

@@ -1,8 +1,9 @@
 #pragma once
 
-/// Sliding contact of one part (paper §3): the visible part follows the ghost as closely as the obstacles allow, and is
-/// never inside anything, neither at rest nor on its way. `Sliding` is the method to use; `make_sliding` also offers
-/// the founding paper's method, for comparison.
+/// Sliding contact of one part (paper §3): the visible part follows the ghost as closely as the obstacles allow. The
+/// ghost is the pose that the part would have if nothing were in the way. The part is never inside anything, neither at
+/// rest nor on its way. `Sliding` is the method to use; `make_sliding` also offers the founding paper's method, for
+/// comparison.
 
 #include <array>
 #include <chrono>
@@ -28,14 +29,15 @@ struct SlidingOptions {
   SlidingRules rules{};
 };
 
-/// A part that moves on its own or in the other hand. The part follows its script as any held part follows its ghost.
+/// A part that moves on its own or in the other hand. The script gives the ghost of this part: the part follows the
+/// script as far as contacts allow.
 struct ScriptedPart {
   std::shared_ptr<const SlidingPart> part_B;
   geometry::PoseTrajectory script_X_WB;
-  std::chrono::nanoseconds start{0};  ///< the script's time at which the simulation begins
-  /// Stiffness against translation; the stiffness against rotation is k_r = k_t ρ². The default is a thousand times the
-  /// default stiffness of a hand, so that the part pushes other parts and is hardly pushed. With the stiffness of a
-  /// hand, the script acts as another hand.
+  std::chrono::nanoseconds start{0};  ///< time of the script when the simulation begins
+  /// Stiffness against translation, k_t; the stiffness against rotation is k_t ρ², with ρ the radius of the part. The
+  /// default is a thousand times the default stiffness of a hand, so that the scripted part pushes other parts and is
+  /// hardly pushed by them. With the stiffness of a hand, the script acts as another hand.
   double grip_N_per_m = 1e6;
   std::string name = "a moving part";  ///< for messages
 };
@@ -62,8 +64,9 @@ class Sliding final : public SlidingSimulation {
   std::span<const Eigen::Isometry3d> scripted_X_WB() const override { return scripted_X_WB_; }
   SearchStatistics search_statistics() const override { return sliding_.search_statistics(); }
 
-  /// Minimum clearance (metres) that every certified path keeps from obstacles that have no margin of their own. A path
-  /// that starts nearer to an obstacle keeps 95 % of the distance at its start.
+  /// Minimum clearance (metres): the distance that the part keeps on every step from obstacles that have no margin of
+  /// their own, as proved before the step. A step that starts nearer to an obstacle keeps 95 % of the distance at its
+  /// start.
   double min_clearance() const { return kMinClearanceOfMargin * margin(); }
 
  private:
@@ -77,8 +80,8 @@ class Sliding final : public SlidingSimulation {
 
 /// The methods of sliding contact.
 enum class SlidingMethod : std::uint8_t {
-  kProjection,  ///< sequential projection with margin and certificate: `Sliding`
-  kPaper,       ///< the founding paper's bisection and classification (paper §3)
+  kProjection,  ///< `Sliding`: sequential projection with a margin and a certificate (`multi_part_sliding.h`)
+  kPaper,       ///< the founding paper's bisection and classification of contacts (paper §3)
 };
 
 /// Names of the methods, as on the command line, in the order of the values of `SlidingMethod`.

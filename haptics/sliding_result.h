@@ -1,6 +1,11 @@
 #pragma once
 
 /// The answer of a simulation of sliding contact, whatever its method: poses, state and contacts.
+///
+/// A part is an object that a hand moves. An obstacle of a part is a fixed body, or another part. The ghost is the pose
+/// that the part would have if nothing were in the way. The metaphor, i.e. the rule by which the hand moves the part,
+/// computes the target from the ghost: the pose that the part aims at. The visible part follows the target as far as
+/// the contacts allow.
 
 #include <cstdint>
 #include <string_view>
@@ -10,7 +15,7 @@
 
 namespace glissade::haptics {
 
-/// The two features in contact: first the feature of the part, then the feature of the obstacle.
+/// The two features (vertex, edge or face) in contact: first the feature of the part, then the feature of the obstacle.
 enum class ContactKind : std::uint8_t {
   kVertexFace,
   kFaceVertex,
@@ -25,27 +30,30 @@ std::string_view name_of(ContactKind kind);
 
 /// A place where a part and an obstacle are close.
 ///
-/// Obstacle, kind and the two features identify a contact: they stay the same as long as the same features are close.
+/// Part, obstacle, kind and the two features identify a contact as long as the same features are close.
 /// The triangles follow from the features, because one triangle owns each edge and each vertex
 /// (`geometry::MeshTopology`).
 struct Contact {
   ContactKind kind;
   std::int32_t part_triangle;
-  /// Number of the other body: first the obstacles, then the parts, each in the order given to the constructor.
+  /// Number of the other body. The fixed obstacles come first, then the parts, each in the order given to the
+  /// simulation's constructor.
   std::int32_t obstacle;
   std::int32_t obstacle_triangle;
   Eigen::Vector3d n_W;  ///< unit normal, from the obstacle to the part
   Eigen::Vector3d p_W;  ///< the contact point on the part, metres
   double gap;           ///< metres; negative only for kOverlap
-  double force = 0.0;   ///< newtons along n_W; 0 while the contact does not push
-  /// The feature of the part and the feature of the obstacle. A face is given by the number of its triangle, an edge by
-  /// its number in `geometry::MeshTopology`, a vertex by its number in the mesh. −1 if the method does not report
-  /// features.
+  double force = 0.0;   ///< newtons along n_W; 0 if the contact does not push
+  /// Numbers of the two features: for a face the number of its triangle, for an edge its number in
+  /// `geometry::MeshTopology`, for a vertex its number in the mesh. −1 if the method does not report the features.
   std::int32_t part_feature = -1;
   std::int32_t obstacle_feature = -1;
   std::int32_t part = 0;                                 ///< number of the part among the parts
-  Eigen::Vector3d friction_W = Eigen::Vector3d::Zero();  ///< newtons on the part, across n_W
-  double margin = 0.0;  ///< distance (metres) at which the contact holds both sides apart
+  Eigen::Vector3d friction_W = Eigen::Vector3d::Zero();  ///< newtons on the part, perpendicular to n_W
+  /// Metres: the gap at which the contact stops the part. For the paper's method, the margin is instead the largest gap
+  /// of a reported contact: 4 brackets, where a bracket is the width at which a bisection ends. The contacts of that
+  /// method demand a gap of only half a bracket.
+  double margin = 0.0;
 
   /// The contact point on the obstacle, metres.
   Eigen::Vector3d q_W() const { return p_W - gap * n_W; }
@@ -53,7 +61,7 @@ struct Contact {
 
 /// The state of a part at the end of a call.
 enum class SlidingState : std::uint8_t {
-  kReleased,    ///< no hand holds the part; it stands still
+  kReleased,    ///< no hand holds the part, and the part stands still
   kFree,        ///< the visible part is at its target
   kSliding,     ///< contacts push, and the part moves along the contacts
   kResting,     ///< contacts push, and the part stands still
@@ -65,18 +73,19 @@ std::string_view name_of(SlidingState state);
 /// The outcome of one call of `advance` for one part.
 struct SlidingResult {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< the ghost
-  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< the target: the pose that the metaphor wants of the part
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< the target
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part
   SlidingState state = SlidingState::kFree;
-  /// The contacts of the last cycle, and the pose of the part at which they were found. A contact pushes if its force
-  /// is positive. With several parts, the contacts are carried along with the last step of both sides; X_WV_of_contacts
-  /// is then X_WV.
+  /// The contacts of the last cycle, and the pose of the part for which they are given: the pose before the last step.
+  /// For the paper's method and with several parts, that pose is X_WV; with several parts, each contact has then been
+  /// moved along with the last step of its two bodies. A contact pushes if its force is positive.
   std::vector<Contact> contacts;
   Eigen::Isometry3d X_WV_of_contacts = Eigen::Isometry3d::Identity();
-  /// Metres: at X_WV_of_contacts, all contacts with a smaller gap are known.
+  /// Metres: with the part at X_WV_of_contacts, `contacts` has every contact with a gap smaller than this. The paper's
+  /// method finds only the contacts at which its bisections ended, and gives the largest gap that it reports.
   double reach = 0.0;
   int pushing = 0;  ///< number of contacts with a force
-  int cycles = 0;   ///< projection cycles in the call; bisections for the paper's method
+  int cycles = 0;   ///< cycles of one projection and one step each; for the paper's method, bisections
 };
 
 }  // namespace glissade::haptics

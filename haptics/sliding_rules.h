@@ -22,10 +22,10 @@ struct SlidingPart;
 /// The connection between hand and part (paper §3). The ghost is the pose of the part as the hand commands it, without
 /// contacts.
 enum class Metaphor : std::uint8_t {
-  kForceFeedback,     ///< rigid grasp: the device holds the hand back, and the part follows at a limited speed
+  kForceFeedback,     ///< rigid grasp: the device pushes the hand back, and the part follows at a limited speed
   kRubberBand,        ///< a rubber band ties the part's reference point to the ghost; only contacts turn the part
-  kRubberBandSpring,  ///< a rubber band and a spiral spring tie the part to the ghost; the part catches up at once
-  kIncremental,       ///< the part repeats each motion of the ghost from its own pose; refused motion is lost
+  kRubberBandSpring,  ///< a rubber band and a spiral spring tie the part to the ghost; the part has no speed limit
+  kIncremental,       ///< the part repeats each motion of the ghost; motion that contacts prevent is lost
 };
 
 /// Names of the metaphors, as on the command line, in the order of the values of `Metaphor`.
@@ -41,17 +41,19 @@ std::optional<Metaphor> metaphor_from_name(std::string_view name);
 
 /// Coefficients of Coulomb friction. If both are 0, contacts push along their normals only.
 struct Friction {
-  double at_rest = 0.0;  ///< while the two sides do not slip: friction is at most at_rest × the normal force
-  double sliding = 0.0;  ///< while the two sides slip; not greater than at_rest
+  double at_rest = 0.0;  ///< while the two bodies do not slip: friction is at most at_rest × the normal force
+  double sliding = 0.0;  ///< while the two bodies slip; not greater than at_rest
 
   bool is_on() const { return at_rest > 0.0 || sliding > 0.0; }
 };
 
-/// The largest allowed margin (metres), so that margins stay small beside the radius of a contact search.
+/// The largest allowed margin (metres). The margin is the gap at which contacts stop a part. It must stay small beside
+/// the radius of a contact search.
 inline constexpr double kGreatestMargin_m = 0.25e-3;
 
-/// Minimum clearance as a fraction of the margin. Every certified path keeps the minimum clearance from every other
-/// body.
+/// Minimum clearance as a fraction of the margin. A step of a part is taken only if its path is certified: a numerical
+/// proof shows that the part keeps the minimum clearance from every other body all the way. A path that starts
+/// nearer to a body keeps 95 % of the distance at its start from that body.
 inline constexpr double kMinClearanceOfMargin = 0.3;
 
 /// Maximum number of parts in one simulation.
@@ -62,41 +64,43 @@ enum class OverlapRule : std::uint8_t {
   kRefuse,  ///< the constructor throws
   /// The part moves out of the obstacle on a short straight way without turning, at kSlew_m (`coupling.h`) per
   /// millisecond, regardless of the hand. Once part and obstacle are one margin apart, the part follows the hand again,
-  /// and the obstacle is like any other. Other obstacles hold the part on its way out, so the part stops at an obstacle
-  /// that is in its way. If a part overlaps several obstacles, it moves out of the deepest overlap first.
+  /// and the obstacle is like any other. Other obstacles stop the part on its way out as usual. If a part overlaps
+  /// several obstacles, it moves out of the deepest overlap first. For a scripted part (`HeldPart`), the constructor
+  /// throws all the same.
   kDepenetrate,
 };
 
 /// Rules for all parts of a simulation.
 struct SlidingRules {
-  /// Maximum number of projection cycles in one call, at least 1. With more cycles the part follows corners more
-  /// closely; with fewer cycles a call takes less time.
+  /// Maximum number of cycles in one call, at least 1. Each cycle projects the wanted displacement on the contacts and
+  /// takes one step. With more cycles the part follows corners more closely; with fewer cycles a call takes less time.
   int max_cycles = 10;
-  /// The margin: the distance (metres) at which contacts hold a part away. Default: 1e-4 of the part's radius, but at
-  /// least 2 µm and at most 10 µm. Obstacles may have margins of their own.
+  /// The margin: the gap (metres) at which contacts stop a part. Default: 1e-4 of the part's radius, but at least 2 µm
+  /// and at most 10 µm. Obstacles may have margins of their own.
   std::optional<double> margin{};
   Friction friction{};
   OverlapRule overlap = OverlapRule::kRefuse;
-  /// Starts a spiral search when contacts hold a part away from its target: the part then aims at a growing spiral
-  /// around the target, as a hand searches for a hole with a peg. The spiral grows to 1.6 mm and 1.4° from the target.
-  /// A search lasts two seconds at most.
+  /// Starts a spiral search when contacts keep a part from its target, the pose that the metaphor wants for the part.
+  /// The part then aims at points of a growing spiral around the target, as a hand searches for a hole with a peg. The
+  /// spiral grows to 1.6 mm and 1.4° from the target. A search lasts two seconds at most.
   bool spiral_search = false;
-  /// Searches for near triangles ahead of need in a thread of its own, so that few calls wait for a search. Use this
-  /// for simulations in real time. Poses and forces are the same to the bit with and without the thread.
+  /// Searches for near triangles in a thread of its own before the simulation needs them, so that few calls wait for a
+  /// search. Use this for simulations in real time. Poses and forces are the same to the bit with and without the
+  /// thread.
   bool has_search_thread = false;
 };
 
-/// One of the parts and its holder, a hand or a script. A script moves its part without a hand. The grip of a script is
-/// stiffer than the grips on the parts that the scripted part pushes. A scripted part waits at obstacles, which it
-/// cannot push out of its way.
+/// One of the parts and its holder: a hand, or a script that moves the part without a hand. To push other parts, a
+/// scripted part needs a greater `stiffness` than they have. A scripted part waits at obstacles, which it cannot push
+/// out of its way.
 struct HeldPart {
   std::shared_ptr<const SlidingPart> part_V;
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
   Metaphor metaphor = Metaphor::kForceFeedback;
   std::optional<CouplingStiffness> stiffness{};  ///< default: `default_stiffness` of the part's radius
   std::string name = "the part";                 ///< for messages
-  /// Whether a script holds the part. A scripted part follows its script or waits; neither spiral search nor
-  /// depenetration moves it.
+  /// Whether a script holds the part. A scripted part follows its script or waits at an obstacle; neither spiral search
+  /// nor depenetration moves it.
   bool is_scripted = false;
 };
 

@@ -1,6 +1,9 @@
 #pragma once
 
-/// The interface of every method of sliding contact for one held part: the hand takes hold, moves, and lets go.
+/// The interface of every method of sliding contact for one part: a hand grasps the part, moves it, and lets it go.
+///
+/// The ghost is the pose that the part would have if nothing were in the way. The metaphor (`Metaphor`) computes the
+/// target of the part from the ghost. The visible part follows its target as far as the contacts allow.
 
 #include <chrono>
 #include <cstdint>
@@ -19,14 +22,14 @@
 
 namespace glissade::haptics {
 
-/// The work of searching for contacts. Each search also collects the pairs that steps must be certified to keep apart;
-/// that work is not included in `reports`.
+/// The work of searching for contacts. Each search also collects the triangle pairs that must provably stay apart in
+/// the next steps; the collecting of these pairs is not included in `reports`.
 struct SearchStatistics {
-  std::int64_t searches = 0;       ///< searches whose answers were used
+  std::int64_t searches = 0;       ///< number of searches whose answers were used
   collision::FrameReport reports;  ///< the sum of the reports of these searches
 };
 
-/// The simulation of one held part. Not thread-safe.
+/// The simulation of one part in the hand. Not thread-safe.
 class SlidingSimulation {
  public:
   SlidingSimulation() = default;
@@ -34,13 +37,15 @@ class SlidingSimulation {
   SlidingSimulation& operator=(const SlidingSimulation&) = delete;
   virtual ~SlidingSimulation() = default;
 
-  /// The hand takes hold of the part, or changes its hold: from now on the ghost is at X_WG, wherever the part is.
-  /// Nothing moves in this call. The metaphor determines how the next calls of `advance` treat the offset between ghost
-  /// and part. With `force-feedback` the part closes the offset at a limited speed; meanwhile the hand feels no force
-  /// from the offset in `Sliding`, and the full force of the spring in the paper's method. With the rubber bands the
-  /// part closes the offset without a limit of speed. With `incremental` the part keeps the offset, so that `release`
-  /// and `grasp` act as a clutch. The hand holds the part from the start; `grasp` is required only after `release`.
-  /// Ignores poses that `geometry::rigid_pose` rejects.
+  /// The hand grasps the part, or grasps it anew: from now on the ghost is at X_WG, wherever the part is. Nothing moves
+  /// in this call. The metaphor determines how the next calls of `advance` treat the offset between ghost and part:
+  /// - With `force-feedback` the part closes the offset at a limited speed. Meanwhile the hand feels no force from the
+  ///   offset if the method is `Sliding` (`sliding.h`). With the paper's method the hand feels the full spring force.
+  /// - With the rubber bands the part closes the offset without a limit of speed.
+  /// - With `incremental` the part keeps the offset, so that `release` and `grasp` act as a clutch.
+  ///
+  /// The hand holds the part from the start; `grasp` is required only after `release`. Ignores poses that
+  /// `geometry::rigid_pose` rejects.
   virtual void grasp(const Eigen::Isometry3d& X_WG) = 0;
 
   /// The hand lets go: the part stays where it is, the ghost is at the pose of the part, and no contact pushes.
@@ -49,19 +54,20 @@ class SlidingSimulation {
   /// Moves the visible part towards its target (`SlidingResult::X_WT`) for the ghost at X_WG. Call this once per
   /// millisecond of motion. X_WG is corrected to a rotation and translation by `geometry::rigid_pose`. The part stays
   /// where it is if `rigid_pose` rejects X_WG or if the part is released. `milliseconds`, finite and not negative, is
-  /// the time from the ghost pose of the last call to this ghost pose; a caller that is late passes the whole time, so
-  /// that the part catches up.
+  /// the time between the ghost poses of the last call and of this call. A caller that is late passes the whole time,
+  /// so that the part catches up.
   virtual const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) = 0;
 
   virtual const SlidingResult& result() const = 0;
 
-  /// Visible poses of the scripted parts, in the order given to the constructor. Empty for methods without scripted
-  /// parts.
+  /// Visible poses of the scripted parts, i.e. of the parts that a script moves instead of the hand, in the order given
+  /// to the constructor. Empty for methods without scripted parts.
   virtual std::span<const Eigen::Isometry3d> scripted_X_WB() const { return {}; }
 
   virtual const SlidingPart& part() const = 0;
   virtual const CouplingStiffness& stiffness() const = 0;
-  /// The distance (metres) at which contacts hold the part away from obstacles that have no margin of their own.
+  /// The gap (metres) at which contacts with obstacles that have no margin of their own stop the part. For the paper's
+  /// method: the largest gap of a reported contact, as in `Contact::margin`.
   virtual double margin() const = 0;
 
   /// The work of searching so far; zero for methods without searches.
@@ -71,14 +77,14 @@ class SlidingSimulation {
   /// "moving>bisecting>done". Empty for methods without a state machine.
   virtual std::string trace() const { return {}; }
 
-  /// Displacement from the visible part to its target: the stretch of the coupling's spring. Exactly zero in free space
-  /// and while the part is released.
+  /// Displacement from the visible part to its target: the stretch of the coupling's spring. Exactly zero when the
+  /// part is at its target and while the part is released.
   geometry::Displacement error() const;
 };
 
 /// The contact set made from `result`, the newest result of `part`. `sequence` is the number of the contact set; `time`
-/// is the time of the ghost pose that the set answers. `scratch` is memory that calls reuse. Works for every method and
-/// for each of several parts. Cost O(contacts).
+/// is the time of the ghost pose that `result` answers. `scratch` is working memory; pass the same vector to each call.
+/// Works for every method and for each of several parts. Cost O(contacts).
 ContactSet make_contact_set(const SlidingResult& result, const SlidingPart& part, std::int64_t sequence,
                             std::chrono::nanoseconds time, std::vector<std::int32_t>& scratch);
 

@@ -23,24 +23,28 @@ struct TrackedContact {
 
 /// Tracks the contacts of one part from one result to the next; several parts need a tracker each. Not thread-safe.
 ///
-/// A contact **touches** when it pushes or its gap is at most two margins: contacts hold the part one margin away.
+/// A contact **touches** when its force is positive or its gap is at most two margins. (The margin is the gap at which
+/// contacts stop the part.)
 ///
-/// Contacts with one obstacle are merged into one contact when their points lie within a margin and their normals
-/// within 1°. Examples: a vertex over the common edge of coplanar triangles, which makes a contact with each of these
-/// triangles; an edge that crosses two other edges at their common vertex. The merged contact is the one that comes
-/// first in the order of `update`, with the sum of the forces of all.
+/// Contacts with one obstacle are merged into one contact when their points on the part lie within a margin of each
+/// other, their points on the obstacle too, and their normals are within 1°. For example, a vertex over the common edge
+/// of coplanar triangles makes a contact with each of these triangles; an edge that crosses two other edges at their
+/// common vertex makes a contact with each of these edges. The merged contact is the contact that comes first in the
+/// order of `update`. Its force is the sum of the forces of all merged contacts.
 ///
-/// A contact gets its number when it first touches. A contact **keeps** the number while it pushes or its gap is at
-/// most three margins, so that a contact that flickers about the limit of touching keeps its number. Contacts of two
-/// successive updates are the same when
-/// - obstacle, kind and features are the same; or else
-/// - the new contact continues a contact that ended in this update: the obstacle is the same, the normals are within
-///   10°, and the contact points on part and obstacle are each within the part's motion there, plus `obstacle_travel`,
-///   plus three margins, of the old ones.
+/// A contact gets its number when it first touches. It **keeps** the number while its force is positive or its gap is
+/// at most three margins, so that a gap that varies about two margins does not change the number. Contacts of two
+/// successive updates are the same contact, with the same number, in two cases:
+/// 1. Obstacle, kind, features and triangles are the same.
+/// 2. The old contact has no such successor, and the new contact continues the old one: the obstacle is the same, the
+///    normals are within 10°, and the old and the new contact point on the part are at most a distance d apart, as are
+///    those on the obstacle. Here d is the motion of the part at the contact, plus `obstacle_travel`, plus three
+///    margins.
 ///
 /// By the second rule, a contact stays the same when its point passes from one triangle or edge to the next on a flat
-/// or smooth face, and becomes another contact when its point goes round a corner. If several ended contacts fit,
-/// contacts with a common feature take precedence, then the nearest, then the oldest.
+/// or smooth face, and becomes another contact when its point goes round a corner. If a new contact could continue
+/// several old ones, it continues an old contact with which it shares a feature; among several of these, the nearest;
+/// among equally near ones, the oldest.
 class ContactTracker {
  public:
   /// `margin` (metres) is the margin of the simulation (`SlidingSimulation::margin`), or the largest of all margins if
@@ -48,14 +52,15 @@ class ContactTracker {
   explicit ContactTracker(double margin) : margin_(margin) {}
 
   /// Returns the touching contacts of `result`, which must be the next result of the same simulation, in ascending
-  /// order of obstacle, kind, part feature and obstacle feature. A simulation reports contacts at the poses before its
-  /// last step. The tracker moves them with the part to the visible pose; this is exact for translations along a face.
+  /// order of obstacle, kind, part feature and obstacle feature. A simulation may report contacts at the pose before
+  /// its last step (`SlidingResult::X_WV_of_contacts`). The tracker moves these contacts with the part to the visible
+  /// pose; the result is exact if the step is a translation along a face.
   /// `obstacle_travel` (metres) bounds the motion of every point of an obstacle or another part since the last update.
   /// The returned span is valid until the next update. Cost O(n log n) for n contacts; allocates only when there are
   /// more contacts than ever before.
   std::span<const TrackedContact> update(const SlidingResult& result, double obstacle_travel = 0.0);
 
-  /// The contacts of the last update.
+  /// The touching contacts of the last update.
   std::span<const TrackedContact> contacts() const { return touching_; }
 
  private:
@@ -88,13 +93,13 @@ class ContactTracker {
 
 /// Contacts with one obstacle that lie in one plane.
 struct ContactPatch {
-  std::int64_t id = 0;  ///< the lowest id of its contacts, which is the id of the oldest
+  std::int64_t id = 0;  ///< the lowest id of the patch's contacts, i.e. the id of the oldest contact
   std::int32_t obstacle = 0;
   std::int32_t count = 0;  ///< number of contacts
-  /// Centre of the forces on the part, or the mean of the points if nothing pushes; metres.
+  /// Mean of the contact points, weighted by force, or unweighted if no contact pushes; metres.
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
   /// Unit normal from the obstacle to the part: the mean of the contact normals, weighted by force, or unweighted if
-  /// nothing pushes.
+  /// no contact pushes.
   Eigen::Vector3d n_W = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d force_on_part_W = Eigen::Vector3d::Zero();  ///< newtons, friction included
   double gap = 0.0;                                           ///< smallest gap, metres
@@ -105,15 +110,16 @@ struct ContactPatch {
 ///
 /// The oldest contact without a patch founds a patch. A contact with the same obstacle joins the patch if its normal is
 /// within 10° of the founder's normal and its point is within 1 % of ρ from the plane through the founder's point,
-/// where ρ is the radius of the part. Distance within that plane does not matter: the contacts at the four corners of a
-/// box that lies flat are one patch. A patch keeps its founder, and thus its id, as long as the founder touches.
+/// where ρ is the radius of the part. The plane is perpendicular to the founder's normal. Distance within the plane
+/// does not matter: the contacts at the four corners of a box that lies flat are one patch. A patch has the same
+/// founder, and thus the same id, as long as the founder touches.
 class ContactPatches {
  public:
   /// `radius` (metres) is ρ, the radius of the part (`SlidingPart::radius`).
   explicit ContactPatches(double radius) : plane_tolerance_(0.01 * radius) {}
 
-  /// Returns the patches of `contacts`, a list of `ContactTracker`, in ascending order of their ids. Nothing is kept
-  /// from one call to the next; the order of `contacts` affects rounding only. The returned span is valid until the
+  /// Returns the patches of `contacts`, a list of `ContactTracker`, in ascending order of their ids. Each call is
+  /// independent of earlier calls; the order of `contacts` affects rounding only. The returned span is valid until the
   /// next call. Cost O(n log n), and O(n) for each patch; allocates only when there are more contacts than ever before.
   std::span<const ContactPatch> merge(std::span<const TrackedContact> contacts);
 
