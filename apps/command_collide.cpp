@@ -31,10 +31,10 @@ constexpr const char* kCollideFooter =
     "Output: one row per pose with the columns pose (counted from 0), colliding (0 or 1) and, with --pairs, pairs.\n"
     "Touching counts as colliding. With --tolerance-m T, so does any distance of at most T.\n"
     "\n"
-    "--cache stores the DOP-trees (bounding-volume hierarchies) of the meshes in the files A.dop-tree and B.dop-tree.\n"
-    "A later run reads these files, which takes far less time than to build the trees. If a file is damaged, or does\n"
-    "not fit the content of its mesh, the file is written anew, and a line on standard error says so. If a file cannot\n"
-    "be written, a line on standard error says so, and the command goes on.\n"
+    "--cache stores the DOP-trees (bounding-volume hierarchies) in the files A.dop-tree and B.dop-tree. A later run\n"
+    "reads these files, which saves most of the time to build the trees. If a file is damaged, or does not fit the\n"
+    "content of its mesh, the file is written anew, and a line on standard error says so. If a file cannot be\n"
+    "written, a line on standard error says so, and the command goes on.\n"
     "\n"
     "Examples:\n"
     "  glissade collide door.stl motor.obj --poses poses.csv\n"
@@ -97,7 +97,7 @@ void add_collide_command(CLI::App& app, Command& chosen) {
   command->add_flag("--pairs", options->question.count_pairs, "Count the colliding pairs of triangles");
   command->add_option("--tolerance-m", options->question.tolerance, "Distance in metres up to which triangles collide")
       ->capture_default_str();
-  command->add_option("--method", options->method, "Method: DOP-trees (bounding-volume hierarchies), or all pairs of triangles as a check")
+  command->add_option("--method", options->method, "Search with DOP-trees, or test all pairs of triangles as a check")
       ->check(CLI::IsMember(collide_method_names()))
       ->capture_default_str();
   command->add_option("--out", options->out, "CSV file for the output, - for standard output")->capture_default_str();

@@ -108,7 +108,7 @@ void add_demo_command(CLI::App& app, Command& chosen) {
   CLI::Option* offline =
       command->add_flag("--offline", options->offline, "Run deterministically, on a simulated clock, in one thread");
   command->add_flag("--json", options->json, "Print the summary as JSON");
-  command->add_option("--lcm", options->lcm_url, "LCM address that the glove and the haptic server share")
+  command->add_option("--lcm", options->lcm_url, "LCM address that glove and haptic server share")
       ->capture_default_str()
       ->excludes(offline);
   command

@@ -24,8 +24,8 @@ constexpr const char* kGloveDescription = "Simulate a force-feedback glove in a 
 constexpr const char* kGloveFooter =
     "Script: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is a time and the pose X_WH of the hand root, the frame\n"
     "whose pose the glove reports; times increase. Without --script, the hand follows the script of the car door\n"
-    "demonstration. The hand waits at the first pose until a haptic server ('glissade run') sends a command, and yields\n"
-    "to the forces that it receives. The process ends at the end of the script, or with Ctrl-C.\n"
+    "demonstration. The hand waits at the first pose until a haptic server ('glissade run') sends a command, and\n"
+    "yields to the forces that it receives. The process ends at the end of the script, or with Ctrl-C.\n"
     "\n"
     "Example, with 'glissade run' in another terminal:\n"
     "  glissade glove --lcm 'udpm://239.255.76.67:7667?ttl=0' --script hand.csv";
@@ -72,7 +72,8 @@ void add_glove_command(CLI::App& app, Command& chosen) {
   command->add_option("--side", options->side, "Hand that wears the glove")
       ->check(CLI::IsMember({"left", "right"}))
       ->capture_default_str();
-  command->add_option("--lcm", options->lcm_url, "LCM address that the glove and the haptic server share")->capture_default_str();
+  command->add_option("--lcm", options->lcm_url, "LCM address that glove and haptic server share")
+      ->capture_default_str();
   command->add_option("--script", options->script, "Trajectory of the hand root (CSV), see below");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -26,13 +26,13 @@ constexpr const char* kRunDescription =
 
 constexpr const char* kRunFooter =
     "The part in the hand is the only movable object of the scene. When the first glove state arrives on the channel\n"
-    "GLOVE_STATE, the hand grasps the part rigidly; the part stays at its pose in the scene. Commands to the glove go\n"
-    "out on GLOVE_COMMAND. The state of every tick (cycle of one millisecond) goes out on HAPTIC_STATE, for viewers and\n"
-    "loggers.\n"
+    "GLOVE_STATE, the hand grasps the part rigidly; the part stays at its pose in the scene. Commands to the glove\n"
+    "go out on GLOVE_COMMAND. The state of every tick, i.e. of every cycle of one millisecond, goes out on\n"
+    "HAPTIC_STATE, for viewers and loggers.\n"
     "\n"
-    "The run ends --seconds after the first glove state, or with Ctrl-C, and prints a summary. Then brute force checks\n"
-    "the visible poses, i.e. the poses at which the part was shown; without --seconds, it checks only the poses of the\n"
-    "last minute. If a pose collides, the exit code is 1.\n"
+    "The run ends --seconds after the first glove state, or with Ctrl-C, and prints a summary. Then brute force\n"
+    "checks the visible poses, i.e. the poses at which the part was shown; without --seconds, only those of the last\n"
+    "minute are checked. If a pose collides, the exit code is 1.\n"
     "Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
     "Example, with a simulated glove in a second terminal:\n"
@@ -81,13 +81,14 @@ void add_run_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("run", kRunDescription);
   command->footer(std::string(kRunFooter) + kSceneFileHelp);
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
-  command->add_option("--lcm", options->lcm_url, "LCM address that the glove and the haptic server share")->capture_default_str();
+  command->add_option("--lcm", options->lcm_url, "LCM address that glove and haptic server share")
+      ->capture_default_str();
   command->add_option("--seconds", options->seconds, "Duration in seconds from the first glove state; 0: until Ctrl-C")
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print the summary as JSON");
   command->add_option("--report", options->report,
-                      "Folder for a page, index.html, with the summary and plots of force, lag (distance from the visible part "
-                      "to the pose that the hand asks for) and states");
+                      "Folder for a page, index.html, with the summary and plots of force, lag (distance from the "
+                      "visible part to the pose that the hand asks for) and states");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

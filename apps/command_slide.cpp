@@ -32,10 +32,10 @@ constexpr const char* kSlideDescription =
     "Move a part through a scene along a trajectory, offline and deterministically";
 
 constexpr const char* kSlideFooter =
-    "Trajectory: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is a time and the pose X_WG of the ghost, i.e. the pose\n"
-    "that the part would have if nothing were in the way; times increase. Between rows, translation is linear and\n"
-    "rotation follows the shorter arc at constant speed. The part starts at the first row, where it must not collide\n"
-    "(but see --depenetrate).\n"
+    "Trajectory: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is a time and the pose X_WG of the ghost, i.e. the\n"
+    "pose that the part would have if nothing were in the way; times increase. Between rows, translation is linear\n"
+    "and rotation follows the shorter arc at constant speed. The part starts at the first row, where it must not\n"
+    "collide (but see --depenetrate).\n"
     "\n"
     "Output: one row per millisecond with the time, the poses of the ghost and of the visible part (where the part is\n"
     "shown, never inside an obstacle), the wrench on the hand about the part's origin in world axes, the number of\n"
@@ -50,35 +50,35 @@ constexpr const char* kSlideFooter =
     "  incremental         the part repeats each motion of the ghost; motion that contacts prevent is lost\n"
     "\n"
     "Methods:\n"
-    "  projection          the default: projects the wanted motion on the motions that the contacts allow, and takes a\n"
-    "                      step only with a proof that the part touches nothing on the way\n"
-    "  paper               the founding paper's method, for comparison: bisection to the contact, classification of\n"
-    "                      the contact, a new direction of motion; each row has one more column, which lists the\n"
-    "                      states that the method's state machine went through\n"
+    "  projection          the default: projects the wanted motion on the motions that the contacts allow, and takes\n"
+    "                      a step only with a proof that the part touches nothing on the way\n"
+    "  paper               the method of the paper 'Natural Interaction in Virtual Environments', for comparison:\n"
+    "                      bisection to the contact, classification of the contact, a new direction of motion; each\n"
+    "                      row has one more column, which lists the states that the state machine went through\n"
     "\n"
     "Rules:\n"
     "  --spiral-search     A part that stands still for 0.1 s away from its target is aimed beside the target, in a\n"
     "                      spiral that grows to 1.6 mm in two seconds, as a hand searches for a hole.\n"
-    "  --depenetrate       An obstacle that overlaps the part at the start does not block the part; the part moves out\n"
-    "                      of the obstacle at 0.2 m/s at most.\n"
+    "  --depenetrate       An obstacle that overlaps the part at the start does not block the part; the part moves\n"
+    "                      out of the obstacle at 0.2 m/s at most.\n"
     "\n"
     "Contacts: --contacts writes one row per touching contact and millisecond. A row has the number of the contact,\n"
     "which stays the same as long as the contact lasts; the triangle and the feature (face, edge or vertex of the\n"
     "mesh) of part and obstacle; the contact point on each; the normal from obstacle to part; gap, force along the\n"
-    "normal, age and friction. --patches writes one row per patch and millisecond. A patch unites the contacts with one\n"
-    "obstacle that lie in one plane. A row has the number of these contacts, the centre and the sum of the forces on\n"
-    "the part, and the extent of the patch.\n"
+    "normal, age and friction. --patches writes one row per patch and millisecond. A patch unites the contacts with\n"
+    "one obstacle that lie in one plane. A row has the number of these contacts, the centre and the sum of the forces\n"
+    "on the part, and the extent of the patch.\n"
     "\n"
-    "Moving objects: objects of the scene with 'moves: FILE', at most three, follow the trajectory in their own FILE.\n"
-    "Its times refer to the same clock as --trajectory. Before the first row and after the last row of its file, an\n"
-    "object stands still. It pushes the part out of its way, and waits where the part cannot move out of the way. It\n"
-    "must touch nothing at the start. --moving writes one row per object and millisecond.\n"
+    "Moving objects: an object of the scene with 'moves: FILE' (at most three objects) follows the trajectory in this\n"
+    "file, whose times refer to the same clock as --trajectory. Before the first row and after the last row of its\n"
+    "file, the object stands still. The object pushes the part out of its way, waits where the part cannot move out\n"
+    "of the way, and must touch nothing at the start. --moving writes one row per object and millisecond.\n"
     "\n"
-    "Assembly check, for several trajectories or with --summary or --report: one row per trajectory. A row says whether\n"
-    "the part reached the goal of the scene (if the scene has none, the last row of the trajectory), and how far from\n"
-    "the goal the part ended; the greatest force and torque on the hand; the smallest clearance and its time; how long\n"
-    "contacts exerted a force. If the part or a moving object touches another object at the start of a trajectory,\n"
-    "this trajectory has a line on standard error instead of a row, and the exit code is 1.\n"
+    "Assembly check, for several trajectories or with --summary or --report: one row per trajectory. A row says\n"
+    "whether the part reached the goal of the scene (if the scene has no goal: the last row of the trajectory), and\n"
+    "how far from the goal the part ended; the greatest force and torque on the hand; the smallest clearance and its\n"
+    "time; how long contacts exerted a force. If the part or a moving object touches another object at the start of\n"
+    "a trajectory, this trajectory has a line on standard error instead of a row, and the exit code is 1.\n"
     "\n"
     "All columns: docs/file_formats.md in the sources.\n"
     "\n"
@@ -340,15 +340,15 @@ void add_slide_command(CLI::App& app, Command& chosen) {
   command->add_option("--patches", options->contacts.patches, "CSV file for patches of contacts, see below");
   command->add_option("--moving", options->moving, "CSV file for the moving objects, see below");
   command->add_option("--summary", options->summary, "CSV file for the assembly check, - for standard output");
-  command->add_option("--report", options->report, "Folder for the assembly check as a page, index.html");
+  command->add_option("--report", options->report, "Folder for the assembly check as an HTML page, index.html");
   command
       ->add_option("--goal-tolerance-m", options->goal_tolerance_m,
-                   "Greatest distance from the goal that counts as reached")
+                   "Greatest distance from the goal at which the goal counts as reached")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--goal-tolerance-deg", options->goal_tolerance_deg,
-                   "Greatest angle from the goal that counts as reached")
+                   "Greatest angle from the goal at which the goal counts as reached")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });

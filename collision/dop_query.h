@@ -38,15 +38,15 @@ void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eige
                         CoherentWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance = 0.0);
 
 /// Replaces `pairs` by all triangle pairs at most `distance` (metres, ≥ 0) apart, with their closest points, in
-/// ascending order of the triangle indices. If both trees have a selection, the answer is restricted to pairs with a
-/// selected triangle, and the cost grows with the number of such pairs. Throws std::invalid_argument for a selection
-/// that was made for another tree.
+/// ascending order of the triangle indices. If both trees have a selection, the answer is restricted to pairs of which
+/// at least one triangle is selected, and the cost grows with the number of such pairs. Throws std::invalid_argument
+/// for a selection that was made for another tree.
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   QueryWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   CoherentWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
 
-/// A certain lower bound of the distance of the two meshes in metres, at most `limit`. The bound is 0 if the meshes
+/// A guaranteed lower bound of the distance of the two meshes in metres, at most `limit`. The bound is 0 if the meshes
 /// intersect. The bound is the distance of the bounding spheres if the spheres are farther apart than the larger of
 /// their radii. Otherwise the bound is the distance of the meshes, less an allowance: a few units in the last place of
 /// the coordinates, plus a share of the coordinates in proportion to the deviation of the matrix from a rotation.
@@ -57,8 +57,8 @@ double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen
 
 /// A translation that separates two meshes.
 struct Penetration {
-  /// Translation of B in the frame of A after which the meshes are apart (metres). Zero if the meshes are apart
-  /// already.
+  /// Translation of B in the frame of A after which the meshes are more than the clearance of the search apart
+  /// (metres). Zero if they are so already.
   Eigen::Vector3d way_out_A = Eigen::Vector3d::Zero();
 
   double depth() const { return way_out_A.norm(); }
@@ -67,7 +67,7 @@ struct Penetration {
 /// Finds a short translation of B, from its pose X_AB, after which the meshes are more than `clearance` (metres, ≥ 0)
 /// apart. A query at the translated pose has confirmed this.
 ///
-/// The depth is a certain upper bound of the translational penetration depth, because of this query. A shorter
+/// The depth is a guaranteed upper bound of the translational penetration depth, because of this query. A shorter
 /// translation may exist: the search tries directions all around, the normals of intersecting triangles, and then
 /// directions ever closer to the best direction so far, down to a few thousandths of a radian from it. For convex
 /// bodies the depth is within a few per cent of the least depth. Meshes are surfaces without an inside: a body that

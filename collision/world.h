@@ -35,8 +35,9 @@ struct ObjectDescription {
   std::shared_ptr<const ConvexHull> hull;  ///< hull of the mesh of `tree`; null: no test of hulls
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   int group = 0;  ///< 0 to 63; `World::enable_groups` enables pairs of groups
-  /// Selected triangles of the tree; null: no selection. If both objects of a pair have a selection,
-  /// `PairQuery::kClosePairs` is restricted to triangle pairs with a selected triangle.
+  /// Selected triangles of the tree; null: no selection. If both objects of a pair have a selection, a pipeline that
+  /// looks for closest points (`PairQuery::kClosePairs` in `frame_result.h`) reports only triangle pairs with at least
+  /// one selected triangle.
   std::shared_ptr<const TriangleSelection> selection = nullptr;
 };
 

@@ -1,7 +1,8 @@
 #pragma once
 
 /// The state after one haptic tick, i.e. one cycle of the 1 kHz loop that computes the force, as viewers and recorders
-/// see it. Frames: W world; V visible part; G ghost, where the part would be if nothing were in the way.
+/// see it. The part is the object in the hand. Frames: W world; V visible part, the pose at which the part is shown;
+/// G ghost, where the part would be if nothing were in the way.
 
 #include <chrono>
 #include <cstdint>
@@ -13,7 +14,7 @@
 namespace glissade::devices {
 
 /// State of the part in the simulation. Messages carry its number. The numbers keep their meaning in all versions. The
-/// target is the pose to which the hand pulls the part.
+/// target is the pose to which the hand pulls the part. A contact pushes while it exerts a force.
 enum class PartState : std::int32_t {
   kUnknown = 0,     ///< the state was not reported, or this program has no state with that number
   kReleased = 1,    ///< no hand holds the part; it stands still
@@ -32,7 +33,7 @@ std::string_view name_of(PartState state);
 /// The state with this number; kUnknown for any other number.
 PartState part_state_from_number(std::int32_t number) noexcept;
 
-/// One haptic tick. The contact set is the newest data that the simulation passed to the haptic loop: the pose X_WV and
+/// One haptic tick. The contact set is the newest answer of the simulation to a pose of the ghost: the pose X_WV and
 /// the contacts of the part.
 struct HapticState {
   std::int64_t sequence = 0;         ///< ≥ 0, increases with every tick
@@ -43,7 +44,7 @@ struct HapticState {
   Eigen::Vector3d torque_on_hand_V_W = Eigen::Vector3d::Zero();  ///< Nm, about the origin of V, in world axes
   PartState part_state = PartState::kUnknown;
   std::int32_t contact_count = 0;               ///< contacts that push
-  std::chrono::nanoseconds contact_set_age{0};  ///< time since the ghost pose that the contact set answers
+  std::chrono::nanoseconds contact_set_age{0};  ///< time since that ghost pose; 0 before the first set
   bool is_in_contact = false;                   ///< at least one contact pushes
   bool is_force_limited = false;                ///< the wrench was reduced to the device's limits
   bool is_contact_set_late = false;             ///< the contact set was older than 5 ms

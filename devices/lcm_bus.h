@@ -1,11 +1,10 @@
 #pragma once
 
-/// A connection to LCM (Lightweight Communications and Marshalling), shared by all senders and receivers of a process.
+/// A connection to LCM (Lightweight Communications and Marshalling), which any number of senders and receivers share.
 /// The URL of the connection selects the transport.
 ///
 /// `memq://` connects only senders and receivers that share one LcmBus, and therefore one process. `udpm://` connects
-/// processes and hosts by UDP multicast: messages to `udpm://239.255.76.67:7667?ttl=0` stay on this
-/// machine.
+/// processes and hosts by UDP multicast: messages to `udpm://239.255.76.67:7667?ttl=0` stay on this machine.
 
 #include <cstdint>
 #include <functional>
@@ -73,7 +72,7 @@ class LcmBus::Subscription {
 struct LinkStatistics {
   std::uint64_t accepted = 0;
   std::uint64_t wrong_size = 0;       ///< the size is not that of the expected type
-  std::uint64_t undecodable = 0;      ///< the size is right, but the type is another
+  std::uint64_t undecodable = 0;      ///< the size is right, but the message has another type
   std::uint64_t not_finite = 0;       ///< a number is NaN or infinite
   std::uint64_t out_of_range = 0;     ///< a number is implausibly large, or a quaternion is not a unit quaternion
   std::uint64_t out_of_sequence = 0;  ///< the sequence number is not greater than that of the last accepted message

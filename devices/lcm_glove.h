@@ -27,8 +27,9 @@ struct LcmGloveOptions {
 };
 
 /// The haptic loop's end of the link: receives states on the channel GLOVE_STATE and sends commands on GLOVE_COMMAND,
-/// each in a thread of its own. Commands are reduced to the limits of the descriptor before they are sent.
-/// If any command was sent, the destructor sends a last command with zero forces and torques.
+/// the former in the receive thread of the bus, the latter in a thread of its own. Commands are reduced to the limits
+/// of the descriptor before they are sent. If any command was sent, the destructor sends a last command with zero
+/// forces and torques.
 class LcmGlove final : public GloveDevice {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive, the descriptor is not valid, or the send

@@ -2,11 +2,11 @@
 
 /// Triangle meshes of simple surfaces, for tests, benchmarks and scenes.
 ///
-/// Sizes are in metres. The number of triangles in the result approximates `triangle_count`, because triangles are
-/// spread evenly. For a `triangle_count` of at least 200, the number deviates by at most 25 %. All vertices lie on the
-/// surface, and adjacent triangles share vertices. Triangles are oriented consistently; the triangles of closed
-/// surfaces face outward. Every function throws std::invalid_argument, naming the argument and its value, for a size
-/// that is not positive and finite or a count outside 1 ... 50,000,000.
+/// Sizes are in metres. Triangles are spread evenly, so the number of triangles in the result is only about
+/// `triangle_count`. For a `triangle_count` of at least 200, the number deviates by at most 25 %. All vertices lie on
+/// the surface, and adjacent triangles share vertices. Triangles are oriented consistently; the triangles of closed
+/// surfaces face outward (but see `make_revolution`). Every function throws std::invalid_argument, naming the argument
+/// and its value, for a size that is not positive and finite or a count outside 1 ... 50,000,000.
 
 #include <cstdint>
 #include <span>

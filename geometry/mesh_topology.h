@@ -47,10 +47,10 @@ class MeshTopology {
   std::int32_t owner_of(std::int32_t vertex) const { return vertex_owner_[static_cast<std::size_t>(vertex)]; }
   /// Whether a vertex can stop another mesh. All vertices can, except vertices inside a plane patch and vertices inside
   /// a straight rim. A vertex is inside a plane patch if all its edges are flat; the features on the boundary of the
-  /// patch stop other meshes instead. A rim is a line of edges that are not flat. A vertex is inside a straight rim if
-  /// exactly two of its edges are not flat, these two continue each other without a bend, and the vertex lies within
-  /// 0.1 µm of the chord between the ends of the rim. The edges and the end vertices of the rim stop other meshes
-  /// instead.
+  /// patch stop other meshes instead. A rim is a run of edges that are not flat; it ends at vertices where it bends or
+  /// where other rims meet it. A vertex is inside a straight rim if exactly two of its edges are not flat, these two
+  /// continue each other without a bend, and the vertex lies within 0.1 µm of the chord between the ends of the rim.
+  /// The edges and the end vertices of the rim stop other meshes instead.
   bool can_stop(std::int32_t vertex) const { return can_stop_[static_cast<std::size_t>(vertex)] != 0; }
   /// Whether a triangle owns any feature. A triangle that owns no feature stops other meshes with its face only, and a
   /// face stops only vertices.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Exact intersection test, distance and closest points of two triangles.
+/// Two triangles: exact intersection test; distance and closest points up to rounding.
 
 #include <array>
 

@@ -17,9 +17,10 @@ namespace glissade::haptics {
 
 class ObbTree;
 
-/// A mesh with its DOP-tree, convex hull and topology. Immutable after construction, so safe to share between threads.
+/// A mesh with its DOP-tree (a bounding-volume hierarchy), convex hull and topology. Immutable after construction, so
+/// safe to share between threads.
 struct ContactBody {
-  /// Throws std::invalid_argument for a null mesh, and as `DopTree` does. Cost O(n log n).
+  /// Throws std::invalid_argument for a null mesh, and as `DopTree` does. Cost O(n log n) for n triangles.
   explicit ContactBody(const std::shared_ptr<const geometry::TriangleMesh>& mesh);
   ContactBody(const ContactBody&) = delete;
   ContactBody& operator=(const ContactBody&) = delete;
@@ -37,10 +38,10 @@ struct ContactBody {
   std::unique_ptr<const ObbTree> obbs_;  // for path certificates
 };
 
-/// The part in the hand, in its own frame V. A displacement of the part is the translation of a reference point and a
-/// rotation about that point; the coupling, the virtual spring between hand and part, acts at the same point. It is the
-/// centre of the part's bounding box, where translation and rotation depend on each other as little as the shape of the
-/// part allows.
+/// A part that a hand or a script moves, in its own frame V. A displacement of the part is the translation of a
+/// reference point and a rotation about that point; the coupling, the virtual spring between hand and part, acts at the
+/// same point. The reference point is the centre of the part's bounding box, where translation and rotation depend on
+/// each other as little as the shape of the part allows.
 struct SlidingPart : ContactBody {
   using ContactBody::ContactBody;
 

@@ -27,9 +27,9 @@ struct ConstraintRow {
   double velocity(const geometry::Displacement& d) const { return n.dot(d.v + d.w.cross(r)); }
 };
 
-/// Maximum number of rows in a contact set. At most six contacts of a part push at once; the other rows are the nearest
-/// contacts, which may push soon. Finely tessellated faces that lie flush have more contacts; the set then omits the
-/// farthest contacts.
+/// Maximum number of rows, i.e. constraints, in a contact set. Without friction, at most six contacts of a single part
+/// push at once; the other rows are the nearest contacts, which may push soon. Finely tessellated faces that lie flush
+/// may have more than 64 contacts; the set then omits the farthest contacts.
 inline constexpr std::size_t kMaxContactRows = 64;
 
 /// The simulation's answer to one pose of the ghost, i.e. to a pose that the part would have if nothing were in the
@@ -37,16 +37,17 @@ inline constexpr std::size_t kMaxContactRows = 64;
 struct ContactSet {
   std::int64_t sequence = 0;                               ///< 1, 2, 3, … in the order of the sets; 0: no set yet
   std::chrono::nanoseconds time{0};                        ///< time of the ghost pose that the set answers
-  Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part
+  Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part, as displayed
   Eigen::Isometry3d X_WV_of_rows = Eigen::Isometry3d::Identity();  ///< the pose at which the rows were found
   /// Metres: with the part at X_WV_of_rows, the simulation found every contact with a gap smaller than this. The set
-  /// has a row for each contact found, except for the `dropped` ones.
+  /// has a row for each contact found, except for the `dropped` ones. For the paper's method see
+  /// `SlidingResult::reach`.
   double reach = 0.0;
   SlidingState state = SlidingState::kFree;
-  std::int32_t pushing = 0;                                ///< contacts with a force
+  std::int32_t pushing = 0;                                ///< number of contacts that push, i.e. have a positive force
   std::int32_t dropped = 0;                                ///< contacts without a row, beyond kMaxContactRows
   std::int32_t row_count = 0;                              ///< rows in use
-  std::array<ConstraintRow, kMaxContactRows> row_array{};  ///< first the pushing contacts, then the nearest
+  std::array<ConstraintRow, kMaxContactRows> row_array{};  ///< first the pushing contacts, then the others
 
   std::span<const ConstraintRow> rows() const { return {row_array.data(), static_cast<std::size_t>(row_count)}; }
 };

@@ -26,8 +26,8 @@ inline constexpr double kSlew_m = 0.2e-3;
 
 /// Stiffness of the spring against translation (N/m) of the part's reference point and rotation (Nm/rad) about it. The
 /// simulation projects the wanted displacement of the part on the displacements that the contacts allow. The stiffness
-/// is also the metric of this projection, so that the wrench of the spring is exactly a sum of forces along contact
-/// normals.
+/// is also the metric of this projection, so that the wrench of the spring on a part at rest is a sum of forces along
+/// contact normals.
 struct CouplingStiffness {
   double translational;
   double rotational;
@@ -65,9 +65,9 @@ struct Wrench {
 Wrench about_point(const Wrench& wrench, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 /// The spring's wrench on the hand about the ghost's reference point: −K ξ*, where K is `stiffness` and ξ* is `error`,
-/// the displacement from the visible part to the ghost. Exactly zero when part and ghost coincide. Because the part was
-/// projected on the contacts in the metric K, the wrench is a sum of forces along contact normals: without
-/// `SlidingRules::friction`, the hand feels no friction.
+/// the displacement from the visible part to its target (which is the ghost, unless the part was grasped at an offset).
+/// Exactly zero when part and ghost coincide. Because the part was projected on the contacts in the metric K, the
+/// wrench is a sum of forces along contact normals: without `SlidingRules::friction`, the hand feels no friction.
 Wrench spring_wrench(const CouplingStiffness& stiffness, const geometry::Displacement& error);
 
 /// Velocity of the ghost's reference point (m/s) and angular velocity of the ghost (rad/s), in world axes.
@@ -76,10 +76,10 @@ struct Velocity {
   Eigen::Vector3d w = Eigen::Vector3d::Zero();
 };
 
-/// The damper's wrench on the hand. The damper acts along the spring's force and torque only, so that it does not brake
-/// motion perpendicular to the contact normals, in which fixed obstacles leave the part free. The damper's force never
-/// exceeds the spring's force, nor its torque the spring's torque. So the damper sets in smoothly at a new contact, and
-/// never pulls the hand towards a contact that the hand leaves.
+/// The damper's wrench on the hand. The damper acts along the spring's force and torque only. So it does not brake a
+/// translation perpendicular to the contact normals, and obstacles do not resist such a translation either. The
+/// damper's force never exceeds the spring's force, nor its torque the spring's torque. So the damper sets in smoothly
+/// at a new contact, and spring and damper together never pull the hand towards a contact that the hand leaves.
 Wrench damper_wrench(const CouplingDamping& damping, const Wrench& spring, const Velocity& ghost);
 
 }  // namespace glissade::haptics

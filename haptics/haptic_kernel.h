@@ -1,7 +1,8 @@
 #pragma once
 
-/// One tick (1 ms) of the haptic thread: device state and contact set in, device command out. The kernel owns no clock,
-/// no thread and no device, so the same code runs in real time, offline and in tests.
+/// One tick (1 ms) of the haptic thread: device state and contact set (the simulation's newest answer) in, device
+/// command out. The kernel owns no clock, no thread and no device, so the same code runs in real time, offline and in
+/// tests.
 
 #include <cstdint>
 #include <memory>
@@ -22,9 +23,9 @@ struct SlidingPart;
 struct HapticTick {
   Eigen::Isometry3d X_WG;         ///< ghost: the part's pose if nothing were in the way
   Eigen::Isometry3d X_WP;         ///< proxy: estimate of the part's pose now, from the contact set
-  Wrench spring;                  ///< wrench on the hand about the ghost's reference point, before the device's limits
-  devices::GloveCommand command;  ///< wrench about the hand root, within the device's limits
-  devices::LimitReasons limited;
+  Wrench spring;                  ///< the spring's wrench on the hand about the ghost's reference point
+  devices::GloveCommand command;  ///< wrench of spring and damper about the hand root, within the device's limits
+  devices::LimitReasons limited;  ///< the limits that changed the command
 };
 
 /// Real-time safe: bounded work, no allocation, no lock, no system call after construction. Not thread-safe.

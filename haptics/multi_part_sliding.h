@@ -1,17 +1,19 @@
 #pragma once
 
-/// Sliding contact of several parts at once, each held by a hand or by a script (paper §3). The ghost of a part is the
-/// pose that the part would have if nothing were in the way. Each visible part follows its ghost as closely as the
-/// obstacles and the other parts allow. No part is ever inside anything, neither at rest nor on its way.
+/// Sliding contact of several parts at once, each held by a hand or by a script, i.e. by poses given over time. "The
+/// paper" is *Natural Interaction in Virtual Environments*, here §3. The ghost of a part is the pose that the part
+/// would have if nothing were in the way. Each visible part follows its ghost as closely as the obstacles and the other
+/// parts allow. A part that starts apart from all other bodies never gets inside one, neither at rest nor on its
+/// way.
 ///
 /// The method is sequential projection with a margin and a certificate. A call consists of cycles. Each cycle finds the
 /// contacts with a gap below a search radius, the reach. It then projects the wanted displacements of the parts on the
 /// displacements that these contacts allow, in the metric of the coupling stiffness. The result is a step. The parts
 /// take the step only with a certificate: a proof that every triangle pair within reach stays apart on the whole path.
 ///
-/// The paper's bisection instead finds the instant of contact and derives a new direction from the contact. At that
-/// instant the gap is zero: an exact intersection test, for which touching counts, already reports a collision, and no
-/// further motion is possible. Therefore the contacts here stop parts at a positive gap, the margin.
+/// The bisection of the paper instead finds the instant of contact and derives a new direction from the contact. At
+/// that instant the gap is zero: an exact intersection test, for which touching counts, already reports a collision,
+/// and no further motion is possible. Therefore the contacts here stop parts at a positive gap, the margin.
 
 #include <cstddef>
 #include <memory>
@@ -45,7 +47,8 @@ class MultiPartSliding {
   /// As in `SlidingSimulation`, for one part; `part` is its number, below `part_count`. A released part stands still
   /// like an obstacle. Under force feedback, `grasp` does not move the target at once to the new ghost: if the part was
   /// released, the target starts at the pose of the part; if the part was already held, the target stays where it was.
-  /// From there the target approaches the ghost by half of kSlew_m a millisecond, so neither part nor force jumps.
+  /// From there the target approaches the ghost by 0.1 mm a millisecond (half of kSlew_m, `coupling.h`), so neither
+  /// part nor force jumps.
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG);
   void release(std::size_t part);
 

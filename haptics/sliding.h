@@ -1,9 +1,9 @@
 #pragma once
 
-/// Sliding contact of one part (paper §3): the visible part follows the ghost as closely as the obstacles allow. The
-/// ghost is the pose that the part would have if nothing were in the way. The part is never inside anything, neither at
-/// rest nor on its way. `Sliding` is the method to use; `make_sliding` also offers the founding paper's method, for
-/// comparison.
+/// Sliding contact of one part: the visible part follows the ghost as closely as the obstacles allow. The ghost is the
+/// pose that the part would have if nothing were in the way. The part is never inside another body, neither at rest nor
+/// on its way. `Sliding` is the method to use; `make_sliding` also offers, for comparison, the method of the founding
+/// paper, *Natural Interaction in Virtual Environments*, §3.
 
 #include <array>
 #include <chrono>
@@ -29,8 +29,8 @@ struct SlidingOptions {
   SlidingRules rules{};
 };
 
-/// A part that moves on its own or in the other hand. The script gives the ghost of this part: the part follows the
-/// script as far as contacts allow.
+/// A part that moves on its own or in the other hand. Its script gives the poses of its ghost over time: the part
+/// follows the script as far as contacts allow.
 struct ScriptedPart {
   std::shared_ptr<const SlidingPart> part_B;
   geometry::PoseTrajectory script_X_WB;
@@ -94,9 +94,10 @@ inline std::string_view name_of(SlidingMethod method) {
 /// The method with this name; nothing for an unknown name.
 std::optional<SlidingMethod> sliding_method_from_name(std::string_view name);
 
-/// The simulation of one part by either method. The paper's method uses the metaphor and stiffness of the options,
-/// ignores the rules, and throws std::invalid_argument for scripted parts. Apart from this, the function throws as the
-/// constructor of `Sliding` does.
+/// The simulation of one part by either method. For `kProjection`, throws as the constructor of `Sliding` does. The
+/// paper's method uses the metaphor and stiffness of the options, and ignores the rules and the margins of obstacles.
+/// For `kPaper`, throws std::invalid_argument for scripted parts, for no obstacle, for null pointers, for poses that
+/// `geometry::rigid_pose` rejects, and for a part that collides with an obstacle at its start.
 std::unique_ptr<SlidingSimulation> make_sliding(SlidingMethod method, std::vector<Obstacle> obstacles,
                                                 std::shared_ptr<const SlidingPart> part_V,
                                                 const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options = {},

@@ -45,14 +45,16 @@ struct Contact {
   double gap;           ///< metres; negative only for kOverlap
   double force = 0.0;   ///< newtons along n_W; 0 if the contact does not push
   /// Numbers of the two features: for a face the number of its triangle, for an edge its number in
-  /// `geometry::MeshTopology`, for a vertex its number in the mesh. −1 if the method does not report the features.
+  /// `geometry::MeshTopology`, for a vertex its number in the mesh. −1 if the features are not known: for overlaps, for
+  /// contacts of triangle pairs whose proof of no collision failed, and for contacts that the paper's method cannot
+  /// classify.
   std::int32_t part_feature = -1;
   std::int32_t obstacle_feature = -1;
   std::int32_t part = 0;                                 ///< number of the part among the parts
   Eigen::Vector3d friction_W = Eigen::Vector3d::Zero();  ///< newtons on the part, perpendicular to n_W
   /// Metres: the gap at which the contact stops the part. For the paper's method, the margin is instead the largest gap
-  /// of a reported contact: 4 brackets, where a bracket is the width at which a bisection ends. The contacts of that
-  /// method demand a gap of only half a bracket.
+  /// of a reported contact, 2 µm: 4 brackets, where a bracket is the width at which a bisection ends, 0.5 µm. The
+  /// contacts of that method demand a gap of only half a bracket.
   double margin = 0.0;
 
   /// The contact point on the obstacle, metres.

@@ -19,8 +19,8 @@ namespace glissade::haptics {
 
 struct SlidingPart;
 
-/// The connection between hand and part (paper §3). The ghost is the pose of the part as the hand commands it, without
-/// contacts.
+/// The connection between hand and part, as in §3 of the paper (docs/notation.md). The ghost is the pose of the part as
+/// the hand commands it, without contacts.
 enum class Metaphor : std::uint8_t {
   kForceFeedback,     ///< rigid grasp: the device pushes the hand back, and the part follows at a limited speed
   kRubberBand,        ///< a rubber band ties the part's reference point to the ghost; only contacts turn the part
@@ -72,8 +72,9 @@ enum class OverlapRule : std::uint8_t {
 
 /// Rules for all parts of a simulation.
 struct SlidingRules {
-  /// Maximum number of cycles in one call, at least 1. Each cycle projects the wanted displacement on the contacts and
-  /// takes one step. With more cycles the part follows corners more closely; with fewer cycles a call takes less time.
+  /// Maximum number of cycles in one call of `advance`, at least 1. Each cycle projects the wanted displacement on the
+  /// contacts and takes one step. With more cycles the part follows corners more closely; with fewer cycles a call
+  /// takes less time.
   int max_cycles = 10;
   /// The margin: the gap (metres) at which contacts stop a part. Default: 1e-4 of the part's radius, but at least 2 µm
   /// and at most 10 µm. Obstacles may have margins of their own.
@@ -85,8 +86,8 @@ struct SlidingRules {
   /// spiral grows to 1.6 mm and 1.4° from the target. A search lasts two seconds at most.
   bool spiral_search = false;
   /// Searches for near triangles in a thread of its own before the simulation needs them, so that few calls wait for a
-  /// search. Use this for simulations in real time. Poses and forces are the same to the bit with and without the
-  /// thread.
+  /// search. Use this for simulations in real time. Poses and forces are the same, bit for bit, with and
+  /// without the thread.
   bool has_search_thread = false;
 };
 

@@ -22,8 +22,8 @@
 
 namespace glissade::haptics {
 
-/// The work of searching for contacts. Each search also collects the triangle pairs that must provably stay apart in
-/// the next steps; the collecting of these pairs is not included in `reports`.
+/// The work of searching for contacts. Each search also collects the pairs of triangles and boxes that must provably
+/// stay apart in the next steps; `reports` does not include the work of collecting these pairs.
 struct SearchStatistics {
   std::int64_t searches = 0;       ///< number of searches whose answers were used
   collision::FrameReport reports;  ///< the sum of the reports of these searches
@@ -74,7 +74,7 @@ class SlidingSimulation {
   virtual SearchStatistics search_statistics() const { return {}; }
 
   /// The states that the method's state machine went through in the last call, in order, such as
-  /// "moving>bisecting>done". Empty for methods without a state machine.
+  /// "moving>bisecting>classifying>new-direction>criterion>done". Empty for methods without a state machine.
   virtual std::string trace() const { return {}; }
 
   /// Displacement from the visible part to its target: the stretch of the coupling's spring. Exactly zero when the

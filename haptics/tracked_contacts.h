@@ -29,8 +29,8 @@ struct TrackedContact {
 /// Contacts with one obstacle are merged into one contact when their points on the part lie within a margin of each
 /// other, their points on the obstacle too, and their normals are within 1°. For example, a vertex over the common edge
 /// of coplanar triangles makes a contact with each of these triangles; an edge that crosses two other edges at their
-/// common vertex makes a contact with each of these edges. The merged contact is the contact that comes first in the
-/// order of `update`. Its force is the sum of the forces of all merged contacts.
+/// common vertex makes a contact with each of these edges. The merged contact is the one that comes first in the
+/// list that `update` returns. Its force is the sum of the forces of all merged contacts.
 ///
 /// A contact gets its number when it first touches. It **keeps** the number while its force is positive or its gap is
 /// at most three margins, so that a gap that varies about two margins does not change the number. Contacts of two
@@ -96,7 +96,8 @@ struct ContactPatch {
   std::int64_t id = 0;  ///< the lowest id of the patch's contacts, i.e. the id of the oldest contact
   std::int32_t obstacle = 0;
   std::int32_t count = 0;  ///< number of contacts
-  /// Mean of the contact points, weighted by force, or unweighted if no contact pushes; metres.
+  /// Mean of the contact points on the part (`Contact::p_W`), weighted by force, or unweighted if no contact pushes;
+  /// metres.
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
   /// Unit normal from the obstacle to the part: the mean of the contact normals, weighted by force, or unweighted if
   /// no contact pushes.
@@ -111,14 +112,14 @@ struct ContactPatch {
 /// The oldest contact without a patch founds a patch. A contact with the same obstacle joins the patch if its normal is
 /// within 10° of the founder's normal and its point is within 1 % of ρ from the plane through the founder's point,
 /// where ρ is the radius of the part. The plane is perpendicular to the founder's normal. Distance within the plane
-/// does not matter: the contacts at the four corners of a box that lies flat are one patch. A patch has the same
-/// founder, and thus the same id, as long as the founder touches.
+/// does not matter: the contacts at the four corners of a box that lies flat are one patch. A patch has the id
+/// of its founder. It keeps this id as long as no older contact is in the patch and the founder touches.
 class ContactPatches {
  public:
   /// `radius` (metres) is ρ, the radius of the part (`SlidingPart::radius`).
   explicit ContactPatches(double radius) : plane_tolerance_(0.01 * radius) {}
 
-  /// Returns the patches of `contacts`, a list of `ContactTracker`, in ascending order of their ids. Each call is
+  /// Returns the patches of `contacts`, a list from `ContactTracker`, in ascending order of their ids. Each call is
   /// independent of earlier calls; the order of `contacts` affects rounding only. The returned span is valid until the
   /// next call. Cost O(n log n), and O(n) for each patch; allocates only when there are more contacts than ever before.
   std::span<const ContactPatch> merge(std::span<const TrackedContact> contacts);
