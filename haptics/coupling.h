@@ -66,7 +66,7 @@ Wrench about_point(const Wrench& wrench, const Eigen::Vector3d& from, const Eige
 
 /// The spring's wrench on the hand about the ghost's reference point: −K ξ*, where K is `stiffness` and ξ* is `error`,
 /// the displacement from the visible part to its target (which is the ghost, unless the part was grasped at an offset).
-/// Exactly zero when part and ghost coincide. Because the part was projected on the contacts in the metric K, the
+/// Exactly zero when `error` is zero. Because the part was projected on the contacts in the metric K, the
 /// wrench is a sum of forces along contact normals: without `SlidingRules::friction`, the hand feels no friction.
 Wrench spring_wrench(const CouplingStiffness& stiffness, const geometry::Displacement& error);
 

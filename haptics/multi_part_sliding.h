@@ -1,10 +1,9 @@
 #pragma once
 
-/// Sliding contact of several parts at once, each held by a hand or by a script, i.e. by poses given over time. "The
-/// paper" is *Natural Interaction in Virtual Environments*, here §3. The ghost of a part is the pose that the part
+/// Sliding contact of several parts at once, each held by a hand or by a script, i.e. by poses given over time (§3 of
+/// the founding paper, *Natural Interaction in Virtual Environments*). The ghost of a part is the pose that the part
 /// would have if nothing were in the way. Each visible part follows its ghost as closely as the obstacles and the other
-/// parts allow. A part that starts apart from all other bodies never gets inside one, neither at rest nor on its
-/// way.
+/// parts allow. A part that starts apart from all other bodies never gets inside one, neither at rest nor on its way.
 ///
 /// The method is sequential projection with a margin and a certificate. A call consists of cycles. Each cycle finds the
 /// contacts with a gap below a search radius, the reach. It then projects the wanted displacements of the parts on the

@@ -1,9 +1,9 @@
 #pragma once
 
 /// Sliding contact of one part: the visible part follows the ghost as closely as the obstacles allow. The ghost is the
-/// pose that the part would have if nothing were in the way. The part is never inside another body, neither at rest nor
-/// on its way. `Sliding` is the method to use; `make_sliding` also offers, for comparison, the method of the founding
-/// paper, *Natural Interaction in Virtual Environments*, §3.
+/// pose that the part would have if nothing were in the way. A part that starts apart from all other bodies never gets
+/// inside one, neither at rest nor on its way. `Sliding` is the method to use; `make_sliding` also offers, for
+/// comparison, the method of the founding paper, *Natural Interaction in Virtual Environments*, §3.
 
 #include <array>
 #include <chrono>
