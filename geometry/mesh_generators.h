@@ -2,11 +2,12 @@
 
 /// Triangle meshes of simple surfaces, for tests, benchmarks and scenes.
 ///
-/// Sizes are in metres. Triangles are spread evenly, so the number of triangles in the result is only about
-/// `triangle_count`. For a `triangle_count` of at least 200, the number deviates by at most 25 %. All vertices lie on
-/// the surface, and adjacent triangles share vertices. Triangles are oriented consistently; the triangles of closed
-/// surfaces face outward (but see `make_revolution`). Every function throws std::invalid_argument, naming the argument
-/// and its value, for a size that is not positive and finite or a count outside 1 ... 50,000,000.
+/// Sizes are in metres. The faces are grids with whole numbers of rows and columns, so the number of triangles in the
+/// result is only about `triangle_count`. For a `triangle_count` of at least 200 and shapes that are neither flat nor
+/// slender, the number deviates by at most 25 %. All vertices lie on the surface, and adjacent triangles share
+/// vertices. Triangles are oriented consistently; the triangles of closed surfaces face outward (but see
+/// `make_revolution`). Every function except `make_revolution` throws std::invalid_argument, naming the argument and
+/// its value, for a size that is not positive and finite or a count outside 1 ... 50,000,000.
 
 #include <cstdint>
 #include <span>

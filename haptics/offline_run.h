@@ -12,7 +12,7 @@
 
 namespace glissade::haptics {
 
-/// Runs `ticks` ticks of one millisecond and passes the state of each tick to `sink`. As in real time, a tick uses the
+/// Runs `ticks` ticks of one millisecond and passes the state of each tick to `sink`. A tick uses the
 /// contact set that answers the ghost pose of the previous tick. The hand grasps the part at the first tick; the part
 /// stays where it is. The coupling is the result of `coupling_for` with the descriptor of the glove and the stiffness
 /// of the simulation. Throws std::invalid_argument for an empty sink, and as `coupling_for` does.

@@ -54,7 +54,8 @@ class Sliding final : public SlidingSimulation {
 
   void grasp(const Eigen::Isometry3d& X_WG) override { sliding_.grasp(0, X_WG); }
   void release() override { sliding_.release(0); }
-  /// Advances the scripts by `milliseconds` too, even while the part is released or when X_WG is rejected.
+  /// Also advances the scripts by `milliseconds`, even while the part is released or stays where it is because X_WG is
+  /// not a rigid pose.
   const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) override;
 
   const SlidingResult& result() const override { return sliding_.result(0); }
@@ -96,8 +97,8 @@ std::optional<SlidingMethod> sliding_method_from_name(std::string_view name);
 
 /// The simulation of one part by either method. For `kProjection`, throws as the constructor of `Sliding` does. The
 /// paper's method uses the metaphor and stiffness of the options, and ignores the rules and the margins of obstacles.
-/// For `kPaper`, throws std::invalid_argument for scripted parts, for no obstacle, for null pointers, for poses that
-/// `geometry::rigid_pose` rejects, and for a part that collides with an obstacle at its start.
+/// For `kPaper`, throws std::invalid_argument for scripted parts, if there is no obstacle, for null pointers, for poses
+/// that `geometry::rigid_pose` rejects, and for a part that collides with an obstacle at its start.
 std::unique_ptr<SlidingSimulation> make_sliding(SlidingMethod method, std::vector<Obstacle> obstacles,
                                                 std::shared_ptr<const SlidingPart> part_V,
                                                 const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options = {},
