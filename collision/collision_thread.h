@@ -48,7 +48,7 @@ class FrameReader {
 /// serves one thread, and any thread may use the world.
 class CollisionThread {
  public:
-  /// World and clock must outlive the thread. No other pipeline may take changes of this world; any thread may edit the
+  /// World and clock must outlive the thread. No other pipeline may work on this world, but any thread may edit the
   /// world and move its objects. Throws std::invalid_argument for options out of range, and std::system_error if no
   /// thread can be started.
   CollisionThread(World& world, realtime::Clock& clock, const CollisionThreadOptions& options = {});

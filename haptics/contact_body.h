@@ -1,6 +1,6 @@
 #pragma once
 
-/// A mesh prepared for sliding contact: as a part, i.e. an object that a hand moves, or as an obstacle.
+/// A mesh prepared for sliding contact: as a part, i.e. an object that a hand or a script moves, or as an obstacle.
 
 #include <memory>
 #include <optional>
@@ -40,8 +40,8 @@ struct ContactBody {
 
 /// A part that a hand or a script moves, in its own frame V. A displacement of the part is the translation of a
 /// reference point and a rotation about that point; the coupling, the virtual spring between hand and part, acts at the
-/// same point. The reference point is the centre of the part's bounding box, where translation and rotation depend on
-/// each other as little as the shape of the part allows.
+/// same point. The reference point is the centre of the part's bounding box. So no point of the part is much farther
+/// from it than half of the part's size, and a rotation moves the points of the part little.
 struct SlidingPart : ContactBody {
   using ContactBody::ContactBody;
 

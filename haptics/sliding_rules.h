@@ -61,20 +61,20 @@ inline constexpr std::size_t kMaxParts = 4;
 
 /// The treatment of a part that overlaps an obstacle at its start. Two parts must never overlap at their start.
 enum class OverlapRule : std::uint8_t {
-  kRefuse,  ///< the constructor throws
+  kRefuse,  ///< the constructor of the simulation (`Sliding`, `MultiPartSliding`) throws
   /// The part moves out of the obstacle on a short straight way without turning, at kSlew_m (`coupling.h`) per
   /// millisecond, regardless of the hand. Once part and obstacle are one margin apart, the part follows the hand again,
   /// and the obstacle is like any other. Other obstacles stop the part on its way out as usual. If a part overlaps
-  /// several obstacles, it moves out of the deepest overlap first. For a scripted part (`HeldPart`), the constructor
-  /// throws all the same.
+  /// several obstacles, it moves out of the deepest overlap first. For a scripted part (`HeldPart::is_scripted`), the
+  /// constructor of the simulation throws all the same.
   kDepenetrate,
 };
 
 /// Rules for all parts of a simulation.
 struct SlidingRules {
-  /// Maximum number of cycles in one call of `advance`, at least 1. Each cycle projects the wanted displacement on the
-  /// contacts and takes one step. With more cycles the part follows corners more closely; with fewer cycles a call
-  /// takes less time.
+  /// Maximum number of cycles in one call of `Sliding::advance`, at least 1. Each cycle projects the wanted
+  /// displacement on the contacts and takes one step. With more cycles the part follows corners more closely; with
+  /// fewer cycles a call takes less time.
   int max_cycles = 10;
   /// The margin: the gap (metres) at which contacts stop a part. Default: 1e-4 of the part's radius, but at least 2 µm
   /// and at most 10 µm. Obstacles may have margins of their own.
@@ -82,8 +82,8 @@ struct SlidingRules {
   Friction friction{};
   OverlapRule overlap = OverlapRule::kRefuse;
   /// Starts a spiral search when contacts keep a part from its target, the pose that the metaphor wants for the part.
-  /// The part then aims at points of a growing spiral around the target, as a hand searches for a hole with a peg. The
-  /// spiral grows to 1.6 mm and 1.4° from the target. A search lasts two seconds at most.
+  /// The part then aims at poses beside the target, on a growing spiral and tilted, as a hand searches for a hole with
+  /// a peg. The poses are up to 1.6 mm beside the target and tilted by up to 1.4°. A search lasts two seconds at most.
   bool spiral_search = false;
   /// Searches for near triangles in a thread of its own before the simulation needs them, so that few calls wait for a
   /// search. Use this for simulations in real time. Poses and forces are the same, bit for bit, with and
