@@ -57,8 +57,8 @@ double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen
 
 /// A translation that separates two meshes.
 struct Penetration {
-  /// Translation of B in the frame of A after which the meshes are more than the clearance of the search apart
-  /// (metres). Zero if they are so already.
+  /// Translation of B in the frame of A after which the meshes are farther apart than the `clearance` that was
+  /// given to `find_way_out` (metres). Zero if they are so already.
   Eigen::Vector3d way_out_A = Eigen::Vector3d::Zero();
 
   double depth() const { return way_out_A.norm(); }
@@ -67,7 +67,8 @@ struct Penetration {
 /// Finds a short translation of B, from its pose X_AB, after which the meshes are more than `clearance` (metres, ≥ 0)
 /// apart. A query at the translated pose has confirmed this.
 ///
-/// The depth is a guaranteed upper bound of the translational penetration depth, because of this query. A shorter
+/// Because of this query, the depth is a guaranteed upper bound of the shortest translation that separates the two
+/// surfaces. A shorter
 /// translation may exist: the search tries directions all around, the normals of intersecting triangles, and then
 /// directions ever closer to the best direction so far, down to a few thousandths of a radian from it. For convex
 /// bodies the depth is within a few per cent of the least depth. Meshes are surfaces without an inside: a body that

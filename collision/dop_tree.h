@@ -30,7 +30,7 @@ enum class Realignment {
 
 /// Options of construction. The defaults are the fastest; the other values are for comparisons.
 struct DopTreeOptions {
-  int directions = 24;    ///< k, the number of half-spaces: 6, 14, 18, 24 or 26
+  int directions = 24;  ///< k, the number of half-spaces: 6, 14, 18, 24 or 26
   /// Adds to each child a slab along the principal axis of its triangles' normals. The slab is tested if it is thinner
   /// than half of the thinnest slab of the child's DOP.
   bool thin_slab = true;
