@@ -1,7 +1,7 @@
 #pragma once
 
-/// Exact queries between two DOP-trees: whether the triangle soups intersect, which triangle pairs intersect or are
-/// near, how far the soups are apart, and how to separate them.
+/// Exact queries between two DOP-trees: whether the triangle soups intersect, and which triangle pairs intersect or are
+/// near. Guaranteed bounds: how far the soups are apart at least, and a translation that separates them.
 ///
 /// Each query takes the pose X_AB of tree B in the frame of tree A. Exact means: X_AB is applied to the vertices of B
 /// in double precision; for the resulting vertices of B and the vertices of A, the answer is the one of real
@@ -10,8 +10,9 @@
 /// positive area take part.
 ///
 /// Each query throws std::invalid_argument for trees that were built with different options, for a distance that is
-/// negative or not a number, for a pose that is not finite, and for a matrix that is not a rotation: the absolute
-/// entries of RᵀR − 1 must add up to less than 1e-3. A smaller deviation costs speed, not exactness.
+/// negative or not a number, for a pose that is not finite, and for a matrix that is not a rotation: a reflection,
+/// or one for which the absolute entries of RᵀR − 1 add up to 1e-3 or more. A smaller deviation costs speed, not
+/// exactness; it also loosens the bound of `gap_lower_bound`.
 
 #include <limits>
 #include <vector>
@@ -38,9 +39,10 @@ void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eige
                         CoherentWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance = 0.0);
 
 /// Replaces `pairs` by all triangle pairs at most `distance` (metres, ≥ 0) apart, with their closest points, in
-/// ascending order of the triangle indices. If both trees have a selection, the answer is restricted to pairs of which
-/// at least one triangle is selected, and the cost grows with the number of such pairs. Throws std::invalid_argument
-/// for a selection that was made for another tree.
+/// ascending order of the triangle indices. If `selection` has an entry for both trees, the answer is restricted to
+/// pairs of which at least one triangle is selected, and the cost grows with the number of such pairs. A missing entry
+/// selects all triangles of its tree, and thus all pairs. Throws std::invalid_argument for a selection that was made
+/// for another tree.
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   QueryWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
