@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double kDepth = 0.01;  // metres that the wearer wants to go into the plate
 
-constexpr CouplingStiffness kStiffness{1000.0, 2.0};
+constexpr CouplingStiffness kHandStiffness{1000.0, 2.0};
 
 Isometry3d at_height(double z) {
   return Isometry3d(Eigen::Translation3d(0.0, 0.0, z));
@@ -48,14 +48,14 @@ std::vector<HapticState> press_down(SlidingSimulation& simulation) {
 
 /// A box is pressed on a plate.
 std::vector<HapticState> press_on_plate(SlidingMethod method = SlidingMethod::kProjection) {
-  const auto sliding = make_sliding(method, {{plate()}}, box(), at_height(0.03), {.stiffness = kStiffness});
+  const auto sliding = make_sliding(method, {{plate()}}, box(), at_height(0.03), {.stiffness = kHandStiffness});
   return press_down(*sliding);
 }
 
 /// The force (N) where two springs in a row, the wearer's arm and the coupling, share kDepth.
 double force_at_rest() {
   const double arm = devices::SimulatedGloveParameters{}.wearer_stiffness;
-  const double coupling = kStiffness.translational;
+  const double coupling = kHandStiffness.translational;
   return kDepth * arm * coupling / (arm + coupling);
 }
 
@@ -78,8 +78,8 @@ TEST(OfflineRun, LeadsAPartByThePapersMethodToo) {
 
 TEST(OfflineRun, LeadsOneOfSeveralPartsOntoAnother) {
   const auto part = box();
-  MultiPartSliding parts({{plate()}}, {{.part_V = part, .X_WV_start = at_height(0.021), .stiffness = kStiffness},
-                                       {.part_V = part, .X_WV_start = at_height(0.071), .stiffness = kStiffness}});
+  MultiPartSliding parts({{plate()}}, {{.part_V = part, .X_WV_start = at_height(0.021), .stiffness = kHandStiffness},
+                                       {.part_V = part, .X_WV_start = at_height(0.071), .stiffness = kHandStiffness}});
   parts.release(0);  // stays 1 mm above the plate, like an obstacle
   PartOfSeveral upper(parts, 1);
   const std::vector<HapticState> samples = press_down(upper);
