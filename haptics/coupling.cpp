@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <glissade/devices/glove_device.h>
@@ -9,6 +10,12 @@ namespace glissade::haptics {
 CouplingStiffness default_stiffness(double radius) {
   constexpr double kTranslational_N_per_m = 1000.0;
   return {kTranslational_N_per_m, kTranslational_N_per_m * radius * radius};
+}
+
+void validate(const CouplingStiffness& stiffness, const std::string& part_name) {
+  const auto is_stiffness = [](double k) { return k > 0.0 && std::isfinite(k); };
+  if (is_stiffness(stiffness.translational) && is_stiffness(stiffness.rotational)) return;
+  throw std::invalid_argument("the stiffness with which " + part_name + " is held is not a positive number");
 }
 
 Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted) {

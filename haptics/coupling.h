@@ -4,6 +4,7 @@
 /// the hand feels. The ghost is the pose that the part would have if nothing were in the way.
 
 #include <chrono>
+#include <string>
 
 #include <Eigen/Core>
 
@@ -32,6 +33,9 @@ struct CouplingStiffness {
   double translational;
   double rotational;
 };
+
+/// Throws std::invalid_argument, naming the part by `part_name`, unless both numbers are positive and finite.
+void validate(const CouplingStiffness& stiffness, const std::string& part_name);
 
 /// Damping against translation (N s/m) of the ghost's reference point and rotation (Nm s/rad) about it.
 struct CouplingDamping {

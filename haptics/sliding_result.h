@@ -41,7 +41,7 @@ struct Contact {
   std::int32_t obstacle;
   std::int32_t obstacle_triangle;
   Eigen::Vector3d n_W;  ///< unit normal, from the obstacle to the part
-  Eigen::Vector3d p_W;  ///< the contact point on the part, metres
+  Eigen::Vector3d p_W;  ///< the contact point on the part, metres; for kOverlap the part's reference point
   double gap;           ///< metres; negative only for kOverlap
   double force = 0.0;   ///< newtons along n_W; 0 if the contact does not push
   /// Numbers of the two features: for a face the number of its triangle, for an edge its number in

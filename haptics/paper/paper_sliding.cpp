@@ -44,6 +44,7 @@ PaperSliding::PaperSliding(std::vector<Obstacle> obstacles, std::shared_ptr<cons
   if (!(bracket_ >= kLeastBracket_m)) {
     throw std::invalid_argument("a bracket of " + std::to_string(1e9 * bracket_) + " nm is less than a nanometre");
   }
+  validate(stiffness_, "the part");
   const std::optional<Eigen::Isometry3d> X_WV = geometry::rigid_pose(X_WV_start);
   if (!X_WV) throw std::invalid_argument("the start pose of the part is not a rotation and translation");
   if (const int hit = collision_object_.obstacle_hit_at(*X_WV); hit >= 0) {

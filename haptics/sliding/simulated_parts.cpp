@@ -16,13 +16,6 @@ double default_margin(const SlidingPart& part_V) {
   return std::clamp(1e-4 * part_V.radius(), 2e-6, 10e-6);
 }
 
-void check_stiffness(const HeldPart& part) {
-  const auto is_stiffness = [](double k) { return k > 0.0 && std::isfinite(k); };
-  if (!part.stiffness) return;
-  if (is_stiffness(part.stiffness->translational) && is_stiffness(part.stiffness->rotational)) return;
-  throw std::invalid_argument("the stiffness with which " + part.name + " is held is not a positive number");
-}
-
 void check_rules(const SlidingRules& rules) {
   if (rules.max_cycles < 1) {
     throw std::invalid_argument("a call of sliding needs at least one cycle, not " + std::to_string(rules.max_cycles));
@@ -40,7 +33,7 @@ const SlidingRules& checked(const SlidingRules& rules, const std::vector<HeldPar
   }
   for (const HeldPart& part : parts) {
     if (part.part_V == nullptr) throw std::invalid_argument(part.name + " needs a body, not a null pointer");
-    check_stiffness(part);
+    if (part.stiffness) validate(*part.stiffness, part.name);
   }
   check_rules(rules);
   return rules;

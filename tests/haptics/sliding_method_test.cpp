@@ -1,5 +1,6 @@
 // The methods of sliding by name, and the one place that makes them.
 
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -13,11 +14,11 @@
 namespace glissade::haptics {
 namespace {
 
-std::unique_ptr<SlidingSimulation> box_above_floor(SlidingMethod method, double height, Metaphor metaphor) {
+std::unique_ptr<SlidingSimulation> box_above_floor(SlidingMethod method, double height, const SlidingOptions& options) {
   const auto mesh = [](const geometry::TriangleMesh& m) { return std::make_shared<geometry::TriangleMesh>(m); };
   return make_sliding(method, {{std::make_shared<ContactBody>(mesh(geometry::make_plate({0.5, 0.5}, 2)))}},
                       std::make_shared<SlidingPart>(mesh(geometry::make_box({0.1, 0.06, 0.04}, 12))),
-                      Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, height)), {.metaphor = metaphor});
+                      Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, height)), options);
 }
 
 TEST(SlidingMethod, HasItsNameOnTheCommandLine) {
@@ -29,8 +30,8 @@ TEST(SlidingMethod, HasItsNameOnTheCommandLine) {
 }
 
 TEST(SlidingMethod, MakesTheSimulationOfItsName) {
-  const auto projection = box_above_floor(SlidingMethod::kProjection, 0.1, Metaphor::kForceFeedback);
-  const auto paper = box_above_floor(SlidingMethod::kPaper, 0.1, Metaphor::kForceFeedback);
+  const auto projection = box_above_floor(SlidingMethod::kProjection, 0.1, {.metaphor = Metaphor::kForceFeedback});
+  const auto paper = box_above_floor(SlidingMethod::kPaper, 0.1, {.metaphor = Metaphor::kForceFeedback});
   EXPECT_NE(dynamic_cast<Sliding*>(projection.get()), nullptr);
   EXPECT_NE(dynamic_cast<PaperSliding*>(paper.get()), nullptr);
   EXPECT_EQ(projection->stiffness().translational, paper->stiffness().translational);
@@ -41,16 +42,23 @@ TEST(SlidingMethod, HandsTheMetaphorOn) {
   const Eigen::Isometry3d X_WG =
       Eigen::Translation3d(0.01, 0.0, 0.1) * Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX());
   for (const SlidingMethod method : {SlidingMethod::kProjection, SlidingMethod::kPaper}) {
-    const auto band = box_above_floor(method, 0.1, Metaphor::kRubberBand);
+    const auto band = box_above_floor(method, 0.1, {.metaphor = Metaphor::kRubberBand});
     EXPECT_EQ(band->advance(X_WG).X_WV.linear(), Eigen::Matrix3d::Identity()) << "the ghost does not turn it";
-    const auto spring = box_above_floor(method, 0.1, Metaphor::kRubberBandSpring);
+    const auto spring = box_above_floor(method, 0.1, {.metaphor = Metaphor::kRubberBandSpring});
     EXPECT_EQ(spring->advance(X_WG).X_WV.matrix(), X_WG.matrix()) << name_of(method);
   }
 }
 
 TEST(SlidingMethod, RefusesAStartThatCollidesWhateverTheMethod) {
   for (const SlidingMethod method : {SlidingMethod::kProjection, SlidingMethod::kPaper})
-    EXPECT_THROW(box_above_floor(method, 0.01, Metaphor::kForceFeedback), std::invalid_argument);
+    EXPECT_THROW(box_above_floor(method, 0.01, {.metaphor = Metaphor::kForceFeedback}), std::invalid_argument);
+}
+
+TEST(SlidingMethod, RefusesAStiffnessThatIsNotPositiveWhateverTheMethod) {
+  for (const SlidingMethod method : {SlidingMethod::kProjection, SlidingMethod::kPaper}) {
+    for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+      EXPECT_THROW(box_above_floor(method, 0.1, {.stiffness = CouplingStiffness{1000.0, bad}}), std::invalid_argument);
+  }
 }
 
 }  // namespace
