@@ -1,8 +1,9 @@
 #pragma once
 
 /// What a fuzz target is: one program under test that reads bytes nobody vouches for. A target is a source file that
-/// defines the four functions below, and one call in CMakeLists.txt. It is built twice: with libFuzzer by `scripts/fuzz`, and
-/// with replay_main.cpp everywhere, so that every build of the tests tries some thousand damaged files.
+/// defines the four functions below, and one call in CMakeLists.txt. It is built twice: with libFuzzer by
+/// `scripts/fuzz`, and with replay_main.cpp everywhere, so that every build of the tests tries some thousand damaged
+/// files.
 
 #include <cstddef>
 #include <string>
