@@ -75,12 +75,13 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
                                {.ticks = ticks, .fifo_priority = kFifoPriority});
   realtime::PeriodicThread bare_timer(clock, {.period = haptics::kTickPeriod, .fifo_priority = kFifoPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
-  while (!server.is_done() && !should_stop()) {
+  while (!server.is_done() && !server.has_failed() && !should_stop()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     watch(server.ticks());
   }
   server.stop();
   bare_timer.stop();
+  if (server.has_failed()) throw std::runtime_error("the simulation failed: " + server.failure());
   return finished(server.ticks(), scene, sliding, recorder,
                   RealTimeFigures{server.statistics(), bare_timer.statistics()});
 }

@@ -12,9 +12,20 @@ void validate(const DeviceDescriptor& descriptor) {
                                 ".");
   };
   const std::pair<std::string_view, double> limits[] = {
-      {"max_force", descriptor.max_force},         {"max_torque", descriptor.max_torque},
-      {"max_stiffness", descriptor.max_stiffness}, {"max_rotational_stiffness", descriptor.max_rotational_stiffness},
-      {"max_damping", descriptor.max_damping},     {"max_joint_torque", descriptor.max_joint_torque}};
+      {"max_force", descriptor.max_force},
+      {"max_torque", descriptor.max_torque},
+      {"max_stiffness", descriptor.max_stiffness},
+      {"max_rotational_stiffness", descriptor.max_rotational_stiffness},
+      {"max_damping", descriptor.max_damping},
+      {"max_joint_torque", descriptor.max_joint_torque},
+      {"max_force_rate", descriptor.max_force_rate},
+      {"max_torque_rate", descriptor.max_torque_rate},
+      {"max_joint_torque_rate", descriptor.max_joint_torque_rate},
+      {"max_power", descriptor.max_power},
+      {"max_mean_force", descriptor.max_mean_force},
+      {"max_speed", descriptor.max_speed},
+      {"max_turn_rate", descriptor.max_turn_rate},
+      {"workspace_radius", descriptor.workspace_radius}};
   for (const auto& [field, value] : limits) {
     if (!std::isfinite(value) || value < 0.0) refuse(field, "must be finite and not negative");
   }
@@ -23,7 +34,8 @@ void validate(const DeviceDescriptor& descriptor) {
   for (std::size_t i = 0; i < kGloveJoints; ++i) {
     const double lower = descriptor.joint_lower[i];
     const double upper = descriptor.joint_upper[i];
-    if (!std::isfinite(lower) || !std::isfinite(upper) || lower >= upper) {
+    const bool is_absent = lower == 0.0 && upper == 0.0;
+    if (!std::isfinite(lower) || !std::isfinite(upper) || (lower >= upper && !is_absent)) {
       refuse(kGloveJointNames[i], "needs a finite lower limit below a finite upper limit");
     }
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A force-feedback glove as the haptic loop sees it: its state, its commands, its limits, and the interface of a
-/// device driver. Frames: W world, H hand root, i.e. the frame of the hand whose pose the glove reports.
+/// A force-feedback glove as the haptic loop sees it: its state, the commands asked of it, its limits, and the
+/// interface of a device driver. Frames: W world, H hand root, i.e. the frame of the hand whose pose the glove reports.
 
 #include <array>
 #include <chrono>
@@ -43,6 +43,9 @@ inline constexpr std::array<std::string_view, kGloveJoints> kGloveJointNames{"th
                                                                              "wrist_flexion",
                                                                              "wrist_abduction"};
 
+/// The hand that wears a glove. Messages carry the number.
+enum class HandSide : std::int32_t { kUnknown = 0, kLeft = 1, kRight = 2 };
+
 /// Measured state of the hand in a glove, in SI units.
 struct GloveState {
   std::int64_t sequence = 0;         ///< ≥ 0, increases with every state
@@ -51,19 +54,23 @@ struct GloveState {
   Eigen::Vector3d v_WH = Eigen::Vector3d::Zero();  ///< velocity of the origin of H, in world axes; m/s
   Eigen::Vector3d w_WH = Eigen::Vector3d::Zero();  ///< angular velocity of H, in world axes; rad/s
   JointValues joint_angles{};
+  bool obeys_another = false;  ///< the glove obeys another server, and ignores the commands of this one
+  bool is_enabled = true;      ///< false while the wearer does not hold the enable switch, if the glove has one
 };
 
-/// Forces (N) and torques (Nm) that the glove is to exert on the hand. All are zero by default.
+/// Forces (N) and torques (Nm) that somebody asks of the glove. All are zero by default. No device takes a command of
+/// this type: `SafetyEnvelope` makes a `SafeCommand` of it.
 struct GloveCommand {
   std::int64_t sequence = 0;                        ///< ≥ 0, increases with every command
   std::int64_t state_sequence = 0;                  ///< `GloveState::sequence` of the state that the command answers
+  std::chrono::nanoseconds state_time{0};           ///< `GloveState::time` of this state, on the glove's clock
   std::chrono::nanoseconds time{0};                 ///< time of the computation, on the sender's clock
   Eigen::Vector3d f_H_W = Eigen::Vector3d::Zero();  ///< force on the hand at the origin of H, in world axes
   Eigen::Vector3d t_H_W = Eigen::Vector3d::Zero();  ///< torque on the hand about the origin of H, in world axes
   JointValues joint_torques{};                      ///< positive toward larger joint angles
 };
 
-/// Capabilities and limits of a device, in SI units: N, Nm, N/m, Nm/rad, N s/m, rad, Hz.
+/// Capabilities and limits of a device, in SI units: N, Nm, W, N/m, Nm/rad, N s/m, rad, m, s, Hz.
 struct DeviceDescriptor {
   std::string name;
   double max_force = 0.0;                 ///< largest norm of the force on the hand
@@ -72,14 +79,28 @@ struct DeviceDescriptor {
   double max_rotational_stiffness = 0.0;  ///< largest rotational stiffness rendered without shaking
   double max_damping = 0.0;               ///< largest translational damping rendered without shaking
   double max_joint_torque = 0.0;          ///< largest torque of each joint
-  JointValues joint_lower{};              ///< lower limits of the joint angles
-  JointValues joint_upper{};              ///< upper limits of the joint angles
-  double update_rate = 0.0;               ///< updates per second
+  /// Largest rates of change: of the force (N/s), the torque and each joint torque (Nm/s). 0: from zero to the maximum
+  /// in seven periods of the device.
+  double max_force_rate = 0.0;
+  double max_torque_rate = 0.0;
+  double max_joint_torque_rate = 0.0;
+  double max_power = 50.0;             ///< largest power that force and torque put into the hand
+  double max_mean_force = 0.0;         ///< largest mean of the force's norm over about ten seconds; 0: `max_force`
+  double max_speed = 10.0;             ///< a hand that seems faster is an error of the tracker, m/s
+  double max_turn_rate = 100.0;        ///< the same for the rotation, rad/s
+  double workspace_radius = 1000.0;    ///< a hand that seems farther from the world's origin is an error of the tracker
+  std::chrono::nanoseconds frozen{0};  ///< a pose that repeats to the bit for longer is an error; 0: not checked
+  JointValues joint_lower{};    ///< lower limits of the joint angles; both limits of a joint that is absent are 0
+  JointValues joint_upper{};    ///< upper limits of the joint angles
+  double update_rate = 1000.0;  ///< updates per second
 };
 
 /// Throws std::invalid_argument, naming the device and the field, in these cases: a number is not finite; a limit with
-/// the prefix `max_` is negative; a joint's lower limit is not below its upper limit; the update rate is not positive.
+/// the prefix `max_` is negative; a joint's lower limit is not below its upper limit, unless both are 0; the update
+/// rate is not positive.
 void validate(const DeviceDescriptor& descriptor);
+
+class SafeCommand;
 
 /// The interface of a device driver. Thread-safety: one thread, the haptic thread, calls `read` and `command`. Both
 /// functions are wait-free, allocate nothing and make no system call; a driver that has to wait for its device waits in
@@ -97,7 +118,7 @@ class GloveDevice {
   virtual bool read(GloveState& newest) noexcept = 0;
 
   /// Hands over `command` for sending. If an earlier command has not been sent yet, `command` replaces it.
-  virtual void command(const GloveCommand& command) noexcept = 0;
+  virtual void command(const SafeCommand& command) noexcept = 0;
 };
 
 }  // namespace glissade::devices

@@ -11,6 +11,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <glissade/devices/safety_envelope.h>
+
 namespace glissade::devices {
 
 /// State of the part in the simulation. Messages carry its number. The numbers keep their meaning in all versions. The
@@ -46,9 +48,10 @@ struct HapticState {
   std::int32_t contact_count = 0;               ///< contacts that push
   std::chrono::nanoseconds contact_set_age{0};  ///< time since that ghost pose; 0 before the first set
   bool is_in_contact = false;                   ///< at least one contact pushes
-  bool is_force_limited = false;                ///< the wrench was reduced to the device's limits
   bool is_contact_set_late = false;             ///< the contact set was older than 5 ms
-  bool has_no_device = false;                   ///< the newest glove state was too old, so the device got no force
+  bool are_contacts_unsolved = false;           ///< the contacts had no solution, so their force went towards zero
+  LimitReasons reasons;                         ///< why the device got less than the contacts demand
+  std::chrono::nanoseconds state_age{0};        ///< time since the measurement of the glove's state
 };
 
 }  // namespace glissade::devices

@@ -73,13 +73,17 @@ struct LinkStatistics {
   std::uint64_t accepted = 0;
   std::uint64_t wrong_size = 0;       ///< the size is not that of the expected type
   std::uint64_t undecodable = 0;      ///< the size is right, but the message has another type
+  std::uint64_t wrong_version = 0;    ///< the message has the version of another program
   std::uint64_t not_finite = 0;       ///< a number is NaN or infinite
   std::uint64_t out_of_range = 0;     ///< a number is implausibly large, or a quaternion is not a unit quaternion
-  std::uint64_t out_of_sequence = 0;  ///< the sequence number is not greater than that of the last accepted message
+  std::uint64_t other_receiver = 0;   ///< the message is for another device
+  std::uint64_t other_sender = 0;     ///< another sender holds the lease
+  std::uint64_t out_of_sequence = 0;  ///< the sequence number does not rise, or rises too fast
   std::uint64_t lost = 0;             ///< sequence numbers missing between accepted messages
 
   std::uint64_t rejected() const noexcept {
-    return wrong_size + undecodable + not_finite + out_of_range + out_of_sequence;
+    return wrong_size + undecodable + wrong_version + not_finite + out_of_range + other_receiver + other_sender +
+           out_of_sequence;
   }
 };
 

@@ -1,7 +1,6 @@
 #include <utility>
 
 #include <glissade/devices/lcm_glove.h>
-#include <glissade/devices/safety_limits.h>
 
 #include "lcm/checked_bus.h"
 #include "lcm/glove_messages.h"
@@ -11,29 +10,38 @@ namespace glissade::devices {
 LcmGlove::LcmGlove(std::shared_ptr<LcmBus> bus, DeviceDescriptor descriptor, const LcmGloveOptions& options)
     : bus_(checked_bus(std::move(bus), "An LCM glove")),
       descriptor_(std::move(descriptor)),
-      monitor_(std::make_unique<LinkMonitor>(options.restart_silence)) {
+      device_(options.device),
+      session_(random_session()),
+      monitor_(std::make_unique<LinkMonitor>(options.lease)) {
   validate(descriptor_);
   subscription_ = bus_->subscribe(kGloveStateChannel, [this](std::span<const std::uint8_t> message) {
+    StateHeader header;
     GloveState state;
-    const MessageError error = decode(message, state);
-    if (monitor_->admit(error, state.sequence, clock_.now())) states_.publish(state);
+    MessageError error = decode(message, header, state);
+    if (error == MessageError::kNone && header.device != device_) error = MessageError::kOtherReceiver;
+    if (!monitor_->admit(error, {header.device, header.session, state.sequence}, clock_.now())) return;
+    state.obeys_another = header.leaseholder != 0 && header.leaseholder != session_;
+    states_.publish(state);
   });
   sender_ = std::make_unique<realtime::PeriodicThread>(
       clock_, realtime::PeriodicThreadOptions{.period = options.send_period}, [this](const realtime::PeriodicTick&) {
-        if (commands_.update()) send(commands_.value());
+        if (commands_.update()) send(commands_.value().values());
         return true;
       });
 }
 
 LcmGlove::~LcmGlove() {
   sender_->stop();
+  if (commands_sent() > 0) {
+    const GloveCommand& last = commands_.value().values();
+    GloveCommand rest;
+    rest.sequence = last.sequence + 1;
+    rest.state_sequence = last.state_sequence;
+    rest.state_time = last.state_time;
+    rest.time = clock_.now();
+    send(rest);
+  }
   subscription_.reset();
-  if (commands_sent() == 0) return;
-  GloveCommand rest;
-  rest.sequence = commands_.value().sequence + 1;
-  rest.state_sequence = commands_.value().state_sequence;
-  rest.time = clock_.now();
-  send(rest);
 }
 
 bool LcmGlove::read(GloveState& newest) noexcept {
@@ -42,14 +50,15 @@ bool LcmGlove::read(GloveState& newest) noexcept {
   return has_state_;
 }
 
-void LcmGlove::command(const GloveCommand& command) noexcept {
+void LcmGlove::command(const SafeCommand& command) noexcept {
   commands_.publish(command);
 }
 
-// A command that cannot be encoded or sent counts as lost on the way: the glove's command timeout covers both.
+// A command that cannot be encoded or sent counts as lost on the way: the glove's envelope covers both.
 void LcmGlove::send(const GloveCommand& command) noexcept {
   try {
-    if (bus_->publish(kGloveCommandChannel, encode(limit_command(command, descriptor_).command))) {
+    const CommandHeader header{.device = device_, .glove_session = monitor_->session(), .session = session_};
+    if (bus_->publish(kGloveCommandChannel, encode(header, command))) {
       commands_sent_.fetch_add(1, std::memory_order_relaxed);
     }
   } catch (...) {  // NOLINT(bugprone-empty-catch): a lost message is no reason to end the thread

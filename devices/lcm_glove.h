@@ -2,13 +2,19 @@
 
 /// The two ends of a glove's LCM link: `LcmGlove` for the server, i.e. the program with the haptic loop, and
 /// `LcmGloveHost` for the program that drives the glove.
+///
+/// Each end has a session, a random number drawn when it starts. Each end obeys one sender at a time, the one that
+/// holds the lease. Another sender gets the lease only after the holder has been silent for `lease`. Until then its
+/// messages are counted in `LinkStatistics::other_sender`.
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/lcm_bus.h>
+#include <glissade/devices/safety_envelope.h>
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/periodic_thread.h>
 #include <glissade/realtime/triple_buffer.h>
@@ -17,19 +23,20 @@ namespace glissade::devices {
 
 class LinkMonitor;
 
+/// The number of a device, unless another is given.
+inline constexpr std::int64_t kDefaultDevice = 1;
+
 struct LcmGloveOptions {
+  std::int64_t device = kDefaultDevice;  ///< number of the glove; states of all others are rejected
   /// Period at which the send thread polls for a new command. Polling costs the haptic thread nothing, whereas waking
   /// the send thread would cost the haptic thread a system call for every command.
   std::chrono::nanoseconds send_period{std::chrono::microseconds(250)};
-  /// Normally a state is accepted only if its sequence number is larger than that of the last accepted state. After
-  /// this time without an accepted state, any sequence number is accepted, because the glove may have been restarted.
-  std::chrono::nanoseconds restart_silence{std::chrono::milliseconds(500)};
+  std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};
 };
 
 /// The haptic loop's end of the link: receives states on the channel GLOVE_STATE and sends commands on GLOVE_COMMAND,
-/// the former in the receive thread of the bus, the latter in a thread of its own. Commands are reduced to the limits
-/// of the descriptor before they are sent. If any command was sent, the destructor sends a last command with zero
-/// forces and torques.
+/// the former in the receive thread of the bus, the latter in a thread of its own. If any command was sent, the
+/// destructor sends a last command with zero forces and torques.
 class LcmGlove final : public GloveDevice {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive, the descriptor is not valid, or the send
@@ -39,7 +46,7 @@ class LcmGlove final : public GloveDevice {
 
   const DeviceDescriptor& descriptor() const noexcept override { return descriptor_; }
   bool read(GloveState& newest) noexcept override;
-  void command(const GloveCommand& command) noexcept override;
+  void command(const SafeCommand& command) noexcept override;
 
   /// Statistics of the messages from the glove. Any thread.
   LinkStatistics statistics() const noexcept;
@@ -51,10 +58,12 @@ class LcmGlove final : public GloveDevice {
 
   std::shared_ptr<LcmBus> bus_;
   DeviceDescriptor descriptor_;
+  std::int64_t device_;
+  std::int64_t session_;
   realtime::SteadyClock clock_;
   realtime::TripleBuffer<GloveState> states_;
   bool has_state_ = false;  ///< used by the haptic thread only
-  realtime::TripleBuffer<GloveCommand> commands_;
+  realtime::TripleBuffer<SafeCommand> commands_;
   std::atomic<std::uint64_t> commands_sent_{0};
   std::unique_ptr<LinkMonitor> monitor_;
   std::unique_ptr<LcmBus::Subscription> subscription_;
@@ -62,41 +71,44 @@ class LcmGlove final : public GloveDevice {
 };
 
 struct LcmGloveHostOptions {
-  /// Forces and torques of a command count as zero after this time since its arrival: the server may be gone.
-  std::chrono::nanoseconds command_timeout{std::chrono::milliseconds(100)};
-  /// After this time without an accepted command, any sequence number is accepted: the server may have been
-  /// restarted.
-  std::chrono::nanoseconds restart_silence{std::chrono::milliseconds(500)};
+  std::int64_t device = kDefaultDevice;  ///< number of this glove; commands to all others are rejected
+  HandSide side = HandSide::kUnknown;
+  /// A command may answer a state that was measured so many periods of the device ago: the time for the way to the
+  /// server and back. After that, the force fades.
+  double patience_periods = 6.0;
+  std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};
 };
 
 /// The glove driver's end of the link: sends states on the channel GLOVE_STATE and receives commands on GLOVE_COMMAND.
-/// Thread-safety: one thread, the driver's, calls `publish` and `newest_command`.
+/// It limits each command by an envelope of its own, whatever the server or the network did.
+/// Thread-safety: one thread, the driver's, calls `publish`, `newest_command` and `stop`.
 class LcmGloveHost {
  public:
-  /// Throws std::invalid_argument when the bus is null or cannot receive.
-  explicit LcmGloveHost(std::shared_ptr<LcmBus> bus, const LcmGloveHostOptions& options = {});
+  /// Throws std::invalid_argument when the bus is null or cannot receive, or the descriptor is not valid.
+  LcmGloveHost(std::shared_ptr<LcmBus> bus, const DeviceDescriptor& descriptor,
+               const LcmGloveHostOptions& options = {});
   ~LcmGloveHost();
 
   /// Sends `state`; returns false when the operating system does not accept it. May block.
   bool publish(const GloveState& state);
 
-  /// The newest command, or a default GloveCommand before the first command. Forces and torques are zero if the command
-  /// arrived longer ago than `command_timeout`. Wait-free.
-  GloveCommand newest_command() noexcept;
+  /// What the device is to do in this period; call it once a period. `newest` is the state measured last. Without any
+  /// command, or when the newest is old, there is no force. Wait-free.
+  SafeCommand newest_command(const GloveState& newest) noexcept;
+
+  /// Emergency stop, for ever.
+  void stop() noexcept { envelope_.stop(); }
 
   /// Statistics of the messages from the server. Any thread.
   LinkStatistics statistics() const noexcept;
 
  private:
-  struct ReceivedCommand {
-    GloveCommand command;
-    std::chrono::nanoseconds arrival{0};
-  };
-
   std::shared_ptr<LcmBus> bus_;
-  std::chrono::nanoseconds command_timeout_;
+  LcmGloveHostOptions options_;
+  std::int64_t session_;
+  SafetyEnvelope envelope_;
   realtime::SteadyClock clock_;
-  realtime::TripleBuffer<ReceivedCommand> commands_;
+  realtime::TripleBuffer<GloveCommand> commands_;
   std::unique_ptr<LinkMonitor> monitor_;
   std::unique_ptr<LcmBus::Subscription> subscription_;
 };

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include <glissade/devices/safety_limits.h>
 #include <glissade/devices/simulated_glove.h>
 
 namespace glissade::devices {
@@ -81,6 +80,7 @@ DeviceDescriptor simulated_glove_descriptor() {
   descriptor.max_rotational_stiffness = 10.0;
   descriptor.max_damping = 30.0;
   descriptor.max_joint_torque = 0.5;
+  descriptor.max_power = 40.0;
   // thumb roll, MCP, IP, abduction; index; middle and abduction; ring and abduction; little and abduction; palm; wrist
   descriptor.joint_lower =
       radians({0, -10, -15, -25, -20, 0, -10, -20, 0, -10, -15, -20, 0, -10, -20, -20, 0, -10, -40, 0, -70, -30});
@@ -102,8 +102,8 @@ SimulatedGlove::SimulatedGlove(geometry::PoseTrajectory script_X_WH, const Simul
   }
 }
 
-GloveState SimulatedGlove::step(std::chrono::nanoseconds dt, const GloveCommand& newest) noexcept {
-  const GloveCommand command = limit_command(newest, descriptor_).command;
+GloveState SimulatedGlove::step(std::chrono::nanoseconds dt, const SafeCommand& newest) noexcept {
+  const GloveCommand& command = newest.values();
   for (std::chrono::nanoseconds left = dt; left > std::chrono::nanoseconds::zero();) {
     const std::chrono::nanoseconds now = std::min(left, kLargestStep);
     const double h = std::chrono::duration<double>(now).count();

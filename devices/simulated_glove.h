@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include <glissade/devices/glove_device.h>
+#include <glissade/devices/safety_envelope.h>
 #include <glissade/geometry/pose_trajectory.h>
 
 namespace glissade::devices {
@@ -50,10 +51,9 @@ class SimulatedGlove {
   /// The current state. The initial state has sequence 0 and the first time of the script.
   const GloveState& state() const noexcept { return state_; }
 
-  /// Advances the simulation by `dt` under the constant command `newest`. The command is first reduced to the limits of
-  /// the descriptor, as a real device reduces commands. Returns the new state: its sequence is higher by one, its time
-  /// later by `dt`. For dt ≤ 0, only the sequence changes.
-  GloveState step(std::chrono::nanoseconds dt, const GloveCommand& newest) noexcept;
+  /// Advances the simulation by `dt` under the constant command `newest`. Returns the new state: its sequence is higher
+  /// by one, its time later by `dt`. For dt ≤ 0, only the sequence changes.
+  GloveState step(std::chrono::nanoseconds dt, const SafeCommand& newest) noexcept;
 
  private:
   void move_hand(double h, const GloveCommand& command) noexcept;

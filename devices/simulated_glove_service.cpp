@@ -5,8 +5,9 @@
 
 namespace glissade::devices {
 
-SimulatedGloveService::SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock)
-    : host_(std::move(bus)), glove_(std::move(glove)) {
+SimulatedGloveService::SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock,
+                                             const LcmGloveHostOptions& options)
+    : host_(std::move(bus), glove.descriptor(), options), glove_(std::move(glove)), state_(glove_.state()) {
   thread_ = std::make_unique<realtime::PeriodicThread>(clock, realtime::PeriodicThreadOptions{},
                                                        [this](const realtime::PeriodicTick& now) {
                                                          tick(now.deadline);
@@ -15,14 +16,16 @@ SimulatedGloveService::SimulatedGloveService(std::shared_ptr<LcmBus> bus, Simula
 }
 
 void SimulatedGloveService::tick(std::chrono::nanoseconds deadline) noexcept {
-  const GloveCommand command = host_.newest_command();
-  greatest_force_ = std::max(greatest_force_, command.f_H_W.norm());
+  const SafeCommand command = host_.newest_command(state_);
+  greatest_force_ = std::max(greatest_force_, command.values().f_H_W.norm());
   std::chrono::nanoseconds passed{0};
   if (host_.statistics().accepted > 0) {
     if (last_deadline_) passed = deadline - *last_deadline_;  // more than a period where deadlines were skipped
     last_deadline_ = deadline;
   }
-  send(glove_.step(passed, command));
+  state_ = glove_.step(passed, command);
+  state_.time = deadline;  // a real glove's clock runs on, also while the wearer waits
+  send(state_);
   script_time_.store(script_time() + passed, std::memory_order_relaxed);
 }
 

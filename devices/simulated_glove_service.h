@@ -23,7 +23,8 @@ namespace glissade::devices {
 class SimulatedGloveService {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive. The clock must outlive the service.
-  SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock);
+  SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock,
+                        const LcmGloveHostOptions& options = {});
 
   /// Elapsed time of the script. Any thread.
   std::chrono::nanoseconds script_time() const noexcept { return script_time_.load(std::memory_order_relaxed); }
@@ -42,6 +43,7 @@ class SimulatedGloveService {
 
   LcmGloveHost host_;
   SimulatedGlove glove_;
+  GloveState state_;                                       ///< as sent
   std::optional<std::chrono::nanoseconds> last_deadline_;  ///< set once a command has arrived
   std::atomic<std::chrono::nanoseconds> script_time_{std::chrono::nanoseconds(0)};
   double greatest_force_ = 0.0;

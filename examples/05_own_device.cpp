@@ -12,9 +12,7 @@
 
 using namespace glissade;
 
-Eigen::Isometry3d at(double x, double y, double z) {
-  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
-}
+const auto at = [](double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); };
 
 // A driver, called once a millisecond; it must not wait. This one moves the hand down by 4 mm.
 class MyGlove final : public devices::GloveDevice {
@@ -23,11 +21,14 @@ class MyGlove final : public devices::GloveDevice {
   bool read(devices::GloveState& newest) noexcept override {
     const double depth = std::min(4e-3, 20e-6 * static_cast<double>(state_.sequence++));
     state_.X_WH = at(0.0, 0.0, 0.002 - depth);
+    state_.time = realtime::SteadyClock().now();  // when the pose was measured
     newest = state_;
     return true;
   }
-  void command(const devices::GloveCommand& command) noexcept override { newest_ = command; }
-  const devices::GloveCommand& newest() const { return newest_; }  // once the server has stopped
+  void command(const devices::SafeCommand& safe) noexcept override {
+    greatest_ = std::max(greatest_, safe.values().f_H_W.z());
+  }
+  double greatest() const { return greatest_; }  // once the server has stopped
 
  private:
   devices::DeviceDescriptor descriptor_{.name = "my glove",
@@ -36,7 +37,7 @@ class MyGlove final : public devices::GloveDevice {
                                         .max_stiffness = 1000.0,
                                         .max_rotational_stiffness = 5.0};
   devices::GloveState state_;
-  devices::GloveCommand newest_;
+  double greatest_ = 0.0;
 };
 
 int main(int argc, char** argv) {
@@ -69,12 +70,11 @@ int main(int argc, char** argv) {
               << contact.contact.force << " N\n";
   const haptics::Wrench wrench = haptics::spring_wrench(sliding.stiffness(), sliding.error());
   std::cout << "wrench on the hand: " << wrench.f.transpose() << " N, " << wrench.t.transpose() << " Nm\n";
-  // The same part on the device, in real time for two seconds.
-  MyGlove glove;
+  MyGlove glove;  // the same part on the device, in real time for two seconds
   haptics::Sliding live(obstacles, part_V, at(0.0, 0.0, 0.002));
   haptics::HapticServer server(glove, live, clock, [](const devices::HapticState&) {}, {.ticks = 2000});
   while (!server.is_done())
     clock.sleep_until(clock.now() + std::chrono::milliseconds(10));
   server.stop();
-  std::cout << "my glove pushes back with " << glove.newest().f_H_W.z() << " N\n";
+  std::cout << "my glove pushes back with up to " << glove.greatest() << " N\n";
 }

@@ -39,6 +39,9 @@ struct ContactSet {
   std::chrono::nanoseconds time{0};                        ///< time of the ghost pose that the set answers
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part, as displayed
   Eigen::Isometry3d X_WV_of_rows = Eigen::Isometry3d::Identity();  ///< the pose at which the rows were found
+  /// The target in the frame of the ghost. Not the identity where the hand holds the part at an offset, or where the
+  /// metaphor wants another pose than the ghost's.
+  Eigen::Isometry3d X_GT = Eigen::Isometry3d::Identity();
   /// Metres: with the part at X_WV_of_rows, the simulation found every contact with a gap smaller than this. The set
   /// has a row for each contact found, except for the `dropped` ones. For the paper's method see
   /// `SlidingResult::reach`.
@@ -48,6 +51,9 @@ struct ContactSet {
   std::int32_t dropped = 0;                                ///< contacts without a row, beyond kMaxContactRows
   std::int32_t row_count = 0;                              ///< rows in use
   std::array<ConstraintRow, kMaxContactRows> row_array{};  ///< first the pushing contacts, then the others
+  /// For each row: friction on the part divided by the normal force, in world axes; perpendicular to the normal, and no
+  /// longer than the coefficient of friction. Zero for contacts that do not push.
+  std::array<Eigen::Vector3d, kMaxContactRows> friction_ratio_W{};
 
   std::span<const ConstraintRow> rows() const { return {row_array.data(), static_cast<std::size_t>(row_count)}; }
 };

@@ -1,7 +1,9 @@
+#include <algorithm>
+
 #include <glissade/haptics/contact_body.h>
 #include <glissade/haptics/haptic_kernel.h>
 
-#include "loop/proxy.h"
+#include "loop/contact_force.h"
 
 namespace glissade::haptics {
 
@@ -9,56 +11,50 @@ HapticKernel::HapticKernel(const SlidingPart& part_V, const CouplingStiffness& s
                            const devices::DeviceDescriptor& device, const Eigen::Isometry3d& X_WV_start)
     : p_Vref_(part_V.p_Vref()),
       coupling_(coupling_for(device, stiffness)),
-      device_(device),
+      envelope_(device),
       X_WV_start_(X_WV_start),
       X_WG_(X_WV_start),
-      proxy_(std::make_unique<Proxy>(part_V.p_Vref(), part_V.radius(), coupling_.stiffness, X_WV_start)) {}
+      contacts_(std::make_unique<ContactForce>(part_V.p_Vref(), part_V.radius(), coupling_.stiffness, X_WV_start)) {}
 
 HapticKernel::~HapticKernel() = default;
 
-HapticTick HapticKernel::tick(const devices::GloveState& state, const ContactSet& set) noexcept {
-  if (!state.X_WH.matrix().allFinite()) return no_force(state);
-  if (!grasped_) {
+HapticTick HapticKernel::tick(const devices::GloveState& state, const ContactSet& set,
+                              std::chrono::nanoseconds now) noexcept {
+  const bool has_pose = state.X_WH.matrix().allFinite() && state.v_WH.allFinite() && state.w_WH.allFinite();
+  if (has_pose && !grasped_) {
     X_HG_ = state.X_WH.inverse() * X_WV_start_;
     grasped_ = true;
   }
-  HapticTick tick;
-  tick.X_WG = state.X_WH * X_HG_;
-  X_WG_ = tick.X_WG;
-  tick.X_WP = proxy_->update(set, tick.X_WG);
+  if (has_pose) X_WG_ = state.X_WH * X_HG_;
 
-  const Eigen::Vector3d& p_WH = state.X_WH.translation();
-  const Eigen::Vector3d p_Wref = tick.X_WG * p_Vref_;
-  Wrench wrench;
-  if (tick.X_WP.matrix() != tick.X_WG.matrix()) {
-    tick.spring = spring_wrench(coupling_.stiffness, geometry::displacement_between(tick.X_WP, tick.X_WG, p_Vref_));
-    const Velocity ghost{state.v_WH + state.w_WH.cross(p_Wref - p_WH), state.w_WH};
-    const Wrench damping = damper_wrench(coupling_.damping, tick.spring, ghost);
-    wrench = {tick.spring.f + damping.f, tick.spring.t + damping.t};
-  }
-  const Wrench on_hand = about_point(wrench, p_Wref, p_WH);
+  HapticTick tick;
+  tick.X_WG = X_WG_;
+  tick.contacts = contacts_->update(set, now - set.time, X_WG_, seconds_since_last_tick(now));
+  tick.is_unsolved = contacts_->is_unsolved();
 
   devices::GloveCommand command;
   command.sequence = ++sequence_;
   command.state_sequence = state.sequence;
-  command.time = state.time;
-  command.f_H_W = on_hand.f;
-  command.t_H_W = on_hand.t;
-  const devices::LimitedCommand limited = devices::limit_command(command, device_);
-  tick.command = limited.command;
-  tick.limited = limited.reasons;
+  command.state_time = state.time;
+  command.time = now;
+  if (has_pose) {
+    const Eigen::Vector3d& p_WH = state.X_WH.translation();
+    const Eigen::Vector3d p_Wref = X_WG_ * p_Vref_;
+    const Velocity ghost{state.v_WH + state.w_WH.cross(p_Wref - p_WH), state.w_WH};
+    const Wrench damping = damper_wrench(coupling_.damping, tick.contacts, ghost);
+    const Wrench on_hand = about_point({tick.contacts.f + damping.f, tick.contacts.t + damping.t}, p_Wref, p_WH);
+    command.f_H_W = on_hand.f;
+    command.t_H_W = on_hand.t;
+  }
+  tick.command = envelope_.limit(command, state, now);
   return tick;
 }
 
-HapticTick HapticKernel::no_force(const devices::GloveState& state) noexcept {
-  HapticTick tick;
-  tick.X_WG = X_WG_;
-  tick.X_WP = X_WG_;
-  tick.command.sequence = ++sequence_;
-  tick.command.state_sequence = state.sequence;
-  tick.command.time = state.time;
-  tick.limited.not_finite = true;
-  return tick;
+double HapticKernel::seconds_since_last_tick(std::chrono::nanoseconds now) noexcept {
+  constexpr std::chrono::nanoseconds kLongest = 2 * kTickPeriod;  // a pause is no reason for a jump
+  const std::chrono::nanoseconds passed = last_tick_ ? now - *last_tick_ : kTickPeriod;
+  last_tick_ = now;
+  return std::chrono::duration<double>(std::clamp(passed, std::chrono::nanoseconds(0), kLongest)).count();
 }
 
 }  // namespace glissade::haptics

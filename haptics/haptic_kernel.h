@@ -4,28 +4,29 @@
 /// command out. The kernel owns no clock, no thread and no device, so the same code runs in real time, offline and in
 /// tests.
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include <Eigen/Geometry>
 
 #include <glissade/devices/glove_device.h>
-#include <glissade/devices/safety_limits.h>
+#include <glissade/devices/safety_envelope.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
 
 namespace glissade::haptics {
 
-class Proxy;
+class ContactForce;
 struct SlidingPart;
 
 /// The outcome of one tick.
 struct HapticTick {
-  Eigen::Isometry3d X_WG;         ///< ghost: the part's pose if nothing were in the way
-  Eigen::Isometry3d X_WP;         ///< proxy: estimate of the part's pose now, from the contact set
-  Wrench spring;                  ///< the spring's wrench on the hand about the ghost's reference point
-  devices::GloveCommand command;  ///< wrench of spring and damper about the hand root, within the device's limits
-  devices::LimitReasons limited;  ///< the limits that changed the command
+  Eigen::Isometry3d X_WG;        ///< ghost: the part's pose if nothing were in the way
+  Wrench contacts;               ///< wrench of the contacts on the hand about the ghost's reference point
+  bool is_unsolved;              ///< the contacts have no solution, so their wrench goes towards zero
+  devices::SafeCommand command;  ///< wrench of contacts and damper about the hand root, through the safety envelope
 };
 
 /// Real-time safe: bounded work, no allocation, no lock, no system call after construction. Not thread-safe.
@@ -42,23 +43,28 @@ class HapticKernel {
   HapticKernel(const HapticKernel&) = delete;
   HapticKernel& operator=(const HapticKernel&) = delete;
 
-  /// Computes the tick for the newest state and the newest contact set. A hand pose that is not finite gives zero force
-  /// and leaves the ghost unchanged.
-  HapticTick tick(const devices::GloveState& state, const ContactSet& set) noexcept;
+  /// Computes the tick at time `now` for the newest state and the newest contact set. `now` is on the clock of
+  /// `ContactSet::time`, and never goes back. A hand pose that is not finite leaves the ghost unchanged, and the force
+  /// fades.
+  HapticTick tick(const devices::GloveState& state, const ContactSet& set, std::chrono::nanoseconds now) noexcept;
+
+  /// Emergency stop: the force fades to zero and stays there.
+  void stop() noexcept { envelope_.stop(); }
 
   const Coupling& coupling() const noexcept { return coupling_; }
 
  private:
-  HapticTick no_force(const devices::GloveState& state) noexcept;
+  double seconds_since_last_tick(std::chrono::nanoseconds now) noexcept;
 
   Eigen::Vector3d p_Vref_;
   Coupling coupling_;
-  devices::DeviceDescriptor device_;
+  devices::SafetyEnvelope envelope_;
   Eigen::Isometry3d X_WV_start_;
   Eigen::Isometry3d X_HG_ = Eigen::Isometry3d::Identity();  // the grasp, fixed by the first state
   bool grasped_ = false;
   Eigen::Isometry3d X_WG_;  // the last ghost
-  std::unique_ptr<Proxy> proxy_;
+  std::unique_ptr<ContactForce> contacts_;
+  std::optional<std::chrono::nanoseconds> last_tick_;
   std::int64_t sequence_ = 0;
 };
 

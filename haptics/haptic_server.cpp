@@ -23,51 +23,65 @@ HapticServer::HapticServer(devices::GloveDevice& device, SlidingSimulation& simu
   ContactSet at_start;
   at_start.X_WV = simulation.result().X_WV;
   sets_.publish(at_start);
-  simulation_thread_ = std::make_unique<realtime::PeriodicThread>(
-      clock, realtime::PeriodicThreadOptions{.period = kTickPeriod}, [this](const realtime::PeriodicTick&) {
-        simulation_tick();
-        return true;
-      });
+  simulation_thread_ =
+      std::make_unique<realtime::PeriodicThread>(clock, realtime::PeriodicThreadOptions{.period = kTickPeriod},
+                                                 [this](const realtime::PeriodicTick&) { return simulation_tick(); });
   haptic_thread_ = std::make_unique<realtime::PeriodicThread>(
       clock, realtime::PeriodicThreadOptions{.period = kTickPeriod, .fifo_priority = options.fifo_priority},
       [this](const realtime::PeriodicTick& timing) { return haptic_tick(timing); });
 }
 
 bool HapticServer::haptic_tick(const realtime::PeriodicTick& timing) noexcept {
-  if (!device_.read(state_)) return true;  // no device yet
-  if (state_.sequence != state_sequence_) {
-    state_sequence_ = state_.sequence;
-    state_arrival_ = timing.start;
-  }
+  const bool should_end = should_end_.load(std::memory_order_relaxed);
+  if (!device_.read(state_)) return !should_end;  // no device yet
+  const bool is_ending = should_end || (options_.ticks > 0 && ticks() == options_.ticks);
+  if (is_ending || emergency_.load(std::memory_order_relaxed) || has_failed()) kernel_.stop();
   sets_.update();
   const ContactSet& set = sets_.value();
-  HapticTick tick = kernel_.tick(state_, set);
-  const bool device_is_silent = timing.start - state_arrival_ > options_.device_timeout;
-  if (device_is_silent) {
-    tick.command.f_H_W.setZero();
-    tick.command.t_H_W.setZero();
-  }
+  const HapticTick tick = kernel_.tick(state_, set, timing.start);
   device_.command(tick.command);
+  if (is_ending) return go_on_fading(tick);
   ghosts_.publish({tick.X_WG, timing.start});
+  report(tick, set, timing.start);
+  return true;
+}
 
-  devices::HapticState sample = make_sample(tick, set, state_.X_WH.translation(), timing.start);
-  sample.has_no_device = device_is_silent;
+void HapticServer::report(const HapticTick& tick, const ContactSet& set, std::chrono::nanoseconds now) noexcept {
+  const devices::HapticState sample = make_sample(tick, set, state_.X_WH.translation(), now);
   statistics_.contact_set_age.record(sample.contact_set_age);
   sink_(sample);
+  ticks_.fetch_add(1, std::memory_order_relaxed);
+}
 
-  const std::int64_t done = ticks_.load(std::memory_order_relaxed) + 1;
-  ticks_.store(done, std::memory_order_relaxed);
-  if (done != options_.ticks) return true;
-  done_.store(true, std::memory_order_release);
+bool HapticServer::go_on_fading(const HapticTick& tick) noexcept {
+  constexpr int kLongestFade = 1000;  // ticks; a device with a slow rate of its own takes long
+  const devices::GloveCommand& command = tick.command.values();
+  const bool is_at_rest = command.f_H_W.isZero(0.0) && command.t_H_W.isZero(0.0);
+  if (!is_at_rest && ++fading_ticks_ < kLongestFade) return true;
+  done_.store(options_.ticks > 0 && ticks() == options_.ticks, std::memory_order_release);
   return false;
 }
 
-void HapticServer::simulation_tick() {
+bool HapticServer::simulation_tick() noexcept {
+  try {
+    answer_newest_ghost();
+    return true;
+  } catch (const std::exception& error) {
+    failure_ = error.what();
+  } catch (...) {
+    failure_ = "an exception of unknown type";
+  }
+  failed_.store(true, std::memory_order_release);
+  return false;
+}
+
+void HapticServer::answer_newest_ghost() {
   if (!ghosts_.update()) return;
   const Ghost& ghost = ghosts_.value();
   const std::chrono::nanoseconds start = clock_.now();
   // An answer that takes long must not slow the part down: the slew is a speed.
-  const double milliseconds = std::chrono::duration<double, std::milli>(ghost.time - answered_).count();
+  const std::chrono::nanoseconds passed = answered_ ? ghost.time - *answered_ : kTickPeriod;
+  const double milliseconds = std::chrono::duration<double, std::milli>(passed).count();
   simulation_.advance(ghost.X_WG, std::clamp(milliseconds, 1.0, kLongestCatchUp_ms));
   answered_ = ghost.time;
   sets_.publish(make_contact_set(simulation_.result(), simulation_.part(), ++set_sequence_, ghost.time, scratch_));
@@ -75,7 +89,8 @@ void HapticServer::simulation_tick() {
 }
 
 void HapticServer::stop() {
-  haptic_thread_->stop();
+  should_end_.store(true, std::memory_order_relaxed);
+  haptic_thread_->join();
   simulation_thread_->stop();
   statistics_.haptic = haptic_thread_->statistics();
   statistics_.has_fifo_scheduling = haptic_thread_->scheduling().is_fifo;

@@ -10,6 +10,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/haptic_state.h>
@@ -23,13 +26,11 @@
 namespace glissade::haptics {
 
 struct HapticServerOptions {
-  /// Number of counted ticks of the haptic thread after which that thread ends by itself; with 0 it runs until `stop`.
-  /// Ticks before the first state of the device are not counted.
+  /// Number of counted ticks of the haptic thread after which the force fades and that thread ends by itself; with 0 it
+  /// runs until `stop`. Ticks before the first state of the device and ticks of the fade are not counted.
   std::int64_t ticks = 0;
   /// SCHED_FIFO priority that the haptic thread requests; 0 requests none.
   int fifo_priority = 80;
-  /// The force on the device is zero while its newest state is older than this, measured from the state's arrival.
-  std::chrono::nanoseconds device_timeout{std::chrono::milliseconds(50)};
 };
 
 /// Measurements of the server. Complete after `stop`.
@@ -58,13 +59,22 @@ class HapticServer {
   HapticServer& operator=(const HapticServer&) = delete;
   ~HapticServer() { stop(); }
 
-  /// Whether the server has reached `HapticServerOptions::ticks`. Wait-free, any thread.
+  /// Whether the server has reached `HapticServerOptions::ticks`, and the device has no force any more. Wait-free, any
+  /// thread.
   bool is_done() const noexcept { return done_.load(std::memory_order_acquire); }
+
+  /// Whether the simulation threw an exception. Then the force fades and stays at zero. Wait-free, any thread.
+  bool has_failed() const noexcept { return failed_.load(std::memory_order_acquire); }
+  /// The message of the exception. Valid once `has_failed` returns true.
+  const std::string& failure() const noexcept { return failure_; }
+
+  /// The force fades and stays at zero; the loop goes on. Wait-free, any thread.
+  void emergency_stop() noexcept { emergency_.store(true, std::memory_order_relaxed); }
 
   /// Number of counted ticks so far. Wait-free, any thread.
   std::int64_t ticks() const noexcept { return ticks_.load(std::memory_order_relaxed); }
 
-  /// Stops both threads. May block for the duration of one call of the simulation.
+  /// Lets the force fade and stops both threads. May block for some ticks and one call of the simulation.
   void stop();
 
   /// Valid after `stop`.
@@ -77,7 +87,10 @@ class HapticServer {
   };
 
   bool haptic_tick(const realtime::PeriodicTick& timing) noexcept;
-  void simulation_tick();
+  void report(const HapticTick& tick, const ContactSet& set, std::chrono::nanoseconds now) noexcept;
+  bool go_on_fading(const HapticTick& tick) noexcept;
+  bool simulation_tick() noexcept;
+  void answer_newest_ghost();
 
   devices::GloveDevice& device_;
   SlidingSimulation& simulation_;
@@ -88,12 +101,11 @@ class HapticServer {
   // Haptic thread only.
   HapticKernel kernel_;
   devices::GloveState state_;
-  std::int64_t state_sequence_ = -1;
-  std::chrono::nanoseconds state_arrival_{0};
+  int fading_ticks_ = 0;
 
   // Simulation thread only.
   std::int64_t set_sequence_ = 0;
-  std::chrono::nanoseconds answered_{0};  // time of the last answered ghost
+  std::optional<std::chrono::nanoseconds> answered_;  // time of the last answered ghost
   std::vector<std::int32_t> scratch_;
 
   // Shared by both threads.
@@ -102,6 +114,10 @@ class HapticServer {
 
   std::atomic<std::int64_t> ticks_{0};
   std::atomic<bool> done_{false};
+  std::atomic<bool> should_end_{false};
+  std::atomic<bool> emergency_{false};
+  std::atomic<bool> failed_{false};
+  std::string failure_;  // written before failed_
   HapticServerStatistics statistics_;
   std::unique_ptr<realtime::PeriodicThread> simulation_thread_;
   std::unique_ptr<realtime::PeriodicThread> haptic_thread_;

@@ -11,14 +11,14 @@ void run_offline(devices::SimulatedGlove& glove, SlidingSimulation& simulation, 
                  const std::function<void(const devices::HapticState&)>& sink) {
   if (!sink) throw std::invalid_argument("an offline run needs a sink for its states, not an empty function");
   HapticKernel kernel(simulation.part(), simulation.stiffness(), glove.descriptor(), simulation.result().X_WV);
-  devices::GloveCommand command;
+  devices::SafeCommand command;
   std::vector<std::int32_t> scratch;
   ContactSet set;
   set.X_WV = simulation.result().X_WV;
   for (std::int64_t i = 1; i <= ticks; ++i) {
     const std::chrono::nanoseconds now = i * kTickPeriod;
     const devices::GloveState state = glove.step(kTickPeriod, command);
-    const HapticTick tick = kernel.tick(state, set);
+    const HapticTick tick = kernel.tick(state, set, now);
     command = tick.command;
     sink(make_sample(tick, set, state.X_WH.translation(), now));
     simulation.advance(tick.X_WG);

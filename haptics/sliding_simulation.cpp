@@ -19,6 +19,7 @@ ContactSet make_contact_set(const SlidingResult& result, const SlidingPart& part
   set.time = time;
   set.X_WV = result.X_WV;
   set.X_WV_of_rows = result.X_WV_of_contacts;
+  set.X_GT = result.X_WG.inverse(Eigen::Isometry) * result.X_WT;
   set.reach = result.reach;
   set.state = result.state;
   set.pushing = result.pushing;
@@ -39,6 +40,8 @@ ContactSet make_contact_set(const SlidingResult& result, const SlidingPart& part
   for (std::size_t i = 0; i < kept; ++i) {
     const Contact& contact = contacts[static_cast<std::size_t>(scratch[i])];
     set.row_array[i] = {contact.n_W, contact.p_W - p_Wref, std::min(0.0, contact.margin - contact.gap)};
+    set.friction_ratio_W[i].setZero();
+    if (contact.force > 0.0) set.friction_ratio_W[i] = contact.friction_W / contact.force;
   }
   return set;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <glissade/lcmtypes/glove_command_t.hpp>
 #include <glissade/lcmtypes/glove_state_t.hpp>
@@ -19,6 +20,23 @@ constexpr double kLargestAngle = 2.0 * std::numbers::pi;
 constexpr double kLargestForce = 1e6;   // N
 constexpr double kLargestTorque = 1e6;  // Nm
 constexpr double kQuaternionTolerance = 1e-3;
+constexpr std::int64_t kLargestTime_ns = std::int64_t{1} << 60;  // 36 years
+
+constexpr std::pair<bool LimitReasons::*, std::int32_t> kReasons[] = {
+    {&LimitReasons::is_stopped, haptic_state_t::REASON_STOPPED},
+    {&LimitReasons::is_disabled, haptic_state_t::REASON_DISABLED},
+    {&LimitReasons::is_refused, haptic_state_t::REASON_REFUSED},
+    {&LimitReasons::not_finite, haptic_state_t::REASON_NOT_FINITE},
+    {&LimitReasons::is_implausible, haptic_state_t::REASON_IMPLAUSIBLE},
+    {&LimitReasons::is_state_old, haptic_state_t::REASON_STATE_OLD},
+    {&LimitReasons::is_command_old, haptic_state_t::REASON_COMMAND_OLD},
+    {&LimitReasons::is_returning, haptic_state_t::REASON_RETURNING},
+    {&LimitReasons::force_limited, haptic_state_t::REASON_FORCE},
+    {&LimitReasons::torque_limited, haptic_state_t::REASON_TORQUE},
+    {&LimitReasons::joints_limited, haptic_state_t::REASON_JOINTS},
+    {&LimitReasons::rate_limited, haptic_state_t::REASON_RATE},
+    {&LimitReasons::power_limited, haptic_state_t::REASON_POWER},
+    {&LimitReasons::mean_limited, haptic_state_t::REASON_MEAN}};
 
 void put(const Eigen::Vector3d& vector, double (&out)[3]) {
   std::copy_n(vector.data(), 3, out);
@@ -69,6 +87,10 @@ class FieldCheck {
     is_in_range_ = is_in_range_ && std::abs(norm - 1.0) <= kQuaternionTolerance;
   }
   void not_negative(std::int64_t value) noexcept { is_in_range_ = is_in_range_ && value >= 0; }
+  void time(std::int64_t ns) noexcept { is_in_range_ = is_in_range_ && ns >= 0 && ns <= kLargestTime_ns; }
+  void one_of(std::int32_t value, std::int32_t largest) noexcept {
+    is_in_range_ = is_in_range_ && value >= 0 && value <= largest;
+  }
 
   MessageError result() const noexcept {
     if (!is_finite_) return MessageError::kNotFinite;
@@ -82,8 +104,12 @@ class FieldCheck {
 
 MessageError check(const glove_state_t& message) noexcept {
   FieldCheck fields;
+  fields.not_negative(message.session);
+  fields.not_negative(message.leaseholder);
   fields.not_negative(message.sequence);
-  fields.not_negative(message.time_ns);
+  fields.time(message.time_ns);
+  fields.one_of(message.side, glove_state_t::SIDE_RIGHT);
+  fields.one_of(message.enabled, 1);
   fields.magnitude(message.position_WH_m, kLargestPosition);
   fields.unit_quaternion(message.orientation_WH_wxyz);
   fields.magnitude(message.v_WH_m_per_s, kLargestVelocity);
@@ -94,9 +120,12 @@ MessageError check(const glove_state_t& message) noexcept {
 
 MessageError check(const glove_command_t& message) noexcept {
   FieldCheck fields;
+  fields.not_negative(message.glove_session);
+  fields.not_negative(message.session);
   fields.not_negative(message.sequence);
   fields.not_negative(message.state_sequence);
-  fields.not_negative(message.time_ns);
+  fields.time(message.state_time_ns);
+  fields.time(message.time_ns);
   fields.magnitude(message.force_H_W_N, kLargestForce);
   fields.magnitude(message.torque_H_W_Nm, kLargestTorque);
   fields.magnitude(message.joint_torques_Nm, kLargestTorque);
@@ -120,8 +149,14 @@ MessageError check(const haptic_state_t& message) noexcept {
 
 }  // namespace
 
-std::vector<std::uint8_t> encode(const GloveState& state) {
+std::vector<std::uint8_t> encode(const StateHeader& header, const GloveState& state) {
   glove_state_t message{};
+  message.version = glove_state_t::VERSION;
+  message.side = static_cast<std::int32_t>(header.side);
+  message.device = header.device;
+  message.session = header.session;
+  message.leaseholder = header.leaseholder;
+  message.enabled = state.is_enabled ? 1 : 0;
   message.sequence = state.sequence;
   message.time_ns = state.time.count();
   put(Eigen::Vector3d(state.X_WH.translation()), message.position_WH_m);
@@ -132,8 +167,13 @@ std::vector<std::uint8_t> encode(const GloveState& state) {
   return to_bytes(message);
 }
 
-std::vector<std::uint8_t> encode(const GloveCommand& command) {
+std::vector<std::uint8_t> encode(const CommandHeader& header, const GloveCommand& command) {
   glove_command_t message{};
+  message.version = glove_command_t::VERSION;
+  message.device = header.device;
+  message.glove_session = header.glove_session;
+  message.session = header.session;
+  message.state_time_ns = command.state_time.count();
   message.sequence = command.sequence;
   message.state_sequence = command.state_sequence;
   message.time_ns = command.time.count();
@@ -145,6 +185,7 @@ std::vector<std::uint8_t> encode(const GloveCommand& command) {
 
 std::vector<std::uint8_t> encode(const HapticState& state) {
   haptic_state_t message{};
+  message.version = haptic_state_t::VERSION;
   message.sequence = state.sequence;
   message.time_ns = state.time.count();
   put(Eigen::Vector3d(state.X_WG.translation()), message.position_WG_m);
@@ -158,17 +199,23 @@ std::vector<std::uint8_t> encode(const HapticState& state) {
   message.contact_set_age_ns = state.contact_set_age.count();
   const auto flag = [](bool is_set, std::int32_t value) { return is_set ? value : 0; };
   message.flags = flag(state.is_in_contact, haptic_state_t::FLAG_IN_CONTACT) +
-                  flag(state.is_force_limited, haptic_state_t::FLAG_FORCE_LIMITED) +
                   flag(state.is_contact_set_late, haptic_state_t::FLAG_CONTACT_SET_LATE) +
-                  flag(state.has_no_device, haptic_state_t::FLAG_NO_DEVICE);
+                  flag(state.are_contacts_unsolved, haptic_state_t::FLAG_CONTACTS_UNSOLVED);
+  for (const auto& [member, number] : kReasons)
+    message.reasons += flag(state.reasons.*member, number);
+  message.state_age_ns = state.state_age.count();
   return to_bytes(message);
 }
 
-MessageError decode(std::span<const std::uint8_t> bytes, GloveState& state) noexcept {
+MessageError decode(std::span<const std::uint8_t> bytes, StateHeader& header, GloveState& state) noexcept {
   glove_state_t message{};
   MessageError error = from_bytes(bytes, message);
+  if (error == MessageError::kNone && message.version != decltype(message)::VERSION)
+    error = MessageError::kWrongVersion;
   if (error == MessageError::kNone) error = check(message);
   if (error != MessageError::kNone) return error;
+  header = {message.device, message.session, message.leaseholder, static_cast<HandSide>(message.side)};
+  state.is_enabled = message.enabled != 0;
   state.sequence = message.sequence;
   state.time = std::chrono::nanoseconds(message.time_ns);
   state.X_WH = pose_of(message.position_WH_m, message.orientation_WH_wxyz);
@@ -178,11 +225,15 @@ MessageError decode(std::span<const std::uint8_t> bytes, GloveState& state) noex
   return MessageError::kNone;
 }
 
-MessageError decode(std::span<const std::uint8_t> bytes, GloveCommand& command) noexcept {
+MessageError decode(std::span<const std::uint8_t> bytes, CommandHeader& header, GloveCommand& command) noexcept {
   glove_command_t message{};
   MessageError error = from_bytes(bytes, message);
+  if (error == MessageError::kNone && message.version != decltype(message)::VERSION)
+    error = MessageError::kWrongVersion;
   if (error == MessageError::kNone) error = check(message);
   if (error != MessageError::kNone) return error;
+  header = {message.device, message.glove_session, message.session};
+  command.state_time = std::chrono::nanoseconds(message.state_time_ns);
   command.sequence = message.sequence;
   command.state_sequence = message.state_sequence;
   command.time = std::chrono::nanoseconds(message.time_ns);
@@ -195,6 +246,8 @@ MessageError decode(std::span<const std::uint8_t> bytes, GloveCommand& command) 
 MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noexcept {
   haptic_state_t message{};
   MessageError error = from_bytes(bytes, message);
+  if (error == MessageError::kNone && message.version != decltype(message)::VERSION)
+    error = MessageError::kWrongVersion;
   if (error == MessageError::kNone) error = check(message);
   if (error != MessageError::kNone) return error;
   state.sequence = message.sequence;
@@ -208,9 +261,11 @@ MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noe
   state.contact_set_age = std::chrono::nanoseconds(message.contact_set_age_ns);
   const auto has = [&](std::int32_t flag) { return (message.flags & flag) != 0; };
   state.is_in_contact = has(haptic_state_t::FLAG_IN_CONTACT);
-  state.is_force_limited = has(haptic_state_t::FLAG_FORCE_LIMITED);
   state.is_contact_set_late = has(haptic_state_t::FLAG_CONTACT_SET_LATE);
-  state.has_no_device = has(haptic_state_t::FLAG_NO_DEVICE);
+  state.are_contacts_unsolved = has(haptic_state_t::FLAG_CONTACTS_UNSOLVED);
+  for (const auto& [member, number] : kReasons)
+    state.reasons.*member = (message.reasons & number) != 0;
+  state.state_age = std::chrono::nanoseconds(message.state_age_ns);
   return MessageError::kNone;
 }
 

@@ -17,14 +17,29 @@ inline constexpr const char* kGloveStateChannel = "GLOVE_STATE";
 inline constexpr const char* kGloveCommandChannel = "GLOVE_COMMAND";
 inline constexpr const char* kHapticStateChannel = "HAPTIC_STATE";
 
-std::vector<std::uint8_t> encode(const GloveState& state);
-std::vector<std::uint8_t> encode(const GloveCommand& command);
+/// What the message of a state says of the link.
+struct StateHeader {
+  std::int64_t device = 0;
+  std::int64_t session = 0;      ///< of the glove
+  std::int64_t leaseholder = 0;  ///< session of the server whose commands the glove obeys; 0: of none
+  HandSide side = HandSide::kUnknown;
+};
+
+/// What the message of a command says of the link.
+struct CommandHeader {
+  std::int64_t device = 0;
+  std::int64_t glove_session = 0;
+  std::int64_t session = 0;  ///< of the server
+};
+
+std::vector<std::uint8_t> encode(const StateHeader& header, const GloveState& state);
+std::vector<std::uint8_t> encode(const CommandHeader& header, const GloveCommand& command);
 std::vector<std::uint8_t> encode(const HapticState& state);
 
 /// Decodes and checks a message. With any result other than kNone, the output is unchanged. Never throws, for any
 /// bytes.
-MessageError decode(std::span<const std::uint8_t> bytes, GloveState& state) noexcept;
-MessageError decode(std::span<const std::uint8_t> bytes, GloveCommand& command) noexcept;
+MessageError decode(std::span<const std::uint8_t> bytes, StateHeader& header, GloveState& state) noexcept;
+MessageError decode(std::span<const std::uint8_t> bytes, CommandHeader& header, GloveCommand& command) noexcept;
 /// A part state that this program does not know becomes `PartState::kUnknown`. This is no error: a viewer may be older
 /// than the simulation.
 MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noexcept;

@@ -7,33 +7,37 @@
 
 namespace glissade::devices {
 
-LcmGloveHost::LcmGloveHost(std::shared_ptr<LcmBus> bus, const LcmGloveHostOptions& options)
+LcmGloveHost::LcmGloveHost(std::shared_ptr<LcmBus> bus, const DeviceDescriptor& descriptor,
+                           const LcmGloveHostOptions& options)
     : bus_(checked_bus(std::move(bus), "The host of an LCM glove")),
-      command_timeout_(options.command_timeout),
-      monitor_(std::make_unique<LinkMonitor>(options.restart_silence)) {
+      options_(options),
+      session_(random_session()),
+      envelope_(descriptor, options.patience_periods),
+      monitor_(std::make_unique<LinkMonitor>(options.lease)) {
   subscription_ = bus_->subscribe(kGloveCommandChannel, [this](std::span<const std::uint8_t> message) {
-    ReceivedCommand received;
-    const MessageError error = decode(message, received.command);
-    received.arrival = clock_.now();
-    if (monitor_->admit(error, received.command.sequence, received.arrival)) commands_.publish(received);
+    CommandHeader header;
+    GloveCommand command;
+    MessageError error = decode(message, header, command);
+    const bool is_for_us = header.device == options_.device && header.glove_session == session_;
+    if (error == MessageError::kNone && !is_for_us) error = MessageError::kOtherReceiver;
+    if (monitor_->admit(error, {header.device, header.session, command.sequence}, clock_.now())) {
+      commands_.publish(command);
+    }
   });
 }
 
 LcmGloveHost::~LcmGloveHost() = default;
 
 bool LcmGloveHost::publish(const GloveState& state) {
-  return bus_->publish(kGloveStateChannel, encode(state));
+  const StateHeader header{.device = options_.device,
+                           .session = session_,
+                           .leaseholder = monitor_->leaseholder(clock_.now()),
+                           .side = options_.side};
+  return bus_->publish(kGloveStateChannel, encode(header, state));
 }
 
-GloveCommand LcmGloveHost::newest_command() noexcept {
-  const ReceivedCommand& newest = commands_.latest();
-  GloveCommand command = newest.command;
-  if (clock_.now() - newest.arrival > command_timeout_) {
-    command.f_H_W.setZero();
-    command.t_H_W.setZero();
-    command.joint_torques.fill(0.0);
-  }
-  return command;
+SafeCommand LcmGloveHost::newest_command(const GloveState& newest) noexcept {
+  return envelope_.limit(commands_.latest(), newest, clock_.now());
 }
 
 LinkStatistics LcmGloveHost::statistics() const noexcept {

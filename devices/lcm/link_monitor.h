@@ -1,6 +1,7 @@
 #pragma once
 
-/// The filter behind the decoder: admits increasing sequences only, and counts admitted and rejected messages.
+/// The filter behind the decoder: admits the messages of one sender, in rising sequence, and counts what it admits and
+/// rejects.
 
 #include <array>
 #include <atomic>
@@ -11,28 +12,62 @@
 
 namespace glissade::devices {
 
-enum class MessageError { kNone, kWrongSize, kUndecodable, kNotFinite, kOutOfRange, kOutOfSequence };
+enum class MessageError {
+  kNone,
+  kWrongSize,
+  kUndecodable,
+  kWrongVersion,
+  kNotFinite,
+  kOutOfRange,
+  kOtherReceiver,
+  kOtherSender,
+  kOutOfSequence
+};
 
-/// Thread-safety: `admit` in the receive thread, `statistics` in any.
+/// Who sent a message, and its place among the messages of this sender.
+struct MessageOrigin {
+  std::int64_t device = 0;
+  std::int64_t session = 0;
+  std::int64_t sequence = 0;
+};
+
+/// The sender whose messages are admitted holds a lease. Another device or session gets it only after `lease` without
+/// an admitted message. Within a session, sequence numbers rise, and no faster than `kGreatestRate`: so one message
+/// with a huge number does not lock its sender out. Thread-safety: `admit` in the receive thread, the rest in any.
 class LinkMonitor {
  public:
-  /// After `restart_silence` without an accepted message, any sequence is accepted: the other end may have been
-  /// restarted.
-  explicit LinkMonitor(std::chrono::nanoseconds restart_silence) : restart_silence_(restart_silence) {}
+  /// Messages a second that nobody exceeds.
+  static constexpr double kGreatestRate = 20e3;
 
-  /// Counts a message that was decoded with `error` and `sequence` at `now`; returns whether it may be used.
-  bool admit(MessageError error, std::int64_t sequence, std::chrono::nanoseconds now) noexcept;
+  explicit LinkMonitor(std::chrono::nanoseconds lease) : lease_(lease) {}
+
+  /// Counts a message that was decoded with `error` at `now`; returns whether it may be used.
+  bool admit(MessageError error, const MessageOrigin& origin, std::chrono::nanoseconds now) noexcept;
+
+  /// Session of the sender that held the lease last; 0 before the first admitted message.
+  std::int64_t session() const noexcept { return session_.load(std::memory_order_relaxed); }
+  /// Session of the sender that holds the lease at `now`; 0 if nobody does.
+  std::int64_t leaseholder(std::chrono::nanoseconds now) const noexcept {
+    return now - last_time_.load(std::memory_order_relaxed) < lease_ ? session() : 0;
+  }
 
   LinkStatistics statistics() const noexcept;
 
  private:
-  static constexpr std::size_t kErrors = 6;
+  static constexpr std::size_t kErrors = 9;
 
-  std::chrono::nanoseconds restart_silence_;
-  std::chrono::nanoseconds last_time_{0};
-  std::int64_t last_sequence_ = -1;
+  MessageError check(const MessageOrigin& origin, std::chrono::nanoseconds now) noexcept;
+
+  std::chrono::nanoseconds lease_;
+  std::atomic<std::chrono::nanoseconds> last_time_{std::chrono::nanoseconds(0)};
+  std::int64_t last_sequence_ = -1;  ///< −1 before the first message
+  std::int64_t device_ = 0;
+  std::atomic<std::int64_t> session_{0};
   std::array<std::atomic<std::uint64_t>, kErrors> counts_{};  ///< by MessageError
   std::atomic<std::uint64_t> lost_{0};
 };
+
+/// A random number from 1 to 2⁶² for a session. May block.
+std::int64_t random_session();
 
 }  // namespace glissade::devices

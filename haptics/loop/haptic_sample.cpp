@@ -21,18 +21,21 @@ devices::PartState part_state_of(SlidingState state) noexcept {
 devices::HapticState make_sample(const HapticTick& tick, const ContactSet& set, const Eigen::Vector3d& p_WH,
                                  std::chrono::nanoseconds now) noexcept {
   devices::HapticState sample;
-  sample.sequence = tick.command.sequence;
+  sample.sequence = tick.command.values().sequence;
   sample.time = now;
   sample.X_WG = tick.X_WG;
   sample.X_WV = set.X_WV;
-  const Wrench on_hand = about_point({tick.command.f_H_W, tick.command.t_H_W}, p_WH, set.X_WV.translation());
+  const devices::GloveCommand& command = tick.command.values();
+  const Wrench on_hand = about_point({command.f_H_W, command.t_H_W}, p_WH, set.X_WV.translation());
   sample.force_on_hand_W = on_hand.f;
   sample.torque_on_hand_V_W = on_hand.t;
   if (set.sequence != 0) sample.part_state = part_state_of(set.state);
   sample.contact_count = set.pushing;
   sample.contact_set_age = set.sequence == 0 ? std::chrono::nanoseconds(0) : now - set.time;
   sample.is_in_contact = set.pushing > 0;
-  sample.is_force_limited = tick.limited.any();
+  sample.are_contacts_unsolved = tick.is_unsolved;
+  sample.reasons = tick.command.reasons();
+  sample.state_age = tick.command.age();
   sample.is_contact_set_late = sample.contact_set_age > kLateContactSet;
   return sample;
 }

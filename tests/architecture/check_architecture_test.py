@@ -142,18 +142,18 @@ class CheckArchitecture(unittest.TestCase):
     def test_haptic_thread_that_reaches_the_certificate(self):
         self.write("haptics/certificate/one.h", "")
         self.write("haptics/solver/one.h", "")
-        self.include("haptics/loop/proxy.h", '"solver/one.h"')
+        self.include("haptics/loop/contact_force.h", '"solver/one.h"')
         self.include("haptics/solver/one.cpp", '"certificate/one.h"')
         self.expect("haptics/solver/one.cpp", "haptic thread", "haptics/solver/one.cpp -> haptics/certificate/one.h")
 
-    def test_proxy_that_includes_the_certificate(self):
+    def test_contact_force_that_includes_the_certificate(self):
         self.write("haptics/certificate/one.h", "")
-        self.include("haptics/loop/proxy.h", '"certificate/one.h"')
-        self.expect("haptics/loop/proxy.h", "haptics/loop/proxy.h -> haptics/certificate/one.h")
+        self.include("haptics/loop/contact_force.h", '"certificate/one.h"')
+        self.expect("haptics/loop/contact_force.h", "haptics/loop/contact_force.h -> haptics/certificate/one.h")
 
-    def test_proxy_that_reaches_collision(self):
-        self.include("haptics/loop/proxy.h", "<glissade/collision/dop_tree.h>")
-        self.expect("haptics/loop/proxy.h", "proxy must not reach collision/")
+    def test_contact_force_that_reaches_collision(self):
+        self.include("haptics/loop/contact_force.h", "<glissade/collision/dop_tree.h>")
+        self.expect("haptics/loop/contact_force.h", "contact force must not reach collision/")
 
     def test_folder_of_tests_without_a_component(self):
         self.write("tests/nothing/one_test.cpp", "")

@@ -39,8 +39,8 @@ TEST(DeviceDescriptor, ComplaintsNameTheField) {
   expect_refused(descriptor, "update_rate");
 
   descriptor = simulated_glove_descriptor();
-  descriptor.joint_upper[5] = descriptor.joint_lower[5];
-  expect_refused(descriptor, "index_pip");
+  descriptor.joint_upper[4] = descriptor.joint_lower[4];
+  expect_refused(descriptor, "index_mcp");
 }
 
 }  // namespace

@@ -27,8 +27,10 @@ HapticState some_state() {
   state.part_state = PartState::kCatchingUp;
   state.contact_count = 3;
   state.contact_set_age = milliseconds(2);
-  state.is_force_limited = true;
-  state.has_no_device = true;
+  state.are_contacts_unsolved = true;
+  state.reasons.is_state_old = true;
+  state.reasons.mean_limited = true;
+  state.state_age = milliseconds(14);
   return state;
 }
 
@@ -59,9 +61,11 @@ TEST(HapticState, ArrivesAsItWasSent) {
   EXPECT_EQ(received.contact_count, 3);
   EXPECT_EQ(received.contact_set_age, sent.contact_set_age);
   EXPECT_FALSE(received.is_in_contact);
-  EXPECT_TRUE(received.is_force_limited);
+  EXPECT_TRUE(received.are_contacts_unsolved);
   EXPECT_FALSE(received.is_contact_set_late);
-  EXPECT_TRUE(received.has_no_device);
+  EXPECT_TRUE(received.reasons.is_state_old && received.reasons.mean_limited);
+  EXPECT_FALSE(received.reasons.is_stopped || received.reasons.is_returning);
+  EXPECT_EQ(received.state_age, milliseconds(14));
 }
 
 TEST(HapticState, EveryStateOfThePartHasItsNumberAndName) {
@@ -99,6 +103,9 @@ TEST(HapticState, WhatCannotBeIsRefusedAndChangesNothing) {
   auto bytes = encode(some_state());
   bytes.pop_back();
   EXPECT_EQ(decode(bytes, received), MessageError::kWrongSize);
+  message = message_of(some_state());
+  ++message.version;
+  EXPECT_EQ(decoded(message, received), MessageError::kWrongVersion);
   EXPECT_EQ(received.sequence, 0);
 }
 

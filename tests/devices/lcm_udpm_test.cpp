@@ -1,5 +1,7 @@
+#include <chrono>
 #include <cstdlib>
 #include <memory>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -17,29 +19,33 @@ TEST(Udpm, StatesAndCommandsCross) {
     GTEST_SKIP() << "sends multicast, so it runs only under scripts/in_network_namespace";
   }
   const char* const kUrl = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=200000";
-  LcmGlove glove(std::make_shared<LcmBus>(kUrl), simulated_glove_descriptor());
-  LcmGloveHost host(std::make_shared<LcmBus>(kUrl));
+  const DeviceDescriptor descriptor = simulated_glove_descriptor();
+  LcmGlove glove(std::make_shared<LcmBus>(kUrl), descriptor);
+  LcmGloveHost host(std::make_shared<LcmBus>(kUrl), descriptor, {.patience_periods = 200.0});
+  SafetyEnvelope envelope(descriptor, 200.0);
+  realtime::SteadyClock clock;
 
   GloveState sent;
   GloveState received;
-  ASSERT_TRUE(eventually([&] {
-    ++sent.sequence;
-    sent.X_WH.translation().x() = 0.001 * static_cast<double>(sent.sequence % 100);
-    host.publish(sent);
-    return glove.read(received);
-  }));
-  EXPECT_LE(received.sequence, sent.sequence);
-  EXPECT_EQ(received.X_WH.translation().x(), 0.001 * static_cast<double>(received.sequence % 100));
-
   GloveCommand command;
+  command.f_H_W.z() = 2.0;
   ASSERT_TRUE(eventually([&] {
-    ++command.sequence;
-    command.f_H_W.z() = 2.0;
-    glove.command(command);
-    return host.newest_command().f_H_W.z() == 2.0;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ++sent.sequence;
+    sent.time = clock.now();
+    sent.X_WH.translation().x() = 0.001 * static_cast<double>(sent.sequence % 5);
+    host.publish(sent);
+    if (glove.read(received)) {
+      ++command.sequence;
+      command.state_time = received.time;
+      glove.command(envelope.limit(command, received, clock.now()));
+    }
+    return host.newest_command(sent).values().f_H_W.z() == 2.0;
   })) << glove.commands_sent()
       << " commands were sent, the host has accepted " << host.statistics().accepted << " and rejected "
       << host.statistics().rejected();
+  EXPECT_LE(received.sequence, sent.sequence);
+  EXPECT_EQ(received.X_WH.translation().x(), 0.001 * static_cast<double>(received.sequence % 5));
   EXPECT_EQ(glove.statistics().rejected() + host.statistics().rejected(), 0U);
 }
 

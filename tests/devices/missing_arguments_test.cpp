@@ -20,7 +20,7 @@ using test_support::expect_bad_input;
 
 TEST(MissingArguments, ABusIsNeededByEveryEndOfALink) {
   expect_bad_input([] { const LcmGlove glove(nullptr, simulated_glove_descriptor()); }, {"needs an LCM bus"});
-  expect_bad_input([] { const LcmGloveHost host(nullptr); }, {"needs an LCM bus"});
+  expect_bad_input([] { const LcmGloveHost host(nullptr, simulated_glove_descriptor()); }, {"needs an LCM bus"});
   expect_bad_input([] { const HapticStatePublisher publisher(nullptr); }, {"needs an LCM bus"});
   realtime::SteadyClock clock;
   const geometry::PoseTrajectory script({geometry::TimedPose{}});

@@ -8,6 +8,8 @@
 
 #include <glissade/devices/simulated_glove.h>
 
+#include "safe_command.h"
+
 namespace glissade::devices {
 namespace {
 
@@ -69,8 +71,9 @@ TEST(SimulatedGlove, YieldsToForceAndTorqueByItsCompliance) {
   GloveCommand command;
   command.f_H_W = Vector3d(3, -4, 5);
   command.t_H_W = Vector3d(0.2, 0.1, -0.3);
+  const SafeCommand safe = test_support::safe_command(command, glove.descriptor());
   for (int i = 0; i < 3000; ++i)
-    glove.step(kTick, command);
+    glove.step(kTick, safe);
   const GloveState& state = glove.state();
   EXPECT_TRUE(state.X_WH.translation().isApprox(command.f_H_W / parameters.wearer_stiffness, 1e-9));
   const AngleAxisd turn(state.X_WH.linear());
@@ -79,36 +82,25 @@ TEST(SimulatedGlove, YieldsToForceAndTorqueByItsCompliance) {
   EXPECT_LT(state.v_WH.norm() + state.w_WH.norm(), 1e-9);
 }
 
-TEST(SimulatedGlove, ExertsNoMoreThanItsDescriptorAllows) {
-  const SimulatedGloveParameters parameters;
-  SimulatedGlove glove(hold({0, 0, 0}), parameters);
-  GloveCommand command;
-  command.f_H_W = Vector3d(1000, 0, 0);
-  for (int i = 0; i < 3000; ++i)
-    glove.step(kTick, command);
-  EXPECT_NEAR(glove.state().X_WH.translation().x(), 20.0 / parameters.wearer_stiffness, 1e-9);
-  command.f_H_W.x() = std::numeric_limits<double>::quiet_NaN();
-  for (int i = 0; i < 3000; ++i)
-    glove.step(kTick, command);
-  EXPECT_NEAR(glove.state().X_WH.translation().x(), 0.0, 1e-9);
-}
-
 // A wall at x = 0 of stiffness K, rendered at 1 kHz from the last state; the wearer presses on to x = 20 mm.
 TEST(SimulatedGlove, RestsAgainstAVirtualWallWhereTheForcesBalance) {
   constexpr double kWall = 1000.0;
   constexpr double kAim = 0.02;
   const SimulatedGloveParameters parameters;
   SimulatedGlove glove(line({-0.03, 0, 0}, {kAim, 0, 0}, milliseconds(500)), parameters);
-  GloveCommand command;
+  SafetyEnvelope envelope(glove.descriptor());
+  SafeCommand safe;
   double deepest = 0.0;
   bool has_touched = false;
   bool has_left = false;
   for (int i = 0; i < 3000; ++i) {
-    const double x = glove.step(kTick, command).X_WH.translation().x();
+    const double x = glove.step(kTick, safe).X_WH.translation().x();
     deepest = std::max(deepest, x);
     has_left = has_left || (has_touched && x <= 0.0);
     has_touched = has_touched || x > 0.0;
+    GloveCommand command;
     command.f_H_W.x() = x > 0.0 ? -kWall * x : 0.0;
+    safe = test_support::limited(envelope, command, glove.state());
   }
   const double balance = kAim * parameters.wearer_stiffness / (parameters.wearer_stiffness + kWall);
   EXPECT_NEAR(glove.state().X_WH.translation().x(), balance, 1e-9);
@@ -121,10 +113,13 @@ TEST(SimulatedGlove, RestsAgainstAVirtualWallWhereTheForcesBalance) {
 TEST(SimulatedGlove, IsStableAtTheDescriptorsStiffness) {
   const double wall = simulated_glove_descriptor().max_stiffness;
   SimulatedGlove glove(line({-0.01, 0, 0}, {0.02, 0, 0}, milliseconds(300)));
-  GloveCommand command;
+  SafetyEnvelope envelope(glove.descriptor());
+  SafeCommand safe;
   for (int i = 0; i < 3000; ++i) {
-    const double x = glove.step(kTick, command).X_WH.translation().x();
+    const double x = glove.step(kTick, safe).X_WH.translation().x();
+    GloveCommand command;
     command.f_H_W.x() = x > 0.0 ? -wall * x : 0.0;
+    safe = test_support::limited(envelope, command, glove.state());
   }
   EXPECT_LT(glove.state().v_WH.norm(), 1e-8);
 }
@@ -136,8 +131,9 @@ TEST(SimulatedGlove, FingersYieldWithinTheirLimits) {
   GloveCommand command;
   command.joint_torques[4] = 0.2;
   command.joint_torques[5] = -0.4;
+  const SafeCommand safe = test_support::safe_command(command, glove.descriptor());
   for (int i = 0; i < 1000; ++i)
-    glove.step(kTick, command);
+    glove.step(kTick, safe);
   EXPECT_NEAR(glove.state().joint_angles[4], 0.1 + 0.2 / parameters.finger_stiffness, 1e-6);
   EXPECT_EQ(glove.state().joint_angles[5], glove.descriptor().joint_lower[5]);
   EXPECT_NEAR(glove.state().joint_angles[6], 0.1, 1e-12);
@@ -150,10 +146,11 @@ TEST(SimulatedGlove, IsDeterministicAndDividesLongSteps) {
   GloveCommand command;
   command.f_H_W = Vector3d(1, 2, 3);
   command.t_H_W = Vector3d(0.1, 0, 0.2);
+  const SafeCommand safe = test_support::safe_command(command, one.descriptor());
   for (int i = 0; i < 100; ++i) {
     for (int j = 0; j < 5; ++j)
-      one.step(kTick, command);
-    two.step(5 * kTick, command);
+      one.step(kTick, safe);
+    two.step(5 * kTick, safe);
     ASSERT_EQ(one.state().X_WH.matrix(), two.state().X_WH.matrix());
     ASSERT_EQ(one.state().v_WH, two.state().v_WH);
     ASSERT_EQ(one.state().time, two.state().time);

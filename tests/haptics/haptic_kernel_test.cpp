@@ -1,4 +1,6 @@
+#include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -33,67 +35,95 @@ class Kernel : public ::testing::Test {
   static ContactSet floor_below(double depth) {
     ContactSet set;
     set.sequence = 1;
-    set.reach = 0.05;
     set.X_WV_of_rows = kStart;
     set.X_WV = kStart;
     set.row_count = 1;
     set.row_array[0] = {Vector3d::UnitZ(), Vector3d::Zero(), -depth};
+    set.friction_ratio_W[0].setZero();
     return set;
   }
 
+  /// One tick later; state and set are new.
+  HapticTick tick(devices::GloveState state, ContactSet set) {
+    now_ += kTickPeriod;
+    state.time = now_;
+    state.sequence = ++sequence_;
+    set.time = now_;
+    return kernel_.tick(state, set, now_);
+  }
+
   HapticTick settle(const devices::GloveState& state, const ContactSet& set) {
-    HapticTick tick;
+    HapticTick last;
     for (int i = 0; i < 500; ++i)
-      tick = kernel_.tick(state, set);
-    return tick;
+      last = tick(state, set);
+    return last;
   }
 
   static inline const Isometry3d kStart{Eigen::Translation3d(0.0, 0.0, 0.5)};
   SlidingPart part_{std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.1, 0.1}, 12))};
   devices::DeviceDescriptor device_ = devices::simulated_glove_descriptor();
   HapticKernel kernel_{part_, kKernelStiffness, device_, kStart};
+  std::chrono::nanoseconds now_{0};
+  std::int64_t sequence_ = 0;
 };
 
 TEST_F(Kernel, TheFirstStateGraspsThePartWhereItLies) {
   const Vector3d beside(0.2, 0.0, 0.5);  // the hand is not where the part is
-  const HapticTick first = kernel_.tick(hand_at(beside), ContactSet{});
+  const HapticTick first = tick(hand_at(beside), ContactSet{});
   EXPECT_TRUE(first.X_WG.isApprox(kStart));
-  const HapticTick second = kernel_.tick(hand_at(beside + Vector3d(0.0, 0.01, 0.0)), ContactSet{});
+  const HapticTick second = tick(hand_at(beside + Vector3d(0.0, 0.01, 0.0)), ContactSet{});
   EXPECT_TRUE(second.X_WG.translation().isApprox(Vector3d(0.0, 0.01, 0.5)));
 }
 
 TEST_F(Kernel, PushesBackWithTheStiffnessTimesTheDepth) {
-  kernel_.tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
-  const HapticTick tick = settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
-  EXPECT_TRUE(tick.command.f_H_W.isApprox(Vector3d(0.0, 0.0, 2.0), 1e-9));
-  EXPECT_TRUE(tick.command.t_H_W.isZero(1e-9));
+  tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
+  const HapticTick last = settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
+  EXPECT_TRUE(last.command.values().f_H_W.isApprox(Vector3d(0.0, 0.0, 2.0), 1e-9));
+  EXPECT_TRUE(last.command.values().t_H_W.isZero(1e-9));
 }
 
 TEST_F(Kernel, AHandBesideThePartFeelsTheTorqueOfItsLever) {
-  kernel_.tick(hand_at({0.2, 0.0, 0.5}), floor_below(0.0));
-  const HapticTick tick = settle(hand_at({0.2, 0.0, 0.498}), floor_below(0.0));
-  EXPECT_TRUE(tick.command.f_H_W.isApprox(Vector3d(0.0, 0.0, 2.0), 1e-9));
-  EXPECT_TRUE(tick.command.t_H_W.isApprox(Vector3d(0.0, 0.4, 0.0), 1e-9));  // (−0.2, 0, 0) × (0, 0, 2)
+  tick(hand_at({0.2, 0.0, 0.5}), floor_below(0.0));
+  const HapticTick last = settle(hand_at({0.2, 0.0, 0.498}), floor_below(0.0));
+  EXPECT_TRUE(last.command.values().f_H_W.isApprox(Vector3d(0.0, 0.0, 2.0), 1e-9));
+  EXPECT_TRUE(last.command.values().t_H_W.isApprox(Vector3d(0.0, 0.4, 0.0), 1e-9));  // (−0.2, 0, 0) × (0, 0, 2)
 }
 
 TEST_F(Kernel, NeverExceedsTheDevice) {
-  kernel_.tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
-  const HapticTick tick = settle(hand_at({0.0, 0.0, 0.3}), floor_below(0.0));
-  EXPECT_NEAR(tick.command.f_H_W.norm(), device_.max_force, 1e-9);
-  EXPECT_TRUE(tick.limited.force_limited);
+  tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
+  const HapticTick last = settle(hand_at({0.0, 0.0, 0.3}), floor_below(0.0));
+  EXPECT_NEAR(last.command.values().f_H_W.norm(), device_.max_force, 1e-9);
+  EXPECT_TRUE(last.command.reasons().force_limited);
 }
 
 TEST_F(Kernel, ABrokenStateGivesNoForceAndIsForgotten) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  kernel_.tick(hand_at({nan, 0.0, 0.5}), floor_below(0.0));  // not even grasped by
-  kernel_.tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
-  const HapticTick tick = kernel_.tick(hand_at({0.0, 0.0, nan}), floor_below(0.0));
-  EXPECT_EQ(tick.command.f_H_W, Vector3d::Zero());
-  EXPECT_EQ(tick.command.t_H_W, Vector3d::Zero());
-  EXPECT_TRUE(tick.limited.not_finite);
-  EXPECT_TRUE(tick.X_WG.isApprox(kStart));
+  tick(hand_at({nan, 0.0, 0.5}), floor_below(0.0));  // not even grasped by
+  tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
+  const HapticTick last = tick(hand_at({0.0, 0.0, nan}), floor_below(0.0));
+  EXPECT_EQ(last.command.values().f_H_W, Vector3d::Zero());
+  EXPECT_EQ(last.command.values().t_H_W, Vector3d::Zero());
+  EXPECT_TRUE(last.command.reasons().not_finite);
+  EXPECT_TRUE(last.X_WG.isApprox(kStart));
   const HapticTick next = settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
-  EXPECT_TRUE(next.command.f_H_W.isApprox(Vector3d(0.0, 0.0, 2.0), 1e-9));
+  EXPECT_TRUE(next.command.values().f_H_W.isApprox(Vector3d(0.0, 0.0, 2.0), 1e-9));
+}
+
+TEST_F(Kernel, ASimulationThatHaltsLetsTheForceFade) {
+  settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
+  ContactSet set = floor_below(0.0);
+  set.time = now_;
+  HapticTick last;
+  for (int i = 0; i < 100; ++i) {  // the hand slides on at 0.1 m/s
+    devices::GloveState state = hand_at({1e-4 * i, 0.0, 0.498});
+    state.v_WH.x() = 0.1;
+    now_ += kTickPeriod;
+    state.time = now_;
+    state.sequence = ++sequence_;
+    last = kernel_.tick(state, set, now_);
+    EXPECT_LE(last.command.values().f_H_W.head<2>().norm(), 0.02 * std::abs(last.command.values().f_H_W.z()));
+  }
+  EXPECT_EQ(last.command.values().f_H_W, Vector3d::Zero());
 }
 
 TEST_F(Kernel, CutsTheCouplingToWhatTheDeviceCanRender) {
@@ -129,7 +159,7 @@ TEST_F(Kernel, ATickAllocatesNothing) {
 
   const std::int64_t before = test_support::allocations_of_this_thread();
   for (int i = 0; i < 1000; ++i)
-    kernel_.tick(hand_at({1e-5 * i, 0.0, 0.5 - 1e-5 * i}), set);
+    tick(hand_at({1e-5 * i, 0.0, 0.5 - 1e-5 * i}), set);
   EXPECT_EQ(test_support::allocations_of_this_thread(), before);
 }
 

@@ -1,7 +1,9 @@
 // The server with its real threads and a device of the test's own. Nothing here depends on how fast the machine is.
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -21,24 +23,37 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// A simulated glove that takes a step whenever it is read. Used by the haptic thread alone.
+/// A simulated glove that takes a step whenever it is read; its states are measured at that moment. Used by the haptic
+/// thread alone.
 class SteppedDevice final : public devices::GloveDevice {
  public:
   explicit SteppedDevice(const geometry::PoseTrajectory& script) : glove_(script) {}
 
   const devices::DeviceDescriptor& descriptor() const noexcept override { return glove_.descriptor(); }
   bool read(devices::GloveState& newest) noexcept override {
-    newest = silent_ ? glove_.state() : glove_.step(kTickPeriod, command_);
+    if (!silent_) {
+      state_ = glove_.step(kTickPeriod, command_);
+      state_.time = clock_.now();
+    }
+    newest = state_;
     return true;
   }
-  void command(const devices::GloveCommand& command) noexcept override { command_ = command; }
+  void command(const devices::SafeCommand& command) noexcept override {
+    const double step = (command.values().f_H_W - command_.values().f_H_W).norm();
+    greatest_step_ = std::max(greatest_step_, step);
+    command_ = command;
+  }
 
   void fall_silent() { silent_ = true; }
-  const devices::GloveCommand& last_command() const { return command_; }
+  const devices::SafeCommand& last_command() const { return command_; }
+  double greatest_step() const { return greatest_step_; }
 
  private:
   devices::SimulatedGlove glove_;
-  devices::GloveCommand command_;
+  realtime::SteadyClock clock_;
+  devices::GloveState state_;
+  devices::SafeCommand command_;
+  double greatest_step_ = 0.0;
   std::atomic<bool> silent_{false};
 };
 
@@ -86,26 +101,104 @@ TEST_F(Server, PressesThePartOnThePlateAndSendsTheForces) {
 
   EXPECT_EQ(count, kTicks);
   EXPECT_GE(server.statistics().haptic.ticks, kTicks);
-  EXPECT_GT(samples.back().force_on_hand_W.z(), 1.0);
+  EXPECT_GT(std::max_element(samples.begin(), samples.end(),
+                             [](const auto& a, const auto& b) { return a.force_on_hand_W.z() < b.force_on_hand_W.z(); })
+                ->force_on_hand_W.z(),
+            1.0);
   EXPECT_NEAR(samples.back().X_WV.translation().z(), 0.02, 20e-6);
   EXPECT_EQ(allocations, 0);  // of the haptic thread, from its first tick to its last
   for (const devices::HapticState& sample : samples)
     EXPECT_GT(sample.X_WV.translation().z(), 0.02);
 }
 
+/// What every end of a server must leave behind: no force, reached by a ramp.
+void expect_faded(const SteppedDevice& device) {
+  EXPECT_EQ(device.last_command().values().f_H_W, Vector3d::Zero());
+  EXPECT_EQ(device.last_command().values().t_H_W, Vector3d::Zero());
+  constexpr double kForceStep_N = 20.0 / 7.0;
+  EXPECT_LE(device.greatest_step(), 2.0 * kForceStep_N * (1.0 + 1e-9)) << "two periods count at most";
+}
+
 TEST_F(Server, ADeviceThatFallsSilentGetsNoForce) {
-  std::atomic<bool> silent{false};
+  std::atomic<bool> is_told{false};
   HapticServer server(*device_, *sliding_, clock_,
                       [&](const devices::HapticState& sample) {
                         if (sample.sequence == 400) device_->fall_silent();
-                        if (sample.has_no_device) silent = true;
+                        if (sample.sequence > 500 && sample.reasons.is_state_old) is_told = true;
                       },
-                      {.ticks = 600, .device_timeout = std::chrono::milliseconds(20)});
+                      {.ticks = 600});
   wait_for(server);
   server.stop();
-  EXPECT_TRUE(silent);
-  EXPECT_EQ(device_->last_command().f_H_W, Vector3d::Zero());
-  EXPECT_EQ(device_->last_command().t_H_W, Vector3d::Zero());
+  EXPECT_TRUE(is_told);
+  expect_faded(*device_);
+}
+
+TEST_F(Server, TheForceFadesAtTheEnd) {
+  HapticServer server(*device_, *sliding_, clock_, [](const devices::HapticState&) {}, {.ticks = 1000});
+  wait_for(server);
+  expect_faded(*device_);
+  EXPECT_EQ(server.ticks(), 1000);
+}
+
+TEST_F(Server, TheForceFadesWhenItIsStopped) {
+  std::atomic<bool> pushes{false};
+  HapticServer server(*device_, *sliding_, clock_, [&](const devices::HapticState& sample) {
+    if (sample.force_on_hand_W.norm() > 0.5) pushes = true;
+  });
+  while (!pushes)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  server.stop();
+  expect_faded(*device_);
+}
+
+TEST_F(Server, AnEmergencyStopTakesTheForceAwayAndIsTold) {
+  std::atomic<bool> pushes{false};
+  std::atomic<bool> is_told{false};
+  HapticServer server(*device_, *sliding_, clock_, [&](const devices::HapticState& sample) {
+    if (sample.force_on_hand_W.norm() > 0.5) pushes = true;
+    if (sample.reasons.is_stopped && sample.force_on_hand_W.isZero(0.0)) is_told = true;
+  });
+  while (!pushes)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  server.emergency_stop();
+  while (!is_told)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  server.stop();
+  expect_faded(*device_);
+}
+
+/// A simulation whose search for contacts runs out of memory at the hundredth call.
+class FailingSliding final : public SlidingSimulation {
+ public:
+  explicit FailingSliding(SlidingSimulation& sliding) : sliding_(sliding) {}
+
+  void grasp(const Isometry3d& X_WG) override { sliding_.grasp(X_WG); }
+  void release() override { sliding_.release(); }
+  const SlidingResult& advance(const Isometry3d& X_WG, double milliseconds) override {
+    if (++calls_ == 100) throw std::bad_alloc();
+    return sliding_.advance(X_WG, milliseconds);
+  }
+  const SlidingResult& result() const override { return sliding_.result(); }
+  const SlidingPart& part() const override { return sliding_.part(); }
+  const CouplingStiffness& stiffness() const override { return sliding_.stiffness(); }
+  double margin() const override { return sliding_.margin(); }
+
+ private:
+  SlidingSimulation& sliding_;
+  int calls_ = 0;
+};
+
+TEST_F(Server, ASimulationThatFailsTakesTheForceAwayAndIsTold) {
+  FailingSliding failing(*sliding_);
+  std::atomic<int> stopped_ticks{0};
+  HapticServer server(*device_, failing, clock_, [&](const devices::HapticState& sample) {
+    if (sample.reasons.is_stopped) ++stopped_ticks;
+  });
+  while (!server.has_failed() || stopped_ticks < 50)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(server.failure(), std::bad_alloc().what());
+  server.stop();
+  expect_faded(*device_);
 }
 
 TEST_F(Server, RefusesAnEmptySink) {

@@ -1,11 +1,12 @@
 // Uses something of every installed component, and checks that it works there as it does in the tree.
 
+#include <chrono>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
 
 #include <glissade/collision/dop_query.h>
-#include <glissade/devices/safety_limits.h>
+#include <glissade/devices/safety_envelope.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/haptics/sliding.h>
@@ -46,8 +47,9 @@ int main() {
 
   devices::GloveCommand command;
   command.f_H_W = {0.0, 0.0, 1e6};
-  realtime::TripleBuffer<devices::LimitedCommand> buffer;
-  buffer.publish(devices::limit_command(command, devices::simulated_glove_descriptor()));
-  expect(buffer.latest().reasons.force_limited, "a glove is not sent a million newtons");
+  devices::SafetyEnvelope envelope(devices::simulated_glove_descriptor());
+  realtime::TripleBuffer<devices::SafeCommand> buffer;
+  buffer.publish(envelope.limit(command, devices::GloveState{}, std::chrono::milliseconds(1)));
+  expect(buffer.latest().reasons().force_limited, "a glove is not sent a million newtons");
   std::cout << "The installed package works.\n";
 }

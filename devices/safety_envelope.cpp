@@ -1,0 +1,250 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glissade/devices/safety_envelope.h>
+
+namespace glissade::devices {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr double kFadePeriods = 7.0;
+constexpr double kReturn_s = 0.2;
+constexpr double kMeanTime_s = 10.0;
+constexpr double kSoftMean = 0.9;  // share of the largest mean from which the force is reduced
+constexpr nanoseconds kDistrust = std::chrono::milliseconds(100);
+constexpr nanoseconds kLateForGood = std::chrono::seconds(1);
+constexpr std::int64_t kDriftShare = 5000;  // clocks may drift apart by one part in so many
+constexpr double kJumpTolerance_m = 1e-3;
+constexpr double kTurnTolerance = 1e-2;  // rad
+constexpr double kSpeedMismatch = 0.5;   // share of the largest speed
+
+double seconds(nanoseconds time) noexcept {
+  return std::chrono::duration<double>(time).count();
+}
+
+/// Scales `vector` down to the norm `limit` if it exceeds it; returns whether it did.
+bool limit_norm(Eigen::Vector3d& vector, double limit) noexcept {
+  // Division by the largest component comes first: the squares of huge components would overflow, and so might their
+  // sum.
+  const double largest = vector.lpNorm<Eigen::Infinity>();
+  if (largest <= limit && vector.norm() <= limit) return false;
+  vector /= largest;
+  vector *= limit / vector.norm();
+  // Rounding may have left the norm a few units in the last place too large.
+  constexpr double kJustBelowOne = 1.0 - 1e-15;
+  if (vector.norm() > limit) vector *= kJustBelowOne;
+  return true;
+}
+
+/// Moves `value` to `last` plus at most `step` of the way to it; returns whether that is short of it.
+bool limit_step(Eigen::Vector3d& value, const Eigen::Vector3d& last, double step) noexcept {
+  Eigen::Vector3d change = value - last;
+  if (!limit_norm(change, step)) return false;
+  value = last + change;
+  return true;
+}
+
+bool all_finite(const JointValues& values) noexcept {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+/// Sums of times within these bounds cannot overflow.
+bool is_finite(nanoseconds time) noexcept {
+  constexpr nanoseconds kGreatest(std::int64_t{1} << 61);
+  return -kGreatest < time && time < kGreatest;
+}
+
+bool is_finite(const GloveCommand& command) noexcept {
+  return is_finite(command.state_time) && command.f_H_W.allFinite() && command.t_H_W.allFinite() &&
+         all_finite(command.joint_torques);
+}
+
+bool is_finite(const GloveState& state) noexcept {
+  return is_finite(state.time) && state.X_WH.matrix().allFinite() && state.v_WH.allFinite() && state.w_WH.allFinite() &&
+         all_finite(state.joint_angles);
+}
+
+double angle_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept {
+  const double cosine = 0.5 * ((A.transpose() * B).trace() - 1.0);
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+double rate_or_default(double rate, double maximum, const DeviceDescriptor& descriptor) noexcept {
+  return rate > 0.0 ? rate : maximum * descriptor.update_rate / kFadePeriods;
+}
+
+}  // namespace
+
+SafetyEnvelope::SafetyEnvelope(const DeviceDescriptor& descriptor, double patience_periods) : descriptor_(descriptor) {
+  validate(descriptor_);
+  const auto periods = [&](double count) {
+    return std::chrono::duration_cast<nanoseconds>(std::chrono::duration<double>(count / descriptor_.update_rate));
+  };
+  period_ = periods(1.0);
+  patience_ = periods(patience_periods);
+  force_rate_ = rate_or_default(descriptor_.max_force_rate, descriptor_.max_force, descriptor_);
+  torque_rate_ = rate_or_default(descriptor_.max_torque_rate, descriptor_.max_torque, descriptor_);
+  joint_torque_rate_ = rate_or_default(descriptor_.max_joint_torque_rate, descriptor_.max_joint_torque, descriptor_);
+}
+
+SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& newest, nanoseconds now) noexcept {
+  const double dt = seconds_since_last_call(now);
+  observe(newest, now);
+
+  SafeCommand safe;
+  LimitReasons& reasons = safe.reasons_;
+  reasons = faults(wanted, now);
+  if (!reasons.not_finite) safe.age_ = age_of(wanted.state_time, now);
+  if (is_finite(wanted)) wanted_ = {wanted.f_H_W, wanted.t_H_W, wanted.joint_torques};
+  const double change = reasons.is_fading() ? -dt / (kFadePeriods * seconds(period_)) : dt / kReturn_s;
+  gain_ = std::clamp(gain_ + change, 0.0, 1.0);
+  reasons.is_returning = !reasons.is_fading() && gain_ < 1.0;
+
+  Forces forces = wanted_;
+  limit_norms(forces, reasons);
+  forces.f *= gain_;
+  forces.t *= gain_;
+  for (double& torque : forces.joints)
+    torque *= gain_;
+  limit_power(forces, reasons);
+  limit_rates(forces, dt, reasons);
+  mean_force_ += std::min(1.0, dt / kMeanTime_s) * (forces.f.norm() - mean_force_);
+  last_ = forces;
+
+  safe.values_ = wanted;
+  safe.values_.f_H_W = forces.f;
+  safe.values_.t_H_W = forces.t;
+  safe.values_.joint_torques = forces.joints;
+  return safe;
+}
+
+double SafetyEnvelope::seconds_since_last_call(nanoseconds now) noexcept {
+  const nanoseconds passed = has_been_called_ ? now - last_call_ : nanoseconds(0);
+  has_been_called_ = true;
+  last_call_ = now;
+  return seconds(std::clamp(passed, nanoseconds(0), 2 * period_));
+}
+
+void SafetyEnvelope::observe(const GloveState& state, nanoseconds now) noexcept {
+  const bool is_new = !has_state_ || state.sequence != state_.sequence || state.time != state_.time;
+  if (!is_new) return;
+  if (!is_finite(state) || !is_plausible(state)) distrust_until_ = now + kDistrust;
+  if (!is_finite(state)) {
+    state_ = state;
+    return;
+  }
+  update_offset(state, now);
+  const bool repeats = has_state_ && state.X_WH.matrix() == state_.X_WH.matrix();
+  if (!repeats) pose_time_ = state.time;
+  state_ = state;
+  has_state_ = true;
+}
+
+bool SafetyEnvelope::is_plausible(const GloveState& state) noexcept {
+  if (state.v_WH.norm() > descriptor_.max_speed || state.w_WH.norm() > descriptor_.max_turn_rate) return false;
+  if (state.X_WH.translation().norm() > descriptor_.workspace_radius) return false;
+  if (!has_state_ || !is_finite(state_)) return true;  // nothing to compare with
+  if (state.time < state_.time) return false;
+  if (descriptor_.frozen > nanoseconds(0) && state.X_WH.matrix() == state_.X_WH.matrix() &&
+      state.time - pose_time_ > descriptor_.frozen) {
+    return false;
+  }
+  const double dt = seconds(state.time - state_.time);
+  const Eigen::Vector3d moved = state.X_WH.translation() - state_.X_WH.translation();
+  if (moved.norm() > descriptor_.max_speed * dt + kJumpTolerance_m) return false;
+  const double turned = angle_between(state_.X_WH.linear(), state.X_WH.linear());
+  if (turned > descriptor_.max_turn_rate * dt + kTurnTolerance) return false;
+  const Eigen::Vector3d unexplained = moved - 0.5 * dt * (state.v_WH + state_.v_WH);
+  return unexplained.norm() <= kSpeedMismatch * descriptor_.max_speed * dt + kJumpTolerance_m;
+}
+
+void SafetyEnvelope::update_offset(const GloveState& state, nanoseconds now) noexcept {
+  const nanoseconds difference = now - state.time;
+  const bool is_first = !has_state_ || !is_finite(state_) || state.time < state_.time;
+  if (is_first || now - punctual_ > kLateForGood) {
+    offset_ = difference;
+  } else {
+    offset_ = std::min(offset_ + (state.time - state_.time) / kDriftShare, difference);
+  }
+  if (difference - offset_ <= patience_) punctual_ = now;
+}
+
+nanoseconds SafetyEnvelope::age_of(nanoseconds measured, nanoseconds now) const noexcept {
+  return now - offset_ - measured;
+}
+
+LimitReasons SafetyEnvelope::faults(const GloveCommand& wanted, nanoseconds now) const noexcept {
+  LimitReasons reasons;
+  reasons.is_stopped = is_stopped_;
+  reasons.is_disabled = !state_.is_enabled;
+  reasons.is_refused = state_.obeys_another;
+  reasons.not_finite = !is_finite(wanted) || !is_finite(state_);
+  reasons.is_implausible = now < distrust_until_;
+  if (reasons.not_finite) return reasons;  // no ages are known
+  reasons.is_state_old = age_of(state_.time, now) > patience_;
+  reasons.is_command_old = !reasons.is_state_old && age_of(wanted.state_time, now) > patience_;
+  return reasons;
+}
+
+void SafetyEnvelope::limit_norms(Forces& forces, LimitReasons& reasons) const noexcept {
+  reasons.force_limited = limit_norm(forces.f, descriptor_.max_force);
+  reasons.torque_limited = limit_norm(forces.t, descriptor_.max_torque);
+  const double joint_limit = descriptor_.max_joint_torque;
+  for (double& torque : forces.joints) {
+    if (std::abs(torque) <= joint_limit) continue;
+    torque = std::copysign(joint_limit, torque);
+    reasons.joints_limited = true;
+  }
+  const double largest_mean = descriptor_.max_mean_force;
+  if (largest_mean <= 0.0 || largest_mean >= descriptor_.max_force) return;
+  const double excess = std::clamp((mean_force_ / largest_mean - kSoftMean) / (1.0 - kSoftMean), 0.0, 1.0);
+  const double limit = descriptor_.max_force + excess * (largest_mean - descriptor_.max_force);
+  reasons.mean_limited = excess > 0.0 && limit_norm(forces.f, limit);
+}
+
+void SafetyEnvelope::limit_power(Forces& forces, LimitReasons& reasons) const noexcept {
+  if (reasons.not_finite) return;  // no velocity is known; the force fades
+  const double power = forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH);
+  if (power <= descriptor_.max_power) return;
+  const double share = descriptor_.max_power / power;
+  forces.f *= share;
+  forces.t *= share;
+  reasons.power_limited = true;
+}
+
+void SafetyEnvelope::limit_rates(Forces& forces, double dt, LimitReasons& reasons) const noexcept {
+  const bool force_limited = limit_step(forces.f, last_.f, force_rate_ * dt);
+  const bool torque_limited = limit_step(forces.t, last_.t, torque_rate_ * dt);
+  // The sum above may exceed a limit by rounding.
+  limit_norm(forces.f, descriptor_.max_force);
+  limit_norm(forces.t, descriptor_.max_torque);
+  reasons.rate_limited = force_limited || torque_limited;
+  for (std::size_t i = 0; i < kGloveJoints; ++i) {
+    const double step = joint_torque_rate_ * dt;
+    const double limited = std::clamp(forces.joints[i], last_.joints[i] - step, last_.joints[i] + step);
+    reasons.rate_limited = reasons.rate_limited || limited != forces.joints[i];
+    forces.joints[i] = limited;
+  }
+}
+
+std::string to_text(const LimitReasons& reasons, nanoseconds age) {
+  const std::string old = std::to_string(age / std::chrono::milliseconds(1)) + " ms old";
+  if (reasons.is_stopped) return "no force: emergency stop";
+  if (reasons.is_disabled) return "no force: the wearer does not hold the enable switch";
+  if (reasons.is_refused) return "no force: the glove obeys another server";
+  if (reasons.not_finite) return "no force: a number of the glove's state or of the command is not finite";
+  if (reasons.is_implausible) return "no force: the glove's pose jumps, freezes or leaves the workspace";
+  if (reasons.is_state_old) return "no force: the glove's state is " + old;
+  if (reasons.is_command_old) return "no force: the command answers a state that is " + old;
+  if (reasons.is_returning) return "reduced force: it returns softly";
+  if (reasons.mean_limited) return "reduced force: its mean is near the device's limit";
+  if (reasons.power_limited) return "reduced force: its power is at the device's limit";
+  if (reasons.force_limited || reasons.torque_limited || reasons.joints_limited) {
+    return "reduced force: it is at the device's limit";
+  }
+  if (reasons.rate_limited) return "reduced force: it changes as fast as the device's limit allows";
+  return {};
+}
+
+}  // namespace glissade::devices

@@ -1,0 +1,61 @@
+#include "loop/contact_force.h"
+
+#include <algorithm>
+
+namespace glissade::haptics {
+
+namespace {
+
+constexpr double kFastestGhost = 2.0;  // m/s; motion beyond is no reason for a faster change of the force
+
+Wrench scaled(const Wrench& wrench, double factor) {
+  return {factor * wrench.f, factor * wrench.t};
+}
+
+}  // namespace
+
+double force_share(std::chrono::nanoseconds age) noexcept {
+  const std::chrono::duration<double> fading = age - kFullForce;
+  const double x = std::clamp(fading / std::chrono::duration<double>(kForceless - kFullForce), 0.0, 1.0);
+  return 1.0 - x * x * (3.0 - 2.0 * x);
+}
+
+const Wrench& ContactForce::update(const ContactSet& set, std::chrono::nanoseconds age, const Eigen::Isometry3d& X_WG,
+                                   double dt) noexcept {
+  const double ghost_motion = geometry::motion_bound(geometry::displacement_between(X_WG_, X_WG, p_Vref_), radius_);
+  X_WG_ = X_WG;
+  const Wrench wanted = scaled(target(set, X_WG), force_share(age));
+
+  constexpr double kSlew_m_per_s = kSlew_m / 1e-3;
+  const double longest =
+      stiffness_.translational * (kSlew_m_per_s * dt + 2.0 * std::min(ghost_motion, kFastestGhost * dt));
+  const Wrench change{wanted.f - wrench_.f, wanted.t - wrench_.t};
+  const double size = std::max(change.f.norm(), change.t.norm() / radius_);
+  if (size <= longest) {
+    wrench_ = wanted;
+  } else {
+    const Wrench step = scaled(change, longest / size);
+    wrench_ = {wrench_.f + step.f, wrench_.t + step.t};
+  }
+  return wrench_;
+}
+
+Wrench ContactForce::target(const ContactSet& set, const Eigen::Isometry3d& X_WG) noexcept {
+  is_unsolved_ = false;
+  if (set.row_count == 0) return {};
+  const geometry::Displacement wanted = geometry::displacement_between(set.X_WV_of_rows, X_WG * set.X_GT, p_Vref_);
+  const Projection projection = solver_.project(wanted, stiffness_, set.rows());
+  is_unsolved_ = projection.status != ProjectionStatus::kSolved;
+  if (is_unsolved_) return {};
+  Wrench wrench;
+  for (int i = 0; i < projection.active_count; ++i) {
+    const auto number = static_cast<std::size_t>(projection.active[static_cast<std::size_t>(i)]);
+    const ConstraintRow& row = set.row_array[number];
+    const Eigen::Vector3d f = projection.force[static_cast<std::size_t>(i)] * (row.n + set.friction_ratio_W[number]);
+    wrench.f += f;
+    wrench.t += row.r.cross(f);
+  }
+  return wrench;
+}
+
+}  // namespace glissade::haptics

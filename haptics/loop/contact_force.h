@@ -1,0 +1,59 @@
+#pragma once
+
+/// The force of the contacts on the hand *now*, from the newest contact set, which may be some milliseconds old. It
+/// gives the haptic thread a force that follows the hand at its own rate, without any collision query.
+
+#include <chrono>
+
+#include <Eigen/Geometry>
+
+#include <glissade/haptics/contact_set.h>
+#include <glissade/haptics/coupling.h>
+
+#include "solver/projection.h"
+
+namespace glissade::haptics {
+
+/// The force of a set is full up to kFullForce after the ghost pose that the set answers, and zero from kForceless on.
+inline constexpr std::chrono::milliseconds kFullForce{20};
+inline constexpr std::chrono::milliseconds kForceless{100};
+
+/// The share of its force that a set of this age exerts: 1, then smoothly down to 0.
+double force_share(std::chrono::nanoseconds age) noexcept;
+
+/// The wanted displacement of the part is projected on the rows of the set. The force is the sum of the multipliers
+/// times the normals, with the friction that belongs to them. So it never holds the hand back along a frictionless
+/// contact, however old the set is: an old set knows too few contacts or contacts that the part has left, and their
+/// force fades.
+///
+/// From one tick to the next the wrench moves on the straight line to its new value. Two sums of normal forces have
+/// only sums of normal forces between them. Real-time safe: bounded work, no allocation. Not thread-safe.
+class ContactForce {
+ public:
+  /// For a part with the given reference point (in its frame), radius (metres) and coupling, at its start pose.
+  ContactForce(const Eigen::Vector3d& p_Vref, double radius, const CouplingStiffness& stiffness,
+               const Eigen::Isometry3d& X_WV_start)
+      : p_Vref_(p_Vref), radius_(radius), stiffness_(stiffness), solver_(kMaxContactRows), X_WG_(X_WV_start) {}
+
+  /// The wrench on the hand about the reference point for ghost X_WG, `dt` (seconds) after the last call. Exactly zero
+  /// where no contact of the set is in the way. Changes by at most k_t times kSlew_m a millisecond and twice the
+  /// ghost's own motion. The torque counts by its force at the radius.
+  const Wrench& update(const ContactSet& set, std::chrono::nanoseconds age, const Eigen::Isometry3d& X_WG,
+                       double dt) noexcept;
+
+  /// Whether the last call found no solution, so that the force went towards zero.
+  bool is_unsolved() const noexcept { return is_unsolved_; }
+
+ private:
+  Wrench target(const ContactSet& set, const Eigen::Isometry3d& X_WG) noexcept;
+
+  Eigen::Vector3d p_Vref_;
+  double radius_;
+  CouplingStiffness stiffness_;
+  ProjectionSolver solver_;
+  Eigen::Isometry3d X_WG_;
+  Wrench wrench_;
+  bool is_unsolved_ = false;
+};
+
+}  // namespace glissade::haptics

@@ -1,0 +1,419 @@
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <type_traits>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glissade/devices/lcm_glove.h>
+#include <glissade/devices/safety_envelope.h>
+#include <glissade/devices/simulated_glove.h>
+
+#include "safe_command.h"
+
+namespace glissade::devices {
+namespace {
+
+using Eigen::Vector3d;
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using test_support::safe_command;
+
+// What a device takes cannot be made of forces, nor changed.
+static_assert(!std::is_constructible_v<SafeCommand, GloveCommand>);
+static_assert(!std::is_constructible_v<SafeCommand, GloveCommand, LimitReasons>);
+static_assert(!std::is_constructible_v<SafeCommand, GloveCommand, LimitReasons, nanoseconds>);
+static_assert(!std::is_aggregate_v<SafeCommand>);
+static_assert(!std::is_assignable_v<SafeCommand&, GloveCommand>);
+static_assert(!std::is_assignable_v<decltype(std::declval<SafeCommand&>().values()), GloveCommand>);
+static_assert(!std::is_invocable_v<decltype(&GloveDevice::command), GloveDevice&, GloveCommand>);
+static_assert(!std::is_invocable_v<decltype(&SimulatedGlove::step), SimulatedGlove&, nanoseconds, GloveCommand>);
+
+const DeviceDescriptor kDevice = simulated_glove_descriptor();  // 20 N, 1 Nm, 0.5 Nm a joint, 1000 Hz
+constexpr double kForceStep_N = 20.0 / 7.0;                     // in a period
+constexpr double kSlack = 1.0 + 1e-12;
+
+GloveCommand pull(double newtons) {
+  GloveCommand command;
+  command.f_H_W.x() = newtons;
+  return command;
+}
+
+bool is_zero(const SafeCommand& command) {
+  const GloveCommand& values = command.values();
+  return values.f_H_W.isZero(0.0) && values.t_H_W.isZero(0.0) && values.joint_torques == JointValues{};
+}
+
+/// A link of 1 kHz whose states are one millisecond old when they are answered. The clocks of glove and server differ.
+class Envelope : public testing::Test {
+ protected:
+  /// One period with a new state.
+  SafeCommand tick(GloveCommand wanted) {
+    now_ += milliseconds(1);
+    state_.time = now_ + kGloveClock - milliseconds(1);
+    ++state_.sequence;
+    wanted.state_time = state_.time;
+    return checked(envelope_.limit(wanted, state_, now_));
+  }
+
+  /// One period in which no new state came.
+  SafeCommand silent_tick(GloveCommand wanted) {
+    now_ += milliseconds(1);
+    wanted.state_time = state_.time;
+    return checked(envelope_.limit(wanted, state_, now_));
+  }
+
+  SafeCommand settle(const GloveCommand& wanted) {
+    SafeCommand safe;
+    for (int i = 0; i < 500; ++i)
+      safe = tick(wanted);
+    return safe;
+  }
+
+  /// Number of periods until the force is zero.
+  template <typename Tick>
+  int periods_to_zero(Tick&& next) {
+    for (int i = 1; i <= 100; ++i) {
+      if (is_zero(next())) return i;
+    }
+    return -1;
+  }
+
+  /// Every command of every test keeps limit and rate.
+  SafeCommand checked(const SafeCommand& safe) {
+    EXPECT_LE(safe.values().f_H_W.norm(), kDevice.max_force);
+    EXPECT_LE((safe.values().f_H_W - last_f_).norm(), kForceStep_N * kSlack);
+    last_f_ = safe.values().f_H_W;
+    return safe;
+  }
+
+  static constexpr nanoseconds kGloveClock = std::chrono::hours(5);
+
+  SafetyEnvelope envelope_{kDevice};
+  GloveState state_;
+  nanoseconds now_{milliseconds(100)};
+  Vector3d last_f_ = Vector3d::Zero();
+};
+
+TEST_F(Envelope, StartsSoftly) {
+  EXPECT_TRUE(is_zero(tick(pull(10.0))));
+  SafeCommand safe;
+  for (int i = 0; i < 100; ++i)
+    safe = tick(pull(10.0));
+  EXPECT_NEAR(safe.values().f_H_W.x(), 5.0, 1e-9);
+  EXPECT_TRUE(safe.reasons().is_returning);
+  EXPECT_EQ(to_text(safe.reasons(), safe.age()), "reduced force: it returns softly");
+  safe = settle(pull(10.0));
+  EXPECT_EQ(safe.values().f_H_W.x(), 10.0);
+  EXPECT_FALSE(safe.reasons().any());
+}
+
+TEST_F(Envelope, LeavesACommandWithinTheLimitsAlone) {
+  GloveCommand wanted = pull(-20.0);
+  wanted.sequence = 3;
+  wanted.state_sequence = 2;
+  wanted.t_H_W = Vector3d(0.6, 0, 0.8);
+  wanted.joint_torques[7] = -0.5;
+  const SafeCommand safe = settle(wanted);
+  EXPECT_FALSE(safe.reasons().any());
+  EXPECT_EQ(safe.values().f_H_W, wanted.f_H_W);
+  EXPECT_EQ(safe.values().t_H_W, wanted.t_H_W);
+  EXPECT_EQ(safe.values().joint_torques, wanted.joint_torques);
+  EXPECT_EQ(safe.values().sequence, 3);
+  EXPECT_EQ(safe.values().state_sequence, 2);
+}
+
+TEST_F(Envelope, ScalesDownToTheLimitsAndSaysWhich) {
+  GloveCommand wanted;
+  wanted.f_H_W = Vector3d(3e5, 0, 4e5);
+  SafeCommand safe = settle(wanted);
+  EXPECT_TRUE(safe.values().f_H_W.isApprox(Vector3d(12, 0, 16), 1e-14));
+  EXPECT_TRUE(safe.reasons().force_limited);
+  EXPECT_FALSE(safe.reasons().torque_limited || safe.reasons().joints_limited);
+  wanted = {};
+  wanted.t_H_W = Vector3d(0, 2, 0);
+  wanted.joint_torques[3] = -0.6;
+  safe = settle(wanted);
+  EXPECT_TRUE(safe.reasons().torque_limited && safe.reasons().joints_limited);
+  EXPECT_FALSE(safe.reasons().force_limited);
+  EXPECT_EQ(safe.values().t_H_W, Vector3d(0, 1, 0));
+  EXPECT_EQ(safe.values().joint_torques[3], -0.5);
+}
+
+TEST_F(Envelope, TurnsAForceNoFasterThanItsRate) {
+  settle(pull(20.0));
+  const SafeCommand safe = tick(pull(-20.0));
+  EXPECT_NEAR(safe.values().f_H_W.x(), 20.0 - kForceStep_N, 1e-12);
+  EXPECT_TRUE(safe.reasons().rate_limited);
+}
+
+TEST_F(Envelope, StatesThatStopLetTheForceFadeWithinTenPeriodsAndItReturnsSoftly) {
+  settle(pull(15.0));
+  const int periods = periods_to_zero([&] { return silent_tick(pull(15.0)); });
+  EXPECT_GT(periods, 3) << "a late state is no reason";
+  EXPECT_LE(periods, 11) << "ten after the deadline of the first state that is missing";
+  const SafeCommand silent = silent_tick(pull(15.0));
+  EXPECT_TRUE(silent.reasons().is_state_old);
+  EXPECT_THAT(to_text(silent.reasons(), silent.age()),
+              testing::MatchesRegex("no force: the glove's state is 1. ms old"));
+  const SafeCommand back = tick(pull(15.0));
+  EXPECT_LT(back.values().f_H_W.x(), 0.1);
+  EXPECT_EQ(settle(pull(15.0)).values().f_H_W.x(), 15.0);
+}
+
+TEST_F(Envelope, ACommandThatAnswersAnOldStateFadesAlthoughNewStatesCome) {
+  settle(pull(15.0));
+  GloveCommand old = pull(15.0);
+  old.state_time = state_.time;
+  const auto next = [&] {
+    tick(GloveCommand{});  // moves the clocks; its force falls too
+    return checked(envelope_.limit(old, state_, now_));
+  };
+  EXPECT_LE(periods_to_zero(next), 11);
+  EXPECT_TRUE(next().reasons().is_command_old);
+}
+
+TEST_F(Envelope, StatesThatArriveLateAreOldThoughTheyComeRegularly) {
+  settle(pull(15.0));
+  // From now on the link delays each state by 50 ms.
+  for (int i = 0; i < 49; ++i)
+    silent_tick(pull(15.0));
+  const auto delayed_tick = [&] {
+    now_ += milliseconds(1);
+    state_.time = now_ + kGloveClock - milliseconds(50);
+    ++state_.sequence;
+    GloveCommand wanted = pull(15.0);
+    wanted.state_time = state_.time;
+    return envelope_.limit(wanted, state_, now_);
+  };
+  SafeCommand safe;
+  for (int i = 0; i < 200; ++i)
+    safe = delayed_tick();
+  EXPECT_TRUE(is_zero(safe));
+}
+
+TEST_F(Envelope, AJumpOfTheTrackerFadesAndIsTold) {
+  settle(pull(15.0));
+  state_.X_WH.translation().y() += 0.1;
+  EXPECT_TRUE(tick(pull(15.0)).reasons().is_implausible);
+  EXPECT_LE(periods_to_zero([&] { return tick(pull(15.0)); }), 8);
+  const SafeCommand after = settle(pull(15.0));
+  EXPECT_EQ(after.values().f_H_W.x(), 15.0) << "the hand is there now";
+}
+
+TEST_F(Envelope, StatesThatContradictTheDescriptorAreNotBelieved) {
+  const std::vector<std::pair<const char*, void (*)(GloveState&)>> spoilers = {
+      {"speed", [](GloveState& s) { s.v_WH.x() = 11.0; }},
+      {"turn rate", [](GloveState& s) { s.w_WH.z() = 101.0; }},
+      {"workspace", [](GloveState& s) { s.X_WH.translation().x() = 1001.0; }},
+      {"rotation", [](GloveState& s) { s.X_WH.rotate(Eigen::AngleAxisd(1.0, Vector3d::UnitZ())); }}};
+  for (const auto& [name, spoil] : spoilers) {
+    settle(pull(15.0));
+    const GloveState good = state_;
+    spoil(state_);
+    EXPECT_TRUE(tick(pull(15.0)).reasons().is_implausible) << name;
+    state_.X_WH = good.X_WH;
+    state_.v_WH = good.v_WH;
+    state_.w_WH = good.w_WH;
+  }
+}
+
+TEST_F(Envelope, APoseThatContradictsItsVelocityIsNotBelieved) {
+  settle(pull(15.0));
+  state_.v_WH.x() = 8.0;  // the pose stands still
+  tick(pull(15.0));
+  EXPECT_TRUE(tick(pull(15.0)).reasons().is_implausible);
+}
+
+TEST_F(Envelope, AFrozenPoseIsNotBelievedWhereTheDeviceSaysSo) {
+  DeviceDescriptor noisy = kDevice;
+  noisy.frozen = milliseconds(50);
+  envelope_ = SafetyEnvelope(noisy);
+  SafeCommand safe;
+  for (int i = 0; i < 500; ++i) {
+    state_.X_WH.translation().x() = i % 2 == 0 ? 1e-6 : 0.0;
+    safe = tick(pull(15.0));
+  }
+  EXPECT_FALSE(safe.reasons().is_implausible);
+  for (int i = 0; i < 70; ++i)
+    safe = tick(pull(15.0));
+  EXPECT_TRUE(safe.reasons().is_implausible);
+  EXPECT_TRUE(is_zero(safe));
+}
+
+TEST_F(Envelope, AGlovesClockThatGoesBackFadesAndIsFollowed) {
+  settle(pull(15.0));
+  now_ += milliseconds(1);
+  state_.time -= std::chrono::hours(1);
+  ++state_.sequence;
+  const nanoseconds difference = now_ - state_.time;
+  GloveCommand wanted = pull(15.0);
+  wanted.state_time = state_.time;
+  EXPECT_TRUE(checked(envelope_.limit(wanted, state_, now_)).reasons().is_implausible);
+  SafeCommand safe;
+  for (int i = 0; i < 600; ++i) {
+    now_ += milliseconds(1);
+    state_.time = now_ - difference;
+    ++state_.sequence;
+    wanted.state_time = state_.time;
+    safe = checked(envelope_.limit(wanted, state_, now_));
+  }
+  EXPECT_EQ(safe.values().f_H_W.x(), 15.0);
+}
+
+TEST_F(Envelope, WithoutTheEnableSwitchThereIsNoForce) {
+  settle(pull(15.0));
+  state_.is_enabled = false;
+  EXPECT_LE(periods_to_zero([&] { return tick(pull(15.0)); }), 8);
+  state_.is_enabled = true;
+  EXPECT_LT(tick(pull(15.0)).values().f_H_W.x(), 0.1) << "returns softly";
+}
+
+TEST_F(Envelope, AGloveThatObeysAnotherServerGetsNoForce) {
+  state_.obeys_another = true;
+  const SafeCommand safe = settle(pull(15.0));
+  EXPECT_TRUE(is_zero(safe));
+  EXPECT_EQ(to_text(safe.reasons(), safe.age()), "no force: the glove obeys another server");
+}
+
+TEST_F(Envelope, AnEmergencyStopIsForEver) {
+  settle(pull(15.0));
+  envelope_.stop();
+  EXPECT_LE(periods_to_zero([&] { return tick(pull(15.0)); }), 8);
+  EXPECT_TRUE(is_zero(settle(pull(15.0))));
+}
+
+TEST_F(Envelope, ACallerThatPausedGetsNoMoreThanTwoPeriodsOfChange) {
+  for (int i = 0; i < 40; ++i)
+    tick(pull(15.0));
+  const double before = last_f_.x();
+  now_ += std::chrono::seconds(1);
+  state_.time = now_ + kGloveClock - milliseconds(1);
+  ++state_.sequence;
+  GloveCommand wanted = pull(15.0);
+  wanted.state_time = state_.time;
+  const double after = envelope_.limit(wanted, state_, now_).values().f_H_W.x();
+  EXPECT_LE(std::abs(after - before), 2.0 * kForceStep_N * kSlack);
+}
+
+TEST_F(Envelope, LimitsThePowerIntoTheHand) {
+  state_.v_WH.x() = 4.0;  // with 20 N: 80 W, the limit is 40
+  SafeCommand safe;
+  for (int i = 0; i < 500; ++i) {
+    state_.X_WH.translation().x() += 4e-3;
+    safe = tick(pull(20.0));
+  }
+  EXPECT_NEAR(safe.values().f_H_W.x(), 10.0, 1e-9);
+  EXPECT_TRUE(safe.reasons().power_limited);
+  state_.v_WH.x() = -4.0;
+  for (int i = 0; i < 500; ++i) {
+    state_.X_WH.translation().x() -= 4e-3;
+    safe = tick(pull(20.0));
+  }
+  EXPECT_EQ(safe.values().f_H_W.x(), 20.0) << "the hand puts power into the device";
+}
+
+TEST_F(Envelope, LimitsTheMeanForce) {
+  DeviceDescriptor warm = kDevice;
+  warm.max_mean_force = 8.0;
+  envelope_ = SafetyEnvelope(warm);
+  SafeCommand safe;
+  for (int i = 0; i < 60'000; ++i)
+    safe = tick(pull(20.0));
+  EXPECT_LT(safe.values().f_H_W.x(), 8.0 * 1.01);
+  EXPECT_GT(safe.values().f_H_W.x(), 7.0);
+  EXPECT_TRUE(safe.reasons().mean_limited);
+}
+
+TEST_F(Envelope, NumbersThatAreNotFiniteLetTheForceFade) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (std::size_t place = 0; place < 6 + kGloveJoints; ++place) {
+      GloveCommand wanted = settle(pull(15.0)).values();
+      if (place < 3) {
+        wanted.f_H_W[static_cast<Eigen::Index>(place)] = bad;
+      } else if (place < 6) {
+        wanted.t_H_W[static_cast<Eigen::Index>(place) - 3] = bad;
+      } else {
+        wanted.joint_torques[place - 6] = bad;
+      }
+      EXPECT_TRUE(tick(wanted).reasons().not_finite) << place;
+      EXPECT_LE(periods_to_zero([&] { return tick(wanted); }), 8) << place;
+    }
+    state_.X_WH.translation().x() = bad;
+    EXPECT_LE(periods_to_zero([&] { return tick(pull(15.0)); }), 8);
+    state_.X_WH.translation().x() = 0.0;
+  }
+}
+
+TEST(SafetyEnvelope, RefusesADescriptorThatIsNotValid) {
+  DeviceDescriptor broken = kDevice;
+  broken.max_force = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(SafetyEnvelope{broken}, std::invalid_argument);
+}
+
+/// A number of any size, now and then none at all.
+double any_number(std::mt19937_64& random) {
+  std::uniform_int_distribution<int> kind(0, 50);
+  switch (kind(random)) {
+    case 0:
+      return std::numeric_limits<double>::quiet_NaN();
+    case 1:
+      return -std::numeric_limits<double>::infinity();
+    case 2:
+      return 1e30;
+    default:
+      return std::normal_distribution<double>(0.0, std::pow(10.0, kind(random) % 4))(random);
+  }
+}
+
+Vector3d any_vector(std::mt19937_64& random) {
+  return {any_number(random), any_number(random), any_number(random)};
+}
+
+// Ten million calls: GLISSADE_ENVELOPE_CALLS=10000000.
+TEST(SafetyEnvelope, NoRandomCommandOrStateBreaksALimit) {
+  constexpr unsigned kSeed = 11;
+  SCOPED_TRACE(kSeed);
+  std::mt19937_64 random(kSeed);
+  const char* const wish = std::getenv("GLISSADE_ENVELOPE_CALLS");
+  const int calls = wish != nullptr ? std::atoi(wish) : 100'000;
+  SafetyEnvelope server(kDevice);
+  SafetyEnvelope glove(kDevice, 6.0);
+  GloveState state;
+  nanoseconds now(0);
+  GloveCommand last;
+  for (int i = 0; i < calls; ++i) {
+    now += nanoseconds(random() % 1'000'000);
+    const bool is_wild = random() % 8 == 0;
+    ++state.sequence;
+    state.time = is_wild ? nanoseconds(static_cast<std::int64_t>(random())) : now;
+    state.v_WH = is_wild ? any_vector(random) : Vector3d(1e-3 * any_vector(random).array().min(1.0).max(-1.0));
+    state.X_WH.translation() = is_wild ? any_vector(random) : Vector3d::Zero();
+    GloveCommand wanted;
+    wanted.state_time = is_wild ? nanoseconds(static_cast<std::int64_t>(random())) : state.time;
+    wanted.f_H_W = any_vector(random);
+    wanted.t_H_W = any_vector(random);
+    for (double& torque : wanted.joint_torques)
+      torque = any_number(random);
+    const SafeCommand sent = server.limit(wanted, state, now);
+    const GloveCommand out = glove.limit(sent.values(), state, now).values();
+    ASSERT_LE(out.f_H_W.norm(), kDevice.max_force);
+    ASSERT_LE(out.t_H_W.norm(), kDevice.max_torque);
+    ASSERT_LE((out.f_H_W - last.f_H_W).norm(), kForceStep_N * kSlack) << i;
+    ASSERT_LE((out.t_H_W - last.t_H_W).norm(), kDevice.max_torque / 7.0 * kSlack) << i;
+    for (const double torque : out.joint_torques)
+      ASSERT_LE(std::abs(torque), kDevice.max_joint_torque);
+    // The power is limited, or the force falls as fast as its rate allows.
+    const double power = out.f_H_W.dot(state.v_WH) + out.t_H_W.dot(state.w_WH);
+    if (state.v_WH.allFinite() && power > kDevice.max_power * kSlack) {
+      ASSERT_GT((out.f_H_W - last.f_H_W).norm(), 0.0) << i;
+    }
+    last = out;
+  }
+}
+
+}  // namespace
+}  // namespace glissade::devices

@@ -1,0 +1,134 @@
+#include "loop/contact_force.h"
+
+#include <gtest/gtest.h>
+
+#include "poses.h"
+
+namespace glissade::haptics {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using test_support::at;
+
+constexpr double kTick_s = 1e-3;
+constexpr double kStiffness = 1000.0;  // N/m
+constexpr double kRadius = 0.1;
+
+/// The set of a part at the origin whose lowest point may sink by `depth` before it meets a floor.
+ContactSet floor_below(double depth) {
+  ContactSet set;
+  set.sequence = 1;
+  set.row_count = 1;
+  set.row_array[0] = {Vector3d::UnitZ(), Vector3d::Zero(), -depth};
+  set.friction_ratio_W[0].setZero();
+  return set;
+}
+
+ContactForce at_origin() {
+  return {Vector3d::Zero(), kRadius, {kStiffness, 10.0}, Isometry3d::Identity()};
+}
+
+/// Lets the force come up to its set.
+Wrench settle(ContactForce& contacts, const ContactSet& set, const Isometry3d& X_WG) {
+  for (int i = 0; i < 1000; ++i)
+    contacts.update(set, nanoseconds(0), X_WG, kTick_s);
+  return contacts.update(set, nanoseconds(0), X_WG, kTick_s);
+}
+
+TEST(ContactForce, IsZeroToTheBitWhereNothingIsInTheWay) {
+  ContactForce contacts = at_origin();
+  Isometry3d X_WG = at(1e-4, 0.0, -1e-4);
+  X_WG.rotate(Eigen::AngleAxisd(1e-3, Vector3d(1.0, 2.0, 3.0).normalized()));
+  const Wrench& wrench = contacts.update(floor_below(1e-3), nanoseconds(0), X_WG, kTick_s);
+  EXPECT_EQ(wrench.f, Vector3d::Zero());
+  EXPECT_EQ(wrench.t, Vector3d::Zero());
+}
+
+TEST(ContactForce, IsZeroAsLongAsTheSimulationHasNotAnswered) {
+  ContactForce contacts = at_origin();
+  EXPECT_EQ(settle(contacts, ContactSet{}, at(0.0, 0.0, -0.05)).f, Vector3d::Zero());
+}
+
+TEST(ContactForce, AnOldSetDoesNotHoldTheHandBackAlongTheFloor) {
+  ContactForce contacts = at_origin();
+  const ContactSet set = floor_below(1e-3);
+  settle(contacts, set, at(0.0, 0.0, -3e-3));
+  for (int i = 1; i <= 200; ++i) {  // 0.5 m/s
+    const Wrench& wrench = contacts.update(set, milliseconds(i), at(i * 5e-4, 0.0, -3e-3), kTick_s);
+    EXPECT_LE(wrench.f.head<2>().norm(), 1e-9);
+    EXPECT_NEAR(wrench.f.z(), kStiffness * 2e-3 * force_share(milliseconds(i)), 1e-9) << i;
+  }
+}
+
+TEST(ContactForce, FadesWithTheAgeOfTheSet) {
+  EXPECT_EQ(force_share(milliseconds(-1)), 1.0);
+  EXPECT_EQ(force_share(kFullForce), 1.0);
+  EXPECT_EQ(force_share(milliseconds(60)), 0.5);
+  EXPECT_EQ(force_share(kForceless), 0.0);
+  EXPECT_EQ(force_share(std::chrono::hours(1)), 0.0);
+}
+
+TEST(ContactForce, FollowsANewContactNoFasterThanTheSlew) {
+  ContactForce contacts = at_origin();
+  settle(contacts, floor_below(5e-3), at(0.0, 0.0, -3e-3));
+  // A floor appears 2 mm above the ghost, which stands still.
+  double force = 0.0;
+  for (int i = 0; i < 20; ++i) {
+    const double next = contacts.update(floor_below(1e-3), nanoseconds(0), at(0.0, 0.0, -3e-3), kTick_s).f.z();
+    EXPECT_LE(next - force, kStiffness * kSlew_m * (1.0 + 1e-9));
+    force = next;
+  }
+  EXPECT_NEAR(force, 2.0, 1e-9);
+}
+
+TEST(ContactForce, ATrackerThatJumpsDoesNotMakeTheForceJump) {
+  ContactForce contacts = at_origin();
+  const double before = settle(contacts, floor_below(0.0), at(0.0, 0.0, -3e-3)).f.z();
+  const Wrench& wrench = contacts.update(floor_below(0.0), nanoseconds(0), at(0.1, 0.0, -0.1), kTick_s);
+  EXPECT_EQ(wrench.f.head<2>(), Eigen::Vector2d::Zero()) << "along the floor there is no force";
+  EXPECT_LE(wrench.f.z() - before, kStiffness * (kSlew_m + 2.0 * 2e-3) * (1.0 + 1e-9));
+}
+
+TEST(ContactForce, IsASumOfTheNormalsOfBothSetsWhileOneGivesWayToTheOther) {
+  ContactForce contacts = at_origin();
+  settle(contacts, floor_below(0.0), at(2e-3, 0.0, -3e-3));
+  ContactSet wall = floor_below(0.0);
+  wall.row_array[0].n = -Vector3d::UnitX();
+  for (int i = 0; i < 100; ++i) {
+    const Wrench& wrench = contacts.update(wall, nanoseconds(0), at(2e-3, 0.0, -3e-3), kTick_s);
+    EXPECT_GE(wrench.f.z(), 0.0);
+    EXPECT_LE(wrench.f.x(), 0.0);
+    EXPECT_EQ(wrench.f.y(), 0.0);
+  }
+  EXPECT_NEAR(contacts.update(wall, nanoseconds(0), at(2e-3, 0.0, -3e-3), kTick_s).f.x(), -2.0, 1e-9);
+}
+
+TEST(ContactForce, AnOffsetOfTheGraspIsNotFelt) {
+  ContactForce contacts = at_origin();
+  ContactSet set = floor_below(0.0);
+  set.X_GT = at(0.0, 0.0, 0.02);  // the part is to follow 20 mm above the ghost
+  EXPECT_EQ(settle(contacts, set, at(0.0, 0.0, -0.02)).f, Vector3d::Zero());
+}
+
+TEST(ContactForce, FrictionBelongsToItsNormalForce) {
+  ContactForce contacts = at_origin();
+  ContactSet set = floor_below(0.0);
+  set.friction_ratio_W[0] = Vector3d(0.3, 0.0, 0.0);
+  const Wrench wrench = settle(contacts, set, at(0.0, 0.0, -2e-3));
+  EXPECT_TRUE(wrench.f.isApprox(Vector3d(0.6, 0.0, 2.0), 1e-9));
+}
+
+TEST(ContactForce, TheTorqueIsThatOfTheContactsLever) {
+  ContactForce contacts = at_origin();
+  ContactSet set = floor_below(0.0);
+  set.row_array[0].r = Vector3d(0.01, 0.0, 0.0);
+  const Wrench wrench = settle(contacts, set, at(0.0, 0.0, -2e-3));
+  EXPECT_GT(wrench.f.z(), 0.0);
+  EXPECT_TRUE(wrench.t.isApprox(set.row_array[0].r.cross(wrench.f), 1e-12));
+}
+
+}  // namespace
+}  // namespace glissade::haptics
