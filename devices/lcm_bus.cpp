@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -18,12 +20,13 @@
 #include <glissade/base/assert.h>
 #include <glissade/devices/lcm_bus.h>
 
+#include "lcm/lcm_packet.h"
 #include "lcm/lcm_url.h"
+#include "lcm/udpm_socket.h"
 
 namespace glissade::devices {
 namespace {
 
-constexpr std::size_t kLongestChannelName = 15;
 constexpr int kRetryMilliseconds = 10;
 
 /// liblcm interprets the channel of a subscription as a regular expression, so only plain characters are allowed.
@@ -47,8 +50,9 @@ LcmHandle connect_to(const std::string& url) {
   return lcm;
 }
 
-[[noreturn]] void refuse_to_receive(const std::string& url) {
-  throw std::invalid_argument("The LCM address '" + url + "' does not work: nothing can be received from it.");
+[[noreturn]] void refuse_to_receive(const std::string& url, const std::string& reason) {
+  throw std::invalid_argument("The LCM address '" + url + "' does not work: nothing can be received from it" + reason +
+                              ".");
 }
 
 }  // namespace
@@ -64,15 +68,20 @@ class LcmBus::Connection {
   std::int64_t subscribe(const std::string& channel, Handler handler);
   void unsubscribe(const std::string& channel, std::int64_t id);
   bool publish(const std::string& channel, std::span<const std::uint8_t> message);
+  std::uint64_t refused_packets() const noexcept { return refused_packets_.load(std::memory_order_relaxed); }
 
  private:
-  static void dispatch(const lcm_recv_buf_t* buffer, const char* channel, void* connection);
+  static void take_from_memq(const lcm_recv_buf_t* buffer, const char* channel, void* connection);
+  bool take_from_udpm() noexcept;
+  void dispatch(std::string_view channel, std::span<const std::uint8_t> message) noexcept;
   void start_receiving();
-  void receive(int lcm_fd);
+  void receive(int fd);
 
   std::string url_;
-  LcmHandle sender_;  ///< empty over memq, where sending and receiving need the same object
-  LcmHandle receiver_;
+  std::optional<UdpmAddress> udpm_;     ///< none over memq
+  LcmHandle lcm_;                       ///< sends; over memq it receives too
+  std::unique_ptr<UdpmSocket> socket_;  ///< receives over udpm, from the first subscription on
+  std::atomic<std::uint64_t> refused_packets_{0};
   int wake_fd_ = -1;
   std::mutex set_up_mutex_;  ///< one subscription at a time
   std::thread thread_;
@@ -84,10 +93,7 @@ class LcmBus::Connection {
   std::int64_t next_id_ = 0;
 };
 
-LcmBus::Connection::Connection(const std::string& url) : url_(url) {
-  const LcmProvider provider = check_lcm_url(url);
-  receiver_ = connect_to(url);
-  if (provider == LcmProvider::kUdpm) sender_ = connect_to(url);
+LcmBus::Connection::Connection(const std::string& url) : url_(url), udpm_(check_lcm_url(url)), lcm_(connect_to(url)) {
   wake_fd_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   if (wake_fd_ < 0) throw std::system_error(errno, std::generic_category(), "No eventfd for the LCM receive thread");
 }
@@ -109,7 +115,9 @@ std::int64_t LcmBus::Connection::subscribe(const std::string& channel, Handler h
     const std::lock_guard lock(handlers_mutex_);
     return !handlers_.contains(channel);
   }();
-  if (is_new && lcm_subscribe(receiver_.get(), channel.c_str(), dispatch, this) == nullptr) refuse_to_receive(url_);
+  if (is_new && !udpm_ && lcm_subscribe(lcm_.get(), channel.c_str(), take_from_memq, this) == nullptr) {
+    refuse_to_receive(url_, "");
+  }
   if (!thread_.joinable()) start_receiving();
   const std::lock_guard lock(handlers_mutex_);
   handlers_[channel].emplace_back(next_id_, std::move(handler));
@@ -124,36 +132,58 @@ void LcmBus::Connection::unsubscribe(const std::string& channel, std::int64_t id
 
 bool LcmBus::Connection::publish(const std::string& channel, std::span<const std::uint8_t> message) {
   check_channel(channel);
-  lcm_t* lcm = sender_ ? sender_.get() : receiver_.get();
-  return lcm_publish(lcm, channel.c_str(), message.data(), static_cast<unsigned int>(message.size())) == 0;
+  return lcm_publish(lcm_.get(), channel.c_str(), message.data(), static_cast<unsigned int>(message.size())) == 0;
 }
 
-void LcmBus::Connection::dispatch(const lcm_recv_buf_t* buffer, const char* channel, void* connection) {
-  auto& self = *static_cast<Connection*>(connection);
-  const std::lock_guard lock(self.handlers_mutex_);
-  const auto entry = self.handlers_.find(std::string_view(channel));
-  if (entry == self.handlers_.end()) return;
+void LcmBus::Connection::take_from_memq(const lcm_recv_buf_t* buffer, const char* channel, void* connection) {
+  static_cast<Connection*>(connection)
+      ->dispatch(channel, {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+}
+
+bool LcmBus::Connection::take_from_udpm() noexcept {
+  LcmPacket packet;
+  const UdpmSocket::Outcome outcome = socket_->receive(packet);
+  if (outcome == UdpmSocket::Outcome::kMessage) dispatch(packet.channel, packet.message);
+  if (outcome == UdpmSocket::Outcome::kRefused) refused_packets_.fetch_add(1, std::memory_order_relaxed);
+  return outcome != UdpmSocket::Outcome::kError;
+}
+
+void LcmBus::Connection::dispatch(std::string_view channel, std::span<const std::uint8_t> message) noexcept {
+  const std::lock_guard lock(handlers_mutex_);
+  const auto entry = handlers_.find(channel);
+  if (entry == handlers_.end()) return;
   for (const auto& [id, handler] : entry->second) {
     // An exception must not pass through liblcm: it would leave its locks taken.
     try {
-      handler({static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+      handler(message);
     } catch (...) {  // NOLINT(bugprone-empty-catch): promised by Handler
     }
   }
 }
 
 void LcmBus::Connection::start_receiving() {
-  const int lcm_fd = lcm_get_fileno(receiver_.get());
-  if (lcm_fd < 0) refuse_to_receive(url_);
-  thread_ = std::thread([this, lcm_fd] { receive(lcm_fd); });
+  int fd = -1;
+  if (udpm_) {
+    try {
+      socket_ = std::make_unique<UdpmSocket>(*udpm_);
+    } catch (const std::system_error& error) {
+      refuse_to_receive(url_, std::string(" (") + error.what() + ")");
+    }
+    fd = socket_->fd();
+  } else {
+    fd = lcm_get_fileno(lcm_.get());
+    if (fd < 0) refuse_to_receive(url_, "");
+  }
+  thread_ = std::thread([this, fd] { receive(fd); });
 }
 
-void LcmBus::Connection::receive(int lcm_fd) {
-  pollfd files[2] = {{.fd = wake_fd_, .events = POLLIN, .revents = 0}, {.fd = lcm_fd, .events = POLLIN, .revents = 0}};
+void LcmBus::Connection::receive(int fd) {
+  pollfd files[2] = {{.fd = wake_fd_, .events = POLLIN, .revents = 0}, {.fd = fd, .events = POLLIN, .revents = 0}};
+  const auto take = [this] { return socket_ ? take_from_udpm() : lcm_handle(lcm_.get()) >= 0; };
   for (;;) {
     if (poll(files, 2, -1) >= 0) {
       if (files[0].revents != 0) return;
-      if (files[1].revents == 0 || lcm_handle(receiver_.get()) >= 0) continue;
+      if (files[1].revents == 0 || take()) continue;
     } else if (errno == EINTR) {
       continue;
     }
@@ -168,6 +198,10 @@ LcmBus::~LcmBus() = default;
 
 const std::string& LcmBus::url() const noexcept {
   return connection_->url();
+}
+
+std::uint64_t LcmBus::refused_packets() const noexcept {
+  return connection_->refused_packets();
 }
 
 std::unique_ptr<LcmBus::Subscription> LcmBus::subscribe(const std::string& channel, Handler handler) {

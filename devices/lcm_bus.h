@@ -4,7 +4,10 @@
 /// The URL of the connection selects the transport.
 ///
 /// `memq://` connects only senders and receivers that share one LcmBus, and therefore one process. `udpm://` connects
-/// processes and hosts by UDP multicast: messages to `udpm://239.255.76.67:7667?ttl=0` stay on this machine.
+/// processes and hosts by UDP multicast. Messages to `udpm://239.255.76.67:7667?ttl=0` stay on this machine, and with
+/// `ttl=0` only messages of this machine are received. With a greater ttl, only what arrives by the interface to which
+/// this machine routes the group is received. Other programs of LCM (`lcm-logger`, `lcm-spy`) can take part; of their
+/// messages, those in one packet are received, and fragments are dropped.
 
 #include <cstdint>
 #include <functional>
@@ -49,6 +52,9 @@ class LcmBus {
   /// Sends `message`; returns false when the operating system does not accept it. Over memq, a message on a channel
   /// without subscribers is lost at once. Throws std::invalid_argument when the channel's name is not allowed.
   bool publish(const std::string& channel, std::span<const std::uint8_t> message);
+
+  /// Number of packets dropped so far because they came from elsewhere, or were no packet of a message. Any thread.
+  std::uint64_t refused_packets() const noexcept;
 
  private:
   class Connection;

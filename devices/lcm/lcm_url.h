@@ -3,15 +3,23 @@
 /// Checks LCM addresses before liblcm gets them: liblcm silently replaces errors by defaults, and writes reports of its
 /// own to stderr.
 
+#include <optional>
 #include <string>
+
+#include <netinet/in.h>
 
 namespace glissade::devices {
 
-enum class LcmProvider { kMemq, kUdpm };
+/// Where an address of the provider udpm sends to and receives from.
+struct UdpmAddress {
+  sockaddr_in group{};             ///< multicast address and port
+  int ttl = 0;                     ///< 0: messages stay on this machine
+  std::optional<int> buffer_size;  ///< bytes of the receive buffer; without value, the system's default
+};
 
-/// The provider that `url` names. Allowed are `memq://` and `udpm://ADDRESS:PORT`, the latter with or without the
-/// options `ttl` and `recv_buf_size`. ADDRESS is an IPv4 multicast address to which this machine has a route. Throws
-/// std::invalid_argument, naming the URL and its error, for any other. Sends nothing.
-LcmProvider check_lcm_url(const std::string& url);
+/// The address that `url` names; none for `memq://`. Allowed are `memq://` and `udpm://ADDRESS:PORT`, the latter with
+/// or without the options `ttl` and `recv_buf_size`. ADDRESS is an IPv4 multicast address to which this machine has a
+/// route. Throws std::invalid_argument, naming the URL and its error, for any other. Sends nothing.
+std::optional<UdpmAddress> check_lcm_url(const std::string& url);
 
 }  // namespace glissade::devices
