@@ -1,19 +1,24 @@
 #include <chrono>
+#include <cstdint>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/command.h>
+#include <glissade/apps/csv.h>
 #include <glissade/apps/embedded_scene.h>
 #include <glissade/apps/lcm_option.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/reason_teller.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
 #include <glissade/devices/simulated_glove_service.h>
+#include <glissade/realtime/spsc_ring.h>
 
 namespace glissade::apps {
 
@@ -25,7 +30,9 @@ constexpr const char* kGloveFooter =
     "Script: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is a time and the pose X_WH of the hand root, the frame\n"
     "whose pose the glove reports; times increase. Without --script, the hand follows the script of the car door\n"
     "demonstration. The hand waits at the first pose until a haptic server ('glissade run') sends a command, and\n"
-    "yields to the forces that it receives. The process ends at the end of the script, or with Ctrl-C.\n"
+    "yields to the forces that it receives. The process ends at the end of the script, or with Ctrl-C. When the force\n"
+    "fades, the reason goes to standard error.\n"
+    "Columns of --record: docs/file_formats.md in the sources.\n"
     "\n"
     "Example, with 'glissade run' in another terminal:\n"
     "  glissade glove --lcm 'udpm://239.255.76.67:7667?ttl=0' --script hand.csv";
@@ -34,6 +41,58 @@ struct GloveOptions {
   std::string side = "right";
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::string script;
+  std::int64_t device = devices::kDefaultDevice;
+  std::string record;
+};
+
+/// The record of the glove's periods, from its thread to a file.
+class GloveRecord {
+ public:
+  explicit GloveRecord(const std::string& path)
+      : ring_(kRing),
+        csv_(path, {"t_s", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz", "fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm",
+                    "tz_Nm", "age_s", "reason"}) {}
+
+  /// In the thread of the glove.
+  void push(const devices::GloveState& state, const devices::SafeCommand& command) { ring_.push({state, command}); }
+
+  /// Writes what has been pushed since the last call.
+  void write() {
+    Period period;
+    while (ring_.pop(period))
+      write(period);
+  }
+
+  void close() {
+    write();
+    csv_.close();
+    if (ring_.dropped() > 0) std::cerr << "glissade glove: " << ring_.dropped() << " periods are not recorded\n";
+  }
+
+ private:
+  struct Period {
+    devices::GloveState state;
+    devices::SafeCommand command;
+  };
+  static constexpr std::size_t kRing = 4096;  // four seconds
+
+  void add(const Eigen::Vector3d& v) { csv_.add(v.x()).add(v.y()).add(v.z()); }
+
+  void write(const Period& period) {
+    const auto seconds = [](std::chrono::nanoseconds time) { return std::chrono::duration<double>(time).count(); };
+    const devices::SafeCommand& command = period.command;
+    Eigen::Quaterniond q(period.state.X_WH.linear());
+    if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+    csv_.add(seconds(period.state.time));
+    add(period.state.X_WH.translation());
+    csv_.add(q.w()).add(q.x()).add(q.y()).add(q.z());
+    add(command.values().f_H_W);
+    add(command.values().t_H_W);
+    csv_.add(seconds(command.age())).add(to_text(command.reasons(), command.age())).end_row();
+  }
+
+  realtime::SpscRing<Period> ring_;
+  CsvWriter csv_;
 };
 
 int run(const GloveOptions& options) {
@@ -44,7 +103,17 @@ int run(const GloveOptions& options) {
   const StopSignal stop_signal;
   const auto bus = std::make_shared<devices::LcmBus>(options.lcm_url);
   realtime::SteadyClock clock;
-  devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script), clock);
+  std::optional<GloveRecord> record;
+  if (!options.record.empty()) record.emplace(options.record);
+  ReasonTeller teller;
+  const devices::HandSide side = options.side == "left" ? devices::HandSide::kLeft : devices::HandSide::kRight;
+  devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script), clock,
+                                       {.device = options.device, .side = side},
+                                       [&](const devices::GloveState& state, const devices::SafeCommand& command) {
+                                         if (record) record->push(state, command);
+                                         const bool has_server = command.values().sequence > 0;
+                                         if (has_server) teller.note(command.reasons(), command.age());
+                                       });
 
   std::cerr << "glissade glove: the " << options.side << " hand waits for a server at " << options.lcm_url << '\n';
   const auto milliseconds = [](std::chrono::nanoseconds time) { return time / std::chrono::milliseconds(1); };
@@ -53,9 +122,13 @@ int run(const GloveOptions& options) {
     while (glove.script_time() < script.duration() && !StopSignal::requested()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       progress.update(milliseconds(glove.script_time()));
+      if (record) record->write();
+      const std::string news = teller.news();
+      if (!news.empty()) std::cerr << "glissade glove: " << news << '\n';
     }
   }
   glove.stop();
+  if (record) record->close();
   const devices::LinkStatistics link = glove.link_statistics();
   std::cout << "glissade glove: " << milliseconds(glove.script_time()) << " ms of the script, " << link.accepted
             << " commands (" << link.lost << " lost, " << link.rejected() << " refused), greatest force "
@@ -72,9 +145,11 @@ void add_glove_command(CLI::App& app, Command& chosen) {
   command->add_option("--side", options->side, "Hand that wears the glove")
       ->check(CLI::IsMember({"left", "right"}))
       ->capture_default_str();
+  add_device_option(*command, options->device);
   command->add_option("--lcm", options->lcm_url, "LCM address that glove and haptic server share")
       ->capture_default_str();
   command->add_option("--script", options->script, "Trajectory of the hand root (CSV), see below");
+  command->add_option("--record", options->record, "File for the pose of the hand and the force of every period (CSV)");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -28,7 +28,8 @@ constexpr const char* kRunFooter =
     "The part in the hand is the only movable object of the scene. When the first glove state arrives on the channel\n"
     "GLOVE_STATE, the hand grasps the part rigidly; the part stays at its pose in the scene. Commands to the glove\n"
     "go out on GLOVE_COMMAND. The state of every tick, i.e. of every cycle of one millisecond, goes out on\n"
-    "HAPTIC_STATE, for viewers and loggers.\n"
+    "HAPTIC_STATE, for viewers and loggers. When the force fades, because the glove's state is old for instance, the\n"
+    "reason goes to standard error: docs/safety.md in the sources.\n"
     "\n"
     "The run ends --seconds after the first glove state, or with Ctrl-C, and prints a summary. Then brute force\n"
     "checks the visible poses, i.e. the poses at which the part was shown; without --seconds, only those of the last\n"
@@ -42,6 +43,7 @@ constexpr const char* kRunFooter =
 struct RunOptions {
   std::string scene;
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  std::int64_t device = devices::kDefaultDevice;
   double seconds = 0.0;
   bool json = false;
   std::string report;
@@ -60,16 +62,17 @@ int run(const RunOptions& options) {
   // Announced from within the session, after its set-up has succeeded.
   bool said_that_it_waits = false;
   bool said_that_it_holds = false;
-  const auto watch = [&](std::int64_t ticks) {
+  const auto watch = [&](std::int64_t ticks, const std::string& news) {
     if (ticks == 0 && !std::exchange(said_that_it_waits, true)) {
       std::cerr << "glissade run: waiting for a glove at " << options.lcm_url << '\n';
     }
     if (ticks > 0 && !std::exchange(said_that_it_holds, true)) {
       std::cerr << "glissade run: the glove holds '" << scene.part_name << "'\n";
     }
+    if (!news.empty()) std::cerr << "glissade run: " << news << '\n';
   };
   const Session session =
-      run_session(scene, bus, std::llround(options.seconds * 1000.0), &StopSignal::requested, watch);
+      run_session(scene, bus, options.device, std::llround(options.seconds * 1000.0), &StopSignal::requested, watch);
   conclude(session, scene, "glissade run: " + scene.part_name, options.json, options.report);
   return 0;
 }
@@ -83,6 +86,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
   command->add_option("--lcm", options->lcm_url, "LCM address that glove and haptic server share")
       ->capture_default_str();
+  add_device_option(*command, options->device);
   command->add_option("--seconds", options->seconds, "Duration in seconds from the first glove state; 0: until Ctrl-C")
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print the summary as JSON");

@@ -4,9 +4,9 @@
 
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/reason_teller.h>
 #include <glissade/apps/text.h>
 #include <glissade/devices/haptic_state_publisher.h>
-#include <glissade/devices/lcm_glove.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/haptics/offline_run.h>
@@ -57,27 +57,30 @@ Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajec
   return finished(ticks, scene, sliding, recorder, std::nullopt);
 }
 
-Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, std::int64_t ticks,
-                    const std::function<bool()>& should_stop, const std::function<void(std::int64_t)>& watch) {
+Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, std::int64_t device,
+                    std::int64_t ticks, const std::function<bool()>& should_stop,
+                    const std::function<void(std::int64_t, const std::string& news)>& watch) {
   const devices::DeviceDescriptor descriptor = devices::simulated_glove_descriptor();
   haptics::Sliding sliding =
       start_sliding(scene, sliding_options(scene, descriptor, {.max_cycles = 3, .has_search_thread = true}));
   SessionRecorder recorder(ticks > 0 ? static_cast<std::size_t>(ticks) : kKeptTicks);
   devices::HapticStatePublisher publisher(bus);
-  devices::LcmGlove glove(bus, descriptor);
+  devices::LcmGlove glove(bus, descriptor, {.device = device});
+  ReasonTeller teller;
   realtime::SteadyClock clock;
 
   haptics::HapticServer server(glove, sliding, clock,
                                [&](const devices::HapticState& sample) {
                                  recorder.record(sample);
                                  publisher.push(sample);
+                                 teller.note(sample.reasons, sample.state_age);
                                },
                                {.ticks = ticks, .fifo_priority = kFifoPriority});
   realtime::PeriodicThread bare_timer(clock, {.period = haptics::kTickPeriod, .fifo_priority = kFifoPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
   while (!server.is_done() && !server.has_failed() && !should_stop()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    watch(server.ticks());
+    watch(server.ticks(), teller.news());
   }
   server.stop();
   bare_timer.stop();

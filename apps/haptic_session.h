@@ -9,6 +9,7 @@
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/session.h>
 #include <glissade/devices/lcm_bus.h>
+#include <glissade/devices/lcm_glove.h>
 #include <glissade/geometry/pose_trajectory.h>
 
 namespace glissade::apps {
@@ -17,11 +18,12 @@ namespace glissade::apps {
 /// Throws std::invalid_argument, naming scene and part, when the part collides at its start.
 Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks);
 
-/// Runs the haptic server in real time with the glove on `bus`, for `ticks` ticks after the first state of the glove,
-/// or until `should_stop` returns true; `ticks` 0 sets no limit. Calls `watch` ten times a second with the number of
-/// ticks so far. Publishes HAPTIC_STATE on the bus. Throws std::invalid_argument, naming scene and part, when the part
-/// collides at its start.
-Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, std::int64_t ticks,
-                    const std::function<bool()>& should_stop, const std::function<void(std::int64_t)>& watch);
+/// Runs the haptic server in real time with the glove of number `device` on `bus`, for `ticks` ticks after the first
+/// state of the glove, or until `should_stop` returns true; `ticks` 0 sets no limit. Calls `watch` ten times a second
+/// with the number of ticks so far and the news of `ReasonTeller`. Publishes HAPTIC_STATE on the bus. Throws
+/// std::invalid_argument, naming scene and part, when the part collides at its start.
+Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, std::int64_t device,
+                    std::int64_t ticks, const std::function<bool()>& should_stop,
+                    const std::function<void(std::int64_t, const std::string& news)>& watch);
 
 }  // namespace glissade::apps

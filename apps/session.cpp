@@ -73,6 +73,16 @@ void count_states(const std::vector<devices::HapticState>& samples, SessionSumma
   }
 }
 
+void count_limits(const std::vector<devices::HapticState>& samples, SessionSummary& summary) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (std::size_t k = 0; k < devices::kLimitReasons.size(); ++k)
+      summary.limited_ticks[k] += samples[i].reasons.*devices::kLimitReasons[k].flag ? 1 : 0;
+    if (i == 0) continue;
+    const double step = (samples[i].force_on_hand_W - samples[i - 1].force_on_hand_W).norm();
+    summary.force_step_max_N = std::max(summary.force_step_max_N, step);
+  }
+}
+
 }  // namespace
 
 std::vector<devices::HapticState> SessionRecorder::samples() const {
@@ -92,6 +102,7 @@ SessionSummary summarize(const Session& session, const HapticScene& scene) {
   summary.colliding_poses = count_colliding(session.samples, scene);
   summary.hash = hash_of(session.samples);
   count_states(session.samples, summary);
+  count_limits(session.samples, summary);
   std::int64_t in_contact = 0;
   for (const devices::HapticState& sample : session.samples) {
     in_contact += sample.is_in_contact ? 1 : 0;

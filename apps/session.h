@@ -14,6 +14,7 @@
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/collision/frame_result.h>
 #include <glissade/devices/haptic_state.h>
+#include <glissade/devices/safety_envelope.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/realtime/periodic_loop.h>
 
@@ -66,7 +67,9 @@ struct SessionSummary {
   std::array<std::int64_t, devices::kPartStates> state_ticks{};  ///< samples in each state of the part, by its number
   std::int64_t state_changes = 0;                                ///< from one sample to the next
   double force_max_N = 0.0;
-  std::optional<bool> seat_reached;  ///< none when the scene has no goal
+  double force_step_max_N = 0.0;  ///< greatest change of the force from one tick to the next
+  std::array<std::int64_t, devices::kLimitReasons.size()> limited_ticks{};  ///< samples with each of `kLimitReasons`
+  std::optional<bool> seat_reached;                                         ///< none when the scene has no goal
   double seat_distance_m = 0.0;
   std::uint64_t hash = 0;  ///< of all visible poses and wrenches
 };

@@ -81,6 +81,16 @@ std::string states_text(const SessionSummary& summary) {
   return text + formatted("%lld changes", static_cast<long long>(summary.state_changes));
 }
 
+std::string limits_text(const SessionSummary& summary) {
+  std::string text;
+  for (std::size_t i = 0; i < summary.limited_ticks.size(); ++i) {
+    if (summary.limited_ticks[i] == 0) continue;
+    text += formatted("%s%s %.3f s", text.empty() ? "" : ", ", std::string(devices::kLimitReasons[i].name).c_str(),
+                      1e-3 * static_cast<double>(summary.limited_ticks[i]));
+  }
+  return text.empty() ? "none" : text;
+}
+
 Rows rows_of(const SessionSummary& summary, const Session& session) {
   Rows rows;
   rows.emplace_back("objects", std::to_string(session.objects));
@@ -93,6 +103,8 @@ Rows rows_of(const SessionSummary& summary, const Session& session) {
                     formatted("%.1f %%, up to %d contacts", 100.0 * summary.contact_fraction, summary.contacts_max));
   rows.emplace_back("states of the part", states_text(summary));
   rows.emplace_back("greatest force", formatted("%.2f N", summary.force_max_N));
+  rows.emplace_back("greatest step of it", formatted("%.2f N in a tick", summary.force_step_max_N));
+  rows.emplace_back("time with reduced force", limits_text(summary));
   if (summary.seat_reached) {
     rows.emplace_back("seat reached", formatted("%s, %.3f mm from it", *summary.seat_reached ? "yes" : "no",
                                                 1e3 * summary.seat_distance_m));
@@ -175,6 +187,9 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
   nlohmann::json states;
   for (std::size_t i = 0; i < summary.state_ticks.size(); ++i)
     states[name_of_state(i)] = 1e-3 * static_cast<double>(summary.state_ticks[i]);
+  nlohmann::json limits;
+  for (std::size_t i = 0; i < summary.limited_ticks.size(); ++i)
+    limits[std::string(devices::kLimitReasons[i].name)] = 1e-3 * static_cast<double>(summary.limited_ticks[i]);
   nlohmann::json json = {{"ticks", summary.ticks},
                          {"objects", session.objects},
                          {"collision_frames", session.collision_frames},
@@ -194,6 +209,8 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
                          {"seat_reached", nullptr},
                          {"seat_distance_m", nullptr},
                          {"force_max_N", summary.force_max_N},
+                         {"force_step_max_N", summary.force_step_max_N},
+                         {"limited_s", limits},
                          {"tick_us_p50", nullptr},
                          {"tick_us_p99", nullptr},
                          {"lateness_us_p50", nullptr},

@@ -3,9 +3,11 @@
 /// The safety envelope: the only way from a wanted command to a device. It keeps every limit of the device's
 /// descriptor, and lets the force fade whenever its basis is old, implausible or not permitted.
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -40,6 +42,27 @@ struct LimitReasons {
            power_limited || mean_limited;
   }
 };
+
+struct NamedReason {
+  bool LimitReasons::*flag;
+  std::string_view name;
+};
+
+/// All reasons, the most serious first. Messages carry them as bits in this order.
+inline constexpr std::array<NamedReason, 14> kLimitReasons{{{&LimitReasons::is_stopped, "stopped"},
+                                                            {&LimitReasons::is_disabled, "disabled"},
+                                                            {&LimitReasons::is_refused, "refused"},
+                                                            {&LimitReasons::not_finite, "not-finite"},
+                                                            {&LimitReasons::is_implausible, "implausible"},
+                                                            {&LimitReasons::is_state_old, "state-old"},
+                                                            {&LimitReasons::is_command_old, "command-old"},
+                                                            {&LimitReasons::is_returning, "returning"},
+                                                            {&LimitReasons::force_limited, "force"},
+                                                            {&LimitReasons::torque_limited, "torque"},
+                                                            {&LimitReasons::joints_limited, "joints"},
+                                                            {&LimitReasons::rate_limited, "rate"},
+                                                            {&LimitReasons::power_limited, "power"},
+                                                            {&LimitReasons::mean_limited, "mean"}}};
 
 /// A command that a device may execute. Only `SafetyEnvelope` makes one that is not zero.
 class SafeCommand {

@@ -6,8 +6,11 @@
 namespace glissade::devices {
 
 SimulatedGloveService::SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock,
-                                             const LcmGloveHostOptions& options)
-    : host_(std::move(bus), glove.descriptor(), options), glove_(std::move(glove)), state_(glove_.state()) {
+                                             const LcmGloveHostOptions& options, Observer observer)
+    : host_(std::move(bus), glove.descriptor(), options),
+      glove_(std::move(glove)),
+      observer_(std::move(observer)),
+      state_(glove_.state()) {
   thread_ = std::make_unique<realtime::PeriodicThread>(clock, realtime::PeriodicThreadOptions{},
                                                        [this](const realtime::PeriodicTick& now) {
                                                          tick(now.deadline);
@@ -26,6 +29,7 @@ void SimulatedGloveService::tick(std::chrono::nanoseconds deadline) noexcept {
   state_ = glove_.step(passed, command);
   state_.time = deadline;  // a real glove's clock runs on, also while the wearer waits
   send(state_);
+  if (observer_) observer_(state_, command);
   script_time_.store(script_time() + passed, std::memory_order_relaxed);
 }
 

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -22,9 +23,12 @@ namespace glissade::devices {
 /// periods.
 class SimulatedGloveService {
  public:
+  /// Gets the new state and the command that led to it, in each period, in the thread of the service.
+  using Observer = std::function<void(const GloveState&, const SafeCommand&)>;
+
   /// Throws std::invalid_argument when the bus is null or cannot receive. The clock must outlive the service.
   SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock,
-                        const LcmGloveHostOptions& options = {});
+                        const LcmGloveHostOptions& options = {}, Observer observer = {});
 
   /// Elapsed time of the script. Any thread.
   std::chrono::nanoseconds script_time() const noexcept { return script_time_.load(std::memory_order_relaxed); }
@@ -43,6 +47,7 @@ class SimulatedGloveService {
 
   LcmGloveHost host_;
   SimulatedGlove glove_;
+  Observer observer_;                                      ///< may be empty
   GloveState state_;                                       ///< as sent
   std::optional<std::chrono::nanoseconds> last_deadline_;  ///< set once a command has arrived
   std::atomic<std::chrono::nanoseconds> script_time_{std::chrono::nanoseconds(0)};

@@ -22,21 +22,12 @@ constexpr double kLargestTorque = 1e6;  // Nm
 constexpr double kQuaternionTolerance = 1e-3;
 constexpr std::int64_t kLargestTime_ns = std::int64_t{1} << 60;  // 36 years
 
-constexpr std::pair<bool LimitReasons::*, std::int32_t> kReasons[] = {
-    {&LimitReasons::is_stopped, haptic_state_t::REASON_STOPPED},
-    {&LimitReasons::is_disabled, haptic_state_t::REASON_DISABLED},
-    {&LimitReasons::is_refused, haptic_state_t::REASON_REFUSED},
-    {&LimitReasons::not_finite, haptic_state_t::REASON_NOT_FINITE},
-    {&LimitReasons::is_implausible, haptic_state_t::REASON_IMPLAUSIBLE},
-    {&LimitReasons::is_state_old, haptic_state_t::REASON_STATE_OLD},
-    {&LimitReasons::is_command_old, haptic_state_t::REASON_COMMAND_OLD},
-    {&LimitReasons::is_returning, haptic_state_t::REASON_RETURNING},
-    {&LimitReasons::force_limited, haptic_state_t::REASON_FORCE},
-    {&LimitReasons::torque_limited, haptic_state_t::REASON_TORQUE},
-    {&LimitReasons::joints_limited, haptic_state_t::REASON_JOINTS},
-    {&LimitReasons::rate_limited, haptic_state_t::REASON_RATE},
-    {&LimitReasons::power_limited, haptic_state_t::REASON_POWER},
-    {&LimitReasons::mean_limited, haptic_state_t::REASON_MEAN}};
+/// The bit of reason number `i` of `kLimitReasons`.
+constexpr std::int32_t reason_bit(std::size_t i) {
+  return std::int32_t{1} << i;
+}
+static_assert(reason_bit(0) == haptic_state_t::REASON_STOPPED);
+static_assert(reason_bit(kLimitReasons.size() - 1) == haptic_state_t::REASON_MEAN);
 
 void put(const Eigen::Vector3d& vector, double (&out)[3]) {
   std::copy_n(vector.data(), 3, out);
@@ -201,8 +192,8 @@ std::vector<std::uint8_t> encode(const HapticState& state) {
   message.flags = flag(state.is_in_contact, haptic_state_t::FLAG_IN_CONTACT) +
                   flag(state.is_contact_set_late, haptic_state_t::FLAG_CONTACT_SET_LATE) +
                   flag(state.are_contacts_unsolved, haptic_state_t::FLAG_CONTACTS_UNSOLVED);
-  for (const auto& [member, number] : kReasons)
-    message.reasons += flag(state.reasons.*member, number);
+  for (std::size_t i = 0; i < kLimitReasons.size(); ++i)
+    message.reasons += flag(state.reasons.*kLimitReasons[i].flag, reason_bit(i));
   message.state_age_ns = state.state_age.count();
   return to_bytes(message);
 }
@@ -263,8 +254,8 @@ MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noe
   state.is_in_contact = has(haptic_state_t::FLAG_IN_CONTACT);
   state.is_contact_set_late = has(haptic_state_t::FLAG_CONTACT_SET_LATE);
   state.are_contacts_unsolved = has(haptic_state_t::FLAG_CONTACTS_UNSOLVED);
-  for (const auto& [member, number] : kReasons)
-    state.reasons.*member = (message.reasons & number) != 0;
+  for (std::size_t i = 0; i < kLimitReasons.size(); ++i)
+    state.reasons.*kLimitReasons[i].flag = (message.reasons & reason_bit(i)) != 0;
   state.state_age = std::chrono::nanoseconds(message.state_age_ns);
   return MessageError::kNone;
 }

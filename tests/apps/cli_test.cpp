@@ -149,7 +149,7 @@ TEST_F(Cli, AFullDiskBehindStandardOutputIsAFailureToo) {
   for (std::vector<std::string> arguments : calls) {
     SCOPED_TRACE(arguments.front());
     arguments.insert(arguments.begin(), {"/bin/sh", "-c", "exec \"$0\" \"$@\" > /dev/full", GLISSADE_PROGRAM});
-    const ProgramResult result = test_support::run_program(arguments);
+    const ProgramResult result = test_support::Process(arguments).wait();
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_EQ(result.standard_error, "glissade: standard output: not everything could be written\n");
   }

@@ -11,14 +11,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "run_program.h"
+#include "process.h"
 
 namespace glissade::test_support {
 
 /// Runs `glissade` with the arguments and waits for its end.
 inline ProgramResult glissade(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), GLISSADE_PROGRAM);
-  return run_program(arguments);
+  return Process(arguments).wait();
 }
 
 /// The cells of one line of the CSV it prints.
@@ -27,6 +27,7 @@ inline std::vector<std::string> split(const std::string& line) {
   std::istringstream in(line);
   for (std::string cell; std::getline(in, cell, ',');)
     cells.push_back(cell);
+  if (line.ends_with(',')) cells.emplace_back();
   return cells;
 }
 

@@ -1,22 +1,18 @@
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <thread>
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <lcm/lcm.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/devices/simulated_glove.h>
 
 #include "eventually.h"
+#include "raw_sender.h"
 
 namespace glissade::devices {
 namespace {
@@ -32,41 +28,8 @@ class Udpm : public testing::Test {
   }
 };
 
-/// A socket that sends whatever it is told, from an address of this machine.
-class Attacker {
- public:
-  explicit Attacker(const char* from) : fd_(socket(AF_INET, SOCK_DGRAM, 0)) {
-    const sockaddr own = address(from, 0);
-    EXPECT_EQ(bind(fd_, &own, sizeof(own)), 0);
-  }
-  ~Attacker() { close(fd_); }
-  Attacker(const Attacker&) = delete;
-  Attacker& operator=(const Attacker&) = delete;
-
-  void send(const std::string& bytes, const char* to) const {
-    const sockaddr target = address(to, 7667);
-    EXPECT_EQ(sendto(fd_, bytes.data(), bytes.size(), 0, &target, sizeof(target)), static_cast<ssize_t>(bytes.size()));
-  }
-
- private:
-  static sockaddr address(const char* ip, std::uint16_t port) {
-    sockaddr_in internet{};
-    internet.sin_family = AF_INET;
-    internet.sin_port = htons(port);
-    EXPECT_EQ(inet_pton(AF_INET, ip, &internet.sin_addr), 1);
-    sockaddr result{};
-    std::memcpy(&result, &internet, sizeof(result));
-    return result;
-  }
-
-  int fd_;
-};
-
-std::string small_message(const std::string& text) {
-  return std::string("LC02\0\0\0\0TEST\0", 13) + text;
-}
-
 constexpr const char* kGroup = "239.255.76.67";
+constexpr int kPort = 7667;
 
 TEST_F(Udpm, OnlyPacketsToTheGroupFromThisMachineArrive) {
   LcmBus bus(kUrl);
@@ -75,27 +38,25 @@ TEST_F(Udpm, OnlyPacketsToTheGroupFromThisMachineArrive) {
   const auto subscription = bus.subscribe("TEST", [&](std::span<const std::uint8_t> message) {
     ++(std::string(message.begin(), message.end()) == "good" ? good : bad);
   });
-  const Attacker insider("0.0.0.0");  // from the address that this machine's routes choose
-  const Attacker outsider("127.0.0.5");
-  insider.send(small_message("unicast"), "127.0.0.1");
-  insider.send(small_message("unicast"), "127.0.0.2");
-  insider.send(small_message("another group"), "239.255.76.68");
-  outsider.send(small_message("from elsewhere"), kGroup);
-  insider.send(small_message("good"), kGroup);
+  const test_support::RawSender insider("0.0.0.0");
+  const test_support::RawSender outsider("127.0.0.5");
+  insider.send(test_support::small_message("TEST", "unicast"), "127.0.0.1", kPort);
+  insider.send(test_support::small_message("TEST", "unicast"), "127.0.0.2", kPort);
+  insider.send(test_support::small_message("TEST", "another group"), "239.255.76.68", kPort);
+  outsider.send(test_support::small_message("TEST", "from elsewhere"), kGroup, kPort);
+  insider.send(test_support::small_message("TEST", "good"), kGroup, kPort);
   ASSERT_TRUE(eventually([&] { return good == 1; }));
   EXPECT_EQ(bad, 0);
   EXPECT_EQ(bus.refused_packets(), 1U) << "the others do not even reach the socket";
 }
 
-// Fragment 0 of 100 of a message of 100,000 bytes, to be written 256 bytes before its beginning.
 TEST_F(Udpm, AFragmentThatPointsOutsideItsMessageDoesNoHarm) {
   LcmBus bus(kUrl);
   std::atomic<int> received{0};
   const auto subscription = bus.subscribe("TEST", [&](std::span<const std::uint8_t>) { ++received; });
-  const Attacker attacker("0.0.0.0");
-  const std::string head("LC03\0\0\0\x01\x00\x01\x86\xa0\xff\xff\xff\x00\0\0\0\x64TEST\0", 25);
-  attacker.send(head + std::string(1000, 'x'), kGroup);
-  attacker.send(small_message("good"), kGroup);
+  const test_support::RawSender attacker("0.0.0.0");
+  attacker.send(test_support::hostile_fragment("TEST"), kGroup, kPort);
+  attacker.send(test_support::small_message("TEST", "good"), kGroup, kPort);
   ASSERT_TRUE(eventually([&] { return received == 1; }));
   EXPECT_EQ(bus.refused_packets(), 1U);
 }

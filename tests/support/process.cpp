@@ -1,6 +1,7 @@
-#include "run_program.h"
+#include "process.h"
 
 #include <cerrno>
+#include <csignal>
 #include <fstream>
 #include <sstream>
 #include <system_error>
@@ -9,8 +10,6 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include "temporary_folder.h"
 
 namespace glissade::test_support {
 
@@ -24,11 +23,9 @@ std::string content_of(const std::string& path) {
 
 }  // namespace
 
-ProgramResult run_program(const std::vector<std::string>& arguments) {
-  // Files, not pipes: the program can never block on a reader that waits for its other stream.
-  const TemporaryFolder folder;
-  const std::string output = folder.path("output");
-  const std::string error = folder.path("error");
+Process::Process(const std::vector<std::string>& arguments) {
+  const std::string output = folder_.path("output");
+  const std::string error = folder_.path("error");
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -41,17 +38,34 @@ ProgramResult run_program(const std::vector<std::string>& arguments) {
   for (std::string& argument : copies)
     argv.push_back(argument.data());
   argv.push_back(nullptr);
-  pid_t process = 0;
-  const int failure = posix_spawn(&process, argv[0], &actions, nullptr, argv.data(), environ);
+  const int failure = posix_spawn(&id_, argv[0], &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0) throw std::system_error(failure, std::generic_category(), arguments[0]);
+  is_running_ = true;
+}
 
+Process::~Process() {
+  if (!is_running_) return;
+  kill(id_, SIGKILL);
+  waitpid(id_, nullptr, 0);
+}
+
+void Process::signal(int number) const {
+  if (kill(id_, number) != 0) throw std::system_error(errno, std::generic_category(), "kill");
+}
+
+std::string Process::standard_error() const {
+  return content_of(folder_.path("error"));
+}
+
+ProgramResult Process::wait() {
   int status = 0;
-  while (waitpid(process, &status, 0) < 0) {
+  while (waitpid(id_, &status, 0) < 0) {
     if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "waitpid");
   }
+  is_running_ = false;
   const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  return {exit_code, content_of(output), content_of(error)};
+  return {exit_code, content_of(folder_.path("output")), standard_error()};
 }
 
 }  // namespace glissade::test_support

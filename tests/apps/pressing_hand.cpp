@@ -1,0 +1,107 @@
+#include "pressing_hand.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include "glissade_program.h"
+
+namespace glissade::test_support {
+
+namespace {
+
+constexpr const char* kScene =
+    "objects:\n"
+    "  - {name: plate, shape: {type: plate, size_x_m: 1, size_y_m: 1}}\n"
+    "  - name: box\n"
+    "    movable: true\n"
+    "    shape: {type: box, size_x_m: 0.1, size_y_m: 0.06, size_z_m: 0.04}\n"
+    "    pose: {position_m: [0, 0, 0.03]}\n";
+
+void wait_until(const std::function<bool()>& holds) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (!holds()) {
+    if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("waited too long");
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+}  // namespace
+
+GloveRecord::GloveRecord(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  for (const CsvRow& row : rows_of(text.str())) {
+    const auto number = [&](const char* column) { return std::strtod(row.at(column).c_str(), nullptr); };
+    const auto reason = row.find("reason");
+    periods_.push_back({number("t_s"),
+                        {number("fx_N"), number("fy_N"), number("fz_N")},
+                        {number("tx_Nm"), number("ty_Nm"), number("tz_Nm")},
+                        reason == row.end() ? "" : reason->second});
+  }
+}
+
+std::vector<GlovePeriod> GloveRecord::between(std::chrono::nanoseconds first, std::chrono::nanoseconds last) const {
+  const std::chrono::duration<double> low = first;
+  const std::chrono::duration<double> high = last;
+  std::vector<GlovePeriod> result;
+  std::copy_if(periods_.begin(), periods_.end(), std::back_inserter(result),
+               [&](const GlovePeriod& period) { return low.count() <= period.t && period.t <= high.count(); });
+  return result;
+}
+
+double greatest_force(const std::vector<GlovePeriod>& periods) {
+  double greatest = 0.0;
+  for (const GlovePeriod& period : periods)
+    greatest = std::max(greatest, period.f_W.norm());
+  return greatest;
+}
+
+double greatest_sideways(const std::vector<GlovePeriod>& periods) {
+  double greatest = 0.0;
+  for (const GlovePeriod& period : periods)
+    greatest = std::max(greatest, period.f_W.head<2>().norm());
+  return greatest;
+}
+
+PressingHand::PressingHand() {
+  folder_.write("scene.yaml", kScene);
+  glove_ = start_glove(0.0, folder_.path("record.csv"));
+  server_ = start_server();
+  wait_until([this] { return server_->standard_error().find("holds") != std::string::npos; });
+  std::this_thread::sleep_for(std::chrono::milliseconds(800));  // the hand reaches the plate after 0.3 s
+}
+
+std::unique_ptr<Process> PressingHand::start_server() const {
+  return std::make_unique<Process>(
+      std::vector<std::string>{GLISSADE_PROGRAM, "run", folder_.path("scene.yaml"), "--lcm", kServerUrl});
+}
+
+std::unique_ptr<Process> PressingHand::start_glove(double x_m, const std::string& record,
+                                                   const std::string& device) const {
+  const std::string x = std::to_string(x_m);
+  const std::string script =
+      folder_.write("hand_" + x + ".csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0," + x + ",0,0.03,1,0,0,0\n0.3," + x +
+                                              ",0,-0.01,1,0,0,0\n60," + x + ",0,-0.01,1,0,0,0\n");
+  return std::make_unique<Process>(std::vector<std::string>{GLISSADE_PROGRAM, "glove", "--lcm", kGloveUrl, "--script",
+                                                            script, "--record", record, "--device", device});
+}
+
+GloveRecord PressingHand::end_glove() {
+  glove_->signal(SIGINT);
+  EXPECT_EQ(glove_->wait().exit_code, 0);
+  return GloveRecord(folder_.path("record.csv"));
+}
+
+std::string PressingHand::end_server() {
+  server_->signal(SIGINT);
+  const ProgramResult result = server_->wait();
+  EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+  return result.standard_error;
+}
+
+}  // namespace glissade::test_support
