@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include <Eigen/Geometry>
@@ -22,6 +23,8 @@ struct ConstraintRow {
   Eigen::Vector3d n;  ///< unit normal, from the obstacle to the part, world axes
   Eigen::Vector3d r;  ///< from the reference point to the contact point, world axes, metres
   double bound;       ///< metres; at most 0 if the constraint allows standing still
+  /// Metres: `Contact::range`. Infinite for contacts that push: as long as nothing newer is known, their faces go on.
+  double range = std::numeric_limits<double>::infinity();
 
   /// The left side of the constraint: the motion of the contact point along n, in metres.
   double velocity(const geometry::Displacement& d) const { return n.dot(d.v + d.w.cross(r)); }
@@ -39,6 +42,7 @@ struct ContactSet {
   std::chrono::nanoseconds time{0};                        ///< time of the ghost pose that the set answers
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part, as displayed
   Eigen::Isometry3d X_WV_of_rows = Eigen::Isometry3d::Identity();  ///< the pose at which the rows were found
+  Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();          ///< the ghost that the set answers
   /// The target in the frame of the ghost. Not the identity where the hand holds the part at an offset, or where the
   /// metaphor wants another pose than the ghost's.
   Eigen::Isometry3d X_GT = Eigen::Isometry3d::Identity();

@@ -8,6 +8,7 @@
 /// the contacts allow.
 
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -56,6 +57,10 @@ struct Contact {
   /// of a reported contact, 2 µm: 4 brackets, where a bracket is the width at which a bisection ends, 0.5 µm. The
   /// contacts of that method demand a gap of only half a bracket.
   double margin = 0.0;
+  /// Metres: the motion across n_W after which the contact point may have left one of the two features, so that the
+  /// contact no longer says anything. Infinite if no rim of the features is near enough to tell. Along an edge between
+  /// triangles in one plane the feature goes on.
+  double range = std::numeric_limits<double>::infinity();
 
   /// The contact point on the obstacle, metres.
   Eigen::Vector3d q_W() const { return p_W - gap * n_W; }

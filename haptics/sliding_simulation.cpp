@@ -19,6 +19,7 @@ ContactSet make_contact_set(const SlidingResult& result, const SlidingPart& part
   set.time = time;
   set.X_WV = result.X_WV;
   set.X_WV_of_rows = result.X_WV_of_contacts;
+  set.X_WG = result.X_WG;
   set.X_GT = result.X_WG.inverse(Eigen::Isometry) * result.X_WT;
   set.reach = result.reach;
   set.state = result.state;
@@ -41,7 +42,11 @@ ContactSet make_contact_set(const SlidingResult& result, const SlidingPart& part
     const Contact& contact = contacts[static_cast<std::size_t>(scratch[i])];
     set.row_array[i] = {contact.n_W, contact.p_W - p_Wref, std::min(0.0, contact.margin - contact.gap)};
     set.friction_ratio_W[i].setZero();
-    if (contact.force > 0.0) set.friction_ratio_W[i] = contact.friction_W / contact.force;
+    if (contact.force > 0.0) {
+      set.friction_ratio_W[i] = contact.friction_W / contact.force;
+    } else {
+      set.row_array[i].range = contact.range;
+    }
   }
   return set;
 }

@@ -27,7 +27,7 @@ def machine(command, bench):
     packages = {PEER_TITLES[peer]: peer for peer in PEERS}
     if bench == "hull":
         packages = {"libccd": "ccd", "FCL": "fcl", "Bullet": "bullet"}
-    elif bench == "sliding":
+    elif bench in ("sliding", "tick"):
         packages = {}
     versions = [f"{title} {output_of('dpkg-query', '-W', '-f=${Version}', f'lib{package}-dev')}" for title, package in packages.items()]
     facts = [datetime.date.today().isoformat(), cpu[1] if cpu else "unknown processor", output_of("c++", "--version").splitlines()[0]]
@@ -306,8 +306,27 @@ def sliding(figures, _):
     return text
 
 
+TICK_METHODS = {"glissade": "this program", "last-force": "hold the last force", "penalty": "penalty force"}
+
+
+def tick(figures, _):
+    """Worst and mean errors of each scene and age; costs."""
+    header = ["scene, age of the set"] + [f"{title}, {what}" for title in TICK_METHODS.values() for what in ("worst", "r.m.s.")] + ["sideways"]
+    rows = []
+    for case in figures.cases:
+        if not case.endswith("ms"):
+            continue
+        name, age = case.removesuffix("ms").rsplit("-", 1)
+        rows.append([f"{name}, {age} ms"] + [number(figures.get(case, method, metric)) for method in TICK_METHODS
+                                             for metric in ("error_max", "error_rms")]
+                    + [number(figures.get(case, "glissade", "sideways"))])
+    text = table(header, rows)
+    costs = [[case.removeprefix("cost-"), number(figures.get(case, "glissade", "time"))] for case in figures.cases if case.startswith("cost-")]
+    return text + table(["rows of the set, or the envelope alone", "time of a tick, µs"], costs)
+
+
 SECTIONS = {"zachmann": zachmann, "close": queries, "shells": queries, "coherent": coherent, "all-pairs": all_pairs,
-            "build": build, "hull": hull, "scene": scene, "threads": threads, "sliding": sliding}
+            "build": build, "hull": hull, "scene": scene, "threads": threads, "sliding": sliding, "tick": tick}
 
 
 def main():

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The benchmarks of sliding contact. Each adds rows to the bench `sliding`.
+/// The benchmarks of sliding contact. Each adds rows to the bench `sliding`, `run_tick` to the bench `tick`.
 
 #include <cstdint>
 #include <string>
@@ -11,10 +11,12 @@
 namespace glissade::bench {
 
 inline constexpr const char* kSliding = "sliding";
+inline constexpr const char* kTick = "tick";
 
 struct SlidingBenchOptions {
   bool quick = false;
-  std::vector<std::string> scenes;  ///< names of `sliding_scene_names`; empty: all
+  std::vector<std::string> scenes;       ///< names of `sliding_scene_names`; empty: all
+  std::vector<std::string> scene_files;  ///< more scenes for `run_tick`
 };
 
 /// Each scene with each method: case `SCENE`, the metrics of `SlidingAccount`, and p50 and p99 of the tick times.
@@ -35,5 +37,11 @@ void run_nut(const SlidingBenchOptions& options, Results& results);
 /// Random quadratic programmes of 1 to 64 rows: cases `solver-ROWS`, metrics `time` of a projection, `active` contacts,
 /// and `time_per_active`.
 void run_solver(const SlidingBenchOptions& options, Results& results);
+
+/// The force between two answers of the simulation, with sets of different ages: cases `SCENE-AGEms`, subjects
+/// `glissade`, `last-force` (the force of the set is held) and `penalty` (a spring at each contact of the set), metrics
+/// `error_max` and `error_rms` against the simulation's answer to the ghost of that tick, in percent of the peak of the
+/// force; `sideways` on the plane. Cases `cost-ROWS` and `cost-envelope`: metric `time` of a tick, and of the envelope.
+void run_tick(const SlidingBenchOptions& options, Results& results);
 
 }  // namespace glissade::bench

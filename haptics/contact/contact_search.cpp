@@ -1,6 +1,7 @@
 #include "contact/contact_search.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "contact/triangle_features.h"
 
@@ -80,6 +81,24 @@ class Side {
   }
   bool edge_is_nearest(int i, const Eigen::Vector3d& n, double tolerance) const {
     return none_nearer(topology_->apexes_of(edge(i)), corner(i), n, tolerance);
+  }
+  /// Distance of a point of the selected triangle from its edges that are not flat; infinite if all are flat.
+  double distance_to_rims(const Eigen::Vector3d& x) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+      if (topology_->edges()[static_cast<std::size_t>(edge(i))].flat) continue;
+      const Eigen::Vector3d along = corner((i + 1) % 3) - corner(i);
+      least = std::min(least, along.cross(x - corner(i)).norm() / along.norm());
+    }
+    return least;
+  }
+  /// Distance of the point at parameter s of edge i from the ends of its rim; infinite where the rim goes straight on.
+  double distance_to_ends(int i, double s) const {
+    const double length = (corner((i + 1) % 3) - corner(i)).norm();
+    double least = std::numeric_limits<double>::infinity();
+    if (topology_->can_stop(vertex(i))) least = std::max(0.0, s) * length;
+    if (topology_->can_stop(vertex((i + 1) % 3))) least = std::min(least, std::max(0.0, 1.0 - s) * length);
+    return least;
   }
   /// An edge of the selected triangle that is not flat and within `tolerance` (metres) of x; −1 if there is none.
   std::int32_t rim_near(const Eigen::Vector3d& x, double tolerance) const {
@@ -190,18 +209,19 @@ class ContactSearch {
     switch (on.region) {
       case Region::kFace:
         if (gap <= kNearRims * margin_) note_rim(obstacle_.rim_near(on.point, margin_));
-        add(ContactKind::kVertexFace, part_.vertex(i), obstacle_.triangle(), n, x, gap);
+        add(ContactKind::kVertexFace, part_.vertex(i), obstacle_.triangle(), n, x, gap,
+            obstacle_.distance_to_rims(on.point));
         break;
       case Region::kEdge:
         if (obstacle_.owns_edge(on.index) && obstacle_.edge_is_nearest(on.index, n, margin_) &&
             part_.corner_is_nearest(i, n, margin_)) {
-          add(ContactKind::kVertexEdge, part_.vertex(i), obstacle_.edge(on.index), n, x, gap);
+          add(ContactKind::kVertexEdge, part_.vertex(i), obstacle_.edge(on.index), n, x, gap, gap);
         }
         break;
       case Region::kVertex:
         if (obstacle_.owns_corner(on.index) && obstacle_.corner_is_nearest(on.index, n, margin_) &&
             part_.corner_is_nearest(i, n, margin_)) {
-          add(ContactKind::kVertexVertex, part_.vertex(i), obstacle_.vertex(on.index), n, x, gap);
+          add(ContactKind::kVertexVertex, part_.vertex(i), obstacle_.vertex(on.index), n, x, gap, gap);
         }
         break;
     }
@@ -215,10 +235,11 @@ class ContactSearch {
     if (gap < 0.0 || on.region == Region::kVertex) return;  // vertex–vertex is found from the part's side
     if (on.region == Region::kFace) {
       if (gap <= kNearRims * margin_) note_rim(part_.rim_near(on.point, margin_));
-      add(ContactKind::kFaceVertex, part_.triangle(), obstacle_.vertex(i), n, on.point, gap);
+      add(ContactKind::kFaceVertex, part_.triangle(), obstacle_.vertex(i), n, on.point, gap,
+          part_.distance_to_rims(on.point));
     } else if (part_.owns_edge(on.index) && part_.edge_is_nearest(on.index, n, margin_) &&
                obstacle_.corner_is_nearest(i, n, margin_)) {
-      add(ContactKind::kEdgeVertex, part_.edge(on.index), obstacle_.vertex(i), n, on.point, gap);
+      add(ContactKind::kEdgeVertex, part_.edge(on.index), obstacle_.vertex(i), n, on.point, gap, gap);
     }
   }
 
@@ -236,7 +257,8 @@ class ContactSearch {
       const double gap = gap_and_normal(closest.q, closest.p, n);
       if (gap < 0.0 || !part_.edge_is_nearest(i, n, margin_) || !obstacle_.edge_is_nearest(j, n, margin_)) continue;
       if (gap <= (kNearRims + kAsNear) * margin_) crossings_.push_back(contacts_.size());
-      add(ContactKind::kEdgeEdge, part_.edge(i), obstacle_.edge(j), n, closest.p, gap);
+      add(ContactKind::kEdgeEdge, part_.edge(i), obstacle_.edge(j), n, closest.p, gap,
+          std::min(part_.distance_to_ends(i, closest.along_p), obstacle_.distance_to_ends(j, closest.along_q)));
     }
   }
 
@@ -249,10 +271,12 @@ class ContactSearch {
     return gap;
   }
 
+  // The normal of a contact with a vertex or an edge beside it turns with the motion; its gap is a measure of how fast.
   void add(ContactKind kind, std::int32_t part_feature, std::int32_t obstacle_feature, const Eigen::Vector3d& n,
-           const Eigen::Vector3d& p, double gap) {
-    contacts_.push_back({kind, part_.triangle(), obstacle_number_, obstacle_.triangle(), n, p, gap, 0.0, part_feature,
-                         obstacle_feature, part_number_});
+           const Eigen::Vector3d& p, double gap, double range) {
+    Contact& contact = contacts_.emplace_back(Contact{kind, part_.triangle(), obstacle_number_, obstacle_.triangle(), n,
+                                                      p, gap, 0.0, part_feature, obstacle_feature, part_number_});
+    contact.range = range;
   }
 
   std::span<const PlacedBody> bodies_;

@@ -44,18 +44,35 @@ Wrench ContactForce::target(const ContactSet& set, const Eigen::Isometry3d& X_WG
   is_unsolved_ = false;
   if (set.row_count == 0) return {};
   const geometry::Displacement wanted = geometry::displacement_between(set.X_WV_of_rows, X_WG * set.X_GT, p_Vref_);
-  const Projection projection = solver_.project(wanted, stiffness_, set.rows());
+  take_rows_in_range(set, X_WG);
+  const Projection projection = solver_.project(wanted, stiffness_, {rows_.data(), row_count_});
   is_unsolved_ = projection.status != ProjectionStatus::kSolved;
   if (is_unsolved_) return {};
   Wrench wrench;
   for (int i = 0; i < projection.active_count; ++i) {
-    const auto number = static_cast<std::size_t>(projection.active[static_cast<std::size_t>(i)]);
-    const ConstraintRow& row = set.row_array[number];
-    const Eigen::Vector3d f = projection.force[static_cast<std::size_t>(i)] * (row.n + set.friction_ratio_W[number]);
+    const auto active = static_cast<std::size_t>(projection.active[static_cast<std::size_t>(i)]);
+    const ConstraintRow& row = rows_[active];
+    const Eigen::Vector3d& friction_ratio = set.friction_ratio_W[numbers_[active]];
+    const Eigen::Vector3d f = projection.force[static_cast<std::size_t>(i)] * (row.n + friction_ratio);
     wrench.f += f;
     wrench.t += row.r.cross(f);
   }
   return wrench;
+}
+
+// A part in contact moves across the normals as its ghost does.
+void ContactForce::take_rows_in_range(const ContactSet& set, const Eigen::Isometry3d& X_WG) noexcept {
+  const geometry::Displacement moved = geometry::displacement_between(set.X_WG, X_WG, p_Vref_);
+  row_count_ = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(set.row_count); ++i) {
+    const ConstraintRow& row = set.row_array[i];
+    const Eigen::Vector3d u = moved.v + moved.w.cross(row.r);
+    const Eigen::Vector3d across = u - row.n.dot(u) * row.n;
+    if (across.squaredNorm() > row.range * row.range) continue;
+    rows_[row_count_] = row;
+    numbers_[row_count_] = i;
+    ++row_count_;
+  }
 }
 
 }  // namespace glissade::haptics

@@ -121,6 +121,17 @@ TEST(ContactForce, FrictionBelongsToItsNormalForce) {
   EXPECT_TRUE(wrench.f.isApprox(Vector3d(0.6, 0.0, 2.0), 1e-9));
 }
 
+TEST(ContactForce, AContactThatTheGhostHasLeftNoLongerActs) {
+  ContactForce contacts = at_origin();
+  ContactSet set = floor_below(0.0);
+  set.row_array[0].range = 4e-3;
+  EXPECT_NEAR(settle(contacts, set, at(3.9e-3, 0.0, -2e-3)).f.z(), 2.0, 1e-9);
+  EXPECT_NEAR(settle(contacts, set, at(0.0, 0.0, -5e-3)).f.z(), 5.0, 1e-9) << "motion along the normal does not count";
+  EXPECT_EQ(settle(contacts, set, at(4.1e-3, 0.0, -2e-3)).f, Vector3d::Zero());
+  set.X_WG = at(1e-3, 0.0, 0.0);
+  EXPECT_NEAR(settle(contacts, set, at(4.1e-3, 0.0, -2e-3)).f.z(), 2.0, 1e-9) << "the range begins at the set's ghost";
+}
+
 TEST(ContactForce, TheTorqueIsThatOfTheContactsLever) {
   ContactForce contacts = at_origin();
   ContactSet set = floor_below(0.0);

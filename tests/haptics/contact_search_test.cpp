@@ -79,6 +79,18 @@ TEST(ContactSearch, ABoxOnALargePlaneTouchesWithItsFourCornersOnly) {
   }
 }
 
+TEST(ContactSearch, ACornerMayMoveToTheBorderOfThePlateAcrossItsFlatEdges) {
+  // The plate reaches to x = 0.2, the box to x = 0.195; the diagonal of the plate is no border.
+  const auto found = contacts(geometry::make_plate({0.4, 0.4}, 2), geometry::make_box({0.1, 0.1, 0.1}, 12),
+                              pose({0.145, 0.0, 0.0501}));
+  double least = 1.0;
+  for (const Contact& contact : found) {
+    EXPECT_EQ(contact.kind, ContactKind::kVertexFace);
+    least = std::min(least, contact.range);
+  }
+  EXPECT_NEAR(least, 0.005, 1e-12);
+}
+
 TEST(ContactSearch, NormalsOfATessellatedAndFlippedPlaneAllPointStraightUp) {
   const geometry::TriangleMesh plane = geometry::flip_randomly(geometry::make_plate({1.0, 1.0}, 5000), 1);
   const geometry::TriangleMesh box = geometry::flip_randomly(geometry::make_box({0.1, 0.1, 0.1}, 600), 2);
@@ -110,6 +122,7 @@ TEST(ContactSearch, CrossedEdgesMeetAlongTheirCommonNormal) {
   ASSERT_EQ(kinds(found), (std::map<ContactKind, int>{{ContactKind::kEdgeEdge, 1}}));
   EXPECT_TRUE(found[0].n_W.isApprox(Vector3d::UnitZ(), 1e-9));
   EXPECT_NEAR(found[0].gap, 2e-4, 1e-12);
+  EXPECT_NEAR(found[0].range, 0.048, 1e-9) << "to the nearer end of the upper edge";
   EXPECT_TRUE(found[0].p_W.isApprox(Vector3d(0.001, 0.0, 2e-4), 1e-9));
 }
 

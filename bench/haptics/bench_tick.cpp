@@ -1,0 +1,323 @@
+// See `run_tick` in benches.h.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+
+#include <glissade/apps/embedded_scene.h>
+#include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/scene_file.h>
+#include <glissade/apps/trajectory_file.h>
+#include <glissade/devices/safety_envelope.h>
+#include <glissade/devices/simulated_glove.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/haptics/haptic_kernel.h>
+#include <glissade/haptics/sliding.h>
+
+#include "benches.h"
+#include "held_part.h"
+#include "loop/contact_force.h"
+#include "poses.h"
+#include "sliding_account.h"
+#include "sliding_scenes.h"
+
+namespace glissade::bench {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using haptics::ContactSet;
+using std::chrono::milliseconds;
+using test_support::pose;
+using test_support::SlidingScene;
+using test_support::turn;
+
+constexpr double kTick_s = 1e-3;
+constexpr double kSpeed = 0.2;  // of the hand, m/s
+constexpr int kSettling = 400;  // ticks in which the hand comes down; not counted
+
+/// Goes to and fro between −amplitude and amplitude at the speed of the hand, beginning at 0.
+double to_and_fro(int tick, double amplitude) {
+  const double way = std::fmod(kSpeed * kTick_s * std::max(0, tick - kSettling) + amplitude, 4.0 * amplitude);
+  return way < 2.0 * amplitude ? way - amplitude : 3.0 * amplitude - way;
+}
+
+/// How far the hand presses: 3 mm, and a tremor of 1 mm at 5 Hz. Begins 5 mm above.
+double depth(int tick) {
+  if (tick < kSettling) return -5e-3 + 8e-3 * tick / kSettling;
+  return 3e-3 + 1e-3 * std::sin(2.0 * std::numbers::pi * 5.0 * kTick_s * (tick - kSettling));
+}
+
+constexpr int kTicks = 2400;
+
+SlidingScene pressed_on_planes(const SlidingScene& scene, const Vector3d& seat, const Eigen::Quaterniond& q,
+                               std::function<Vector3d(int)> along) {
+  SlidingScene result = scene;
+  result.ticks = kTicks;
+  result.ghost = [=](int tick) { return pose(seat + along(tick) - Vector3d(0.0, 0.0, depth(tick)), q); };
+  result.X_WV_start = result.ghost(0);
+  return result;
+}
+
+SlidingScene plane() {
+  const auto along = [](int tick) { return Vector3d(to_and_fro(tick, 0.1), 0.0, 0.0); };
+  return pressed_on_planes(test_support::plane_scene({1200, true}), {0.0, 0.0, 0.02}, turn(0.0, Vector3d::UnitZ()),
+                           along);
+}
+
+SlidingScene groove() {
+  const SlidingScene scene = test_support::groove_scene({1200, true});
+  const Isometry3d X_WV = scene.ghost(1000);  // 3 mm deep
+  const auto along = [](int tick) { return Vector3d(0.0, to_and_fro(tick, 0.1), 0.0); };
+  return pressed_on_planes(scene, {X_WV.translation().x(), 0.0, X_WV.translation().z() + 3e-3},
+                           Eigen::Quaterniond(X_WV.linear()), along);
+}
+
+/// Along the floor into the corner, 3 mm too far, and out of it again.
+SlidingScene corner() {
+  const auto along = [](int tick) {
+    const double out = 0.05 + to_and_fro(tick, 0.053);
+    return Vector3d(out, out, 0.0);
+  };
+  return pressed_on_planes(test_support::corner_scene({1200, true}), 0.5 * test_support::kBoxSize,
+                           turn(0.0, Vector3d::UnitZ()), along);
+}
+
+/// A ball of 20 mm over one of 100 mm.
+SlidingScene sphere() {
+  SlidingScene scene;
+  scene.name = "sphere";
+  scene.obstacles.push_back(test_support::obstacle_of(geometry::make_sphere(0.1, 20'000)));
+  scene.part_V = test_support::part_of(geometry::make_sphere(0.02, 2000));
+  scene.ticks = kTicks;
+  scene.ghost = [](int tick) {
+    const double angle = to_and_fro(tick, 0.1) / 0.12;
+    return pose((0.12 - depth(tick)) * Vector3d(std::sin(angle), 0.0, std::cos(angle)));
+  };
+  scene.X_WV_start = scene.ghost(0);
+  return scene;
+}
+
+/// The part of a scene file led by the script of the hand, which moves at 0.2 m/s in the mean.
+SlidingScene scripted(const std::string& name, const apps::Scene& file, const geometry::PoseTrajectory& script_X_WH) {
+  const apps::HapticScene haptic = make_haptic_scene(file, only_movable_object(file));
+  SlidingScene scene;
+  scene.name = name;
+  scene.obstacles = haptic.obstacles;
+  scene.part_V = haptic.part_V;
+  scene.X_WV_start = haptic.X_WV_start;
+  double way = 0.0;
+  constexpr int kPieces = 10'000;
+  Isometry3d last = script_X_WH.pose_at(script_X_WH.first_time());
+  for (int i = 1; i <= kPieces; ++i) {
+    const Isometry3d next = script_X_WH.pose_at(script_X_WH.first_time() + i * script_X_WH.duration() / kPieces);
+    way += (next.translation() - last.translation()).norm();
+    last = next;
+  }
+  scene.ticks = static_cast<int>(way / (kSpeed * kTick_s));
+  const geometry::PoseTrajectory scaled = script_X_WH.time_scaled(milliseconds(scene.ticks));
+  const Isometry3d X_HG = scaled.pose_at(scaled.first_time()).inverse() * scene.X_WV_start;
+  scene.ghost = [=](int tick) -> Isometry3d { return scaled.pose_at(scaled.first_time() + milliseconds(tick)) * X_HG; };
+  return scene;
+}
+
+SlidingScene car_door() {
+  return scripted("car-door", apps::parse_scene(std::string(apps::embedded_scene_yaml()), "car_door.yaml", "."),
+                  apps::parse_trajectory(apps::embedded_scene_script(), "car_door_script.csv"));
+}
+
+SlidingScene from_file(const std::string& path) {
+  const apps::Scene file = apps::read_scene(path);
+  if (!file.script_path) throw std::invalid_argument(path + ": the scene has no script for the hand to follow");
+  return scripted(std::filesystem::path(path).stem().string(), file, apps::read_trajectory(*file.script_path));
+}
+
+constexpr int kSlower = 10;
+
+/// The simulation's answers to all ghosts of a scene, and the force that is right at each: that of a part which another
+/// simulation has led ten times as slowly, so that it is near its rest.
+struct Answers {
+  std::vector<Isometry3d> X_WG;
+  std::vector<ContactSet> sets;
+  std::vector<Vector3d> exact;
+};
+
+Answers answers_of(const SlidingScene& scene, int ticks) {
+  haptics::SlidingOptions options;
+  options.metaphor = haptics::Metaphor::kForceFeedback;
+  haptics::Sliding sliding(scene.obstacles, scene.part_V, scene.X_WV_start, options);
+  haptics::Sliding slow(scene.obstacles, scene.part_V, scene.X_WV_start, options);
+  Answers answers;
+  std::vector<std::int32_t> scratch;
+  for (int tick = 0; tick < ticks; ++tick) {
+    answers.X_WG.push_back(scene.ghost(tick));
+    sliding.advance(answers.X_WG.back());
+    answers.sets.push_back(make_contact_set(sliding.result(), *scene.part_V, tick + 1, milliseconds(tick), scratch));
+    const Isometry3d X_WG_last = scene.ghost(std::max(0, tick - 1));
+    for (int step = 1; step <= kSlower; ++step)
+      slow.advance(test_support::between(X_WG_last, answers.X_WG.back(), static_cast<double>(step) / kSlower));
+    const haptics::SlidingResult& rest = slow.result();
+    const geometry::Displacement lag = geometry::displacement_between(rest.X_WV, rest.X_WT, scene.part_V->p_Vref());
+    answers.exact.emplace_back(haptics::spring_wrench(slow.stiffness(), lag).f);
+  }
+  return answers;
+}
+
+/// A spring of 1 N/m at each contact of the set that the ghost violates.
+Vector3d unit_penalty(const ContactSet& set, const Isometry3d& X_WG, const haptics::SlidingPart& part) {
+  const geometry::Displacement d = geometry::displacement_between(set.X_WV_of_rows, X_WG * set.X_GT, part.p_Vref());
+  Vector3d sum = Vector3d::Zero();
+  for (const haptics::ConstraintRow& row : set.rows()) {
+    const double violation = row.bound - row.velocity(d);
+    if (violation > 0.0) sum += violation * row.n;
+  }
+  return sum;
+}
+
+/// The stiffness of these springs with which the force of new sets fits the scene best, N/m.
+double best_penalty_stiffness(const Answers& answers, const haptics::SlidingPart& part) {
+  double products = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < answers.sets.size(); ++i) {
+    const Vector3d unit = unit_penalty(answers.sets[i], answers.X_WG[i], part);
+    products += unit.dot(answers.exact[i]);
+    squares += unit.squaredNorm();
+  }
+  return squares > 0.0 ? products / squares : 0.0;
+}
+
+class Errors {
+ public:
+  void add(const Vector3d& force, const Vector3d& exact) {
+    const double error = (force - exact).norm();
+    greatest_ = std::max(greatest_, error);
+    sum_of_squares_ += error * error;
+    ++count_;
+  }
+
+  void report(const std::string& name, const std::string& subject, double peak, Results& results) const {
+    results.add({kTick, name, subject, "error_max", 100.0 * greatest_ / peak, "%"});
+    results.add({kTick, name, subject, "error_rms", 100.0 * std::sqrt(sum_of_squares_ / count_) / peak, "%"});
+  }
+
+ private:
+  double greatest_ = 0.0;
+  double sum_of_squares_ = 0.0;
+  double count_ = 0.0;
+};
+
+void run_scene(const SlidingScene& scene, bool quick, Results& results) {
+  std::fprintf(stderr, "tick %s\n", scene.name.c_str());
+  const int ticks = std::min(scene.ticks, quick ? kSettling + 400 : scene.ticks);
+  const Answers answers = answers_of(scene, ticks);
+  double peak = 0.0;
+  for (const Vector3d& force : answers.exact)
+    peak = std::max(peak, force.norm());
+  results.add({kTick, scene.name, "exact", "peak", peak, "N"});
+  if (peak == 0.0) return;
+  const haptics::CouplingStiffness stiffness = haptics::default_stiffness(scene.part_V->radius());
+  const double penalty_stiffness = best_penalty_stiffness(answers, *scene.part_V);
+  for (const int age : {0, 1, 5, 20, 50}) {
+    haptics::ContactForce contacts(scene.part_V->p_Vref(), scene.part_V->radius(), stiffness, scene.X_WV_start);
+    Errors ours;
+    Errors held;
+    Errors penalty;
+    double sideways = 0.0;
+    for (int tick = age; tick < ticks; ++tick) {
+      const auto now = static_cast<std::size_t>(tick);
+      const std::size_t then = now - static_cast<std::size_t>(age);
+      const ContactSet& set = answers.sets[then];
+      const Vector3d force = contacts.update(set, milliseconds(age), answers.X_WG[now], kTick_s).f;
+      ours.add(force, answers.exact[now]);
+      held.add(answers.exact[then], answers.exact[now]);
+      penalty.add(penalty_stiffness * unit_penalty(set, answers.X_WG[now], *scene.part_V), answers.exact[now]);
+      if (force.z() > 0.1 * peak) sideways = std::max(sideways, force.head<2>().norm() / force.z());
+    }
+    const std::string name = scene.name + "-" + std::to_string(age) + "ms";
+    ours.report(name, "glissade", peak, results);
+    held.report(name, "last-force", peak, results);
+    penalty.report(name, "penalty", peak, results);
+    if (scene.name == "plane") results.add({kTick, name, "glissade", "sideways", 100.0 * sideways, "%"});
+  }
+}
+
+/// A set of `rows` contacts on the lower side of the part.
+ContactSet random_set(int rows) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(rows));
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto vector = [&] { return Vector3d(uniform(random), uniform(random), uniform(random)); };
+  ContactSet set;
+  set.sequence = 1;
+  set.row_count = rows;
+  for (int i = 0; i < rows; ++i) {
+    const Vector3d n = (0.5 * vector() + Vector3d::UnitZ()).normalized();
+    set.row_array[static_cast<std::size_t>(i)] = {n, 0.05 * vector(), -1e-5 * (1.0 + uniform(random))};
+    set.friction_ratio_W[static_cast<std::size_t>(i)].setZero();
+  }
+  return set;
+}
+
+/// Median time of a call of `tick(i)`, µs.
+double median_us(const std::function<void(int)>& tick) {
+  constexpr int kPass = 1000;
+  std::vector<double> passes;
+  for (int pass = 0; pass < 101; ++pass) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < kPass; ++i)
+      tick(pass * kPass + i);
+    const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
+    passes.push_back(time.count() / kPass);
+  }
+  return quantile(passes, 0.5);
+}
+
+devices::GloveState state_at(int tick) {
+  devices::GloveState state;
+  state.sequence = tick;
+  state.time = milliseconds(tick);
+  const double phase = 0.01 * tick;
+  state.X_WH.translation() = 1e-3 * Vector3d(std::sin(phase), std::cos(phase), -1.0 + 0.3 * std::sin(2.0 * phase));
+  return state;
+}
+
+void run_costs(Results& results) {
+  std::fprintf(stderr, "tick costs\n");
+  const auto part = test_support::part_of(geometry::make_box(test_support::kBoxSize, 12));
+  const devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
+  for (const int rows : {0, 12, 64}) {
+    ContactSet set = random_set(rows);
+    haptics::HapticKernel kernel(*part, haptics::default_stiffness(part->radius()), device, Isometry3d::Identity());
+    const double us = median_us([&](int i) {
+      set.time = milliseconds(i);
+      kernel.tick(state_at(i), set, milliseconds(i));
+    });
+    results.add({kTick, "cost-" + std::to_string(rows), "glissade", "time", us, "us"});
+  }
+  devices::SafetyEnvelope envelope(device);
+  const double us = median_us([&](int i) {
+    devices::GloveCommand command;
+    command.state_time = milliseconds(i);
+    command.f_H_W.z() = 10.0;
+    envelope.limit(command, state_at(i), milliseconds(i));
+  });
+  results.add({kTick, "cost-envelope", "glissade", "time", us, "us"});
+}
+
+}  // namespace
+
+void run_tick(const SlidingBenchOptions& options, Results& results) {
+  for (const SlidingScene& scene : {plane(), groove(), corner(), sphere(), car_door()})
+    run_scene(scene, options.quick, results);
+  for (const std::string& path : options.scene_files)
+    run_scene(from_file(path), options.quick, results);
+  run_costs(results);
+}
+
+}  // namespace glissade::bench
