@@ -82,7 +82,7 @@ Session run_in_real_time(const Demo& demo, const geometry::PoseTrajectory& scrip
   realtime::SteadyClock clock;
   devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script_X_WH), clock);
   ProgressBar progress("real time", ticks);
-  return run_session(demo.scene, bus, devices::kDefaultDevice, ticks, &StopSignal::requested,
+  return run_session(demo.scene, bus, {.ticks = ticks}, &StopSignal::requested,
                      [&](std::int64_t done, const std::string&) { progress.update(done); });
 }
 

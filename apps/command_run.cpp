@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <iostream>
@@ -21,13 +22,12 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kRunDescription =
-    "Run the haptic server: receive glove states over LCM and send forces, 1000 times a second";
+constexpr const char* kRunDescription = "Run the haptic server: receive glove states over LCM and send forces";
 
 constexpr const char* kRunFooter =
     "The part in the hand is the only movable object of the scene. When the first glove state arrives on the channel\n"
     "GLOVE_STATE, the hand grasps the part rigidly; the part stays at its pose in the scene. Commands to the glove\n"
-    "go out on GLOVE_COMMAND. The state of every tick, i.e. of every cycle of one millisecond, goes out on\n"
+    "go out on GLOVE_COMMAND. The state of every tick, i.e. of every cycle of the haptic loop, goes out on\n"
     "HAPTIC_STATE, for viewers and loggers. When the force fades, because the glove's state is old for instance, the\n"
     "reason goes to standard error: docs/safety.md in the sources.\n"
     "\n"
@@ -45,6 +45,7 @@ struct RunOptions {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::int64_t device = devices::kDefaultDevice;
   double seconds = 0.0;
+  double rate_hz = 1000.0;
   bool json = false;
   std::string report;
 };
@@ -53,6 +54,12 @@ int run(const RunOptions& options) {
   if (!(options.seconds >= 0.0 && options.seconds <= 86400.0)) {
     throw std::invalid_argument("--seconds: must lie between 0 and 86400, not " + format_number(options.seconds));
   }
+  if (!(options.rate_hz >= 500.0 && options.rate_hz <= 5000.0)) {
+    throw std::invalid_argument("--rate-hz: must lie between 500 and 5000, not " + format_number(options.rate_hz));
+  }
+  const RunSettings settings{.device = options.device,
+                             .ticks = std::llround(options.seconds * options.rate_hz),
+                             .period = std::chrono::nanoseconds(std::llround(1e9 / options.rate_hz))};
   check_reaches_other_processes(options.lcm_url);
   const Scene file = read_scene(options.scene);
   const HapticScene scene = make_haptic_scene(file, only_movable_object(file));
@@ -71,8 +78,7 @@ int run(const RunOptions& options) {
     }
     if (!news.empty()) std::cerr << "glissade run: " << news << '\n';
   };
-  const Session session =
-      run_session(scene, bus, options.device, std::llround(options.seconds * 1000.0), &StopSignal::requested, watch);
+  const Session session = run_session(scene, bus, settings, &StopSignal::requested, watch);
   conclude(session, scene, "glissade run: " + scene.part_name, options.json, options.report);
   return 0;
 }
@@ -88,6 +94,8 @@ void add_run_command(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   add_device_option(*command, options->device);
   command->add_option("--seconds", options->seconds, "Duration in seconds from the first glove state; 0: until Ctrl-C")
+      ->capture_default_str();
+  command->add_option("--rate-hz", options->rate_hz, "Rate of the haptic loop, 500 to 5000 ticks a second")
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print the summary as JSON");
   command->add_option("--report", options->report,

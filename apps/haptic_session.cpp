@@ -36,11 +36,17 @@ haptics::Sliding start_sliding(const HapticScene& scene, const haptics::SlidingO
   }
 }
 
-Session finished(std::int64_t ticks, const HapticScene& scene, const haptics::Sliding& sliding,
-                 const SessionRecorder& recorder, std::optional<RealTimeFigures> real_time) {
+Session finished(std::int64_t ticks, std::chrono::nanoseconds period, const HapticScene& scene,
+                 const haptics::Sliding& sliding, const SessionRecorder& recorder,
+                 std::optional<RealTimeFigures> real_time) {
   const haptics::SearchStatistics work = sliding.search_statistics();
-  return {
-      ticks, std::ssize(scene.obstacles) + 1, work.searches, work.reports, recorder.samples(), std::move(real_time)};
+  return {ticks,
+          period,
+          std::ssize(scene.obstacles) + 1,
+          work.searches,
+          work.reports,
+          recorder.samples(),
+          std::move(real_time)};
 }
 
 }  // namespace
@@ -54,18 +60,26 @@ Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajec
     recorder.record(sample);
     progress.update(recorder.total());
   });
-  return finished(ticks, scene, sliding, recorder, std::nullopt);
+  return finished(ticks, haptics::kTickPeriod, scene, sliding, recorder, std::nullopt);
 }
 
-Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, std::int64_t device,
-                    std::int64_t ticks, const std::function<bool()>& should_stop,
+Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, const RunSettings& settings,
+                    const std::function<bool()>& should_stop,
                     const std::function<void(std::int64_t, const std::string& news)>& watch) {
-  const devices::DeviceDescriptor descriptor = devices::simulated_glove_descriptor();
-  haptics::Sliding sliding =
-      start_sliding(scene, sliding_options(scene, descriptor, {.max_cycles = 3, .has_search_thread = true}));
-  SessionRecorder recorder(ticks > 0 ? static_cast<std::size_t>(ticks) : kKeptTicks);
+  const haptics::SlidingRules rules{.max_cycles = 3, .has_search_thread = true};
+  start_sliding(scene,
+                sliding_options(scene, devices::simulated_glove_descriptor(), {}));  // errors come before waiting
+  std::optional<devices::GloveInfo> info;
+  while (!info && !should_stop()) {
+    watch(0, "");
+    info = devices::find_glove(bus, settings.device, std::chrono::milliseconds(100));
+  }
+  // Without a glove, the session below ends at once.
+  const devices::DeviceDescriptor descriptor = info ? info->descriptor : devices::simulated_glove_descriptor();
+  haptics::Sliding sliding = start_sliding(scene, sliding_options(scene, descriptor, rules));
+  SessionRecorder recorder(settings.ticks > 0 ? static_cast<std::size_t>(settings.ticks) : kKeptTicks);
   devices::HapticStatePublisher publisher(bus);
-  devices::LcmGlove glove(bus, descriptor, {.device = device});
+  devices::LcmGlove glove(bus, descriptor, {.device = settings.device});
   ReasonTeller teller;
   realtime::SteadyClock clock;
 
@@ -73,10 +87,10 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
                                [&](const devices::HapticState& sample) {
                                  recorder.record(sample);
                                  publisher.push(sample);
-                                 teller.note(sample.reasons, sample.state_age);
+                                 teller.note(sample.reasons, sample.state_age, sample.contact_set_age);
                                },
-                               {.ticks = ticks, .fifo_priority = kFifoPriority});
-  realtime::PeriodicThread bare_timer(clock, {.period = haptics::kTickPeriod, .fifo_priority = kFifoPriority},
+                               {.period = settings.period, .ticks = settings.ticks, .fifo_priority = kFifoPriority});
+  realtime::PeriodicThread bare_timer(clock, {.period = settings.period, .fifo_priority = kFifoPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
   while (!server.is_done() && !server.has_failed() && !should_stop()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -85,7 +99,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   server.stop();
   bare_timer.stop();
   if (server.has_failed()) throw std::runtime_error("the simulation failed: " + server.failure());
-  return finished(server.ticks(), scene, sliding, recorder,
+  return finished(server.ticks(), settings.period, scene, sliding, recorder,
                   RealTimeFigures{server.statistics(), bare_timer.statistics()});
 }
 

@@ -2,6 +2,7 @@
 
 /// Runs of the haptic loop for the commands `demo` and `run`.
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,6 +12,7 @@
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/geometry/pose_trajectory.h>
+#include <glissade/haptics/coupling.h>
 
 namespace glissade::apps {
 
@@ -18,12 +20,18 @@ namespace glissade::apps {
 /// Throws std::invalid_argument, naming scene and part, when the part collides at its start.
 Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks);
 
-/// Runs the haptic server in real time with the glove of number `device` on `bus`, for `ticks` ticks after the first
-/// state of the glove, or until `should_stop` returns true; `ticks` 0 sets no limit. Calls `watch` ten times a second
+struct RunSettings {
+  std::int64_t device = devices::kDefaultDevice;           ///< number of the glove
+  std::int64_t ticks = 0;                                  ///< after the first state of the glove; 0: no limit
+  std::chrono::nanoseconds period = haptics::kTickPeriod;  ///< of the haptic loop
+};
+
+/// Runs the haptic server in real time with a glove on `bus`, until its ticks are done or `should_stop` returns true.
+/// Calls `watch` ten times a second
 /// with the number of ticks so far and the news of `ReasonTeller`. Publishes HAPTIC_STATE on the bus. Throws
 /// std::invalid_argument, naming scene and part, when the part collides at its start.
-Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, std::int64_t device,
-                    std::int64_t ticks, const std::function<bool()>& should_stop,
+Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, const RunSettings& settings,
+                    const std::function<bool()>& should_stop,
                     const std::function<void(std::int64_t, const std::string& news)>& watch);
 
 }  // namespace glissade::apps

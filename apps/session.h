@@ -50,6 +50,7 @@ struct RealTimeFigures {
 /// A finished run.
 struct Session {
   std::int64_t ticks = 0;
+  std::chrono::nanoseconds period{};  ///< of the ticks
   std::int64_t objects = 0;           ///< of the scene, including the part
   std::int64_t collision_frames = 0;  ///< searches for contacts, one frame each
   collision::FrameReport collision;   ///< sum of the reports of these frames

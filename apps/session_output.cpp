@@ -81,12 +81,16 @@ std::string states_text(const SessionSummary& summary) {
   return text + formatted("%lld changes", static_cast<long long>(summary.state_changes));
 }
 
-std::string limits_text(const SessionSummary& summary) {
+double tick_seconds(const Session& session) {
+  return std::chrono::duration<double>(session.period).count();
+}
+
+std::string limits_text(const SessionSummary& summary, double tick_s) {
   std::string text;
   for (std::size_t i = 0; i < summary.limited_ticks.size(); ++i) {
     if (summary.limited_ticks[i] == 0) continue;
     text += formatted("%s%s %.3f s", text.empty() ? "" : ", ", std::string(devices::kLimitReasons[i].name).c_str(),
-                      1e-3 * static_cast<double>(summary.limited_ticks[i]));
+                      tick_s * static_cast<double>(summary.limited_ticks[i]));
   }
   return text.empty() ? "none" : text;
 }
@@ -104,7 +108,7 @@ Rows rows_of(const SessionSummary& summary, const Session& session) {
   rows.emplace_back("states of the part", states_text(summary));
   rows.emplace_back("greatest force", formatted("%.2f N", summary.force_max_N));
   rows.emplace_back("greatest step of it", formatted("%.2f N in a tick", summary.force_step_max_N));
-  rows.emplace_back("time with reduced force", limits_text(summary));
+  rows.emplace_back("time with reduced force", limits_text(summary, tick_seconds(session)));
   if (summary.seat_reached) {
     rows.emplace_back("seat reached", formatted("%s, %.3f mm from it", *summary.seat_reached ? "yes" : "no",
                                                 1e3 * summary.seat_distance_m));
@@ -184,12 +188,13 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
     };
     return nlohmann::json{{"in", each(sum.in)}, {"out", each(sum.out)}, {"us", each(microseconds(sum.time))}};
   };
+  const double tick_s = tick_seconds(session);
   nlohmann::json states;
   for (std::size_t i = 0; i < summary.state_ticks.size(); ++i)
-    states[name_of_state(i)] = 1e-3 * static_cast<double>(summary.state_ticks[i]);
+    states[name_of_state(i)] = tick_s * static_cast<double>(summary.state_ticks[i]);
   nlohmann::json limits;
   for (std::size_t i = 0; i < summary.limited_ticks.size(); ++i)
-    limits[std::string(devices::kLimitReasons[i].name)] = 1e-3 * static_cast<double>(summary.limited_ticks[i]);
+    limits[std::string(devices::kLimitReasons[i].name)] = tick_s * static_cast<double>(summary.limited_ticks[i]);
   nlohmann::json json = {{"ticks", summary.ticks},
                          {"objects", session.objects},
                          {"collision_frames", session.collision_frames},

@@ -29,8 +29,10 @@ void validate(const DeviceDescriptor& descriptor) {
   for (const auto& [field, value] : limits) {
     if (!std::isfinite(value) || value < 0.0) refuse(field, "must be finite and not negative");
   }
-  if (!std::isfinite(descriptor.update_rate) || descriptor.update_rate <= 0.0)
-    refuse("update_rate", "must be positive");
+  constexpr double kFastest_Hz = 1e5;
+  if (!(descriptor.update_rate >= 1.0 && descriptor.update_rate <= kFastest_Hz))
+    refuse("update_rate", "must lie between 1 and 100000 Hz");
+  if (descriptor.frozen < std::chrono::nanoseconds(0)) refuse("frozen", "must not be negative");
   for (std::size_t i = 0; i < kGloveJoints; ++i) {
     const double lower = descriptor.joint_lower[i];
     const double upper = descriptor.joint_upper[i];

@@ -97,8 +97,15 @@ struct DeviceDescriptor {
 
 /// Throws std::invalid_argument, naming the device and the field, in these cases: a number is not finite; a limit with
 /// the prefix `max_` is negative; a joint's lower limit is not below its upper limit, unless both are 0; the update
-/// rate is not positive.
+/// rate does not lie between 1 and 100,000 Hz; `frozen` is negative.
 void validate(const DeviceDescriptor& descriptor);
+
+/// Who a glove is, and what it can do.
+struct GloveInfo {
+  std::int64_t device = 0;  ///< number of the glove
+  HandSide side = HandSide::kUnknown;
+  DeviceDescriptor descriptor;
+};
 
 class SafeCommand;
 

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/lcm_bus.h>
@@ -25,6 +26,11 @@ class LinkMonitor;
 
 /// The number of a device, unless another is given.
 inline constexpr std::int64_t kDefaultDevice = 1;
+
+/// Waits for the announcement of a glove on the channel GLOVE_INFO, which `LcmGloveHost` sends five times a second. No
+/// value if none came within `timeout`. Throws std::invalid_argument when the bus is null or cannot receive. Blocks.
+std::optional<GloveInfo> find_glove(const std::shared_ptr<LcmBus>& bus, std::int64_t device,
+                                    std::chrono::milliseconds timeout);
 
 struct LcmGloveOptions {
   std::int64_t device = kDefaultDevice;  ///< number of the glove; states of all others are rejected
@@ -79,8 +85,8 @@ struct LcmGloveHostOptions {
   std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};
 };
 
-/// The glove driver's end of the link: sends states on the channel GLOVE_STATE and receives commands on GLOVE_COMMAND.
-/// It limits each command by an envelope of its own, whatever the server or the network did.
+/// The glove driver's end of the link: announces the glove on GLOVE_INFO, sends states on GLOVE_STATE, and receives
+/// commands on GLOVE_COMMAND. It limits each command by an envelope of its own, whatever the server or the network did.
 /// Thread-safety: one thread, the driver's, calls `publish`, `newest_command` and `stop`.
 class LcmGloveHost {
  public:
@@ -89,7 +95,8 @@ class LcmGloveHost {
                const LcmGloveHostOptions& options = {});
   ~LcmGloveHost();
 
-  /// Sends `state`; returns false when the operating system does not accept it. May block.
+  /// Sends `state`, and the announcement when it is due; returns false when the operating system does not accept it.
+  /// May block.
   bool publish(const GloveState& state);
 
   /// What the device is to do in this period; call it once a period. `newest` is the state measured last. Without any
@@ -109,6 +116,7 @@ class LcmGloveHost {
   SafetyEnvelope envelope_;
   realtime::SteadyClock clock_;
   realtime::TripleBuffer<GloveCommand> commands_;
+  std::optional<std::chrono::nanoseconds> announced_;
   std::unique_ptr<LinkMonitor> monitor_;
   std::unique_ptr<LcmBus::Subscription> subscription_;
 };

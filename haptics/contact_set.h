@@ -17,6 +17,11 @@
 
 namespace glissade::haptics {
 
+/// The force of a set is full up to kFullForce after the ghost pose that the set answers, and zero from kForceless on.
+/// In between it fades smoothly.
+inline constexpr std::chrono::milliseconds kFullForce{20};
+inline constexpr std::chrono::milliseconds kForceless{100};
+
 /// The constraint of one contact, n·(v + w × r) ≥ bound, on a displacement (v, w) of the part: v is the translation of
 /// the part's reference point in metres, w the rotation vector about that point in radians.
 struct ConstraintRow {

@@ -7,6 +7,12 @@
 
 namespace glissade::haptics {
 
+void validate_tick_period(std::chrono::nanoseconds period) {
+  if (kShortestTickPeriod <= period && period <= kLongestTickPeriod) return;
+  throw std::invalid_argument("the period of the haptic loop must lie between 0.2 and 2 ms, not at " +
+                              std::to_string(period.count()) + " ns");
+}
+
 CouplingStiffness default_stiffness(double radius) {
   constexpr double kTranslational_N_per_m = 1000.0;
   return {kTranslational_N_per_m, kTranslational_N_per_m * radius * radius};

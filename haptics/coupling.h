@@ -16,11 +16,16 @@ struct DeviceDescriptor;
 
 namespace glissade::haptics {
 
-/// The period of the haptic loop. Force-feedback devices expect a rate of 1 kHz.
+/// The usual period of the haptic loop, and the bounds of those that can be chosen: 5 kHz and 500 Hz.
 inline constexpr std::chrono::milliseconds kTickPeriod{1};
+inline constexpr std::chrono::microseconds kShortestTickPeriod{200};
+inline constexpr std::chrono::milliseconds kLongestTickPeriod{2};
+
+/// Throws std::invalid_argument unless `period` lies within these bounds.
+void validate_tick_period(std::chrono::nanoseconds period);
 
 /// The lag of a part is the displacement from the visible part to its target (`SlidingResult`). Under force feedback,
-/// the lag changes in a tick (one period of the haptic loop) by at most kSlew_m (metres) plus the motion of the ghost,
+/// the lag changes in a millisecond by at most kSlew_m (metres) plus the motion of the ghost,
 /// or of all ghosts if there are several parts. This limit bounds the change of the force when the part snaps into a
 /// gap.
 inline constexpr double kSlew_m = 0.2e-3;

@@ -51,10 +51,12 @@ HapticTick HapticKernel::tick(const devices::GloveState& state, const ContactSet
 }
 
 double HapticKernel::seconds_since_last_tick(std::chrono::nanoseconds now) noexcept {
-  constexpr std::chrono::nanoseconds kLongest = 2 * kTickPeriod;  // a pause is no reason for a jump
+  // A pause is no reason for a jump.
   const std::chrono::nanoseconds passed = last_tick_ ? now - *last_tick_ : kTickPeriod;
   last_tick_ = now;
-  return std::chrono::duration<double>(std::clamp(passed, std::chrono::nanoseconds(0), kLongest)).count();
+  return std::chrono::duration<double>(
+             std::clamp<std::chrono::nanoseconds>(passed, std::chrono::nanoseconds(0), kLongestTickPeriod))
+      .count();
 }
 
 }  // namespace glissade::haptics

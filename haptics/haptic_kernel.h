@@ -1,6 +1,6 @@
 #pragma once
 
-/// One tick (1 ms) of the haptic thread: device state and contact set (the simulation's newest answer) in, device
+/// One tick of the haptic thread: device state and contact set (the simulation's newest answer) in, device
 /// command out. The kernel owns no clock, no thread and no device, so the same code runs in real time, offline and in
 /// tests.
 

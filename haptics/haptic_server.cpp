@@ -19,6 +19,7 @@ HapticServer::HapticServer(devices::GloveDevice& device, SlidingSimulation& simu
       sink_(std::move(sink)),
       options_(options),
       kernel_(simulation.part(), simulation.stiffness(), device.descriptor(), simulation.result().X_WV) {
+  validate_tick_period(options.period);
   if (!sink_) throw std::invalid_argument("a haptic server needs a sink for its states, not an empty function");
   ContactSet at_start;
   at_start.X_WV = simulation.result().X_WV;
@@ -27,7 +28,7 @@ HapticServer::HapticServer(devices::GloveDevice& device, SlidingSimulation& simu
       std::make_unique<realtime::PeriodicThread>(clock, realtime::PeriodicThreadOptions{.period = kTickPeriod},
                                                  [this](const realtime::PeriodicTick&) { return simulation_tick(); });
   haptic_thread_ = std::make_unique<realtime::PeriodicThread>(
-      clock, realtime::PeriodicThreadOptions{.period = kTickPeriod, .fifo_priority = options.fifo_priority},
+      clock, realtime::PeriodicThreadOptions{.period = options.period, .fifo_priority = options.fifo_priority},
       [this](const realtime::PeriodicTick& timing) { return haptic_tick(timing); });
 }
 

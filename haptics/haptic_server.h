@@ -1,9 +1,9 @@
 #pragma once
 
-/// The system in real time, with two threads. The haptic thread runs at 1 kHz: from the state of the device and the
-/// newest contact set, it computes the force and the pose of the ghost, i.e. the part's pose if nothing were in the
-/// way. The simulation thread answers the newest pose of the ghost with a contact set, once per millisecond if the
-/// collision queries are fast enough. Neither thread waits for the other.
+/// The system in real time, with two threads. The haptic thread runs at 1 kHz or another rate: from the state of the
+/// device and the newest contact set, it computes the force and the pose of the ghost, i.e. the part's pose if nothing
+/// were in the way. The simulation thread answers the newest pose of the ghost with a contact set, once per millisecond
+/// if the collision queries are fast enough. Neither thread waits for the other.
 
 #include <atomic>
 #include <chrono>
@@ -26,6 +26,9 @@
 namespace glissade::haptics {
 
 struct HapticServerOptions {
+  /// Period of the haptic thread, kShortestTickPeriod to kLongestTickPeriod. The forces do not depend on it: all rates
+  /// of change are per second.
+  std::chrono::nanoseconds period = kTickPeriod;
   /// Number of counted ticks of the haptic thread after which the force fades and that thread ends by itself; with 0 it
   /// runs until `stop`. Ticks before the first state of the device and ticks of the fade are not counted.
   std::int64_t ticks = 0;
@@ -51,8 +54,8 @@ class HapticServer {
 
   /// Starts both threads. The references must outlive the server. The hand grasps the part when the first state of the
   /// device arrives; the part stays where it is. The coupling is the result of `coupling_for` with the descriptor of
-  /// the device and the stiffness of the simulation. Throws std::invalid_argument for an empty sink, and as
-  /// `coupling_for` does.
+  /// the device and the stiffness of the simulation. Throws std::invalid_argument for an empty sink or a period out of
+  /// bounds, and as `coupling_for` does.
   HapticServer(devices::GloveDevice& device, SlidingSimulation& simulation, realtime::Clock& clock, Sink sink,
                const HapticServerOptions& options = {});
   HapticServer(const HapticServer&) = delete;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <glissade/lcmtypes/glove_command_t.hpp>
+#include <glissade/lcmtypes/glove_info_t.hpp>
 #include <glissade/lcmtypes/glove_state_t.hpp>
 #include <glissade/lcmtypes/haptic_state_t.hpp>
 
@@ -123,6 +124,39 @@ MessageError check(const glove_command_t& message) noexcept {
   return fields.result();
 }
 
+/// The fields of a descriptor that are numbers, in the message and here.
+template <typename Message, typename Descriptor, typename Use>
+void for_each_limit(Message& message, Descriptor& descriptor, const Use& use) {
+  use(message.max_force_N, descriptor.max_force);
+  use(message.max_torque_Nm, descriptor.max_torque);
+  use(message.max_stiffness_N_per_m, descriptor.max_stiffness);
+  use(message.max_rotational_stiffness_Nm_per_rad, descriptor.max_rotational_stiffness);
+  use(message.max_damping_N_s_per_m, descriptor.max_damping);
+  use(message.max_joint_torque_Nm, descriptor.max_joint_torque);
+  use(message.max_force_rate_N_per_s, descriptor.max_force_rate);
+  use(message.max_torque_rate_Nm_per_s, descriptor.max_torque_rate);
+  use(message.max_joint_torque_rate_Nm_per_s, descriptor.max_joint_torque_rate);
+  use(message.max_power_W, descriptor.max_power);
+  use(message.max_mean_force_N, descriptor.max_mean_force);
+  use(message.max_speed_m_per_s, descriptor.max_speed);
+  use(message.max_turn_rate_rad_per_s, descriptor.max_turn_rate);
+  use(message.workspace_radius_m, descriptor.workspace_radius);
+  use(message.update_rate_Hz, descriptor.update_rate);
+  for (std::size_t i = 0; i < kGloveJoints; ++i) {
+    use(message.joint_lower_rad[i], descriptor.joint_lower[i]);
+    use(message.joint_upper_rad[i], descriptor.joint_upper[i]);
+  }
+}
+
+bool is_valid(const DeviceDescriptor& descriptor) noexcept {
+  try {
+    validate(descriptor);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 MessageError check(const haptic_state_t& message) noexcept {
   FieldCheck fields;
   fields.not_negative(message.sequence);
@@ -139,6 +173,19 @@ MessageError check(const haptic_state_t& message) noexcept {
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> encode(std::int64_t session, const GloveInfo& info) {
+  glove_info_t message{};
+  message.version = glove_info_t::VERSION;
+  message.side = static_cast<std::int32_t>(info.side);
+  message.device = info.device;
+  message.session = session;
+  const std::string& name = info.descriptor.name;
+  std::copy_n(name.begin(), std::min(name.size(), std::size(message.name) - 1), message.name);
+  for_each_limit(message, info.descriptor, [](double& sent, double value) { sent = value; });
+  message.frozen_ns = info.descriptor.frozen.count();
+  return to_bytes(message);
+}
 
 std::vector<std::uint8_t> encode(const StateHeader& header, const GloveState& state) {
   glove_state_t message{};
@@ -196,6 +243,26 @@ std::vector<std::uint8_t> encode(const HapticState& state) {
     message.reasons += flag(state.reasons.*kLimitReasons[i].flag, reason_bit(i));
   message.state_age_ns = state.state_age.count();
   return to_bytes(message);
+}
+
+MessageError decode(std::span<const std::uint8_t> bytes, std::int64_t& session, GloveInfo& info) noexcept {
+  glove_info_t message{};
+  const MessageError error = from_bytes(bytes, message);
+  if (error != MessageError::kNone) return error;
+  if (message.version != glove_info_t::VERSION) return MessageError::kWrongVersion;
+  FieldCheck fields;
+  fields.not_negative(message.session);
+  fields.time(message.frozen_ns);
+  fields.one_of(message.side, glove_state_t::SIDE_RIGHT);
+  fields.one_of(message.name[std::size(message.name) - 1], 0);
+  DeviceDescriptor descriptor;
+  for_each_limit(message, descriptor, [](double sent, double& value) { value = sent; });
+  descriptor.frozen = std::chrono::nanoseconds(message.frozen_ns);
+  if (fields.result() != MessageError::kNone || !is_valid(descriptor)) return MessageError::kOutOfRange;
+  descriptor.name = reinterpret_cast<const char*>(message.name);
+  session = message.session;
+  info = {.device = message.device, .side = HandSide{message.side}, .descriptor = std::move(descriptor)};
+  return MessageError::kNone;
 }
 
 MessageError decode(std::span<const std::uint8_t> bytes, StateHeader& header, GloveState& state) noexcept {

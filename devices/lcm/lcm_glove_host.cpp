@@ -29,10 +29,15 @@ LcmGloveHost::LcmGloveHost(std::shared_ptr<LcmBus> bus, const DeviceDescriptor& 
 LcmGloveHost::~LcmGloveHost() = default;
 
 bool LcmGloveHost::publish(const GloveState& state) {
-  const StateHeader header{.device = options_.device,
-                           .session = session_,
-                           .leaseholder = monitor_->leaseholder(clock_.now()),
-                           .side = options_.side};
+  constexpr std::chrono::milliseconds kAnnouncements{200};
+  const std::chrono::nanoseconds now = clock_.now();
+  if (!announced_ || now - *announced_ >= kAnnouncements) {
+    announced_ = now;
+    const GloveInfo info{.device = options_.device, .side = options_.side, .descriptor = envelope_.descriptor()};
+    bus_->publish(kGloveInfoChannel, encode(session_, info));
+  }
+  const StateHeader header{
+      .device = options_.device, .session = session_, .leaseholder = monitor_->leaseholder(now), .side = options_.side};
   return bus_->publish(kGloveStateChannel, encode(header, state));
 }
 

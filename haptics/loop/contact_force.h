@@ -16,10 +16,6 @@
 
 namespace glissade::haptics {
 
-/// The force of a set is full up to kFullForce after the ghost pose that the set answers, and zero from kForceless on.
-inline constexpr std::chrono::milliseconds kFullForce{20};
-inline constexpr std::chrono::milliseconds kForceless{100};
-
 /// The share of its force that a set of this age exerts: 1, then smoothly down to 0.
 double force_share(std::chrono::nanoseconds age) noexcept;
 

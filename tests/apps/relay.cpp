@@ -12,6 +12,8 @@ nanoseconds monotonic_now() {
 
 Relay::Relay() : server_(kServerUrl), glove_(kGloveUrl) {
   thread_ = std::thread([this] { send_what_is_due(); });
+  subscriptions_.push_back(
+      glove_.subscribe("GLOVE_INFO", [this](auto message) { server_.publish("GLOVE_INFO", message); }));
   subscriptions_.push_back(glove_.subscribe("GLOVE_STATE", [this](auto message) { take(true, message); }));
   subscriptions_.push_back(server_.subscribe("GLOVE_COMMAND", [this](auto message) { take(false, message); }));
 }

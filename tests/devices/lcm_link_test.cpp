@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -48,6 +49,45 @@ glove_state_t good_state(std::int64_t sequence) {
   message.sequence = sequence;
   message.orientation_WH_wxyz[0] = 1.0;
   return message;
+}
+
+TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
+  const auto bus = std::make_shared<LcmBus>("memq://");
+  DeviceDescriptor descriptor = simulated_glove_descriptor();
+  descriptor.name = "a glove whose name has more than 31 letters";
+  descriptor.max_mean_force = 4.0;
+  descriptor.frozen = milliseconds(50);
+  LcmGloveHost host(bus, descriptor, {.device = 3, .side = HandSide::kLeft});
+  std::atomic<bool> should_end{false};
+  std::thread driver([&] {
+    while (!should_end) {
+      host.publish({});
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+  });
+  EXPECT_FALSE(find_glove(bus, 4, milliseconds(300)).has_value());
+  const std::optional<GloveInfo> found = find_glove(bus, 3, std::chrono::seconds(10));
+  should_end = true;
+  driver.join();
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->side, HandSide::kLeft);
+  EXPECT_EQ(found->descriptor.name, "a glove whose name has more tha");
+  EXPECT_EQ(found->descriptor.max_mean_force, 4.0);
+  EXPECT_EQ(found->descriptor.frozen, milliseconds(50));
+  EXPECT_EQ(found->descriptor.joint_upper, descriptor.joint_upper);
+  EXPECT_EQ(found->descriptor.update_rate, 1000.0);
+}
+
+TEST(GloveInfo, OfADeviceThatCannotBeIsRefused) {
+  DeviceDescriptor descriptor = simulated_glove_descriptor();
+  std::int64_t session = 0;
+  GloveInfo info;
+  EXPECT_EQ(decode(encode(1, GloveInfo{1, HandSide::kRight, descriptor}), session, info), MessageError::kNone);
+  descriptor.max_force = kNan;
+  EXPECT_EQ(decode(encode(1, GloveInfo{1, HandSide::kRight, descriptor}), session, info), MessageError::kOutOfRange);
+  descriptor.max_force = 20.0;
+  descriptor.update_rate = 1e-300;
+  EXPECT_EQ(decode(encode(1, GloveInfo{1, HandSide::kRight, descriptor}), session, info), MessageError::kOutOfRange);
 }
 
 class LcmLink : public testing::Test {

@@ -66,6 +66,7 @@ class Link {
     if (!packet) return false;
     if (packet->channel == kGloveStateChannel) return take_state(packet->message, now);
     if (packet->channel == kGloveCommandChannel) return take_command(packet->message, now);
+    if (packet->channel == kGloveInfoChannel) return take_info(packet->message);
     HapticState state;
     return decode(packet->message, state) == MessageError::kNone;
   }
@@ -96,6 +97,14 @@ class Link {
     const MessageError error = decode(message, header, state);
     if (!states_.admit(error, {header.device, header.session, state.sequence}, now)) return false;
     state_ = state;
+    return true;
+  }
+
+  static bool take_info(std::span<const std::uint8_t> message) {
+    std::int64_t session = 0;
+    GloveInfo info;
+    if (decode(message, session, info) != MessageError::kNone) return false;
+    const SafetyEnvelope envelope(info.descriptor);  // what was decoded is valid
     return true;
   }
 
@@ -140,6 +149,10 @@ std::string command_datagram(int tick) {
   return datagram(kGloveCommandChannel, encode(CommandHeader{1, 7, 9}, command));
 }
 
+std::string info_datagram() {
+  return datagram(kGloveInfoChannel, encode(7, GloveInfo{1, HandSide::kLeft, simulated_glove_descriptor()}));
+}
+
 std::string viewer_datagram() {
   return datagram(kHapticStateChannel, encode(HapticState{}));
 }
@@ -162,7 +175,10 @@ std::vector<Seed> seeds() {
   std::string pressing;
   for (int tick = 1; tick <= 40; ++tick)
     pressing += framed(state_datagram(tick)) + framed(command_datagram(tick));
-  return {{"pressing", pressing}, {"viewer", framed(viewer_datagram())}, {"state", framed(state_datagram(1))}};
+  return {{"pressing", pressing},
+          {"info", framed(info_datagram())},
+          {"viewer", framed(viewer_datagram())},
+          {"state", framed(state_datagram(1))}};
 }
 
 std::vector<std::string> dictionary() {
@@ -170,6 +186,7 @@ std::vector<std::string> dictionary() {
           "LC03",
           kGloveStateChannel,
           kGloveCommandChannel,
+          kGloveInfoChannel,
           std::string("\x7f\xf8\0\0\0\0\0\0", 8),  // NaN
           std::string("\x7f\xf0\0\0\0\0\0\0", 8),  // infinity
           std::string("\x7f\xff\xff\xff\xff\xff\xff\xff", 8)};
@@ -180,7 +197,7 @@ void repair(std::string& bytes) {
   std::string repaired;
   for_each_datagram(bytes, [&](std::string_view one) {
     std::string fixed(one);
-    for (const std::string& valid : {state_datagram(1), command_datagram(1), viewer_datagram()}) {
+    for (const std::string& valid : {state_datagram(1), command_datagram(1), info_datagram(), viewer_datagram()}) {
       constexpr std::size_t kPacketHead = 8;
       const std::size_t head = valid.find('\0', kPacketHead) + 1 + 8 + 4;  // and fingerprint, version
       const bool is_of_this_channel =

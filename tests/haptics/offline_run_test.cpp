@@ -35,14 +35,16 @@ std::shared_ptr<const SlidingPart> box() {
 }
 
 /// The hand moves down by 10 mm more than kDepth for half a second, and holds there for one.
-std::vector<HapticState> press_down(SlidingSimulation& simulation) {
+std::vector<HapticState> press_down(SlidingSimulation& simulation, std::chrono::nanoseconds period = kTickPeriod) {
   using std::chrono::milliseconds;
   const Isometry3d X_WH_start = simulation.result().X_WV;
   const Isometry3d X_WH_end = at_height(X_WH_start.translation().z() - 0.01 - kDepth);
   devices::SimulatedGlove glove(geometry::PoseTrajectory(
       {{milliseconds(0), X_WH_start}, {milliseconds(500), X_WH_end}, {milliseconds(1500), X_WH_end}}));
   std::vector<HapticState> samples;
-  run_offline(glove, simulation, 1500, [&](const HapticState& sample) { samples.push_back(sample); });
+  const std::int64_t ticks = milliseconds(1500) / period;
+  run_offline(
+      glove, simulation, ticks, [&](const HapticState& sample) { samples.push_back(sample); }, period);
   return samples;
 }
 
@@ -116,6 +118,20 @@ TEST(OfflineRun, TheForceNeverJumps) {
     // The damper at most doubles what the spring does.
     EXPECT_LE(jump, 2.0 * 1000.0 * (kSlew_m + ghost_motion)) << "at " << i << " ms";
   }
+}
+
+TEST(OfflineRun, TheForceDoesNotDependOnTheRate) {
+  const std::vector<HapticState> usual = press_on_plate();
+  for (const int microseconds : {200, 2000}) {
+    Sliding sliding({{plate()}}, box(), at_height(0.03), {.stiffness = kHandStiffness});
+    const std::vector<HapticState> samples = press_down(sliding, std::chrono::microseconds(microseconds));
+    for (std::size_t ms = 2; ms < usual.size(); ms += 2) {
+      const std::size_t i = ms * 1000 / static_cast<std::size_t>(microseconds) - 1;
+      EXPECT_NEAR(samples[i].force_on_hand_W.z(), usual[ms - 1].force_on_hand_W.z(), 0.1) << ms << " ms";
+    }
+  }
+  Sliding sliding({{plate()}}, box(), at_height(0.03), {.stiffness = kHandStiffness});
+  EXPECT_THROW(press_down(sliding, std::chrono::microseconds(100)), std::invalid_argument);
 }
 
 TEST(OfflineRun, GivesTheSameBitsEveryTime) {
