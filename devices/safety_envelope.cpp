@@ -183,7 +183,8 @@ LimitReasons SafetyEnvelope::faults(const GloveCommand& wanted, nanoseconds now)
   reasons.is_implausible = now < distrust_until_;
   if (reasons.not_finite) return reasons;  // no ages are known
   reasons.is_state_old = age_of(state_.time, now) > patience_;
-  reasons.is_command_old = !reasons.is_state_old && age_of(wanted.state_time, now) > patience_;
+  const bool is_from_future = wanted.state_time > state_.time;
+  reasons.is_command_old = !reasons.is_state_old && (is_from_future || age_of(wanted.state_time, now) > patience_);
   return reasons;
 }
 
@@ -236,6 +237,7 @@ std::string to_text(const LimitReasons& reasons, nanoseconds age) {
   if (reasons.not_finite) return "no force: a number of the glove's state or of the command is not finite";
   if (reasons.is_implausible) return "no force: the glove's pose jumps, freezes or leaves the workspace";
   if (reasons.is_state_old) return "no force: the glove's state is " + old;
+  if (reasons.is_command_old && age < nanoseconds(0)) return "no force: the command answers a state that never was";
   if (reasons.is_command_old) return "no force: the command answers a state that is " + old;
   if (reasons.is_returning) return "reduced force: it returns softly";
   if (reasons.mean_limited) return "reduced force: its mean is near the device's limit";

@@ -24,7 +24,7 @@ struct LimitReasons {
   bool not_finite = false;      ///< a number of the wanted command or of the state is NaN or infinite
   bool is_implausible = false;  ///< a state contradicts the descriptor or the states before, now or a short time ago
   bool is_state_old = false;    ///< the newest state was measured too long ago
-  bool is_command_old = false;  ///< the wanted command answers a state that was measured too long ago
+  bool is_command_old = false;  ///< the wanted command answers a state that was measured too long ago, or never
   bool is_returning = false;    ///< the force returns softly, after the start or after one of the reasons above
   bool force_limited = false;   ///< the force was scaled down to the device's maximum
   bool torque_limited = false;  ///< the torque was scaled down to the device's maximum

@@ -20,7 +20,7 @@ bool LinkMonitor::admit(MessageError error, const MessageOrigin& origin, std::ch
 MessageError LinkMonitor::check(const MessageOrigin& origin, std::chrono::nanoseconds now) noexcept {
   const bool is_other = origin.device != device_ || origin.session != session();
   if (last_sequence_ >= 0 && !is_other) {
-    constexpr double kBurst = 1000.0;  // messages that may be lost or delayed at once
+    constexpr double kBurst = 50.0;  // messages that may be lost or delayed at once, for an instant
     const double elapsed_s = std::chrono::duration<double>(now - last_time_.load(std::memory_order_relaxed)).count();
     const auto advance = static_cast<double>(origin.sequence - last_sequence_);
     return advance > 0.0 && advance <= kBurst + kGreatestRate * elapsed_s ? MessageError::kNone

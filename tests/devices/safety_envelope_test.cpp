@@ -176,6 +176,21 @@ TEST_F(Envelope, ACommandThatAnswersAnOldStateFadesAlthoughNewStatesCome) {
   EXPECT_TRUE(next().reasons().is_command_old);
 }
 
+TEST_F(Envelope, ACommandThatAnswersAStateOfTheFutureFades) {
+  settle(pull(10.0));
+  GloveCommand forged = pull(10.0);
+  SafeCommand safe;
+  for (int i = 0; i < 8; ++i) {
+    now_ += milliseconds(1);
+    state_.time += milliseconds(1);
+    ++state_.sequence;
+    forged.state_time = state_.time + std::chrono::seconds(1);
+    safe = checked(envelope_.limit(forged, state_, now_));
+  }
+  EXPECT_TRUE(is_zero(safe));
+  EXPECT_EQ(to_text(safe.reasons(), safe.age()), "no force: the command answers a state that never was");
+}
+
 TEST_F(Envelope, StatesThatArriveLateAreOldThoughTheyComeRegularly) {
   settle(pull(15.0));
   // From now on the link delays each state by 50 ms.
