@@ -30,6 +30,7 @@ struct ConstraintRow {
   double bound;       ///< metres; at most 0 if the constraint allows standing still
   /// Metres: `Contact::range`. Infinite for contacts that push: as long as nothing newer is known, their faces go on.
   double range = std::numeric_limits<double>::infinity();
+  double approach = 0.0;  ///< m/s: `Contact::approach`, by which the bound grows with the age of the set
 
   /// The left side of the constraint: the motion of the contact point along n, in metres.
   double velocity(const geometry::Displacement& d) const { return n.dot(d.v + d.w.cross(r)); }

@@ -47,7 +47,7 @@ class MultiPartSliding::Cycle {
     int cycles = 1;
     while (!take_step() && cycles < shared_.rules.max_cycles)
       ++cycles;
-    report_contacts(shared_, starts_.overlaps(), step_finder_.rows().contacts());
+    report_contacts(shared_, starts_.overlaps(), step_finder_.rows().contacts(), milliseconds);
     // With several parts the contacts are reported where the last step has led.
     const double reach = shared_.count() == 1 ? radius_.reach() : std::max(0.0, radius_.reach() - radius_.last_step());
     for (HeldPartState& part : shared_.states) {

@@ -61,6 +61,8 @@ struct Contact {
   /// contact no longer says anything. Infinite if no rim of the features is near enough to tell. Along an edge between
   /// triangles in one plane the feature goes on.
   double range = std::numeric_limits<double>::infinity();
+  /// m/s: speed of the other body's contact point along n_W in the last call; 0 for fixed obstacles.
+  double approach = 0.0;
 
   /// The contact point on the obstacle, metres.
   Eigen::Vector3d q_W() const { return p_W - gap * n_W; }

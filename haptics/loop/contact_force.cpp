@@ -24,7 +24,7 @@ const Wrench& ContactForce::update(const ContactSet& set, std::chrono::nanosecon
                                    double dt) noexcept {
   const double ghost_motion = geometry::motion_bound(geometry::displacement_between(X_WG_, X_WG, p_Vref_), radius_);
   X_WG_ = X_WG;
-  const Wrench wanted = scaled(target(set, X_WG), force_share(age));
+  const Wrench wanted = scaled(target(set, age, X_WG), force_share(age));
 
   constexpr double kSlew_m_per_s = kSlew_m / 1e-3;
   const double longest =
@@ -40,11 +40,12 @@ const Wrench& ContactForce::update(const ContactSet& set, std::chrono::nanosecon
   return wrench_;
 }
 
-Wrench ContactForce::target(const ContactSet& set, const Eigen::Isometry3d& X_WG) noexcept {
+Wrench ContactForce::target(const ContactSet& set, std::chrono::nanoseconds age,
+                            const Eigen::Isometry3d& X_WG) noexcept {
   is_unsolved_ = false;
   if (set.row_count == 0) return {};
   const geometry::Displacement wanted = geometry::displacement_between(set.X_WV_of_rows, X_WG * set.X_GT, p_Vref_);
-  take_rows_in_range(set, X_WG);
+  take_rows(set, age, X_WG);
   const Projection projection = solver_.project(wanted, stiffness_, {rows_.data(), row_count_});
   is_unsolved_ = projection.status != ProjectionStatus::kSolved;
   if (is_unsolved_) return {};
@@ -61,7 +62,10 @@ Wrench ContactForce::target(const ContactSet& set, const Eigen::Isometry3d& X_WG
 }
 
 // A part in contact moves across the normals as its ghost does.
-void ContactForce::take_rows_in_range(const ContactSet& set, const Eigen::Isometry3d& X_WG) noexcept {
+void ContactForce::take_rows(const ContactSet& set, std::chrono::nanoseconds age,
+                             const Eigen::Isometry3d& X_WG) noexcept {
+  const double seconds =
+      std::chrono::duration<double>(std::clamp<std::chrono::nanoseconds>(age, {}, kForceless)).count();
   const geometry::Displacement moved = geometry::displacement_between(set.X_WG, X_WG, p_Vref_);
   row_count_ = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(set.row_count); ++i) {
@@ -70,6 +74,7 @@ void ContactForce::take_rows_in_range(const ContactSet& set, const Eigen::Isomet
     const Eigen::Vector3d across = u - row.n.dot(u) * row.n;
     if (across.squaredNorm() > row.range * row.range) continue;
     rows_[row_count_] = row;
+    rows_[row_count_].bound += row.approach * seconds;
     numbers_[row_count_] = i;
     ++row_count_;
   }

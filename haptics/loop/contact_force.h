@@ -20,9 +20,9 @@ namespace glissade::haptics {
 double force_share(std::chrono::nanoseconds age) noexcept;
 
 /// The wanted displacement of the part is projected on the rows of the set. The force is the sum of the multipliers
-/// times the normals, with the friction that belongs to them. Rows whose `range` the ghost has left count no more. So
-/// it never holds the hand back along a frictionless contact, however old the set is: an old set knows too few contacts
-/// or contacts that the part has left, and their force fades.
+/// times the normals, with the friction that belongs to them. Rows whose `range` the ghost has left count no more;
+/// bodies that move go on at their speed. So it never holds the hand back along a frictionless contact, however old the
+/// set is: an old set knows too few contacts or contacts that the part has left, and their force fades.
 ///
 /// From one tick to the next the wrench moves on the straight line to its new value. Two sums of normal forces have
 /// only sums of normal forces between them. Real-time safe: bounded work, no allocation. Not thread-safe.
@@ -43,14 +43,14 @@ class ContactForce {
   bool is_unsolved() const noexcept { return is_unsolved_; }
 
  private:
-  Wrench target(const ContactSet& set, const Eigen::Isometry3d& X_WG) noexcept;
-  void take_rows_in_range(const ContactSet& set, const Eigen::Isometry3d& X_WG) noexcept;
+  Wrench target(const ContactSet& set, std::chrono::nanoseconds age, const Eigen::Isometry3d& X_WG) noexcept;
+  void take_rows(const ContactSet& set, std::chrono::nanoseconds age, const Eigen::Isometry3d& X_WG) noexcept;
 
   Eigen::Vector3d p_Vref_;
   double radius_;
   CouplingStiffness stiffness_;
   ProjectionSolver solver_;
-  std::array<ConstraintRow, kMaxContactRows> rows_{};   // in range
+  std::array<ConstraintRow, kMaxContactRows> rows_{};   // in range, as they are now
   std::array<std::size_t, kMaxContactRows> numbers_{};  // of these rows in the set
   std::size_t row_count_ = 0;
   Eigen::Isometry3d X_WG_;

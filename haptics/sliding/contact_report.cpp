@@ -23,9 +23,17 @@ void add_overlaps(const SimulatedParts& shared, const Overlaps& overlaps, std::v
   }
 }
 
+/// Speed along n_W (m/s) of the point q_W of a part that moved in a call of so many milliseconds.
+double speed_along(const Eigen::Vector3d& n_W, const Eigen::Vector3d& q_W, const HeldPartState& part,
+                   double milliseconds) {
+  if (milliseconds <= 0.0) return 0.0;
+  const Eigen::Isometry3d motion_W = part.result.X_WV * part.X_WV_before.inverse(Eigen::Isometry);
+  return n_W.dot(q_W - motion_W.inverse(Eigen::Isometry) * q_W) / (1e-3 * milliseconds);
+}
+
 /// A result has one pose for its contacts, that of its part. Therefore contacts are carried along to the present poses
 /// of both sides.
-void distribute(SimulatedParts& shared, const std::vector<Contact>& contacts) {
+void distribute(SimulatedParts& shared, const std::vector<Contact>& contacts, double milliseconds) {
   std::vector<HeldPartState>& parts = shared.states;
   const auto obstacles = static_cast<std::int32_t>(shared.scene.obstacles().size());
   std::array<Eigen::Isometry3d, kMaxParts> motions;
@@ -38,23 +46,29 @@ void distribute(SimulatedParts& shared, const std::vector<Contact>& contacts) {
   for (const Contact& found : contacts) {
     const auto number = static_cast<std::size_t>(found.part);
     const std::int32_t other = found.obstacle - obstacles;
-    const Contact contact = other < 0 ? carried(found, motions[number])
-                                      : carried(found, motions[number], motions[static_cast<std::size_t>(other)]);
+    if (other < 0) {
+      parts[number].result.contacts.push_back(carried(found, motions[number]));
+      continue;
+    }
+    HeldPartState& other_part = parts[static_cast<std::size_t>(other)];
+    Contact contact = carried(found, motions[number], motions[static_cast<std::size_t>(other)]);
+    Contact mirror = mirrored(contact, static_cast<std::int32_t>(shared.scene.body_of_part(number)), other);
+    contact.approach = speed_along(contact.n_W, contact.q_W(), other_part, milliseconds);
+    mirror.approach = speed_along(mirror.n_W, mirror.q_W(), parts[number], milliseconds);
     parts[number].result.contacts.push_back(contact);
-    if (other < 0) continue;
-    parts[static_cast<std::size_t>(other)].result.contacts.push_back(
-        mirrored(contact, static_cast<std::int32_t>(shared.scene.body_of_part(number)), other));
+    other_part.result.contacts.push_back(mirror);
   }
 }
 
 }  // namespace
 
-void report_contacts(SimulatedParts& shared, const Overlaps& overlaps, std::vector<Contact>& contacts) {
+void report_contacts(SimulatedParts& shared, const Overlaps& overlaps, std::vector<Contact>& contacts,
+                     double milliseconds) {
   add_overlaps(shared, overlaps, contacts);
   if (shared.count() == 1) {
     std::swap(shared.states.front().result.contacts, contacts);
   } else {
-    distribute(shared, contacts);
+    distribute(shared, contacts, milliseconds);
   }
   for (HeldPartState& part : shared.states) {
     SlidingResult& result = part.result;

@@ -12,7 +12,9 @@
 namespace glissade::haptics {
 
 /// Gives each part its own contacts, seen from its side, and adds the contacts of overlaps. `contacts` are those of the
-/// last cycle; their memory is reused, so their contents are arbitrary afterwards.
-void report_contacts(SimulatedParts& shared, const Overlaps& overlaps, std::vector<Contact>& contacts);
+/// last cycle; their memory is reused, so their contents are arbitrary afterwards. The call answers `milliseconds` of
+/// motion.
+void report_contacts(SimulatedParts& shared, const Overlaps& overlaps, std::vector<Contact>& contacts,
+                     double milliseconds);
 
 }  // namespace glissade::haptics

@@ -132,6 +132,15 @@ TEST(ContactForce, AContactThatTheGhostHasLeftNoLongerActs) {
   EXPECT_NEAR(settle(contacts, set, at(4.1e-3, 0.0, -2e-3)).f.z(), 2.0, 1e-9) << "the range begins at the set's ghost";
 }
 
+TEST(ContactForce, ABodyThatMovesGoesOnWhileTheSetGrowsOld) {
+  ContactForce contacts = at_origin();
+  ContactSet set = floor_below(0.0);
+  settle(contacts, set, at(0.0, 0.0, -2e-3));
+  set.row_array[0].approach = 0.1;  // a lift
+  EXPECT_NEAR(contacts.update(set, milliseconds(1), at(0.0, 0.0, -2e-3), kTick_s).f.z(), 2.1, 1e-9);
+  EXPECT_NEAR(contacts.update(set, milliseconds(2), at(0.0, 0.0, -2e-3), kTick_s).f.z(), 2.2, 1e-9);
+}
+
 TEST(ContactForce, TheTorqueIsThatOfTheContactsLever) {
   ContactForce contacts = at_origin();
   ContactSet set = floor_below(0.0);

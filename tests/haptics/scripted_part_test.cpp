@@ -59,6 +59,17 @@ TEST(ScriptedPart, PushesThePartOutOfItsWayAndTheHandFeelsIt) {
     EXPECT_EQ(contact.obstacle, 2) << "of the bodies: the wall, the part, and then what moves";
 }
 
+TEST(ScriptedPart, TellsItsSpeedWithTheContact) {
+  Sliding sliding = cube_before(ram(), 1.0);
+  wait(sliding, 80);
+  ASSERT_FALSE(sliding.result().contacts.empty());
+  for (const Contact& contact : sliding.result().contacts)
+    EXPECT_NEAR(contact.approach, 0.1, 1e-3) << "along the normal, towards the part";
+  wait(sliding, 60);
+  for (const Contact& contact : sliding.result().contacts)
+    EXPECT_NEAR(contact.approach, 0.0, 1e-6) << "the script has ended";
+}
+
 TEST(ScriptedPart, WaitsWhereThePartCannotGiveWay) {
   Sliding sliding = cube_before(ram(), 0.018);
   wait(sliding, 200);
