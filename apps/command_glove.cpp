@@ -39,7 +39,7 @@ constexpr const char* kGloveFooter =
 
 struct GloveOptions {
   std::string side = "right";
-  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  LcmAddress lcm;
   std::string script;
   std::int64_t device = devices::kDefaultDevice;
   std::string record;
@@ -96,12 +96,11 @@ class GloveRecord {
 };
 
 int run(const GloveOptions& options) {
-  check_reaches_other_processes(options.lcm_url);
+  const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   const geometry::PoseTrajectory script = options.script.empty()
                                               ? parse_trajectory(embedded_scene_script(), "car_door_script.csv")
                                               : read_trajectory(options.script);
   const StopSignal stop_signal;
-  const auto bus = std::make_shared<devices::LcmBus>(options.lcm_url);
   realtime::SteadyClock clock;
   std::optional<GloveRecord> record;
   if (!options.record.empty()) record.emplace(options.record);
@@ -115,7 +114,7 @@ int run(const GloveOptions& options) {
                                          if (has_server) teller.note(command.reasons(), command.age());
                                        });
 
-  std::cerr << "glissade glove: the " << options.side << " hand waits for a server at " << options.lcm_url << '\n';
+  std::cerr << "glissade glove: the " << options.side << " hand waits for a server at " << options.lcm.url << '\n';
   const auto milliseconds = [](std::chrono::nanoseconds time) { return time / std::chrono::milliseconds(1); };
   {
     ProgressBar progress("script", milliseconds(script.duration()));
@@ -146,8 +145,7 @@ void add_glove_command(CLI::App& app, Command& chosen) {
       ->check(CLI::IsMember({"left", "right"}))
       ->capture_default_str();
   add_device_option(*command, options->device);
-  command->add_option("--lcm", options->lcm_url, "LCM address that glove and haptic server share")
-      ->capture_default_str();
+  add_lcm_options(*command, options->lcm);
   command->add_option("--script", options->script, "Trajectory of the hand root (CSV), see below");
   command->add_option("--record", options->record, "File for the pose of the hand and the force of every period (CSV)");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });

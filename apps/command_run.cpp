@@ -42,7 +42,7 @@ constexpr const char* kRunFooter =
 
 struct RunOptions {
   std::string scene;
-  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  LcmAddress lcm;
   std::int64_t device = devices::kDefaultDevice;
   double seconds = 0.0;
   double rate_hz = 1000.0;
@@ -60,18 +60,21 @@ int run(const RunOptions& options) {
   const RunSettings settings{.device = options.device,
                              .ticks = std::llround(options.seconds * options.rate_hz),
                              .period = std::chrono::nanoseconds(std::llround(1e9 / options.rate_hz))};
-  check_reaches_other_processes(options.lcm_url);
+  const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   const Scene file = read_scene(options.scene);
   const HapticScene scene = make_haptic_scene(file, only_movable_object(file));
   if (!options.report.empty()) prepare_report_folder(options.report);
-  const auto bus = std::make_shared<devices::LcmBus>(options.lcm_url);
   const StopSignal stop_signal;
   // Announced from within the session, after its set-up has succeeded.
   bool said_that_it_waits = false;
+  bool said_that_it_refuses = false;
   bool said_that_it_holds = false;
   const auto watch = [&](std::int64_t ticks, const std::string& news) {
     if (ticks == 0 && !std::exchange(said_that_it_waits, true)) {
-      std::cerr << "glissade run: waiting for a glove at " << options.lcm_url << '\n';
+      std::cerr << "glissade run: waiting for a glove at " << options.lcm.url << '\n';
+    }
+    if (ticks == 0 && bus->refused_packets() > 0 && !std::exchange(said_that_it_refuses, true)) {
+      std::cerr << "glissade run: packets are refused: they come from elsewhere, or were made with another key\n";
     }
     if (ticks > 0 && !std::exchange(said_that_it_holds, true)) {
       std::cerr << "glissade run: the glove holds '" << scene.part_name << "'\n";
@@ -90,8 +93,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("run", kRunDescription);
   command->footer(std::string(kRunFooter) + kSceneFileHelp);
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
-  command->add_option("--lcm", options->lcm_url, "LCM address that glove and haptic server share")
-      ->capture_default_str();
+  add_lcm_options(*command, options->lcm);
   add_device_option(*command, options->device);
   command->add_option("--seconds", options->seconds, "Duration in seconds from the first glove state; 0: until Ctrl-C")
       ->capture_default_str();

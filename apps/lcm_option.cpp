@@ -1,4 +1,5 @@
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include <CLI/CLI.hpp>
@@ -13,10 +14,22 @@ void add_device_option(CLI::App& command, std::int64_t& device) {
       ->capture_default_str();
 }
 
-void check_reaches_other_processes(const std::string& lcm_url) {
-  if (!lcm_url.starts_with("memq:")) return;
-  throw std::invalid_argument("--lcm: '" + lcm_url +
-                              "' connects threads of one process only; server and glove need a udpm:// address");
+void add_lcm_options(CLI::App& command, LcmAddress& address) {
+  command.add_option("--lcm", address.url, "LCM address that glove and haptic server share")->capture_default_str();
+  command.add_option(
+      "--key-file", address.key_file,
+      "File with a key, as printed by 'openssl rand -hex 32': messages without a code made with this key "
+      "are dropped. Glove and haptic server need the same");
+}
+
+std::shared_ptr<devices::LcmBus> open_bus(const LcmAddress& address) {
+  if (address.url.starts_with("memq:")) {
+    throw std::invalid_argument("--lcm: '" + address.url +
+                                "' connects threads of one process only; server and glove need a udpm:// address");
+  }
+  std::optional<devices::LcmKey> key;
+  if (!address.key_file.empty()) key = devices::read_lcm_key(address.key_file);
+  return std::make_shared<devices::LcmBus>(address.url, key);
 }
 
 }  // namespace glissade::apps

@@ -1,9 +1,12 @@
 #pragma once
 
-/// The options --lcm and --device of the commands that talk to another process.
+/// The options --lcm, --key-file and --device of the commands that talk to another process.
 
 #include <cstdint>
+#include <memory>
 #include <string>
+
+#include <glissade/devices/lcm_bus.h>
 
 namespace CLI {
 class App;
@@ -11,10 +14,17 @@ class App;
 
 namespace glissade::apps {
 
+/// The options --lcm and --key-file.
+struct LcmAddress {
+  std::string url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string key_file;
+};
+void add_lcm_options(CLI::App& command, LcmAddress& address);
+/// A bus that reaches other processes. Throws std::invalid_argument, naming option or file, as `LcmBus` and
+/// `read_lcm_key` do.
+std::shared_ptr<devices::LcmBus> open_bus(const LcmAddress& address);
+
 /// Adds --device, the number of a glove.
 void add_device_option(CLI::App& command, std::int64_t& device);
-
-/// Throws std::invalid_argument, naming the option, when `lcm_url` does not reach other processes.
-void check_reaches_other_processes(const std::string& lcm_url);
 
 }  // namespace glissade::apps

@@ -40,4 +40,4 @@ configure_file(${CMAKE_CURRENT_LIST_DIR}/glissadeConfig.cmake.in ${PROJECT_BINAR
 include(CMakePackageConfigHelpers)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/glissadeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/glissadeConfig.cmake ${PROJECT_BINARY_DIR}/glissadeConfigVersion.cmake
-  ${CMAKE_CURRENT_LIST_DIR}/FindLCM.cmake DESTINATION ${glissade_package_dir})
+  ${CMAKE_CURRENT_LIST_DIR}/FindLCM.cmake ${CMAKE_CURRENT_LIST_DIR}/Findsodium.cmake DESTINATION ${glissade_package_dir})

@@ -22,6 +22,7 @@
 
 #include "lcm/lcm_packet.h"
 #include "lcm/lcm_url.h"
+#include "lcm/message_seal.h"
 #include "lcm/udpm_socket.h"
 
 namespace glissade::devices {
@@ -59,7 +60,7 @@ LcmHandle connect_to(const std::string& url) {
 
 class LcmBus::Connection {
  public:
-  explicit Connection(const std::string& url);
+  Connection(const std::string& url, const std::optional<LcmKey>& key);
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
   ~Connection();
@@ -78,6 +79,7 @@ class LcmBus::Connection {
   void receive(int fd);
 
   std::string url_;
+  std::optional<MessageSeal> seal_;     ///< with a key
   std::optional<UdpmAddress> udpm_;     ///< none over memq
   LcmHandle lcm_;                       ///< sends; over memq it receives too
   std::unique_ptr<UdpmSocket> socket_;  ///< receives over udpm, from the first subscription on
@@ -93,7 +95,9 @@ class LcmBus::Connection {
   std::int64_t next_id_ = 0;
 };
 
-LcmBus::Connection::Connection(const std::string& url) : url_(url), udpm_(check_lcm_url(url)), lcm_(connect_to(url)) {
+LcmBus::Connection::Connection(const std::string& url, const std::optional<LcmKey>& key)
+    : url_(url), udpm_(check_lcm_url(url)), lcm_(connect_to(url)) {
+  if (key) seal_.emplace(*key);
   wake_fd_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   if (wake_fd_ < 0) throw std::system_error(errno, std::generic_category(), "No eventfd for the LCM receive thread");
 }
@@ -132,6 +136,11 @@ void LcmBus::Connection::unsubscribe(const std::string& channel, std::int64_t id
 
 bool LcmBus::Connection::publish(const std::string& channel, std::span<const std::uint8_t> message) {
   check_channel(channel);
+  std::vector<std::uint8_t> sealed;
+  if (seal_) {
+    sealed = seal_->sealed(channel, message);
+    message = sealed;
+  }
   return lcm_publish(lcm_.get(), channel.c_str(), message.data(), static_cast<unsigned int>(message.size())) == 0;
 }
 
@@ -149,6 +158,14 @@ bool LcmBus::Connection::take_from_udpm() noexcept {
 }
 
 void LcmBus::Connection::dispatch(std::string_view channel, std::span<const std::uint8_t> message) noexcept {
+  if (seal_) {
+    const auto opened = seal_->opened(channel, message);
+    if (!opened) {
+      refused_packets_.fetch_add(1, std::memory_order_relaxed);
+      return;
+    }
+    message = *opened;
+  }
   const std::lock_guard lock(handlers_mutex_);
   const auto entry = handlers_.find(channel);
   if (entry == handlers_.end()) return;
@@ -192,7 +209,8 @@ void LcmBus::Connection::receive(int fd) {
   }
 }
 
-LcmBus::LcmBus(const std::string& url) : connection_(std::make_unique<Connection>(url)) {}
+LcmBus::LcmBus(const std::string& url, const std::optional<LcmKey>& key)
+    : connection_(std::make_unique<Connection>(url, key)) {}
 
 LcmBus::~LcmBus() = default;
 

@@ -9,13 +9,27 @@
 /// this machine routes the group is received. Other programs of LCM (`lcm-logger`, `lcm-spy`) can take part; of their
 /// messages, those in one packet are received, and fragments are dropped.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
 namespace glissade::devices {
+
+/// A secret that all programs on an address share. With a key, each message carries a code of 32 bytes (keyed BLAKE2b
+/// of channel and message), and messages without the right code are dropped. Nothing is encrypted, and a recorded
+/// message can be sent again: sessions, sequences and ages limit what that does. Programs of LCM that do not know the
+/// key see messages that are 32 bytes longer than their type.
+struct LcmKey {
+  std::array<std::uint8_t, 32> bytes{};
+};
+
+/// Reads a key: one line of 64 hexadecimal digits, such as `openssl rand -hex 32` prints. Throws std::invalid_argument,
+/// naming the file, if it cannot be read, has another content, or if others than its owner may read or change it.
+LcmKey read_lcm_key(const std::string& path);
 
 /// Sends and receives raw messages by channel. One thread, started by the first subscription, receives for all
 /// subscribers. This receive thread inherits the scheduling policy of the thread that subscribes first. Channel names
@@ -36,7 +50,7 @@ class LcmBus {
 
   /// Throws std::invalid_argument, naming the URL, when the URL is not a correct memq or udpm address, or when this
   /// machine cannot send to this address.
-  explicit LcmBus(const std::string& url);
+  explicit LcmBus(const std::string& url, const std::optional<LcmKey>& key = {});
   LcmBus(const LcmBus&) = delete;
   LcmBus& operator=(const LcmBus&) = delete;
   /// Stops receiving at once. Messages not yet passed to a handler are lost.
@@ -53,7 +67,8 @@ class LcmBus {
   /// without subscribers is lost at once. Throws std::invalid_argument when the channel's name is not allowed.
   bool publish(const std::string& channel, std::span<const std::uint8_t> message);
 
-  /// Number of packets dropped so far because they came from elsewhere, or were no packet of a message. Any thread.
+  /// Number of packets dropped so far because they came from elsewhere, were no packet of a message, or had no
+  /// code of the bus's key. Any thread.
   std::uint64_t refused_packets() const noexcept;
 
  private:

@@ -1,8 +1,11 @@
 /// `glissade run` and `glissade glove` as two processes over UDP multicast, in a network namespace of their own.
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <future>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +17,12 @@ namespace glissade::apps {
 namespace {
 
 constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
+
+std::string write_key(const test_support::TemporaryFolder& folder, const std::string& name, char digit) {
+  const std::string path = folder.write(name, std::string(64, digit) + '\n');
+  std::filesystem::permissions(path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  return path;
+}
 
 TEST(TwoProcesses, AGloveInOneProcessCarriesThePartInTheOtherToItsSeat) {
   ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
@@ -33,11 +42,12 @@ TEST(TwoProcesses, AGloveInOneProcessCarriesThePartInTheOtherToItsSeat) {
                                           "1.5,0.05,0,0.01,1,0,0,0\n"
                                           "4,0.05,0,0.01,1,0,0,0\n");
   // The glove waits for the server, so the order does not matter; the server ends first, while the hand still presses.
+  const std::string key = write_key(folder, "key", 'a');
   auto glove = std::async(std::launch::async, [&] {
-    return test_support::glissade({"glove", "--lcm", kUrl, "--script", script});
+    return test_support::glissade({"glove", "--lcm", kUrl, "--script", script, "--key-file", key});
   });
   const test_support::ProgramResult server =
-      test_support::glissade({"run", scene, "--lcm", kUrl, "--seconds", "3", "--json"});
+      test_support::glissade({"run", scene, "--lcm", kUrl, "--seconds", "3", "--json", "--key-file", key});
   const test_support::ProgramResult hand = glove.get();
 
   ASSERT_EQ(server.exit_code, 0) << server.standard_error;
@@ -50,6 +60,26 @@ TEST(TwoProcesses, AGloveInOneProcessCarriesThePartInTheOtherToItsSeat) {
   EXPECT_GT(summary["force_max_N"], 1.0);
   EXPECT_NE(hand.standard_output.find(" 0 refused)"), std::string::npos) << hand.standard_output;
   EXPECT_EQ(hand.standard_output.find("greatest force 0 N"), std::string::npos) << hand.standard_output;
+}
+
+TEST(TwoProcesses, AServerWithAnotherKeySaysThatItRefuses) {
+  ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
+  const test_support::TemporaryFolder folder;
+  const std::string scene = folder.write("scene.yaml",
+                                         "objects:\n"
+                                         "  - {name: plate, shape: {type: plate}}\n"
+                                         "  - {name: box, movable: true, shape: {type: box}, pose: {position_m: [0, 0, "
+                                         "1]}}\n");
+  const test_support::Process glove(
+      {GLISSADE_PROGRAM, "glove", "--lcm", kUrl, "--key-file", write_key(folder, "a", 'a')});
+  test_support::Process server(
+      {GLISSADE_PROGRAM, "run", scene, "--lcm", kUrl, "--key-file", write_key(folder, "b", 'b')});
+  for (int i = 0; i < 2000 && server.standard_error().find("refused") == std::string::npos; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  server.signal(SIGINT);
+  const test_support::ProgramResult result = server.wait();
+  EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+  EXPECT_NE(result.standard_error.find("made with another key"), std::string::npos) << result.standard_error;
 }
 
 TEST(TwoProcesses, AServerThatCannotStartSaysNothingOfWaiting) {
