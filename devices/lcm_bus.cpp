@@ -97,7 +97,7 @@ class LcmBus::Connection {
 
 LcmBus::Connection::Connection(const std::string& url, const std::optional<LcmKey>& key)
     : url_(url), udpm_(check_lcm_url(url)), lcm_(connect_to(url)) {
-  if (key) seal_.emplace(*key);
+  if (key) seal_.emplace(key->bytes);
   wake_fd_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   if (wake_fd_ < 0) throw std::system_error(errno, std::generic_category(), "No eventfd for the LCM receive thread");
 }

@@ -1,12 +1,13 @@
 #include "lcm/message_seal.h"
 
 #include <stdexcept>
+#include <tuple>
 
 #include <sodium.h>
 
 namespace glissade::devices {
 
-MessageSeal::MessageSeal(const LcmKey& key) : key_(key) {
+MessageSeal::MessageSeal(const Key& key) : key_(key) {
   if (sodium_init() < 0) throw std::runtime_error("libsodium cannot be initialised");
 }
 
@@ -30,7 +31,7 @@ std::optional<std::span<const std::uint8_t>> MessageSeal::opened(std::string_vie
 MessageSeal::Code MessageSeal::code_of(std::string_view channel, std::span<const std::uint8_t> message) const noexcept {
   Code code{};
   crypto_generichash_state state;
-  crypto_generichash_init(&state, key_.bytes.data(), key_.bytes.size(), code.size());
+  crypto_generichash_init(&state, key_.data(), key_.size(), code.size());
   // Names of channels contain no zero, so the zero behind the name ends it.
   const std::uint8_t end = 0;
   crypto_generichash_update(&state, reinterpret_cast<const std::uint8_t*>(channel.data()), channel.size());

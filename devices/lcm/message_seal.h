@@ -2,20 +2,21 @@
 
 /// Message authentication codes of a bus with a key: keyed BLAKE2b, by libsodium.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include <glissade/devices/lcm_bus.h>
-
 namespace glissade::devices {
 
 /// Immutable, so any number of threads may use it.
 class MessageSeal {
  public:
-  explicit MessageSeal(const LcmKey& key);
+  using Key = std::array<std::uint8_t, 32>;
+
+  explicit MessageSeal(const Key& key);
 
   /// The message with its code behind it.
   std::vector<std::uint8_t> sealed(std::string_view channel, std::span<const std::uint8_t> message) const;
@@ -28,7 +29,7 @@ class MessageSeal {
   using Code = std::array<std::uint8_t, 32>;
   Code code_of(std::string_view channel, std::span<const std::uint8_t> message) const noexcept;
 
-  LcmKey key_;
+  Key key_;
 };
 
 }  // namespace glissade::devices

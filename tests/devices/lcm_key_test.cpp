@@ -27,18 +27,18 @@ std::string key_file(const TemporaryFolder& folder, const std::string& text,
 }
 
 TEST(MessageSeal, OpensWhatItHasSealedForThisChannelOnly) {
-  const MessageSeal seal(kSecret);
+  const MessageSeal seal(kSecret.bytes);
   const std::vector<std::uint8_t> bytes = seal.sealed("A", kText);
   EXPECT_EQ(bytes.size(), kText.size() + 32);
   const auto opened = seal.opened("A", bytes);
   ASSERT_TRUE(opened.has_value());
   EXPECT_TRUE(std::equal(opened->begin(), opened->end(), kText.begin(), kText.end()));
   EXPECT_FALSE(seal.opened("B", bytes).has_value());
-  EXPECT_FALSE(MessageSeal(LcmKey{}).opened("A", bytes).has_value()) << "another key";
+  EXPECT_FALSE(MessageSeal(LcmKey{}.bytes).opened("A", bytes).has_value()) << "another key";
 }
 
 TEST(MessageSeal, NoChangedOrCutMessageOpens) {
-  const MessageSeal seal(kSecret);
+  const MessageSeal seal(kSecret.bytes);
   const std::vector<std::uint8_t> bytes = seal.sealed("A", kText);
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     std::vector<std::uint8_t> changed = bytes;
