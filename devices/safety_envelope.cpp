@@ -208,7 +208,8 @@ void SafetyEnvelope::limit_power(Forces& forces, LimitReasons& reasons) const no
   if (reasons.not_finite) return;  // no velocity is known; the force fades
   const double power = forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH);
   if (power <= descriptor_.max_power) return;
-  const double share = descriptor_.max_power / power;
+  // Velocities near the largest numbers make a power that is infinite or none.
+  const double share = std::isfinite(power) ? descriptor_.max_power / power : 0.0;
   forces.f *= share;
   forces.t *= share;
   reasons.power_limited = true;

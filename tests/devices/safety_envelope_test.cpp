@@ -176,6 +176,16 @@ TEST_F(Envelope, ACommandThatAnswersAnOldStateFadesAlthoughNewStatesCome) {
   EXPECT_TRUE(next().reasons().is_command_old);
 }
 
+TEST_F(Envelope, HugeFiniteVelocitiesLeaveTheForceFinite) {
+  settle(pull(10.0));
+  GloveCommand wanted = pull(10.0);
+  wanted.f_H_W.y() = 10.0;
+  state_.v_WH = Vector3d(1e308, -1e308, 0.0);
+  EXPECT_TRUE(tick(wanted).values().f_H_W.allFinite());
+  state_.v_WH.setZero();
+  EXPECT_NEAR(settle(pull(10.0)).values().f_H_W.x(), 10.0, 1e-9);
+}
+
 TEST_F(Envelope, ACommandThatAnswersAStateOfTheFutureFades) {
   settle(pull(10.0));
   GloveCommand forged = pull(10.0);
