@@ -111,7 +111,7 @@ int run(const GloveOptions& options) {
                                        [&](const devices::GloveState& state, const devices::SafeCommand& command) {
                                          if (record) record->push(state, command);
                                          const bool has_server = command.values().sequence > 0;
-                                         if (has_server) teller.note(command.reasons(), command.age());
+                                         if (has_server) teller.note(command);
                                        });
 
   std::cerr << "glissade glove: the " << options.side << " hand waits for a server at " << options.lcm.url << '\n';

@@ -79,7 +79,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   haptics::Sliding sliding = start_sliding(scene, sliding_options(scene, descriptor, rules));
   SessionRecorder recorder(settings.ticks > 0 ? static_cast<std::size_t>(settings.ticks) : kKeptTicks);
   devices::HapticStatePublisher publisher(bus);
-  devices::LcmGlove glove(bus, descriptor, {.device = settings.device});
+  devices::LcmGlove glove(bus, descriptor, {.device = settings.device, .glove_session = info ? info->session : 0});
   ReasonTeller teller;
   realtime::SteadyClock clock;
 
@@ -87,7 +87,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
                                [&](const devices::HapticState& sample) {
                                  recorder.record(sample);
                                  publisher.push(sample);
-                                 teller.note(sample.reasons, sample.state_age, sample.contact_set_age);
+                                 teller.note(sample);
                                },
                                {.period = settings.period, .ticks = settings.ticks, .fifo_priority = kFifoPriority});
   realtime::PeriodicThread bare_timer(clock, {.period = settings.period, .fifo_priority = kFifoPriority},

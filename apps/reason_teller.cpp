@@ -15,10 +15,29 @@ std::size_t first_reason(const devices::LimitReasons& reasons) {
 
 }  // namespace
 
-void ReasonTeller::note(const devices::LimitReasons& reasons, std::chrono::nanoseconds age,
-                        std::chrono::nanoseconds contact_set_age) noexcept {
-  const bool is_fading = reasons.is_fading() || contact_set_age > haptics::kFullForce;
-  if (is_fading) fading_.publish({reasons, age, contact_set_age});
+void ReasonTeller::note(const devices::HapticState& sample) noexcept {
+  Fading fading;
+  if (sample.reasons.is_fading()) {
+    fading = {Cause::kEnvelope, sample.reasons, sample.state_age};
+  } else if (sample.contact_set_age > haptics::kFullForce) {
+    fading = {Cause::kOldContacts, {}, sample.contact_set_age};
+  } else if (sample.glove_reasons.is_fading()) {
+    fading = {Cause::kGlove, sample.glove_reasons, sample.command_age};
+  } else if (sample.are_contacts_unsolved) {
+    fading.cause = Cause::kUnsolved;
+  }
+  note(fading);
+}
+
+void ReasonTeller::note(const devices::SafeCommand& command) noexcept {
+  Fading fading;
+  if (command.reasons().is_fading()) fading = {Cause::kEnvelope, command.reasons(), command.age()};
+  note(fading);
+}
+
+void ReasonTeller::note(const Fading& fading) noexcept {
+  const bool is_fading = fading.cause != Cause::kNone;
+  if (is_fading) fading_.publish(fading);
   is_fading_.store(is_fading, std::memory_order_release);
 }
 
@@ -26,19 +45,31 @@ std::string ReasonTeller::news() {
   const bool is_fading = is_fading_.load(std::memory_order_acquire);
   if (fading_.update()) {
     const Fading& newest = fading_.value();
-    const bool are_contacts_old = !newest.reasons.is_fading();
-    const std::size_t reason = are_contacts_old ? devices::kLimitReasons.size() : first_reason(newest.reasons);
+    const std::pair reason(newest.cause, first_reason(newest.reasons));
     if (told_ == reason) return {};
     told_ = reason;
-    if (are_contacts_old) {
-      const auto milliseconds = newest.contact_set_age / std::chrono::milliseconds(1);
-      return "reduced force: the simulation's contacts are " + std::to_string(milliseconds) + " ms old";
-    }
-    return to_text(newest.reasons, newest.age);
+    return text(newest);
   }
   if (is_fading || !told_) return {};
   told_.reset();
   return "the force returns";
+}
+
+std::string ReasonTeller::text(const Fading& fading) {
+  switch (fading.cause) {
+    case Cause::kNone:
+      break;
+    case Cause::kEnvelope:
+      return to_text(fading.reasons, fading.age);
+    case Cause::kOldContacts:
+      return "reduced force: the simulation's contacts are " +
+             std::to_string(fading.age / std::chrono::milliseconds(1)) + " ms old";
+    case Cause::kGlove:
+      return "at the glove, " + to_text(fading.reasons, fading.age);
+    case Cause::kUnsolved:
+      return "reduced force: no pose of the part satisfies all contacts";
+  }
+  return {};
 }
 
 }  // namespace glissade::apps

@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include <glissade/devices/haptic_state.h>
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/realtime/triple_buffer.h>
 
@@ -15,26 +17,31 @@ namespace glissade::apps {
 
 class ReasonTeller {
  public:
-  /// In every period of the loop, in its thread. `contact_set_age` is that of `HapticState`; 0 at a glove. Wait-free,
-  /// no allocation.
-  void note(const devices::LimitReasons& reasons, std::chrono::nanoseconds age,
-            std::chrono::nanoseconds contact_set_age = std::chrono::nanoseconds(0)) noexcept;
+  /// At a server, in every tick, in the haptic thread. Wait-free, no allocation.
+  void note(const devices::HapticState& sample) noexcept;
+  /// At a glove, in every period, in its thread. Wait-free, no allocation.
+  void note(const devices::SafeCommand& command) noexcept;
 
-  /// A sentence if the force has faded since the last call and for another reason than was told last: that of
-  /// `to_text`, or one about the age of the contacts. "the force returns" once after such a sentence; otherwise an
-  /// empty text. One thread, some times a second.
+  /// A sentence if the force has faded since the last call and for another reason than was told last. "the force
+  /// returns" once after such a sentence; otherwise an empty text. One thread, some times a second.
   std::string news();
 
  private:
+  /// What lets the force fade, the most serious first.
+  enum class Cause { kNone, kEnvelope, kOldContacts, kGlove, kUnsolved };
+
   struct Fading {
-    devices::LimitReasons reasons;
-    std::chrono::nanoseconds age{0};
-    std::chrono::nanoseconds contact_set_age{0};
+    Cause cause = Cause::kNone;
+    devices::LimitReasons reasons;     // of the envelope here, or of that at the glove
+    std::chrono::nanoseconds age{0};  // of the command or of the contacts
   };
+
+  void note(const Fading& fading) noexcept;
+  static std::string text(const Fading& fading);
 
   realtime::TripleBuffer<Fading> fading_;
   std::atomic<bool> is_fading_{false};
-  std::optional<std::size_t> told_;  // number of the reason; that of none for old contacts
+  std::optional<std::pair<Cause, std::size_t>> told_;  // with the number of the most serious reason
 };
 
 }  // namespace glissade::apps

@@ -46,6 +46,54 @@ inline constexpr std::array<std::string_view, kGloveJoints> kGloveJointNames{"th
 /// The hand that wears a glove. Messages carry the number.
 enum class HandSide : std::int32_t { kUnknown = 0, kLeft = 1, kRight = 2 };
 
+/// Reasons why a command differs from the wanted one. The first seven let the force fade to zero.
+struct LimitReasons {
+  bool is_stopped = false;      ///< emergency stop
+  bool is_disabled = false;     ///< the wearer does not hold the enable switch
+  bool is_refused = false;      ///< the glove obeys another server
+  bool not_finite = false;      ///< a number of the wanted command or of the state is NaN or infinite
+  bool is_implausible = false;  ///< a state contradicts the descriptor or the states before, now or a short time ago
+  bool is_state_old = false;    ///< the newest state was measured too long ago
+  bool is_command_old = false;  ///< the wanted command answers a state that was measured too long ago, or never
+  bool is_returning = false;    ///< the force returns softly, after the start or after one of the reasons above
+  bool force_limited = false;   ///< the force was scaled down to the device's maximum
+  bool torque_limited = false;  ///< the torque was scaled down to the device's maximum
+  bool joints_limited = false;  ///< at least one joint torque was clamped
+  bool rate_limited = false;    ///< force or torques may not change as fast as wanted
+  bool power_limited = false;   ///< the wrench was scaled down to the largest power
+  bool mean_limited = false;    ///< the force was scaled down because its mean is near the largest mean
+
+  /// The force fades or is zero.
+  bool is_fading() const noexcept {
+    return is_stopped || is_disabled || is_refused || not_finite || is_implausible || is_state_old || is_command_old;
+  }
+  bool any() const noexcept {
+    return is_fading() || is_returning || force_limited || torque_limited || joints_limited || rate_limited ||
+           power_limited || mean_limited;
+  }
+};
+
+struct NamedReason {
+  bool LimitReasons::*flag;
+  std::string_view name;
+};
+
+/// All reasons, the most serious first. Messages carry them as bits in this order.
+inline constexpr std::array<NamedReason, 14> kLimitReasons{{{&LimitReasons::is_stopped, "stopped"},
+                                                            {&LimitReasons::is_disabled, "disabled"},
+                                                            {&LimitReasons::is_refused, "refused"},
+                                                            {&LimitReasons::not_finite, "not-finite"},
+                                                            {&LimitReasons::is_implausible, "implausible"},
+                                                            {&LimitReasons::is_state_old, "state-old"},
+                                                            {&LimitReasons::is_command_old, "command-old"},
+                                                            {&LimitReasons::is_returning, "returning"},
+                                                            {&LimitReasons::force_limited, "force"},
+                                                            {&LimitReasons::torque_limited, "torque"},
+                                                            {&LimitReasons::joints_limited, "joints"},
+                                                            {&LimitReasons::rate_limited, "rate"},
+                                                            {&LimitReasons::power_limited, "power"},
+                                                            {&LimitReasons::mean_limited, "mean"}}};
+
 /// Measured state of the hand in a glove, in SI units.
 struct GloveState {
   std::int64_t sequence = 0;         ///< ≥ 0, increases with every state
@@ -56,6 +104,10 @@ struct GloveState {
   JointValues joint_angles{};
   bool obeys_another = false;  ///< the glove obeys another server, and ignores the commands of this one
   bool is_enabled = true;      ///< false while the wearer does not hold the enable switch, if the glove has one
+  /// What the envelope at the glove made of the last command, and the age of that command there: the time from the
+  /// measurement of the state that it answers, i.e. of the whole round trip. Empty for a glove in the same process.
+  LimitReasons limits;
+  std::chrono::nanoseconds command_age{0};
 };
 
 /// Forces (N) and torques (Nm) that somebody asks of the glove. All are zero by default. No device takes a command of
@@ -102,7 +154,8 @@ void validate(const DeviceDescriptor& descriptor);
 
 /// Who a glove is, and what it can do.
 struct GloveInfo {
-  std::int64_t device = 0;  ///< number of the glove
+  std::int64_t device = 0;   ///< number of the glove
+  std::int64_t session = 0;  ///< random number of the glove's process
   HandSide side = HandSide::kUnknown;
   DeviceDescriptor descriptor;
 };

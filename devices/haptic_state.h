@@ -52,6 +52,8 @@ struct HapticState {
   bool are_contacts_unsolved = false;           ///< the contacts had no solution, so their force went towards zero
   LimitReasons reasons;                         ///< why the device got less than the contacts demand
   std::chrono::nanoseconds state_age{0};        ///< time since the measurement of the glove's state
+  LimitReasons glove_reasons;                   ///< `GloveState::limits`
+  std::chrono::nanoseconds command_age{0};      ///< `GloveState::command_age`
 };
 
 }  // namespace glissade::devices

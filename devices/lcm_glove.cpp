@@ -14,6 +14,7 @@ LcmGlove::LcmGlove(std::shared_ptr<LcmBus> bus, DeviceDescriptor descriptor, con
       session_(random_session()),
       monitor_(std::make_unique<LinkMonitor>(options.lease)) {
   validate(descriptor_);
+  if (options.glove_session != 0) monitor_->grant(device_, options.glove_session, clock_.now());
   subscription_ = bus_->subscribe(kGloveStateChannel, [this](std::span<const std::uint8_t> message) {
     StateHeader header;
     GloveState state;
@@ -21,6 +22,10 @@ LcmGlove::LcmGlove(std::shared_ptr<LcmBus> bus, DeviceDescriptor descriptor, con
     if (error == MessageError::kNone && header.device != device_) error = MessageError::kOtherReceiver;
     if (!monitor_->admit(error, {header.device, header.session, state.sequence}, clock_.now())) return;
     state.obeys_another = header.leaseholder != 0 && header.leaseholder != session_;
+    if (header.leaseholder != session_) {  // what the glove tells concerns the commands of another server, or none
+      state.limits = {};
+      state.command_age = std::chrono::nanoseconds(0);
+    }
     states_.publish(state);
   });
   sender_ = std::make_unique<realtime::PeriodicThread>(

@@ -34,6 +34,8 @@ std::optional<GloveInfo> find_glove(const std::shared_ptr<LcmBus>& bus, std::int
 
 struct LcmGloveOptions {
   std::int64_t device = kDefaultDevice;  ///< number of the glove; states of all others are rejected
+  /// `GloveInfo::session` of the glove that has the lease at the start; 0: the first to come gets it.
+  std::int64_t glove_session = 0;
   /// Period at which the send thread polls for a new command. Polling costs the haptic thread nothing, whereas waking
   /// the send thread would cost the haptic thread a system call for every command.
   std::chrono::nanoseconds send_period{std::chrono::microseconds(250)};
@@ -87,7 +89,7 @@ struct LcmGloveHostOptions {
 
 /// The glove driver's end of the link: announces the glove on GLOVE_INFO, sends states on GLOVE_STATE, and receives
 /// commands on GLOVE_COMMAND. It limits each command by an envelope of its own, whatever the server or the network did.
-/// Thread-safety: one thread, the driver's, calls `publish`, `newest_command` and `stop`.
+/// Thread-safety: one thread, the driver's, calls `publish` and `newest_command`.
 class LcmGloveHost {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive, or the descriptor is not valid.
@@ -95,16 +97,16 @@ class LcmGloveHost {
                const LcmGloveHostOptions& options = {});
   ~LcmGloveHost();
 
-  /// Sends `state`, and the announcement when it is due; returns false when the operating system does not accept it.
-  /// May block.
+  /// Sends `state` together with the outcome of the last `newest_command`, and the announcement when it is due; returns
+  /// false when the operating system does not accept it. May block.
   bool publish(const GloveState& state);
 
   /// What the device is to do in this period; call it once a period. `newest` is the state measured last. Without any
   /// command, or when the newest is old, there is no force. Wait-free.
   SafeCommand newest_command(const GloveState& newest) noexcept;
 
-  /// Emergency stop, for ever.
-  void stop() noexcept { envelope_.stop(); }
+  /// Emergency stop, for ever. Wait-free, any thread.
+  void stop() noexcept { should_stop_.store(true, std::memory_order_relaxed); }
 
   /// Statistics of the messages from the server. Any thread.
   LinkStatistics statistics() const noexcept;
@@ -114,6 +116,8 @@ class LcmGloveHost {
   LcmGloveHostOptions options_;
   std::int64_t session_;
   SafetyEnvelope envelope_;
+  SafeCommand last_;
+  std::atomic<bool> should_stop_{false};
   realtime::SteadyClock clock_;
   realtime::TripleBuffer<GloveCommand> commands_;
   std::optional<std::chrono::nanoseconds> announced_;

@@ -94,7 +94,7 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
 
   SafeCommand safe;
   LimitReasons& reasons = safe.reasons_;
-  reasons = faults(wanted, now);
+  reasons = faults(wanted, newest, now);
   if (!reasons.not_finite) safe.age_ = age_of(wanted.state_time, now);
   if (is_finite(wanted)) wanted_ = {wanted.f_H_W, wanted.t_H_W, wanted.joint_torques};
   const double change = reasons.is_fading() ? -dt / (kFadePeriods * seconds(period_)) : dt / kReturn_s;
@@ -109,6 +109,8 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
     torque *= gain_;
   limit_power(forces, reasons);
   limit_rates(forces, dt, reasons);
+  // Cannot happen; but NaN would pass all limits above, and stay.
+  if (!forces.f.allFinite() || !forces.t.allFinite() || !all_finite(forces.joints)) forces = {};
   mean_force_ += std::min(1.0, dt / kMeanTime_s) * (forces.f.norm() - mean_force_);
   last_ = forces;
 
@@ -127,13 +129,13 @@ double SafetyEnvelope::seconds_since_last_call(nanoseconds now) noexcept {
 }
 
 void SafetyEnvelope::observe(const GloveState& state, nanoseconds now) noexcept {
-  const bool is_new = !has_state_ || state.sequence != state_.sequence || state.time != state_.time;
-  if (!is_new) return;
-  if (!is_finite(state) || !is_plausible(state)) distrust_until_ = now + kDistrust;
   if (!is_finite(state)) {
-    state_ = state;
+    distrust_until_ = now + kDistrust;
     return;
   }
+  const bool is_new = !has_state_ || state.sequence != state_.sequence || state.time != state_.time;
+  if (!is_new) return;
+  if (!is_plausible(state)) distrust_until_ = now + kDistrust;
   update_offset(state, now);
   const bool repeats = has_state_ && state.X_WH.matrix() == state_.X_WH.matrix();
   if (!repeats) pose_time_ = state.time;
@@ -144,7 +146,7 @@ void SafetyEnvelope::observe(const GloveState& state, nanoseconds now) noexcept 
 bool SafetyEnvelope::is_plausible(const GloveState& state) noexcept {
   if (state.v_WH.norm() > descriptor_.max_speed || state.w_WH.norm() > descriptor_.max_turn_rate) return false;
   if (state.X_WH.translation().norm() > descriptor_.workspace_radius) return false;
-  if (!has_state_ || !is_finite(state_)) return true;  // nothing to compare with
+  if (!has_state_) return true;  // nothing to compare with
   if (state.time < state_.time) return false;
   if (descriptor_.frozen > nanoseconds(0) && state.X_WH.matrix() == state_.X_WH.matrix() &&
       state.time - pose_time_ > descriptor_.frozen) {
@@ -161,7 +163,7 @@ bool SafetyEnvelope::is_plausible(const GloveState& state) noexcept {
 
 void SafetyEnvelope::update_offset(const GloveState& state, nanoseconds now) noexcept {
   const nanoseconds difference = now - state.time;
-  const bool is_first = !has_state_ || !is_finite(state_) || state.time < state_.time;
+  const bool is_first = !has_state_ || state.time < state_.time;
   if (is_first || now - punctual_ > kLateForGood) {
     offset_ = difference;
   } else {
@@ -174,12 +176,13 @@ nanoseconds SafetyEnvelope::age_of(nanoseconds measured, nanoseconds now) const 
   return now - offset_ - measured;
 }
 
-LimitReasons SafetyEnvelope::faults(const GloveCommand& wanted, nanoseconds now) const noexcept {
+LimitReasons SafetyEnvelope::faults(const GloveCommand& wanted, const GloveState& newest,
+                                    nanoseconds now) const noexcept {
   LimitReasons reasons;
   reasons.is_stopped = is_stopped_;
-  reasons.is_disabled = !state_.is_enabled;
-  reasons.is_refused = state_.obeys_another;
-  reasons.not_finite = !is_finite(wanted) || !is_finite(state_);
+  reasons.is_disabled = !newest.is_enabled;
+  reasons.is_refused = newest.obeys_another;
+  reasons.not_finite = !is_finite(wanted) || !is_finite(newest);
   reasons.is_implausible = now < distrust_until_;
   if (reasons.not_finite) return reasons;  // no ages are known
   reasons.is_state_old = age_of(state_.time, now) > patience_;
@@ -205,7 +208,6 @@ void SafetyEnvelope::limit_norms(Forces& forces, LimitReasons& reasons) const no
 }
 
 void SafetyEnvelope::limit_power(Forces& forces, LimitReasons& reasons) const noexcept {
-  if (reasons.not_finite) return;  // no velocity is known; the force fades
   const double power = forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH);
   if (power <= descriptor_.max_power) return;
   // Velocities near the largest numbers make a power that is infinite or none.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <stdexcept>
+#include <string_view>
 
 #include <glissade/haptics/haptic_server.h>
 
@@ -48,8 +49,9 @@ bool HapticServer::haptic_tick(const realtime::PeriodicTick& timing) noexcept {
 }
 
 void HapticServer::report(const HapticTick& tick, const ContactSet& set, std::chrono::nanoseconds now) noexcept {
-  const devices::HapticState sample = make_sample(tick, set, state_.X_WH.translation(), now);
+  const devices::HapticState sample = make_sample(tick, set, state_, now);
   statistics_.contact_set_age.record(sample.contact_set_age);
+  statistics_.unsolved_ticks += sample.are_contacts_unsolved ? 1 : 0;
   sink_(sample);
   ticks_.fetch_add(1, std::memory_order_relaxed);
 }
@@ -68,12 +70,16 @@ bool HapticServer::simulation_tick() noexcept {
     answer_newest_ghost();
     return true;
   } catch (const std::exception& error) {
-    failure_ = error.what();
+    keep_failure(error.what());
   } catch (...) {
-    failure_ = "an exception of unknown type";
+    keep_failure("an exception of unknown type");
   }
   failed_.store(true, std::memory_order_release);
   return false;
+}
+
+void HapticServer::keep_failure(std::string_view message) noexcept {
+  std::copy_n(message.begin(), std::min(message.size(), failure_.size() - 1), failure_.begin());
 }
 
 void HapticServer::answer_newest_ghost() {

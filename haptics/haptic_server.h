@@ -5,6 +5,7 @@
 /// were in the way. The simulation thread answers the newest pose of the ghost with a contact set, once per millisecond
 /// if the collision queries are fast enough. Neither thread waits for the other.
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glissade/devices/glove_device.h>
@@ -41,6 +43,7 @@ struct HapticServerStatistics {
   realtime::PeriodicStatistics haptic;         ///< all ticks of the haptic thread, counted or not
   realtime::LatencyHistogram simulation;       ///< duration of each call of the simulation
   realtime::LatencyHistogram contact_set_age;  ///< at each counted tick: age of the ghost that the set answers
+  std::int64_t unsolved_ticks = 0;             ///< counted ticks whose contacts had no solution: the force faded
   bool has_fifo_scheduling = false;
 };
 
@@ -49,7 +52,7 @@ struct HapticServerStatistics {
 class HapticServer {
  public:
   /// Receives the state of each counted tick (`HapticServerOptions::ticks`). Called by the haptic thread; must be
-  /// real-time safe.
+  /// real-time safe. An exception from it ends the program.
   using Sink = std::function<void(const devices::HapticState&)>;
 
   /// Starts both threads. The references must outlive the server. The hand grasps the part when the first state of the
@@ -68,8 +71,8 @@ class HapticServer {
 
   /// Whether the simulation threw an exception. Then the force fades and stays at zero. Wait-free, any thread.
   bool has_failed() const noexcept { return failed_.load(std::memory_order_acquire); }
-  /// The message of the exception. Valid once `has_failed` returns true.
-  const std::string& failure() const noexcept { return failure_; }
+  /// The message of the exception, of which at most 255 bytes are kept. Valid once `has_failed` returns true.
+  std::string failure() const { return failure_.data(); }
 
   /// The force fades and stays at zero; the loop goes on. Wait-free, any thread.
   void emergency_stop() noexcept { emergency_.store(true, std::memory_order_relaxed); }
@@ -93,6 +96,7 @@ class HapticServer {
   void report(const HapticTick& tick, const ContactSet& set, std::chrono::nanoseconds now) noexcept;
   bool go_on_fading(const HapticTick& tick) noexcept;
   bool simulation_tick() noexcept;
+  void keep_failure(std::string_view message) noexcept;
   void answer_newest_ghost();
 
   devices::GloveDevice& device_;
@@ -120,7 +124,7 @@ class HapticServer {
   std::atomic<bool> should_end_{false};
   std::atomic<bool> emergency_{false};
   std::atomic<bool> failed_{false};
-  std::string failure_;  // written before failed_
+  std::array<char, 256> failure_{};  // written before failed_; a string might throw where the exception was bad_alloc
   HapticServerStatistics statistics_;
   std::unique_ptr<realtime::PeriodicThread> simulation_thread_;
   std::unique_ptr<realtime::PeriodicThread> haptic_thread_;

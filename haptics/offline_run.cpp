@@ -21,7 +21,7 @@ void run_offline(devices::SimulatedGlove& glove, SlidingSimulation& simulation, 
     const devices::GloveState state = glove.step(period, command);
     const HapticTick tick = kernel.tick(state, set, now);
     command = tick.command;
-    sink(make_sample(tick, set, state.X_WH.translation(), now));
+    sink(make_sample(tick, set, state, now));
     simulation.advance(tick.X_WG, std::chrono::duration<double, std::milli>(period).count());
     set = make_contact_set(simulation.result(), simulation.part(), i, now, scratch);
   }

@@ -17,9 +17,8 @@ std::optional<GloveInfo> find_glove(const std::shared_ptr<LcmBus>& bus, std::int
   std::condition_variable has_come;
   std::optional<GloveInfo> found;
   const auto subscription = bus->subscribe(kGloveInfoChannel, [&](std::span<const std::uint8_t> message) {
-    std::int64_t session = 0;
     GloveInfo info;
-    if (decode(message, session, info) != MessageError::kNone || info.device != device) return;
+    if (decode(message, info) != MessageError::kNone || info.device != device) return;
     const std::lock_guard lock(mutex);
     if (!found) found = std::move(info);
     has_come.notify_all();

@@ -27,6 +27,20 @@ constexpr std::int64_t kLargestTime_ns = std::int64_t{1} << 60;  // 36 years
 constexpr std::int32_t reason_bit(std::size_t i) {
   return std::int32_t{1} << i;
 }
+std::int32_t to_bits(const LimitReasons& reasons) {
+  std::int32_t bits = 0;
+  for (std::size_t i = 0; i < kLimitReasons.size(); ++i)
+    bits |= reasons.*kLimitReasons[i].flag ? reason_bit(i) : 0;
+  return bits;
+}
+
+LimitReasons reasons_of(std::int32_t bits) {
+  LimitReasons reasons;
+  for (std::size_t i = 0; i < kLimitReasons.size(); ++i)
+    reasons.*kLimitReasons[i].flag = (bits & reason_bit(i)) != 0;
+  return reasons;
+}
+
 static_assert(reason_bit(0) == haptic_state_t::REASON_STOPPED);
 static_assert(reason_bit(kLimitReasons.size() - 1) == haptic_state_t::REASON_MEAN);
 
@@ -174,12 +188,12 @@ MessageError check(const haptic_state_t& message) noexcept {
 
 }  // namespace
 
-std::vector<std::uint8_t> encode(std::int64_t session, const GloveInfo& info) {
+std::vector<std::uint8_t> encode(const GloveInfo& info) {
   glove_info_t message{};
   message.version = glove_info_t::VERSION;
   message.side = static_cast<std::int32_t>(info.side);
   message.device = info.device;
-  message.session = session;
+  message.session = info.session;
   const std::string& name = info.descriptor.name;
   std::copy_n(name.begin(), std::min(name.size(), std::size(message.name) - 1), message.name);
   for_each_limit(message, info.descriptor, [](double& sent, double value) { sent = value; });
@@ -202,6 +216,8 @@ std::vector<std::uint8_t> encode(const StateHeader& header, const GloveState& st
   put(state.v_WH, message.v_WH_m_per_s);
   put(state.w_WH, message.w_WH_rad_per_s);
   std::copy(state.joint_angles.begin(), state.joint_angles.end(), message.joint_angles_rad);
+  message.reasons = to_bits(state.limits);
+  message.command_age_ns = state.command_age.count();
   return to_bytes(message);
 }
 
@@ -239,13 +255,14 @@ std::vector<std::uint8_t> encode(const HapticState& state) {
   message.flags = flag(state.is_in_contact, haptic_state_t::FLAG_IN_CONTACT) +
                   flag(state.is_contact_set_late, haptic_state_t::FLAG_CONTACT_SET_LATE) +
                   flag(state.are_contacts_unsolved, haptic_state_t::FLAG_CONTACTS_UNSOLVED);
-  for (std::size_t i = 0; i < kLimitReasons.size(); ++i)
-    message.reasons += flag(state.reasons.*kLimitReasons[i].flag, reason_bit(i));
+  message.reasons = to_bits(state.reasons);
   message.state_age_ns = state.state_age.count();
+  message.glove_reasons = to_bits(state.glove_reasons);
+  message.command_age_ns = state.command_age.count();
   return to_bytes(message);
 }
 
-MessageError decode(std::span<const std::uint8_t> bytes, std::int64_t& session, GloveInfo& info) noexcept {
+MessageError decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexcept {
   glove_info_t message{};
   const MessageError error = from_bytes(bytes, message);
   if (error != MessageError::kNone) return error;
@@ -260,8 +277,10 @@ MessageError decode(std::span<const std::uint8_t> bytes, std::int64_t& session, 
   descriptor.frozen = std::chrono::nanoseconds(message.frozen_ns);
   if (fields.result() != MessageError::kNone || !is_valid(descriptor)) return MessageError::kOutOfRange;
   descriptor.name = reinterpret_cast<const char*>(message.name);
-  session = message.session;
-  info = {.device = message.device, .side = HandSide{message.side}, .descriptor = std::move(descriptor)};
+  info = {.device = message.device,
+          .session = message.session,
+          .side = HandSide{message.side},
+          .descriptor = std::move(descriptor)};
   return MessageError::kNone;
 }
 
@@ -280,6 +299,8 @@ MessageError decode(std::span<const std::uint8_t> bytes, StateHeader& header, Gl
   state.v_WH = Eigen::Vector3d(message.v_WH_m_per_s);
   state.w_WH = Eigen::Vector3d(message.w_WH_rad_per_s);
   std::copy_n(message.joint_angles_rad, kGloveJoints, state.joint_angles.begin());
+  state.limits = reasons_of(message.reasons);
+  state.command_age = std::chrono::nanoseconds(message.command_age_ns);
   return MessageError::kNone;
 }
 
@@ -321,9 +342,10 @@ MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noe
   state.is_in_contact = has(haptic_state_t::FLAG_IN_CONTACT);
   state.is_contact_set_late = has(haptic_state_t::FLAG_CONTACT_SET_LATE);
   state.are_contacts_unsolved = has(haptic_state_t::FLAG_CONTACTS_UNSOLVED);
-  for (std::size_t i = 0; i < kLimitReasons.size(); ++i)
-    state.reasons.*kLimitReasons[i].flag = (message.reasons & reason_bit(i)) != 0;
+  state.reasons = reasons_of(message.reasons);
   state.state_age = std::chrono::nanoseconds(message.state_age_ns);
+  state.glove_reasons = reasons_of(message.glove_reasons);
+  state.command_age = std::chrono::nanoseconds(message.command_age_ns);
   return MessageError::kNone;
 }
 

@@ -33,16 +33,15 @@ struct CommandHeader {
   std::int64_t session = 0;  ///< of the server
 };
 
-/// `session` is that of the glove. A name of more than 31 bytes is cut.
-std::vector<std::uint8_t> encode(std::int64_t session, const GloveInfo& info);
+/// A name of more than 31 bytes is cut.
+std::vector<std::uint8_t> encode(const GloveInfo& info);
 std::vector<std::uint8_t> encode(const StateHeader& header, const GloveState& state);
 std::vector<std::uint8_t> encode(const CommandHeader& header, const GloveCommand& command);
 std::vector<std::uint8_t> encode(const HapticState& state);
 
 /// Decodes and checks a message. With any result other than kNone, the output is unchanged. Never throws, for any
-/// bytes.
-/// kOutOfRange: also for a descriptor that `validate` refuses.
-MessageError decode(std::span<const std::uint8_t> bytes, std::int64_t& session, GloveInfo& info) noexcept;
+/// bytes. kOutOfRange: also for a descriptor that `validate` refuses.
+MessageError decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexcept;
 MessageError decode(std::span<const std::uint8_t> bytes, StateHeader& header, GloveState& state) noexcept;
 MessageError decode(std::span<const std::uint8_t> bytes, CommandHeader& header, GloveCommand& command) noexcept;
 /// A part state that this program does not know becomes `PartState::kUnknown`. This is no error: a viewer may be older

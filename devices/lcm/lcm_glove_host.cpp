@@ -33,16 +33,24 @@ bool LcmGloveHost::publish(const GloveState& state) {
   const std::chrono::nanoseconds now = clock_.now();
   if (!announced_ || now - *announced_ >= kAnnouncements) {
     announced_ = now;
-    const GloveInfo info{.device = options_.device, .side = options_.side, .descriptor = envelope_.descriptor()};
-    bus_->publish(kGloveInfoChannel, encode(session_, info));
+    const GloveInfo info{.device = options_.device,
+                         .session = session_,
+                         .side = options_.side,
+                         .descriptor = envelope_.descriptor()};
+    bus_->publish(kGloveInfoChannel, encode(info));
   }
   const StateHeader header{
       .device = options_.device, .session = session_, .leaseholder = monitor_->leaseholder(now), .side = options_.side};
-  return bus_->publish(kGloveStateChannel, encode(header, state));
+  GloveState told = state;
+  told.limits = last_.reasons();
+  told.command_age = last_.age();
+  return bus_->publish(kGloveStateChannel, encode(header, told));
 }
 
 SafeCommand LcmGloveHost::newest_command(const GloveState& newest) noexcept {
-  return envelope_.limit(commands_.latest(), newest, clock_.now());
+  if (should_stop_.load(std::memory_order_relaxed)) envelope_.stop();
+  last_ = envelope_.limit(commands_.latest(), newest, clock_.now());
+  return last_;
 }
 
 LinkStatistics LcmGloveHost::statistics() const noexcept {

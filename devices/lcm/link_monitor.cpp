@@ -1,5 +1,6 @@
 #include "lcm/link_monitor.h"
 
+#include <algorithm>
 #include <random>
 
 namespace glissade::devices {
@@ -18,20 +19,35 @@ bool LinkMonitor::admit(MessageError error, const MessageOrigin& origin, std::ch
 }
 
 MessageError LinkMonitor::check(const MessageOrigin& origin, std::chrono::nanoseconds now) noexcept {
-  const bool is_other = origin.device != device_ || origin.session != session();
-  if (last_sequence_ >= 0 && !is_other) {
-    constexpr double kBurst = 50.0;  // messages that may be lost or delayed at once, for an instant
-    const double elapsed_s = std::chrono::duration<double>(now - last_time_.load(std::memory_order_relaxed)).count();
-    const auto advance = static_cast<double>(origin.sequence - last_sequence_);
-    return advance > 0.0 && advance <= kBurst + kGreatestRate * elapsed_s ? MessageError::kNone
-                                                                          : MessageError::kOutOfSequence;
-  }
-  if (last_sequence_ >= 0 && now - last_time_.load(std::memory_order_relaxed) < lease_)
-    return MessageError::kOtherSender;
-  device_ = origin.device;
-  session_.store(origin.session, std::memory_order_relaxed);
-  last_sequence_ = -1;
+  const std::chrono::nanoseconds silence = now - last_time_.load(std::memory_order_relaxed);
+  const bool is_holder = session() != 0 && origin.device == device_ && origin.session == session();
+  if (is_holder) return follows(origin.sequence, silence) ? MessageError::kNone : MessageError::kOutOfSequence;
+  if (session() != 0 && silence < lease_) return MessageError::kOtherSender;
+  grant(origin.device, origin.session, now);
   return MessageError::kNone;
+}
+
+bool LinkMonitor::follows(std::int64_t sequence, std::chrono::nanoseconds silence) noexcept {
+  const auto advances = [sequence](std::int64_t last, double most) {
+    return sequence > last && static_cast<double>(sequence - last) <= most;
+  };
+  const double missing = std::min(kGreatestRate * std::chrono::duration<double>(silence).count(), kGreatestAdvance);
+  if (last_sequence_ < 0 || advances(last_sequence_, kBurst + missing)) {
+    refused_sequence_ = -1;
+    return true;
+  }
+  const bool is_new_start = silence >= lease_ && refused_sequence_ >= 0 && advances(refused_sequence_, kBurst);
+  refused_sequence_ = sequence;
+  if (is_new_start) last_sequence_ = -1;
+  return is_new_start;
+}
+
+void LinkMonitor::grant(std::int64_t device, std::int64_t session, std::chrono::nanoseconds now) noexcept {
+  device_ = device;
+  session_.store(session, std::memory_order_relaxed);
+  last_sequence_ = -1;
+  refused_sequence_ = -1;
+  last_time_.store(now, std::memory_order_relaxed);
 }
 
 LinkStatistics LinkMonitor::statistics() const noexcept {

@@ -32,14 +32,24 @@ struct MessageOrigin {
 };
 
 /// The sender whose messages are admitted holds a lease. Another device or session gets it only after `lease` without
-/// an admitted message. Within a session, sequence numbers rise, and no faster than `kGreatestRate`: so one message
-/// with a huge number does not lock its sender out. Thread-safety: `admit` in the receive thread, the rest in any.
+/// an admitted message. Sequence numbers of the holder rise, by no more than `kGreatestAdvance` at once and no faster
+/// than `kGreatestRate`. After `lease` without an admitted message, two messages of the holder in rising sequence are
+/// a new start. So a forged message with a great number locks its sender out for little more than one lease.
+/// Thread-safety: `admit` in the receive thread, `grant` before the first `admit`, the rest in any.
 class LinkMonitor {
  public:
   /// Messages a second that nobody exceeds.
   static constexpr double kGreatestRate = 20e3;
 
+  /// Messages that may be missing after any silence, beyond those of an instant (`kBurst`).
+  static constexpr double kGreatestAdvance = 2000.0;
+  /// Messages that may be lost or late at once.
+  static constexpr double kBurst = 50.0;
+
   explicit LinkMonitor(std::chrono::nanoseconds lease) : lease_(lease) {}
+
+  /// Before the first message: grants the lease to this sender at `now`.
+  void grant(std::int64_t device, std::int64_t session, std::chrono::nanoseconds now) noexcept;
 
   /// Counts a message that was decoded with `error` at `now`; returns whether it may be used.
   bool admit(MessageError error, const MessageOrigin& origin, std::chrono::nanoseconds now) noexcept;
@@ -56,11 +66,13 @@ class LinkMonitor {
  private:
   static constexpr std::size_t kErrors = 9;
 
+  bool follows(std::int64_t sequence, std::chrono::nanoseconds silence) noexcept;
   MessageError check(const MessageOrigin& origin, std::chrono::nanoseconds now) noexcept;
 
   std::chrono::nanoseconds lease_;
   std::atomic<std::chrono::nanoseconds> last_time_{std::chrono::nanoseconds(0)};
-  std::int64_t last_sequence_ = -1;  ///< −1 before the first message
+  std::int64_t last_sequence_ = -1;     ///< −1 before the first message of a lease
+  std::int64_t refused_sequence_ = -1;  ///< of the holder's message refused last; −1 if the last one was admitted
   std::int64_t device_ = 0;
   std::atomic<std::int64_t> session_{0};
   std::array<std::atomic<std::uint64_t>, kErrors> counts_{};  ///< by MessageError

@@ -18,7 +18,7 @@ devices::PartState part_state_of(SlidingState state) noexcept {
   return devices::PartState::kUnknown;
 }
 
-devices::HapticState make_sample(const HapticTick& tick, const ContactSet& set, const Eigen::Vector3d& p_WH,
+devices::HapticState make_sample(const HapticTick& tick, const ContactSet& set, const devices::GloveState& state,
                                  std::chrono::nanoseconds now) noexcept {
   devices::HapticState sample;
   sample.sequence = tick.command.values().sequence;
@@ -26,7 +26,7 @@ devices::HapticState make_sample(const HapticTick& tick, const ContactSet& set, 
   sample.X_WG = tick.X_WG;
   sample.X_WV = set.X_WV;
   const devices::GloveCommand& command = tick.command.values();
-  const Wrench on_hand = about_point({command.f_H_W, command.t_H_W}, p_WH, set.X_WV.translation());
+  const Wrench on_hand = about_point({command.f_H_W, command.t_H_W}, state.X_WH.translation(), set.X_WV.translation());
   sample.force_on_hand_W = on_hand.f;
   sample.torque_on_hand_V_W = on_hand.t;
   if (set.sequence != 0) sample.part_state = part_state_of(set.state);
@@ -36,6 +36,8 @@ devices::HapticState make_sample(const HapticTick& tick, const ContactSet& set, 
   sample.are_contacts_unsolved = tick.is_unsolved;
   sample.reasons = tick.command.reasons();
   sample.state_age = tick.command.age();
+  sample.glove_reasons = state.limits;
+  sample.command_age = state.command_age;
   sample.is_contact_set_late = sample.contact_set_age > kLateContactSet;
   return sample;
 }

@@ -17,7 +17,7 @@ devices::PartState part_state_of(SlidingState state) noexcept;
 
 /// The state for viewers and recorders, at time `now` of the haptic clock. The wrench is the one sent to the device,
 /// moved to the origin of the visible part. Real-time safe.
-devices::HapticState make_sample(const HapticTick& tick, const ContactSet& set, const Eigen::Vector3d& p_WH,
+devices::HapticState make_sample(const HapticTick& tick, const ContactSet& set, const devices::GloveState& state,
                                  std::chrono::nanoseconds now) noexcept;
 
 }  // namespace glissade::haptics

@@ -1,5 +1,7 @@
 /// What the hand gets when processes and the network between them fail. Each test has real processes, in a network
-/// namespace of their own; see `PressingHand`.
+/// namespace of their own; see `PressingHand`. Faults within the server's process cannot be made from outside: a
+/// simulation that halts or is slow, as on fine meshes, is in haptic_kernel_test.cpp and contact_force_test.cpp; one
+/// that throws is in haptic_server_test.cpp.
 
 #include <algorithm>
 #include <atomic>
@@ -7,6 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -78,12 +81,21 @@ class LinkFaults : public testing::Test {
     EXPECT_GT(greatest_force(record.between(now - milliseconds(400), now)), kPressing_N);
   }
 
-  /// The hand pressed for most of the fault.
-  void expect_no_effect(const GloveRecord& record) const {
+  /// Share of the fault during which the hand pressed.
+  double pressing_share(const GloveRecord& record) const {
     const auto periods = record.between(begin_ + kGenerous, end_);
     const auto pressing = std::count_if(periods.begin(), periods.end(),
                                         [](const GlovePeriod& period) { return period.f_W.norm() > kPressing_N; });
-    EXPECT_GT(2 * pressing, std::ssize(periods));
+    return static_cast<double>(pressing) / static_cast<double>(periods.size());
+  }
+
+  void expect_no_effect(const GloveRecord& record) const { EXPECT_GT(pressing_share(record), 0.5); }
+
+  /// The force fades now and then, or for good; it never exceeds that of before the fault, and has no other direction.
+  void expect_no_more_force(const GloveRecord& record) const {
+    const double before = greatest_force(record.between(begin_ - milliseconds(300), begin_));
+    EXPECT_LT(greatest_force(record.between(begin_, end_)), 1.2 * before);
+    EXPECT_LT(greatest_sideways(record.between(begin_, end_)), 0.02 * before);
   }
 
   /// The hand pressed in the end, after a soft return.
@@ -104,12 +116,17 @@ class LinkFaults : public testing::Test {
     // The envelope counts at most two periods of the device for a step.
     const double longest_step = 2.0 * device.max_force / 7.0 + 1e-9;
     const std::vector<GlovePeriod>& periods = record.periods();
+    std::ptrdiff_t beyond_one_period = 0;
     for (std::size_t i = 1; i < periods.size(); ++i) {
       ASSERT_TRUE(periods[i].f_W.allFinite());
       ASSERT_LE(periods[i].f_W.norm(), device.max_force + 1e-9);
       ASSERT_LE(periods[i].torque_W.norm(), device.max_torque + 1e-9);
-      ASSERT_LE((periods[i].f_W - periods[i - 1].f_W).norm(), longest_step) << "at " << periods[i].t << " s";
+      const double step = (periods[i].f_W - periods[i - 1].f_W).norm();
+      ASSERT_LE(step, longest_step) << "at " << periods[i].t << " s";
+      beyond_one_period += step > 1.1 * (device.max_force / 7e-3) * (periods[i].t - periods[i - 1].t) ? 1 : 0;
     }
+    // Only where a period came late, the next change may be greater than that of the time on the record.
+    EXPECT_LE(20 * beyond_one_period, std::ssize(periods));
   }
 
   nanoseconds begin() const { return begin_; }
@@ -150,7 +167,13 @@ TEST_F(LinkFaults, AServerThatIsStoppedAndContinuedComesBackSoftly) {
 TEST_F(LinkFaults, AServerThatEndsLetsTheForceFade) {
   hand().end_server();
   wait();
-  expect_no_force(record());
+  const GloveRecord record = this->record();
+  const std::vector<GlovePeriod>& periods = record.periods();
+  const auto last = std::find_if(periods.rbegin(), periods.rend(),
+                                 [](const GlovePeriod& period) { return period.f_W.norm() > 0.0; });
+  ASSERT_NE(last, periods.rend());
+  EXPECT_LT(last->t, std::chrono::duration<double>(monotonic_now() - milliseconds(300)).count());
+  EXPECT_THAT(last->reason, testing::Not(HasSubstr("no force"))) << "the server's fade, not an expiry at the glove";
 }
 
 TEST_F(LinkFaults, AGloveThatIsStoppedAndContinuedGetsNoOldForce) {
@@ -179,6 +202,19 @@ TEST_F(LinkFaults, AGloveThatRestartsElsewhereIsTakenUpSoftly) {
   const GloveRecord record(file);
   expect_within_limits(record);
   EXPECT_LT(greatest_sideways(record.periods()), 0.5) << "the jump along the plate must not be felt";
+  const double start = record.periods().front().t;
+  double last = 0.0;
+  for (const GlovePeriod& period : record.periods()) {
+    const double force = period.f_W.norm();
+    if (period.t < start + 0.3) {
+      ASSERT_EQ(force, 0.0) << "the first glove has the lease";
+    }
+    if (last == 0.0) {
+      ASSERT_LT(force, 1.0) << "a return that is not soft";
+    }
+    last = force;
+  }
+  expect_pressing_again(record);
   EXPECT_THAT(hand().end_server(), HasSubstr("no force"));
 }
 
@@ -208,7 +244,9 @@ TEST_F(LinkFaults, ALossOfHalfTheMessagesMakesNoJump) {
   relay().set_commands(lose);
   wait();
   recover();
-  expect_pressing_again(record());
+  const GloveRecord record = this->record();
+  expect_no_more_force(record);
+  expect_pressing_again(record);
 }
 
 TEST_F(LinkFaults, MessagesOutOfOrderMakeNoJump) {
@@ -219,7 +257,9 @@ TEST_F(LinkFaults, MessagesOutOfOrderMakeNoJump) {
   relay().set_commands(shuffle);
   wait();
   recover();
-  expect_pressing_again(record());
+  const GloveRecord record = this->record();
+  expect_no_more_force(record);
+  expect_pressing_again(record);
 }
 
 TEST_F(LinkFaults, MessagesThatComeTwiceChangeNothing) {
@@ -235,7 +275,7 @@ TEST_F(LinkFaults, MessagesThatComeTwiceChangeNothing) {
   expect_pressing_again(record);
 }
 
-TEST_F(LinkFaults, ADelayTakesTheForceAway) {
+TEST_F(LinkFaults, ADelayTakesTheForceAwayAndTheServerIsTold) {
   const auto late = [](const Bytes& message, std::mt19937& /*random*/, const Send& send) {
     send(message, milliseconds(200));
   };
@@ -244,6 +284,7 @@ TEST_F(LinkFaults, ADelayTakesTheForceAway) {
   wait(milliseconds(2500));  // longer than it takes the server to believe in another clock
   const GloveRecord record = this->record();
   expect_no_force(record);
+  EXPECT_THAT(hand().end_server(), HasSubstr("at the glove, no force: the command answers a state that is"));
 }
 
 TEST_F(LinkFaults, ASmallerDelayDoesNotOscillate) {
@@ -254,6 +295,7 @@ TEST_F(LinkFaults, ASmallerDelayDoesNotOscillate) {
   relay().set_commands(late);
   wait(milliseconds(2000));
   expect_no_force(record());
+  EXPECT_THAT(hand().end_server(), HasSubstr("at the glove, no force: the command answers a state that is"));
 }
 
 TEST_F(LinkFaults, CorruptedMessagesMakeNoJump) {
@@ -267,7 +309,7 @@ TEST_F(LinkFaults, CorruptedMessagesMakeNoJump) {
   wait(milliseconds(1000));
   recover();
   wait(milliseconds(500));
-  expect_pressing_again(record());
+  expect_pressing_again(record());  // until then anything within the limits: a force with one wrong bit looks good
 }
 
 TEST_F(LinkFaults, NumbersThatAreNoneTakeTheForceAway) {
@@ -317,7 +359,7 @@ TEST_F(LinkFaults, ATrackerThatJumpsAlongThePlateIsNotFelt) {
   EXPECT_THAT(hand().end_server(), HasSubstr("no force: the glove's pose jumps"));
 }
 
-TEST_F(LinkFaults, AFrozenPoseMakesNoJump) {
+TEST_F(LinkFaults, AFrozenPoseHoldsItsForce) {
   std::vector<double> first;
   relay().set_states(Relay::changed<glissade::glove_state_t>([first](auto& state) mutable {
     if (first.empty()) first.assign(state.position_WH_m, state.position_WH_m + 3);
@@ -325,7 +367,9 @@ TEST_F(LinkFaults, AFrozenPoseMakesNoJump) {
   }));
   wait();
   recover();
-  expect_pressing_again(record());
+  const GloveRecord record = this->record();
+  expect_no_effect(record);
+  expect_pressing_again(record);
 }
 
 TEST_F(LinkFaults, TimeThatGoesBackTakesTheForceAwayForATime) {
@@ -338,7 +382,10 @@ TEST_F(LinkFaults, TimeThatGoesBackTakesTheForceAwayForATime) {
 }
 
 TEST_F(LinkFaults, SequencesThatFallMakeNoPulses) {
-  const auto falling = [next = std::int64_t{1} << 40](auto& message) mutable { message.sequence = --next; };
+  const auto falling = [next = std::optional<std::int64_t>()](auto& message) mutable {
+    next = next ? *next - 1 : message.sequence;
+    message.sequence = *next;
+  };
   relay().set_commands(Relay::changed<glissade::glove_command_t>(falling));
   wait(milliseconds(1500));
   expect_no_force(record());
@@ -386,7 +433,7 @@ TEST_F(LinkFaults, ASecondServerIsRefusedAndSaysSo) {
   EXPECT_THAT(hand().end_server(), testing::Not(HasSubstr("another server")));
 }
 
-TEST_F(LinkFaults, AFloodMakesNoJump) {
+TEST_F(LinkFaults, AFloodChangesNothing) {
   relay().set_commands([](const Bytes& message, std::mt19937& random, const Send& send) {
     send(message, nanoseconds(0));
     for (int i = 0; i < 20; ++i) {
@@ -399,7 +446,9 @@ TEST_F(LinkFaults, AFloodMakesNoJump) {
   });
   wait(milliseconds(1000));
   recover();
-  expect_pressing_again(record());
+  const GloveRecord record = this->record();
+  expect_no_effect(record);
+  expect_pressing_again(record);
 }
 
 TEST_F(LinkFaults, FragmentsAndPacketsFromElsewhereDoNoHarm) {

@@ -80,14 +80,13 @@ TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
 
 TEST(GloveInfo, OfADeviceThatCannotBeIsRefused) {
   DeviceDescriptor descriptor = simulated_glove_descriptor();
-  std::int64_t session = 0;
   GloveInfo info;
-  EXPECT_EQ(decode(encode(1, GloveInfo{1, HandSide::kRight, descriptor}), session, info), MessageError::kNone);
+  EXPECT_EQ(decode(encode(GloveInfo{1, 1, HandSide::kRight, descriptor}), info), MessageError::kNone);
   descriptor.max_force = kNan;
-  EXPECT_EQ(decode(encode(1, GloveInfo{1, HandSide::kRight, descriptor}), session, info), MessageError::kOutOfRange);
+  EXPECT_EQ(decode(encode(GloveInfo{1, 1, HandSide::kRight, descriptor}), info), MessageError::kOutOfRange);
   descriptor.max_force = 20.0;
   descriptor.update_rate = 1e-300;
-  EXPECT_EQ(decode(encode(1, GloveInfo{1, HandSide::kRight, descriptor}), session, info), MessageError::kOutOfRange);
+  EXPECT_EQ(decode(encode(GloveInfo{1, 1, HandSide::kRight, descriptor}), info), MessageError::kOutOfRange);
 }
 
 class LcmLink : public testing::Test {
@@ -365,6 +364,58 @@ TEST_F(LcmLink, OneHugeSequenceDoesNotLockTheSenderOut) {
   EXPECT_EQ(after(encoded(good_state(11))).accepted, 2U);
 }
 
+TEST_F(LcmLink, AGrantedLeaseRefusesWhoeverComesFirst) {
+  const LcmGlove granted(bus, descriptor, {.glove_session = 2});
+  bus->publish("GLOVE_STATE", encoded(good_state(10)));  // of session 1
+  ASSERT_TRUE(eventually([&] { return granted.statistics().other_sender == 1; }));
+  glove_state_t announced = good_state(1);
+  announced.session = 2;
+  bus->publish("GLOVE_STATE", encoded(announced));
+  EXPECT_TRUE(eventually([&] { return granted.statistics().accepted == 1; }));
+}
+
+/// A filter with a lease of 500 ms, and messages of one session.
+class Filter : public testing::Test {
+ protected:
+  bool admits(std::int64_t sequence, milliseconds now) {
+    return monitor_.admit(MessageError::kNone, {1, 7, sequence}, now);
+  }
+  LinkMonitor monitor_{milliseconds(500)};
+};
+
+TEST_F(Filter, AForgedNumberAfterASilenceIsRefused) {
+  EXPECT_TRUE(admits(10, milliseconds(0)));
+  EXPECT_FALSE(admits(8000, milliseconds(400)));
+  EXPECT_TRUE(admits(411, milliseconds(401)));
+}
+
+TEST_F(Filter, ALockedOutSenderStartsAnewAfterOneLease) {
+  EXPECT_TRUE(admits(10, milliseconds(0)));
+  EXPECT_TRUE(admits(2000, milliseconds(400))) << "forged";
+  std::int64_t sequence = 411;
+  milliseconds now(401);
+  while (!admits(sequence, now)) {
+    ASSERT_LT(now, milliseconds(1000));
+    ++sequence;
+    ++now;
+  }
+  EXPECT_LE(now, milliseconds(902));
+  EXPECT_TRUE(admits(sequence + 1, now));
+  EXPECT_EQ(monitor_.statistics().lost, 1989U) << "only those before the forged one seem lost";
+}
+
+TEST_F(Filter, FallingNumbersAreNoNewStart) {
+  EXPECT_TRUE(admits(10'000, milliseconds(0)));
+  for (int i = 1; i < 5000; ++i)
+    ASSERT_FALSE(admits(10'000 - i, milliseconds(i)));
+}
+
+TEST_F(Filter, ASenderThatWasSilentForLongIsHeardAgain) {
+  EXPECT_TRUE(admits(10, milliseconds(0)));
+  EXPECT_FALSE(admits(60'000, milliseconds(60'000)));
+  EXPECT_TRUE(admits(60'001, milliseconds(60'001)));
+}
+
 TEST(LcmGlove, AcceptsARestartedGloveAfterASilence) {
   const auto bus = std::make_shared<LcmBus>("memq://");
   LcmGlove glove(bus, simulated_glove_descriptor(), {.lease = milliseconds(30)});
@@ -404,6 +455,24 @@ class CommandsToAGlove : public testing::Test {
       });
   glove_command_t good{};
 };
+
+TEST_F(CommandsToAGlove, TheGloveTellsWhatItMadeOfThem) {
+  LcmGlove server(bus, simulated_glove_descriptor());
+  GloveState measured;
+  GloveState told;
+  const auto period = [&] {
+    measured.time = nanoseconds(std::chrono::steady_clock::now().time_since_epoch());
+    ++measured.sequence;
+    host.newest_command(measured);
+    host.publish(measured);
+    return server.read(told) && told.command_age > nanoseconds(0);
+  };
+  const SafeCommand to_be_answered;  // answers the state of time zero, of long ago
+  server.command(to_be_answered);
+  ASSERT_TRUE(eventually(period));
+  EXPECT_TRUE(told.limits.is_command_old);
+  EXPECT_GT(told.command_age, milliseconds(10));
+}
 
 TEST_F(CommandsToAGlove, SpoiltOnesAreRefused) {
   const auto send_spoilt = [&](const std::function<void(glove_command_t&)>& spoil) {

@@ -297,6 +297,32 @@ TEST_F(Envelope, WithoutTheEnableSwitchThereIsNoForce) {
   EXPECT_LT(tick(pull(15.0)).values().f_H_W.x(), 0.1) << "returns softly";
 }
 
+TEST_F(Envelope, TheEnableSwitchIsHeardAlsoWithoutANewMeasurement) {
+  settle(pull(15.0));
+  state_.is_enabled = false;  // same sequence, same time
+  EXPECT_TRUE(silent_tick(pull(15.0)).reasons().is_disabled);
+}
+
+TEST_F(Envelope, AStateThatIsNotFiniteDoesNotHideADelay) {
+  settle(pull(15.0));
+  const double good = state_.X_WH.translation().x();
+  state_.X_WH.translation().x() = std::numeric_limits<double>::infinity();
+  silent_tick(pull(15.0));
+  state_.X_WH.translation().x() = good;
+  // From now on the states are 50 ms old.
+  now_ += milliseconds(50);
+  SafeCommand safe;
+  for (int i = 0; i < 300; ++i) {
+    now_ += milliseconds(1);
+    state_.time += milliseconds(1);
+    ++state_.sequence;
+    GloveCommand wanted = pull(15.0);
+    wanted.state_time = state_.time;
+    safe = envelope_.limit(wanted, state_, now_);
+  }
+  EXPECT_TRUE(safe.reasons().is_state_old);
+}
+
 TEST_F(Envelope, AGloveThatObeysAnotherServerGetsNoForce) {
   state_.obeys_another = true;
   const SafeCommand safe = settle(pull(15.0));
@@ -388,9 +414,11 @@ double any_number(std::mt19937_64& random) {
     case 1:
       return -std::numeric_limits<double>::infinity();
     case 2:
-      return 1e30;
+      return 1e308;
+    case 3:
+      return -1e308;
     default:
-      return std::normal_distribution<double>(0.0, std::pow(10.0, kind(random) % 4))(random);
+      return std::normal_distribution<double>(0.0, std::pow(10.0, kind(random) % 31))(random);
   }
 }
 
@@ -398,46 +426,120 @@ Vector3d any_vector(std::mt19937_64& random) {
   return {any_number(random), any_number(random), any_number(random)};
 }
 
+/// A hand that moves as hands do, at up to some metres per second, and a server that wants all kinds of forces. Now and
+/// then, both say anything at all for a moment.
+class RandomHand {
+ public:
+  explicit RandomHand(std::uint64_t seed) : random_(seed) {}
+
+  /// The next period, which lasts up to 1 ms, rarely longer.
+  void step() {
+    dt_ = random_() % 10'000 == 0 ? nanoseconds(random_() % 2'000'000'000) : nanoseconds(random_() % 1'000'000);
+    now_ += dt_;
+    move(std::chrono::duration<double>(dt_).count());
+    if (random_() % 40 == 0) want_another_force();
+    state_ = good_;
+    command_ = wanted_;
+    command_.state_time = state_.time;
+    if (random_() % 3000 == 0) say_anything();
+  }
+
+  nanoseconds now() const { return now_; }
+  double period_s() const { return std::chrono::duration<double>(std::min<nanoseconds>(dt_, milliseconds(2))).count(); }
+  const GloveState& state() const { return state_; }
+  const GloveCommand& command() const { return command_; }
+  bool is_state_finite() const {
+    return state_.v_WH.allFinite() && state_.w_WH.allFinite() && state_.X_WH.translation().allFinite() &&
+           std::abs(static_cast<double>(state_.time.count())) < 2e18;
+  }
+
+ private:
+  Vector3d normal(double deviation) {
+    std::normal_distribution<double> number(0.0, deviation);
+    return {number(random_), number(random_), number(random_)};
+  }
+
+  void move(double dt) {
+    const Vector3d v_before = good_.v_WH;
+    good_.v_WH = (good_.v_WH + normal(0.1)) * 0.998;
+    good_.w_WH = (good_.w_WH + normal(0.5)) * 0.998;
+    good_.X_WH.translation() = 0.9999 * good_.X_WH.translation() + 0.5 * dt * (v_before + good_.v_WH);
+    good_.time = now_;
+    ++good_.sequence;
+    good_.is_enabled = good_.is_enabled ? random_() % 50'000 != 0 : random_() % 50 == 0;
+  }
+
+  void want_another_force() {
+    wanted_.f_H_W = normal(15.0);
+    wanted_.t_H_W = normal(0.7);
+    for (double& torque : wanted_.joint_torques)
+      torque = normal(0.4).x();
+  }
+
+  void say_anything() {
+    if (random_() % 2 == 0) command_.f_H_W = any_vector(random_);
+    if (random_() % 2 == 0) command_.t_H_W = any_vector(random_);
+    if (random_() % 2 == 0) command_.joint_torques[random_() % kGloveJoints] = any_number(random_);
+    if (random_() % 4 == 0) command_.state_time = nanoseconds(static_cast<std::int64_t>(random_()));
+    if (random_() % 4 == 0) state_.time = nanoseconds(static_cast<std::int64_t>(random_()));
+    if (random_() % 2 == 0) state_.v_WH = any_vector(random_);
+    if (random_() % 2 == 0) state_.w_WH = any_vector(random_);
+    if (random_() % 2 == 0) state_.X_WH.translation() = any_vector(random_);
+  }
+
+  std::mt19937_64 random_;
+  nanoseconds now_{0};
+  nanoseconds dt_{0};
+  GloveState good_;
+  GloveState state_;
+  GloveCommand wanted_;
+  GloveCommand command_;
+};
+
 // Ten million calls: GLISSADE_ENVELOPE_CALLS=10000000.
 TEST(SafetyEnvelope, NoRandomCommandOrStateBreaksALimit) {
   constexpr unsigned kSeed = 11;
   SCOPED_TRACE(kSeed);
-  std::mt19937_64 random(kSeed);
   const char* const wish = std::getenv("GLISSADE_ENVELOPE_CALLS");
   const int calls = wish != nullptr ? std::atoi(wish) : 100'000;
+  constexpr double kRate = 1000.0 / 7.0;  // per second: from zero to the maximum in seven periods
+  constexpr double kTolerance = 1e-12;
+  RandomHand hand(kSeed);
   SafetyEnvelope server(kDevice);
   SafetyEnvelope glove(kDevice, 6.0);
-  GloveState state;
-  nanoseconds now(0);
   GloveCommand last;
+  int pressing = 0;
+  int at_the_power = 0;
   for (int i = 0; i < calls; ++i) {
-    now += nanoseconds(random() % 1'000'000);
-    const bool is_wild = random() % 8 == 0;
-    ++state.sequence;
-    state.time = is_wild ? nanoseconds(static_cast<std::int64_t>(random())) : now;
-    state.v_WH = is_wild ? any_vector(random) : Vector3d(1e-3 * any_vector(random).array().min(1.0).max(-1.0));
-    state.X_WH.translation() = is_wild ? any_vector(random) : Vector3d::Zero();
-    GloveCommand wanted;
-    wanted.state_time = is_wild ? nanoseconds(static_cast<std::int64_t>(random())) : state.time;
-    wanted.f_H_W = any_vector(random);
-    wanted.t_H_W = any_vector(random);
-    for (double& torque : wanted.joint_torques)
-      torque = any_number(random);
-    const SafeCommand sent = server.limit(wanted, state, now);
-    const GloveCommand out = glove.limit(sent.values(), state, now).values();
-    ASSERT_LE(out.f_H_W.norm(), kDevice.max_force);
-    ASSERT_LE(out.t_H_W.norm(), kDevice.max_torque);
-    ASSERT_LE((out.f_H_W - last.f_H_W).norm(), kForceStep_N * kSlack) << i;
-    ASSERT_LE((out.t_H_W - last.t_H_W).norm(), kDevice.max_torque / 7.0 * kSlack) << i;
-    for (const double torque : out.joint_torques)
-      ASSERT_LE(std::abs(torque), kDevice.max_joint_torque);
-    // The power is limited, or the force falls as fast as its rate allows.
-    const double power = out.f_H_W.dot(state.v_WH) + out.t_H_W.dot(state.w_WH);
-    if (state.v_WH.allFinite() && power > kDevice.max_power * kSlack) {
-      ASSERT_GT((out.f_H_W - last.f_H_W).norm(), 0.0) << i;
+    hand.step();
+    const SafeCommand sent = server.limit(hand.command(), hand.state(), hand.now());
+    const GloveCommand out = glove.limit(sent.values(), hand.state(), hand.now()).values();
+    ASSERT_LE(out.f_H_W.norm(), kDevice.max_force) << i;
+    ASSERT_LE(out.t_H_W.norm(), kDevice.max_torque) << i;
+    const double share = kRate * hand.period_s();  // of the maximum, by which a number may change
+    const double f_step = (out.f_H_W - last.f_H_W).norm();
+    const double t_step = (out.t_H_W - last.t_H_W).norm();
+    ASSERT_LE(f_step, share * kDevice.max_force * kSlack + kTolerance) << i;
+    ASSERT_LE(t_step, share * kDevice.max_torque * kSlack + kTolerance) << i;
+    for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
+      ASSERT_LE(std::abs(out.joint_torques[joint]), kDevice.max_joint_torque) << i;
+      ASSERT_LE(std::abs(out.joint_torques[joint] - last.joint_torques[joint]),
+                share * kDevice.max_joint_torque * kSlack + kTolerance)
+          << i;
     }
+    // The power is within its limit, or the wrench goes there as fast as its rates allow.
+    const double power = out.f_H_W.dot(hand.state().v_WH) + out.t_H_W.dot(hand.state().w_WH);
+    if (hand.is_state_finite() && power > kDevice.max_power * 1.000001) {
+      ASSERT_TRUE(f_step > 0.999999 * share * kDevice.max_force || t_step > 0.999999 * share * kDevice.max_torque)
+          << i << ": " << power << " W";
+    }
+    pressing += out.f_H_W.norm() > 5.0 ? 1 : 0;
+    at_the_power += power > 0.999 * kDevice.max_power ? 1 : 0;
     last = out;
   }
+  // The limits were put to the test.
+  EXPECT_GT(pressing, calls / 3);
+  EXPECT_GT(at_the_power, calls / 200);
 }
 
 }  // namespace

@@ -101,9 +101,8 @@ class Link {
   }
 
   static bool take_info(std::span<const std::uint8_t> message) {
-    std::int64_t session = 0;
     GloveInfo info;
-    if (decode(message, session, info) != MessageError::kNone) return false;
+    if (decode(message, info) != MessageError::kNone) return false;
     const SafetyEnvelope envelope(info.descriptor);  // what was decoded is valid
     return true;
   }
@@ -150,7 +149,7 @@ std::string command_datagram(int tick) {
 }
 
 std::string info_datagram() {
-  return datagram(kGloveInfoChannel, encode(7, GloveInfo{1, HandSide::kLeft, simulated_glove_descriptor()}));
+  return datagram(kGloveInfoChannel, encode(GloveInfo{1, 7, HandSide::kLeft, simulated_glove_descriptor()}));
 }
 
 std::string viewer_datagram() {

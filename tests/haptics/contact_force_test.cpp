@@ -141,6 +141,25 @@ TEST(ContactForce, ABodyThatMovesGoesOnWhileTheSetGrowsOld) {
   EXPECT_NEAR(contacts.update(set, milliseconds(2), at(0.0, 0.0, -2e-3), kTick_s).f.z(), 2.2, 1e-9);
 }
 
+TEST(ContactForce, RowsThatContradictEachOtherLetTheForceFadeAndAreTold) {
+  ContactForce contacts = at_origin();
+  const ContactSet floor = floor_below(0.0);
+  EXPECT_GT(settle(contacts, floor, at(0, 0, -0.01)).f.z(), 9.0);
+  EXPECT_FALSE(contacts.is_unsolved());
+  ContactSet vise = floor;  // 10 mm up from the floor, 10 mm down from the ceiling
+  vise.row_count = 2;
+  vise.row_array[0].bound = 0.01;
+  vise.row_array[1] = {-Vector3d::UnitZ(), Vector3d::Zero(), 0.01};
+  double last = 20.0;
+  for (int i = 0; i < 100; ++i) {
+    const double force = contacts.update(vise, nanoseconds(0), at(0, 0, -0.01), kTick_s).f.norm();
+    ASSERT_TRUE(contacts.is_unsolved());
+    ASSERT_LE(last - force, kStiffness * kSlew_m * 1.000001 + (i == 0 ? 20.0 : 0.0));
+    last = force;
+  }
+  EXPECT_EQ(last, 0.0);
+}
+
 TEST(ContactForce, TheTorqueIsThatOfTheContactsLever) {
   ContactForce contacts = at_origin();
   ContactSet set = floor_below(0.0);

@@ -19,7 +19,7 @@ TEST(HapticSample, EveryStateOfTheSlidingHasItsName) {
     ContactSet set;
     set.sequence = 1;
     set.state = state;
-    const devices::HapticState sample = make_sample({}, set, Eigen::Vector3d::Zero(), milliseconds(1));
+    const devices::HapticState sample = make_sample({}, set, devices::GloveState{}, milliseconds(1));
     EXPECT_EQ(devices::name_of(sample.part_state), name_of(state));
     states.insert(sample.part_state);
   }
@@ -27,7 +27,7 @@ TEST(HapticSample, EveryStateOfTheSlidingHasItsName) {
 }
 
 TEST(HapticSample, BeforeTheSimulationHasAnsweredTheStateIsUnknown) {
-  const devices::HapticState sample = make_sample({}, {}, Eigen::Vector3d::Zero(), milliseconds(1));
+  const devices::HapticState sample = make_sample({}, {}, devices::GloveState{}, milliseconds(1));
   EXPECT_EQ(sample.part_state, PartState::kUnknown);
 }
 
