@@ -46,14 +46,14 @@ Wrench spring_wrench(const CouplingStiffness& stiffness, const geometry::Displac
   return {-stiffness.translational * error.v, -stiffness.rotational * error.w};
 }
 
-Wrench damper_wrench(const CouplingDamping& damping, const Wrench& spring, const Velocity& ghost) {
+Wrench damper_wrench(const CouplingDamping& damping, const Wrench& contacts, const Velocity& ghost) {
   const auto along = [](const Eigen::Vector3d& push, double coefficient, const Eigen::Vector3d& velocity) {
     const double magnitude = push.norm();
     if (magnitude == 0.0) return Eigen::Vector3d(Eigen::Vector3d::Zero());
     const Eigen::Vector3d direction = push / magnitude;
     return Eigen::Vector3d(std::clamp(-coefficient * velocity.dot(direction), -magnitude, magnitude) * direction);
   };
-  return {along(spring.f, damping.translational, ghost.v), along(spring.t, damping.rotational, ghost.w)};
+  return {along(contacts.f, damping.translational, ghost.v), along(contacts.t, damping.rotational, ghost.w)};
 }
 
 }  // namespace glissade::haptics

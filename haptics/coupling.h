@@ -25,8 +25,8 @@ inline constexpr std::chrono::milliseconds kLongestTickPeriod{2};
 void validate_tick_period(std::chrono::nanoseconds period);
 
 /// The lag of a part is the displacement from the visible part to its target (`SlidingResult`). Under force feedback,
-/// the lag changes in a millisecond by at most kSlew_m (metres) plus the motion of the ghost,
-/// or of all ghosts if there are several parts. This limit bounds the change of the force when the part snaps into a
+/// the lag changes in a millisecond by at most kSlew_m (metres) plus the motion of the ghost, or of all ghosts if there
+/// are several parts. This limit bounds the change of the force when the part snaps into a
 /// gap.
 inline constexpr double kSlew_m = 0.2e-3;
 
@@ -85,10 +85,10 @@ struct Velocity {
   Eigen::Vector3d w = Eigen::Vector3d::Zero();
 };
 
-/// The damper's wrench on the hand. The damper acts along the spring's force and torque only. So it does not brake a
-/// translation perpendicular to the contact normals, and obstacles do not resist such a translation either. The
-/// damper's force never exceeds the spring's force, nor its torque the spring's torque. So the damper sets in smoothly
-/// at a new contact, and spring and damper together never pull the hand towards a contact that the hand leaves.
-Wrench damper_wrench(const CouplingDamping& damping, const Wrench& spring, const Velocity& ghost);
+/// The damper's wrench on the hand. The damper acts along the force and the torque of the contacts only. So it does not
+/// brake a translation perpendicular to the contact normals, and obstacles do not resist such a translation either. The
+/// damper's force never exceeds that of the contacts, nor its torque theirs. So the damper sets in smoothly at a new
+/// contact, and both together never pull the hand towards a contact that the hand leaves.
+Wrench damper_wrench(const CouplingDamping& damping, const Wrench& contacts, const Velocity& ghost);
 
 }  // namespace glissade::haptics
