@@ -32,7 +32,7 @@ class ReasonTeller {
 
   struct Fading {
     Cause cause = Cause::kNone;
-    devices::LimitReasons reasons;     // of the envelope here, or of that at the glove
+    devices::LimitReasons reasons;    // of the envelope here, or of that at the glove
     std::chrono::nanoseconds age{0};  // of the command or of the contacts
   };
 

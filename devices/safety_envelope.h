@@ -76,7 +76,8 @@ class SafetyEnvelope {
   void observe(const GloveState& state, std::chrono::nanoseconds now) noexcept;
   bool is_plausible(const GloveState& state) noexcept;
   void update_offset(const GloveState& state, std::chrono::nanoseconds now) noexcept;
-  LimitReasons faults(const GloveCommand& wanted, const GloveState& newest, std::chrono::nanoseconds now) const noexcept;
+  LimitReasons faults(const GloveCommand& wanted, const GloveState& newest,
+                      std::chrono::nanoseconds now) const noexcept;
   std::chrono::nanoseconds age_of(std::chrono::nanoseconds measured, std::chrono::nanoseconds now) const noexcept;
   void limit_norms(Forces& forces, LimitReasons& reasons) const noexcept;
   void limit_power(Forces& forces, LimitReasons& reasons) const noexcept;

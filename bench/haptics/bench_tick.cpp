@@ -43,7 +43,7 @@ using test_support::turn;
 constexpr double kTick_s = 1e-3;
 constexpr double kSpeed = 0.2;      // of the hand, m/s
 constexpr double kFastSpeed = 0.5;  // for the force along the plane
-constexpr int kSettling = 400;  // ticks in which the hand comes down; not counted
+constexpr int kSettling = 400;      // ticks in which the hand comes down; not counted
 
 /// Goes to and fro between −amplitude and amplitude at `speed`, beginning at 0.
 double to_and_fro(int tick, double amplitude, double speed = kSpeed) {
@@ -144,30 +144,35 @@ SlidingScene from_file(const std::string& path) {
 constexpr int kSlower = 10;
 constexpr std::array kAges{0, 1, 5, 20, 50};  // of the sets, ms
 
-/// The simulation's answers to all ghosts of a scene, and the force that is right at each: that of a part which is led
-/// ten times as slowly, so that it is near its rest. Sets and forces are of the same simulation, so that nothing but the
-/// age of a set makes a difference.
+/// The simulation's answers to all ghosts of a scene, with the force of each, and the force that is right: that of a
+/// part which another simulation has led ten times as slowly, so that it is near its rest.
 struct Answers {
   std::vector<Isometry3d> X_WG;
   std::vector<ContactSet> sets;
+  std::vector<Vector3d> forces;
   std::vector<Vector3d> exact;
 };
+
+Vector3d force_of(const haptics::Sliding& sliding) {
+  return haptics::spring_wrench(sliding.stiffness(), sliding.error()).f;
+}
 
 Answers answers_of(const SlidingScene& scene, int ticks) {
   haptics::SlidingOptions options;
   options.metaphor = haptics::Metaphor::kForceFeedback;
+  haptics::Sliding sliding(scene.obstacles, scene.part_V, scene.X_WV_start, options);
   haptics::Sliding slow(scene.obstacles, scene.part_V, scene.X_WV_start, options);
   Answers answers;
   std::vector<std::int32_t> scratch;
   for (int tick = 0; tick < ticks; ++tick) {
     answers.X_WG.push_back(scene.ghost(tick));
+    sliding.advance(answers.X_WG.back());
+    answers.sets.push_back(make_contact_set(sliding.result(), *scene.part_V, tick + 1, milliseconds(tick), scratch));
+    answers.forces.push_back(force_of(sliding));
     const Isometry3d X_WG_last = scene.ghost(std::max(0, tick - 1));
     for (int step = 1; step <= kSlower; ++step)
       slow.advance(test_support::between(X_WG_last, answers.X_WG.back(), static_cast<double>(step) / kSlower));
-    const haptics::SlidingResult& rest = slow.result();
-    answers.sets.push_back(make_contact_set(rest, *scene.part_V, tick + 1, milliseconds(tick), scratch));
-    const geometry::Displacement lag = geometry::displacement_between(rest.X_WV, rest.X_WT, scene.part_V->p_Vref());
-    answers.exact.emplace_back(haptics::spring_wrench(slow.stiffness(), lag).f);
+    answers.exact.push_back(force_of(slow));
   }
   return answers;
 }
@@ -237,7 +242,7 @@ void run_scene(const SlidingScene& scene, bool quick, Results& results) {
       const ContactSet& set = answers.sets[then];
       const Vector3d force = contacts.update(set, milliseconds(age), answers.X_WG[now], kTick_s).f;
       ours.add(force, answers.exact[now]);
-      held.add(answers.exact[then], answers.exact[now]);
+      held.add(answers.forces[then], answers.exact[now]);
       penalty.add(penalty_stiffness * unit_penalty(set, answers.X_WG[now], *scene.part_V), answers.exact[now]);
     }
     const std::string name = scene.name + "-" + std::to_string(age) + "ms";
@@ -262,8 +267,7 @@ void run_sideways(bool quick, Results& results) {
       const Vector3d force = contacts.update(set, milliseconds(age), answers.X_WG[now], kTick_s).f;
       if (force.z() > 0.1) sideways = std::max(sideways, force.head<2>().norm() / force.z());
     }
-    results.add(
-        {kTick, "plane-" + std::to_string(age) + "ms", "glissade", "sideways", 100.0 * sideways, "%"});
+    results.add({kTick, "plane-" + std::to_string(age) + "ms", "glissade", "sideways", 100.0 * sideways, "%"});
   }
 }
 

@@ -33,10 +33,8 @@ bool LcmGloveHost::publish(const GloveState& state) {
   const std::chrono::nanoseconds now = clock_.now();
   if (!announced_ || now - *announced_ >= kAnnouncements) {
     announced_ = now;
-    const GloveInfo info{.device = options_.device,
-                         .session = session_,
-                         .side = options_.side,
-                         .descriptor = envelope_.descriptor()};
+    const GloveInfo info{
+        .device = options_.device, .session = session_, .side = options_.side, .descriptor = envelope_.descriptor()};
     bus_->publish(kGloveInfoChannel, encode(info));
   }
   const StateHeader header{

@@ -34,8 +34,9 @@ class ContactForce {
       : p_Vref_(p_Vref), radius_(radius), stiffness_(stiffness), solver_(kMaxContactRows), X_WG_(X_WV_start) {}
 
   /// The wrench on the hand about the reference point for ghost X_WG, `dt` (seconds) after the last call. Exactly zero
-  /// where no contact of the set is in the way; after a contact that vanished, as soon as the slew allows. Changes by at most k_t times kSlew_m a millisecond and twice the
-  /// ghost's own motion. The torque counts by its force at the radius.
+  /// where no contact of the set is in the way; after a contact that vanished, as soon as the slew allows. Changes by
+  /// at most k_t times kSlew_m a millisecond and twice the ghost's own motion. The torque counts by its force at the
+  /// radius.
   const Wrench& update(const ContactSet& set, std::chrono::nanoseconds age, const Eigen::Isometry3d& X_WG,
                        double dt) noexcept;
 

@@ -169,8 +169,8 @@ TEST_F(LinkFaults, AServerThatEndsLetsTheForceFade) {
   wait();
   const GloveRecord record = this->record();
   const std::vector<GlovePeriod>& periods = record.periods();
-  const auto last = std::find_if(periods.rbegin(), periods.rend(),
-                                 [](const GlovePeriod& period) { return period.f_W.norm() > 0.0; });
+  const auto last =
+      std::find_if(periods.rbegin(), periods.rend(), [](const GlovePeriod& period) { return period.f_W.norm() > 0.0; });
   ASSERT_NE(last, periods.rend());
   EXPECT_LT(last->t, std::chrono::duration<double>(monotonic_now() - milliseconds(300)).count());
   EXPECT_THAT(last->reason, testing::Not(HasSubstr("no force"))) << "the server's fade, not an expiry at the glove";
