@@ -42,14 +42,19 @@ std::shared_ptr<const geometry::TriangleMesh> holding(const SceneObject& object)
   return std::make_shared<geometry::TriangleMesh>(geometry::without_triangles(*object.mesh, object.giving_way));
 }
 
-/// The body of an object. An error names the object.
-template <typename Body>
-std::shared_ptr<const Body> make_body(const Scene& scene, const SceneObject& object) {
+/// The body of an object, made of what follows it. An error names the object.
+template <typename Body, typename... Arguments>
+std::shared_ptr<const Body> make_body(const Scene& scene, const SceneObject& object, const Arguments&... arguments) {
   try {
-    return std::make_shared<Body>(holding(object));
+    return std::make_shared<Body>(holding(object), arguments...);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(scene.source + ": object " + in_quotes(object.name) + ": " + error.what());
   }
+}
+
+std::shared_ptr<const haptics::SlidingPart> make_part(const Scene& scene, const SceneObject& object) {
+  if (object.compliance_point_B) return make_body<haptics::SlidingPart>(scene, object, *object.compliance_point_B);
+  return make_body<haptics::SlidingPart>(scene, object);
 }
 
 /// Objects of one mesh share their body.
@@ -88,7 +93,7 @@ HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name) 
   HapticScene result;
   result.source = scene.source;
   result.part_name = part.name;
-  result.part_V = make_body<haptics::SlidingPart>(scene, part);
+  result.part_V = make_part(scene, part);
   result.X_WV_start = part.X_WB;
   result.X_WGoal = scene.X_WGoal;
 
@@ -102,8 +107,8 @@ HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name) 
   result.body_names.push_back(part.name);
   for (const SceneObject& object : scene.objects) {
     if (!object.motion) continue;
-    haptics::ScriptedPart& moving = result.moving.emplace_back(
-        haptics::ScriptedPart{make_body<haptics::SlidingPart>(scene, object), object.motion->script_X_WB});
+    haptics::ScriptedPart& moving =
+        result.moving.emplace_back(haptics::ScriptedPart{make_part(scene, object), object.motion->script_X_WB});
     moving.grip_N_per_m = object.motion->grip_N_per_m.value_or(moving.grip_N_per_m);
     moving.name = in_quotes(object.name);
     result.body_names.push_back(object.name);

@@ -71,6 +71,9 @@ class SceneReader {
         yaml_.fail(margin, "margin_m: must be positive and at most 0.00025, not " + in_quotes(margin.Scalar()));
       }
     }
+    if (const YAML::Node point = node["compliance_point_m"]) {
+      object.compliance_point_B = Eigen::Vector3d(yaml_.numbers(point, "compliance_point_m", 3));
+    }
     if (node["gives_way"]) object.giving_way = read_giving_way(node["gives_way"], *object.mesh);
     return object;
   }

@@ -21,8 +21,17 @@ namespace glissade::apps {
 /// The keys that the reader accepts, by the map in which they stand. A shape takes `kShapeTypeKey` and the parameters
 /// of that shape in `shapes::shape_catalog`.
 inline constexpr std::array<std::string_view, 3> kSceneKeys{"objects", "script", "goal"};
-inline constexpr std::array<std::string_view, 10> kObjectKeys{
-    "name", "mesh", "shape", "scale", "pose", "movable", "moves", "grip_N_per_m", "margin_m", "gives_way"};
+inline constexpr std::array<std::string_view, 11> kObjectKeys{"name",
+                                                              "mesh",
+                                                              "shape",
+                                                              "scale",
+                                                              "pose",
+                                                              "movable",
+                                                              "moves",
+                                                              "grip_N_per_m",
+                                                              "margin_m",
+                                                              "gives_way",
+                                                              "compliance_point_m"};
 inline constexpr std::string_view kShapeTypeKey = "type";
 inline constexpr std::array<std::string_view, 2> kPoseKeys{"position_m", "orientation_wxyz"};
 inline constexpr std::array<std::string_view, 2> kBoxKeys{"min_m", "max_m"};
@@ -52,8 +61,9 @@ struct SceneObject {
   bool movable = false;
   std::optional<SceneMotion> motion{};
   std::optional<double> margin_m{};
-  std::vector<std::int32_t> giving_way{};  ///< triangles that give way, ascending
-  std::int64_t degenerate_triangles = 0;   ///< left out of the mesh, see `import_mesh`
+  std::optional<Eigen::Vector3d> compliance_point_B{};  ///< default: the centre of the bounding box
+  std::vector<std::int32_t> giving_way{};               ///< triangles that give way, ascending
+  std::int64_t degenerate_triangles = 0;                ///< left out of the mesh, see `import_mesh`
 };
 
 /// A scene with at least one object; all names differ.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <stdexcept>
 
 #include <glissade/haptics/contact_body.h>
@@ -23,5 +24,18 @@ ContactBody::ContactBody(const std::shared_ptr<const geometry::TriangleMesh>& me
       obbs_(std::make_unique<const ObbTree>(tree)) {}
 
 ContactBody::~ContactBody() = default;
+
+SlidingPart::SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh)
+    : ContactBody(mesh), p_Vref_(tree.center()), radius_(tree.radius()) {}
+
+SlidingPart::SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh, const Eigen::Vector3d& p_Vref)
+    : ContactBody(mesh), p_Vref_(p_Vref), radius_(0.0) {
+  constexpr double kFarthest = 10.0;  // in units of the part's own radius
+  if (!((p_Vref - tree.center()).norm() <= kFarthest * tree.radius())) {
+    throw std::invalid_argument("the compliance point lies too far from the part");
+  }
+  for (const Eigen::Vector3d& vertex : tree.mesh().vertices)
+    radius_ = std::max(radius_, (vertex - p_Vref).norm());
+}
 
 }  // namespace glissade::haptics

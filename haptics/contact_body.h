@@ -40,14 +40,25 @@ struct ContactBody {
 
 /// A part that a hand or a script moves, in its own frame V. A displacement of the part is the translation of a
 /// reference point and a rotation about that point; the coupling, the virtual spring between hand and part, acts at the
-/// same point. The reference point is the centre of the part's bounding box. So no point of the part is much farther
-/// from it than half of the part's size, and a rotation moves the points of the part little.
-struct SlidingPart : ContactBody {
-  using ContactBody::ContactBody;
+/// same point, the compliance point. A force at this point turns the part little, so a peg that is coupled at its tip
+/// finds its hole, where one that is coupled at its middle tips and jams.
+class SlidingPart : public ContactBody {
+ public:
+  /// The compliance point is the centre of the bounding box: no point of the part is much farther from it than half of
+  /// the part's size, and a rotation moves the points of the part little. Throws as `ContactBody` does.
+  explicit SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh);
 
-  const Eigen::Vector3d& p_Vref() const { return tree.center(); }
+  /// The compliance point is `p_Vref` (metres). Throws std::invalid_argument also for a point that is not finite, or
+  /// farther from the centre of the bounding box than ten times the farthest vertex.
+  SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh, const Eigen::Vector3d& p_Vref);
+
+  const Eigen::Vector3d& p_Vref() const { return p_Vref_; }
   /// ρ: the largest distance of a vertex from the reference point, metres.
-  double radius() const { return tree.radius(); }
+  double radius() const { return radius_; }
+
+ private:
+  Eigen::Vector3d p_Vref_;
+  double radius_;
 };
 
 /// A body that stands still. Several obstacles may share one `ContactBody`.

@@ -19,7 +19,7 @@
 namespace glissade::haptics {
 
 class ContactForce;
-struct SlidingPart;
+class SlidingPart;
 
 /// The outcome of one tick.
 struct HapticTick {

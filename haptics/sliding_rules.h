@@ -17,7 +17,7 @@
 
 namespace glissade::haptics {
 
-struct SlidingPart;
+class SlidingPart;
 
 /// The connection between hand and part, as in §3 of the paper (docs/notation.md). The ghost is the pose of the part as
 /// the hand commands it, without contacts.

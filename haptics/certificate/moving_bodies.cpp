@@ -16,7 +16,8 @@ MovingBodies::MovingBodies(const ContactScene& scene)
       reach_of_obstacles_ =
           std::max(reach_of_obstacles_, placed.X_WB.translation().norm() + tree.center().norm() + tree.radius());
     } else {
-      paths_.push_back({tree.center(), tree.radius(), {}, false, 0.0, {}, {}});
+      const SlidingPart& part = *scene.parts()[b - scene.obstacles().size()];
+      paths_.push_back({part.p_Vref(), part.radius(), {}, false, 0.0, {}, {}});
     }
   }
 }

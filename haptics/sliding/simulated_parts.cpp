@@ -13,7 +13,7 @@ namespace glissade::haptics {
 namespace {
 
 double default_margin(const SlidingPart& part_V) {
-  return std::clamp(1e-4 * part_V.radius(), 2e-6, 10e-6);
+  return std::clamp(1e-4 * part_V.tree.radius(), 2e-6, 10e-6);
 }
 
 void check_rules(const SlidingRules& rules) {

@@ -47,8 +47,11 @@ TEST(SceneFile, EqualMeshesAreShared) {
 TEST(SceneFile, ReadsAllowances) {
   const Scene scene = parse_object(
       "    margin_m: 2.0e-6\n"
+      "    compliance_point_m: [0, 0.01, -0.02]\n"
       "    gives_way: [{min_m: [-1, -1, 0.04], max_m: [1, 1, 1]}]\n");
   EXPECT_EQ(scene.objects[0].margin_m, 2e-6);
+  EXPECT_EQ(scene.objects[0].compliance_point_B, Eigen::Vector3d(0.0, 0.01, -0.02));
+  expect_bad_input([] { parse_object("    compliance_point_m: 3\n"); }, {"scene.yaml:4", "compliance_point_m"});
   EXPECT_GE(scene.objects[0].giving_way.size(), 2u) << "the upper face of a box";
   for (const std::int32_t t : scene.objects[0].giving_way) {
     for (int c = 0; c < 3; ++c)

@@ -32,6 +32,7 @@ struct Arguments {
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::int64_t only_scene = -1;
   bool again = false;
+  bool off_centre = false;
   bool quiet = false;
   std::string csv;
 };
@@ -53,7 +54,7 @@ class Stopwatch {
 // An exception is a fault of the scene.
 TortureCounts run_one(const Arguments& arguments, std::int64_t index, const Threads& threads) {
   try {
-    return run_torture_scene(arguments.seed, index, arguments.milliseconds, threads.has_search);
+    return run_torture_scene(arguments.seed, index, arguments.milliseconds, threads.has_search, arguments.off_centre);
   } catch (const std::exception& error) {
     TortureCounts counts;
     counts.fault_count = 1;
@@ -217,6 +218,8 @@ int main(int argc, char** argv) {
       ->check(CLI::NonNegativeNumber);
   app.add_flag("--again", arguments.again,
                "Run all scenes again on another number of threads, with search threads, and compare the hashes");
+  app.add_flag("--off-centre", arguments.off_centre,
+               "Couple each part at a random point, up to two radii from its centre, instead of at its centre");
   app.add_flag("--quiet", arguments.quiet, "No progress");
   app.add_option("--csv", arguments.csv,
                  "Write the figures of the first run, and the hash of the second, to this file: figure,value,unit");

@@ -69,12 +69,19 @@ SlidingOptions random_options(Metaphor metaphor, const SlidingPart& part, bool h
   return options;
 }
 
+TortureScene off_centre(TortureScene scene, RandomNumbers random) {
+  const collision::DopTree& tree = scene.part_V->tree;
+  const Eigen::Vector3d p_Vref = tree.center() + random.uniform(0.0, 2.0) * tree.radius() * random.direction();
+  scene.part_V = std::make_shared<SlidingPart>(std::make_shared<geometry::TriangleMesh>(tree.mesh()), p_Vref);
+  return scene;
+}
+
 class TortureRun {
  public:
-  TortureRun(std::uint64_t seed, std::int64_t index, bool has_search_thread)
+  TortureRun(std::uint64_t seed, std::int64_t index, bool has_search_thread, bool is_off_centre)
       : random_(seed * 1'000'003 + static_cast<std::uint64_t>(index)),
         label_("--seed " + std::to_string(seed) + " --only-scene " + std::to_string(index)),
-        scene_(random_torture_scene(random_)),
+        scene_(is_off_centre ? off_centre(random_torture_scene(random_), random_) : random_torture_scene(random_)),
         metaphor_(static_cast<Metaphor>(index % std::ssize(kMetaphorNames))),
         options_(random_options(metaphor_, *scene_.part_V, has_search_thread, random_)),
         sliding_(scene_.obstacles, scene_.part_V, scene_.X_WV_start, options_),
@@ -322,8 +329,9 @@ void TortureCounts::add(const TortureCounts& later) {
   faults.insert(faults.end(), later.faults.begin(), later.faults.end());
 }
 
-TortureCounts run_torture_scene(std::uint64_t seed, std::int64_t index, int milliseconds, bool has_search_thread) {
-  return TortureRun(seed, index, has_search_thread).run(milliseconds);
+TortureCounts run_torture_scene(std::uint64_t seed, std::int64_t index, int milliseconds, bool has_search_thread,
+                                bool is_off_centre) {
+  return TortureRun(seed, index, has_search_thread, is_off_centre).run(milliseconds);
 }
 
 }  // namespace glissade::test_support

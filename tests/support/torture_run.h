@@ -40,8 +40,9 @@ struct TortureCounts {
 };
 
 /// Runs scene `index` of a seed for `milliseconds` ticks. The result does not depend on time, machine or thread, nor on
-/// `has_search_thread`, which lets the simulation search in a thread of its own.
+/// `has_search_thread`, which lets the simulation search in a thread of its own. With `is_off_centre`, the compliance
+/// point of the part lies elsewhere, up to two radii from its centre.
 TortureCounts run_torture_scene(std::uint64_t seed, std::int64_t index, int milliseconds,
-                                bool has_search_thread = false);
+                                bool has_search_thread = false, bool is_off_centre = false);
 
 }  // namespace glissade::test_support
