@@ -24,12 +24,12 @@ CollisionThread::CollisionThread(World& world, realtime::Clock& clock, const Col
     : pipeline_(world, clock, checked(options).pipeline) {
   for (int i = 0; i < options.readers; ++i)
     readers_.push_back(std::make_unique<FrameReader>());
-  thread_ =
-      std::make_unique<realtime::PeriodicThread>(clock, realtime::PeriodicThreadOptions{.period = options.period},
-                                                 [this, distance = options.distance](const realtime::PeriodicTick&) {
-                                                   publish(pipeline_.step(distance));
-                                                   return true;
-                                                 });
+  thread_ = std::make_unique<realtime::PeriodicThread>(
+      clock, realtime::PeriodicThreadOptions{.period = options.period, .name = "collision"},
+      [this, distance = options.distance](const realtime::PeriodicTick&) {
+        publish(pipeline_.step(distance));
+        return true;
+      });
 }
 
 void CollisionThread::publish(const FrameResult& frame) {

@@ -10,11 +10,12 @@ namespace glissade::devices {
 HapticStatePublisher::HapticStatePublisher(std::shared_ptr<LcmBus> bus, std::size_t capacity)
     : bus_(checked_bus(std::move(bus), "A publisher of haptic states")), ring_(capacity) {
   constexpr std::chrono::milliseconds kPeriod(5);  // a delay that no viewer sees, shorter than a frame
-  thread_ = std::make_unique<realtime::PeriodicThread>(clock_, realtime::PeriodicThreadOptions{.period = kPeriod},
-                                                       [this](const realtime::PeriodicTick&) {
-                                                         publish_all();
-                                                         return true;
-                                                       });
+  thread_ = std::make_unique<realtime::PeriodicThread>(
+      clock_, realtime::PeriodicThreadOptions{.period = kPeriod, .name = "publisher"},
+      [this](const realtime::PeriodicTick&) {
+        publish_all();
+        return true;
+      });
 }
 
 HapticStatePublisher::~HapticStatePublisher() {

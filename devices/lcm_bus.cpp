@@ -19,6 +19,7 @@
 
 #include <glissade/base/assert.h>
 #include <glissade/devices/lcm_bus.h>
+#include <glissade/realtime/periodic_thread.h>
 
 #include "lcm/lcm_packet.h"
 #include "lcm/lcm_url.h"
@@ -191,7 +192,10 @@ void LcmBus::Connection::start_receiving() {
     fd = lcm_get_fileno(lcm_.get());
     if (fd < 0) refuse_to_receive(url_, "");
   }
-  thread_ = std::thread([this, fd] { receive(fd); });
+  thread_ = std::thread([this, fd] {
+    realtime::name_this_thread("lcm-receive");
+    receive(fd);
+  });
 }
 
 void LcmBus::Connection::receive(int fd) {

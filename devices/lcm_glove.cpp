@@ -29,7 +29,8 @@ LcmGlove::LcmGlove(std::shared_ptr<LcmBus> bus, DeviceDescriptor descriptor, con
     states_.publish(state);
   });
   sender_ = std::make_unique<realtime::PeriodicThread>(
-      clock_, realtime::PeriodicThreadOptions{.period = options.send_period}, [this](const realtime::PeriodicTick&) {
+      clock_, realtime::PeriodicThreadOptions{.period = options.send_period, .name = "lcm-send"},
+      [this](const realtime::PeriodicTick&) {
         if (commands_.update()) send(commands_.value().values());
         return true;
       });

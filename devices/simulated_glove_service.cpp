@@ -11,7 +11,7 @@ SimulatedGloveService::SimulatedGloveService(std::shared_ptr<LcmBus> bus, Simula
       glove_(std::move(glove)),
       observer_(std::move(observer)),
       state_(glove_.state()) {
-  thread_ = std::make_unique<realtime::PeriodicThread>(clock, realtime::PeriodicThreadOptions{},
+  thread_ = std::make_unique<realtime::PeriodicThread>(clock, realtime::PeriodicThreadOptions{.name = "glove"},
                                                        [this](const realtime::PeriodicTick& now) {
                                                          tick(now.deadline);
                                                          return true;

@@ -25,11 +25,13 @@ HapticServer::HapticServer(devices::GloveDevice& device, SlidingSimulation& simu
   ContactSet at_start;
   at_start.X_WV = simulation.result().X_WV;
   sets_.publish(at_start);
-  simulation_thread_ =
-      std::make_unique<realtime::PeriodicThread>(clock, realtime::PeriodicThreadOptions{.period = kTickPeriod},
-                                                 [this](const realtime::PeriodicTick&) { return simulation_tick(); });
+  simulation_thread_ = std::make_unique<realtime::PeriodicThread>(
+      clock, realtime::PeriodicThreadOptions{.period = kTickPeriod, .name = "simulation"},
+      [this](const realtime::PeriodicTick&) { return simulation_tick(); });
   haptic_thread_ = std::make_unique<realtime::PeriodicThread>(
-      clock, realtime::PeriodicThreadOptions{.period = options.period, .fifo_priority = options.fifo_priority},
+      clock,
+      realtime::PeriodicThreadOptions{
+          .period = options.period, .fifo_priority = options.fifo_priority, .name = "haptic"},
       [this](const realtime::PeriodicTick& timing) { return haptic_tick(timing); });
 }
 

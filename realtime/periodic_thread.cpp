@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <future>
 #include <stdexcept>
 #include <utility>
@@ -26,6 +28,12 @@ ThreadScheduling request_punctual_scheduling(int priority) noexcept {
 
 }  // namespace
 
+void name_this_thread(std::string_view name) noexcept {
+  std::array<char, 16> shortened{};  // the most that the system takes, with the final zero
+  std::copy_n(name.begin(), std::min(name.size(), shortened.size() - 1), shortened.begin());
+  pthread_setname_np(pthread_self(), shortened.data());
+}
+
 PeriodicThread::PeriodicThread(Clock& clock, const PeriodicThreadOptions& options, Tick tick) {
   // Bad arguments must be found here, because an exception could not leave the thread.
   const PeriodicSchedule check(clock.now(), options.period);
@@ -33,6 +41,7 @@ PeriodicThread::PeriodicThread(Clock& clock, const PeriodicThreadOptions& option
   std::promise<ThreadScheduling> scheduling;
   std::future<ThreadScheduling> granted = scheduling.get_future();
   thread_ = std::thread([this, &clock, options, own_tick = std::move(tick), own = std::move(scheduling)]() mutable {
+    if (!options.name.empty()) name_this_thread(options.name);
     own.set_value(request_punctual_scheduling(options.fifo_priority));
     run_periodic(clock, options.period, statistics_, [this, &own_tick](const PeriodicTick& now) {
       return !should_stop_.load(std::memory_order_relaxed) && own_tick(now);

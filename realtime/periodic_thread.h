@@ -5,6 +5,8 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <string>
+#include <string_view>
 #include <thread>
 
 #include <glissade/realtime/clock.h>
@@ -12,11 +14,15 @@
 
 namespace glissade::realtime {
 
-/// Period and priority of a periodic thread.
+/// Name, period and priority of a periodic thread.
 struct PeriodicThreadOptions {
   std::chrono::nanoseconds period{std::chrono::milliseconds(1)};
   int fifo_priority = 0;  ///< SCHED_FIFO priority to request, 1 to 99; 0 requests nothing
+  std::string name;       ///< as in `name_this_thread`; empty: that of the thread that starts it
 };
+
+/// Names the calling thread for `top -H`, debuggers and /proc. The system keeps the first 15 bytes.
+void name_this_thread(std::string_view name) noexcept;
 
 /// Scheduling that the system granted to a thread.
 struct ThreadScheduling {

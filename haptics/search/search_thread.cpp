@@ -2,9 +2,15 @@
 
 #include <utility>
 
+#include <glissade/realtime/periodic_thread.h>
+
 namespace glissade::haptics {
 
-SearchThread::SearchThread() : thread_([this](const std::stop_token& stop) { work(stop); }) {}
+SearchThread::SearchThread()
+    : thread_([this](const std::stop_token& stop) {
+        realtime::name_this_thread("search");
+        work(stop);
+      }) {}
 
 void SearchThread::begin(CandidateSearch& search, const CandidateRequest& request, CandidateSet& set) {
   {

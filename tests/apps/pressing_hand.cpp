@@ -14,13 +14,19 @@ namespace glissade::test_support {
 
 namespace {
 
-constexpr const char* kScene =
-    "objects:\n"
-    "  - {name: plate, shape: {type: plate, size_x_m: 1, size_y_m: 1}}\n"
-    "  - name: box\n"
-    "    movable: true\n"
-    "    shape: {type: box, size_x_m: 0.1, size_y_m: 0.06, size_z_m: 0.04}\n"
-    "    pose: {position_m: [0, 0, 0.03]}\n";
+std::string scene_of(const PressingHandOptions& options) {
+  return "objects:\n"
+         "  - {name: plate, shape: {type: plate, size_x_m: 1, size_y_m: 1, triangles: " +
+         std::to_string(options.plate_triangles) +
+         "}}\n"
+         "  - name: box\n"
+         "    movable: true\n"
+         "    shape: {type: box, size_x_m: 0.1, size_y_m: 0.06, size_z_m: 0.04, triangles: " +
+         std::to_string(options.box_triangles) +
+         "}\n"
+         "    pose: {position_m: [0, 0, 0.03]}\n" +
+         options.more_objects;
+}
 
 void wait_until(const std::function<bool()>& holds) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
@@ -68,8 +74,8 @@ double greatest_sideways(const std::vector<GlovePeriod>& periods) {
   return greatest;
 }
 
-PressingHand::PressingHand() {
-  folder_.write("scene.yaml", kScene);
+PressingHand::PressingHand(const PressingHandOptions& options) : options_(options) {
+  folder_.write("scene.yaml", scene_of(options));
   glove_ = start_glove(0.0, folder_.path("record.csv"));
   server_ = start_server();
   wait_until([this] { return server_->standard_error().find("holds") != std::string::npos; });
@@ -77,16 +83,19 @@ PressingHand::PressingHand() {
 }
 
 std::unique_ptr<Process> PressingHand::start_server() const {
-  return std::make_unique<Process>(
-      std::vector<std::string>{GLISSADE_PROGRAM, "run", folder_.path("scene.yaml"), "--lcm", kServerUrl});
+  std::vector<std::string> arguments{GLISSADE_PROGRAM, "run", folder_.path("scene.yaml"), "--lcm", kServerUrl};
+  if (!options_.preload.empty())
+    arguments.insert(arguments.begin(), {"/usr/bin/env", "LD_PRELOAD=" + options_.preload});
+  return std::make_unique<Process>(arguments);
 }
 
 std::unique_ptr<Process> PressingHand::start_glove(double x_m, const std::string& record,
                                                    const std::string& device) const {
   const std::string x = std::to_string(x_m);
+  std::string rows = options_.motion;
+  if (rows.empty()) rows = "0.3," + x + ",0,-0.01,1,0,0,0\n60," + x + ",0,-0.01,1,0,0,0\n";
   const std::string script =
-      folder_.write("hand_" + x + ".csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0," + x + ",0,0.03,1,0,0,0\n0.3," + x +
-                                              ",0,-0.01,1,0,0,0\n60," + x + ",0,-0.01,1,0,0,0\n");
+      folder_.write("hand_" + x + ".csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0," + x + ",0,0.03,1,0,0,0\n" + rows);
   return std::make_unique<Process>(std::vector<std::string>{GLISSADE_PROGRAM, "glove", "--lcm", kGloveUrl, "--script",
                                                             script, "--record", record, "--device", device});
 }

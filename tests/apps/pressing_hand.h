@@ -41,10 +41,20 @@ double greatest_force(const std::vector<GlovePeriod>& periods);
 /// The greatest force along the plate.
 double greatest_sideways(const std::vector<GlovePeriod>& periods);
 
+/// What the server and the first glove are started with.
+struct PressingHandOptions {
+  int plate_triangles = 200;
+  int box_triangles = 12;
+  /// Rows of the hand's script from 0.3 s on; empty: the hand presses 30 mm deep and stays there.
+  std::string motion{};
+  std::string more_objects{};  ///< of the scene, in lines of their own
+  std::string preload{};       ///< a library that is loaded into the server
+};
+
 class PressingHand {
  public:
   /// Starts relay, glove and server, and waits until the hand presses.
-  PressingHand();
+  explicit PressingHand(const PressingHandOptions& options = {});
 
   Relay& relay() { return relay_; }
   Process& server() { return *server_; }
@@ -63,6 +73,7 @@ class PressingHand {
   const TemporaryFolder& folder() const { return folder_; }
 
  private:
+  PressingHandOptions options_;
   TemporaryFolder folder_;
   Relay relay_;
   std::unique_ptr<Process> glove_;

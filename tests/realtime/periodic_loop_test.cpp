@@ -1,8 +1,10 @@
+#include <array>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <glissade/realtime/periodic_loop.h>
 #include <glissade/realtime/periodic_thread.h>
@@ -117,6 +119,17 @@ TEST(PeriodicThread, RunsUntilTheTickSaysSo) {
   EXPECT_EQ(thread.statistics().ticks, 10U);
   EXPECT_FALSE(thread.scheduling().is_fifo);
   EXPECT_TRUE(thread.scheduling().has_minimal_timer_slack);
+}
+
+TEST(PeriodicThread, HasTheNameThatItWasGivenAsFarAsTheSystemKeepsIt) {
+  SteadyClock clock;
+  std::array<char, 16> name{};
+  PeriodicThread thread(clock, {.name = "a name that is too long"}, [&name](const PeriodicTick&) {
+    pthread_getname_np(pthread_self(), name.data(), name.size());
+    return false;
+  });
+  thread.join();
+  EXPECT_STREQ(name.data(), "a name that is ");
 }
 
 TEST(PeriodicThread, StopsWhenAskedTo) {

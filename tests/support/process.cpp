@@ -2,8 +2,10 @@
 
 #include <cerrno>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <system_error>
 
 #include <fcntl.h>
@@ -52,6 +54,16 @@ Process::~Process() {
 
 void Process::signal(int number) const {
   if (kill(id_, number) != 0) throw std::system_error(errno, std::generic_category(), "kill");
+}
+
+void Process::signal_thread(const std::string& name, int number) const {
+  const std::string tasks = "/proc/" + std::to_string(id_) + "/task";
+  for (const auto& task : std::filesystem::directory_iterator(tasks)) {
+    if (content_of(task.path() / "comm") != name + "\n") continue;
+    if (tgkill(id_, std::stoi(task.path().filename()), number) == 0) return;
+    throw std::system_error(errno, std::generic_category(), "tgkill");
+  }
+  throw std::runtime_error("the program has no thread '" + name + "'");
 }
 
 std::string Process::standard_error() const {

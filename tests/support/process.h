@@ -29,6 +29,8 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   void signal(int number) const;
+  /// Sends a signal to the thread of this name. Throws std::runtime_error if there is none.
+  void signal_thread(const std::string& name, int number) const;
   /// What it has written to standard error so far.
   std::string standard_error() const;
   /// Waits for its end.
