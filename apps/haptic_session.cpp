@@ -66,7 +66,7 @@ Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajec
 Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, const RunSettings& settings,
                     const std::function<bool()>& should_stop,
                     const std::function<void(std::int64_t, const std::string& news)>& watch) {
-  const haptics::SlidingRules rules{.max_cycles = 3, .has_search_thread = true};
+  const haptics::SlidingRules rules = haptics::real_time_rules();
   start_sliding(scene,
                 sliding_options(scene, devices::simulated_glove_descriptor(), {}));  // errors come before waiting
   std::optional<devices::GloveInfo> info;

@@ -45,11 +45,11 @@ class MultiPartSliding::Cycle {
     if (!follow_ghosts(X_WG, milliseconds)) return;
     starts_.depenetrate(kSlew_m * milliseconds);
     int cycles = 1;
-    while (!take_step() && cycles < shared_.rules.max_cycles)
+    while (!take_step(milliseconds, cycles == shared_.rules.max_cycles))
       ++cycles;
-    report_contacts(shared_, starts_.overlaps(), step_finder_.rows().contacts(), milliseconds);
+    report_contacts(shared_, starts_.overlaps(), step_finder_.rows().all_contacts(), milliseconds);
     // With several parts the contacts are reported where the last step has led.
-    const double reach = shared_.count() == 1 ? radius_.reach() : std::max(0.0, radius_.reach() - radius_.last_step());
+    const double reach = shared_.count() == 1 ? radius_.reach_ahead() : std::max(0.0, radius_.reach_ahead() - radius_.last_step());
     for (HeldPartState& part : shared_.states) {
       if (part.is_held()) part.end_tick(cycles, reach, milliseconds);
     }
@@ -78,21 +78,23 @@ class MultiPartSliding::Cycle {
     return any;
   }
 
-  /// One cycle. Returns whether another one is not worth it.
-  bool take_step() {
-    radius_.choose(shared_, starts_.depenetration());
+  /// One cycle. Returns whether it was the last: `is_last`, or another one is not worth it.
+  bool take_step(double milliseconds, bool is_last) {
+    radius_.choose(shared_, starts_.depenetration(), milliseconds);
     if (radius_.look(shared_, starts_.overlaps().pairs())) starts_.restore_min_clearances();
     step_finder_.look(radius_.reach());
     const Step step = step_finder_.find();
+    const bool all_arrived = std::all_of(step.arrives.begin(), step.arrives.begin() + std::ssize(shared_.states),
+                                         [](bool arrives) { return arrives; });
+    const bool ends = is_last || all_arrived || step.length < kNotWorthIt * shared_.largest_margin;
+    if (ends && radius_.reach_ahead() > radius_.reach()) step_finder_.rows().find_ahead(radius_.reach_ahead());
     move(step);
     radius_.note(step);
     for (std::size_t p = 0; p < shared_.count(); ++p) {
       HeldPartState& part = shared_.states[p];
       if (part.is_held() && starts_.overlaps().way_out_of(p) == nullptr) part.turn_target();
     }
-    const bool all_arrived = std::all_of(step.arrives.begin(), step.arrives.begin() + std::ssize(shared_.states),
-                                         [](bool arrives) { return arrives; });
-    return all_arrived || step.length < kNotWorthIt * shared_.largest_margin;
+    return ends;
   }
 
   void move(const Step& step) {

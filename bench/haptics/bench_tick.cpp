@@ -160,8 +160,9 @@ Vector3d force_of(const haptics::Sliding& sliding) {
 Answers answers_of(const SlidingScene& scene, int ticks) {
   haptics::SlidingOptions options;
   options.metaphor = haptics::Metaphor::kForceFeedback;
-  haptics::Sliding sliding(scene.obstacles, scene.part_V, scene.X_WV_start, options);
   haptics::Sliding slow(scene.obstacles, scene.part_V, scene.X_WV_start, options);
+  options.rules.contacts_ahead_ms = haptics::real_time_rules().contacts_ahead_ms;
+  haptics::Sliding sliding(scene.obstacles, scene.part_V, scene.X_WV_start, options);
   Answers answers;
   std::vector<std::int32_t> scratch;
   for (int tick = 0; tick < ticks; ++tick) {

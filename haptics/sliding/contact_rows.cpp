@@ -8,20 +8,39 @@
 namespace glissade::haptics {
 
 void ContactRows::find(double reach) {
-  const ContactScene& scene = shared_.scene;
-  shared_.candidates.within(reach, pairs_);
-  find_contacts(scene.bodies(), scene.obstacles().size(), pairs_, reach, shared_.largest_margin, contacts_);
+  reach_ = reach;
+  contacts_ahead_.clear();
+  find_within(reach, contacts_);
   for (HeldPartState& part : shared_.states)
     part.result.X_WV_of_contacts = part.result.X_WV;
   rows_.clear();
-  for (Contact& contact : contacts_) {
-    const auto body = static_cast<std::int32_t>(scene.body_of_part(static_cast<std::size_t>(contact.part)));
-    contact.margin = scene.margin(contact.obstacle, body);
+  for (const Contact& contact : contacts_) {
     // A contact closer than its margin demands part of it back.
     const double missing = contact.margin - contact.gap;
     const double bound = missing > 0.0 ? 0.7 * missing : missing;
     add(contact.obstacle, static_cast<std::size_t>(contact.part), contact.n_W, contact.p_W, bound);
   }
+}
+
+void ContactRows::find_ahead(double reach_ahead) {
+  find_within(reach_ahead, contacts_ahead_);
+  std::erase_if(contacts_ahead_, [this](const Contact& contact) { return contact.gap <= reach_; });
+}
+
+void ContactRows::find_within(double reach, std::vector<Contact>& contacts) {
+  const ContactScene& scene = shared_.scene;
+  shared_.candidates.within(reach, pairs_);
+  find_contacts(scene.bodies(), scene.obstacles().size(), pairs_, reach, shared_.largest_margin, contacts);
+  for (Contact& contact : contacts) {
+    const auto body = static_cast<std::int32_t>(scene.body_of_part(static_cast<std::size_t>(contact.part)));
+    contact.margin = scene.margin(contact.obstacle, body);
+  }
+}
+
+std::vector<Contact>& ContactRows::all_contacts() {
+  contacts_.insert(contacts_.end(), contacts_ahead_.begin(), contacts_ahead_.end());
+  contacts_ahead_.clear();
+  return contacts_;
 }
 
 void ContactRows::keep_contacts_only() {

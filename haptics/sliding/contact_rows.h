@@ -23,6 +23,8 @@ class ContactRows {
   /// Finds the contacts within `reach` (metres) at the present poses, and one row for each. Replaces all contacts and
   /// rows.
   void find(double reach);
+  /// Finds also those within `reach_ahead`, at the same poses. They get no row.
+  void find_ahead(double reach_ahead);
   /// Drops the rows of failed certificates.
   void keep_contacts_only();
   /// Adds rows for failed certificates: each keeps the part's triangle on its side of the plane that separated the
@@ -32,7 +34,9 @@ class ContactRows {
   void allow_standing_still();
 
   std::span<const CoupledRow> rows() const { return rows_; }
-  std::vector<Contact>& contacts() { return contacts_; }
+  /// The contacts with rows and, after them, those ahead. From then on, until the next call of `find`, no function may
+  /// be called that uses contacts.
+  std::vector<Contact>& all_contacts();
 
   /// Notes the forces of the step that is taken at the contacts. A row of a failed certificate that pushes becomes a
   /// contact too.
@@ -44,12 +48,15 @@ class ContactRows {
   void forget_forces() { pushed_.clear(); }
 
  private:
+  void find_within(double reach, std::vector<Contact>& contacts);
   void add(std::int32_t obstacle, std::size_t part, const Eigen::Vector3d& n_W, const Eigen::Vector3d& p_W,
            double bound);
 
   SimulatedParts& shared_;
+  double reach_ = 0.0;
   std::vector<CandidatePair> pairs_;       // within reach
   std::vector<Contact> contacts_;          // one for each of the first rows
+  std::vector<Contact> contacts_ahead_;    // beyond the reach
   std::vector<CoupledRow> rows_;           // of contacts, then of failed certificates
   std::vector<Contact> failure_contacts_;  // one for each row of a failed certificate
   std::vector<Contact> pushed_;            // the contacts that pushed in the last step; with friction only

@@ -12,12 +12,14 @@ constexpr double kTicksAhead = 6.0;  // of the ghosts' motion
 constexpr double kLeastLookAhead_m = 45e-6;
 constexpr double kSmallestReachLimit_m = 1e-3;
 constexpr std::size_t kAffordablePairs = 30'000;
+constexpr std::size_t kAffordablePairsAhead = 3000;
+constexpr double kSmallestLimitAhead_m = 50e-6;
 
 }  // namespace
 
-SearchRadius::SearchRadius() : limit_(kLargestReach_m) {}
+SearchRadius::SearchRadius() : limit_(kLargestReach_m), limit_ahead_(kLargestReach_m) {}
 
-void SearchRadius::choose(const SimulatedParts& shared, double depenetration) {
+void SearchRadius::choose(const SimulatedParts& shared, double depenetration, double milliseconds) {
   const double ghosts = shared.ghost_motion();
   double slew = 0.0;
   for (const HeldPartState& part : shared.states)
@@ -26,15 +28,22 @@ void SearchRadius::choose(const SimulatedParts& shared, double depenetration) {
   if (last_clipped_) reach *= 2.0;
   reach = std::max(reach, depenetration + 2.0 * shared.largest_margin);
   reach_ = std::clamp(std::min(reach, slew + ghosts + 2.0 * shared.largest_margin), kSmallestReach_m, limit_);
+  const double ticks_ahead = milliseconds > 0.0 ? shared.rules.contacts_ahead_ms / milliseconds : 0.0;
+  reach_ahead_ = std::max(reach_, std::min(ticks_ahead * ghosts + 2.0 * shared.largest_margin, limit_ahead_));
 }
 
 /// Finely tessellated surfaces that lie close together have very many pairs. A part that falls behind would look
-/// farther with every search and so fall behind more; the limit on the reach ends that.
+/// farther with every search and so fall behind more; the limit on the reach ends that. Contacts ahead are a help that
+/// must not make the answers late: their limit comes first.
 bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignored) {
   const double ahead = std::clamp(kTicksAhead * shared.ghost_motion(), kLeastLookAhead_m, kMostLookAhead_m);
-  if (!shared.candidates.look(reach_, ahead, ignored)) return false;
-  const bool too_many = shared.candidates.size() > kAffordablePairs;
-  limit_ = std::clamp((too_many ? 0.5 : 1.25) * limit_, kSmallestReachLimit_m, kLargestReach_m);
+  if (!shared.candidates.look(reach_ahead_, ahead, ignored)) return false;
+  const auto adapted = [&](double limit, std::size_t affordable, double smallest) {
+    const double factor = shared.candidates.size() > affordable ? 0.5 : 1.25;
+    return std::clamp(factor * limit, smallest, kLargestReach_m);
+  };
+  limit_ = adapted(limit_, kAffordablePairs, kSmallestReachLimit_m);
+  limit_ahead_ = adapted(limit_ahead_, kAffordablePairsAhead, kSmallestLimitAhead_m);
   return true;
 }
 

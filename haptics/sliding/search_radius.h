@@ -11,12 +11,15 @@ class SearchRadius {
  public:
   SearchRadius();
 
-  /// Chooses the reach (metres) of the next cycle. `depenetration` (metres) bounds the motion out of an obstacle in
-  /// this tick.
-  void choose(const SimulatedParts& shared, double depenetration);
+  /// Chooses the reach (metres) of the next cycle, and the farther one of the contacts ahead. `depenetration` (metres)
+  /// bounds the motion out of an obstacle in this tick; `milliseconds` as in `advance`.
+  void choose(const SimulatedParts& shared, double depenetration, double milliseconds);
   double reach() const { return reach_; }
+  /// Metres; at least `reach`.
+  double reach_ahead() const { return reach_ahead_; }
 
-  /// Makes every pair within reach a candidate, except pairs of `ignored` bodies. A search looks some ticks ahead.
+  /// Makes every pair within the reach ahead a candidate, except pairs of `ignored` bodies. A search looks some ticks
+  /// farther.
   /// Returns whether the candidates changed.
   bool look(SimulatedParts& shared, std::span<const BodyPair> ignored);
 
@@ -27,9 +30,12 @@ class SearchRadius {
 
  private:
   double reach_ = 0.0;
+  double reach_ahead_ = 0.0;
   double last_step_ = 0.0;
   bool last_clipped_ = false;
-  double limit_;  // metres; adapts to the number of pairs that searches find
+  // Metres; they adapt to the number of pairs that searches find.
+  double limit_;
+  double limit_ahead_;
 };
 
 }  // namespace glissade::haptics

@@ -17,6 +17,10 @@ double default_margin(const SlidingPart& part_V) {
 }
 
 void check_rules(const SlidingRules& rules) {
+  if (!(rules.contacts_ahead_ms >= 0.0 && std::isfinite(rules.contacts_ahead_ms))) {
+    throw std::invalid_argument("the time for contacts ahead must be finite and not negative, not " +
+                                std::to_string(rules.contacts_ahead_ms) + " ms");
+  }
   if (rules.max_cycles < 1) {
     throw std::invalid_argument("a call of sliding needs at least one cycle, not " + std::to_string(rules.max_cycles));
   }

@@ -84,7 +84,7 @@ class SearchThreadInScene : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(SearchThreadInScene, ChangesNoBit) {
   const test_support::SlidingScene scene = test_support::make_sliding_scene(GetParam());
-  Twins twins(scene.obstacles, {{.part_V = scene.part_V, .X_WV_start = scene.X_WV_start}});
+  Twins twins(scene.obstacles, {{.part_V = scene.part_V, .X_WV_start = scene.X_WV_start}}, {.contacts_ahead_ms = 4.0});
   // Where the ghost has come to something in most of them.
   for (int tick = 1; tick <= test_support::affordable(1500); ++tick) {
     const Isometry3d X_WG = scene.ghost(tick);

@@ -66,6 +66,7 @@ SlidingOptions random_options(Metaphor metaphor, const SlidingPart& part, bool h
     options.rules.friction.sliding = random.uniform(0.0, 1.0) * options.rules.friction.at_rest;
   }
   options.rules.spiral_search = random.chance(0.2);
+  if (random.chance(0.3)) options.rules.contacts_ahead_ms = random.uniform(0.0, 10.0);
   return options;
 }
 

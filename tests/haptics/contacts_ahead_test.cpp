@@ -1,0 +1,85 @@
+// Contacts that the ghost will meet soon, for a haptic thread that waits for the next contact set.
+
+#include <algorithm>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/haptics/sliding.h>
+
+#include "held_part.h"
+#include "loop/contact_force.h"
+#include "poses.h"
+
+namespace glissade::haptics {
+namespace {
+
+using Eigen::Isometry3d;
+using std::chrono::milliseconds;
+using test_support::at;
+
+constexpr double kEdge = 0.02;
+constexpr double kStep = 0.2e-3;  // metres a millisecond
+
+/// A cube on its way to a wall, which its face meets when its centre is at x = 0.
+Sliding cube_before_the_wall(double contacts_ahead_ms) {
+  return Sliding({test_support::wall(0.5 * kEdge)}, test_support::cube(kEdge), at(-0.05),
+                 {.rules = {.contacts_ahead_ms = contacts_ahead_ms}});
+}
+
+/// The greatest gap of a contact that the simulation reports while the cube goes from 0.05 m before the wall to 3 mm
+/// into it.
+double farthest_contact(double contacts_ahead_ms) {
+  Sliding sliding = cube_before_the_wall(contacts_ahead_ms);
+  double farthest = 0.0;
+  test_support::lead(sliding, at(3e-3), 265, [&](const SlidingResult& result) {
+    for (const Contact& contact : result.contacts) {
+      EXPECT_LE(contact.gap, result.reach);
+      farthest = std::max(farthest, contact.gap);
+    }
+  });
+  return farthest;
+}
+
+TEST(ContactsAhead, ReachAsFarAsTheGhostGoesInTheirTime) {
+  EXPECT_LT(farthest_contact(0.0), 2.0 * kStep);
+  EXPECT_GT(farthest_contact(6.0), 5.0 * kStep);
+  EXPECT_LT(farthest_contact(6.0), 6.5 * kStep);
+}
+
+TEST(ContactsAhead, ChangeNoPoseAndNoForce) {
+  Sliding with = cube_before_the_wall(6.0);
+  Sliding without = cube_before_the_wall(0.0);
+  for (int i = 1; i <= 265; ++i) {
+    const Isometry3d X_WG = at(-0.05 + i * kStep);
+    ASSERT_EQ(with.advance(X_WG).X_WV.matrix(), without.advance(X_WG).X_WV.matrix()) << i;
+    ASSERT_EQ(with.result().pushing, without.result().pushing) << i;
+    ASSERT_EQ(with.result().state, without.result().state) << i;
+  }
+}
+
+/// The greatest error of the force while the cube meets the wall, with sets that are 5 ms old.
+double force_error(double contacts_ahead_ms) {
+  Sliding sliding = cube_before_the_wall(contacts_ahead_ms);
+  ContactForce force(sliding.part().p_Vref(), sliding.part().radius(), sliding.stiffness(), at(-0.05));
+  std::vector<ContactSet> sets;
+  std::vector<std::int32_t> scratch;
+  double greatest = 0.0;
+  for (int i = 1; i <= 265; ++i) {
+    const Isometry3d X_WG = at(-0.05 + i * kStep);
+    sliding.advance(X_WG);
+    sets.push_back(make_contact_set(sliding.result(), sliding.part(), i, milliseconds(i), scratch));
+    const ContactSet& old = sets[static_cast<std::size_t>(std::max(0, i - 6))];
+    const double felt = force.update(old, milliseconds(5), X_WG, 1e-3).f.norm();
+    greatest = std::max(greatest, std::abs(felt - spring_wrench(sliding.stiffness(), sliding.error()).f.norm()));
+  }
+  return greatest;
+}
+
+TEST(ContactsAhead, MakeTheForceRightFromTheFirstTouchOn) {
+  EXPECT_LT(force_error(6.0), 1e-9);
+  EXPECT_GT(force_error(0.0), 0.1) << "without them, the force comes as late as the set";
+}
+
+}  // namespace
+}  // namespace glissade::haptics
