@@ -22,8 +22,10 @@ constexpr std::size_t kKeptTicks = 60'000;
 
 /// Options with the default stiffness of the part, lowered to the limits of the device.
 haptics::SlidingOptions sliding_options(const HapticScene& scene, const devices::DeviceDescriptor& device,
-                                        const haptics::SlidingRules& rules) {
-  const haptics::Coupling coupling = haptics::coupling_for(device, haptics::default_stiffness(scene.part_V->radius()));
+                                        const haptics::SlidingRules& rules,
+                                        std::chrono::nanoseconds period = haptics::kTickPeriod) {
+  const haptics::Coupling coupling =
+      haptics::coupling_for(device, haptics::default_stiffness(scene.part_V->radius()), period);
   return {.metaphor = haptics::Metaphor::kForceFeedback, .stiffness = coupling.stiffness, .rules = rules};
 }
 
@@ -76,7 +78,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   }
   // Without a glove, the session below ends at once.
   const devices::DeviceDescriptor descriptor = info ? info->descriptor : devices::simulated_glove_descriptor();
-  haptics::Sliding sliding = start_sliding(scene, sliding_options(scene, descriptor, rules));
+  haptics::Sliding sliding = start_sliding(scene, sliding_options(scene, descriptor, rules, settings.period));
   SessionRecorder recorder(settings.ticks > 0 ? static_cast<std::size_t>(settings.ticks) : kKeptTicks);
   devices::HapticStatePublisher publisher(bus);
   devices::LcmGlove glove(bus, descriptor, {.device = settings.device, .glove_session = info ? info->session : 0});

@@ -18,6 +18,10 @@ void validate(const DeviceDescriptor& descriptor) {
       {"max_rotational_stiffness", descriptor.max_rotational_stiffness},
       {"max_damping", descriptor.max_damping},
       {"max_joint_torque", descriptor.max_joint_torque},
+      {"damping", descriptor.damping},
+      {"rotational_damping", descriptor.rotational_damping},
+      {"friction", descriptor.friction},
+      {"resolution", descriptor.resolution},
       {"max_force_rate", descriptor.max_force_rate},
       {"max_torque_rate", descriptor.max_torque_rate},
       {"max_joint_torque_rate", descriptor.max_joint_torque_rate},
@@ -33,6 +37,7 @@ void validate(const DeviceDescriptor& descriptor) {
   if (!(descriptor.update_rate >= 1.0 && descriptor.update_rate <= kFastest_Hz))
     refuse("update_rate", "must lie between 1 and 100000 Hz");
   if (descriptor.frozen < std::chrono::nanoseconds(0)) refuse("frozen", "must not be negative");
+  if (descriptor.delay < std::chrono::nanoseconds(0)) refuse("delay", "must not be negative");
   for (std::size_t i = 0; i < kGloveJoints; ++i) {
     const double lower = descriptor.joint_lower[i];
     const double upper = descriptor.joint_upper[i];

@@ -62,6 +62,7 @@ struct LimitReasons {
   bool rate_limited = false;    ///< force or torques may not change as fast as wanted
   bool power_limited = false;   ///< the wrench was scaled down to the largest power
   bool mean_limited = false;    ///< the force was scaled down because its mean is near the largest mean
+  bool energy_limited = false;  ///< the wrench was scaled down because it had given back all energy
 
   /// The force fades or is zero.
   bool is_fading() const noexcept {
@@ -69,7 +70,7 @@ struct LimitReasons {
   }
   bool any() const noexcept {
     return is_fading() || is_returning || force_limited || torque_limited || joints_limited || rate_limited ||
-           power_limited || mean_limited;
+           power_limited || mean_limited || energy_limited;
   }
 };
 
@@ -79,7 +80,7 @@ struct NamedReason {
 };
 
 /// All reasons, the most serious first. Messages carry them as bits in this order.
-inline constexpr std::array<NamedReason, 14> kLimitReasons{{{&LimitReasons::is_stopped, "stopped"},
+inline constexpr std::array<NamedReason, 15> kLimitReasons{{{&LimitReasons::is_stopped, "stopped"},
                                                             {&LimitReasons::is_disabled, "disabled"},
                                                             {&LimitReasons::is_refused, "refused"},
                                                             {&LimitReasons::not_finite, "not-finite"},
@@ -92,7 +93,8 @@ inline constexpr std::array<NamedReason, 14> kLimitReasons{{{&LimitReasons::is_s
                                                             {&LimitReasons::joints_limited, "joints"},
                                                             {&LimitReasons::rate_limited, "rate"},
                                                             {&LimitReasons::power_limited, "power"},
-                                                            {&LimitReasons::mean_limited, "mean"}}};
+                                                            {&LimitReasons::mean_limited, "mean"},
+                                                            {&LimitReasons::energy_limited, "energy"}}};
 
 /// Measured state of the hand in a glove, in SI units.
 struct GloveState {
@@ -108,6 +110,8 @@ struct GloveState {
   /// measurement of the state that it answers, i.e. of the whole round trip. Empty for a glove in the same process.
   LimitReasons limits;
   std::chrono::nanoseconds command_age{0};
+  std::chrono::nanoseconds link_delay{0};  ///< `SafetyEnvelope::link_delay` there
+  double energy = 0.0;                     ///< `SafeCommand::energy` of that command, J
 };
 
 /// Forces (N) and torques (Nm) that somebody asks of the glove. All are zero by default. No device takes a command of
@@ -122,7 +126,7 @@ struct GloveCommand {
   JointValues joint_torques{};                      ///< positive toward larger joint angles
 };
 
-/// Capabilities and limits of a device, in SI units: N, Nm, W, N/m, Nm/rad, N s/m, rad, m, s, Hz.
+/// Capabilities and limits of a device, in SI units: N, Nm, W, N/m, Nm/rad, N s/m, Nm s/rad, rad, m, s, Hz.
 struct DeviceDescriptor {
   std::string name;
   double max_force = 0.0;                 ///< largest norm of the force on the hand
@@ -131,6 +135,13 @@ struct DeviceDescriptor {
   double max_rotational_stiffness = 0.0;  ///< largest rotational stiffness rendered without shaking
   double max_damping = 0.0;               ///< largest translational damping rendered without shaking
   double max_joint_torque = 0.0;          ///< largest torque of each joint
+  /// The device itself, without forces and without a hand. The stiffness that it can render passively follows from
+  /// these numbers (`passive_stiffness`). 0: not known, or too small to matter.
+  double damping = 0.0;               ///< viscous friction against translation
+  double rotational_damping = 0.0;    ///< viscous friction against rotation
+  double friction = 0.0;              ///< Coulomb friction against translation, N
+  double resolution = 0.0;            ///< smallest step of the measured position
+  std::chrono::nanoseconds delay{0};  ///< from the measurement to the force, beyond the period and the link
   /// Largest rates of change: of the force (N/s), the torque and each joint torque (Nm/s). 0: from zero to the maximum
   /// in seven periods of the device.
   double max_force_rate = 0.0;
@@ -148,8 +159,9 @@ struct DeviceDescriptor {
 };
 
 /// Throws std::invalid_argument, naming the device and the field, in these cases: a number is not finite; a limit with
-/// the prefix `max_` is negative; a joint's lower limit is not below its upper limit, unless both are 0; the update
-/// rate does not lie between 1 and 100,000 Hz; `frozen` is negative.
+/// the prefix `max_`, or one of the numbers of the device itself, is negative; a joint's lower limit is not below its
+/// upper limit, unless both are 0; the update rate does not lie between 1 and 100,000 Hz; `frozen` or `delay` is
+/// negative.
 void validate(const DeviceDescriptor& descriptor);
 
 /// Who a glove is, and what it can do.

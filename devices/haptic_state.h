@@ -54,6 +54,8 @@ struct HapticState {
   std::chrono::nanoseconds state_age{0};        ///< time since the measurement of the glove's state
   LimitReasons glove_reasons;                   ///< `GloveState::limits`
   std::chrono::nanoseconds command_age{0};      ///< `GloveState::command_age`
+  double energy = 0.0;                          ///< `SafeCommand::energy`, J
+  double glove_energy = 0.0;                    ///< `GloveState::energy`
 };
 
 }  // namespace glissade::devices

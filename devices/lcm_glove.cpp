@@ -25,6 +25,8 @@ LcmGlove::LcmGlove(std::shared_ptr<LcmBus> bus, DeviceDescriptor descriptor, con
     if (header.leaseholder != session_) {  // what the glove tells concerns the commands of another server, or none
       state.limits = {};
       state.command_age = std::chrono::nanoseconds(0);
+      state.link_delay = std::chrono::nanoseconds(0);
+      state.energy = 0.0;
     }
     states_.publish(state);
   });

@@ -18,6 +18,12 @@ constexpr std::int64_t kDriftShare = 5000;  // clocks may drift apart by one par
 constexpr double kJumpTolerance_m = 1e-3;
 constexpr double kTurnTolerance = 1e-2;  // rad
 constexpr double kSpeedMismatch = 0.5;   // share of the largest speed
+constexpr double kStartEnergy_J = 0.1;
+constexpr double kMostEnergy_J = 0.5;
+constexpr double kReserve_J = 0.05;      // not given away, because the rates come after this limit
+constexpr double kEnergyPeriods = 10.0;  // longer than a fade
+constexpr nanoseconds kHalfSecond = std::chrono::milliseconds(500);
+constexpr nanoseconds kLongestDelay = std::chrono::milliseconds(150);
 
 double seconds(nanoseconds time) noexcept {
   return std::chrono::duration<double>(time).count();
@@ -65,6 +71,12 @@ bool is_finite(const GloveState& state) noexcept {
          all_finite(state.joint_angles);
 }
 
+/// The rotation from A to B as a vector, small angles only.
+Eigen::Vector3d turn_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept {
+  const Eigen::Matrix3d R = B * A.transpose();
+  return 0.5 * Eigen::Vector3d(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+}
+
 double angle_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept {
   const double cosine = 0.5 * ((A.transpose() * B).trace() - 1.0);
   return std::acos(std::clamp(cosine, -1.0, 1.0));
@@ -76,7 +88,8 @@ double rate_or_default(double rate, double maximum, const DeviceDescriptor& desc
 
 }  // namespace
 
-SafetyEnvelope::SafetyEnvelope(const DeviceDescriptor& descriptor, double patience_periods) : descriptor_(descriptor) {
+SafetyEnvelope::SafetyEnvelope(const DeviceDescriptor& descriptor, double patience_periods)
+    : descriptor_(descriptor), energy_(kStartEnergy_J) {
   validate(descriptor_);
   const auto periods = [&](double count) {
     return std::chrono::duration_cast<nanoseconds>(std::chrono::duration<double>(count / descriptor_.update_rate));
@@ -95,7 +108,10 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   SafeCommand safe;
   LimitReasons& reasons = safe.reasons_;
   reasons = faults(wanted, newest, now);
-  if (!reasons.not_finite) safe.age_ = age_of(wanted.state_time, now);
+  if (!reasons.not_finite) {
+    safe.age_ = age_of(wanted.state_time, now);
+    observe_delay(safe.age_, now);
+  }
   if (is_finite(wanted)) wanted_ = {wanted.f_H_W, wanted.t_H_W, wanted.joint_torques};
   const double change = reasons.is_fading() ? -dt / (kFadePeriods * seconds(period_)) : dt / kReturn_s;
   gain_ = std::clamp(gain_ + change, 0.0, 1.0);
@@ -108,12 +124,17 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   for (double& torque : forces.joints)
     torque *= gain_;
   limit_power(forces, reasons);
+  limit_energy(forces, dt, reasons);
   limit_rates(forces, dt, reasons);
   // Cannot happen; but NaN would pass all limits above, and stay.
   if (!forces.f.allFinite() || !forces.t.allFinite() || !all_finite(forces.joints)) forces = {};
   mean_force_ += std::min(1.0, dt / kMeanTime_s) * (forces.f.norm() - mean_force_);
   last_ = forces;
+  f_sum_ += forces.f;
+  t_sum_ += forces.t;
+  ++summed_;
 
+  safe.energy_ = energy_;
   safe.values_ = wanted;
   safe.values_.f_H_W = forces.f;
   safe.values_.t_H_W = forces.t;
@@ -135,12 +156,42 @@ void SafetyEnvelope::observe(const GloveState& state, nanoseconds now) noexcept 
   }
   const bool is_new = !has_state_ || state.sequence != state_.sequence || state.time != state_.time;
   if (!is_new) return;
-  if (!is_plausible(state)) distrust_until_ = now + kDistrust;
+  if (is_plausible(state)) {
+    observe_work(state);
+  } else {
+    distrust_until_ = now + kDistrust;
+  }
+  f_sum_.setZero();
+  t_sum_.setZero();
+  summed_ = 0;
   update_offset(state, now);
   const bool repeats = has_state_ && state.X_WH.matrix() == state_.X_WH.matrix();
   if (!repeats) pose_time_ = state.time;
   state_ = state;
   has_state_ = true;
+}
+
+// The command of a period is given until the next; where states are rare, the motion is shared among the commands.
+void SafetyEnvelope::observe_work(const GloveState& state) noexcept {
+  if (!has_state_ || summed_ == 0) return;
+  const Eigen::Vector3d moved = state.X_WH.translation() - state_.X_WH.translation();
+  const Eigen::Vector3d turned = turn_between(state_.X_WH.linear(), state.X_WH.linear());
+  energy_ = std::min(energy_ - (f_sum_.dot(moved) + t_sum_.dot(turned)) / summed_, kMostEnergy_J);
+}
+
+void SafetyEnvelope::observe_delay(nanoseconds age, nanoseconds now) noexcept {
+  if (now - half_second_begin_ >= kHalfSecond) {
+    // The first half second is not whole: nothing is known before.
+    least_age_before_ = half_second_begin_ == nanoseconds(0) ? nanoseconds(0) : least_age_;
+    least_age_ = age;
+    half_second_begin_ = now;
+  }
+  least_age_ = std::max(nanoseconds(0), std::min(least_age_, age));
+}
+
+nanoseconds SafetyEnvelope::oldest_command() const noexcept {
+  const nanoseconds delay = link_delay();
+  return delay > patience_ && delay <= kLongestDelay ? delay + patience_ : patience_;
 }
 
 bool SafetyEnvelope::is_plausible(const GloveState& state) noexcept {
@@ -187,7 +238,8 @@ LimitReasons SafetyEnvelope::faults(const GloveCommand& wanted, const GloveState
   if (reasons.not_finite) return reasons;  // no ages are known
   reasons.is_state_old = age_of(state_.time, now) > patience_;
   const bool is_from_future = wanted.state_time > state_.time;
-  reasons.is_command_old = !reasons.is_state_old && (is_from_future || age_of(wanted.state_time, now) > patience_);
+  reasons.is_command_old =
+      !reasons.is_state_old && (is_from_future || age_of(wanted.state_time, now) > oldest_command());
   return reasons;
 }
 
@@ -217,6 +269,33 @@ void SafetyEnvelope::limit_power(Forces& forces, LimitReasons& reasons) const no
   reasons.power_limited = true;
 }
 
+// First a damper along the force, which neither jumps nor acts on a hand at rest; it goes slowly. A scale for what the
+// damper cannot take.
+void SafetyEnvelope::limit_energy(Forces& forces, double dt, LimitReasons& reasons) noexcept {
+  const double horizon = kEnergyPeriods * seconds(period_);
+  const double available = std::max(0.0, energy_ - kReserve_J);
+  const auto excess = [&] { return horizon * (forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH)) - available; };
+  const double force = forces.f.norm();
+  const Eigen::Vector3d direction = force > 0.0 ? Eigen::Vector3d(forces.f / force) : Eigen::Vector3d::Zero();
+  const double speed = direction.dot(state_.v_WH);
+  energy_damping_ = std::max(0.0, energy_damping_ - dt / kReturn_s * descriptor_.max_damping);
+  if (speed > 0.0 && excess() > 0.0) {
+    const double needed = excess() / (horizon * speed * speed);
+    energy_damping_ = std::max(energy_damping_, std::min(needed, descriptor_.max_damping));
+  }
+  if (energy_damping_ > 0.0) {
+    forces.f -= std::clamp(energy_damping_ * speed, -force, force) * direction;
+    limit_norm(forces.f, descriptor_.max_force);
+    reasons.energy_limited = true;
+  }
+  const double left = excess();
+  if (!(left > 0.0)) return;
+  const double scale = available / (available + left);
+  forces.f *= scale;
+  forces.t *= scale;
+  reasons.energy_limited = true;
+}
+
 void SafetyEnvelope::limit_rates(Forces& forces, double dt, LimitReasons& reasons) const noexcept {
   const bool force_limited = limit_step(forces.f, last_.f, force_rate_ * dt);
   const bool torque_limited = limit_step(forces.t, last_.t, torque_rate_ * dt);
@@ -244,6 +323,7 @@ std::string to_text(const LimitReasons& reasons, nanoseconds age) {
   if (reasons.is_command_old) return "no force: the command answers a state that is " + old;
   if (reasons.is_returning) return "reduced force: it returns softly";
   if (reasons.mean_limited) return "reduced force: its mean is near the device's limit";
+  if (reasons.energy_limited) return "reduced force: it has given back all energy that the hand put in";
   if (reasons.power_limited) return "reduced force: its power is at the device's limit";
   if (reasons.force_limited || reasons.torque_limited || reasons.joints_limited) {
     return "reduced force: it is at the device's limit";

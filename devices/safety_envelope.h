@@ -3,6 +3,7 @@
 /// The safety envelope: the only way from a wanted command to a device. It keeps every limit of the device's
 /// descriptor, and lets the force fade whenever its basis is old, implausible or not permitted.
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 
@@ -24,6 +25,8 @@ class SafeCommand {
   const LimitReasons& reasons() const noexcept { return reasons_; }
   /// Time since the measurement of the state that the command answers.
   std::chrono::nanoseconds age() const noexcept { return age_; }
+  /// Energy (J) that force and torque may still give to the hand: `SafetyEnvelope`.
+  double energy() const noexcept { return energy_; }
 
  private:
   friend class SafetyEnvelope;
@@ -31,6 +34,7 @@ class SafeCommand {
   GloveCommand values_;
   LimitReasons reasons_;
   std::chrono::nanoseconds age_{0};
+  double energy_ = 0.0;
 };
 
 /// The most serious reason in plain words, such as "no force: the glove's state is 14 ms old"; empty without reasons.
@@ -43,6 +47,17 @@ std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
 /// Ages are measured from the times of measurement that states carry. The clock of the glove and that of the caller may
 /// differ: the fastest message so far gives the difference, which may grow by 0.2 ms a second. If all states of a
 /// second are late, or if the glove's clock goes back, the difference is taken anew.
+///
+/// A passivity observer counts the work of force and torque on the hand, by the measured motion and the command that
+/// was given, i.e. after all limits. The energy is what the hand has put in and not got back, at most 0.5 J, and 0.05 J
+/// at the start for errors of sampling. Where the wrench would give back more within ten periods, the controller damps
+/// the motion along the force, by at most `max_damping` and the force itself, for up to 200 ms; and scales the wrench
+/// where this does not suffice. A wrench of zero stays zero. So no delay and no error of the simulation can feed an
+/// oscillation. Joint torques are not counted. Source: Hannaford and Ryu, Time-domain passivity control of haptic
+/// interfaces, 2002; here the damper is never stronger than the force, so that nothing is felt in free air.
+///
+/// A link that delays every command alike, by up to 150 ms for the whole round trip, does not make commands old: their
+/// age is then counted from the delay that all commands of the last half second or more had (`link_delay`).
 ///
 /// Force and torque are limited each by its own maximum, so that a device without torque still gives its force. At a
 /// maximum, the axis of the wrench therefore moves. The power limit scales both alike.
@@ -65,6 +80,10 @@ class SafetyEnvelope {
 
   const DeviceDescriptor& descriptor() const noexcept { return descriptor_; }
 
+  /// The smallest age of a command in the last half second or longer; 0 in the first half second. At the glove's end
+  /// this is the delay of the whole round trip.
+  std::chrono::nanoseconds link_delay() const noexcept { return std::min(least_age_before_, least_age_); }
+
  private:
   struct Forces {
     Eigen::Vector3d f = Eigen::Vector3d::Zero();
@@ -81,6 +100,10 @@ class SafetyEnvelope {
   std::chrono::nanoseconds age_of(std::chrono::nanoseconds measured, std::chrono::nanoseconds now) const noexcept;
   void limit_norms(Forces& forces, LimitReasons& reasons) const noexcept;
   void limit_power(Forces& forces, LimitReasons& reasons) const noexcept;
+  void observe_work(const GloveState& state) noexcept;
+  void observe_delay(std::chrono::nanoseconds age, std::chrono::nanoseconds now) noexcept;
+  std::chrono::nanoseconds oldest_command() const noexcept;
+  void limit_energy(Forces& forces, double dt, LimitReasons& reasons) noexcept;
   void limit_rates(Forces& forces, double seconds, LimitReasons& reasons) const noexcept;
 
   DeviceDescriptor descriptor_;
@@ -97,6 +120,16 @@ class SafetyEnvelope {
   Forces last_;    // always finite
   bool has_been_called_ = false;
   std::chrono::nanoseconds last_call_{0};
+
+  double energy_;
+  double energy_damping_ = 0.0;                      // N s/m
+  Eigen::Vector3d f_sum_ = Eigen::Vector3d::Zero();  // of the commands since the newest state
+  Eigen::Vector3d t_sum_ = Eigen::Vector3d::Zero();
+  int summed_ = 0;
+
+  std::chrono::nanoseconds least_age_before_{0};  // in the last whole half second
+  std::chrono::nanoseconds least_age_{0};         // since then
+  std::chrono::nanoseconds half_second_begin_{0};
 
   bool has_state_ = false;
   GloveState state_;                       // newest finite one

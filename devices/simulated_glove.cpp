@@ -80,6 +80,8 @@ DeviceDescriptor simulated_glove_descriptor() {
   descriptor.max_rotational_stiffness = 10.0;
   descriptor.max_damping = 30.0;
   descriptor.max_joint_torque = 0.5;
+  descriptor.damping = kArmDamping;
+  descriptor.rotational_damping = kArmRotationalDamping;
   descriptor.max_power = 40.0;
   // thumb roll, MCP, IP, abduction; index; middle and abduction; ring and abduction; little and abduction; palm; wrist
   descriptor.joint_lower =

@@ -15,21 +15,25 @@
 
 namespace glissade::devices {
 
+/// Viscous friction of the grounded arm, N s/m and Nm s/rad.
+inline constexpr double kArmDamping = 2.0;
+inline constexpr double kArmRotationalDamping = 0.01;
+
 /// The glove and its wearer, in SI units. The wearer is a critically damped spring and damper between hand and script,
 /// about as stiff as a relaxed to lightly tensed human arm. A steady force F displaces the hand from the script by
 /// F / stiffness.
 struct SimulatedGloveParameters {
-  double mass = 0.8;                         ///< effective at the hand root: hand, forearm and the device's arm; kg
-  double rotational_inertia = 0.003;         ///< about every axis of the hand root; kg m²
-  double arm_damping = 2.0;                  ///< viscous friction of the grounded arm; N s/m
-  double arm_rotational_damping = 0.01;      ///< Nm s/rad
-  double wearer_stiffness = 400.0;           ///< N/m
-  double wearer_damping = 35.0;              ///< acts on the velocity relative to the script; N s/m
-  double wearer_rotational_stiffness = 4.0;  ///< Nm/rad
-  double wearer_rotational_damping = 0.22;   ///< Nm s/rad
-  double finger_stiffness = 0.5;             ///< Nm/rad
-  double finger_time_constant = 0.05;        ///< time constant of a finger's approach to its equilibrium; s
-  JointValues grasp_posture{};               ///< joint angles to which the wearer's fingers return; rad
+  double mass = 0.8;                  ///< effective at the hand root: hand, forearm and the device's arm; kg
+  double rotational_inertia = 0.003;  ///< about every axis of the hand root; kg m²
+  double arm_damping = kArmDamping;   ///< viscous friction of the grounded arm; N s/m
+  double arm_rotational_damping = kArmRotationalDamping;  ///< Nm s/rad
+  double wearer_stiffness = 400.0;                        ///< N/m
+  double wearer_damping = 35.0;                           ///< acts on the velocity relative to the script; N s/m
+  double wearer_rotational_stiffness = 4.0;               ///< Nm/rad
+  double wearer_rotational_damping = 0.22;                ///< Nm s/rad
+  double finger_stiffness = 0.5;                          ///< Nm/rad
+  double finger_time_constant = 0.05;  ///< time constant of a finger's approach to its equilibrium; s
+  JointValues grasp_posture{};         ///< joint angles to which the wearer's fingers return; rad
 };
 
 /// Limits of the simulated glove: 20 N, 1 Nm, 4000 N/m and 1000 updates per second, like the stronger grounded arms in

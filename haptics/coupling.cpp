@@ -1,11 +1,23 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <glissade/devices/glove_device.h>
 #include <glissade/haptics/coupling.h>
 
 namespace glissade::haptics {
+
+namespace {
+
+/// Seconds by which the force lags behind the motion: half a period, because it is held that long, and all delays.
+double lag_of(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
+              std::chrono::nanoseconds delay) noexcept {
+  const double seconds = std::max(std::chrono::duration<double>(period).count(), 1.0 / device.update_rate);
+  return 0.5 * seconds + std::chrono::duration<double>(device.delay + delay).count();
+}
+
+}  // namespace
 
 void validate_tick_period(std::chrono::nanoseconds period) {
   if (kShortestTickPeriod <= period && period <= kLongestTickPeriod) return;
@@ -24,17 +36,43 @@ void validate(const CouplingStiffness& stiffness, const std::string& part_name) 
   throw std::invalid_argument("the stiffness with which " + part_name + " is held is not a positive number");
 }
 
-Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted) {
-  constexpr double kDampingTime_s = 5e-3;
+CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
+                                    std::chrono::nanoseconds delay) noexcept {
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  const double lag = lag_of(device, period, delay);
+  CouplingStiffness limit{kUnknown, kUnknown};
+  if (device.damping > 0.0) limit.translational = device.damping / lag;
+  if (device.rotational_damping > 0.0) limit.rotational = device.rotational_damping / lag;
+  if (device.friction > 0.0 && device.resolution > 0.0) {
+    limit.translational = std::min(limit.translational, 2.0 * device.friction / device.resolution);
+  }
+  return limit;
+}
+
+Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted,
+                      std::chrono::nanoseconds period, std::chrono::nanoseconds delay) {
   if (!(device.max_stiffness > 0.0 && device.max_rotational_stiffness > 0.0)) {
     throw std::invalid_argument("device '" + device.name +
                                 "': it must render some stiffness against translation and rotation");
   }
+  return coupling_within_limits(device, wanted, period, delay);
+}
+
+Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted,
+                                std::chrono::nanoseconds period, std::chrono::nanoseconds delay) noexcept {
+  constexpr double kDampingTime_s = 5e-3;
+  const CouplingStiffness passive = passive_stiffness(device, period, delay);
+  const double lag = lag_of(device, period, delay);
+  const auto damping = [lag](double stiffness, double of_device) {
+    const double usual = kDampingTime_s * stiffness;
+    return of_device > 0.0 ? std::clamp(of_device - stiffness * lag, 0.0, usual) : usual;
+  };
   Coupling coupling;
-  coupling.stiffness.translational = std::min(wanted.translational, device.max_stiffness);
-  coupling.stiffness.rotational = std::min(wanted.rotational, device.max_rotational_stiffness);
-  coupling.damping.translational = std::min(kDampingTime_s * coupling.stiffness.translational, device.max_damping);
-  coupling.damping.rotational = kDampingTime_s * coupling.stiffness.rotational;
+  coupling.stiffness.translational = std::min({wanted.translational, device.max_stiffness, passive.translational});
+  coupling.stiffness.rotational = std::min({wanted.rotational, device.max_rotational_stiffness, passive.rotational});
+  coupling.damping.translational =
+      std::min(damping(coupling.stiffness.translational, device.damping), device.max_damping);
+  coupling.damping.rotational = damping(coupling.stiffness.rotational, device.rotational_damping);
   return coupling;
 }
 

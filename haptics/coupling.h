@@ -58,17 +58,37 @@ struct Coupling {
 /// rotation.
 CouplingStiffness default_stiffness(double radius);
 
-/// The coupling that a device can render without shaking. The stiffness is `wanted`, lowered to the limits of the
-/// descriptor. The damping is 5 ms times this stiffness; the translational damping is at most the descriptor's limit.
-/// Throws std::invalid_argument, naming the device, when the device cannot render any stiffness against
-/// translation or rotation.
-Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted);
+/// The greatest stiffness with which a spring on the device is passive, i.e. never gives back more energy than the hand
+/// put in: b / (T/2 + t_d), with the device's damping b, the period T of the loop and the delay t_d from measurement to
+/// force; against translation also at most twice the Coulomb friction by the resolution. Infinite where the descriptor
+/// does not tell the damping. Sources: Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997; Abbott
+/// and Okamura, Effects of position quantization and sampling rate on virtual-wall passivity, 2005.
+CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
+                                    std::chrono::nanoseconds delay) noexcept;
+
+/// The coupling that a device can render without shaking in a loop of this period, at least that of the device. `delay`
+/// is the delay of the link, which adds to the device's own. The stiffness is `wanted`, lowered to the limits of the
+/// descriptor and to `passive_stiffness`. The damping is 5 ms times this stiffness, but at most the descriptor's limit,
+/// and at most what the device's own damping leaves: b − K (T/2 + t_d). Throws std::invalid_argument, naming the
+/// device, when the device cannot render any stiffness against translation or rotation.
+Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted,
+                      std::chrono::nanoseconds period = kTickPeriod,
+                      std::chrono::nanoseconds delay = std::chrono::nanoseconds(0));
+
+/// The same without the check. Real-time safe.
+Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted,
+                                std::chrono::nanoseconds period, std::chrono::nanoseconds delay) noexcept;
 
 /// Force (N) and torque (Nm) on a body about some point, in world axes.
 struct Wrench {
   Eigen::Vector3d f = Eigen::Vector3d::Zero();
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
 };
+
+/// The wrench times a factor.
+inline Wrench scaled(const Wrench& wrench, double factor) {
+  return {factor * wrench.f, factor * wrench.t};
+}
 
 /// The same wrench about the point `to` instead of the point `from`, both in world coordinates (metres).
 Wrench about_point(const Wrench& wrench, const Eigen::Vector3d& from, const Eigen::Vector3d& to);

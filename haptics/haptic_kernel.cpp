@@ -8,9 +8,12 @@
 namespace glissade::haptics {
 
 HapticKernel::HapticKernel(const SlidingPart& part_V, const CouplingStiffness& stiffness,
-                           const devices::DeviceDescriptor& device, const Eigen::Isometry3d& X_WV_start)
+                           const devices::DeviceDescriptor& device, const Eigen::Isometry3d& X_WV_start,
+                           std::chrono::nanoseconds period)
     : p_Vref_(part_V.p_Vref()),
-      coupling_(coupling_for(device, stiffness)),
+      period_(period),
+      coupling_(coupling_for(device, stiffness, period)),
+      present_(coupling_),
       envelope_(device),
       X_WV_start_(X_WV_start),
       X_WG_(X_WV_start),
@@ -29,7 +32,8 @@ HapticTick HapticKernel::tick(const devices::GloveState& state, const ContactSet
 
   HapticTick tick;
   tick.X_WG = X_WG_;
-  tick.contacts = contacts_->update(set, now - set.time, X_WG_, seconds_since_last_tick(now));
+  const double dt = seconds_since_last_tick(now);
+  tick.contacts = scaled(contacts_->update(set, now - set.time, X_WG_, dt), soften(state.link_delay, dt));
   tick.is_unsolved = contacts_->is_unsolved();
 
   devices::GloveCommand command;
@@ -41,13 +45,26 @@ HapticTick HapticKernel::tick(const devices::GloveState& state, const ContactSet
     const Eigen::Vector3d& p_WH = state.X_WH.translation();
     const Eigen::Vector3d p_Wref = X_WG_ * p_Vref_;
     const Velocity ghost{state.v_WH + state.w_WH.cross(p_Wref - p_WH), state.w_WH};
-    const Wrench damping = damper_wrench(coupling_.damping, tick.contacts, ghost);
+    const Wrench damping = damper_wrench(present_.damping, tick.contacts, ghost);
     const Wrench on_hand = about_point({tick.contacts.f + damping.f, tick.contacts.t + damping.t}, p_Wref, p_WH);
     command.f_H_W = on_hand.f;
     command.t_H_W = on_hand.t;
   }
   tick.command = envelope_.limit(command, state, now);
   return tick;
+}
+
+/// Adapts the present coupling to the delay of the link. Returns the share of the coupling's force that is left: force
+/// and torque shrink alike, so that the wrench stays a sum of contact normals.
+double HapticKernel::soften(std::chrono::nanoseconds link_delay, double dt) noexcept {
+  constexpr double kTime_s = 0.1;
+  constexpr double kMost_s = 1.0;
+  const double delay_s = std::clamp(std::chrono::duration<double>(link_delay).count(), 0.0, kMost_s);
+  link_delay_s_ += std::min(1.0, dt / kTime_s) * (delay_s - link_delay_s_);
+  const auto delay = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(link_delay_s_));
+  present_ = coupling_within_limits(envelope_.descriptor(), coupling_.stiffness, period_, delay);
+  return std::min(present_.stiffness.translational / coupling_.stiffness.translational,
+                  present_.stiffness.rotational / coupling_.stiffness.rotational);
 }
 
 double HapticKernel::seconds_since_last_tick(std::chrono::nanoseconds now) noexcept {

@@ -34,11 +34,12 @@ class HapticKernel {
  public:
   /// At the first state with a finite hand pose, the ghost is at X_WV_start; from then on, the ghost moves rigidly with
   /// the hand. `stiffness` is the stiffness of the simulation (`SlidingSimulation::stiffness`). The kernel's coupling
-  /// is the result of `coupling_for` with `device` and `stiffness`. If the simulation is stiffer than the device
-  /// allows, the contact forces that the simulation reports differ from the force on the hand. To avoid this, construct
-  /// the simulation with the stiffness that `coupling_for` returns. Throws as `coupling_for` does.
+  /// is the result of `coupling_for` with `device`, `stiffness` and `period`, the usual time between two ticks. If the
+  /// simulation is stiffer than the device allows, the contact forces that the simulation reports differ from the force
+  /// on the hand. To avoid this, construct the simulation with the stiffness that `coupling_for` returns. Throws as
+  /// `coupling_for` does.
   HapticKernel(const SlidingPart& part_V, const CouplingStiffness& stiffness, const devices::DeviceDescriptor& device,
-               const Eigen::Isometry3d& X_WV_start);
+               const Eigen::Isometry3d& X_WV_start, std::chrono::nanoseconds period = kTickPeriod);
   ~HapticKernel();
   HapticKernel(const HapticKernel&) = delete;
   HapticKernel& operator=(const HapticKernel&) = delete;
@@ -51,13 +52,21 @@ class HapticKernel {
   /// Emergency stop: the force fades to zero and stays there.
   void stop() noexcept { envelope_.stop(); }
 
+  /// The coupling without delay of the link.
   const Coupling& coupling() const noexcept { return coupling_; }
+  /// The coupling of the last tick: with the delay that the glove tells (`GloveState::link_delay`), smoothed over 0.1
+  /// s.
+  const Coupling& present_coupling() const noexcept { return present_; }
 
  private:
   double seconds_since_last_tick(std::chrono::nanoseconds now) noexcept;
+  double soften(std::chrono::nanoseconds link_delay, double dt) noexcept;
 
   Eigen::Vector3d p_Vref_;
+  std::chrono::nanoseconds period_;
   Coupling coupling_;
+  Coupling present_;
+  double link_delay_s_ = 0.0;
   devices::SafetyEnvelope envelope_;
   Eigen::Isometry3d X_WV_start_;
   Eigen::Isometry3d X_HG_ = Eigen::Isometry3d::Identity();  // the grasp, fixed by the first state

@@ -19,7 +19,8 @@ HapticServer::HapticServer(devices::GloveDevice& device, SlidingSimulation& simu
       clock_(clock),
       sink_(std::move(sink)),
       options_(options),
-      kernel_(simulation.part(), simulation.stiffness(), device.descriptor(), simulation.result().X_WV) {
+      kernel_(simulation.part(), simulation.stiffness(), device.descriptor(), simulation.result().X_WV,
+              options.period) {
   validate_tick_period(options.period);
   if (!sink_) throw std::invalid_argument("a haptic server needs a sink for its states, not an empty function");
   ContactSet at_start;

@@ -49,7 +49,8 @@ class MultiPartSliding::Cycle {
       ++cycles;
     report_contacts(shared_, starts_.overlaps(), step_finder_.rows().all_contacts(), milliseconds);
     // With several parts the contacts are reported where the last step has led.
-    const double reach = shared_.count() == 1 ? radius_.reach_ahead() : std::max(0.0, radius_.reach_ahead() - radius_.last_step());
+    const double reach =
+        shared_.count() == 1 ? radius_.reach_ahead() : std::max(0.0, radius_.reach_ahead() - radius_.last_step());
     for (HeldPartState& part : shared_.states) {
       if (part.is_held()) part.end_tick(cycles, reach, milliseconds);
     }

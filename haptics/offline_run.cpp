@@ -11,7 +11,7 @@ void run_offline(devices::SimulatedGlove& glove, SlidingSimulation& simulation, 
                  const std::function<void(const devices::HapticState&)>& sink, std::chrono::nanoseconds period) {
   validate_tick_period(period);
   if (!sink) throw std::invalid_argument("an offline run needs a sink for its states, not an empty function");
-  HapticKernel kernel(simulation.part(), simulation.stiffness(), glove.descriptor(), simulation.result().X_WV);
+  HapticKernel kernel(simulation.part(), simulation.stiffness(), glove.descriptor(), simulation.result().X_WV, period);
   devices::SafeCommand command;
   std::vector<std::int32_t> scratch;
   ContactSet set;

@@ -20,6 +20,7 @@ constexpr double kLargestAngularVelocity = 1e4;  // rad/s
 constexpr double kLargestAngle = 2.0 * std::numbers::pi;
 constexpr double kLargestForce = 1e6;   // N
 constexpr double kLargestTorque = 1e6;  // Nm
+constexpr double kLargestEnergy = 1e9;  // J
 constexpr double kQuaternionTolerance = 1e-3;
 constexpr std::int64_t kLargestTime_ns = std::int64_t{1} << 60;  // 36 years
 
@@ -42,7 +43,7 @@ LimitReasons reasons_of(std::int32_t bits) {
 }
 
 static_assert(reason_bit(0) == haptic_state_t::REASON_STOPPED);
-static_assert(reason_bit(kLimitReasons.size() - 1) == haptic_state_t::REASON_MEAN);
+static_assert(reason_bit(kLimitReasons.size() - 1) == haptic_state_t::REASON_ENERGY);
 
 void put(const Eigen::Vector3d& vector, double (&out)[3]) {
   std::copy_n(vector.data(), 3, out);
@@ -87,6 +88,10 @@ class FieldCheck {
       is_in_range_ = is_in_range_ && std::abs(value) <= largest;
     }
   }
+  void magnitude(double value, double largest) noexcept {
+    const double values[] = {value};
+    magnitude(values, largest);
+  }
   void unit_quaternion(const double (&wxyz)[4]) noexcept {
     magnitude(wxyz, 2.0);
     const double norm = Eigen::Vector4d(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).norm();
@@ -121,6 +126,8 @@ MessageError check(const glove_state_t& message) noexcept {
   fields.magnitude(message.v_WH_m_per_s, kLargestVelocity);
   fields.magnitude(message.w_WH_rad_per_s, kLargestAngularVelocity);
   fields.magnitude(message.joint_angles_rad, kLargestAngle);
+  fields.time(message.link_delay_ns);
+  fields.magnitude(message.energy_J, kLargestEnergy);
   return fields.result();
 }
 
@@ -147,6 +154,10 @@ void for_each_limit(Message& message, Descriptor& descriptor, const Use& use) {
   use(message.max_rotational_stiffness_Nm_per_rad, descriptor.max_rotational_stiffness);
   use(message.max_damping_N_s_per_m, descriptor.max_damping);
   use(message.max_joint_torque_Nm, descriptor.max_joint_torque);
+  use(message.damping_N_s_per_m, descriptor.damping);
+  use(message.rotational_damping_Nm_s_per_rad, descriptor.rotational_damping);
+  use(message.friction_N, descriptor.friction);
+  use(message.resolution_m, descriptor.resolution);
   use(message.max_force_rate_N_per_s, descriptor.max_force_rate);
   use(message.max_torque_rate_Nm_per_s, descriptor.max_torque_rate);
   use(message.max_joint_torque_rate_Nm_per_s, descriptor.max_joint_torque_rate);
@@ -183,6 +194,8 @@ MessageError check(const haptic_state_t& message) noexcept {
   fields.magnitude(message.torque_on_hand_V_W_Nm, kLargestTorque);
   fields.not_negative(message.contact_count);
   fields.not_negative(message.contact_set_age_ns);
+  fields.magnitude(message.energy_J, kLargestEnergy);
+  fields.magnitude(message.glove_energy_J, kLargestEnergy);
   return fields.result();
 }
 
@@ -198,6 +211,7 @@ std::vector<std::uint8_t> encode(const GloveInfo& info) {
   std::copy_n(name.begin(), std::min(name.size(), std::size(message.name) - 1), message.name);
   for_each_limit(message, info.descriptor, [](double& sent, double value) { sent = value; });
   message.frozen_ns = info.descriptor.frozen.count();
+  message.delay_ns = info.descriptor.delay.count();
   return to_bytes(message);
 }
 
@@ -217,6 +231,8 @@ std::vector<std::uint8_t> encode(const StateHeader& header, const GloveState& st
   put(state.w_WH, message.w_WH_rad_per_s);
   std::copy(state.joint_angles.begin(), state.joint_angles.end(), message.joint_angles_rad);
   message.reasons = to_bits(state.limits);
+  message.link_delay_ns = state.link_delay.count();
+  message.energy_J = state.energy;
   message.command_age_ns = state.command_age.count();
   return to_bytes(message);
 }
@@ -258,6 +274,8 @@ std::vector<std::uint8_t> encode(const HapticState& state) {
   message.reasons = to_bits(state.reasons);
   message.state_age_ns = state.state_age.count();
   message.glove_reasons = to_bits(state.glove_reasons);
+  message.energy_J = state.energy;
+  message.glove_energy_J = state.glove_energy;
   message.command_age_ns = state.command_age.count();
   return to_bytes(message);
 }
@@ -270,11 +288,13 @@ MessageError decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexce
   FieldCheck fields;
   fields.not_negative(message.session);
   fields.time(message.frozen_ns);
+  fields.time(message.delay_ns);
   fields.one_of(message.side, glove_state_t::SIDE_RIGHT);
   fields.one_of(message.name[std::size(message.name) - 1], 0);
   DeviceDescriptor descriptor;
   for_each_limit(message, descriptor, [](double sent, double& value) { value = sent; });
   descriptor.frozen = std::chrono::nanoseconds(message.frozen_ns);
+  descriptor.delay = std::chrono::nanoseconds(message.delay_ns);
   if (fields.result() != MessageError::kNone || !is_valid(descriptor)) return MessageError::kOutOfRange;
   descriptor.name = reinterpret_cast<const char*>(message.name);
   info = {.device = message.device,
@@ -300,6 +320,8 @@ MessageError decode(std::span<const std::uint8_t> bytes, StateHeader& header, Gl
   state.w_WH = Eigen::Vector3d(message.w_WH_rad_per_s);
   std::copy_n(message.joint_angles_rad, kGloveJoints, state.joint_angles.begin());
   state.limits = reasons_of(message.reasons);
+  state.link_delay = std::chrono::nanoseconds(message.link_delay_ns);
+  state.energy = message.energy_J;
   state.command_age = std::chrono::nanoseconds(message.command_age_ns);
   return MessageError::kNone;
 }
@@ -346,6 +368,8 @@ MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noe
   state.state_age = std::chrono::nanoseconds(message.state_age_ns);
   state.glove_reasons = reasons_of(message.glove_reasons);
   state.command_age = std::chrono::nanoseconds(message.command_age_ns);
+  state.energy = message.energy_J;
+  state.glove_energy = message.glove_energy_J;
   return MessageError::kNone;
 }
 

@@ -42,6 +42,8 @@ bool LcmGloveHost::publish(const GloveState& state) {
   GloveState told = state;
   told.limits = last_.reasons();
   told.command_age = last_.age();
+  told.link_delay = envelope_.link_delay();
+  told.energy = last_.energy();
   return bus_->publish(kGloveStateChannel, encode(header, told));
 }
 

@@ -8,10 +8,6 @@ namespace {
 
 constexpr double kFastestGhost = 2.0;  // m/s; motion beyond is no reason for a faster change of the force
 
-Wrench scaled(const Wrench& wrench, double factor) {
-  return {factor * wrench.f, factor * wrench.t};
-}
-
 }  // namespace
 
 double force_share(std::chrono::nanoseconds age) noexcept {

@@ -38,6 +38,8 @@ devices::HapticState make_sample(const HapticTick& tick, const ContactSet& set, 
   sample.state_age = tick.command.age();
   sample.glove_reasons = state.limits;
   sample.command_age = state.command_age;
+  sample.energy = tick.command.energy();
+  sample.glove_energy = state.energy;
   sample.is_contact_set_late = sample.contact_set_age > kLateContactSet;
   return sample;
 }

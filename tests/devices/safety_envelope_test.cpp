@@ -66,6 +66,17 @@ class Envelope : public testing::Test {
     return checked(envelope_.limit(wanted, state_, now_));
   }
 
+  /// So many periods of a hand that moves at `speed` along the wanted force of 20 N.
+  SafeCommand push_at(double speed, int periods) {
+    state_.v_WH.x() = speed;
+    SafeCommand safe;
+    for (int i = 0; i < periods; ++i) {
+      state_.X_WH.translation().x() += 1e-3 * speed;
+      safe = tick(pull(20.0));
+    }
+    return safe;
+  }
+
   SafeCommand settle(const GloveCommand& wanted) {
     SafeCommand safe;
     for (int i = 0; i < 500; ++i)
@@ -351,20 +362,27 @@ TEST_F(Envelope, ACallerThatPausedGetsNoMoreThanTwoPeriodsOfChange) {
 }
 
 TEST_F(Envelope, LimitsThePowerIntoTheHand) {
-  state_.v_WH.x() = 4.0;  // with 20 N: 80 W, the limit is 40
-  SafeCommand safe;
-  for (int i = 0; i < 500; ++i) {
-    state_.X_WH.translation().x() += 4e-3;
-    safe = tick(pull(20.0));
-  }
+  DeviceDescriptor weak = kDevice;
+  weak.max_power = 5.0;
+  envelope_ = SafetyEnvelope(weak);
+  EXPECT_EQ(push_at(-0.5, 500).values().f_H_W.x(), 20.0) << "the hand puts power into the device";
+  const SafeCommand safe = push_at(0.5, 20);  // 20 N at this speed are 10 W
   EXPECT_NEAR(safe.values().f_H_W.x(), 10.0, 1e-9);
   EXPECT_TRUE(safe.reasons().power_limited);
-  state_.v_WH.x() = -4.0;
-  for (int i = 0; i < 500; ++i) {
-    state_.X_WH.translation().x() -= 4e-3;
-    safe = tick(pull(20.0));
-  }
-  EXPECT_EQ(safe.values().f_H_W.x(), 20.0) << "the hand puts power into the device";
+}
+
+TEST_F(Envelope, GivesBackNoMoreEnergyThanTheHandPutIn) {
+  push_at(0.0, 500);
+  const double at_start = push_at(0.0, 1).energy();
+  EXPECT_EQ(at_start, 0.1);
+  EXPECT_NEAR(push_at(-0.1, 50).energy(), at_start + 20.0 * 5e-3, 1e-3) << "20 N on a way of 5 mm";
+  const SafeCommand safe = push_at(0.1, 500);
+  EXPECT_LT(safe.values().f_H_W.x(), 0.5);
+  EXPECT_GE(safe.energy(), 0.0);
+  EXPECT_NEAR(safe.energy(), 0.05, 1e-3) << "kept for the time in which the rates are slower";
+  EXPECT_TRUE(safe.reasons().energy_limited);
+  EXPECT_EQ(to_text(safe.reasons(), safe.age()), "reduced force: it has given back all energy that the hand put in");
+  EXPECT_EQ(push_at(0.0, 10).values().f_H_W.x(), 20.0) << "a hand at rest is not concerned";
 }
 
 TEST_F(Envelope, LimitsTheMeanForce) {
@@ -502,11 +520,15 @@ TEST(SafetyEnvelope, NoRandomCommandOrStateBreaksALimit) {
   SCOPED_TRACE(kSeed);
   const char* const wish = std::getenv("GLISSADE_ENVELOPE_CALLS");
   const int calls = wish != nullptr ? std::atoi(wish) : 100'000;
-  constexpr double kRate = 1000.0 / 7.0;  // per second: from zero to the maximum in seven periods
   constexpr double kTolerance = 1e-12;
+  DeviceDescriptor device = kDevice;
+  device.max_force_rate = 1500.0;
+  device.max_torque_rate = 120.0;
+  device.max_joint_torque_rate = 40.0;
+  device.max_power = 3.0;
   RandomHand hand(kSeed);
-  SafetyEnvelope server(kDevice);
-  SafetyEnvelope glove(kDevice, 6.0);
+  SafetyEnvelope server(device);
+  SafetyEnvelope glove(device, 6.0);
   GloveCommand last;
   int pressing = 0;
   int at_the_power = 0;
@@ -516,25 +538,25 @@ TEST(SafetyEnvelope, NoRandomCommandOrStateBreaksALimit) {
     const GloveCommand out = glove.limit(sent.values(), hand.state(), hand.now()).values();
     ASSERT_LE(out.f_H_W.norm(), kDevice.max_force) << i;
     ASSERT_LE(out.t_H_W.norm(), kDevice.max_torque) << i;
-    const double share = kRate * hand.period_s();  // of the maximum, by which a number may change
+    const double dt = hand.period_s();
     const double f_step = (out.f_H_W - last.f_H_W).norm();
     const double t_step = (out.t_H_W - last.t_H_W).norm();
-    ASSERT_LE(f_step, share * kDevice.max_force * kSlack + kTolerance) << i;
-    ASSERT_LE(t_step, share * kDevice.max_torque * kSlack + kTolerance) << i;
+    ASSERT_LE(f_step, device.max_force_rate * dt * kSlack + kTolerance) << i;
+    ASSERT_LE(t_step, device.max_torque_rate * dt * kSlack + kTolerance) << i;
     for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
       ASSERT_LE(std::abs(out.joint_torques[joint]), kDevice.max_joint_torque) << i;
       ASSERT_LE(std::abs(out.joint_torques[joint] - last.joint_torques[joint]),
-                share * kDevice.max_joint_torque * kSlack + kTolerance)
+                device.max_joint_torque_rate * dt * kSlack + kTolerance)
           << i;
     }
     // The power is within its limit, or the wrench goes there as fast as its rates allow.
     const double power = out.f_H_W.dot(hand.state().v_WH) + out.t_H_W.dot(hand.state().w_WH);
-    if (hand.is_state_finite() && power > kDevice.max_power * 1.000001) {
-      ASSERT_TRUE(f_step > 0.999999 * share * kDevice.max_force || t_step > 0.999999 * share * kDevice.max_torque)
+    if (hand.is_state_finite() && power > device.max_power * 1.000001) {
+      ASSERT_TRUE(f_step > 0.999999 * dt * device.max_force_rate || t_step > 0.999999 * dt * device.max_torque_rate)
           << i << ": " << power << " W";
     }
     pressing += out.f_H_W.norm() > 5.0 ? 1 : 0;
-    at_the_power += power > 0.999 * kDevice.max_power ? 1 : 0;
+    at_the_power += power > 0.999 * device.max_power ? 1 : 0;
     last = out;
   }
   // The limits were put to the test.
