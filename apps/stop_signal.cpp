@@ -22,6 +22,8 @@ void on_signal(int) {
 StopSignal::StopSignal() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool StopSignal::requested() {

@@ -88,14 +88,13 @@ double rate_or_default(double rate, double maximum, const DeviceDescriptor& desc
 
 }  // namespace
 
-SafetyEnvelope::SafetyEnvelope(const DeviceDescriptor& descriptor, double patience_periods)
+SafetyEnvelope::SafetyEnvelope(const DeviceDescriptor& descriptor, double patience_periods,
+                               nanoseconds period_of_caller)
     : descriptor_(descriptor), energy_(kStartEnergy_J) {
   validate(descriptor_);
-  const auto periods = [&](double count) {
-    return std::chrono::duration_cast<nanoseconds>(std::chrono::duration<double>(count / descriptor_.update_rate));
-  };
-  period_ = periods(1.0);
-  patience_ = periods(patience_periods);
+  const auto rounded = [](std::chrono::duration<double> time) { return std::chrono::duration_cast<nanoseconds>(time); };
+  period_ = std::max(period_of_caller, rounded(std::chrono::duration<double>(1.0 / descriptor_.update_rate)));
+  patience_ = rounded(patience_periods * std::chrono::duration<double>(period_));
   force_rate_ = rate_or_default(descriptor_.max_force_rate, descriptor_.max_force, descriptor_);
   torque_rate_ = rate_or_default(descriptor_.max_torque_rate, descriptor_.max_torque, descriptor_);
   joint_torque_rate_ = rate_or_default(descriptor_.max_joint_torque_rate, descriptor_.max_joint_torque, descriptor_);
@@ -117,17 +116,22 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   gain_ = std::clamp(gain_ + change, 0.0, 1.0);
   reasons.is_returning = !reasons.is_fading() && gain_ < 1.0;
 
-  Forces forces = wanted_;
+  Forces forces = reasons.is_fading() ? faded(dt) : wanted_;
   limit_norms(forces, reasons);
-  forces.f *= gain_;
-  forces.t *= gain_;
-  for (double& torque : forces.joints)
-    torque *= gain_;
+  if (!reasons.is_fading()) {
+    forces.f *= gain_;
+    forces.t *= gain_;
+    for (double& torque : forces.joints)
+      torque *= gain_;
+  }
   limit_power(forces, reasons);
   limit_energy(forces, dt, reasons);
   limit_rates(forces, dt, reasons);
   // Cannot happen; but NaN would pass all limits above, and stay.
   if (!forces.f.allFinite() || !forces.t.allFinite() || !all_finite(forces.joints)) forces = {};
+  // The return begins at zero, however soon the force was there.
+  const bool is_zero = forces.f.isZero(0.0) && forces.t.isZero(0.0) && forces.joints == JointValues{};
+  if (reasons.is_fading() && is_zero) gain_ = 0.0;
   mean_force_ += std::min(1.0, dt / kMeanTime_s) * (forces.f.norm() - mean_force_);
   last_ = forces;
   f_sum_ += forces.f;
@@ -215,12 +219,16 @@ bool SafetyEnvelope::is_plausible(const GloveState& state) noexcept {
 void SafetyEnvelope::update_offset(const GloveState& state, nanoseconds now) noexcept {
   const nanoseconds difference = now - state.time;
   const bool is_first = !has_state_ || state.time < state_.time;
-  if (is_first || now - punctual_ > kLateForGood) {
+  if (is_first || (late_since_ && now - *late_since_ > kLateForGood)) {
     offset_ = difference;
   } else {
     offset_ = std::min(offset_ + (state.time - state_.time) / kDriftShare, difference);
   }
-  if (difference - offset_ <= patience_) punctual_ = now;
+  if (difference - offset_ <= patience_) {
+    late_since_.reset();
+  } else if (!late_since_) {
+    late_since_ = now;
+  }
 }
 
 nanoseconds SafetyEnvelope::age_of(nanoseconds measured, nanoseconds now) const noexcept {
@@ -241,6 +249,20 @@ LimitReasons SafetyEnvelope::faults(const GloveCommand& wanted, const GloveState
   reasons.is_command_old =
       !reasons.is_state_old && (is_from_future || age_of(wanted.state_time, now) > oldest_command());
   return reasons;
+}
+
+// Straight to zero, so that a change of the wanted direction cannot make the fade longer.
+SafetyEnvelope::Forces SafetyEnvelope::faded(double dt) const noexcept {
+  const double share = dt / (kFadePeriods * seconds(period_));
+  const auto shorter = [](const Eigen::Vector3d& vector, double by) {
+    const double norm = vector.norm();
+    return norm > by ? Eigen::Vector3d((1.0 - by / norm) * vector) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  };
+  Forces forces{shorter(last_.f, share * descriptor_.max_force), shorter(last_.t, share * descriptor_.max_torque), {}};
+  const double by = share * descriptor_.max_joint_torque;
+  for (std::size_t i = 0; i < kGloveJoints; ++i)
+    forces.joints[i] = last_.joints[i] - std::clamp(last_.joints[i], -by, by);
+  return forces;
 }
 
 void SafetyEnvelope::limit_norms(Forces& forces, LimitReasons& reasons) const noexcept {
@@ -311,8 +333,19 @@ void SafetyEnvelope::limit_rates(Forces& forces, double dt, LimitReasons& reason
   }
 }
 
+namespace {
+
+std::string age_text(nanoseconds age) {
+  if (age > std::chrono::seconds(10)) return "more than 10 s old";
+  if (age >= std::chrono::milliseconds(10)) return std::to_string(age / std::chrono::milliseconds(1)) + " ms old";
+  const std::int64_t tenths = age / std::chrono::microseconds(100);
+  return std::to_string(tenths / 10) + "." + std::to_string(std::abs(tenths % 10)) + " ms old";
+}
+
+}  // namespace
+
 std::string to_text(const LimitReasons& reasons, nanoseconds age) {
-  const std::string old = std::to_string(age / std::chrono::milliseconds(1)) + " ms old";
+  const std::string old = age_text(age);
   if (reasons.is_stopped) return "no force: emergency stop";
   if (reasons.is_disabled) return "no force: the wearer does not hold the enable switch";
   if (reasons.is_refused) return "no force: the glove obeys another server";

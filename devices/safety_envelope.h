@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include <Eigen/Core>
@@ -45,8 +46,8 @@ std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
 /// for a device in the server's process. It remembers the last command and the last state, so call it once a period.
 ///
 /// Ages are measured from the times of measurement that states carry. The clock of the glove and that of the caller may
-/// differ: the fastest message so far gives the difference, which may grow by 0.2 ms a second. If all states of a
-/// second are late, or if the glove's clock goes back, the difference is taken anew.
+/// differ: the fastest message so far gives the difference, which may grow by 0.2 ms a second. If all states
+/// that come within a second are late, or if the glove's clock goes back, the difference is taken anew.
 ///
 /// A passivity observer counts the work of force and torque on the hand, by the measured motion and the command that
 /// was given, i.e. after all limits. The energy is what the hand has put in and not got back, at most 0.5 J, and 0.05 J
@@ -66,8 +67,10 @@ std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
 /// seven periods makes both slower. Not thread-safe. Real-time safe: no allocation, no lock, no system call.
 class SafetyEnvelope {
  public:
-  /// Ages up to `patience_periods` periods of the device are normal. Throws as `validate` does.
-  explicit SafetyEnvelope(const DeviceDescriptor& descriptor, double patience_periods = 3.0);
+  /// Ages up to `patience_periods` periods are normal. A period is that of the device or, if longer, that of the
+  /// caller. Throws as `validate` does.
+  explicit SafetyEnvelope(const DeviceDescriptor& descriptor, double patience_periods = 3.0,
+                          std::chrono::nanoseconds period_of_caller = std::chrono::nanoseconds(0));
 
   /// The command for this period: `wanted`, which answers one of the last states, reduced as far as the descriptor and
   /// the reasons demand. `newest` is the newest state; `now` is a time on the caller's clock. Sequences and times do
@@ -98,6 +101,7 @@ class SafetyEnvelope {
   LimitReasons faults(const GloveCommand& wanted, const GloveState& newest,
                       std::chrono::nanoseconds now) const noexcept;
   std::chrono::nanoseconds age_of(std::chrono::nanoseconds measured, std::chrono::nanoseconds now) const noexcept;
+  Forces faded(double dt) const noexcept;
   void limit_norms(Forces& forces, LimitReasons& reasons) const noexcept;
   void limit_power(Forces& forces, LimitReasons& reasons) const noexcept;
   void observe_work(const GloveState& state) noexcept;
@@ -132,10 +136,10 @@ class SafetyEnvelope {
   std::chrono::nanoseconds half_second_begin_{0};
 
   bool has_state_ = false;
-  GloveState state_;                       // newest finite one
-  std::chrono::nanoseconds pose_time_{0};  // since when the pose repeats to the bit
-  std::chrono::nanoseconds offset_{0};     // caller's clock minus glove's clock
-  std::chrono::nanoseconds punctual_{0};   // when the last state was not late
+  GloveState state_;                                    // newest finite one
+  std::chrono::nanoseconds pose_time_{0};               // since when the pose repeats to the bit
+  std::chrono::nanoseconds offset_{0};                  // caller's clock minus glove's clock
+  std::optional<std::chrono::nanoseconds> late_since_;  // when the first state came that was late, as all after it
   std::chrono::nanoseconds distrust_until_{0};
 };
 

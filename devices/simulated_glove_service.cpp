@@ -11,14 +11,23 @@ SimulatedGloveService::SimulatedGloveService(std::shared_ptr<LcmBus> bus, Simula
       glove_(std::move(glove)),
       observer_(std::move(observer)),
       state_(glove_.state()) {
-  thread_ = std::make_unique<realtime::PeriodicThread>(clock, realtime::PeriodicThreadOptions{.name = "glove"},
-                                                       [this](const realtime::PeriodicTick& now) {
-                                                         tick(now.deadline);
-                                                         return true;
-                                                       });
+  thread_ = std::make_unique<realtime::PeriodicThread>(
+      clock, realtime::PeriodicThreadOptions{.name = "glove"},
+      [this](const realtime::PeriodicTick& now) { return tick(now.deadline); });
 }
 
-void SimulatedGloveService::tick(std::chrono::nanoseconds deadline) noexcept {
+SimulatedGloveService::~SimulatedGloveService() {
+  stop();
+}
+
+void SimulatedGloveService::stop() {
+  host_.stop();
+  should_end_.store(true, std::memory_order_release);
+  thread_->join();
+}
+
+/// Returns false when nothing is left to do.
+bool SimulatedGloveService::tick(std::chrono::nanoseconds deadline) noexcept {
   const SafeCommand command = host_.newest_command(state_);
   greatest_force_ = std::max(greatest_force_, command.values().f_H_W.norm());
   std::chrono::nanoseconds passed{0};
@@ -31,6 +40,11 @@ void SimulatedGloveService::tick(std::chrono::nanoseconds deadline) noexcept {
   send(state_);
   if (observer_) observer_(state_, command);
   script_time_.store(script_time() + passed, std::memory_order_relaxed);
+  if (!should_end_.load(std::memory_order_acquire)) return true;
+  constexpr int kLongestEnd = 100;  // periods; longer than any fade of this glove
+  const GloveCommand& values = command.values();
+  const bool is_at_rest = values.f_H_W.isZero(0.0) && values.t_H_W.isZero(0.0) && values.joint_torques == JointValues{};
+  return !is_at_rest && ++ending_ticks_ < kLongestEnd;
 }
 
 // A state that cannot be encoded or sent counts as lost on the way: the server sees the gap in the sequence.

@@ -29,12 +29,14 @@ class SimulatedGloveService {
   /// Throws std::invalid_argument when the bus is null or cannot receive. The clock must outlive the service.
   SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock,
                         const LcmGloveHostOptions& options = {}, Observer observer = {});
+  ~SimulatedGloveService();
 
   /// Elapsed time of the script. Any thread.
   std::chrono::nanoseconds script_time() const noexcept { return script_time_.load(std::memory_order_relaxed); }
 
-  /// Ends the thread. Once this function has returned, the results of the functions below no longer change.
-  void stop() { thread_->stop(); }
+  /// Lets the force fade and ends the thread, after at most a tenth of a second. Once this function has returned, the
+  /// results of the functions below no longer change.
+  void stop();
 
   /// Greatest norm of all commanded forces, N. Valid after `stop`.
   double greatest_force() const noexcept { return greatest_force_; }
@@ -42,7 +44,7 @@ class SimulatedGloveService {
   LinkStatistics link_statistics() const noexcept { return host_.statistics(); }
 
  private:
-  void tick(std::chrono::nanoseconds deadline) noexcept;
+  bool tick(std::chrono::nanoseconds deadline) noexcept;
   void send(const GloveState& state) noexcept;
 
   LcmGloveHost host_;
@@ -52,6 +54,8 @@ class SimulatedGloveService {
   std::optional<std::chrono::nanoseconds> last_deadline_;  ///< set once a command has arrived
   std::atomic<std::chrono::nanoseconds> script_time_{std::chrono::nanoseconds(0)};
   double greatest_force_ = 0.0;
+  std::atomic<bool> should_end_{false};
+  int ending_ticks_ = 0;
   std::unique_ptr<realtime::PeriodicThread> thread_;
 };
 

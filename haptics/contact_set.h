@@ -28,8 +28,7 @@ struct ConstraintRow {
   Eigen::Vector3d n;  ///< unit normal, from the obstacle to the part, world axes
   Eigen::Vector3d r;  ///< from the reference point to the contact point, world axes, metres
   double bound;       ///< metres; at most 0 if the constraint allows standing still
-  /// Metres: `Contact::range`. Infinite for contacts that push: as long as nothing newer is known, their faces go on.
-  double range = std::numeric_limits<double>::infinity();
+  double range = std::numeric_limits<double>::infinity();  ///< metres: `Contact::range`
   double approach = 0.0;  ///< m/s: `Contact::approach`, by which the bound grows with the age of the set
 
   /// The left side of the constraint: the motion of the contact point along n, in metres.

@@ -7,6 +7,11 @@
 
 namespace glissade::haptics {
 
+namespace {
+constexpr double kPatiencePeriods = 3.0;
+constexpr double kHeadroom = 1.05;  // contacts may demand a little more than the device gives: the envelope tells that
+}  // namespace
+
 HapticKernel::HapticKernel(const SlidingPart& part_V, const CouplingStiffness& stiffness,
                            const devices::DeviceDescriptor& device, const Eigen::Isometry3d& X_WV_start,
                            std::chrono::nanoseconds period)
@@ -14,10 +19,11 @@ HapticKernel::HapticKernel(const SlidingPart& part_V, const CouplingStiffness& s
       period_(period),
       coupling_(coupling_for(device, stiffness, period)),
       present_(coupling_),
-      envelope_(device),
+      envelope_(device, kPatiencePeriods, period),
       X_WV_start_(X_WV_start),
       X_WG_(X_WV_start),
-      contacts_(std::make_unique<ContactForce>(part_V.p_Vref(), part_V.radius(), coupling_.stiffness, X_WV_start)) {}
+      contacts_(std::make_unique<ContactForce>(part_V.p_Vref(), part_V.radius(), coupling_.stiffness,
+                                               kHeadroom * device.max_force, X_WV_start)) {}
 
 HapticKernel::~HapticKernel() = default;
 

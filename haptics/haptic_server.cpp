@@ -9,7 +9,18 @@
 namespace glissade::haptics {
 
 namespace {
+
 constexpr double kLongestCatchUp_ms = 250.0;
+
+/// A device whose rates are slow needs long for its fade.
+std::chrono::nanoseconds longest_fade(const devices::DeviceDescriptor& device) noexcept {
+  const auto time = [](double maximum, double rate) { return rate > 0.0 ? maximum / rate : 0.0; };
+  const double slowest_s =
+      std::max({time(device.max_force, device.max_force_rate), time(device.max_torque, device.max_torque_rate), 0.5});
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(2.0 * std::min(slowest_s, 1e6)));
+}
+
 }  // namespace
 
 HapticServer::HapticServer(devices::GloveDevice& device, SlidingSimulation& simulation, realtime::Clock& clock,
@@ -45,7 +56,7 @@ bool HapticServer::haptic_tick(const realtime::PeriodicTick& timing) noexcept {
   const ContactSet& set = sets_.value();
   const HapticTick tick = kernel_.tick(state_, set, timing.start);
   device_.command(tick.command);
-  if (is_ending) return go_on_fading(tick);
+  if (is_ending) return go_on_fading(tick, timing.start);
   ghosts_.publish({tick.X_WG, timing.start});
   report(tick, set, timing.start);
   return true;
@@ -55,34 +66,40 @@ void HapticServer::report(const HapticTick& tick, const ContactSet& set, std::ch
   const devices::HapticState sample = make_sample(tick, set, state_, now);
   statistics_.contact_set_age.record(sample.contact_set_age);
   statistics_.unsolved_ticks += sample.are_contacts_unsolved ? 1 : 0;
-  sink_(sample);
+  if (!has_failed()) guarded([&] { sink_(sample); });
   ticks_.fetch_add(1, std::memory_order_relaxed);
 }
 
-bool HapticServer::go_on_fading(const HapticTick& tick) noexcept {
-  constexpr int kLongestFade = 1000;  // ticks; a device with a slow rate of its own takes long
+bool HapticServer::go_on_fading(const HapticTick& tick, std::chrono::nanoseconds now) noexcept {
+  if (!fading_since_) fading_since_ = now;
   const devices::GloveCommand& command = tick.command.values();
   const bool is_at_rest = command.f_H_W.isZero(0.0) && command.t_H_W.isZero(0.0);
-  if (!is_at_rest && ++fading_ticks_ < kLongestFade) return true;
+  if (!is_at_rest && now - *fading_since_ < longest_fade(device_.descriptor())) return true;
   done_.store(options_.ticks > 0 && ticks() == options_.ticks, std::memory_order_release);
   return false;
 }
 
 bool HapticServer::simulation_tick() noexcept {
-  try {
-    answer_newest_ghost();
-    return true;
-  } catch (const std::exception& error) {
-    keep_failure(error.what());
-  } catch (...) {
-    keep_failure("an exception of unknown type");
-  }
-  failed_.store(true, std::memory_order_release);
-  return false;
+  guarded([this] { answer_newest_ghost(); });
+  return !has_failed();
 }
 
-void HapticServer::keep_failure(std::string_view message) noexcept {
+/// Runs `work`; keeps the message of an exception, the first one.
+template <typename Work>
+void HapticServer::guarded(const Work& work) noexcept {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    fail(error.what());
+  } catch (...) {
+    fail("an exception of unknown type");
+  }
+}
+
+void HapticServer::fail(std::string_view message) noexcept {
+  if (is_failing_.exchange(true)) return;
   std::copy_n(message.begin(), std::min(message.size(), failure_.size() - 1), failure_.begin());
+  failed_.store(true, std::memory_order_release);
 }
 
 void HapticServer::answer_newest_ghost() {

@@ -52,7 +52,8 @@ struct HapticServerStatistics {
 class HapticServer {
  public:
   /// Receives the state of each counted tick (`HapticServerOptions::ticks`). Called by the haptic thread; must be
-  /// real-time safe. An exception from it ends the program.
+  /// real-time safe. After an exception from it the force fades, as after one of the simulation, and it is called no
+  /// more.
   using Sink = std::function<void(const devices::HapticState&)>;
 
   /// Starts both threads. The references must outlive the server. The hand grasps the part when the first state of the
@@ -69,7 +70,8 @@ class HapticServer {
   /// thread.
   bool is_done() const noexcept { return done_.load(std::memory_order_acquire); }
 
-  /// Whether the simulation threw an exception. Then the force fades and stays at zero. Wait-free, any thread.
+  /// Whether the simulation or the sink threw an exception. Then the force fades and stays at zero. Wait-free, any
+  /// thread.
   bool has_failed() const noexcept { return failed_.load(std::memory_order_acquire); }
   /// The message of the exception, of which at most 255 bytes are kept. Valid once `has_failed` returns true.
   std::string failure() const { return failure_.data(); }
@@ -94,9 +96,11 @@ class HapticServer {
 
   bool haptic_tick(const realtime::PeriodicTick& timing) noexcept;
   void report(const HapticTick& tick, const ContactSet& set, std::chrono::nanoseconds now) noexcept;
-  bool go_on_fading(const HapticTick& tick) noexcept;
+  bool go_on_fading(const HapticTick& tick, std::chrono::nanoseconds now) noexcept;
   bool simulation_tick() noexcept;
-  void keep_failure(std::string_view message) noexcept;
+  template <typename Work>
+  void guarded(const Work& work) noexcept;
+  void fail(std::string_view message) noexcept;
   void answer_newest_ghost();
 
   devices::GloveDevice& device_;
@@ -108,7 +112,7 @@ class HapticServer {
   // Haptic thread only.
   HapticKernel kernel_;
   devices::GloveState state_;
-  int fading_ticks_ = 0;
+  std::optional<std::chrono::nanoseconds> fading_since_;
 
   // Simulation thread only.
   std::int64_t set_sequence_ = 0;
@@ -123,6 +127,7 @@ class HapticServer {
   std::atomic<bool> done_{false};
   std::atomic<bool> should_end_{false};
   std::atomic<bool> emergency_{false};
+  std::atomic<bool> is_failing_{false};  // one thread writes the message
   std::atomic<bool> failed_{false};
   std::array<char, 256> failure_{};  // written before failed_; a string might throw where the exception was bad_alloc
   HapticServerStatistics statistics_;

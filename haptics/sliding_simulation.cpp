@@ -41,13 +41,10 @@ ContactSet make_contact_set(const SlidingResult& result, const SlidingPart& part
   for (std::size_t i = 0; i < kept; ++i) {
     const Contact& contact = contacts[static_cast<std::size_t>(scratch[i])];
     set.row_array[i] = {contact.n_W, contact.p_W - p_Wref, std::min(0.0, contact.margin - contact.gap)};
+    set.row_array[i].range = contact.range;
     set.row_array[i].approach = contact.approach;
     set.friction_ratio_W[i].setZero();
-    if (contact.force > 0.0) {
-      set.friction_ratio_W[i] = contact.friction_W / contact.force;
-    } else {
-      set.row_array[i].range = contact.range;
-    }
+    if (contact.force > 0.0) set.friction_ratio_W[i] = contact.friction_W / contact.force;
   }
   return set;
 }

@@ -41,6 +41,7 @@ using test_support::SlidingScene;
 using test_support::turn;
 
 constexpr double kTick_s = 1e-3;
+constexpr double kUnlimited = 1e9;  // N: the limit of a device is not in the table
 constexpr double kSpeed = 0.2;      // of the hand, m/s
 constexpr double kFastSpeed = 0.5;  // for the force along the plane
 constexpr int kSettling = 400;      // ticks in which the hand comes down; not counted
@@ -233,7 +234,8 @@ void run_scene(const SlidingScene& scene, bool quick, Results& results) {
   const haptics::CouplingStiffness stiffness = haptics::default_stiffness(scene.part_V->radius());
   const double penalty_stiffness = best_penalty_stiffness(answers, *scene.part_V);
   for (const int age : kAges) {
-    haptics::ContactForce contacts(scene.part_V->p_Vref(), scene.part_V->radius(), stiffness, scene.X_WV_start);
+    haptics::ContactForce contacts(scene.part_V->p_Vref(), scene.part_V->radius(), stiffness, kUnlimited,
+                                   scene.X_WV_start);
     Errors ours;
     Errors held;
     Errors penalty;
@@ -260,7 +262,7 @@ void run_sideways(bool quick, Results& results) {
   const Answers answers = answers_of(scene, ticks);
   for (const int age : kAges) {
     haptics::ContactForce contacts(scene.part_V->p_Vref(), scene.part_V->radius(),
-                                   haptics::default_stiffness(scene.part_V->radius()), scene.X_WV_start);
+                                   haptics::default_stiffness(scene.part_V->radius()), kUnlimited, scene.X_WV_start);
     double sideways = 0.0;
     for (int tick = age; tick < ticks; ++tick) {
       const auto now = static_cast<std::size_t>(tick);

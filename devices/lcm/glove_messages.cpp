@@ -98,6 +98,7 @@ class FieldCheck {
     is_in_range_ = is_in_range_ && std::abs(norm - 1.0) <= kQuaternionTolerance;
   }
   void not_negative(std::int64_t value) noexcept { is_in_range_ = is_in_range_ && value >= 0; }
+  void positive(std::int64_t value) noexcept { is_in_range_ = is_in_range_ && value > 0; }
   void time(std::int64_t ns) noexcept { is_in_range_ = is_in_range_ && ns >= 0 && ns <= kLargestTime_ns; }
   void one_of(std::int32_t value, std::int32_t largest) noexcept {
     is_in_range_ = is_in_range_ && value >= 0 && value <= largest;
@@ -115,7 +116,7 @@ class FieldCheck {
 
 MessageError check(const glove_state_t& message) noexcept {
   FieldCheck fields;
-  fields.not_negative(message.session);
+  fields.positive(message.session);
   fields.not_negative(message.leaseholder);
   fields.not_negative(message.sequence);
   fields.time(message.time_ns);
@@ -134,7 +135,7 @@ MessageError check(const glove_state_t& message) noexcept {
 MessageError check(const glove_command_t& message) noexcept {
   FieldCheck fields;
   fields.not_negative(message.glove_session);
-  fields.not_negative(message.session);
+  fields.positive(message.session);
   fields.not_negative(message.sequence);
   fields.not_negative(message.state_sequence);
   fields.time(message.state_time_ns);
@@ -286,7 +287,7 @@ MessageError decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexce
   if (error != MessageError::kNone) return error;
   if (message.version != glove_info_t::VERSION) return MessageError::kWrongVersion;
   FieldCheck fields;
-  fields.not_negative(message.session);
+  fields.positive(message.session);
   fields.time(message.frozen_ns);
   fields.time(message.delay_ns);
   fields.one_of(message.side, glove_state_t::SIDE_RIGHT);
@@ -297,6 +298,8 @@ MessageError decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexce
   descriptor.delay = std::chrono::nanoseconds(message.delay_ns);
   if (fields.result() != MessageError::kNone || !is_valid(descriptor)) return MessageError::kOutOfRange;
   descriptor.name = reinterpret_cast<const char*>(message.name);
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
+  std::replace_if(descriptor.name.begin(), descriptor.name.end(), is_control, '?');
   info = {.device = message.device,
           .session = message.session,
           .side = HandSide{message.side},

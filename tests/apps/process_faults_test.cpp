@@ -191,5 +191,42 @@ TEST_F(FineMeshes, DragNothing) {
   expect_no_drag(record());
 }
 
+/// Fewer triangles, and a hand five times as fast.
+class FastHand : public SlidingHandFaults {
+ protected:
+  PressingHandOptions options() const override {
+    PressingHandOptions options = SlidingHandFaults::options();
+    options.plate_triangles = 12'000;
+    options.box_triangles = 20'000;
+    options.motion =
+        "0.3,0,0,-0.005,1,0,0,0\n0.7,0.2,0,-0.005,1,0,0,0\n1.5,-0.2,0,-0.005,1,0,0,0\n"
+        "2.3,0.2,0,-0.005,1,0,0,0\n3.1,-0.2,0,-0.005,1,0,0,0\n60,-0.2,0,-0.005,1,0,0,0\n";
+    return options;
+  }
+};
+
+TEST_F(FastHand, OnFineMeshesDragsNothing) {
+  wait(milliseconds(3000));
+  expect_no_drag(record());
+}
+
+/// The hand rests so deep that the device gives all its force.
+class DeepHand : public PressingHandTest {
+ protected:
+  PressingHandOptions options() const override {
+    return {.motion = "0.3,0,0,-0.08,1,0,0,0\n60,0,0,-0.08,1,0,0,0\n", .preload = GLISSADE_THREAD_FAULTS};
+  }
+};
+
+TEST_F(DeepHand, FeelsNothingOfAHaltedSimulationAndGetsItsForceBackSoftly) {
+  const nanoseconds begin = monotonic_now();
+  hand().server().signal_thread("simulation", SIGUSR1);
+  wait(milliseconds(1200));
+  const GloveRecord record = this->record();
+  EXPECT_EQ(greatest_force(record.between(begin + kGenerous, begin + milliseconds(450))), 0.0);
+  EXPECT_LT(greatest_force(record.between(begin + kGenerous, begin + milliseconds(560))), 10.0) << "returns softly";
+  EXPECT_GT(greatest_force(record.between(begin + milliseconds(900), monotonic_now())), 15.0);
+}
+
 }  // namespace
 }  // namespace glissade::apps

@@ -61,7 +61,7 @@ TEST(ContactsAhead, ChangeNoPoseAndNoForce) {
 /// The greatest error of the force while the cube meets the wall, with sets that are 5 ms old.
 double force_error(double contacts_ahead_ms) {
   Sliding sliding = cube_before_the_wall(contacts_ahead_ms);
-  ContactForce force(sliding.part().p_Vref(), sliding.part().radius(), sliding.stiffness(), at(-0.05));
+  ContactForce force(sliding.part().p_Vref(), sliding.part().radius(), sliding.stiffness(), 100.0, at(-0.05));
   std::vector<ContactSet> sets;
   std::vector<std::int32_t> scratch;
   double greatest = 0.0;

@@ -20,10 +20,6 @@ using Eigen::Vector3d;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-double seconds(nanoseconds time) {
-  return std::chrono::duration<double>(time).count();
-}
-
 /// A mass with viscous friction that moves along z, by the exact solution for constant forces.
 struct Mass {
   double mass;
