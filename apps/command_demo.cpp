@@ -82,8 +82,8 @@ Session run_in_real_time(const Demo& demo, const geometry::PoseTrajectory& scrip
   realtime::SteadyClock clock;
   devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script_X_WH), clock);
   ProgressBar progress("real time", ticks);
-  return run_session(demo.scene, bus, {.ticks = ticks}, &StopSignal::requested,
-                     [&](std::int64_t done, const std::string&) { progress.update(done); });
+  return run_session(demo.scene, bus, {.seconds = 1e-3 * static_cast<double>(ticks), .period = haptics::kTickPeriod},
+                     &StopSignal::requested, [&](std::int64_t done, const std::string&) { progress.update(done); });
 }
 
 int run(const DemoOptions& options) {

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -14,6 +15,7 @@
 #include <glissade/apps/lcm_option.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/reason_teller.h>
+#include <glissade/apps/say.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
@@ -43,6 +45,7 @@ struct GloveOptions {
   std::string script;
   std::int64_t device = devices::kDefaultDevice;
   std::string record;
+  double frozen_ms = 0.0;
 };
 
 /// The record of the glove's periods, from its thread to a file.
@@ -96,6 +99,9 @@ class GloveRecord {
 };
 
 int run(const GloveOptions& options) {
+  if (!(options.frozen_ms >= 0.0 && options.frozen_ms <= 1e6)) {
+    throw std::invalid_argument("--frozen-ms: must lie between 0 and 1e6, not " + format_number(options.frozen_ms));
+  }
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   const geometry::PoseTrajectory script = options.script.empty()
                                               ? parse_trajectory(embedded_scene_script(), "car_door_script.csv")
@@ -105,8 +111,11 @@ int run(const GloveOptions& options) {
   std::optional<GloveRecord> record;
   if (!options.record.empty()) record.emplace(options.record);
   ReasonTeller teller;
+  devices::SimulatedGloveParameters parameters;
+  parameters.frozen = std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double, std::milli>(options.frozen_ms));
   const devices::HandSide side = options.side == "left" ? devices::HandSide::kLeft : devices::HandSide::kRight;
-  devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script), clock,
+  devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script, parameters), clock,
                                        {.device = options.device, .side = side},
                                        [&](const devices::GloveState& state, const devices::SafeCommand& command) {
                                          if (record) record->push(state, command);
@@ -114,7 +123,7 @@ int run(const GloveOptions& options) {
                                          if (has_server) teller.note(command);
                                        });
 
-  std::cerr << "glissade glove: the " << options.side << " hand waits for a server at " << options.lcm.url << '\n';
+  say("glissade glove: the " + options.side + " hand waits for a server at " + options.lcm.url);
   const auto milliseconds = [](std::chrono::nanoseconds time) { return time / std::chrono::milliseconds(1); };
   {
     ProgressBar progress("script", milliseconds(script.duration()));
@@ -123,7 +132,7 @@ int run(const GloveOptions& options) {
       progress.update(milliseconds(glove.script_time()));
       if (record) record->write();
       const std::string news = teller.news();
-      if (!news.empty()) std::cerr << "glissade glove: " << news << '\n';
+      if (!news.empty()) say("glissade glove: " + news);
     }
   }
   glove.stop();
@@ -147,6 +156,11 @@ void add_glove_command(CLI::App& app, Command& chosen) {
   add_device_option(*command, options->device);
   add_lcm_options(*command, options->lcm);
   command->add_option("--script", options->script, "Trajectory of the hand root (CSV), see below");
+  command
+      ->add_option("--frozen-ms", options->frozen_ms,
+                   "A pose that repeats to the bit for longer is an error of the tracker, and lets the force fade; "
+                   "0: not checked")
+      ->capture_default_str();
   command->add_option("--record", options->record, "File for the pose of the hand and the force of every period (CSV)");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

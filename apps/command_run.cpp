@@ -1,7 +1,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <iostream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -14,6 +13,7 @@
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/html_report.h>
 #include <glissade/apps/lcm_option.h>
+#include <glissade/apps/say.h>
 #include <glissade/apps/scene_file.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
@@ -45,7 +45,7 @@ struct RunOptions {
   LcmAddress lcm;
   std::int64_t device = devices::kDefaultDevice;
   double seconds = 0.0;
-  double rate_hz = 1000.0;
+  double rate_hz = 0.0;
   bool json = false;
   std::string report;
 };
@@ -54,12 +54,11 @@ int run(const RunOptions& options) {
   if (!(options.seconds >= 0.0 && options.seconds <= 86400.0)) {
     throw std::invalid_argument("--seconds: must lie between 0 and 86400, not " + format_number(options.seconds));
   }
-  if (!(options.rate_hz >= 500.0 && options.rate_hz <= 5000.0)) {
+  if (options.rate_hz != 0.0 && !(options.rate_hz >= 500.0 && options.rate_hz <= 5000.0)) {
     throw std::invalid_argument("--rate-hz: must lie between 500 and 5000, not " + format_number(options.rate_hz));
   }
-  const RunSettings settings{.device = options.device,
-                             .ticks = std::llround(options.seconds * options.rate_hz),
-                             .period = std::chrono::nanoseconds(std::llround(1e9 / options.rate_hz))};
+  RunSettings settings{.device = options.device, .seconds = options.seconds};
+  if (options.rate_hz != 0.0) settings.period = std::chrono::nanoseconds(std::llround(1e9 / options.rate_hz));
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   const Scene file = read_scene(options.scene);
   const HapticScene scene = make_haptic_scene(file, only_movable_object(file));
@@ -71,15 +70,15 @@ int run(const RunOptions& options) {
   bool said_that_it_holds = false;
   const auto watch = [&](std::int64_t ticks, const std::string& news) {
     if (ticks == 0 && !std::exchange(said_that_it_waits, true)) {
-      std::cerr << "glissade run: waiting for a glove at " << options.lcm.url << '\n';
+      say("glissade run: waiting for a glove at " + options.lcm.url);
     }
     if (ticks == 0 && bus->refused_packets() > 0 && !std::exchange(said_that_it_refuses, true)) {
-      std::cerr << "glissade run: packets are refused: they come from elsewhere, or were made with another key\n";
+      say("glissade run: packets are refused: they come from elsewhere, or were made with another key");
     }
     if (ticks > 0 && !std::exchange(said_that_it_holds, true)) {
-      std::cerr << "glissade run: the glove holds '" << scene.part_name << "'\n";
+      say("glissade run: the glove holds '" + scene.part_name + "'");
     }
-    if (!news.empty()) std::cerr << "glissade run: " << news << '\n';
+    if (!news.empty()) say("glissade run: " + news);
   };
   const Session session = run_session(scene, bus, settings, &StopSignal::requested, watch);
   conclude(session, scene, "glissade run: " + scene.part_name, options.json, options.report);
@@ -97,8 +96,8 @@ void add_run_command(CLI::App& app, Command& chosen) {
   add_device_option(*command, options->device);
   command->add_option("--seconds", options->seconds, "Duration in seconds from the first glove state; 0: until Ctrl-C")
       ->capture_default_str();
-  command->add_option("--rate-hz", options->rate_hz, "Rate of the haptic loop, 500 to 5000 ticks a second")
-      ->capture_default_str();
+  command->add_option("--rate-hz", options->rate_hz,
+                      "Rate of the haptic loop, 500 to 5000 ticks a second; default: that of the glove");
   command->add_flag("--json", options->json, "Print the summary as JSON");
   command->add_option("--report", options->report,
                       "Folder for a page, index.html, with the summary and plots of force, lag (distance from the "

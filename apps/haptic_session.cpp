@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 #include <thread>
 
@@ -51,6 +53,12 @@ Session finished(std::int64_t ticks, std::chrono::nanoseconds period, const Hapt
           std::move(real_time)};
 }
 
+/// The period of a device, within the bounds of the haptic loop.
+std::chrono::nanoseconds period_of(const devices::DeviceDescriptor& device) {
+  const std::chrono::nanoseconds period(std::llround(1e9 / device.update_rate));
+  return std::clamp<std::chrono::nanoseconds>(period, haptics::kShortestTickPeriod, haptics::kLongestTickPeriod);
+}
+
 }  // namespace
 
 Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks) {
@@ -78,8 +86,12 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   }
   // Without a glove, the session below ends at once.
   const devices::DeviceDescriptor descriptor = info ? info->descriptor : devices::simulated_glove_descriptor();
-  haptics::Sliding sliding = start_sliding(scene, sliding_options(scene, descriptor, rules, settings.period));
-  SessionRecorder recorder(settings.ticks > 0 ? static_cast<std::size_t>(settings.ticks) : kKeptTicks);
+  const std::chrono::nanoseconds period = settings.period.value_or(period_of(descriptor));
+  if (period > period_of(descriptor))
+    watch(0, "the glove is faster than the haptic loop: its force may fade (--rate-hz)");
+  const std::int64_t ticks = std::llround(settings.seconds / std::chrono::duration<double>(period).count());
+  haptics::Sliding sliding = start_sliding(scene, sliding_options(scene, descriptor, rules, period));
+  SessionRecorder recorder(ticks > 0 ? static_cast<std::size_t>(ticks) : kKeptTicks);
   devices::HapticStatePublisher publisher(bus);
   devices::LcmGlove glove(bus, descriptor, {.device = settings.device, .glove_session = info ? info->session : 0});
   ReasonTeller teller;
@@ -91,8 +103,8 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
                                  publisher.push(sample);
                                  teller.note(sample);
                                },
-                               {.period = settings.period, .ticks = settings.ticks, .fifo_priority = kFifoPriority});
-  realtime::PeriodicThread bare_timer(clock, {.period = settings.period, .fifo_priority = kFifoPriority},
+                               {.period = period, .ticks = ticks, .fifo_priority = kFifoPriority});
+  realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = kFifoPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
   while (!server.is_done() && !server.has_failed() && !should_stop()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -101,7 +113,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   server.stop();
   bare_timer.stop();
   if (server.has_failed()) throw std::runtime_error("the simulation failed: " + server.failure());
-  return finished(server.ticks(), settings.period, scene, sliding, recorder,
+  return finished(server.ticks(), period, scene, sliding, recorder,
                   RealTimeFigures{server.statistics(), bare_timer.statistics()});
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/session.h>
@@ -21,15 +22,15 @@ namespace glissade::apps {
 Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks);
 
 struct RunSettings {
-  std::int64_t device = devices::kDefaultDevice;           ///< number of the glove
-  std::int64_t ticks = 0;                                  ///< after the first state of the glove; 0: no limit
-  std::chrono::nanoseconds period = haptics::kTickPeriod;  ///< of the haptic loop
+  std::int64_t device = devices::kDefaultDevice;  ///< number of the glove
+  double seconds = 0.0;                           ///< after the first state of the glove; 0: no limit
+  /// Of the haptic loop; default: that of the glove, within the bounds of `validate_tick_period`.
+  std::optional<std::chrono::nanoseconds> period{};
 };
 
-/// Runs the haptic server in real time with a glove on `bus`, until its ticks are done or `should_stop` returns true.
-/// Calls `watch` ten times a second
-/// with the number of ticks so far and the news of `ReasonTeller`. Publishes HAPTIC_STATE on the bus. Throws
-/// std::invalid_argument, naming scene and part, when the part collides at its start.
+/// Runs the haptic server in real time with a glove on `bus`, until its time is over or `should_stop` returns true.
+/// Calls `watch` ten times a second with the number of ticks so far and the news of `ReasonTeller`. Publishes
+/// HAPTIC_STATE on the bus. Throws std::invalid_argument, naming scene and part, when the part collides at its start.
 Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, const RunSettings& settings,
                     const std::function<bool()>& should_stop,
                     const std::function<void(std::int64_t, const std::string& news)>& watch);

@@ -25,6 +25,8 @@ void ReasonTeller::note(const devices::HapticState& sample) noexcept {
     fading = {Cause::kGlove, sample.glove_reasons, sample.command_age};
   } else if (sample.are_contacts_unsolved) {
     fading.cause = Cause::kUnsolved;
+  } else if (sample.contact_share < 0.5) {
+    fading.cause = Cause::kLagging;
   }
   note(fading);
 }
@@ -68,6 +70,8 @@ std::string ReasonTeller::text(const Fading& fading) {
       return "at the glove, " + to_text(fading.reasons, fading.age);
     case Cause::kUnsolved:
       return "reduced force: no pose of the part satisfies all contacts";
+    case Cause::kLagging:
+      return "reduced force: the part lags behind the hand, or has just caught up";
   }
   return {};
 }

@@ -28,7 +28,7 @@ class ReasonTeller {
 
  private:
   /// What lets the force fade, the most serious first.
-  enum class Cause { kNone, kEnvelope, kOldContacts, kGlove, kUnsolved };
+  enum class Cause { kNone, kEnvelope, kOldContacts, kGlove, kUnsolved, kLagging };
 
   struct Fading {
     Cause cause = Cause::kNone;

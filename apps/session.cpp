@@ -77,6 +77,7 @@ void count_limits(const std::vector<devices::HapticState>& samples, SessionSumma
   for (std::size_t i = 0; i < samples.size(); ++i) {
     for (std::size_t k = 0; k < devices::kLimitReasons.size(); ++k)
       summary.limited_ticks[k] += samples[i].reasons.*devices::kLimitReasons[k].flag ? 1 : 0;
+    summary.lagging_ticks += samples[i].contact_share < 0.5 ? 1 : 0;
     summary.unsolved_ticks += samples[i].are_contacts_unsolved ? 1 : 0;
     if (i == 0) continue;
     const double step = (samples[i].force_on_hand_W - samples[i - 1].force_on_hand_W).norm();

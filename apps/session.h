@@ -69,6 +69,7 @@ struct SessionSummary {
   std::int64_t state_changes = 0;                                ///< from one sample to the next
   double force_max_N = 0.0;
   double force_step_max_N = 0.0;    ///< greatest change of the force from one tick to the next
+  std::int64_t lagging_ticks = 0;   ///< samples whose contacts exerted less than half of their force
   std::int64_t unsolved_ticks = 0;  ///< samples whose contacts had no solution
   std::array<std::int64_t, devices::kLimitReasons.size()> limited_ticks{};  ///< samples with each of `kLimitReasons`
   std::optional<bool> seat_reached;                                         ///< none when the scene has no goal

@@ -216,6 +216,7 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
                          {"force_max_N", summary.force_max_N},
                          {"force_step_max_N", summary.force_step_max_N},
                          {"limited_s", limits},
+                         {"lagging_s", tick_s * static_cast<double>(summary.lagging_ticks)},
                          {"unsolved_s", tick_s * static_cast<double>(summary.unsolved_ticks)},
                          {"tick_us_p50", nullptr},
                          {"tick_us_p99", nullptr},

@@ -49,13 +49,16 @@ struct HapticState {
   std::chrono::nanoseconds contact_set_age{0};  ///< time since that ghost pose; 0 before the first set
   bool is_in_contact = false;                   ///< at least one contact pushes
   bool is_contact_set_late = false;             ///< the contact set was older than 5 ms
-  bool are_contacts_unsolved = false;           ///< the contacts had no solution, so their force went towards zero
-  LimitReasons reasons;                         ///< why the device got less than the contacts demand
-  std::chrono::nanoseconds state_age{0};        ///< time since the measurement of the glove's state
-  LimitReasons glove_reasons;                   ///< `GloveState::limits`
-  std::chrono::nanoseconds command_age{0};      ///< `GloveState::command_age`
-  double energy = 0.0;                          ///< `SafeCommand::energy`, J
-  double glove_energy = 0.0;                    ///< `GloveState::energy`
+  /// The share of the contacts' force that is exerted: less than 1 where they are old, or where the hand has left them
+  /// and the part lags behind, and while the force returns from there.
+  double contact_share = 1.0;
+  bool are_contacts_unsolved = false;       ///< the contacts had no solution, so their force went towards zero
+  LimitReasons reasons;                     ///< why the device got less than the contacts demand
+  std::chrono::nanoseconds state_age{0};    ///< time since the measurement of the glove's state
+  LimitReasons glove_reasons;               ///< `GloveState::limits`
+  std::chrono::nanoseconds command_age{0};  ///< `GloveState::command_age`
+  double energy = 0.0;                      ///< `SafeCommand::energy`, J
+  double glove_energy = 0.0;                ///< `GloveState::energy`
 };
 
 }  // namespace glissade::devices

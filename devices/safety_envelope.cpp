@@ -350,7 +350,7 @@ std::string to_text(const LimitReasons& reasons, nanoseconds age) {
   if (reasons.is_disabled) return "no force: the wearer does not hold the enable switch";
   if (reasons.is_refused) return "no force: the glove obeys another server";
   if (reasons.not_finite) return "no force: a number of the glove's state or of the command is not finite";
-  if (reasons.is_implausible) return "no force: the glove's pose jumps, freezes or leaves the workspace";
+  if (reasons.is_implausible) return "no force: the glove's pose jumps or freezes or leaves the workspace";
   if (reasons.is_state_old) return "no force: the glove's state is " + old;
   if (reasons.is_command_old && age < nanoseconds(0)) return "no force: the command answers a state that never was";
   if (reasons.is_command_old) return "no force: the command answers a state that is " + old;

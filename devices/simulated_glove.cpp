@@ -95,6 +95,7 @@ DeviceDescriptor simulated_glove_descriptor() {
 SimulatedGlove::SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters)
     : script_X_WH_(std::move(script_X_WH)), parameters_(parameters), descriptor_(simulated_glove_descriptor()) {
   check(parameters_);
+  descriptor_.frozen = parameters_.frozen;
   state_.time = script_X_WH_.first_time();
   state_.X_WH = script_X_WH_.pose_at(state_.time);
   q_WH_ = Eigen::Quaterniond(state_.X_WH.linear());

@@ -34,6 +34,7 @@ struct SimulatedGloveParameters {
   double finger_stiffness = 0.5;                          ///< Nm/rad
   double finger_time_constant = 0.05;  ///< time constant of a finger's approach to its equilibrium; s
   JointValues grasp_posture{};         ///< joint angles to which the wearer's fingers return; rad
+  std::chrono::nanoseconds frozen{0};  ///< `DeviceDescriptor::frozen`
 };
 
 /// Limits of the simulated glove: 20 N, 1 Nm, 4000 N/m and 1000 updates per second, like the stronger grounded arms in

@@ -40,6 +40,7 @@ HapticTick HapticKernel::tick(const devices::GloveState& state, const ContactSet
   tick.X_WG = X_WG_;
   const double dt = seconds_since_last_tick(now);
   tick.contacts = scaled(contacts_->update(set, now - set.time, X_WG_, dt), soften(state.link_delay, dt));
+  tick.contact_share = contacts_->share();
   tick.is_unsolved = contacts_->is_unsolved();
 
   devices::GloveCommand command;

@@ -25,6 +25,7 @@ class SlidingPart;
 struct HapticTick {
   Eigen::Isometry3d X_WG;        ///< ghost: the part's pose if nothing were in the way
   Wrench contacts;               ///< wrench of the contacts on the hand about the ghost's reference point
+  double contact_share;          ///< of the force of the contacts: less than 1 where they are old or were left
   bool is_unsolved;              ///< the contacts have no solution, so their wrench goes towards zero
   devices::SafeCommand command;  ///< wrench of contacts and damper about the hand root, through the safety envelope
 };

@@ -66,7 +66,7 @@ void HapticServer::report(const HapticTick& tick, const ContactSet& set, std::ch
   const devices::HapticState sample = make_sample(tick, set, state_, now);
   statistics_.contact_set_age.record(sample.contact_set_age);
   statistics_.unsolved_ticks += sample.are_contacts_unsolved ? 1 : 0;
-  if (!has_failed()) guarded([&] { sink_(sample); });
+  if (!sink_failed_) sink_failed_ = !guarded([&] { sink_(sample); });
   ticks_.fetch_add(1, std::memory_order_relaxed);
 }
 
@@ -80,20 +80,21 @@ bool HapticServer::go_on_fading(const HapticTick& tick, std::chrono::nanoseconds
 }
 
 bool HapticServer::simulation_tick() noexcept {
-  guarded([this] { answer_newest_ghost(); });
-  return !has_failed();
+  return guarded([this] { answer_newest_ghost(); }) && !has_failed();
 }
 
-/// Runs `work`; keeps the message of an exception, the first one.
+/// Runs `work`; keeps the message of an exception, the first one. Returns whether there was none.
 template <typename Work>
-void HapticServer::guarded(const Work& work) noexcept {
+bool HapticServer::guarded(const Work& work) noexcept {
   try {
     work();
+    return true;
   } catch (const std::exception& error) {
     fail(error.what());
   } catch (...) {
     fail("an exception of unknown type");
   }
+  return false;
 }
 
 void HapticServer::fail(std::string_view message) noexcept {

@@ -99,7 +99,7 @@ class HapticServer {
   bool go_on_fading(const HapticTick& tick, std::chrono::nanoseconds now) noexcept;
   bool simulation_tick() noexcept;
   template <typename Work>
-  void guarded(const Work& work) noexcept;
+  bool guarded(const Work& work) noexcept;
   void fail(std::string_view message) noexcept;
   void answer_newest_ghost();
 
@@ -113,6 +113,7 @@ class HapticServer {
   HapticKernel kernel_;
   devices::GloveState state_;
   std::optional<std::chrono::nanoseconds> fading_since_;
+  bool sink_failed_ = false;
 
   // Simulation thread only.
   std::int64_t set_sequence_ = 0;

@@ -195,6 +195,7 @@ MessageError check(const haptic_state_t& message) noexcept {
   fields.magnitude(message.torque_on_hand_V_W_Nm, kLargestTorque);
   fields.not_negative(message.contact_count);
   fields.not_negative(message.contact_set_age_ns);
+  fields.magnitude(message.contact_share, 1.0);
   fields.magnitude(message.energy_J, kLargestEnergy);
   fields.magnitude(message.glove_energy_J, kLargestEnergy);
   return fields.result();
@@ -268,6 +269,7 @@ std::vector<std::uint8_t> encode(const HapticState& state) {
   message.part_state = static_cast<std::int32_t>(state.part_state);
   message.contact_count = state.contact_count;
   message.contact_set_age_ns = state.contact_set_age.count();
+  message.contact_share = state.contact_share;
   const auto flag = [](bool is_set, std::int32_t value) { return is_set ? value : 0; };
   message.flags = flag(state.is_in_contact, haptic_state_t::FLAG_IN_CONTACT) +
                   flag(state.is_contact_set_late, haptic_state_t::FLAG_CONTACT_SET_LATE) +
@@ -363,6 +365,7 @@ MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noe
   state.part_state = part_state_from_number(message.part_state);
   state.contact_count = message.contact_count;
   state.contact_set_age = std::chrono::nanoseconds(message.contact_set_age_ns);
+  state.contact_share = message.contact_share;
   const auto has = [&](std::int32_t flag) { return (message.flags & flag) != 0; };
   state.is_in_contact = has(haptic_state_t::FLAG_IN_CONTACT);
   state.is_contact_set_late = has(haptic_state_t::FLAG_CONTACT_SET_LATE);

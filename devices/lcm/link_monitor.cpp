@@ -31,8 +31,11 @@ bool LinkMonitor::follows(std::int64_t sequence, std::chrono::nanoseconds silenc
   const auto advances = [sequence](std::int64_t last, double most) {
     return sequence > last && static_cast<double>(sequence - last) <= most;
   };
-  const double missing = std::min(kGreatestRate * std::chrono::duration<double>(silence).count(), kGreatestAdvance);
-  if (last_sequence_ < 0 || advances(last_sequence_, kBurst + missing)) {
+  const double saved = budget_ + kGreatestRate * std::chrono::duration<double>(silence).count();
+  const double most = std::clamp(saved, 0.0, kGreatestAdvance);
+  if (last_sequence_ < 0 || advances(last_sequence_, most)) {
+    const double left = most - static_cast<double>(sequence - last_sequence_);
+    budget_ = last_sequence_ < 0 ? kBurst : std::min(left, kBurst);
     refused_sequence_ = -1;
     return true;
   }
@@ -47,6 +50,7 @@ void LinkMonitor::grant(std::int64_t device, std::int64_t session, std::chrono::
   session_.store(session, std::memory_order_relaxed);
   last_sequence_ = -1;
   refused_sequence_ = -1;
+  budget_ = kBurst;
   last_time_.store(now, std::memory_order_relaxed);
 }
 

@@ -32,18 +32,19 @@ struct MessageOrigin {
 };
 
 /// The sender whose messages are admitted holds a lease. Another device or session gets it only after `lease` without
-/// an admitted message. Sequence numbers of the holder rise, by no more than `kGreatestAdvance` at once and no faster
-/// than `kGreatestRate`. After `lease` without an admitted message, two messages of the holder in rising sequence are
-/// a new start. So a forged message with a great number locks its sender out for little more than one lease.
-/// Thread-safety: `admit` in the receive thread, `grant` before the first `admit`, the rest in any.
+/// an admitted message. Sequence numbers of the holder rise, no faster than `kGreatestRate` in the mean. They may
+/// rise by `kBurst` at once, and after a silence by what the rate allows, at most `kGreatestAdvance`. After `lease` without an admitted
+/// message, two messages of the holder in rising sequence are a new start. So a forged message with a great number
+/// locks its sender out for little more than one lease. Thread-safety: `admit` in the receive thread, `grant` before
+/// the first `admit`, the rest in any.
 class LinkMonitor {
  public:
   /// Messages a second that nobody exceeds.
   static constexpr double kGreatestRate = 20e3;
 
-  /// Messages that may be missing after any silence, beyond those of an instant (`kBurst`).
+  /// Messages that may be missing after any silence.
   static constexpr double kGreatestAdvance = 2000.0;
-  /// Messages that may be lost or late at once.
+  /// Messages that may be missing at the start, or between two refused messages.
   static constexpr double kBurst = 50.0;
 
   explicit LinkMonitor(std::chrono::nanoseconds lease) : lease_(lease) {}
@@ -72,6 +73,7 @@ class LinkMonitor {
   std::chrono::nanoseconds lease_;
   std::atomic<std::chrono::nanoseconds> last_time_{std::chrono::nanoseconds(0)};
   std::int64_t last_sequence_ = -1;     ///< −1 before the first message of a lease
+  double budget_ = 0.0;                 ///< by which the next sequence may rise at `last_time_`
   std::int64_t refused_sequence_ = -1;  ///< of the holder's message refused last; −1 if the last one was admitted
   std::int64_t device_ = 0;
   std::atomic<std::int64_t> session_{0};

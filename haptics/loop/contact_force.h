@@ -53,6 +53,9 @@ class ContactForce {
   const Wrench& update(const ContactSet& set, std::chrono::nanoseconds age, const Eigen::Isometry3d& X_WG,
                        double dt) noexcept;
 
+  /// The share of its force that the set exerted in the last call: less than 1 where it is old, or where its contacts
+  /// are not known any more, and for 200 ms after that.
+  double share() const noexcept { return share_; }
   /// Whether the last call found no solution, so that the force went towards zero.
   bool is_unsolved() const noexcept { return is_unsolved_; }
 

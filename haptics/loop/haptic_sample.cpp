@@ -33,6 +33,7 @@ devices::HapticState make_sample(const HapticTick& tick, const ContactSet& set, 
   sample.contact_count = set.pushing;
   sample.contact_set_age = set.sequence == 0 ? std::chrono::nanoseconds(0) : now - set.time;
   sample.is_in_contact = set.pushing > 0;
+  sample.contact_share = tick.contact_share;
   sample.are_contacts_unsolved = tick.is_unsolved;
   sample.reasons = tick.command.reasons();
   sample.state_age = tick.command.age();

@@ -96,8 +96,10 @@ std::unique_ptr<Process> PressingHand::start_glove(double x_m, const std::string
   if (rows.empty()) rows = "0.3," + x + ",0,-0.01,1,0,0,0\n60," + x + ",0,-0.01,1,0,0,0\n";
   const std::string script =
       folder_.write("hand_" + x + ".csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0," + x + ",0,0.03,1,0,0,0\n" + rows);
-  return std::make_unique<Process>(std::vector<std::string>{GLISSADE_PROGRAM, "glove", "--lcm", kGloveUrl, "--script",
-                                                            script, "--record", record, "--device", device});
+  std::vector<std::string> arguments{GLISSADE_PROGRAM, "glove",    "--lcm", kGloveUrl,  "--script",
+                                     script,           "--record", record,  "--device", device};
+  arguments.insert(arguments.end(), options_.glove_options.begin(), options_.glove_options.end());
+  return std::make_unique<Process>(arguments);
 }
 
 GloveRecord PressingHand::end_glove() {

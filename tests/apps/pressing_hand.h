@@ -48,7 +48,8 @@ struct PressingHandOptions {
   /// Rows of the hand's script from 0.3 s on; empty: the hand presses 30 mm deep and stays there.
   std::string motion{};
   std::string more_objects{};  ///< of the scene, in lines of their own
-  std::string preload{};       ///< a library that is loaded into the server
+  std::vector<std::string> glove_options{};
+  std::string preload{};  ///< a library that is loaded into the server
 };
 
 class PressingHand {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <optional>
 #include <thread>
 
 #include "pressing_hand_test.h"
@@ -150,6 +151,31 @@ TEST_F(SlidingHandFaults, AHaltedSimulationDragsNothing) {
 
 TEST_F(SlidingHandFaults, AHaltedSearchDragsNothing) {
   halt("search");
+}
+
+/// A tracker that repeats its last pose while the hand moves.
+class FrozenTracker : public SlidingHandFaults {
+ protected:
+  PressingHandOptions options() const override {
+    PressingHandOptions options = SlidingHandFaults::options();
+    options.glove_options = {"--frozen-ms", "50"};
+    return options;
+  }
+};
+
+TEST_F(FrozenTracker, TakesTheForceAway) {
+  relay().set_states(
+      Relay::changed<glissade::glove_state_t>([first = std::optional<glissade::glove_state_t>()](auto& state) mutable {
+        if (!first) first = state;
+        std::copy_n(first->position_WH_m, 3, state.position_WH_m);
+        std::copy_n(first->orientation_WH_wxyz, 4, state.orientation_WH_wxyz);
+      }));
+  wait();
+  recover();
+  const GloveRecord record = this->record();
+  EXPECT_EQ(greatest_force(record.between(begin() + kGenerous + milliseconds(50), begin() + milliseconds(400))), 0.0);
+  expect_pressing_again(record);
+  EXPECT_THAT(hand().end_server(), HasSubstr("no force: the glove's pose jumps or freezes"));
 }
 
 /// On the way lies a ball, whose contacts need more memory than those of the plate.

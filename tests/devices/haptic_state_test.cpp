@@ -28,6 +28,9 @@ HapticState some_state() {
   state.contact_count = 3;
   state.contact_set_age = milliseconds(2);
   state.are_contacts_unsolved = true;
+  state.contact_share = 0.25;
+  state.energy = 0.125;
+  state.glove_energy = 0.5;
   state.reasons.is_state_old = true;
   state.reasons.mean_limited = true;
   state.state_age = milliseconds(14);
@@ -62,6 +65,9 @@ TEST(HapticState, ArrivesAsItWasSent) {
   EXPECT_EQ(received.contact_set_age, sent.contact_set_age);
   EXPECT_FALSE(received.is_in_contact);
   EXPECT_TRUE(received.are_contacts_unsolved);
+  EXPECT_EQ(received.contact_share, 0.25);
+  EXPECT_EQ(received.energy, 0.125);
+  EXPECT_EQ(received.glove_energy, 0.5);
   EXPECT_FALSE(received.is_contact_set_late);
   EXPECT_TRUE(received.reasons.is_state_old && received.reasons.mean_limited);
   EXPECT_FALSE(received.reasons.is_stopped || received.reasons.is_returning);

@@ -352,6 +352,18 @@ TEST_F(LcmLink, SequencesMustRiseAndGapsAreCounted) {
   EXPECT_EQ(state.sequence, 15);
 }
 
+TEST_F(LcmLink, ManyMessagesCannotRunAheadTogether) {
+  EXPECT_EQ(after(encoded(good_state(1))).accepted, 1U);
+  const auto begin = std::chrono::steady_clock::now();
+  std::int64_t accepted = 1;
+  for (int i = 0; i < 200; ++i) {
+    if (after(encoded(good_state(accepted + 50))).accepted == 2U + static_cast<std::uint64_t>(accepted / 50))
+      accepted += 50;
+  }
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+  EXPECT_LE(static_cast<double>(accepted), 52.0 + 20e3 * passed.count());
+}
+
 TEST_F(LcmLink, FallingSequencesAreNeverAccepted) {
   EXPECT_EQ(after(encoded(good_state(1000))).accepted, 1U);
   for (std::int64_t sequence = 999; sequence > 900; --sequence)

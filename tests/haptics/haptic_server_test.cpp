@@ -4,6 +4,7 @@
 #include <atomic>
 #include <memory>
 #include <new>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -187,6 +188,19 @@ class FailingSliding final : public SlidingSimulation {
   SlidingSimulation& sliding_;
   int calls_ = 0;
 };
+
+TEST_F(Server, ASinkThatFailsTakesTheForceAwayAndIsTold) {
+  HapticServer server(*device_, *sliding_, clock_,
+                      [](const devices::HapticState& sample) {
+                        if (sample.force_on_hand_W.norm() > 0.5) throw std::runtime_error("the disk is full");
+                      },
+                      {.ticks = 2000});
+  wait_for(server);
+  server.stop();
+  EXPECT_TRUE(server.has_failed());
+  EXPECT_EQ(server.failure(), "the disk is full");
+  expect_faded(*device_);
+}
 
 TEST_F(Server, ASimulationThatFailsTakesTheForceAwayAndIsTold) {
   FailingSliding failing(*sliding_);

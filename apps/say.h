@@ -1,0 +1,13 @@
+#pragma once
+
+/// Sentences to the user while something runs.
+
+#include <string_view>
+
+namespace glissade::apps {
+
+/// Writes a line to standard error. Where a full pipe or a stopped terminal would make the program wait, the line is
+/// left out: a program that holds a hand must go on and hear Ctrl-C.
+void say(std::string_view line);
+
+}  // namespace glissade::apps
