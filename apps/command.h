@@ -33,4 +33,7 @@ void add_run_command(CLI::App& app, Command& chosen);
 /// `glissade glove [--side left|right] [--device N] [--lcm URL] [--script FILE] [--record FILE]`
 void add_glove_command(CLI::App& app, Command& chosen);
 
+/// `glissade doctor [--json]`
+void add_doctor_command(CLI::App& app, Command& chosen);
+
 }  // namespace glissade::apps

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -209,7 +210,9 @@ void LcmBus::Connection::receive(int fd) {
       continue;
     }
     // Something failed, perhaps for lack of memory. Try again, because a glove must not fall silent for good.
-    if (poll(files, 1, kRetryMilliseconds) > 0) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(kRetryMilliseconds));
+    eventfd_t wakes = 0;
+    if (eventfd_read(wake_fd_, &wakes) == 0) return;
   }
 }
 

@@ -291,9 +291,12 @@ void SafetyEnvelope::limit_power(Forces& forces, LimitReasons& reasons) const no
   reasons.power_limited = true;
 }
 
+// A glove behind a link has an envelope of its own, which knows the motion without delay.
+//
 // First a damper along the force, which neither jumps nor acts on a hand at rest; it goes slowly. A scale for what the
 // damper cannot take.
 void SafetyEnvelope::limit_energy(Forces& forces, double dt, LimitReasons& reasons) noexcept {
+  if (state_.link_delay > nanoseconds(0)) return;
   const double horizon = kEnergyPeriods * seconds(period_);
   const double available = std::max(0.0, energy_ - kReserve_J);
   const auto excess = [&] { return horizon * (forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH)) - available; };

@@ -53,9 +53,10 @@ std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
 /// was given, i.e. after all limits. The energy is what the hand has put in and not got back, at most 0.5 J, and 0.05 J
 /// at the start for errors of sampling. Where the wrench would give back more within ten periods, the controller damps
 /// the motion along the force, by at most `max_damping` and the force itself, for up to 200 ms; and scales the wrench
-/// where this does not suffice. A wrench of zero stays zero. So no delay and no error of the simulation can feed an
-/// oscillation. Joint torques are not counted. Source: Hannaford and Ryu, Time-domain passivity control of haptic
-/// interfaces, 2002; here the damper is never stronger than the force, so that nothing is felt in free air.
+/// where this does not suffice. A wrench of zero stays zero. For a glove that tells the
+/// delay of its link, the envelope at the glove's end does this alone. So no delay and no error of the simulation can
+/// feed an oscillation. Joint torques are not counted. Source: Hannaford and Ryu, Time-domain passivity control of
+/// haptic interfaces, 2002; here the damper is never stronger than the force, so that nothing is felt in free air.
 ///
 /// A link that delays every command alike, by up to 150 ms for the whole round trip, does not make commands old: their
 /// age is then counted from the delay that all commands of the last half second or more had (`link_delay`).

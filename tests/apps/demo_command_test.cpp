@@ -62,6 +62,7 @@ TEST_F(Demo, OfflineGivesTheSameHashTwiceAndReachesTheSeatThroughContact) {
   EXPECT_EQ(first["seat_reached"], true);
   EXPECT_GT(first["contact_fraction"], 0.7);
   EXPECT_GT(first["force_max_N"], 2.0);
+  EXPECT_LE(first["force_step_max_N"], 20.0 / 7.0) << "the slew of the device";
   // It comes from above, slides, and at the end it rests.
   const nlohmann::json& states = first["state_s"];
   double sum = 0.0;

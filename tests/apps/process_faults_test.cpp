@@ -26,7 +26,7 @@ TEST_F(ProcessFaults, AServerThatIsKilledHoldsNoForce) {
 
 TEST_F(ProcessFaults, AServerThatIsStoppedAndContinuedComesBackSoftly) {
   hand().server().signal(SIGSTOP);
-  wait();
+  wait(milliseconds(1500));  // longer than it takes to believe in another clock
   hand().server().signal(SIGCONT);
   recover();
   const GloveRecord record = this->record();

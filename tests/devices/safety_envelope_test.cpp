@@ -385,6 +385,12 @@ TEST_F(Envelope, GivesBackNoMoreEnergyThanTheHandPutIn) {
   EXPECT_EQ(push_at(0.0, 10).values().f_H_W.x(), 20.0) << "a hand at rest is not concerned";
 }
 
+TEST_F(Envelope, BehindALinkTheGlovesEnvelopeAloneLimitsTheEnergy) {
+  state_.link_delay = milliseconds(3);
+  EXPECT_EQ(push_at(0.0, 500).values().f_H_W.x(), 20.0);
+  EXPECT_EQ(push_at(0.1, 500).values().f_H_W.x(), 20.0);
+}
+
 TEST_F(Envelope, LimitsTheMeanForce) {
   DeviceDescriptor warm = kDevice;
   warm.max_mean_force = 8.0;
