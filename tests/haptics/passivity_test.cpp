@@ -104,8 +104,9 @@ class DelayedWall {
     ++state_.sequence;
     state_.X_WH.translation().z() = hand_.z;
     state_.v_WH.z() = hand_.v;
-    state_.link_delay = glove_.link_delay();
-    states_.push_back(state_);
+    devices::GloveState told = state_;
+    told.link_delay = glove_.link_delay();
+    states_.push_back(told);
     if (states_.size() > one_way_) {
       wall_.time = now_;
       wall_.X_WV_of_rows =
