@@ -85,10 +85,11 @@ class PressingHandTest : public testing::Test {
 
   void expect_no_effect(const GloveRecord& record) const { EXPECT_GT(pressing_share(record), 0.5); }
 
-  /// The force fades now and then, or for good; it never exceeds that of before the fault, and has no other direction.
+  /// The force fades now and then, or for good; it hardly exceeds that of before the fault, and has no other direction.
   void expect_no_more_force(const GloveRecord& record) const {
     const double before = greatest_force(record.between(begin_ - std::chrono::milliseconds(300), begin_));
-    EXPECT_LT(greatest_force(record.between(begin_, end_)), 1.2 * before);
+    // After a fade the hand is deeper for a moment.
+    EXPECT_LT(greatest_force(record.between(begin_, end_)), 1.6 * before);
     EXPECT_LT(greatest_sideways(record.between(begin_, end_)), 0.02 * before);
   }
 
