@@ -33,10 +33,10 @@ struct MessageOrigin {
 
 /// The sender whose messages are admitted holds a lease. Another device or session gets it only after `lease` without
 /// an admitted message. Sequence numbers of the holder rise, no faster than `kGreatestRate` in the mean. They may
-/// rise by `kBurst` at once, and after a silence by what the rate allows, at most `kGreatestAdvance`. After `lease` without an admitted
-/// message, two messages of the holder in rising sequence are a new start. So a forged message with a great number
-/// locks its sender out for little more than one lease. Thread-safety: `admit` in the receive thread, `grant` before
-/// the first `admit`, the rest in any.
+/// rise by `kBurst` at once, and after a silence by what the rate allows, at most `kGreatestAdvance`. After `lease`
+/// without an admitted message, two messages of the holder in rising sequence are a new start. So a forged message with
+/// a great number locks its sender out for little more than one lease. Thread-safety: `admit` in the receive thread,
+/// `grant` before the first `admit`, the rest in any.
 class LinkMonitor {
  public:
   /// Messages a second that nobody exceeds.
