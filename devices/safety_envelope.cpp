@@ -193,9 +193,14 @@ void SafetyEnvelope::observe_delay(nanoseconds age, nanoseconds now) noexcept {
   least_age_ = std::max(nanoseconds(0), std::min(least_age_, age));
 }
 
+nanoseconds SafetyEnvelope::link_delay() const noexcept {
+  const nanoseconds least = std::min(least_age_before_, least_age_);
+  return least <= kLongestDelay ? least : nanoseconds(0);
+}
+
 nanoseconds SafetyEnvelope::oldest_command() const noexcept {
   const nanoseconds delay = link_delay();
-  return delay > patience_ && delay <= kLongestDelay ? delay + patience_ : patience_;
+  return delay > patience_ ? delay + patience_ : patience_;
 }
 
 bool SafetyEnvelope::is_plausible(const GloveState& state) noexcept {

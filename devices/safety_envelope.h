@@ -3,7 +3,6 @@
 /// The safety envelope: the only way from a wanted command to a device. It keeps every limit of the device's
 /// descriptor, and lets the force fade whenever its basis is old, implausible or not permitted.
 
-#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -84,9 +83,9 @@ class SafetyEnvelope {
 
   const DeviceDescriptor& descriptor() const noexcept { return descriptor_; }
 
-  /// The smallest age of a command in the last half second or longer; 0 in the first half second. At the glove's end
-  /// this is the delay of the whole round trip.
-  std::chrono::nanoseconds link_delay() const noexcept { return std::min(least_age_before_, least_age_); }
+  /// The smallest age of a command in the last half second or longer: at the glove's end, the delay of the whole round
+  /// trip. 0 in the first half second, and where it would be more than 150 ms, because that is a silence.
+  std::chrono::nanoseconds link_delay() const noexcept;
 
  private:
   struct Forces {

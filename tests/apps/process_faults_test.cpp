@@ -29,6 +29,7 @@ TEST_F(ProcessFaults, AServerThatIsStoppedAndContinuedComesBackSoftly) {
   wait(milliseconds(1500));  // longer than it takes to believe in another clock
   hand().server().signal(SIGCONT);
   recover();
+  wait(milliseconds(700));
   const GloveRecord record = this->record();
   expect_no_force(record);
   expect_soft_return(record);
