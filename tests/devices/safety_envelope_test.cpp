@@ -558,7 +558,7 @@ TEST(SafetyEnvelope, NoRandomCommandOrStateBreaksALimit) {
     // The power is within its limit, or the wrench goes there as fast as its rates allow.
     const double power = out.f_H_W.dot(hand.state().v_WH) + out.t_H_W.dot(hand.state().w_WH);
     if (hand.is_state_finite() && power > device.max_power * 1.000001) {
-      ASSERT_TRUE(f_step > 0.999999 * dt * device.max_force_rate || t_step > 0.999999 * dt * device.max_torque_rate)
+      ASSERT_TRUE(f_step >= 0.999999 * dt * device.max_force_rate || t_step >= 0.999999 * dt * device.max_torque_rate)
           << i << ": " << power << " W";
     }
     pressing += out.f_H_W.norm() > 5.0 ? 1 : 0;
