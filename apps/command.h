@@ -27,10 +27,10 @@ void add_demo_command(CLI::App& app, Command& chosen);
 /// `glissade slide SCENE --part NAME --trajectory FILE [--metaphor M] [--out FILE]`
 void add_slide_command(CLI::App& app, Command& chosen);
 
-/// `glissade run SCENE [--lcm URL] [--device N] [--seconds S] [--json] [--report DIR]`
+/// `glissade run SCENE [--lcm URL] [--device N] [--seconds S] [--rate-hz R] [--json] [--report DIR]`
 void add_run_command(CLI::App& app, Command& chosen);
 
-/// `glissade glove [--side left|right] [--device N] [--lcm URL] [--script FILE] [--record FILE]`
+/// `glissade glove [--side left|right] [--device N] [--lcm URL] [--script FILE] [--frozen-ms T] [--record FILE]`
 void add_glove_command(CLI::App& app, Command& chosen);
 
 /// `glissade doctor [--json]`

@@ -49,7 +49,7 @@ std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
 /// that come within a second are late, or if the glove's clock goes back, the difference is taken anew.
 ///
 /// A passivity observer counts the work of force and torque on the hand, by the measured motion and the command that
-/// was given, i.e. after all limits. The energy is what the hand has put in and not got back, at most 0.5 J, and 0.05 J
+/// was given, i.e. after all limits. The energy is what the hand has put in and not got back, at most 0.5 J, and 0.1 J
 /// at the start for errors of sampling. Where the wrench would give back more within ten periods, the controller damps
 /// the motion along the force, by at most `max_damping` and the force itself, for up to 200 ms; and scales the wrench
 /// where this does not suffice. A wrench of zero stays zero. For a glove that tells the

@@ -24,10 +24,15 @@ double across(const ConstraintRow& row, const geometry::Displacement& d) {
   return (u - row.n.dot(u) * row.n).norm();
 }
 
-/// Scaled down as a whole, so that the force is at most `most`.
-Wrench limited(const Wrench& wrench, double most) {
-  const double force = wrench.f.norm();
-  return force > most ? scaled(wrench, most / force) : wrench;
+/// N: the force or, if greater, the force at the radius that has this torque.
+double size_of(const Wrench& wrench, double radius) {
+  return std::max(wrench.f.norm(), wrench.t.norm() / radius);
+}
+
+/// Scaled down as a whole, so that its size is at most `most`.
+Wrench limited(const Wrench& wrench, double most, double radius) {
+  const double size = size_of(wrench, radius);
+  return size > most ? scaled(wrench, most / size) : wrench;
 }
 
 }  // namespace
@@ -41,24 +46,24 @@ const Wrench& ContactForce::update(const ContactSet& set, std::chrono::nanosecon
                                    double dt) noexcept {
   const double ghost_motion = geometry::motion_bound(geometry::displacement_between(X_WG_, X_WG, p_Vref_), radius_);
   X_WG_ = X_WG;
-  const Wrench all = limited(target(set, age, X_WG), max_force_);
+  const Wrench all = limited(target(set, age, X_WG), max_force_, radius_);
   share_ = std::min(force_share(age) * known_, share_ + dt / kReturn_s);
   const Wrench wanted = scaled(all, share_);
 
   constexpr double kSlew_m_per_s = kSlew_m / 1e-3;
   double longest = stiffness_.translational * (kSlew_m_per_s * dt + 2.0 * std::min(ghost_motion, kFastestGhost * dt));
-  if (wanted.f.norm() < wrench_.f.norm()) {
+  if (size_of(wanted, radius_) < size_of(wrench_, radius_)) {
     longest = std::max(longest, max_force_ * dt / std::chrono::duration<double>(kLongestFall).count());
   }
   const Wrench change{wanted.f - wrench_.f, wanted.t - wrench_.t};
-  const double size = std::max(change.f.norm(), change.t.norm() / radius_);
+  const double size = size_of(change, radius_);
   if (size <= longest) {
     wrench_ = wanted;
   } else {
     const Wrench step = scaled(change, longest / size);
     wrench_ = {wrench_.f + step.f, wrench_.t + step.t};
   }
-  wrench_ = limited(wrench_, share_ * max_force_);
+  wrench_ = limited(wrench_, share_ * max_force_, radius_);
   return wrench_;
 }
 

@@ -36,7 +36,7 @@ inline constexpr std::chrono::milliseconds kLongestFall{75};
 class ContactForce {
  public:
   /// For a part with the given reference point (in its frame), radius (metres) and coupling, at its start pose. The
-  /// force never exceeds `max_force` (N), that of the device.
+  /// force, and that at the radius which has the torque, never exceeds `max_force` (N), that of the device.
   ContactForce(const Eigen::Vector3d& p_Vref, double radius, const CouplingStiffness& stiffness, double max_force,
                const Eigen::Isometry3d& X_WV_start)
       : p_Vref_(p_Vref),

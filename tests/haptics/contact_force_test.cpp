@@ -108,6 +108,24 @@ TEST(ContactForce, OfAHaltedSimulationIsZeroAtTheSameAgeHoweverDeepAndSoft) {
   }
 }
 
+/// Two contacts hold the part against a rotation, and their forces cancel.
+TEST(ContactForce, ATorqueWithoutAForceIsZeroAtThatAgeToo) {
+  ContactForce contacts = at_origin();
+  ContactSet set = floor_below(0.0);
+  set.row_count = 2;
+  set.row_array[0] = {Vector3d::UnitZ(), Vector3d(0.05, 0.0, 0.0), 0.0};
+  set.row_array[1] = {-Vector3d::UnitZ(), Vector3d(-0.05, 0.0, 0.0), 0.0};
+  set.friction_ratio_W[1].setZero();
+  const Isometry3d X_WG(Eigen::AngleAxisd(0.5, Vector3d::UnitY()));
+  const Wrench full = settle(contacts, set, X_WG);
+  EXPECT_TRUE(full.f.isZero(1e-9));
+  EXPECT_NEAR(full.t.norm(), kMaxForce * kRadius, 1e-9) << "5 Nm are more than the device gives";
+  Wrench last = full;
+  for (int age = 0; age <= 100; ++age)
+    last = contacts.update(set, milliseconds(age), X_WG, kTick_s);
+  EXPECT_EQ(last.t, Vector3d::Zero());
+}
+
 TEST(ContactForce, ReturnsSoftlyAfterAHalt) {
   ContactForce contacts = at_origin();
   const ContactSet set = floor_below(0.0);
