@@ -30,7 +30,9 @@ constexpr const char* kDemoFooter =
     "Without --scene, the glove carries a window motor into a car door: through the access hole of the inner panel,\n"
     "past the side-impact tube and back against the panel. The hand follows a script, which is scaled in time to\n"
     "--seconds, and yields to the forces that it receives. In real time, glove and server communicate over LCM, 1000\n"
-    "times a second. With --offline, everything runs in one thread on a simulated clock, with the same result every\n"
+    "times a second. The hand holds the first movable object of the scene; other movable objects lie where they are,\n"
+    "and objects with 'moves: FILE' follow their own scripts. With --offline, everything runs in one thread on a "
+    "simulated clock, with the same result every\n"
     "time.\n"
     "\n"
     "After the run, brute force checks every visible pose, i.e. every pose at which the part was shown. If a pose\n"
@@ -49,6 +51,7 @@ struct DemoOptions {
   bool json = false;
   std::string lcm_url = "memq://";
   std::string report;
+  SlidingChoice choice;
 };
 
 std::int64_t checked_ticks(double seconds) {
@@ -65,25 +68,27 @@ struct Demo {
 
 Demo embedded_demo() {
   const Scene scene = parse_scene(std::string(embedded_scene_yaml()), "car_door.yaml", ".");
-  return {make_haptic_scene(scene, only_movable_object(scene)),
+  return {make_haptic_scene(scene, movable_objects(scene)),
           parse_trajectory(embedded_scene_script(), "car_door_script.csv")};
 }
 
 Demo demo_from_file(const std::string& path) {
   const Scene scene = read_scene(path);
   if (!scene.script_path) throw std::invalid_argument(path + ": the scene has no script for the hand to follow");
-  return {make_haptic_scene(scene, only_movable_object(scene)), read_trajectory(*scene.script_path)};
+  return {make_haptic_scene(scene, movable_objects(scene)), read_trajectory(*scene.script_path)};
 }
 
 Session run_in_real_time(const Demo& demo, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks,
-                         const std::string& lcm_url) {
+                         const DemoOptions& options) {
   const StopSignal stop_signal;
-  const auto bus = std::make_shared<devices::LcmBus>(lcm_url);
+  const auto bus = std::make_shared<devices::LcmBus>(options.lcm_url);
   realtime::SteadyClock clock;
   devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script_X_WH), clock);
   ProgressBar progress("real time", ticks);
-  return run_session(demo.scene, bus, {.seconds = 1e-3 * static_cast<double>(ticks), .period = haptics::kTickPeriod},
-                     &StopSignal::requested, [&](std::int64_t done, const std::string&) { progress.update(done); });
+  return run_session(
+      demo.scene, bus,
+      {.choice = options.choice, .seconds = 1e-3 * static_cast<double>(ticks), .period = haptics::kTickPeriod},
+      &StopSignal::requested, [&](const RunNews& news) { progress.update(news.ticks); });
 }
 
 int run(const DemoOptions& options) {
@@ -91,10 +96,11 @@ int run(const DemoOptions& options) {
   const Demo demo = options.scene.empty() ? embedded_demo() : demo_from_file(options.scene);
   const geometry::PoseTrajectory script_X_WH = demo.script_X_WH.time_scaled(std::chrono::milliseconds(ticks));
   if (!options.report.empty()) prepare_report_folder(options.report);
-  const Session session = options.offline ? run_session_offline(demo.scene, script_X_WH, ticks)
-                                          : run_in_real_time(demo, script_X_WH, ticks, options.lcm_url);
-  conclude(session, demo.scene, "glissade demo: " + demo.scene.part_name + (options.offline ? ", offline" : ""),
-           options.json, options.report);
+  const Session session = options.offline ? run_session_offline(demo.scene, script_X_WH, ticks, options.choice)
+                                          : run_in_real_time(demo, script_X_WH, ticks, options);
+  conclude(session, demo.scene,
+           "glissade demo: " + demo.scene.parts.front().name + (options.offline ? ", offline" : ""), options.json,
+           options.report);
   return 0;
 }
 
@@ -103,9 +109,10 @@ int run(const DemoOptions& options) {
 void add_demo_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<DemoOptions>();
   CLI::App* command = app.add_subcommand("demo", kDemoDescription);
-  command->footer(std::string(kDemoFooter) + kSceneFileHelp);
+  command->footer(std::string(kDemoFooter) + kSlidingChoiceHelp + kSceneFileHelp);
   command->add_option("--seconds", options->seconds, "Duration of the script in seconds")->capture_default_str();
-  command->add_option("--scene", options->scene, "Scene file (YAML) with one movable object and a script");
+  command->add_option("--scene", options->scene, "Scene file (YAML) with a movable object and a script");
+  add_sliding_options(*command, options->choice);
   CLI::Option* offline =
       command->add_flag("--offline", options->offline, "Run deterministically, on a simulated clock, in one thread");
   command->add_flag("--json", options->json, "Print the summary as JSON");

@@ -121,6 +121,8 @@ int run(const GloveOptions& options) {
                                          if (record) record->push(state, command);
                                          const bool has_server = command.values().sequence > 0;
                                          if (has_server) teller.note(command);
+                                         // The main thread may be held up by a reader of the output.
+                                         return !StopSignal::requested();
                                        });
 
   say("glissade glove: the " + options.side + " hand waits for a server at " + options.lcm.url);

@@ -1,10 +1,14 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -25,11 +29,14 @@ namespace {
 constexpr const char* kRunDescription = "Run the haptic server: receive glove states over LCM and send forces";
 
 constexpr const char* kRunFooter =
-    "The part in the hand is the only movable object of the scene. When the first glove state arrives on the channel\n"
-    "GLOVE_STATE, the hand grasps the part rigidly; the part stays at its pose in the scene. Commands to the glove\n"
-    "go out on GLOVE_COMMAND. The state of every tick, i.e. of every cycle of the haptic loop, goes out on\n"
-    "HAPTIC_STATE, for viewers and loggers. When the force fades, because the glove's state is old for instance, the\n"
-    "reason goes to standard error: docs/safety.md in the sources.\n"
+    "The parts are the movable objects of the scene. When the first state of a glove arrives on the channel\n"
+    "GLOVE_STATE, its hand grasps a part rigidly; the part stays at its pose in the scene. The first glove takes the\n"
+    "first part, the second glove the second part or, if there is only one part, the same; --hold says otherwise.\n"
+    "Parts that no hand holds lie still. Objects with 'moves: FILE' follow their own scripts, from the first state "
+    "on.\n"
+    "Commands to the gloves go out on GLOVE_COMMAND. The state of every tick, i.e. of every cycle of the haptic loop,\n"
+    "goes out on HAPTIC_STATE, for viewers and loggers. When a force fades, because a glove's state is old for\n"
+    "instance, the reason goes to standard error: docs/safety.md in the sources.\n"
     "\n"
     "The run ends --seconds after the first glove state, or with Ctrl-C, and prints a summary. Then brute force\n"
     "checks the visible poses, i.e. the poses at which the part was shown; without --seconds, only those of the last\n"
@@ -38,16 +45,96 @@ constexpr const char* kRunFooter =
     "\n"
     "Example, with a simulated glove in a second terminal:\n"
     "  glissade run examples/scenes/car_door.yaml --lcm 'udpm://239.255.76.67:7667?ttl=0' --seconds 12\n"
-    "  glissade glove --lcm 'udpm://239.255.76.67:7667?ttl=0'";
+    "  glissade glove --lcm 'udpm://239.255.76.67:7667?ttl=0'\n"
+    "Two gloves, of which the second pushes another part:\n"
+    "  glissade run scene.yaml --device 1 2 --hold 1=motor 2=bracket";
 
 struct RunOptions {
   std::string scene;
   LcmAddress lcm;
-  std::int64_t device = devices::kDefaultDevice;
+  std::vector<std::int64_t> devices{devices::kDefaultDevice};
+  std::vector<std::string> holds;
+  SlidingChoice choice;
   double seconds = 0.0;
   double rate_hz = 0.0;
   bool json = false;
   std::string report;
+};
+
+/// The gloves and the parts that their hands take.
+std::vector<SessionHand> hands_of(const RunOptions& options, const HapticScene& scene) {
+  std::vector<SessionHand> hands;
+  for (const std::int64_t device : options.devices) {
+    for (const SessionHand& hand : hands) {
+      if (hand.device != device) continue;
+      throw std::invalid_argument("--device: glove " + std::to_string(device) + " is named twice");
+    }
+    hands.push_back({device, std::min(hands.size(), scene.parts.size() - 1)});
+  }
+  if (hands.size() > haptics::kMaxHands) {
+    throw std::invalid_argument("--device: " + std::to_string(hands.size()) + " gloves are too many; at most " +
+                                std::to_string(haptics::kMaxHands) + " can be used");
+  }
+  for (const std::string& hold : options.holds) {
+    const std::size_t equals = hold.find('=');
+    const std::string device = hold.substr(0, equals);
+    const auto hand = std::find_if(hands.begin(), hands.end(), [&](const SessionHand& candidate) {
+      return std::to_string(candidate.device) == device;
+    });
+    if (equals == std::string::npos || hand == hands.end()) {
+      throw std::invalid_argument("--hold: " + in_quotes(hold) +
+                                  " is not GLOVE=PART with a glove of --device, such as 1=motor");
+    }
+    const std::string part = hold.substr(equals + 1);
+    hand->part = scene.part_number(part);
+    if (part.empty() || hand->part) continue;
+    throw std::invalid_argument("--hold: " + in_quotes(hold) + ": the movable objects of " + scene.source + " are " +
+                                scene.part_names());
+  }
+  return hands;
+}
+
+std::string held_text(const RunSettings& settings, const HapticScene& scene) {
+  std::string text;
+  for (const SessionHand& hand : settings.hands) {
+    text += text.empty() ? "" : ", ";
+    text += settings.hands.size() == 1 ? "the glove" : "glove " + std::to_string(hand.device);
+    text += " holds " + (hand.part ? in_quotes(scene.parts[*hand.part].name) : "nothing");
+  }
+  return text;
+}
+
+/// Says each thing once, after the set-up of the session has succeeded.
+class Announcer {
+ public:
+  Announcer(const RunSettings& settings, const HapticScene& scene, const devices::LcmBus& bus, const std::string& url)
+      : settings_(settings), scene_(scene), bus_(bus), url_(url) {}
+
+  void tell(const RunNews& news) {
+    if (news.awaited_device && news.awaited_device != told_to_await_) {
+      told_to_await_ = news.awaited_device;
+      const bool is_only = settings_.hands.size() == 1;
+      say("glissade run: waiting for " + (is_only ? "a glove" : "glove " + std::to_string(*news.awaited_device)) +
+          " at " + url_);
+    }
+    if (news.ticks == 0 && bus_.refused_packets() > 0 && !std::exchange(said_that_it_refuses_, true)) {
+      say("glissade run: packets are refused: they come from elsewhere, or were made with another key");
+    }
+    if (news.ticks > 0 && !std::exchange(said_that_it_holds_, true)) {
+      say("glissade run: " + held_text(settings_, scene_));
+    }
+    for (const std::string& sentence : news.sentences)
+      say("glissade run: " + sentence);
+  }
+
+ private:
+  const RunSettings& settings_;
+  const HapticScene& scene_;
+  const devices::LcmBus& bus_;
+  std::string url_;
+  std::optional<std::int64_t> told_to_await_;
+  bool said_that_it_refuses_ = false;
+  bool said_that_it_holds_ = false;
 };
 
 int run(const RunOptions& options) {
@@ -57,31 +144,17 @@ int run(const RunOptions& options) {
   if (options.rate_hz != 0.0 && !(options.rate_hz >= 500.0 && options.rate_hz <= 5000.0)) {
     throw std::invalid_argument("--rate-hz: must lie between 500 and 5000, not " + format_number(options.rate_hz));
   }
-  RunSettings settings{.device = options.device, .seconds = options.seconds};
-  if (options.rate_hz != 0.0) settings.period = std::chrono::nanoseconds(std::llround(1e9 / options.rate_hz));
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   const Scene file = read_scene(options.scene);
-  const HapticScene scene = make_haptic_scene(file, only_movable_object(file));
+  const HapticScene scene = make_haptic_scene(file, movable_objects(file));
+  RunSettings settings{.hands = hands_of(options, scene), .choice = options.choice, .seconds = options.seconds};
+  if (options.rate_hz != 0.0) settings.period = std::chrono::nanoseconds(std::llround(1e9 / options.rate_hz));
   if (!options.report.empty()) prepare_report_folder(options.report);
   const StopSignal stop_signal;
-  // Announced from within the session, after its set-up has succeeded.
-  bool said_that_it_waits = false;
-  bool said_that_it_refuses = false;
-  bool said_that_it_holds = false;
-  const auto watch = [&](std::int64_t ticks, const std::string& news) {
-    if (ticks == 0 && !std::exchange(said_that_it_waits, true)) {
-      say("glissade run: waiting for a glove at " + options.lcm.url);
-    }
-    if (ticks == 0 && bus->refused_packets() > 0 && !std::exchange(said_that_it_refuses, true)) {
-      say("glissade run: packets are refused: they come from elsewhere, or were made with another key");
-    }
-    if (ticks > 0 && !std::exchange(said_that_it_holds, true)) {
-      say("glissade run: the glove holds '" + scene.part_name + "'");
-    }
-    if (!news.empty()) say("glissade run: " + news);
-  };
-  const Session session = run_session(scene, bus, settings, &StopSignal::requested, watch);
-  conclude(session, scene, "glissade run: " + scene.part_name, options.json, options.report);
+  Announcer announcer(settings, scene, *bus, options.lcm.url);
+  const Session session =
+      run_session(scene, bus, settings, &StopSignal::requested, [&](const RunNews& news) { announcer.tell(news); });
+  conclude(session, scene, "glissade run: " + scene.part_names(), options.json, options.report);
   return 0;
 }
 
@@ -90,10 +163,15 @@ int run(const RunOptions& options) {
 void add_run_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", kRunDescription);
-  command->footer(std::string(kRunFooter) + kSceneFileHelp);
+  command->footer(std::string(kRunFooter) + kSlidingChoiceHelp + kSceneFileHelp);
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
   add_lcm_options(*command, options->lcm);
-  add_device_option(*command, options->device);
+  command->add_option("--device", options->devices, "Numbers of the gloves, one for each hand, at most four")
+      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
+      ->capture_default_str();
+  command->add_option("--hold", options->holds,
+                      "GLOVE=PART: the part that the hand in this glove takes; GLOVE= takes none");
+  add_sliding_options(*command, options->choice);
   command->add_option("--seconds", options->seconds, "Duration in seconds from the first glove state; 0: until Ctrl-C")
       ->capture_default_str();
   command->add_option("--rate-hz", options->rate_hz,

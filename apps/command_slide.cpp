@@ -19,6 +19,7 @@
 #include <glissade/apps/scene_file.h>
 #include <glissade/apps/slide_check.h>
 #include <glissade/apps/slide_contacts.h>
+#include <glissade/apps/sliding_option.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
 #include <glissade/haptics/coupling.h>
@@ -41,26 +42,12 @@ constexpr const char* kSlideFooter =
     "shown, never inside an obstacle), the wrench on the hand about the part's origin in world axes, the number of\n"
     "contacts with a force, and the state of the part.\n"
     "\n"
-    "Metaphors: the metaphor is the rule by which the hand moves the part. It gives the part a target; in the first\n"
-    "and the third metaphor, the target is the ghost.\n"
-    "  force-feedback      rigid grasp; the device holds the hand back, and the part catches up at a limited speed\n"
-    "  rubber-band         a rubber band ties the centre of the part's bounding box to the ghost; contacts alone turn\n"
-    "                      the part, and the hand feels no torque\n"
-    "  rubber-band-spring  a rubber band and a spiral spring tie the part to the ghost; the part catches up at once\n"
-    "  incremental         the part repeats each motion of the ghost; motion that contacts prevent is lost\n"
-    "\n"
     "Methods:\n"
     "  projection          the default: projects the wanted motion on the motions that the contacts allow, and takes\n"
     "                      a step only with a proof that the part touches nothing on the way\n"
     "  paper               the method of the paper 'Natural Interaction in Virtual Environments', for comparison:\n"
     "                      bisection to the contact, classification of the contact, a new direction of motion; each\n"
     "                      row has one more column, which lists the states that the state machine went through\n"
-    "\n"
-    "Rules:\n"
-    "  --spiral-search     A part that stands still for 0.1 s away from its target is aimed beside the target, in a\n"
-    "                      spiral that grows to 1.6 mm in two seconds, as a hand searches for a hole.\n"
-    "  --depenetrate       An obstacle that overlaps the part at the start does not block the part; the part moves\n"
-    "                      out of the obstacle at 0.2 m/s at most.\n"
     "\n"
     "Contacts: --contacts writes one row per touching contact and millisecond. A row has the number of the contact,\n"
     "which stays the same as long as the contact lasts; the triangle and the feature (face, edge or vertex of the\n"
@@ -90,11 +77,8 @@ struct SlideOptions {
   std::string scene;
   std::string part;
   std::vector<std::string> trajectories;
-  std::string metaphor = "force-feedback";
+  SlidingChoice sliding;
   std::string method = "projection";
-  std::vector<double> friction;
-  bool spiral_search = false;
-  bool depenetrate = false;
   std::string out;
   SlideContactsFiles contacts;
   std::string moving;
@@ -103,15 +87,8 @@ struct SlideOptions {
   double goal_tolerance_m = SlideCheckOptions{}.goal_tolerance_m;
   double goal_tolerance_deg = SlideCheckOptions{}.goal_tolerance_deg;
 
-  bool has_rules() const { return !friction.empty() || spiral_search || depenetrate; }
   bool is_check() const { return trajectories.size() > 1 || !summary.empty() || !report.empty(); }
 };
-
-haptics::Metaphor parse_metaphor(const std::string& name) {
-  const auto metaphor = haptics::metaphor_from_name(name);
-  if (metaphor) return *metaphor;
-  throw std::invalid_argument("--metaphor: '" + name + "' is unknown; known are " + joined(haptics::kMetaphorNames));
-}
 
 haptics::SlidingMethod parse_method(const std::string& name) {
   const auto method = haptics::sliding_method_from_name(name);
@@ -255,16 +232,7 @@ int check(const HapticScene& scene, const SlideCheckOptions& check_options, cons
 }
 
 haptics::SlidingOptions sliding_options(const SlideOptions& options) {
-  haptics::SlidingOptions sliding{.metaphor = parse_metaphor(options.metaphor)};
-  sliding.rules.friction.sliding = options.friction.empty() ? 0.0 : options.friction.front();
-  sliding.rules.friction.at_rest = options.friction.empty() ? 0.0 : options.friction.back();
-  if (sliding.rules.friction.at_rest < sliding.rules.friction.sliding) {
-    throw std::invalid_argument(
-        "--friction: the second coefficient, at rest, must not be less than the first, sliding");
-  }
-  sliding.rules.spiral_search = options.spiral_search;
-  if (options.depenetrate) sliding.rules.overlap = haptics::OverlapRule::kDepenetrate;
-  return sliding;
+  return {.metaphor = metaphor_of(options.sliding), .rules = with_choice({}, options.sliding)};
 }
 
 /// Two tables must not share a file.
@@ -288,7 +256,7 @@ void check_files(const SlideOptions& options) {
 int run(const SlideOptions& options) {
   const SlideCheckOptions check_options{sliding_options(options), parse_method(options.method),
                                         options.goal_tolerance_m, options.goal_tolerance_deg};
-  if (check_options.method == haptics::SlidingMethod::kPaper && options.has_rules()) {
+  if (check_options.method == haptics::SlidingMethod::kPaper && options.sliding.has_rules()) {
     throw std::invalid_argument("--method: paper does not support --friction, --spiral-search and --depenetrate");
   }
   if (options.is_check() && !options.out.empty()) {
@@ -300,7 +268,7 @@ int run(const SlideOptions& options) {
       throw std::invalid_argument("--trajectory: " + in_quotes(file) + " has a comma, quote or line break in its name");
     }
   }
-  const HapticScene scene = make_haptic_scene(read_scene(options.scene), options.part);
+  const HapticScene scene = make_haptic_scene(read_scene(options.scene), {options.part});
   if (check_options.method == haptics::SlidingMethod::kPaper && !scene.moving.empty()) {
     throw std::invalid_argument("--method: paper does not support objects that move on their own, such as " +
                                 scene.moving.front().name);
@@ -319,22 +287,15 @@ int run(const SlideOptions& options) {
 void add_slide_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<SlideOptions>();
   CLI::App* command = app.add_subcommand("slide", kSlideDescription);
-  command->footer(std::string(kSlideFooter) + kSceneFileHelp);
+  command->footer(std::string(kSlideFooter) + kSlidingChoiceHelp + kSceneFileHelp);
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
   command->add_option("--part", options->part, "Name of the object in the hand")->required();
   command
       ->add_option("--trajectory", options->trajectories,
                    "Trajectory of the ghost (CSV), see below; several for an assembly check")
       ->required();
-  command->add_option("--metaphor", options->metaphor, "Metaphor, the rule by which the hand moves the part, see below")
-      ->capture_default_str();
+  add_sliding_options(*command, options->sliding);
   command->add_option("--method", options->method, "Sliding method, see below")->capture_default_str();
-  command->add_option("--friction", options->friction, "Coefficient of Coulomb friction; or two, sliding and at rest")
-      ->expected(1, 2)
-      ->check(CLI::NonNegativeNumber);
-  command->add_flag("--spiral-search", options->spiral_search, "Search in a spiral when the part is stuck, see below");
-  command->add_flag("--depenetrate", options->depenetrate,
-                    "Push a part out of obstacles that overlap it at the start, see below");
   command->add_option("--out", options->out, "CSV file for the motion (default: standard output)");
   command->add_option("--contacts", options->contacts.contacts, "CSV file for the contacts, see below");
   command->add_option("--patches", options->contacts.patches, "CSV file for patches of contacts, see below");

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -76,35 +75,44 @@ class Bodies {
 
 }  // namespace
 
-HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name) {
-  const SceneObject& part = scene.find(part_name);
-  if (part.motion) {
-    throw std::invalid_argument(scene.source + ": object " + in_quotes(part.name) +
-                                " moves on its own, so it cannot be the part in the hand");
+std::optional<std::size_t> HapticScene::part_number(const std::string& name) const {
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].name == name) return p;
   }
-  const auto movers = std::count_if(scene.objects.begin(), scene.objects.end(),
-                                    [](const SceneObject& object) { return object.motion.has_value(); });
-  if (movers >= static_cast<std::ptrdiff_t>(haptics::kMaxParts)) {
-    throw std::invalid_argument(scene.source + ": " + std::to_string(movers) + " objects move on their own; at most " +
-                                std::to_string(haptics::kMaxParts - 1) + " can");
-  }
-  for (const SceneObject& object : scene.objects)
-    check(scene, object);
+  return std::nullopt;
+}
+
+std::string HapticScene::part_names() const {
+  std::string names;
+  for (const ScenePart& part : parts)
+    names += (names.empty() ? "" : ", ") + in_quotes(part.name);
+  return names;
+}
+
+HapticScene make_haptic_scene(const Scene& scene, const std::vector<std::string>& part_names) {
   HapticScene result;
   result.source = scene.source;
-  result.part_name = part.name;
-  result.part_V = make_part(scene, part);
-  result.X_WV_start = part.X_WB;
   result.X_WGoal = scene.X_WGoal;
+  for (const SceneObject& object : scene.objects)
+    check(scene, object);
+  for (const std::string& name : part_names) {
+    const SceneObject& part = scene.find(name);
+    if (part.motion) {
+      throw std::invalid_argument(scene.source + ": object " + in_quotes(part.name) +
+                                  " moves on its own, so it cannot be a part in a hand");
+    }
+    result.parts.push_back({part.name, make_part(scene, part), part.X_WB});
+  }
 
   Bodies bodies(scene);
   for (const SceneObject& object : scene.objects) {
-    if (object.name == part.name || object.motion) continue;
+    if (result.part_number(object.name) || object.motion) continue;
     result.obstacles.push_back({bodies.of(object), object.X_WB, in_quotes(object.name), object.margin_m});
     result.body_names.push_back(object.name);
     result.placed_obstacles.push_back({holding(object), object.X_WB});
   }
-  result.body_names.push_back(part.name);
+  for (const ScenePart& part : result.parts)
+    result.body_names.push_back(part.name);
   for (const SceneObject& object : scene.objects) {
     if (!object.motion) continue;
     haptics::ScriptedPart& moving =
@@ -113,29 +121,45 @@ HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name) 
     moving.name = in_quotes(object.name);
     result.body_names.push_back(object.name);
   }
-  if (result.obstacles.empty() && result.moving.empty()) {
-    throw std::invalid_argument(scene.source + ": there is nothing but the part '" + part.name + "' in the scene");
+  const std::size_t count = result.parts.size() + result.moving.size();
+  if (count > haptics::kMaxParts) {
+    throw std::invalid_argument(scene.source + ": " + std::to_string(count) +
+                                " objects are in a hand or move on their own; at most " +
+                                std::to_string(haptics::kMaxParts) + " can");
+  }
+  if (result.obstacles.empty() && count == 1) {
+    throw std::invalid_argument(scene.source + ": there is nothing but the part " + result.part_names() +
+                                " in the scene");
   }
   return result;
 }
 
-std::string only_movable_object(const Scene& scene) {
+std::vector<std::string> movable_objects(const Scene& scene) {
   std::vector<std::string> names;
   for (const SceneObject& object : scene.objects) {
     if (object.movable) names.push_back(object.name);
-    if (!object.motion) continue;
-    throw std::invalid_argument(scene.source + ": object " + in_quotes(object.name) +
-                                " moves on its own, which only 'glissade slide' can simulate yet");
   }
-  if (names.size() == 1) return names.front();
-  throw std::invalid_argument(scene.source + ": one object must be movable, the part in the hand, but " +
-                              std::to_string(names.size()) + " are");
+  if (!names.empty()) return names;
+  throw std::invalid_argument(scene.source + ": no object is movable; a hand needs a part to hold ('movable: true')");
+}
+
+std::vector<haptics::HeldPart> held_parts(const HapticScene& scene, haptics::Metaphor metaphor) {
+  std::vector<haptics::HeldPart> parts;
+  for (const ScenePart& part : scene.parts) {
+    parts.push_back({.part_V = part.part_V,
+                     .X_WV_start = part.X_WV_start,
+                     .metaphor = metaphor,
+                     .name = "object " + in_quotes(part.name)});
+  }
+  for (const haptics::ScriptedPart& part : scene.moving)
+    parts.push_back(held_by_script(part));
+  return parts;
 }
 
 void check_names_fit_csv(const HapticScene& scene) {
   for (std::size_t body = 0; body < scene.body_names.size(); ++body) {
     const std::string& name = scene.body_names[body];
-    if (body == scene.obstacles.size()) continue;  // the part, which no row names
+    if (scene.part_number(name)) continue;  // no row names it
     if (name.find_first_of(",\"\n\r") == std::string::npos) continue;
     throw std::invalid_argument(scene.source + ": object " + in_quotes(name) +
                                 " has a comma, quote or line break in its name, which a CSV file cannot hold");

@@ -1,7 +1,8 @@
 #pragma once
 
-/// A scene prepared for sliding: one part in the hand, obstacles, and objects that move on their own.
+/// A scene prepared for sliding: parts that hands lead, obstacles, and objects that move on their own.
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,27 +16,40 @@
 
 namespace glissade::apps {
 
-struct HapticScene {
-  std::string source;  ///< the scene file's name, for messages
-  std::string part_name;
+/// A part that a hand can hold.
+struct ScenePart {
+  std::string name;
   std::shared_ptr<const haptics::SlidingPart> part_V;
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
+};
+
+struct HapticScene {
+  std::string source;            ///< the scene file's name, for messages
+  std::vector<ScenePart> parts;  ///< at least one
   std::vector<haptics::Obstacle> obstacles;
   std::vector<haptics::ScriptedPart> moving;            ///< the objects that move on their own
   std::vector<reference::PlacedMesh> placed_obstacles;  ///< `obstacles` without triangles that give way, for the check
-  /// Names in the scene file, by the number of the body in contacts: obstacles, the part, moving objects.
+  /// Names in the scene file, by the number of the body in contacts: obstacles, parts, moving objects.
   std::vector<std::string> body_names;
-  std::optional<Eigen::Isometry3d> X_WGoal;
+  std::optional<Eigen::Isometry3d> X_WGoal;  ///< of the first part
+
+  /// Number of the part with this name; nothing if there is none.
+  std::optional<std::size_t> part_number(const std::string& name) const;
+  /// The names of all parts, in quotes, for messages.
+  std::string part_names() const;
 };
 
-/// Takes the object `part_name` as the part. Throws std::invalid_argument, naming the scene and the object, when there
-/// is no such object or no other one, when an object at its pose has no area or reaches beyond ±1e9 m, when the part
-/// moves on its own, and when more than three other objects do.
-HapticScene make_haptic_scene(const Scene& scene, const std::string& part_name);
+/// Takes the objects with these names as the parts, in this order. Throws std::invalid_argument, naming the scene and
+/// the object, when there is no such object or no other one, when an object at its pose has no area or reaches beyond
+/// ±1e9 m, when a part moves on its own, and for more than four parts and objects that move on their own.
+HapticScene make_haptic_scene(const Scene& scene, const std::vector<std::string>& part_names);
 
-/// The name of the only movable object, for commands in which no other object moves. Throws std::invalid_argument,
-/// naming the scene, when there is none or several, and when an object moves on its own.
-std::string only_movable_object(const Scene& scene);
+/// The names of the movable objects. Throws std::invalid_argument, naming the scene, when there is none.
+std::vector<std::string> movable_objects(const Scene& scene);
+
+/// All parts of a simulation: first those that hands can hold, with this metaphor, then the objects that move on their
+/// own.
+std::vector<haptics::HeldPart> held_parts(const HapticScene& scene, haptics::Metaphor metaphor);
 
 /// Throws std::invalid_argument, naming scene and object, when the name of an obstacle or a moving object does not fit
 /// into a cell of a CSV file.

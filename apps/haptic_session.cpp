@@ -22,34 +22,43 @@ constexpr int kFifoPriority = 80;
 /// Ticks kept of a run without an end: the last minute.
 constexpr std::size_t kKeptTicks = 60'000;
 
-/// Options with the default stiffness of the part, lowered to the limits of the device.
-haptics::SlidingOptions sliding_options(const HapticScene& scene, const devices::DeviceDescriptor& device,
-                                        const haptics::SlidingRules& rules,
-                                        std::chrono::nanoseconds period = haptics::kTickPeriod) {
-  const haptics::Coupling coupling =
-      haptics::coupling_for(device, haptics::default_stiffness(scene.part_V->radius()), period);
-  return {.metaphor = haptics::Metaphor::kForceFeedback, .stiffness = coupling.stiffness, .rules = rules};
-}
+/// A device and the part that its hand takes.
+struct Grip {
+  devices::DeviceDescriptor device;
+  std::optional<std::size_t> part;
+};
 
-/// Starts the simulation. The error for a part that starts inside an obstacle names the scene.
-haptics::Sliding start_sliding(const HapticScene& scene, const haptics::SlidingOptions& options) {
+/// Starts the simulation. A part has its default stiffness, lowered to the limits of the devices that hold it. The
+/// error for a part that starts inside an obstacle names the scene.
+haptics::MultiPartSliding start_sliding(const HapticScene& scene, const std::vector<Grip>& grips,
+                                        const SlidingChoice& choice, const haptics::SlidingRules& rules,
+                                        std::chrono::nanoseconds period = haptics::kTickPeriod) {
+  std::vector<haptics::HeldPart> parts = held_parts(scene, metaphor_of(choice));
+  for (const Grip& grip : grips) {
+    if (!grip.part) continue;
+    haptics::HeldPart& part = parts[*grip.part];
+    const haptics::CouplingStiffness wanted =
+        part.stiffness.value_or(haptics::default_stiffness(part.part_V->radius()));
+    part.stiffness = coupling_for(grip.device, wanted, period).stiffness;
+  }
   try {
-    return haptics::Sliding(scene.obstacles, scene.part_V, scene.X_WV_start, options);
+    return {scene.obstacles, parts, with_choice(rules, choice)};
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(scene.source + ": object " + in_quotes(scene.part_name) + ": " + error.what());
+    throw std::invalid_argument(scene.source + ": " + error.what());
   }
 }
 
 Session finished(std::int64_t ticks, std::chrono::nanoseconds period, const HapticScene& scene,
-                 const haptics::Sliding& sliding, const SessionRecorder& recorder,
-                 std::optional<RealTimeFigures> real_time) {
-  const haptics::SearchStatistics work = sliding.search_statistics();
+                 const haptics::MultiPartSliding& sliding, std::vector<std::int64_t> devices,
+                 std::shared_ptr<const SessionRecorder> samples, std::optional<RealTimeFigures> real_time) {
+  const haptics::SearchStatistics& work = sliding.search_statistics();
   return {ticks,
           period,
-          std::ssize(scene.obstacles) + 1,
+          std::ssize(scene.body_names),
           work.searches,
           work.reports,
-          recorder.samples(),
+          std::move(devices),
+          std::move(samples),
           std::move(real_time)};
 }
 
@@ -59,61 +68,97 @@ std::chrono::nanoseconds period_of(const devices::DeviceDescriptor& device) {
   return std::clamp<std::chrono::nanoseconds>(period, haptics::kShortestTickPeriod, haptics::kLongestTickPeriod);
 }
 
+/// The announcements of all gloves of a run; fewer if it is stopped before.
+std::vector<devices::GloveInfo> wait_for_gloves(const std::shared_ptr<devices::LcmBus>& bus,
+                                                const std::vector<SessionHand>& hands,
+                                                const std::function<bool()>& should_stop,
+                                                const std::function<void(const RunNews&)>& watch) {
+  std::vector<devices::GloveInfo> infos;
+  while (infos.size() < hands.size() && !should_stop()) {
+    const std::int64_t device = hands[infos.size()].device;
+    watch({.awaited_device = device});
+    if (auto info = devices::find_glove(bus, device, std::chrono::milliseconds(100))) infos.push_back(std::move(*info));
+  }
+  return infos;
+}
+
+/// A glove of a running session.
+struct Glove {
+  std::unique_ptr<devices::LcmGlove> link;
+  std::unique_ptr<ReasonTeller> teller = std::make_unique<ReasonTeller>();
+};
+
 }  // namespace
 
-Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks) {
+Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks,
+                            const SlidingChoice& choice) {
   devices::SimulatedGlove glove(script_X_WH);
-  haptics::Sliding sliding = start_sliding(scene, sliding_options(scene, glove.descriptor(), {}));
-  SessionRecorder recorder(static_cast<std::size_t>(ticks));
+  haptics::MultiPartSliding sliding = start_sliding(scene, {{glove.descriptor(), 0}}, choice, {});
+  const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks), sliding.part_count(), 1);
   ProgressBar progress("offline", ticks);
-  haptics::run_offline(glove, sliding, ticks, [&](const devices::HapticState& sample) {
-    recorder.record(sample);
-    progress.update(recorder.total());
+  haptics::run_offline({{.glove = &glove}}, sliding, ticks, [&](const devices::HapticState& sample) {
+    recorder->record(sample);
+    progress.update(recorder->total());
   });
-  return finished(ticks, haptics::kTickPeriod, scene, sliding, recorder, std::nullopt);
+  return finished(ticks, haptics::kTickPeriod, scene, sliding, {devices::kDefaultDevice}, recorder, std::nullopt);
 }
 
 Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, const RunSettings& settings,
-                    const std::function<bool()>& should_stop,
-                    const std::function<void(std::int64_t, const std::string& news)>& watch) {
-  const haptics::SlidingRules rules = haptics::real_time_rules();
-  start_sliding(scene,
-                sliding_options(scene, devices::simulated_glove_descriptor(), {}));  // errors come before waiting
-  std::optional<devices::GloveInfo> info;
-  while (!info && !should_stop()) {
-    watch(0, "");
-    info = devices::find_glove(bus, settings.device, std::chrono::milliseconds(100));
+                    const std::function<bool()>& should_stop, const std::function<void(const RunNews&)>& watch) {
+  start_sliding(scene, {}, settings.choice, {});  // errors come before waiting
+  const std::vector<devices::GloveInfo> infos = wait_for_gloves(bus, settings.hands, should_stop, watch);
+  std::vector<Grip> grips;
+  std::chrono::nanoseconds fastest = haptics::kLongestTickPeriod;
+  for (std::size_t h = 0; h < settings.hands.size(); ++h) {
+    // Without a glove, the session below ends at once.
+    grips.push_back(
+        {h < infos.size() ? infos[h].descriptor : devices::simulated_glove_descriptor(), settings.hands[h].part});
+    fastest = std::min(fastest, period_of(grips.back().device));
   }
-  // Without a glove, the session below ends at once.
-  const devices::DeviceDescriptor descriptor = info ? info->descriptor : devices::simulated_glove_descriptor();
-  const std::chrono::nanoseconds period = settings.period.value_or(period_of(descriptor));
-  if (period > period_of(descriptor))
-    watch(0, "the glove is faster than the haptic loop: its force may fade (--rate-hz)");
+  const std::chrono::nanoseconds period = settings.period.value_or(fastest);
+  if (period > fastest)
+    watch({.sentences = {"a glove is faster than the haptic loop: its force may fade (--rate-hz)"}});
   const std::int64_t ticks = std::llround(settings.seconds / std::chrono::duration<double>(period).count());
-  haptics::Sliding sliding = start_sliding(scene, sliding_options(scene, descriptor, rules, period));
-  SessionRecorder recorder(ticks > 0 ? static_cast<std::size_t>(ticks) : kKeptTicks);
+  haptics::MultiPartSliding sliding = start_sliding(scene, grips, settings.choice, haptics::real_time_rules(), period);
+  const auto recorder = std::make_shared<SessionRecorder>(ticks > 0 ? static_cast<std::size_t>(ticks) : kKeptTicks,
+                                                          sliding.part_count(), settings.hands.size());
   devices::HapticStatePublisher publisher(bus);
-  devices::LcmGlove glove(bus, descriptor, {.device = settings.device, .glove_session = info ? info->session : 0});
-  ReasonTeller teller;
+  std::vector<Glove> gloves;
+  std::vector<haptics::HandOfServer> hands;
+  std::vector<std::int64_t> numbers;
+  for (std::size_t h = 0; h < settings.hands.size(); ++h) {
+    const std::int64_t device = settings.hands[h].device;
+    gloves.push_back({std::make_unique<devices::LcmGlove>(
+        bus, grips[h].device,
+        devices::LcmGloveOptions{.device = device, .glove_session = h < infos.size() ? infos[h].session : 0})});
+    hands.push_back({gloves.back().link.get(), settings.hands[h].part});
+    numbers.push_back(device);
+  }
   realtime::SteadyClock clock;
-
-  haptics::HapticServer server(glove, sliding, clock,
+  haptics::HapticServer server(hands, sliding, clock,
                                [&](const devices::HapticState& sample) {
-                                 recorder.record(sample);
+                                 recorder->record(sample);
                                  publisher.push(sample);
-                                 teller.note(sample);
+                                 for (std::size_t h = 0; h < gloves.size(); ++h)
+                                   gloves[h].teller->note(sample, h);
                                },
                                {.period = period, .ticks = ticks, .fifo_priority = kFifoPriority});
   realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = kFifoPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
   while (!server.is_done() && !server.has_failed() && !should_stop()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    watch(server.ticks(), teller.news());
+    RunNews news{.ticks = server.ticks()};
+    for (std::size_t h = 0; h < gloves.size(); ++h) {
+      const std::string sentence = gloves[h].teller->news();
+      if (sentence.empty()) continue;
+      news.sentences.push_back(gloves.size() == 1 ? sentence : "glove " + std::to_string(numbers[h]) + ": " + sentence);
+    }
+    watch(news);
   }
   server.stop();
   bare_timer.stop();
   if (server.has_failed()) throw std::runtime_error("the simulation failed: " + server.failure());
-  return finished(server.ticks(), period, scene, sliding, recorder,
+  return finished(server.ticks(), period, scene, sliding, numbers, recorder,
                   RealTimeFigures{server.statistics(), bare_timer.statistics()});
 }
 

@@ -3,13 +3,17 @@
 /// Runs of the haptic loop for the commands `demo` and `run`.
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/session.h>
+#include <glissade/apps/sliding_option.h>
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/geometry/pose_trajectory.h>
@@ -17,22 +21,36 @@
 
 namespace glissade::apps {
 
-/// Runs the whole system on a simulated clock: `ticks` milliseconds of a simulated glove that follows `script_X_WH`.
-/// Throws std::invalid_argument, naming scene and part, when the part collides at its start.
-Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks);
+/// Runs the whole system on a simulated clock: `ticks` milliseconds of a simulated glove that holds the first part and
+/// follows `script_X_WH`. Throws std::invalid_argument, naming scene and part, when a part collides at its start.
+Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks,
+                            const SlidingChoice& choice);
+
+/// A glove of a run, and the part that its hand takes at the first state.
+struct SessionHand {
+  std::int64_t device = devices::kDefaultDevice;  ///< number of the glove
+  std::optional<std::size_t> part = 0;            ///< number of the part in the scene
+};
 
 struct RunSettings {
-  std::int64_t device = devices::kDefaultDevice;  ///< number of the glove
-  double seconds = 0.0;                           ///< after the first state of the glove; 0: no limit
-  /// Of the haptic loop; default: that of the glove, within the bounds of `validate_tick_period`.
+  std::vector<SessionHand> hands{SessionHand{}};
+  SlidingChoice choice{};
+  double seconds = 0.0;  ///< after the first state of any glove; 0: no limit
+  /// Of the haptic loop; default: that of the fastest glove, within the bounds of `validate_tick_period`.
   std::optional<std::chrono::nanoseconds> period{};
 };
 
-/// Runs the haptic server in real time with a glove on `bus`, until its time is over or `should_stop` returns true.
-/// Calls `watch` ten times a second with the number of ticks so far and the news of `ReasonTeller`. Publishes
-/// HAPTIC_STATE on the bus. Throws std::invalid_argument, naming scene and part, when the part collides at its start.
+/// What a run tells ten times a second.
+struct RunNews {
+  std::int64_t ticks = 0;                      ///< so far
+  std::optional<std::int64_t> awaited_device;  ///< before the first tick: the glove that has not been heard yet
+  std::vector<std::string> sentences;          ///< news of `ReasonTeller` for each hand, and warnings
+};
+
+/// Runs the haptic server in real time with gloves on `bus`, until its time is over or `should_stop` returns true.
+/// Waits for all gloves first. Publishes HAPTIC_STATE on the bus. Throws std::invalid_argument, naming scene and part,
+/// when a part collides at its start.
 Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, const RunSettings& settings,
-                    const std::function<bool()>& should_stop,
-                    const std::function<void(std::int64_t, const std::string& news)>& watch);
+                    const std::function<bool()>& should_stop, const std::function<void(const RunNews&)>& watch);
 
 }  // namespace glissade::apps

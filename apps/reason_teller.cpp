@@ -15,17 +15,18 @@ std::size_t first_reason(const devices::LimitReasons& reasons) {
 
 }  // namespace
 
-void ReasonTeller::note(const devices::HapticState& sample) noexcept {
+void ReasonTeller::note(const devices::HapticState& sample, std::size_t number) noexcept {
+  const devices::HapticHandState& hand = sample.hands[number];
   Fading fading;
-  if (sample.reasons.is_fading()) {
-    fading = {Cause::kEnvelope, sample.reasons, sample.state_age};
+  if (hand.reasons.is_fading()) {
+    fading = {Cause::kEnvelope, hand.reasons, hand.state_age};
   } else if (sample.contact_set_age > haptics::kFullForce) {
     fading = {Cause::kOldContacts, {}, sample.contact_set_age};
-  } else if (sample.glove_reasons.is_fading()) {
-    fading = {Cause::kGlove, sample.glove_reasons, sample.command_age};
-  } else if (sample.are_contacts_unsolved) {
+  } else if (hand.glove_reasons.is_fading()) {
+    fading = {Cause::kGlove, hand.glove_reasons, hand.command_age};
+  } else if (hand.are_contacts_unsolved) {
     fading.cause = Cause::kUnsolved;
-  } else if (sample.contact_share < 0.5) {
+  } else if (hand.contact_share < 0.5) {
     fading.cause = Cause::kLagging;
   }
   note(fading);

@@ -17,8 +17,8 @@ namespace glissade::apps {
 
 class ReasonTeller {
  public:
-  /// At a server, in every tick, in the haptic thread. Wait-free, no allocation.
-  void note(const devices::HapticState& sample) noexcept;
+  /// At a server, in every tick, in the haptic thread, for the hand with this number. Wait-free, no allocation.
+  void note(const devices::HapticState& sample, std::size_t hand) noexcept;
   /// At a glove, in every period, in its thread. Wait-free, no allocation.
   void note(const devices::SafeCommand& command) noexcept;
 

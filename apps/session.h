@@ -3,8 +3,10 @@
 /// The record of a run of the haptic loop, its summary, and its output.
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,24 +22,41 @@
 
 namespace glissade::apps {
 
-/// Keeps the newest samples of a run in preallocated memory. The haptic thread fills it.
+/// The newest ticks of a run, in preallocated memory. The haptic thread fills it.
 class SessionRecorder {
  public:
-  explicit SessionRecorder(std::size_t capacity) : samples_(capacity) {}
+  struct Tick {
+    std::chrono::nanoseconds time{0};
+    std::chrono::nanoseconds contact_set_age{0};
+  };
+
+  SessionRecorder(std::size_t capacity, std::size_t parts, std::size_t hands);
 
   /// Wait-free, no allocation. One thread.
-  void record(const devices::HapticState& sample) noexcept {
-    samples_[static_cast<std::size_t>(total_) % samples_.size()] = sample;
-    ++total_;
+  void record(const devices::HapticState& sample) noexcept;
+
+  // After the run: the kept ticks are numbered from 0, the oldest first.
+  /// Number of recorded ticks, including overwritten ones.
+  std::int64_t total() const { return total_; }
+  std::size_t size() const;
+  std::size_t parts() const { return parts_; }
+  std::size_t hands() const { return hands_; }
+  const Tick& tick(std::size_t i) const { return ticks_[slot(i)]; }
+  const devices::HapticPartState& part(std::size_t i, std::size_t part) const {
+    return part_states_[slot(i) * parts_ + part];
+  }
+  const devices::HapticHandState& hand(std::size_t i, std::size_t hand) const {
+    return hand_states_[slot(i) * hands_ + hand];
   }
 
-  /// Number of recorded ticks, including overwritten ones. Call it after the run.
-  std::int64_t total() const { return total_; }
-  /// The kept samples, oldest first. Call it after the run.
-  std::vector<devices::HapticState> samples() const;
-
  private:
-  std::vector<devices::HapticState> samples_;
+  std::size_t slot(std::size_t i) const;
+
+  std::size_t parts_;
+  std::size_t hands_;
+  std::vector<Tick> ticks_;
+  std::vector<devices::HapticPartState> part_states_;
+  std::vector<devices::HapticHandState> hand_states_;
   std::int64_t total_ = 0;
 };
 
@@ -51,33 +70,49 @@ struct RealTimeFigures {
 struct Session {
   std::int64_t ticks = 0;
   std::chrono::nanoseconds period{};  ///< of the ticks
-  std::int64_t objects = 0;           ///< of the scene, including the part
+  std::int64_t objects = 0;           ///< of the scene, including the parts
   std::int64_t collision_frames = 0;  ///< searches for contacts, one frame each
   collision::FrameReport collision;   ///< sum of the reports of these frames
-  std::vector<devices::HapticState> samples;
+  std::vector<std::int64_t> devices;  ///< the number of each hand's glove
+  std::shared_ptr<const SessionRecorder> samples;
   std::optional<RealTimeFigures> real_time;  ///< none for an offline run
 };
 
-/// The figures of a session. A part counts as seated within 2 mm and 2° of the goal at the end.
-struct SessionSummary {
-  std::int64_t ticks = 0;
-  std::int64_t samples = 0;
-  std::int64_t colliding_poses = 0;
+/// The figures of a part over the kept ticks.
+struct PartSummary {
+  std::string name;
+  std::int64_t colliding_poses = 0;  ///< of the ticks: with an obstacle, or with a part before it
   double contact_fraction = 0.0;
   std::int32_t contacts_max = 0;
-  std::array<std::int64_t, devices::kPartStates> state_ticks{};  ///< samples in each state of the part, by its number
-  std::int64_t state_changes = 0;                                ///< from one sample to the next
-  double force_max_N = 0.0;
-  double force_step_max_N = 0.0;    ///< greatest change of the force from one tick to the next
-  std::int64_t lagging_ticks = 0;   ///< samples whose contacts exerted less than half of their force
-  std::int64_t unsolved_ticks = 0;  ///< samples whose contacts had no solution
-  std::array<std::int64_t, devices::kLimitReasons.size()> limited_ticks{};  ///< samples with each of `kLimitReasons`
-  std::optional<bool> seat_reached;                                         ///< none when the scene has no goal
-  double seat_distance_m = 0.0;
-  std::uint64_t hash = 0;  ///< of all visible poses and wrenches
+  std::array<std::int64_t, devices::kPartStates> state_ticks{};  ///< ticks in each state of the part, by its number
+  std::int64_t state_changes = 0;                                ///< from one tick to the next
 };
 
-/// Computes the summary. Checks the visible poses by brute force, independent of the DOP-trees, with a progress bar.
+/// The figures of a hand over the kept ticks.
+struct HandSummary {
+  std::int64_t device = 0;  ///< number of its glove
+  double force_max_N = 0.0;
+  double force_step_max_N = 0.0;    ///< greatest change of the force from one tick to the next
+  std::int64_t lagging_ticks = 0;   ///< ticks whose contacts exerted less than half of their force
+  std::int64_t unsolved_ticks = 0;  ///< ticks whose contacts had no solution
+  std::array<std::int64_t, devices::kLimitReasons.size()> limited_ticks{};  ///< ticks with each of `kLimitReasons`
+};
+
+/// The figures of a session. The first part counts as seated within 2 mm and 2° of the goal at the end.
+struct SessionSummary {
+  std::int64_t ticks = 0;
+  std::int64_t samples = 0;  ///< kept ticks
+  std::vector<PartSummary> parts;
+  std::vector<HandSummary> hands;
+  std::optional<bool> seat_reached;  ///< none when the scene has no goal
+  double seat_distance_m = 0.0;
+  std::uint64_t hash = 0;  ///< of all visible poses and wrenches
+
+  std::int64_t colliding_poses() const;
+};
+
+/// Computes the summary. Checks the visible poses of all parts by brute force, independent of the DOP-trees, with a
+/// progress bar.
 SessionSummary summarize(const Session& session, const HapticScene& scene);
 
 /// The summary as one JSON object; figures that an offline run does not have are null.

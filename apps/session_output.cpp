@@ -71,28 +71,47 @@ std::string name_of_state(std::size_t number) {
   return std::string(devices::name_of(devices::part_state_from_number(static_cast<std::int32_t>(number))));
 }
 
-std::string states_text(const SessionSummary& summary) {
+std::string states_text(const PartSummary& part, std::int64_t samples) {
   std::string text;
-  for (std::size_t i = 0; i < summary.state_ticks.size(); ++i) {
-    if (summary.state_ticks[i] == 0) continue;
-    const double share = static_cast<double>(summary.state_ticks[i]) / static_cast<double>(summary.samples);
+  for (std::size_t i = 0; i < part.state_ticks.size(); ++i) {
+    if (part.state_ticks[i] == 0) continue;
+    const double share = static_cast<double>(part.state_ticks[i]) / static_cast<double>(samples);
     text += formatted("%s %.1f %%, ", name_of_state(i).c_str(), 100.0 * share);
   }
-  return text + formatted("%lld changes", static_cast<long long>(summary.state_changes));
+  return text + formatted("%lld changes", static_cast<long long>(part.state_changes));
 }
 
 double tick_seconds(const Session& session) {
   return std::chrono::duration<double>(session.period).count();
 }
 
-std::string limits_text(const SessionSummary& summary, double tick_s) {
+std::string limits_text(const HandSummary& hand, double tick_s) {
   std::string text;
-  for (std::size_t i = 0; i < summary.limited_ticks.size(); ++i) {
-    if (summary.limited_ticks[i] == 0) continue;
+  for (std::size_t i = 0; i < hand.limited_ticks.size(); ++i) {
+    if (hand.limited_ticks[i] == 0) continue;
     text += formatted("%s%s %.3f s", text.empty() ? "" : ", ", std::string(devices::kLimitReasons[i].name).c_str(),
-                      tick_s * static_cast<double>(summary.limited_ticks[i]));
+                      tick_s * static_cast<double>(hand.limited_ticks[i]));
   }
   return text.empty() ? "none" : text;
+}
+
+std::string name_of_hand(const Session& session, std::size_t hand) {
+  return "hand of glove " + std::to_string(session.devices[hand]);
+}
+
+void add_part_rows(const PartSummary& part, const SessionSummary& summary, Rows& rows) {
+  rows.emplace_back("part " + part.name,
+                    formatted("%lld of %lld poses collide, by brute force",
+                              static_cast<long long>(part.colliding_poses), static_cast<long long>(summary.samples)));
+  rows.emplace_back("  time in contact",
+                    formatted("%.1f %%, up to %d contacts", 100.0 * part.contact_fraction, part.contacts_max));
+  rows.emplace_back("  states", states_text(part, summary.samples));
+}
+
+void add_hand_rows(const HandSummary& hand, const std::string& name, double tick_s, Rows& rows) {
+  rows.emplace_back(name, formatted("greatest force %.2f N, greatest step of it %.2f N in a tick", hand.force_max_N,
+                                    hand.force_step_max_N));
+  rows.emplace_back("  time with reduced force", limits_text(hand, tick_s));
 }
 
 Rows rows_of(const SessionSummary& summary, const Session& session) {
@@ -100,15 +119,10 @@ Rows rows_of(const SessionSummary& summary, const Session& session) {
   rows.emplace_back("objects", std::to_string(session.objects));
   rows.emplace_back("ticks", std::to_string(summary.ticks));
   if (session.real_time) add_real_time_rows(*session.real_time, rows);
-  rows.emplace_back("colliding poses",
-                    formatted("%lld of %lld, by brute force", static_cast<long long>(summary.colliding_poses),
-                              static_cast<long long>(summary.samples)));
-  rows.emplace_back("time in contact",
-                    formatted("%.1f %%, up to %d contacts", 100.0 * summary.contact_fraction, summary.contacts_max));
-  rows.emplace_back("states of the part", states_text(summary));
-  rows.emplace_back("greatest force", formatted("%.2f N", summary.force_max_N));
-  rows.emplace_back("greatest step of it", formatted("%.2f N in a tick", summary.force_step_max_N));
-  rows.emplace_back("time with reduced force", limits_text(summary, tick_seconds(session)));
+  for (const PartSummary& part : summary.parts)
+    add_part_rows(part, summary, rows);
+  for (std::size_t h = 0; h < summary.hands.size(); ++h)
+    add_hand_rows(summary.hands[h], name_of_hand(session, h), tick_seconds(session), rows);
   if (summary.seat_reached) {
     rows.emplace_back("seat reached", formatted("%s, %.3f mm from it", *summary.seat_reached ? "yes" : "no",
                                                 1e3 * summary.seat_distance_m));
@@ -118,33 +132,36 @@ Rows rows_of(const SessionSummary& summary, const Session& session) {
   return rows;
 }
 
-PlotSeries series_of(const std::vector<devices::HapticState>& samples, const std::string& name,
-                     double (*value)(const devices::HapticState&)) {
+double seconds_of_tick(const SessionRecorder& samples, std::size_t i) {
+  return std::chrono::duration<double>(samples.tick(i).time - samples.tick(0).time).count();
+}
+
+/// `value` of the number of a kept tick.
+template <typename Value>
+PlotSeries series_of(const SessionRecorder& samples, const std::string& name, const Value& value) {
   PlotSeries series{name, {}, {}};
-  const std::chrono::nanoseconds start = samples.empty() ? std::chrono::nanoseconds(0) : samples.front().time;
-  for (const devices::HapticState& sample : samples) {
-    series.x.push_back(std::chrono::duration<double>(sample.time - start).count());
-    series.y.push_back(value(sample));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    series.x.push_back(seconds_of_tick(samples, i));
+    series.y.push_back(value(i));
   }
   return series;
 }
 
 /// The share of each state in each stretch of the run: a state may last a millisecond, which is less than a pixel.
-Plot plot_of_states(const std::vector<devices::HapticState>& samples) {
+Plot plot_of_states(const SessionRecorder& samples, std::size_t part, const std::string& name) {
   constexpr std::size_t kMostStretches = 300;
   const std::size_t stretch = std::max<std::size_t>(1, (samples.size() + kMostStretches - 1) / kMostStretches);
-  Plot plot{"States of the part", "time [s]", "share of the time [%]", {}};
+  Plot plot{"States of " + name, "time [s]", "share of the time [%]", {}};
   for (std::size_t state = 0; state < static_cast<std::size_t>(devices::kPartStates); ++state) {
     PlotSeries series{name_of_state(state), {}, {}};
     bool occurs = false;
     for (std::size_t first = 0; first < samples.size(); first += stretch) {
       const std::size_t end = std::min(first + stretch, samples.size());
-      const auto count = std::count_if(samples.data() + first, samples.data() + end, [&](const auto& sample) {
-        return static_cast<std::size_t>(sample.part_state) == state;
-      });
+      std::size_t count = 0;
+      for (std::size_t i = first; i < end; ++i)
+        if (static_cast<std::size_t>(samples.part(i, part).state) == state) ++count;
       occurs = occurs || count > 0;
-      const auto middle = (samples[first].time + samples[end - 1].time) / 2 - samples.front().time;
-      series.x.push_back(std::chrono::duration<double>(middle).count());
+      series.x.push_back(0.5 * (seconds_of_tick(samples, first) + seconds_of_tick(samples, end - 1)));
       series.y.push_back(100.0 * static_cast<double>(count) / static_cast<double>(end - first));
     }
     if (occurs) plot.series.push_back(std::move(series));
@@ -152,31 +169,65 @@ Plot plot_of_states(const std::vector<devices::HapticState>& samples) {
   return plot;
 }
 
-std::vector<Plot> plots_of(const std::vector<devices::HapticState>& samples) {
-  using devices::HapticState;
-  const auto line = [&](const char* name, double (*value)(const HapticState&)) {
-    return series_of(samples, name, value);
-  };
-  return {
-      {"Force on the hand",
-       "time [s]",
-       "force [N]",
-       {line("magnitude", [](const HapticState& s) { return s.force_on_hand_W.norm(); }),
-        line("x", [](const HapticState& s) { return s.force_on_hand_W.x(); }),
-        line("y", [](const HapticState& s) { return s.force_on_hand_W.y(); }),
-        line("z", [](const HapticState& s) { return s.force_on_hand_W.z(); })}},
-      {"Lag of the visible part behind the ghost",
-       "time [s]",
-       "lag [mm]",
-       {line("lag", [](const HapticState& s) { return 1e3 * (s.X_WG.translation() - s.X_WV.translation()).norm(); })}},
-      {"Contacts that push",
-       "time [s]",
-       "contacts",
-       {line("contacts", [](const HapticState& s) { return static_cast<double>(s.contact_count); })}},
-      plot_of_states(samples),
-      {"Age of the contact set", "time [s]", "age [ms]", {line("age", [](const HapticState& s) {
-         return 1e-6 * static_cast<double>(s.contact_set_age.count());
-       })}}};
+Plot plot_of_force(const SessionRecorder& samples, std::size_t hand, const std::string& name) {
+  const auto force = [&, hand](std::size_t i) -> const Eigen::Vector3d& { return samples.hand(i, hand).force_W; };
+  return {"Force on the " + name,
+          "time [s]",
+          "force [N]",
+          {series_of(samples, "magnitude", [&](std::size_t i) { return force(i).norm(); }),
+           series_of(samples, "x", [&](std::size_t i) { return force(i).x(); }),
+           series_of(samples, "y", [&](std::size_t i) { return force(i).y(); }),
+           series_of(samples, "z", [&](std::size_t i) { return force(i).z(); })}};
+}
+
+std::vector<Plot> plots_of(const SessionSummary& summary, const Session& session) {
+  const SessionRecorder& samples = *session.samples;
+  std::vector<Plot> plots;
+  for (std::size_t h = 0; h < samples.hands(); ++h)
+    plots.push_back(plot_of_force(samples, h, name_of_hand(session, h)));
+  Plot lag{"Lag of the visible parts behind their ghosts", "time [s]", "lag [mm]", {}};
+  Plot contacts{"Contacts that push", "time [s]", "contacts", {}};
+  for (std::size_t p = 0; p < samples.parts(); ++p) {
+    const std::string& name = summary.parts[p].name;
+    lag.series.push_back(series_of(samples, name, [&](std::size_t i) {
+      const devices::HapticPartState& part = samples.part(i, p);
+      return 1e3 * (part.X_WG.translation() - part.X_WV.translation()).norm();
+    }));
+    contacts.series.push_back(
+        series_of(samples, name, [&](std::size_t i) { return static_cast<double>(samples.part(i, p).contact_count); }));
+  }
+  plots.push_back(std::move(lag));
+  plots.push_back(std::move(contacts));
+  for (std::size_t p = 0; p < samples.parts(); ++p)
+    plots.push_back(plot_of_states(samples, p, summary.parts[p].name));
+  plots.push_back({"Age of the contact set", "time [s]", "age [ms]", {series_of(samples, "age", [&](std::size_t i) {
+                     return 1e-6 * static_cast<double>(samples.tick(i).contact_set_age.count());
+                   })}});
+  return plots;
+}
+
+nlohmann::json to_json(const PartSummary& part, double tick_s) {
+  nlohmann::json states;
+  for (std::size_t i = 0; i < part.state_ticks.size(); ++i)
+    states[name_of_state(i)] = tick_s * static_cast<double>(part.state_ticks[i]);
+  return {{"name", part.name},
+          {"colliding_poses", part.colliding_poses},
+          {"contact_fraction", part.contact_fraction},
+          {"contacts_max", part.contacts_max},
+          {"state_s", states},
+          {"state_changes", part.state_changes}};
+}
+
+nlohmann::json to_json(const HandSummary& hand, double tick_s) {
+  nlohmann::json limits;
+  for (std::size_t i = 0; i < hand.limited_ticks.size(); ++i)
+    limits[std::string(devices::kLimitReasons[i].name)] = tick_s * static_cast<double>(hand.limited_ticks[i]);
+  return {{"device", hand.device},
+          {"force_max_N", hand.force_max_N},
+          {"force_step_max_N", hand.force_step_max_N},
+          {"limited_s", limits},
+          {"lagging_s", tick_s * static_cast<double>(hand.lagging_ticks)},
+          {"unsolved_s", tick_s * static_cast<double>(hand.unsolved_ticks)}};
 }
 
 }  // namespace
@@ -189,12 +240,12 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
     return nlohmann::json{{"in", each(sum.in)}, {"out", each(sum.out)}, {"us", each(microseconds(sum.time))}};
   };
   const double tick_s = tick_seconds(session);
-  nlohmann::json states;
-  for (std::size_t i = 0; i < summary.state_ticks.size(); ++i)
-    states[name_of_state(i)] = tick_s * static_cast<double>(summary.state_ticks[i]);
-  nlohmann::json limits;
-  for (std::size_t i = 0; i < summary.limited_ticks.size(); ++i)
-    limits[std::string(devices::kLimitReasons[i].name)] = tick_s * static_cast<double>(summary.limited_ticks[i]);
+  nlohmann::json parts = nlohmann::json::array();
+  for (const PartSummary& part : summary.parts)
+    parts.push_back(to_json(part, tick_s));
+  nlohmann::json hands = nlohmann::json::array();
+  for (const HandSummary& hand : summary.hands)
+    hands.push_back(to_json(hand, tick_s));
   nlohmann::json json = {{"ticks", summary.ticks},
                          {"objects", session.objects},
                          {"collision_frames", session.collision_frames},
@@ -205,19 +256,12 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
                            {"exact", stage(session.collision.exact)},
                            {"result", stage(session.collision.result)}}},
                          {"late_ticks", 0},
-                         {"colliding_poses", summary.colliding_poses},
+                         {"colliding_poses", summary.colliding_poses()},
+                         {"parts", parts},
+                         {"hands", hands},
                          {"checked_poses", summary.samples},
-                         {"contact_fraction", summary.contact_fraction},
-                         {"contacts_max", summary.contacts_max},
-                         {"state_s", states},
-                         {"state_changes", summary.state_changes},
                          {"seat_reached", nullptr},
                          {"seat_distance_m", nullptr},
-                         {"force_max_N", summary.force_max_N},
-                         {"force_step_max_N", summary.force_step_max_N},
-                         {"limited_s", limits},
-                         {"lagging_s", tick_s * static_cast<double>(summary.lagging_ticks)},
-                         {"unsolved_s", tick_s * static_cast<double>(summary.unsolved_ticks)},
                          {"tick_us_p50", nullptr},
                          {"tick_us_p99", nullptr},
                          {"lateness_us_p50", nullptr},
@@ -253,7 +297,7 @@ std::string to_text(const SessionSummary& summary, const Session& session) {
 
 std::string write_session_report(const SessionSummary& summary, const Session& session, const std::string& title,
                                  const std::string& folder) {
-  return write_html_report({title, rows_of(summary, session), plots_of(session.samples)}, folder);
+  return write_html_report({title, rows_of(summary, session), plots_of(summary, session)}, folder);
 }
 
 void conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json,
@@ -269,8 +313,8 @@ void conclude(const Session& session, const HapticScene& scene, const std::strin
     if (!as_json) std::cout << "  report                       " << page << '\n';
   }
   std::cout.flush();
-  if (summary.colliding_poses > 0) {
-    throw std::runtime_error(std::to_string(summary.colliding_poses) + " visible poses collide");
+  if (summary.colliding_poses() > 0) {
+    throw std::runtime_error(std::to_string(summary.colliding_poses()) + " visible poses collide");
   }
 }
 

@@ -35,7 +35,8 @@ class Clearance {
     std::size_t body = 0;
     const auto look_at = [&](const collision::DopTree& tree, const Eigen::Isometry3d& X_WB) {
       const Eigen::Isometry3d X_BV = X_WB.inverse(Eigen::Isometry) * sliding.result().X_WV;
-      least = std::min(least, collision::gap_lower_bound(tree, scene_.part_V->tree, X_BV, workspaces_[body++], least));
+      least = std::min(
+          least, collision::gap_lower_bound(tree, scene_.parts.front().part_V->tree, X_BV, workspaces_[body++], least));
     };
     for (const haptics::Obstacle& obstacle : scene_.obstacles)
       look_at(obstacle.body->tree, obstacle.X_WO);
@@ -79,8 +80,8 @@ std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& sce
   for (haptics::ScriptedPart& part : moving)
     part.start = trajectory.first_time();
   try {
-    return haptics::make_sliding(options.method, scene.obstacles, scene.part_V,
-                                 trajectory.pose_at(trajectory.first_time()), options.sliding, std::move(moving));
+    return haptics::make_sliding(options.method, scene.obstacles, scene.parts.front().part_V,
+                                 trajectory.pose_at(trajectory.first_time()), options.sliding, moving);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(std::string(error.what()) + ", at the time of the first row");
   }
@@ -143,7 +144,7 @@ void write_checks(const std::vector<SlideCheck>& checks, const std::string& path
 
 Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& options) {
   Report report;
-  report.title = "Assembly check of " + scene.part_name;
+  report.title = "Assembly check of " + scene.parts.front().name;
   const auto reached = std::count_if(checks.begin(), checks.end(),
                                      [](const SlideCheck& check) { return !check.problem && check.goal_reached; });
   report.summary.emplace_back("scene", scene.source);

@@ -1,5 +1,6 @@
 #include <atomic>
 #include <csignal>
+#include <ctime>
 
 #include <glissade/apps/stop_signal.h>
 
@@ -9,21 +10,41 @@ namespace {
 
 // A signal may arrive on any thread, and a handler must not lock.
 std::atomic<bool> stop_requested = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<std::time_t> requested_at_s = 0;
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::time_t>::is_always_lock_free);
 
-void on_signal(int) {
-  stop_requested = true;
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+/// Longer than a force needs to fade.
+constexpr std::time_t kPatience_s = 2;
+
+std::time_t monotonic_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec;
+}
+
+void on_signal(int number) {
+  if (!stop_requested.exchange(true)) {
+    requested_at_s = monotonic_seconds();
+    return;
+  }
+  if (monotonic_seconds() - requested_at_s < kPatience_s) return;
+  std::signal(number, SIG_DFL);
+  std::raise(number);
+}
+
+/// Leaves alone what somebody has installed before.
+void ignore_by_default(int number) {
+  const auto before = std::signal(number, SIG_IGN);
+  if (before != SIG_DFL && before != SIG_ERR) std::signal(number, before);
 }
 
 }  // namespace
 
 StopSignal::StopSignal() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
+    std::signal(number, on_signal);
+  for (const int number : {SIGPIPE, SIGXFSZ, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF})
+    ignore_by_default(number);
 }
 
 bool StopSignal::requested() {

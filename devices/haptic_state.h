@@ -1,10 +1,12 @@
 #pragma once
 
-/// The state after one haptic tick, i.e. one cycle of the 1 kHz loop that computes the force, as viewers and recorders
-/// see it. The part is the object in the hand. Frames: W world; V visible part, the pose at which the part is shown;
+/// The state after one haptic tick, i.e. one cycle of the 1 kHz loop that computes the forces, as viewers and recorders
+/// see it. A part is an object that hands move. Frames: W world; V visible part, the pose at which the part is shown;
 /// G ghost, where the part would be if nothing were in the way.
 
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -35,20 +37,27 @@ std::string_view name_of(PartState state);
 /// The state with this number; kUnknown for any other number.
 PartState part_state_from_number(std::int32_t number) noexcept;
 
-/// One haptic tick. The contact set is the newest answer of the simulation to a pose of the ghost: the pose X_WV and
-/// the contacts of the part.
-struct HapticState {
-  std::int64_t sequence = 0;         ///< ≥ 0, increases with every tick
-  std::chrono::nanoseconds time{0};  ///< time of the tick, on the haptic loop's clock
-  Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();
+/// Maximum number of parts and of hands in a `HapticState`.
+inline constexpr std::size_t kHapticParts = 4;
+inline constexpr std::size_t kHapticHands = 4;
+
+/// A part after one haptic tick.
+struct HapticPartState {
+  Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< of a part that no hand holds: X_WV
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d force_on_hand_W = Eigen::Vector3d::Zero();     ///< N
-  Eigen::Vector3d torque_on_hand_V_W = Eigen::Vector3d::Zero();  ///< Nm, about the origin of V, in world axes
-  PartState part_state = PartState::kUnknown;
-  std::int32_t contact_count = 0;               ///< contacts that push
-  std::chrono::nanoseconds contact_set_age{0};  ///< time since that ghost pose; 0 before the first set
-  bool is_in_contact = false;                   ///< at least one contact pushes
-  bool is_contact_set_late = false;             ///< the contact set was older than 5 ms
+  PartState state = PartState::kUnknown;
+  std::int32_t contact_count = 0;  ///< contacts that push
+
+  bool is_in_contact() const noexcept { return contact_count > 0; }
+};
+
+/// A hand after one haptic tick.
+struct HapticHandState {
+  std::int32_t part = -1;  ///< number of the part that it holds; −1: none
+  /// The wrench on the hand as its device got it, in world axes: N; Nm about the origin of V, or of the hand root while
+  /// it holds nothing.
+  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();
+  Eigen::Vector3d torque_V_W = Eigen::Vector3d::Zero();
   /// The share of the contacts' force that is exerted: less than 1 where they are old, or where the hand has left them
   /// and the part lags behind, and while the force returns from there.
   double contact_share = 1.0;
@@ -59,6 +68,19 @@ struct HapticState {
   std::chrono::nanoseconds command_age{0};  ///< `GloveState::command_age`
   double energy = 0.0;                      ///< `SafeCommand::energy`, J
   double glove_energy = 0.0;                ///< `GloveState::energy`
+};
+
+/// One haptic tick. The contact set is the newest answer of the simulation to a pose of each ghost: the poses X_WV and
+/// the contacts of the parts.
+struct HapticState {
+  std::int64_t sequence = 0;                    ///< ≥ 0, increases with every tick
+  std::chrono::nanoseconds time{0};             ///< time of the tick, on the haptic loop's clock
+  std::chrono::nanoseconds contact_set_age{0};  ///< time since these ghost poses; 0 before the first set
+  bool is_contact_set_late = false;             ///< the contact set was older than 5 ms
+  std::int32_t part_count = 1;
+  std::int32_t hand_count = 1;
+  std::array<HapticPartState, kHapticParts> parts{};
+  std::array<HapticHandState, kHapticHands> hands{};
 };
 
 }  // namespace glissade::devices

@@ -19,9 +19,14 @@ constexpr double kJumpTolerance_m = 1e-3;
 constexpr double kTurnTolerance = 1e-2;  // rad
 constexpr double kSpeedMismatch = 0.5;   // share of the largest speed
 constexpr double kStartEnergy_J = 0.1;
-constexpr double kMostEnergy_J = 0.5;
-constexpr double kReserve_J = 0.05;      // not given away, because the rates come after this limit
+constexpr double kMostEnergy_m = 0.25;  // times the largest force
+constexpr double kLeastScale = 0.2;     // where all energy is gone: with less, the hand could give none
+constexpr double kScaleFall_s = 0.03;
+constexpr double kScaleRise_s = 0.3;
+constexpr double kReserve_J = 0.005;     // not given away, because the rates come after this limit
+constexpr double kRecovery_W = 0.1;      // without a force, up to the energy at the start
 constexpr double kEnergyPeriods = 10.0;  // longer than a fade
+constexpr nanoseconds kReturnIsFree = std::chrono::milliseconds(500);
 constexpr nanoseconds kHalfSecond = std::chrono::milliseconds(500);
 constexpr nanoseconds kLongestDelay = std::chrono::milliseconds(150);
 
@@ -62,8 +67,8 @@ bool is_finite(nanoseconds time) noexcept {
 }
 
 bool is_finite(const GloveCommand& command) noexcept {
-  return is_finite(command.state_time) && command.f_H_W.allFinite() && command.t_H_W.allFinite() &&
-         all_finite(command.joint_torques);
+  return std::isfinite(command.supply) && is_finite(command.state_time) && command.f_H_W.allFinite() &&
+         command.t_H_W.allFinite() && all_finite(command.joint_torques);
 }
 
 bool is_finite(const GloveState& state) noexcept {
@@ -111,7 +116,10 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
     safe.age_ = age_of(wanted.state_time, now);
     observe_delay(safe.age_, now);
   }
-  if (is_finite(wanted)) wanted_ = {wanted.f_H_W, wanted.t_H_W, wanted.joint_torques};
+  if (is_finite(wanted)) {
+    wanted_ = {wanted.f_H_W, wanted.t_H_W, wanted.joint_torques};
+    take_supply(wanted.supply, dt);
+  }
   const double change = reasons.is_fading() ? -dt / (kFadePeriods * seconds(period_)) : dt / kReturn_s;
   gain_ = std::clamp(gain_ + change, 0.0, 1.0);
   reasons.is_returning = !reasons.is_fading() && gain_ < 1.0;
@@ -125,6 +133,7 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
       torque *= gain_;
   }
   limit_power(forces, reasons);
+  settle_energy(!last_.f.isZero(0.0) || !last_.t.isZero(0.0), now, dt);
   limit_energy(forces, dt, reasons);
   limit_rates(forces, dt, reasons);
   // Cannot happen; but NaN would pass all limits above, and stay.
@@ -180,7 +189,20 @@ void SafetyEnvelope::observe_work(const GloveState& state) noexcept {
   if (!has_state_ || summed_ == 0) return;
   const Eigen::Vector3d moved = state.X_WH.translation() - state_.X_WH.translation();
   const Eigen::Vector3d turned = turn_between(state_.X_WH.linear(), state.X_WH.linear());
-  energy_ = std::min(energy_ - (f_sum_.dot(moved) + t_sum_.dot(turned)) / summed_, kMostEnergy_J);
+  energy_ = std::min(energy_ - (f_sum_.dot(moved) + t_sum_.dot(turned)) / summed_, most_energy());
+}
+
+double SafetyEnvelope::most_energy() const noexcept {
+  return std::max(kStartEnergy_J, kMostEnergy_m * descriptor_.max_force);
+}
+
+void SafetyEnvelope::take_supply(double supply, double dt) noexcept {
+  // Another sender counts from another beginning.
+  if (!supply_ || std::abs(supply - *supply_) > most_energy()) supply_ = supply;
+  const double most = descriptor_.max_power * dt;
+  const double step = std::clamp(supply - *supply_, -most, most);
+  *supply_ += step;
+  energy_ = std::min(std::max(energy_ + step, std::min(energy_, 0.0)), most_energy());
 }
 
 void SafetyEnvelope::observe_delay(nanoseconds age, nanoseconds now) noexcept {
@@ -224,7 +246,10 @@ bool SafetyEnvelope::is_plausible(const GloveState& state) noexcept {
 void SafetyEnvelope::update_offset(const GloveState& state, nanoseconds now) noexcept {
   const nanoseconds difference = now - state.time;
   const bool is_first = !has_state_ || state.time < state_.time;
-  if (is_first || (late_since_ && now - *late_since_ > kLateForGood)) {
+  // A clock that stands still does not go wrong, it fails.
+  const bool is_late_for_good =
+      late_since_ && now - *late_since_ > kLateForGood && state.time - late_time_ > kLateForGood / 2;
+  if (is_first || is_late_for_good) {
     offset_ = difference;
   } else {
     offset_ = std::min(offset_ + (state.time - state_.time) / kDriftShare, difference);
@@ -233,6 +258,7 @@ void SafetyEnvelope::update_offset(const GloveState& state, nanoseconds now) noe
     late_since_.reset();
   } else if (!late_since_) {
     late_since_ = now;
+    late_time_ = state.time;
   }
 }
 
@@ -298,32 +324,30 @@ void SafetyEnvelope::limit_power(Forces& forces, LimitReasons& reasons) const no
 
 // A glove behind a link has an envelope of its own, which knows the motion without delay.
 //
-// First a damper along the force, which neither jumps nor acts on a hand at rest; it goes slowly. A scale for what the
-// damper cannot take.
+// The wrench shrinks smoothly with the energy that is left. A scale that followed the motion would switch on and off: a
+// hand at rest must find the same force from tick to tick. What remains to be cut at once is small.
 void SafetyEnvelope::limit_energy(Forces& forces, double dt, LimitReasons& reasons) noexcept {
   if (state_.link_delay > nanoseconds(0)) return;
-  const double horizon = kEnergyPeriods * seconds(period_);
+  const double left = std::clamp(energy_ / kStartEnergy_J, 0.0, 1.0);
+  const double target = kLeastScale + (1.0 - kLeastScale) * left * left * (3.0 - 2.0 * left);
+  energy_scale_ += std::clamp(target - energy_scale_, -dt / kScaleFall_s, dt / kScaleRise_s);
+  double scale = energy_scale_;
+  const double work =
+      kEnergyPeriods * seconds(period_) * scale * (forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH));
   const double available = std::max(0.0, energy_ - kReserve_J);
-  const auto excess = [&] { return horizon * (forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH)) - available; };
-  const double force = forces.f.norm();
-  const Eigen::Vector3d direction = force > 0.0 ? Eigen::Vector3d(forces.f / force) : Eigen::Vector3d::Zero();
-  const double speed = direction.dot(state_.v_WH);
-  energy_damping_ = std::max(0.0, energy_damping_ - dt / kReturn_s * descriptor_.max_damping);
-  if (speed > 0.0 && excess() > 0.0) {
-    const double needed = excess() / (horizon * speed * speed);
-    energy_damping_ = std::max(energy_damping_, std::min(needed, descriptor_.max_damping));
-  }
-  if (energy_damping_ > 0.0) {
-    forces.f -= std::clamp(energy_damping_ * speed, -force, force) * direction;
-    limit_norm(forces.f, descriptor_.max_force);
-    reasons.energy_limited = true;
-  }
-  const double left = excess();
-  if (!(left > 0.0)) return;
-  const double scale = available / (available + left);
+  if (work > available) scale *= available / work;
+  if (scale >= 1.0) return;
   forces.f *= scale;
   forces.t *= scale;
   reasons.energy_limited = true;
+}
+
+/// What was given or kept in a contact is settled when there is no force any more, and while the force returns from an
+/// interruption, in which the hand may have gone anywhere.
+void SafetyEnvelope::settle_energy(bool has_force, nanoseconds now, double dt) noexcept {
+  if (gain_ < 1.0) free_until_ = now + kReturnIsFree;
+  if (now < free_until_) energy_ = std::max(energy_, kStartEnergy_J);
+  if (!has_force) energy_ = std::min(kStartEnergy_J, energy_ + kRecovery_W * dt);
 }
 
 void SafetyEnvelope::limit_rates(Forces& forces, double dt, LimitReasons& reasons) const noexcept {

@@ -46,16 +46,22 @@ std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
 ///
 /// Ages are measured from the times of measurement that states carry. The clock of the glove and that of the caller may
 /// differ: the fastest message so far gives the difference, which may grow by 0.2 ms a second. If all states
-/// that come within a second are late, or if the glove's clock goes back, the difference is taken anew.
+/// that come within a second are late while their own time goes on, or if the glove's clock goes back, the difference
+/// is taken anew.
 ///
 /// A passivity observer counts the work of force and torque on the hand, by the measured motion and the command that
-/// was given, i.e. after all limits. The energy is what the hand has put in and not got back, at most 0.5 J, and 0.1 J
-/// at the start for errors of sampling. Where the wrench would give back more within ten periods, the controller damps
-/// the motion along the force, by at most `max_damping` and the force itself, for up to 200 ms; and scales the wrench
-/// where this does not suffice. A wrench of zero stays zero. For a glove that tells the
-/// delay of its link, the envelope at the glove's end does this alone. So no delay and no error of the simulation can
-/// feed an oscillation. Joint torques are not counted. Source: Hannaford and Ryu, Time-domain passivity control of
-/// haptic interfaces, 2002; here the damper is never stronger than the force, so that nothing is felt in free air.
+/// was given, i.e. after all limits. The energy is what the hand has put in and not got back, at most 0.25 m times the
+/// largest force, and 0.1 J at the start for errors of sampling. Below 0.1 J the wrench shrinks smoothly with the
+/// energy, to a fifth; what this would still give too much within ten periods is cut. When there is no force any more,
+/// the energy is at most 0.1 J, and recovers by 0.1 W; while the force returns from an interruption and up to half a
+/// second after, it is at least 0.1 J. For a glove that tells the delay of its link, the envelope at the glove's end
+/// does this alone. So no delay and no error of the simulation can feed an oscillation, and a hand at rest feels no
+/// change. Joint torques are not counted. Sources: Hannaford and Ryu, Time-domain passivity control of haptic
+/// interfaces, 2002, for the observer; Franken et al., Bilateral telemanipulation with time delays: a two-layer
+/// approach combining passivity and transparency, 2011, for the shrinking with the energy in a tank.
+///
+/// What moves without the hand may push it. `GloveCommand::supply` tells the energy for that: it counts as if the hand
+/// had put it in, by at most the largest power.
 ///
 /// A link that delays every command alike, by up to 150 ms for the whole round trip, does not make commands old: their
 /// age is then counted from the delay that all commands of the last half second or more had (`link_delay`).
@@ -105,6 +111,9 @@ class SafetyEnvelope {
   void limit_norms(Forces& forces, LimitReasons& reasons) const noexcept;
   void limit_power(Forces& forces, LimitReasons& reasons) const noexcept;
   void observe_work(const GloveState& state) noexcept;
+  void take_supply(double supply, double dt) noexcept;
+  double most_energy() const noexcept;
+  void settle_energy(bool has_force, std::chrono::nanoseconds now, double dt) noexcept;
   void observe_delay(std::chrono::nanoseconds age, std::chrono::nanoseconds now) noexcept;
   std::chrono::nanoseconds oldest_command() const noexcept;
   void limit_energy(Forces& forces, double dt, LimitReasons& reasons) noexcept;
@@ -126,7 +135,9 @@ class SafetyEnvelope {
   std::chrono::nanoseconds last_call_{0};
 
   double energy_;
-  double energy_damping_ = 0.0;                      // N s/m
+  std::optional<double> supply_;  // J, of `GloveCommand::supply`, as far as it is taken
+  double energy_scale_ = 1.0;
+  std::chrono::nanoseconds free_until_{0};           // up to then the force returns, and its work is not counted
   Eigen::Vector3d f_sum_ = Eigen::Vector3d::Zero();  // of the commands since the newest state
   Eigen::Vector3d t_sum_ = Eigen::Vector3d::Zero();
   int summed_ = 0;
@@ -139,6 +150,7 @@ class SafetyEnvelope {
   GloveState state_;                                    // newest finite one
   std::chrono::nanoseconds pose_time_{0};               // since when the pose repeats to the bit
   std::chrono::nanoseconds offset_{0};                  // caller's clock minus glove's clock
+  std::chrono::nanoseconds late_time_{0};               // the time of that state
   std::optional<std::chrono::nanoseconds> late_since_;  // when the first state came that was late, as all after it
   std::chrono::nanoseconds distrust_until_{0};
 };

@@ -38,7 +38,7 @@ bool SimulatedGloveService::tick(std::chrono::nanoseconds deadline) noexcept {
   state_ = glove_.step(passed, command);
   state_.time = deadline;  // a real glove's clock runs on, also while the wearer waits
   send(state_);
-  if (observer_) observer_(state_, command);
+  if (observer_ && !observer_(state_, command)) host_.stop();
   script_time_.store(script_time() + passed, std::memory_order_relaxed);
   if (!should_end_.load(std::memory_order_acquire)) return true;
   constexpr int kLongestEnd = 100;  // periods; longer than any fade of this glove

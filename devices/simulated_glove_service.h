@@ -23,8 +23,9 @@ namespace glissade::devices {
 /// periods.
 class SimulatedGloveService {
  public:
-  /// Gets the new state and the command that led to it, in each period, in the thread of the service.
-  using Observer = std::function<void(const GloveState&, const SafeCommand&)>;
+  /// Gets the new state and the command that led to it, in each period, in the thread of the service. Returns whether
+  /// the force may go on; once it may not, it fades for good.
+  using Observer = std::function<bool(const GloveState&, const SafeCommand&)>;
 
   /// Throws std::invalid_argument when the bus is null or cannot receive. The clock must outlive the service.
   SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock,

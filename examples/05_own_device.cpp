@@ -71,8 +71,9 @@ int main(int argc, char** argv) {
   const haptics::Wrench wrench = haptics::spring_wrench(sliding.stiffness(), sliding.error());
   std::cout << "wrench on the hand: " << wrench.f.transpose() << " N, " << wrench.t.transpose() << " Nm\n";
   MyGlove glove;  // the same part on the device, in real time for two seconds
-  haptics::Sliding live(obstacles, part_V, at(0.0, 0.0, 0.002), {.rules = haptics::real_time_rules()});
-  haptics::HapticServer server(glove, live, clock, [](const devices::HapticState&) {}, {.ticks = 2000});
+  haptics::MultiPartSliding live(obstacles, {{.part_V = part_V, .X_WV_start = at(0.0, 0.0, 0.002)}},
+                                 haptics::real_time_rules());
+  haptics::HapticServer server({{&glove}}, live, clock, [](const devices::HapticState&) {}, {.ticks = 2000});
   while (!server.is_done())
     clock.sleep_until(clock.now() + std::chrono::milliseconds(10));
   server.stop();

@@ -1,7 +1,8 @@
 #pragma once
 
-/// What the simulation passes to the haptic thread (the 1 kHz loop that computes the force): the visible pose of a part
-/// and the constraints of the contacts near that pose, as plain data of a fixed size.
+/// What the haptic thread (the 1 kHz loop that computes the forces) and the simulation pass to each other, as plain
+/// data of a fixed size: the ghosts of all parts one way; the visible poses and the constraints of the contacts near
+/// them the other way.
 
 #include <array>
 #include <chrono>
@@ -14,6 +15,7 @@
 
 #include <glissade/geometry/displacement.h>
 #include <glissade/haptics/sliding_result.h>
+#include <glissade/haptics/sliding_rules.h>
 
 namespace glissade::haptics {
 
@@ -28,43 +30,83 @@ struct ConstraintRow {
   Eigen::Vector3d n;  ///< unit normal, from the obstacle to the part, world axes
   Eigen::Vector3d r;  ///< from the reference point to the contact point, world axes, metres
   double bound;       ///< metres; at most 0 if the constraint allows standing still
-  double range = std::numeric_limits<double>::infinity();  ///< metres: `Contact::range`
-  double approach = 0.0;  ///< m/s: `Contact::approach`, by which the bound grows with the age of the set
 
   /// The left side of the constraint: the motion of the contact point along n, in metres.
   double velocity(const geometry::Displacement& d) const { return n.dot(d.v + d.w.cross(r)); }
 };
 
-/// Maximum number of rows, i.e. constraints, in a contact set. Without friction, at most six contacts of a single part
+/// A constraint on the displacements of several parts: on the displacement of `part`, or for a contact of two parts, on
+/// that of `part` relative to `other`.
+struct CoupledRow : ConstraintRow {
+  std::int32_t part = 0;
+  std::int32_t other = -1;                            ///< −1 for an obstacle
+  Eigen::Vector3d r_other = Eigen::Vector3d::Zero();  ///< as r, for the other part
+
+  double velocity(std::span<const geometry::Displacement> d) const {
+    const double own = ConstraintRow::velocity(d[static_cast<std::size_t>(part)]);
+    return other < 0 ? own : own - ConstraintRow{n, r_other, 0.0}.velocity(d[static_cast<std::size_t>(other)]);
+  }
+};
+
+/// The constraint of a contact, and how far it holds. The other side is an obstacle, unless another hand leads it.
+struct ContactRow : CoupledRow {
+  double range = std::numeric_limits<double>::infinity();  ///< metres: `Contact::range`
+  double approach = 0.0;  ///< m/s: `Contact::approach`, by which the bound grows with the age of the set
+  bool pushes = false;    ///< it has a positive force
+  /// Friction on the part divided by the normal force, in world axes; perpendicular to the normal, and no longer than
+  /// the coefficient of friction. Zero for contacts that do not push.
+  Eigen::Vector3d friction_ratio_W = Eigen::Vector3d::Zero();
+};
+
+/// Maximum number of rows of one part in a contact set. Without friction, at most six contacts of a single part
 /// push at once; the other rows are the nearest contacts, which may push soon. Finely tessellated faces that lie flush
 /// may have more than 64 contacts; the set then omits the farthest contacts.
 inline constexpr std::size_t kMaxContactRows = 64;
 
-/// The simulation's answer to one pose of the ghost, i.e. to a pose that the part would have if nothing were in the
-/// way.
-struct ContactSet {
-  std::int64_t sequence = 0;                               ///< 1, 2, 3, … in the order of the sets; 0: no set yet
-  std::chrono::nanoseconds time{0};                        ///< time of the ghost pose that the set answers
-  Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part, as displayed
+/// The simulation's answer for one part.
+struct PartAnswer {
+  Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();          ///< the visible part, as displayed
   Eigen::Isometry3d X_WV_of_rows = Eigen::Isometry3d::Identity();  ///< the pose at which the rows were found
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();          ///< the ghost that the set answers
   /// The target in the frame of the ghost. Not the identity where the hand holds the part at an offset, or where the
   /// metaphor wants another pose than the ghost's.
   Eigen::Isometry3d X_GT = Eigen::Isometry3d::Identity();
   /// Metres: with the part at X_WV_of_rows, the simulation found every contact with a gap smaller than this. The set
-  /// has a row for each contact found, except for the `dropped` ones. For the paper's method see
-  /// `SlidingResult::reach`.
+  /// has a row for each contact found, except for the `dropped` ones.
   double reach = 0.0;
   SlidingState state = SlidingState::kFree;
-  std::int32_t pushing = 0;                                ///< number of contacts that push, i.e. have a positive force
-  std::int32_t dropped = 0;                                ///< contacts without a row, beyond kMaxContactRows
-  std::int32_t row_count = 0;                              ///< rows in use
-  std::array<ConstraintRow, kMaxContactRows> row_array{};  ///< first the pushing contacts, then the others
-  /// For each row: friction on the part divided by the normal force, in world axes; perpendicular to the normal, and no
-  /// longer than the coefficient of friction. Zero for contacts that do not push.
-  std::array<Eigen::Vector3d, kMaxContactRows> friction_ratio_W{};
+  std::int32_t pushing = 0;  ///< number of contacts that push, i.e. have a positive force
+  std::int32_t dropped = 0;  ///< contacts without a row, beyond kMaxContactRows
+  std::int64_t hold = 0;     ///< `GhostOfPart::hold` of the ghost that the set answers
+};
 
-  std::span<const ConstraintRow> rows() const { return {row_array.data(), static_cast<std::size_t>(row_count)}; }
+/// The simulation's answer to one pose of each ghost, i.e. to a pose that the part would have if nothing were in the
+/// way. Only parts that hands lead have rows.
+struct ContactSet {
+  std::int64_t sequence = 0;         ///< 1, 2, 3, … in the order of the sets; 0: no set yet
+  std::chrono::nanoseconds time{0};  ///< time of the ghost poses that the set answers
+  std::int32_t part_count = 1;
+  std::array<PartAnswer, kMaxParts> parts{};
+  std::int32_t row_count = 0;  ///< rows in use
+  /// Part by part; of each, first the pushing contacts, then the others, the nearest first.
+  std::array<ContactRow, kMaxParts * kMaxContactRows> row_array{};
+
+  std::span<const ContactRow> rows() const { return {row_array.data(), static_cast<std::size_t>(row_count)}; }
+};
+
+/// One part as the haptic thread knows it: what the simulation is to answer. The counts tell the simulation every grasp
+/// and release, although it only sees the newest poses: nothing moves in between.
+struct GhostOfPart {
+  Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();
+  bool is_held = false;
+  std::int64_t hold = 0;     ///< increases whenever the ghost is set anew: when a hand takes hold or lets go
+  std::int64_t release = 0;  ///< value of `hold` when the last hand let go
+};
+
+/// All parts at one time of the haptic clock.
+struct Ghosts {
+  std::chrono::nanoseconds time{0};
+  std::array<GhostOfPart, kMaxParts> parts{};
 };
 
 }  // namespace glissade::haptics

@@ -1,77 +1,194 @@
 #include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
-#include <glissade/haptics/contact_body.h>
+#include <glissade/base/assert.h>
 #include <glissade/haptics/haptic_kernel.h>
+#include <glissade/haptics/multi_part_sliding.h>
 
 #include "loop/contact_force.h"
+#include "loop/contact_projection.h"
+#include "loop/holds.h"
 
 namespace glissade::haptics {
 
 namespace {
+
 constexpr double kPatiencePeriods = 3.0;
 constexpr double kHeadroom = 1.05;  // contacts may demand a little more than the device gives: the envelope tells that
+
+void check_count(std::size_t count, std::size_t most, const std::string& what) {
+  if (count > 0 && count <= most) return;
+  throw std::invalid_argument("a haptic loop for " + std::to_string(count) + " " + what +
+                              " is not possible; it takes 1 to " + std::to_string(most));
+}
+
+bool has_pose(const devices::GloveState& state) {
+  return state.X_WH.matrix().allFinite() && state.v_WH.allFinite() && state.w_WH.allFinite();
+}
+
 }  // namespace
 
-HapticKernel::HapticKernel(const SlidingPart& part_V, const CouplingStiffness& stiffness,
-                           const devices::DeviceDescriptor& device, const Eigen::Isometry3d& X_WV_start,
+std::vector<KernelPart> kernel_parts(const MultiPartSliding& sliding) {
+  std::vector<KernelPart> parts;
+  for (std::size_t p = 0; p < sliding.part_count(); ++p) {
+    const SlidingPart& part = sliding.part(p);
+    parts.push_back({part.p_Vref(), part.radius(), sliding.stiffness(p), sliding.is_scripted(p)});
+  }
+  return parts;
+}
+
+/// A hand with its device.
+struct HapticKernel::Hand {
+  std::array<Coupling, kMaxParts> couplings{};  // one for each part that can be held
+  Coupling present{};
+  double link_delay_s = 0.0;
+  ContactForce contacts;
+  devices::SafetyEnvelope envelope;
+  bool is_fading = false;  // in the last tick
+  std::int64_t sequence = 0;
+  double supply = 0.0;  // J, of the commands
+
+  /// Adapts the present coupling to the delay of the link. Returns the share of the coupling's force that is left:
+  /// force and torque shrink alike, so that the wrench stays a sum of contact normals.
+  double soften(const Coupling& coupling, std::chrono::nanoseconds period, std::chrono::nanoseconds link_delay,
+                double dt) noexcept {
+    constexpr double kTime_s = 0.1;
+    constexpr double kMost_s = 1.0;
+    const double delay_s = std::clamp(std::chrono::duration<double>(link_delay).count(), 0.0, kMost_s);
+    link_delay_s += std::min(1.0, dt / kTime_s) * (delay_s - link_delay_s);
+    const auto delay =
+        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(link_delay_s));
+    present = coupling_within_limits(envelope.descriptor(), coupling.stiffness, period, delay);
+    return std::min(present.stiffness.translational / coupling.stiffness.translational,
+                    present.stiffness.rotational / coupling.stiffness.rotational);
+  }
+};
+
+HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<KernelHand>& hands,
                            std::chrono::nanoseconds period)
-    : p_Vref_(part_V.p_Vref()),
-      period_(period),
-      coupling_(coupling_for(device, stiffness, period)),
-      present_(coupling_),
-      envelope_(device, kPatiencePeriods, period),
-      X_WV_start_(X_WV_start),
-      X_WG_(X_WV_start),
-      contacts_(std::make_unique<ContactForce>(part_V.p_Vref(), part_V.radius(), coupling_.stiffness,
-                                               kHeadroom * device.max_force, X_WV_start)) {}
+    : parts_(std::move(parts)), period_(period) {
+  check_count(hands.size(), kMaxHands, "hands");
+  check_count(parts_.size(), kMaxParts, "parts");
+  std::vector<Eigen::Vector3d> p_Vref;
+  for (const KernelPart& part : parts_)
+    p_Vref.push_back(part.p_Vref);
+  std::vector<std::array<CouplingStiffness, kMaxParts>> stiffness;
+  for (const KernelHand& hand : hands) {
+    std::array<Coupling, kMaxParts> couplings{};
+    std::array<CouplingStiffness, kMaxParts>& of_hand = stiffness.emplace_back();
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      couplings[p] = coupling_for(hand.device, parts_[p].stiffness, period);
+      of_hand[p] = couplings[p].stiffness;
+    }
+    ContactForce contacts(parts_.front().radius, couplings.front().stiffness, kHeadroom * hand.device.max_force);
+    hands_.push_back(
+        std::make_unique<Hand>(Hand{.couplings = couplings,
+                                    .present = couplings.front(),
+                                    .contacts = contacts,
+                                    .envelope = devices::SafetyEnvelope(hand.device, kPatiencePeriods, period)}));
+  }
+  contacts_ = std::make_unique<ContactProjection>(p_Vref);
+  holds_ = std::make_unique<Holds>(std::move(p_Vref), std::move(stiffness));
+  for (std::size_t h = 0; h < hands.size(); ++h) {
+    if (!hands[h].part || grasp(h, *hands[h].part)) continue;
+    throw std::invalid_argument("hand " + std::to_string(h) + " cannot hold part " + std::to_string(*hands[h].part));
+  }
+}
 
 HapticKernel::~HapticKernel() = default;
 
-HapticTick HapticKernel::tick(const devices::GloveState& state, const ContactSet& set,
+bool HapticKernel::grasp(std::size_t hand, std::size_t part) noexcept {
+  if (hand >= hands_.size() || part >= parts_.size() || parts_[part].is_scripted) return false;
+  holds_->grasp(hand, part);
+  return true;
+}
+
+void HapticKernel::release(std::size_t hand) noexcept {
+  if (hand < hands_.size()) holds_->release(hand);
+}
+
+void HapticKernel::stop() noexcept {
+  for (const std::unique_ptr<Hand>& hand : hands_)
+    hand->envelope.stop();
+}
+
+const Coupling& HapticKernel::coupling(std::size_t hand, std::size_t part) const {
+  GLISSADE_ASSERT(hand < hands_.size() && part < parts_.size());
+  return hands_[hand]->couplings[part];
+}
+
+const Coupling& HapticKernel::present_coupling(std::size_t hand) const {
+  GLISSADE_ASSERT(hand < hands_.size());
+  return hands_[hand]->present;
+}
+
+HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states, const ContactSet& set,
                               std::chrono::nanoseconds now) noexcept {
-  const bool has_pose = state.X_WH.matrix().allFinite() && state.v_WH.allFinite() && state.w_WH.allFinite();
-  if (has_pose && !grasped_) {
-    X_HG_ = state.X_WH.inverse() * X_WV_start_;
-    grasped_ = true;
+  GLISSADE_ASSERT(states.size() == hands_.size());
+  const double dt = seconds_since_last_tick(now);
+  std::array<HandPose, kMaxHands> poses;
+  for (std::size_t h = 0; h < hands_.size(); ++h) {
+    if (states[h] == nullptr) continue;
+    poses[h].is_fading = hands_[h]->is_fading;
+    if (has_pose(*states[h])) poses[h].X_WH = &states[h]->X_WH;
   }
-  if (has_pose) X_WG_ = state.X_WH * X_HG_;
+  holds_->update({poses.data(), hands_.size()}, set, dt);
+  const std::chrono::nanoseconds age = now - set.time;
+  contacts_->update(set, age, holds_->led(), dt);
 
   HapticTick tick;
-  tick.X_WG = X_WG_;
-  const double dt = seconds_since_last_tick(now);
-  tick.contacts = scaled(contacts_->update(set, now - set.time, X_WG_, dt), soften(state.link_delay, dt));
-  tick.contact_share = contacts_->share();
-  tick.is_unsolved = contacts_->is_unsolved();
-
-  devices::GloveCommand command;
-  command.sequence = ++sequence_;
-  command.state_sequence = state.sequence;
-  command.state_time = state.time;
-  command.time = now;
-  if (has_pose) {
-    const Eigen::Vector3d& p_WH = state.X_WH.translation();
-    const Eigen::Vector3d p_Wref = X_WG_ * p_Vref_;
-    const Velocity ghost{state.v_WH + state.w_WH.cross(p_Wref - p_WH), state.w_WH};
-    const Wrench damping = damper_wrench(present_.damping, tick.contacts, ghost);
-    const Wrench on_hand = about_point({tick.contacts.f + damping.f, tick.contacts.t + damping.t}, p_Wref, p_WH);
-    command.f_H_W = on_hand.f;
-    command.t_H_W = on_hand.t;
+  tick.ghosts.time = now;
+  for (std::size_t p = 0; p < parts_.size(); ++p)
+    tick.ghosts.parts[p] = holds_->ghost(p);
+  for (std::size_t h = 0; h < hands_.size(); ++h) {
+    if (states[h] != nullptr) tick.hands[h] = render(h, *states[h], age, now, dt);
   }
-  tick.command = envelope_.limit(command, state, now);
   return tick;
 }
 
-/// Adapts the present coupling to the delay of the link. Returns the share of the coupling's force that is left: force
-/// and torque shrink alike, so that the wrench stays a sum of contact normals.
-double HapticKernel::soften(std::chrono::nanoseconds link_delay, double dt) noexcept {
-  constexpr double kTime_s = 0.1;
-  constexpr double kMost_s = 1.0;
-  const double delay_s = std::clamp(std::chrono::duration<double>(link_delay).count(), 0.0, kMost_s);
-  link_delay_s_ += std::min(1.0, dt / kTime_s) * (delay_s - link_delay_s_);
-  const auto delay = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(link_delay_s_));
-  present_ = coupling_within_limits(envelope_.descriptor(), coupling_.stiffness, period_, delay);
-  return std::min(present_.stiffness.translational / coupling_.stiffness.translational,
-                  present_.stiffness.rotational / coupling_.stiffness.rotational);
+HandTick HapticKernel::render(std::size_t number, const devices::GloveState& state, std::chrono::nanoseconds age,
+                              std::chrono::nanoseconds now, double dt) noexcept {
+  Hand& hand = *hands_[number];
+  HandTick tick;
+  tick.part = holds_->part_of(number);
+  const std::size_t p = tick.part.value_or(0);
+  const KernelPart& part = parts_[p];
+  const Coupling& coupling = hand.couplings[p];
+  const double softness = hand.soften(coupling, period_, state.link_delay, dt);
+  PartContacts contacts;
+  if (tick.part) {
+    hand.contacts.hold(part.radius, coupling.stiffness);
+    contacts = contacts_->of_part(p);
+    contacts.wrench = holds_->on_hand(number, contacts.wrench);
+    tick.pull = scaled(holds_->pull_on(number), softness);
+    hand.supply += softness * (holds_->supply_share(number) * contacts.supply + holds_->supply_of_pull(number));
+  }
+  const double motion = tick.part ? holds_->ghost_motion(p, part.radius) : 0.0;
+  tick.contacts = scaled(hand.contacts.update(contacts, age, motion, dt), softness);
+  tick.contact_share = hand.contacts.share();
+  tick.is_unsolved = contacts.is_unsolved;
+
+  devices::GloveCommand command;
+  command.sequence = ++hand.sequence;
+  command.state_sequence = state.sequence;
+  command.state_time = state.time;
+  command.time = now;
+  command.supply = hand.supply;
+  if (has_pose(state)) {
+    const Eigen::Vector3d& p_WH = state.X_WH.translation();
+    const Eigen::Vector3d p_Wref = tick.part ? holds_->X_WG_of_hand(number) * part.p_Vref : p_WH;
+    const Velocity ghost{state.v_WH + state.w_WH.cross(p_Wref - p_WH), state.w_WH};
+    const Wrench damping = damper_wrench(hand.present.damping, tick.contacts, ghost);
+    const Wrench on_hand = about_point(
+        {tick.contacts.f + damping.f + tick.pull.f, tick.contacts.t + damping.t + tick.pull.t}, p_Wref, p_WH);
+    command.f_H_W = on_hand.f;
+    command.t_H_W = on_hand.t;
+  }
+  tick.command = hand.envelope.limit(command, state, now);
+  hand.is_fading = tick.command.reasons().is_fading();
+  return tick;
 }
 
 double HapticKernel::seconds_since_last_tick(std::chrono::nanoseconds now) noexcept {

@@ -1,13 +1,16 @@
 #pragma once
 
-/// One tick of the haptic thread: device state and contact set (the simulation's newest answer) in, device
-/// command out. The kernel owns no clock, no thread and no device, so the same code runs in real time, offline and in
-/// tests.
+/// One tick of the haptic thread: device states and contact set (the simulation's newest answer) in, device commands
+/// out. The kernel owns no clock, no thread and no device, so the same code runs in real time, offline and in tests.
 
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -18,64 +21,99 @@
 
 namespace glissade::haptics {
 
-class ContactForce;
-class SlidingPart;
+class ContactProjection;
+class MultiPartSliding;
+class Holds;
 
-/// The outcome of one tick.
+/// Maximum number of hands, i.e. devices, of one kernel.
+inline constexpr std::size_t kMaxHands = 4;
+
+/// What the kernel knows of a part.
+struct KernelPart {
+  Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< the compliance point: `SlidingPart::p_Vref`
+  double radius = 0.0;                               ///< metres
+  CouplingStiffness stiffness{};                     ///< of the simulation
+  bool is_scripted = false;                          ///< no hand can hold it
+};
+
+/// The parts of a simulation.
+std::vector<KernelPart> kernel_parts(const MultiPartSliding& sliding);
+
+/// A hand in a device.
+struct KernelHand {
+  devices::DeviceDescriptor device;
+  std::optional<std::size_t> part{};  ///< number of the part that it grasps at its first state
+};
+
+/// A hand after one tick.
+struct HandTick {
+  std::optional<std::size_t> part;  ///< number of the part that it holds
+  Wrench contacts;                  ///< wrench of the contacts on the hand about the ghost's reference point
+  Wrench pull;                      ///< the same of other hands on the part
+  double contact_share = 1.0;       ///< of the force of the contacts: less than 1 where they are old or were left
+  bool is_unsolved = false;         ///< the contacts have no solution, so their wrench goes towards zero
+  /// Wrench of contacts, pull and damper about the hand root, through the safety envelope. Zero without a state.
+  devices::SafeCommand command;
+};
+
+/// The outcome of one tick. Entries beyond the number of parts and hands are not used.
 struct HapticTick {
-  Eigen::Isometry3d X_WG;        ///< ghost: the part's pose if nothing were in the way
-  Wrench contacts;               ///< wrench of the contacts on the hand about the ghost's reference point
-  double contact_share;          ///< of the force of the contacts: less than 1 where they are old or were left
-  bool is_unsolved;              ///< the contacts have no solution, so their wrench goes towards zero
-  devices::SafeCommand command;  ///< wrench of contacts and damper about the hand root, through the safety envelope
+  Ghosts ghosts;
+  std::array<HandTick, kMaxHands> hands{};
 };
 
 /// Real-time safe: bounded work, no allocation, no lock, no system call after construction. Not thread-safe.
 class HapticKernel {
  public:
-  /// At the first state with a finite hand pose, the ghost is at X_WV_start; from then on, the ghost moves rigidly with
-  /// the hand. `stiffness` is the stiffness of the simulation (`SlidingSimulation::stiffness`). The kernel's coupling
-  /// is the result of `coupling_for` with `device`, `stiffness` and `period`, the usual time between two ticks. If the
-  /// simulation is stiffer than the device allows, the contact forces that the simulation reports differ from the force
-  /// on the hand. To avoid this, construct the simulation with the stiffness that `coupling_for` returns. Throws as
-  /// `coupling_for` does.
-  HapticKernel(const SlidingPart& part_V, const CouplingStiffness& stiffness, const devices::DeviceDescriptor& device,
-               const Eigen::Isometry3d& X_WV_start, std::chrono::nanoseconds period = kTickPeriod);
+  /// A hand that holds a part moves the part's ghost rigidly with it, from the visible pose that the part has then. The
+  /// coupling of a hand and a part is the result of `coupling_for` with the device, the part's stiffness and `period`,
+  /// the usual time between two ticks. If the simulation is stiffer than the device allows, the contact forces that the
+  /// simulation reports differ from the force on the hand. To avoid this, construct the simulation with the stiffness
+  /// that `coupling_for` returns. Throws as `coupling_for` does, and std::invalid_argument for no hands, no parts, more
+  /// than kMaxHands or kMaxParts, and for a part to hold that is scripted or does not exist.
+  HapticKernel(std::vector<KernelPart> parts, const std::vector<KernelHand>& hands,
+               std::chrono::nanoseconds period = kTickPeriod);
   ~HapticKernel();
   HapticKernel(const HapticKernel&) = delete;
   HapticKernel& operator=(const HapticKernel&) = delete;
 
-  /// Computes the tick at time `now` for the newest state and the newest contact set. `now` is on the clock of
-  /// `ContactSet::time`, and never goes back. A hand pose that is not finite leaves the ghost unchanged, and the force
-  /// fades.
-  HapticTick tick(const devices::GloveState& state, const ContactSet& set, std::chrono::nanoseconds now) noexcept;
+  /// The hand takes hold of the part in the next tick in which it has a finite pose; from then on it holds no other.
+  /// Several hands may hold one part: each adds its spring, and feels the pull of the others. A hand that holds the
+  /// part already takes hold of it anew. Returns false, and does nothing, if there is no such hand, or no such part
+  /// that can be held.
+  bool grasp(std::size_t hand, std::size_t part) noexcept;
+  /// The hand lets go; its force fades. Nothing happens if it holds nothing or if there is no such hand.
+  void release(std::size_t hand) noexcept;
 
-  /// Emergency stop: the force fades to zero and stays there.
-  void stop() noexcept { envelope_.stop(); }
+  /// Computes the tick at time `now` for the newest state of each hand, null as long as it has none, and the newest
+  /// contact set. `now` is on the clock of `ContactSet::time`, and never goes back. A hand pose that is not finite
+  /// leaves the ghost unchanged, and the force fades.
+  HapticTick tick(std::span<const devices::GloveState* const> states, const ContactSet& set,
+                  std::chrono::nanoseconds now) noexcept;
 
-  /// The coupling without delay of the link.
-  const Coupling& coupling() const noexcept { return coupling_; }
-  /// The coupling of the last tick: with the delay that the glove tells (`GloveState::link_delay`), smoothed over 0.1
-  /// s.
-  const Coupling& present_coupling() const noexcept { return present_; }
+  /// Emergency stop: the force of all hands fades to zero and stays there.
+  void stop() noexcept;
+
+  std::size_t hand_count() const noexcept { return hands_.size(); }
+  /// The coupling without delay of the link. Both numbers must be below those of hands and parts.
+  const Coupling& coupling(std::size_t hand, std::size_t part) const;
+  /// The coupling of the hand in the last tick: with the delay that the glove tells (`GloveState::link_delay`),
+  /// smoothed over 0.1 s.
+  const Coupling& present_coupling(std::size_t hand) const;
 
  private:
-  double seconds_since_last_tick(std::chrono::nanoseconds now) noexcept;
-  double soften(std::chrono::nanoseconds link_delay, double dt) noexcept;
+  struct Hand;
 
-  Eigen::Vector3d p_Vref_;
+  double seconds_since_last_tick(std::chrono::nanoseconds now) noexcept;
+  HandTick render(std::size_t hand, const devices::GloveState& state, std::chrono::nanoseconds age,
+                  std::chrono::nanoseconds now, double dt) noexcept;
+
+  std::vector<KernelPart> parts_;
   std::chrono::nanoseconds period_;
-  Coupling coupling_;
-  Coupling present_;
-  double link_delay_s_ = 0.0;
-  devices::SafetyEnvelope envelope_;
-  Eigen::Isometry3d X_WV_start_;
-  Eigen::Isometry3d X_HG_ = Eigen::Isometry3d::Identity();  // the grasp, fixed by the first state
-  bool grasped_ = false;
-  Eigen::Isometry3d X_WG_;  // the last ghost
-  std::unique_ptr<ContactForce> contacts_;
+  std::vector<std::unique_ptr<Hand>> hands_;
+  std::unique_ptr<Holds> holds_;
+  std::unique_ptr<ContactProjection> contacts_;
   std::optional<std::chrono::nanoseconds> last_tick_;
-  std::int64_t sequence_ = 0;
 };
 
 }  // namespace glissade::haptics

@@ -4,13 +4,12 @@
 
 #include <glissade/haptics/haptic_server.h>
 
+#include "loop/answer.h"
 #include "loop/haptic_sample.h"
 
 namespace glissade::haptics {
 
 namespace {
-
-constexpr double kLongestCatchUp_ms = 250.0;
 
 /// A device whose rates are slow needs long for its fade.
 std::chrono::nanoseconds longest_fade(const devices::DeviceDescriptor& device) noexcept {
@@ -21,22 +20,29 @@ std::chrono::nanoseconds longest_fade(const devices::DeviceDescriptor& device) n
       std::chrono::duration<double>(2.0 * std::min(slowest_s, 1e6)));
 }
 
+std::vector<KernelHand> kernel_hands(const std::vector<HandOfServer>& hands) {
+  std::vector<KernelHand> result;
+  for (const HandOfServer& hand : hands) {
+    if (hand.device == nullptr) throw std::invalid_argument("a haptic server needs a device, not a null pointer");
+    result.push_back({hand.device->descriptor(), hand.part});
+  }
+  return result;
+}
+
 }  // namespace
 
-HapticServer::HapticServer(devices::GloveDevice& device, SlidingSimulation& simulation, realtime::Clock& clock,
+HapticServer::HapticServer(const std::vector<HandOfServer>& hands, MultiPartSliding& sliding, realtime::Clock& clock,
                            Sink sink, const HapticServerOptions& options)
-    : device_(device),
-      simulation_(simulation),
-      clock_(clock),
+    : clock_(clock),
       sink_(std::move(sink)),
       options_(options),
-      kernel_(simulation.part(), simulation.stiffness(), device.descriptor(), simulation.result().X_WV,
-              options.period) {
+      kernel_(kernel_parts(sliding), kernel_hands(hands), options.period),
+      answerer_(std::make_unique<Answerer>(sliding)) {
   validate_tick_period(options.period);
   if (!sink_) throw std::invalid_argument("a haptic server needs a sink for its states, not an empty function");
-  ContactSet at_start;
-  at_start.X_WV = simulation.result().X_WV;
-  sets_.publish(at_start);
+  for (const HandOfServer& hand : hands)
+    hands_.push_back({hand.device});
+  sets_.publish(answerer_->at_start());
   simulation_thread_ = std::make_unique<realtime::PeriodicThread>(
       clock, realtime::PeriodicThreadOptions{.period = kTickPeriod, .name = "simulation"},
       [this](const realtime::PeriodicTick&) { return simulation_tick(); });
@@ -47,40 +53,74 @@ HapticServer::HapticServer(devices::GloveDevice& device, SlidingSimulation& simu
       [this](const realtime::PeriodicTick& timing) { return haptic_tick(timing); });
 }
 
+HapticServer::~HapticServer() {
+  stop();
+}
+
+/// Returns whether any device has a state.
+bool HapticServer::read_devices() noexcept {
+  bool any = false;
+  for (std::size_t h = 0; h < hands_.size(); ++h) {
+    if (hands_[h].device->read(hands_[h].state)) states_[h] = &hands_[h].state;
+    any = any || states_[h] != nullptr;
+  }
+  return any;
+}
+
+void HapticServer::take_events() noexcept {
+  Event event;
+  while (events_.pop(event)) {
+    if (event.part) {
+      kernel_.grasp(event.hand, *event.part);
+    } else {
+      kernel_.release(event.hand);
+    }
+  }
+}
+
 bool HapticServer::haptic_tick(const realtime::PeriodicTick& timing) noexcept {
   const bool should_end = should_end_.load(std::memory_order_relaxed);
-  if (!device_.read(state_)) return !should_end;  // no device yet
+  if (!read_devices()) return !should_end;
   const bool is_ending = should_end || (options_.ticks > 0 && ticks() == options_.ticks);
   if (is_ending || emergency_.load(std::memory_order_relaxed) || has_failed()) kernel_.stop();
+  take_events();
   sets_.update();
   const ContactSet& set = sets_.value();
-  const HapticTick tick = kernel_.tick(state_, set, timing.start);
-  device_.command(tick.command);
+  const HapticTick tick = kernel_.tick({states_.data(), hands_.size()}, set, timing.start);
+  for (std::size_t h = 0; h < hands_.size(); ++h) {
+    if (states_[h] != nullptr) hands_[h].device->command(tick.hands[h].command);
+  }
   if (is_ending) return go_on_fading(tick, timing.start);
-  ghosts_.publish({tick.X_WG, timing.start});
+  ghosts_.publish(tick.ghosts);
   report(tick, set, timing.start);
   return true;
 }
 
 void HapticServer::report(const HapticTick& tick, const ContactSet& set, std::chrono::nanoseconds now) noexcept {
-  const devices::HapticState sample = make_sample(tick, set, state_, now);
+  const devices::HapticState sample = make_sample(ticks() + 1, tick, set, {states_.data(), hands_.size()}, now);
   statistics_.contact_set_age.record(sample.contact_set_age);
-  statistics_.unsolved_ticks += sample.are_contacts_unsolved ? 1 : 0;
+  const bool any_unsolved =
+      std::any_of(tick.hands.begin(), tick.hands.end(), [](const HandTick& hand) { return hand.is_unsolved; });
+  statistics_.unsolved_ticks += any_unsolved ? 1 : 0;
   if (!sink_failed_) sink_failed_ = !guarded([&] { sink_(sample); });
   ticks_.fetch_add(1, std::memory_order_relaxed);
 }
 
 bool HapticServer::go_on_fading(const HapticTick& tick, std::chrono::nanoseconds now) noexcept {
   if (!fading_since_) fading_since_ = now;
-  const devices::GloveCommand& command = tick.command.values();
-  const bool is_at_rest = command.f_H_W.isZero(0.0) && command.t_H_W.isZero(0.0);
-  if (!is_at_rest && now - *fading_since_ < longest_fade(device_.descriptor())) return true;
+  bool goes_on = false;
+  for (std::size_t h = 0; h < hands_.size(); ++h) {
+    const devices::GloveCommand& command = tick.hands[h].command.values();
+    const bool is_at_rest = command.f_H_W.isZero(0.0) && command.t_H_W.isZero(0.0);
+    goes_on = goes_on || (!is_at_rest && now - *fading_since_ < longest_fade(hands_[h].device->descriptor()));
+  }
+  if (goes_on) return true;
   done_.store(options_.ticks > 0 && ticks() == options_.ticks, std::memory_order_release);
   return false;
 }
 
 bool HapticServer::simulation_tick() noexcept {
-  return guarded([this] { answer_newest_ghost(); }) && !has_failed();
+  return guarded([this] { answer_newest_ghosts(); }) && !has_failed();
 }
 
 /// Runs `work`; keeps the message of an exception, the first one. Returns whether there was none.
@@ -103,16 +143,10 @@ void HapticServer::fail(std::string_view message) noexcept {
   failed_.store(true, std::memory_order_release);
 }
 
-void HapticServer::answer_newest_ghost() {
+void HapticServer::answer_newest_ghosts() {
   if (!ghosts_.update()) return;
-  const Ghost& ghost = ghosts_.value();
   const std::chrono::nanoseconds start = clock_.now();
-  // An answer that takes long must not slow the part down: the slew is a speed.
-  const std::chrono::nanoseconds passed = answered_ ? ghost.time - *answered_ : kTickPeriod;
-  const double milliseconds = std::chrono::duration<double, std::milli>(passed).count();
-  simulation_.advance(ghost.X_WG, std::clamp(milliseconds, 1.0, kLongestCatchUp_ms));
-  answered_ = ghost.time;
-  sets_.publish(make_contact_set(simulation_.result(), simulation_.part(), ++set_sequence_, ghost.time, scratch_));
+  sets_.publish(answerer_->answer(ghosts_.value(), kTickPeriod));
   statistics_.simulation.record(clock_.now() - start);
 }
 

@@ -1,13 +1,14 @@
 #pragma once
 
-/// The system in real time, with two threads. The haptic thread runs at 1 kHz or another rate: from the state of the
-/// device and the newest contact set, it computes the force and the pose of the ghost, i.e. the part's pose if nothing
-/// were in the way. The simulation thread answers the newest pose of the ghost with a contact set, once per millisecond
-/// if the collision queries are fast enough. Neither thread waits for the other.
+/// The system in real time, with two threads. The haptic thread runs at 1 kHz or another rate: from the states of all
+/// devices and the newest contact set, it computes the forces and the poses of the ghosts, i.e. the parts' poses if
+/// nothing were in the way. The simulation thread answers the newest poses of the ghosts with a contact set, once per
+/// millisecond if the collision queries are fast enough. Neither thread waits for the other.
 
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -19,36 +20,45 @@
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/haptic_state.h>
 #include <glissade/haptics/haptic_kernel.h>
-#include <glissade/haptics/sliding_simulation.h>
+#include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/latency_histogram.h>
 #include <glissade/realtime/periodic_thread.h>
+#include <glissade/realtime/spsc_ring.h>
 #include <glissade/realtime/triple_buffer.h>
 
 namespace glissade::haptics {
+
+class Answerer;
 
 struct HapticServerOptions {
   /// Period of the haptic thread, kShortestTickPeriod to kLongestTickPeriod. The forces do not depend on it: all rates
   /// of change are per second.
   std::chrono::nanoseconds period = kTickPeriod;
   /// Number of counted ticks of the haptic thread after which the force fades and that thread ends by itself; with 0 it
-  /// runs until `stop`. Ticks before the first state of the device and ticks of the fade are not counted.
+  /// runs until `stop`. Ticks before the first state of any device and ticks of the fade are not counted.
   std::int64_t ticks = 0;
   /// SCHED_FIFO priority that the haptic thread requests; 0 requests none.
   int fifo_priority = 80;
+};
+
+/// A device of the server, and the part that its hand grasps at the first state.
+struct HandOfServer {
+  devices::GloveDevice* device = nullptr;
+  std::optional<std::size_t> part = 0;  ///< number of the part in the simulation; none: `HapticServer::grasp` follows
 };
 
 /// Measurements of the server. Complete after `stop`.
 struct HapticServerStatistics {
   realtime::PeriodicStatistics haptic;         ///< all ticks of the haptic thread, counted or not
   realtime::LatencyHistogram simulation;       ///< duration of each call of the simulation
-  realtime::LatencyHistogram contact_set_age;  ///< at each counted tick: age of the ghost that the set answers
-  std::int64_t unsolved_ticks = 0;             ///< counted ticks whose contacts had no solution: the force faded
+  realtime::LatencyHistogram contact_set_age;  ///< at each counted tick: age of the ghosts that the set answers
+  std::int64_t unsolved_ticks = 0;             ///< counted ticks in which contacts of any hand had no solution
   bool has_fifo_scheduling = false;
 };
 
 /// Runs both threads from construction to `stop`. Thread-safety: one thread owns the object. Between construction and
-/// the end of `stop`, `device` and `simulation` belong to the server's threads.
+/// the end of `stop`, the devices and `sliding` belong to the server's threads.
 class HapticServer {
  public:
   /// Receives the state of each counted tick (`HapticServerOptions::ticks`). Called by the haptic thread; must be
@@ -56,17 +66,24 @@ class HapticServer {
   /// more.
   using Sink = std::function<void(const devices::HapticState&)>;
 
-  /// Starts both threads. The references must outlive the server. The hand grasps the part when the first state of the
-  /// device arrives; the part stays where it is. The coupling is the result of `coupling_for` with the descriptor of
-  /// the device and the stiffness of the simulation. Throws std::invalid_argument for an empty sink or a period out of
-  /// bounds, and as `coupling_for` does.
-  HapticServer(devices::GloveDevice& device, SlidingSimulation& simulation, realtime::Clock& clock, Sink sink,
+  /// Starts both threads. What is passed must outlive the server. A hand grasps its part when the first state of its
+  /// device arrives; the part stays where it is. Parts that no hand grasps and no script moves lie still, and are
+  /// obstacles. The coupling is the result of `coupling_for` with the descriptor of the device and the stiffness of the
+  /// simulation. Throws std::invalid_argument for a null device, an empty sink or a period out of bounds, and as the
+  /// constructor of `HapticKernel` does.
+  HapticServer(const std::vector<HandOfServer>& hands, MultiPartSliding& sliding, realtime::Clock& clock, Sink sink,
                const HapticServerOptions& options = {});
   HapticServer(const HapticServer&) = delete;
   HapticServer& operator=(const HapticServer&) = delete;
-  ~HapticServer() { stop(); }
+  ~HapticServer();
 
-  /// Whether the server has reached `HapticServerOptions::ticks`, and the device has no force any more. Wait-free, any
+  /// As `HapticKernel::grasp` and `HapticKernel::release`, in the next tick, in the order of the calls. Returns false
+  /// if more than 256 of them wait for the haptic thread; then nothing happens, and the caller may try again. So none
+  /// is lost. Wait-free. One thread.
+  bool grasp(std::size_t hand, std::size_t part) noexcept { return events_.push({hand, part}); }
+  bool release(std::size_t hand) noexcept { return events_.push({hand, std::nullopt}); }
+
+  /// Whether the server has reached `HapticServerOptions::ticks`, and no device has a force any more. Wait-free, any
   /// thread.
   bool is_done() const noexcept { return done_.load(std::memory_order_acquire); }
 
@@ -89,11 +106,13 @@ class HapticServer {
   const HapticServerStatistics& statistics() const noexcept { return statistics_; }
 
  private:
-  struct Ghost {
-    Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();
-    std::chrono::nanoseconds time{0};
+  struct Event {
+    std::size_t hand = 0;
+    std::optional<std::size_t> part;  // none: release
   };
 
+  bool read_devices() noexcept;
+  void take_events() noexcept;
   bool haptic_tick(const realtime::PeriodicTick& timing) noexcept;
   void report(const HapticTick& tick, const ContactSet& set, std::chrono::nanoseconds now) noexcept;
   bool go_on_fading(const HapticTick& tick, std::chrono::nanoseconds now) noexcept;
@@ -101,27 +120,29 @@ class HapticServer {
   template <typename Work>
   bool guarded(const Work& work) noexcept;
   void fail(std::string_view message) noexcept;
-  void answer_newest_ghost();
+  void answer_newest_ghosts();
 
-  devices::GloveDevice& device_;
-  SlidingSimulation& simulation_;
   realtime::Clock& clock_;
   Sink sink_;
   HapticServerOptions options_;
 
   // Haptic thread only.
+  struct Hand {
+    devices::GloveDevice* device;
+    devices::GloveState state{};
+  };
+  std::vector<Hand> hands_;
+  std::array<const devices::GloveState*, kMaxHands> states_{};  // null until the first one
   HapticKernel kernel_;
-  devices::GloveState state_;
   std::optional<std::chrono::nanoseconds> fading_since_;
   bool sink_failed_ = false;
 
   // Simulation thread only.
-  std::int64_t set_sequence_ = 0;
-  std::optional<std::chrono::nanoseconds> answered_;  // time of the last answered ghost
-  std::vector<std::int32_t> scratch_;
+  std::unique_ptr<Answerer> answerer_;
 
-  // Shared by both threads.
-  realtime::TripleBuffer<Ghost> ghosts_;
+  // Shared.
+  realtime::SpscRing<Event> events_{256};
+  realtime::TripleBuffer<Ghosts> ghosts_;
   realtime::TripleBuffer<ContactSet> sets_;
 
   std::atomic<std::int64_t> ticks_{0};

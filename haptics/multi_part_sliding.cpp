@@ -1,7 +1,6 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include <glissade/base/assert.h>
 #include <glissade/geometry/rigid_pose.h>
@@ -42,6 +41,7 @@ class MultiPartSliding::Cycle {
   }
 
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds) {
+    time_ += std::chrono::duration<double, std::milli>(milliseconds);
     if (!follow_ghosts(X_WG, milliseconds)) return;
     starts_.depenetrate(kSlew_m * milliseconds);
     int cycles = 1;
@@ -60,14 +60,16 @@ class MultiPartSliding::Cycle {
   /// In units of `StepFinder::certain_distance`: bodies closer than this count as overlapping at the start.
   static constexpr double kTouching = 4.0;
 
-  /// Moves the ghosts of held parts to those poses that are rigid. Returns whether any ghost was moved.
+  /// Moves the ghosts of held parts to those poses that are rigid, and those of scripted parts to their scripts.
+  /// Returns whether any ghost was moved.
   bool follow_ghosts(std::span<const Eigen::Isometry3d> X_WG, double milliseconds) {
     bool any = false;
     double ghosts = 0.0;
     for (std::size_t p = 0; p < shared_.count(); ++p) {
       HeldPartState& part = shared_.states[p];
       part.begin_tick();
-      const std::optional<Eigen::Isometry3d> rigid = geometry::rigid_pose(X_WG[p]);
+      const std::optional<Eigen::Isometry3d> rigid =
+          geometry::rigid_pose(part.script ? part.script->pose_at(time_) : X_WG[p]);
       if (!part.is_held() || !rigid) continue;
       any = true;
       part.follow(*rigid, milliseconds);
@@ -120,6 +122,7 @@ class MultiPartSliding::Cycle {
   StepFinder step_finder_;
   Starts starts_;
   SearchRadius radius_;
+  std::chrono::duration<double, std::milli> time_{0.0};  // since the simulation began
 };
 
 MultiPartSliding::MultiPartSliding(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts,
@@ -131,10 +134,12 @@ MultiPartSliding& MultiPartSliding::operator=(MultiPartSliding&&) noexcept = def
 MultiPartSliding::~MultiPartSliding() = default;
 
 void MultiPartSliding::grasp(std::size_t part, const Eigen::Isometry3d& X_WG) {
+  GLISSADE_ASSERT(!is_scripted(part));
   if (const std::optional<Eigen::Isometry3d> rigid = geometry::rigid_pose(X_WG)) cycle_->grasp(part, *rigid);
 }
 
 void MultiPartSliding::release(std::size_t part) {
+  GLISSADE_ASSERT(!is_scripted(part));
   cycle_->release(part);
 }
 
@@ -164,32 +169,24 @@ double MultiPartSliding::margin(std::size_t part) const {
   return cycle_->part(part).margin;
 }
 
+bool MultiPartSliding::is_scripted(std::size_t part) const {
+  return cycle_->part(part).is_scripted();
+}
+
+std::size_t MultiPartSliding::obstacle_count() const {
+  return cycle_->shared().scene.obstacles().size();
+}
+
+geometry::Displacement MultiPartSliding::error(std::size_t part) const {
+  return cycle_->part(part).lag();
+}
+
 const SearchStatistics& MultiPartSliding::search_statistics() const {
   return cycle_->shared().candidates.statistics();
 }
 
 const ContactScene& MultiPartSliding::scene() const {
   return cycle_->shared().scene;
-}
-
-PartOfSeveral::PartOfSeveral(MultiPartSliding& sliding, std::size_t part) : sliding_(sliding), part_(part) {
-  if (part >= sliding.part_count()) {
-    throw std::invalid_argument("there is no part number " + std::to_string(part) + " among " +
-                                std::to_string(sliding.part_count()) + ", counted from 0");
-  }
-  for (std::size_t p = 0; p < sliding.part_count(); ++p)
-    ghosts_X_WG_.push_back(sliding.result(p).X_WG);
-}
-
-void PartOfSeveral::lead_other(std::size_t other, const Eigen::Isometry3d& X_WG) {
-  GLISSADE_ASSERT(other < ghosts_X_WG_.size() && other != part_);
-  ghosts_X_WG_[other] = X_WG;
-}
-
-const SlidingResult& PartOfSeveral::advance(const Eigen::Isometry3d& X_WG, double milliseconds) {
-  ghosts_X_WG_[part_] = X_WG;
-  sliding_.advance(ghosts_X_WG_, milliseconds);
-  return result();
 }
 
 }  // namespace glissade::haptics

@@ -21,6 +21,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/geometry/displacement.h>
 #include <glissade/haptics/contact_body.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding_result.h>
@@ -48,19 +49,27 @@ class MultiPartSliding {
   /// released, the target starts at the pose of the part; if the part was already held, the target stays where it was.
   /// From there the target approaches the ghost by 0.1 mm a millisecond (half of kSlew_m, `coupling.h`), so neither
   /// part nor force jumps.
+  /// `part` must not be scripted.
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG);
   void release(std::size_t part);
 
-  /// As `SlidingSimulation::advance`, for all parts at once. X_WG must have one pose for each part.
+  /// As `SlidingSimulation::advance`, for all parts at once. X_WG must have one pose for each part; that of a scripted
+  /// part is ignored. The scripts advance by `milliseconds` even while nothing else moves.
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds = 1.0);
 
   std::size_t part_count() const;
+  std::size_t obstacle_count() const;
   // Result and properties of the part with the number `part`, which must be below `part_count`.
   const SlidingResult& result(std::size_t part) const;
   const SlidingPart& part(std::size_t part) const;
   const CouplingStiffness& stiffness(std::size_t part) const;
   /// The gap (metres) at which contacts with obstacles that have no margin of their own stop the part.
   double margin(std::size_t part) const;
+  /// Whether a script moves the part.
+  bool is_scripted(std::size_t part) const;
+  /// Displacement from the visible part to its target: the stretch of the coupling's spring. Exactly zero when the part
+  /// is at its target and while the part is released.
+  geometry::Displacement error(std::size_t part) const;
 
   const SearchStatistics& search_statistics() const;
 
@@ -71,35 +80,6 @@ class MultiPartSliding {
   const ContactScene& scene() const;
 
   std::unique_ptr<Cycle> cycle_;
-};
-
-/// One of several parts as a simulation of its own, for a `HapticServer` or `run_offline`. Not thread-safe.
-class PartOfSeveral final : public SlidingSimulation {
- public:
-  /// For the part with the number `part` of `sliding`, which must outlive this object. The ghosts of the other parts
-  /// stay where they are until `lead_other` moves them. Throws std::invalid_argument unless `part` is below
-  /// `part_count`.
-  PartOfSeveral(MultiPartSliding& sliding, std::size_t part);
-
-  /// From the next call of `advance` on, the ghost of the part with the number `other` is at X_WG. `other` must be
-  /// below `part_count` and not the number of this part.
-  void lead_other(std::size_t other, const Eigen::Isometry3d& X_WG);
-
-  void grasp(const Eigen::Isometry3d& X_WG) override { sliding_.grasp(part_, X_WG); }
-  void release() override { sliding_.release(part_); }
-  /// Advances all parts.
-  const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) override;
-
-  const SlidingResult& result() const override { return sliding_.result(part_); }
-  const SlidingPart& part() const override { return sliding_.part(part_); }
-  const CouplingStiffness& stiffness() const override { return sliding_.stiffness(part_); }
-  double margin() const override { return sliding_.margin(part_); }
-  SearchStatistics search_statistics() const override { return sliding_.search_statistics(); }
-
- private:
-  MultiPartSliding& sliding_;
-  std::size_t part_;
-  std::vector<Eigen::Isometry3d> ghosts_X_WG_;  // one for each part
 };
 
 }  // namespace glissade::haptics

@@ -9,47 +9,43 @@
 namespace glissade::haptics {
 namespace {
 
-Eigen::Isometry3d pose_at(const ScriptedPart& part, std::chrono::duration<double, std::milli> since_start) {
-  return part.script_X_WB.pose_at(part.start + std::chrono::round<std::chrono::nanoseconds>(since_start));
-}
-
 std::vector<HeldPart> held_parts(std::shared_ptr<const SlidingPart> part_V, const Eigen::Isometry3d& X_WV_start,
                                  const SlidingOptions& options, const std::vector<ScriptedPart>& scripted) {
   std::vector<HeldPart> parts{{.part_V = std::move(part_V),
                                .X_WV_start = X_WV_start,
                                .metaphor = options.metaphor,
                                .stiffness = options.stiffness}};
-  for (const ScriptedPart& part : scripted) {
-    if (part.part_B == nullptr) throw std::invalid_argument(part.name + " needs a body, not a null pointer");
-    const double radius = part.part_B->radius();
-    parts.push_back({.part_V = part.part_B,
-                     .X_WV_start = pose_at(part, {}),
-                     .metaphor = Metaphor::kRubberBandSpring,  // only contacts make it lag behind its script
-                     .stiffness = CouplingStiffness{part.grip_N_per_m, part.grip_N_per_m * radius * radius},
-                     .name = part.name,
-                     .is_scripted = true});
-  }
+  for (const ScriptedPart& part : scripted)
+    parts.push_back(held_by_script(part));
   return parts;
 }
 
 }  // namespace
 
+HeldPart held_by_script(const ScriptedPart& part) {
+  if (part.part_B == nullptr) throw std::invalid_argument(part.name + " needs a body, not a null pointer");
+  const double radius = part.part_B->radius();
+  return {.part_V = part.part_B,
+          .metaphor = Metaphor::kRubberBandSpring,  // only contacts make it lag behind its script
+          .stiffness = CouplingStiffness{part.grip_N_per_m, part.grip_N_per_m * radius * radius},
+          .name = part.name,
+          .script = PartScript{part.script_X_WB, part.start}};
+}
+
 Sliding::Sliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,
-                 const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options, std::vector<ScriptedPart> scripted)
+                 const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options,
+                 const std::vector<ScriptedPart>& scripted)
     : sliding_(std::move(obstacles), held_parts(std::move(part_V), X_WV_start, options, scripted), options.rules),
-      scripted_(std::move(scripted)),
-      ghosts_X_WG_(sliding_.part_count()) {
-  for (std::size_t i = 0; i < scripted_.size(); ++i)
-    scripted_X_WB_.push_back(sliding_.result(i + 1).X_WV);
+      scripted_X_WB_(scripted.size()),
+      ghosts_X_WG_(sliding_.part_count(), Eigen::Isometry3d::Identity()) {
+  for (std::size_t i = 0; i < scripted_X_WB_.size(); ++i)
+    scripted_X_WB_[i] = sliding_.result(i + 1).X_WV;
 }
 
 const SlidingResult& Sliding::advance(const Eigen::Isometry3d& X_WG, double milliseconds) {
-  time_ += std::chrono::duration<double, std::milli>(milliseconds);
   ghosts_X_WG_[0] = X_WG;
-  for (std::size_t i = 0; i < scripted_.size(); ++i)
-    ghosts_X_WG_[i + 1] = pose_at(scripted_[i], time_);
   sliding_.advance(ghosts_X_WG_, milliseconds);
-  for (std::size_t i = 0; i < scripted_.size(); ++i)
+  for (std::size_t i = 0; i < scripted_X_WB_.size(); ++i)
     scripted_X_WB_[i] = sliding_.result(i + 1).X_WV;
   return sliding_.result(0);
 }
@@ -63,7 +59,7 @@ std::optional<SlidingMethod> sliding_method_from_name(std::string_view name) {
 std::unique_ptr<SlidingSimulation> make_sliding(SlidingMethod method, std::vector<Obstacle> obstacles,
                                                 std::shared_ptr<const SlidingPart> part_V,
                                                 const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options,
-                                                std::vector<ScriptedPart> scripted) {
+                                                const std::vector<ScriptedPart>& scripted) {
   if (method == SlidingMethod::kPaper) {
     if (!scripted.empty()) {
       throw std::invalid_argument(scripted.front().name + " moves, which the paper's method does not know");
@@ -72,7 +68,7 @@ std::unique_ptr<SlidingSimulation> make_sliding(SlidingMethod method, std::vecto
         std::move(obstacles), std::move(part_V), X_WV_start,
         PaperSlidingOptions{.metaphor = options.metaphor, .stiffness = options.stiffness});
   }
-  return std::make_unique<Sliding>(std::move(obstacles), std::move(part_V), X_WV_start, options, std::move(scripted));
+  return std::make_unique<Sliding>(std::move(obstacles), std::move(part_V), X_WV_start, options, scripted);
 }
 
 }  // namespace glissade::haptics

@@ -42,6 +42,9 @@ struct ScriptedPart {
   std::string name = "a moving part";  ///< for messages
 };
 
+/// The same for `MultiPartSliding`. Throws std::invalid_argument, naming the part, for a null pointer.
+HeldPart held_by_script(const ScriptedPart& part);
+
 /// The simulation of one part among fixed obstacles and scripted parts: `MultiPartSliding` with the part first and the
 /// scripted parts after it. Deterministic: the same calls give the same bits. Not thread-safe; several simulations may
 /// share bodies.
@@ -50,7 +53,7 @@ class Sliding final : public SlidingSimulation {
   /// Throws std::invalid_argument as `MultiPartSliding` does.
   Sliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,
           const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options = {},
-          std::vector<ScriptedPart> scripted = {});
+          const std::vector<ScriptedPart>& scripted = {});
 
   void grasp(const Eigen::Isometry3d& X_WG) override { sliding_.grasp(0, X_WG); }
   void release() override { sliding_.release(0); }
@@ -73,10 +76,8 @@ class Sliding final : public SlidingSimulation {
  private:
   friend struct SceneAccess;
   MultiPartSliding sliding_;
-  std::vector<ScriptedPart> scripted_;
   std::vector<Eigen::Isometry3d> scripted_X_WB_;
-  std::vector<Eigen::Isometry3d> ghosts_X_WG_;           // one for each part
-  std::chrono::duration<double, std::milli> time_{0.0};  // since the simulation began
+  std::vector<Eigen::Isometry3d> ghosts_X_WG_;  // one for each part; only the first counts
 };
 
 /// The methods of sliding contact.
@@ -102,6 +103,6 @@ std::optional<SlidingMethod> sliding_method_from_name(std::string_view name);
 std::unique_ptr<SlidingSimulation> make_sliding(SlidingMethod method, std::vector<Obstacle> obstacles,
                                                 std::shared_ptr<const SlidingPart> part_V,
                                                 const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options = {},
-                                                std::vector<ScriptedPart> scripted = {});
+                                                const std::vector<ScriptedPart>& scripted = {});
 
 }  // namespace glissade::haptics

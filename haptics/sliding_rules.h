@@ -4,6 +4,7 @@
 /// for parts that are stuck or that start inside an obstacle.
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,6 +14,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/geometry/pose_trajectory.h>
 #include <glissade/haptics/coupling.h>
 
 namespace glissade::haptics {
@@ -65,7 +67,7 @@ enum class OverlapRule : std::uint8_t {
   /// The part moves out of the obstacle on a short straight way without turning, at kSlew_m (`coupling.h`) per
   /// millisecond, regardless of the hand. Once part and obstacle are one margin apart, the part follows the hand again,
   /// and the obstacle is like any other. Other obstacles stop the part on its way out as usual. If a part overlaps
-  /// several obstacles, it moves out of the deepest overlap first. For a scripted part (`HeldPart::is_scripted`), the
+  /// several obstacles, it moves out of the deepest overlap first. For a scripted part (`HeldPart::script`), the
   /// constructor of the simulation throws all the same.
   kDepenetrate,
 };
@@ -105,18 +107,27 @@ constexpr SlidingRules real_time_rules() {
   return rules;
 }
 
-/// One of the parts and its holder: a hand, or a script that moves the part without a hand. To push other parts, a
-/// scripted part needs a greater `stiffness` than they have. A scripted part waits at obstacles, which it cannot push
-/// out of its way.
+/// The ghost's poses over time, for a part that moves without a hand.
+struct PartScript {
+  geometry::PoseTrajectory X_WB;
+  std::chrono::nanoseconds start{0};  ///< time of the script when the simulation begins
+
+  Eigen::Isometry3d pose_at(std::chrono::duration<double, std::milli> since_start) const noexcept {
+    return X_WB.pose_at(start + std::chrono::round<std::chrono::nanoseconds>(since_start));
+  }
+};
+
+/// One of the parts and its holder: a hand, or a script. To push other parts, a scripted part needs a greater
+/// `stiffness` than they have. A scripted part waits at obstacles, which it cannot push out of its way.
 struct HeldPart {
   std::shared_ptr<const SlidingPart> part_V;
-  Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();  ///< a scripted part starts where its script does
   Metaphor metaphor = Metaphor::kForceFeedback;
   std::optional<CouplingStiffness> stiffness{};  ///< default: `default_stiffness` of the part's radius
   std::string name = "the part";                 ///< for messages
-  /// Whether a script holds the part. A scripted part follows its script or waits at an obstacle; neither spiral search
-  /// nor depenetration moves it.
-  bool is_scripted = false;
+  /// If set, the script holds the part, and no hand can. A scripted part follows its script or waits at an obstacle;
+  /// neither spiral search nor depenetration moves it.
+  std::optional<PartScript> script{};
 };
 
 }  // namespace glissade::haptics

@@ -5,18 +5,15 @@
 /// The ghost is the pose that the part would have if nothing were in the way. The metaphor (`Metaphor`) computes the
 /// target of the part from the ghost. The visible part follows its target as far as the contacts allow.
 
-#include <chrono>
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <Eigen/Geometry>
 
 #include <glissade/collision/frame_result.h>
 #include <glissade/geometry/displacement.h>
 #include <glissade/haptics/contact_body.h>
-#include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding_result.h>
 
@@ -81,11 +78,5 @@ class SlidingSimulation {
   /// part is at its target and while the part is released.
   geometry::Displacement error() const;
 };
-
-/// The contact set made from `result`, the newest result of `part`. `sequence` is the number of the contact set; `time`
-/// is the time of the ghost pose that `result` answers. `scratch` is working memory; pass the same vector to each call.
-/// Works for every method and for each of several parts. Cost O(contacts).
-ContactSet make_contact_set(const SlidingResult& result, const SlidingPart& part, std::int64_t sequence,
-                            std::chrono::nanoseconds time, std::vector<std::int32_t>& scratch);
 
 }  // namespace glissade::haptics

@@ -20,11 +20,12 @@
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/haptics/haptic_kernel.h>
-#include <glissade/haptics/sliding.h>
+#include <glissade/haptics/multi_part_sliding.h>
 
 #include "benches.h"
 #include "held_part.h"
-#include "loop/contact_force.h"
+#include "loop/contact_set_maker.h"
+#include "one_hand_force.h"
 #include "poses.h"
 #include "sliding_account.h"
 #include "sliding_scenes.h"
@@ -110,12 +111,12 @@ SlidingScene sphere() {
 
 /// The part of a scene file led by the script of the hand, which moves at 0.2 m/s in the mean.
 SlidingScene scripted(const std::string& name, const apps::Scene& file, const geometry::PoseTrajectory& script_X_WH) {
-  const apps::HapticScene haptic = make_haptic_scene(file, only_movable_object(file));
+  const apps::HapticScene haptic = make_haptic_scene(file, movable_objects(file));
   SlidingScene scene;
   scene.name = name;
   scene.obstacles = haptic.obstacles;
-  scene.part_V = haptic.part_V;
-  scene.X_WV_start = haptic.X_WV_start;
+  scene.part_V = haptic.parts.front().part_V;
+  scene.X_WV_start = haptic.parts.front().X_WV_start;
   double way = 0.0;
   constexpr int kPieces = 10'000;
   Isometry3d last = script_X_WH.pose_at(script_X_WH.first_time());
@@ -154,26 +155,31 @@ struct Answers {
   std::vector<Vector3d> exact;
 };
 
-Vector3d force_of(const haptics::Sliding& sliding) {
-  return haptics::spring_wrench(sliding.stiffness(), sliding.error()).f;
+/// The scene's part, in the hand.
+haptics::MultiPartSliding held(const SlidingScene& scene, const haptics::SlidingRules& rules) {
+  return {scene.obstacles, {{.part_V = scene.part_V, .X_WV_start = scene.X_WV_start}}, rules};
+}
+
+Vector3d force_of(const haptics::MultiPartSliding& sliding) {
+  return haptics::spring_wrench(sliding.stiffness(0), sliding.error(0)).f;
 }
 
 Answers answers_of(const SlidingScene& scene, int ticks) {
-  haptics::SlidingOptions options;
-  options.metaphor = haptics::Metaphor::kForceFeedback;
-  haptics::Sliding slow(scene.obstacles, scene.part_V, scene.X_WV_start, options);
-  options.rules.contacts_ahead_ms = haptics::real_time_rules().contacts_ahead_ms;
-  haptics::Sliding sliding(scene.obstacles, scene.part_V, scene.X_WV_start, options);
+  haptics::MultiPartSliding slow = held(scene, {});
+  haptics::MultiPartSliding sliding = held(scene, {.contacts_ahead_ms = haptics::real_time_rules().contacts_ahead_ms});
   Answers answers;
   std::vector<std::int32_t> scratch;
   for (int tick = 0; tick < ticks; ++tick) {
     answers.X_WG.push_back(scene.ghost(tick));
-    sliding.advance(answers.X_WG.back());
-    answers.sets.push_back(make_contact_set(sliding.result(), *scene.part_V, tick + 1, milliseconds(tick), scratch));
+    sliding.advance({&answers.X_WG.back(), 1});
+    answers.sets.push_back(make_contact_set(sliding, tick + 1, milliseconds(tick), scratch));
     answers.forces.push_back(force_of(sliding));
     const Isometry3d X_WG_last = scene.ghost(std::max(0, tick - 1));
-    for (int step = 1; step <= kSlower; ++step)
-      slow.advance(test_support::between(X_WG_last, answers.X_WG.back(), static_cast<double>(step) / kSlower));
+    for (int step = 1; step <= kSlower; ++step) {
+      const Isometry3d X_WG =
+          test_support::between(X_WG_last, answers.X_WG.back(), static_cast<double>(step) / kSlower);
+      slow.advance({&X_WG, 1});
+    }
     answers.exact.push_back(force_of(slow));
   }
   return answers;
@@ -181,10 +187,11 @@ Answers answers_of(const SlidingScene& scene, int ticks) {
 
 /// A spring of 1 N/m at each contact of the set that the ghost violates.
 Vector3d unit_penalty(const ContactSet& set, const Isometry3d& X_WG, const haptics::SlidingPart& part) {
-  const geometry::Displacement d = geometry::displacement_between(set.X_WV_of_rows, X_WG * set.X_GT, part.p_Vref());
+  const geometry::Displacement d =
+      geometry::displacement_between(set.parts[0].X_WV_of_rows, X_WG * set.parts[0].X_GT, part.p_Vref());
   Vector3d sum = Vector3d::Zero();
-  for (const haptics::ConstraintRow& row : set.rows()) {
-    const double violation = row.bound - row.velocity(d);
+  for (const haptics::ContactRow& row : set.rows()) {
+    const double violation = row.bound - row.velocity({&d, 1});
     if (violation > 0.0) sum += violation * row.n;
   }
   return sum;
@@ -234,8 +241,8 @@ void run_scene(const SlidingScene& scene, bool quick, Results& results) {
   const haptics::CouplingStiffness stiffness = haptics::default_stiffness(scene.part_V->radius());
   const double penalty_stiffness = best_penalty_stiffness(answers, *scene.part_V);
   for (const int age : kAges) {
-    haptics::ContactForce contacts(scene.part_V->p_Vref(), scene.part_V->radius(), stiffness, kUnlimited,
-                                   scene.X_WV_start);
+    test_support::OneHandForce contacts(scene.part_V->p_Vref(), scene.part_V->radius(), stiffness, kUnlimited,
+                                        scene.X_WV_start);
     Errors ours;
     Errors held;
     Errors penalty;
@@ -261,8 +268,9 @@ void run_sideways(bool quick, Results& results) {
   const int ticks = std::min(scene.ticks, quick ? kSettling + 400 : scene.ticks);
   const Answers answers = answers_of(scene, ticks);
   for (const int age : kAges) {
-    haptics::ContactForce contacts(scene.part_V->p_Vref(), scene.part_V->radius(),
-                                   haptics::default_stiffness(scene.part_V->radius()), kUnlimited, scene.X_WV_start);
+    test_support::OneHandForce contacts(scene.part_V->p_Vref(), scene.part_V->radius(),
+                                        haptics::default_stiffness(scene.part_V->radius()), kUnlimited,
+                                        scene.X_WV_start);
     double sideways = 0.0;
     for (int tick = age; tick < ticks; ++tick) {
       const auto now = static_cast<std::size_t>(tick);
@@ -281,11 +289,11 @@ ContactSet random_set(int rows) {
   const auto vector = [&] { return Vector3d(uniform(random), uniform(random), uniform(random)); };
   ContactSet set;
   set.sequence = 1;
+  set.parts[0].hold = 1;
   set.row_count = rows;
   for (int i = 0; i < rows; ++i) {
     const Vector3d n = (0.5 * vector() + Vector3d::UnitZ()).normalized();
     set.row_array[static_cast<std::size_t>(i)] = {n, 0.05 * vector(), -1e-5 * (1.0 + uniform(random))};
-    set.friction_ratio_W[static_cast<std::size_t>(i)].setZero();
   }
   return set;
 }
@@ -319,10 +327,13 @@ void run_costs(Results& results) {
   const devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
   for (const int rows : {0, 12, 64}) {
     ContactSet set = random_set(rows);
-    haptics::HapticKernel kernel(*part, haptics::default_stiffness(part->radius()), device, Isometry3d::Identity());
+    haptics::HapticKernel kernel({{part->p_Vref(), part->radius(), haptics::default_stiffness(part->radius())}},
+                                 {{device, 0}});
     const double us = median_us([&](int i) {
       set.time = milliseconds(i);
-      kernel.tick(state_at(i), set, milliseconds(i));
+      const devices::GloveState state = state_at(i);
+      const devices::GloveState* const newest = &state;
+      kernel.tick({&newest, 1}, set, milliseconds(i));
     });
     results.add({kTick, "cost-" + std::to_string(rows), "glissade", "time", us, "us"});
   }

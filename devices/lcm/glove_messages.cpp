@@ -8,6 +8,8 @@
 #include <glissade/lcmtypes/glove_command_t.hpp>
 #include <glissade/lcmtypes/glove_info_t.hpp>
 #include <glissade/lcmtypes/glove_state_t.hpp>
+#include <glissade/lcmtypes/haptic_hand_t.hpp>
+#include <glissade/lcmtypes/haptic_part_t.hpp>
 #include <glissade/lcmtypes/haptic_state_t.hpp>
 
 namespace glissade::devices {
@@ -42,8 +44,8 @@ LimitReasons reasons_of(std::int32_t bits) {
   return reasons;
 }
 
-static_assert(reason_bit(0) == haptic_state_t::REASON_STOPPED);
-static_assert(reason_bit(kLimitReasons.size() - 1) == haptic_state_t::REASON_ENERGY);
+static_assert(reason_bit(0) == haptic_hand_t::REASON_STOPPED);
+static_assert(reason_bit(kLimitReasons.size() - 1) == haptic_hand_t::REASON_ENERGY);
 
 void put(const Eigen::Vector3d& vector, double (&out)[3]) {
   std::copy_n(vector.data(), 3, out);
@@ -100,6 +102,9 @@ class FieldCheck {
   void not_negative(std::int64_t value) noexcept { is_in_range_ = is_in_range_ && value >= 0; }
   void positive(std::int64_t value) noexcept { is_in_range_ = is_in_range_ && value > 0; }
   void time(std::int64_t ns) noexcept { is_in_range_ = is_in_range_ && ns >= 0 && ns <= kLargestTime_ns; }
+  void between(std::int32_t value, std::int32_t least, std::int32_t largest) noexcept {
+    is_in_range_ = is_in_range_ && value >= least && value <= largest;
+  }
   void one_of(std::int32_t value, std::int32_t largest) noexcept {
     is_in_range_ = is_in_range_ && value >= 0 && value <= largest;
   }
@@ -143,6 +148,7 @@ MessageError check(const glove_command_t& message) noexcept {
   fields.magnitude(message.force_H_W_N, kLargestForce);
   fields.magnitude(message.torque_H_W_Nm, kLargestTorque);
   fields.magnitude(message.joint_torques_Nm, kLargestTorque);
+  fields.magnitude(message.supply_J, kLargestEnergy);
   return fields.result();
 }
 
@@ -187,18 +193,73 @@ MessageError check(const haptic_state_t& message) noexcept {
   FieldCheck fields;
   fields.not_negative(message.sequence);
   fields.not_negative(message.time_ns);
-  fields.magnitude(message.position_WG_m, kLargestPosition);
-  fields.unit_quaternion(message.orientation_WG_wxyz);
-  fields.magnitude(message.position_WV_m, kLargestPosition);
-  fields.unit_quaternion(message.orientation_WV_wxyz);
-  fields.magnitude(message.force_on_hand_W_N, kLargestForce);
-  fields.magnitude(message.torque_on_hand_V_W_Nm, kLargestTorque);
-  fields.not_negative(message.contact_count);
   fields.not_negative(message.contact_set_age_ns);
-  fields.magnitude(message.contact_share, 1.0);
-  fields.magnitude(message.energy_J, kLargestEnergy);
-  fields.magnitude(message.glove_energy_J, kLargestEnergy);
+  fields.one_of(message.part_count, static_cast<std::int32_t>(kHapticParts));
+  fields.one_of(message.hand_count, static_cast<std::int32_t>(kHapticHands));
+  for (const haptic_part_t& part : message.parts) {
+    fields.magnitude(part.position_WG_m, kLargestPosition);
+    fields.unit_quaternion(part.orientation_WG_wxyz);
+    fields.magnitude(part.position_WV_m, kLargestPosition);
+    fields.unit_quaternion(part.orientation_WV_wxyz);
+    fields.not_negative(part.contact_count);
+  }
+  for (const haptic_hand_t& hand : message.hands) {
+    fields.between(hand.part, -1, static_cast<std::int32_t>(kHapticParts) - 1);
+    fields.magnitude(hand.force_W_N, kLargestForce);
+    fields.magnitude(hand.torque_V_W_Nm, kLargestTorque);
+    fields.magnitude(hand.contact_share, 1.0);
+    fields.magnitude(hand.energy_J, kLargestEnergy);
+    fields.magnitude(hand.glove_energy_J, kLargestEnergy);
+  }
   return fields.result();
+}
+
+haptic_part_t message_of(const HapticPartState& part) {
+  haptic_part_t message{};
+  put(Eigen::Vector3d(part.X_WG.translation()), message.position_WG_m);
+  put(Eigen::Matrix3d(part.X_WG.linear()), message.orientation_WG_wxyz);
+  put(Eigen::Vector3d(part.X_WV.translation()), message.position_WV_m);
+  put(Eigen::Matrix3d(part.X_WV.linear()), message.orientation_WV_wxyz);
+  message.part_state = static_cast<std::int32_t>(part.state);
+  message.contact_count = part.contact_count;
+  return message;
+}
+
+HapticPartState part_of(const haptic_part_t& message) noexcept {
+  return {.X_WG = pose_of(message.position_WG_m, message.orientation_WG_wxyz),
+          .X_WV = pose_of(message.position_WV_m, message.orientation_WV_wxyz),
+          .state = part_state_from_number(message.part_state),
+          .contact_count = message.contact_count};
+}
+
+haptic_hand_t message_of(const HapticHandState& hand) {
+  haptic_hand_t message{};
+  message.part = hand.part;
+  message.flags = hand.are_contacts_unsolved ? haptic_hand_t::FLAG_CONTACTS_UNSOLVED : 0;
+  message.reasons = to_bits(hand.reasons);
+  message.glove_reasons = to_bits(hand.glove_reasons);
+  put(hand.force_W, message.force_W_N);
+  put(hand.torque_V_W, message.torque_V_W_Nm);
+  message.contact_share = hand.contact_share;
+  message.command_age_ns = hand.command_age.count();
+  message.state_age_ns = hand.state_age.count();
+  message.energy_J = hand.energy;
+  message.glove_energy_J = hand.glove_energy;
+  return message;
+}
+
+HapticHandState hand_of(const haptic_hand_t& message) noexcept {
+  return {.part = message.part,
+          .force_W = Eigen::Vector3d(message.force_W_N),
+          .torque_V_W = Eigen::Vector3d(message.torque_V_W_Nm),
+          .contact_share = message.contact_share,
+          .are_contacts_unsolved = (message.flags & haptic_hand_t::FLAG_CONTACTS_UNSOLVED) != 0,
+          .reasons = reasons_of(message.reasons),
+          .state_age = std::chrono::nanoseconds(message.state_age_ns),
+          .glove_reasons = reasons_of(message.glove_reasons),
+          .command_age = std::chrono::nanoseconds(message.command_age_ns),
+          .energy = message.energy_J,
+          .glove_energy = message.glove_energy_J};
 }
 
 }  // namespace
@@ -251,6 +312,7 @@ std::vector<std::uint8_t> encode(const CommandHeader& header, const GloveCommand
   message.time_ns = command.time.count();
   put(command.f_H_W, message.force_H_W_N);
   put(command.t_H_W, message.torque_H_W_Nm);
+  message.supply_J = command.supply;
   std::copy(command.joint_torques.begin(), command.joint_torques.end(), message.joint_torques_Nm);
   return to_bytes(message);
 }
@@ -260,26 +322,14 @@ std::vector<std::uint8_t> encode(const HapticState& state) {
   message.version = haptic_state_t::VERSION;
   message.sequence = state.sequence;
   message.time_ns = state.time.count();
-  put(Eigen::Vector3d(state.X_WG.translation()), message.position_WG_m);
-  put(Eigen::Matrix3d(state.X_WG.linear()), message.orientation_WG_wxyz);
-  put(Eigen::Vector3d(state.X_WV.translation()), message.position_WV_m);
-  put(Eigen::Matrix3d(state.X_WV.linear()), message.orientation_WV_wxyz);
-  put(state.force_on_hand_W, message.force_on_hand_W_N);
-  put(state.torque_on_hand_V_W, message.torque_on_hand_V_W_Nm);
-  message.part_state = static_cast<std::int32_t>(state.part_state);
-  message.contact_count = state.contact_count;
   message.contact_set_age_ns = state.contact_set_age.count();
-  message.contact_share = state.contact_share;
-  const auto flag = [](bool is_set, std::int32_t value) { return is_set ? value : 0; };
-  message.flags = flag(state.is_in_contact, haptic_state_t::FLAG_IN_CONTACT) +
-                  flag(state.is_contact_set_late, haptic_state_t::FLAG_CONTACT_SET_LATE) +
-                  flag(state.are_contacts_unsolved, haptic_state_t::FLAG_CONTACTS_UNSOLVED);
-  message.reasons = to_bits(state.reasons);
-  message.state_age_ns = state.state_age.count();
-  message.glove_reasons = to_bits(state.glove_reasons);
-  message.energy_J = state.energy;
-  message.glove_energy_J = state.glove_energy;
-  message.command_age_ns = state.command_age.count();
+  message.flags = state.is_contact_set_late ? haptic_state_t::FLAG_CONTACT_SET_LATE : 0;
+  message.part_count = state.part_count;
+  message.hand_count = state.hand_count;
+  for (std::size_t p = 0; p < kHapticParts; ++p)
+    message.parts[p] = message_of(state.parts[p]);
+  for (std::size_t h = 0; h < kHapticHands; ++h)
+    message.hands[h] = message_of(state.hands[h]);
   return to_bytes(message);
 }
 
@@ -346,6 +396,7 @@ MessageError decode(std::span<const std::uint8_t> bytes, CommandHeader& header, 
   command.f_H_W = Eigen::Vector3d(message.force_H_W_N);
   command.t_H_W = Eigen::Vector3d(message.torque_H_W_Nm);
   std::copy_n(message.joint_torques_Nm, kGloveJoints, command.joint_torques.begin());
+  command.supply = message.supply_J;
   return MessageError::kNone;
 }
 
@@ -358,24 +409,14 @@ MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noe
   if (error != MessageError::kNone) return error;
   state.sequence = message.sequence;
   state.time = std::chrono::nanoseconds(message.time_ns);
-  state.X_WG = pose_of(message.position_WG_m, message.orientation_WG_wxyz);
-  state.X_WV = pose_of(message.position_WV_m, message.orientation_WV_wxyz);
-  state.force_on_hand_W = Eigen::Vector3d(message.force_on_hand_W_N);
-  state.torque_on_hand_V_W = Eigen::Vector3d(message.torque_on_hand_V_W_Nm);
-  state.part_state = part_state_from_number(message.part_state);
-  state.contact_count = message.contact_count;
   state.contact_set_age = std::chrono::nanoseconds(message.contact_set_age_ns);
-  state.contact_share = message.contact_share;
-  const auto has = [&](std::int32_t flag) { return (message.flags & flag) != 0; };
-  state.is_in_contact = has(haptic_state_t::FLAG_IN_CONTACT);
-  state.is_contact_set_late = has(haptic_state_t::FLAG_CONTACT_SET_LATE);
-  state.are_contacts_unsolved = has(haptic_state_t::FLAG_CONTACTS_UNSOLVED);
-  state.reasons = reasons_of(message.reasons);
-  state.state_age = std::chrono::nanoseconds(message.state_age_ns);
-  state.glove_reasons = reasons_of(message.glove_reasons);
-  state.command_age = std::chrono::nanoseconds(message.command_age_ns);
-  state.energy = message.energy_J;
-  state.glove_energy = message.glove_energy_J;
+  state.is_contact_set_late = (message.flags & haptic_state_t::FLAG_CONTACT_SET_LATE) != 0;
+  state.part_count = message.part_count;
+  state.hand_count = message.hand_count;
+  for (std::size_t p = 0; p < kHapticParts; ++p)
+    state.parts[p] = part_of(message.parts[p]);
+  for (std::size_t h = 0; h < kHapticHands; ++h)
+    state.hands[h] = hand_of(message.hands[h]);
   return MessageError::kNone;
 }
 

@@ -18,30 +18,56 @@ devices::PartState part_state_of(SlidingState state) noexcept {
   return devices::PartState::kUnknown;
 }
 
-devices::HapticState make_sample(const HapticTick& tick, const ContactSet& set, const devices::GloveState& state,
-                                 std::chrono::nanoseconds now) noexcept {
-  devices::HapticState sample;
-  sample.sequence = tick.command.values().sequence;
-  sample.time = now;
-  sample.X_WG = tick.X_WG;
-  sample.X_WV = set.X_WV;
+namespace {
+
+devices::HapticPartState part_after(const GhostOfPart& ghost, const PartAnswer& answer, bool is_answered) noexcept {
+  devices::HapticPartState part;
+  part.X_WG = ghost.X_WG;
+  part.X_WV = answer.X_WV;
+  if (is_answered) part.state = part_state_of(answer.state);
+  part.contact_count = answer.pushing;
+  return part;
+}
+
+devices::HapticHandState hand_after(const HandTick& tick, const ContactSet& set,
+                                    const devices::GloveState& state) noexcept {
   const devices::GloveCommand& command = tick.command.values();
-  const Wrench on_hand = about_point({command.f_H_W, command.t_H_W}, state.X_WH.translation(), set.X_WV.translation());
-  sample.force_on_hand_W = on_hand.f;
-  sample.torque_on_hand_V_W = on_hand.t;
-  if (set.sequence != 0) sample.part_state = part_state_of(set.state);
-  sample.contact_count = set.pushing;
+  const Eigen::Vector3d& p_WH = state.X_WH.translation();
+  const Eigen::Vector3d p_Wabout = tick.part ? Eigen::Vector3d(set.parts[*tick.part].X_WV.translation()) : p_WH;
+  const Wrench on_hand = about_point({command.f_H_W, command.t_H_W}, p_WH, p_Wabout);
+  devices::HapticHandState hand;
+  hand.part = tick.part ? static_cast<std::int32_t>(*tick.part) : -1;
+  hand.force_W = on_hand.f;
+  hand.torque_V_W = on_hand.t;
+  hand.contact_share = tick.contact_share;
+  hand.are_contacts_unsolved = tick.is_unsolved;
+  hand.reasons = tick.command.reasons();
+  hand.state_age = tick.command.age();
+  hand.glove_reasons = state.limits;
+  hand.command_age = state.command_age;
+  hand.energy = tick.command.energy();
+  hand.glove_energy = state.energy;
+  return hand;
+}
+
+}  // namespace
+
+devices::HapticState make_sample(std::int64_t sequence, const HapticTick& tick, const ContactSet& set,
+                                 std::span<const devices::GloveState* const> states,
+                                 std::chrono::nanoseconds now) noexcept {
+  static_assert(kMaxParts == devices::kHapticParts && kMaxHands == devices::kHapticHands);
+  devices::HapticState sample;
+  sample.sequence = sequence;
+  sample.time = now;
   sample.contact_set_age = set.sequence == 0 ? std::chrono::nanoseconds(0) : now - set.time;
-  sample.is_in_contact = set.pushing > 0;
-  sample.contact_share = tick.contact_share;
-  sample.are_contacts_unsolved = tick.is_unsolved;
-  sample.reasons = tick.command.reasons();
-  sample.state_age = tick.command.age();
-  sample.glove_reasons = state.limits;
-  sample.command_age = state.command_age;
-  sample.energy = tick.command.energy();
-  sample.glove_energy = state.energy;
   sample.is_contact_set_late = sample.contact_set_age > kLateContactSet;
+  sample.part_count = set.part_count;
+  sample.hand_count = static_cast<std::int32_t>(states.size());
+  for (std::size_t p = 0; p < static_cast<std::size_t>(set.part_count); ++p)
+    sample.parts[p] = part_after(tick.ghosts.parts[p], set.parts[p], set.sequence != 0);
+  for (std::size_t h = 0; h < states.size(); ++h) {
+    if (states[h] != nullptr) sample.hands[h] = hand_after(tick.hands[h], set, *states[h]);
+  }
   return sample;
 }
 

@@ -3,6 +3,8 @@
 /// The record of one haptic tick: the kernel's outcome and the contact set that it used.
 
 #include <chrono>
+#include <cstdint>
+#include <span>
 
 #include <glissade/devices/haptic_state.h>
 #include <glissade/haptics/haptic_kernel.h>
@@ -15,9 +17,11 @@ inline constexpr std::chrono::milliseconds kLateContactSet{5};
 /// The state as sent on the wire.
 devices::PartState part_state_of(SlidingState state) noexcept;
 
-/// The state for viewers and recorders, at time `now` of the haptic clock. The wrench is the one sent to the device,
-/// moved to the origin of the visible part. Real-time safe.
-devices::HapticState make_sample(const HapticTick& tick, const ContactSet& set, const devices::GloveState& state,
+/// The state for viewers and recorders after the tick number `sequence` at time `now` of the haptic clock. `states` are
+/// those of the hands, as for the kernel. The wrench of a hand is the one sent to its device, moved to the origin of
+/// the visible part that it holds. Real-time safe.
+devices::HapticState make_sample(std::int64_t sequence, const HapticTick& tick, const ContactSet& set,
+                                 std::span<const devices::GloveState* const> states,
                                  std::chrono::nanoseconds now) noexcept;
 
 }  // namespace glissade::haptics

@@ -22,9 +22,9 @@ struct HeldPartState {
   std::shared_ptr<const SlidingPart> part_V;
   Metaphor metaphor;
   CouplingStiffness stiffness;
-  double margin;     // metres
-  bool is_scripted;  // neither spiral search nor depenetration moves it
-  bool may_search;   // in a spiral
+  double margin;  // metres
+  std::optional<PartScript> script;
+  bool may_search;  // in a spiral
   SpiralSearch spiral_search;
 
   SlidingResult result{};
@@ -40,6 +40,7 @@ struct HeldPartState {
   geometry::Displacement previous_lag{};  // from the part to its target, at the end of the last call
   double slew = 0.0;                      // metres by which the lag may change in this tick
 
+  bool is_scripted() const { return script.has_value(); }
   bool is_held() const { return result.state != SlidingState::kReleased; }
   const Eigen::Vector3d& p_Vref() const { return part_V->p_Vref(); }
   Eigen::Vector3d p_Wref() const { return result.X_WV * p_Vref(); }

@@ -62,8 +62,8 @@ HeldPartState state_at_start(const HeldPart& held, const Eigen::Isometry3d& X_WV
                       .metaphor = held.metaphor,
                       .stiffness = held.stiffness.value_or(default_stiffness(held.part_V->radius())),
                       .margin = rules.margin.value_or(default_margin(*held.part_V)),
-                      .is_scripted = held.is_scripted,
-                      .may_search = rules.spiral_search && !held.is_scripted,
+                      .script = held.script,
+                      .may_search = rules.spiral_search && !held.script,
                       .spiral_search = SpiralSearch(held.part_V->radius())};
   state.result.X_WG = X_WV;
   state.result.X_WT = X_WV;
@@ -82,7 +82,9 @@ SimulatedParts::SimulatedParts(std::vector<Obstacle> obstacles, const std::vecto
       scene(std::move(obstacles), bodies_of(parts), margins_of(parts, rules)),
       candidates(scene, kLargestReach_m + kMostLookAhead_m, rules.has_search_thread) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    const std::optional<Eigen::Isometry3d> X_WV = geometry::rigid_pose(parts[p].X_WV_start);
+    const std::optional<PartScript>& script = parts[p].script;
+    const std::optional<Eigen::Isometry3d> X_WV =
+        geometry::rigid_pose(script ? script->pose_at({}) : parts[p].X_WV_start);
     if (!X_WV) throw std::invalid_argument("the start pose of " + parts[p].name + " is not a rotation and translation");
     scene.place(p, *X_WV);
     states.push_back(state_at_start(parts[p], *X_WV, rules));

@@ -28,7 +28,7 @@ void Starts::look(const std::vector<HeldPart>& parts, std::size_t part, std::siz
   }
   const std::span<const Obstacle> obstacles = scene.obstacles();
   const bool is_obstacle = other < obstacles.size();
-  if (is_obstacle && shared_.rules.overlap == OverlapRule::kDepenetrate && !parts[part].is_scripted) {
+  if (is_obstacle && shared_.rules.overlap == OverlapRule::kDepenetrate && !parts[part].script) {
     overlaps_.add(bodies);
     return;
   }

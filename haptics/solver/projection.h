@@ -22,19 +22,6 @@ namespace glissade::haptics {
 
 inline constexpr std::size_t kMaxActive = 6;  ///< a displacement has six degrees of freedom
 
-/// A constraint on the displacements of several parts: on the displacement of `part`, or for a contact of two parts, on
-/// that of `part` relative to `other`.
-struct CoupledRow : ConstraintRow {
-  std::int32_t part = 0;
-  std::int32_t other = -1;                            ///< −1 for an obstacle
-  Eigen::Vector3d r_other = Eigen::Vector3d::Zero();  ///< as r, for the other part
-
-  double velocity(std::span<const geometry::Displacement> d) const {
-    const double own = ConstraintRow::velocity(d[static_cast<std::size_t>(part)]);
-    return other < 0 ? own : own - ConstraintRow{n, r_other, 0.0}.velocity(d[static_cast<std::size_t>(other)]);
-  }
-};
-
 /// `active` are the rows that hold with equality and push. `force` (newtons) is the multiplier of each, along its
 /// normal: its share of K (ξ − ξ*). Displacements are valid only when solved.
 template <std::size_t kParts>

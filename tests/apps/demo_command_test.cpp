@@ -60,11 +60,11 @@ TEST_F(Demo, OfflineGivesTheSameHashTwiceAndReachesTheSeatThroughContact) {
   EXPECT_EQ(first["colliding_poses"], 0);
   EXPECT_EQ(first["checked_poses"], 1000);
   EXPECT_EQ(first["seat_reached"], true);
-  EXPECT_GT(first["contact_fraction"], 0.7);
-  EXPECT_GT(first["force_max_N"], 2.0);
-  EXPECT_LE(first["force_step_max_N"], 20.0 / 7.0) << "the slew of the device";
+  EXPECT_GT(first["parts"][0]["contact_fraction"], 0.7);
+  EXPECT_GT(first["hands"][0]["force_max_N"], 2.0);
+  EXPECT_LE(first["hands"][0]["force_step_max_N"], 20.0 / 7.0) << "the slew of the device";
   // It comes from above, slides, and at the end it rests.
-  const nlohmann::json& states = first["state_s"];
+  const nlohmann::json& states = first["parts"][0]["state_s"];
   double sum = 0.0;
   for (const auto& [name, seconds] : states.items())
     sum += seconds.get<double>();
@@ -73,7 +73,7 @@ TEST_F(Demo, OfflineGivesTheSameHashTwiceAndReachesTheSeatThroughContact) {
     EXPECT_GT(states[name].get<double>(), 0.05) << name;
   EXPECT_LE(states["unknown"].get<double>(), 0.001) << "the first tick, before there is an answer";
   EXPECT_EQ(states["released"], 0.0);
-  EXPECT_GE(first["state_changes"], 3);
+  EXPECT_GE(first["parts"][0]["state_changes"], 3);
   EXPECT_TRUE(first["lateness_us_p50"].is_null());
 }
 
@@ -82,14 +82,14 @@ TEST_F(Demo, InRealTimeGloveAndServerMeetOverLcmAndReachTheSameSeat) {
   EXPECT_EQ(summary["ticks"], 1200);
   EXPECT_EQ(summary["colliding_poses"], 0);
   EXPECT_EQ(summary["seat_reached"], true);
-  EXPECT_GT(summary["force_max_N"], 1.0);
+  EXPECT_GT(summary["hands"][0]["force_max_N"], 1.0);
   for (const char* figure : {"tick_us_p50", "tick_us_p99", "lateness_us_p50", "bare_lateness_us_p50", "late_ticks"}) {
     EXPECT_TRUE(summary[figure].is_number()) << figure;
   }
   std::ifstream page(files().path("report") + "/index.html");
   std::stringstream html;
   html << page.rdbuf();
-  for (const char* text : {"Force on the hand", "States of the part", "sliding"})
+  for (const char* text : {"Force on the hand", "States of box", "sliding"})
     EXPECT_NE(html.str().find(text), std::string::npos) << text;
   // Nothing is fetched from anywhere.
   for (const char* reference : {"src=", "href=", "url(", "@import"}) {
@@ -102,13 +102,24 @@ TEST_F(Demo, TheCarDoorRunsOfflineWithoutACollision) {
   const nlohmann::json summary = run({"--seconds", "1", "--offline"});
   EXPECT_EQ(summary["ticks"], 1000);
   EXPECT_EQ(summary["colliding_poses"], 0);
-  EXPECT_GT(summary["contact_fraction"], 0.3);
+  EXPECT_GT(summary["parts"][0]["contact_fraction"], 0.3);
   EXPECT_GE(summary["objects"], 40);
   // What the pipeline's stages were asked: most of the door is never near the motor.
   const nlohmann::json& stages = summary["collision_stages"];
   EXPECT_LT(stages["neighbor_finding"]["out"], 10.0);
   EXPECT_LE(stages["exact"]["in"], stages["separating_planes"]["in"]);
   EXPECT_GT(stages["exact"]["us"], 0.0);
+}
+
+TEST_F(Demo, FrictionHoldsTheHandBack) {
+  const auto distance_with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"demo", "--offline", "--scene", scene, "--seconds", "1", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const test_support::ProgramResult result = test_support::glissade(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+    return nlohmann::json::parse(result.standard_output)["seat_distance_m"].get<double>();
+  };
+  EXPECT_GT(distance_with({"--friction", "0.6"}), distance_with({}) + 2e-3);
 }
 
 TEST_F(Demo, RefusesWhatIsWrong) {
@@ -120,12 +131,17 @@ TEST_F(Demo, RefusesWhatIsWrong) {
                                               "  - {name: plate, shape: {type: plate}}\n"
                                               "  - {name: box, movable: true, shape: {type: box}}\n");
   expect_refused({"demo", "--scene", no_script}, {"no_script.yaml", "script"});
-  const std::string two_parts = files().write("two_parts.yaml",
-                                              "objects:\n"
-                                              "  - {name: a, movable: true, shape: {type: box}}\n"
-                                              "  - {name: b, movable: true, shape: {type: box}}\n"
-                                              "script: hand.csv\n");
-  expect_refused({"demo", "--scene", two_parts}, {"two_parts.yaml", "2 are"});
+  const std::string no_part = files().write("no_part.yaml",
+                                            "objects:\n"
+                                            "  - {name: a, shape: {type: box}}\n"
+                                            "script: hand.csv\n");
+  expect_refused({"demo", "--scene", no_part}, {"no_part.yaml", "movable"});
+  expect_refused({"demo", "--scene", scene, "--metaphor", "glue"}, {"--metaphor", "'glue'", "rubber-band"});
+  expect_refused({"demo", "--scene", scene, "--friction", "0.5", "0.2"}, {"--friction"});
+  expect_refused({"run", scene, "--device", "1", "1"}, {"--device", "glove 1", "twice"});
+  expect_refused({"run", scene, "--device", "1", "2", "3", "4", "5"}, {"--device", "5 gloves"});
+  expect_refused({"run", scene, "--hold", "2=box"}, {"--hold", "'2=box'", "GLOVE=PART"});
+  expect_refused({"run", scene, "--hold", "1=plate"}, {"--hold", "'1=plate'", "'box'"});
   expect_refused({"demo", "--offline", "--lcm", "memq://"}, {"--offline", "--lcm"});
   expect_refused({"run", no_script, "--lcm", "udpm://nonsense"}, {"udpm://nonsense"});
   expect_refused({"glove", "--lcm", "udpm://nonsense"}, {"udpm://nonsense"});

@@ -325,8 +325,8 @@ TEST_F(ScenePages, TheTablesHaveExactlyTheKeysOfInfo) {
   EXPECT_EQ(formats.names_below("## Output of info"), keys);
 }
 
-TEST_F(ScenePages, TheTablesHaveExactlyTheKeysOfDemo) {
-  const nlohmann::json json = to_json(SessionSummary{}, Session{});
+/// The keys of an object, each in a row of the table below `heading`, with the names inside it.
+void expect_keys(const Page& page, const std::string& heading, const nlohmann::json& json) {
   Texts keys;
   for (const auto& [key, value] : json.items()) {
     keys.push_back(key);
@@ -338,10 +338,17 @@ TEST_F(ScenePages, TheTablesHaveExactlyTheKeysOfDemo) {
       for (const auto& [innermost_key, innermost_value] : inner_value.items())
         inner.push_back(innermost_key);
     }
-    const Texts on_page = code_spans(formats.row("## Output of demo and run", key)[2]);
+    const Texts on_page = code_spans(page.row(heading, key)[2]);
     EXPECT_EQ(std::set(on_page.begin(), on_page.end()), std::set(inner.begin(), inner.end())) << key;
   }
-  EXPECT_THAT(formats.names_below("## Output of demo and run"), UnorderedElementsAreArray(keys));
+  EXPECT_THAT(page.names_below(heading), UnorderedElementsAreArray(keys));
+}
+
+TEST_F(ScenePages, TheTablesHaveExactlyTheKeysOfDemo) {
+  const nlohmann::json json = to_json({.parts = {PartSummary{}}, .hands = {HandSummary{}}}, Session{});
+  expect_keys(formats, "## Output of demo and run", json);
+  expect_keys(formats, "### Parts of a session", json["parts"][0]);
+  expect_keys(formats, "### Hands of a session", json["hands"][0]);
 }
 
 TEST_F(ScenePages, TheHelpOfEveryCommandWithASceneNamesThePageAndAnExample) {

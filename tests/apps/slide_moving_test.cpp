@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <glissade/apps/text.h>
 
@@ -96,11 +97,29 @@ TEST_F(SlideAmongMovingObjects, RefusesWhatMakesNoSense) {
   expect_refused(slide(scene(), {"--summary", "-", "--moving", folder.path("moving.csv")}), {"--moving", "check"});
   expect_refused(slide(scene(), {"--out", folder.path("a.csv"), "--moving", folder.path("a.csv")}),
                  {"--moving", "a.csv", "--out"});
-  const std::string with_script = folder.write("demo.yaml", read_text_file(scene()) + "script: hand.csv\n");
-  expect_refused({"demo", "--scene", with_script}, {"demo.yaml", "'lift'", "glissade slide"});
-  expect_refused({"run", scene()}, {"scene.yaml", "'lift'", "glissade slide"});
   folder.write("lift.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,zero,1,0,0,0\n");
   expect_refused(slide(scene()), {"scene.yaml:4", "moves", "lift.csv:2", "zero"});
+}
+
+/// The lift comes up below a hand that stays where it is.
+TEST_F(SlideAmongMovingObjects, TheHapticLoopFeelsThemToo) {
+  const std::string above = folder.write(
+      "demo.yaml",
+      "objects:\n"
+      "  - {name: cube, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}, pose: "
+      "{position_m: [0, 0, 0.045]}}\n"
+      "  - {name: lift, moves: lift.csv, shape: {type: box, size_x_m: 0.1, size_y_m: 0.1, size_z_m: 0.02}}\n"
+      "script: hand.csv\n");
+  folder.write("hand.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0.045,1,0,0,0\n1,0,0,0.045,1,0,0,0\n");
+  const ProgramResult result =
+      test_support::glissade({"demo", "--offline", "--scene", above, "--seconds", "2", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  const nlohmann::json summary = nlohmann::json::parse(result.standard_output);
+  EXPECT_EQ(summary["parts"][0]["name"], "cube");
+  EXPECT_EQ(summary["parts"][1]["name"], "lift");
+  EXPECT_EQ(summary["colliding_poses"], 0);
+  EXPECT_GT(summary["hands"][0]["force_max_N"], 5e-3 / (1.0 / 400.0 + 1.0 / 1000.0)) << "arm and coupling in a row";
+  EXPECT_LT(summary["hands"][0]["force_max_N"], 5e-3 * 1000.0) << "the arm yields";
 }
 
 TEST_F(SlideAmongMovingObjects, WhereNothingMovesThereIsNothingToWrite) {
@@ -141,7 +160,7 @@ TEST_F(SlideAmongMovingObjects, OnlySoManyCanMove) {
     const std::string name = "lift" + std::to_string(i);
     text += "  - {name: " + name + ", moves: lift.csv, shape: {type: sphere}}\n";
   }
-  expect_refused(slide(folder.write("many.yaml", text)), {"many.yaml", "4 objects", "at most 3"});
+  expect_refused(slide(folder.write("many.yaml", text)), {"many.yaml", "5 objects", "at most 4"});
 }
 
 }  // namespace

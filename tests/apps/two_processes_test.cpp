@@ -56,10 +56,42 @@ TEST(TwoProcesses, AGloveInOneProcessCarriesThePartInTheOtherToItsSeat) {
   EXPECT_EQ(summary["ticks"], 3000);
   EXPECT_EQ(summary["colliding_poses"], 0);
   EXPECT_EQ(summary["seat_reached"], true);
-  EXPECT_GT(summary["contact_fraction"], 0.3);
-  EXPECT_GT(summary["force_max_N"], 1.0);
+  EXPECT_GT(summary["parts"][0]["contact_fraction"], 0.3);
+  EXPECT_GT(summary["hands"][0]["force_max_N"], 1.0);
   EXPECT_NE(hand.standard_output.find(" 0 refused)"), std::string::npos) << hand.standard_output;
   EXPECT_EQ(hand.standard_output.find("greatest force 0 N"), std::string::npos) << hand.standard_output;
+}
+
+/// A hand that goes straight to another place in half a second and stays.
+std::string write_way(const test_support::TemporaryFolder& folder, const std::string& name, const std::string& from,
+                      const std::string& to) {
+  return folder.write(
+      name, "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0," + from + ",1,0,0,0\n0.5," + to + ",1,0,0,0\n6," + to + ",1,0,0,0\n");
+}
+
+TEST(ThreeProcesses, TwoGlovesPressTheirPartsTogether) {
+  ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
+  const test_support::TemporaryFolder folder;
+  const auto cube = [](const std::string& name, const std::string& x) {
+    return "  - {name: " + name +
+           ", movable: true, shape: {type: box, size_x_m: 0.04, size_y_m: 0.04, size_z_m: 0.04}, " +
+           "pose: {position_m: [" + x + ", 0, 0]}}\n";
+  };
+  const std::string scene = folder.write("scene.yaml", "objects:\n" + cube("left", "-0.03") + cube("right", "0.03"));
+  const test_support::Process first({GLISSADE_PROGRAM, "glove", "--lcm", kUrl, "--device", "1", "--script",
+                                     write_way(folder, "a.csv", "-0.03,0,0", "-0.01,0,0")});
+  const test_support::Process second({GLISSADE_PROGRAM, "glove", "--lcm", kUrl, "--device", "2", "--side", "left",
+                                      "--script", write_way(folder, "b.csv", "0.03,0,0", "0.01,0,0")});
+  const test_support::ProgramResult server =
+      test_support::glissade({"run", scene, "--lcm", kUrl, "--device", "1", "2", "--seconds", "3", "--json"});
+  ASSERT_EQ(server.exit_code, 0) << server.standard_error;
+  EXPECT_NE(server.standard_error.find("glove 1 holds 'left', glove 2 holds 'right'"), std::string::npos)
+      << server.standard_error;
+  const nlohmann::json summary = nlohmann::json::parse(server.standard_output);
+  EXPECT_EQ(summary["colliding_poses"], 0);
+  ASSERT_EQ(summary["hands"].size(), 2U);
+  for (const nlohmann::json& hand : summary["hands"])
+    EXPECT_GT(hand["force_max_N"], 1.5) << hand["device"];
 }
 
 TEST(TwoProcesses, AServerWithAnotherKeySaysThatItRefuses) {

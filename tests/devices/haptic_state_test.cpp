@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/devices/haptic_state.h>
+#include <glissade/lcmtypes/haptic_part_t.hpp>
 #include <glissade/lcmtypes/haptic_state_t.hpp>
 
 #include "lcm/glove_messages.h"
@@ -20,20 +21,27 @@ HapticState some_state() {
   HapticState state;
   state.sequence = 12;
   state.time = milliseconds(34);
-  state.X_WG = Eigen::Translation3d(1.0, 2.0, 3.0) * Eigen::AngleAxisd(0.5, Vector3d::UnitX());
-  state.X_WV = Eigen::Translation3d(4.0, 5.0, 6.0) * Eigen::AngleAxisd(0.6, Vector3d::UnitY());
-  state.force_on_hand_W = Vector3d(7.0, 8.0, 9.0);
-  state.torque_on_hand_V_W = Vector3d(10.0, 11.0, 12.0);
-  state.part_state = PartState::kCatchingUp;
-  state.contact_count = 3;
   state.contact_set_age = milliseconds(2);
-  state.are_contacts_unsolved = true;
-  state.contact_share = 0.25;
-  state.energy = 0.125;
-  state.glove_energy = 0.5;
-  state.reasons.is_state_old = true;
-  state.reasons.mean_limited = true;
-  state.state_age = milliseconds(14);
+  state.part_count = 3;
+  state.hand_count = 2;
+  HapticPartState& part = state.parts[2];
+  part.X_WG = Eigen::Translation3d(1.0, 2.0, 3.0) * Eigen::AngleAxisd(0.5, Vector3d::UnitX());
+  part.X_WV = Eigen::Translation3d(4.0, 5.0, 6.0) * Eigen::AngleAxisd(0.6, Vector3d::UnitY());
+  part.state = PartState::kCatchingUp;
+  part.contact_count = 3;
+  HapticHandState& hand = state.hands[1];
+  hand.part = 2;
+  hand.force_W = Vector3d(7.0, 8.0, 9.0);
+  hand.torque_V_W = Vector3d(10.0, 11.0, 12.0);
+  hand.are_contacts_unsolved = true;
+  hand.contact_share = 0.25;
+  hand.energy = 0.125;
+  hand.glove_energy = 0.5;
+  hand.reasons.is_state_old = true;
+  hand.reasons.mean_limited = true;
+  hand.glove_reasons.is_disabled = true;
+  hand.state_age = milliseconds(14);
+  hand.command_age = milliseconds(15);
   return state;
 }
 
@@ -56,30 +64,37 @@ TEST(HapticState, ArrivesAsItWasSent) {
   ASSERT_EQ(decode(encode(sent), received), MessageError::kNone);
   EXPECT_EQ(received.sequence, sent.sequence);
   EXPECT_EQ(received.time, sent.time);
-  EXPECT_TRUE(received.X_WG.isApprox(sent.X_WG));
-  EXPECT_TRUE(received.X_WV.isApprox(sent.X_WV));
-  EXPECT_EQ(received.force_on_hand_W, sent.force_on_hand_W);
-  EXPECT_EQ(received.torque_on_hand_V_W, sent.torque_on_hand_V_W);
-  EXPECT_EQ(received.part_state, PartState::kCatchingUp);
-  EXPECT_EQ(received.contact_count, 3);
   EXPECT_EQ(received.contact_set_age, sent.contact_set_age);
-  EXPECT_FALSE(received.is_in_contact);
-  EXPECT_TRUE(received.are_contacts_unsolved);
-  EXPECT_EQ(received.contact_share, 0.25);
-  EXPECT_EQ(received.energy, 0.125);
-  EXPECT_EQ(received.glove_energy, 0.5);
   EXPECT_FALSE(received.is_contact_set_late);
-  EXPECT_TRUE(received.reasons.is_state_old && received.reasons.mean_limited);
-  EXPECT_FALSE(received.reasons.is_stopped || received.reasons.is_returning);
-  EXPECT_EQ(received.state_age, milliseconds(14));
+  EXPECT_EQ(received.part_count, 3);
+  EXPECT_EQ(received.hand_count, 2);
+  const HapticPartState& part = received.parts[2];
+  EXPECT_TRUE(part.X_WG.isApprox(sent.parts[2].X_WG));
+  EXPECT_TRUE(part.X_WV.isApprox(sent.parts[2].X_WV));
+  EXPECT_EQ(part.state, PartState::kCatchingUp);
+  EXPECT_EQ(part.contact_count, 3);
+  EXPECT_EQ(received.hands[0].part, -1);
+  const HapticHandState& hand = received.hands[1];
+  EXPECT_EQ(hand.part, 2);
+  EXPECT_EQ(hand.force_W, sent.hands[1].force_W);
+  EXPECT_EQ(hand.torque_V_W, sent.hands[1].torque_V_W);
+  EXPECT_TRUE(hand.are_contacts_unsolved);
+  EXPECT_EQ(hand.contact_share, 0.25);
+  EXPECT_EQ(hand.energy, 0.125);
+  EXPECT_EQ(hand.glove_energy, 0.5);
+  EXPECT_TRUE(hand.reasons.is_state_old && hand.reasons.mean_limited);
+  EXPECT_FALSE(hand.reasons.is_stopped || hand.reasons.is_returning);
+  EXPECT_TRUE(hand.glove_reasons.is_disabled);
+  EXPECT_EQ(hand.state_age, milliseconds(14));
+  EXPECT_EQ(hand.command_age, milliseconds(15));
 }
 
 TEST(HapticState, EveryStateOfThePartHasItsNumberAndName) {
-  EXPECT_EQ(part_state_from_number(haptic_state_t::PART_RELEASED), PartState::kReleased);
-  EXPECT_EQ(part_state_from_number(haptic_state_t::PART_FREE), PartState::kFree);
-  EXPECT_EQ(part_state_from_number(haptic_state_t::PART_SLIDING), PartState::kSliding);
-  EXPECT_EQ(part_state_from_number(haptic_state_t::PART_RESTING), PartState::kResting);
-  EXPECT_EQ(part_state_from_number(haptic_state_t::PART_CATCHING_UP), PartState::kCatchingUp);
+  EXPECT_EQ(part_state_from_number(haptic_part_t::PART_RELEASED), PartState::kReleased);
+  EXPECT_EQ(part_state_from_number(haptic_part_t::PART_FREE), PartState::kFree);
+  EXPECT_EQ(part_state_from_number(haptic_part_t::PART_SLIDING), PartState::kSliding);
+  EXPECT_EQ(part_state_from_number(haptic_part_t::PART_RESTING), PartState::kResting);
+  EXPECT_EQ(part_state_from_number(haptic_part_t::PART_CATCHING_UP), PartState::kCatchingUp);
   for (std::int32_t number = 1; number < kPartStates; ++number)
     EXPECT_NE(name_of(part_state_from_number(number)), "unknown") << number;
 }
@@ -87,25 +102,39 @@ TEST(HapticState, EveryStateOfThePartHasItsNumberAndName) {
 TEST(HapticState, AStateOfANewerSimulationIsUnknownAndNoError) {
   for (const std::int32_t number : {-1, 0, kPartStates, std::numeric_limits<std::int32_t>::max()}) {
     haptic_state_t message = message_of(some_state());
-    message.part_state = number;
+    message.parts[2].part_state = number;
     HapticState received;
     ASSERT_EQ(decoded(message, received), MessageError::kNone);
-    EXPECT_EQ(received.part_state, PartState::kUnknown) << number;
-    EXPECT_EQ(name_of(received.part_state), "unknown");
+    EXPECT_EQ(received.parts[2].state, PartState::kUnknown) << number;
+    EXPECT_EQ(name_of(received.parts[2].state), "unknown");
   }
 }
 
 TEST(HapticState, WhatCannotBeIsRefusedAndChangesNothing) {
   HapticState received;
   haptic_state_t message = message_of(some_state());
-  message.force_on_hand_W_N[1] = std::nan("");
+  message.hands[1].force_W_N[1] = std::nan("");
   EXPECT_EQ(decoded(message, received), MessageError::kNotFinite);
   message = message_of(some_state());
-  message.orientation_WV_wxyz[0] = 3.0;
+  message.parts[3].orientation_WV_wxyz[0] = 3.0;
   EXPECT_EQ(decoded(message, received), MessageError::kOutOfRange);
   message = message_of(some_state());
-  message.contact_count = -1;
+  message.parts[0].contact_count = -1;
   EXPECT_EQ(decoded(message, received), MessageError::kOutOfRange);
+  for (const std::int32_t count : {-1, 5}) {
+    message = message_of(some_state());
+    message.part_count = count;
+    EXPECT_EQ(decoded(message, received), MessageError::kOutOfRange) << count;
+    message = message_of(some_state());
+    message.hand_count = count;
+    EXPECT_EQ(decoded(message, received), MessageError::kOutOfRange) << count;
+  }
+  for (const std::int32_t part :
+       {std::numeric_limits<std::int32_t>::min(), -2, 4, std::numeric_limits<std::int32_t>::max()}) {
+    message = message_of(some_state());
+    message.hands[0].part = part;
+    EXPECT_EQ(decoded(message, received), MessageError::kOutOfRange) << part;
+  }
   auto bytes = encode(some_state());
   bytes.pop_back();
   EXPECT_EQ(decode(bytes, received), MessageError::kWrongSize);

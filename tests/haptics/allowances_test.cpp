@@ -17,6 +17,7 @@
 #include <glissade/reference/brute_force.h>
 
 #include "held_part.h"
+#include "loop/contact_set_maker.h"
 #include "poses.h"
 #include "sanitizers.h"
 #include "scene/scene_access.h"
@@ -159,14 +160,16 @@ TEST(Margin, OfAnObstacleReplacesThatOfThePart) {
 TEST(Margin, OfAnObstacleIsWhatTheHapticThreadKeepsToo) {
   Obstacle obstacle = block();
   obstacle.margin = 50e-6;
-  Sliding sliding({obstacle}, cube(0.02), pose({0.0, 0.0, 0.011}));
+  MultiPartSliding sliding({obstacle}, {{.part_V = cube(0.02), .X_WV_start = pose({0.0, 0.0, 0.011})}});
   for (int i = 0; i < 30; ++i)
-    sliding.advance(pose({0.0, 0.0, 0.005}));
+    sliding.advance(std::vector{pose({0.0, 0.0, 0.005})});
   std::vector<std::int32_t> scratch;
-  const ContactSet set = make_contact_set(sliding.result(), sliding.part(), 1, {}, scratch);
-  ASSERT_GT(set.row_count, 0);
-  for (const ConstraintRow& row : set.rows().first(static_cast<std::size_t>(set.pushing)))
+  const ContactSet set = make_contact_set(sliding, 1, {}, scratch);
+  ASSERT_GT(set.parts[0].pushing, 0);
+  for (const ContactRow& row : set.rows()) {
+    if (!row.pushes) continue;
     EXPECT_NEAR(row.bound, 0.0, 1e-8) << "no way towards the block is left";
+  }
 }
 
 TEST(Margin, IsSmallBesideAStep) {

@@ -1,10 +1,9 @@
-#include "loop/contact_force.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "one_hand_force.h"
 #include "poses.h"
 
 namespace glissade::haptics {
@@ -15,6 +14,7 @@ using Eigen::Vector3d;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using test_support::at;
+using test_support::OneHandForce;
 
 constexpr double kTick_s = 1e-3;
 constexpr double kStiffness = 1000.0;  // N/m
@@ -27,23 +27,22 @@ ContactSet floor_below(double depth) {
   set.sequence = 1;
   set.row_count = 1;
   set.row_array[0] = {Vector3d::UnitZ(), Vector3d::Zero(), -depth};
-  set.friction_ratio_W[0].setZero();
   return set;
 }
 
-ContactForce at_origin() {
+OneHandForce at_origin() {
   return {Vector3d::Zero(), kRadius, {kStiffness, 10.0}, kMaxForce, Isometry3d::Identity()};
 }
 
 /// Lets the force come up to its set.
-Wrench settle(ContactForce& contacts, const ContactSet& set, const Isometry3d& X_WG) {
+Wrench settle(OneHandForce& contacts, const ContactSet& set, const Isometry3d& X_WG) {
   for (int i = 0; i < 1000; ++i)
     contacts.update(set, nanoseconds(0), X_WG, kTick_s);
   return contacts.update(set, nanoseconds(0), X_WG, kTick_s);
 }
 
 TEST(ContactForce, IsZeroToTheBitWhereNothingIsInTheWay) {
-  ContactForce contacts = at_origin();
+  OneHandForce contacts = at_origin();
   Isometry3d X_WG = at(1e-4, 0.0, -1e-4);
   X_WG.rotate(Eigen::AngleAxisd(1e-3, Vector3d(1.0, 2.0, 3.0).normalized()));
   const Wrench& wrench = contacts.update(floor_below(1e-3), nanoseconds(0), X_WG, kTick_s);
@@ -52,12 +51,12 @@ TEST(ContactForce, IsZeroToTheBitWhereNothingIsInTheWay) {
 }
 
 TEST(ContactForce, IsZeroAsLongAsTheSimulationHasNotAnswered) {
-  ContactForce contacts = at_origin();
+  OneHandForce contacts = at_origin();
   EXPECT_EQ(settle(contacts, ContactSet{}, at(0.0, 0.0, -0.05)).f, Vector3d::Zero());
 }
 
 TEST(ContactForce, AnOldSetDoesNotHoldTheHandBackAlongTheFloor) {
-  ContactForce contacts = at_origin();
+  OneHandForce contacts = at_origin();
   const ContactSet set = floor_below(1e-3);
   settle(contacts, set, at(0.0, 0.0, -3e-3));
   for (int i = 1; i <= 200; ++i) {  // 0.5 m/s
@@ -76,7 +75,7 @@ TEST(ContactForce, FadesWithTheAgeOfTheSet) {
 }
 
 TEST(ContactForce, FollowsANewContactNoFasterThanTheSlew) {
-  ContactForce contacts = at_origin();
+  OneHandForce contacts = at_origin();
   settle(contacts, floor_below(5e-3), at(0.0, 0.0, -3e-3));
   // A floor appears 2 mm above the ghost, which stands still.
   double force = 0.0;
@@ -92,7 +91,7 @@ TEST(ContactForce, FollowsANewContactNoFasterThanTheSlew) {
 TEST(ContactForce, OfAHaltedSimulationIsZeroAtTheSameAgeHoweverDeepAndSoft) {
   for (const double stiffness : {300.0, 1000.0, 4000.0}) {
     for (const double depth : {0.02, 0.06, 0.4}) {
-      ContactForce contacts(Vector3d::Zero(), kRadius, {stiffness, 10.0}, kMaxForce, Isometry3d::Identity());
+      OneHandForce contacts(Vector3d::Zero(), kRadius, {stiffness, 10.0}, kMaxForce, Isometry3d::Identity());
       const ContactSet set = floor_below(0.0);
       const double full = std::min(kMaxForce, stiffness * depth);
       EXPECT_NEAR(settle(contacts, set, at(0.0, 0.0, -depth)).f.z(), full, 1e-9);
@@ -110,12 +109,11 @@ TEST(ContactForce, OfAHaltedSimulationIsZeroAtTheSameAgeHoweverDeepAndSoft) {
 
 /// Two contacts hold the part against a rotation, and their forces cancel.
 TEST(ContactForce, ATorqueWithoutAForceIsZeroAtThatAgeToo) {
-  ContactForce contacts = at_origin();
+  OneHandForce contacts = at_origin();
   ContactSet set = floor_below(0.0);
   set.row_count = 2;
   set.row_array[0] = {Vector3d::UnitZ(), Vector3d(0.05, 0.0, 0.0), 0.0};
   set.row_array[1] = {-Vector3d::UnitZ(), Vector3d(-0.05, 0.0, 0.0), 0.0};
-  set.friction_ratio_W[1].setZero();
   const Isometry3d X_WG(Eigen::AngleAxisd(0.5, Vector3d::UnitY()));
   const Wrench full = settle(contacts, set, X_WG);
   EXPECT_TRUE(full.f.isZero(1e-9));
@@ -127,7 +125,7 @@ TEST(ContactForce, ATorqueWithoutAForceIsZeroAtThatAgeToo) {
 }
 
 TEST(ContactForce, ReturnsSoftlyAfterAHalt) {
-  ContactForce contacts = at_origin();
+  OneHandForce contacts = at_origin();
   const ContactSet set = floor_below(0.0);
   settle(contacts, set, at(0.0, 0.0, -0.01));
   for (int age = 0; age <= 200; ++age)
@@ -141,7 +139,7 @@ TEST(ContactForce, ReturnsSoftlyAfterAHalt) {
 
 TEST(ContactForce, OfAContactThatVanishedIsZeroSoonHoweverDeepAndSoft) {
   for (const double stiffness : {300.0, 1000.0}) {
-    ContactForce contacts(Vector3d::Zero(), kRadius, {stiffness, 10.0}, kMaxForce, Isometry3d::Identity());
+    OneHandForce contacts(Vector3d::Zero(), kRadius, {stiffness, 10.0}, kMaxForce, Isometry3d::Identity());
     EXPECT_NEAR(settle(contacts, floor_below(0.0), at(0.0, 0.0, -0.4)).f.z(), kMaxForce, 1e-9);
     ContactSet free = floor_below(0.0);
     free.row_count = 0;
@@ -153,9 +151,9 @@ TEST(ContactForce, OfAContactThatVanishedIsZeroSoonHoweverDeepAndSoft) {
 
 /// A part that lags far behind on a ball, because the simulation is late: the plane at its old place is no wall.
 TEST(ContactForce, APartThatLagsBehindOnABallDoesNotHoldTheHandBack) {
-  ContactForce contacts = at_origin();
+  OneHandForce contacts = at_origin();
   ContactSet set = floor_below(0.0);
-  set.pushing = 1;
+  set.row_array[0].pushes = true;
   set.row_array[0].range = 1e-3;
   double sideways = 0.0;
   double normal = 0.0;
@@ -177,7 +175,7 @@ TEST(ContactForce, APartThatLagsBehindOnABallDoesNotHoldTheHandBack) {
 }
 
 TEST(ContactForce, ATrackerThatJumpsDoesNotMakeTheForceJump) {
-  ContactForce contacts = at_origin();
+  OneHandForce contacts = at_origin();
   const double before = settle(contacts, floor_below(0.0), at(0.0, 0.0, -3e-3)).f.z();
   const Wrench& wrench = contacts.update(floor_below(0.0), nanoseconds(0), at(0.1, 0.0, -0.1), kTick_s);
   EXPECT_EQ(wrench.f.head<2>(), Eigen::Vector2d::Zero()) << "along the floor there is no force";
@@ -185,7 +183,7 @@ TEST(ContactForce, ATrackerThatJumpsDoesNotMakeTheForceJump) {
 }
 
 TEST(ContactForce, IsASumOfTheNormalsOfBothSetsWhileOneGivesWayToTheOther) {
-  ContactForce contacts = at_origin();
+  OneHandForce contacts = at_origin();
   settle(contacts, floor_below(0.0), at(2e-3, 0.0, -3e-3));
   ContactSet wall = floor_below(0.0);
   wall.row_array[0].n = -Vector3d::UnitX();
@@ -199,33 +197,33 @@ TEST(ContactForce, IsASumOfTheNormalsOfBothSetsWhileOneGivesWayToTheOther) {
 }
 
 TEST(ContactForce, AnOffsetOfTheGraspIsNotFelt) {
-  ContactForce contacts = at_origin();
+  OneHandForce contacts = at_origin();
   ContactSet set = floor_below(0.0);
-  set.X_GT = at(0.0, 0.0, 0.02);  // the part is to follow 20 mm above the ghost
+  set.parts[0].X_GT = at(0.0, 0.0, 0.02);  // the part is to follow 20 mm above the ghost
   EXPECT_EQ(settle(contacts, set, at(0.0, 0.0, -0.02)).f, Vector3d::Zero());
 }
 
 TEST(ContactForce, FrictionBelongsToItsNormalForce) {
-  ContactForce contacts = at_origin();
+  OneHandForce contacts = at_origin();
   ContactSet set = floor_below(0.0);
-  set.friction_ratio_W[0] = Vector3d(0.3, 0.0, 0.0);
+  set.row_array[0].friction_ratio_W = Vector3d(0.3, 0.0, 0.0);
   const Wrench wrench = settle(contacts, set, at(0.0, 0.0, -2e-3));
   EXPECT_TRUE(wrench.f.isApprox(Vector3d(0.6, 0.0, 2.0), 1e-9));
 }
 
 TEST(ContactForce, AContactThatTheGhostHasLeftNoLongerActs) {
-  ContactForce contacts = at_origin();
+  OneHandForce contacts = at_origin();
   ContactSet set = floor_below(0.0);
   set.row_array[0].range = 4e-3;
   EXPECT_NEAR(settle(contacts, set, at(3.9e-3, 0.0, -2e-3)).f.z(), 2.0, 1e-9);
   EXPECT_NEAR(settle(contacts, set, at(0.0, 0.0, -5e-3)).f.z(), 5.0, 1e-9) << "motion along the normal does not count";
   EXPECT_EQ(settle(contacts, set, at(4.1e-3, 0.0, -2e-3)).f, Vector3d::Zero());
-  set.X_WG = at(1e-3, 0.0, 0.0);
+  set.parts[0].X_WG = at(1e-3, 0.0, 0.0);
   EXPECT_NEAR(settle(contacts, set, at(4.1e-3, 0.0, -2e-3)).f.z(), 2.0, 1e-9) << "the range begins at the set's ghost";
 }
 
 TEST(ContactForce, ABodyThatMovesGoesOnWhileTheSetGrowsOld) {
-  ContactForce contacts = at_origin();
+  OneHandForce contacts = at_origin();
   ContactSet set = floor_below(0.0);
   settle(contacts, set, at(0.0, 0.0, -2e-3));
   set.row_array[0].approach = 0.1;  // a lift
@@ -234,7 +232,7 @@ TEST(ContactForce, ABodyThatMovesGoesOnWhileTheSetGrowsOld) {
 }
 
 TEST(ContactForce, RowsThatContradictEachOtherLetTheForceFadeAndAreTold) {
-  ContactForce contacts = at_origin();
+  OneHandForce contacts = at_origin();
   const ContactSet floor = floor_below(0.0);
   EXPECT_GT(settle(contacts, floor, at(0, 0, -0.01)).f.z(), 9.0);
   EXPECT_FALSE(contacts.is_unsolved());
@@ -253,7 +251,7 @@ TEST(ContactForce, RowsThatContradictEachOtherLetTheForceFadeAndAreTold) {
 }
 
 TEST(ContactForce, TheTorqueIsThatOfTheContactsLever) {
-  ContactForce contacts = at_origin();
+  OneHandForce contacts = at_origin();
   ContactSet set = floor_below(0.0);
   set.row_array[0].r = Vector3d(0.01, 0.0, 0.0);
   const Wrench wrench = settle(contacts, set, at(0.0, 0.0, -2e-3));

@@ -8,7 +8,8 @@
 #include <glissade/haptics/sliding.h>
 
 #include "held_part.h"
-#include "loop/contact_force.h"
+#include "loop/contact_set_maker.h"
+#include "one_hand_force.h"
 #include "poses.h"
 
 namespace glissade::haptics {
@@ -60,18 +61,21 @@ TEST(ContactsAhead, ChangeNoPoseAndNoForce) {
 
 /// The greatest error of the force while the cube meets the wall, with sets that are 5 ms old.
 double force_error(double contacts_ahead_ms) {
-  Sliding sliding = cube_before_the_wall(contacts_ahead_ms);
-  ContactForce force(sliding.part().p_Vref(), sliding.part().radius(), sliding.stiffness(), 100.0, at(-0.05));
+  MultiPartSliding sliding({test_support::wall(0.5 * kEdge)},
+                           {{.part_V = test_support::cube(kEdge), .X_WV_start = at(-0.05)}},
+                           {.contacts_ahead_ms = contacts_ahead_ms});
+  test_support::OneHandForce force(sliding.part(0).p_Vref(), sliding.part(0).radius(), sliding.stiffness(0), 100.0,
+                                   at(-0.05));
   std::vector<ContactSet> sets;
   std::vector<std::int32_t> scratch;
   double greatest = 0.0;
   for (int i = 1; i <= 265; ++i) {
     const Isometry3d X_WG = at(-0.05 + i * kStep);
-    sliding.advance(X_WG);
-    sets.push_back(make_contact_set(sliding.result(), sliding.part(), i, milliseconds(i), scratch));
+    sliding.advance({&X_WG, 1});
+    sets.push_back(make_contact_set(sliding, i, milliseconds(i), scratch));
     const ContactSet& old = sets[static_cast<std::size_t>(std::max(0, i - 6))];
     const double felt = force.update(old, milliseconds(5), X_WG, 1e-3).f.norm();
-    greatest = std::max(greatest, std::abs(felt - spring_wrench(sliding.stiffness(), sliding.error()).f.norm()));
+    greatest = std::max(greatest, std::abs(felt - spring_wrench(sliding.stiffness(0), sliding.error(0)).f.norm()));
   }
   return greatest;
 }

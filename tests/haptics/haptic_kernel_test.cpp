@@ -35,25 +35,40 @@ class Kernel : public ::testing::Test {
   static ContactSet floor_below(double depth) {
     ContactSet set;
     set.sequence = 1;
-    set.X_WV_of_rows = kStart;
-    set.X_WV = kStart;
+    set.parts[0].X_WV_of_rows = kStart;
+    set.parts[0].X_WV = kStart;
+    set.parts[0].hold = 1;  // the first
     set.row_count = 1;
     set.row_array[0] = {Vector3d::UnitZ(), Vector3d::Zero(), -depth};
-    set.friction_ratio_W[0].setZero();
+    return set;
+  }
+
+  /// A set before the simulation's first answer.
+  static ContactSet no_answer() {
+    ContactSet set;
+    set.parts[0].X_WV = kStart;
     return set;
   }
 
   /// One tick later; state and set are new.
-  HapticTick tick(devices::GloveState state, ContactSet set) {
+  HandTick tick(devices::GloveState state, ContactSet set) {
     now_ += kTickPeriod;
     state.time = now_;
     state.sequence = ++sequence_;
     set.time = now_;
-    return kernel_.tick(state, set, now_);
+    return tick_at(state, set);
   }
 
-  HapticTick settle(const devices::GloveState& state, const ContactSet& set) {
-    HapticTick last;
+  /// A tick now.
+  HandTick tick_at(const devices::GloveState& state, const ContactSet& set) {
+    const devices::GloveState* const newest = &state;
+    const HapticTick tick = kernel_.tick({&newest, 1}, set, now_);
+    X_WG_ = tick.ghosts.parts[0].X_WG;
+    return tick.hands[0];
+  }
+
+  HandTick settle(const devices::GloveState& state, const ContactSet& set) {
+    HandTick last;
     for (int i = 0; i < 500; ++i)
       last = tick(state, set);
     return last;
@@ -62,36 +77,37 @@ class Kernel : public ::testing::Test {
   static inline const Isometry3d kStart{Eigen::Translation3d(0.0, 0.0, 0.5)};
   SlidingPart part_{std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.1, 0.1}, 12))};
   devices::DeviceDescriptor device_ = devices::simulated_glove_descriptor();
-  HapticKernel kernel_{part_, kKernelStiffness, device_, kStart};
+  HapticKernel kernel_{{{part_.p_Vref(), part_.radius(), kKernelStiffness}}, {{device_, 0}}};
   std::chrono::nanoseconds now_{0};
   std::int64_t sequence_ = 0;
+  Isometry3d X_WG_;  // after the last tick
 };
 
 TEST_F(Kernel, TheFirstStateGraspsThePartWhereItLies) {
   const Vector3d beside(0.2, 0.0, 0.5);  // the hand is not where the part is
-  const HapticTick first = tick(hand_at(beside), ContactSet{});
-  EXPECT_TRUE(first.X_WG.isApprox(kStart));
-  const HapticTick second = tick(hand_at(beside + Vector3d(0.0, 0.01, 0.0)), ContactSet{});
-  EXPECT_TRUE(second.X_WG.translation().isApprox(Vector3d(0.0, 0.01, 0.5)));
+  tick(hand_at(beside), no_answer());
+  EXPECT_TRUE(X_WG_.isApprox(kStart));
+  tick(hand_at(beside + Vector3d(0.0, 0.01, 0.0)), no_answer());
+  EXPECT_TRUE(X_WG_.translation().isApprox(Vector3d(0.0, 0.01, 0.5)));
 }
 
 TEST_F(Kernel, PushesBackWithTheStiffnessTimesTheDepth) {
   tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
-  const HapticTick last = settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
+  const HandTick last = settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
   EXPECT_TRUE(last.command.values().f_H_W.isApprox(Vector3d(0.0, 0.0, 2.0), 1e-9));
   EXPECT_TRUE(last.command.values().t_H_W.isZero(1e-9));
 }
 
 TEST_F(Kernel, AHandBesideThePartFeelsTheTorqueOfItsLever) {
   tick(hand_at({0.2, 0.0, 0.5}), floor_below(0.0));
-  const HapticTick last = settle(hand_at({0.2, 0.0, 0.498}), floor_below(0.0));
+  const HandTick last = settle(hand_at({0.2, 0.0, 0.498}), floor_below(0.0));
   EXPECT_TRUE(last.command.values().f_H_W.isApprox(Vector3d(0.0, 0.0, 2.0), 1e-9));
   EXPECT_TRUE(last.command.values().t_H_W.isApprox(Vector3d(0.0, 0.4, 0.0), 1e-9));  // (−0.2, 0, 0) × (0, 0, 2)
 }
 
 TEST_F(Kernel, NeverExceedsTheDevice) {
   tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
-  const HapticTick last = settle(hand_at({0.0, 0.0, 0.3}), floor_below(0.0));
+  const HandTick last = settle(hand_at({0.0, 0.0, 0.3}), floor_below(0.0));
   EXPECT_NEAR(last.command.values().f_H_W.norm(), device_.max_force, 1e-9);
   EXPECT_TRUE(last.command.reasons().force_limited);
 }
@@ -100,12 +116,12 @@ TEST_F(Kernel, ABrokenStateGivesNoForceAndIsForgotten) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   tick(hand_at({nan, 0.0, 0.5}), floor_below(0.0));  // not even grasped by
   tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
-  const HapticTick last = tick(hand_at({0.0, 0.0, nan}), floor_below(0.0));
+  const HandTick last = tick(hand_at({0.0, 0.0, nan}), floor_below(0.0));
   EXPECT_EQ(last.command.values().f_H_W, Vector3d::Zero());
   EXPECT_EQ(last.command.values().t_H_W, Vector3d::Zero());
   EXPECT_TRUE(last.command.reasons().not_finite);
-  EXPECT_TRUE(last.X_WG.isApprox(kStart));
-  const HapticTick next = settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
+  EXPECT_TRUE(X_WG_.isApprox(kStart));
+  const HandTick next = settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
   EXPECT_TRUE(next.command.values().f_H_W.isApprox(Vector3d(0.0, 0.0, 2.0), 1e-9));
 }
 
@@ -113,14 +129,14 @@ TEST_F(Kernel, ASimulationThatHaltsLetsTheForceFade) {
   settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
   ContactSet set = floor_below(0.0);
   set.time = now_;
-  HapticTick last;
+  HandTick last;
   for (int i = 0; i < 100; ++i) {  // the hand slides on at 0.1 m/s
     devices::GloveState state = hand_at({1e-4 * i, 0.0, 0.498});
     state.v_WH.x() = 0.1;
     now_ += kTickPeriod;
     state.time = now_;
     state.sequence = ++sequence_;
-    last = kernel_.tick(state, set, now_);
+    last = tick_at(state, set);
     EXPECT_LE(last.command.values().f_H_W.head<2>().norm(), 0.02 * std::abs(last.command.values().f_H_W.z()));
   }
   EXPECT_EQ(last.command.values().f_H_W, Vector3d::Zero());
@@ -135,7 +151,10 @@ TEST_F(Kernel, CutsTheCouplingToWhatTheDeviceCanRender) {
   EXPECT_EQ(coupling.stiffness.translational, 400.0);
   EXPECT_EQ(coupling.stiffness.rotational, 0.3);
   EXPECT_EQ(coupling.damping.translational, 1.0);
-  EXPECT_EQ(HapticKernel(part_, kKernelStiffness, weak, kStart).coupling().stiffness.translational, 400.0);
+  EXPECT_EQ(HapticKernel({{part_.p_Vref(), part_.radius(), kKernelStiffness}}, {{weak, 0}})
+                .coupling(0, 0)
+                .stiffness.translational,
+            400.0);
 }
 
 TEST_F(Kernel, ADeviceThatRendersNoStiffnessIsRefused) {

@@ -18,17 +18,17 @@ TEST(HapticSample, EveryStateOfTheSlidingHasItsName) {
                                    SlidingState::kResting, SlidingState::kCatchingUp}) {
     ContactSet set;
     set.sequence = 1;
-    set.state = state;
-    const devices::HapticState sample = make_sample({}, set, devices::GloveState{}, milliseconds(1));
-    EXPECT_EQ(devices::name_of(sample.part_state), name_of(state));
-    states.insert(sample.part_state);
+    set.parts[0].state = state;
+    const devices::HapticState sample = make_sample(1, {}, set, {}, milliseconds(1));
+    EXPECT_EQ(devices::name_of(sample.parts[0].state), name_of(state));
+    states.insert(sample.parts[0].state);
   }
   EXPECT_EQ(states.size(), 5u);
 }
 
 TEST(HapticSample, BeforeTheSimulationHasAnsweredTheStateIsUnknown) {
-  const devices::HapticState sample = make_sample({}, {}, devices::GloveState{}, milliseconds(1));
-  EXPECT_EQ(sample.part_state, PartState::kUnknown);
+  const devices::HapticState sample = make_sample(1, {}, {}, {}, milliseconds(1));
+  EXPECT_EQ(sample.parts[0].state, PartState::kUnknown);
 }
 
 }  // namespace

@@ -66,8 +66,9 @@ class Server : public ::testing::Test {
     device_ = std::make_unique<SteppedDevice>(
         geometry::PoseTrajectory({{milliseconds(0), kStart}, {milliseconds(150), X_WH_end}}));
     const Coupling coupling = coupling_for(device_->descriptor(), {1000.0, 2.0});
-    sliding_ = std::make_unique<Sliding>(std::vector<Obstacle>{{plate_}}, box_, kStart,
-                                         SlidingOptions{.stiffness = coupling.stiffness});
+    sliding_ = std::make_unique<MultiPartSliding>(
+        std::vector<Obstacle>{{plate_}},
+        std::vector<HeldPart>{{.part_V = box_, .X_WV_start = kStart, .stiffness = coupling.stiffness}});
   }
 
   static void wait_for(const HapticServer& server) {
@@ -81,7 +82,7 @@ class Server : public ::testing::Test {
   std::shared_ptr<const SlidingPart> box_ = std::make_shared<SlidingPart>(
       std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.06, 0.04}, 12)));
   std::unique_ptr<SteppedDevice> device_;
-  std::unique_ptr<Sliding> sliding_;
+  std::unique_ptr<MultiPartSliding> sliding_;
   realtime::SteadyClock clock_;
 };
 
@@ -90,7 +91,7 @@ TEST_F(Server, PressesThePartOnThePlateAndSendsTheForces) {
   std::vector<devices::HapticState> samples(kTicks);
   std::size_t count = 0;
   std::int64_t allocations = 0;
-  HapticServer server(*device_, *sliding_, clock_,
+  HapticServer server({{device_.get()}}, *sliding_, clock_,
                       [&](const devices::HapticState& sample) {
                         samples[count++] = sample;
                         if (count == 1) allocations = test_support::allocations_of_this_thread();
@@ -102,14 +103,16 @@ TEST_F(Server, PressesThePartOnThePlateAndSendsTheForces) {
 
   EXPECT_EQ(count, kTicks);
   EXPECT_GE(server.statistics().haptic.ticks, kTicks);
-  EXPECT_GT(std::max_element(samples.begin(), samples.end(),
-                             [](const auto& a, const auto& b) { return a.force_on_hand_W.z() < b.force_on_hand_W.z(); })
-                ->force_on_hand_W.z(),
-            1.0);
-  EXPECT_NEAR(samples.back().X_WV.translation().z(), 0.02, 20e-6);
+  EXPECT_GT(
+      std::max_element(samples.begin(), samples.end(),
+                       [](const auto& a, const auto& b) { return a.hands[0].force_W.z() < b.hands[0].force_W.z(); })
+          ->hands[0]
+          .force_W.z(),
+      1.0);
+  EXPECT_NEAR(samples.back().parts[0].X_WV.translation().z(), 0.02, 20e-6);
   EXPECT_EQ(allocations, 0);  // of the haptic thread, from its first tick to its last
   for (const devices::HapticState& sample : samples)
-    EXPECT_GT(sample.X_WV.translation().z(), 0.02);
+    EXPECT_GT(sample.parts[0].X_WV.translation().z(), 0.02);
 }
 
 /// What every end of a server must leave behind: no force, reached by a ramp.
@@ -122,10 +125,10 @@ void expect_faded(const SteppedDevice& device) {
 
 TEST_F(Server, ADeviceThatFallsSilentGetsNoForce) {
   std::atomic<bool> is_told{false};
-  HapticServer server(*device_, *sliding_, clock_,
+  HapticServer server({{device_.get()}}, *sliding_, clock_,
                       [&](const devices::HapticState& sample) {
                         if (sample.sequence == 400) device_->fall_silent();
-                        if (sample.sequence > 500 && sample.reasons.is_state_old) is_told = true;
+                        if (sample.sequence > 500 && sample.hands[0].reasons.is_state_old) is_told = true;
                       },
                       {.ticks = 600});
   wait_for(server);
@@ -135,7 +138,7 @@ TEST_F(Server, ADeviceThatFallsSilentGetsNoForce) {
 }
 
 TEST_F(Server, TheForceFadesAtTheEnd) {
-  HapticServer server(*device_, *sliding_, clock_, [](const devices::HapticState&) {}, {.ticks = 1000});
+  HapticServer server({{device_.get()}}, *sliding_, clock_, [](const devices::HapticState&) {}, {.ticks = 1000});
   wait_for(server);
   expect_faded(*device_);
   EXPECT_EQ(server.ticks(), 1000);
@@ -143,8 +146,8 @@ TEST_F(Server, TheForceFadesAtTheEnd) {
 
 TEST_F(Server, TheForceFadesWhenItIsStopped) {
   std::atomic<bool> pushes{false};
-  HapticServer server(*device_, *sliding_, clock_, [&](const devices::HapticState& sample) {
-    if (sample.force_on_hand_W.norm() > 0.5) pushes = true;
+  HapticServer server({{device_.get()}}, *sliding_, clock_, [&](const devices::HapticState& sample) {
+    if (sample.hands[0].force_W.norm() > 0.5) pushes = true;
   });
   while (!pushes)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -155,9 +158,9 @@ TEST_F(Server, TheForceFadesWhenItIsStopped) {
 TEST_F(Server, AnEmergencyStopTakesTheForceAwayAndIsTold) {
   std::atomic<bool> pushes{false};
   std::atomic<bool> is_told{false};
-  HapticServer server(*device_, *sliding_, clock_, [&](const devices::HapticState& sample) {
-    if (sample.force_on_hand_W.norm() > 0.5) pushes = true;
-    if (sample.reasons.is_stopped && sample.force_on_hand_W.isZero(0.0)) is_told = true;
+  HapticServer server({{device_.get()}}, *sliding_, clock_, [&](const devices::HapticState& sample) {
+    if (sample.hands[0].force_W.norm() > 0.5) pushes = true;
+    if (sample.hands[0].reasons.is_stopped && sample.hands[0].force_W.isZero(0.0)) is_told = true;
   });
   while (!pushes)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -168,31 +171,10 @@ TEST_F(Server, AnEmergencyStopTakesTheForceAwayAndIsTold) {
   expect_faded(*device_);
 }
 
-/// A simulation whose search for contacts runs out of memory at the hundredth call.
-class FailingSliding final : public SlidingSimulation {
- public:
-  explicit FailingSliding(SlidingSimulation& sliding) : sliding_(sliding) {}
-
-  void grasp(const Isometry3d& X_WG) override { sliding_.grasp(X_WG); }
-  void release() override { sliding_.release(); }
-  const SlidingResult& advance(const Isometry3d& X_WG, double milliseconds) override {
-    if (++calls_ == 100) throw std::bad_alloc();
-    return sliding_.advance(X_WG, milliseconds);
-  }
-  const SlidingResult& result() const override { return sliding_.result(); }
-  const SlidingPart& part() const override { return sliding_.part(); }
-  const CouplingStiffness& stiffness() const override { return sliding_.stiffness(); }
-  double margin() const override { return sliding_.margin(); }
-
- private:
-  SlidingSimulation& sliding_;
-  int calls_ = 0;
-};
-
 TEST_F(Server, ASinkThatFailsTakesTheForceAwayAndIsTold) {
-  HapticServer server(*device_, *sliding_, clock_,
+  HapticServer server({{device_.get()}}, *sliding_, clock_,
                       [](const devices::HapticState& sample) {
-                        if (sample.force_on_hand_W.norm() > 0.5) throw std::runtime_error("the disk is full");
+                        if (sample.hands[0].force_W.norm() > 0.5) throw std::runtime_error("the disk is full");
                       },
                       {.ticks = 2000});
   wait_for(server);
@@ -202,25 +184,12 @@ TEST_F(Server, ASinkThatFailsTakesTheForceAwayAndIsTold) {
   expect_faded(*device_);
 }
 
-TEST_F(Server, ASimulationThatFailsTakesTheForceAwayAndIsTold) {
-  FailingSliding failing(*sliding_);
-  std::atomic<int> stopped_ticks{0};
-  HapticServer server(*device_, failing, clock_, [&](const devices::HapticState& sample) {
-    if (sample.reasons.is_stopped) ++stopped_ticks;
-  });
-  while (!server.has_failed() || stopped_ticks < 50)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  EXPECT_EQ(server.failure(), std::bad_alloc().what());
-  server.stop();
-  expect_faded(*device_);
-}
-
 TEST_F(Server, RefusesAnEmptySink) {
-  EXPECT_THROW(HapticServer(*device_, *sliding_, clock_, {}), std::invalid_argument);
+  EXPECT_THROW(HapticServer({{device_.get()}}, *sliding_, clock_, {}), std::invalid_argument);
 }
 
 TEST_F(Server, StopsWhenItIsToldTo) {
-  HapticServer server(*device_, *sliding_, clock_, [](const devices::HapticState&) {});
+  HapticServer server({{device_.get()}}, *sliding_, clock_, [](const devices::HapticState&) {});
   while (server.ticks() < 10)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   server.stop();

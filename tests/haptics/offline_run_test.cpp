@@ -35,23 +35,28 @@ std::shared_ptr<const SlidingPart> box() {
 }
 
 /// The hand moves down by 10 mm more than kDepth for half a second, and holds there for one.
-std::vector<HapticState> press_down(SlidingSimulation& simulation, std::chrono::nanoseconds period = kTickPeriod) {
+std::vector<HapticState> press_down(MultiPartSliding& sliding, std::size_t part = 0,
+                                    std::chrono::nanoseconds period = kTickPeriod) {
   using std::chrono::milliseconds;
-  const Isometry3d X_WH_start = simulation.result().X_WV;
+  const Isometry3d X_WH_start = sliding.result(part).X_WV;
   const Isometry3d X_WH_end = at_height(X_WH_start.translation().z() - 0.01 - kDepth);
   devices::SimulatedGlove glove(geometry::PoseTrajectory(
       {{milliseconds(0), X_WH_start}, {milliseconds(500), X_WH_end}, {milliseconds(1500), X_WH_end}}));
   std::vector<HapticState> samples;
   const std::int64_t ticks = milliseconds(1500) / period;
-  run_offline(
-      glove, simulation, ticks, [&](const HapticState& sample) { samples.push_back(sample); }, period);
+  run_offline({{&glove, part}}, sliding, ticks, [&](const HapticState& sample) { samples.push_back(sample); },
+              {.period = period});
   return samples;
 }
 
+MultiPartSliding box_above_the_plate() {
+  return {{{plate()}}, {{.part_V = box(), .X_WV_start = at_height(0.03), .stiffness = kHandStiffness}}};
+}
+
 /// A box is pressed on a plate.
-std::vector<HapticState> press_on_plate(SlidingMethod method = SlidingMethod::kProjection) {
-  const auto sliding = make_sliding(method, {{plate()}}, box(), at_height(0.03), {.stiffness = kHandStiffness});
-  return press_down(*sliding);
+std::vector<HapticState> press_on_plate() {
+  MultiPartSliding sliding = box_above_the_plate();
+  return press_down(sliding);
 }
 
 /// The force (N) where two springs in a row, the wearer's arm and the coupling, share kDepth.
@@ -64,57 +69,34 @@ double force_at_rest() {
 TEST(OfflineRun, AHandPressedAgainstAPlateComesToRestWhereTheSpringsBalance) {
   const std::vector<HapticState> samples = press_on_plate();
   ASSERT_EQ(samples.size(), 1500u);
-  EXPECT_NEAR(samples.back().force_on_hand_W.z(), force_at_rest(), 0.01 * force_at_rest());
-  EXPECT_NEAR(samples.back().X_WV.translation().z(), 0.02, 20e-6);
+  EXPECT_NEAR(samples.back().hands[0].force_W.z(), force_at_rest(), 0.01 * force_at_rest());
+  EXPECT_NEAR(samples.back().parts[0].X_WV.translation().z(), 0.02, 20e-6);
   // ... and do not swing.
   for (std::size_t i = samples.size() - 100; i < samples.size(); ++i) {
-    EXPECT_NEAR(samples[i].force_on_hand_W.z(), samples.back().force_on_hand_W.z(), 1e-3);
+    EXPECT_NEAR(samples[i].hands[0].force_W.z(), samples.back().hands[0].force_W.z(), 1e-3);
   }
-}
-
-TEST(OfflineRun, LeadsAPartByThePapersMethodToo) {
-  const std::vector<HapticState> samples = press_on_plate(SlidingMethod::kPaper);
-  EXPECT_NEAR(samples.back().force_on_hand_W.z(), force_at_rest(), 0.01 * force_at_rest());
-  EXPECT_NEAR(samples.back().X_WV.translation().z(), 0.02, 20e-6);
 }
 
 TEST(OfflineRun, LeadsOneOfSeveralPartsOntoAnother) {
   const auto part = box();
   MultiPartSliding parts({{plate()}}, {{.part_V = part, .X_WV_start = at_height(0.021), .stiffness = kHandStiffness},
                                        {.part_V = part, .X_WV_start = at_height(0.071), .stiffness = kHandStiffness}});
-  parts.release(0);  // stays 1 mm above the plate, like an obstacle
-  PartOfSeveral upper(parts, 1);
-  const std::vector<HapticState> samples = press_down(upper);
-  EXPECT_NEAR(samples.back().force_on_hand_W.z(), force_at_rest(), 0.01 * force_at_rest());
-  EXPECT_NEAR(samples.back().X_WV.translation().z(), 0.061, 20e-6);
-  EXPECT_EQ(parts.result(0).X_WV.translation().z(), 0.021);
-}
-
-TEST(PartOfSeveral, AlsoLeadsTheOtherParts) {
-  MultiPartSliding parts({{plate()}}, {{.part_V = box(), .X_WV_start = at_height(0.03)},
-                                       {.part_V = box(), .X_WV_start = at_height(0.08)}});
-  PartOfSeveral lower(parts, 0);
-  lower.lead_other(1, at_height(0.09));
-  for (int i = 0; i < 200; ++i)
-    lower.advance(at_height(0.035));
-  EXPECT_EQ(parts.result(0).X_WV.translation().z(), 0.035);
-  EXPECT_EQ(parts.result(1).X_WV.translation().z(), 0.09);
-}
-
-TEST(PartOfSeveral, RefusesAPartThatDoesNotExist) {
-  MultiPartSliding parts({{plate()}}, {{.part_V = box(), .X_WV_start = at_height(0.03)}});
-  EXPECT_THROW(PartOfSeveral(parts, 1), std::invalid_argument);
+  const std::vector<HapticState> samples = press_down(parts, 1);
+  EXPECT_NEAR(samples.back().hands[0].force_W.z(), force_at_rest(), 0.01 * force_at_rest());
+  EXPECT_NEAR(samples.back().parts[1].X_WV.translation().z(), 0.061, 20e-6);
+  EXPECT_EQ(parts.result(0).X_WV.translation().z(), 0.021) << "nothing holds it";
 }
 
 TEST(OfflineRun, ShowsThePartWhereItIsFromTheFirstTickOn) {
-  EXPECT_TRUE(press_on_plate().front().X_WV.isApprox(Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.03))));
+  EXPECT_TRUE(press_on_plate().front().parts[0].X_WV.isApprox(Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.03))));
 }
 
 TEST(OfflineRun, TheForceNeverJumps) {
   const std::vector<HapticState> samples = press_on_plate();
   for (std::size_t i = 1; i < samples.size(); ++i) {
-    const double ghost_motion = (samples[i].X_WG.translation() - samples[i - 1].X_WG.translation()).norm();
-    const double jump = (samples[i].force_on_hand_W - samples[i - 1].force_on_hand_W).norm();
+    const double ghost_motion =
+        (samples[i].parts[0].X_WG.translation() - samples[i - 1].parts[0].X_WG.translation()).norm();
+    const double jump = (samples[i].hands[0].force_W - samples[i - 1].hands[0].force_W).norm();
     // The damper at most doubles what the spring does.
     EXPECT_LE(jump, 2.0 * 1000.0 * (kSlew_m + ghost_motion)) << "at " << i << " ms";
   }
@@ -123,23 +105,23 @@ TEST(OfflineRun, TheForceNeverJumps) {
 TEST(OfflineRun, TheForceDoesNotDependOnTheRate) {
   const std::vector<HapticState> usual = press_on_plate();
   for (const int microseconds : {200, 2000}) {
-    Sliding sliding({{plate()}}, box(), at_height(0.03), {.stiffness = kHandStiffness});
-    const std::vector<HapticState> samples = press_down(sliding, std::chrono::microseconds(microseconds));
+    MultiPartSliding sliding = box_above_the_plate();
+    const std::vector<HapticState> samples = press_down(sliding, 0, std::chrono::microseconds(microseconds));
     for (std::size_t ms = 2; ms < usual.size(); ms += 2) {
       const std::size_t i = ms * 1000 / static_cast<std::size_t>(microseconds) - 1;
-      EXPECT_NEAR(samples[i].force_on_hand_W.z(), usual[ms - 1].force_on_hand_W.z(), 0.1) << ms << " ms";
+      EXPECT_NEAR(samples[i].hands[0].force_W.z(), usual[ms - 1].hands[0].force_W.z(), 0.1) << ms << " ms";
     }
   }
-  Sliding sliding({{plate()}}, box(), at_height(0.03), {.stiffness = kHandStiffness});
-  EXPECT_THROW(press_down(sliding, std::chrono::microseconds(100)), std::invalid_argument);
+  MultiPartSliding sliding = box_above_the_plate();
+  EXPECT_THROW(press_down(sliding, 0, std::chrono::microseconds(100)), std::invalid_argument);
 }
 
 TEST(OfflineRun, GivesTheSameBitsEveryTime) {
   const std::vector<HapticState> a = press_on_plate();
   const std::vector<HapticState> b = press_on_plate();
   for (std::size_t i = 0; i < a.size(); ++i) {
-    ASSERT_EQ(a[i].X_WV.matrix(), b[i].X_WV.matrix());
-    ASSERT_EQ(a[i].force_on_hand_W, b[i].force_on_hand_W);
+    ASSERT_EQ(a[i].parts[0].X_WV.matrix(), b[i].parts[0].X_WV.matrix());
+    ASSERT_EQ(a[i].hands[0].force_W, b[i].hands[0].force_W);
   }
 }
 

@@ -89,12 +89,12 @@ class DelayedWall {
               double of_hand = 0.0)
       : one_way_(static_cast<std::size_t>(one_way.count())),
         hand_{.mass = mass, .damping = device.damping + of_hand, .z = 5e-3},
-        kernel_(part_, {stiffness, 1.0}, device, Isometry3d::Identity()),
+        kernel_({{part_.p_Vref(), part_.radius(), {stiffness, 1.0}}}, {{device, 0}}),
         glove_(device, 6.0) {
     wall_.sequence = 1;
     wall_.row_count = 1;
     wall_.row_array[0] = {Vector3d::UnitZ(), Vector3d::Zero(), 0.0};
-    wall_.friction_ratio_W[0].setZero();
+    wall_.parts[0].hold = 1;
   }
 
   /// A millisecond in which the wearer pushes with `push` N.
@@ -109,9 +109,11 @@ class DelayedWall {
     states_.push_back(told);
     if (states_.size() > one_way_) {
       wall_.time = now_;
-      wall_.X_WV_of_rows =
+      wall_.parts[0].X_WV_of_rows =
           Isometry3d(Eigen::Translation3d(0.0, 0.0, -5e-3));  // the part starts 5 mm lower than the hand
-      commands_.push_back(kernel_.tick(states_.front(), wall_, now_).command.values());
+      const devices::GloveState* const newest = &states_.front();
+      const devices::GloveCommand command = kernel_.tick({&newest, 1}, wall_, now_).hands[0].command.values();
+      if (now_ >= silent_until_) commands_.push_back(command);
       states_.pop_front();
     }
     if (commands_.size() > one_way_) {
@@ -122,6 +124,9 @@ class DelayedWall {
     for (int i = 0; i < 10; ++i)
       hand_.step(push + command_.values().f_H_W.z(), 1e-4);
   }
+
+  /// The server sends no commands for so long.
+  void fall_silent(milliseconds time) { silent_until_ = now_ + time; }
 
   const devices::SafeCommand& command() const { return command_; }
   double force() const { return command_.values().f_H_W.z(); }
@@ -141,6 +146,7 @@ class DelayedWall {
   devices::GloveCommand newest_;
   devices::SafeCommand command_;
   nanoseconds now_{milliseconds(100)};
+  nanoseconds silent_until_{0};
 };
 
 /// A wearer, as stiff and damped as a relaxed arm, wants to be 20 mm deep in the wall. Returns the greatest change of
@@ -163,9 +169,68 @@ TEST(DelayedWall, IsFeltAsSoftAndNeverAsOscillation) {
        {milliseconds(0), milliseconds(1), milliseconds(5), milliseconds(25), milliseconds(50)}) {
     DelayedWall wall(device, 0.8, 1000.0, one_way, 20.0);
     EXPECT_LT(unrest(wall), 0.05) << one_way.count() << " ms";
-    const double limit = wall.kernel().present_coupling().stiffness.translational;
+    const double limit = wall.kernel().present_coupling(0).stiffness.translational;
     EXPECT_NEAR(wall.force() / -wall.z(), limit, 0.02 * limit) << one_way.count() << " ms";
     EXPECT_NEAR(limit, std::min(1000.0, 2.0 / (0.5e-3 + 2e-3 * static_cast<double>(one_way.count()))), 0.02 * limit);
+  }
+}
+
+/// The force after the hand has pressed with `push` N and the server then fell silent for `silence`; and the greatest
+/// change of the force in the last second of four.
+struct AfterSilence {
+  double force;
+  double unrest;
+};
+
+AfterSilence after_silence(double push, milliseconds silence) {
+  DelayedWall wall(devices::simulated_glove_descriptor(), 0.8, 1000.0, milliseconds(0), 20.0);
+  const double target = -push / 400.0 - push / 1000.0;
+  const auto lead = [&](int ms) {
+    for (int i = 0; i < ms; ++i)
+      wall.step(-400.0 * (wall.z() - target));
+  };
+  lead(3000);
+  wall.fall_silent(silence);
+  lead(3000);
+  AfterSilence after{wall.force(), 0.0};
+  double least = after.force;
+  double greatest = after.force;
+  for (int i = 0; i < 1000; ++i) {
+    lead(1);
+    least = std::min(least, wall.force());
+    greatest = std::max(greatest, wall.force());
+  }
+  after.unrest = greatest - least;
+  return after;
+}
+
+TEST(DelayedWall, IsAsHardAndAsQuietAfterAnInterruptionAsBefore) {
+  for (const double push : {2.0, 5.0, 10.0, 15.0, 19.0}) {
+    for (const milliseconds silence : {milliseconds(20), milliseconds(100), milliseconds(800)}) {
+      const AfterSilence after = after_silence(push, silence);
+      EXPECT_NEAR(after.force, push, 0.02 * push) << silence.count() << " ms";
+      EXPECT_LT(after.unrest, 0.05) << push << " N, " << silence.count() << " ms";
+    }
+  }
+}
+
+/// Far beyond the depth at which the device gives its all, and back.
+TEST(DelayedWall, IsQuietWhenTheHandBacksOffFromFarInside) {
+  for (const auto& [deep, back] :
+       {std::pair(0.13, 0.11), std::pair(0.13, 0.09), std::pair(0.09, 0.06), std::pair(0.23, 0.13)}) {
+    DelayedWall wall(devices::simulated_glove_descriptor(), 0.8, 1000.0, milliseconds(0), 20.0);
+    double least = 1e9;
+    double greatest = -1e9;
+    for (int i = 0; i < 9000; ++i) {
+      const double in = std::clamp((i - 1000) / 1000.0, 0.0, 1.0);
+      const double out = std::clamp((i - 4000) / 500.0, 0.0, 1.0);
+      wall.step(-400.0 * (wall.z() + in * deep + out * (back - deep)));
+      if (i < 7000) continue;
+      least = std::min(least, wall.force());
+      greatest = std::max(greatest, wall.force());
+    }
+    EXPECT_LT(greatest - least, 0.05) << deep << " to " << back;
+    EXPECT_GT(least, 10.0) << deep << " to " << back;
   }
 }
 

@@ -60,10 +60,17 @@ TEST_F(HapticsPreconditions, ACallNeedsACycle) {
   EXPECT_THROW(Sliding({block_}, part_, above(), {.rules = {.contacts_ahead_ms = -1.0}}), std::invalid_argument);
 }
 
-TEST_F(HapticsPreconditions, AnOfflineRunNeedsASink) {
+TEST_F(HapticsPreconditions, AnOfflineRunNeedsASinkAndHandsThatCanHoldTheirParts) {
   devices::SimulatedGlove glove(geometry::PoseTrajectory({{std::chrono::nanoseconds(0), above()}}));
-  Sliding sliding({block_}, part_, above());
-  EXPECT_THROW(run_offline(glove, sliding, 1, {}), std::invalid_argument);
+  const PartScript script{geometry::PoseTrajectory({{std::chrono::nanoseconds(0), Isometry3d::Identity()}})};
+  MultiPartSliding sliding({}, {{.part_V = part_, .X_WV_start = above()}, {.part_V = part_, .script = script}});
+  const auto ignore = [](const devices::HapticState&) {};
+  EXPECT_THROW(run_offline({{&glove}}, sliding, 1, {}), std::invalid_argument);
+  EXPECT_THROW(run_offline({{nullptr}}, sliding, 1, ignore), std::invalid_argument);
+  EXPECT_THROW(run_offline({}, sliding, 1, ignore), std::invalid_argument);
+  EXPECT_THROW(run_offline(std::vector<HandOffline>(5, {&glove}), sliding, 1, ignore), std::invalid_argument);
+  EXPECT_THROW(run_offline({{&glove, 1}}, sliding, 1, ignore), std::invalid_argument) << "a script moves it";
+  EXPECT_THROW(run_offline({{&glove, 2}}, sliding, 1, ignore), std::invalid_argument) << "there is none";
 }
 
 TEST_F(HapticsPreconditions, ThereIsAPoseForEachPart) {

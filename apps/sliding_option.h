@@ -1,0 +1,49 @@
+#pragma once
+
+/// The options --metaphor, --friction, --spiral-search and --depenetrate of the commands that move parts.
+
+#include <string>
+#include <vector>
+
+#include <glissade/haptics/sliding_rules.h>
+
+namespace CLI {
+class App;
+}
+
+namespace glissade::apps {
+
+struct SlidingChoice {
+  std::string metaphor = "force-feedback";
+  std::vector<double> friction;  ///< none, one for both, or sliding and at rest
+  bool spiral_search = false;
+  bool depenetrate = false;
+
+  bool has_rules() const { return !friction.empty() || spiral_search || depenetrate; }
+};
+
+/// What the end of `--help` says about these options.
+inline constexpr const char* kSlidingChoiceHelp =
+    "\n\n"
+    "Metaphors: the metaphor is the rule by which the hand moves the part. It gives the part a target; in the first\n"
+    "and the third metaphor, the target is the ghost.\n"
+    "  force-feedback      rigid grasp; the device holds the hand back, and the part catches up at a limited speed\n"
+    "  rubber-band         a rubber band ties the centre of the part's bounding box to the ghost; contacts alone turn\n"
+    "                      the part, and the hand feels no torque\n"
+    "  rubber-band-spring  a rubber band and a spiral spring tie the part to the ghost; the part catches up at once\n"
+    "  incremental         the part repeats each motion of the ghost; motion that contacts prevent is lost\n"
+    "\n"
+    "Rules:\n"
+    "  --spiral-search     A part that stands still for 0.1 s away from its target is aimed beside the target, in a\n"
+    "                      spiral that grows to 1.6 mm in two seconds, as a hand searches for a hole.\n"
+    "  --depenetrate       An obstacle that overlaps the part at the start does not block the part; the part moves\n"
+    "                      out of the obstacle at 0.2 m/s at most.";
+
+void add_sliding_options(CLI::App& command, SlidingChoice& choice);
+
+/// Throws std::invalid_argument, naming the option.
+haptics::Metaphor metaphor_of(const SlidingChoice& choice);
+/// `rules` with the choice of the user. Throws std::invalid_argument, naming the option.
+haptics::SlidingRules with_choice(haptics::SlidingRules rules, const SlidingChoice& choice);
+
+}  // namespace glissade::apps

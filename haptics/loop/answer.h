@@ -1,0 +1,37 @@
+#pragma once
+
+/// The simulation's side of the haptic loop.
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <glissade/haptics/contact_set.h>
+#include <glissade/haptics/multi_part_sliding.h>
+
+namespace glissade::haptics {
+
+/// Answers the ghost poses of the haptic thread, one after the other. Not thread-safe.
+class Answerer {
+ public:
+  /// Lets go of all parts without a script, which hands may take later. `sliding` must outlive this object.
+  explicit Answerer(MultiPartSliding& sliding);
+
+  /// The set before the first answer.
+  ContactSet at_start() const;
+
+  /// Grasps and releases of `ghosts` happen first, then all parts move for the time since the last call, which is
+  /// `first` at the first one. The numbers of the sets are 1, 2, 3, …
+  ContactSet answer(const Ghosts& ghosts, std::chrono::nanoseconds first);
+
+ private:
+  MultiPartSliding& sliding_;
+  std::array<std::int64_t, kMaxParts> holds_{};  // those that the simulation knows
+  std::optional<std::chrono::nanoseconds> answered_;
+  std::int64_t sequence_ = 0;
+  std::vector<Eigen::Isometry3d> X_WG_;
+  std::vector<std::int32_t> scratch_;
+};
+
+}  // namespace glissade::haptics

@@ -1,0 +1,178 @@
+#include "loop/contact_projection.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "loop/smooth.h"
+
+namespace glissade::haptics {
+
+namespace {
+
+/// Metres beyond the range of a row up to which its plane may stand for what comes after it, and from which it may not.
+constexpr double kKnown_m = 3e-3;
+constexpr double kUnknown_m = 9e-3;
+
+/// The motion of the contact point of a row across its normal, metres.
+double across(const CoupledRow& row, std::span<const geometry::Displacement> d) {
+  const geometry::Displacement& own = d[static_cast<std::size_t>(row.part)];
+  Eigen::Vector3d u = own.v + own.w.cross(row.r);
+  if (row.other >= 0) {
+    const geometry::Displacement& other = d[static_cast<std::size_t>(row.other)];
+    u -= other.v + other.w.cross(row.r_other);
+  }
+  return (u - row.n.dot(u) * row.n).norm();
+}
+
+}  // namespace
+
+ContactProjection::ContactProjection(std::vector<Eigen::Vector3d> p_Vref)
+    : p_Vref_(std::move(p_Vref)), solver_(p_Vref_.size() * p_Vref_.size() * kMaxContactRows) {
+  const std::size_t most = p_Vref_.size() * kMaxContactRows;
+  rows_.reserve(most);
+  in_island_.reserve(most);
+  numbers_.reserve(most);
+}
+
+void ContactProjection::update(const ContactSet& set, std::chrono::nanoseconds age, std::span<const LedPart> parts,
+                               double dt) noexcept {
+  for (std::size_t p = 0; p < p_Vref_.size(); ++p) {
+    contacts_[p] = {};
+    island_[p] = p;
+    acts_[p] = parts[p].acts;
+    wanted_[p] = {};
+    moved_[p] = {};
+    way_[p] = {};
+    pushes_[p] = 0.0;
+    known_pushes_[p] = 0.0;
+    if (!parts[p].acts) {
+      X_WP_[p].reset();
+      continue;
+    }
+    const PartAnswer& answer = set.parts[p];
+    wanted_[p] = geometry::displacement_between(answer.X_WV_of_rows, parts[p].X_WG * parts[p].X_GT, p_Vref_[p]);
+    moved_[p] = geometry::displacement_between(answer.X_WG, parts[p].X_WG, p_Vref_[p]);
+  }
+  take_rows(set, age);
+  for (std::size_t p = 0; p < p_Vref_.size(); ++p) {
+    if (!acts_[p] || island_[p] != p) continue;
+    choose_island(p);
+    solve_island(set, parts, dt);
+  }
+  for (std::size_t p = 0; p < p_Vref_.size(); ++p) {
+    if (pushes_[p] > 0.0) contacts_[p].known = known_pushes_[p] / pushes_[p];
+  }
+}
+
+// A part in contact moves across the normals as its ghost does.
+void ContactProjection::take_rows(const ContactSet& set, std::chrono::nanoseconds age) noexcept {
+  const double seconds =
+      std::chrono::duration<double>(std::clamp<std::chrono::nanoseconds>(age, {}, kFullForce)).count();
+  rows_.clear();
+  for (const ContactRow& row : set.rows()) {
+    const auto part = static_cast<std::size_t>(row.part);
+    const auto other = static_cast<std::size_t>(std::max(0, row.other));
+    const bool moves_other = row.other >= 0 && acts_[other];
+    if (!acts_[part] && !moves_other) continue;
+    if (!row.pushes && across(row, moved_) > row.range) continue;
+    rows_.push_back({row, &row});
+    rows_.back().row.bound += row.approach * seconds;
+    if (!acts_[part] || !moves_other) continue;
+    const std::size_t low = std::min(island_[part], island_[other]);
+    const std::size_t high = std::max(island_[part], island_[other]);
+    std::replace(island_.begin(), island_.end(), high, low);
+  }
+}
+
+/// The island whose lowest part is `first`. A part that does not act stands still, and belongs to no island.
+void ContactProjection::choose_island(std::size_t first) noexcept {
+  std::int32_t count = 0;
+  for (std::size_t p = 0; p < p_Vref_.size(); ++p)
+    local_[p] = acts_[p] && island_[p] == first ? count++ : -1;
+  in_island_.clear();
+  numbers_.clear();
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    CoupledRow row = rows_[i].row;
+    row.part = local_[static_cast<std::size_t>(row.part)];
+    row.other = row.other < 0 ? -1 : local_[static_cast<std::size_t>(row.other)];
+    if (row.part < 0 && row.other < 0) continue;
+    if (row.part < 0) {  // seen from the other side, where the part acts
+      row.n = -row.n;
+      std::swap(row.r, row.r_other);
+      std::swap(row.part, row.other);
+    }
+    in_island_.push_back(row);
+    numbers_.push_back(i);
+  }
+}
+
+void ContactProjection::solve_island(const ContactSet& set, std::span<const LedPart> parts, double dt) noexcept {
+  std::array<geometry::Displacement, kMaxParts> wanted;
+  std::array<CouplingStiffness, kMaxParts> stiffness{};
+  std::size_t count = 0;
+  for (std::size_t p = 0; p < p_Vref_.size(); ++p) {
+    if (local_[p] < 0) continue;
+    wanted[count] = wanted_[p];
+    stiffness[count] = parts[p].stiffness;
+    ++count;
+  }
+  CoupledProjection projection;
+  projection.displacements = wanted;
+  if (!in_island_.empty()) {
+    projection =
+        solver_.project({wanted.data(), count}, {stiffness.data(), count}, {in_island_.data(), in_island_.size()});
+  }
+  const bool is_unsolved = projection.status != ProjectionStatus::kSolved;
+  for (std::size_t p = 0; p < p_Vref_.size(); ++p) {
+    if (local_[p] < 0) continue;
+    contacts_[p].is_unsolved = is_unsolved;
+    const geometry::Displacement& d = projection.displacements[static_cast<std::size_t>(local_[p])];
+    if (!is_unsolved) move_to(p, geometry::displaced(set.parts[p].X_WV_of_rows, p_Vref_[p], d), dt);
+  }
+  if (is_unsolved) return;
+  for (int i = 0; i < projection.active_count; ++i) {
+    const auto active = static_cast<std::size_t>(projection.active[static_cast<std::size_t>(i)]);
+    add_push(active, projection.force[static_cast<std::size_t>(i)], projection, dt);
+  }
+}
+
+/// Notes the way since the last call. A way that no hand can make is none: the part was taken elsewhere.
+void ContactProjection::move_to(std::size_t part, const Eigen::Isometry3d& X_WP, double dt) noexcept {
+  constexpr double kFastest = 10.0;  // m/s
+  if (X_WP_[part]) {
+    const geometry::Displacement way = geometry::displacement_between(*X_WP_[part], X_WP, p_Vref_[part]);
+    if (way.v.norm() <= kFastest * dt) way_[part] = way;
+  }
+  X_WP_[part] = X_WP;
+}
+
+/// Adds the force of an active row to the parts on both sides that act.
+void ContactProjection::add_push(std::size_t row_number, double push, const CoupledProjection& projection,
+                                 double dt) noexcept {
+  const CoupledRow& projected = in_island_[row_number];
+  const ContactRow& row = *rows_[numbers_[row_number]].in_set;
+  const double known =
+      push * smoothly_down(across(projected, projection.displacements) - row.range, kKnown_m, kUnknown_m);
+  const auto acts = [&](std::int32_t part) { return part >= 0 && acts_[static_cast<std::size_t>(part)]; };
+  const auto way_of = [&](std::int32_t part, const Eigen::Vector3d& r) {
+    const geometry::Displacement& way = way_[static_cast<std::size_t>(part)];
+    return row.n.dot(way.v + way.w.cross(r));
+  };
+  const auto add = [&](std::int32_t part, const Eigen::Vector3d& r, const Eigen::Vector3d& f, double supply) {
+    const auto p = static_cast<std::size_t>(part);
+    contacts_[p].wrench.f += f;
+    contacts_[p].wrench.t += r.cross(f);
+    contacts_[p].supply += supply;
+    pushes_[p] += push;
+    known_pushes_[p] += known;
+  };
+  const Eigen::Vector3d f = push * (row.n + row.friction_ratio_W);
+  const bool is_coupled = acts(row.part) && acts(row.other);
+  if (acts(row.part)) {
+    const double other_way = is_coupled ? way_of(row.other, row.r_other) : row.approach * dt;
+    add(row.part, row.r, f, push * other_way);
+  }
+  if (acts(row.other)) add(row.other, row.r_other, -f, is_coupled ? -push * way_of(row.part, row.r) : 0.0);
+}
+
+}  // namespace glissade::haptics

@@ -1,0 +1,90 @@
+#pragma once
+
+/// The wrenches of the contacts on all parts that hands lead *now*, from the newest contact set, which may be some
+/// milliseconds old. It gives the haptic thread forces that follow the hands at its own rate, without any collision
+/// query.
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/haptics/contact_set.h>
+#include <glissade/haptics/coupling.h>
+
+#include "solver/projection.h"
+
+namespace glissade::haptics {
+
+/// A part at one tick.
+struct LedPart {
+  Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d X_GT = Eigen::Isometry3d::Identity();
+  CouplingStiffness stiffness{};  ///< of all hands that hold the part
+  bool acts = false;              ///< a hand holds the part, and the rows of the set are about this hold
+};
+
+/// The contacts of one part.
+struct PartContacts {
+  Wrench wrench;             ///< on the hands, about the part's reference point
+  double known = 1.0;        ///< share of the force whose rows are known to hold where the projection is
+  bool is_unsolved = false;  ///< the rows have no solution, and there is no wrench
+  double supply = 0.0;       ///< J: work on the part since the last call of bodies that move without its hands
+};
+
+/// The wanted displacements of the parts are projected on the rows of the set, those of parts in contact with each
+/// other together. The force is the sum of the multipliers times the normals, with the friction that belongs to them.
+/// Rows that did not push count no more once the ghost has left their `range`. The plane of one that pushed goes on;
+/// its force fades where the projection is more than 3 mm beyond the range, and is zero from 9 mm on. Bodies that move
+/// without a hand go on at their speed for kFullForce. So the force never holds a hand back along a frictionless
+/// contact, however old the set is: an old set knows too few contacts, or contacts that the part has left.
+///
+/// Real-time safe: bounded work, no allocation after construction. Not thread-safe.
+class ContactProjection {
+ public:
+  /// For parts with these reference points, each in the part's frame.
+  explicit ContactProjection(std::vector<Eigen::Vector3d> p_Vref);
+
+  /// `parts` has one entry for each part. `age` is the time since the ghost poses that the set answers, `dt` (seconds)
+  /// that since the last call.
+  void update(const ContactSet& set, std::chrono::nanoseconds age, std::span<const LedPart> parts, double dt) noexcept;
+
+  /// Of the last call. Exactly zero where no contact of the set is in the way.
+  const PartContacts& of_part(std::size_t part) const { return contacts_[part]; }
+
+ private:
+  void take_rows(const ContactSet& set, std::chrono::nanoseconds age) noexcept;
+  void choose_island(std::size_t first) noexcept;
+  void solve_island(const ContactSet& set, std::span<const LedPart> parts, double dt) noexcept;
+  void move_to(std::size_t part, const Eigen::Isometry3d& X_WP, double dt) noexcept;
+  void add_push(std::size_t row_number, double push, const CoupledProjection& projection, double dt) noexcept;
+
+  struct ActiveRow {
+    CoupledRow row;  // as it is now; the numbers of parts are those in the scene
+    const ContactRow* in_set;
+  };
+
+  std::vector<Eigen::Vector3d> p_Vref_;
+  ProjectionSolver solver_;
+  std::vector<ActiveRow> rows_;                  // in range
+  std::array<std::size_t, kMaxParts> island_{};  // of each part: the lowest number of a part in it
+  // The island at work: its parts, its rows with the numbers that the parts have in it, and where these are in rows_.
+  std::array<std::int32_t, kMaxParts> local_{};  // number of each part in the island; −1: it is not there
+  std::vector<CoupledRow> in_island_;
+  std::vector<std::size_t> numbers_;
+  std::array<bool, kMaxParts> acts_{};
+  std::array<geometry::Displacement, kMaxParts> wanted_{};
+  std::array<geometry::Displacement, kMaxParts> moved_{};           // by the ghosts since the set
+  std::array<std::optional<Eigen::Isometry3d>, kMaxParts> X_WP_{};  // where the last projection put each part
+  std::array<geometry::Displacement, kMaxParts> way_{};             // from there to where the present one puts it
+  std::array<double, kMaxParts> pushes_{};                          // N, sums over the rows of each part
+  std::array<double, kMaxParts> known_pushes_{};
+  std::array<PartContacts, kMaxParts> contacts_{};
+};
+
+}  // namespace glissade::haptics

@@ -1,0 +1,100 @@
+#include "loop/contact_set_maker.h"
+
+#include <algorithm>
+
+namespace glissade::haptics {
+namespace {
+
+class SetMaker {
+ public:
+  SetMaker(const MultiPartSliding& sliding, ContactSet& set, std::vector<std::int32_t>& scratch)
+      : sliding_(sliding), set_(set), order_(scratch) {}
+
+  void add(std::size_t p) {
+    const SlidingResult& result = sliding_.result(p);
+    PartAnswer& part = set_.parts[p];
+    part.X_WV = result.X_WV;
+    part.X_WV_of_rows = result.X_WV_of_contacts;
+    part.X_WG = result.X_WG;
+    part.X_GT = result.X_WG.inverse(Eigen::Isometry) * result.X_WT;
+    part.reach = result.reach;
+    part.state = result.state;
+    part.pushing = result.pushing;
+    if (!is_led_by_hand(p)) return;
+    choose_contacts(p);
+    const std::size_t kept = std::min(order_.size(), kMaxContactRows);
+    part.dropped = static_cast<std::int32_t>(order_.size() - kept);
+    for (std::size_t i = 0; i < kept; ++i)
+      add_row(p, result.contacts[static_cast<std::size_t>(order_[i])]);
+  }
+
+ private:
+  bool is_led_by_hand(std::size_t p) const {
+    return !sliding_.is_scripted(p) && sliding_.result(p).state != SlidingState::kReleased;
+  }
+
+  /// The part on the other side of the contact, if a hand leads it; otherwise −1.
+  std::int32_t other_of(const Contact& contact) const {
+    const std::int32_t other = contact.obstacle - static_cast<std::int32_t>(sliding_.obstacle_count());
+    return other >= 0 && is_led_by_hand(static_cast<std::size_t>(other)) ? other : -1;
+  }
+
+  /// The most urgent contacts come first. A contact of two parts is in the results of both.
+  void choose_contacts(std::size_t p) {
+    const std::vector<Contact>& contacts = sliding_.result(p).contacts;
+    order_.clear();
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const std::int32_t other = other_of(contacts[i]);
+      if (other < 0 || other > static_cast<std::int32_t>(p)) order_.push_back(static_cast<std::int32_t>(i));
+    }
+    const auto more_urgent = [&](std::int32_t i, std::int32_t j) {
+      const Contact& a = contacts[static_cast<std::size_t>(i)];
+      const Contact& b = contacts[static_cast<std::size_t>(j)];
+      if ((a.force > 0.0) != (b.force > 0.0)) return a.force > 0.0;
+      return a.gap != b.gap ? a.gap < b.gap : i < j;
+    };
+    const auto kept = static_cast<std::ptrdiff_t>(std::min(order_.size(), kMaxContactRows));
+    std::partial_sort(order_.begin(), order_.begin() + kept, order_.end(), more_urgent);
+  }
+
+  void add_row(std::size_t p, const Contact& contact) {
+    ContactRow& row = set_.row_array[static_cast<std::size_t>(set_.row_count++)];
+    row.n = contact.n_W;
+    row.r = contact.p_W - p_Wref(p);
+    row.bound = std::min(0.0, contact.margin - contact.gap);
+    row.part = static_cast<std::int32_t>(p);
+    row.other = other_of(contact);
+    row.range = contact.range;
+    row.pushes = contact.force > 0.0;
+    if (row.pushes) row.friction_ratio_W = contact.friction_W / contact.force;
+    if (row.other < 0) {
+      row.approach = contact.approach;
+    } else {
+      row.r_other = contact.p_W - p_Wref(static_cast<std::size_t>(row.other));
+    }
+  }
+
+  Eigen::Vector3d p_Wref(std::size_t p) const {
+    return sliding_.result(p).X_WV_of_contacts * sliding_.part(p).p_Vref();
+  }
+
+  const MultiPartSliding& sliding_;
+  ContactSet& set_;
+  std::vector<std::int32_t>& order_;
+};
+
+}  // namespace
+
+ContactSet make_contact_set(const MultiPartSliding& sliding, std::int64_t sequence, std::chrono::nanoseconds time,
+                            std::vector<std::int32_t>& scratch) {
+  ContactSet set;
+  set.sequence = sequence;
+  set.time = time;
+  set.part_count = static_cast<std::int32_t>(sliding.part_count());
+  SetMaker maker(sliding, set, scratch);
+  for (std::size_t p = 0; p < sliding.part_count(); ++p)
+    maker.add(p);
+  return set;
+}
+
+}  // namespace glissade::haptics
