@@ -124,8 +124,9 @@ struct GloveCommand {
   Eigen::Vector3d f_H_W = Eigen::Vector3d::Zero();  ///< force on the hand at the origin of H, in world axes
   Eigen::Vector3d t_H_W = Eigen::Vector3d::Zero();  ///< torque on the hand about the origin of H, in world axes
   JointValues joint_torques{};                      ///< positive toward larger joint angles
-  /// Energy that bodies which move without this hand, such as a part in another hand, have given to it so far, less
-  /// what they took; J. The envelope lets force and torque give the hand so much more.
+  /// J, so far: the energy that bodies which move without this hand, such as a part in another hand, have given to it,
+  /// less what they took; and the hand's work against force that is withheld. The envelope lets force and torque give
+  /// the hand so much more.
   double supply = 0.0;
 };
 

@@ -49,6 +49,16 @@ struct HapticKernel::Hand {
   bool is_fading = false;  // in the last tick
   std::int64_t sequence = 0;
   double supply = 0.0;  // J, of the commands
+  double owed = 0.0;    // J: work of the hand against force that was withheld, as far as it has not been lifted again
+
+  /// A hand that sinks while the force of its contacts is withheld is lifted when it returns, as if it had sunk against
+  /// the force. From the work against the withheld and the exerted force in this tick, the energy to lift it with.
+  double lift(double against_withheld, double against_exerted) noexcept {
+    owed = std::max(0.0, owed + against_withheld);
+    const double lifted = std::clamp(-against_exerted, 0.0, owed);
+    owed -= lifted;
+    return lifted;
+  }
 
   /// Adapts the present coupling to the delay of the link. Returns the share of the coupling's force that is left:
   /// force and torque shrink alike, so that the wrench stays a sum of contact normals.
@@ -163,11 +173,13 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
     contacts = contacts_->of_part(p);
     contacts.wrench = holds_->on_hand(number, contacts.wrench);
     tick.pull = scaled(holds_->pull_on(number), softness);
-    hand.supply += softness * (holds_->supply_share(number) * contacts.supply + holds_->supply_of_pull(number));
   }
   const double motion = tick.part ? holds_->ghost_motion(p, part.radius) : 0.0;
   tick.contacts = scaled(hand.contacts.update(contacts, age, motion, dt), softness);
   tick.contact_share = hand.contacts.share();
+  hand.supply += softness * (holds_->supply_share(number) * contacts.supply + holds_->supply_of_pull(number));
+  hand.supply += hand.lift(holds_->work_against(number, scaled(hand.contacts.withheld(), softness)),
+                           holds_->work_against(number, tick.contacts));
   tick.is_unsolved = contacts.is_unsolved;
 
   devices::GloveCommand command;

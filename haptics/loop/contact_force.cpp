@@ -49,6 +49,7 @@ const Wrench& ContactForce::update(const PartContacts& contacts, std::chrono::na
     wrench_ = {wrench_.f + step.f, wrench_.t + step.t};
   }
   wrench_ = limited(wrench_, share_ * max_force_, radius_);
+  withheld_ = share_ < 1.0 ? Wrench{all.f - wrench_.f, all.t - wrench_.t} : Wrench{};
   return wrench_;
 }
 

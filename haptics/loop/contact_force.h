@@ -45,12 +45,15 @@ class ContactForce {
   /// The share of its force that the set exerted in the last call: less than 1 where it is old, or where its contacts
   /// are not known any more, and for 200 ms after that.
   double share() const noexcept { return share_; }
+  /// What the contacts would exert more if they were new and known; zero while `share` is 1.
+  const Wrench& withheld() const noexcept { return withheld_; }
 
  private:
   double radius_;
   CouplingStiffness stiffness_;
   double max_force_;
   Wrench wrench_;
+  Wrench withheld_;
   double share_ = 1.0;  // of its force that the set exerts
 };
 

@@ -187,9 +187,13 @@ double Holds::ghost_motion(std::size_t number, double radius) const {
 }
 
 double Holds::supply_of_pull(std::size_t hand) const {
+  return -work_against(hand, hands_[hand].pull);
+}
+
+double Holds::work_against(std::size_t hand, const Wrench& wrench) const {
   if (!hands_[hand].part) return 0.0;
   const geometry::Displacement way = ghost_way(*hands_[hand].part);
-  return hands_[hand].pull.f.dot(way.v) + hands_[hand].pull.t.dot(way.w);
+  return -wrench.f.dot(way.v) - wrench.t.dot(way.w);
 }
 
 }  // namespace glissade::haptics

@@ -54,6 +54,8 @@ class Holds {
   Wrench pull_on(std::size_t hand) const { return hands_[hand].pull; }
   /// Work (J) of the other hands on this one in the last tick, by their pull.
   double supply_of_pull(std::size_t hand) const;
+  /// Work (J) of the hand in the last tick against a wrench on it about the reference point of the part that it holds.
+  double work_against(std::size_t hand, const Wrench& wrench) const;
   /// The hand's share of the energy that the part's contacts supply.
   double supply_share(std::size_t hand) const { return hands_[hand].force_share; }
 

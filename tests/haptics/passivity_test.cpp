@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <random>
 
@@ -108,7 +109,7 @@ class DelayedWall {
     told.link_delay = glove_.link_delay();
     states_.push_back(told);
     if (states_.size() > one_way_) {
-      wall_.time = now_;
+      if (now_ >= halted_until_) wall_.time = now_;
       wall_.parts[0].X_WV_of_rows =
           Isometry3d(Eigen::Translation3d(0.0, 0.0, -5e-3));  // the part starts 5 mm lower than the hand
       const devices::GloveState* const newest = &states_.front();
@@ -127,6 +128,9 @@ class DelayedWall {
 
   /// The server sends no commands for so long.
   void fall_silent(milliseconds time) { silent_until_ = now_ + time; }
+
+  /// The simulation makes no new set for so long.
+  void halt(milliseconds time) { halted_until_ = now_ + time; }
 
   const devices::SafeCommand& command() const { return command_; }
   double force() const { return command_.values().f_H_W.z(); }
@@ -147,6 +151,7 @@ class DelayedWall {
   devices::SafeCommand command_;
   nanoseconds now_{milliseconds(100)};
   nanoseconds silent_until_{0};
+  nanoseconds halted_until_{0};
 };
 
 /// A wearer, as stiff and damped as a relaxed arm, wants to be 20 mm deep in the wall. Returns the greatest change of
@@ -175,14 +180,13 @@ TEST(DelayedWall, IsFeltAsSoftAndNeverAsOscillation) {
   }
 }
 
-/// The force after the hand has pressed with `push` N and the server then fell silent for `silence`; and the greatest
-/// change of the force in the last second of four.
-struct AfterSilence {
+/// A hand presses with `push` N, then `interrupt` happens: the force seconds later, and its greatest change in a second.
+struct Afterwards {
   double force;
   double unrest;
 };
 
-AfterSilence after_silence(double push, milliseconds silence) {
+Afterwards after(double push, const std::function<void(DelayedWall& wall)>& interrupt) {
   DelayedWall wall(devices::simulated_glove_descriptor(), 0.8, 1000.0, milliseconds(0), 20.0);
   const double target = -push / 400.0 - push / 1000.0;
   const auto lead = [&](int ms) {
@@ -190,26 +194,28 @@ AfterSilence after_silence(double push, milliseconds silence) {
       wall.step(-400.0 * (wall.z() - target));
   };
   lead(3000);
-  wall.fall_silent(silence);
+  interrupt(wall);
   lead(3000);
-  AfterSilence after{wall.force(), 0.0};
-  double least = after.force;
-  double greatest = after.force;
+  double least = wall.force();
+  double greatest = wall.force();
   for (int i = 0; i < 1000; ++i) {
     lead(1);
     least = std::min(least, wall.force());
     greatest = std::max(greatest, wall.force());
   }
-  after.unrest = greatest - least;
-  return after;
+  return {least, greatest - least};
 }
 
 TEST(DelayedWall, IsAsHardAndAsQuietAfterAnInterruptionAsBefore) {
   for (const double push : {2.0, 5.0, 10.0, 15.0, 19.0}) {
-    for (const milliseconds silence : {milliseconds(20), milliseconds(100), milliseconds(800)}) {
-      const AfterSilence after = after_silence(push, silence);
-      EXPECT_NEAR(after.force, push, 0.02 * push) << silence.count() << " ms";
-      EXPECT_LT(after.unrest, 0.05) << push << " N, " << silence.count() << " ms";
+    for (const milliseconds time : {milliseconds(20), milliseconds(100), milliseconds(800)}) {
+      SCOPED_TRACE(testing::Message() << push << " N, " << time.count() << " ms");
+      const Afterwards silence = after(push, [&](DelayedWall& wall) { wall.fall_silent(time); });
+      EXPECT_NEAR(silence.force, push, 0.02 * push);
+      EXPECT_LT(silence.unrest, 0.05);
+      const Afterwards halt = after(push, [&](DelayedWall& wall) { wall.halt(time); });
+      EXPECT_NEAR(halt.force, push, 0.05 * push);
+      EXPECT_LT(halt.unrest, 0.05);
     }
   }
 }
