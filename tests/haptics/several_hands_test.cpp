@@ -1,9 +1,14 @@
 // Several hands and parts in one haptic loop: what each hand feels, and what grasps and releases do to it.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdlib>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -231,6 +236,78 @@ TEST_F(SeveralHands, AHandThatIsLostLeavesThePartToTheOther) {
       EXPECT_EQ(tick.hands[1].command.values().f_H_W, Vector3d::Zero());
     }
   }
+}
+
+/// A hand that wanders through a cube of 0.12 m, with a rest now and then.
+devices::SimulatedGlove wandering_hand(std::uint64_t seed, std::chrono::seconds time) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> coordinate(-0.06, 0.06);
+  std::uniform_real_distribution<double> angle(-0.4, 0.4);
+  std::vector<geometry::TimedPose> rows;
+  for (milliseconds now(0); now < time; now += milliseconds(200 + random() % 500)) {
+    const bool rests = !rows.empty() && random() % 4 == 0;
+    Isometry3d X_WH = at(coordinate(random), coordinate(random), coordinate(random));
+    X_WH.rotate(Eigen::AngleAxisd(angle(random), Vector3d(angle(random), angle(random), 1.0).normalized()));
+    rows.push_back({now, rests ? rows.back().X_WB : X_WH});
+  }
+  return devices::SimulatedGlove(geometry::PoseTrajectory(rows));
+}
+
+/// Grasps, releases and changes of hands at any moment: nothing collides, nothing jumps, and a hand that holds nothing
+/// soon feels nothing. Ten minutes: GLISSADE_HAND_SECONDS=600.
+TEST_F(SeveralHands, MayGraspAndReleaseAtAnyMoment) {
+  const char* const wish = std::getenv("GLISSADE_HAND_SECONDS");
+  const int seconds = wish != nullptr ? std::atoi(wish) : 10;
+  constexpr std::uint64_t kSeed = 3;
+  SCOPED_TRACE(kSeed);
+  const geometry::PoseTrajectory lift({{milliseconds(0), at(0.0, 0.0, -0.12)},
+                                       {milliseconds(3000), at(0.0, 0.0, -0.07)},
+                                       {milliseconds(6000), at(0.0, 0.0, -0.12)}});
+  MultiPartSliding sliding(
+      {wall(0.09), test_support::obstacle_of(geometry::make_box({0.02, 0.3, 0.02}, 12), at(-0.1, 0.0, 0.0))},
+      {cube_at(-0.03),
+       cube_at(0.03),
+       {.part_V = cube(kEdge), .X_WV_start = at(0.0, 0.07, 0.0), .metaphor = Metaphor::kIncremental},
+       held_by_script({cube(kEdge), lift})},
+      {.friction = {.at_rest = 0.2, .sliding = 0.2}});
+  devices::SimulatedGlove first = wandering_hand(2 * kSeed, std::chrono::seconds(seconds));
+  devices::SimulatedGlove second = wandering_hand(2 * kSeed + 1, std::chrono::seconds(seconds));
+  std::mt19937_64 random(kSeed);
+  std::array<std::optional<std::size_t>, 2> held{0, std::nullopt};
+  std::array<std::int64_t, 2> free_since{0, 0};
+  std::array<std::vector<std::pair<std::int64_t, std::optional<std::size_t>>>, 2> expected;
+  int grasps = 0;
+  const auto states =
+      run({{&first, 0}, {&second, std::nullopt}}, sliding, 1000 * seconds, [&](std::int64_t tick, auto& kernel) {
+        while (random() % 60 == 0) {  // sometimes several in one tick
+          const std::size_t hand = random() % 2;
+          if (random() % 3 == 0) {
+            kernel.release(hand);
+            if (held[hand]) free_since[hand] = tick;
+            held[hand].reset();
+          } else {
+            const std::size_t part = random() % 3;
+            EXPECT_TRUE(kernel.grasp(hand, part));
+            held[hand] = part;
+            ++grasps;
+          }
+        }
+        for (std::size_t hand = 0; hand < 2; ++hand)
+          expected[hand].emplace_back(free_since[hand], held[hand]);
+      });
+  EXPECT_GT(grasps, 5 * seconds);
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    for (std::size_t hand = 0; hand < 2; ++hand) {
+      const auto& [since, part] = expected[hand][i];
+      const devices::HapticHandState& state = states[i].hands[hand];
+      ASSERT_EQ(state.part, part ? static_cast<std::int32_t>(*part) : -1) << "hand " << hand << ", tick " << i + 1;
+      greatest = std::max(greatest, state.force_W.norm());
+      if (part || states[i].sequence - since < 80) continue;
+      ASSERT_EQ(state.force_W, Vector3d::Zero()) << "hand " << hand << ", tick " << i + 1;
+    }
+  }
+  EXPECT_GT(greatest, 5.0);
 }
 
 }  // namespace
