@@ -63,27 +63,26 @@ std::int64_t checked_ticks(double seconds) {
 
 struct Demo {
   HapticScene scene;
-  geometry::PoseTrajectory script_X_WH;
+  HandScript script;
 };
 
 Demo embedded_demo() {
   const Scene scene = parse_scene(std::string(embedded_scene_yaml()), "car_door.yaml", ".");
   return {make_haptic_scene(scene, movable_objects(scene)),
-          parse_trajectory(embedded_scene_script(), "car_door_script.csv")};
+          parse_hand_script(embedded_scene_script(), "car_door_script.csv")};
 }
 
 Demo demo_from_file(const std::string& path) {
   const Scene scene = read_scene(path);
   if (!scene.script_path) throw std::invalid_argument(path + ": the scene has no script for the hand to follow");
-  return {make_haptic_scene(scene, movable_objects(scene)), read_trajectory(*scene.script_path)};
+  return {make_haptic_scene(scene, movable_objects(scene)), read_hand_script(*scene.script_path)};
 }
 
-Session run_in_real_time(const Demo& demo, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks,
-                         const DemoOptions& options) {
+Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_t ticks, const DemoOptions& options) {
   const StopSignal stop_signal;
   const auto bus = std::make_shared<devices::LcmBus>(options.lcm_url);
   realtime::SteadyClock clock;
-  devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script_X_WH), clock);
+  devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script.X_WH, script.with_grip({})), clock);
   ProgressBar progress("real time", ticks);
   return run_session(
       demo.scene, bus,
@@ -94,10 +93,10 @@ Session run_in_real_time(const Demo& demo, const geometry::PoseTrajectory& scrip
 int run(const DemoOptions& options) {
   const std::int64_t ticks = checked_ticks(options.seconds);
   const Demo demo = options.scene.empty() ? embedded_demo() : demo_from_file(options.scene);
-  const geometry::PoseTrajectory script_X_WH = demo.script_X_WH.time_scaled(std::chrono::milliseconds(ticks));
+  const HandScript script = demo.script.time_scaled(std::chrono::milliseconds(ticks));
   if (!options.report.empty()) prepare_report_folder(options.report);
-  const Session session = options.offline ? run_session_offline(demo.scene, script_X_WH, ticks, options.choice)
-                                          : run_in_real_time(demo, script_X_WH, ticks, options);
+  const Session session = options.offline ? run_session_offline(demo.scene, script, ticks, options.choice)
+                                          : run_in_real_time(demo, script, ticks, options);
   conclude(session, demo.scene,
            "glissade demo: " + demo.scene.parts.front().name + (options.offline ? ", offline" : ""), options.json,
            options.report);

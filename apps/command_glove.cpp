@@ -30,7 +30,9 @@ constexpr const char* kGloveDescription = "Simulate a force-feedback glove in a 
 
 constexpr const char* kGloveFooter =
     "Script: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is a time and the pose X_WH of the hand root, the frame\n"
-    "whose pose the glove reports; times increase. Without --script, the hand follows the script of the car door\n"
+    "whose pose the glove reports; times increase. A ninth column, grip, may say from each row on whether the hand is\n"
+    "closed (1) or open (0): a hand that opens lets go, one that closes takes the nearest part. Without --script, the "
+    "hand follows the script of the car door\n"
     "demonstration. The hand waits at the first pose until a haptic server ('glissade run') sends a command, and\n"
     "yields to the forces that it receives. The process ends at the end of the script, or with Ctrl-C. When the force\n"
     "fades, the reason goes to standard error.\n"
@@ -103,19 +105,19 @@ int run(const GloveOptions& options) {
     throw std::invalid_argument("--frozen-ms: must lie between 0 and 1e6, not " + format_number(options.frozen_ms));
   }
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
-  const geometry::PoseTrajectory script = options.script.empty()
-                                              ? parse_trajectory(embedded_scene_script(), "car_door_script.csv")
-                                              : read_trajectory(options.script);
+  const HandScript script = options.script.empty() ? parse_hand_script(embedded_scene_script(), "car_door_script.csv")
+                                                   : read_hand_script(options.script);
+  const std::chrono::nanoseconds duration = script.X_WH.duration();
   const StopSignal stop_signal;
   realtime::SteadyClock clock;
   std::optional<GloveRecord> record;
   if (!options.record.empty()) record.emplace(options.record);
   ReasonTeller teller;
-  devices::SimulatedGloveParameters parameters;
+  devices::SimulatedGloveParameters parameters = script.with_grip({});
   parameters.frozen = std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::duration<double, std::milli>(options.frozen_ms));
   const devices::HandSide side = options.side == "left" ? devices::HandSide::kLeft : devices::HandSide::kRight;
-  devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script, parameters), clock,
+  devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script.X_WH, parameters), clock,
                                        {.device = options.device, .side = side},
                                        [&](const devices::GloveState& state, const devices::SafeCommand& command) {
                                          if (record) record->push(state, command);
@@ -128,8 +130,8 @@ int run(const GloveOptions& options) {
   say("glissade glove: the " + options.side + " hand waits for a server at " + options.lcm.url);
   const auto milliseconds = [](std::chrono::nanoseconds time) { return time / std::chrono::milliseconds(1); };
   {
-    ProgressBar progress("script", milliseconds(script.duration()));
-    while (glove.script_time() < script.duration() && !StopSignal::requested()) {
+    ProgressBar progress("script", milliseconds(duration));
+    while (glove.script_time() < duration && !StopSignal::requested()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       progress.update(milliseconds(glove.script_time()));
       if (record) record->write();

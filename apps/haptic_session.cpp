@@ -90,9 +90,9 @@ struct Glove {
 
 }  // namespace
 
-Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks,
+Session run_session_offline(const HapticScene& scene, const HandScript& script, std::int64_t ticks,
                             const SlidingChoice& choice) {
-  devices::SimulatedGlove glove(script_X_WH);
+  devices::SimulatedGlove glove(script.X_WH, script.with_grip({}));
   haptics::MultiPartSliding sliding = start_sliding(scene, {{glove.descriptor(), 0}}, choice, {});
   const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks), sliding.part_count(), 1);
   ProgressBar progress("offline", ticks);

@@ -14,16 +14,17 @@
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/session.h>
 #include <glissade/apps/sliding_option.h>
+#include <glissade/apps/trajectory_file.h>
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/devices/lcm_glove.h>
-#include <glissade/geometry/pose_trajectory.h>
 #include <glissade/haptics/coupling.h>
 
 namespace glissade::apps {
 
-/// Runs the whole system on a simulated clock: `ticks` milliseconds of a simulated glove that holds the first part and
-/// follows `script_X_WH`. Throws std::invalid_argument, naming scene and part, when a part collides at its start.
-Session run_session_offline(const HapticScene& scene, const geometry::PoseTrajectory& script_X_WH, std::int64_t ticks,
+/// Runs the whole system on a simulated clock: `ticks` milliseconds of a simulated glove that follows `script`, and
+/// holds the first part if it starts closed. Throws std::invalid_argument, naming scene and part, when a part collides
+/// at its start.
+Session run_session_offline(const HapticScene& scene, const HandScript& script, std::int64_t ticks,
                             const SlidingChoice& choice);
 
 /// A glove of a run, and the part that its hand takes at the first state.

@@ -43,6 +43,48 @@ geometry::PoseTrajectory trajectory_from(const CsvTable& table) {
 
 }  // namespace
 
+HandScript HandScript::time_scaled(std::chrono::nanoseconds duration) const {
+  HandScript scaled{X_WH.time_scaled(duration), starts_closed, {}};
+  const double factor = static_cast<double>(duration.count()) / static_cast<double>(X_WH.duration().count());
+  for (const std::chrono::nanoseconds time : grip_changes) {
+    const auto since_start = static_cast<double>((time - X_WH.first_time()).count());
+    scaled.grip_changes.push_back(X_WH.first_time() + std::chrono::nanoseconds(std::llround(factor * since_start)));
+  }
+  return scaled;
+}
+
+devices::SimulatedGloveParameters HandScript::with_grip(devices::SimulatedGloveParameters parameters) const {
+  parameters.starts_closed = starts_closed;
+  parameters.grip_changes = grip_changes;
+  return parameters;
+}
+
+HandScript parse_hand_script(std::string_view text, const std::string& source) {
+  std::vector<std::string> columns = trajectory_columns();
+  const std::string_view header = text.substr(0, text.find_first_of("\r\n"));
+  if (!header.ends_with(",grip")) return {parse_trajectory(text, source)};
+  columns.emplace_back("grip");
+  const CsvTable table = parse_csv(text, source, columns);
+  HandScript script{trajectory_from(table)};
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const double grip = table.rows[row].back();
+    if (grip != 0.0 && grip != 1.0) {
+      throw std::invalid_argument(table.where(row) + ": column grip: must be 0 (open) or 1 (closed), not " +
+                                  format_number(grip));
+    }
+    if (row == 0) {
+      script.starts_closed = grip == 1.0;
+    } else if (grip != table.rows[row - 1].back()) {
+      script.grip_changes.push_back(time_of(table.rows[row][0], table.where(row)));
+    }
+  }
+  return script;
+}
+
+HandScript read_hand_script(const std::string& path) {
+  return parse_hand_script(read_text_file(path), path);
+}
+
 geometry::PoseTrajectory read_trajectory(const std::string& path) {
   return trajectory_from(read_csv(path, trajectory_columns()));
 }

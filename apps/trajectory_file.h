@@ -1,10 +1,13 @@
 #pragma once
 
-/// Files of timed poses: rows `t_s,x_m,y_m,z_m,qw,qx,qy,qz` at rising times.
+/// Files of timed poses: rows `t_s,x_m,y_m,z_m,qw,qx,qy,qz` at rising times; for a hand with a column `grip`.
 
+#include <chrono>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/pose_trajectory.h>
 
 namespace glissade::apps {
@@ -16,5 +19,22 @@ geometry::PoseTrajectory read_trajectory(const std::string& path);
 
 /// The same for a text in memory; `source` replaces the file's name in messages.
 geometry::PoseTrajectory parse_trajectory(std::string_view text, const std::string& source);
+
+/// What a simulated hand is to do.
+struct HandScript {
+  geometry::PoseTrajectory X_WH;
+  bool starts_closed = true;
+  std::vector<std::chrono::nanoseconds> grip_changes{};  ///< times at which it closes or opens, ascending
+
+  /// The same in another time.
+  HandScript time_scaled(std::chrono::nanoseconds duration) const;
+  /// `parameters` with the grip of this script.
+  devices::SimulatedGloveParameters with_grip(devices::SimulatedGloveParameters parameters) const;
+};
+
+/// Reads a trajectory that may have one more column, `grip`: 1 from the time of the row on if the hand is closed, 0 if
+/// it is open. Throws as `read_trajectory`, and for any other number in that column.
+HandScript read_hand_script(const std::string& path);
+HandScript parse_hand_script(std::string_view text, const std::string& source);
 
 }  // namespace glissade::apps

@@ -104,6 +104,9 @@ struct GloveState {
   Eigen::Vector3d v_WH = Eigen::Vector3d::Zero();  ///< velocity of the origin of H, in world axes; m/s
   Eigen::Vector3d w_WH = Eigen::Vector3d::Zero();  ///< angular velocity of H, in world axes; rad/s
   JointValues joint_angles{};
+  /// How often the hand has closed or opened so far: odd while it is closed and holds what it can. A count loses
+  /// nothing when states are lost. A driver that cannot tell leaves it at 1.
+  std::int64_t grip = 1;
   bool obeys_another = false;  ///< the glove obeys another server, and ignores the commands of this one
   bool is_enabled = true;      ///< false while the wearer does not hold the enable switch, if the glove has one
   /// What the envelope at the glove made of the last command, and the age of that command there: the time from the

@@ -97,6 +97,7 @@ SimulatedGlove::SimulatedGlove(geometry::PoseTrajectory script_X_WH, const Simul
   check(parameters_);
   descriptor_.frozen = parameters_.frozen;
   state_.time = script_X_WH_.first_time();
+  state_.grip = grip_at(state_.time);
   state_.X_WH = script_X_WH_.pose_at(state_.time);
   q_WH_ = Eigen::Quaterniond(state_.X_WH.linear());
   for (std::size_t i = 0; i < kGloveJoints; ++i) {
@@ -117,7 +118,14 @@ GloveState SimulatedGlove::step(std::chrono::nanoseconds dt, const SafeCommand& 
     left -= now;
   }
   ++state_.sequence;
+  state_.grip = grip_at(state_.time);
   return state_;
+}
+
+std::int64_t SimulatedGlove::grip_at(std::chrono::nanoseconds time) const noexcept {
+  const auto& changes = parameters_.grip_changes;
+  return (parameters_.starts_closed ? 1 : 0) +
+         (std::upper_bound(changes.begin(), changes.end(), time) - changes.begin());
 }
 
 void SimulatedGlove::move_hand(double h, const GloveCommand& command) noexcept {

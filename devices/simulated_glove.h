@@ -5,6 +5,8 @@
 /// neither threads nor clocks: the same inputs give bit-identical outputs.
 
 #include <chrono>
+#include <cstdint>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -35,6 +37,9 @@ struct SimulatedGloveParameters {
   double finger_time_constant = 0.05;  ///< time constant of a finger's approach to its equilibrium; s
   JointValues grasp_posture{};         ///< joint angles to which the wearer's fingers return; rad
   std::chrono::nanoseconds frozen{0};  ///< `DeviceDescriptor::frozen`
+  bool starts_closed = true;           ///< the hand is closed at the start of the script
+  /// Times of the script, ascending, at which the hand closes or opens.
+  std::vector<std::chrono::nanoseconds> grip_changes{};
 };
 
 /// Limits of the simulated glove: 20 N, 1 Nm, 4000 N/m and 1000 updates per second, like the stronger grounded arms in
@@ -61,6 +66,7 @@ class SimulatedGlove {
   GloveState step(std::chrono::nanoseconds dt, const SafeCommand& newest) noexcept;
 
  private:
+  std::int64_t grip_at(std::chrono::nanoseconds time) const noexcept;
   void move_hand(double h, const GloveCommand& command) noexcept;
   void turn_hand(double h, const GloveCommand& command) noexcept;
   void move_fingers(double h, const GloveCommand& command) noexcept;

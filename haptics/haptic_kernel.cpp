@@ -46,7 +46,8 @@ struct HapticKernel::Hand {
   double link_delay_s = 0.0;
   ContactForce contacts;
   devices::SafetyEnvelope envelope;
-  bool is_fading = false;  // in the last tick
+  bool is_fading = false;            // in the last tick
+  std::optional<std::int64_t> grip;  // of the last state
   std::int64_t sequence = 0;
   double supply = 0.0;  // J, of the commands
   double owed = 0.0;    // J: work of the hand against force that was withheld, as far as it has not been lifted again
@@ -142,7 +143,9 @@ HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     if (states[h] == nullptr) continue;
     poses[h].is_fading = hands_[h]->is_fading;
-    if (has_pose(*states[h])) poses[h].X_WH = &states[h]->X_WH;
+    if (!has_pose(*states[h])) continue;
+    poses[h].X_WH = &states[h]->X_WH;
+    follow_grip(h, *states[h], set);
   }
   holds_->update({poses.data(), hands_.size()}, set, dt);
   const std::chrono::nanoseconds age = now - set.time;
@@ -156,6 +159,31 @@ HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states
     if (states[h] != nullptr) tick.hands[h] = render(h, *states[h], age, now, dt);
   }
   return tick;
+}
+
+void HapticKernel::follow_grip(std::size_t number, const devices::GloveState& state, const ContactSet& set) noexcept {
+  Hand& hand = *hands_[number];
+  const bool is_closed = state.grip % 2 == 1;
+  const bool is_first = !hand.grip;
+  if (!is_first && state.grip == *hand.grip) return;
+  hand.grip = state.grip;
+  if (is_first && is_closed) return;  // it takes the part that it was given
+  holds_->release(number);
+  if (!is_closed) return;
+  if (const auto part = nearest_part(state.X_WH.translation(), set)) grasp(number, *part);
+}
+
+std::optional<std::size_t> HapticKernel::nearest_part(const Eigen::Vector3d& p_WH,
+                                                      const ContactSet& set) const noexcept {
+  std::optional<std::size_t> nearest;
+  double least = kGripReach_m;
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    const double distance = (set.parts[p].X_WV * parts_[p].p_Vref - p_WH).norm() - parts_[p].radius;
+    if (parts_[p].is_scripted || !(distance <= least)) continue;
+    least = distance;
+    nearest = p;
+  }
+  return nearest;
 }
 
 HandTick HapticKernel::render(std::size_t number, const devices::GloveState& state, std::chrono::nanoseconds age,

@@ -42,8 +42,11 @@ std::vector<KernelPart> kernel_parts(const MultiPartSliding& sliding);
 /// A hand in a device.
 struct KernelHand {
   devices::DeviceDescriptor device;
-  std::optional<std::size_t> part{};  ///< number of the part that it grasps at its first state
+  std::optional<std::size_t> part{};  ///< number of the part that it grasps at its first state, if it is closed then
 };
+
+/// A hand that closes takes no part whose bounding sphere is farther from the hand root than this, metres.
+inline constexpr double kGripReach_m = 0.2;
 
 /// A hand after one tick.
 struct HandTick {
@@ -87,7 +90,8 @@ class HapticKernel {
 
   /// Computes the tick at time `now` for the newest state of each hand, null as long as it has none, and the newest
   /// contact set. `now` is on the clock of `ContactSet::time`, and never goes back. A hand pose that is not finite
-  /// leaves the ghost unchanged, and the force fades.
+  /// leaves the ghost unchanged, and the force fades. A hand that opens (`GloveState::grip`) lets go; one that closes
+  /// grasps the part whose bounding sphere, about the compliance point, is nearest to the hand root.
   HapticTick tick(std::span<const devices::GloveState* const> states, const ContactSet& set,
                   std::chrono::nanoseconds now) noexcept;
 
@@ -104,6 +108,8 @@ class HapticKernel {
  private:
   struct Hand;
 
+  void follow_grip(std::size_t hand, const devices::GloveState& state, const ContactSet& set) noexcept;
+  std::optional<std::size_t> nearest_part(const Eigen::Vector3d& p_WH, const ContactSet& set) const noexcept;
   double seconds_since_last_tick(std::chrono::nanoseconds now) noexcept;
   HandTick render(std::size_t hand, const devices::GloveState& state, std::chrono::nanoseconds age,
                   std::chrono::nanoseconds now, double dt) noexcept;

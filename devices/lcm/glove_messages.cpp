@@ -127,6 +127,7 @@ MessageError check(const glove_state_t& message) noexcept {
   fields.time(message.time_ns);
   fields.one_of(message.side, glove_state_t::SIDE_RIGHT);
   fields.one_of(message.enabled, 1);
+  fields.not_negative(message.grip);
   fields.magnitude(message.position_WH_m, kLargestPosition);
   fields.unit_quaternion(message.orientation_WH_wxyz);
   fields.magnitude(message.v_WH_m_per_s, kLargestVelocity);
@@ -286,6 +287,7 @@ std::vector<std::uint8_t> encode(const StateHeader& header, const GloveState& st
   message.session = header.session;
   message.leaseholder = header.leaseholder;
   message.enabled = state.is_enabled ? 1 : 0;
+  message.grip = state.grip;
   message.sequence = state.sequence;
   message.time_ns = state.time.count();
   put(Eigen::Vector3d(state.X_WH.translation()), message.position_WH_m);
@@ -368,6 +370,7 @@ MessageError decode(std::span<const std::uint8_t> bytes, StateHeader& header, Gl
   if (error != MessageError::kNone) return error;
   header = {message.device, message.session, message.leaseholder, static_cast<HandSide>(message.side)};
   state.is_enabled = message.enabled != 0;
+  state.grip = message.grip;
   state.sequence = message.sequence;
   state.time = std::chrono::nanoseconds(message.time_ns);
   state.X_WH = pose_of(message.position_WH_m, message.orientation_WH_wxyz);

@@ -45,5 +45,32 @@ TEST(TrajectoryFile, APosesFileIsNotATrajectory) {
                    {"path.csv:1:", "t_s,x_m"});
 }
 
+HandScript parse_hand(const std::string& rows) {
+  return parse_hand_script("t_s,x_m,y_m,z_m,qw,qx,qy,qz,grip\n" + rows, "hand.csv");
+}
+
+TEST(HandScript, TellsWhenTheHandClosesAndOpens) {
+  const HandScript script = parse_hand("0,0,0,0,1,0,0,0,0\n1,0,0,0,1,0,0,0,1\n2,0,0,0,1,0,0,0,1\n4,0,0,0,1,0,0,0,0\n");
+  EXPECT_FALSE(script.starts_closed);
+  EXPECT_EQ(script.grip_changes, (std::vector<std::chrono::nanoseconds>{milliseconds(1000), milliseconds(4000)}));
+  const HandScript faster = script.time_scaled(milliseconds(2000));
+  EXPECT_EQ(faster.grip_changes, (std::vector<std::chrono::nanoseconds>{milliseconds(500), milliseconds(2000)}));
+  devices::SimulatedGlove glove(script.X_WH, script.with_grip({}));
+  EXPECT_EQ(glove.state().grip, 0);
+  EXPECT_EQ(glove.step(milliseconds(1000), {}).grip, 1);
+  EXPECT_EQ(glove.step(milliseconds(2999), {}).grip, 1);
+  EXPECT_EQ(glove.step(milliseconds(1), {}).grip, 2);
+}
+
+TEST(HandScript, IsClosedWithoutThatColumn) {
+  const HandScript script = parse_hand_script("t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n", "hand.csv");
+  EXPECT_TRUE(script.starts_closed);
+  EXPECT_TRUE(script.grip_changes.empty());
+}
+
+TEST(HandScript, AHandIsClosedOrOpen) {
+  expect_bad_input([] { parse_hand("0,0,0,0,1,0,0,0,0.5\n"); }, {"hand.csv:2:", "grip", "0.5"});
+}
+
 }  // namespace
 }  // namespace glissade::apps

@@ -94,6 +94,42 @@ TEST(ThreeProcesses, TwoGlovesPressTheirPartsTogether) {
     EXPECT_GT(hand["force_max_N"], 1.5) << hand["device"];
 }
 
+/// The first hand brings a cube and opens 0.3 s after the second has closed; the second carries it on, and opens too.
+TEST(ThreeProcesses, OneGlovePassesAPartToTheOther) {
+  ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
+  const test_support::TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "scene.yaml",
+      "objects:\n"
+      "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}, pose: {position_m: [0, 0, -0.05]}}\n"
+      "  - {name: cube, movable: true, shape: {type: box, size_x_m: 0.04, size_y_m: 0.04, size_z_m: 0.04}}\n"
+      "goal: {position_m: [0.15, 0, 0]}\n");
+  const std::string header = "t_s,x_m,y_m,z_m,qw,qx,qy,qz,grip\n";
+  const std::string giver = folder.write("giver.csv", header +
+                                                          "0,0,0.03,0,1,0,0,0,1\n"
+                                                          "1,0.1,0.03,0,1,0,0,0,1\n"
+                                                          "1.8,0.1,0.03,0,1,0,0,0,0\n"
+                                                          "2.3,0,0.1,0,1,0,0,0,0\n"
+                                                          "8,0,0.1,0,1,0,0,0,0\n");
+  const std::string taker = folder.write("taker.csv", header +
+                                                          "0,0.1,-0.03,0,1,0,0,0,0\n"
+                                                          "1.5,0.1,-0.03,0,1,0,0,0,1\n"
+                                                          "2.3,0.1,-0.03,0,1,0,0,0,1\n"
+                                                          "3,0.15,-0.03,0,1,0,0,0,1\n"
+                                                          "3.5,0.15,-0.03,0,1,0,0,0,0\n"
+                                                          "4,0.15,-0.1,0,1,0,0,0,0\n"
+                                                          "8,0.15,-0.1,0,1,0,0,0,0\n");
+  const test_support::Process first({GLISSADE_PROGRAM, "glove", "--lcm", kUrl, "--device", "1", "--script", giver});
+  const test_support::Process second({GLISSADE_PROGRAM, "glove", "--lcm", kUrl, "--device", "2", "--script", taker});
+  const test_support::ProgramResult server =
+      test_support::glissade({"run", scene, "--lcm", kUrl, "--device", "1", "2", "--seconds", "5", "--json"});
+  ASSERT_EQ(server.exit_code, 0) << server.standard_error;
+  const nlohmann::json summary = nlohmann::json::parse(server.standard_output);
+  EXPECT_EQ(summary["colliding_poses"], 0);
+  EXPECT_EQ(summary["seat_reached"], true) << summary.dump(1);
+  EXPECT_GT(summary["parts"][0]["state_s"]["released"], 0.5) << "it lies still at the end";
+}
+
 TEST(TwoProcesses, AServerWithAnotherKeySaysThatItRefuses) {
   ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
   const test_support::TemporaryFolder folder;

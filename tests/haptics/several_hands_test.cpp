@@ -201,6 +201,23 @@ TEST_F(SeveralHands, AReleaseAndAGraspInOneTickAreBothKept) {
   EXPECT_LT(lag, 1e-3) << "the hand has taken hold anew, where the part is";
 }
 
+TEST_F(SeveralHands, AHandThatClosesTakesTheNearestPartAndOneThatOpensLetsGo) {
+  MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.06), cube_at(0.06)});
+  devices::SimulatedGloveParameters parameters;
+  parameters.starts_closed = false;
+  parameters.grip_changes = {milliseconds(100), milliseconds(400), milliseconds(600)};
+  devices::SimulatedGlove glove(
+      geometry::PoseTrajectory({{milliseconds(0), at(0.03, 0.0, 0.0)}, {milliseconds(500), at(0.03, 0.05, 0.0)}}),
+      parameters);
+  const auto states = run({{&glove, 0}}, sliding, 800);
+  EXPECT_EQ(states[50].hands[0].part, -1) << "open, whatever part it was given";
+  EXPECT_EQ(states[200].hands[0].part, 1);
+  EXPECT_EQ(states[500].hands[0].part, -1);
+  EXPECT_EQ(states[700].hands[0].part, 1);
+  EXPECT_GT(states.back().parts[1].X_WV.translation().y(), 0.02);
+  EXPECT_EQ(states.back().parts[0].X_WV.translation().x(), -0.06);
+}
+
 /// A hand whose tracker fails no longer moves a part that another hand holds too.
 TEST_F(SeveralHands, AHandThatIsLostLeavesThePartToTheOther) {
   MultiPartSliding sliding({wall(1.0)}, {cube_at(0.0)});
