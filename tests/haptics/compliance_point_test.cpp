@@ -1,7 +1,11 @@
 // The point of a part at which the hand acts.
 
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -49,6 +53,77 @@ TEST(CompliancePoint, TheRadiusIsTheDistanceOfTheFarthestVertex) {
 TEST(CompliancePoint, MustLieNearThePart) {
   EXPECT_THROW(SlidingPart(rod(), {0.0, 0.0, 1.1}), std::invalid_argument);
   EXPECT_THROW(SlidingPart(rod(), {0.0, std::numeric_limits<double>::quiet_NaN(), 0.0}), std::invalid_argument);
+}
+
+/// A square peg of 8 × 8 × 50 mm without a chamfer and a plate with a hole for it, 79 µm wider.
+class SquarePeg : public ::testing::Test {
+ protected:
+  static constexpr double kPeg = 8e-3;
+  static constexpr double kLength = 50e-3;
+  static constexpr double kHole = kPeg + 79e-6;
+
+  static geometry::TriangleMesh plate() {
+    constexpr double kSize = 40e-3;
+    constexpr double kBeside = 0.5 * (kSize - kHole);
+    constexpr double kDepth = 9e-3;
+    geometry::TriangleMesh mesh;
+    for (const double side : {-1.0, 1.0}) {
+      const double middle = side * 0.5 * (kHole + kBeside);
+      append(mesh, geometry::make_box({kBeside, kSize, kDepth}, 12), Vector3d(middle, 0.0, -0.5 * kDepth));
+      append(mesh, geometry::make_box({kHole, kBeside, kDepth}, 12), Vector3d(0.0, middle, -0.5 * kDepth));
+    }
+    return mesh;
+  }
+
+  /// How many of `trials` pegs get in. A hand presses the peg by 8 mm on the plate, up to 2 mm beside the hole, drags
+  /// it over the hole to the other side, and back to the hole.
+  static int got_in(int trials, const std::optional<Vector3d>& compliance_point, bool spiral_search) {
+    const auto mesh = std::make_shared<geometry::TriangleMesh>(geometry::make_box({kPeg, kPeg, kLength}, 12));
+    const auto peg =
+        compliance_point ? std::make_shared<SlidingPart>(mesh, *compliance_point) : std::make_shared<SlidingPart>(mesh);
+    const Obstacle holed = test_support::obstacle_of(plate());
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    int count = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+      const Vector3d offset(2e-3 * uniform(random), 2e-3 * uniform(random), 0.0);
+      const auto tip_at = [&](double share, double z) {
+        return at(share * offset.x(), share * offset.y(), z + 0.5 * kLength);
+      };
+      Sliding sliding({holed}, peg, tip_at(1.0, 1e-3), {.rules = {.spiral_search = spiral_search}});
+      test_support::lead(sliding, tip_at(1.0, -8e-3), 200);
+      test_support::lead(sliding, tip_at(-1.0, -8e-3), 1000);
+      test_support::lead(sliding, tip_at(0.0, -8e-3), 500);
+      for (int i = 0; i < 2500 && spiral_search; ++i)  // the hand rests, and the search begins
+        sliding.advance(tip_at(0.0, -8e-3));
+      count += sliding.result().X_WV.translation().z() - 0.5 * kLength < -7e-3 ? 1 : 0;
+    }
+    return count;
+  }
+
+ private:
+  static void append(geometry::TriangleMesh& mesh, const geometry::TriangleMesh& more, const Vector3d& p) {
+    const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+    for (const Vector3d& vertex : more.vertices)
+      mesh.vertices.push_back(vertex + p);
+    for (const auto& triangle : more.triangles)
+      mesh.triangles.push_back({triangle[0] + first, triangle[1] + first, triangle[2] + first});
+  }
+};
+
+// A hundred pegs: GLISSADE_PEGS=100.
+TEST_F(SquarePeg, DropsInByItselfIfTheHandActsAtItsTip) {
+  const char* const wish = std::getenv("GLISSADE_PEGS");
+  const int trials = wish != nullptr ? std::atoi(wish) : 10;
+  const int with_tip = got_in(trials, Vector3d(0.0, 0.0, -0.5 * kLength), false);
+  EXPECT_EQ(with_tip, trials);
+  const int with_middle = got_in(trials, std::nullopt, false);
+  EXPECT_LT(with_middle, trials) << "a push at its middle tips it, and it jams";
+  RecordProperty("with_middle", with_middle);
+  if (wish == nullptr) return;
+  const int with_search = got_in(trials, std::nullopt, true);
+  EXPECT_GE(10 * with_search, 9 * trials) << "the spiral search helps";
+  RecordProperty("with_search", with_search);
 }
 
 }  // namespace
