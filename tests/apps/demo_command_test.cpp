@@ -111,6 +111,13 @@ TEST_F(Demo, TheCarDoorRunsOfflineWithoutACollision) {
   EXPECT_GT(stages["exact"]["us"], 0.0);
 }
 
+TEST_F(Demo, TheSquarePegDropsIntoItsHole) {
+  const nlohmann::json summary =
+      run({"--offline", "--seconds", "5", "--scene", GLISSADE_DOCS "/../examples/scenes/square_peg.yaml"});
+  EXPECT_EQ(summary["seat_reached"], true);
+  EXPECT_EQ(summary["colliding_poses"], 0);
+}
+
 TEST_F(Demo, FrictionHoldsTheHandBack) {
   const auto distance_with = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"demo", "--offline", "--scene", scene, "--seconds", "1", "--json"};
