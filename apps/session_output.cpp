@@ -269,6 +269,7 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
                          {"simulation_us_p50", nullptr},
                          {"simulation_us_p99", nullptr},
                          {"contact_set_age_us_p50", nullptr},
+                         {"contact_set_age_us_p99", nullptr},
                          {"hash", hash_text(summary.hash)}};
   if (summary.seat_reached) {
     json["seat_reached"] = *summary.seat_reached;
@@ -284,6 +285,7 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
     json["simulation_us_p50"] = microseconds(server.simulation.quantile(0.5));
     json["simulation_us_p99"] = microseconds(server.simulation.quantile(0.99));
     json["contact_set_age_us_p50"] = microseconds(server.contact_set_age.quantile(0.5));
+    json["contact_set_age_us_p99"] = microseconds(server.contact_set_age.quantile(0.99));
   }
   return json;
 }

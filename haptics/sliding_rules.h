@@ -95,15 +95,19 @@ struct SlidingRules {
   /// call. Up to 3 mm, and less far where searches find very many pairs of triangles. A haptic thread then knows them
   /// while it waits for the next contact set. Finite and not negative.
   double contacts_ahead_ms = 0.0;
+  /// Work of a search: where a search finds more pairs of triangles than this, the next ones look half as far, though
+  /// not less than 0.2 mm, and steps are shorter. Answers then come sooner, and a fast part falls behind. At least 1.
+  std::size_t affordable_pairs = 30'000;
 };
 
-/// The rules for a simulation behind a `HapticServer`: few cycles, a search thread, and contacts ahead for the time
-/// that a contact set is in use.
+/// The rules for a simulation behind a `HapticServer`: few cycles, a search thread, contacts ahead for the time that a
+/// contact set is in use, and short searches, so that the age of the answers does not depend on the meshes.
 constexpr SlidingRules real_time_rules() {
   SlidingRules rules;
   rules.max_cycles = 3;
   rules.has_search_thread = true;
   rules.contacts_ahead_ms = 6.0;
+  rules.affordable_pairs = 3000;
   return rules;
 }
 

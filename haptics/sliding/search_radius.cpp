@@ -10,8 +10,7 @@ namespace {
 constexpr double kSmallestReach_m = 30e-6;
 constexpr double kTicksAhead = 6.0;  // of the ghosts' motion
 constexpr double kLeastLookAhead_m = 45e-6;
-constexpr double kSmallestReachLimit_m = 1e-3;
-constexpr std::size_t kAffordablePairs = 30'000;
+constexpr double kSmallestReachLimit_m = 0.2e-3;
 constexpr std::size_t kAffordablePairsAhead = 3000;
 constexpr double kSmallestLimitAhead_m = 50e-6;
 
@@ -42,7 +41,7 @@ bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignore
     const double factor = shared.candidates.size() > affordable ? 0.5 : 1.25;
     return std::clamp(factor * limit, smallest, kLargestReach_m);
   };
-  limit_ = adapted(limit_, kAffordablePairs, kSmallestReachLimit_m);
+  limit_ = adapted(limit_, shared.rules.affordable_pairs, kSmallestReachLimit_m);
   limit_ahead_ = adapted(limit_ahead_, kAffordablePairsAhead, kSmallestLimitAhead_m);
   return true;
 }

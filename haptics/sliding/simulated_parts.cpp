@@ -24,6 +24,7 @@ void check_rules(const SlidingRules& rules) {
   if (rules.max_cycles < 1) {
     throw std::invalid_argument("a call of sliding needs at least one cycle, not " + std::to_string(rules.max_cycles));
   }
+  if (rules.affordable_pairs < 1) throw std::invalid_argument("a search must be allowed to find at least one pair");
   const Friction& friction = rules.friction;
   if (friction.sliding >= 0.0 && friction.at_rest >= friction.sliding && std::isfinite(friction.at_rest)) return;
   throw std::invalid_argument("the coefficients of friction must be numbers, 0 <= sliding <= at rest, not " +

@@ -85,5 +85,20 @@ TEST(ContactsAhead, MakeTheForceRightFromTheFirstTouchOn) {
   EXPECT_GT(force_error(0.0), 0.1) << "without them, the force comes as late as the set";
 }
 
+/// Metres: how far the last of many searches looked while a ball went fast over a finely meshed ball.
+double reach_on_fine_meshes(std::size_t affordable) {
+  Sliding sliding({test_support::obstacle_of(geometry::make_sphere(0.1, 20'000))},
+                  test_support::part_of(geometry::make_sphere(0.02, 5000)), at(-0.03, 0.0, 0.118),
+                  {.rules = {.max_cycles = 3, .affordable_pairs = affordable}});
+  for (int i = 0; i < 60; ++i)
+    sliding.advance(at(-0.03 + 1e-3 * i, 0.0, 0.11));
+  return sliding.result().reach;
+}
+
+TEST(AffordablePairs, LetSearchesOnFineMeshesLookLessFar) {
+  EXPECT_GT(reach_on_fine_meshes(30'000), 1e-3);
+  EXPECT_NEAR(reach_on_fine_meshes(10), 0.2e-3, 1e-6) << "the least";
+}
+
 }  // namespace
 }  // namespace glissade::haptics

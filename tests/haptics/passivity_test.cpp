@@ -180,7 +180,8 @@ TEST(DelayedWall, IsFeltAsSoftAndNeverAsOscillation) {
   }
 }
 
-/// A hand presses with `push` N, then `interrupt` happens: the force seconds later, and its greatest change in a second.
+/// A hand presses with `push` N, then `interrupt` happens: the force seconds later, and its greatest change in a
+/// second.
 struct Afterwards {
   double force;
   double unrest;

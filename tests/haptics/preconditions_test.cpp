@@ -58,6 +58,7 @@ TEST_F(HapticsPreconditions, AScriptedPartNeedsABody) {
 TEST_F(HapticsPreconditions, ACallNeedsACycle) {
   EXPECT_THROW(Sliding({block_}, part_, above(), {.rules = {.max_cycles = 0}}), std::invalid_argument);
   EXPECT_THROW(Sliding({block_}, part_, above(), {.rules = {.contacts_ahead_ms = -1.0}}), std::invalid_argument);
+  EXPECT_THROW(Sliding({block_}, part_, above(), {.rules = {.affordable_pairs = 0}}), std::invalid_argument);
 }
 
 TEST_F(HapticsPreconditions, AnOfflineRunNeedsASinkAndHandsThatCanHoldTheirParts) {
