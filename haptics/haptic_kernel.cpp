@@ -16,6 +16,7 @@ namespace glissade::haptics {
 namespace {
 
 constexpr double kPatiencePeriods = 3.0;
+constexpr int kGripStates = 3;
 constexpr double kHeadroom = 1.05;  // contacts may demand a little more than the device gives: the envelope tells that
 
 void check_count(std::size_t count, std::size_t most, const std::string& what) {
@@ -47,7 +48,10 @@ struct HapticKernel::Hand {
   ContactForce contacts;
   devices::SafetyEnvelope envelope;
   bool is_fading = false;            // in the last tick
-  std::optional<std::int64_t> grip;  // of the last state
+  std::optional<std::int64_t> grip;  // that the hand has followed
+  std::int64_t told_grip = 0;        // of the last states, so many in a row
+  int told_states = 0;
+  std::int64_t told_sequence = -1;
   std::int64_t sequence = 0;
   double supply = 0.0;  // J, of the commands
   double owed = 0.0;    // J: work of the hand against force that was withheld, as far as it has not been lifted again
@@ -161,11 +165,17 @@ HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states
   return tick;
 }
 
+/// One state alone may be wrong.
 void HapticKernel::follow_grip(std::size_t number, const devices::GloveState& state, const ContactSet& set) noexcept {
   Hand& hand = *hands_[number];
+  if (state.sequence != hand.told_sequence) {
+    hand.told_states = state.grip == hand.told_grip ? hand.told_states + 1 : 1;
+    hand.told_grip = state.grip;
+    hand.told_sequence = state.sequence;
+  }
   const bool is_closed = state.grip % 2 == 1;
   const bool is_first = !hand.grip;
-  if (!is_first && state.grip == *hand.grip) return;
+  if (!is_first && (state.grip == *hand.grip || hand.told_states < kGripStates)) return;
   hand.grip = state.grip;
   if (is_first && is_closed) return;  // it takes the part that it was given
   holds_->release(number);

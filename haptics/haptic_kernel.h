@@ -90,7 +90,8 @@ class HapticKernel {
 
   /// Computes the tick at time `now` for the newest state of each hand, null as long as it has none, and the newest
   /// contact set. `now` is on the clock of `ContactSet::time`, and never goes back. A hand pose that is not finite
-  /// leaves the ghost unchanged, and the force fades. A hand that opens (`GloveState::grip`) lets go; one that closes
+  /// leaves the ghost unchanged, and the force fades. A hand that opens (`GloveState::grip`,
+  /// the same in three states) lets go; one that closes
   /// grasps the part whose bounding sphere, about the compliance point, is nearest to the hand root.
   HapticTick tick(std::span<const devices::GloveState* const> states, const ContactSet& set,
                   std::chrono::nanoseconds now) noexcept;
