@@ -26,7 +26,7 @@ void ReasonTeller::note(const devices::HapticState& sample, std::size_t number) 
     fading = {Cause::kGlove, hand.glove_reasons, hand.command_age};
   } else if (hand.are_contacts_unsolved) {
     fading.cause = Cause::kUnsolved;
-  } else if (hand.contact_share < 0.5) {
+  } else if (hand.part >= 0 && hand.contact_share < 0.5) {
     fading.cause = Cause::kLagging;
   }
   note(fading);

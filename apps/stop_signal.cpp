@@ -1,5 +1,6 @@
 #include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <ctime>
 
 #include <glissade/apps/stop_signal.h>
@@ -8,26 +9,24 @@ namespace glissade::apps {
 
 namespace {
 
-// A signal may arrive on any thread, and a handler must not lock.
-std::atomic<bool> stop_requested = false;
-std::atomic<std::time_t> requested_at_s = 0;
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::time_t>::is_always_lock_free);
+// Monotonic nanoseconds of the first signal; 0: none yet. A signal may arrive on any thread, and a handler must not
+// lock.
+std::atomic<std::int64_t> first_signal_ns = 0;
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
 /// Longer than a force needs to fade.
-constexpr std::time_t kPatience_s = 2;
+constexpr std::int64_t kPatience_ns = 2'000'000'000;
 
-std::time_t monotonic_seconds() {
+std::int64_t monotonic_ns() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec;
+  return now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
 }
 
 void on_signal(int number) {
-  if (!stop_requested.exchange(true)) {
-    requested_at_s = monotonic_seconds();
-    return;
-  }
-  if (monotonic_seconds() - requested_at_s < kPatience_s) return;
+  const std::int64_t now = monotonic_ns();
+  std::int64_t first = 0;
+  if (first_signal_ns.compare_exchange_strong(first, now) || now - first < kPatience_ns) return;
   std::signal(number, SIG_DFL);
   std::raise(number);
 }
@@ -48,7 +47,7 @@ StopSignal::StopSignal() {
 }
 
 bool StopSignal::requested() {
-  return stop_requested;
+  return first_signal_ns != 0;
 }
 
 }  // namespace glissade::apps

@@ -24,6 +24,7 @@ constexpr double kLeastScale = 0.2;     // where all energy is gone: with less, 
 constexpr double kScaleFall_s = 0.03;
 constexpr double kScaleRise_s = 0.3;
 constexpr double kReserve_J = 0.005;     // not given away, because the rates come after this limit
+constexpr double kMostRefill_J = 1.0;    // for the returns from interruptions; comes back by kRecovery_W
 constexpr double kRecovery_W = 0.1;      // without a force, up to the energy at the start
 constexpr double kEnergyPeriods = 10.0;  // longer than a fade
 constexpr nanoseconds kReturnIsFree = std::chrono::milliseconds(500);
@@ -95,7 +96,7 @@ double rate_or_default(double rate, double maximum, const DeviceDescriptor& desc
 
 SafetyEnvelope::SafetyEnvelope(const DeviceDescriptor& descriptor, double patience_periods,
                                nanoseconds period_of_caller)
-    : descriptor_(descriptor), energy_(kStartEnergy_J) {
+    : descriptor_(descriptor), energy_(kStartEnergy_J), refill_(kMostRefill_J) {
   validate(descriptor_);
   const auto rounded = [](std::chrono::duration<double> time) { return std::chrono::duration_cast<nanoseconds>(time); };
   period_ = std::max(period_of_caller, rounded(std::chrono::duration<double>(1.0 / descriptor_.update_rate)));
@@ -118,7 +119,7 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   }
   if (is_finite(wanted)) {
     wanted_ = {wanted.f_H_W, wanted.t_H_W, wanted.joint_torques};
-    take_supply(wanted.supply, dt);
+    take_supply(wanted, dt);
   }
   const double change = reasons.is_fading() ? -dt / (kFadePeriods * seconds(period_)) : dt / kReturn_s;
   gain_ = std::clamp(gain_ + change, 0.0, 1.0);
@@ -162,6 +163,11 @@ double SafetyEnvelope::seconds_since_last_call(nanoseconds now) noexcept {
   return seconds(std::clamp(passed, nanoseconds(0), 2 * period_));
 }
 
+bool SafetyEnvelope::trusts(const GloveState& newest, nanoseconds now) noexcept {
+  observe(newest, now);
+  return is_finite(newest) && now >= distrust_until_;
+}
+
 void SafetyEnvelope::observe(const GloveState& state, nanoseconds now) noexcept {
   if (!is_finite(state)) {
     distrust_until_ = now + kDistrust;
@@ -196,13 +202,15 @@ double SafetyEnvelope::most_energy() const noexcept {
   return std::max(kStartEnergy_J, kMostEnergy_m * descriptor_.max_force);
 }
 
-void SafetyEnvelope::take_supply(double supply, double dt) noexcept {
+void SafetyEnvelope::take_supply(const GloveCommand& wanted, double dt) noexcept {
   // Another sender counts from another beginning.
-  if (!supply_ || std::abs(supply - *supply_) > most_energy()) supply_ = supply;
+  if (supply_sequence_ == 0 || wanted.sequence < supply_sequence_) supply_ = wanted.supply;
+  supply_sequence_ = wanted.sequence;
   const double most = descriptor_.max_power * dt;
-  const double step = std::clamp(supply - *supply_, -most, most);
-  *supply_ += step;
-  energy_ = std::min(std::max(energy_ + step, std::min(energy_, 0.0)), most_energy());
+  const double step = std::clamp(wanted.supply - supply_, -most, most);
+  supply_ += step;
+  // What was taken stays owed when there is nothing left: the other side has it.
+  energy_ = std::clamp(energy_ + step, -most_energy(), most_energy());
 }
 
 void SafetyEnvelope::observe_delay(nanoseconds age, nanoseconds now) noexcept {
@@ -342,11 +350,16 @@ void SafetyEnvelope::limit_energy(Forces& forces, double dt, LimitReasons& reaso
   reasons.energy_limited = true;
 }
 
-/// What was given or kept in a contact is settled when there is no force any more, and while the force returns from an
-/// interruption, in which the hand may have gone anywhere.
+/// What was given or kept in a contact is settled when there is no force any more. While the force returns from an
+/// interruption, in which the hand may have gone anywhere, a refill lifts it; many interruptions use it up.
 void SafetyEnvelope::settle_energy(bool has_force, nanoseconds now, double dt) noexcept {
+  refill_ = std::min(kMostRefill_J, refill_ + kRecovery_W * dt);
   if (gain_ < 1.0) free_until_ = now + kReturnIsFree;
-  if (now < free_until_) energy_ = std::max(energy_, kStartEnergy_J);
+  if (now < free_until_ && energy_ < kStartEnergy_J) {
+    const double refilled = std::min(kStartEnergy_J - energy_, refill_);
+    refill_ -= refilled;
+    energy_ += refilled;
+  }
   if (!has_force) energy_ = std::min(kStartEnergy_J, energy_ + kRecovery_W * dt);
 }
 

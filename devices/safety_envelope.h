@@ -84,6 +84,10 @@ class SafetyEnvelope {
   /// two periods count.
   SafeCommand limit(const GloveCommand& wanted, const GloveState& newest, std::chrono::nanoseconds now) noexcept;
 
+  /// Whether the newest state is finite and plausible, and those of the last tenth of a second were. `limit` may follow
+  /// with the same state.
+  bool trusts(const GloveState& newest, std::chrono::nanoseconds now) noexcept;
+
   /// Emergency stop: from now on the force fades to zero and stays there.
   void stop() noexcept { is_stopped_ = true; }
 
@@ -111,7 +115,7 @@ class SafetyEnvelope {
   void limit_norms(Forces& forces, LimitReasons& reasons) const noexcept;
   void limit_power(Forces& forces, LimitReasons& reasons) const noexcept;
   void observe_work(const GloveState& state) noexcept;
-  void take_supply(double supply, double dt) noexcept;
+  void take_supply(const GloveCommand& wanted, double dt) noexcept;
   double most_energy() const noexcept;
   void settle_energy(bool has_force, std::chrono::nanoseconds now, double dt) noexcept;
   void observe_delay(std::chrono::nanoseconds age, std::chrono::nanoseconds now) noexcept;
@@ -135,7 +139,9 @@ class SafetyEnvelope {
   std::chrono::nanoseconds last_call_{0};
 
   double energy_;
-  std::optional<double> supply_;  // J, of `GloveCommand::supply`, as far as it is taken
+  double supply_ = 0.0;               // J, of `GloveCommand::supply`, as far as it is taken
+  std::int64_t supply_sequence_ = 0;  // of the command that told it
+  double refill_;                     // J, for the return from interruptions
   double energy_scale_ = 1.0;
   std::chrono::nanoseconds free_until_{0};           // up to then the force returns, and its work is not counted
   Eigen::Vector3d f_sum_ = Eigen::Vector3d::Zero();  // of the commands since the newest state

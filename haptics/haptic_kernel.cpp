@@ -25,6 +25,12 @@ void check_count(std::size_t count, std::size_t most, const std::string& what) {
                               " is not possible; it takes 1 to " + std::to_string(most));
 }
 
+/// How much of a wanted force is exerted: 0 to 1.
+double share_of(const Eigen::Vector3d& exerted, const Eigen::Vector3d& wanted) {
+  const double square = wanted.squaredNorm();
+  return square > 0.0 ? std::clamp(exerted.dot(wanted) / square, 0.0, 1.0) : 0.0;
+}
+
 bool has_pose(const devices::GloveState& state) {
   return state.X_WH.matrix().allFinite() && state.v_WH.allFinite() && state.w_WH.allFinite();
 }
@@ -47,9 +53,12 @@ struct HapticKernel::Hand {
   double link_delay_s = 0.0;
   ContactForce contacts;
   devices::SafetyEnvelope envelope;
-  bool is_fading = false;            // in the last tick
-  std::optional<std::int64_t> grip;  // that the hand has followed
-  std::int64_t told_grip = 0;        // of the last states, so many in a row
+  bool is_fading = false;                            // in the last tick
+  std::optional<std::size_t> given;                  // the part for its first grip
+  std::optional<std::size_t> last_part;              // that it held in the last tick
+  Eigen::Vector3d p_Wref = Eigen::Vector3d::Zero();  // about which the contacts' wrench was in the last tick
+  std::optional<std::int64_t> grip;                  // that the hand has followed
+  std::int64_t told_grip = 0;                        // of the last states, so many in a row
   int told_states = 0;
   std::int64_t told_sequence = -1;
   std::int64_t sequence = 0;
@@ -107,6 +116,7 @@ HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<Kern
   contacts_ = std::make_unique<ContactProjection>(p_Vref);
   holds_ = std::make_unique<Holds>(std::move(p_Vref), std::move(stiffness));
   for (std::size_t h = 0; h < hands.size(); ++h) {
+    hands_[h]->given = hands[h].part;
     if (!hands[h].part || grasp(h, *hands[h].part)) continue;
     throw std::invalid_argument("hand " + std::to_string(h) + " cannot hold part " + std::to_string(*hands[h].part));
   }
@@ -114,8 +124,12 @@ HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<Kern
 
 HapticKernel::~HapticKernel() = default;
 
+bool HapticKernel::can_grasp(std::size_t hand, std::size_t part) const noexcept {
+  return hand < hands_.size() && part < parts_.size() && !parts_[part].is_scripted;
+}
+
 bool HapticKernel::grasp(std::size_t hand, std::size_t part) noexcept {
-  if (hand >= hands_.size() || part >= parts_.size() || parts_[part].is_scripted) return false;
+  if (!can_grasp(hand, part)) return false;
   holds_->grasp(hand, part);
   return true;
 }
@@ -146,13 +160,15 @@ HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states
   std::array<HandPose, kMaxHands> poses;
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     if (states[h] == nullptr) continue;
-    poses[h].is_fading = hands_[h]->is_fading;
-    if (!has_pose(*states[h])) continue;
+    // Judged before the pose can move anything that another hand feels.
+    const bool is_trusted = hands_[h]->envelope.trusts(*states[h], now) && has_pose(*states[h]);
+    poses[h].is_fading = hands_[h]->is_fading || !is_trusted;
+    if (!is_trusted) continue;
     poses[h].X_WH = &states[h]->X_WH;
     follow_grip(h, *states[h], set);
   }
   holds_->update({poses.data(), hands_.size()}, set, dt);
-  const std::chrono::nanoseconds age = now - set.time;
+  const std::chrono::nanoseconds age = set.sequence == 0 ? std::chrono::nanoseconds(0) : now - set.time;
   contacts_->update(set, age, holds_->led(), dt);
 
   HapticTick tick;
@@ -165,19 +181,27 @@ HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states
   return tick;
 }
 
-/// One state alone may be wrong.
+/// One state alone may be wrong, and one while the force fades too.
 void HapticKernel::follow_grip(std::size_t number, const devices::GloveState& state, const ContactSet& set) noexcept {
   Hand& hand = *hands_[number];
+  const bool is_closed = state.grip % 2 == 1;
+  const bool is_first = hand.told_sequence < 0;
+  if (state.sequence < hand.told_sequence) hand.grip.reset();  // the glove was started again, and counts anew
   if (state.sequence != hand.told_sequence) {
-    hand.told_states = state.grip == hand.told_grip ? hand.told_states + 1 : 1;
+    hand.told_states = !is_first && state.grip == hand.told_grip ? hand.told_states + 1 : 1;
     hand.told_grip = state.grip;
     hand.told_sequence = state.sequence;
   }
-  const bool is_closed = state.grip % 2 == 1;
-  const bool is_first = !hand.grip;
-  if (!is_first && (state.grip == *hand.grip || hand.told_states < kGripStates)) return;
+  if (is_first && !is_closed) holds_->release(number);  // it does not take the part that it was given
+  if (hand.told_states < kGripStates || hand.is_fading || hand.grip == state.grip) return;
+  const bool counts_anew = !hand.grip;
   hand.grip = state.grip;
-  if (is_first && is_closed) return;  // it takes the part that it was given
+  if (counts_anew && is_closed) {
+    if (hand.given && !holds_->part_of(number)) grasp(number, *hand.given);
+    hand.given.reset();
+    return;
+  }
+  hand.given.reset();
   holds_->release(number);
   if (!is_closed) return;
   if (const auto part = nearest_part(state.X_WH.translation(), set)) grasp(number, *part);
@@ -205,20 +229,36 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   const KernelPart& part = parts_[p];
   const Coupling& coupling = hand.couplings[p];
   const double softness = hand.soften(coupling, period_, state.link_delay, dt);
+  const bool is_finite = has_pose(state);
+  const Eigen::Vector3d p_WH = is_finite ? Eigen::Vector3d(state.X_WH.translation()) : hand.p_Wref;
+  const Eigen::Vector3d p_Wref = tick.part ? Eigen::Vector3d(holds_->X_WG_of_hand(number) * part.p_Vref) : p_WH;
+  if (tick.part != hand.last_part) {
+    hand.contacts.move_reference(hand.p_Wref, p_Wref);
+    hand.owed = 0.0;
+  }
+  hand.last_part = tick.part;
+  hand.p_Wref = p_Wref;
+
   PartContacts contacts;
+  double motion = 0.0;
   if (tick.part) {
     hand.contacts.hold(part.radius, coupling.stiffness);
     contacts = contacts_->of_part(p);
     contacts.wrench = holds_->on_hand(number, contacts.wrench);
+    motion = holds_->ghost_motion(p, part.radius);
     tick.pull = scaled(holds_->pull_on(number), softness);
+    const double pull = tick.pull.f.norm();
+    const double most = kHeadroom * hand.envelope.descriptor().max_force;
+    if (pull > most) tick.pull = scaled(tick.pull, most / pull);
   }
-  const double motion = tick.part ? holds_->ghost_motion(p, part.radius) : 0.0;
   tick.contacts = scaled(hand.contacts.update(contacts, age, motion, dt), softness);
   tick.contact_share = hand.contacts.share();
-  hand.supply += softness * (holds_->supply_share(number) * contacts.supply + holds_->supply_of_pull(number));
+  tick.is_unsolved = contacts.is_unsolved;
+  hand.supply += holds_->supply_of_pull(number, tick.pull);
+  hand.supply += share_of(tick.contacts.f, contacts.wrench.f) * holds_->supply_share(number) * contacts.supply;
+  if (contacts.wrench.f.isZero(0.0) && contacts.wrench.t.isZero(0.0)) hand.owed = 0.0;
   hand.supply += hand.lift(holds_->work_against(number, scaled(hand.contacts.withheld(), softness)),
                            holds_->work_against(number, tick.contacts));
-  tick.is_unsolved = contacts.is_unsolved;
 
   devices::GloveCommand command;
   command.sequence = ++hand.sequence;
@@ -226,9 +266,7 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   command.state_time = state.time;
   command.time = now;
   command.supply = hand.supply;
-  if (has_pose(state)) {
-    const Eigen::Vector3d& p_WH = state.X_WH.translation();
-    const Eigen::Vector3d p_Wref = tick.part ? holds_->X_WG_of_hand(number) * part.p_Vref : p_WH;
+  if (is_finite) {
     const Velocity ghost{state.v_WH + state.w_WH.cross(p_Wref - p_WH), state.w_WH};
     const Wrench damping = damper_wrench(hand.present.damping, tick.contacts, ghost);
     const Wrench on_hand = about_point(

@@ -85,7 +85,10 @@ class HapticKernel {
   /// part already takes hold of it anew. Returns false, and does nothing, if there is no such hand, or no such part
   /// that can be held.
   bool grasp(std::size_t hand, std::size_t part) noexcept;
-  /// The hand lets go; its force fades. Nothing happens if it holds nothing or if there is no such hand.
+  /// Whether there is such a hand, and such a part that can be held.
+  bool can_grasp(std::size_t hand, std::size_t part) const noexcept;
+  /// In the next tick the hand lets go; its force fades. Nothing happens if it holds nothing or if there is no such
+  /// hand.
   void release(std::size_t hand) noexcept;
 
   /// Computes the tick at time `now` for the newest state of each hand, null as long as it has none, and the newest

@@ -69,7 +69,7 @@ bool HapticServer::read_devices() noexcept {
 
 void HapticServer::take_events() noexcept {
   Event event;
-  while (events_.pop(event)) {
+  for (std::size_t i = 0; i < events_.capacity() && events_.pop(event); ++i) {
     if (event.part) {
       kernel_.grasp(event.hand, *event.part);
     } else {

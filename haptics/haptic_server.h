@@ -77,11 +77,13 @@ class HapticServer {
   HapticServer& operator=(const HapticServer&) = delete;
   ~HapticServer();
 
-  /// As `HapticKernel::grasp` and `HapticKernel::release`, in the next tick, in the order of the calls. Returns false
-  /// if more than 256 of them wait for the haptic thread; then nothing happens, and the caller may try again. So none
-  /// is lost. Wait-free. One thread.
-  bool grasp(std::size_t hand, std::size_t part) noexcept { return events_.push({hand, part}); }
-  bool release(std::size_t hand) noexcept { return events_.push({hand, std::nullopt}); }
+  /// As `HapticKernel::grasp` and `HapticKernel::release`, in the next tick. Returns false, and does nothing, as those
+  /// do, and if 256 calls wait for the haptic thread; then the caller may try again, so none is lost. Wait-free. One
+  /// thread.
+  bool grasp(std::size_t hand, std::size_t part) noexcept {
+    return kernel_.can_grasp(hand, part) && events_.push({hand, part});
+  }
+  bool release(std::size_t hand) noexcept { return hand < hands_.size() && events_.push({hand, std::nullopt}); }
 
   /// Whether the server has reached `HapticServerOptions::ticks`, and no device has a force any more. Wait-free, any
   /// thread.

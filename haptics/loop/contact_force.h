@@ -35,6 +35,11 @@ class ContactForce {
     stiffness_ = stiffness;
   }
 
+  /// The reference point, about which the wrench is, is elsewhere from now on: both points in the world.
+  void move_reference(const Eigen::Vector3d& p_from, const Eigen::Vector3d& p_to) noexcept {
+    wrench_ = about_point(wrench_, p_from, p_to);
+  }
+
   /// The wrench on the hand, `dt` (seconds) after the last call, for contacts from a set of this age. Exactly zero
   /// where no contact of the set is in the way; after a contact that vanished, within kLongestFall. Changes by at most
   /// k_t times kSlew_m a millisecond and twice the ghost's own motion (`ghost_motion`, metres since the last call), or

@@ -53,7 +53,7 @@ void ContactProjection::update(const ContactSet& set, std::chrono::nanoseconds a
     wanted_[p] = geometry::displacement_between(answer.X_WV_of_rows, parts[p].X_WG * parts[p].X_GT, p_Vref_[p]);
     moved_[p] = geometry::displacement_between(answer.X_WG, parts[p].X_WG, p_Vref_[p]);
   }
-  take_rows(set, age);
+  take_rows(set, age, dt);
   for (std::size_t p = 0; p < p_Vref_.size(); ++p) {
     if (!acts_[p] || island_[p] != p) continue;
     choose_island(p);
@@ -65,7 +65,7 @@ void ContactProjection::update(const ContactSet& set, std::chrono::nanoseconds a
 }
 
 // A part in contact moves across the normals as its ghost does.
-void ContactProjection::take_rows(const ContactSet& set, std::chrono::nanoseconds age) noexcept {
+void ContactProjection::take_rows(const ContactSet& set, std::chrono::nanoseconds age, double dt) noexcept {
   const double seconds =
       std::chrono::duration<double>(std::clamp<std::chrono::nanoseconds>(age, {}, kFullForce)).count();
   rows_.clear();
@@ -75,7 +75,7 @@ void ContactProjection::take_rows(const ContactSet& set, std::chrono::nanosecond
     const bool moves_other = row.other >= 0 && acts_[other];
     if (!acts_[part] && !moves_other) continue;
     if (!row.pushes && across(row, moved_) > row.range) continue;
-    rows_.push_back({row, &row});
+    rows_.push_back({row, age < kFullForce ? row.approach * dt : 0.0, &row});
     rows_.back().row.bound += row.approach * seconds;
     if (!acts_[part] || !moves_other) continue;
     const std::size_t low = std::min(island_[part], island_[other]);
@@ -132,7 +132,7 @@ void ContactProjection::solve_island(const ContactSet& set, std::span<const LedP
   if (is_unsolved) return;
   for (int i = 0; i < projection.active_count; ++i) {
     const auto active = static_cast<std::size_t>(projection.active[static_cast<std::size_t>(i)]);
-    add_push(active, projection.force[static_cast<std::size_t>(i)], projection, dt);
+    add_push(active, projection.force[static_cast<std::size_t>(i)], projection);
   }
 }
 
@@ -147,8 +147,7 @@ void ContactProjection::move_to(std::size_t part, const Eigen::Isometry3d& X_WP,
 }
 
 /// Adds the force of an active row to the parts on both sides that act.
-void ContactProjection::add_push(std::size_t row_number, double push, const CoupledProjection& projection,
-                                 double dt) noexcept {
+void ContactProjection::add_push(std::size_t row_number, double push, const CoupledProjection& projection) noexcept {
   const CoupledRow& projected = in_island_[row_number];
   const ContactRow& row = *rows_[numbers_[row_number]].in_set;
   const double known =
@@ -169,7 +168,7 @@ void ContactProjection::add_push(std::size_t row_number, double push, const Coup
   const Eigen::Vector3d f = push * (row.n + row.friction_ratio_W);
   const bool is_coupled = acts(row.part) && acts(row.other);
   if (acts(row.part)) {
-    const double other_way = is_coupled ? way_of(row.other, row.r_other) : row.approach * dt;
+    const double other_way = is_coupled ? way_of(row.other, row.r_other) : rows_[numbers_[row_number]].way;
     add(row.part, row.r, f, push * other_way);
   }
   if (acts(row.other)) add(row.other, row.r_other, -f, is_coupled ? -push * way_of(row.part, row.r) : 0.0);

@@ -58,14 +58,15 @@ class ContactProjection {
   const PartContacts& of_part(std::size_t part) const { return contacts_[part]; }
 
  private:
-  void take_rows(const ContactSet& set, std::chrono::nanoseconds age) noexcept;
+  void take_rows(const ContactSet& set, std::chrono::nanoseconds age, double dt) noexcept;
   void choose_island(std::size_t first) noexcept;
   void solve_island(const ContactSet& set, std::span<const LedPart> parts, double dt) noexcept;
   void move_to(std::size_t part, const Eigen::Isometry3d& X_WP, double dt) noexcept;
-  void add_push(std::size_t row_number, double push, const CoupledProjection& projection, double dt) noexcept;
+  void add_push(std::size_t row_number, double push, const CoupledProjection& projection) noexcept;
 
   struct ActiveRow {
     CoupledRow row;  // as it is now; the numbers of parts are those in the scene
+    double way;      // metres of a body that moves without a hand, along n since the last call
     const ContactRow* in_set;
   };
 

@@ -25,11 +25,6 @@ std::size_t Holds::holders_of(std::size_t part) const noexcept {
       std::count_if(hands_.begin(), hands_.end(), [part](const Hand& hand) { return hand.part == part; }));
 }
 
-void Holds::release(std::size_t hand) noexcept {
-  hands_[hand].wanted.reset();
-  let_go(hands_[hand]);
-}
-
 void Holds::let_go(Hand& hand) noexcept {
   if (!hand.part) return;
   const std::size_t number = *hand.part;
@@ -65,11 +60,16 @@ void Holds::update(std::span<const HandPose> poses, const ContactSet& set, doubl
     part.X_WG_before = part.ghost.X_WG;
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     Hand& hand = hands_[h];
+    if (!hand.wanted || poses[h].X_WH == nullptr) continue;
+    take(hand, *hand.wanted, *poses[h].X_WH, set);
+    hand.wanted.reset();
+    hand.lets_go = false;
+  }
+  for (std::size_t h = 0; h < hands_.size(); ++h) {
+    Hand& hand = hands_[h];
     const Eigen::Isometry3d* const X_WH = poses[h].X_WH;
-    if (hand.wanted && X_WH != nullptr) {
-      take(hand, *hand.wanted, *X_WH, set);
-      hand.wanted.reset();
-    }
+    if (hand.lets_go) let_go(hand);
+    hand.lets_go = false;
     if (!hand.part) continue;
     weigh(hand, poses[h], dt);
     if (X_WH != nullptr) hand.X_WG = *X_WH * hand.X_HG;
@@ -128,6 +128,7 @@ void Holds::combine(std::size_t number) noexcept {
     sum.rotational += hand.weight * k.rotational;
   }
   const bool is_shared = holders_of(number) > 1 && sum.translational > 0.0;
+  if (holders_of(number) > 1 && !is_shared) led.X_WG = parts_[number].X_WG_before;  // all are lost: nobody moves it
   if (is_shared) {
     mean.v /= sum.translational;
     mean.w /= sum.rotational;
@@ -184,10 +185,6 @@ geometry::Displacement Holds::ghost_way(std::size_t number) const {
 
 double Holds::ghost_motion(std::size_t number, double radius) const {
   return geometry::motion_bound(ghost_way(number), radius);
-}
-
-double Holds::supply_of_pull(std::size_t hand) const {
-  return -work_against(hand, hands_[hand].pull);
 }
 
 double Holds::work_against(std::size_t hand, const Wrench& wrench) const {

@@ -40,7 +40,12 @@ class Holds {
 
   /// In the next call of `update` in which the hand has a pose, it takes hold of the part, and lets go of any other.
   void grasp(std::size_t hand, std::size_t part) noexcept { hands_[hand].wanted = part; }
-  void release(std::size_t hand) noexcept;
+  /// In the next call of `update`, after all grasps, so that a part may pass from hand to hand. Forgets a grasp that
+  /// still waits for a pose.
+  void release(std::size_t hand) noexcept {
+    hands_[hand].wanted.reset();
+    hands_[hand].lets_go = true;
+  }
 
   /// The tick for these hands, `dt` (seconds) after the last. The visible parts are those of the newest set.
   void update(std::span<const HandPose> hands, const ContactSet& set, double dt) noexcept;
@@ -52,8 +57,8 @@ class Holds {
   /// The hand's share of the contacts' wrench, and the pull of the other hands on it, about the part's reference point.
   Wrench on_hand(std::size_t hand, const Wrench& contacts) const;
   Wrench pull_on(std::size_t hand) const { return hands_[hand].pull; }
-  /// Work (J) of the other hands on this one in the last tick, by their pull.
-  double supply_of_pull(std::size_t hand) const;
+  /// Work (J) of the other hands on this one in the last tick, by a pull on it.
+  double supply_of_pull(std::size_t hand, const Wrench& pull) const { return -work_against(hand, pull); }
   /// Work (J) of the hand in the last tick against a wrench on it about the reference point of the part that it holds.
   double work_against(std::size_t hand, const Wrench& wrench) const;
   /// The hand's share of the energy that the part's contacts supply.
@@ -67,6 +72,7 @@ class Holds {
  private:
   struct Hand {
     std::optional<std::size_t> wanted;
+    bool lets_go = false;
     std::optional<std::size_t> part;
     Eigen::Isometry3d X_HG = Eigen::Isometry3d::Identity();
     Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();

@@ -28,7 +28,7 @@ TEST(StopSignal, OneThatComesAfterTheForceHasFadedEndsTheProcess) {
   const auto insist = [] {
     const StopSignal stop_signal;
     std::raise(SIGINT);
-    std::this_thread::sleep_for(std::chrono::milliseconds(3100));
+    std::this_thread::sleep_for(std::chrono::milliseconds(2100));
     std::raise(SIGTERM);
     std::_Exit(0);
   };

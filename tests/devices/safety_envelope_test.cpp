@@ -73,11 +73,14 @@ class Envelope : public testing::Test {
     for (int i = 0; i < periods; ++i) {
       state_.X_WH.translation().x() += 1e-3 * speed;
       GloveCommand wanted = pull(20.0);
+      wanted.sequence = ++sequence_;
       wanted.supply = supply;
       safe = tick(wanted);
     }
     return safe;
   }
+
+  std::int64_t sequence_ = 0;  // of the commands of push_at
 
   SafeCommand settle(const GloveCommand& wanted) {
     SafeCommand safe;
@@ -400,16 +403,44 @@ TEST_F(Envelope, ForgetsTheEnergyOfAContactThatHasEnded) {
 }
 
 TEST_F(Envelope, GivesWhatBodiesThatMoveSupply) {
-  push_at(0.0, 800);
   double supply = 3.0;  // whatever the sender has counted before
+  EXPECT_EQ(push_at(0.0, 800, supply).energy(), 0.1);
   for (int i = 0; i < 2000; ++i) {
     supply += 20.0 * 0.1e-3;
     EXPECT_EQ(push_at(0.1, 1, supply).values().f_H_W.x(), 20.0) << i;
   }
+  EXPECT_NEAR(push_at(0.0, 1, supply).energy(), 0.1, 0.01) << "all of it was given";
   for (int i = 0; i < 300; ++i) {
     supply += 1.0;  // 1 kW
     EXPECT_LE(push_at(0.1, 1, supply).energy(), 5.0);
   }
+}
+
+TEST_F(Envelope, KeepsAsADebtWhatOthersTook) {
+  push_at(0.0, 800, 1.0);
+  EXPECT_NEAR(push_at(0.0, 200, 0.7).energy(), -0.2, 1e-9);
+  EXPECT_NEAR(push_at(0.0, 200, 1.0).energy(), 0.1, 1e-9) << "taken and given back: nothing is gained";
+}
+
+TEST_F(Envelope, ASenderThatStartsAgainGivesNothing) {
+  push_at(0.0, 800, 3.0);
+  sequence_ = 0;
+  EXPECT_EQ(push_at(0.0, 100, 0.0).energy(), 0.1);
+}
+
+/// Interruptions of 12 ms, every 0.6 s, with a hand that is lifted by 1 mm after each of them: 20 mJ.
+TEST_F(Envelope, ManyInterruptionsFeedNothing) {
+  push_at(0.0, 800);
+  double given = 0.0;
+  for (int round = 0; round < 100; ++round) {
+    state_.is_enabled = false;
+    push_at(0.0, 12);
+    state_.is_enabled = true;
+    push_at(0.0, 388);
+    for (int i = 0; i < 200; ++i)
+      given += 1e-3 * 0.05 * push_at(0.05, 1).values().f_H_W.x();
+  }
+  EXPECT_LT(given, 1.05 * (0.1 + 1.0 + 0.1 * 60.0)) << "in a minute";
 }
 
 TEST_F(Envelope, BehindALinkTheGlovesEnvelopeAloneLimitsTheEnergy) {

@@ -184,6 +184,24 @@ TEST_F(Server, ASinkThatFailsTakesTheForceAwayAndIsTold) {
   expect_faded(*device_);
 }
 
+TEST_F(Server, LetsGoAndTakesHoldWhenItIsTold) {
+  std::atomic<std::int32_t> part{-2};
+  HapticServer server({{device_.get()}}, *sliding_, clock_,
+                      [&](const devices::HapticState& sample) { part = sample.hands[0].part; });
+  const auto wait_until_it_holds = [&](std::int32_t number) {
+    while (part != number)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  wait_until_it_holds(0);
+  EXPECT_TRUE(server.release(0));
+  wait_until_it_holds(-1);
+  EXPECT_TRUE(server.grasp(0, 0));
+  wait_until_it_holds(0);
+  EXPECT_FALSE(server.grasp(0, 1)) << "there is no such part";
+  EXPECT_FALSE(server.grasp(1, 0)) << "nor such a hand";
+  EXPECT_FALSE(server.release(1));
+}
+
 TEST_F(Server, RefusesAnEmptySink) {
   EXPECT_THROW(HapticServer({{device_.get()}}, *sliding_, clock_, {}), std::invalid_argument);
 }

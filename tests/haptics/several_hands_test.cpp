@@ -255,6 +255,97 @@ TEST_F(SeveralHands, AHandThatIsLostLeavesThePartToTheOther) {
   }
 }
 
+/// Two hands on one part, in free air, 2 mm apart from their first poses.
+class TwoHandsOnOnePart : public ::testing::Test {
+ protected:
+  TwoHandsOnOnePart() {
+    set_.parts[0].hold = 1;
+    for (int i = 0; i < 500; ++i)
+      tick();
+  }
+
+  /// A millisecond later; a hand that is silent tells nothing new.
+  HapticTick tick() {
+    ++ms_;
+    for (devices::GloveState* const state : {&first_, &second_}) {
+      if (is_silent_) break;
+      state->sequence = ms_;
+      state->time = milliseconds(ms_);
+    }
+    set_.time = milliseconds(ms_);
+    const std::array<const devices::GloveState*, 2> states{&first_, &second_};
+    return kernel_.tick(states, set_, milliseconds(ms_));
+  }
+
+  MultiPartSliding sliding_{{wall(1.0)}, {cube_at(0.0), cube_at(0.5)}};
+  HapticKernel kernel_{kernel_parts(sliding_),
+                       {{devices::simulated_glove_descriptor(), 0}, {devices::simulated_glove_descriptor(), 0}}};
+  ContactSet set_;
+  devices::GloveState first_;
+  devices::GloveState second_;
+  std::int64_t ms_ = 0;
+  bool is_silent_ = false;
+};
+
+TEST_F(TwoHandsOnOnePart, OneThatJumpsIsNotFeltByTheOther) {
+  for (const double jump : {0.02, 0.1, 0.3}) {
+    second_.X_WH.translation().y() += jump;
+    for (int i = 0; i < 1000; ++i) {
+      const HapticTick now = tick();
+      ASSERT_LT(now.hands[0].pull.f.norm(), 0.01) << jump << " m, after " << i << " ms";
+      ASSERT_LT(now.hands[0].command.values().f_H_W.norm(), 0.01);
+    }
+  }
+}
+
+TEST_F(TwoHandsOnOnePart, IfBothAreLostThePartStaysWhereItIs) {
+  for (int i = 1; i <= 20; ++i) {
+    first_.X_WH.translation().x() = -5e-4 * i;
+    first_.v_WH.x() = -0.5;
+    second_.X_WH.translation().x() = 5e-4 * i;
+    second_.v_WH.x() = 0.5;
+    tick();
+  }
+  is_silent_ = true;
+  for (int i = 0; i < 300; ++i)
+    ASSERT_NEAR(tick().ghosts.parts[0].X_WG.translation().x(), 0.0, 1e-9) << i;
+}
+
+TEST_F(TwoHandsOnOnePart, APartPassesFromHandToHandInOneTickWithoutALoss) {
+  kernel_.release(1);
+  tick();
+  const GhostOfPart before = tick().ghosts.parts[0];
+  kernel_.grasp(1, 0);
+  kernel_.release(0);
+  const HapticTick now = tick();
+  EXPECT_FALSE(now.hands[0].part.has_value());
+  EXPECT_EQ(now.hands[1].part, 0U);
+  EXPECT_EQ(now.ghosts.parts[0].release, before.release) << "it was never let go";
+  EXPECT_TRUE(now.ghosts.parts[0].is_held);
+}
+
+/// The force of the old part goes on for a moment, along the line on which it acted.
+TEST_F(TwoHandsOnOnePart, AHandThatTakesAnotherPartFeelsNoNewTorque) {
+  set_.row_count = 1;
+  set_.row_array[0] = {Vector3d::UnitX(), Vector3d::Zero(), 0.0};
+  kernel_.release(1);
+  for (int i = 1; i <= 200; ++i) {
+    set_.parts[0].hold = tick().ghosts.parts[0].hold;
+    first_.X_WH.translation().x() = -1e-4 * std::min(100, i);
+    first_.v_WH.x() = i <= 100 ? -0.1 : 0.0;
+  }
+  HandTick now = tick().hands[0];
+  EXPECT_GT(now.command.values().f_H_W.x(), 5.0);
+  EXPECT_LT(now.command.values().t_H_W.norm(), 1e-3);
+  set_.parts[1].X_WV = at(0.0, 0.3, 0.0);
+  kernel_.grasp(0, 1);
+  for (int i = 0; i < 200; ++i) {
+    now = tick().hands[0];
+    ASSERT_LT(now.command.values().t_H_W.norm(), 1e-3) << i;
+  }
+  EXPECT_EQ(now.command.values().f_H_W, Vector3d::Zero());
+}
+
 /// A hand that wanders through a cube of 0.12 m, with a rest now and then.
 devices::SimulatedGlove wandering_hand(std::uint64_t seed, std::chrono::seconds time) {
   std::mt19937_64 random(seed);
