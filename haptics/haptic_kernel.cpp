@@ -116,8 +116,10 @@ HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<Kern
   contacts_ = std::make_unique<ContactProjection>(p_Vref);
   holds_ = std::make_unique<Holds>(std::move(p_Vref), std::move(stiffness));
   for (std::size_t h = 0; h < hands.size(); ++h) {
+    if (!hands[h].part) continue;
+    const bool can_hold = grasp(h, *hands[h].part);
     hands_[h]->given = hands[h].part;
-    if (!hands[h].part || grasp(h, *hands[h].part)) continue;
+    if (can_hold) continue;
     throw std::invalid_argument("hand " + std::to_string(h) + " cannot hold part " + std::to_string(*hands[h].part));
   }
 }
@@ -130,12 +132,15 @@ bool HapticKernel::can_grasp(std::size_t hand, std::size_t part) const noexcept 
 
 bool HapticKernel::grasp(std::size_t hand, std::size_t part) noexcept {
   if (!can_grasp(hand, part)) return false;
+  hands_[hand]->given.reset();
   holds_->grasp(hand, part);
   return true;
 }
 
 void HapticKernel::release(std::size_t hand) noexcept {
-  if (hand < hands_.size()) holds_->release(hand);
+  if (hand >= hands_.size()) return;
+  hands_[hand]->given.reset();
+  holds_->release(hand);
 }
 
 void HapticKernel::stop() noexcept {
@@ -198,11 +203,9 @@ void HapticKernel::follow_grip(std::size_t number, const devices::GloveState& st
   hand.grip = state.grip;
   if (counts_anew && is_closed) {
     if (hand.given && !holds_->part_of(number)) grasp(number, *hand.given);
-    hand.given.reset();
     return;
   }
-  hand.given.reset();
-  holds_->release(number);
+  release(number);
   if (!is_closed) return;
   if (const auto part = nearest_part(state.X_WH.translation(), set)) grasp(number, *part);
 }

@@ -321,6 +321,29 @@ devices::GloveState state_at(int tick) {
   return state;
 }
 
+/// The time of a tick of two hands with a part each, which are in contact, among four parts: twelve rows, half of them
+/// between the two.
+double two_hands_us(const haptics::SlidingPart& part, const devices::DeviceDescriptor& device) {
+  ContactSet set = random_set(12);
+  set.part_count = 4;
+  set.parts[1].hold = 1;
+  for (std::size_t i = 0; i < 12; ++i) {
+    haptics::ContactRow& row = set.row_array[i];
+    row.part = i < 9 ? 0 : 1;
+    if (i < 6) row.other = 1;
+    row.r_other = row.r;
+  }
+  const haptics::KernelPart each{part.p_Vref(), part.radius(), haptics::default_stiffness(part.radius())};
+  haptics::HapticKernel kernel({each, each, each, each}, {{device, 0}, {device, 1}});
+  return median_us([&](int i) {
+    set.time = milliseconds(i);
+    const devices::GloveState first = state_at(i);
+    const devices::GloveState second = state_at(i + 300);
+    const std::array<const devices::GloveState*, 2> newest{&first, &second};
+    kernel.tick(newest, set, milliseconds(i));
+  });
+}
+
 void run_costs(Results& results) {
   std::fprintf(stderr, "tick costs\n");
   const auto part = test_support::part_of(geometry::make_box(test_support::kBoxSize, 12));
@@ -337,6 +360,7 @@ void run_costs(Results& results) {
     });
     results.add({kTick, "cost-" + std::to_string(rows), "glissade", "time", us, "us"});
   }
+  results.add({kTick, "cost-12-two-hands", "glissade", "time", two_hands_us(*part, device), "us"});
   devices::SafetyEnvelope envelope(device);
   const double us = median_us([&](int i) {
     devices::GloveCommand command;
