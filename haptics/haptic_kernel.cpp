@@ -234,7 +234,7 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   const double softness = hand.soften(coupling, period_, state.link_delay, dt);
   const bool is_finite = has_pose(state);
   const Eigen::Vector3d p_WH = is_finite ? Eigen::Vector3d(state.X_WH.translation()) : hand.p_Wref;
-  const Eigen::Vector3d p_Wref = tick.part ? Eigen::Vector3d(holds_->X_WG_of_hand(number) * part.p_Vref) : p_WH;
+  const Eigen::Vector3d p_Wref = tick.part ? Eigen::Vector3d(holds_->ghost_of_hand(number) * part.p_Vref) : p_WH;
   if (tick.part != hand.last_part) {
     hand.contacts.move_reference(hand.p_Wref, p_Wref);
     hand.owed = 0.0;

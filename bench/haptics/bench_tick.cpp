@@ -293,7 +293,7 @@ ContactSet random_set(int rows) {
   set.row_count = rows;
   for (int i = 0; i < rows; ++i) {
     const Vector3d n = (0.5 * vector() + Vector3d::UnitZ()).normalized();
-    set.row_array[static_cast<std::size_t>(i)] = {n, 0.05 * vector(), -1e-5 * (1.0 + uniform(random))};
+    set.row_array[static_cast<std::size_t>(i)] = {{{n, 0.05 * vector(), -1e-5 * (1.0 + uniform(random))}}};
   }
   return set;
 }

@@ -53,7 +53,7 @@ class Holds {
   /// The part that the hand holds.
   std::optional<std::size_t> part_of(std::size_t hand) const { return hands_[hand].part; }
   /// The ghost of the part as this hand alone would have it.
-  const Eigen::Isometry3d& X_WG_of_hand(std::size_t hand) const { return hands_[hand].X_WG; }
+  const Eigen::Isometry3d& ghost_of_hand(std::size_t hand) const { return hands_[hand].X_WG; }
   /// The hand's share of the contacts' wrench, and the pull of the other hands on it, about the part's reference point.
   Wrench on_hand(std::size_t hand, const Wrench& contacts) const;
   Wrench pull_on(std::size_t hand) const { return hands_[hand].pull; }

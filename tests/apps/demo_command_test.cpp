@@ -112,8 +112,8 @@ TEST_F(Demo, TheCarDoorRunsOfflineWithoutACollision) {
 }
 
 TEST_F(Demo, TheSquarePegDropsIntoItsHole) {
-  const nlohmann::json summary =
-      run({"--offline", "--seconds", "5", "--scene", GLISSADE_DOCS "/../examples/scenes/square_peg.yaml"});
+  const std::string square_peg = std::string(GLISSADE_DOCS) + "/../examples/scenes/square_peg.yaml";
+  const nlohmann::json summary = run({"--offline", "--seconds", "5", "--scene", square_peg});
   EXPECT_EQ(summary["seat_reached"], true);
   EXPECT_EQ(summary["colliding_poses"], 0);
 }

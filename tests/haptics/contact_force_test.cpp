@@ -26,7 +26,7 @@ ContactSet floor_below(double depth) {
   ContactSet set;
   set.sequence = 1;
   set.row_count = 1;
-  set.row_array[0] = {Vector3d::UnitZ(), Vector3d::Zero(), -depth};
+  set.row_array[0] = {{{Vector3d::UnitZ(), Vector3d::Zero(), -depth}}};
   return set;
 }
 
@@ -112,8 +112,8 @@ TEST(ContactForce, ATorqueWithoutAForceIsZeroAtThatAgeToo) {
   OneHandForce contacts = at_origin();
   ContactSet set = floor_below(0.0);
   set.row_count = 2;
-  set.row_array[0] = {Vector3d::UnitZ(), Vector3d(0.05, 0.0, 0.0), 0.0};
-  set.row_array[1] = {-Vector3d::UnitZ(), Vector3d(-0.05, 0.0, 0.0), 0.0};
+  set.row_array[0] = {{{Vector3d::UnitZ(), Vector3d(0.05, 0.0, 0.0), 0.0}}};
+  set.row_array[1] = {{{-Vector3d::UnitZ(), Vector3d(-0.05, 0.0, 0.0), 0.0}}};
   const Isometry3d X_WG(Eigen::AngleAxisd(0.5, Vector3d::UnitY()));
   const Wrench full = settle(contacts, set, X_WG);
   EXPECT_TRUE(full.f.isZero(1e-9));
@@ -239,7 +239,7 @@ TEST(ContactForce, RowsThatContradictEachOtherLetTheForceFadeAndAreTold) {
   ContactSet vise = floor;  // 10 mm up from the floor, 10 mm down from the ceiling
   vise.row_count = 2;
   vise.row_array[0].bound = 0.01;
-  vise.row_array[1] = {-Vector3d::UnitZ(), Vector3d::Zero(), 0.01};
+  vise.row_array[1] = {{{-Vector3d::UnitZ(), Vector3d::Zero(), 0.01}}};
   double last = 20.0;
   for (int i = 0; i < 100; ++i) {
     const double force = contacts.update(vise, nanoseconds(0), at(0, 0, -0.01), kTick_s).f.norm();

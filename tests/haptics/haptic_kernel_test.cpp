@@ -39,7 +39,7 @@ class Kernel : public ::testing::Test {
     set.parts[0].X_WV = kStart;
     set.parts[0].hold = 1;  // the first
     set.row_count = 1;
-    set.row_array[0] = {Vector3d::UnitZ(), Vector3d::Zero(), -depth};
+    set.row_array[0] = {{{Vector3d::UnitZ(), Vector3d::Zero(), -depth}}};
     return set;
   }
 
@@ -169,8 +169,8 @@ TEST_F(Kernel, ATickAllocatesNothing) {
   set.row_count = static_cast<std::int32_t>(kMaxContactRows);
   for (std::size_t i = 0; i < kMaxContactRows; ++i) {
     const double angle = 0.7 * static_cast<double>(i);
-    set.row_array[i] = {Vector3d(0.3 * std::cos(angle), 0.3 * std::sin(angle), 1.0).normalized(),
-                        Vector3d(0.05 * std::cos(angle), 0.05 * std::sin(angle), -0.05), -1e-4};
+    set.row_array[i] = {{{Vector3d(0.3 * std::cos(angle), 0.3 * std::sin(angle), 1.0).normalized(),
+                          Vector3d(0.05 * std::cos(angle), 0.05 * std::sin(angle), -0.05), -1e-4}}};
   }
   const std::int64_t at_start = test_support::allocations_of_this_thread();
   const auto probe = std::make_unique<double>(1.0);

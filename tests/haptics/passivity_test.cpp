@@ -94,7 +94,7 @@ class DelayedWall {
         glove_(device, 6.0) {
     wall_.sequence = 1;
     wall_.row_count = 1;
-    wall_.row_array[0] = {Vector3d::UnitZ(), Vector3d::Zero(), 0.0};
+    wall_.row_array[0] = {{{Vector3d::UnitZ(), Vector3d::Zero(), 0.0}}};
     wall_.parts[0].hold = 1;
   }
 

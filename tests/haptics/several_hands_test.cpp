@@ -34,7 +34,7 @@ using test_support::cube;
 using test_support::wall;
 
 constexpr double kEdge = 0.04;
-constexpr CouplingStiffness kHandStiffness{1000.0, 1.0};
+constexpr CouplingStiffness kEachHand{1000.0, 1.0};
 const double kArm = devices::SimulatedGloveParameters{}.wearer_stiffness;
 
 /// A hand that goes straight from one place to another in half a second, and stays.
@@ -44,7 +44,7 @@ devices::SimulatedGlove hand(const Vector3d& p_from, const Vector3d& p_to) {
 }
 
 HeldPart cube_at(double x) {
-  return {.part_V = cube(kEdge), .X_WV_start = at(x, 0.0, 0.0), .stiffness = kHandStiffness};
+  return {.part_V = cube(kEdge), .X_WV_start = at(x, 0.0, 0.0), .stiffness = kEachHand};
 }
 
 /// A run whose ticks are looked at one by one: no part collides, and no force jumps.
@@ -92,7 +92,7 @@ TEST_F(SeveralHands, TwoPartsPressedTogetherPushBothHandsAlike) {
   devices::SimulatedGlove right = hand({0.03, 0.0, 0.0}, {0.01, 0.0, 0.0});
   const HapticState last = run({{&left, 0}, {&right, 1}}, sliding, 1500).back();
   const double overlap = kEdge - 0.02;
-  const double force = overlap / (2.0 / kArm + 2.0 / kHandStiffness.translational);
+  const double force = overlap / (2.0 / kArm + 2.0 / kEachHand.translational);
   EXPECT_NEAR(last.hands[0].force_W.x(), -force, 0.02 * force);
   EXPECT_NEAR(last.hands[1].force_W.x(), force, 0.02 * force);
   EXPECT_LT(last.hands[0].force_W.tail<2>().norm(), 1e-6);
@@ -117,7 +117,7 @@ TEST_F(SeveralHands, APartThatNobodyHoldsIsAnObstacle) {
   EXPECT_EQ(last.parts[1].X_WV.translation().x(), 0.03);
   EXPECT_EQ(last.parts[1].state, devices::PartState::kReleased);
   EXPECT_NEAR(last.parts[0].X_WV.translation().x(), -0.01, 20e-6);
-  const double force = 0.01 / (1.0 / kArm + 1.0 / kHandStiffness.translational);
+  const double force = 0.01 / (1.0 / kArm + 1.0 / kEachHand.translational);
   EXPECT_NEAR(last.hands[0].force_W.x(), -force, 0.02 * force);
 }
 
@@ -129,7 +129,7 @@ TEST_F(SeveralHands, APartThatMovesOnItsOwnPushesTheHand) {
   const HapticState last = run({{&left, 0}}, sliding, 2000).back();
   EXPECT_NEAR(last.parts[1].X_WV.translation().x(), -0.03, 50e-6);
   EXPECT_NEAR(last.parts[0].X_WV.translation().x(), -0.07, 100e-6);
-  const double force = 0.04 / (1.0 / kArm + 1.0 / kHandStiffness.translational);
+  const double force = 0.04 / (1.0 / kArm + 1.0 / kEachHand.translational);
   EXPECT_NEAR(last.hands[0].force_W.x(), -force, 0.02 * force);
 }
 
@@ -139,7 +139,7 @@ TEST_F(SeveralHands, TwoHandsOnOnePartFeelEachOther) {
   devices::SimulatedGlove left = hand({-0.03, 0.0, 0.0}, {-0.04, 0.0, 0.0});
   devices::SimulatedGlove right = hand({0.03, 0.0, 0.0}, {0.04, 0.0, 0.0});
   const HapticState last = run({{&left, 0}, {&right, 0}}, sliding, 1500).back();
-  const double force = 0.02 / (2.0 / kArm + 2.0 / kHandStiffness.translational);
+  const double force = 0.02 / (2.0 / kArm + 2.0 / kEachHand.translational);
   EXPECT_NEAR(last.hands[0].force_W.x(), force, 0.02 * force);
   EXPECT_NEAR(last.hands[1].force_W.x(), -force, 0.02 * force);
   EXPECT_NEAR(last.parts[0].X_WV.translation().x(), 0.0, 1e-4) << "in the middle of the two hands";
@@ -151,7 +151,7 @@ TEST_F(SeveralHands, TwoHandsThatPressOnePartShareTheForceOfItsContacts) {
   devices::SimulatedGlove second = hand({-0.05, 0.0, 0.0}, {-0.03, 0.0, 0.0});
   const HapticState last = run({{&first, 0}, {&second, 0}}, sliding, 1500).back();
   EXPECT_NEAR(last.parts[0].X_WV.translation().x(), 0.01, 20e-6);
-  const double force = 0.01 / (1.0 / kArm + 1.0 / kHandStiffness.translational);
+  const double force = 0.01 / (1.0 / kArm + 1.0 / kEachHand.translational);
   EXPECT_NEAR(last.hands[0].force_W.x(), -force, 0.03 * force);
   EXPECT_NEAR(last.hands[1].force_W.x(), -force, 0.03 * force);
 }
@@ -327,7 +327,7 @@ TEST_F(TwoHandsOnOnePart, APartPassesFromHandToHandInOneTickWithoutALoss) {
 /// The force of the old part goes on for a moment, along the line on which it acted.
 TEST_F(TwoHandsOnOnePart, AHandThatTakesAnotherPartFeelsNoNewTorque) {
   set_.row_count = 1;
-  set_.row_array[0] = {Vector3d::UnitX(), Vector3d::Zero(), 0.0};
+  set_.row_array[0] = {{{Vector3d::UnitX(), Vector3d::Zero(), 0.0}}};
   kernel_.release(1);
   for (int i = 1; i <= 200; ++i) {
     set_.parts[0].hold = tick().ghosts.parts[0].hold;
