@@ -91,18 +91,17 @@ class HapticKernel {
   /// hand.
   void release(std::size_t hand) noexcept;
 
-  /// Computes the tick at time `now` for the newest state of each hand, null as long as it has none, and the newest
-  /// contact set. `now` is on the clock of `ContactSet::time`, and never goes back. A hand pose that is not finite
-  /// leaves the ghost unchanged, and the force fades. A hand that opens (`GloveState::grip`,
-  /// the same in three states) lets go; one that closes
-  /// grasps the part whose bounding sphere, about the compliance point, is nearest to the hand root.
+  /// Computes the tick at time `now`. `states` has the newest state of each hand; the entry of a hand without a state
+  /// is null. `set` is the newest contact set. `now` is on the clock of `ContactSet::time`, and never goes back. A pose
+  /// that is not finite or not plausible leaves the ghost unchanged, and the force fades. A hand that opens lets go. A
+  /// hand that closes grasps the part whose bounding sphere, about the compliance point, is nearest to the hand root.
+  /// Opening and closing count once three states have told the same `GloveState::grip`.
   HapticTick tick(std::span<const devices::GloveState* const> states, const ContactSet& set,
                   std::chrono::nanoseconds now) noexcept;
 
   /// Emergency stop: the force of all hands fades to zero and stays there.
   void stop() noexcept;
 
-  std::size_t hand_count() const noexcept { return hands_.size(); }
   /// The coupling without delay of the link. Both numbers must be below those of hands and parts.
   const Coupling& coupling(std::size_t hand, std::size_t part) const;
   /// The coupling of the hand in the last tick: with the delay that the glove tells (`GloveState::link_delay`),
