@@ -14,7 +14,7 @@
 #include <glissade/apps/load_or_build_tree.h>
 #include <glissade/collision/dop_tree.h>
 #include <glissade/geometry/mesh_import.h>
-#include <glissade/geometry/mesh_report.h>
+#include <glissade/geometry/mesh_topology.h>
 
 namespace glissade::apps {
 

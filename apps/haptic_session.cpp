@@ -96,7 +96,7 @@ Session run_session_offline(const HapticScene& scene, const HandScript& script, 
   haptics::MultiPartSliding sliding = start_sliding(scene, {{glove.descriptor(), 0}}, choice, {});
   const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks), sliding.part_count(), 1);
   ProgressBar progress("offline", ticks);
-  haptics::run_offline({{.glove = &glove}}, sliding, ticks, [&](const devices::HapticState& sample) {
+  haptics::run_offline({{.device = &glove}}, sliding, ticks, [&](const devices::HapticState& sample) {
     recorder->record(sample);
     progress.update(recorder->total());
   });

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include <glissade/collision/collision_thread.h>
+#include <glissade/collision/collision_pipeline.h>
 #include <glissade/geometry/mesh_generators.h>
 
 int main() {

@@ -5,7 +5,8 @@
 #include <glissade/haptics/haptic_server.h>
 
 #include "loop/answer.h"
-#include "loop/haptic_sample.h"
+#include "loop/kernel_hands.h"
+#include "loop/run_tick.h"
 
 namespace glissade::haptics {
 
@@ -20,15 +21,6 @@ std::chrono::nanoseconds longest_fade(const devices::DeviceDescriptor& device) n
       std::chrono::duration<double>(2.0 * std::min(slowest_s, 1e6)));
 }
 
-std::vector<KernelHand> kernel_hands(const std::vector<HandOfServer>& hands) {
-  std::vector<KernelHand> result;
-  for (const HandOfServer& hand : hands) {
-    if (hand.device == nullptr) throw std::invalid_argument("a haptic server needs a device, not a null pointer");
-    result.push_back({hand.device->descriptor(), hand.part});
-  }
-  return result;
-}
-
 }  // namespace
 
 HapticServer::HapticServer(const std::vector<HandOfServer>& hands, MultiPartSliding& sliding, realtime::Clock& clock,
@@ -41,7 +33,8 @@ HapticServer::HapticServer(const std::vector<HandOfServer>& hands, MultiPartSlid
   validate_tick_period(options.period);
   if (!sink_) throw std::invalid_argument("a haptic server needs a sink for its states, not an empty function");
   for (const HandOfServer& hand : hands)
-    hands_.push_back({hand.device});
+    devices_.push_back(hand.device);
+  record_.hand_count = static_cast<std::int32_t>(hands.size());
   sets_.publish(answerer_->at_start());
   simulation_thread_ = std::make_unique<realtime::PeriodicThread>(
       clock, realtime::PeriodicThreadOptions{.period = kTickPeriod, .name = "simulation"},
@@ -60,59 +53,64 @@ HapticServer::~HapticServer() {
 /// Returns whether any device has a state.
 bool HapticServer::read_devices() noexcept {
   bool any = false;
-  for (std::size_t h = 0; h < hands_.size(); ++h) {
-    if (hands_[h].device->read(hands_[h].state)) states_[h] = &hands_[h].state;
-    any = any || states_[h] != nullptr;
+  for (std::size_t h = 0; h < devices_.size(); ++h) {
+    record_.has_state[h] = devices_[h]->read(record_.states[h]) || record_.has_state[h];
+    any = any || record_.has_state[h];
   }
   return any;
 }
 
-void HapticServer::take_events() noexcept {
-  Event event;
-  for (std::size_t i = 0; i < events_.capacity() && events_.pop(event); ++i) {
-    if (event.part) {
-      kernel_.grasp(event.hand, *event.part);
-    } else {
-      kernel_.release(event.hand);
-    }
-  }
+/// What does not fit into the tick waits for the next one.
+void HapticServer::take_requests() noexcept {
+  record_.requests.clear();
+  HoldRequest request;
+  while (!record_.requests.is_full() && requests_.pop(request))
+    record_.requests.add(request);
 }
 
 bool HapticServer::haptic_tick(const realtime::PeriodicTick& timing) noexcept {
   const bool should_end = should_end_.load(std::memory_order_relaxed);
   if (!read_devices()) return !should_end;
   const bool is_ending = should_end || (options_.ticks > 0 && ticks() == options_.ticks);
-  if (is_ending || emergency_.load(std::memory_order_relaxed) || has_failed()) kernel_.stop();
-  take_events();
+  ++record_.number;
+  record_.sequence = is_ending ? 0 : ticks() + 1;
+  record_.deadline = timing.deadline;
+  record_.time = timing.start;
+  record_.is_stopped = is_ending || emergency_.load(std::memory_order_relaxed) || has_failed();
+  take_requests();
   sets_.update();
-  const ContactSet& set = sets_.value();
-  const HapticTick tick = kernel_.tick({states_.data(), hands_.size()}, set, timing.start);
-  for (std::size_t h = 0; h < hands_.size(); ++h) {
-    if (states_[h] != nullptr) hands_[h].device->command(tick.hands[h].command);
+  run_tick(kernel_, record_, sets_.value());
+  for (std::size_t h = 0; h < devices_.size(); ++h) {
+    if (record_.has_state[h]) devices_[h]->command(record_.tick.hands[h].command);
   }
-  if (is_ending) return go_on_fading(tick, timing.start);
-  ghosts_.publish(tick.ghosts);
-  report(tick, set, timing.start);
+  if (options_.observer != nullptr) {
+    record_.duration = clock_.now() - timing.start;
+    options_.observer->after_tick(record_);
+  }
+  if (is_ending) return go_on_fading();
+  ghosts_.publish(record_.tick.ghosts);
+  report();
   return true;
 }
 
-void HapticServer::report(const HapticTick& tick, const ContactSet& set, std::chrono::nanoseconds now) noexcept {
-  const devices::HapticState sample = make_sample(ticks() + 1, tick, set, {states_.data(), hands_.size()}, now);
-  statistics_.contact_set_age.record(sample.contact_set_age);
+void HapticServer::report() noexcept {
+  const HapticTick& tick = record_.tick;
+  statistics_.contact_set_age.record(record_.state.contact_set_age);
   const bool any_unsolved =
       std::any_of(tick.hands.begin(), tick.hands.end(), [](const HandTick& hand) { return hand.is_unsolved; });
   statistics_.unsolved_ticks += any_unsolved ? 1 : 0;
-  if (!sink_failed_) sink_failed_ = !guarded([&] { sink_(sample); });
+  if (!sink_failed_) sink_failed_ = !guarded([&] { sink_(record_.state); });
   ticks_.fetch_add(1, std::memory_order_relaxed);
 }
 
-bool HapticServer::go_on_fading(const HapticTick& tick, std::chrono::nanoseconds now) noexcept {
-  if (!fading_since_) fading_since_ = now;
+bool HapticServer::go_on_fading() noexcept {
+  if (!fading_since_) fading_since_ = record_.time;
   bool goes_on = false;
-  for (std::size_t h = 0; h < hands_.size(); ++h) {
-    const devices::GloveCommand& command = tick.hands[h].command.values();
+  for (std::size_t h = 0; h < devices_.size(); ++h) {
+    const devices::GloveCommand& command = record_.tick.hands[h].command.values();
     const bool is_at_rest = command.f_H_W.isZero(0.0) && command.t_H_W.isZero(0.0);
-    goes_on = goes_on || (!is_at_rest && now - *fading_since_ < longest_fade(hands_[h].device->descriptor()));
+    const std::chrono::nanoseconds fading = record_.time - *fading_since_;
+    goes_on = goes_on || (!is_at_rest && fading < longest_fade(devices_[h]->descriptor()));
   }
   if (goes_on) return true;
   done_.store(options_.ticks > 0 && ticks() == options_.ticks, std::memory_order_release);
@@ -146,7 +144,9 @@ void HapticServer::fail(std::string_view message) noexcept {
 void HapticServer::answer_newest_ghosts() {
   if (!ghosts_.update()) return;
   const std::chrono::nanoseconds start = clock_.now();
-  sets_.publish(answerer_->answer(ghosts_.value(), kTickPeriod));
+  answer_ = {ghosts_.value(), answerer_->answer(ghosts_.value(), kTickPeriod)};
+  if (options_.observer != nullptr) options_.observer->after_answer(answer_);
+  sets_.publish(answer_.set);
   statistics_.simulation.record(clock_.now() - start);
 }
 

@@ -21,6 +21,7 @@
 #include <glissade/devices/haptic_state.h>
 #include <glissade/haptics/haptic_kernel.h>
 #include <glissade/haptics/multi_part_sliding.h>
+#include <glissade/haptics/recording.h>
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/latency_histogram.h>
 #include <glissade/realtime/periodic_thread.h>
@@ -40,6 +41,7 @@ struct HapticServerOptions {
   std::int64_t ticks = 0;
   /// SCHED_FIFO priority that the haptic thread requests; 0 requests none.
   int fifo_priority = 80;
+  LoopObserver* observer = nullptr;  ///< null: none; must outlive the server
 };
 
 /// A device of the server, and the part that its hand grasps at the first state.
@@ -81,9 +83,12 @@ class HapticServer {
   /// do, and if 256 calls wait for the haptic thread; then the caller may try again, so none is lost. Wait-free. One
   /// thread.
   bool grasp(std::size_t hand, std::size_t part) noexcept {
-    return kernel_.can_grasp(hand, part) && events_.push({hand, part});
+    return kernel_.can_grasp(hand, part) &&
+           requests_.push({static_cast<std::int32_t>(hand), static_cast<std::int32_t>(part)});
   }
-  bool release(std::size_t hand) noexcept { return hand < hands_.size() && events_.push({hand, std::nullopt}); }
+  bool release(std::size_t hand) noexcept {
+    return hand < devices_.size() && requests_.push({static_cast<std::int32_t>(hand), -1});
+  }
 
   /// Whether the server has reached `HapticServerOptions::ticks`, and no device has a force any more. Wait-free, any
   /// thread.
@@ -108,16 +113,11 @@ class HapticServer {
   const HapticServerStatistics& statistics() const noexcept { return statistics_; }
 
  private:
-  struct Event {
-    std::size_t hand = 0;
-    std::optional<std::size_t> part;  // none: release
-  };
-
   bool read_devices() noexcept;
-  void take_events() noexcept;
+  void take_requests() noexcept;
   bool haptic_tick(const realtime::PeriodicTick& timing) noexcept;
-  void report(const HapticTick& tick, const ContactSet& set, std::chrono::nanoseconds now) noexcept;
-  bool go_on_fading(const HapticTick& tick, std::chrono::nanoseconds now) noexcept;
+  void report() noexcept;
+  bool go_on_fading() noexcept;
   bool simulation_tick() noexcept;
   template <typename Work>
   bool guarded(const Work& work) noexcept;
@@ -129,21 +129,18 @@ class HapticServer {
   HapticServerOptions options_;
 
   // Haptic thread only.
-  struct Hand {
-    devices::GloveDevice* device;
-    devices::GloveState state{};
-  };
-  std::vector<Hand> hands_;
-  std::array<const devices::GloveState*, kMaxHands> states_{};  // null until the first one
+  std::vector<devices::GloveDevice*> devices_;
+  TickRecord record_;  // of the newest tick
   HapticKernel kernel_;
   std::optional<std::chrono::nanoseconds> fading_since_;
   bool sink_failed_ = false;
 
   // Simulation thread only.
   std::unique_ptr<Answerer> answerer_;
+  AnswerRecord answer_;  // the newest
 
   // Shared.
-  realtime::SpscRing<Event> events_{256};
+  realtime::SpscRing<HoldRequest> requests_{256};
   realtime::TripleBuffer<Ghosts> ghosts_;
   realtime::TripleBuffer<ContactSet> sets_;
 

@@ -1,25 +1,12 @@
-#include <array>
 #include <stdexcept>
 
 #include <glissade/haptics/offline_run.h>
 
 #include "loop/answer.h"
-#include "loop/haptic_sample.h"
+#include "loop/kernel_hands.h"
+#include "loop/run_tick.h"
 
 namespace glissade::haptics {
-
-namespace {
-
-std::vector<KernelHand> kernel_hands(const std::vector<HandOffline>& hands) {
-  std::vector<KernelHand> result;
-  for (const HandOffline& hand : hands) {
-    if (hand.glove == nullptr) throw std::invalid_argument("an offline run needs a glove, not a null pointer");
-    result.push_back({hand.glove->descriptor(), hand.part});
-  }
-  return result;
-}
-
-}  // namespace
 
 void run_offline(const std::vector<HandOffline>& hands, MultiPartSliding& sliding, std::int64_t ticks,
                  const std::function<void(const devices::HapticState&)>& sink, const OfflineRunOptions& options) {
@@ -27,22 +14,25 @@ void run_offline(const std::vector<HandOffline>& hands, MultiPartSliding& slidin
   if (!sink) throw std::invalid_argument("an offline run needs a sink for its states, not an empty function");
   HapticKernel kernel(kernel_parts(sliding), kernel_hands(hands), options.period);
   Answerer answerer(sliding);
-  std::vector<devices::SafeCommand> commands(hands.size());
-  std::vector<devices::GloveState> states(hands.size());
-  std::array<const devices::GloveState*, kMaxHands> newest{};
-  ContactSet set = answerer.at_start();
+  TickRecord record;
+  record.hand_count = static_cast<std::int32_t>(hands.size());
+  AnswerRecord answer;
+  answer.set = answerer.at_start();
   for (std::int64_t i = 1; i <= ticks; ++i) {
-    const std::chrono::nanoseconds now = i * options.period;
+    record.number = record.sequence = i;
+    record.time = record.deadline = i * options.period;
     for (std::size_t h = 0; h < hands.size(); ++h) {
-      states[h] = hands[h].glove->step(options.period, commands[h]);
-      newest[h] = &states[h];
+      record.states[h] = hands[h].device->step(options.period, record.tick.hands[h].command);
+      record.has_state[h] = true;
     }
-    if (options.before_tick) options.before_tick(i, kernel);
-    const HapticTick tick = kernel.tick({newest.data(), hands.size()}, set, now);
-    for (std::size_t h = 0; h < hands.size(); ++h)
-      commands[h] = tick.hands[h].command;
-    sink(make_sample(i, tick, set, {newest.data(), hands.size()}, now));
-    set = answerer.answer(tick.ghosts, options.period);
+    record.requests.clear();
+    if (options.before_tick) options.before_tick(i, record.requests);
+    run_tick(kernel, record, answer.set);
+    sink(record.state);
+    answer = {record.tick.ghosts, answerer.answer(record.tick.ghosts, options.period)};
+    if (options.observer == nullptr) continue;
+    options.observer->after_tick(record);
+    options.observer->after_answer(answer);
   }
 }
 

@@ -14,19 +14,21 @@
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/haptics/haptic_kernel.h>
 #include <glissade/haptics/multi_part_sliding.h>
+#include <glissade/haptics/recording.h>
 
 namespace glissade::haptics {
 
 /// A simulated glove of an offline run, and the part that its hand grasps at the first tick.
 struct HandOffline {
-  devices::SimulatedGlove* glove = nullptr;
+  devices::SimulatedGlove* device = nullptr;
   std::optional<std::size_t> part = 0;  ///< number of the part in the simulation
 };
 
 struct OfflineRunOptions {
   std::chrono::nanoseconds period = kTickPeriod;
   /// Called before each tick, with its number, from 1 on: for grasps and releases.
-  std::function<void(std::int64_t tick, HapticKernel& kernel)> before_tick{};
+  std::function<void(std::int64_t tick, HoldRequests& requests)> before_tick{};
+  LoopObserver* observer = nullptr;  ///< null: none
 };
 
 /// Runs `ticks` ticks and passes the state of each tick to `sink`. A tick uses the contact set that answers the ghost

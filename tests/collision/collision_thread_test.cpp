@@ -13,7 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/collision/collision_thread.h>
+#include <glissade/collision/collision_pipeline.h>
 #include <glissade/geometry/mesh_generators.h>
 
 #include "poses.h"

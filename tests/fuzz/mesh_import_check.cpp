@@ -6,7 +6,7 @@
 #include <string>
 
 #include <glissade/geometry/mesh_import.h>
-#include <glissade/geometry/mesh_report.h>
+#include <glissade/geometry/mesh_topology.h>
 #include <glissade/geometry/triangle_pair.h>
 
 #include "mesh_seeds.h"

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/geometry/mesh_import.h>
-#include <glissade/geometry/mesh_report.h>
+#include <glissade/geometry/mesh_topology.h>
 
 #include "mesh_import_fixture.h"
 

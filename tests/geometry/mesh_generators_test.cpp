@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/geometry/mesh_generators.h>
-#include <glissade/geometry/mesh_report.h>
+#include <glissade/geometry/mesh_topology.h>
 
 #include "enclosed_volume.h"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/geometry/mesh_generators.h>
-#include <glissade/geometry/mesh_report.h>
+#include <glissade/geometry/mesh_topology.h>
 #include <glissade/geometry/triangle_mesh.h>
 
 namespace glissade::geometry {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/geometry/mesh_generators.h>
-#include <glissade/geometry/mesh_report.h>
+#include <glissade/geometry/mesh_topology.h>
 
 namespace glissade::geometry {
 namespace {

@@ -50,7 +50,7 @@ HeldPart cube_at(double x) {
 /// A run whose ticks are looked at one by one: no part collides, and no force jumps.
 class SeveralHands : public ::testing::Test {
  protected:
-  using Events = std::function<void(std::int64_t tick, HapticKernel& kernel)>;
+  using Events = std::function<void(std::int64_t tick, HoldRequests& hands)>;
 
   std::vector<HapticState> run(const std::vector<HandOffline>& hands, MultiPartSliding& sliding, std::int64_t ticks,
                                const Events& events = {}) {
@@ -160,9 +160,9 @@ TEST_F(SeveralHands, APartPassesFromHandToHand) {
   MultiPartSliding sliding({wall(0.2)}, {cube_at(0.0)});
   devices::SimulatedGlove giver = hand({-0.03, 0.0, 0.0}, {0.07, 0.0, 0.0});
   devices::SimulatedGlove taker = hand({0.13, 0.0, 0.0}, {0.13, 0.0, 0.0});
-  const auto states = run({{&giver, 0}, {&taker, std::nullopt}}, sliding, 1500, [](std::int64_t tick, auto& kernel) {
-    if (tick == 800) kernel.grasp(1, 0);
-    if (tick == 1000) kernel.release(0);
+  const auto states = run({{&giver, 0}, {&taker, std::nullopt}}, sliding, 1500, [](std::int64_t tick, auto& hands) {
+    if (tick == 800) hands.grasp(1, 0);
+    if (tick == 1000) hands.release(0);
   });
   EXPECT_EQ(states[700].hands[1].part, -1);
   EXPECT_EQ(states[900].hands[0].part, 0);
@@ -175,9 +175,9 @@ TEST_F(SeveralHands, APartPassesFromHandToHand) {
 TEST_F(SeveralHands, APartThatIsLetGoUnderForceStaysWhereItIsAndTheForceGoes) {
   MultiPartSliding sliding({wall(0.03)}, {cube_at(0.0)});
   devices::SimulatedGlove glove = hand({0.0, 0.0, 0.0}, {0.04, 0.0, 0.0});
-  const auto states = run({{&glove, 0}}, sliding, 1400, [](std::int64_t tick, auto& kernel) {
-    if (tick == 1000) kernel.release(0);
-    if (tick == 1200) kernel.grasp(0, 0);
+  const auto states = run({{&glove, 0}}, sliding, 1400, [](std::int64_t tick, auto& hands) {
+    if (tick == 1000) hands.release(0);
+    if (tick == 1200) hands.grasp(0, 0);
   });
   EXPECT_LT(states[998].hands[0].force_W.x(), -5.0);
   EXPECT_EQ(states[1100].hands[0].force_W, Vector3d::Zero());
@@ -190,10 +190,10 @@ TEST_F(SeveralHands, APartThatIsLetGoUnderForceStaysWhereItIsAndTheForceGoes) {
 TEST_F(SeveralHands, AReleaseAndAGraspInOneTickAreBothKept) {
   MultiPartSliding sliding({wall(0.03)}, {cube_at(0.0)});
   devices::SimulatedGlove glove = hand({0.0, 0.0, 0.0}, {0.04, 0.0, 0.0});
-  const auto states = run({{&glove, 0}}, sliding, 1020, [](std::int64_t tick, auto& kernel) {
+  const auto states = run({{&glove, 0}}, sliding, 1020, [](std::int64_t tick, auto& hands) {
     if (tick != 1000) return;
-    kernel.release(0);
-    kernel.grasp(0, 0);
+    hands.release(0);
+    hands.grasp(0, 0);
   });
   EXPECT_LT(states[998].hands[0].force_W.x(), -5.0);
   EXPECT_EQ(states[1001].hands[0].part, 0);
@@ -386,16 +386,16 @@ TEST_F(SeveralHands, MayGraspAndReleaseAtAnyMoment) {
   std::array<std::vector<std::pair<std::int64_t, std::optional<std::size_t>>>, 2> expected;
   int grasps = 0;
   const auto states =
-      run({{&first, 0}, {&second, std::nullopt}}, sliding, 1000 * seconds, [&](std::int64_t tick, auto& kernel) {
+      run({{&first, 0}, {&second, std::nullopt}}, sliding, 1000 * seconds, [&](std::int64_t tick, auto& hands) {
         while (random() % 60 == 0) {  // sometimes several in one tick
           const std::size_t hand = random() % 2;
           if (random() % 3 == 0) {
-            kernel.release(hand);
+            hands.release(hand);
             if (held[hand]) free_since[hand] = tick;
             held[hand].reset();
           } else {
             const std::size_t part = random() % 3;
-            EXPECT_TRUE(kernel.grasp(hand, part));
+            EXPECT_TRUE(hands.grasp(hand, part));
             held[hand] = part;
             ++grasps;
           }

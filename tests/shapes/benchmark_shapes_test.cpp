@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/collision/dop_query.h>
-#include <glissade/geometry/mesh_report.h>
+#include <glissade/geometry/mesh_topology.h>
 #include <glissade/shapes/benchmark_shapes.h>
 
 #include "expect_bad_input.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/collision/dop_query.h>
-#include <glissade/geometry/mesh_report.h>
+#include <glissade/geometry/mesh_topology.h>
 #include <glissade/shapes/peg_and_hole.h>
 
 #include "enclosed_volume.h"

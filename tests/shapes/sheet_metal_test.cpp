@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/geometry/mesh_report.h>
+#include <glissade/geometry/mesh_topology.h>
 #include <glissade/shapes/sheet_metal.h>
 
 namespace glissade::shapes {

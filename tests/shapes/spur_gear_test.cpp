@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/collision/dop_query.h>
-#include <glissade/geometry/mesh_report.h>
+#include <glissade/geometry/mesh_topology.h>
 #include <glissade/shapes/spur_gear.h>
 
 #include "enclosed_volume.h"

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include <glissade/geometry/mesh_report.h>
+#include <glissade/geometry/mesh_topology.h>
 #include <glissade/geometry/triangle_pair.h>
 
 namespace glissade::geometry {

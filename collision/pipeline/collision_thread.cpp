@@ -1,7 +1,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <glissade/collision/collision_thread.h>
+#include <glissade/collision/collision_pipeline.h>
 
 namespace glissade::collision {
 namespace {
