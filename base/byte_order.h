@@ -24,11 +24,11 @@ Number number_at(std::string_view bytes, std::size_t offset, std::endian order =
   return std::bit_cast<Number>(raw);
 }
 
-/// Appends the bytes of the number in little-endian order.
+/// Appends the bytes of the number.
 template <class Number>
-void append_number(std::string& bytes, Number number) {
+void append_number(std::string& bytes, Number number, std::endian order = std::endian::little) {
   auto raw = std::bit_cast<std::array<char, sizeof(Number)>>(number);
-  if (std::endian::native != std::endian::little) std::reverse(raw.begin(), raw.end());
+  if (order != std::endian::native) std::reverse(raw.begin(), raw.end());
   bytes.append(raw.data(), raw.size());
 }
 

@@ -144,7 +144,7 @@ void HapticServer::fail(std::string_view message) noexcept {
 void HapticServer::answer_newest_ghosts() {
   if (!ghosts_.update()) return;
   const std::chrono::nanoseconds start = clock_.now();
-  answer_ = {ghosts_.value(), answerer_->answer(ghosts_.value(), kTickPeriod)};
+  answer_ = {ghosts_.value(), answerer_->answer(ghosts_.value(), options_.period)};
   if (options_.observer != nullptr) options_.observer->after_answer(answer_);
   sets_.publish(answer_.set);
   statistics_.simulation.record(clock_.now() - start);

@@ -1,13 +1,17 @@
 #pragma once
 
 /// The whole system on a simulated clock and in one thread: gloves, haptic kernel and simulation take turns, once per
-/// tick. The same inputs give the same bits.
+/// tick. The same inputs give the same bits. Also the repetition of a recorded run: to the bit.
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
+#include <map>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <glissade/devices/haptic_state.h>
@@ -17,6 +21,8 @@
 #include <glissade/haptics/recording.h>
 
 namespace glissade::haptics {
+
+class Answerer;
 
 /// A simulated glove of an offline run, and the part that its hand grasps at the first tick.
 struct HandOffline {
@@ -37,5 +43,48 @@ struct OfflineRunOptions {
 /// `HapticKernel` does.
 void run_offline(const std::vector<HandOffline>& hands, MultiPartSliding& sliding, std::int64_t ticks,
                  const std::function<void(const devices::HapticState&)>& sink, const OfflineRunOptions& options = {});
+
+/// Repeats a recorded run: ticks and answers consume what they consumed then, and must produce the same bytes.
+class Replay {
+ public:
+  /// A loop as the recorded one. Scene, rules, hands, period and `head` must be those of the recording. Throws as the
+  /// constructor of `HapticKernel` does.
+  Replay(MultiPartSliding& sliding, const std::vector<KernelHand>& hands, std::chrono::nanoseconds period,
+         RecordingHead head);
+  ~Replay();
+  Replay(const Replay&) = delete;
+  Replay& operator=(const Replay&) = delete;
+
+  /// Takes the next event of the recording. Repeats the tick of an event of HAPTIC_TICK, and the answer of one of
+  /// CONTACT_SET; compares the others on channels of a recording with what the last tick produced. Ignores other
+  /// channels. Returns false if the recording cannot be repeated from here on: `difference` says why.
+  bool take(const devices::LogEvent& event);
+
+  std::int64_t ticks() const noexcept { return ticks_; }
+  std::int64_t answers() const noexcept { return answers_; }
+  std::chrono::nanoseconds duration() const noexcept { return last_ - first_; }  ///< recorded time
+
+  /// A sentence that names the tick or the contact set, and what differs; empty while there is no difference.
+  const std::string& difference() const noexcept { return difference_; }
+
+ private:
+  bool repeat_tick(const devices::LogEvent& event);
+  bool repeat_answer(const devices::LogEvent& event);
+  bool compare_with_last_tick(const devices::LogEvent& event);
+  bool differs(const std::string& what);
+
+  HapticKernel kernel_;
+  std::chrono::nanoseconds period_;
+  std::unique_ptr<Answerer> answerer_;
+  RecordedEvents events_;
+  TickRecord record_;
+  std::map<std::int64_t, ContactSet> sets_;  // that ticks may still use, by number
+  std::deque<devices::LogEvent> expected_;   // the other events of the last tick
+  std::int64_t ticks_ = 0;
+  std::int64_t answers_ = 0;
+  std::chrono::nanoseconds first_{0};
+  std::chrono::nanoseconds last_{0};
+  std::string difference_;
+};
 
 }  // namespace glissade::haptics

@@ -7,12 +7,23 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include <glissade/devices/event_log.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/haptic_state.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/haptic_kernel.h>
+#include <glissade/realtime/clock.h>
+#include <glissade/realtime/periodic_thread.h>
+#include <glissade/realtime/spsc_ring.h>
 
 namespace glissade::haptics {
 
@@ -59,6 +70,7 @@ struct TickRecord {
   std::array<devices::GloveState, kMaxHands> states{};  ///< the newest one of each hand that has one
   HoldRequests requests;
   std::int64_t set_sequence = 0;  ///< `ContactSet::sequence` of the newest set
+  std::int32_t part_count = 0;    ///< `ContactSet::part_count`
 
   // Produced.
   HapticTick tick;
@@ -72,13 +84,113 @@ struct AnswerRecord {
   ContactSet set;  ///< produced
 };
 
-/// Gets what a loop does. A loop calls the functions in its two threads, so they must be real-time safe.
+/// Gets what a loop does. Both functions are called by one thread, or each by a thread of its own.
 class LoopObserver {
  public:
   virtual ~LoopObserver() = default;
 
-  virtual void after_tick(const TickRecord& record) noexcept = 0;      ///< haptic thread
-  virtual void after_answer(const AnswerRecord& record) noexcept = 0;  ///< simulation thread, before the set is used
+  virtual void after_tick(const TickRecord& record) noexcept = 0;
+  virtual void after_answer(const AnswerRecord& record) noexcept = 0;  ///< before a tick can use the answer
+};
+
+/// Hands the records of a loop in real time over to observers that may take their time, in a thread of its own. The
+/// haptic thread and the simulation thread only fill rings; both functions are real-time safe. An answer is passed on
+/// before the ticks that use it.
+class BackgroundObserver final : public LoopObserver {
+ public:
+  /// The observers must outlive this object.
+  explicit BackgroundObserver(std::vector<LoopObserver*> observers);
+  BackgroundObserver(const BackgroundObserver&) = delete;
+  BackgroundObserver& operator=(const BackgroundObserver&) = delete;
+  /// Passes on what is left.
+  ~BackgroundObserver() override;
+
+  void after_tick(const TickRecord& record) noexcept override { ticks_.push(record); }
+  void after_answer(const AnswerRecord& record) noexcept override { answers_.push(record); }
+
+  /// Records lost because the thread did not keep up for a second or longer. Any thread.
+  std::uint64_t dropped() const noexcept { return ticks_.dropped() + answers_.dropped(); }
+
+ private:
+  void pass_on() noexcept;
+
+  std::vector<LoopObserver*> observers_;
+  realtime::SteadyClock clock_;
+  realtime::SpscRing<TickRecord> ticks_;
+  realtime::SpscRing<AnswerRecord> answers_;
+  std::vector<TickRecord> batch_;
+  std::unique_ptr<realtime::PeriodicThread> thread_;
+};
+
+/// The gloves of a recorded loop, and what a recording begins with.
+struct RecordingHead {
+  std::vector<devices::GloveInfo> gloves;  ///< one for each hand
+  std::vector<devices::LogEvent> events;   ///< that the application adds
+};
+
+/// The events of a recording: HAPTIC_TICK and CONTACT_SET, with all that a replay needs, and for other programs of LCM
+/// HAPTIC_STATE, GLOVE_STATE for each new state and GLOVE_INFO once a second. There are no GLOVE_COMMAND, so that
+/// `lcm-logplayer` leads no glove. Events have the times of the loop's clock. Not thread-safe.
+class RecordedEvents {
+ public:
+  explicit RecordedEvents(RecordingHead head) : head_(std::move(head)) {}
+
+  std::vector<devices::LogEvent> at_start() const;
+  std::vector<devices::LogEvent> of(const TickRecord& record);
+  static devices::LogEvent of(const AnswerRecord& record);
+
+ private:
+  RecordingHead head_;
+  std::array<std::int64_t, kMaxHands> newest_{};  // sequence of the last state of each glove, plus 1
+  std::optional<std::chrono::nanoseconds> announced_;
+};
+
+/// Writes all events to a file.
+class LogRecorder final : public LoopObserver {
+ public:
+  /// Throws std::invalid_argument, naming the file, when it cannot be created.
+  LogRecorder(const std::string& path, RecordingHead head);
+
+  void after_tick(const TickRecord& record) noexcept override;
+  void after_answer(const AnswerRecord& record) noexcept override;
+
+  /// Ends the file, after the last call of the functions above. Throws std::runtime_error, naming the file, when not
+  /// everything could be written.
+  void close();
+
+ private:
+  template <typename Work>
+  void guarded(const Work& work) noexcept;
+
+  std::string path_;
+  RecordedEvents events_;
+  devices::EventLogWriter file_;
+  bool is_incomplete_ = false;  // there was no memory for an event
+};
+
+/// Keeps the events of the last seconds in memory of a bounded size, and writes them to a file when it is asked to.
+/// Thread-safe.
+class FlightRecorder final : public LoopObserver {
+ public:
+  static constexpr std::size_t kDefaultBytes = std::size_t{64} << 20;  ///< more than ten seconds of one hand
+
+  explicit FlightRecorder(RecordingHead head, std::size_t most_bytes = kDefaultBytes);
+
+  void after_tick(const TickRecord& record) noexcept override;
+  void after_answer(const AnswerRecord& record) noexcept override;
+
+  /// Writes the events that are kept, the oldest first. Throws as `EventLogWriter` does.
+  void write(const std::string& path) const;
+
+ private:
+  void keep(devices::LogEvent event);
+
+  mutable std::mutex mutex_;
+  std::vector<devices::LogEvent> at_start_;
+  RecordedEvents events_;
+  std::size_t most_bytes_;
+  std::deque<devices::LogEvent> kept_;
+  std::size_t bytes_ = 0;
 };
 
 }  // namespace glissade::haptics

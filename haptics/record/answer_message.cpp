@@ -1,0 +1,72 @@
+#include <glissade/lcmtypes/contact_set_t.hpp>
+
+#include "loop/haptic_sample.h"
+#include "record/message_bytes.h"
+#include "record/pose_message.h"
+#include "record/record_messages.h"
+
+namespace glissade::haptics {
+
+namespace {
+
+part_answer_t message_of(const PartAnswer& answer) {
+  part_answer_t message;
+  message.X_WV = pose_message(answer.X_WV);
+  message.X_WV_of_rows = pose_message(answer.X_WV_of_rows);
+  message.X_WG = pose_message(answer.X_WG);
+  message.X_GT = pose_message(answer.X_GT);
+  message.reach_m = answer.reach;
+  message.part_state = static_cast<std::int32_t>(part_state_of(answer.state));
+  message.pushing = answer.pushing;
+  message.dropped = answer.dropped;
+  message.hold = answer.hold;
+  return message;
+}
+
+contact_row_t message_of(const ContactRow& row) {
+  contact_row_t message;
+  put(row.n.data(), message.normal_W);
+  put(row.r.data(), message.r_W_m);
+  message.bound_m = row.bound;
+  message.part = row.part;
+  message.other = row.other;
+  put(row.r_other.data(), message.r_other_W_m);
+  message.range_m = row.range;
+  message.approach_m_per_s = row.approach;
+  message.pushes = row.pushes ? 1 : 0;
+  put(row.friction_ratio_W.data(), message.friction_ratio_W);
+  return message;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode(const AnswerRecord& record) {
+  const ContactSet& set = record.set;
+  contact_set_t message{};
+  message.version = contact_set_t::VERSION;
+  message.sequence = set.sequence;
+  message.time_ns = record.ghosts.time.count();
+  message.part_count = set.part_count;
+  for (std::size_t p = 0; p < static_cast<std::size_t>(set.part_count); ++p) {
+    message.ghosts.push_back(ghost_message(record.ghosts.parts[p]));
+    message.answers.push_back(message_of(set.parts[p]));
+  }
+  message.row_count = set.row_count;
+  for (const ContactRow& row : set.rows())
+    message.rows.push_back(message_of(row));
+  return to_checked_bytes(message);
+}
+
+std::optional<AnswerRecord> decode_answer(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::int32_t, 2> kLargest{kMaxParts, kMaxParts * kMaxContactRows};
+  const auto message = from_checked_bytes<contact_set_t>(bytes, kLargest);
+  if (!message) return std::nullopt;
+  AnswerRecord record;
+  record.ghosts.time = std::chrono::nanoseconds(message->time_ns);
+  for (std::size_t p = 0; p < message->ghosts.size(); ++p)
+    record.ghosts.parts[p] = ghost_of(message->ghosts[p]);
+  record.set.sequence = message->sequence;
+  return record;
+}
+
+}  // namespace glissade::haptics

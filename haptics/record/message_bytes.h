@@ -1,0 +1,67 @@
+#pragma once
+
+/// Messages of variable size with a checksum at their end.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <glissade/base/byte_order.h>
+
+namespace glissade::haptics {
+
+inline constexpr std::size_t kTypeBytes = 8;      // before the first field: LCM's fingerprint of the type
+inline constexpr std::size_t kChecksumBytes = 8;  // the last field
+
+inline std::int64_t fnv_1a(std::span<const std::uint8_t> bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const std::uint8_t byte : bytes)
+    hash = (hash ^ byte) * 0x100000001b3;
+  return static_cast<std::int64_t>(hash);
+}
+
+inline std::span<const std::uint8_t> checked_part(std::span<const std::uint8_t> bytes) {
+  return bytes.subspan(kTypeBytes, bytes.size() - kTypeBytes - kChecksumBytes);
+}
+
+/// The bytes of a message, of which `checksum` is the last field.
+template <typename Message>
+std::vector<std::uint8_t> to_checked_bytes(Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  const auto size = static_cast<int>(bytes.size());
+  message.encode(bytes.data(), 0, size);
+  message.checksum = fnv_1a(checked_part(bytes));
+  const auto checksum = std::bit_cast<std::array<std::uint8_t, kChecksumBytes>>(message.checksum);
+  static_assert(std::endian::native == std::endian::little);
+  std::copy(checksum.rbegin(), checksum.rend(), bytes.end() - static_cast<std::ptrdiff_t>(kChecksumBytes));
+  return bytes;
+}
+
+/// The message in `bytes`. Its first fields are the version and one count for each of `largest`; no value when one of
+/// them is beyond its bound, or when the bytes are no such message or were changed.
+template <typename Message, std::size_t N>
+std::optional<Message> from_checked_bytes(std::span<const std::uint8_t> bytes,
+                                          const std::array<std::int32_t, N>& largest) {
+  constexpr std::size_t kFirst = kTypeBytes + (N + 1) * sizeof(std::int32_t);
+  if (bytes.size() < kFirst + kChecksumBytes) return std::nullopt;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const auto number = [&](std::size_t i) {
+    return base::number_at<std::int32_t>(text, kTypeBytes + i * sizeof(std::int32_t), std::endian::big);
+  };
+  if (number(0) != Message::VERSION) return std::nullopt;
+  for (std::size_t i = 0; i < N; ++i) {
+    if (number(i + 1) < 0 || number(i + 1) > largest[i]) return std::nullopt;
+  }
+  Message message;
+  const auto size = static_cast<int>(bytes.size());
+  if (message.decode(bytes.data(), 0, size) != size || message.checksum != fnv_1a(checked_part(bytes))) {
+    return std::nullopt;
+  }
+  return message;
+}
+
+}  // namespace glissade::haptics

@@ -1,0 +1,127 @@
+#include <glissade/lcmtypes/haptic_tick_t.hpp>
+
+#include "record/message_bytes.h"
+#include "record/pose_message.h"
+#include "record/record_messages.h"
+
+namespace glissade::haptics {
+
+namespace {
+
+std::int32_t bits_of(const devices::LimitReasons& reasons) {
+  std::int32_t bits = 0;
+  for (std::size_t i = 0; i < devices::kLimitReasons.size(); ++i)
+    bits |= reasons.*devices::kLimitReasons[i].flag ? std::int32_t{1} << i : 0;
+  return bits;
+}
+
+devices::LimitReasons reasons_of(std::int32_t bits) {
+  devices::LimitReasons reasons;
+  for (std::size_t i = 0; i < devices::kLimitReasons.size(); ++i)
+    reasons.*devices::kLimitReasons[i].flag = (bits >> i & 1) != 0;
+  return reasons;
+}
+
+void put_state(const devices::GloveState& state, tick_hand_t& message) {
+  message.has_state = 1;
+  message.state_sequence = state.sequence;
+  message.state_time_ns = state.time.count();
+  message.X_WH = pose_message(state.X_WH);
+  put(state.v_WH.data(), message.v_WH_m_per_s);
+  put(state.w_WH.data(), message.w_WH_rad_per_s);
+  put(state.joint_angles.data(), message.joint_angles_rad);
+  message.grip = state.grip;
+  message.enabled = state.is_enabled ? 1 : 0;
+  message.obeys_another = state.obeys_another ? 1 : 0;
+  message.glove_reasons = bits_of(state.limits);
+  message.glove_command_age_ns = state.command_age.count();
+  message.link_delay_ns = state.link_delay.count();
+  message.glove_energy_J = state.energy;
+}
+
+devices::GloveState state_of(const tick_hand_t& message) {
+  devices::GloveState state;
+  state.sequence = message.state_sequence;
+  state.time = std::chrono::nanoseconds(message.state_time_ns);
+  state.X_WH = pose_of(message.X_WH);
+  state.v_WH = vector_of(message.v_WH_m_per_s);
+  state.w_WH = vector_of(message.w_WH_rad_per_s);
+  std::copy_n(message.joint_angles_rad, state.joint_angles.size(), state.joint_angles.begin());
+  state.grip = message.grip;
+  state.is_enabled = message.enabled != 0;
+  state.obeys_another = message.obeys_another != 0;
+  state.limits = reasons_of(message.glove_reasons);
+  state.command_age = std::chrono::nanoseconds(message.glove_command_age_ns);
+  state.link_delay = std::chrono::nanoseconds(message.link_delay_ns);
+  state.energy = message.glove_energy_J;
+  return state;
+}
+
+void put_command(const devices::SafeCommand& safe, tick_hand_t& message) {
+  const devices::GloveCommand& command = safe.values();
+  message.command_sequence = command.sequence;
+  message.answered_sequence = command.state_sequence;
+  message.answered_time_ns = command.state_time.count();
+  message.command_time_ns = command.time.count();
+  put(command.f_H_W.data(), message.force_H_W_N);
+  put(command.t_H_W.data(), message.torque_H_W_Nm);
+  put(command.joint_torques.data(), message.joint_torques_Nm);
+  message.supply_J = command.supply;
+  message.reasons = bits_of(safe.reasons());
+  message.state_age_ns = safe.age().count();
+  message.energy_J = safe.energy();
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode(const TickRecord& record) {
+  haptic_tick_t message{};
+  message.version = haptic_tick_t::VERSION;
+  message.number = record.number;
+  message.sequence = record.sequence;
+  message.deadline_ns = record.deadline.count();
+  message.time_ns = record.time.count();
+  message.duration_ns = record.duration.count();
+  message.stopped = record.is_stopped ? 1 : 0;
+  message.set_sequence = record.set_sequence;
+  for (const HoldRequest& request : record.requests.all()) {
+    hold_request_t& entry = message.requests.emplace_back();
+    entry.hand = request.hand;
+    entry.part = request.part;
+  }
+  for (std::size_t h = 0; h < static_cast<std::size_t>(record.hand_count); ++h) {
+    tick_hand_t& hand = message.hands.emplace_back();
+    if (record.has_state[h]) put_state(record.states[h], hand);
+    if (record.has_state[h]) put_command(record.tick.hands[h].command, hand);
+  }
+  for (std::size_t p = 0; p < static_cast<std::size_t>(record.part_count); ++p)
+    message.ghosts.push_back(ghost_message(record.tick.ghosts.parts[p]));
+  message.request_count = static_cast<std::int32_t>(message.requests.size());
+  message.hand_count = record.hand_count;
+  message.part_count = record.part_count;
+  return to_checked_bytes(message);
+}
+
+std::optional<TickRecord> decode_tick(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::int32_t, 3> kLargest{HoldRequests::kMost, kMaxHands, kMaxParts};
+  const auto message = from_checked_bytes<haptic_tick_t>(bytes, kLargest);
+  if (!message) return std::nullopt;
+  TickRecord record;
+  record.number = message->number;
+  record.sequence = message->sequence;
+  record.deadline = std::chrono::nanoseconds(message->deadline_ns);
+  record.time = std::chrono::nanoseconds(message->time_ns);
+  record.duration = std::chrono::nanoseconds(message->duration_ns);
+  record.is_stopped = message->stopped != 0;
+  record.set_sequence = message->set_sequence;
+  record.hand_count = message->hand_count;
+  for (const hold_request_t& request : message->requests)
+    record.requests.add({request.hand, request.part});
+  for (std::size_t h = 0; h < message->hands.size(); ++h) {
+    record.has_state[h] = message->hands[h].has_state != 0;
+    if (record.has_state[h]) record.states[h] = state_of(message->hands[h]);
+  }
+  return record;
+}
+
+}  // namespace glissade::haptics
