@@ -12,8 +12,8 @@
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/html_report.h>
-#include <glissade/apps/progress.h>
 #include <glissade/apps/scene_file.h>
+#include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
@@ -83,11 +83,15 @@ Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_
   const auto bus = std::make_shared<devices::LcmBus>(options.lcm_url);
   realtime::SteadyClock clock;
   devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script.X_WH, script.with_grip({})), clock);
-  ProgressBar progress("real time", ticks);
+  StatusLine line;
   return run_session(
       demo.scene, bus,
       {.choice = options.choice, .seconds = 1e-3 * static_cast<double>(ticks), .period = haptics::kTickPeriod},
-      &StopSignal::requested, [&](const RunNews& news) { progress.update(news.ticks); });
+      &StopSignal::requested, [&](const RunNews& news) {
+        for (const std::string& sentence : news.sentences)
+          line.say("glissade demo: " + sentence);
+        line.show(news.status);
+      });
 }
 
 int run(const DemoOptions& options) {

@@ -17,8 +17,8 @@
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/html_report.h>
 #include <glissade/apps/lcm_option.h>
-#include <glissade/apps/say.h>
 #include <glissade/apps/scene_file.h>
+#include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
 
@@ -116,17 +116,18 @@ class Announcer {
     if (news.awaited_device && news.awaited_device != told_to_await_) {
       told_to_await_ = news.awaited_device;
       const bool is_only = settings_.hands.size() == 1;
-      say("glissade run: waiting for " + (is_only ? "a glove" : "glove " + std::to_string(*news.awaited_device)) +
-          " at " + url_);
+      line_.say("glissade run: waiting for " + (is_only ? "a glove" : "glove " + std::to_string(*news.awaited_device)) +
+                " at " + url_);
     }
     if (news.ticks == 0 && bus_.refused_packets() > 0 && !std::exchange(said_that_it_refuses_, true)) {
-      say("glissade run: packets are refused: they come from elsewhere, or were made with another key");
+      line_.say("glissade run: packets are refused: they come from elsewhere, or were made with another key");
     }
     if (news.ticks > 0 && !std::exchange(said_that_it_holds_, true)) {
-      say("glissade run: " + held_text(settings_, scene_));
+      line_.say("glissade run: " + held_text(settings_, scene_));
     }
     for (const std::string& sentence : news.sentences)
-      say("glissade run: " + sentence);
+      line_.say("glissade run: " + sentence);
+    line_.show(news.status);
   }
 
  private:
@@ -135,6 +136,7 @@ class Announcer {
   const devices::LcmBus& bus_;
   std::string url_;
   std::optional<std::int64_t> told_to_await_;
+  StatusLine line_;
   bool said_that_it_refuses_ = false;
   bool said_that_it_holds_ = false;
 };

@@ -42,7 +42,8 @@ class Demo : public testing::Test {
     arguments.insert(arguments.begin(), {"demo", "--json"});
     const ProgramResult result = test_support::glissade(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.standard_error;
-    EXPECT_EQ(result.standard_error, "");
+    // A machine that is busy makes events, but a file is no terminal: there is no line that is renewed.
+    EXPECT_EQ(result.standard_error.find_first_of("\r\033"), std::string::npos) << result.standard_error;
     return nlohmann::json::parse(result.standard_output);
   }
 
