@@ -49,6 +49,7 @@ struct DemoOptions {
   std::string scene;
   bool offline = false;
   bool json = false;
+  bool verbose = false;
   std::string lcm_url = "memq://";
   std::string report;
   SlidingChoice choice;
@@ -103,7 +104,7 @@ int run(const DemoOptions& options) {
                                           : run_in_real_time(demo, script, ticks, options);
   conclude(session, demo.scene,
            "glissade demo: " + demo.scene.parts.front().name + (options.offline ? ", offline" : ""), options.json,
-           options.report);
+           options.verbose, options.report);
   return 0;
 }
 
@@ -119,6 +120,7 @@ void add_demo_command(CLI::App& app, Command& chosen) {
   CLI::Option* offline =
       command->add_flag("--offline", options->offline, "Run deterministically, on a simulated clock, in one thread");
   command->add_flag("--json", options->json, "Print the summary as JSON");
+  command->add_flag("--verbose", options->verbose, kVerboseHelp);
   command->add_option("--lcm", options->lcm_url, "LCM address that glove and haptic server share")
       ->capture_default_str()
       ->excludes(offline);

@@ -2,7 +2,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -60,6 +59,7 @@ struct RunOptions {
   double seconds = 0.0;
   double rate_hz = 0.0;
   bool json = false;
+  bool verbose = false;
   std::string report;
 };
 
@@ -158,7 +158,7 @@ int run(const RunOptions& options) {
   Announcer announcer(settings, scene, *bus, options.lcm.url);
   const Session session =
       run_session(scene, bus, settings, &StopSignal::requested, [&](const RunNews& news) { announcer.tell(news); });
-  conclude(session, scene, "glissade run: " + scene.part_names(), options.json, options.report);
+  conclude(session, scene, "glissade run: " + scene.part_names(), options.json, options.verbose, options.report);
   return 0;
 }
 
@@ -171,7 +171,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
   add_lcm_options(*command, options->lcm);
   command->add_option("--device", options->devices, "Numbers of the gloves, one for each hand, at most four")
-      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
+      ->check(glove_number())
       ->capture_default_str();
   command->add_option("--hold", options->holds,
                       "GLOVE=PART: the part that the hand in this glove takes; GLOVE= takes none");
@@ -181,6 +181,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
   command->add_option("--rate-hz", options->rate_hz,
                       "Rate of the haptic loop, 500 to 5000 ticks a second; default: that of the glove");
   command->add_flag("--json", options->json, "Print the summary as JSON");
+  command->add_flag("--verbose", options->verbose, kVerboseHelp);
   command->add_option("--report", options->report,
                       "Folder for a page, index.html, with the summary and plots of force, lag (distance from the "
                       "visible part to the pose that the hand asks for) and states");
