@@ -49,6 +49,19 @@ TEST_F(Envelope, GivesWhatBodiesThatMoveSupply) {
   }
 }
 
+TEST_F(Envelope, KeepsNoSupplyWhileThereIsNoForce) {
+  push_at(0.0, 800);
+  state_.is_enabled = false;
+  push_at(0.0, 50);
+  double supply = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    supply += 0.01;
+    EXPECT_LE(push_at(0.0, 1, supply).energy(), 0.1) << i;
+  }
+  state_.is_enabled = true;
+  EXPECT_EQ(push_at(0.0, 1000, supply).energy(), 0.1);
+}
+
 TEST_F(Envelope, KeepsAsADebtWhatOthersTook) {
   push_at(0.0, 800, 1.0);
   EXPECT_NEAR(push_at(0.0, 200, 0.7).energy(), -0.2, 1e-9);

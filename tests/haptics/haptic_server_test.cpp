@@ -103,6 +103,7 @@ TEST_F(Server, PressesThePartOnThePlateAndSendsTheForces) {
 
   EXPECT_EQ(count, kTicks);
   EXPECT_GE(server.statistics().haptic.ticks, kTicks);
+  EXPECT_EQ(server.late_ticks(), static_cast<std::int64_t>(server.statistics().haptic.late_ticks));
   EXPECT_GT(
       std::max_element(samples.begin(), samples.end(),
                        [](const auto& a, const auto& b) { return a.hands[0].force_W.z() < b.hands[0].force_W.z(); })
@@ -200,6 +201,14 @@ TEST_F(Server, LetsGoAndTakesHoldWhenItIsTold) {
   EXPECT_FALSE(server.grasp(0, 1)) << "there is no such part";
   EXPECT_FALSE(server.grasp(1, 0)) << "nor such a hand";
   EXPECT_FALSE(server.release(1));
+}
+
+TEST_F(Server, CallsThatNeverEndHoldNoTickUp) {
+  HapticServer server({{device_.get()}}, *sliding_, clock_, [](const devices::HapticState&) {});
+  while (server.ticks() < 200)
+    server.grasp(0, 0);
+  server.stop();
+  EXPECT_GE(server.ticks(), 200);
 }
 
 TEST_F(Server, RefusesAnEmptySink) {
