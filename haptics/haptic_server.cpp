@@ -68,14 +68,13 @@ bool HapticServer::read_devices() noexcept {
 }
 
 void HapticServer::take_events() noexcept {
-  Event event;
-  for (std::size_t i = 0; i < events_.capacity() && events_.pop(event); ++i) {
+  events_.pop_waiting([this](const Event& event) {
     if (event.part) {
       kernel_.grasp(event.hand, *event.part);
     } else {
       kernel_.release(event.hand);
     }
-  }
+  });
 }
 
 bool HapticServer::haptic_tick(const realtime::PeriodicTick& timing) noexcept {
