@@ -12,8 +12,8 @@
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/html_report.h>
-#include <glissade/apps/progress.h>
 #include <glissade/apps/scene_file.h>
+#include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
@@ -49,6 +49,7 @@ struct DemoOptions {
   std::string scene;
   bool offline = false;
   bool json = false;
+  bool verbose = false;
   std::string lcm_url = "memq://";
   std::string report;
   SlidingChoice choice;
@@ -83,11 +84,15 @@ Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_
   const auto bus = std::make_shared<devices::LcmBus>(options.lcm_url);
   realtime::SteadyClock clock;
   devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script.X_WH, script.with_grip({})), clock);
-  ProgressBar progress("real time", ticks);
+  StatusLine line;
   return run_session(
       demo.scene, bus,
       {.choice = options.choice, .seconds = 1e-3 * static_cast<double>(ticks), .period = haptics::kTickPeriod},
-      &StopSignal::requested, [&](const RunNews& news) { progress.update(news.ticks); });
+      &StopSignal::requested, [&](const RunNews& news) {
+        for (const std::string& sentence : news.sentences)
+          line.say("glissade demo: " + sentence);
+        line.show(news.status);
+      });
 }
 
 int run(const DemoOptions& options) {
@@ -99,7 +104,7 @@ int run(const DemoOptions& options) {
                                           : run_in_real_time(demo, script, ticks, options);
   conclude(session, demo.scene,
            "glissade demo: " + demo.scene.parts.front().name + (options.offline ? ", offline" : ""), options.json,
-           options.report);
+           options.verbose, options.report);
   return 0;
 }
 
@@ -115,6 +120,7 @@ void add_demo_command(CLI::App& app, Command& chosen) {
   CLI::Option* offline =
       command->add_flag("--offline", options->offline, "Run deterministically, on a simulated clock, in one thread");
   command->add_flag("--json", options->json, "Print the summary as JSON");
+  command->add_flag("--verbose", options->verbose, kVerboseHelp);
   command->add_option("--lcm", options->lcm_url, "LCM address that glove and haptic server share")
       ->capture_default_str()
       ->excludes(offline);

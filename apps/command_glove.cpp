@@ -12,10 +12,9 @@
 #include <glissade/apps/command.h>
 #include <glissade/apps/csv.h>
 #include <glissade/apps/embedded_scene.h>
+#include <glissade/apps/glove_watch.h>
 #include <glissade/apps/lcm_option.h>
-#include <glissade/apps/progress.h>
-#include <glissade/apps/reason_teller.h>
-#include <glissade/apps/say.h>
+#include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
@@ -112,7 +111,7 @@ int run(const GloveOptions& options) {
   realtime::SteadyClock clock;
   std::optional<GloveRecord> record;
   if (!options.record.empty()) record.emplace(options.record);
-  ReasonTeller teller;
+  GloveWatch watch;
   devices::SimulatedGloveParameters parameters = script.with_grip({});
   parameters.frozen = std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::duration<double, std::milli>(options.frozen_ms));
@@ -121,30 +120,30 @@ int run(const GloveOptions& options) {
                                        {.device = options.device, .side = side},
                                        [&](const devices::GloveState& state, const devices::SafeCommand& command) {
                                          if (record) record->push(state, command);
-                                         const bool has_server = command.values().sequence > 0;
-                                         if (has_server) teller.note(command);
                                          // The main thread may be held up by a reader of the output.
-                                         return !StopSignal::requested();
+                                         const bool goes_on = !StopSignal::requested();
+                                         const bool has_server = command.values().sequence > 0;
+                                         if (has_server && goes_on) watch.note(state.time, command);
+                                         return goes_on;
                                        });
 
-  say("glissade glove: the " + options.side + " hand waits for a server at " + options.lcm.url);
-  const auto milliseconds = [](std::chrono::nanoseconds time) { return time / std::chrono::milliseconds(1); };
-  {
-    ProgressBar progress("script", milliseconds(duration));
-    while (glove.script_time() < duration && !StopSignal::requested()) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-      progress.update(milliseconds(glove.script_time()));
-      if (record) record->write();
-      const std::string news = teller.news();
-      if (!news.empty()) say("glissade glove: " + news);
-    }
+  StatusLine line;
+  line.say("glissade glove: the " + options.side + " hand waits for a server at " + options.lcm.url);
+  for (int i = 0; glove.script_time() < duration && !StopSignal::requested(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (record) record->write();
+    for (const std::string& event : watch.events())
+      line.say("glissade glove: " + event);
+    constexpr int kStatusTurns = 5;
+    if (i % kStatusTurns == 0) line.show(watch.status(glove.script_time(), duration));
   }
+  line.show({});
   glove.stop();
   if (record) record->close();
   const devices::LinkStatistics link = glove.link_statistics();
-  std::cout << "glissade glove: " << milliseconds(glove.script_time()) << " ms of the script, " << link.accepted
-            << " commands (" << link.lost << " lost, " << link.rejected() << " refused), greatest force "
-            << format_number(glove.greatest_force()) << " N\n";
+  std::cout << "glissade glove: " << glove.script_time() / std::chrono::milliseconds(1) << " ms of the script, "
+            << link.accepted << " commands (" << link.lost << " lost, " << link.rejected()
+            << " refused), greatest force " << format_number(glove.greatest_force()) << " N\n";
   return 0;
 }
 

@@ -2,7 +2,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -17,8 +16,8 @@
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/html_report.h>
 #include <glissade/apps/lcm_option.h>
-#include <glissade/apps/say.h>
 #include <glissade/apps/scene_file.h>
+#include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
 
@@ -60,6 +59,7 @@ struct RunOptions {
   double seconds = 0.0;
   double rate_hz = 0.0;
   bool json = false;
+  bool verbose = false;
   std::string report;
 };
 
@@ -116,17 +116,18 @@ class Announcer {
     if (news.awaited_device && news.awaited_device != told_to_await_) {
       told_to_await_ = news.awaited_device;
       const bool is_only = settings_.hands.size() == 1;
-      say("glissade run: waiting for " + (is_only ? "a glove" : "glove " + std::to_string(*news.awaited_device)) +
-          " at " + url_);
+      line_.say("glissade run: waiting for " + (is_only ? "a glove" : "glove " + std::to_string(*news.awaited_device)) +
+                " at " + url_);
     }
     if (news.ticks == 0 && bus_.refused_packets() > 0 && !std::exchange(said_that_it_refuses_, true)) {
-      say("glissade run: packets are refused: they come from elsewhere, or were made with another key");
+      line_.say("glissade run: packets are refused: they come from elsewhere, or were made with another key");
     }
     if (news.ticks > 0 && !std::exchange(said_that_it_holds_, true)) {
-      say("glissade run: " + held_text(settings_, scene_));
+      line_.say("glissade run: " + held_text(settings_, scene_));
     }
     for (const std::string& sentence : news.sentences)
-      say("glissade run: " + sentence);
+      line_.say("glissade run: " + sentence);
+    line_.show(news.status);
   }
 
  private:
@@ -135,6 +136,7 @@ class Announcer {
   const devices::LcmBus& bus_;
   std::string url_;
   std::optional<std::int64_t> told_to_await_;
+  StatusLine line_;
   bool said_that_it_refuses_ = false;
   bool said_that_it_holds_ = false;
 };
@@ -156,7 +158,7 @@ int run(const RunOptions& options) {
   Announcer announcer(settings, scene, *bus, options.lcm.url);
   const Session session =
       run_session(scene, bus, settings, &StopSignal::requested, [&](const RunNews& news) { announcer.tell(news); });
-  conclude(session, scene, "glissade run: " + scene.part_names(), options.json, options.report);
+  conclude(session, scene, "glissade run: " + scene.part_names(), options.json, options.verbose, options.report);
   return 0;
 }
 
@@ -169,7 +171,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
   add_lcm_options(*command, options->lcm);
   command->add_option("--device", options->devices, "Numbers of the gloves, one for each hand, at most four")
-      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
+      ->check(glove_number())
       ->capture_default_str();
   command->add_option("--hold", options->holds,
                       "GLOVE=PART: the part that the hand in this glove takes; GLOVE= takes none");
@@ -179,6 +181,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
   command->add_option("--rate-hz", options->rate_hz,
                       "Rate of the haptic loop, 500 to 5000 ticks a second; default: that of the glove");
   command->add_flag("--json", options->json, "Print the summary as JSON");
+  command->add_flag("--verbose", options->verbose, kVerboseHelp);
   command->add_option("--report", options->report,
                       "Folder for a page, index.html, with the summary and plots of force, lag (distance from the "
                       "visible part to the pose that the hand asks for) and states");

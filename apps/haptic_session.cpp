@@ -6,7 +6,7 @@
 
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/progress.h>
-#include <glissade/apps/reason_teller.h>
+#include <glissade/apps/run_watch.h>
 #include <glissade/apps/text.h>
 #include <glissade/devices/haptic_state_publisher.h>
 #include <glissade/devices/simulated_glove.h>
@@ -82,11 +82,15 @@ std::vector<devices::GloveInfo> wait_for_gloves(const std::shared_ptr<devices::L
   return infos;
 }
 
-/// A glove of a running session.
-struct Glove {
-  std::unique_ptr<devices::LcmGlove> link;
-  std::unique_ptr<ReasonTeller> teller = std::make_unique<ReasonTeller>();
-};
+RunWatch watch_of(const HapticScene& scene, const RunSettings& settings) {
+  std::vector<std::string> part_names;
+  for (const ScenePart& part : scene.parts)
+    part_names.push_back(part.name);
+  std::vector<RunWatch::Hand> hands;
+  for (const SessionHand& hand : settings.hands)
+    hands.push_back({hand.device, hand.part});
+  return {std::move(part_names), hands, settings.seconds};
+}
 
 }  // namespace
 
@@ -123,39 +127,35 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   const auto recorder = std::make_shared<SessionRecorder>(ticks > 0 ? static_cast<std::size_t>(ticks) : kKeptTicks,
                                                           sliding.part_count(), settings.hands.size());
   devices::HapticStatePublisher publisher(bus);
-  std::vector<Glove> gloves;
+  std::vector<std::unique_ptr<devices::LcmGlove>> gloves;
   std::vector<haptics::HandOfServer> hands;
   std::vector<std::int64_t> numbers;
   for (std::size_t h = 0; h < settings.hands.size(); ++h) {
     const std::int64_t device = settings.hands[h].device;
-    gloves.push_back({std::make_unique<devices::LcmGlove>(
+    gloves.push_back(std::make_unique<devices::LcmGlove>(
         bus, grips[h].device,
-        devices::LcmGloveOptions{.device = device, .glove_session = h < infos.size() ? infos[h].session : 0})});
-    hands.push_back({gloves.back().link.get(), settings.hands[h].part});
+        devices::LcmGloveOptions{.device = device, .glove_session = h < infos.size() ? infos[h].session : 0}));
+    hands.push_back({gloves.back().get(), settings.hands[h].part});
     numbers.push_back(device);
   }
+  RunWatch run_watch = watch_of(scene, settings);
   realtime::SteadyClock clock;
   haptics::HapticServer server(hands, sliding, clock,
                                [&](const devices::HapticState& sample) {
                                  recorder->record(sample);
                                  publisher.push(sample);
-                                 for (std::size_t h = 0; h < gloves.size(); ++h)
-                                   gloves[h].teller->note(sample, h);
+                                 run_watch.note(sample);
                                },
                                {.period = period, .ticks = ticks, .fifo_priority = kFifoPriority});
   realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = kFifoPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
   while (!server.is_done() && !server.has_failed() && !should_stop()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    RunNews news{.ticks = server.ticks()};
-    for (std::size_t h = 0; h < gloves.size(); ++h) {
-      const std::string sentence = gloves[h].teller->news();
-      if (sentence.empty()) continue;
-      news.sentences.push_back(gloves.size() == 1 ? sentence : "glove " + std::to_string(numbers[h]) + ": " + sentence);
-    }
-    watch(news);
+    RunWatch::News news = run_watch.news(server.late_ticks());
+    watch({.ticks = server.ticks(), .sentences = std::move(news.events), .status = std::move(news.status)});
   }
   server.stop();
+  watch({.ticks = server.ticks(), .sentences = run_watch.news(server.late_ticks()).events});
   bare_timer.stop();
   if (server.has_failed()) throw std::runtime_error("the simulation failed: " + server.failure());
   return finished(server.ticks(), period, scene, sliding, numbers, recorder,

@@ -45,7 +45,8 @@ struct RunSettings {
 struct RunNews {
   std::int64_t ticks = 0;                      ///< so far
   std::optional<std::int64_t> awaited_device;  ///< before the first tick: the glove that has not been heard yet
-  std::vector<std::string> sentences;          ///< news of `ReasonTeller` for each hand, and warnings
+  std::vector<std::string> sentences;          ///< events of `RunWatch`, and warnings
+  std::string status;                          ///< of `RunWatch`; empty before the first tick and after the end
 };
 
 /// Runs the haptic server in real time with gloves on `bus`, until its time is over or `should_stop` returns true.

@@ -1,16 +1,32 @@
+#include <charconv>
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/lcm_option.h>
+#include <glissade/apps/text.h>
 
 namespace glissade::apps {
 
+CLI::Validator glove_number() {
+  // CLI::Range would take a number that is too large for the largest.
+  const auto check = [](const std::string& text) -> std::string {
+    std::int64_t number = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error == std::errc{} && stop == text.data() + text.size() && number >= 1) return {};
+    return in_quotes(text) + " is not the number of a glove, from 1 to " +
+           std::to_string(std::numeric_limits<std::int64_t>::max());
+  };
+  return {[check](std::string& text) { return check(text); }, "GLOVE"};
+}
+
 void add_device_option(CLI::App& command, std::int64_t& device) {
   command.add_option("--device", device, "Number of the glove; each glove at an LCM address needs one of its own")
-      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
+      ->check(glove_number())
       ->capture_default_str();
 }
 

@@ -10,7 +10,8 @@
 
 namespace CLI {
 class App;
-}
+class Validator;
+}  // namespace CLI
 
 namespace glissade::apps {
 
@@ -24,6 +25,8 @@ void add_lcm_options(CLI::App& command, LcmAddress& address);
 /// `read_lcm_key` do.
 std::shared_ptr<devices::LcmBus> open_bus(const LcmAddress& address);
 
+/// Accepts the number of a glove, from 1 to the largest of 64 bits.
+CLI::Validator glove_number();
 /// Adds --device, the number of a glove.
 void add_device_option(CLI::App& command, std::int64_t& device);
 

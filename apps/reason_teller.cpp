@@ -1,80 +1,54 @@
 #include <glissade/apps/reason_teller.h>
-#include <glissade/haptics/contact_set.h>
 
 namespace glissade::apps {
 
 namespace {
 
-/// Number of the most serious reason.
-std::size_t first_reason(const devices::LimitReasons& reasons) {
-  std::size_t i = 0;
-  while (i < devices::kLimitReasons.size() && !(reasons.*devices::kLimitReasons[i].flag))
-    ++i;
-  return i;
-}
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kQuiet = std::chrono::seconds(5);
+constexpr nanoseconds kBackForGood = std::chrono::milliseconds(500);
+constexpr nanoseconds kLastingLimit = std::chrono::milliseconds(100);
 
 }  // namespace
 
-void ReasonTeller::note(const devices::HapticState& sample, std::size_t number) noexcept {
-  const devices::HapticHandState& hand = sample.hands[number];
-  Fading fading;
-  if (hand.reasons.is_fading()) {
-    fading = {Cause::kEnvelope, hand.reasons, hand.state_age};
-  } else if (sample.contact_set_age > haptics::kFullForce) {
-    fading = {Cause::kOldContacts, {}, sample.contact_set_age};
-  } else if (hand.glove_reasons.is_fading()) {
-    fading = {Cause::kGlove, hand.glove_reasons, hand.command_age};
-  } else if (hand.are_contacts_unsolved) {
-    fading.cause = Cause::kUnsolved;
-  } else if (hand.part >= 0 && hand.contact_share < 0.5) {
-    fading.cause = Cause::kLagging;
+void ReasonTeller::note(nanoseconds time, const ForceReason& reason) noexcept {
+  // A change that finds no room is noted in the next tick.
+  const std::size_t kind = reason.kind();
+  if (kind != noted_kind_ && changes_.push({time, reason})) noted_kind_ = kind;
+  noted_time_.store(time, std::memory_order_release);
+}
+
+std::vector<TimedSentence> ReasonTeller::news() {
+  std::vector<TimedSentence> sentences;
+  Change change;
+  while (changes_.pop(change)) {
+    if (present_.reason.is_fading() && !change.reason.is_fading()) back_since_ = change.time;
+    present_ = change;
+    if (present_.reason.is_fading()) tell_present(present_.time, sentences);
   }
-  note(fading);
-}
-
-void ReasonTeller::note(const devices::SafeCommand& command) noexcept {
-  Fading fading;
-  if (command.reasons().is_fading()) fading = {Cause::kEnvelope, command.reasons(), command.age()};
-  note(fading);
-}
-
-void ReasonTeller::note(const Fading& fading) noexcept {
-  const bool is_fading = fading.cause != Cause::kNone;
-  if (is_fading) fading_.publish(fading);
-  is_fading_.store(is_fading, std::memory_order_release);
-}
-
-std::string ReasonTeller::news() {
-  const bool is_fading = is_fading_.load(std::memory_order_acquire);
-  if (fading_.update()) {
-    const Fading& newest = fading_.value();
-    const std::pair reason(newest.cause, first_reason(newest.reasons));
-    if (told_ == reason) return {};
-    told_ = reason;
-    return text(newest);
+  const nanoseconds now = noted_time_.load(std::memory_order_acquire);
+  if (present_.reason.is_fading()) {
+    tell_present(now, sentences);  // it may have begun too soon after it was told last
+    return sentences;
   }
-  if (is_fading || !told_) return {};
-  told_.reset();
-  return "the force returns";
+  const bool is_limited = present_.reason.cause != ForceReason::Cause::kNone;
+  if (is_limited && now - present_.time >= kLastingLimit) tell_present(now, sentences);
+  if (told_fade_ && now - back_since_ >= kBackForGood) {
+    told_fade_.reset();
+    sentences.push_back({back_since_, "the force returns"});
+  }
+  return sentences;
 }
 
-std::string ReasonTeller::text(const Fading& fading) {
-  switch (fading.cause) {
-    case Cause::kNone:
-      break;
-    case Cause::kEnvelope:
-      return to_text(fading.reasons, fading.age);
-    case Cause::kOldContacts:
-      return "reduced force: the simulation's contacts are " +
-             std::to_string(fading.age / std::chrono::milliseconds(1)) + " ms old";
-    case Cause::kGlove:
-      return "at the glove, " + to_text(fading.reasons, fading.age);
-    case Cause::kUnsolved:
-      return "reduced force: no pose of the part satisfies all contacts";
-    case Cause::kLagging:
-      return "reduced force: the part lags behind the hand, or has just caught up";
-  }
-  return {};
+void ReasonTeller::tell_present(nanoseconds now, std::vector<TimedSentence>& sentences) {
+  const std::size_t kind = present_.reason.kind();
+  std::optional<nanoseconds>& told = told_[kind];
+  const bool goes_on = told_fade_ == kind || told == present_.time;
+  if (goes_on || (told && now - *told < kQuiet)) return;
+  told = present_.time;
+  if (present_.reason.is_fading()) told_fade_ = kind;
+  sentences.push_back({present_.time, to_text(present_.reason)});
 }
 
 }  // namespace glissade::apps

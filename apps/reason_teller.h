@@ -1,47 +1,55 @@
 #pragma once
 
-/// Tells the user in a sentence why the hand gets no force, or less than the contacts demand.
+/// Tells the user in sentences why the force of a hand fades, when it is back, and which limits bound it.
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <utility>
+#include <vector>
 
-#include <glissade/devices/haptic_state.h>
-#include <glissade/devices/safety_envelope.h>
-#include <glissade/realtime/triple_buffer.h>
+#include <glissade/apps/force_reason.h>
+#include <glissade/realtime/spsc_ring.h>
 
 namespace glissade::apps {
 
+struct TimedSentence {
+  std::chrono::nanoseconds time{0};
+  std::string text;
+};
+
+/// Each sentence has the time at which its reason began. A reason that comes and goes is told once in five seconds, and
+/// the return of the force once it has lasted half a second. A limit is told when it lasts a tenth of a second.
 class ReasonTeller {
  public:
-  /// At a server, in every tick, in the haptic thread, for the hand with this number. Wait-free, no allocation.
-  void note(const devices::HapticState& sample, std::size_t hand) noexcept;
-  /// At a glove, in every period, in its thread. Wait-free, no allocation.
-  void note(const devices::SafeCommand& command) noexcept;
+  /// In every tick, with times that rise. One thread. Wait-free, no allocation.
+  void note(std::chrono::nanoseconds time, const ForceReason& reason) noexcept;
 
-  /// A sentence if the force has faded since the last call and for another reason than was told last. "the force
-  /// returns" once after such a sentence; otherwise an empty text. One thread, some times a second.
-  std::string news();
+  /// What is to be told since the last call. One thread, some times a second.
+  std::vector<TimedSentence> news();
 
  private:
-  /// What lets the force fade, the most serious first.
-  enum class Cause { kNone, kEnvelope, kOldContacts, kGlove, kUnsolved, kLagging };
-
-  struct Fading {
-    Cause cause = Cause::kNone;
-    devices::LimitReasons reasons;    // of the envelope here, or of that at the glove
-    std::chrono::nanoseconds age{0};  // of the command or of the contacts
+  struct Change {
+    std::chrono::nanoseconds time{0};
+    ForceReason reason;
   };
 
-  void note(const Fading& fading) noexcept;
-  static std::string text(const Fading& fading);
+  void tell_present(std::chrono::nanoseconds now, std::vector<TimedSentence>& sentences);
 
-  realtime::TripleBuffer<Fading> fading_;
-  std::atomic<bool> is_fading_{false};
-  std::optional<std::pair<Cause, std::size_t>> told_;  // with the number of the most serious reason
+  // The thread that notes.
+  std::size_t noted_kind_ = 0;
+
+  // Shared.
+  realtime::SpscRing<Change> changes_{1024};
+  std::atomic<std::chrono::nanoseconds> noted_time_{std::chrono::nanoseconds(0)};
+
+  // The thread that tells.
+  Change present_;
+  std::chrono::nanoseconds back_since_{0};  // the force, if it does not fade
+  std::optional<std::size_t> told_fade_;    // its kind, until the return is told
+  std::array<std::optional<std::chrono::nanoseconds>, ForceReason::kKinds> told_;
 };
 
 }  // namespace glissade::apps

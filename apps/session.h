@@ -117,15 +117,19 @@ SessionSummary summarize(const Session& session, const HapticScene& scene);
 
 /// The summary as one JSON object; figures that an offline run does not have are null.
 nlohmann::json to_json(const SessionSummary& summary, const Session& session);
-/// The summary as lines of text.
-std::string to_text(const SessionSummary& summary, const Session& session);
+/// The summary as lines of text; with the stages of the search for contacts and the hash, if it is `verbose`.
+std::string to_text(const SessionSummary& summary, const Session& session, bool verbose);
 /// An HTML page with the summary and the plots of force, lag and states in `folder`; returns its path.
 std::string write_session_report(const SessionSummary& summary, const Session& session, const std::string& title,
                                  const std::string& folder);
 
+/// Help on the option --verbose.
+inline constexpr const char* kVerboseHelp =
+    "Add the stages of the search for contacts and the hash of the run to the summary";
+
 /// Prints the summary as text or JSON, and writes the report unless `report_folder` is empty. Throws std::runtime_error
 /// when a visible pose collides.
-void conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json,
+void conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json, bool verbose,
               const std::string& report_folder);
 
 }  // namespace glissade::apps

@@ -57,6 +57,7 @@ std::string stage_text(const collision::StageReport& stage, std::int64_t frames)
 // Cost of the searches for contacts, one frame of the collision pipeline each.
 void add_collision_rows(const Session& session, Rows& rows) {
   const std::int64_t frames = session.collision_frames;
+  if (frames == 0) return;
   const collision::FrameReport& sum = session.collision;
   rows.emplace_back("collision frames", formatted("%lld, %.1f us each", static_cast<long long>(frames),
                                                   microseconds(sum.total) / static_cast<double>(frames)));
@@ -114,7 +115,8 @@ void add_hand_rows(const HandSummary& hand, const std::string& name, double tick
   rows.emplace_back("  time with reduced force", limits_text(hand, tick_s));
 }
 
-Rows rows_of(const SessionSummary& summary, const Session& session) {
+Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose) {
+  if (summary.samples == 0) return {{"ticks", "0: the run ended before the first state of a glove"}};
   Rows rows;
   rows.emplace_back("objects", std::to_string(session.objects));
   rows.emplace_back("ticks", std::to_string(summary.ticks));
@@ -127,6 +129,7 @@ Rows rows_of(const SessionSummary& summary, const Session& session) {
     rows.emplace_back("seat reached", formatted("%s, %.3f mm from it", *summary.seat_reached ? "yes" : "no",
                                                 1e3 * summary.seat_distance_m));
   }
+  if (!verbose) return rows;
   add_collision_rows(session, rows);
   rows.emplace_back("hash", hash_text(summary.hash));
   return rows;
@@ -234,7 +237,8 @@ nlohmann::json to_json(const HandSummary& hand, double tick_s) {
 
 nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
   const auto stage = [&](const collision::StageReport& sum) {
-    const auto each = [&](auto value) {
+    const auto each = [&](auto value) -> nlohmann::json {
+      if (session.collision_frames == 0) return nullptr;
       return static_cast<double>(value) / static_cast<double>(session.collision_frames);
     };
     return nlohmann::json{{"in", each(sum.in)}, {"out", each(sum.out)}, {"us", each(microseconds(sum.time))}};
@@ -290,25 +294,25 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
   return json;
 }
 
-std::string to_text(const SessionSummary& summary, const Session& session) {
+std::string to_text(const SessionSummary& summary, const Session& session, bool verbose) {
   std::string text;
-  for (const auto& [name, value] : rows_of(summary, session))
+  for (const auto& [name, value] : rows_of(summary, session, verbose))
     text += formatted("  %-28s %s\n", name.c_str(), value.c_str());
   return text;
 }
 
 std::string write_session_report(const SessionSummary& summary, const Session& session, const std::string& title,
                                  const std::string& folder) {
-  return write_html_report({title, rows_of(summary, session), plots_of(summary, session)}, folder);
+  return write_html_report({title, rows_of(summary, session, true), plots_of(summary, session)}, folder);
 }
 
-void conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json,
+void conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json, bool verbose,
               const std::string& report_folder) {
   const SessionSummary summary = summarize(session, scene);
   if (as_json) {
     std::cout << to_json(summary, session).dump(2) << '\n';
   } else {
-    std::cout << title << '\n' << to_text(summary, session);
+    std::cout << title << '\n' << to_text(summary, session, verbose);
   }
   if (!report_folder.empty()) {
     const std::string page = write_session_report(summary, session, title, report_folder);

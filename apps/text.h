@@ -15,6 +15,9 @@ std::optional<double> parse_number(std::string_view text);
 /// The shortest decimal text that reads back as exactly `value`.
 std::string format_number(double value);
 
+/// `value` with so many digits after the point.
+std::string fixed_text(double value, int decimals);
+
 /// `text` in single quotes, fit for a one-line message: control characters are replaced and long texts cut short.
 std::string in_quotes(std::string_view text);
 

@@ -48,7 +48,7 @@ enum class HandSide : std::int32_t { kUnknown = 0, kLeft = 1, kRight = 2 };
 
 /// Reasons why a command differs from the wanted one. The first seven let the force fade to zero.
 struct LimitReasons {
-  bool is_stopped = false;      ///< emergency stop
+  bool is_stopped = false;      ///< stopped for good: an emergency stop, or the end of the program
   bool is_disabled = false;     ///< the wearer does not hold the enable switch
   bool is_refused = false;      ///< the glove obeys another server
   bool not_finite = false;      ///< a number of the wanted command or of the state is NaN or infinite

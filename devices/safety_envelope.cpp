@@ -391,7 +391,7 @@ std::string age_text(nanoseconds age) {
 
 std::string to_text(const LimitReasons& reasons, nanoseconds age) {
   const std::string old = age_text(age);
-  if (reasons.is_stopped) return "no force: emergency stop";
+  if (reasons.is_stopped) return "no force: it was stopped for good";
   if (reasons.is_disabled) return "no force: the wearer does not hold the enable switch";
   if (reasons.is_refused) return "no force: the glove obeys another server";
   if (reasons.not_finite) return "no force: a number of the glove's state or of the command is not finite";

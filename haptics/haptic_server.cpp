@@ -69,6 +69,7 @@ void HapticServer::take_requests() noexcept {
 }
 
 bool HapticServer::haptic_tick(const realtime::PeriodicTick& timing) noexcept {
+  if (timing.start - timing.deadline >= options_.period) late_ticks_.fetch_add(1, std::memory_order_relaxed);
   const bool should_end = should_end_.load(std::memory_order_relaxed);
   if (!read_devices()) return !should_end;
   const bool is_ending = should_end || (options_.ticks > 0 && ticks() == options_.ticks);

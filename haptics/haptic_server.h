@@ -106,6 +106,10 @@ class HapticServer {
   /// Number of counted ticks so far. Wait-free, any thread.
   std::int64_t ticks() const noexcept { return ticks_.load(std::memory_order_relaxed); }
 
+  /// Number of ticks of the haptic thread so far, counted or not, that began a period or more late. Wait-free, any
+  /// thread.
+  std::int64_t late_ticks() const noexcept { return late_ticks_.load(std::memory_order_relaxed); }
+
   /// Lets the force fade and stops both threads. May block for some ticks and one call of the simulation.
   void stop();
 
@@ -145,6 +149,7 @@ class HapticServer {
   realtime::TripleBuffer<ContactSet> sets_;
 
   std::atomic<std::int64_t> ticks_{0};
+  std::atomic<std::int64_t> late_ticks_{0};
   std::atomic<bool> done_{false};
   std::atomic<bool> should_end_{false};
   std::atomic<bool> emergency_{false};

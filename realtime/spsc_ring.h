@@ -58,6 +58,15 @@ class SpscRing {
     return true;
   }
 
+  /// Consumer: calls `take` with each value that waits at the time of the call, the oldest first. Values pushed
+  /// meanwhile wait for the next call, so a producer that never ends holds nobody up.
+  template <typename Take>
+  void pop_waiting(Take&& take) {
+    std::uint64_t waiting = end_.load(std::memory_order_acquire) - begin_.load(std::memory_order_relaxed);
+    for (T value{}; waiting > 0 && pop(value); --waiting)
+      take(value);
+  }
+
   /// Any thread: number of values dropped so far.
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 

@@ -105,9 +105,6 @@ class FieldCheck {
   void between(std::int32_t value, std::int32_t least, std::int32_t largest) noexcept {
     is_in_range_ = is_in_range_ && value >= least && value <= largest;
   }
-  void one_of(std::int32_t value, std::int32_t largest) noexcept {
-    is_in_range_ = is_in_range_ && value >= 0 && value <= largest;
-  }
 
   MessageError result() const noexcept {
     if (!is_finite_) return MessageError::kNotFinite;
@@ -125,8 +122,8 @@ MessageError check(const glove_state_t& message) noexcept {
   fields.not_negative(message.leaseholder);
   fields.not_negative(message.sequence);
   fields.time(message.time_ns);
-  fields.one_of(message.side, glove_state_t::SIDE_RIGHT);
-  fields.one_of(message.enabled, 1);
+  fields.between(message.side, 0, glove_state_t::SIDE_RIGHT);
+  fields.between(message.enabled, 0, 1);
   fields.not_negative(message.grip);
   fields.magnitude(message.position_WH_m, kLargestPosition);
   fields.unit_quaternion(message.orientation_WH_wxyz);
@@ -195,8 +192,8 @@ MessageError check(const haptic_state_t& message) noexcept {
   fields.not_negative(message.sequence);
   fields.not_negative(message.time_ns);
   fields.not_negative(message.contact_set_age_ns);
-  fields.one_of(message.part_count, static_cast<std::int32_t>(kHapticParts));
-  fields.one_of(message.hand_count, static_cast<std::int32_t>(kHapticHands));
+  fields.between(message.part_count, 0, static_cast<std::int32_t>(kHapticParts));
+  fields.between(message.hand_count, 0, static_cast<std::int32_t>(kHapticHands));
   for (const haptic_part_t& part : message.parts) {
     fields.magnitude(part.position_WG_m, kLargestPosition);
     fields.unit_quaternion(part.orientation_WG_wxyz);
@@ -344,8 +341,8 @@ MessageError decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexce
   fields.positive(message.session);
   fields.time(message.frozen_ns);
   fields.time(message.delay_ns);
-  fields.one_of(message.side, glove_state_t::SIDE_RIGHT);
-  fields.one_of(message.name[std::size(message.name) - 1], 0);
+  fields.between(message.side, 0, glove_state_t::SIDE_RIGHT);
+  fields.between(message.name[std::size(message.name) - 1], 0, 0);
   DeviceDescriptor descriptor;
   for_each_limit(message, descriptor, [](double sent, double& value) { value = sent; });
   descriptor.frozen = std::chrono::nanoseconds(message.frozen_ns);

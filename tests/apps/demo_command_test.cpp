@@ -42,7 +42,8 @@ class Demo : public testing::Test {
     arguments.insert(arguments.begin(), {"demo", "--json"});
     const ProgramResult result = test_support::glissade(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.standard_error;
-    EXPECT_EQ(result.standard_error, "");
+    // A machine that is busy makes events, but a file is no terminal: there is no line that is renewed.
+    EXPECT_EQ(result.standard_error.find_first_of("\r\033"), std::string::npos) << result.standard_error;
     return nlohmann::json::parse(result.standard_output);
   }
 
@@ -145,6 +146,10 @@ TEST_F(Demo, RefusesWhatIsWrong) {
   expect_refused({"demo", "--scene", no_part}, {"no_part.yaml", "movable"});
   expect_refused({"demo", "--scene", scene, "--metaphor", "glue"}, {"--metaphor", "'glue'", "rubber-band"});
   expect_refused({"demo", "--scene", scene, "--friction", "0.5", "0.2"}, {"--friction"});
+  for (const char* none : {"99999999999999999999", "9223372036854775808", "0", "-1", "1.5", "left"}) {
+    expect_refused({"run", scene, "--device", none}, {"--device", none, "number of a glove"});
+    expect_refused({"glove", "--device", none}, {"--device", none, "number of a glove"});
+  }
   expect_refused({"run", scene, "--device", "1", "1"}, {"--device", "glove 1", "twice"});
   expect_refused({"run", scene, "--device", "1", "2", "3", "4", "5"}, {"--device", "5 gloves"});
   expect_refused({"run", scene, "--hold", "2=box"}, {"--hold", "'2=box'", "GLOVE=PART"});

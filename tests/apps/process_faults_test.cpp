@@ -202,29 +202,37 @@ TEST_F(BallOnTheWay, ASimulationWithoutMemoryForItLetsTheForceFade) {
   EXPECT_THAT(server.standard_error, HasSubstr("the simulation failed: std::bad_alloc"));
 }
 
-/// Part and plate have so many triangles that an answer of the simulation takes many milliseconds.
-class FineMeshes : public SlidingHandFaults {
+/// A server whose answers take many milliseconds, because part and plate have many triangles.
+class FineMeshesFaults : public SlidingHandFaults {
+ protected:
+  static PressingHandOptions with_triangles(PressingHandOptions options, int of_plate, int of_box) {
+    options.plate_triangles = of_plate;
+    options.box_triangles = of_box;
+    return options;
+  }
+
+  void expect_no_drag_for_long() {
+    wait(milliseconds(3000));
+    expect_no_drag(record());
+  }
+};
+
+class FineMeshes : public FineMeshesFaults {
  protected:
   PressingHandOptions options() const override {
-    PressingHandOptions options = SlidingHandFaults::options();
-    options.plate_triangles = 200'000;
-    options.box_triangles = 100'000;
-    return options;
+    return with_triangles(SlidingHandFaults::options(), 200'000, 100'000);
   }
 };
 
 TEST_F(FineMeshes, DragNothing) {
-  wait(milliseconds(3000));
-  expect_no_drag(record());
+  expect_no_drag_for_long();
 }
 
 /// Fewer triangles, and a hand five times as fast.
-class FastHand : public SlidingHandFaults {
+class FastHand : public FineMeshesFaults {
  protected:
   PressingHandOptions options() const override {
-    PressingHandOptions options = SlidingHandFaults::options();
-    options.plate_triangles = 12'000;
-    options.box_triangles = 20'000;
+    PressingHandOptions options = with_triangles(SlidingHandFaults::options(), 12'000, 20'000);
     options.motion =
         "0.3,0,0,-0.005,1,0,0,0\n0.7,0.2,0,-0.005,1,0,0,0\n1.5,-0.2,0,-0.005,1,0,0,0\n"
         "2.3,0.2,0,-0.005,1,0,0,0\n3.1,-0.2,0,-0.005,1,0,0,0\n60,-0.2,0,-0.005,1,0,0,0\n";
@@ -233,8 +241,7 @@ class FastHand : public SlidingHandFaults {
 };
 
 TEST_F(FastHand, OnFineMeshesDragsNothing) {
-  wait(milliseconds(3000));
-  expect_no_drag(record());
+  expect_no_drag_for_long();
 }
 
 /// The hand rests so deep that the device gives all its force.

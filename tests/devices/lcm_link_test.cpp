@@ -1,7 +1,6 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -14,41 +13,41 @@
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/lcmtypes/glove_command_t.hpp>
-#include <glissade/lcmtypes/glove_state_t.hpp>
 #include <glissade/lcmtypes/haptic_state_t.hpp>
 
-#include "eventually.h"
+#include "glove_link_fixture.h"
 #include "lcm/glove_messages.h"
 #include "safe_command.h"
 
 namespace glissade::devices {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
 using Eigen::Vector3d;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+TEST_F(LcmLink, StatesArriveWhole) {
+  LcmGloveHost host(bus, descriptor);
+  GloveState sent;
+  sent.sequence = 42;
+  sent.time = nanoseconds(123456789012);
+  sent.X_WH = Eigen::Translation3d(0.1, -0.2, 0.3) * Eigen::AngleAxisd(2.0, Vector3d(1, 2, 3).normalized());
+  sent.v_WH = Vector3d(1, 2, 3);
+  sent.w_WH = Vector3d(-4, 5, -6);
+  for (std::size_t i = 0; i < kGloveJoints; ++i)
+    sent.joint_angles[i] = 0.01 * static_cast<double>(i);
 
-template <typename Message>
-Bytes encoded(const Message& message) {
-  Bytes bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
-
-glove_state_t good_state(std::int64_t sequence) {
-  glove_state_t message{};
-  message.version = glove_state_t::VERSION;
-  message.device = kDefaultDevice;
-  message.session = 1;
-  message.enabled = 1;
-  message.sequence = sequence;
-  message.orientation_WH_wxyz[0] = 1.0;
-  return message;
+  GloveState received;
+  EXPECT_FALSE(glove.read(received));
+  EXPECT_TRUE(host.publish(sent));
+  ASSERT_TRUE(eventually([&] { return glove.read(received); }));
+  EXPECT_EQ(received.sequence, sent.sequence);
+  EXPECT_EQ(received.time, sent.time);
+  EXPECT_TRUE(received.X_WH.isApprox(sent.X_WH, 1e-14));
+  EXPECT_EQ(received.v_WH, sent.v_WH);
+  EXPECT_EQ(received.w_WH, sent.w_WH);
+  EXPECT_EQ(received.joint_angles, sent.joint_angles);
+  EXPECT_TRUE(glove.read(received)) << "the newest state can be read again";
 }
 
 TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
@@ -76,59 +75,6 @@ TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
   EXPECT_EQ(found->descriptor.frozen, milliseconds(50));
   EXPECT_EQ(found->descriptor.joint_upper, descriptor.joint_upper);
   EXPECT_EQ(found->descriptor.update_rate, 1000.0);
-}
-
-TEST(GloveInfo, OfADeviceThatCannotBeIsRefused) {
-  DeviceDescriptor descriptor = simulated_glove_descriptor();
-  GloveInfo info;
-  EXPECT_EQ(decode(encode(GloveInfo{1, 1, HandSide::kRight, descriptor}), info), MessageError::kNone);
-  descriptor.max_force = kNan;
-  EXPECT_EQ(decode(encode(GloveInfo{1, 1, HandSide::kRight, descriptor}), info), MessageError::kOutOfRange);
-  descriptor.max_force = 20.0;
-  descriptor.update_rate = 1e-300;
-  EXPECT_EQ(decode(encode(GloveInfo{1, 1, HandSide::kRight, descriptor}), info), MessageError::kOutOfRange);
-}
-
-class LcmLink : public testing::Test {
- protected:
-  /// Sends `bytes` as a glove would and returns what the link makes of them.
-  LinkStatistics after(const Bytes& bytes) {
-    const LinkStatistics before = glove.statistics();
-    bus->publish("GLOVE_STATE", bytes);
-    EXPECT_TRUE(eventually([&] {
-      const LinkStatistics now = glove.statistics();
-      return now.accepted + now.rejected() == before.accepted + before.rejected() + 1;
-    }));
-    return glove.statistics();
-  }
-
-  std::shared_ptr<LcmBus> bus = std::make_shared<LcmBus>("memq://");
-  const DeviceDescriptor descriptor = simulated_glove_descriptor();
-  LcmGlove glove{bus, descriptor};
-};
-
-TEST_F(LcmLink, StatesArriveWhole) {
-  LcmGloveHost host(bus, descriptor);
-  GloveState sent;
-  sent.sequence = 42;
-  sent.time = nanoseconds(123456789012);
-  sent.X_WH = Eigen::Translation3d(0.1, -0.2, 0.3) * Eigen::AngleAxisd(2.0, Vector3d(1, 2, 3).normalized());
-  sent.v_WH = Vector3d(1, 2, 3);
-  sent.w_WH = Vector3d(-4, 5, -6);
-  for (std::size_t i = 0; i < kGloveJoints; ++i)
-    sent.joint_angles[i] = 0.01 * static_cast<double>(i);
-
-  GloveState received;
-  EXPECT_FALSE(glove.read(received));
-  EXPECT_TRUE(host.publish(sent));
-  ASSERT_TRUE(eventually([&] { return glove.read(received); }));
-  EXPECT_EQ(received.sequence, sent.sequence);
-  EXPECT_EQ(received.time, sent.time);
-  EXPECT_TRUE(received.X_WH.isApprox(sent.X_WH, 1e-14));
-  EXPECT_EQ(received.v_WH, sent.v_WH);
-  EXPECT_EQ(received.w_WH, sent.w_WH);
-  EXPECT_EQ(received.joint_angles, sent.joint_angles);
-  EXPECT_TRUE(glove.read(received)) << "the newest state can be read again";
 }
 
 /// Both ends on one bus. The server answers each state that it reads by `wanted`; both ends have their envelope.
@@ -244,6 +190,21 @@ TEST_F(BothEnds, AGloveOfAnotherNumberIsAnotherGlove) {
   EXPECT_GT(left.statistics().other_receiver, 0U);
 }
 
+// The whole loop: a simulated glove is pushed off by a server that answers every state.
+TEST_F(BothEnds, ASimulatedGloveYieldsToTheServer) {
+  wanted.f_H_W = Vector3d(4, 0, 0);
+  SimulatedGlove simulated(geometry::PoseTrajectory({{nanoseconds(0), Eigen::Isometry3d::Identity()}}));
+  SafeCommand newest;
+  EXPECT_TRUE(eventually([&] {
+    const GloveState moved = simulated.step(milliseconds(1), newest);
+    state.X_WH = moved.X_WH;
+    state.v_WH = moved.v_WH;
+    newest = period();
+    return std::abs(moved.X_WH.translation().x() - 4.0 / SimulatedGloveParameters{}.wearer_stiffness) < 1e-4;
+  }));
+  EXPECT_EQ(glove.statistics().rejected(), 0U);
+}
+
 TEST(LcmGlove, LeavesTheGloveWithoutForce) {
   const auto bus = std::make_shared<LcmBus>("memq://");
   const DeviceDescriptor descriptor = simulated_glove_descriptor();
@@ -268,177 +229,6 @@ TEST(LcmGlove, LeavesTheGloveWithoutForce) {
 TEST(LcmGlove, RefusesABadDescriptor) {
   const auto bus = std::make_shared<LcmBus>("memq://");
   EXPECT_THROW(LcmGlove(bus, {.update_rate = 0.0}), std::invalid_argument);
-}
-
-TEST_F(LcmLink, RefusesMessagesOfTheWrongSize) {
-  const Bytes good = encoded(good_state(1));
-  for (std::size_t size = 0; size < good.size(); size += 13) {
-    EXPECT_EQ(after(Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size))).accepted, 0U) << size;
-  }
-  Bytes longer = good;
-  longer.push_back(0);
-  const LinkStatistics statistics = after(longer);
-  EXPECT_EQ(statistics.accepted, 0U);
-  EXPECT_EQ(statistics.wrong_size, statistics.rejected());
-}
-
-TEST_F(LcmLink, RefusesAnotherTypeOfTheSameSize) {
-  Bytes bytes = encoded(good_state(1));
-  bytes[3] = static_cast<std::uint8_t>(bytes[3] ^ 1U);  // the first eight bytes tell the type
-  EXPECT_EQ(after(bytes).undecodable, 1U);
-}
-
-TEST_F(LcmLink, RefusesAnotherVersion) {
-  glove_state_t message = good_state(1);
-  ++message.version;
-  EXPECT_EQ(after(encoded(message)).wrong_version, 1U);
-}
-
-TEST_F(LcmLink, RefusesNumbersThatAreNone) {
-  const std::function<void(glove_state_t&)> spoilers[] = {[](glove_state_t& m) { m.position_WH_m[1] = kNan; },
-                                                          [](glove_state_t& m) { m.orientation_WH_wxyz[0] = kNan; },
-                                                          [](glove_state_t& m) { m.v_WH_m_per_s[2] = -kInfinity; },
-                                                          [](glove_state_t& m) { m.w_WH_rad_per_s[0] = kInfinity; },
-                                                          [](glove_state_t& m) { m.joint_angles_rad[21] = kNan; }};
-  std::uint64_t refused = 0;
-  for (const auto& spoil : spoilers) {
-    glove_state_t message = good_state(1);
-    spoil(message);
-    EXPECT_EQ(after(encoded(message)).not_finite, ++refused);
-  }
-  GloveState state;
-  EXPECT_FALSE(glove.read(state));
-}
-
-TEST_F(LcmLink, RefusesNumbersBeyondSense) {
-  const std::function<void(glove_state_t&)> spoilers[] = {[](glove_state_t& m) { m.sequence = -1; },
-                                                          [](glove_state_t& m) { m.time_ns = -1; },
-                                                          [](glove_state_t& m) { m.time_ns = kLargest; },
-                                                          [](glove_state_t& m) { m.session = -1; },
-                                                          [](glove_state_t& m) { m.leaseholder = -1; },
-                                                          [](glove_state_t& m) { m.side = 3; },
-                                                          [](glove_state_t& m) { m.enabled = 2; },
-                                                          [](glove_state_t& m) { m.position_WH_m[2] = 1001.0; },
-                                                          [](glove_state_t& m) { m.orientation_WH_wxyz[0] = 0.0; },
-                                                          [](glove_state_t& m) { m.orientation_WH_wxyz[0] = 1.0011; },
-                                                          [](glove_state_t& m) { m.v_WH_m_per_s[0] = -1001.0; },
-                                                          [](glove_state_t& m) { m.w_WH_rad_per_s[1] = 1e5; },
-                                                          [](glove_state_t& m) { m.joint_angles_rad[0] = 6.3; }};
-  std::uint64_t refused = 0;
-  for (const auto& spoil : spoilers) {
-    glove_state_t message = good_state(1);
-    spoil(message);
-    EXPECT_EQ(after(encoded(message)).out_of_range, ++refused);
-  }
-}
-
-TEST_F(LcmLink, NormalizesAQuaternionThatIsNearlyOne) {
-  glove_state_t message = good_state(1);
-  message.orientation_WH_wxyz[0] = 0.9995;
-  EXPECT_EQ(after(encoded(message)).accepted, 1U);
-  GloveState state;
-  ASSERT_TRUE(glove.read(state));
-  EXPECT_TRUE(state.X_WH.linear().isIdentity(1e-15));
-}
-
-TEST_F(LcmLink, SequencesMustRiseAndGapsAreCounted) {
-  EXPECT_EQ(after(encoded(good_state(10))).accepted, 1U);
-  EXPECT_EQ(after(encoded(good_state(10))).out_of_sequence, 1U);
-  EXPECT_EQ(after(encoded(good_state(9))).out_of_sequence, 2U);
-  EXPECT_EQ(after(encoded(good_state(11))).lost, 0U);
-  EXPECT_EQ(after(encoded(good_state(15))).lost, 3U);
-  GloveState state;
-  ASSERT_TRUE(glove.read(state));
-  EXPECT_EQ(state.sequence, 15);
-}
-
-TEST_F(LcmLink, ManyMessagesCannotRunAheadTogether) {
-  EXPECT_EQ(after(encoded(good_state(1))).accepted, 1U);
-  const auto begin = std::chrono::steady_clock::now();
-  std::int64_t accepted = 1;
-  for (int i = 0; i < 200; ++i) {
-    if (after(encoded(good_state(accepted + 50))).accepted == 2U + static_cast<std::uint64_t>(accepted / 50))
-      accepted += 50;
-  }
-  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-  EXPECT_LE(static_cast<double>(accepted), 52.0 + 20e3 * passed.count());
-}
-
-TEST_F(LcmLink, FallingSequencesAreNeverAccepted) {
-  EXPECT_EQ(after(encoded(good_state(1000))).accepted, 1U);
-  for (std::int64_t sequence = 999; sequence > 900; --sequence)
-    EXPECT_EQ(after(encoded(good_state(sequence))).accepted, 1U);
-}
-
-TEST_F(LcmLink, OneHugeSequenceDoesNotLockTheSenderOut) {
-  EXPECT_EQ(after(encoded(good_state(10))).accepted, 1U);
-  EXPECT_EQ(after(encoded(good_state(kLargest))).out_of_sequence, 1U);
-  EXPECT_EQ(after(encoded(good_state(11))).accepted, 2U);
-}
-
-TEST_F(LcmLink, AGrantedLeaseRefusesWhoeverComesFirst) {
-  const LcmGlove granted(bus, descriptor, {.glove_session = 2});
-  bus->publish("GLOVE_STATE", encoded(good_state(10)));  // of session 1
-  ASSERT_TRUE(eventually([&] { return granted.statistics().other_sender == 1; }));
-  glove_state_t announced = good_state(1);
-  announced.session = 2;
-  bus->publish("GLOVE_STATE", encoded(announced));
-  EXPECT_TRUE(eventually([&] { return granted.statistics().accepted == 1; }));
-}
-
-/// A filter with a lease of 500 ms, and messages of one session.
-class Filter : public testing::Test {
- protected:
-  bool admits(std::int64_t sequence, milliseconds now) {
-    return monitor_.admit(MessageError::kNone, {1, 7, sequence}, now);
-  }
-  LinkMonitor monitor_{milliseconds(500)};
-};
-
-TEST_F(Filter, AForgedNumberAfterASilenceIsRefused) {
-  EXPECT_TRUE(admits(10, milliseconds(0)));
-  EXPECT_FALSE(admits(8000, milliseconds(400)));
-  EXPECT_TRUE(admits(411, milliseconds(401)));
-}
-
-TEST_F(Filter, ALockedOutSenderStartsAnewAfterOneLease) {
-  EXPECT_TRUE(admits(10, milliseconds(0)));
-  EXPECT_TRUE(admits(2000, milliseconds(400))) << "forged";
-  std::int64_t sequence = 411;
-  milliseconds now(401);
-  while (!admits(sequence, now)) {
-    ASSERT_LT(now, milliseconds(1000));
-    ++sequence;
-    ++now;
-  }
-  EXPECT_LE(now, milliseconds(902));
-  EXPECT_TRUE(admits(sequence + 1, now));
-  EXPECT_EQ(monitor_.statistics().lost, 1989U) << "only those before the forged one seem lost";
-}
-
-TEST_F(Filter, FallingNumbersAreNoNewStart) {
-  EXPECT_TRUE(admits(10'000, milliseconds(0)));
-  for (int i = 1; i < 5000; ++i)
-    ASSERT_FALSE(admits(10'000 - i, milliseconds(i)));
-}
-
-TEST_F(Filter, ASenderThatWasSilentForLongIsHeardAgain) {
-  EXPECT_TRUE(admits(10, milliseconds(0)));
-  EXPECT_FALSE(admits(60'000, milliseconds(60'000)));
-  EXPECT_TRUE(admits(60'001, milliseconds(60'001)));
-}
-
-TEST(LcmGlove, AcceptsARestartedGloveAfterASilence) {
-  const auto bus = std::make_shared<LcmBus>("memq://");
-  LcmGlove glove(bus, simulated_glove_descriptor(), {.lease = milliseconds(30)});
-  bus->publish("GLOVE_STATE", encoded(good_state(1'000'000)));
-  ASSERT_TRUE(eventually([&] { return glove.statistics().accepted == 1; }));
-  glove_state_t restarted = good_state(0);
-  restarted.session = 2;
-  std::this_thread::sleep_for(milliseconds(60));
-  bus->publish("GLOVE_STATE", encoded(restarted));
-  EXPECT_TRUE(eventually([&] { return glove.statistics().accepted == 2; }));
-  EXPECT_EQ(glove.statistics().lost, 0U);
 }
 
 /// A good command for this glove, which must have published once.
@@ -565,21 +355,6 @@ TEST(HapticStatePublisher, PublishesEveryTickInOrder) {
   EXPECT_EQ(last.parts[0].orientation_WV_wxyz[0], 1.0);
   EXPECT_EQ(last.hands[0].force_W_N[2], 9.0);
   EXPECT_EQ(last.flags, haptic_state_t::FLAG_CONTACT_SET_LATE);
-}
-
-// The whole loop: a simulated glove is pushed off by a server that answers every state.
-TEST_F(BothEnds, ASimulatedGloveYieldsToTheServer) {
-  wanted.f_H_W = Vector3d(4, 0, 0);
-  SimulatedGlove simulated(geometry::PoseTrajectory({{nanoseconds(0), Eigen::Isometry3d::Identity()}}));
-  SafeCommand newest;
-  EXPECT_TRUE(eventually([&] {
-    const GloveState moved = simulated.step(milliseconds(1), newest);
-    state.X_WH = moved.X_WH;
-    state.v_WH = moved.v_WH;
-    newest = period();
-    return std::abs(moved.X_WH.translation().x() - 4.0 / SimulatedGloveParameters{}.wearer_stiffness) < 1e-4;
-  }));
-  EXPECT_EQ(glove.statistics().rejected(), 0U);
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -140,6 +142,86 @@ TEST_F(Kernel, ASimulationThatHaltsLetsTheForceFade) {
     EXPECT_LE(last.command.values().f_H_W.head<2>().norm(), 0.02 * std::abs(last.command.values().f_H_W.z()));
   }
   EXPECT_EQ(last.command.values().f_H_W, Vector3d::Zero());
+}
+
+/// The floor comes up at 0.1 m/s.
+TEST_F(Kernel, TheSupplyIsTheWorkOfTheExertedForceOnly) {
+  constexpr double kWay_m = 0.1 * 1e-3;
+  ContactSet rising = floor_below(0.0);
+  rising.row_array[0].approach = 0.1;
+  tick(hand_at({0.0, 0.0, 0.5}), rising);
+  double before = settle(hand_at({0.0, 0.0, 0.498}), rising).command.values().supply;
+  const auto supplied = [&](const HandTick& now) {
+    return now.command.values().supply - std::exchange(before, now.command.values().supply);
+  };
+  EXPECT_NEAR(supplied(tick(hand_at({0.0, 0.0, 0.498}), rising)), 2.0 * kWay_m, 1e-9);
+  settle(hand_at({0.0, 0.0, 0.3}), rising);
+  before = tick(hand_at({0.0, 0.0, 0.3}), rising).command.values().supply;
+  EXPECT_NEAR(supplied(tick(hand_at({0.0, 0.0, 0.3}), rising)), 1.05 * device_.max_force * kWay_m, 1e-9)
+      << "more than the device and some headroom is not exerted";
+
+  // The simulation halts, and answers again: the force returns over 200 ms.
+  settle(hand_at({0.0, 0.0, 0.498}), rising);
+  ContactSet old = rising;
+  old.time = now_;
+  for (int i = 0; i < 200; ++i) {
+    now_ += kTickPeriod;
+    before = tick_at(hand_at({0.0, 0.0, 0.498}), old).command.values().supply;
+  }
+  for (int i = 0; i < 100; ++i) {
+    const HandTick now = tick(hand_at({0.0, 0.0, 0.498}), rising);
+    ASSERT_LT(now.contacts.f.z(), 1.1);
+    ASSERT_NEAR(supplied(now), now.contacts.f.z() * kWay_m, 1e-9) << i;
+  }
+}
+
+/// The simulation halts, the hand sinks by 10 mm while there is no force, and is lifted when the force is back.
+class SunkenHand : public Kernel {
+ protected:
+  void sink() {
+    tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
+    settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
+    ContactSet old = floor_below(0.0);
+    old.time = now_;
+    for (int i = 0; i < 300; ++i) {
+      now_ += kTickPeriod;
+      devices::GloveState state = hand_at({0.0, 0.0, 0.498 - 1e-4 * std::clamp(i - 150, 0, 100)});
+      state.time = now_;
+      state.sequence = ++sequence_;
+      tick_at(state, old);
+    }
+  }
+
+  /// J, told as supply.
+  double lift() {
+    const double before = settle(hand_at({0.0, 0.0, 0.488}), floor_below(0.0)).command.values().supply;
+    HandTick last;
+    for (int i = 0; i < 100; ++i)
+      last = tick(hand_at({0.0, 0.0, 0.488 + 1e-4 * i}), floor_below(0.0));
+    return last.command.values().supply - before;
+  }
+};
+
+TEST_F(SunkenHand, IsLiftedByTheForceThatReturns) {
+  sink();
+  EXPECT_NEAR(lift(), 0.5 * (2.0 + 12.0) * 10e-3, 2e-3) << "the work that the force would have taken";
+}
+
+TEST_F(SunkenHand, IsOwedNothingAfterItsContactHasEnded) {
+  sink();
+  tick(hand_at({0.0, 0.0, 0.488}), floor_below(1.0));
+  EXPECT_EQ(lift(), 0.0);
+}
+
+TEST_F(Kernel, TheGripOfAGloveThatWasStartedAgainCountsAnew) {
+  devices::GloveState state = hand_at({0.5, 0.0, 0.5});  // so far from the part that it could not take it again
+  state.grip = 3;
+  EXPECT_EQ(settle(state, no_answer()).part, 0U);
+  sequence_ = 0;
+  state.grip = 1;
+  EXPECT_EQ(settle(state, no_answer()).part, 0U) << "it is closed, as before";
+  state.grip = 2;
+  EXPECT_FALSE(settle(state, no_answer()).part.has_value());
 }
 
 TEST_F(Kernel, CutsTheCouplingToWhatTheDeviceCanRender) {

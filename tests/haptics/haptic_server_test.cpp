@@ -202,6 +202,30 @@ TEST_F(Server, LetsGoAndTakesHoldWhenItIsTold) {
   EXPECT_FALSE(server.release(1));
 }
 
+/// A clock that wakes each thread 3 ms too late every twentieth time.
+class LateClock final : public realtime::Clock {
+ public:
+  std::chrono::nanoseconds now() const noexcept override { return clock_.now(); }
+  void sleep_until(std::chrono::nanoseconds deadline) noexcept override {
+    thread_local int sleeps = 0;
+    const bool is_late = ++sleeps % 20 == 0;
+    clock_.sleep_until(is_late ? deadline + std::chrono::milliseconds(3) : deadline);
+  }
+
+ private:
+  realtime::SteadyClock clock_;
+};
+
+TEST_F(Server, CountsLateTicksWhileItRuns) {
+  LateClock clock;
+  HapticServer server({{device_.get()}}, *sliding_, clock, [](const devices::HapticState&) {});
+  while (server.ticks() < 100)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_GE(server.late_ticks(), 4);
+  server.stop();
+  EXPECT_EQ(server.late_ticks(), static_cast<std::int64_t>(server.statistics().haptic.late_ticks));
+}
+
 TEST_F(Server, RefusesAnEmptySink) {
   EXPECT_THROW(HapticServer({{device_.get()}}, *sliding_, clock_, {}), std::invalid_argument);
 }

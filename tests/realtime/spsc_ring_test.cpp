@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -9,6 +10,21 @@
 
 namespace glissade::realtime {
 namespace {
+
+TEST(SpscRing, PopsWhatWaitsAndNotWhatIsPushedMeanwhile) {
+  SpscRing<int> ring(4);
+  for (const int value : {1, 2, 3})
+    ring.push(value);
+  std::vector<int> taken;
+  const auto take = [&](int value) {
+    taken.push_back(value);
+    ring.push(value + 10);
+  };
+  ring.pop_waiting(take);
+  EXPECT_EQ(taken, (std::vector<int>{1, 2, 3}));
+  ring.pop_waiting(take);
+  EXPECT_EQ(taken, (std::vector<int>{1, 2, 3, 11, 12, 13}));
+}
 
 TEST(SpscRing, GivesBackInOrder) {
   SpscRing<int> ring(4);

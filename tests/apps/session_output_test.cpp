@@ -1,0 +1,76 @@
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <glissade/apps/session.h>
+
+#include "temporary_folder.h"
+
+namespace glissade::apps {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A run of a hand with a part, of so many ticks.
+Session session_of(std::int64_t ticks) {
+  const auto samples = std::make_shared<SessionRecorder>(100, 1, 1);
+  for (std::int64_t i = 0; i < ticks; ++i)
+    samples->record({.sequence = i + 1});
+  return {.ticks = ticks,
+          .period = std::chrono::milliseconds(1),
+          .objects = 2,
+          .devices = {1},
+          .samples = samples,
+          .real_time = RealTimeFigures{}};
+}
+
+SessionSummary summary_of(const Session& session) {
+  return {.ticks = session.ticks, .samples = session.ticks, .parts = {{.name = "motor"}}, .hands = {{.device = 1}}};
+}
+
+TEST(SessionText, OfARunThatNeverBeganSaysSo) {
+  const Session session = session_of(0);
+  EXPECT_EQ(to_text(summary_of(session), session, true),
+            "  ticks                        0: the run ended before the first state of a glove\n");
+}
+
+TEST(SessionText, LeavesTheStagesOfTheSearchToWhoeverAsks) {
+  Session session = session_of(10);
+  session.collision_frames = 4;
+  const SessionSummary summary = summary_of(session);
+  const std::string brief = to_text(summary, session, false);
+  EXPECT_THAT(brief, HasSubstr("part motor"));
+  EXPECT_THAT(brief, HasSubstr("greatest force 0.00 N"));
+  for (const char* internal : {"collision frames", "DOP-trees", "hash"}) {
+    EXPECT_THAT(brief, Not(HasSubstr(internal)));
+    EXPECT_THAT(to_text(summary, session, true), HasSubstr(internal));
+  }
+}
+
+TEST(SessionText, ARunWithoutASearchHasNoMeans) {
+  const Session session = session_of(10);
+  EXPECT_THAT(to_text(summary_of(session), session, true), Not(HasSubstr("nan")));
+  const nlohmann::json json = to_json(summary_of(session), session);
+  EXPECT_TRUE(json["collision_stages"]["exact"]["us"].is_null());
+  EXPECT_EQ(json["collision_frames"], 0);
+}
+
+TEST(SessionReport, OfARunThatNeverBeganIsAPage) {
+  test_support::TemporaryFolder folder;
+  const Session session = session_of(0);
+  const std::string page = write_session_report(summary_of(session), session, "run", folder.path("report"));
+  std::ostringstream text;
+  text << std::ifstream(page).rdbuf();
+  EXPECT_THAT(text.str(), HasSubstr("before the first state"));
+  EXPECT_THAT(text.str(), Not(HasSubstr("nan")));
+  EXPECT_THAT(text.str(), Not(HasSubstr("inf")));
+}
+
+}  // namespace
+}  // namespace glissade::apps
