@@ -13,11 +13,13 @@
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/html_report.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/say.h>
 #include <glissade/apps/scene_file.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
 #include <glissade/devices/simulated_glove_service.h>
+#include <glissade/realtime/periodic_thread.h>
 
 namespace glissade::apps {
 
@@ -79,6 +81,7 @@ Demo demo_from_file(const std::string& path) {
 }
 
 Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_t ticks, const DemoOptions& options) {
+  realtime::lock_memory();
   const StopSignal stop_signal;
   const auto bus = std::make_shared<devices::LcmBus>(options.lcm_url);
   realtime::SteadyClock clock;
@@ -87,7 +90,10 @@ Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_
   return run_session(
       demo.scene, bus,
       {.choice = options.choice, .seconds = 1e-3 * static_cast<double>(ticks), .period = haptics::kTickPeriod},
-      &StopSignal::requested, [&](const RunNews& news) { progress.update(news.ticks); });
+      &StopSignal::requested, [&](const RunNews& news) {
+        if (!news.missing_rights.empty()) say("glissade demo: " + news.missing_rights);
+        progress.update(news.ticks);
+      });
 }
 
 int run(const DemoOptions& options) {

@@ -13,6 +13,7 @@
 #include <glissade/apps/csv.h>
 #include <glissade/apps/embedded_scene.h>
 #include <glissade/apps/lcm_option.h>
+#include <glissade/apps/machine_check.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/reason_teller.h>
 #include <glissade/apps/say.h>
@@ -20,6 +21,7 @@
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
 #include <glissade/devices/simulated_glove_service.h>
+#include <glissade/realtime/periodic_thread.h>
 #include <glissade/realtime/spsc_ring.h>
 
 namespace glissade::apps {
@@ -104,6 +106,7 @@ int run(const GloveOptions& options) {
   if (!(options.frozen_ms >= 0.0 && options.frozen_ms <= 1e6)) {
     throw std::invalid_argument("--frozen-ms: must lie between 0 and 1e6, not " + format_number(options.frozen_ms));
   }
+  const bool has_locked_memory = realtime::lock_memory();
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   const HandScript script = options.script.empty() ? parse_hand_script(embedded_scene_script(), "car_door_script.csv")
                                                    : read_hand_script(options.script);
@@ -127,6 +130,9 @@ int run(const GloveOptions& options) {
                                          return !StopSignal::requested();
                                        });
 
+  constexpr bool kNeedsFifo = false;  // a simulated hand may be late
+  const std::string missing = missing_rights(!kNeedsFifo, has_locked_memory);
+  if (!missing.empty()) say("glissade glove: " + missing);
   say("glissade glove: the " + options.side + " hand waits for a server at " + options.lcm.url);
   const auto milliseconds = [](std::chrono::nanoseconds time) { return time / std::chrono::milliseconds(1); };
   {

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include <glissade/apps/haptic_session.h>
+#include <glissade/apps/machine_check.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/reason_teller.h>
 #include <glissade/apps/text.h>
@@ -68,6 +69,15 @@ std::chrono::nanoseconds period_of(const devices::DeviceDescriptor& device) {
   return std::clamp<std::chrono::nanoseconds>(period, haptics::kShortestTickPeriod, haptics::kLongestTickPeriod);
 }
 
+void check_spin(std::chrono::nanoseconds spin, std::chrono::nanoseconds period) {
+  if (spin <= period / 2) return;
+  const auto text_us = [](std::chrono::nanoseconds time) {
+    return format_number(1e-3 * static_cast<double>(time.count()));
+  };
+  throw std::invalid_argument("--spin-us: must be at most half of the haptic loop's period, " + text_us(period / 2) +
+                              ", not " + text_us(spin));
+}
+
 /// The announcements of all gloves of a run; fewer if it is stopped before.
 std::vector<devices::GloveInfo> wait_for_gloves(const std::shared_ptr<devices::LcmBus>& bus,
                                                 const std::vector<SessionHand>& hands,
@@ -88,6 +98,17 @@ struct Glove {
   std::unique_ptr<ReasonTeller> teller = std::make_unique<ReasonTeller>();
 };
 
+/// What there is to tell since the last call. `numbers` are those of the gloves.
+RunNews newest_news(std::int64_t ticks, const std::vector<Glove>& gloves, const std::vector<std::int64_t>& numbers) {
+  RunNews news{.ticks = ticks};
+  for (std::size_t h = 0; h < gloves.size(); ++h) {
+    const std::string sentence = gloves[h].teller->news();
+    if (sentence.empty()) continue;
+    news.sentences.push_back(gloves.size() == 1 ? sentence : "glove " + std::to_string(numbers[h]) + ": " + sentence);
+  }
+  return news;
+}
+
 }  // namespace
 
 Session run_session_offline(const HapticScene& scene, const HandScript& script, std::int64_t ticks,
@@ -106,6 +127,7 @@ Session run_session_offline(const HapticScene& scene, const HandScript& script, 
 Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, const RunSettings& settings,
                     const std::function<bool()>& should_stop, const std::function<void(const RunNews&)>& watch) {
   start_sliding(scene, {}, settings.choice, {});  // errors come before waiting
+  if (settings.period) check_spin(settings.spin, *settings.period);
   const std::vector<devices::GloveInfo> infos = wait_for_gloves(bus, settings.hands, should_stop, watch);
   std::vector<Grip> grips;
   std::chrono::nanoseconds fastest = haptics::kLongestTickPeriod;
@@ -116,6 +138,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
     fastest = std::min(fastest, period_of(grips.back().device));
   }
   const std::chrono::nanoseconds period = settings.period.value_or(fastest);
+  check_spin(settings.spin, period);
   if (period > fastest)
     watch({.sentences = {"a glove is faster than the haptic loop: its force may fade (--rate-hz)"}});
   const std::int64_t ticks = std::llround(settings.seconds / std::chrono::duration<double>(period).count());
@@ -135,25 +158,21 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
     numbers.push_back(device);
   }
   realtime::SteadyClock clock;
-  haptics::HapticServer server(hands, sliding, clock,
-                               [&](const devices::HapticState& sample) {
-                                 recorder->record(sample);
-                                 publisher.push(sample);
-                                 for (std::size_t h = 0; h < gloves.size(); ++h)
-                                   gloves[h].teller->note(sample, h);
-                               },
-                               {.period = period, .ticks = ticks, .fifo_priority = kFifoPriority});
+  haptics::HapticServer server(
+      hands, sliding, clock,
+      [&](const devices::HapticState& sample) {
+        recorder->record(sample);
+        publisher.push(sample);
+        for (std::size_t h = 0; h < gloves.size(); ++h)
+          gloves[h].teller->note(sample, h);
+      },
+      {.period = period, .ticks = ticks, .fifo_priority = kFifoPriority, .spin = settings.spin});
   realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = kFifoPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
+  watch({.missing_rights = missing_rights(server.scheduling().is_fifo, server.scheduling().has_locked_memory)});
   while (!server.is_done() && !server.has_failed() && !should_stop()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    RunNews news{.ticks = server.ticks()};
-    for (std::size_t h = 0; h < gloves.size(); ++h) {
-      const std::string sentence = gloves[h].teller->news();
-      if (sentence.empty()) continue;
-      news.sentences.push_back(gloves.size() == 1 ? sentence : "glove " + std::to_string(numbers[h]) + ": " + sentence);
-    }
-    watch(news);
+    watch(newest_news(server.ticks(), gloves, numbers));
   }
   server.stop();
   bare_timer.stop();

@@ -33,7 +33,7 @@ bool may_lock_memory() noexcept;
 /// Keeps all memory of this process, present and future, in its place, so that no thread waits for a page: the system
 /// neither moves pages out nor puts off to the first touch what it hands over, and the heap keeps what is freed. Then
 /// each thread occupies its whole stack, 8 MiB unless the system says otherwise. Returns whether it was granted; if
-/// not, nothing has changed. For programs; call it before starting threads and loading data. Any thread.
+/// not, nothing has changed. For programs, best at their start. Any thread.
 bool lock_memory() noexcept;
 
 /// What the system granted to a thread.
