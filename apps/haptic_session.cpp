@@ -7,9 +7,8 @@
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/machine_check.h>
 #include <glissade/apps/progress.h>
-#include <glissade/apps/reason_teller.h>
+#include <glissade/apps/session_sink.h>
 #include <glissade/apps/text.h>
-#include <glissade/devices/haptic_state_publisher.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/haptics/offline_run.h>
@@ -92,19 +91,13 @@ std::vector<devices::GloveInfo> wait_for_gloves(const std::shared_ptr<devices::L
   return infos;
 }
 
-/// A glove of a running session.
-struct Glove {
-  std::unique_ptr<devices::LcmGlove> link;
-  std::unique_ptr<ReasonTeller> teller = std::make_unique<ReasonTeller>();
-};
-
 /// What there is to tell since the last call. `numbers` are those of the gloves.
-RunNews newest_news(std::int64_t ticks, const std::vector<Glove>& gloves, const std::vector<std::int64_t>& numbers) {
+RunNews newest_news(std::int64_t ticks, SessionSink& sink, const std::vector<std::int64_t>& numbers) {
   RunNews news{.ticks = ticks};
-  for (std::size_t h = 0; h < gloves.size(); ++h) {
-    const std::string sentence = gloves[h].teller->news();
+  for (std::size_t h = 0; h < numbers.size(); ++h) {
+    const std::string sentence = sink.news(h);
     if (sentence.empty()) continue;
-    news.sentences.push_back(gloves.size() == 1 ? sentence : "glove " + std::to_string(numbers[h]) + ": " + sentence);
+    news.sentences.push_back(numbers.size() == 1 ? sentence : "glove " + std::to_string(numbers[h]) + ": " + sentence);
   }
   return news;
 }
@@ -145,34 +138,28 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   haptics::MultiPartSliding sliding = start_sliding(scene, grips, settings.choice, haptics::real_time_rules(), period);
   const auto recorder = std::make_shared<SessionRecorder>(ticks > 0 ? static_cast<std::size_t>(ticks) : kKeptTicks,
                                                           sliding.part_count(), settings.hands.size());
-  devices::HapticStatePublisher publisher(bus);
-  std::vector<Glove> gloves;
+  SessionSink sink(bus, recorder);
+  std::vector<std::unique_ptr<devices::LcmGlove>> gloves;
   std::vector<haptics::HandOfServer> hands;
   std::vector<std::int64_t> numbers;
   for (std::size_t h = 0; h < settings.hands.size(); ++h) {
     const std::int64_t device = settings.hands[h].device;
-    gloves.push_back({std::make_unique<devices::LcmGlove>(
+    gloves.push_back(std::make_unique<devices::LcmGlove>(
         bus, grips[h].device,
-        devices::LcmGloveOptions{.device = device, .glove_session = h < infos.size() ? infos[h].session : 0})});
-    hands.push_back({gloves.back().link.get(), settings.hands[h].part});
+        devices::LcmGloveOptions{.device = device, .glove_session = h < infos.size() ? infos[h].session : 0}));
+    hands.push_back({gloves.back().get(), settings.hands[h].part});
     numbers.push_back(device);
   }
   realtime::SteadyClock clock;
   haptics::HapticServer server(
-      hands, sliding, clock,
-      [&](const devices::HapticState& sample) {
-        recorder->record(sample);
-        publisher.push(sample);
-        for (std::size_t h = 0; h < gloves.size(); ++h)
-          gloves[h].teller->note(sample, h);
-      },
+      hands, sliding, clock, [&sink](const devices::HapticState& sample) { sink.receive(sample); },
       {.period = period, .ticks = ticks, .fifo_priority = kFifoPriority, .spin = settings.spin});
   realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = kFifoPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
   watch({.missing_rights = missing_rights(server.scheduling().is_fifo, server.scheduling().has_locked_memory)});
   while (!server.is_done() && !server.has_failed() && !should_stop()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    watch(newest_news(server.ticks(), gloves, numbers));
+    watch(newest_news(server.ticks(), sink, numbers));
   }
   server.stop();
   bare_timer.stop();

@@ -6,7 +6,6 @@
 // The loop runs at 5 kHz, so that 60,000 ticks take 12 seconds. Nothing is judged by the clock.
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -22,9 +21,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <glissade/apps/reason_teller.h>
-#include <glissade/apps/session.h>
-#include <glissade/devices/haptic_state_publisher.h>
+#include <glissade/apps/session_sink.h>
 #include <glissade/devices/simulated_glove_service.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/realtime/periodic_thread.h>
@@ -75,20 +72,19 @@ Deeds deeds_of_this_thread() noexcept {
   return {allocations_of_this_thread(), releases_of_this_thread(), locks_of_this_thread()};
 }
 
-/// The receiver of the states, as in a run of the program, and the observer of the haptic thread.
+/// The receiver of the states, with all that the program does with them, and the observer of the haptic thread.
 class Witness {
  public:
   Witness(const std::shared_ptr<devices::LcmBus>& bus, std::int64_t ticks, const std::string& deed)
-      : recorder_(static_cast<std::size_t>(ticks), kParts, kHands), publisher_(bus), offender_(deed) {}
+      : recorder_(std::make_shared<apps::SessionRecorder>(static_cast<std::size_t>(ticks), kParts, kHands)),
+        sink_(bus, recorder_),
+        offender_(deed) {}
 
   /// In each counted tick, in the haptic thread.
   void see(const devices::HapticState& sample) {
     constexpr std::int64_t kFirstOffence = 1000;
     if (sample.sequence == 1) begin();
-    recorder_.record(sample);
-    publisher_.push(sample);
-    for (std::size_t h = 0; h < kHands; ++h)
-      tellers_[h].note(sample, h);
+    sink_.receive(sample);
     if (sample.sequence >= kFirstOffence) offender_.act();
   }
 
@@ -101,8 +97,8 @@ class Witness {
 
   double greatest_force_N(std::size_t hand) const {
     double greatest = 0.0;
-    for (std::size_t i = 0; i < recorder_.size(); ++i)
-      greatest = std::max(greatest, recorder_.hand(i, hand).force_W.norm());
+    for (std::size_t i = 0; i < recorder_->size(); ++i)
+      greatest = std::max(greatest, recorder_->hand(i, hand).force_W.norm());
     return greatest;
   }
 
@@ -138,9 +134,8 @@ class Witness {
   Deeds first_;
   Deeds newest_;
   const char* last_lock_ = "none";
-  apps::SessionRecorder recorder_;
-  devices::HapticStatePublisher publisher_;
-  std::array<apps::ReasonTeller, kHands> tellers_;
+  std::shared_ptr<apps::SessionRecorder> recorder_;
+  apps::SessionSink sink_;
   Offender offender_;
 };
 
