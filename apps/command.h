@@ -27,7 +27,7 @@ void add_demo_command(CLI::App& app, Command& chosen);
 /// `glissade slide SCENE --part NAME --trajectory FILE [--metaphor M] [--out FILE]`
 void add_slide_command(CLI::App& app, Command& chosen);
 
-/// `glissade run SCENE [--lcm URL] [--device N] [--seconds S] [--rate-hz R] [--json] [--report DIR]`
+/// `glissade run SCENE [--lcm URL] [--device N] [--seconds S] [--rate-hz R] [--spin-us T] [--json] [--report DIR]`
 void add_run_command(CLI::App& app, Command& chosen);
 
 /// `glissade glove [--side left|right] [--device N] [--lcm URL] [--script FILE] [--frozen-ms T] [--record FILE]`

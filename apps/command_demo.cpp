@@ -18,6 +18,7 @@
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
 #include <glissade/devices/simulated_glove_service.h>
+#include <glissade/realtime/periodic_thread.h>
 
 namespace glissade::apps {
 
@@ -80,6 +81,7 @@ Demo demo_from_file(const std::string& path) {
 }
 
 Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_t ticks, const DemoOptions& options) {
+  realtime::lock_memory();
   const StopSignal stop_signal;
   const auto bus = std::make_shared<devices::LcmBus>(options.lcm_url);
   realtime::SteadyClock clock;

@@ -14,11 +14,13 @@
 #include <glissade/apps/embedded_scene.h>
 #include <glissade/apps/glove_watch.h>
 #include <glissade/apps/lcm_option.h>
+#include <glissade/apps/machine_check.h>
 #include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/trajectory_file.h>
 #include <glissade/devices/simulated_glove_service.h>
+#include <glissade/realtime/periodic_thread.h>
 #include <glissade/realtime/spsc_ring.h>
 
 namespace glissade::apps {
@@ -103,6 +105,7 @@ int run(const GloveOptions& options) {
   if (!(options.frozen_ms >= 0.0 && options.frozen_ms <= 1e6)) {
     throw std::invalid_argument("--frozen-ms: must lie between 0 and 1e6, not " + format_number(options.frozen_ms));
   }
+  const bool has_locked_memory = realtime::lock_memory();
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   const HandScript script = options.script.empty() ? parse_hand_script(embedded_scene_script(), "car_door_script.csv")
                                                    : read_hand_script(options.script);
@@ -128,6 +131,9 @@ int run(const GloveOptions& options) {
                                        });
 
   StatusLine line;
+  constexpr bool kNeedsFifo = false;  // a simulated hand may be late
+  const std::string missing = missing_rights(!kNeedsFifo, has_locked_memory);
+  if (!missing.empty()) line.say("glissade glove: " + missing);
   line.say("glissade glove: the " + options.side + " hand waits for a server at " + options.lcm.url);
   for (int i = 0; glove.script_time() < duration && !StopSignal::requested(); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -20,6 +20,7 @@
 #include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
+#include <glissade/realtime/periodic_thread.h>
 
 namespace glissade::apps {
 
@@ -58,6 +59,7 @@ struct RunOptions {
   SlidingChoice choice;
   double seconds = 0.0;
   double rate_hz = 0.0;
+  double spin_us = 0.0;
   bool json = false;
   bool verbose = false;
   std::string report;
@@ -148,10 +150,17 @@ int run(const RunOptions& options) {
   if (options.rate_hz != 0.0 && !(options.rate_hz >= 500.0 && options.rate_hz <= 5000.0)) {
     throw std::invalid_argument("--rate-hz: must lie between 500 and 5000, not " + format_number(options.rate_hz));
   }
+  if (!(options.spin_us >= 0.0 && options.spin_us <= 500.0)) {
+    throw std::invalid_argument("--spin-us: must lie between 0 and 500, not " + format_number(options.spin_us));
+  }
+  realtime::lock_memory();
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   const Scene file = read_scene(options.scene);
   const HapticScene scene = make_haptic_scene(file, movable_objects(file));
-  RunSettings settings{.hands = hands_of(options, scene), .choice = options.choice, .seconds = options.seconds};
+  RunSettings settings{.hands = hands_of(options, scene),
+                       .choice = options.choice,
+                       .seconds = options.seconds,
+                       .spin = std::chrono::nanoseconds(std::llround(1e3 * options.spin_us))};
   if (options.rate_hz != 0.0) settings.period = std::chrono::nanoseconds(std::llround(1e9 / options.rate_hz));
   if (!options.report.empty()) prepare_report_folder(options.report);
   const StopSignal stop_signal;
@@ -180,6 +189,11 @@ void add_run_command(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   command->add_option("--rate-hz", options->rate_hz,
                       "Rate of the haptic loop, 500 to 5000 ticks a second; default: that of the glove");
+  command
+      ->add_option("--spin-us", options->spin_us,
+                   "Time before each tick, 0 to 500 us, for which the haptic loop occupies a processor instead of "
+                   "sleeping, so that it starts on time; at most half of its period")
+      ->capture_default_str();
   command->add_flag("--json", options->json, "Print the summary as JSON");
   command->add_flag("--verbose", options->verbose, kVerboseHelp);
   command->add_option("--report", options->report,

@@ -5,10 +5,11 @@
 #include <thread>
 
 #include <glissade/apps/haptic_session.h>
+#include <glissade/apps/machine_check.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/run_watch.h>
+#include <glissade/apps/session_sink.h>
 #include <glissade/apps/text.h>
-#include <glissade/devices/haptic_state_publisher.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/haptics/offline_run.h>
@@ -68,6 +69,15 @@ std::chrono::nanoseconds period_of(const devices::DeviceDescriptor& device) {
   return std::clamp<std::chrono::nanoseconds>(period, haptics::kShortestTickPeriod, haptics::kLongestTickPeriod);
 }
 
+void check_spin(std::chrono::nanoseconds spin, std::chrono::nanoseconds period) {
+  if (spin <= period / 2) return;
+  const auto text_us = [](std::chrono::nanoseconds time) {
+    return format_number(1e-3 * static_cast<double>(time.count()));
+  };
+  throw std::invalid_argument("--spin-us: must be at most half of the haptic loop's period, " + text_us(period / 2) +
+                              ", not " + text_us(spin));
+}
+
 /// The announcements of all gloves of a run; fewer if it is stopped before.
 std::vector<devices::GloveInfo> wait_for_gloves(const std::shared_ptr<devices::LcmBus>& bus,
                                                 const std::vector<SessionHand>& hands,
@@ -110,6 +120,7 @@ Session run_session_offline(const HapticScene& scene, const HandScript& script, 
 Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, const RunSettings& settings,
                     const std::function<bool()>& should_stop, const std::function<void(const RunNews&)>& watch) {
   start_sliding(scene, {}, settings.choice, {});  // errors come before waiting
+  if (settings.period) check_spin(settings.spin, *settings.period);
   const std::vector<devices::GloveInfo> infos = wait_for_gloves(bus, settings.hands, should_stop, watch);
   std::vector<Grip> grips;
   std::chrono::nanoseconds fastest = haptics::kLongestTickPeriod;
@@ -120,13 +131,15 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
     fastest = std::min(fastest, period_of(grips.back().device));
   }
   const std::chrono::nanoseconds period = settings.period.value_or(fastest);
+  check_spin(settings.spin, period);
   if (period > fastest)
     watch({.sentences = {"a glove is faster than the haptic loop: its force may fade (--rate-hz)"}});
   const std::int64_t ticks = std::llround(settings.seconds / std::chrono::duration<double>(period).count());
   haptics::MultiPartSliding sliding = start_sliding(scene, grips, settings.choice, haptics::real_time_rules(), period);
   const auto recorder = std::make_shared<SessionRecorder>(ticks > 0 ? static_cast<std::size_t>(ticks) : kKeptTicks,
                                                           sliding.part_count(), settings.hands.size());
-  devices::HapticStatePublisher publisher(bus);
+  RunWatch run_watch = watch_of(scene, settings);
+  SessionSink sink(bus, recorder, run_watch);
   std::vector<std::unique_ptr<devices::LcmGlove>> gloves;
   std::vector<haptics::HandOfServer> hands;
   std::vector<std::int64_t> numbers;
@@ -138,17 +151,14 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
     hands.push_back({gloves.back().get(), settings.hands[h].part});
     numbers.push_back(device);
   }
-  RunWatch run_watch = watch_of(scene, settings);
   realtime::SteadyClock clock;
-  haptics::HapticServer server(hands, sliding, clock,
-                               [&](const devices::HapticState& sample) {
-                                 recorder->record(sample);
-                                 publisher.push(sample);
-                                 run_watch.note(sample);
-                               },
-                               {.period = period, .ticks = ticks, .fifo_priority = kFifoPriority});
+  haptics::HapticServer server(
+      hands, sliding, clock, [&sink](const devices::HapticState& sample) { sink.receive(sample); },
+      {.period = period, .ticks = ticks, .fifo_priority = kFifoPriority, .spin = settings.spin});
   realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = kFifoPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
+  const std::string missing = missing_rights(server.scheduling().is_fifo, server.scheduling().has_locked_memory);
+  if (!missing.empty()) watch({.sentences = {missing}});
   while (!server.is_done() && !server.has_failed() && !should_stop()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     RunWatch::News news = run_watch.news(server.late_ticks());

@@ -39,6 +39,7 @@ struct RunSettings {
   double seconds = 0.0;  ///< after the first state of any glove; 0: no limit
   /// Of the haptic loop; default: that of the fastest glove, within the bounds of `validate_tick_period`.
   std::optional<std::chrono::nanoseconds> period{};
+  std::chrono::nanoseconds spin{0};  ///< as `haptics::HapticServerOptions::spin`
 };
 
 /// What a run tells ten times a second.
@@ -51,7 +52,7 @@ struct RunNews {
 
 /// Runs the haptic server in real time with gloves on `bus`, until its time is over or `should_stop` returns true.
 /// Waits for all gloves first. Publishes HAPTIC_STATE on the bus. Throws std::invalid_argument, naming scene and part,
-/// when a part collides at its start.
+/// when a part collides at its start, and naming --spin-us when the spin is longer than half of the loop's period.
 Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, const RunSettings& settings,
                     const std::function<bool()>& should_stop, const std::function<void(const RunNews&)>& watch);
 

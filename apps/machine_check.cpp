@@ -21,6 +21,12 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kVerdictNames{"good", "can be better", "bad", "unknown"};
 
+constexpr const char* kNoFifo = "any busy program can hold the haptic thread up for milliseconds";
+constexpr const char* kNoLockedMemory = "a page that the system has moved out costs a tick milliseconds";
+constexpr const char* kMendRights =
+    "printf '%s - rtprio 90\\n%s - memlock unlimited\\n' \"$USER\" \"$USER\" | sudo tee "
+    "/etc/security/limits.d/90-haptics.conf  # and log in again";
+
 /// The first line of a file; nothing if it cannot be read.
 std::optional<std::string> line_of(const std::filesystem::path& file) {
   std::ifstream stream(file);
@@ -40,24 +46,17 @@ Finding fifo() {
   if (probe.scheduling().is_fifo) {
     return {"SCHED_FIFO", Verdict::kGood, "granted", "the haptic thread runs ahead of every ordinary thread", ""};
   }
-  return {"SCHED_FIFO", Verdict::kCanBeBetter, "refused",
-          "any busy program can hold the haptic thread up for milliseconds",
-          "echo \"$USER - rtprio 90\" | sudo tee /etc/security/limits.d/90-haptics.conf  # and log in again"};
+  return {"SCHED_FIFO", Verdict::kCanBeBetter, "refused", kNoFifo, kMendRights};
 }
 
 Finding locked_memory() {
+  if (realtime::may_lock_memory()) {
+    return {"locked memory", Verdict::kGood, "granted", "no tick waits for a page that the system has moved out", ""};
+  }
   rlimit limit{};
   getrlimit(RLIMIT_MEMLOCK, &limit);
-  constexpr rlim_t kEnough = rlim_t{256} << 20;
-  const bool is_enough = limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= kEnough;
-  const std::string value =
-      limit.rlim_cur == RLIM_INFINITY ? "unlimited" : std::to_string(limit.rlim_cur >> 10) + " KiB";
-  return {"locked memory", is_enough ? Verdict::kGood : Verdict::kCanBeBetter, value,
-          "a page that the system has moved out costs a tick milliseconds; locked pages stay",
-          is_enough
-              ? ""
-              : "echo \"$USER - memlock unlimited\" | sudo tee -a /etc/security/limits.d/90-haptics.conf  # and log "
-                "in again"};
+  return {"locked memory", Verdict::kCanBeBetter, "at most " + std::to_string(limit.rlim_cur >> 10) + " KiB",
+          kNoLockedMemory, kMendRights};
 }
 
 Finding timer_slack() {
@@ -184,6 +183,14 @@ std::string_view name_of(Verdict verdict) {
 std::vector<Finding> check_machine(const std::filesystem::path& root) {
   return {fifo(),       locked_memory(),    timer_slack(), throttle(root),        governor(root), idle_states(root),
           kernel(root), clock_source(root), processors(),  virtual_machine(root), multicast(root)};
+}
+
+std::string missing_rights(bool has_fifo, bool has_locked_memory) {
+  if (has_fifo && has_locked_memory) return {};
+  std::string text;
+  if (!has_fifo) text += std::string("SCHED_FIFO is not granted: ") + kNoFifo + "; ";
+  if (!has_locked_memory) text += std::string("memory is not locked: ") + kNoLockedMemory + "; ";
+  return text + "this mends it: " + kMendRights;
 }
 
 }  // namespace glissade::apps

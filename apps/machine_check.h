@@ -31,4 +31,8 @@ struct Finding {
 /// this process. Changes nothing.
 std::vector<Finding> check_machine(const std::filesystem::path& root = "/");
 
+/// What the system did not grant to a haptic loop, what this means, and the command that mends it, in one sentence;
+/// empty if it granted everything.
+std::string missing_rights(bool has_fifo, bool has_locked_memory);
+
 }  // namespace glissade::apps

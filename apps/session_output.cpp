@@ -32,6 +32,11 @@ std::string hash_text(std::uint64_t hash) {
 
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
+std::string p50_p99_max(const realtime::LatencyHistogram& histogram) {
+  return formatted("%.1f / %.1f / %.1f us", microseconds(histogram.quantile(0.5)),
+                   microseconds(histogram.quantile(0.99)), microseconds(histogram.max()));
+}
+
 std::string p50_p99(const realtime::LatencyHistogram& histogram) {
   return formatted("%.1f / %.1f us", microseconds(histogram.quantile(0.5)), microseconds(histogram.quantile(0.99)));
 }
@@ -41,12 +46,14 @@ void add_real_time_rows(const RealTimeFigures& figures, Rows& rows) {
   rows.emplace_back("late ticks", formatted("%llu of %llu", static_cast<unsigned long long>(loop.late_ticks),
                                             static_cast<unsigned long long>(loop.ticks)));
   rows.emplace_back("tick time p50 / p99", p50_p99(loop.duration));
-  rows.emplace_back("wake-up lateness p50 / p99", p50_p99(loop.lateness));
-  rows.emplace_back("the same of a bare timer", p50_p99(figures.bare_timer.lateness));
+  rows.emplace_back("lateness p50 / p99 / max", p50_p99_max(loop.lateness));
+  rows.emplace_back("the same of a bare timer", p50_p99_max(figures.bare_timer.lateness));
   rows.emplace_back("simulation step p50 / p99", p50_p99(figures.server.simulation));
   rows.emplace_back("age of contacts p50 / p99", p50_p99(figures.server.contact_set_age));
-  rows.emplace_back("scheduling", figures.server.has_fifo_scheduling ? "real-time (SCHED_FIFO)"
-                                                                     : "ordinary (SCHED_FIFO was refused)");
+  rows.emplace_back("page faults of haptic loop", std::to_string(figures.server.page_faults));
+  rows.emplace_back("scheduling",
+                    figures.server.scheduling.is_fifo ? "real-time (SCHED_FIFO)" : "ordinary (SCHED_FIFO was refused)");
+  rows.emplace_back("memory", figures.server.scheduling.has_locked_memory ? "locked" : "not locked");
 }
 
 std::string stage_text(const collision::StageReport& stage, std::int64_t frames) {
@@ -269,7 +276,14 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
                          {"tick_us_p50", nullptr},
                          {"tick_us_p99", nullptr},
                          {"lateness_us_p50", nullptr},
+                         {"lateness_us_p99", nullptr},
+                         {"lateness_us_max", nullptr},
                          {"bare_lateness_us_p50", nullptr},
+                         {"bare_lateness_us_p99", nullptr},
+                         {"bare_lateness_us_max", nullptr},
+                         {"page_faults", nullptr},
+                         {"has_fifo_scheduling", nullptr},
+                         {"has_locked_memory", nullptr},
                          {"simulation_us_p50", nullptr},
                          {"simulation_us_p99", nullptr},
                          {"contact_set_age_us_p50", nullptr},
@@ -282,10 +296,17 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
   if (session.real_time) {
     const haptics::HapticServerStatistics& server = session.real_time->server;
     json["late_ticks"] = server.haptic.late_ticks;
+    json["page_faults"] = server.page_faults;
+    json["has_fifo_scheduling"] = server.scheduling.is_fifo;
+    json["has_locked_memory"] = server.scheduling.has_locked_memory;
     json["tick_us_p50"] = microseconds(server.haptic.duration.quantile(0.5));
     json["tick_us_p99"] = microseconds(server.haptic.duration.quantile(0.99));
-    json["lateness_us_p50"] = microseconds(server.haptic.lateness.quantile(0.5));
-    json["bare_lateness_us_p50"] = microseconds(session.real_time->bare_timer.lateness.quantile(0.5));
+    for (const auto& [name, lateness] : {std::pair("lateness_us", &server.haptic.lateness),
+                                         std::pair("bare_lateness_us", &session.real_time->bare_timer.lateness)}) {
+      json[std::string(name) + "_p50"] = microseconds(lateness->quantile(0.5));
+      json[std::string(name) + "_p99"] = microseconds(lateness->quantile(0.99));
+      json[std::string(name) + "_max"] = microseconds(lateness->max());
+    }
     json["simulation_us_p50"] = microseconds(server.simulation.quantile(0.5));
     json["simulation_us_p99"] = microseconds(server.simulation.quantile(0.99));
     json["contact_set_age_us_p50"] = microseconds(server.contact_set_age.quantile(0.5));

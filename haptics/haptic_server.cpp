@@ -2,6 +2,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include <sys/resource.h>
+
 #include <glissade/haptics/haptic_server.h>
 
 #include "loop/answer.h"
@@ -19,6 +21,12 @@ std::chrono::nanoseconds longest_fade(const devices::DeviceDescriptor& device) n
       std::max({time(device.max_force, device.max_force_rate), time(device.max_torque, device.max_torque_rate), 0.5});
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::duration<double>(2.0 * std::min(slowest_s, 1e6)));
+}
+
+std::int64_t page_faults_of_this_thread() noexcept {
+  rusage usage{};
+  getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_minflt + usage.ru_majflt;
 }
 
 }  // namespace
@@ -42,7 +50,7 @@ HapticServer::HapticServer(const std::vector<HandOfServer>& hands, MultiPartSlid
   haptic_thread_ = std::make_unique<realtime::PeriodicThread>(
       clock,
       realtime::PeriodicThreadOptions{
-          .period = options.period, .fifo_priority = options.fifo_priority, .name = "haptic"},
+          .period = options.period, .fifo_priority = options.fifo_priority, .spin = options.spin, .name = "haptic"},
       [this](const realtime::PeriodicTick& timing) { return haptic_tick(timing); });
 }
 
@@ -96,6 +104,7 @@ bool HapticServer::haptic_tick(const realtime::PeriodicTick& timing) noexcept {
 
 void HapticServer::report() noexcept {
   const HapticTick& tick = record_.tick;
+  if (ticks() == 0) page_faults_before_ = page_faults_of_this_thread();
   statistics_.contact_set_age.record(record_.state.contact_set_age);
   const bool any_unsolved =
       std::any_of(tick.hands.begin(), tick.hands.end(), [](const HandTick& hand) { return hand.is_unsolved; });
@@ -114,6 +123,7 @@ bool HapticServer::go_on_fading() noexcept {
     goes_on = goes_on || (!is_at_rest && fading < longest_fade(devices_[h]->descriptor()));
   }
   if (goes_on) return true;
+  if (ticks() > 0) statistics_.page_faults = page_faults_of_this_thread() - page_faults_before_;
   done_.store(options_.ticks > 0 && ticks() == options_.ticks, std::memory_order_release);
   return false;
 }
@@ -156,7 +166,7 @@ void HapticServer::stop() {
   haptic_thread_->join();
   simulation_thread_->stop();
   statistics_.haptic = haptic_thread_->statistics();
-  statistics_.has_fifo_scheduling = haptic_thread_->scheduling().is_fifo;
+  statistics_.scheduling = scheduling();
 }
 
 }  // namespace glissade::haptics

@@ -41,6 +41,9 @@ struct HapticServerOptions {
   std::int64_t ticks = 0;
   /// SCHED_FIFO priority that the haptic thread requests; 0 requests none.
   int fifo_priority = 80;
+  /// Time before each deadline for which the haptic thread reads the clock instead of sleeping, at most half of the
+  /// period: its ticks start on time, and it occupies a processor so much longer.
+  std::chrono::nanoseconds spin{0};
   LoopObserver* observer = nullptr;  ///< null: none; must outlive the server
 };
 
@@ -56,7 +59,8 @@ struct HapticServerStatistics {
   realtime::LatencyHistogram simulation;       ///< duration of each call of the simulation
   realtime::LatencyHistogram contact_set_age;  ///< at each counted tick: age of the ghosts that the set answers
   std::int64_t unsolved_ticks = 0;             ///< counted ticks in which contacts of any hand had no solution
-  bool has_fifo_scheduling = false;
+  realtime::ThreadScheduling scheduling;       ///< of the haptic thread
+  std::int64_t page_faults = 0;                ///< of the haptic thread, from its first counted tick to its end
 };
 
 /// Runs both threads from construction to `stop`. Thread-safety: one thread owns the object. Between construction and
@@ -72,7 +76,7 @@ class HapticServer {
   /// device arrives; the part stays where it is. Parts that no hand grasps and no script moves lie still, and are
   /// obstacles. The coupling is the result of `coupling_for` with the descriptor of the device and the stiffness of the
   /// simulation. Throws std::invalid_argument for a null device, an empty sink or a period out of bounds, and as the
-  /// constructor of `HapticKernel` does.
+  /// constructors of `HapticKernel` and `realtime::PeriodicThread` do.
   HapticServer(const std::vector<HandOfServer>& hands, MultiPartSliding& sliding, realtime::Clock& clock, Sink sink,
                const HapticServerOptions& options = {});
   HapticServer(const HapticServer&) = delete;
@@ -109,6 +113,8 @@ class HapticServer {
   /// Number of ticks of the haptic thread so far, counted or not, that began a period or more late. Wait-free, any
   /// thread.
   std::int64_t late_ticks() const noexcept { return late_ticks_.load(std::memory_order_relaxed); }
+  /// What the system granted to the haptic thread. Any thread.
+  const realtime::ThreadScheduling& scheduling() const noexcept { return haptic_thread_->scheduling(); }
 
   /// Lets the force fade and stops both threads. May block for some ticks and one call of the simulation.
   void stop();
@@ -138,6 +144,7 @@ class HapticServer {
   HapticKernel kernel_;
   std::optional<std::chrono::nanoseconds> fading_since_;
   bool sink_failed_ = false;
+  std::int64_t page_faults_before_ = 0;  // the first counted tick
 
   // Simulation thread only.
   std::unique_ptr<Answerer> answerer_;

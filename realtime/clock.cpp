@@ -21,4 +21,9 @@ void SteadyClock::sleep_until(std::chrono::nanoseconds deadline) noexcept {
   }
 }
 
+void SteadyClock::spin_until(std::chrono::nanoseconds deadline) noexcept {
+  while (now() < deadline) {
+  }
+}
+
 }  // namespace glissade::realtime

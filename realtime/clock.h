@@ -17,6 +17,10 @@ class Clock {
 
   /// Returns as soon as now() ≥ `deadline`, and at once if the deadline has already passed. May block.
   virtual void sleep_until(std::chrono::nanoseconds deadline) noexcept = 0;
+
+  /// As `sleep_until`, for the last stretch before a deadline: a clock that can do so keeps the processor and reads the
+  /// time again and again, so that no wake-up comes late.
+  virtual void spin_until(std::chrono::nanoseconds deadline) noexcept { sleep_until(deadline); }
 };
 
 /// CLOCK_MONOTONIC, with the same epoch for every process of a machine. Any number of threads may use one object.
@@ -24,6 +28,7 @@ class SteadyClock final : public Clock {
  public:
   std::chrono::nanoseconds now() const noexcept override;
   void sleep_until(std::chrono::nanoseconds deadline) noexcept override;
+  void spin_until(std::chrono::nanoseconds deadline) noexcept override;
 };
 
 /// A clock that starts at 0 and moves only by `sleep_until` and `advance`. Not thread-safe.

@@ -9,6 +9,12 @@ PeriodicSchedule::PeriodicSchedule(std::chrono::nanoseconds start, std::chrono::
   if (period <= std::chrono::nanoseconds::zero()) throw std::invalid_argument("The period of a loop must be positive.");
 }
 
+void validate_spin(std::chrono::nanoseconds spin, std::chrono::nanoseconds period) {
+  if (spin < std::chrono::nanoseconds::zero() || spin > period / 2) {
+    throw std::invalid_argument("A loop may spin for half of its period at most.");
+  }
+}
+
 void PeriodicSchedule::finish_tick(std::chrono::nanoseconds started, std::chrono::nanoseconds ended,
                                    PeriodicStatistics& statistics) noexcept {
   ++statistics.ticks;

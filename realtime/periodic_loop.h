@@ -7,11 +7,11 @@
 /// successor has not passed yet. The loop skips and counts the deadlines in between. So ticks never run in bursts to
 /// catch up, the loop never drifts, and after an overrun the next tick starts at once.
 ///
-/// Between ticks, the loop only sleeps, until the absolute time of the next deadline. The median lateness is 20 µs
-/// under SCHED_FIFO, and a little more otherwise. Spinning through the last 100 µs would reduce the median to about 0.
-/// But spinning would cost a tenth of a core at 1 kHz, and on a small machine the simulation needs this processor time
-/// more. Spinning would not shorten the longest delays either, because the host of a virtual machine may take the
-/// processor away for milliseconds.
+/// Between ticks, the loop sleeps until the absolute time of the next deadline. A sleep ends late, by the time that the
+/// system needs to wake the thread up. Who wants to start on time lets the loop spin: it then sleeps until some time
+/// before the deadline, and reads the clock until the deadline has come. Spinning costs that part of a core, which on a
+/// small machine the simulation needs more, so without a wish the loop does not spin. Spinning does not shorten the
+/// longest delays either, in which the thread does not get the processor at all. docs/real_time.md has measurements.
 
 #include <chrono>
 #include <cstdint>
@@ -55,15 +55,23 @@ class PeriodicSchedule {
   std::chrono::nanoseconds deadline_;
 };
 
+/// Throws std::invalid_argument unless 0 ≤ `spin` ≤ `period` / 2: under SCHED_FIFO, a loop that spins all the time
+/// keeps everything else from its processor.
+void validate_spin(std::chrono::nanoseconds spin, std::chrono::nanoseconds period);
+
 /// Calls `tick(const PeriodicTick&) -> bool` every `period` in the calling thread until the tick returns false. The
 /// first call is one period from now. Adds to `statistics` in place. Allocates nothing, locks nothing; between ticks
-/// the loop sleeps on `clock`. Throws std::invalid_argument when `period` is not positive.
+/// the loop sleeps on `clock`, except that it spins for `spin` before each deadline. Throws std::invalid_argument when
+/// `period` is not positive, and as `validate_spin` does.
 template <typename Tick>
-void run_periodic(Clock& clock, std::chrono::nanoseconds period, PeriodicStatistics& statistics, Tick&& tick) {
+void run_periodic(Clock& clock, std::chrono::nanoseconds period, PeriodicStatistics& statistics, Tick&& tick,
+                  std::chrono::nanoseconds spin = std::chrono::nanoseconds(0)) {
   PeriodicSchedule schedule(clock.now() + period, period);
+  validate_spin(spin, period);
   bool go_on = true;
   for (std::uint64_t index = 0; go_on; ++index) {
-    clock.sleep_until(schedule.deadline());
+    clock.sleep_until(schedule.deadline() - spin);
+    if (spin > std::chrono::nanoseconds::zero()) clock.spin_until(schedule.deadline());
     const std::chrono::nanoseconds start = clock.now();
     go_on = tick(PeriodicTick{index, schedule.deadline(), start});
     schedule.finish_tick(start, clock.now(), statistics);

@@ -1,22 +1,40 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cstddef>
 #include <future>
 #include <stdexcept>
 #include <utility>
 
+#include <malloc.h>
 #include <pthread.h>
 #include <sched.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <glissade/realtime/periodic_thread.h>
 
 namespace glissade::realtime {
 namespace {
 
+std::atomic<bool> memory_is_locked{false};
+
+/// Touches more of the stack than ticks need, so that none of them is the first to touch a page.
+[[gnu::noinline]] void touch_stack() noexcept {
+  constexpr std::size_t kTouched = std::size_t{256} << 10;
+  constexpr std::size_t kSmallestPage = 4096;
+  std::array<char, kTouched> stack;
+  for (std::size_t i = 0; i < kTouched; i += kSmallestPage)
+    *static_cast<volatile char*>(&stack[i]) = 0;
+}
+
 /// Puts the calling thread under SCHED_FIFO with `priority` (1 to 99) where the system allows it, leaves its scheduling
 /// alone for `priority` 0, and sets its timer slack to the minimum. Never fails: a refusal shows in the result.
 ThreadScheduling request_punctual_scheduling(int priority) noexcept {
   ThreadScheduling scheduling;
+  scheduling.has_locked_memory = memory_is_locked.load(std::memory_order_relaxed);
   if (priority > 0) {
     const sched_param parameters{.sched_priority = priority};
     scheduling.is_fifo = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
@@ -28,6 +46,30 @@ ThreadScheduling request_punctual_scheduling(int priority) noexcept {
 
 }  // namespace
 
+// With a limit, mlockall would succeed as long as the process is small, and later allocations would fail. Rights in a
+// container may not count, so the system is asked by the attempt to lock more than the limit: no page is touched.
+bool may_lock_memory() noexcept {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_MEMLOCK, &limit) != 0) return false;
+  if (limit.rlim_cur == RLIM_INFINITY) return true;
+  const std::size_t more = limit.rlim_cur + static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  void* const pages = mmap(nullptr, more, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (pages == MAP_FAILED) return false;
+  const bool is_granted = mlock2(pages, more, MLOCK_ONFAULT) == 0;
+  munmap(pages, more);
+  return is_granted;
+}
+
+bool lock_memory() noexcept {
+  if (!may_lock_memory() || mlockall(MCL_CURRENT | MCL_FUTURE) != 0) return false;
+  // What other threads give back to the system would be fetched anew, page by page, and each change of the address
+  // space interrupts all processors.
+  mallopt(M_TRIM_THRESHOLD, -1);
+  mallopt(M_MMAP_MAX, 0);
+  memory_is_locked.store(true, std::memory_order_relaxed);
+  return true;
+}
+
 void name_this_thread(std::string_view name) noexcept {
   std::array<char, 16> shortened{};  // the most that the system takes, with the final zero
   std::copy_n(name.begin(), std::min(name.size(), shortened.size() - 1), shortened.begin());
@@ -37,15 +79,20 @@ void name_this_thread(std::string_view name) noexcept {
 PeriodicThread::PeriodicThread(Clock& clock, const PeriodicThreadOptions& options, Tick tick) {
   // Bad arguments must be found here, because an exception could not leave the thread.
   const PeriodicSchedule check(clock.now(), options.period);
+  validate_spin(options.spin, options.period);
   if (!tick) throw std::invalid_argument("A periodic thread needs a tick.");
   std::promise<ThreadScheduling> scheduling;
   std::future<ThreadScheduling> granted = scheduling.get_future();
   thread_ = std::thread([this, &clock, options, own_tick = std::move(tick), own = std::move(scheduling)]() mutable {
     if (!options.name.empty()) name_this_thread(options.name);
+    touch_stack();
     own.set_value(request_punctual_scheduling(options.fifo_priority));
-    run_periodic(clock, options.period, statistics_, [this, &own_tick](const PeriodicTick& now) {
-      return !should_stop_.load(std::memory_order_relaxed) && own_tick(now);
-    });
+    run_periodic(
+        clock, options.period, statistics_,
+        [this, &own_tick](const PeriodicTick& now) {
+          return !should_stop_.load(std::memory_order_relaxed) && own_tick(now);
+        },
+        options.spin);
   });
   scheduling_ = granted.get();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
-/// A thread that calls a function, the tick function, at a fixed rate: `run_periodic` in a thread of its own.
+/// A thread that calls a function, the tick function, at a fixed rate: `run_periodic` in a thread of its own. And what
+/// such a thread needs of its process: memory that is there when a tick touches it.
 
 #include <atomic>
 #include <chrono>
@@ -18,15 +19,27 @@ namespace glissade::realtime {
 struct PeriodicThreadOptions {
   std::chrono::nanoseconds period{std::chrono::milliseconds(1)};
   int fifo_priority = 0;  ///< SCHED_FIFO priority to request, 1 to 99; 0 requests nothing
-  std::string name;       ///< as in `name_this_thread`; empty: that of the thread that starts it
+  /// Time before each deadline for which the thread reads the clock instead of sleeping, as in `run_periodic`.
+  std::chrono::nanoseconds spin{0};
+  std::string name;  ///< as in `name_this_thread`; empty: that of the thread that starts it
 };
 
 /// Names the calling thread for `top -H`, debuggers and /proc. The system keeps the first 15 bytes.
 void name_this_thread(std::string_view name) noexcept;
 
-/// Scheduling that the system granted to a thread.
+/// Whether the system would grant `lock_memory`: this process may lock as much memory as it likes. Changes nothing.
+bool may_lock_memory() noexcept;
+
+/// Keeps all memory of this process, present and future, in its place, so that no thread waits for a page: the system
+/// neither moves pages out nor puts off to the first touch what it hands over, and the heap keeps what is freed. Then
+/// each thread occupies its whole stack, 8 MiB unless the system says otherwise. Returns whether it was granted; if
+/// not, nothing has changed. For programs, best at their start. Any thread.
+bool lock_memory() noexcept;
+
+/// What the system granted to a thread.
 struct ThreadScheduling {
   bool is_fifo = false;                  ///< the thread runs under SCHED_FIFO, ahead of every ordinary thread
+  bool has_locked_memory = false;        ///< `lock_memory` had been granted when the thread started
   bool has_minimal_timer_slack = false;  ///< the kernel does not delay timers to batch wake-ups (default: by 50 µs)
 };
 
@@ -38,8 +51,8 @@ class PeriodicThread {
   using Tick = std::function<bool(const PeriodicTick&)>;
 
   /// `clock` must outlive the thread. Returns once the thread runs and its scheduling is known. Throws
-  /// std::invalid_argument when the period is not positive or the tick function is empty, and std::system_error when
-  /// the system cannot start a thread.
+  /// std::invalid_argument when the period is not positive, the spin too long or the tick function empty, and
+  /// std::system_error when the system cannot start a thread.
   PeriodicThread(Clock& clock, const PeriodicThreadOptions& options, Tick tick);
   PeriodicThread(const PeriodicThread&) = delete;
   PeriodicThread& operator=(const PeriodicThread&) = delete;

@@ -38,6 +38,11 @@ class Demo : public testing::Test {
                                     "0.8,0.05,0,0.01,1,0,0,0\n"
                                     "1,0.05,0,0.01,1,0,0,0\n");
 
+  /// A user without rights is told so, in one line.
+  static bool is_about_rights(const std::string& text) {
+    return text.find('\n') == text.size() - 1 && text.find("this mends it") != std::string::npos;
+  }
+
   static nlohmann::json run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"demo", "--json"});
     const ProgramResult result = test_support::glissade(arguments);
@@ -84,9 +89,14 @@ TEST_F(Demo, InRealTimeGloveAndServerMeetOverLcmAndReachTheSameSeat) {
   EXPECT_EQ(summary["colliding_poses"], 0);
   EXPECT_EQ(summary["seat_reached"], true);
   EXPECT_GT(summary["hands"][0]["force_max_N"], 1.0);
-  for (const char* figure : {"tick_us_p50", "tick_us_p99", "lateness_us_p50", "bare_lateness_us_p50", "late_ticks"}) {
+  for (const char* figure :
+       {"tick_us_p50", "tick_us_p99", "lateness_us_p50", "bare_lateness_us_p50", "late_ticks", "page_faults"}) {
     EXPECT_TRUE(summary[figure].is_number()) << figure;
   }
+  EXPECT_GE(summary["lateness_us_p99"], summary["lateness_us_p50"]);
+  EXPECT_GE(summary["bare_lateness_us_max"], summary["bare_lateness_us_p99"]);
+  EXPECT_TRUE(summary["has_fifo_scheduling"].is_boolean());
+  EXPECT_TRUE(summary["has_locked_memory"].is_boolean());
   std::ifstream page(files().path("report") + "/index.html");
   std::stringstream html;
   html << page.rdbuf();
@@ -128,6 +138,11 @@ TEST_F(Demo, FrictionHoldsTheHandBack) {
     return nlohmann::json::parse(result.standard_output)["seat_distance_m"].get<double>();
   };
   EXPECT_GT(distance_with({"--friction", "0.6"}), distance_with({}) + 2e-3);
+}
+
+TEST_F(Demo, AServerSpinsForHalfOfItsPeriodAtMost) {
+  expect_refused({"run", scene, "--spin-us", "501"}, {"--spin-us", "0 and 500"});
+  expect_refused({"run", scene, "--rate-hz", "5000", "--spin-us", "300"}, {"--spin-us", "period, 100, not 300"});
 }
 
 TEST_F(Demo, RefusesWhatIsWrong) {

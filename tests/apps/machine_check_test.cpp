@@ -89,6 +89,17 @@ TEST_F(MachineCheck, ARealTimeKernelIsGood) {
   EXPECT_EQ(finding("kernel").verdict, Verdict::kGood);
 }
 
+TEST(MissingRights, AreOneSentenceWithWhatItMeansAndTheCommandOfTheDoctor) {
+  EXPECT_EQ(missing_rights(true, true), "");
+  const std::string both = missing_rights(false, false);
+  EXPECT_THAT(both, HasSubstr("SCHED_FIFO is not granted: any busy program"));
+  EXPECT_THAT(both, HasSubstr("memory is not locked: a page"));
+  EXPECT_THAT(both, HasSubstr("limits.d/90-haptics.conf"));
+  EXPECT_EQ(std::count(both.begin(), both.end(), '\n'), 0);
+  EXPECT_THAT(missing_rights(true, false), testing::Not(HasSubstr("SCHED_FIFO")));
+  EXPECT_THAT(missing_rights(false, true), testing::Not(HasSubstr("memory is not locked")));
+}
+
 TEST(Doctor, TellsEveryFindingAsTextAndAsJson) {
   const test_support::ProgramResult text = test_support::glissade({"doctor"});
   EXPECT_EQ(text.exit_code, 0);

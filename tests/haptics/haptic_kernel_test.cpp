@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -262,6 +263,68 @@ TEST_F(Kernel, ATickAllocatesNothing) {
   for (int i = 0; i < 1000; ++i)
     tick(hand_at({1e-5 * i, 0.0, 0.5 - 1e-5 * i}), set);
   EXPECT_EQ(test_support::allocations_of_this_thread(), before);
+}
+
+/// Two parts side by side, with as many rows as fit: with the floor, and with each other.
+ContactSet crowded_set() {
+  ContactSet set;
+  set.sequence = 1;
+  set.part_count = 2;
+  for (PartAnswer& part : set.parts)
+    part.hold = 1;
+  set.parts[0].X_WV = Isometry3d(Eigen::Translation3d(-0.05, 0.0, 0.5));
+  set.parts[1].X_WV = Isometry3d(Eigen::Translation3d(0.05, 0.0, 0.5));
+  for (PartAnswer& part : set.parts)
+    part.X_WV_of_rows = part.X_WV;
+  set.row_count = 2 * static_cast<std::int32_t>(kMaxContactRows);
+  for (std::int32_t i = 0; i < set.row_count; ++i) {
+    ContactRow& row = set.row_array[static_cast<std::size_t>(i)];
+    const double offset = 1e-3 * (i % 16) - 8e-3;
+    row.part = i / static_cast<std::int32_t>(kMaxContactRows);
+    const bool is_mutual = i % 2 == 1;
+    const double outward = row.part == 0 ? -1.0 : 1.0;
+    row.n = is_mutual ? Vector3d(outward, offset, 0.0).normalized() : Vector3d(offset, 0.0, 1.0).normalized();
+    row.r = is_mutual ? Vector3d(-0.05 * outward, offset, offset) : Vector3d(offset, offset, -0.05);
+    row.bound = -1e-4;
+    row.pushes = true;
+    row.friction_ratio_W = 0.2 * row.n.unitOrthogonal();
+    if (!is_mutual) continue;
+    row.other = 1 - row.part;
+    row.r_other = Vector3d(0.05 * outward, offset, offset);
+  }
+  return set;
+}
+
+TEST(KernelOfTwoHands, ATickOnCoupledPartsAllocatesNothing) {
+  if (!test_support::allocations_are_counted()) GTEST_SKIP() << "a sanitizer's allocator cannot be interposed";
+  const devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
+  const KernelPart part{.radius = 0.1, .stiffness = kKernelStiffness};
+  HapticKernel kernel({part, part}, {{device, 0}, {device, 1}});
+  ContactSet set = crowded_set();
+  std::array<devices::GloveState, 2> states;
+  const std::array<const devices::GloveState*, 2> newest{&states[0], &states[1]};
+  std::array<double, 2> greatest_N{};
+  const std::int64_t before = test_support::allocations_of_this_thread();
+  for (int ms = 1; ms <= 1000; ++ms) {
+    for (std::size_t h = 0; h < 2; ++h) {
+      const double inward = h == 0 ? 1.0 : -1.0;
+      states[h].time = std::chrono::milliseconds(ms);
+      states[h].sequence = ms;
+      states[h].X_WH.translation() = set.parts[h].X_WV.translation() + 5e-6 * ms * Vector3d(inward, 0.0, -1.0);
+      states[h].v_WH = 5e-3 * Vector3d(inward, 0.0, -1.0);
+    }
+    if (ms == 600) kernel.release(1);  // then both hands hold one part
+    if (ms == 601) kernel.grasp(1, 0);
+    set.time = std::chrono::milliseconds(ms);
+    const HapticTick tick = kernel.tick(newest, set, std::chrono::milliseconds(ms));
+    set.parts[0].hold = tick.ghosts.parts[0].hold;
+    set.parts[1].hold = tick.ghosts.parts[1].hold;
+    for (std::size_t h = 0; h < 2; ++h)
+      greatest_N[h] = std::max(greatest_N[h], tick.hands[h].command.values().f_H_W.norm());
+  }
+  EXPECT_EQ(test_support::allocations_of_this_thread(), before);
+  EXPECT_GT(greatest_N[0], 1.0) << "the rows have done something";
+  EXPECT_GT(greatest_N[1], 1.0);
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
@@ -224,6 +226,32 @@ TEST_F(Server, CountsLateTicksWhileItRuns) {
   EXPECT_GE(server.late_ticks(), 4);
   server.stop();
   EXPECT_EQ(server.late_ticks(), static_cast<std::int64_t>(server.statistics().haptic.late_ticks));
+}
+
+TEST_F(Server, CountsThePagesThatTheHapticThreadWaitsFor) {
+  constexpr std::size_t kPages = 200;
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  void* const memory =
+      mmap(nullptr, kPages * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  ASSERT_NE(memory, MAP_FAILED);
+  HapticServer server({{device_.get()}}, *sliding_, clock_,
+                      [&](const devices::HapticState& sample) {
+                        if (sample.sequence != 10) return;
+                        for (std::size_t i = 0; i < kPages; ++i)
+                          static_cast<volatile char*>(memory)[i * page] = 1;
+                      },
+                      {.ticks = 20});
+  wait_for(server);
+  server.stop();
+  EXPECT_GE(server.statistics().page_faults, static_cast<std::int64_t>(kPages) / 16) << "or pages of up to 64 KiB";
+  munmap(memory, kPages * page);
+}
+
+TEST_F(Server, RefusesToSpinForMoreThanHalfOfThePeriod) {
+  const HapticServerOptions options{.spin = std::chrono::microseconds(501)};
+  EXPECT_THROW(HapticServer(
+                   {{device_.get()}}, *sliding_, clock_, [](const devices::HapticState&) {}, options),
+               std::invalid_argument);
 }
 
 TEST_F(Server, RefusesAnEmptySink) {

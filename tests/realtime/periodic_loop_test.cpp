@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <utility>
@@ -88,6 +89,58 @@ TEST(RunPeriodic, WakingUpAPeriodAfterTheDeadlineIsLate) {
   }
 }
 
+/// Wakes up `lateness` after every deadline, but reads the time without delay.
+class SpinningClock final : public Clock {
+ public:
+  explicit SpinningClock(nanoseconds lateness) : lateness_(lateness) {}
+  nanoseconds now() const noexcept override { return now_; }
+  void sleep_until(nanoseconds deadline) noexcept override {
+    if (deadline > now_) now_ = deadline + lateness_;
+  }
+  void spin_until(nanoseconds deadline) noexcept override {
+    if (deadline <= now_) return;
+    spun_ += deadline - now_;
+    now_ = deadline;
+  }
+  nanoseconds spun() const { return spun_; }
+
+ private:
+  nanoseconds lateness_;
+  nanoseconds now_{0};
+  nanoseconds spun_{0};
+};
+
+TEST(RunPeriodic, SpinsUntilTheDeadlineAfterAWakeUpThatCameLate) {
+  const auto stop_after_ten = [](const PeriodicTick& tick) { return tick.index < 9; };
+  for (const auto& [lateness, left] : {std::pair(60, 0), std::pair(100, 0), std::pair(150, 50)}) {
+    SpinningClock clock{microseconds(lateness)};
+    PeriodicStatistics statistics;
+    run_periodic(clock, milliseconds(1), statistics, stop_after_ten, microseconds(100));
+    EXPECT_EQ(statistics.lateness.max(), microseconds(left)) << lateness;
+    EXPECT_EQ(clock.spun(), 10 * microseconds(std::max(0, 100 - lateness)));
+    EXPECT_EQ(clock.now(), milliseconds(10) + microseconds(left));
+  }
+}
+
+TEST(RunPeriodic, SpinningOnASimulatedClockChangesNothing) {
+  SimulatedClock clock;
+  PeriodicStatistics statistics;
+  run_periodic(
+      clock, milliseconds(1), statistics, [](const PeriodicTick& tick) { return tick.index < 9; }, microseconds(500));
+  EXPECT_EQ(clock.now(), milliseconds(10));
+  EXPECT_EQ(statistics.lateness.max(), nanoseconds(0));
+}
+
+TEST(RunPeriodic, RefusesToSpinForMoreThanHalfOfThePeriod) {
+  SimulatedClock clock;
+  PeriodicStatistics statistics;
+  const auto stop_at_once = [](const PeriodicTick&) { return false; };
+  for (const microseconds spin : {microseconds(-1), microseconds(501)}) {
+    EXPECT_THROW(run_periodic(clock, milliseconds(1), statistics, stop_at_once, spin), std::invalid_argument);
+    EXPECT_THROW(PeriodicThread(clock, {.spin = spin}, stop_at_once), std::invalid_argument);
+  }
+}
+
 TEST(RunPeriodic, SlicesAddUp) {
   SimulatedClock clock;
   PeriodicStatistics statistics;
@@ -138,6 +191,14 @@ TEST(PeriodicThread, StopsWhenAskedTo) {
                         [](const PeriodicTick&) { return true; });
   thread.stop();
   EXPECT_LE(thread.statistics().late_ticks, thread.statistics().ticks);
+}
+
+TEST(SteadyClock, SpinsUntilTheDeadline) {
+  SteadyClock clock;
+  const nanoseconds before = clock.now();
+  clock.spin_until(before - milliseconds(10));
+  clock.spin_until(before + microseconds(300));
+  EXPECT_GE(clock.now(), before + microseconds(300));
 }
 
 TEST(SteadyClock, SleepsUntilTheDeadlineAndNotBelow) {

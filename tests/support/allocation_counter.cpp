@@ -7,12 +7,17 @@
 
 namespace {
 thread_local std::int64_t allocations = 0;
-}
+thread_local std::int64_t releases = 0;
+}  // namespace
 
 namespace glissade::test_support {
 
 std::int64_t allocations_of_this_thread() {
   return allocations;
+}
+
+std::int64_t releases_of_this_thread() {
+  return releases;
 }
 
 bool allocations_are_counted() {
@@ -28,6 +33,7 @@ void* __libc_malloc(std::size_t size);                           // NOLINT
 void* __libc_calloc(std::size_t count, std::size_t size);        // NOLINT
 void* __libc_realloc(void* block, std::size_t size);             // NOLINT
 void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT
+void __libc_free(void* block);                                   // NOLINT
 
 void* malloc(std::size_t size) {
   ++allocations;
@@ -44,6 +50,14 @@ void* realloc(void* block, std::size_t size) {
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
   ++allocations;
   return __libc_memalign(alignment, size);
+}
+void* memalign(std::size_t alignment, std::size_t size) {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+void free(void* block) {
+  if (block != nullptr) ++releases;
+  __libc_free(block);
 }
 int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
   ++allocations;
