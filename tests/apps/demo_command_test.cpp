@@ -38,11 +38,6 @@ class Demo : public testing::Test {
                                     "0.8,0.05,0,0.01,1,0,0,0\n"
                                     "1,0.05,0,0.01,1,0,0,0\n");
 
-  /// A user without rights is told so, in one line.
-  static bool is_about_rights(const std::string& text) {
-    return text.find('\n') == text.size() - 1 && text.find("this mends it") != std::string::npos;
-  }
-
   static nlohmann::json run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"demo", "--json"});
     const ProgramResult result = test_support::glissade(arguments);
