@@ -57,7 +57,7 @@ return rows;
 constexpr std::size_t kStages = 5;  // the first of these rows
 
 double in_us(std::chrono::nanoseconds duration) {
-  return 1e-3 * static_cast<double>(duration.count());
+  return static_cast<double>(duration.count()) / 1e3;  // 0.237 and not 0.23700000000000002
 }
 
 template <typename... Values>
