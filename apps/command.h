@@ -36,4 +36,7 @@ void add_glove_command(CLI::App& app, Command& chosen);
 /// `glissade doctor [--json]`
 void add_doctor_command(CLI::App& app, Command& chosen);
 
+/// `glissade latency [--seconds S] [--json] [--report DIR]`
+void add_latency_command(CLI::App& app, Command& chosen);
+
 }  // namespace glissade::apps

@@ -45,6 +45,7 @@ int parse_and_run(int argc, char** argv) {
   glissade::apps::add_run_command(app, chosen);
   glissade::apps::add_glove_command(app, chosen);
   glissade::apps::add_doctor_command(app, chosen);
+  glissade::apps::add_latency_command(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include <glissade/realtime/latency_histogram.h>
 
@@ -27,6 +28,19 @@ void LatencyHistogram::record(std::chrono::nanoseconds duration) noexcept {
   ++counts_[bucket_of(duration.count())];
   ++count_;
   max_ = std::max(max_, static_cast<std::int64_t>(duration.count()));
+}
+
+void LatencyHistogram::add(const LatencyHistogram& other) noexcept {
+  for (std::size_t i = 0; i < kBuckets; ++i)
+    counts_[i] += other.counts_[i];
+  count_ += other.count_;
+  max_ = std::max(max_, other.max_);
+}
+
+std::uint64_t LatencyHistogram::count_up_to(std::chrono::nanoseconds duration) const noexcept {
+  if (duration < std::chrono::nanoseconds::zero()) return 0;
+  const auto end = counts_.begin() + static_cast<std::ptrdiff_t>(bucket_of(duration.count())) + 1;
+  return std::accumulate(counts_.begin(), end, std::uint64_t{0});
 }
 
 std::chrono::nanoseconds LatencyHistogram::quantile(double p) const noexcept {

@@ -24,7 +24,14 @@ class LatencyHistogram {
   /// quantiles do not distinguish them, but `max()` is exact. Wait-free, no allocation.
   void record(std::chrono::nanoseconds duration) noexcept;
 
+  /// Adds all durations of `other`.
+  void add(const LatencyHistogram& other) noexcept;
+
   std::uint64_t count() const noexcept { return count_; }
+
+  /// Number of recorded durations of at most `duration`; those that exceed it by a fraction kRelativeError may or may
+  /// not count. The difference of two calls is a bar of a drawn histogram.
+  std::uint64_t count_up_to(std::chrono::nanoseconds duration) const noexcept;
 
   /// The largest recorded duration, exact; 0 when nothing was recorded.
   std::chrono::nanoseconds max() const noexcept { return std::chrono::nanoseconds(max_); }

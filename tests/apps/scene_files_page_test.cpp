@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <glissade/apps/latency_output.h>
 #include <glissade/apps/poses_file.h>
 #include <glissade/apps/scene_file.h>
 #include <glissade/apps/session.h>
@@ -22,6 +23,7 @@
 #include <glissade/shapes/shape_catalog.h>
 
 #include "glissade_program.h"
+#include "latency_figures.h"
 #include "temporary_folder.h"
 
 namespace glissade::apps {
@@ -349,6 +351,16 @@ TEST_F(ScenePages, TheTablesHaveExactlyTheKeysOfDemo) {
   expect_keys(formats, "## Output of demo and run", json);
   expect_keys(formats, "### Parts of a session", json["parts"][0]);
   expect_keys(formats, "### Hands of a session", json["hands"][0]);
+}
+
+TEST_F(ScenePages, TheTablesHaveExactlyTheKeysOfLatency) {
+  const nlohmann::json json = to_json(test_support::given_latency_figures());
+  Texts keys;
+  for (const auto& [key, value] : json.items())
+    keys.push_back(key);
+  EXPECT_THAT(formats.names_below("## Output of latency"), UnorderedElementsAreArray(keys));
+  expect_keys(formats, "### Latencies under one load", json["loaded"]);
+  expect_keys(formats, "### Latencies of a link", json["loaded"]["links"][0]);
 }
 
 TEST_F(ScenePages, TheHelpOfEveryCommandWithASceneNamesThePageAndAnExample) {

@@ -66,6 +66,35 @@ TEST(LatencyHistogram, PowersOfTwoFallOnTheirOwnSideOfABucket) {
   }
 }
 
+TEST(LatencyHistogram, TheSumOfTwoIsAsIfOneHadRecordedAll) {
+  LatencyHistogram first;
+  LatencyHistogram second;
+  LatencyHistogram both;
+  for (int i = 1; i <= 100; ++i) {
+    const nanoseconds duration(i * i * i);
+    (i % 3 == 0 ? first : second).record(duration);
+    both.record(duration);
+  }
+  first.add(second);
+  EXPECT_EQ(first.count(), 100U);
+  EXPECT_EQ(first.max(), nanoseconds(1'000'000));
+  for (const double p : {0.01, 0.25, 0.5, 0.99, 1.0})
+    EXPECT_EQ(first.quantile(p), both.quantile(p)) << p;
+}
+
+TEST(LatencyHistogram, CountsWhatIsAtMostADuration) {
+  LatencyHistogram histogram;
+  for (const int ns : {0, 5, 5, 100, 1'000'000})
+    histogram.record(nanoseconds(ns));
+  EXPECT_EQ(histogram.count_up_to(nanoseconds(-1)), 0U);
+  EXPECT_EQ(histogram.count_up_to(nanoseconds(0)), 1U);
+  EXPECT_EQ(histogram.count_up_to(nanoseconds(4)), 1U);
+  EXPECT_EQ(histogram.count_up_to(nanoseconds(5)), 3U);
+  EXPECT_EQ(histogram.count_up_to(nanoseconds(900'000)), 4U);
+  EXPECT_EQ(histogram.count_up_to(nanoseconds(1'000'000)), 5U);
+  EXPECT_EQ(histogram.count_up_to(std::chrono::hours(10)), 5U);
+}
+
 TEST(LatencyHistogram, NegativeCountsAsZeroAndHugeStaysInMax) {
   LatencyHistogram histogram;
   histogram.record(nanoseconds(-5));

@@ -1,0 +1,68 @@
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <glissade/apps/latency_output.h>
+#include <glissade/apps/latency_run.h>
+
+#include "glissade_program.h"
+#include "latency_figures.h"
+#include "temporary_folder.h"
+
+namespace glissade::apps {
+namespace {
+
+using test_support::given_latency_figures;
+using testing::HasSubstr;
+
+TEST(LatencyRatios, CompareTheLoopsOverAllLinksAndTheWholeWayWithRoundTripAndHalfATick) {
+  const LatencyRatios ratios = latency_ratios(given_latency_figures().loaded);
+  // 30 µs to 20 µs; the round trip of 100 µs and half a tick of 500 µs are two thirds of the 900 µs of the way.
+  EXPECT_NEAR(ratios.lateness_p50, 1.5, 0.03);
+  EXPECT_NEAR(ratios.lateness_p99, 1.5, 0.03);
+  EXPECT_NEAR(ratios.udpm_p50, 1.5, 0.03);
+}
+
+TEST(LatencyOutput, TextTellsEachStageAndEachRatioWithItsTarget) {
+  const std::string text = to_text(given_latency_figures());
+  for (const char* stage : {"transport", "wait for the tick", "computation", "way back", "sample to force",
+                            "haptic loop is late", "bare loop is late", "UDP round trip"})
+    EXPECT_THAT(text, HasSubstr(stage));
+  EXPECT_THAT(text, HasSubstr("lateness, loaded: p50 1.5"));
+  EXPECT_THAT(text, HasSubstr("(target 1.2), p99 1.5"));
+  EXPECT_THAT(text, HasSubstr("half a tick, idle: p50 "));
+  EXPECT_THAT(text, HasSubstr("SCHED_FIFO was refused"));
+}
+
+TEST(LatencyOutput, JsonHasTheFiguresInMicroseconds) {
+  const auto json = to_json(given_latency_figures());
+  const auto& udpm = json.at("loaded").at("links").at(1);
+  EXPECT_EQ(udpm.at("link"), "udpm://");
+  EXPECT_EQ(udpm.at("whole_us").at("max"), 900.0);
+  EXPECT_EQ(udpm.at("whole_us").at("count"), 1);
+  EXPECT_EQ(udpm.at("lost"), 2);
+  EXPECT_EQ(json.at("loaded").at("udp_round_trip_us").at("max"), 100.0);
+  EXPECT_EQ(json.at("fifo"), false);
+}
+
+TEST(LatencyOutput, TheReportHasAHistogramOfEachLink) {
+  const test_support::TemporaryFolder folder;
+  std::ostringstream page;
+  page << std::ifstream(write_latency_report(given_latency_figures(), folder.path("report"))).rdbuf();
+  EXPECT_THAT(page.str(), HasSubstr("<h2>udpm://, loaded: stages</h2>"));
+  EXPECT_THAT(page.str(), HasSubstr("<h2>in process, idle: lateness</h2>"));
+  EXPECT_THAT(page.str(), HasSubstr("text-anchor=\"end\">100</text>")) << "one sample is one bar of 100 %";
+}
+
+TEST(LatencyCommand, WrongDurationsAreRefused) {
+  for (const std::string bad : {"0", "-1", "nan", "soon", "1e9"})
+    test_support::expect_refused({"latency", "--seconds", bad}, {"--seconds"});
+  test_support::expect_refused({"latency", "--report", "/dev/null/report"}, {"/dev/null/report"});
+}
+
+}  // namespace
+}  // namespace glissade::apps
