@@ -148,7 +148,7 @@ class LatencyRun {
     if (server.has_failed()) throw std::runtime_error("the simulation failed: " + server.failure());
     if (!server.is_done()) throw std::runtime_error(std::string(figures.link) + ": the glove is not heard");
     measured_ += slice_;
-    has_fifo_scheduling_ = server.statistics().has_fifo_scheduling;
+    has_fifo_scheduling_ = server.statistics().scheduling.is_fifo;
     figures.haptic_lateness.add(server.statistics().haptic.lateness);
     figures.bare_lateness.add(bare_loop.statistics().lateness);
   }

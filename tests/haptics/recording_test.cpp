@@ -1,0 +1,166 @@
+// A recorded run can be repeated to the bit, and any change of the recording is found.
+
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/devices/event_log.h>
+#include <glissade/devices/simulated_glove.h>
+#include <glissade/haptics/multi_part_sliding.h>
+#include <glissade/haptics/offline_run.h>
+#include <glissade/haptics/recording.h>
+
+#include "held_part.h"
+#include "poses.h"
+#include "temporary_folder.h"
+
+namespace glissade::haptics {
+namespace {
+
+using std::chrono::milliseconds;
+using test_support::at;
+
+constexpr std::int64_t kRecordedTicks = 600;
+
+devices::SimulatedGlove recorded_hand() {
+  return devices::SimulatedGlove(
+      geometry::PoseTrajectory({{milliseconds(0), at(0.0, 0.0, 0.0)}, {milliseconds(300), at(0.04, 0.01, 0.0)}}));
+}
+
+MultiPartSliding recorded_parts(const SlidingRules& rules = {}) {
+  return {{test_support::wall(0.03)},
+          {{.part_V = test_support::cube(0.04), .stiffness = CouplingStiffness{1000.0, 1.0}}},
+          rules};
+}
+
+RecordingHead recorded_head() {
+  return {.gloves = {{.device = 1, .session = 1, .descriptor = recorded_hand().descriptor()}}, .events = {}};
+}
+
+/// A hand presses a cube on a wall, lets go and takes hold again.
+void record(LoopObserver& observer) {
+  devices::SimulatedGlove glove = recorded_hand();
+  MultiPartSliding parts = recorded_parts();
+  run_offline({{.device = &glove}}, parts, kRecordedTicks, [](const devices::HapticState&) {},
+              {.before_tick =
+                   [](std::int64_t tick, HoldRequests& hands) {
+                     if (tick == 400) hands.release(0);
+                     if (tick == 500) hands.grasp(0, 0);
+                   },
+               .observer = &observer});
+}
+
+class Recording : public testing::Test {
+ protected:
+  Recording() {
+    LogRecorder recorder(path_, recorded_head());
+    record(recorder);
+    recorder.close();
+  }
+
+  /// What is found, reading and repeating: nothing if all is as it was.
+  std::string fault(const std::string& path, const SlidingRules& rules = {}) {
+    devices::EventLogReader log(path);
+    MultiPartSliding parts = recorded_parts(rules);
+    Replay replay(parts, {{.device = recorded_hand().descriptor(), .part = 0}}, kTickPeriod, recorded_head());
+    while (const auto event = log.next()) {
+      if (!replay.take(*event)) break;
+    }
+    ticks_ = replay.ticks();
+    answers_ = replay.answers();
+    return log.damage() + replay.difference();
+  }
+
+  std::string bytes() const {
+    std::ifstream file(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  std::string changed(const std::string& bytes) {
+    const std::string path = folder_.path("changed.lcmlog");
+    std::ofstream(path, std::ios::binary) << bytes;
+    return path;
+  }
+
+  test_support::TemporaryFolder folder_;
+  std::string path_ = folder_.path("run.lcmlog");
+  std::int64_t ticks_ = 0;
+  std::int64_t answers_ = 0;
+};
+
+TEST_F(Recording, IsRepeatedToTheBit) {
+  EXPECT_EQ(fault(path_), "");
+  EXPECT_EQ(ticks_, kRecordedTicks);
+  EXPECT_EQ(answers_, kRecordedTicks);
+}
+
+TEST_F(Recording, IsRepeatedToTheBitWithASearchThread) {
+  EXPECT_EQ(fault(path_, {.has_search_thread = true}), "");
+}
+
+TEST_F(Recording, TellsThatTheRulesWereOthers) {
+  EXPECT_NE(fault(path_, {.friction = {.at_rest = 0.3, .sliding = 0.3}}), "");
+}
+
+TEST_F(Recording, OfAHandHasWhatOtherProgramsRead) {
+  devices::EventLogReader log(path_);
+  std::int64_t states = 0;
+  std::int64_t haptic_states = 0;
+  std::int64_t infos = 0;
+  while (const auto event = log.next()) {
+    states += glove_state_of(*event) ? 1 : 0;
+    haptic_states += haptic_state_of(*event) ? 1 : 0;
+    infos += glove_info_of(*event) ? 1 : 0;
+  }
+  EXPECT_EQ(states, kRecordedTicks);
+  EXPECT_EQ(haptic_states, kRecordedTicks);
+  EXPECT_EQ(infos, 1);
+}
+
+TEST_F(Recording, ThatIsCutOffGivesAllBeforeTheEnd) {
+  const std::string whole = bytes();
+  EXPECT_NE(fault(changed(whole.substr(0, whole.size() - 5))).find("the file ends within an event"), std::string::npos);
+  EXPECT_GE(ticks_, kRecordedTicks - 1);
+}
+
+TEST_F(Recording, WithOneChangedBitIsFoundOut) {
+  const std::string whole = bytes();
+  constexpr std::uint64_t kSeed = 5;
+  std::mt19937_64 random(kSeed);
+  for (int i = 0; i < 20; ++i) {
+    std::string flipped = whole;
+    const std::size_t place = 4 + random() % (whole.size() - 4);  // without the first sync word it is no log at all
+    flipped[place] = static_cast<char>(static_cast<unsigned char>(flipped[place]) ^ (1U << random() % 8U));
+    const std::string path = changed(flipped);
+    EXPECT_NE(fault(path), "") << "seed " << kSeed << ", byte " << place << " of " << whole.size();
+  }
+}
+
+TEST_F(Recording, OfTheLastSecondsHasABound) {
+  constexpr std::size_t kMost = 1 << 20;
+  FlightRecorder recorder(recorded_head(), kMost);
+  record(recorder);
+  const std::string path = folder_.path("flight.lcmlog");
+  recorder.write(path);
+  devices::EventLogReader log(path);
+  std::size_t size = 0;
+  std::optional<devices::HapticState> newest;
+  while (const auto event = log.next()) {
+    size += event->message.size();
+    if (const auto state = haptic_state_of(*event)) newest = state;
+  }
+  EXPECT_EQ(log.damage(), "");
+  EXPECT_LE(size, kMost);
+  EXPECT_GE(size, kMost / 2);
+  ASSERT_TRUE(newest);
+  EXPECT_EQ(newest->sequence, kRecordedTicks);
+}
+
+}  // namespace
+}  // namespace glissade::haptics
