@@ -1,5 +1,6 @@
 // Memory that is there when a real-time thread touches it.
 
+#include <array>
 #include <cstddef>
 
 #include <gtest/gtest.h>
@@ -25,16 +26,23 @@ int exit_code_of_child(const Work& work) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+long page_faults_so_far() {
+  rusage usage{};
+  getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_minflt + usage.ru_majflt;
+}
+
+/// Where the test may set the limit, the process fits below it, so the system would lock its memory.
 TEST(LockedMemory, IsRefusedWhereLaterAllocationsWouldFail) {
   const int code = exit_code_of_child([] {
-    const rlimit little{.rlim_cur = 1 << 20, .rlim_max = 1 << 20};
+    constexpr rlim_t kLimit = rlim_t{512} << 20;
+    const rlimit limit{.rlim_cur = kLimit, .rlim_max = kLimit};
+    setrlimit(RLIMIT_MEMLOCK, &limit);  // fails where the limit is lower already
     constexpr uid_t kNobody = 65534;
-    if (setrlimit(RLIMIT_MEMLOCK, &little) != 0) return 2;
-    if (geteuid() == 0 && setresuid(kNobody, kNobody, kNobody) != 0) return 3;
-    if (may_lock_memory() || lock_memory()) return 4;
-    const std::size_t much = std::size_t{64} << 20;
-    void* const pages = mmap(nullptr, much, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    return pages == MAP_FAILED ? 5 : 0;
+    if (geteuid() == 0 && setresuid(kNobody, kNobody, kNobody) != 0) return 4;
+    if (may_lock_memory() || lock_memory()) return 5;
+    void* const pages = mmap(nullptr, 2 * kLimit, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return pages == MAP_FAILED ? 6 : 0;
   });
   EXPECT_EQ(code, 0);
 }
@@ -52,15 +60,30 @@ TEST(LockedMemory, IsThereBeforeItIsTouchedAndThreadsKnow) {
     constexpr std::size_t kPages = 1000;
     const auto* const memory = static_cast<const volatile char*>(
         mmap(nullptr, kPages * kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
-    rusage before{};
-    getrusage(RUSAGE_THREAD, &before);
+    const long before = page_faults_so_far();
     for (std::size_t i = 0; i < kPages; ++i)
       static_cast<void>(memory[i * kPage]);
-    rusage after{};
-    getrusage(RUSAGE_THREAD, &after);
-    return after.ru_minflt - before.ru_minflt < 100 ? 0 : 4;
+    return page_faults_so_far() - before < 100 ? 0 : 4;
   });
   EXPECT_EQ(code, 0);
+}
+
+/// Without locked memory, too.
+TEST(PeriodicThread, HasAStackThatWasTouched) {
+  if (test_support::kSanitized) GTEST_SKIP() << "a sanitizer touches memory of its own";
+  constexpr std::size_t kPage = 4096;
+  long faults = -1;
+  SteadyClock clock;
+  PeriodicThread thread(clock, {}, [&faults](const PeriodicTick&) {
+    std::array<char, 32 * kPage> deep;
+    const long before = page_faults_so_far();
+    for (std::size_t i = 0; i < deep.size(); i += kPage)
+      *static_cast<volatile char*>(&deep[i]) = 1;
+    faults = page_faults_so_far() - before;
+    return false;
+  });
+  thread.join();
+  EXPECT_LT(faults, 8);
 }
 
 }  // namespace

@@ -174,6 +174,13 @@ TEST(PeriodicThread, RunsUntilTheTickSaysSo) {
   EXPECT_TRUE(thread.scheduling().has_minimal_timer_slack);
 }
 
+TEST(PeriodicThread, SpinsIfItIsTold) {
+  SpinningClock clock{microseconds(60)};
+  PeriodicThread thread(clock, {.spin = microseconds(100)}, [](const PeriodicTick& tick) { return tick.index < 9; });
+  thread.join();
+  EXPECT_EQ(clock.spun(), 10 * microseconds(40));
+}
+
 TEST(PeriodicThread, HasTheNameThatItWasGivenAsFarAsTheSystemKeepsIt) {
   SteadyClock clock;
   std::array<char, 16> name{};
