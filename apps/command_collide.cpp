@@ -10,9 +10,9 @@
 
 #include <glissade/apps/collide_method.h>
 #include <glissade/apps/command.h>
-#include <glissade/apps/csv.h>
+#include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/poses_file.h>
 #include <glissade/apps/load_or_build_tree.h>
-#include <glissade/apps/poses_file.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/text.h>
 #include <glissade/geometry/mesh_import.h>

@@ -9,14 +9,14 @@
 
 #include <glissade/apps/command.h>
 #include <glissade/apps/embedded_scene.h>
+#include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/haptic_session.h>
-#include <glissade/apps/html_report.h>
-#include <glissade/apps/scene_file.h>
+#include <glissade/apps/report/html_report.h>
 #include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
-#include <glissade/apps/trajectory_file.h>
 #include <glissade/devices/simulated_glove_service.h>
 #include <glissade/realtime/periodic_thread.h>
 

@@ -10,15 +10,15 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/command.h>
-#include <glissade/apps/csv.h>
 #include <glissade/apps/embedded_scene.h>
+#include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/glove_watch.h>
 #include <glissade/apps/lcm_option.h>
 #include <glissade/apps/machine_check.h>
 #include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
-#include <glissade/apps/trajectory_file.h>
 #include <glissade/devices/simulated_glove_service.h>
 #include <glissade/realtime/periodic_thread.h>
 #include <glissade/realtime/spsc_ring.h>

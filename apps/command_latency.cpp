@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include <glissade/apps/command.h>
-#include <glissade/apps/html_report.h>
-#include <glissade/apps/latency_output.h>
-#include <glissade/apps/latency_run.h>
+#include <glissade/apps/latency/latency_output.h>
+#include <glissade/apps/latency/latency_run.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/report/html_report.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {

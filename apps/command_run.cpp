@@ -12,11 +12,11 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/command.h>
+#include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/haptic_session.h>
-#include <glissade/apps/html_report.h>
 #include <glissade/apps/lcm_option.h>
-#include <glissade/apps/scene_file.h>
+#include <glissade/apps/report/html_report.h>
 #include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>

@@ -12,16 +12,16 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/command.h>
-#include <glissade/apps/csv.h>
+#include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/haptic_scene.h>
-#include <glissade/apps/html_report.h>
 #include <glissade/apps/progress.h>
-#include <glissade/apps/scene_file.h>
+#include <glissade/apps/report/html_report.h>
 #include <glissade/apps/slide_check.h>
 #include <glissade/apps/slide_contacts.h>
 #include <glissade/apps/sliding_option.h>
 #include <glissade/apps/text.h>
-#include <glissade/apps/trajectory_file.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 

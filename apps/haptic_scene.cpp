@@ -3,8 +3,8 @@
 #include <map>
 #include <stdexcept>
 
+#include <glissade/apps/files/pose_rules.h>
 #include <glissade/apps/haptic_scene.h>
-#include <glissade/apps/pose_rules.h>
 #include <glissade/apps/text.h>
 #include <glissade/geometry/triangle_mesh.h>
 #include <glissade/geometry/triangle_pair.h>

@@ -10,7 +10,7 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/apps/scene_file.h>
+#include <glissade/apps/files/scene_file.h>
 #include <glissade/haptics/sliding.h>
 #include <glissade/reference/grid_check.h>
 

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/session.h>
 #include <glissade/apps/sliding_option.h>
-#include <glissade/apps/trajectory_file.h>
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/haptics/coupling.h>

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <glissade/apps/html_report.h>
+#include <glissade/apps/report/html_report.h>
 #include <glissade/apps/session.h>
 
 namespace glissade::apps {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <glissade/apps/csv.h>
+#include <glissade/apps/files/csv.h>
 #include <glissade/apps/slide_check.h>
 #include <glissade/apps/text.h>
 #include <glissade/collision/dop_query.h>

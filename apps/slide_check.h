@@ -12,8 +12,8 @@
 #include <Eigen/Geometry>
 
 #include <glissade/apps/haptic_scene.h>
-#include <glissade/apps/html_report.h>
-#include <glissade/apps/plot.h>
+#include <glissade/apps/report/html_report.h>
+#include <glissade/apps/report/plot.h>
 #include <glissade/geometry/pose_trajectory.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>

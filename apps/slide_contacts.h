@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/apps/csv.h>
+#include <glissade/apps/files/csv.h>
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/haptics/sliding_simulation.h>
 #include <glissade/haptics/tracked_contacts.h>

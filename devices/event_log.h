@@ -78,11 +78,8 @@ struct LoggedState {
   GloveState state;
 };
 
-/// A command to a glove, and which glove it is.
-struct LoggedCommand {
-  std::int64_t device = 0;
-  GloveCommand command;
-};
+/// An event with this message; its time is rounded down to microseconds.
+LogEvent to_event(std::chrono::nanoseconds time, std::string channel, std::vector<std::uint8_t> message);
 
 /// Events on the channels of the bus, with the messages that are sent there.
 LogEvent to_event(std::chrono::nanoseconds time, const GloveInfo& info);
@@ -93,7 +90,6 @@ LogEvent to_event(std::chrono::nanoseconds time, const HapticState& state);
 /// receiver.
 std::optional<GloveInfo> glove_info_of(const LogEvent& event);
 std::optional<LoggedState> glove_state_of(const LogEvent& event);
-std::optional<LoggedCommand> glove_command_of(const LogEvent& event);
 std::optional<HapticState> haptic_state_of(const LogEvent& event);
 
 }  // namespace glissade::devices

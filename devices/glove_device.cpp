@@ -6,6 +6,20 @@
 
 namespace glissade::devices {
 
+std::int32_t to_bits(const LimitReasons& reasons) noexcept {
+  std::int32_t bits = 0;
+  for (std::size_t i = 0; i < kLimitReasons.size(); ++i)
+    bits |= reasons.*kLimitReasons[i].flag ? std::int32_t{1} << i : 0;
+  return bits;
+}
+
+LimitReasons limit_reasons_from_bits(std::int32_t bits) noexcept {
+  LimitReasons reasons;
+  for (std::size_t i = 0; i < kLimitReasons.size(); ++i)
+    reasons.*kLimitReasons[i].flag = (bits >> i & 1) != 0;
+  return reasons;
+}
+
 void validate(const DeviceDescriptor& descriptor) {
   const auto refuse = [&descriptor](std::string_view field, std::string_view rule) {
     throw std::invalid_argument("Device '" + descriptor.name + "': " + std::string(field) + " " + std::string(rule) +

@@ -96,6 +96,10 @@ inline constexpr std::array<NamedReason, 15> kLimitReasons{{{&LimitReasons::is_s
                                                             {&LimitReasons::mean_limited, "mean"},
                                                             {&LimitReasons::energy_limited, "energy"}}};
 
+std::int32_t to_bits(const LimitReasons& reasons) noexcept;
+/// Ignores bits without a meaning.
+LimitReasons limit_reasons_from_bits(std::int32_t bits) noexcept;
+
 /// Measured state of the hand in a glove, in SI units.
 struct GloveState {
   std::int64_t sequence = 0;         ///< ≥ 0, increases with every state

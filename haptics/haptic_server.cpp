@@ -155,7 +155,8 @@ void HapticServer::fail(std::string_view message) noexcept {
 void HapticServer::answer_newest_ghosts() {
   if (!ghosts_.update()) return;
   const std::chrono::nanoseconds start = clock_.now();
-  answer_ = {ghosts_.value(), answerer_->answer(ghosts_.value(), options_.period)};
+  answer_.ghosts = ghosts_.value();
+  answer_.set = answerer_->answer(answer_.ghosts, options_.period);
   if (options_.observer != nullptr) options_.observer->after_answer(answer_);
   sets_.publish(answer_.set);
   statistics_.simulation.record(clock_.now() - start);

@@ -29,7 +29,8 @@ void run_offline(const std::vector<HandOffline>& hands, MultiPartSliding& slidin
     if (options.before_tick) options.before_tick(i, record.requests);
     run_tick(kernel, record, answer.set);
     sink(record.state);
-    answer = {record.tick.ghosts, answerer.answer(record.tick.ghosts, options.period)};
+    answer.ghosts = record.tick.ghosts;
+    answer.set = answerer.answer(answer.ghosts, options.period);
     if (options.observer == nullptr) continue;
     options.observer->after_tick(record);
     options.observer->after_answer(answer);

@@ -4,6 +4,21 @@
 
 namespace glissade::haptics {
 
+namespace {
+
+/// Whether the work ends without an exception. There may be no memory for an event.
+template <typename Work>
+bool succeeds(const Work& work) noexcept {
+  try {
+    work();
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
+}  // namespace
+
 BackgroundObserver::BackgroundObserver(std::vector<LoopObserver*> observers)
     : observers_(std::move(observers)), ticks_(2048), answers_(1024) {
   constexpr std::chrono::milliseconds kPeriod(5);
@@ -24,14 +39,11 @@ BackgroundObserver::~BackgroundObserver() {
 /// The ticks leave their ring first: then the answers that they used are in the other.
 void BackgroundObserver::pass_on() noexcept {
   batch_.clear();
-  TickRecord tick;
-  while (batch_.size() < ticks_.capacity() && ticks_.pop(tick))
-    batch_.push_back(tick);
-  AnswerRecord answer;
-  while (answers_.pop(answer)) {
+  ticks_.pop_waiting([this](const TickRecord& record) { batch_.push_back(record); });
+  answers_.pop_waiting([this](const AnswerRecord& record) {
     for (LoopObserver* observer : observers_)
-      observer->after_answer(answer);
-  }
+      observer->after_answer(record);
+  });
   for (const TickRecord& record : batch_) {
     for (LoopObserver* observer : observers_)
       observer->after_tick(record);
@@ -44,24 +56,17 @@ LogRecorder::LogRecorder(const std::string& path, RecordingHead head)
     file_.write(event);
 }
 
-template <typename Work>
-void LogRecorder::guarded(const Work& work) noexcept {
-  try {
-    work();
-  } catch (...) {
-    is_incomplete_ = true;
-  }
-}
-
 void LogRecorder::after_tick(const TickRecord& record) noexcept {
-  guarded([&] {
+  const bool is_written = succeeds([&] {
     for (const devices::LogEvent& event : events_.of(record))
       file_.write(event);
   });
+  is_incomplete_ = is_incomplete_ || !is_written;
 }
 
 void LogRecorder::after_answer(const AnswerRecord& record) noexcept {
-  guarded([&] { file_.write(RecordedEvents::of(record)); });
+  const bool is_written = succeeds([&] { file_.write(RecordedEvents::of(record)); });
+  is_incomplete_ = is_incomplete_ || !is_written;
 }
 
 void LogRecorder::close() {
@@ -70,24 +75,18 @@ void LogRecorder::close() {
 }
 
 FlightRecorder::FlightRecorder(RecordingHead head, std::size_t most_bytes)
-    : events_(std::move(head)), most_bytes_(most_bytes) {
-  at_start_ = events_.at_start();
-}
+    : events_(std::move(head)), most_bytes_(most_bytes) {}
 
 // An event that finds no memory is lost: the others are still worth having.
 void FlightRecorder::after_tick(const TickRecord& record) noexcept {
-  try {
+  succeeds([&] {
     for (devices::LogEvent& event : events_.of(record))
       keep(std::move(event));
-  } catch (...) {  // NOLINT(bugprone-empty-catch)
-  }
+  });
 }
 
 void FlightRecorder::after_answer(const AnswerRecord& record) noexcept {
-  try {
-    keep(RecordedEvents::of(record));
-  } catch (...) {  // NOLINT(bugprone-empty-catch)
-  }
+  succeeds([&] { keep(RecordedEvents::of(record)); });
 }
 
 void FlightRecorder::keep(devices::LogEvent event) {
@@ -95,8 +94,8 @@ void FlightRecorder::keep(devices::LogEvent event) {
     return sizeof(devices::LogEvent) + kept.channel.size() + kept.message.size();
   };
   const std::scoped_lock lock(mutex_);
-  bytes_ += size_of(event);
   kept_.push_back(std::move(event));
+  bytes_ += size_of(kept_.back());
   while (bytes_ > most_bytes_) {
     bytes_ -= size_of(kept_.front());
     kept_.pop_front();
@@ -105,7 +104,7 @@ void FlightRecorder::keep(devices::LogEvent event) {
 
 void FlightRecorder::write(const std::string& path) const {
   devices::EventLogWriter file(path);
-  for (const devices::LogEvent& event : at_start_)
+  for (const devices::LogEvent& event : events_.at_start())
     file.write(event);
   std::deque<devices::LogEvent> events;
   {

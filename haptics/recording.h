@@ -135,7 +135,7 @@ class RecordedEvents {
  public:
   explicit RecordedEvents(RecordingHead head) : head_(std::move(head)) {}
 
-  std::vector<devices::LogEvent> at_start() const;
+  const std::vector<devices::LogEvent>& at_start() const { return head_.events; }
   std::vector<devices::LogEvent> of(const TickRecord& record);
   static devices::LogEvent of(const AnswerRecord& record);
 
@@ -159,9 +159,6 @@ class LogRecorder final : public LoopObserver {
   void close();
 
  private:
-  template <typename Work>
-  void guarded(const Work& work) noexcept;
-
   std::string path_;
   RecordedEvents events_;
   devices::EventLogWriter file_;
@@ -186,7 +183,6 @@ class FlightRecorder final : public LoopObserver {
   void keep(devices::LogEvent event);
 
   mutable std::mutex mutex_;
-  std::vector<devices::LogEvent> at_start_;
   RecordedEvents events_;
   std::size_t most_bytes_;
   std::deque<devices::LogEvent> kept_;

@@ -13,9 +13,9 @@
 #include <stdexcept>
 
 #include <glissade/apps/embedded_scene.h>
+#include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/haptic_scene.h>
-#include <glissade/apps/scene_file.h>
-#include <glissade/apps/trajectory_file.h>
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>

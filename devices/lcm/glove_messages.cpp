@@ -26,26 +26,8 @@ constexpr double kLargestEnergy = 1e9;  // J
 constexpr double kQuaternionTolerance = 1e-3;
 constexpr std::int64_t kLargestTime_ns = std::int64_t{1} << 60;  // 36 years
 
-/// The bit of reason number `i` of `kLimitReasons`.
-constexpr std::int32_t reason_bit(std::size_t i) {
-  return std::int32_t{1} << i;
-}
-std::int32_t to_bits(const LimitReasons& reasons) {
-  std::int32_t bits = 0;
-  for (std::size_t i = 0; i < kLimitReasons.size(); ++i)
-    bits |= reasons.*kLimitReasons[i].flag ? reason_bit(i) : 0;
-  return bits;
-}
-
-LimitReasons reasons_of(std::int32_t bits) {
-  LimitReasons reasons;
-  for (std::size_t i = 0; i < kLimitReasons.size(); ++i)
-    reasons.*kLimitReasons[i].flag = (bits & reason_bit(i)) != 0;
-  return reasons;
-}
-
-static_assert(reason_bit(0) == haptic_hand_t::REASON_STOPPED);
-static_assert(reason_bit(kLimitReasons.size() - 1) == haptic_hand_t::REASON_ENERGY);
+static_assert(haptic_hand_t::REASON_STOPPED == 1);
+static_assert(haptic_hand_t::REASON_ENERGY == 1 << (kLimitReasons.size() - 1));
 
 void put(const Eigen::Vector3d& vector, double (&out)[3]) {
   std::copy_n(vector.data(), 3, out);
@@ -252,9 +234,9 @@ HapticHandState hand_of(const haptic_hand_t& message) noexcept {
           .torque_V_W = Eigen::Vector3d(message.torque_V_W_Nm),
           .contact_share = message.contact_share,
           .are_contacts_unsolved = (message.flags & haptic_hand_t::FLAG_CONTACTS_UNSOLVED) != 0,
-          .reasons = reasons_of(message.reasons),
+          .reasons = limit_reasons_from_bits(message.reasons),
           .state_age = std::chrono::nanoseconds(message.state_age_ns),
-          .glove_reasons = reasons_of(message.glove_reasons),
+          .glove_reasons = limit_reasons_from_bits(message.glove_reasons),
           .command_age = std::chrono::nanoseconds(message.command_age_ns),
           .energy = message.energy_J,
           .glove_energy = message.glove_energy_J};
@@ -374,7 +356,7 @@ MessageError decode(std::span<const std::uint8_t> bytes, StateHeader& header, Gl
   state.v_WH = Eigen::Vector3d(message.v_WH_m_per_s);
   state.w_WH = Eigen::Vector3d(message.w_WH_rad_per_s);
   std::copy_n(message.joint_angles_rad, kGloveJoints, state.joint_angles.begin());
-  state.limits = reasons_of(message.reasons);
+  state.limits = limit_reasons_from_bits(message.reasons);
   state.link_delay = std::chrono::nanoseconds(message.link_delay_ns);
   state.energy = message.energy_J;
   state.command_age = std::chrono::nanoseconds(message.command_age_ns);

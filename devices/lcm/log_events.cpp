@@ -6,10 +6,6 @@ namespace glissade::devices {
 
 namespace {
 
-LogEvent event_on(const char* channel, std::chrono::nanoseconds time, std::vector<std::uint8_t> message) {
-  return {std::chrono::duration_cast<std::chrono::microseconds>(time), channel, std::move(message)};
-}
-
 /// Whether the event is on this channel, and its message can be decoded into `values`.
 template <typename... Values>
 bool reads(const LogEvent& event, const char* channel, Values&... values) {
@@ -18,16 +14,20 @@ bool reads(const LogEvent& event, const char* channel, Values&... values) {
 
 }  // namespace
 
+LogEvent to_event(std::chrono::nanoseconds time, std::string channel, std::vector<std::uint8_t> message) {
+  return {std::chrono::duration_cast<std::chrono::microseconds>(time), std::move(channel), std::move(message)};
+}
+
 LogEvent to_event(std::chrono::nanoseconds time, const GloveInfo& info) {
-  return event_on(kGloveInfoChannel, time, encode(info));
+  return to_event(time, kGloveInfoChannel, encode(info));
 }
 
 LogEvent to_event(std::chrono::nanoseconds time, const LoggedState& state) {
-  return event_on(kGloveStateChannel, time, encode({.device = state.device, .session = state.session}, state.state));
+  return to_event(time, kGloveStateChannel, encode({.device = state.device, .session = state.session}, state.state));
 }
 
 LogEvent to_event(std::chrono::nanoseconds time, const HapticState& state) {
-  return event_on(kHapticStateChannel, time, encode(state));
+  return to_event(time, kHapticStateChannel, encode(state));
 }
 
 std::optional<GloveInfo> glove_info_of(const LogEvent& event) {
@@ -41,14 +41,6 @@ std::optional<LoggedState> glove_state_of(const LogEvent& event) {
   if (!reads(event, kGloveStateChannel, header, logged.state)) return std::nullopt;
   logged.device = header.device;
   logged.session = header.session;
-  return logged;
-}
-
-std::optional<LoggedCommand> glove_command_of(const LogEvent& event) {
-  CommandHeader header;
-  LoggedCommand logged;
-  if (!reads(event, kGloveCommandChannel, header, logged.command)) return std::nullopt;
-  logged.device = header.device;
   return logged;
 }
 

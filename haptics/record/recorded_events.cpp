@@ -4,23 +4,11 @@
 
 namespace glissade::haptics {
 
-namespace {
-
-devices::LogEvent event_on(const char* channel, std::chrono::nanoseconds time, std::vector<std::uint8_t> message) {
-  return {std::chrono::duration_cast<std::chrono::microseconds>(time), channel, std::move(message)};
-}
-
-}  // namespace
-
-std::vector<devices::LogEvent> RecordedEvents::at_start() const {
-  return head_.events;
-}
-
 std::vector<devices::LogEvent> RecordedEvents::of(const TickRecord& record) {
   constexpr std::chrono::seconds kAnnouncementPeriod(1);
   std::vector<devices::LogEvent> events;
   const auto hand_count = static_cast<std::size_t>(record.hand_count);
-  events.push_back(event_on(kHapticTickChannel, record.time, encode(record)));
+  events.push_back(devices::to_event(record.time, kHapticTickChannel, encode(record)));
   if (record.sequence > 0) events.push_back(devices::to_event(record.time, record.state));
   const bool is_due = !announced_ || record.time - *announced_ >= kAnnouncementPeriod;
   if (is_due) announced_ = record.time;
@@ -30,13 +18,13 @@ std::vector<devices::LogEvent> RecordedEvents::of(const TickRecord& record) {
     const devices::GloveState& state = record.states[h];
     if (!record.has_state[h] || newest_[h] == state.sequence + 1) continue;
     newest_[h] = state.sequence + 1;
-    events.push_back(to_event(record.time, devices::LoggedState{glove.device, glove.session, state}));
+    events.push_back(devices::to_event(record.time, devices::LoggedState{glove.device, glove.session, state}));
   }
   return events;
 }
 
 devices::LogEvent RecordedEvents::of(const AnswerRecord& record) {
-  return event_on(kContactSetChannel, record.ghosts.time, encode(record));
+  return devices::to_event(record.ghosts.time, kContactSetChannel, encode(record));
 }
 
 }  // namespace glissade::haptics

@@ -8,20 +8,6 @@ namespace glissade::haptics {
 
 namespace {
 
-std::int32_t bits_of(const devices::LimitReasons& reasons) {
-  std::int32_t bits = 0;
-  for (std::size_t i = 0; i < devices::kLimitReasons.size(); ++i)
-    bits |= reasons.*devices::kLimitReasons[i].flag ? std::int32_t{1} << i : 0;
-  return bits;
-}
-
-devices::LimitReasons reasons_of(std::int32_t bits) {
-  devices::LimitReasons reasons;
-  for (std::size_t i = 0; i < devices::kLimitReasons.size(); ++i)
-    reasons.*devices::kLimitReasons[i].flag = (bits >> i & 1) != 0;
-  return reasons;
-}
-
 void put_state(const devices::GloveState& state, tick_hand_t& message) {
   message.has_state = 1;
   message.state_sequence = state.sequence;
@@ -33,7 +19,7 @@ void put_state(const devices::GloveState& state, tick_hand_t& message) {
   message.grip = state.grip;
   message.enabled = state.is_enabled ? 1 : 0;
   message.obeys_another = state.obeys_another ? 1 : 0;
-  message.glove_reasons = bits_of(state.limits);
+  message.glove_reasons = devices::to_bits(state.limits);
   message.glove_command_age_ns = state.command_age.count();
   message.link_delay_ns = state.link_delay.count();
   message.glove_energy_J = state.energy;
@@ -50,7 +36,7 @@ devices::GloveState state_of(const tick_hand_t& message) {
   state.grip = message.grip;
   state.is_enabled = message.enabled != 0;
   state.obeys_another = message.obeys_another != 0;
-  state.limits = reasons_of(message.glove_reasons);
+  state.limits = devices::limit_reasons_from_bits(message.glove_reasons);
   state.command_age = std::chrono::nanoseconds(message.glove_command_age_ns);
   state.link_delay = std::chrono::nanoseconds(message.link_delay_ns);
   state.energy = message.glove_energy_J;
@@ -67,7 +53,7 @@ void put_command(const devices::SafeCommand& safe, tick_hand_t& message) {
   put(command.t_H_W.data(), message.torque_H_W_Nm);
   put(command.joint_torques.data(), message.joint_torques_Nm);
   message.supply_J = command.supply;
-  message.reasons = bits_of(safe.reasons());
+  message.reasons = devices::to_bits(safe.reasons());
   message.state_age_ns = safe.age().count();
   message.energy_J = safe.energy();
 }

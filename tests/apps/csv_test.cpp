@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/apps/csv.h>
+#include <glissade/apps/files/csv.h>
 #include <glissade/apps/text.h>
 
 #include "expect_bad_input.h"

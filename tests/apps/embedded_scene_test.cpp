@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <glissade/apps/embedded_scene.h>
-#include <glissade/apps/scene_file.h>
-#include <glissade/apps/trajectory_file.h>
+#include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/files/trajectory_file.h>
 
 namespace glissade::apps {
 namespace {

@@ -9,8 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <glissade/apps/helper_process.h>
-#include <glissade/apps/shared_stamps.h>
+#include <glissade/apps/latency/helper_process.h>
+#include <glissade/apps/latency/shared_stamps.h>
 
 namespace glissade::apps {
 namespace {

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/apps/html_report.h>
+#include <glissade/apps/report/html_report.h>
 
 #include "expect_bad_input.h"
 #include "temporary_folder.h"

@@ -2,7 +2,7 @@
 
 /// Figures of a measurement of latencies, without measuring.
 
-#include <glissade/apps/latency_run.h>
+#include <glissade/apps/latency/latency_run.h>
 
 namespace glissade::test_support {
 

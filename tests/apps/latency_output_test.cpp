@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <glissade/apps/latency_output.h>
-#include <glissade/apps/latency_run.h>
+#include <glissade/apps/latency/latency_output.h>
+#include <glissade/apps/latency/latency_run.h>
 
 #include "glissade_program.h"
 #include "latency_figures.h"

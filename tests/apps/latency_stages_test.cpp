@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/apps/latency_glove.h>
-#include <glissade/apps/latency_stages.h>
-#include <glissade/apps/shared_stamps.h>
+#include <glissade/apps/latency/latency_glove.h>
+#include <glissade/apps/latency/latency_stages.h>
+#include <glissade/apps/latency/shared_stamps.h>
 
 namespace glissade::apps {
 namespace {

@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/apps/plot.h>
-#include <glissade/apps/plot_axis.h>
-#include <glissade/apps/svg_plot.h>
+#include <glissade/apps/report/plot.h>
+#include <glissade/apps/report/plot_axis.h>
+#include <glissade/apps/report/svg_plot.h>
 
 namespace glissade::apps {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/apps/poses_file.h>
+#include <glissade/apps/files/poses_file.h>
 
 #include "expect_bad_input.h"
 #include "temporary_folder.h"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <glissade/apps/scene_file.h>
+#include <glissade/apps/files/scene_file.h>
 
 #include "expect_bad_input.h"
 #include "temporary_folder.h"

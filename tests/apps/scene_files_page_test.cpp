@@ -12,12 +12,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <glissade/apps/latency_output.h>
-#include <glissade/apps/poses_file.h>
-#include <glissade/apps/scene_file.h>
+#include <glissade/apps/files/poses_file.h>
+#include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/files/trajectory_file.h>
+#include <glissade/apps/latency/latency_output.h>
 #include <glissade/apps/session.h>
 #include <glissade/apps/text.h>
-#include <glissade/apps/trajectory_file.h>
 #include <glissade/geometry/pose_trajectory.h>
 #include <glissade/haptics/sliding.h>
 #include <glissade/shapes/shape_catalog.h>

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/apps/trajectory_file.h>
+#include <glissade/apps/files/trajectory_file.h>
 
 #include "expect_bad_input.h"
 

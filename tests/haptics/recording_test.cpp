@@ -40,7 +40,8 @@ MultiPartSliding recorded_parts(const SlidingRules& rules = {}) {
 }
 
 RecordingHead recorded_head() {
-  return {.gloves = {{.device = 1, .session = 1, .descriptor = recorded_hand().descriptor()}}, .events = {}};
+  return {.gloves = {{.device = 1, .session = 1, .descriptor = recorded_hand().descriptor()}},
+          .events = {devices::to_event(milliseconds(0), "HEAD", {1, 2, 3})}};
 }
 
 /// A hand presses a cube on a wall, lets go and takes hold again.
@@ -160,6 +161,7 @@ TEST_F(Recording, OfTheLastSecondsHasABound) {
   EXPECT_GE(size, kMost / 2);
   ASSERT_TRUE(newest);
   EXPECT_EQ(newest->sequence, kRecordedTicks);
+  EXPECT_EQ(devices::EventLogReader(path).next(), recorded_head().events.front()) << "although the rest is newer";
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Runs the haptic server with two hands and three parts, as `glissade run` does, and watches the haptic thread from its
 // first counted tick to its end: it allocates and releases no memory, calls no function that could wait for another
-// thread, makes no system call but those of the timer, and touches no page that is not there. The system has to grant
-// locked memory for the last.
+// thread, makes no system call but those of the timer, and causes no page fault. Page faults are judged only where the
+// system grants locked memory.
 //
 // The loop runs at 5 kHz, so that 60,000 ticks take 12 seconds. Nothing is judged by the clock.
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <glissade/apps/svg_plot.h>
+#include <glissade/apps/report/svg_plot.h>
 
 namespace glissade::apps {
 

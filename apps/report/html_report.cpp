@@ -6,7 +6,7 @@
 
 #include <unistd.h>
 
-#include <glissade/apps/html_report.h>
+#include <glissade/apps/report/html_report.h>
 
 namespace glissade::apps {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include <glissade/apps/plot.h>
+#include <glissade/apps/report/plot.h>
 
 namespace glissade::apps {
 

@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <glissade/apps/helper_process.h>
+#include <glissade/apps/latency/helper_process.h>
 
 namespace glissade::apps {
 

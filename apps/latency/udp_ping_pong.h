@@ -12,7 +12,7 @@
 
 namespace glissade::apps {
 
-/// Both ways need a port of their own: whoever has joined a group hears itself.
+/// Each way has a port of its own, because a socket that has joined a group also receives what it sends there.
 struct PingPongAddress {
   std::uint16_t ping_port = 0;
   std::uint16_t pong_port = 0;

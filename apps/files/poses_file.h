@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/apps/csv.h>
+#include <glissade/apps/files/csv.h>
 
 namespace glissade::apps {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include <glissade/apps/machine_load.h>
+#include <glissade/apps/latency/machine_load.h>
 #include <glissade/realtime/periodic_thread.h>
 
 namespace glissade::apps {

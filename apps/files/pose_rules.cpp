@@ -1,7 +1,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <glissade/apps/pose_rules.h>
+#include <glissade/apps/files/pose_rules.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {

@@ -2,7 +2,7 @@
 #include <cassert>
 #include <cmath>
 
-#include <glissade/apps/plot.h>
+#include <glissade/apps/report/plot.h>
 
 namespace glissade::apps {
 

@@ -10,8 +10,8 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-#include <glissade/apps/latency_rules.h>
-#include <glissade/apps/udp_ping_pong.h>
+#include <glissade/apps/latency/latency_rules.h>
+#include <glissade/apps/latency/udp_ping_pong.h>
 #include <glissade/lcmtypes/glove_command_t.hpp>
 #include <glissade/lcmtypes/glove_state_t.hpp>
 #include <glissade/realtime/clock.h>

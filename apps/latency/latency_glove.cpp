@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <utility>
 
-#include <glissade/apps/latency_glove.h>
-#include <glissade/apps/latency_rules.h>
+#include <glissade/apps/latency/latency_glove.h>
+#include <glissade/apps/latency/latency_rules.h>
 #include <glissade/lcmtypes/glove_command_t.hpp>
 #include <glissade/lcmtypes/glove_state_t.hpp>
 

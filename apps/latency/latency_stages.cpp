@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include <glissade/apps/latency_stages.h>
+#include <glissade/apps/latency/latency_stages.h>
 
 namespace glissade::apps {
 

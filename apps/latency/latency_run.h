@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include <glissade/apps/latency_stages.h>
+#include <glissade/apps/latency/latency_stages.h>
 #include <glissade/realtime/latency_histogram.h>
 
 namespace glissade::apps {

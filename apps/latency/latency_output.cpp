@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include <glissade/apps/html_report.h>
-#include <glissade/apps/latency_output.h>
-#include <glissade/apps/machine_load.h>
+#include <glissade/apps/latency/latency_output.h>
+#include <glissade/apps/latency/machine_load.h>
+#include <glissade/apps/report/html_report.h>
 
 namespace glissade::apps {
 

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <glissade/apps/latency_run.h>
+#include <glissade/apps/latency/latency_run.h>
 
 namespace glissade::apps {
 

@@ -3,10 +3,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include <glissade/apps/csv.h>
-#include <glissade/apps/poses_file.h>
+#include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/poses_file.h>
+#include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/text.h>
-#include <glissade/apps/trajectory_file.h>
 
 namespace glissade::apps {
 

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <limits>
 
-#include <glissade/apps/plot_axis.h>
-#include <glissade/apps/svg_plot.h>
+#include <glissade/apps/report/plot_axis.h>
+#include <glissade/apps/report/svg_plot.h>
 
 namespace glissade::apps {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include <glissade/apps/plot_axis.h>
+#include <glissade/apps/report/plot_axis.h>
 
 namespace glissade::apps {
 

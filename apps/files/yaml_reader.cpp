@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <glissade/apps/files/yaml_reader.h>
 #include <glissade/apps/text.h>
-#include <glissade/apps/yaml_reader.h>
 
 namespace glissade::apps {
 

@@ -1,5 +1,5 @@
-#include <glissade/apps/pose_rules.h>
-#include <glissade/apps/poses_file.h>
+#include <glissade/apps/files/pose_rules.h>
+#include <glissade/apps/files/poses_file.h>
 
 namespace glissade::apps {
 

@@ -4,7 +4,7 @@
 
 #include <sys/mman.h>
 
-#include <glissade/apps/shared_stamps.h>
+#include <glissade/apps/latency/shared_stamps.h>
 
 namespace glissade::apps {
 

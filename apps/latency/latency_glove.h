@@ -9,8 +9,8 @@
 #include <memory>
 #include <vector>
 
-#include <glissade/apps/latency_stages.h>
-#include <glissade/apps/shared_stamps.h>
+#include <glissade/apps/latency/latency_stages.h>
+#include <glissade/apps/latency/shared_stamps.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/devices/lcm_glove.h>

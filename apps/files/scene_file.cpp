@@ -4,11 +4,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include <glissade/apps/pose_rules.h>
-#include <glissade/apps/scene_file.h>
+#include <glissade/apps/files/pose_rules.h>
+#include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/files/trajectory_file.h>
+#include <glissade/apps/files/yaml_reader.h>
 #include <glissade/apps/text.h>
-#include <glissade/apps/trajectory_file.h>
-#include <glissade/apps/yaml_reader.h>
 #include <glissade/geometry/mesh_import.h>
 #include <glissade/geometry/triangle_mesh.h>
 #include <glissade/haptics/sliding_rules.h>

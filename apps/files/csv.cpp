@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include <glissade/apps/csv.h>
+#include <glissade/apps/files/csv.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {

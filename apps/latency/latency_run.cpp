@@ -7,13 +7,13 @@
 
 #include <unistd.h>
 
-#include <glissade/apps/helper_process.h>
-#include <glissade/apps/latency_glove.h>
-#include <glissade/apps/latency_rules.h>
-#include <glissade/apps/latency_run.h>
-#include <glissade/apps/machine_load.h>
-#include <glissade/apps/shared_stamps.h>
-#include <glissade/apps/udp_ping_pong.h>
+#include <glissade/apps/latency/helper_process.h>
+#include <glissade/apps/latency/latency_glove.h>
+#include <glissade/apps/latency/latency_rules.h>
+#include <glissade/apps/latency/latency_run.h>
+#include <glissade/apps/latency/machine_load.h>
+#include <glissade/apps/latency/shared_stamps.h>
+#include <glissade/apps/latency/udp_ping_pong.h>
 #include <glissade/devices/haptic_state_publisher.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/geometry/mesh_generators.h>
