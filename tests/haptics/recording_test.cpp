@@ -6,15 +6,18 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <glissade/devices/event_log.h>
 #include <glissade/devices/simulated_glove.h>
+#include <glissade/haptics/haptic_server.h>
 #include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/haptics/offline_run.h>
 #include <glissade/haptics/recording.h>
+#include <glissade/realtime/clock.h>
 
 #include "held_part.h"
 #include "poses.h"
@@ -56,6 +59,21 @@ void record(LoopObserver& observer) {
                    },
                .observer = &observer});
 }
+
+/// A glove that makes one step with each tick that reads it.
+class RecordedDevice final : public devices::GloveDevice {
+ public:
+  const devices::DeviceDescriptor& descriptor() const noexcept override { return glove_.descriptor(); }
+  bool read(devices::GloveState& newest) noexcept override {
+    newest = glove_.step(kTickPeriod, command_);
+    return true;
+  }
+  void command(const devices::SafeCommand& command) noexcept override { command_ = command; }
+
+ private:
+  devices::SimulatedGlove glove_ = recorded_hand();
+  devices::SafeCommand command_;
+};
 
 class Recording : public testing::Test {
  protected:
@@ -103,6 +121,32 @@ TEST_F(Recording, IsRepeatedToTheBit) {
 
 TEST_F(Recording, IsRepeatedToTheBitWithASearchThread) {
   EXPECT_EQ(fault(path_, {.has_search_thread = true}), "");
+}
+
+TEST_F(Recording, OfAServerIsRepeatedToTheBit) {
+  const std::string path = folder_.path("server.lcmlog");
+  const SlidingRules rules = real_time_rules();
+  LogRecorder recorder(path, recorded_head());
+  {
+    BackgroundObserver observer({&recorder});
+    RecordedDevice device;
+    MultiPartSliding parts = recorded_parts(rules);
+    realtime::SteadyClock clock;
+    HapticServer server({{&device}}, parts, clock, [](const devices::HapticState&) {},
+                        {.ticks = kRecordedTicks, .observer = &observer});
+    while (server.ticks() < kRecordedTicks / 2)
+      std::this_thread::sleep_for(milliseconds(1));
+    EXPECT_TRUE(server.release(0));
+    EXPECT_TRUE(server.grasp(0, 0));
+    while (!server.is_done())
+      std::this_thread::sleep_for(milliseconds(1));
+    server.stop();
+    ASSERT_EQ(observer.dropped(), 0U);
+  }
+  recorder.close();
+  EXPECT_EQ(fault(path, rules), "");
+  EXPECT_GE(ticks_, kRecordedTicks) << "and the ticks of the fade";
+  EXPECT_GT(answers_, 0);
 }
 
 TEST_F(Recording, TellsThatTheRulesWereOthers) {
