@@ -21,14 +21,24 @@ void add_info_command(CLI::App& app, Command& chosen);
 /// `glissade collide A B --poses FILE [--pairs] [--tolerance-m T] [--method M] [--out FILE]`
 void add_collide_command(CLI::App& app, Command& chosen);
 
-/// `glissade demo [--seconds S] [--scene FILE] [--offline] [--json] [--lcm URL] [--report DIR]`
+/// `glissade demo [--seconds S] [--scene FILE] [--offline] [--json] [--lcm URL] [--record LOG] [--report DIR]`
 void add_demo_command(CLI::App& app, Command& chosen);
 
 /// `glissade slide SCENE --part NAME --trajectory FILE [--metaphor M] [--out FILE]`
 void add_slide_command(CLI::App& app, Command& chosen);
 
-/// `glissade run SCENE [--lcm URL] [--device N] [--seconds S] [--rate-hz R] [--spin-us T] [--json] [--report DIR]`
+/// `glissade run SCENE [--lcm URL] [--device N] [--seconds S] [--rate-hz R] [--spin-us T] [--flight-recorder FILE]
+/// [--json] [--report DIR]`
 void add_run_command(CLI::App& app, Command& chosen);
+
+/// `glissade record LOG SCENE`, and the options of `run`
+void add_record_command(CLI::App& app, Command& chosen);
+
+/// `glissade replay LOG [--scene FILE] [--lcm URL] [--json]`
+void add_replay_command(CLI::App& app, Command& chosen);
+
+/// `glissade log to-csv LOG FOLDER`
+void add_log_command(CLI::App& app, Command& chosen);
 
 /// `glissade glove [--side left|right] [--device N] [--lcm URL] [--script FILE] [--frozen-ms T] [--record FILE]`
 void add_glove_command(CLI::App& app, Command& chosen);

@@ -43,7 +43,8 @@ constexpr const char* kDemoFooter =
     "Examples:\n"
     "  glissade demo\n"
     "  glissade demo --seconds 20 --report report\n"
-    "  glissade demo --offline --json";
+    "  glissade demo --offline --json\n"
+    "  glissade demo --record demo.lcmlog";
 
 struct DemoOptions {
   double seconds = 10.0;
@@ -53,6 +54,7 @@ struct DemoOptions {
   bool verbose = false;
   std::string lcm_url = "memq://";
   std::string report;
+  std::string record;
   SlidingChoice choice;
 };
 
@@ -68,16 +70,18 @@ struct Demo {
   HandScript script;
 };
 
-Demo embedded_demo() {
-  const Scene scene = parse_scene(std::string(embedded_scene_yaml()), "car_door.yaml", ".");
+Demo demo_of(const std::string& path) {
+  const Scene scene = read_or_embedded_scene(path);
+  if (!scene.script_path && !path.empty()) {
+    throw std::invalid_argument(path + ": the scene has no script for the hand to follow");
+  }
   return {make_haptic_scene(scene, movable_objects(scene)),
-          parse_hand_script(embedded_scene_script(), "car_door_script.csv")};
+          path.empty() ? parse_hand_script(embedded_scene_script(), "car_door_script.csv")
+                       : read_hand_script(*scene.script_path)};
 }
 
-Demo demo_from_file(const std::string& path) {
-  const Scene scene = read_scene(path);
-  if (!scene.script_path) throw std::invalid_argument(path + ": the scene has no script for the hand to follow");
-  return {make_haptic_scene(scene, movable_objects(scene)), read_hand_script(*scene.script_path)};
+RecordSettings record_of(const DemoOptions& options) {
+  return {.log = options.record, .scene_file = options.scene};
 }
 
 Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_t ticks, const DemoOptions& options) {
@@ -87,23 +91,26 @@ Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_
   realtime::SteadyClock clock;
   devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script.X_WH, script.with_grip({})), clock);
   StatusLine line;
-  return run_session(
-      demo.scene, bus,
-      {.choice = options.choice, .seconds = 1e-3 * static_cast<double>(ticks), .period = haptics::kTickPeriod},
-      &StopSignal::requested, [&](const RunNews& news) {
-        for (const std::string& sentence : news.sentences)
-          line.say("glissade demo: " + sentence);
-        line.show(news.status);
-      });
+  return run_session(demo.scene, bus,
+                     {.choice = options.choice,
+                      .seconds = 1e-3 * static_cast<double>(ticks),
+                      .period = haptics::kTickPeriod,
+                      .record = record_of(options)},
+                     &StopSignal::requested, [&](const RunNews& news) {
+                       for (const std::string& sentence : news.sentences)
+                         line.say("glissade demo: " + sentence);
+                       line.show(news.status);
+                     });
 }
 
 int run(const DemoOptions& options) {
   const std::int64_t ticks = checked_ticks(options.seconds);
-  const Demo demo = options.scene.empty() ? embedded_demo() : demo_from_file(options.scene);
+  const Demo demo = demo_of(options.scene);
   const HandScript script = demo.script.time_scaled(std::chrono::milliseconds(ticks));
   if (!options.report.empty()) prepare_report_folder(options.report);
-  const Session session = options.offline ? run_session_offline(demo.scene, script, ticks, options.choice)
-                                          : run_in_real_time(demo, script, ticks, options);
+  const Session session = options.offline
+                              ? run_session_offline(demo.scene, script, ticks, options.choice, record_of(options))
+                              : run_in_real_time(demo, script, ticks, options);
   conclude(session, demo.scene,
            "glissade demo: " + demo.scene.parts.front().name + (options.offline ? ", offline" : ""), options.json,
            options.verbose, options.report);
@@ -126,6 +133,7 @@ void add_demo_command(CLI::App& app, Command& chosen) {
   command->add_option("--lcm", options->lcm_url, "LCM address that glove and haptic server share")
       ->capture_default_str()
       ->excludes(offline);
+  command->add_option("--record", options->record, "File for a recording, which 'glissade replay' repeats to the bit");
   command
       ->add_option("--report", options->report,
                    "Folder for a page, index.html, with the summary and plots of force, lag (distance from the visible "

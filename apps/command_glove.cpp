@@ -82,18 +82,11 @@ class GloveRecord {
   };
   static constexpr std::size_t kRing = 4096;  // four seconds
 
-  void add(const Eigen::Vector3d& v) { csv_.add(v.x()).add(v.y()).add(v.z()); }
-
   void write(const Period& period) {
     const auto seconds = [](std::chrono::nanoseconds time) { return std::chrono::duration<double>(time).count(); };
     const devices::SafeCommand& command = period.command;
-    Eigen::Quaterniond q(period.state.X_WH.linear());
-    if (q.w() < 0.0) q.coeffs() = -q.coeffs();
-    csv_.add(seconds(period.state.time));
-    add(period.state.X_WH.translation());
-    csv_.add(q.w()).add(q.x()).add(q.y()).add(q.z());
-    add(command.values().f_H_W);
-    add(command.values().t_H_W);
+    csv_.add(seconds(period.state.time)).add(period.state.X_WH);
+    csv_.add(command.values().f_H_W).add(command.values().t_H_W);
     csv_.add(seconds(command.age())).add(to_text(command.reasons(), command.age())).end_row();
   }
 

@@ -16,6 +16,7 @@
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/lcm_option.h>
+#include <glissade/apps/record/dump_signal.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
@@ -51,6 +52,20 @@ constexpr const char* kRunFooter =
     "Two gloves, of which the second pushes another part:\n"
     "  glissade run scene.yaml --device 1 2 --hold 1=motor 2=bracket";
 
+constexpr const char* kRecordDescription = "Run the haptic server and record all of it, for 'glissade replay'";
+
+constexpr const char* kRecordFooter =
+    "Runs as 'glissade run' does. LOG is an event log of LCM: lcm-logplayer and lcm-logplayer-gui play it. It holds "
+    "what\n"
+    "each tick and each answer of the simulation took in and gave out, and when; no command to a glove is in it, so\n"
+    "playing it moves no glove. 'glissade replay LOG' repeats the run to the bit, 'glissade replay LOG --lcm URL' "
+    "leads\n"
+    "a server as the recorded gloves did, and 'glissade log to-csv LOG FOLDER' makes tables of it.\n"
+    "\n"
+    "Example, with a simulated glove in a second terminal:\n"
+    "  glissade record door.lcmlog examples/scenes/car_door.yaml --seconds 12\n"
+    "  glissade glove";
+
 struct RunOptions {
   std::string scene;
   LcmAddress lcm;
@@ -63,6 +78,7 @@ struct RunOptions {
   bool json = false;
   bool verbose = false;
   std::string report;
+  RecordSettings record;
 };
 
 /// The gloves and the parts that their hands take.
@@ -160,15 +176,48 @@ int run(const RunOptions& options) {
   RunSettings settings{.hands = hands_of(options, scene),
                        .choice = options.choice,
                        .seconds = options.seconds,
-                       .spin = std::chrono::nanoseconds(std::llround(1e3 * options.spin_us))};
+                       .spin = std::chrono::nanoseconds(std::llround(1e3 * options.spin_us)),
+                       .record = options.record};
+  settings.record.scene_file = options.scene;
   if (options.rate_hz != 0.0) settings.period = std::chrono::nanoseconds(std::llround(1e9 / options.rate_hz));
   if (!options.report.empty()) prepare_report_folder(options.report);
   const StopSignal stop_signal;
+  const DumpSignal dump_signal;
   Announcer announcer(settings, scene, *bus, options.lcm.url);
   const Session session =
       run_session(scene, bus, settings, &StopSignal::requested, [&](const RunNews& news) { announcer.tell(news); });
   conclude(session, scene, "glissade run: " + scene.part_names(), options.json, options.verbose, options.report);
   return 0;
+}
+
+/// Declares what `run` and `record` have in common.
+void add_options(CLI::App& command_line, RunOptions& options) {
+  command_line.add_option("SCENE", options.scene, "Scene file (YAML)")->required();
+  add_lcm_options(command_line, options.lcm);
+  command_line.add_option("--device", options.devices, "Numbers of the gloves, one for each hand, at most four")
+      ->check(glove_number())
+      ->capture_default_str();
+  command_line.add_option("--hold", options.holds,
+                          "GLOVE=PART: the part that the hand in this glove takes; GLOVE= takes none");
+  add_sliding_options(command_line, options.choice);
+  command_line
+      .add_option("--seconds", options.seconds, "Duration in seconds from the first glove state; 0: until Ctrl-C")
+      ->capture_default_str();
+  command_line.add_option("--rate-hz", options.rate_hz,
+                          "Rate of the haptic loop, 500 to 5000 ticks a second; default: that of the glove");
+  command_line
+      .add_option("--spin-us", options.spin_us,
+                  "Time before each tick, 0 to 500 us, for which the haptic loop occupies a processor instead of "
+                  "sleeping, so that it starts on time; at most half of its period")
+      ->capture_default_str();
+  command_line.add_option("--flight-recorder", options.record.flight,
+                          "File for the last seconds: written when a glove fails, when the simulation fails, and on "
+                          "SIGUSR1; later ones get a number");
+  command_line.add_flag("--json", options.json, "Print the summary as JSON");
+  command_line.add_flag("--verbose", options.verbose, kVerboseHelp);
+  command_line.add_option("--report", options.report,
+                          "Folder for a page, index.html, with the summary and plots of force, lag (distance from the "
+                          "visible part to the pose that the hand asks for) and states");
 }
 
 }  // namespace
@@ -177,28 +226,16 @@ void add_run_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", kRunDescription);
   command->footer(std::string(kRunFooter) + kSlidingChoiceHelp + kSceneFileHelp);
-  command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
-  add_lcm_options(*command, options->lcm);
-  command->add_option("--device", options->devices, "Numbers of the gloves, one for each hand, at most four")
-      ->check(glove_number())
-      ->capture_default_str();
-  command->add_option("--hold", options->holds,
-                      "GLOVE=PART: the part that the hand in this glove takes; GLOVE= takes none");
-  add_sliding_options(*command, options->choice);
-  command->add_option("--seconds", options->seconds, "Duration in seconds from the first glove state; 0: until Ctrl-C")
-      ->capture_default_str();
-  command->add_option("--rate-hz", options->rate_hz,
-                      "Rate of the haptic loop, 500 to 5000 ticks a second; default: that of the glove");
-  command
-      ->add_option("--spin-us", options->spin_us,
-                   "Time before each tick, 0 to 500 us, for which the haptic loop occupies a processor instead of "
-                   "sleeping, so that it starts on time; at most half of its period")
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "Print the summary as JSON");
-  command->add_flag("--verbose", options->verbose, kVerboseHelp);
-  command->add_option("--report", options->report,
-                      "Folder for a page, index.html, with the summary and plots of force, lag (distance from the "
-                      "visible part to the pose that the hand asks for) and states");
+  add_options(*command, *options);
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+void add_record_command(CLI::App& app, Command& chosen) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("record", kRecordDescription);
+  command->footer(std::string(kRecordFooter) + kSlidingChoiceHelp + kSceneFileHelp);
+  command->add_option("LOG", options->record.log, "File for the recording; an existing one is replaced")->required();
+  add_options(*command, *options);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -108,21 +108,12 @@ std::vector<std::string> moving_columns() {
   return {"t_s", "object", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};
 }
 
-void add_pose(CsvWriter& out, const Eigen::Isometry3d& X) {
-  Eigen::Quaterniond q(X.linear());
-  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
-  out.add(X.translation().x()).add(X.translation().y()).add(X.translation().z());
-  out.add(q.w()).add(q.x()).add(q.y()).add(q.z());
-}
-
 void add_row(CsvWriter& out, double time_s, haptics::SlidingMethod method, const haptics::SlidingSimulation& sliding) {
   const haptics::SlidingResult& result = sliding.result();
   const Eigen::Vector3d& p_Vref = sliding.part().p_Vref();
   const haptics::Wrench wrench = haptics::about_point(haptics::spring_wrench(sliding.stiffness(), sliding.error()),
                                                       result.X_WT * p_Vref, result.X_WV.translation());
-  out.add(time_s);
-  add_pose(out, result.X_WG);
-  add_pose(out, result.X_WV);
+  out.add(time_s).add(result.X_WG).add(result.X_WV);
   // Adding zero turns a negative zero into the plain one.
   for (int i = 0; i < 3; ++i)
     out.add(wrench.f[i] + 0.0);
@@ -138,9 +129,7 @@ void add_moving_rows(CsvWriter& out, double time_s, const HapticScene& scene,
                      const haptics::SlidingSimulation& sliding) {
   const std::size_t first = scene.obstacles.size() + 1;
   for (std::size_t i = 0; i < scene.moving.size(); ++i) {
-    out.add(time_s).add(scene.body_names[first + i]);
-    add_pose(out, sliding.scripted_X_WB()[i]);
-    out.end_row();
+    out.add(time_s).add(scene.body_names[first + i]).add(sliding.scripted_X_WB()[i]).end_row();
   }
 }
 

@@ -7,8 +7,11 @@
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/machine_check.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/record/dump_signal.h>
+#include <glissade/apps/record/scene_hash.h>
 #include <glissade/apps/run_watch.h>
 #include <glissade/apps/session_sink.h>
+#include <glissade/apps/session_start.h>
 #include <glissade/apps/text.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/haptics/haptic_server.h>
@@ -23,30 +26,28 @@ constexpr int kFifoPriority = 80;
 /// Ticks kept of a run without an end: the last minute.
 constexpr std::size_t kKeptTicks = 60'000;
 
-/// A device and the part that its hand takes.
-struct Grip {
-  devices::DeviceDescriptor device;
-  std::optional<std::size_t> part;
-};
+/// The session of an offline run.
+RecordedSession offline_session(const HapticScene& scene, const devices::DeviceDescriptor& device,
+                                const SlidingChoice& choice, const RecordSettings& record) {
+  // There is no link, so the number of its session is made up.
+  const devices::GloveInfo glove{.device = devices::kDefaultDevice, .session = 1, .descriptor = device};
+  return {.scene_file = recorded_path(record.scene_file),
+          .scene_hash = scene_hash(scene),
+          .choice = choice,
+          .hands = {{glove, 0}}};
+}
 
-/// Starts the simulation. A part has its default stiffness, lowered to the limits of the devices that hold it. The
-/// error for a part that starts inside an obstacle names the scene.
-haptics::MultiPartSliding start_sliding(const HapticScene& scene, const std::vector<Grip>& grips,
-                                        const SlidingChoice& choice, const haptics::SlidingRules& rules,
-                                        std::chrono::nanoseconds period = haptics::kTickPeriod) {
-  std::vector<haptics::HeldPart> parts = held_parts(scene, metaphor_of(choice));
-  for (const Grip& grip : grips) {
-    if (!grip.part) continue;
-    haptics::HeldPart& part = parts[*grip.part];
-    const haptics::CouplingStiffness wanted =
-        part.stiffness.value_or(haptics::default_stiffness(part.part_V->radius()));
-    part.stiffness = coupling_for(grip.device, wanted, period).stiffness;
-  }
-  try {
-    return {scene.obstacles, parts, with_choice(rules, choice)};
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(scene.source + ": " + error.what());
-  }
+/// The session of a run in real time, for which all gloves have been heard.
+RecordedSession real_time_session(const HapticScene& scene, const std::vector<devices::GloveInfo>& gloves,
+                                  const RunSettings& settings, std::chrono::nanoseconds period) {
+  RecordedSession session{.scene_file = recorded_path(settings.record.scene_file),
+                          .scene_hash = scene_hash(scene),
+                          .is_real_time = true,
+                          .choice = settings.choice,
+                          .period = period};
+  for (std::size_t h = 0; h < gloves.size(); ++h)
+    session.hands.push_back({gloves[h], settings.hands[h].part});
+  return session;
 }
 
 Session finished(std::int64_t ticks, std::chrono::nanoseconds period, const HapticScene& scene,
@@ -105,21 +106,27 @@ RunWatch watch_of(const HapticScene& scene, const RunSettings& settings) {
 }  // namespace
 
 Session run_session_offline(const HapticScene& scene, const HandScript& script, std::int64_t ticks,
-                            const SlidingChoice& choice) {
+                            const SlidingChoice& choice, const RecordSettings& record) {
   devices::SimulatedGlove glove(script.X_WH, script.with_grip({}));
   haptics::MultiPartSliding sliding = start_sliding(scene, {{glove.descriptor(), 0}}, choice, {});
   const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks), sliding.part_count(), 1);
+  std::optional<haptics::LogRecorder> log;
+  if (!record.log.empty()) log.emplace(record.log, head_of(offline_session(scene, glove.descriptor(), choice, record)));
   ProgressBar progress("offline", ticks);
-  haptics::run_offline({{.device = &glove}}, sliding, ticks, [&](const devices::HapticState& sample) {
-    recorder->record(sample);
-    progress.update(recorder->total());
-  });
+  haptics::run_offline({{.device = &glove}}, sliding, ticks,
+                       [&](const devices::HapticState& sample) {
+                         recorder->record(sample);
+                         progress.update(recorder->total());
+                       },
+                       {.observer = log ? &*log : nullptr});
+  if (log) log->close();
   return finished(ticks, haptics::kTickPeriod, scene, sliding, {devices::kDefaultDevice}, recorder, std::nullopt);
 }
 
 Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, const RunSettings& settings,
                     const std::function<bool()>& should_stop, const std::function<void(const RunNews&)>& watch) {
   start_sliding(scene, {}, settings.choice, {});  // errors come before waiting
+  validate(settings.record);
   if (settings.period) check_spin(settings.spin, *settings.period);
   const std::vector<devices::GloveInfo> infos = wait_for_gloves(bus, settings.hands, should_stop, watch);
   std::vector<Grip> grips;
@@ -151,10 +158,15 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
     hands.push_back({gloves.back().get(), settings.hands[h].part});
     numbers.push_back(device);
   }
+  RunRecorders recorders(settings.record, real_time_session(scene, infos, settings, period));
   realtime::SteadyClock clock;
-  haptics::HapticServer server(
-      hands, sliding, clock, [&sink](const devices::HapticState& sample) { sink.receive(sample); },
-      {.period = period, .ticks = ticks, .fifo_priority = kFifoPriority, .spin = settings.spin});
+  haptics::HapticServer server(hands, sliding, clock,
+                               [&sink](const devices::HapticState& sample) { sink.receive(sample); },
+                               {.period = period,
+                                .ticks = ticks,
+                                .fifo_priority = kFifoPriority,
+                                .spin = settings.spin,
+                                .observer = recorders.observer()});
   realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = kFifoPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
   const std::string missing = missing_rights(server.scheduling().is_fifo, server.scheduling().has_locked_memory);
@@ -162,14 +174,19 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   while (!server.is_done() && !server.has_failed() && !should_stop()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     RunWatch::News news = run_watch.news(server.late_ticks());
+    for (std::string& sentence : recorders.write_flight(DumpSignal::take()))
+      news.events.push_back(std::move(sentence));
     watch({.ticks = server.ticks(), .sentences = std::move(news.events), .status = std::move(news.status)});
   }
   server.stop();
   watch({.ticks = server.ticks(), .sentences = run_watch.news(server.late_ticks()).events});
+  watch({.ticks = server.ticks(), .sentences = recorders.finish(server.has_failed())});
   bare_timer.stop();
   if (server.has_failed()) throw std::runtime_error("the simulation failed: " + server.failure());
-  return finished(server.ticks(), period, scene, sliding, numbers, recorder,
-                  RealTimeFigures{server.statistics(), bare_timer.statistics()});
+  Session session = finished(server.ticks(), period, scene, sliding, numbers, recorder,
+                             RealTimeFigures{server.statistics(), bare_timer.statistics()});
+  session.is_recording_whole = recorders.is_whole();
+  return session;
 }
 
 }  // namespace glissade::apps

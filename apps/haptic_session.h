@@ -13,6 +13,7 @@
 
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/record/run_recorders.h>
 #include <glissade/apps/session.h>
 #include <glissade/apps/sliding_option.h>
 #include <glissade/devices/lcm_bus.h>
@@ -22,10 +23,10 @@
 namespace glissade::apps {
 
 /// Runs the whole system on a simulated clock: `ticks` milliseconds of a simulated glove that follows `script`, and
-/// holds the first part if it starts closed. Throws std::invalid_argument, naming scene and part, when a part collides
-/// at its start.
+/// holds the first part if it starts closed. Throws std::invalid_argument, naming scene and part, when a
+/// part collides at its start, and naming the file when the recording cannot be created. There is no flight recorder.
 Session run_session_offline(const HapticScene& scene, const HandScript& script, std::int64_t ticks,
-                            const SlidingChoice& choice);
+                            const SlidingChoice& choice, const RecordSettings& record);
 
 /// A glove of a run, and the part that its hand takes at the first state.
 struct SessionHand {
@@ -40,6 +41,7 @@ struct RunSettings {
   /// Of the haptic loop; default: that of the fastest glove, within the bounds of `validate_tick_period`.
   std::optional<std::chrono::nanoseconds> period{};
   std::chrono::nanoseconds spin{0};  ///< as `haptics::HapticServerOptions::spin`
+  RecordSettings record{};
 };
 
 /// What a run tells ten times a second.
@@ -52,7 +54,8 @@ struct RunNews {
 
 /// Runs the haptic server in real time with gloves on `bus`, until its time is over or `should_stop` returns true.
 /// Waits for all gloves first. Publishes HAPTIC_STATE on the bus. Throws std::invalid_argument, naming scene and part,
-/// when a part collides at its start, and naming --spin-us when the spin is longer than half of the loop's period.
+/// when a part collides at its start, naming --spin-us when the spin is longer than half of the loop's period, and
+/// naming a file that cannot be created.
 Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, const RunSettings& settings,
                     const std::function<bool()>& should_stop, const std::function<void(const RunNews&)>& watch);
 

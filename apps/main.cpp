@@ -43,6 +43,9 @@ int parse_and_run(int argc, char** argv) {
   glissade::apps::add_collide_command(app, chosen);
   glissade::apps::add_slide_command(app, chosen);
   glissade::apps::add_run_command(app, chosen);
+  glissade::apps::add_record_command(app, chosen);
+  glissade::apps::add_replay_command(app, chosen);
+  glissade::apps::add_log_command(app, chosen);
   glissade::apps::add_glove_command(app, chosen);
   glissade::apps::add_doctor_command(app, chosen);
   glissade::apps::add_latency_command(app, chosen);

@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <bit>
 #include <numbers>
 
+#include <glissade/apps/hash.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/session.h>
 
@@ -12,33 +12,11 @@ namespace {
 constexpr double kSeatDistance_m = 2e-3;
 constexpr double kSeatAngle_rad = 2.0 * std::numbers::pi / 180.0;
 
-/// FNV-1a over the bits of numbers.
-class Hash {
- public:
-  void add(double value) {
-    for (auto bits = std::bit_cast<std::uint64_t>(value), i = std::uint64_t{0}; i < 8; ++i) {
-      state_ = (state_ ^ ((bits >> (8 * i)) & 0xffU)) * 0x100000001b3U;
-    }
-  }
-  void add(const Eigen::Vector3d& v) {
-    for (int i = 0; i < 3; ++i)
-      add(v[i]);
-  }
-  std::uint64_t value() const { return state_; }
-
- private:
-  std::uint64_t state_ = 0xcbf29ce484222325U;
-};
-
 std::uint64_t hash_of(const SessionRecorder& samples) {
   Hash hash;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    for (std::size_t p = 0; p < samples.parts(); ++p) {
-      const Eigen::Isometry3d& X_WV = samples.part(i, p).X_WV;
-      for (int column = 0; column < 3; ++column)
-        hash.add(Eigen::Vector3d(X_WV.linear().col(column)));
-      hash.add(Eigen::Vector3d(X_WV.translation()));
-    }
+    for (std::size_t p = 0; p < samples.parts(); ++p)
+      hash.add(samples.part(i, p).X_WV);
     for (std::size_t h = 0; h < samples.hands(); ++h) {
       hash.add(samples.hand(i, h).force_W);
       hash.add(samples.hand(i, h).torque_V_W);

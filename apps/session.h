@@ -76,6 +76,7 @@ struct Session {
   std::vector<std::int64_t> devices;  ///< the number of each hand's glove
   std::shared_ptr<const SessionRecorder> samples;
   std::optional<RealTimeFigures> real_time;  ///< none for an offline run
+  bool is_recording_whole = true;            ///< false if a recording was wanted and parts of it are missing
 };
 
 /// The figures of a part over the kept ticks.
@@ -128,7 +129,7 @@ inline constexpr const char* kVerboseHelp =
     "Add the stages of the search for contacts and the hash of the run to the summary";
 
 /// Prints the summary as text or JSON, and writes the report unless `report_folder` is empty. Throws std::runtime_error
-/// when a visible pose collides.
+/// when a visible pose collides, or when the recording is not whole.
 void conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json, bool verbose,
               const std::string& report_folder);
 

@@ -343,6 +343,7 @@ void conclude(const Session& session, const HapticScene& scene, const std::strin
   if (summary.colliding_poses() > 0) {
     throw std::runtime_error(std::to_string(summary.colliding_poses()) + " visible poses collide");
   }
+  if (!session.is_recording_whole) throw std::runtime_error("the recording is not whole");
 }
 
 }  // namespace glissade::apps

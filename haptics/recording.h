@@ -145,6 +145,10 @@ class RecordedEvents {
   std::optional<std::chrono::nanoseconds> announced_;
 };
 
+/// What the tick of a HAPTIC_TICK consumed, when it started, and how long it took; what it produced has its default
+/// values. No value for an event on another channel, and if its bytes were changed.
+std::optional<TickRecord> consumed_by_tick(const devices::LogEvent& event);
+
 /// Writes all events to a file.
 class LogRecorder final : public LoopObserver {
  public:

@@ -104,6 +104,17 @@ CsvWriter& CsvWriter::add(std::int64_t value) {
   return add(std::string_view{std::to_string(value)});
 }
 
+CsvWriter& CsvWriter::add(const Eigen::Vector3d& v) {
+  return add(v.x()).add(v.y()).add(v.z());
+}
+
+CsvWriter& CsvWriter::add(const Eigen::Isometry3d& X) {
+  Eigen::Quaterniond q(X.linear());
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  add(Eigen::Vector3d(X.translation()));
+  return add(q.w()).add(q.x()).add(q.y()).add(q.z());
+}
+
 CsvWriter& CsvWriter::add(std::string_view text) {
   if (values_in_row_ > 0) *out_ << ',';
   *out_ << text;

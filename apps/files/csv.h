@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 namespace glissade::apps {
 
 /// The rows of a CSV file; every value is finite.
@@ -39,6 +41,10 @@ class CsvWriter {
   /// Appends one value to the current row.
   CsvWriter& add(double value);
   CsvWriter& add(std::int64_t value);
+  /// Its three coordinates.
+  CsvWriter& add(const Eigen::Vector3d& v);
+  /// Position and orientation, seven values: x, y, z and a quaternion qw, qx, qy, qz with qw >= 0.
+  CsvWriter& add(const Eigen::Isometry3d& X);
   /// `text` must hold no comma, quote or line break.
   CsvWriter& add(std::string_view text);
 

@@ -22,7 +22,7 @@ namespace glissade::apps {
 namespace {
 
 constexpr std::size_t kLargestDatagram = 2048;
-constexpr timeval kPatience{.tv_sec = 0, .tv_usec = 100'000};  // a datagram that has not come by then is lost
+constexpr timeval kDatagramPatience{.tv_sec = 0, .tv_usec = 100'000};  // a datagram that has not come by then is lost
 
 /// The size of a message in a packet of LCM: 8 bytes, and the channel's name with a zero.
 template <typename Message>
@@ -39,7 +39,7 @@ class GroupSocket {
     const sockaddr from = address_of(from_port);
     ip_mreq membership{};
     membership.imr_multiaddr.s_addr = inet_addr(kPingPongGroup);
-    set(SOL_SOCKET, SO_RCVTIMEO, kPatience);
+    set(SOL_SOCKET, SO_RCVTIMEO, kDatagramPatience);
     set(IPPROTO_IP, IP_MULTICAST_TTL, 0);
     if (bind(fd_, &from, sizeof(from)) != 0) fail();
     set(IPPROTO_IP, IP_ADD_MEMBERSHIP, membership);

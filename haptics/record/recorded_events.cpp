@@ -27,4 +27,8 @@ devices::LogEvent RecordedEvents::of(const AnswerRecord& record) {
   return devices::to_event(record.ghosts.time, kContactSetChannel, encode(record));
 }
 
+std::optional<TickRecord> consumed_by_tick(const devices::LogEvent& event) {
+  return event.channel == kHapticTickChannel ? decode_tick(event.message) : std::nullopt;
+}
+
 }  // namespace glissade::haptics

@@ -8,6 +8,16 @@
 
 namespace glissade::haptics {
 
+namespace {
+
+/// What comes in place of the number after `previous`.
+std::string follows(const std::string& kind, std::int64_t previous) {
+  if (previous > 0) return " follows " + kind + " " + std::to_string(previous);
+  return " is the first " + kind + " in the recording: only a run from its beginning on can be repeated";
+}
+
+}  // namespace
+
 Replay::Replay(MultiPartSliding& sliding, const std::vector<KernelHand>& hands, std::chrono::nanoseconds period,
                RecordingHead head)
     : kernel_(kernel_parts(sliding), hands, period),
@@ -33,7 +43,7 @@ bool Replay::repeat_tick(const devices::LogEvent& event) {
       consumed ? "tick " + std::to_string(consumed->number) : "the tick after " + std::to_string(ticks_);
   if (!consumed) return differs(name + " cannot be read: its bytes were changed, or another version wrote them");
   if (!expected_.empty()) return differs("an event is missing on " + expected_.front().channel + " before " + name);
-  if (consumed->number != ticks_ + 1) return differs(name + " follows tick " + std::to_string(ticks_));
+  if (consumed->number != ticks_ + 1) return differs(name + follows("tick", ticks_));
   if (consumed->hand_count != record_.hand_count) return differs(name + " has another number of hands");
   const auto set = sets_.find(consumed->set_sequence);
   if (set == sets_.end())
@@ -58,7 +68,7 @@ bool Replay::repeat_answer(const devices::LogEvent& event) {
                    " cannot be read: its bytes were changed, or another version wrote them");
   }
   const std::string name = "contact set " + std::to_string(consumed->set.sequence);
-  if (consumed->set.sequence != answers_ + 1) return differs(name + " follows contact set " + std::to_string(answers_));
+  if (consumed->set.sequence != answers_ + 1) return differs(name + follows("contact set", answers_));
   const AnswerRecord repeated{consumed->ghosts, answerer_->answer(consumed->ghosts, period_)};
   ++answers_;
   if (RecordedEvents::of(repeated) != event) return differs(name + " differs");

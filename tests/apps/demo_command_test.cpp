@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "glissade_program.h"
+#include "pressing_scene.h"
 #include "sanitizers.h"
 #include "temporary_folder.h"
 
@@ -19,24 +20,7 @@ using test_support::ProgramResult;
 
 class Demo : public testing::Test {
  protected:
-  /// A box that is pressed on a plate and pushed to its goal along it, in one second.
-  std::string scene =
-      folder.write("scene.yaml",
-                   "objects:\n"
-                   "  - name: plate\n"
-                   "    shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5, triangles: 200}\n"
-                   "  - name: box\n"
-                   "    movable: true\n"
-                   "    shape: {type: box, size_x_m: 0.1, size_y_m: 0.06, size_z_m: 0.04, triangles: 60}\n"
-                   "    pose: {position_m: [0, 0, 0.03]}\n"
-                   "script: hand.csv\n"
-                   "goal: {position_m: [0.05, 0, 0.02]}\n");
-  std::string script = folder.write("hand.csv",
-                                    "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n"
-                                    "0,0,0,0.03,1,0,0,0\n"
-                                    "0.2,0,0,0.01,1,0,0,0\n"
-                                    "0.8,0.05,0,0.01,1,0,0,0\n"
-                                    "1,0.05,0,0.01,1,0,0,0\n");
+  std::string scene = test_support::write_pressing_scene(folder);
 
   static nlohmann::json run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"demo", "--json"});

@@ -2,6 +2,7 @@
 /// columns that the program knows.
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
@@ -18,6 +19,7 @@
 #include <glissade/apps/latency/latency_output.h>
 #include <glissade/apps/session.h>
 #include <glissade/apps/text.h>
+#include <glissade/devices/event_log.h>
 #include <glissade/geometry/pose_trajectory.h>
 #include <glissade/haptics/sliding.h>
 #include <glissade/shapes/shape_catalog.h>
@@ -363,8 +365,25 @@ TEST_F(ScenePages, TheTablesHaveExactlyTheKeysOfLatency) {
   expect_keys(formats, "### Latencies of a link", json["loaded"]["links"][0]);
 }
 
+TEST_F(ScenePages, TheTablesHaveExactlyTheKeysAndColumnsOfRecordings) {
+  const std::string log = folder.path("run.lcmlog");
+  const std::string tables = folder.path("tables");
+  run("demo --offline --seconds 0.05 --record " + log);
+  run("log to-csv " + log + " " + tables);
+  for (const char* name : {"ticks.csv", "parts.csv", "hands.csv", "gloves.csv"})
+    EXPECT_EQ(formats.names_below(std::string("#### ") + name), header_of(std::string("tables/") + name));
+
+  const nlohmann::json outcome = nlohmann::json::parse(run("replay " + log + " --json").standard_output);
+  expect_keys(formats, "### Output of replay", outcome);
+  devices::EventLogReader reader(log);
+  const std::optional<devices::LogEvent> session = reader.next();
+  ASSERT_TRUE(session);
+  expect_keys(formats, "### Session of a recording",
+              nlohmann::json::parse(session->message.begin(), session->message.end()));
+}
+
 TEST_F(ScenePages, TheHelpOfEveryCommandWithASceneNamesThePageAndAnExample) {
-  for (const char* command : {"demo", "run", "slide"}) {
+  for (const char* command : {"demo", "record", "run", "slide"}) {
     EXPECT_THAT(run(std::string(command) + " --help").standard_output, HasSubstr(kSceneFileHelp)) << command;
   }
   EXPECT_THAT(kSceneFileHelp, HasSubstr("docs/scene_files.md"));

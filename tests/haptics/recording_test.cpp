@@ -6,6 +6,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -21,6 +22,7 @@
 
 #include "held_part.h"
 #include "poses.h"
+#include "sweep_variants.h"
 #include "temporary_folder.h"
 
 namespace glissade::haptics {
@@ -123,6 +125,10 @@ TEST_F(Recording, IsRepeatedToTheBitWithASearchThread) {
   EXPECT_EQ(fault(path_, {.has_search_thread = true}), "");
 }
 
+TEST_F(Recording, IsRepeatedToTheBitWithEveryInstructionSet) {
+  test_support::with_every_instruction_set([&](std::string_view name) { EXPECT_EQ(fault(path_), "") << name; });
+}
+
 TEST_F(Recording, OfAServerIsRepeatedToTheBit) {
   const std::string path = folder_.path("server.lcmlog");
   const SlidingRules rules = real_time_rules();
@@ -147,6 +153,15 @@ TEST_F(Recording, OfAServerIsRepeatedToTheBit) {
   EXPECT_EQ(fault(path, rules), "");
   EXPECT_GE(ticks_, kRecordedTicks) << "and the ticks of the fade";
   EXPECT_GT(answers_, 0);
+}
+
+TEST_F(Recording, WithoutItsBeginningIsRefusedInASentence) {
+  FlightRecorder recorder(recorded_head(), 1 << 20);
+  record(recorder);
+  const std::string path = folder_.path("flight.lcmlog");
+  recorder.write(path);
+  EXPECT_NE(fault(path).find("in the recording: only a run from its beginning on can be repeated"), std::string::npos);
+  EXPECT_EQ(ticks_, 0);
 }
 
 TEST_F(Recording, TellsThatTheRulesWereOthers) {

@@ -40,7 +40,7 @@ Process::Process(const std::vector<std::string>& arguments) {
   for (std::string& argument : copies)
     argv.push_back(argument.data());
   argv.push_back(nullptr);
-  const int failure = posix_spawn(&id_, argv[0], &actions, nullptr, argv.data(), environ);
+  const int failure = posix_spawnp(&id_, argv[0], &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0) throw std::system_error(failure, std::generic_category(), arguments[0]);
   is_running_ = true;

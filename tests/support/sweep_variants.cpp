@@ -48,4 +48,13 @@ std::vector<InstructionSet> instruction_sets(const std::string& only) {
   return chosen;
 }
 
+void with_every_instruction_set(const std::function<void(std::string_view name)>& use) {
+  const std::vector<InstructionSet> all = collision::available_instruction_sets();
+  for (const InstructionSet set : all) {
+    collision::use_instruction_set(set);
+    use(name_of(set));
+  }
+  collision::use_instruction_set(all.front());
+}
+
 }  // namespace glissade::test_support

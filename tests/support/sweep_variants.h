@@ -2,8 +2,10 @@
 
 /// All variants of trees, and all instruction sets of their queries.
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glissade/collision/dop_tree.h>
@@ -25,5 +27,8 @@ std::vector<collision::DopTree> trees_of_all_options(const SweepMesh& mesh, Rand
 /// The instruction sets of this machine, or `only` that one unless it is empty. Throws std::invalid_argument if the
 /// machine lacks it.
 std::vector<collision::InstructionSet> instruction_sets(const std::string& only);
+
+/// Calls `use` with the name of each instruction set of this machine, while it is in use. The best one stays in use.
+void with_every_instruction_set(const std::function<void(std::string_view name)>& use);
 
 }  // namespace glissade::test_support

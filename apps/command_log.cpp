@@ -1,0 +1,53 @@
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/command.h>
+#include <glissade/apps/record/log_tables.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr const char* kTablesFooter =
+    "LOG is what 'glissade record', 'glissade demo --record', a flight recorder or lcm-logger wrote. The tables are\n"
+    "  ticks.csv   when each tick of the haptic loop started, and how long it took\n"
+    "  parts.csv   ghost and visible pose of each part, with its state\n"
+    "  hands.csv   force on each hand, and why it is reduced\n"
+    "  gloves.csv  pose, velocity and joint angles that each glove measured\n"
+    "A table of which the log has nothing is left out. All columns: docs/file_formats.md in the sources.\n"
+    "If the log is damaged, the tables hold everything before the damage, and the exit code is 1.\n"
+    "\n"
+    "Example:\n"
+    "  glissade log to-csv demo.lcmlog tables";
+
+struct LogOptions {
+  std::string log;
+  std::string folder;
+};
+
+int write_tables(const LogOptions& options) {
+  std::string damage;
+  for (const LogTable& table : write_log_tables(options.log, options.folder, damage))
+    std::cout << table.file << ": " << table.rows << (table.rows == 1 ? " row\n" : " rows\n");
+  if (!damage.empty()) throw std::runtime_error(damage);
+  return 0;
+}
+
+}  // namespace
+
+void add_log_command(CLI::App& app, Command& chosen) {
+  const auto options = std::make_shared<LogOptions>();
+  CLI::App* command = app.add_subcommand("log", "Make other files of event logs");
+  command->require_subcommand(1);
+  CLI::App* tables = command->add_subcommand("to-csv", "Write tables (CSV) of an event log of LCM");
+  tables->footer(kTablesFooter);
+  tables->add_option("LOG", options->log, "Event log of LCM")->required();
+  tables->add_option("FOLDER", options->folder, "Folder for the tables; made if there is none")->required();
+  tables->callback([options, &chosen] { chosen = [options] { return write_tables(*options); }; });
+}
+
+}  // namespace glissade::apps

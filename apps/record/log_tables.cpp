@@ -1,0 +1,168 @@
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+
+#include <glissade/apps/files/csv.h>
+#include <glissade/apps/force_reason.h>
+#include <glissade/apps/progress.h>
+#include <glissade/apps/record/log_tables.h>
+#include <glissade/devices/event_log.h>
+#include <glissade/haptics/recording.h>
+
+namespace glissade::apps {
+
+namespace {
+
+using Columns = std::vector<std::string>;
+
+double seconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+double microseconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double, std::micro>(time).count();
+}
+
+/// A file that begins with the first row.
+class Table {
+ public:
+  Table(const std::string& folder, const std::string& name, Columns columns)
+      : path_((std::filesystem::path(folder) / name).string()), columns_(std::move(columns)) {}
+
+  CsvWriter& new_row() {
+    ++rows_;
+    return writer_ ? *writer_ : writer_.emplace(path_, columns_);
+  }
+
+  void close(std::vector<LogTable>& tables) {
+    if (!writer_) return;
+    writer_->close();
+    tables.push_back({path_, rows_});
+  }
+
+ private:
+  std::string path_;
+  Columns columns_;
+  std::optional<CsvWriter> writer_;
+  std::int64_t rows_ = 0;
+};
+
+Columns glove_columns() {
+  Columns columns{"t_s",          "device",     "sequence",   "x_m",          "y_m",
+                  "z_m",          "qw",         "qx",         "qy",           "qz",
+                  "vx_m_per_s",   "vy_m_per_s", "vz_m_per_s", "wx_rad_per_s", "wy_rad_per_s",
+                  "wz_rad_per_s", "grip",       "enabled",    "command_age_s"};
+  for (const std::string_view joint : devices::kGloveJointNames)
+    columns.push_back(std::string(joint) + "_rad");
+  return columns;
+}
+
+class Tables {
+ public:
+  explicit Tables(const std::string& folder)
+      : ticks_(folder, "ticks.csv",
+               {"tick", "t_s", "lateness_us", "duration_us", "contact_set", "requests", "stopped"}),
+        parts_(folder, "parts.csv",
+               {"t_s",  "tick", "part", "gx_m", "gy_m", "gz_m", "gqw", "gqx",   "gqy",      "gqz",
+                "vx_m", "vy_m", "vz_m", "vqw",  "vqx",  "vqy",  "vqz", "state", "contacts", "contact_set_age_s"}),
+        hands_(folder, "hands.csv",
+               {"t_s", "tick", "hand", "part", "fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm", "contact_share",
+                "state_age_s", "command_age_s", "energy_J", "reason"}),
+        gloves_(folder, "gloves.csv", glove_columns()) {}
+
+  void add(const devices::LogEvent& event) {
+    if (const auto tick = haptics::consumed_by_tick(event)) return add(*tick);
+    if (const auto state = devices::haptic_state_of(event)) return add(*state);
+    if (const auto logged = devices::glove_state_of(event)) add(*logged, event.time);
+  }
+
+  std::vector<LogTable> close() {
+    std::vector<LogTable> tables;
+    for (Table* const table : {&ticks_, &parts_, &hands_, &gloves_})
+      table->close(tables);
+    return tables;
+  }
+
+ private:
+  void add(const haptics::TickRecord& tick) {
+    ticks_.new_row()
+        .add(tick.number)
+        .add(seconds(tick.time))
+        .add(microseconds(tick.time - tick.deadline))
+        .add(microseconds(tick.duration))
+        .add(tick.set_sequence)
+        .add(std::ssize(tick.requests.all()))
+        .add(std::int64_t{tick.is_stopped})
+        .end_row();
+  }
+
+  void add(const devices::HapticState& state) {
+    for (std::int32_t p = 0; p < state.part_count; ++p) {
+      const devices::HapticPartState& part = state.parts[static_cast<std::size_t>(p)];
+      parts_.new_row()
+          .add(seconds(state.time))
+          .add(state.sequence)
+          .add(std::int64_t{p})
+          .add(part.X_WG)
+          .add(part.X_WV)
+          .add(devices::name_of(part.state))
+          .add(std::int64_t{part.contact_count})
+          .add(seconds(state.contact_set_age))
+          .end_row();
+    }
+    for (std::int32_t h = 0; h < state.hand_count; ++h) {
+      const devices::HapticHandState& hand = state.hands[static_cast<std::size_t>(h)];
+      hands_.new_row()
+          .add(seconds(state.time))
+          .add(state.sequence)
+          .add(std::int64_t{h})
+          .add(std::int64_t{hand.part})
+          .add(hand.force_W)
+          .add(hand.torque_V_W)
+          .add(hand.contact_share)
+          .add(seconds(hand.state_age))
+          .add(seconds(hand.command_age))
+          .add(hand.energy)
+          .add(to_text(force_reason(state, static_cast<std::size_t>(h))))
+          .end_row();
+    }
+  }
+
+  void add(const devices::LoggedState& logged, std::chrono::nanoseconds time) {
+    const devices::GloveState& state = logged.state;
+    CsvWriter& row = gloves_.new_row();
+    row.add(seconds(time)).add(logged.device).add(state.sequence).add(state.X_WH).add(state.v_WH).add(state.w_WH);
+    row.add(state.grip).add(std::int64_t{state.is_enabled}).add(seconds(state.command_age));
+    for (const double angle : state.joint_angles)
+      row.add(angle);
+    row.end_row();
+  }
+
+  Table ticks_;
+  Table parts_;
+  Table hands_;
+  Table gloves_;
+};
+
+}  // namespace
+
+std::vector<LogTable> write_log_tables(const std::string& log_path, const std::string& folder, std::string& damage) {
+  devices::EventLogReader log(log_path);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw std::invalid_argument(folder + ": cannot be created: " + error.message());
+  Tables tables(folder);
+  ProgressBar progress("tables", static_cast<std::int64_t>(std::filesystem::file_size(log_path)));
+  std::int64_t bytes = 0;
+  while (const std::optional<devices::LogEvent> event = log.next()) {
+    tables.add(*event);
+    bytes += std::ssize(event->message);
+    progress.update(bytes);
+  }
+  damage = log.damage();
+  return tables.close();
+}
+
+}  // namespace glissade::apps

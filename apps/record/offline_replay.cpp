@@ -1,0 +1,66 @@
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+#include <glissade/apps/embedded_scene.h>
+#include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/progress.h>
+#include <glissade/apps/record/offline_replay.h>
+#include <glissade/apps/record/recorded_session.h>
+#include <glissade/apps/record/scene_hash.h>
+#include <glissade/apps/session_start.h>
+#include <glissade/haptics/offline_run.h>
+#include <glissade/realtime/clock.h>
+
+namespace glissade::apps {
+
+namespace {
+
+HapticScene recorded_scene(const std::string& log_path, const RecordedSession& session, const std::string& scene_file) {
+  const std::string& file = scene_file.empty() ? session.scene_file : scene_file;
+  const Scene scene = read_or_embedded_scene(file);
+  HapticScene result = make_haptic_scene(scene, movable_objects(scene));
+  if (scene_hash(result) == session.scene_hash) return result;
+  throw std::invalid_argument(result.source + ": is not the scene of " + log_path +
+                              ", or has changed since; --scene names another file");
+}
+
+}  // namespace
+
+ReplayOutcome replay_offline(const std::string& log_path, const std::string& scene_file) {
+  devices::EventLogReader log(log_path);
+  const RecordedSession session = read_session(log, log_path);
+  const HapticScene scene = recorded_scene(log_path, session, scene_file);
+  std::vector<Grip> grips;
+  std::vector<haptics::KernelHand> hands;
+  for (const RecordedHand& hand : session.hands) {
+    if (hand.part && *hand.part >= scene.parts.size()) {
+      throw std::invalid_argument(log_path + ": glove " + std::to_string(hand.glove.device) + " holds part " +
+                                  std::to_string(*hand.part) + ", which the scene does not have");
+    }
+    grips.push_back({hand.glove.descriptor, hand.part});
+    hands.push_back({hand.glove.descriptor, hand.part});
+  }
+  haptics::SlidingRules rules = session.is_real_time ? haptics::real_time_rules() : haptics::SlidingRules{};
+  rules.has_search_thread = true;  // takes less time, and gives the same bits
+  haptics::MultiPartSliding sliding = start_sliding(scene, grips, session.choice, rules, session.period);
+  haptics::Replay replay(sliding, hands, session.period, head_of(session));
+
+  ProgressBar progress("replay", static_cast<std::int64_t>(std::filesystem::file_size(log_path)));
+  realtime::SteadyClock clock;
+  const std::chrono::nanoseconds start = clock.now();
+  std::int64_t bytes = 0;
+  while (const std::optional<devices::LogEvent> event = log.next()) {
+    if (!replay.take(*event)) break;
+    bytes += std::ssize(event->message);
+    progress.update(bytes);
+  }
+  return {.ticks = replay.ticks(),
+          .contact_sets = replay.answers(),
+          .recorded = replay.duration(),
+          .elapsed = clock.now() - start,
+          .difference = replay.difference(),
+          .damage = log.damage()};
+}
+
+}  // namespace glissade::apps

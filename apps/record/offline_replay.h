@@ -1,0 +1,28 @@
+#pragma once
+
+/// A recorded run, once more: on a simulated clock, with the recorded states of the gloves.
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace glissade::apps {
+
+/// What came of it.
+struct ReplayOutcome {
+  std::int64_t ticks = 0;                ///< that were repeated
+  std::int64_t contact_sets = 0;         ///< that were repeated
+  std::chrono::nanoseconds recorded{0};  ///< duration of these ticks then
+  std::chrono::nanoseconds elapsed{0};   ///< the same now, without reading the scene
+  std::string difference;                ///< which tick or contact set differs, and how; empty if none does
+  std::string damage;                    ///< where the file is damaged; empty if it is whole
+
+  bool is_same() const { return difference.empty() && damage.empty(); }
+};
+
+/// Repeats the run of a log up to its end, the first difference or the first damage. The scene is that of `scene_file`,
+/// or the recorded one if the name is empty. Shows a progress bar. Throws std::invalid_argument, naming the file, for a
+/// log that does not begin with a session, and for a scene that cannot be read or is not the recorded one.
+ReplayOutcome replay_offline(const std::string& log_path, const std::string& scene_file);
+
+}  // namespace glissade::apps

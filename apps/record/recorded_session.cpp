@@ -1,0 +1,107 @@
+#include <filesystem>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include <glissade/apps/record/recorded_session.h>
+#include <glissade/haptics/haptic_server.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr int kVersion = 1;
+
+std::string hexadecimal(std::uint64_t number) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string text;
+  for (int shift = 60; shift >= 0; shift -= 4)
+    text += kDigits[(number >> shift) & 15U];
+  return text;
+}
+
+devices::LogEvent event_of(const RecordedSession& session) {
+  nlohmann::json hands = nlohmann::json::array();
+  for (const RecordedHand& hand : session.hands) {
+    const nlohmann::json part = hand.part ? nlohmann::json(*hand.part) : nlohmann::json(nullptr);
+    hands.push_back({{"device", hand.glove.device}, {"part", part}});
+  }
+  const nlohmann::json text{{"version", kVersion},
+                            {"scene_file", session.scene_file},
+                            {"scene_hash", hexadecimal(session.scene_hash)},
+                            {"real_time", session.is_real_time},
+                            {"metaphor", session.choice.metaphor},
+                            {"friction", session.choice.friction},
+                            {"spiral_search", session.choice.spiral_search},
+                            {"depenetrate", session.choice.depenetrate},
+                            {"period_ns", session.period.count()},
+                            {"hands", hands}};
+  const std::string bytes = text.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return devices::to_event(std::chrono::nanoseconds(0), kHapticSessionChannel, {bytes.begin(), bytes.end()});
+}
+
+/// Throws what the JSON library and the standard library throw.
+RecordedSession session_of(const devices::LogEvent& event) {
+  const nlohmann::json text = nlohmann::json::parse(event.message.begin(), event.message.end());
+  if (text.at("version") != kVersion) throw std::invalid_argument("another version");
+  RecordedSession session;
+  session.scene_file = text.at("scene_file");
+  session.scene_hash = std::stoull(text.at("scene_hash").get<std::string>(), nullptr, 16);
+  session.is_real_time = text.at("real_time");
+  session.choice.metaphor = text.at("metaphor");
+  session.choice.friction = text.at("friction").get<std::vector<double>>();
+  session.choice.spiral_search = text.at("spiral_search");
+  session.choice.depenetrate = text.at("depenetrate");
+  session.period = std::chrono::nanoseconds(text.at("period_ns").get<std::int64_t>());
+  haptics::validate_tick_period(session.period);
+  for (const nlohmann::json& hand : text.at("hands")) {
+    RecordedHand& recorded = session.hands.emplace_back();
+    recorded.glove.device = hand.at("device");
+    if (!hand.at("part").is_null()) recorded.part = hand.at("part").get<std::size_t>();
+  }
+  return session;
+}
+
+}  // namespace
+
+std::string recorded_path(const std::string& scene_file) {
+  return scene_file.empty() ? "" : std::filesystem::absolute(scene_file).lexically_normal().string();
+}
+
+haptics::RecordingHead head_of(const RecordedSession& session) {
+  haptics::RecordingHead head;
+  head.events.push_back(event_of(session));
+  for (const RecordedHand& hand : session.hands) {
+    head.gloves.push_back(hand.glove);
+    head.events.push_back(devices::to_event(std::chrono::nanoseconds(0), hand.glove));
+  }
+  return head;
+}
+
+RecordedSession read_session(devices::EventLogReader& log, const std::string& path) {
+  const std::optional<devices::LogEvent> first = log.next();
+  if (!first || first->channel != kHapticSessionChannel) {
+    throw std::invalid_argument(path + ": does not begin with the channel " + kHapticSessionChannel +
+                                ", so the run cannot be repeated; 'glissade record' and 'glissade demo --record' "
+                                "write what can");
+  }
+  RecordedSession session;
+  try {
+    session = session_of(*first);
+  } catch (const std::exception&) {
+    throw std::invalid_argument(path + ": the first event, on " + kHapticSessionChannel +
+                                ", cannot be read: its bytes were changed, or another version wrote it");
+  }
+  for (RecordedHand& hand : session.hands) {
+    const std::optional<devices::LogEvent> event = log.next();
+    const std::optional<devices::GloveInfo> glove = event ? devices::glove_info_of(*event) : std::nullopt;
+    if (!glove || glove->device != hand.glove.device) {
+      throw std::invalid_argument(path + ": the announcement of glove " + std::to_string(hand.glove.device) +
+                                  " is missing at the beginning");
+    }
+    hand.glove = *glove;
+  }
+  return session;
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,170 @@
+/// Recordings made and read by the program: `demo --record`, `replay`, `log to-csv`.
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <glissade/apps/text.h>
+#include <glissade/devices/event_log.h>
+
+#include "glissade_program.h"
+#include "pressing_scene.h"
+#include "temporary_folder.h"
+
+namespace glissade::apps {
+namespace {
+
+using test_support::expect_fails;
+using test_support::expect_refused;
+using testing::HasSubstr;
+
+/// The recording of a demonstration of half a second.
+class RecordingCommands : public testing::Test {
+ protected:
+  explicit RecordingCommands(bool is_offline = true) {
+    std::vector<std::string> arguments{"demo", "--seconds", "0.5", "--json", "--scene", scene_, "--record", log_};
+    if (is_offline) arguments.emplace_back("--offline");
+    const test_support::ProgramResult result = test_support::glissade(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+  }
+
+  static nlohmann::json outcome(const test_support::ProgramResult& result) {
+    return nlohmann::json::parse(result.standard_output);
+  }
+
+  std::string bytes() const {
+    std::ifstream file(log_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  std::string changed(const std::string& bytes) const { return folder_.write("changed.lcmlog", bytes); }
+
+  /// The place of the tenth tick's message in the file.
+  std::size_t place_of_a_tick() const {
+    const std::string all = bytes();
+    std::size_t place = 0;
+    for (int i = 0; i < 10; ++i)
+      place = all.find("HAPTIC_TICK", place + 1);
+    return place + 11;
+  }
+
+  test_support::TemporaryFolder folder_;
+  std::string scene_ = test_support::write_pressing_scene(folder_);
+  std::string log_ = folder_.path("run.lcmlog");
+};
+
+class RecordingInRealTime : public RecordingCommands {
+ protected:
+  RecordingInRealTime() : RecordingCommands(false) {}
+};
+
+TEST_F(RecordingCommands, AnOfflineRunIsRepeatedToTheBit) {
+  const test_support::ProgramResult result = test_support::glissade({"replay", log_, "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+  const nlohmann::json repeated = outcome(result);
+  EXPECT_EQ(repeated["same"], true);
+  EXPECT_EQ(repeated["ticks"], 500);
+  EXPECT_EQ(repeated["contact_sets"], 500);
+  EXPECT_NEAR(repeated["recorded_s"].get<double>(), 0.499, 1e-9);
+  EXPECT_THAT(test_support::glissade({"replay", log_}).standard_output, HasSubstr("same to the bit"));
+}
+
+TEST_F(RecordingInRealTime, IsRepeatedToTheBit) {
+  const test_support::ProgramResult result = test_support::glissade({"replay", log_, "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+  EXPECT_EQ(outcome(result)["same"], true);
+  EXPECT_GE(outcome(result)["ticks"], 500);
+}
+
+TEST_F(RecordingCommands, ASceneThatHasChangedIsRefused) {
+  const std::string text = read_text_file(scene_);
+  const std::string moved =
+      folder_.write("moved.yaml", std::string(text).replace(text.find("0, 0, 0.03"), 10, "0, 0, 0.04"));
+  expect_refused({"replay", log_, "--scene", moved}, {"moved.yaml", "run.lcmlog", "has changed"});
+  std::filesystem::remove(scene_);
+  expect_refused({"replay", log_}, {"scene.yaml"});
+}
+
+TEST_F(RecordingCommands, ATruncatedLogIsRepeatedUpToItsEnd) {
+  const std::string cut = changed(bytes().substr(0, bytes().size() / 2));
+  const test_support::ProgramResult result = test_support::glissade({"replay", cut, "--json"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.standard_error, HasSubstr("the file ends within an event"));
+  EXPECT_EQ(outcome(result)["same"], false);
+  EXPECT_GT(outcome(result)["ticks"], 200);
+  EXPECT_LT(outcome(result)["ticks"], 300);
+}
+
+TEST_F(RecordingCommands, AFlippedBitIsFoundOut) {
+  std::string all = bytes();
+  all[place_of_a_tick() + 60] ^= 4;  // in the tick's time
+  expect_fails(1, {"replay", changed(all), "--json"}, {"changed.lcmlog", "the tick after 9 cannot be read"});
+}
+
+TEST_F(RecordingCommands, AForeignFileIsRefused) {
+  expect_refused({"replay", scene_}, {"scene.yaml", "is no LCM event log"});
+  expect_refused({"replay", folder_.path("nothing.lcmlog")}, {"nothing.lcmlog", "cannot be read"});
+  expect_refused({"log", "to-csv", scene_, folder_.path("tables")}, {"scene.yaml", "is no LCM event log"});
+  const std::string log = folder_.path("other.lcmlog");
+  devices::EventLogWriter writer(log);
+  writer.write(devices::to_event(std::chrono::seconds(1), "OTHER", {1, 2, 3}));
+  writer.close();
+  expect_refused({"replay", log}, {"other.lcmlog", "HAPTIC_SESSION", "cannot be repeated"});
+  expect_refused({"replay", log, "--lcm", "udpm://239.255.76.67:7667?ttl=0"}, {"other.lcmlog", "no glove to play"});
+}
+
+TEST_F(RecordingCommands, TablesTellOfEveryTick) {
+  const std::string tables = folder_.path("tables");
+  const test_support::ProgramResult result = test_support::glissade({"log", "to-csv", log_, tables});
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  EXPECT_THAT(result.standard_output, HasSubstr("ticks.csv: 500 rows"));
+  const auto rows = [&](const std::string& name) { return test_support::rows_of(read_text_file(tables + "/" + name)); };
+  EXPECT_EQ(rows("ticks.csv").size(), 500U);
+  EXPECT_EQ(rows("gloves.csv").size(), 500U);
+  ASSERT_EQ(rows("parts.csv").size(), 500U);
+  ASSERT_EQ(rows("hands.csv").size(), 500U);
+  EXPECT_EQ(rows("parts.csv").back().at("state"), "sliding");
+  EXPECT_GT(parse_number(rows("hands.csv").back().at("fz_N")), 0.5) << "the plate pushes the hand up";
+  EXPECT_LT(parse_number(rows("parts.csv").back().at("gz_m")), parse_number(rows("parts.csv").back().at("vz_m")));
+}
+
+TEST_F(RecordingCommands, TablesOfADamagedLogHoldWhatComesBefore) {
+  const std::string cut = changed(bytes().substr(0, bytes().size() / 2));
+  const std::string tables = folder_.path("tables");
+  const test_support::ProgramResult result = test_support::glissade({"log", "to-csv", cut, tables});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.standard_error, HasSubstr("changed.lcmlog: damaged at byte"));
+  EXPECT_GT(test_support::rows_of(read_text_file(tables + "/ticks.csv")).size(), 200U);
+}
+
+TEST_F(RecordingCommands, AFileThatCannotBeWrittenIsRefused) {
+  expect_refused({"demo", "--seconds", "0.5", "--record", folder_.path("no/run.lcmlog")},
+                 {"no/run.lcmlog", "cannot be created"});
+  expect_refused({"demo", "--offline", "--record", folder_.path("no/run.lcmlog")},
+                 {"no/run.lcmlog", "cannot be created"});
+  expect_refused({"log", "to-csv", log_, scene_ + "/tables"}, {"scene.yaml/tables"});
+}
+
+TEST_F(RecordingCommands, AFullDiskIsTold) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+  const auto arguments = [&](std::vector<std::string> more) {
+    std::vector<std::string> all{"demo", "--seconds", "0.5", "--scene", scene_, "--record", "/dev/full"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  expect_fails(1, arguments({"--offline"}), {"/dev/full", "not everything could be written"});
+  const test_support::ProgramResult result = test_support::glissade(arguments({}));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.standard_error, HasSubstr("the recording is not whole"));
+  EXPECT_THAT(result.standard_output, HasSubstr("ticks")) << "the summary is not lost";
+}
+
+}  // namespace
+}  // namespace glissade::apps

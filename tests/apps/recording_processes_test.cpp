@@ -1,0 +1,158 @@
+/// Recordings of several processes over UDP multicast, also by LCM's own programs, in a network namespace.
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <glissade/devices/event_log.h>
+
+#include "glissade_program.h"
+#include "pressing_scene.h"
+#include "process.h"
+#include "temporary_folder.h"
+
+namespace glissade::apps {
+namespace {
+
+using test_support::Process;
+using test_support::ProgramResult;
+using testing::HasSubstr;
+
+constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
+
+class RecordingProcesses : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
+  }
+
+  std::string log(const std::string& name) const { return folder.path(name); }
+
+  std::vector<std::string> glove() const {
+    return {GLISSADE_PROGRAM, "glove", "--lcm", kUrl, "--script", folder.path("hand.csv")};
+  }
+
+  /// The number of messages of a log by their channels.
+  static std::map<std::string, int> channels(const std::string& path) {
+    std::map<std::string, int> counts;
+    devices::EventLogReader reader(path);
+    while (const auto event = reader.next())
+      ++counts[event->channel];
+    EXPECT_EQ(reader.damage(), "");
+    return counts;
+  }
+
+  /// Waits until there is such a file; false after twenty seconds.
+  static bool comes_at_last(const std::string& path) {
+    for (int i = 0; i < 2000; ++i) {
+      if (std::filesystem::exists(path)) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
+
+  /// Waits until the program has said this; false after twenty seconds.
+  static bool says_at_last(const Process& program, const std::string& text) {
+    for (int i = 0; i < 2000; ++i) {
+      if (program.standard_error().find(text) != std::string::npos) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
+
+  static void expect_same(const std::string& path) {
+    const ProgramResult result = test_support::glissade({"replay", path});
+    EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+    EXPECT_THAT(result.standard_output, HasSubstr("same to the bit"));
+  }
+
+  test_support::TemporaryFolder folder;
+  std::string scene = test_support::write_pressing_scene(folder);
+};
+
+TEST_F(RecordingProcesses, AServersRunIsRepeatedAndPlayed) {
+  {
+    const Process hand(glove());
+    const ProgramResult server =
+        test_support::glissade({"record", log("run.lcmlog"), scene, "--lcm", kUrl, "--seconds", "0.8", "--json"});
+    ASSERT_EQ(server.exit_code, 0) << server.standard_error;
+  }
+  expect_same(log("run.lcmlog"));
+
+  // The recorded glove leads another server.
+  Process player({GLISSADE_PROGRAM, "replay", log("run.lcmlog"), "--lcm", kUrl, "--json"});
+  const ProgramResult server = test_support::glissade({"run", scene, "--lcm", kUrl, "--seconds", "0.7", "--json"});
+  EXPECT_EQ(server.exit_code, 0) << server.standard_error;
+  const nlohmann::json summary = nlohmann::json::parse(server.standard_output);
+  EXPECT_EQ(summary["colliding_poses"], 0);
+  EXPECT_GT(summary["parts"][0]["contact_fraction"], 0.3);
+  const ProgramResult played = player.wait();
+  ASSERT_EQ(played.exit_code, 0) << played.standard_error;
+  const nlohmann::json glove = nlohmann::json::parse(played.standard_output)["gloves"][0];
+  EXPECT_GT(glove["states"], 700);
+  EXPECT_GT(glove["commands"], 300);
+  EXPECT_GT(glove["force_max_N"], 0.5);
+}
+
+TEST_F(RecordingProcesses, LcmLoggerRecordsARun) {
+  {
+    Process logger({"lcm-logger", "--lcm-url", kUrl, "--quiet", log("logger.lcmlog")});
+    ASSERT_TRUE(comes_at_last(log("logger.lcmlog")));
+    const Process hand(glove());
+    const ProgramResult server = test_support::glissade({"run", scene, "--lcm", kUrl, "--seconds", "0.8"});
+    ASSERT_EQ(server.exit_code, 0) << server.standard_error;
+    logger.signal(SIGINT);
+    logger.wait();
+  }
+  const std::map<std::string, int> counts = channels(log("logger.lcmlog"));
+  EXPECT_GT(counts.at("HAPTIC_STATE"), 500);
+  EXPECT_GT(counts.at("GLOVE_STATE"), 500);
+  EXPECT_GT(counts.at("GLOVE_COMMAND"), 500);
+  const ProgramResult tables = test_support::glissade({"log", "to-csv", log("logger.lcmlog"), log("tables")});
+  EXPECT_EQ(tables.exit_code, 0) << tables.standard_error;
+  EXPECT_THAT(tables.standard_output, HasSubstr("hands.csv"));
+}
+
+TEST_F(RecordingProcesses, LcmLogplayerPlaysARecording) {
+  const ProgramResult demo =
+      test_support::glissade({"demo", "--offline", "--seconds", "1", "--scene", scene, "--record", log("run.lcmlog")});
+  ASSERT_EQ(demo.exit_code, 0) << demo.standard_error;
+  Process server({GLISSADE_PROGRAM, "run", scene, "--lcm", kUrl, "--seconds", "0.7", "--json"});
+  ASSERT_TRUE(says_at_last(server, "waiting for a glove"));
+  Process player({"lcm-logplayer", "--lcm-url", kUrl, log("run.lcmlog")});
+  EXPECT_EQ(player.wait().exit_code, 0);
+  server.signal(SIGINT);
+  const ProgramResult result = server.wait();
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  const nlohmann::json summary = nlohmann::json::parse(result.standard_output);
+  EXPECT_GT(summary["parts"][0]["contact_fraction"], 0.3) << "it has followed the recorded hand";
+  EXPECT_EQ(summary["colliding_poses"], 0);
+}
+
+TEST_F(RecordingProcesses, TheFlightRecorderTellsOfALostGloveAndOfARequest) {
+  std::optional<Process> hand(std::in_place, glove());
+  Process server({GLISSADE_PROGRAM, "run", scene, "--lcm", kUrl, "--flight-recorder", log("flight.lcmlog")});
+  ASSERT_TRUE(says_at_last(server, "holds 'box'"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  server.signal(SIGUSR1);
+  EXPECT_TRUE(says_at_last(server, "the last seconds are in " + log("flight.lcmlog")));
+  hand.reset();  // killed
+  EXPECT_TRUE(says_at_last(server, "the last seconds are in " + log("flight-2.lcmlog")));
+  server.signal(SIGINT);
+  EXPECT_EQ(server.wait().exit_code, 0);
+  EXPECT_GT(channels(log("flight.lcmlog")).at("HAPTIC_TICK"), 300);
+  EXPECT_GT(channels(log("flight-2.lcmlog")).at("HAPTIC_TICK"), channels(log("flight.lcmlog")).at("HAPTIC_TICK"));
+}
+
+}  // namespace
+}  // namespace glissade::apps
