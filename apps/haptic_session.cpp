@@ -120,7 +120,10 @@ Session run_session_offline(const HapticScene& scene, const HandScript& script, 
                        },
                        {.observer = log ? &*log : nullptr});
   if (log) log->close();
-  return finished(ticks, haptics::kTickPeriod, scene, sliding, {devices::kDefaultDevice}, recorder, std::nullopt);
+  Session session =
+      finished(ticks, haptics::kTickPeriod, scene, sliding, {devices::kDefaultDevice}, recorder, std::nullopt);
+  session.recording = record.log;
+  return session;
 }
 
 Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, const RunSettings& settings,
@@ -185,6 +188,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   if (server.has_failed()) throw std::runtime_error("the simulation failed: " + server.failure());
   Session session = finished(server.ticks(), period, scene, sliding, numbers, recorder,
                              RealTimeFigures{server.statistics(), bare_timer.statistics()});
+  session.recording = settings.record.log;
   session.is_recording_whole = recorders.is_whole();
   return session;
 }

@@ -76,7 +76,8 @@ struct Session {
   std::vector<std::int64_t> devices;  ///< the number of each hand's glove
   std::shared_ptr<const SessionRecorder> samples;
   std::optional<RealTimeFigures> real_time;  ///< none for an offline run
-  bool is_recording_whole = true;            ///< false if a recording was wanted and parts of it are missing
+  std::string recording;                     ///< file; empty if none was wanted
+  bool is_recording_whole = true;            ///< false if parts of it are missing
 };
 
 /// The figures of a part over the kept ticks.

@@ -339,11 +339,13 @@ void conclude(const Session& session, const HapticScene& scene, const std::strin
     const std::string page = write_session_report(summary, session, title, report_folder);
     if (!as_json) std::cout << "  report                       " << page << '\n';
   }
+  if (!session.recording.empty() && !as_json)
+    std::cout << "  recording                    " << session.recording << '\n';
   std::cout.flush();
   if (summary.colliding_poses() > 0) {
     throw std::runtime_error(std::to_string(summary.colliding_poses()) + " visible poses collide");
   }
-  if (!session.is_recording_whole) throw std::runtime_error("the recording is not whole");
+  if (!session.is_recording_whole) throw std::runtime_error(session.recording + ": the recording is not whole");
 }
 
 }  // namespace glissade::apps
