@@ -18,7 +18,7 @@ bool visit_all(Goal goal, const PlacedTrees& placed, double distance, QueryWorks
   memory.counters = {};
   const VisitSelection selection = placed.visit_selection();
   if (placed.frame.spheres_apart(distance)) return false;
-  DopVisit step(placed.base(), placed.other(), placed.frame, distance, memory.alignment, selection);
+  DopVisit step(placed.base(), placed.other(), placed.frame, distance, memory.alignment, selection, memory.meter);
   return traverse(goal, step, memory, visitor);
 }
 
@@ -27,7 +27,7 @@ bool visit_all(Goal goal, const PlacedTrees& placed, double distance, const Cohe
   QueryMemory& memory = memory_of(workspace.scratch);
   memory.counters = {};
   return workspace.front.query(goal, placed.base(), placed.other(), placed.frame, distance, memory.alignment,
-                               memory.counters, visitor, placed.visit_selection());
+                               memory.counters, visitor, placed.visit_selection(), memory.meter);
 }
 
 QueryMemory& memory_of(const CoherentMemory& workspace) {

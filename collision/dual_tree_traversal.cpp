@@ -52,7 +52,7 @@ void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Is
   QueryMemory& memory = memory_of(workspace);
   memory.counters = {};
   if (placed.frame.spheres_apart(distance)) return;
-  DopVisit step(placed.base(), placed.other(), placed.frame, distance, memory.alignment);
+  DopVisit step(placed.base(), placed.other(), placed.frame, distance, memory.alignment, {}, memory.meter);
   NearPairs pairs(placed, distance, visitor);
   traverse(Goal::kEveryPair, step, memory, pairs);
 }

@@ -32,6 +32,8 @@ struct PipelineOptions {
   double greatest_distance = 0.0;
   /// Number of threads that work on a frame, including the calling thread. 0: as many as the machine has processors.
   int threads = 0;
+  /// Receives the work of the exact queries; only for a single thread. Null: none. Must outlive the pipeline.
+  WorkMeter* meter = nullptr;
 };
 
 /// Two objects of a world. In queries, the object with the lower index is A, the other is B.

@@ -40,6 +40,19 @@ struct QueryCounters {
   std::int64_t triangle_tests = 0;  ///< pairs of triangles tested
 };
 
+/// Receives the work of a query while it runs, in the thread that runs it: so another thread can see how far a query
+/// has come, and the query can be made to wait. The unit is about a nanosecond of an ordinary processor; the work
+/// depends on the trees, their poses and the memory of coherent queries, never on the machine.
+class WorkMeter {
+ public:
+  /// Adds the work that has just been done, or is done next: on a pair of nodes, on a pair of leaves, or on the exact
+  /// tests of up to 16 triangle pairs of two leaves. Must not throw.
+  virtual void spend(std::int64_t work) = 0;
+
+ protected:
+  ~WorkMeter() = default;
+};
+
 /// Scratch memory and counters of queries. Keep one per thread and reuse it: after the first few queries nothing is
 /// allocated. Not thread-safe.
 class QueryWorkspace {
@@ -51,6 +64,10 @@ class QueryWorkspace {
 
   /// Work of the last query.
   const QueryCounters& counters() const;
+
+  /// The meter of all further queries for pairs (`intersecting_pairs`, `pairs_within`, `traverse_near`) with this
+  /// workspace; null for none. It must outlive them.
+  void set_meter(WorkMeter* meter);
 
  private:
   friend struct WorkspaceAccess;

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <glissade/base/assert.h>
 #include <glissade/geometry/rigid_pose.h>
@@ -12,11 +14,13 @@
 #include "sliding/sliding_constants.h"
 #include "sliding/starts.h"
 #include "sliding/step_finder.h"
+#include "work/work_budget.h"
 
 namespace glissade::haptics {
 
 /// The whole cycle: look around, project, certify, move. It repeats until all parts have arrived or hardly move any
-/// more.
+/// more, or the work of a call is used up. A cycle that has to wait for the next call goes on there with the ghosts
+/// with which it began; so its result is that of a simulation that is called less often.
 class MultiPartSliding::Cycle {
  public:
   Cycle(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const SlidingRules& rules)
@@ -25,16 +29,19 @@ class MultiPartSliding::Cycle {
         starts_(shared_, parts, kTouching * step_finder_.certain_distance()) {}
 
   const SimulatedParts& shared() const { return shared_; }
+  const CallStatistics& statistics() const { return statistics_; }
   HeldPartState& part(std::size_t number) {
     GLISSADE_ASSERT(number < shared_.count());
     return shared_.states[number];
   }
 
   void grasp(std::size_t number, const Eigen::Isometry3d& X_WG) {
+    give_up();
     if (part(number).grasp(X_WG)) step_finder_.rows().forget_forces();
   }
 
   void release(std::size_t number) {
+    give_up();
     part(number).result.X_WG = part(number).result.X_WV;
     part(number).rest(SlidingState::kReleased);
     step_finder_.rows().forget_forces();
@@ -42,27 +49,55 @@ class MultiPartSliding::Cycle {
 
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds) {
     time_ += std::chrono::duration<double, std::milli>(milliseconds);
-    if (!follow_ghosts(X_WG, milliseconds)) return;
-    starts_.depenetrate(kSlew_m * milliseconds);
-    int cycles = 1;
-    while (!take_step(milliseconds, cycles == shared_.rules.max_cycles))
-      ++cycles;
-    report_contacts(shared_, starts_.overlaps(), step_finder_.rows().all_contacts(), milliseconds);
-    // With several parts the contacts are reported where the last step has led.
-    const double reach =
-        shared_.count() == 1 ? radius_.reach_ahead() : std::max(0.0, radius_.reach_ahead() - radius_.last_step());
-    for (HeldPartState& part : shared_.states) {
-      if (part.is_held()) part.end_tick(cycles, reach, milliseconds);
-    }
+    unanswered_ms_ += milliseconds;
+    shared_.candidates.begin_call();
+    WorkBudget budget{shared_.work_of_steps};
+    bool is_complete = !is_under_way_ || go_on(budget);
+    if (is_complete) is_complete = !begin(X_WG) || go_on(budget);
+    for (HeldPartState& part : shared_.states)
+      part.result.ended_early = !is_complete;
+    ++statistics_.calls;
+    statistics_.ended_early += is_complete ? 0 : 1;
+    statistics_.most_work = std::max(statistics_.most_work, shared_.work_of_steps - budget.left);
   }
 
  private:
   /// In units of `StepFinder::certain_distance`: bodies closer than this count as overlapping at the start.
   static constexpr double kTouching = 4.0;
 
+  enum class Progress { kNextCycle, kDone, kUsedUp };
+
+  void give_up() {
+    step_finder_.give_up();
+    is_under_way_ = false;
+  }
+
+  /// Begins to answer these ghosts. Returns whether there is anything to do.
+  bool begin(std::span<const Eigen::Isometry3d> X_WG) {
+    milliseconds_ = std::exchange(unanswered_ms_, 0.0);
+    if (!follow_ghosts(X_WG)) return false;
+    starts_.depenetrate(kSlew_m * milliseconds_);
+    is_under_way_ = true;
+    cycles_ = 0;
+    return true;
+  }
+
+  /// Goes on with the answer. Returns false if the budget is used up before it is complete.
+  bool go_on(WorkBudget& budget) {
+    Progress progress = Progress::kNextCycle;
+    while (progress == Progress::kNextCycle && !(cycles_ > 0 && budget.is_used_up()))
+      progress = take_step(budget);
+    if (progress == Progress::kUsedUp) return false;
+    for (HeldPartState& part : shared_.states) {
+      if (part.is_held()) part.end_tick(milliseconds_);
+    }
+    is_under_way_ = false;
+    return progress == Progress::kDone;
+  }
+
   /// Moves the ghosts of held parts to those poses that are rigid, and those of scripted parts to their scripts.
   /// Returns whether any ghost was moved.
-  bool follow_ghosts(std::span<const Eigen::Isometry3d> X_WG, double milliseconds) {
+  bool follow_ghosts(std::span<const Eigen::Isometry3d> X_WG) {
     bool any = false;
     double ghosts = 0.0;
     for (std::size_t p = 0; p < shared_.count(); ++p) {
@@ -72,38 +107,50 @@ class MultiPartSliding::Cycle {
           geometry::rigid_pose(part.script ? part.script->pose_at(time_) : X_WG[p]);
       if (!part.is_held() || !rigid) continue;
       any = true;
-      part.follow(*rigid, milliseconds);
+      part.follow(*rigid, milliseconds_);
       ghosts += part.ghost_motion;
     }
     // One part may push another as fast as its own ghost moves.
     for (HeldPartState& part : shared_.states)
-      part.slew = part.metaphor == Metaphor::kForceFeedback ? kSlew_m * milliseconds + ghosts : kUnbounded;
+      part.slew = part.metaphor == Metaphor::kForceFeedback ? kSlew_m * milliseconds_ + ghosts : kUnbounded;
     return any;
   }
 
-  /// One cycle. Returns whether it was the last: `is_last`, or another one is not worth it.
-  bool take_step(double milliseconds, bool is_last) {
-    radius_.choose(shared_, starts_.depenetration(), milliseconds);
-    if (radius_.look(shared_, starts_.overlaps().pairs())) starts_.restore_min_clearances();
-    step_finder_.look(radius_.reach());
-    const Step step = step_finder_.find();
-    const bool all_arrived = std::all_of(step.arrives.begin(), step.arrives.begin() + std::ssize(shared_.states),
+  /// One cycle, or the rest of one. It is the last if no more are allowed, or if another one is not worth it.
+  Progress take_step(WorkBudget& budget) {
+    if (!step_finder_.is_under_way()) {
+      radius_.choose(shared_, starts_.depenetration(), milliseconds_);
+      if (radius_.look(shared_, starts_.overlaps().pairs())) starts_.restore_min_clearances();
+      if (!shared_.candidates.covers(radius_.reach_ahead())) return Progress::kUsedUp;
+      step_finder_.look(radius_.reach(), budget);
+    }
+    const std::optional<Step> step = step_finder_.find(budget);
+    if (!step) return Progress::kUsedUp;
+    ++cycles_;
+    const bool all_arrived = std::all_of(step->arrives.begin(), step->arrives.begin() + std::ssize(shared_.states),
                                          [](bool arrives) { return arrives; });
-    const bool ends = is_last || all_arrived || step.length < kNotWorthIt * shared_.largest_margin;
-    if (ends && radius_.reach_ahead() > radius_.reach()) step_finder_.rows().find_ahead(radius_.reach_ahead());
-    move(step);
-    radius_.note(step);
+    const bool is_done =
+        cycles_ == shared_.rules.max_cycles || all_arrived || step->length < kNotWorthIt * shared_.largest_margin;
+    double reach = radius_.reach();
+    if ((is_done || budget.is_used_up()) && radius_.reach_ahead() > radius_.reach()) {
+      reach = radius_.reach_ahead();
+      step_finder_.rows().find_ahead(reach, budget);
+    }
+    move(*step);
+    radius_.note(*step);
     for (std::size_t p = 0; p < shared_.count(); ++p) {
       HeldPartState& part = shared_.states[p];
       if (part.is_held() && starts_.overlaps().way_out_of(p) == nullptr) part.turn_target();
     }
-    return ends;
+    report(reach);
+    return is_done ? Progress::kDone : Progress::kNextCycle;
   }
 
   void move(const Step& step) {
     step_finder_.rows().take_forces(step_finder_.forces());
     for (std::size_t p = 0; p < shared_.count(); ++p) {
       HeldPartState& part = shared_.states[p];
+      part.result.X_WV_of_contacts = part.result.X_WV;
       if (!part.is_held()) continue;
       // An arrival copies the pose at which the part aimed, so that the coupling wrench is zero and not merely small.
       // Standing still keeps every bit.
@@ -118,11 +165,27 @@ class MultiPartSliding::Cycle {
     shared_.candidates.moved();
   }
 
+  /// Reports the cycle: its contacts within `reach`, and where it has led. With several parts the contacts are reported
+  /// where the step has led.
+  void report(double reach) {
+    report_contacts(shared_, starts_.overlaps(), step_finder_.rows().all_contacts(), milliseconds_);
+    if (shared_.count() > 1) reach = std::max(0.0, reach - radius_.last_step());
+    for (HeldPartState& part : shared_.states) {
+      if (part.is_held()) part.end_cycle(cycles_, reach);
+    }
+  }
+
   SimulatedParts shared_;
   StepFinder step_finder_;
   Starts starts_;
   SearchRadius radius_;
+  CallStatistics statistics_;
   std::chrono::duration<double, std::milli> time_{0.0};  // since the simulation began
+  double unanswered_ms_ = 0.0;                           // since the ghosts that the newest answer is for
+  // Of the answer under way, or of the last one:
+  bool is_under_way_ = false;
+  double milliseconds_ = 0.0;
+  int cycles_ = 0;
 };
 
 MultiPartSliding::MultiPartSliding(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts,
@@ -183,6 +246,10 @@ geometry::Displacement MultiPartSliding::error(std::size_t part) const {
 
 const SearchStatistics& MultiPartSliding::search_statistics() const {
   return cycle_->shared().candidates.statistics();
+}
+
+const CallStatistics& MultiPartSliding::call_statistics() const {
+  return cycle_->statistics();
 }
 
 const ContactScene& MultiPartSliding::scene() const {

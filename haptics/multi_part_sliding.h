@@ -54,7 +54,10 @@ class MultiPartSliding {
   void release(std::size_t part);
 
   /// As `SlidingSimulation::advance`, for all parts at once. X_WG must have one pose for each part; that of a scripted
-  /// part is ignored. The scripts advance by `milliseconds` even while nothing else moves.
+  /// part is ignored. The scripts advance by `milliseconds` even while nothing else moves. A call whose work is used up
+  /// (`SlidingRules::work_budget`) ends with the last poses that are proven free, and says so
+  /// (`SlidingResult::ended_early`). If it ended within a cycle, the next call completes that cycle for the old ghosts,
+  /// and then goes on with its own.
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds = 1.0);
 
   std::size_t part_count() const;
@@ -72,6 +75,7 @@ class MultiPartSliding {
   geometry::Displacement error(std::size_t part) const;
 
   const SearchStatistics& search_statistics() const;
+  const CallStatistics& call_statistics() const;
 
  private:
   friend struct SceneAccess;

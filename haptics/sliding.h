@@ -67,6 +67,7 @@ class Sliding final : public SlidingSimulation {
   double margin() const override { return sliding_.margin(0); }
   std::span<const Eigen::Isometry3d> scripted_X_WB() const override { return scripted_X_WB_; }
   SearchStatistics search_statistics() const override { return sliding_.search_statistics(); }
+  CallStatistics call_statistics() const { return sliding_.call_statistics(); }
 
   /// Minimum clearance (metres): the distance that the part keeps on every step from obstacles that have no margin of
   /// their own, as proved before the step. A step that starts nearer to an obstacle keeps 95 % of the distance at its

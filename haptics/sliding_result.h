@@ -94,7 +94,9 @@ struct SlidingResult {
   /// method finds only the contacts at which its bisections ended, and gives the largest gap that it reports.
   double reach = 0.0;
   int pushing = 0;  ///< number of contacts with a force
-  int cycles = 0;   ///< cycles of one projection and one step each; for the paper's method, bisections
+  /// The call ended because its work was used up: the part would have gone farther with more.
+  bool ended_early = false;
+  int cycles = 0;  ///< cycles of one projection and one step each; for the paper's method, bisections
 };
 
 }  // namespace glissade::haptics

@@ -26,6 +26,13 @@ struct SearchStatistics {
   collision::FrameReport reports;  ///< the sum of the reports of these searches
 };
 
+/// The calls of a simulation and their work.
+struct CallStatistics {
+  std::int64_t calls = 0;
+  std::int64_t ended_early = 0;  ///< calls that ended because their work was used up
+  std::int64_t most_work = 0;    ///< of a call, without its searches; unit as in `SlidingRules::work_budget`
+};
+
 /// The simulation of one part in the hand. Not thread-safe.
 class SlidingSimulation {
  public:

@@ -28,7 +28,9 @@ class ExactStage {
         pairs_(pairs),
         meetings_(meetings),
         pool_(pool),
-        scratch_(static_cast<std::size_t>(pool.threads())) {}
+        scratch_(static_cast<std::size_t>(pool.threads())) {
+    if (pool.threads() == 1) scratch_.front().set_meter(options.meter);
+  }
 
   /// Determines which pairs are at most `distance` metres apart, with the triangles that the options require, and
   /// reports changes to the list of meetings. Reorders `near`: long queries come first, so that all threads end

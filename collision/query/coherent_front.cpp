@@ -85,10 +85,10 @@ void CoherentFront::follow(const DopTree& base, const DopTree& other, const Quer
 
 bool CoherentFront::query(Goal goal, const DopTree& base, const DopTree& other, const QueryFrame& frame,
                           double distance, DopAlignment& alignment, QueryCounters& counters, TriangleVisitor& visitor,
-                          const VisitSelection& selection) {
+                          const VisitSelection& selection, WorkMeter* meter) {
   follow(base, other, frame, selection);
   if (frame.spheres_apart(distance)) return false;
-  DopVisit step(base, other, frame, distance, alignment, selection);
+  DopVisit step(base, other, frame, distance, alignment, selection, meter);
   if (goal == Goal::kAnyPair && last_hit_) {
     if (last_hit_->still_answers(visitor)) return true;
     // This search finds crossings only, which do not suffice for a distance greater than 0.

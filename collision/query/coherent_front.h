@@ -43,7 +43,7 @@ class CoherentFront {
   /// Goal::kAnyPair, the pair at which it stopped last time comes first. Returns whether the visitor stopped.
   bool query(Goal goal, const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance,
              DopAlignment& alignment, QueryCounters& counters, TriangleVisitor& visitor,
-             const VisitSelection& selection = {});
+             const VisitSelection& selection = {}, WorkMeter* meter = nullptr);
 
   /// The triangle pair at which the last query stopped, if it did.
   const std::optional<LastHit>& last_hit() const { return last_hit_; }

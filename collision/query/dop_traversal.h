@@ -36,6 +36,7 @@ struct QueryMemory {
   std::vector<std::uint64_t> places;  ///< sort keys of triangle pairs
   hwy::Sorter sort_places;
   QueryCounters counters;
+  WorkMeter* meter = nullptr;
 };
 
 /// The goal of a traversal. It decides when thin slabs are worth their test.

@@ -49,9 +49,9 @@ struct VisitedLeaves : LeafPair {
 class DopVisit {
  public:
   /// Drops pairs that are certainly farther apart than `distance` (metres), and pairs without a selected triangle.
-  /// `alignment` is scratch memory.
+  /// `alignment` is scratch memory. `meter` may be null.
   DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& frame, double distance, DopAlignment& alignment,
-           const VisitSelection& selection = {});
+           const VisitSelection& selection = {}, WorkMeter* meter = nullptr);
 
   /// Whether the oriented bounding boxes of both trees are certainly farther apart than the distance.
   bool boxes_apart() const;
@@ -90,7 +90,7 @@ class DopVisit {
   CertainPairs cross(const LeafPair& leaves) const;
 
   /// The pairs in the mask that no cross product of edges certainly separates by more than the distance. Raises their
-  /// gaps.
+  /// gaps. These pairs are then tested exactly, which counts as work here.
   PairMask edges(LeafPair& leaves, PairMask pairs) const;
 
   /// The least known gap of the triangle pairs in the mask, in radii of the base; 1e30 for an empty mask.
@@ -108,6 +108,9 @@ class DopVisit {
 
  private:
   PairMask realign_and_test(const NodePair& pair, PairOverlaps& overlaps) const;
+  void spend(std::int64_t work) const {
+    if (meter_ != nullptr) meter_->spend(work);
+  }
 
   void begin_nodes();
 
@@ -116,6 +119,7 @@ class DopVisit {
   const QueryFrame& frame_;
   DopAlignment& alignment_;
   const VisitSelection selection_;
+  WorkMeter* meter_;
   std::optional<ThinSlabFrame> thin_frame_;          ///< set by the first visit of nodes, which may never come
   std::optional<VertexAlignment> vertex_alignment_;  ///< the same, for realignment by brute force
   std::optional<LeafFrame> leaf_frame_;              ///< set by the first visit of leaves

@@ -14,6 +14,10 @@ const QueryCounters& QueryWorkspace::counters() const {
   return memory_->counters;
 }
 
+void QueryWorkspace::set_meter(WorkMeter* meter) {
+  memory_->meter = meter;
+}
+
 CoherentWorkspace::CoherentWorkspace() : front_(std::make_unique<CoherentFront>()) {}
 CoherentWorkspace::~CoherentWorkspace() = default;
 CoherentWorkspace::CoherentWorkspace(CoherentWorkspace&&) noexcept = default;

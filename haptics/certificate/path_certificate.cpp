@@ -5,31 +5,55 @@
 #include "certificate/leaf_in_world.h"
 
 namespace glissade::haptics {
+namespace {
 
-bool PathCertificate::prove(std::span<const geometry::Displacement> displacements,
-                            std::span<const PairToCertify> to_certify, std::vector<UncertifiedPair>& failures) {
-  failures.clear();
-  failures_ = &failures;
+// Work of the proof of a pair of boxes, of leaves, of triangles that a known direction separates, and of each stretch
+// of a path that needs distances: in the unit of `collision::WorkMeter`, as measured.
+constexpr std::int64_t kWorkOfBoxes = 60;
+constexpr std::int64_t kWorkOfLeaves = 300;
+constexpr std::int64_t kWorkOfTriangles = 150;
+constexpr std::int64_t kWorkOfStretch = 1000;
+
+}  // namespace
+
+void PathCertificate::begin(std::span<const geometry::Displacement> displacements,
+                            std::span<const PairToCertify> to_certify) {
   bodies_.begin_step(displacements);
   rounding_ = certain_distance();
   obstacle_ = {};
   part_ = {};
-  for (const PairToCertify& pair_to_certify : to_certify)
-    prove(pair_to_certify);
-  return failures.empty();
+  rest_ = to_certify;
+  open_.clear();
+  failures_.clear();
 }
 
-void PathCertificate::prove(const PairToCertify& pair_to_certify) {
+bool PathCertificate::go_on(WorkBudget& budget) {
+  while (!open_.empty() || !rest_.empty()) {
+    if (!open_.empty()) {
+      const OpenItems items = open_.back();
+      open_.pop_back();
+      prove(items, budget);
+    } else {
+      const PairToCertify& pair_to_certify = rest_.front();
+      rest_ = rest_.subspan(1);
+      prove(pair_to_certify, budget);
+    }
+    if (budget.is_used_up()) break;
+  }
+  return open_.empty() && rest_.empty();
+}
+
+void PathCertificate::prove(const PairToCertify& pair_to_certify, WorkBudget& budget) {
   if (pair_to_certify.bodies != BodyPair{obstacle_.number, part_.number}) select(pair_to_certify.bodies);
   if (!moves_) return;
   if (pair_to_certify.item_O.kind == TreeItem::Kind::kTriangle) {
     prove_triangles(static_cast<std::int32_t>(pair_to_certify.item_O.number),
-                    static_cast<std::int32_t>(pair_to_certify.item_V.number), pair_to_certify.n_W);
+                    static_cast<std::int32_t>(pair_to_certify.item_V.number), pair_to_certify.n_W, budget);
     return;
   }
-  const MovingItem item_O = moving(pair_to_certify.item_O, obstacle_);
-  const MovingItem item_V = moving(pair_to_certify.item_V, part_);
-  if (!separates(pair_to_certify.n_W, item_O, item_V)) walk(item_O, item_V);
+  budget.spend(kWorkOfBoxes);
+  const OpenItems items{moving(pair_to_certify.item_O, obstacle_), moving(pair_to_certify.item_V, part_)};
+  if (!separates(pair_to_certify.n_W, items.item_O, items.item_V)) open_.push_back(items);
 }
 
 /// Makes `bodies` the pair at hand.
@@ -54,25 +78,22 @@ PathCertificate::MovingItem PathCertificate::moving(const TreeItem& item, const 
 }
 
 /// Certifies the contents of two items; opens the larger item if they cannot be certified as a whole.
-void PathCertificate::walk(const MovingItem& item_O, const MovingItem& item_V) {
+void PathCertificate::prove(const OpenItems& items, WorkBudget& budget) {
+  const auto& [item_O, item_V] = items;
+  budget.spend(kWorkOfBoxes);
   if (are_apart(item_O, item_V)) return;
   const bool is_leaf_O = item_O.item.kind == TreeItem::Kind::kLeaf;
   const bool is_leaf_V = item_V.item.kind == TreeItem::Kind::kLeaf;
   if (is_leaf_O && is_leaf_V) {
-    prove_leaves(item_O.item.number, item_V.item.number);
+    prove_leaves(item_O.item.number, item_V.item.number, budget);
     return;
   }
   const bool opens_O = !is_leaf_O && (is_leaf_V || item_O.item.box->radius >= item_V.item.box->radius);
   const MovingBody& opened = opens_O ? obstacle_ : part_;
   const std::uint32_t node = opens_O ? item_O.item.number : item_V.item.number;
-  const int children = opened.body->tree.node(node).child_count();
-  for (int c = 0; c < children; ++c) {
+  for (int c = opened.body->tree.node(node).child_count() - 1; c >= 0; --c) {
     const MovingItem child = moving(child_of(*opened.body, node, c), opened);
-    if (opens_O) {
-      walk(child, item_V);
-    } else {
-      walk(item_O, child);
-    }
+    open_.push_back(opens_O ? OpenItems{child, item_V} : OpenItems{item_O, child});
   }
 }
 
@@ -100,23 +121,27 @@ bool PathCertificate::separates(const Eigen::Vector3d& n_W, const MovingItem& it
   return gap_at_begin >= needed_ && gap(1) >= needed_;
 }
 
-void PathCertificate::prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_V) {
+void PathCertificate::prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_V, WorkBudget& budget) {
   const LeafInWorld placed_O({obstacle_.body, *obstacle_.X_WB[0]}, leaf_O);
   const LeafInWorld placed_V({part_.body, *part_.X_WB[0]}, leaf_V);
+  budget.spend(kWorkOfLeaves);
   for (int o = 0; o < placed_O.count; ++o) {
     for (int p = 0; p < placed_V.count; ++p) {
       if (!placed_O.may_be_near(o, placed_V, p, far_)) continue;
       prove_triangles(placed_O.triangles[static_cast<std::size_t>(o)], placed_V.triangles[static_cast<std::size_t>(p)],
-                      Eigen::Vector3d::Zero());
+                      Eigen::Vector3d::Zero(), budget);
     }
   }
 }
 
-void PathCertificate::prove_triangles(std::int32_t triangle_O, std::int32_t triangle_V, const Eigen::Vector3d& n_hint) {
+void PathCertificate::prove_triangles(std::int32_t triangle_O, std::int32_t triangle_V, const Eigen::Vector3d& n_hint,
+                                      WorkBudget& budget) {
   const TrianglesOfBodies pair{{obstacle_.number, part_.number}, triangle_O, triangle_V};
+  TriangleCertificate certificate(bodies_, pair, min_clearance_, rounding_);
   Eigen::Vector3d n_start;
-  if (TriangleCertificate(bodies_, pair, min_clearance_, rounding_).prove(n_hint, n_start)) return;
-  failures_->push_back({pair, n_start});
+  const bool is_certified = certificate.prove(n_hint, n_start);
+  budget.spend(kWorkOfTriangles + kWorkOfStretch * certificate.stretches());
+  if (!is_certified) failures_.push_back({pair, n_start});
 }
 
 }  // namespace glissade::haptics

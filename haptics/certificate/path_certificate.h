@@ -7,7 +7,8 @@
 /// A box pair is certified as a whole if one direction, such as the normal of the flat side of either box, separates
 /// the contents of both at the start and at the end of the step by more than the minimum clearance and the curvature of
 /// the paths. So a plane patch that slides over another one is certified at once, however finely it is tessellated.
-/// Boxes that fail are opened, down to triangle pairs (`triangle_certificate.h`).
+/// Boxes that fail are opened, down to triangle pairs (`triangle_certificate.h`). The certificate may take several
+/// calls of the simulation.
 
 #include <array>
 #include <cstdint>
@@ -21,6 +22,7 @@
 #include "certificate/moving_bodies.h"
 #include "certificate/pairs_to_certify.h"
 #include "certificate/triangle_certificate.h"
+#include "work/work_budget.h"
 
 namespace glissade::haptics {
 
@@ -35,11 +37,15 @@ class PathCertificate {
   /// The scene must outlive this object.
   explicit PathCertificate(const ContactScene& scene) : scene_(scene), bodies_(scene) {}
 
-  /// Certifies all of `to_certify` for a step in which all parts move at once, each from its present pose along its
-  /// displacement; `displacements` has one entry for each part. Replaces `failures` by the triangle pairs that could
-  /// not be certified. Returns whether there are none.
-  bool prove(std::span<const geometry::Displacement> displacements, std::span<const PairToCertify> to_certify,
-             std::vector<UncertifiedPair>& failures);
+  /// Begins the certificate of all of `to_certify` for a step in which all parts move at once, each from its present
+  /// pose along its displacement; `displacements` has one entry for each part. `to_certify` and the poses must stay as
+  /// they are until `go_on` returns true.
+  void begin(std::span<const geometry::Displacement> displacements, std::span<const PairToCertify> to_certify);
+  /// Goes on until all pairs have been looked at or the budget is used up, at least with one pair of boxes, leaves or
+  /// triangles. Returns whether all have been.
+  bool go_on(WorkBudget& budget);
+  /// The triangle pairs that could not be certified so far.
+  const std::vector<UncertifiedPair>& failures() const { return failures_; }
 
   /// Smallest distance (metres) that is certain in spite of rounding, for the present poses of the bodies.
   double certain_distance() const { return bodies_.certain_distance(); }
@@ -57,20 +63,29 @@ class PathCertificate {
     std::array<const Eigen::Isometry3d*, 2> X_WB{};  ///< at the beginning and at the end of the step
   };
 
+  /// Two items of the bodies at hand, still to be certified.
+  struct OpenItems {
+    MovingItem item_O;
+    MovingItem item_V;
+  };
+
   void select(const BodyPair& bodies);
   MovingBody moving(std::int32_t body);
   static MovingItem moving(const TreeItem& item, const MovingBody& body);
-  void prove(const PairToCertify& pair_to_certify);
-  void walk(const MovingItem& item_O, const MovingItem& item_V);
+  void prove(const PairToCertify& pair_to_certify, WorkBudget& budget);
+  void prove(const OpenItems& items, WorkBudget& budget);
   bool are_apart(const MovingItem& item_O, const MovingItem& item_V) const;
   bool separates(const Eigen::Vector3d& n_W, const MovingItem& item_O, const MovingItem& item_V) const;
-  void prove_triangles(std::int32_t triangle_O, std::int32_t triangle_V, const Eigen::Vector3d& n_hint);
-  void prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_V);
+  void prove_triangles(std::int32_t triangle_O, std::int32_t triangle_V, const Eigen::Vector3d& n_hint,
+                       WorkBudget& budget);
+  void prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_V, WorkBudget& budget);
 
   const ContactScene& scene_;
   MovingBodies bodies_;
-  double rounding_ = 0.0;  // metres: smaller distances are not certain
-  std::vector<UncertifiedPair>* failures_ = nullptr;
+  double rounding_ = 0.0;                // metres: smaller distances are not certain
+  std::span<const PairToCertify> rest_;  // pairs that have not been begun
+  std::vector<OpenItems> open_;          // of the pair at hand, the last one next
+  std::vector<UncertifiedPair> failures_;
 
   // Of the pair of bodies at hand:
   MovingBody obstacle_;

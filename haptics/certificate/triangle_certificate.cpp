@@ -63,6 +63,7 @@ bool TriangleCertificate::prove(const Eigen::Vector3d& n_hint, Eigen::Vector3d& 
     if (separates(n, whole)) return true;
   }
 
+  ++stretches_;
   const geometry::TriangleDistance closest = geometry::triangle_distance(start.obstacle, start.part);
   // The direction between points a few nanometres apart is too ill-conditioned for triangles of a metre; normals of
   // features are not.
@@ -76,6 +77,7 @@ bool TriangleCertificate::prove(const Eigen::Vector3d& n_hint, Eigen::Vector3d& 
 }
 
 bool TriangleCertificate::prove_stretch(int begin, int end) {
+  ++stretches_;
   const Moment at_begin = at(begin);
   const Moment at_end = at(end);
   const Stretch stretch{at_begin, at_end, needed(begin, end)};

@@ -29,6 +29,9 @@ class TriangleCertificate {
   /// direction, from the obstacle to the part, that separates the pair at the start of the step.
   bool prove(const Eigen::Vector3d& n_hint, Eigen::Vector3d& n_start);
 
+  /// Number of stretches that `prove` had to look at with the distances of the triangles: a measure of its work.
+  int stretches() const { return stretches_; }
+
  private:
   /// Both triangles at one moment of the path.
   struct Moment {
@@ -51,6 +54,7 @@ class TriangleCertificate {
   TrianglesOfBodies pair_;
   double min_clearance_;
   double rounding_;
+  int stretches_ = 0;
 };
 
 }  // namespace glissade::haptics

@@ -1,7 +1,9 @@
 #include "search/candidate_pairs.h"
 
+#include <algorithm>
 #include <utility>
 
+#include <glissade/base/assert.h>
 #include <glissade/geometry/displacement.h>
 
 namespace glissade::haptics {
@@ -15,36 +17,57 @@ void CandidatePairs::Search::collect(const std::vector<Pair>& pairs, double reac
   }
 }
 
-CandidatePairs::CandidatePairs(const ContactScene& scene, double greatest_radius, bool has_own_thread)
-    : scene_(scene), search_(scene, greatest_radius) {
-  if (has_own_thread) thread_.emplace();
+CandidatePairs::CandidatePairs(const ContactScene& scene, double greatest_radius, bool runs_ahead,
+                               std::int64_t work_of_call)
+    : scene_(scene),
+      work_of_call_(work_of_call),
+      work_left_(work_of_call),
+      thread_(runs_ahead || work_of_call != kUnlimitedWork ? std::make_unique<SearchThread>(runs_ahead) : nullptr),
+      search_(scene, greatest_radius, thread_.get()) {}
+
+CandidatePairs::~CandidatePairs() {
+  thread_.reset();
 }
 
-CandidatePairs::~CandidatePairs() = default;
+void CandidatePairs::begin_call() {
+  work_left_ = work_of_call_;
+  if (!is_with_thread_ || work_of_call_ == kUnlimitedWork) return;
+  allowed_ += std::exchange(work_left_, 0);
+  if (!thread_->runs_ahead()) thread_->wait_for_work(allowed_);
+}
 
 bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> ignored) {
   bool is_other = false;
   if (!now_.covers(reach)) {
-    const bool takes_next = next_.covers(reach);
-    forget();
-    if (thread_) thread_->wait();
-    if (takes_next) {
-      std::swap(now_, next_);
-    } else {
-      ask(now_, reach, ahead, ignored);
+    try {
+      if (!take_next(reach, ahead, ignored)) return false;
+    } catch (...) {
+      forget();
+      throw;
     }
-    answer(now_);
-    now_.is_there = true;
     is_other = true;
   }
-  if (!next_.is_there && now_.drift > now_.half) {
-    ask(next_, reach, ahead, ignored);
-    next_.is_there = true;
-  }
+  if (!next_.is_there && now_.drift > now_.half) ask(next_, reach, ahead, ignored);
   return is_other;
 }
 
+/// Replaces the candidates by the answer of the search ahead, or of a new one. Returns false if it has to go on.
+bool CandidatePairs::take_next(double reach, double ahead, std::span<const BodyPair> ignored) {
+  if (!next_.covers(reach)) {
+    if (!is_settled()) return false;  // it is of no use any more
+    ask(next_, reach, ahead, ignored);
+  }
+  if (!is_settled()) return false;
+  if (!thread_) search_.find(next_.request, next_.set);  // only now, when its answer is certainly needed
+  std::swap(now_, next_);
+  next_.is_there = false;
+  ++statistics_.searches;
+  statistics_.reports += now_.set.report;
+  return true;
+}
+
 void CandidatePairs::ask(Search& search, double reach, double ahead, std::span<const BodyPair> ignored) {
+  GLISSADE_ASSERT(!is_with_thread_);
   search.request.X_WV.clear();
   for (const PlacedBody& part : scene_.bodies().subspan(scene_.obstacles().size()))
     search.request.X_WV.push_back(part.X_WB);
@@ -53,18 +76,26 @@ void CandidatePairs::ask(Search& search, double reach, double ahead, std::span<c
   search.half = 0.5 * ahead;
   search.motions.assign(scene_.bodies().size(), {});
   search.drift = 0.0;
-  if (thread_) thread_->begin(search_, search.request, search.set);
+  search.is_there = true;
+  if (!thread_) return;
+  is_with_thread_ = true;
+  allowed_ = work_of_call_ == kUnlimitedWork ? kUnlimitedWork : std::exchange(work_left_, 0);
+  thread_->begin(search_, search.request, search.set);
+  if (!thread_->runs_ahead()) thread_->wait_for_work(allowed_);
 }
 
-/// Gets the answer to a request. Without a thread, the search runs only now, when its answer is certainly needed.
-void CandidatePairs::answer(Search& search) {
-  if (thread_) {
-    thread_->wait();
-  } else {
-    search_.find(search.request, search.set);
+/// Whether the thread, if there is one, is done with its search, within the work that is allowed.
+bool CandidatePairs::is_settled() {
+  if (!is_with_thread_) return true;
+  try {
+    if (!thread_->wait(allowed_)) return false;
+  } catch (...) {
+    is_with_thread_ = false;
+    throw;
   }
-  ++statistics_.searches;
-  statistics_.reports += search.set.report;
+  is_with_thread_ = false;
+  if (work_of_call_ != kUnlimitedWork) work_left_ = std::min(work_of_call_, allowed_ - thread_->work());
+  return true;
 }
 
 void CandidatePairs::moved() {
@@ -86,12 +117,11 @@ void CandidatePairs::follow(Search& search) const {
   }
 }
 
+/// Also discards the answer of a search under way, which the thread completes all the same.
 void CandidatePairs::clear() {
   forget();
-  if (thread_) thread_->wait();
 }
 
-/// Also called before a search, which may throw and leave its answer unfinished.
 void CandidatePairs::forget() {
   now_.is_there = false;
   next_.is_there = false;

@@ -4,9 +4,12 @@
 /// used up its look-ahead. The next search is requested ahead of need, when half of the look-ahead is used up, and its
 /// answer is taken when all of it is. Both moments depend on the motion alone; therefore a thread of its own may run
 /// the search meanwhile without changing a bit.
+///
+/// The work of searching in one call of the simulation can be limited. A search then goes on over several calls, and
+/// its answer can be taken in the first call up to which so much work was allowed, however early it was done.
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -21,16 +24,23 @@ namespace glissade::haptics {
 /// Not thread-safe.
 class CandidatePairs {
  public:
-  /// The scene must outlive this object. In `look`, reach + ahead must not exceed `greatest_radius` (metres).
-  CandidatePairs(const ContactScene& scene, double greatest_radius, bool has_own_thread = false);
+  /// The scene must outlive this object. In `look`, reach + ahead must not exceed `greatest_radius` (metres). With a
+  /// limit of work, searches have a thread of their own in any case. If `runs_ahead` is false, that thread never works
+  /// at the same time as the caller's.
+  CandidatePairs(const ContactScene& scene, double greatest_radius, bool runs_ahead = false,
+                 std::int64_t work_of_call = kUnlimitedWork);
   CandidatePairs(const CandidatePairs&) = delete;
   CandidatePairs& operator=(const CandidatePairs&) = delete;
   ~CandidatePairs();
 
+  /// Begins a call of the simulation: from now on, searches may do `work_of_call` more work.
+  void begin_call();
+
   /// Makes every pair within `reach` (metres) of the parts' present poses a candidate, except pairs of `ignored`
   /// bodies. A new search uses radius reach + `ahead` (metres). Returns whether the candidates changed. `ignored` must
   /// be the same in all calls until `clear`. Exceptions of a search (no memory, or a pose that `geometry::rigid_pose`
-  /// rejects) reach the caller; nothing is covered then.
+  /// rejects) reach the caller; nothing is covered then. Where the work of this call does not suffice for the search,
+  /// the candidates stay, `covers(reach)` is still false, and the same call of `look` must be repeated.
   bool look(double reach, double ahead, std::span<const BodyPair> ignored);
 
   /// To be called when parts have been placed at other poses.
@@ -85,17 +95,22 @@ class CandidatePairs {
     void collect(const std::vector<Pair>& pairs, double reach, std::vector<Pair>& found) const;
   };
 
+  bool take_next(double reach, double ahead, std::span<const BodyPair> ignored);
   void ask(Search& search, double reach, double ahead, std::span<const BodyPair> ignored);
-  void answer(Search& search);
+  bool is_settled();
   void follow(Search& search) const;
   void forget();
 
   const ContactScene& scene_;
+  std::int64_t work_of_call_;
+  std::int64_t work_left_;                // of this call
+  std::int64_t allowed_ = 0;              // work that the thread's search may have done by now
+  bool is_with_thread_ = false;           // a search, whether it is still of use or not
+  std::unique_ptr<SearchThread> thread_;  // ends before the members that it uses: see the destructor
   CandidateSearch search_;
   Search now_;
   Search next_;
   SearchStatistics statistics_;
-  std::optional<SearchThread> thread_;  // last: it uses the members above
 };
 
 }  // namespace glissade::haptics

@@ -9,9 +9,13 @@ namespace {
 constexpr int kObstacles = 0;  // groups of the interest matrix
 constexpr int kPart = 1;
 
+/// Work of taking over and sorting a pair, in the unit of `collision::WorkMeter`, as measured.
+constexpr std::int64_t kWorkOfPair = 150;
+
 // A single thread: the other processors belong to the haptic thread and to the viewer.
-collision::PipelineOptions pipeline_options(double greatest_distance) {
-  return {.query = collision::PairQuery::kClosePairs, .greatest_distance = greatest_distance, .threads = 1};
+collision::PipelineOptions pipeline_options(double greatest_distance, collision::WorkMeter* meter) {
+  return {
+      .query = collision::PairQuery::kClosePairs, .greatest_distance = greatest_distance, .threads = 1, .meter = meter};
 }
 
 Eigen::Vector3d direction_of(const collision::ClosePair& pair) {
@@ -31,11 +35,13 @@ collision::ObjectDescription description(const std::shared_ptr<const Body>& body
 
 }  // namespace
 
-CandidateSearch::CandidateSearch(const ContactScene& scene, double greatest_radius)
+CandidateSearch::CandidateSearch(const ContactScene& scene, double greatest_radius, collision::WorkMeter* meter)
     : scene_(scene),
+      meter_(meter),
       bodies_(scene.bodies().begin(), scene.bodies().end()),
       world_(static_cast<int>(bodies_.size())),
-      pipeline_(world_, clock_, pipeline_options(greatest_radius)) {
+      pipeline_(world_, clock_, pipeline_options(greatest_radius, meter)) {
+  workspace_.set_meter(meter);
   world_.disable_groups(kObstacles, kObstacles);
   for (const Obstacle& obstacle : scene.obstacles())
     world_.add(description(obstacle.body, obstacle.X_WO, kObstacles));
@@ -64,6 +70,7 @@ void CandidateSearch::collect_pairs(const collision::FrameResult& near, std::spa
     if (std::find(ignored.begin(), ignored.end(), bodies) != ignored.end()) continue;
     const PlacedBody& obstacle = bodies_[static_cast<std::size_t>(bodies.obstacle)];
     const PlacedBody& part = bodies_[static_cast<std::size_t>(bodies.part)];
+    if (meter_ != nullptr) meter_->spend(kWorkOfPair * std::ssize(near.close_pairs(i)));
     for (const collision::ClosePair& pair : near.close_pairs(i)) {
       if (!obstacle.body->topology.can_stop_each_other(pair.triangles.triangle_A, part.body->topology,
                                                        pair.triangles.triangle_B)) {

@@ -40,8 +40,9 @@ struct CandidateSet {
 /// Not thread-safe. Reads neither poses nor minimum clearances of the scene, so these may change during a search.
 class CandidateSearch {
  public:
-  /// The scene must outlive this object. Requests may have radii up to `greatest_radius` (metres).
-  CandidateSearch(const ContactScene& scene, double greatest_radius);
+  /// The scene must outlive this object. Requests may have radii up to `greatest_radius` (metres). The `meter` receives
+  /// the work of each search, piece by piece, before it is done; null: nobody does. It must outlive this object.
+  CandidateSearch(const ContactScene& scene, double greatest_radius, collision::WorkMeter* meter = nullptr);
 
   /// Replaces `set` by the answer, which depends on the request only. Throws std::invalid_argument for a pose that
   /// `geometry::rigid_pose` rejects.
@@ -52,6 +53,7 @@ class CandidateSearch {
                      std::vector<CandidatePair>& pairs) const;
 
   const ContactScene& scene_;
+  collision::WorkMeter* meter_;
   std::vector<PlacedBody> bodies_;
   std::vector<collision::ObjectId> part_ids_;
   realtime::SteadyClock clock_;

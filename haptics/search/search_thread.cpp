@@ -6,29 +6,49 @@
 
 namespace glissade::haptics {
 
-SearchThread::SearchThread()
-    : thread_([this](const std::stop_token& stop) {
+SearchThread::SearchThread(bool runs_ahead)
+    : runs_ahead_(runs_ahead), thread_([this](const std::stop_token& stop) {
         realtime::name_this_thread("search");
-        work(stop);
+        run(stop);
       }) {}
 
 void SearchThread::begin(CandidateSearch& search, const CandidateRequest& request, CandidateSet& set) {
   {
     const std::lock_guard lock(mutex_);
     job_ = {&search, &request, &set};
+    work_ = 0;
+    allowed_ = runs_ahead_ ? kUnlimitedWork : 0;
   }
   changed_.notify_all();
 }
 
-void SearchThread::wait() {
+void SearchThread::wait_for_work(std::int64_t allowed) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return job_.search == nullptr; });
-  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+  allowed_ = allowed;
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return is_done() || work_ > allowed; });
+  if (runs_ahead_) allowed_ = kUnlimitedWork;
 }
 
-void SearchThread::work(const std::stop_token& stop) {
+bool SearchThread::wait(std::int64_t allowed) {
+  wait_for_work(allowed);
+  const std::lock_guard lock(mutex_);
+  if (!is_done() || work_ > allowed) return false;
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+  return true;
+}
+
+void SearchThread::spend(std::int64_t work) {
+  if (work_.fetch_add(work) + work <= allowed_) return;
   std::unique_lock lock(mutex_);
-  while (changed_.wait(lock, stop, [this] { return job_.search != nullptr; })) {
+  changed_.notify_all();
+  if (!runs_ahead_) changed_.wait(lock, stop_, [this] { return work_ <= allowed_; });
+}
+
+void SearchThread::run(const std::stop_token& stop) {
+  stop_ = stop;
+  std::unique_lock lock(mutex_);
+  while (changed_.wait(lock, stop, [this] { return !is_done(); })) {
     const Job job = job_;
     lock.unlock();
     std::exception_ptr error;

@@ -1,31 +1,48 @@
 #pragma once
 
-/// A thread that runs one candidate search at a time.
+/// A thread that runs one candidate search at a time, and knows how much work the search has done.
 
+#include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <exception>
 #include <mutex>
+#include <stop_token>
 #include <thread>
 
+#include <glissade/collision/query_types.h>
+
 #include "search/candidate_search.h"
+#include "work/work_budget.h"
 
 namespace glissade::haptics {
 
 /// Thread-safety: one thread owns the object, never the haptic thread, because calls may lock and wait.
-class SearchThread {
+class SearchThread final : public collision::WorkMeter {
  public:
-  /// Starts a search. The search before must have ended in `wait`. The three objects must not be used until `wait` has
-  /// returned.
-  void begin(CandidateSearch& search, const CandidateRequest& request, CandidateSet& set);
-
-  /// Waits until the search is done; returns at once if there is none. Rethrows the exception of the search.
-  void wait();
-
-  SearchThread();
+  /// A thread that `runs_ahead` works on a search until it is done; any other only while `wait` waits for it.
+  explicit SearchThread(bool runs_ahead = true);
   SearchThread(const SearchThread&) = delete;
   SearchThread& operator=(const SearchThread&) = delete;
   /// Waits for a search that is under way.
   ~SearchThread() = default;
+
+  /// Starts a search. The search before must be done: `wait` has returned true. The three objects must not be used
+  /// until `wait` returns true again. The search must have this object as its meter.
+  void begin(CandidateSearch& search, const CandidateRequest& request, CandidateSet& set);
+
+  /// Waits until the search is done or has done more work than `allowed` since its beginning.
+  void wait_for_work(std::int64_t allowed);
+  /// The same; returns whether the search is done and has done no more. So the answer does not depend on how fast the
+  /// thread is. Rethrows the exception of the search.
+  bool wait(std::int64_t allowed = kUnlimitedWork);
+
+  bool runs_ahead() const { return runs_ahead_; }
+  /// Work of the search that `wait` has last waited for, so far.
+  std::int64_t work() const { return work_.load(std::memory_order_relaxed); }
+
+  /// Called by the search.
+  void spend(std::int64_t work) override;
 
  private:
   struct Job {
@@ -34,13 +51,18 @@ class SearchThread {
     CandidateSet* set = nullptr;
   };
 
-  void work(const std::stop_token& stop);
+  void run(const std::stop_token& stop);
+  bool is_done() const { return job_.search == nullptr; }
 
+  bool runs_ahead_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
   Job job_;  // null when it is done
   std::exception_ptr error_;
-  std::jthread thread_;  // last: it ends before the members that it uses
+  std::atomic<std::int64_t> work_{0};
+  std::atomic<std::int64_t> allowed_{0};  // with more work the thread takes the lock
+  std::stop_token stop_;                  // of the thread, which alone uses it
+  std::jthread thread_;                   // last: it ends before the members that it uses
 };
 
 }  // namespace glissade::haptics

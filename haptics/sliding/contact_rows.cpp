@@ -6,13 +6,17 @@
 #include "sliding/sliding_constants.h"
 
 namespace glissade::haptics {
+namespace {
 
-void ContactRows::find(double reach) {
+// Work of the contacts of a pair of triangles, in the unit of `collision::WorkMeter`, as measured.
+constexpr std::int64_t kWorkOfContacts = 300;
+
+}  // namespace
+
+void ContactRows::find(double reach, WorkBudget& budget) {
   reach_ = reach;
   contacts_ahead_.clear();
-  find_within(reach, contacts_);
-  for (HeldPartState& part : shared_.states)
-    part.result.X_WV_of_contacts = part.result.X_WV;
+  find_within(reach, contacts_, budget);
   rows_.clear();
   for (const Contact& contact : contacts_) {
     // A contact closer than its margin demands part of it back.
@@ -22,14 +26,15 @@ void ContactRows::find(double reach) {
   }
 }
 
-void ContactRows::find_ahead(double reach_ahead) {
-  find_within(reach_ahead, contacts_ahead_);
+void ContactRows::find_ahead(double reach_ahead, WorkBudget& budget) {
+  find_within(reach_ahead, contacts_ahead_, budget);
   std::erase_if(contacts_ahead_, [this](const Contact& contact) { return contact.gap <= reach_; });
 }
 
-void ContactRows::find_within(double reach, std::vector<Contact>& contacts) {
+void ContactRows::find_within(double reach, std::vector<Contact>& contacts, WorkBudget& budget) {
   const ContactScene& scene = shared_.scene;
   shared_.candidates.within(reach, pairs_);
+  budget.spend(kWorkOfContacts * std::ssize(pairs_));
   find_contacts(scene.bodies(), scene.obstacles().size(), pairs_, reach, shared_.largest_margin, contacts);
   for (Contact& contact : contacts) {
     const auto body = static_cast<std::int32_t>(scene.body_of_part(static_cast<std::size_t>(contact.part)));

@@ -11,6 +11,7 @@
 #include "sliding/simulated_parts.h"
 #include "solver/friction.h"
 #include "solver/projection.h"
+#include "work/work_budget.h"
 
 namespace glissade::haptics {
 
@@ -22,9 +23,9 @@ class ContactRows {
 
   /// Finds the contacts within `reach` (metres) at the present poses, and one row for each. Replaces all contacts and
   /// rows.
-  void find(double reach);
+  void find(double reach, WorkBudget& budget);
   /// Finds also those within `reach_ahead`, at the same poses. They get no row.
-  void find_ahead(double reach_ahead);
+  void find_ahead(double reach_ahead, WorkBudget& budget);
   /// Drops the rows of failed certificates.
   void keep_contacts_only();
   /// Adds rows for failed certificates: each keeps the part's triangle on its side of the plane that separated the
@@ -48,7 +49,7 @@ class ContactRows {
   void forget_forces() { pushed_.clear(); }
 
  private:
-  void find_within(double reach, std::vector<Contact>& contacts);
+  void find_within(double reach, std::vector<Contact>& contacts, WorkBudget& budget);
   void add(std::int32_t obstacle, std::size_t part, const Eigen::Vector3d& n_W, const Eigen::Vector3d& p_W,
            double bound);
 

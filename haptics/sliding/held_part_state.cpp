@@ -62,10 +62,13 @@ void HeldPartState::aim() {
   X_WS = may_search ? spiral_search.aim(result.X_WT, p_Vref()) : result.X_WT;
 }
 
-void HeldPartState::end_tick(int cycles, double reach, double milliseconds) {
-  result.cycles = cycles;
+void HeldPartState::end_cycle(int number, double reach) {
+  result.cycles = number;
   result.reach = reach;
   result.state = classify();
+}
+
+void HeldPartState::end_tick(double milliseconds) {
   previous_lag = lag();
   if (may_search) spiral_search.observe(previous_lag, moved, result.pushing > 0, milliseconds);
 }

@@ -59,8 +59,10 @@ struct HeldPartState {
   void follow(const Eigen::Isometry3d& X_WG, double milliseconds);
   /// Turns the target of the rubber band with the part.
   void turn_target();
-  /// Ends a call after `cycles` cycles; all contacts within `reach` (metres) are known.
-  void end_tick(int cycles, double reach, double milliseconds);
+  /// Ends the cycle with this number, from 1; all contacts within `reach` (metres) are known.
+  void end_cycle(int number, double reach);
+  /// Ends the answer to a ghost, `milliseconds` after the last one.
+  void end_tick(double milliseconds);
 
  private:
   void aim();

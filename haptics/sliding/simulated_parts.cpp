@@ -25,6 +25,10 @@ void check_rules(const SlidingRules& rules) {
     throw std::invalid_argument("a call of sliding needs at least one cycle, not " + std::to_string(rules.max_cycles));
   }
   if (rules.affordable_pairs < 1) throw std::invalid_argument("a search must be allowed to find at least one pair");
+  if (rules.work_budget && *rules.work_budget < 2) {
+    throw std::invalid_argument("a call of sliding needs a work budget of at least 2, not " +
+                                std::to_string(*rules.work_budget));
+  }
   const Friction& friction = rules.friction;
   if (friction.sliding >= 0.0 && friction.at_rest >= friction.sliding && std::isfinite(friction.at_rest)) return;
   throw std::invalid_argument("the coefficients of friction must be numbers, 0 <= sliding <= at rest, not " +
@@ -42,6 +46,10 @@ const SlidingRules& checked(const SlidingRules& rules, const std::vector<HeldPar
   }
   check_rules(rules);
   return rules;
+}
+
+std::int64_t half_of(const std::optional<std::int64_t>& work_budget) {
+  return work_budget ? *work_budget / 2 : kUnlimitedWork;
 }
 
 std::vector<std::shared_ptr<const SlidingPart>> bodies_of(const std::vector<HeldPart>& parts) {
@@ -80,8 +88,9 @@ HeldPartState state_at_start(const HeldPart& held, const Eigen::Isometry3d& X_WV
 SimulatedParts::SimulatedParts(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts,
                                const SlidingRules& sliding_rules)
     : rules(checked(sliding_rules, parts)),
+      work_of_steps(half_of(rules.work_budget)),
       scene(std::move(obstacles), bodies_of(parts), margins_of(parts, rules)),
-      candidates(scene, kLargestReach_m + kMostLookAhead_m, rules.has_search_thread) {
+      candidates(scene, kLargestReach_m + kMostLookAhead_m, rules.has_search_thread, half_of(rules.work_budget)) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const std::optional<PartScript>& script = parts[p].script;
     const std::optional<Eigen::Isometry3d> X_WV =

@@ -14,6 +14,7 @@
 #include "scene/contact_scene.h"
 #include "search/candidate_pairs.h"
 #include "sliding/held_part_state.h"
+#include "work/work_budget.h"
 
 namespace glissade::haptics {
 
@@ -31,6 +32,7 @@ struct SimulatedParts {
   double ghost_motion() const;
 
   SlidingRules rules;
+  std::int64_t work_of_steps;  // in a call, without searches
   ContactScene scene;
   CandidatePairs candidates;
   std::vector<HeldPartState> states;

@@ -15,6 +15,10 @@ constexpr double kLargestDamping = 1e3;
 constexpr int kProjections = 4;  // the first, and three more with rows for failed certificates
 constexpr int kHalvings = 6;
 
+// Work of a projection, in the unit of `collision::WorkMeter`, as measured.
+constexpr std::int64_t kWorkOfProjection = 500;
+constexpr std::int64_t kWorkOfRow = 50;
+
 constexpr CouplingStiffness kImmovable{kUnbounded, kUnbounded};
 
 }  // namespace
@@ -22,110 +26,161 @@ constexpr CouplingStiffness kImmovable{kUnbounded, kUnbounded};
 StepFinder::StepFinder(SimulatedParts& shared)
     : shared_(shared), rows_(shared), certificate_(shared.scene), grips_(shared.count()) {}
 
-void StepFinder::look(double reach) {
+void StepFinder::look(double reach, WorkBudget& budget) {
   reach_ = reach;
-  rows_.find(reach);
+  rows_.find(reach, budget);
 }
 
-Step StepFinder::find() {
+std::optional<Step> StepFinder::find(WorkBudget& budget) {
+  if (!is_under_way()) begin(budget);
+  while (is_under_way()) {
+    if (!certificate_.go_on(budget) || budget.is_used_up()) return std::nullopt;
+    conclude(is_covered_ && certificate_.failures().empty(), budget);
+  }
+  return step_;
+}
+
+void StepFinder::begin(WorkBudget& budget) {
   const std::vector<HeldPartState>& parts = shared_.states;
-  Displacements wanted;
+  wanted_ = {};
   for (std::size_t p = 0; p < parts.size(); ++p) {
     grips_[p] = parts[p].is_held() ? parts[p].stiffness : kImmovable;
     if (!parts[p].is_held()) continue;
-    wanted[p] = geometry::displacement_between(parts[p].result.X_WV, parts[p].X_WS, parts[p].p_Vref());
+    wanted_[p] = geometry::displacement_between(parts[p].result.X_WV, parts[p].X_WS, parts[p].p_Vref());
   }
   // A step that gains more energy than this has passed a bend of the contact that the linear rows do not describe. It
   // is repeated with damping.
-  const double most_energy = energy(parts, wanted) + energy_allowance(parts, wanted, shared_.largest_margin);
-  for (int trial = 0; trial < kDampings; ++trial) {
-    Displacements damped;
-    for (std::size_t p = 0; p < parts.size(); ++p)
-      damped[p] = wanted[p].scaled(1.0 / (1.0 + damping_));
-    Step step = certified(damped);
-    bool all_arrive = true;
-    Displacements remaining;
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-      step.arrives[p] = step.arrives[p] && damping_ == 0.0;
-      all_arrive = all_arrive && step.arrives[p];
-      if (!parts[p].is_held()) continue;
-      const Eigen::Vector3d& p_Vref = parts[p].p_Vref();
-      remaining[p] = geometry::displacement_between(
-          geometry::displaced(parts[p].result.X_WV, p_Vref, step.displacements[p]), parts[p].X_WS, p_Vref);
-    }
-    if (all_arrive || energy(parts, remaining) <= most_energy) {
-      damping_ = damping_ < 0.1 ? 0.0 : 0.25 * damping_;
-      return step;
-    }
-    damping_ = std::clamp(4.0 * damping_, 0.5, kLargestDamping);
-  }
-  damping_ = 0.0;
-  return {.clipped = true};
+  most_energy_ = energy(parts, wanted_) + energy_allowance(parts, wanted_, shared_.largest_margin);
+  trial_ = 0;
+  begin_trial(budget);
 }
 
-/// The largest step towards `wanted` that can be certified.
-Step StepFinder::certified(const Displacements& wanted) {
-  rows_.keep_contacts_only();
-  Step step;
-  Step first;  // on the contacts alone
-  bool is_certified = false;
-  int projections = 0;
-  for (; projections < kProjections && !is_certified; ++projections) {
-    if (projections > 0) rows_.add_failures(failures_);
-    if (!project(wanted)) return {.clipped = true};
-    const std::array<double, kMaxParts> fractions = allowed_fractions(shared_, projected_, rows_.rows(), reach_);
-    Displacements shortened;
-    step.clipped = false;
-    for (std::size_t p = 0; p < shared_.count(); ++p) {
-      shortened[p] = projected_[p].scaled(fractions[p]);
-      step.arrives[p] = fractions[p] == 1.0;
-      step.clipped = step.clipped || fractions[p] < 1.0;
-    }
-    is_certified = certify(shortened, step);
-    if (projections > 0) continue;
-    first = step;
-    first_forces_ = forces_;
-  }
-  // Rows of failed certificates forbid more than necessary. They may leave nothing where a shorter step would be free.
-  if (is_certified && projections > 1 && step.length < kNotWorthIt * shared_.largest_margin) {
-    is_certified = false;
-    step = first;
-    forces_ = first_forces_;
-  }
-  if (!is_certified && !halve_until_certified(step)) return {.clipped = true};
-  for (const RowForce& force : forces_) {
-    const CoupledRow& row = rows_.rows()[static_cast<std::size_t>(force.row)];
-    step.arrives[static_cast<std::size_t>(row.part)] = false;
-    if (row.other >= 0) step.arrives[static_cast<std::size_t>(row.other)] = false;
-  }
+void StepFinder::begin_trial(WorkBudget& budget) {
+  damped_ = {};
   for (std::size_t p = 0; p < shared_.count(); ++p)
-    step.arrives[p] = step.arrives[p] || !shared_.states[p].is_held();
-  return step;
+    damped_[p] = wanted_[p].scaled(1.0 / (1.0 + damping_));
+  rows_.keep_contacts_only();
+  projections_ = 0;
+  halvings_ = 0;
+  stage_ = Stage::kProjecting;
+  try_projection(budget);
+}
+
+/// Begins the certificate of the largest step that the rows allow.
+void StepFinder::try_projection(WorkBudget& budget) {
+  budget.spend(kWorkOfProjection + kWorkOfRow * std::ssize(rows_.rows()));
+  if (!project(damped_)) {
+    step_ = {.clipped = true};
+    end_trial(budget);
+    return;
+  }
+  ++projections_;
+  const std::array<double, kMaxParts> fractions = allowed_fractions(shared_, projected_, rows_.rows(), reach_);
+  Displacements shortened;
+  step_ = {};
+  for (std::size_t p = 0; p < shared_.count(); ++p) {
+    shortened[p] = projected_[p].scaled(fractions[p]);
+    step_.arrives[p] = fractions[p] == 1.0;
+    step_.clipped = step_.clipped || fractions[p] < 1.0;
+  }
+  begin_certificate(shortened);
+}
+
+/// Takes the step at hand, or begins the certificate of another one.
+void StepFinder::conclude(bool is_certified, WorkBudget& budget) {
+  if (stage_ == Stage::kProjecting) {
+    if (projections_ == 1) {
+      first_ = step_;
+      first_forces_ = forces_;
+    }
+    if (!is_certified && projections_ < kProjections) {
+      rows_.add_failures(certificate_.failures());
+      try_projection(budget);
+      return;
+    }
+    // Rows of failed certificates forbid more than necessary. They may leave nothing where a shorter step would be
+    // free.
+    if (is_certified && projections_ > 1 && step_.length < kNotWorthIt * shared_.largest_margin) {
+      is_certified = false;
+      step_ = first_;
+      forces_ = first_forces_;
+    }
+  }
+  if (is_certified) {
+    note_arrivals();
+    end_trial(budget);
+  } else if (halvings_ < kHalvings + static_cast<int>(shared_.count())) {
+    try_half();
+  } else {
+    step_ = {.clipped = true};
+    end_trial(budget);
+  }
 }
 
 /// Shortens the parts whose pairs fail; the others go on.
-bool StepFinder::halve_until_certified(Step& step) {
-  const int attempts = kHalvings + static_cast<int>(shared_.count());
-  for (int attempt = 0; attempt < attempts; ++attempt) {
-    const std::array<bool, kMaxParts> fails = parts_that_fail();
-    Displacements shortened = step.displacements;
-    for (std::size_t p = 0; p < shared_.count(); ++p) {
-      if (!fails[p]) continue;
-      shortened[p] = shortened[p].scaled(attempt < kHalvings ? 0.5 : 0.0);
-      step.arrives[p] = false;
-    }
-    step.clipped = true;
-    if (certify(shortened, step)) return true;
+void StepFinder::try_half() {
+  stage_ = Stage::kHalving;
+  const std::array<bool, kMaxParts> fails = parts_that_fail();
+  Displacements shortened = step_.displacements;
+  for (std::size_t p = 0; p < shared_.count(); ++p) {
+    if (!fails[p]) continue;
+    shortened[p] = shortened[p].scaled(halvings_ < kHalvings ? 0.5 : 0.0);
+    step_.arrives[p] = false;
   }
-  return false;
+  step_.clipped = true;
+  ++halvings_;
+  begin_certificate(shortened);
+}
+
+/// A part on which a contact pushes, or whose target is damped, does not arrive.
+void StepFinder::note_arrivals() {
+  for (const RowForce& force : forces_) {
+    const CoupledRow& row = rows_.rows()[static_cast<std::size_t>(force.row)];
+    step_.arrives[static_cast<std::size_t>(row.part)] = false;
+    if (row.other >= 0) step_.arrives[static_cast<std::size_t>(row.other)] = false;
+  }
+  for (std::size_t p = 0; p < shared_.count(); ++p)
+    step_.arrives[p] = (step_.arrives[p] || !shared_.states[p].is_held()) && damping_ == 0.0;
+}
+
+/// Takes the step, or begins again with more damping.
+void StepFinder::end_trial(WorkBudget& budget) {
+  if (!gains_energy()) {
+    damping_ = damping_ < 0.1 ? 0.0 : 0.25 * damping_;
+    stage_ = Stage::kDone;
+    return;
+  }
+  damping_ = std::clamp(4.0 * damping_, 0.5, kLargestDamping);
+  if (++trial_ < kDampings) {
+    begin_trial(budget);
+    return;
+  }
+  damping_ = 0.0;
+  step_ = {.clipped = true};
+  stage_ = Stage::kDone;
+}
+
+/// Whether the springs hold more energy after the step than is allowed.
+bool StepFinder::gains_energy() {
+  const std::vector<HeldPartState>& parts = shared_.states;
+  bool all_arrive = true;
+  Displacements remaining;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    all_arrive = all_arrive && step_.arrives[p];
+    if (!parts[p].is_held()) continue;
+    const Eigen::Vector3d& p_Vref = parts[p].p_Vref();
+    remaining[p] = geometry::displacement_between(
+        geometry::displaced(parts[p].result.X_WV, p_Vref, step_.displacements[p]), parts[p].X_WS, p_Vref);
+  }
+  return !all_arrive && energy(parts, remaining) > most_energy_;
 }
 
 /// The parts of the pairs that could not be certified; all parts if the candidates did not even cover the step.
 std::array<bool, kMaxParts> StepFinder::parts_that_fail() const {
   std::array<bool, kMaxParts> fails{};
-  if (failures_.empty()) fails.fill(true);
+  if (certificate_.failures().empty()) fails.fill(true);
   const auto obstacles = static_cast<std::int32_t>(shared_.scene.obstacles().size());
-  for (const UncertifiedPair& failure : failures_) {
+  for (const UncertifiedPair& failure : certificate_.failures()) {
     fails[static_cast<std::size_t>(failure.bodies.part - obstacles)] = true;
     if (failure.bodies.obstacle >= obstacles)
       fails[static_cast<std::size_t>(failure.bodies.obstacle - obstacles)] = true;
@@ -133,21 +188,21 @@ std::array<bool, kMaxParts> StepFinder::parts_that_fail() const {
   return fails;
 }
 
-/// Sets the displacements of `step`, and returns whether they are certified.
-bool StepFinder::certify(const Displacements& displacements, Step& step) {
-  step.displacements = displacements;
-  step.length = 0.0;
+/// Sets the displacements of the step, and begins their certificate.
+void StepFinder::begin_certificate(const Displacements& displacements) {
+  step_.displacements = displacements;
+  step_.length = 0.0;
   for (std::size_t p = 0; p < shared_.count(); ++p) {
-    step.lengths[p] = geometry::motion_bound(displacements[p], shared_.states[p].part_V->radius());
-    step.length += step.lengths[p];
+    step_.lengths[p] = geometry::motion_bound(displacements[p], shared_.states[p].part_V->radius());
+    step_.length += step_.lengths[p];
   }
   // Bodies farther apart than this keep their minimum clearance whatever happens on the way.
   const double concerned =
-      step.length + kMinClearanceOfMargin * shared_.largest_margin + certificate_.certain_distance();
-  failures_.clear();
-  if (!shared_.candidates.covers(concerned)) return false;
-  shared_.candidates.within(concerned, to_certify_);
-  return certificate_.prove(shared_.of_parts(displacements), to_certify_, failures_);
+      step_.length + kMinClearanceOfMargin * shared_.largest_margin + certificate_.certain_distance();
+  is_covered_ = shared_.candidates.covers(concerned);
+  to_certify_.clear();
+  if (is_covered_) shared_.candidates.within(concerned, to_certify_);
+  certificate_.begin(shared_.of_parts(displacements), to_certify_);
 }
 
 /// Projects on all rows. Returns false if the solver finds no solution; then the parts stand still.

@@ -1,10 +1,11 @@
 #pragma once
 
 /// The step of one cycle: the wanted displacements projected on the contact rows, limited to the reach and the slew,
-/// and certified free of collisions.
+/// and certified free of collisions. Finding it may take several calls of the simulation.
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "sliding/simulated_parts.h"
 #include "solver/friction.h"
 #include "solver/projection.h"
+#include "work/work_budget.h"
 
 namespace glissade::haptics {
 
@@ -25,10 +27,16 @@ class StepFinder {
   explicit StepFinder(SimulatedParts& shared);
 
   /// Finds the contacts within `reach` (metres), whose rows constrain the steps from then on.
-  void look(double reach);
+  void look(double reach, WorkBudget& budget);
 
   /// A certified step that gains no energy, towards the poses at which the parts aim; a step of zero if there is none.
-  Step find();
+  /// Nothing if the budget was used up before: then the next call goes on, for which parts and candidates must be as
+  /// they are now.
+  std::optional<Step> find(WorkBudget& budget);
+  /// Whether `find` has to go on.
+  bool is_under_way() const { return stage_ != Stage::kDone; }
+  /// Gives the step up on which `find` had to go on.
+  void give_up() { stage_ = Stage::kDone; }
 
   ContactRows& rows() { return rows_; }
   std::span<const RowForce> forces() const { return forces_; }
@@ -36,12 +44,21 @@ class StepFinder {
   double certain_distance() const { return certificate_.certain_distance(); }
 
  private:
-  Step certified(const Displacements& wanted);
+  /// Where the step comes from that waits for its certificate.
+  enum class Stage { kProjecting, kHalving, kDone };
+
+  void begin(WorkBudget& budget);
+  void begin_trial(WorkBudget& budget);
+  void try_projection(WorkBudget& budget);
+  void conclude(bool is_certified, WorkBudget& budget);
+  void try_half();
+  void end_trial(WorkBudget& budget);
+  void note_arrivals();
+  bool gains_energy();
   bool project(const Displacements& wanted);
   void solve_friction(const Displacements& wanted);
   bool slipped(const CoupledRow& row) const;
-  bool halve_until_certified(Step& step);
-  bool certify(const Displacements& displacements, Step& step);
+  void begin_certificate(const Displacements& displacements);
   std::array<bool, kMaxParts> parts_that_fail() const;
 
   SimulatedParts& shared_;
@@ -57,8 +74,18 @@ class StepFinder {
   std::vector<RowForce> forces_;
   std::vector<RowForce> first_forces_;     // of the projection on contacts alone
   std::vector<PairToCertify> to_certify_;  // pairs that the step at hand may reach
-  std::vector<UncertifiedPair> failures_;
-  double damping_ = 0.0;  // Levenberg–Marquardt
+  double damping_ = 0.0;                   // Levenberg–Marquardt
+
+  Stage stage_ = Stage::kDone;
+  int trial_ = 0;  // number of dampings so far
+  int projections_ = 0;
+  int halvings_ = 0;
+  double most_energy_ = 0.0;
+  Displacements wanted_;
+  Displacements damped_;
+  Step step_;                // its certificate is under way
+  Step first_;               // on the contacts alone
+  bool is_covered_ = false;  // by the candidates: otherwise no certificate is possible
 };
 
 }  // namespace glissade::haptics

@@ -46,10 +46,12 @@ Proof prove(const ContactScene& scene, const std::vector<geometry::Displacement>
   const auto boxes = std::count_if(to_certify.begin(), to_certify.end(), [](const PairToCertify& pair_to_certify) {
     return pair_to_certify.item_O.kind != TreeItem::Kind::kTriangle;
   });
-  std::vector<UncertifiedPair> failures;
-  const bool holds = PathCertificate(scene).prove(displacements, to_certify, failures);
-  EXPECT_EQ(holds, failures.empty());
-  return {holds, to_certify.size(), static_cast<std::size_t>(boxes), failures};
+  PathCertificate certificate(scene);
+  certificate.begin(displacements, to_certify);
+  WorkBudget unlimited;
+  EXPECT_TRUE(certificate.go_on(unlimited));
+  const std::vector<UncertifiedPair>& failures = certificate.failures();
+  return {failures.empty(), to_certify.size(), static_cast<std::size_t>(boxes), failures};
 }
 
 /// The first pair of triangles that comes nearer than it may on a path, and when; empty if none does.

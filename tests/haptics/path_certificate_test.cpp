@@ -35,8 +35,11 @@ bool prove(const std::vector<Obstacle>& obstacles, const std::vector<std::shared
   candidates.look(kProofReach, 0.0, {});
   std::vector<PairToCertify> to_certify;
   candidates.within(kProofReach, to_certify);
-  std::vector<UncertifiedPair> failures;
-  return PathCertificate(scene).prove(displacements, to_certify, failures);
+  PathCertificate certificate(scene);
+  certificate.begin(displacements, to_certify);
+  WorkBudget unlimited;
+  EXPECT_TRUE(certificate.go_on(unlimited));
+  return certificate.failures().empty();
 }
 
 /// A triangle above another one, both without thickness.
