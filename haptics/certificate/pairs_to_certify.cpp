@@ -103,6 +103,7 @@ void find_pairs_to_certify(const ContactScene& scene, std::span<const PlacedBody
   to_certify.clear();
   for (std::size_t part = scene.obstacles().size(); part < bodies.size(); ++part) {
     for (std::size_t other = 0; other < part; ++other) {
+      if (!ContactScene::can_touch(scene.group(other), scene.group(part))) continue;
       const BodyPair pair{static_cast<std::int32_t>(other), static_cast<std::int32_t>(part)};
       if (std::find(ignored.begin(), ignored.end(), pair) != ignored.end()) continue;
       if (are_far_apart(bodies[other], bodies[part], radius)) continue;  // as most bodies are in a large scene

@@ -19,6 +19,16 @@ constexpr std::int64_t kWorkOfStretch = 1000;
 void PathCertificate::begin(std::span<const geometry::Displacement> displacements,
                             std::span<const PairToCertify> to_certify) {
   bodies_.begin_step(displacements);
+  begin(to_certify);
+}
+
+void PathCertificate::begin(const BodiesMotion& motion, std::size_t first_mover,
+                            std::span<const PairToCertify> to_certify) {
+  bodies_.begin_step(motion, first_mover);
+  begin(to_certify);
+}
+
+void PathCertificate::begin(std::span<const PairToCertify> to_certify) {
   rounding_ = certain_distance();
   obstacle_ = {};
   part_ = {};

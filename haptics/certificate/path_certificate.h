@@ -41,6 +41,8 @@ class PathCertificate {
   /// pose along its displacement; `displacements` has one entry for each part. `to_certify` and the poses must stay as
   /// they are until `go_on` returns true.
   void begin(std::span<const geometry::Displacement> displacements, std::span<const PairToCertify> to_certify);
+  /// The same for the parts from `first_mover` on, which follow `motion`.
+  void begin(const BodiesMotion& motion, std::size_t first_mover, std::span<const PairToCertify> to_certify);
   /// Goes on until all pairs have been looked at or the budget is used up, at least with one pair of boxes, leaves or
   /// triangles. Returns whether all have been.
   bool go_on(WorkBudget& budget);
@@ -69,6 +71,7 @@ class PathCertificate {
     MovingItem item_V;
   };
 
+  void begin(std::span<const PairToCertify> to_certify);
   void select(const BodyPair& bodies);
   MovingBody moving(std::int32_t body);
   static MovingItem moving(const TreeItem& item, const MovingBody& body);

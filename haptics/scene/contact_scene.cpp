@@ -20,7 +20,12 @@ void check_margin(double margin, const std::string& whose) {
 
 ContactScene::ContactScene(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> parts,
                            std::span<const double> margins)
-    : obstacles_(std::move(obstacles)), parts_(std::move(parts)) {
+    : ContactScene(std::move(obstacles), parts, margins, std::vector<int>(parts.size(), kPart)) {}
+
+ContactScene::ContactScene(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> parts,
+                           std::span<const double> margins, std::span<const int> groups)
+    : obstacles_(std::move(obstacles)), parts_(std::move(parts)), groups_(obstacles_.size(), kStill) {
+  groups_.insert(groups_.end(), groups.begin(), groups.end());
   if (obstacles_.size() + parts_.size() < 2) throw std::invalid_argument("there is nothing that the part could touch");
   for (Obstacle& obstacle : obstacles_) {
     if (obstacle.body == nullptr) throw std::invalid_argument(obstacle.name + " needs a body, not a null pointer");

@@ -57,21 +57,34 @@ struct TrianglesOfBodies {
   auto operator<=>(const TrianglesOfBodies&) const = default;
 };
 
-/// Bodies are numbered: the obstacles first, then the parts. Pairs of obstacles are not considered, because pieces of
-/// an assembly touch each other. Not thread-safe.
+/// Bodies are numbered: the obstacles first, then the parts. Not every pair of bodies is considered: see `can_touch`.
+/// Not thread-safe.
 class ContactScene {
  public:
+  /// Groups of bodies. Bodies that stand still touch each other as pieces of an assembly do, and neighboring links of a
+  /// chain touch at their joint: such pairs are not considered. From kFirstChain on, each group is one chain.
+  static constexpr int kStill = 0;
+  static constexpr int kPart = 1;
+  static constexpr int kFirstChain = 2;
+
   /// All parts are at the identity pose until they are placed. `margins` (metres) has one entry for each part. Throws
   /// std::invalid_argument when there is nothing that a part could touch, for an obstacle without a body, for a pose
   /// that `geometry::rigid_pose` rejects, and for a margin that is not positive or above kGreatestMargin_m.
   ContactScene(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> parts,
                std::span<const double> margins);
+  /// The same with a group for each part.
+  ContactScene(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> parts,
+               std::span<const double> margins, std::span<const int> groups);
 
   std::span<const Obstacle> obstacles() const { return obstacles_; }
   std::span<const std::shared_ptr<const SlidingPart>> parts() const { return parts_; }
   std::span<const PlacedBody> bodies() const { return bodies_; }
   /// The body number of a part.
   std::size_t body_of_part(std::size_t part) const { return obstacles_.size() + part; }
+
+  int group(std::size_t body) const { return groups_[body]; }
+  /// Whether pairs of these groups are considered.
+  static bool can_touch(int group, int other) { return group != other || group == kPart; }
 
   /// Margin (metres) of contacts between a body and a part: the obstacle's own margin if it has one, otherwise the
   /// part's; between two parts, the smaller of both.
@@ -107,6 +120,7 @@ class ContactScene {
   std::vector<Obstacle> obstacles_;
   std::vector<std::shared_ptr<const SlidingPart>> parts_;
   std::vector<PlacedBody> bodies_;
+  std::vector<int> groups_;             // of each body
   std::vector<double> margins_;         // for each part, one entry for each body
   std::vector<double> min_clearances_;  // likewise
 };

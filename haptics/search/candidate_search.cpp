@@ -6,9 +6,6 @@
 namespace glissade::haptics {
 namespace {
 
-constexpr int kObstacles = 0;  // groups of the interest matrix
-constexpr int kPart = 1;
-
 /// Work of taking over and sorting a pair, in the unit of `collision::WorkMeter`, as measured.
 constexpr std::int64_t kWorkOfPair = 150;
 
@@ -42,11 +39,17 @@ CandidateSearch::CandidateSearch(const ContactScene& scene, double greatest_radi
       world_(static_cast<int>(bodies_.size())),
       pipeline_(world_, clock_, pipeline_options(greatest_radius, meter)) {
   workspace_.set_meter(meter);
-  world_.disable_groups(kObstacles, kObstacles);
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const int group = scene.group(body);
+    if (!ContactScene::can_touch(group, group)) world_.disable_groups(group, group);
+  }
   for (const Obstacle& obstacle : scene.obstacles())
-    world_.add(description(obstacle.body, obstacle.X_WO, kObstacles));
-  for (const auto& part_V : scene.parts())
-    part_ids_.push_back(world_.add(description(part_V, Eigen::Isometry3d::Identity(), kPart)));
+    world_.add(description(obstacle.body, obstacle.X_WO, ContactScene::kStill));
+  for (std::size_t p = 0; p < scene.parts().size(); ++p) {
+    const collision::ObjectDescription description_V =
+        description(scene.parts()[p], Eigen::Isometry3d::Identity(), scene.group(scene.body_of_part(p)));
+    part_ids_.push_back(world_.add(description_V));
+  }
 }
 
 void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {

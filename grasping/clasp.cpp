@@ -1,0 +1,290 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include <glissade/geometry/rigid_pose.h>
+#include <glissade/grasping/clasp.h>
+#include <glissade/haptics/certified_bodies.h>
+
+#include "clasp/chain_step.h"
+#include "clasp/closing_rows.h"
+#include "clasp/interpolation.h"
+#include "clasp/root_slide.h"
+
+namespace glissade::grasping {
+namespace {
+
+constexpr double kBracket_m = 5e-6;  // shorter steps are not worth their proof
+constexpr double kSmallestReach_m = 0.2e-3;
+constexpr double kGreatestReach_m = 10e-3;
+constexpr double kStepOfReach = 0.8;
+constexpr double kAheadOfReach = 1.0;  // a search looks so much farther
+constexpr int kRetries = 4;  // with the contacts that a proof has missed
+constexpr int kHalvings = 6;
+
+std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const KinematicChain& chain,
+                                                                   std::span<const std::size_t> links) {
+  std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies;
+  for (const std::size_t link : links)
+    bodies.push_back(std::make_shared<const haptics::SlidingPart>(chain.links()[link].mesh));
+  return bodies;
+}
+
+const KinematicChain& checked(const std::shared_ptr<const KinematicChain>& chain) {
+  if (chain == nullptr) throw std::invalid_argument("a clasp needs a chain, not a null pointer");
+  if (links_that_touch(*chain).empty()) throw std::invalid_argument("no link of the chain has a mesh");
+  return *chain;
+}
+
+}  // namespace
+
+std::string_view name_of(ClaspState state) {
+  return state == ClaspState::kClasping ? "clasping" : "waiting";
+}
+
+class Clasp::Iteration {
+ public:
+  Iteration(std::shared_ptr<const KinematicChain> chain, std::vector<haptics::Obstacle> fixed,
+            std::vector<std::shared_ptr<const haptics::SlidingPart>> objects, const ClaspRules& rules)
+      : chain_(std::move(chain)),
+        rules_(rules),
+        movers_(links_that_touch(checked(chain_))),
+        bodies_(std::move(fixed), std::move(objects), bodies_of(*chain_, movers_), rules.margin),
+        motion_(*chain_, movers_),
+        rows_(*chain_),
+        interpolation_(*chain_),
+        X_WL_(chain_->links().size()),
+        X_WL_target_(chain_->links().size()),
+        touching_(chain_->links().size(), 0) {
+    for (const std::size_t link : movers_)
+      radius_ = std::max(radius_, 0.5 * chain_->reach(link, 0));
+    posture_.values.resize(chain_->values().size());
+    chain_->clamp(posture_.values);
+  }
+
+  const KinematicChain& chain() const { return *chain_; }
+  ClaspState state() const { return state_; }
+  const Posture& posture() const { return posture_; }
+  std::span<const char> touching() const { return touching_; }
+  const std::vector<LinkContact>& contacts() const { return link_contacts_; }
+  int steps() const { return steps_; }
+
+  void place_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
+    bodies_.place_object(object, X_WB);
+    if (state_ == ClaspState::kClasping && !bodies_.is_free()) wait();
+  }
+
+  void move_cart(const Posture& target) {
+    if (!take(target)) return;
+    posture_ = target_;
+    place_links();
+    wait();
+  }
+
+  void advance(const Posture& target) {
+    steps_ = 0;
+    if (!take(target)) return;
+    if (state_ == ClaspState::kWaiting && !begin()) return;
+    while (steps_ < rules_.most_steps && take_step())
+      ++steps_;
+    note_touching();
+  }
+
+ private:
+  /// Checks and keeps the target.
+  bool take(const Posture& target) {
+    const std::optional<Eigen::Isometry3d> X_WR = geometry::rigid_pose(target.X_WR);
+    const bool is_finite =
+        std::all_of(target.values.begin(), target.values.end(), [](double value) { return std::isfinite(value); });
+    if (!X_WR || !is_finite || target.values.size() != posture_.values.size()) return false;
+    target_.X_WR = *X_WR;
+    target_.values = target.values;
+    chain_->clamp(target_.values);
+    return true;
+  }
+
+  void wait() {
+    state_ = ClaspState::kWaiting;
+    std::fill(touching_.begin(), touching_.end(), char{0});
+    link_contacts_.clear();
+  }
+
+  /// Begins at the target if it is free.
+  bool begin() {
+    std::swap(posture_, target_);
+    place_links();
+    if (bodies_.is_free()) {
+      state_ = ClaspState::kClasping;
+      target_ = posture_;
+      return true;
+    }
+    std::swap(posture_, target_);
+    place_links();
+    return false;
+  }
+
+  void place_links() {
+    chain_->poses(posture_.X_WR, posture_.values, X_WL_);
+    bodies_.place_movers(X_WL_, movers_);
+  }
+
+  /// Moves the chain by one step. Returns whether another one may be worth it.
+  bool take_step() {
+    step_between(posture_, target_, wanted_);
+    motion_.set(posture_, wanted_);
+    const double longest = motion_.longest();
+    if (longest == 0.0) return false;
+    // A clasped hand wants far more than it can do: the steps that it takes say how far to look.
+    const double reach = std::clamp(1.5 * longest + 2.0 * rules_.margin, kSmallestReach_m, reach_);
+    bodies_.look(reach, kAheadOfReach * reach);
+    bodies_.find_contacts(found_);
+    rows_.set(posture_, wanted_, found_, movers_);
+    longest_step_ = kStepOfReach * reach;
+    const bool goes_on = go(false) || (slides_ && go(true));
+    const double taken = goes_on ? motion_.longest() : 0.0;
+    const bool is_clipped = taken > 0.9 * longest_step_;
+    reach_ = std::clamp(is_clipped ? 2.0 * reach : std::max(0.5 * reach, 2.0 * taken), kSmallestReach_m,
+                        kGreatestReach_m);
+    return goes_on;
+  }
+
+  /// Finds, certifies and takes a step: by the interpolation, or by a slide of the whole chain. Returns whether it was
+  /// long enough to be worth another one.
+  bool go(bool slides) {
+    for (int retry = 0; retry < kRetries; ++retry) {
+      slides ? find_slide() : find_shares();
+      motion_.set(posture_, step_);
+      if (motion_.longest() < kBracket_m) return false;
+      if (motion_.longest() > longest_step_) scale(step_, longest_step_ / motion_.longest());
+      motion_.set(posture_, step_);
+      if (bodies_.certify(motion_, failures_)) return move();
+      if (failures_.empty()) break;
+      for (const haptics::Contact& failure : failures_)
+        rows_.add(failure, movers_[static_cast<std::size_t>(failure.part)]);
+    }
+    for (int halving = 0; halving < kHalvings; ++halving) {
+      scale(step_, 0.5);
+      motion_.set(posture_, step_);
+      if (motion_.longest() < kBracket_m) return false;
+      if (bodies_.certify(motion_, failures_)) return move();
+    }
+    return false;
+  }
+
+  void find_shares() {
+    const std::vector<double>& shares = interpolation_.find(rows_, kBracket_m);
+    step_.root = wanted_.root.scaled(shares[0]);
+    step_.values = wanted_.values;
+    for (std::size_t v = 0; v < step_.values.size(); ++v)
+      step_.values[v] *= shares[1 + v];
+    slides_ = shares[0] < 1.0;
+  }
+
+  void find_slide() {
+    step_.root = slide_root(wanted_.root, rows_, radius_, forces_);
+    step_.values.assign(step_.values.size(), 0.0);
+  }
+
+  bool move() {
+    grasping::advance(posture_, step_, 1.0, next_);
+    std::swap(posture_, next_);
+    place_links();
+    return true;
+  }
+
+  static void scale(ChainStep& step, double factor) {
+    step.root = step.root.scaled(factor);
+    for (double& value : step.values)
+      value *= factor;
+  }
+
+  /// A link touches if it is near an object and its target lies deeper.
+  void note_touching() {
+    std::fill(touching_.begin(), touching_.end(), char{0});
+    link_contacts_.clear();
+    bodies_.look(kSmallestReach_m, kAheadOfReach * kSmallestReach_m);
+    bodies_.find_contacts(found_);
+    chain_->poses(target_.X_WR, target_.values, X_WL_target_);
+    for (const haptics::Contact& contact : found_) {
+      if (contact.gap > rules_.touching) continue;
+      const std::size_t link = movers_[static_cast<std::size_t>(contact.part)];
+      const Eigen::Vector3d p_target_W = X_WL_target_[link] * (X_WL_[link].inverse(Eigen::Isometry) * contact.p_W);
+      if (contact.n_W.dot(p_target_W - contact.p_W) > -kBracket_m) continue;
+      touching_[link] = 1;
+      link_contacts_.push_back({link, contact});
+    }
+  }
+
+  std::shared_ptr<const KinematicChain> chain_;
+  ClaspRules rules_;
+  std::vector<std::size_t> movers_;  // links with meshes
+  haptics::CertifiedBodies bodies_;
+  ChainMotion motion_;
+  ClosingRows rows_;
+  Interpolation interpolation_;
+  double radius_ = 0.0;  // metres: what a turn of the root counts
+  ClaspState state_ = ClaspState::kWaiting;
+  Posture posture_;
+  Posture target_;
+  Posture next_;
+  ChainStep wanted_;
+  ChainStep step_;
+  bool slides_ = false;  // the root did not arrive
+  double reach_ = kGreatestReach_m;
+  double longest_step_ = 0.0;  // metres
+  int steps_ = 0;
+  std::vector<Eigen::Isometry3d> X_WL_;
+  std::vector<Eigen::Isometry3d> X_WL_target_;
+  std::vector<haptics::Contact> found_;
+  std::vector<haptics::Contact> failures_;
+  std::vector<double> forces_;
+  std::vector<char> touching_;
+  std::vector<LinkContact> link_contacts_;
+};
+
+Clasp::Clasp(std::shared_ptr<const KinematicChain> chain, std::vector<haptics::Obstacle> fixed,
+             std::vector<std::shared_ptr<const haptics::SlidingPart>> objects, const ClaspRules& rules)
+    : iteration_(std::make_unique<Iteration>(std::move(chain), std::move(fixed), std::move(objects), rules)) {}
+
+Clasp::Clasp(Clasp&&) noexcept = default;
+Clasp& Clasp::operator=(Clasp&&) noexcept = default;
+Clasp::~Clasp() = default;
+
+const KinematicChain& Clasp::chain() const {
+  return iteration_->chain();
+}
+
+void Clasp::place_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
+  iteration_->place_object(object, X_WB);
+}
+
+void Clasp::advance(const Posture& target) {
+  iteration_->advance(target);
+}
+
+void Clasp::move_cart(const Posture& target) {
+  iteration_->move_cart(target);
+}
+
+ClaspState Clasp::state() const {
+  return iteration_->state();
+}
+
+const Posture& Clasp::posture() const {
+  return iteration_->posture();
+}
+
+std::span<const char> Clasp::touching() const {
+  return iteration_->touching();
+}
+
+const std::vector<LinkContact>& Clasp::contacts() const {
+  return iteration_->contacts();
+}
+
+int Clasp::steps() const {
+  return iteration_->steps();
+}
+
+}  // namespace glissade::grasping

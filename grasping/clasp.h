@@ -1,0 +1,83 @@
+#pragma once
+
+/// The clasp of a chain round objects (paper §4): of all postures that a glove asks for, the nearest one that touches
+/// nothing. The visible hand gets these postures only, and the way from each to the next is free too.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <glissade/grasping/kinematic_chain.h>
+#include <glissade/grasping/posture.h>
+#include <glissade/haptics/contact_body.h>
+#include <glissade/haptics/sliding_result.h>
+
+namespace glissade::grasping {
+
+enum class ClaspState : std::uint8_t {
+  kClasping,  ///< the posture touches nothing, and follows the target as far as objects allow
+  /// The chain has not been free since the start, since the motion of the cart, or since an object was placed inside
+  /// it. The posture stays where it is, and gives no forces; the clasp begins once the target is free.
+  kWaiting,
+};
+
+std::string_view name_of(ClaspState state);
+
+struct ClaspRules {
+  /// The gap (metres) at which contacts stop a link.
+  double margin = 20e-6;
+  /// A link that is nearer to an object than this (metres) and whose target lies deeper touches it.
+  double touching = 0.1e-3;
+  /// The steps of one call; each has a proof. More of them follow a fast hand more closely.
+  int most_steps = 8;
+};
+
+/// A link near an object.
+struct LinkContact {
+  std::size_t link = 0;
+  haptics::Contact contact;  ///< `Contact::obstacle`: fixed bodies first, then objects
+};
+
+/// Deterministic. Not thread-safe.
+class Clasp {
+ public:
+  /// `fixed` are bodies that never move; `objects` stand still during a call, and may be placed elsewhere between two.
+  /// The links of the chain may touch each other. Throws std::invalid_argument for a null chain or one without meshes,
+  /// and as `haptics::CertifiedBodies` does. Cost: the trees of the links.
+  Clasp(std::shared_ptr<const KinematicChain> chain, std::vector<haptics::Obstacle> fixed,
+        std::vector<std::shared_ptr<const haptics::SlidingPart>> objects, const ClaspRules& rules = {});
+  Clasp(Clasp&&) noexcept;
+  Clasp& operator=(Clasp&&) noexcept;
+  ~Clasp();
+
+  const KinematicChain& chain() const;
+
+  /// Places an object. If the chain is no longer free there, the clasp waits.
+  void place_object(std::size_t object, const Eigen::Isometry3d& X_WB);
+
+  /// Moves the chain towards the target; flex values beyond their limits count as the limits. A target that is not
+  /// finite is ignored.
+  void advance(const Posture& target);
+
+  /// Moves the chain with the user's cart, whatever is in the way: the clasp waits until a target is free.
+  void move_cart(const Posture& target);
+
+  ClaspState state() const;
+  const Posture& posture() const;
+  /// Whether a link touches, by its number in the chain. The link itself must be stopped by an object: that links below
+  /// it are does not count.
+  std::span<const char> touching() const;
+  /// The contacts of all links that touch.
+  const std::vector<LinkContact>& contacts() const;
+  /// Steps of the last call.
+  int steps() const;
+
+ private:
+  class Iteration;
+  std::unique_ptr<Iteration> iteration_;
+};
+
+}  // namespace glissade::grasping

@@ -1,0 +1,38 @@
+#include "clasp/closing_rows.h"
+
+#include <algorithm>
+
+namespace glissade::grasping {
+
+void ClosingRows::set(const Posture& posture, const ChainStep& wanted, std::span<const haptics::Contact> contacts,
+                      std::span<const std::size_t> movers) {
+  rooms_.clear();
+  rates_.clear();
+  normals_.clear();
+  arms_.clear();
+  p_WR_ = posture.X_WR.translation();
+  root_ = wanted.root;
+  wanted_ = wanted.values;
+  chain_.poses(posture.X_WR, posture.values, X_WL_);
+  for (const haptics::Contact& contact : contacts)
+    add(contact, movers[static_cast<std::size_t>(contact.part)]);
+}
+
+void ClosingRows::add(const haptics::Contact& contact, std::size_t link) {
+  rooms_.push_back(std::max(0.0, contact.gap - contact.margin));
+  normals_.push_back(contact.n_W);
+  arms_.push_back(contact.p_W - p_WR_);
+  const std::size_t first = rates_.size();
+  rates_.resize(first + columns_, 0.0);
+  rates_[first] = contact.n_W.dot(root_.v + root_.w.cross(arms_.back()));
+  const std::span<const ChainLink> links = chain_.links();
+  for (std::optional<std::size_t> l = link; l; l = links[*l].parent) {
+    if (links[*l].terms.empty()) continue;
+    const Eigen::Vector3d axis_W = X_WL_[*l].linear() * links[*l].axis_J;
+    const double per_rad = contact.n_W.dot(axis_W.cross(contact.p_W - X_WL_[*l].translation()));
+    for (const JointTerm& term : links[*l].terms)
+      rates_[first + 1 + term.value] += term.factor * wanted_[term.value] * per_rad;
+  }
+}
+
+}  // namespace glissade::grasping

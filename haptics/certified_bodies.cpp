@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include <glissade/base/assert.h>
+#include <glissade/collision/dop_query.h>
+#include <glissade/haptics/certified_bodies.h>
+
+#include "certificate/path_certificate.h"
+#include "contact/contact_search.h"
+#include "scene/contact_scene.h"
+#include "search/candidate_pairs.h"
+
+namespace glissade::haptics {
+namespace {
+
+constexpr double kGreatestRadius_m = 0.1;
+
+std::vector<std::shared_ptr<const SlidingPart>> joined(std::vector<std::shared_ptr<const SlidingPart>> objects,
+                                                       const std::vector<std::shared_ptr<const SlidingPart>>& movers) {
+  if (movers.empty()) throw std::invalid_argument("there must be a body that moves");
+  objects.insert(objects.end(), movers.begin(), movers.end());
+  for (const auto& part : objects) {
+    if (part == nullptr) throw std::invalid_argument("a body that moves must not be a null pointer");
+  }
+  return objects;
+}
+
+std::vector<int> groups(std::size_t objects, std::size_t movers) {
+  std::vector<int> result(objects, ContactScene::kStill);
+  result.resize(objects + movers, ContactScene::kFirstChain);
+  return result;
+}
+
+}  // namespace
+
+class CertifiedBodies::State {
+ public:
+  State(std::vector<Obstacle> fixed, std::vector<std::shared_ptr<const SlidingPart>> objects,
+        const std::vector<std::shared_ptr<const SlidingPart>>& movers, double margin)
+      : margin_(margin),
+        first_mover_(objects.size()),
+        scene_(std::move(fixed), joined(std::move(objects), movers),
+               std::vector<double>(first_mover_ + movers.size(), margin), groups(first_mover_, movers.size())),
+        candidates_(scene_, kGreatestRadius_m),
+        certificate_(scene_) {}
+
+  const ContactScene& scene() const { return scene_; }
+  double margin() const { return margin_; }
+  std::size_t first_mover() const { return first_mover_; }
+
+  void place_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
+    scene_.place(object, X_WB);
+    candidates_.moved();
+  }
+
+  void place_movers(std::span<const Eigen::Isometry3d> X_WM, std::span<const std::size_t> numbers) {
+    for (std::size_t m = 0; m < numbers.size(); ++m)
+      scene_.place(first_mover_ + m, X_WM[numbers[m]]);
+    candidates_.moved();
+  }
+
+  bool is_free() {
+    const std::span<const PlacedBody> bodies = scene_.bodies();
+    const double certain = certificate_.certain_distance();
+    for (std::size_t mover = scene_.body_of_part(first_mover_); mover < bodies.size(); ++mover) {
+      for (std::size_t other = 0; other < scene_.body_of_part(first_mover_); ++other) {
+        const Eigen::Isometry3d X_OM = bodies[other].X_WB.inverse(Eigen::Isometry) * bodies[mover].X_WB;
+        if (collision::intersects(bodies[other].body->tree, bodies[mover].body->tree, X_OM, workspace_, certain))
+          return false;
+      }
+    }
+    return true;
+  }
+
+  void look(double reach, double ahead) {
+    reach_ = reach;
+    candidates_.begin_call();
+    candidates_.look(reach, ahead, {});
+  }
+
+  void find_contacts(std::vector<Contact>& contacts) {
+    candidates_.within(reach_, pairs_);
+    haptics::find_contacts(scene_.bodies(), scene_.body_of_part(first_mover_), pairs_, reach_, margin_, contacts);
+    for (Contact& contact : contacts)
+      contact.margin = scene_.margin(contact.obstacle, body_of_mover(static_cast<std::size_t>(contact.part)));
+  }
+
+  bool certify(const BodiesMotion& motion, std::vector<Contact>& failures) {
+    failures.clear();
+    double longest = 0.0;
+    for (std::size_t m = 0; first_mover_ + m < scene_.parts().size(); ++m)
+      longest = std::max(longest, motion.length(m));
+    const double concerned = longest + kMinClearanceOfMargin * margin_ + certificate_.certain_distance();
+    if (!candidates_.covers(concerned)) return false;
+    candidates_.within(concerned, to_certify_);
+    certificate_.begin(motion, first_mover_, to_certify_);
+    WorkBudget unlimited;
+    certificate_.go_on(unlimited);
+    for (const UncertifiedPair& failure : certificate_.failures())
+      failures.push_back(contact_of(failure));
+    return failures.empty();
+  }
+
+ private:
+  std::int32_t body_of_mover(std::size_t mover) const {
+    return static_cast<std::int32_t>(scene_.body_of_part(first_mover_ + mover));
+  }
+
+  /// The nearest corner of the mover's triangle, over the plane that separates the triangles.
+  Contact contact_of(const UncertifiedPair& failure) const {
+    const PlacedBody& obstacle = scene_.bodies()[static_cast<std::size_t>(failure.bodies.obstacle)];
+    const PlacedBody& mover = scene_.bodies()[static_cast<std::size_t>(failure.bodies.part)];
+    double top = -std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector3d& y_W : obstacle.triangle_W(failure.obstacle_triangle))
+      top = std::max(top, failure.n_W.dot(y_W));
+    double gap = std::numeric_limits<double>::infinity();
+    Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& x_W : mover.triangle_W(failure.part_triangle)) {
+      if (failure.n_W.dot(x_W) - top >= gap) continue;
+      gap = failure.n_W.dot(x_W) - top;
+      p_W = x_W;
+    }
+    Contact contact{ContactKind::kVertexFace,
+                    failure.part_triangle,
+                    failure.bodies.obstacle,
+                    failure.obstacle_triangle,
+                    failure.n_W,
+                    p_W,
+                    gap};
+    contact.part = failure.bodies.part - static_cast<std::int32_t>(scene_.body_of_part(first_mover_));
+    contact.margin = scene_.margin(failure.bodies.obstacle, failure.bodies.part);
+    return contact;
+  }
+
+  double margin_;
+  std::size_t first_mover_;  // among the parts of the scene
+  ContactScene scene_;
+  CandidatePairs candidates_;
+  PathCertificate certificate_;
+  double reach_ = 0.0;
+  std::vector<CandidatePair> pairs_;
+  std::vector<PairToCertify> to_certify_;
+  collision::QueryWorkspace workspace_;
+};
+
+CertifiedBodies::CertifiedBodies(std::vector<Obstacle> fixed, std::vector<std::shared_ptr<const SlidingPart>> objects,
+                                 std::vector<std::shared_ptr<const SlidingPart>> movers, double margin)
+    : state_(std::make_unique<State>(std::move(fixed), std::move(objects), movers, margin)) {}
+
+CertifiedBodies::CertifiedBodies(CertifiedBodies&&) noexcept = default;
+CertifiedBodies& CertifiedBodies::operator=(CertifiedBodies&&) noexcept = default;
+CertifiedBodies::~CertifiedBodies() = default;
+
+std::size_t CertifiedBodies::fixed_count() const {
+  return state_->scene().obstacles().size();
+}
+
+std::size_t CertifiedBodies::object_count() const {
+  return state_->first_mover();
+}
+
+std::size_t CertifiedBodies::mover_count() const {
+  return state_->scene().parts().size() - state_->first_mover();
+}
+
+double CertifiedBodies::margin() const {
+  return state_->margin();
+}
+
+void CertifiedBodies::place_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
+  GLISSADE_ASSERT(object < object_count());
+  state_->place_object(object, X_WB);
+}
+
+void CertifiedBodies::place_movers(std::span<const Eigen::Isometry3d> X_WM, std::span<const std::size_t> numbers) {
+  GLISSADE_ASSERT(numbers.size() == mover_count());
+  state_->place_movers(X_WM, numbers);
+}
+
+bool CertifiedBodies::is_free() const {
+  return state_->is_free();
+}
+
+void CertifiedBodies::look(double reach, double ahead) {
+  state_->look(reach, ahead);
+}
+
+void CertifiedBodies::find_contacts(std::vector<Contact>& contacts) {
+  state_->find_contacts(contacts);
+}
+
+bool CertifiedBodies::certify(const BodiesMotion& motion, std::vector<Contact>& failures) {
+  return state_->certify(motion, failures);
+}
+
+}  // namespace glissade::haptics
