@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include <glissade/grasping/grasp_analysis.h>
+
+namespace glissade::grasping {
+namespace {
+
+constexpr double kHold_ms = 60.0;
+constexpr double kOpposed = -0.7;   // cosine of the angle between two normals
+constexpr double kAlike = 0.6;      // the same for normals on one side
+constexpr double kFromBelow = 0.7;  // cosine of the angle to the vertical
+
+constexpr std::array<std::string_view, 6> kFingers{
+    "", "thumb", "index", "middle finger", "ring finger", "little finger"};
+constexpr std::array<std::string_view, 5> kSegments{"", "palm", "inner segment", "middle segment", "outer segment"};
+constexpr std::array<Finger, 5> kAllFingers{Finger::kThumb, Finger::kIndex, Finger::kMiddle, Finger::kRing,
+                                            Finger::kLittle};
+constexpr std::array<HandSegment, 3> kFingerSegments{HandSegment::kInner, HandSegment::kMiddle, HandSegment::kOuter};
+
+GraspType type_of(const TouchingSegments& segments) {
+  if (segments.is_empty()) return GraspType::kNone;
+  if (segments.count() == 1) return GraspType::kPush;
+  const auto any = [&](HandSegment kind) {
+    return std::any_of(kAllFingers.begin(), kAllFingers.end(), [&](Finger finger) {
+      return segments.has({finger, kind});
+    });
+  };
+  if (segments.has_palm()) {
+    return any(HandSegment::kMiddle) || any(HandSegment::kOuter) ? GraspType::kPower : GraspType::kPush;
+  }
+  const bool has_finger =
+      std::any_of(kAllFingers.begin() + 1, kAllFingers.end(), [&](Finger finger) { return segments.has(finger); });
+  return segments.has(Finger::kThumb) && has_finger ? GraspType::kPrecision : GraspType::kPush;
+}
+
+/// Whether of all fingers exactly these touch, and only with their outer segments.
+bool are_tips_of(const TouchingSegments& segments, std::span<const Finger> fingers) {
+  TouchingSegments tips;
+  for (const Finger finger : fingers)
+    tips.add({finger, HandSegment::kOuter});
+  return segments == tips;
+}
+
+}  // namespace
+
+std::string_view name_of(GraspType type) {
+  constexpr std::array<std::string_view, 4> kNames{"none", "push", "precision", "power"};
+  return kNames[static_cast<std::size_t>(type)];
+}
+
+std::string_view name_of(GraspForm form) {
+  constexpr std::array<std::string_view, 7> kNames{"",    "tip-pinch", "three-jaw", "three-point",
+                                                   "key", "cigarette", "gravity"};
+  return kNames[static_cast<std::size_t>(form)];
+}
+
+int TouchingSegments::count() const {
+  return std::popcount(bits_);
+}
+
+std::string reason_of(const Grasp& grasp) {
+  if (grasp.type == GraspType::kNone) return "none: nothing touches";
+  std::vector<std::string> touching;
+  if (grasp.segments.has_palm()) touching.emplace_back("the palm");
+  for (const Finger finger : kAllFingers) {
+    for (const HandSegment kind : kFingerSegments) {
+      if (!grasp.segments.has({finger, kind})) continue;
+      touching.push_back("the " + std::string(kSegments[static_cast<std::size_t>(kind)]) + " of the " +
+                         std::string(kFingers[static_cast<std::size_t>(finger)]));
+    }
+  }
+  std::string text(name_of(grasp.type));
+  if (grasp.form != GraspForm::kNone) text += ", " + std::string(name_of(grasp.form));
+  text += ": ";
+  for (std::size_t i = 0; i < touching.size(); ++i) {
+    if (i > 0) text += i + 1 < touching.size() ? ", " : " and ";
+    text += touching[i];
+  }
+  return text + (touching.size() == 1 ? " touches" : " touch");
+}
+
+const Grasp& GraspAnalysis::update(std::span<const LinkContact> contacts, double milliseconds,
+                                   const Eigen::Vector3d& up_W) {
+  follow(contacts, milliseconds);
+  Grasp firmest;
+  for (const Touch& touch : touches_) {
+    if (touch.object < 0 || touch.object == firmest.object) continue;
+    const Grasp grasp = analyze(touch.object, up_W);
+    const bool is_firmer =
+        grasp.type > firmest.type || (grasp.type == firmest.type && grasp.segments.count() > firmest.segments.count());
+    if (is_firmer) firmest = grasp;
+  }
+  grasp_ = firmest;
+  return grasp_;
+}
+
+void GraspAnalysis::clear() {
+  touches_.fill({});
+  grasp_ = {};
+}
+
+void GraspAnalysis::follow(std::span<const LinkContact> contacts, double milliseconds) {
+  for (Touch& touch : touches_) {
+    touch.age_ms += milliseconds;
+    if (touch.age_ms > kHold_ms) touch = {};
+  }
+  std::array<Eigen::Vector3d, kHandLinks> sums;
+  sums.fill(Eigen::Vector3d::Zero());
+  for (const LinkContact& contact : contacts) {
+    Touch& touch = touches_[contact.link];
+    Eigen::Vector3d& sum = sums[contact.link];
+    if (sum.isZero(0.0)) touch.object = contact.contact.obstacle;  // the first one that touches in this call
+    if (contact.contact.obstacle != touch.object) continue;
+    sum += contact.contact.n_W;
+    touch.age_ms = 0.0;
+    if (!sum.isZero(0.0)) touch.n_W = sum.normalized();
+  }
+}
+
+Grasp GraspAnalysis::analyze(std::int32_t object, const Eigen::Vector3d& up_W) const {
+  Grasp grasp;
+  grasp.object = object;
+  for (std::size_t link = 0; link < kHandLinks; ++link) {
+    if (touches_[link].object == object && meaning_[link].segment != HandSegment::kNone)
+      grasp.segments.add(meaning_[link]);
+  }
+  grasp.type = type_of(grasp.segments);
+  grasp.form = form_of(grasp, up_W);
+  return grasp;
+}
+
+GraspForm GraspAnalysis::form_of(const Grasp& grasp, const Eigen::Vector3d& up_W) const {
+  if (grasp.type == GraspType::kPrecision) return precision_form(grasp);
+  int carrying = 0;
+  bool all_carry = true;
+  for (const Touch& touch : touches_) {
+    if (touch.object != grasp.object) continue;
+    all_carry = all_carry && touch.n_W.dot(up_W) < -kFromBelow;
+    ++carrying;
+  }
+  if (all_carry && carrying >= 2) return GraspForm::kGravity;
+  if (grasp.type == GraspType::kPush && are_opposed(grasp)) return GraspForm::kCigarette;
+  return GraspForm::kNone;
+}
+
+GraspForm GraspAnalysis::precision_form(const Grasp& grasp) const {
+  const auto normal_of = [&](Finger finger, HandSegment kind) { return normal(grasp.object, {finger, kind}); };
+  if (are_tips_of(grasp.segments, std::array{Finger::kThumb, Finger::kIndex})) return GraspForm::kTipPinch;
+  for (std::size_t a = 1; a < kAllFingers.size(); ++a) {
+    for (std::size_t b = a + 1; b < kAllFingers.size(); ++b) {
+      if (!are_tips_of(grasp.segments, std::array{Finger::kThumb, kAllFingers[a], kAllFingers[b]})) continue;
+      const auto n_a = normal_of(kAllFingers[a], HandSegment::kOuter);
+      const auto n_b = normal_of(kAllFingers[b], HandSegment::kOuter);
+      const bool one_side = n_a && n_b && n_a->dot(*n_b) > kAlike;
+      if (!one_side) return GraspForm::kThreePoint;
+      if (kAllFingers[a] == Finger::kIndex && kAllFingers[b] == Finger::kMiddle) return GraspForm::kThreeJaw;
+    }
+  }
+  // The thumb's pad presses the object on the index, not on its tip.
+  const bool has_only_index = !grasp.segments.has(Finger::kMiddle) && !grasp.segments.has(Finger::kRing) &&
+                              !grasp.segments.has(Finger::kLittle);
+  const bool on_side = grasp.segments.has({Finger::kIndex, HandSegment::kMiddle}) ||
+                       grasp.segments.has({Finger::kIndex, HandSegment::kInner});
+  if (has_only_index && on_side && grasp.segments.has({Finger::kThumb, HandSegment::kOuter})) return GraspForm::kKey;
+  return GraspForm::kNone;
+}
+
+/// Whether exactly two neighboring fingers, none of them the thumb, touch the object from opposite sides.
+bool GraspAnalysis::are_opposed(const Grasp& grasp) const {
+  std::array<Eigen::Vector3d, 6> sums;
+  sums.fill(Eigen::Vector3d::Zero());
+  for (std::size_t link = 0; link < kHandLinks; ++link) {
+    if (touches_[link].object == grasp.object)
+      sums[static_cast<std::size_t>(meaning_[link].finger)] += touches_[link].n_W;
+  }
+  const auto touches = [&](Finger finger) { return grasp.segments.has(finger); };
+  if (touches(Finger::kNone) || touches(Finger::kThumb)) return false;
+  const auto first = std::find_if(kAllFingers.begin(), kAllFingers.end(), touches);
+  if (std::count_if(first, kAllFingers.end(), touches) != 2 || !touches(*(first + 1))) return false;
+  const auto n_W = [&](Finger finger) { return sums[static_cast<std::size_t>(finger)].normalized(); };
+  return n_W(*first).dot(n_W(*(first + 1))) < kOpposed;
+}
+
+std::optional<Eigen::Vector3d> GraspAnalysis::normal(std::int32_t object, const SegmentMeaning& segment) const {
+  for (std::size_t link = 0; link < kHandLinks; ++link) {
+    if (touches_[link].object == object && meaning_[link].finger == segment.finger &&
+        meaning_[link].segment == segment.segment)
+      return touches_[link].n_W;
+  }
+  return std::nullopt;
+}
+
+}  // namespace glissade::grasping

@@ -1,0 +1,114 @@
+#pragma once
+
+/// What kind of grasp the contacts of a hand make: the rules of the founding paper (§4), and the grasps that it names
+/// without a rule. docs/grasps.md draws each of them.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <Eigen/Core>
+
+#include <glissade/grasping/clasp.h>
+#include <glissade/grasping/hand_model.h>
+
+namespace glissade::grasping {
+
+/// The paper's answer. A segment touches if the clasp says so; the thumb's segments count as finger segments too.
+enum class GraspType : std::uint8_t {
+  kNone,       ///< nothing touches
+  kPush,       ///< one segment or the palm alone; or segments without thumb and palm; or palm and inner segments only
+  kPrecision,  ///< segments of the thumb and of another finger, without the palm
+  kPower,      ///< the palm and at least one middle or outer segment
+};
+
+/// A grasp with a name of its own, among those of a type.
+enum class GraspForm : std::uint8_t {
+  kNone,
+  kTipPinch,    ///< precision: outer segments of thumb and index only
+  kThreeJaw,    ///< precision: outer segments of thumb, index and middle finger, both fingers from one side
+  kThreePoint,  ///< precision: outer segments of thumb and two fingers, from three sides
+  kKey,         ///< precision: the thumb's outer segment against the side of the index
+  kCigarette,   ///< push: two neighboring fingers from opposite sides, without the thumb
+  kGravity,     ///< push or power: all contacts carry the object from below, two at least
+};
+
+std::string_view name_of(GraspType type);
+std::string_view name_of(GraspForm form);
+
+/// Segments that touch, as a set.
+class TouchingSegments {
+ public:
+  void add(const SegmentMeaning& segment) { bits_ |= bit(segment); }
+  bool has(const SegmentMeaning& segment) const { return (bits_ & bit(segment)) != 0; }
+  bool has(Finger finger) const { return (bits_ & (0xfU << first(finger))) != 0; }
+  bool has_palm() const { return has({Finger::kNone, HandSegment::kPalm}); }
+  int count() const;
+  bool is_empty() const { return bits_ == 0; }
+  bool operator==(const TouchingSegments&) const = default;
+
+ private:
+  static unsigned first(Finger finger) { return 4U * static_cast<unsigned>(finger); }
+  static std::uint32_t bit(const SegmentMeaning& segment) {
+    return 1U << (first(segment.finger) + static_cast<unsigned>(segment.segment) - 1U);
+  }
+
+  std::uint32_t bits_ = 0;
+};
+
+struct Grasp {
+  GraspType type = GraspType::kNone;
+  GraspForm form = GraspForm::kNone;
+  std::int32_t object = -1;   ///< number of the body, as `Contact::obstacle`; -1: nothing touches
+  TouchingSegments segments;  ///< that touch this body
+
+  /// Whether the object moves with the hand.
+  bool holds() const {
+    return type == GraspType::kPrecision || type == GraspType::kPower || form == GraspForm::kCigarette ||
+           form == GraspForm::kGravity;
+  }
+};
+
+/// A sentence without a stop, such as "power: the palm and the middle segment of the index touch".
+std::string reason_of(const Grasp& grasp);
+
+/// Follows the grasp over time. A segment counts as touching until it has not touched for 60 ms, so that the noise of a
+/// sensor makes no grasp flicker; and no grasp lasts longer than that without its contacts. If several bodies are
+/// touched, the body counts whose grasp is the firmest: power, precision, push. Real-time safe after construction. Not
+/// thread-safe.
+class GraspAnalysis {
+ public:
+  explicit GraspAnalysis(const HandModel& hand) : meaning_(hand.meaning) {}
+
+  /// The grasp after `milliseconds` with these contacts. `up_W` is a unit vector against gravity.
+  const Grasp& update(std::span<const LinkContact> contacts, double milliseconds,
+                      const Eigen::Vector3d& up_W = Eigen::Vector3d::UnitZ());
+  const Grasp& grasp() const { return grasp_; }
+
+  /// Forgets all contacts, as after a loss of tracking.
+  void clear();
+
+ private:
+  /// A segment's contact with one body.
+  struct Touch {
+    std::int32_t object = -1;
+    Eigen::Vector3d n_W = Eigen::Vector3d::Zero();  // unit, from the object to the segment
+    double age_ms = 0.0;                            // since it last touched
+  };
+
+  void follow(std::span<const LinkContact> contacts, double milliseconds);
+  Grasp analyze(std::int32_t object, const Eigen::Vector3d& up_W) const;
+  GraspForm form_of(const Grasp& grasp, const Eigen::Vector3d& up_W) const;
+  GraspForm precision_form(const Grasp& grasp) const;
+  bool are_opposed(const Grasp& grasp) const;
+  std::optional<Eigen::Vector3d> normal(std::int32_t object, const SegmentMeaning& segment) const;
+
+  std::array<SegmentMeaning, kHandLinks> meaning_;
+  std::array<Touch, kHandLinks> touches_{};  // by link
+  Grasp grasp_;
+};
+
+}  // namespace glissade::grasping
