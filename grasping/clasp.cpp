@@ -18,9 +18,10 @@ namespace {
 constexpr double kBracket_m = 5e-6;  // shorter steps are not worth their proof
 constexpr double kSmallestReach_m = 0.2e-3;
 constexpr double kGreatestReach_m = 10e-3;
+constexpr std::size_t kAffordablePairs = 1000;  // where a search finds more, the next ones look less far
 constexpr double kStepOfReach = 0.8;
 constexpr double kAheadOfReach = 1.0;  // a search looks so much farther
-constexpr int kRetries = 4;  // with the contacts that a proof has missed
+constexpr int kRetries = 4;            // with the contacts that a proof has missed
 constexpr int kHalvings = 6;
 
 std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const KinematicChain& chain,
@@ -61,6 +62,8 @@ class Clasp::Iteration {
       radius_ = std::max(radius_, 0.5 * chain_->reach(link, 0));
     posture_.values.resize(chain_->values().size());
     chain_->clamp(posture_.values);
+    if (rules.most_steps < 1) throw std::invalid_argument("a call of the clasp needs at least one step");
+    way_.assign(static_cast<std::size_t>(rules.most_steps), posture_);
   }
 
   const KinematicChain& chain() const { return *chain_; }
@@ -68,7 +71,7 @@ class Clasp::Iteration {
   const Posture& posture() const { return posture_; }
   std::span<const char> touching() const { return touching_; }
   const std::vector<LinkContact>& contacts() const { return link_contacts_; }
-  int steps() const { return steps_; }
+  std::span<const Posture> way() const { return {way_.data(), static_cast<std::size_t>(steps_)}; }
 
   void place_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
     bodies_.place_object(object, X_WB);
@@ -87,7 +90,7 @@ class Clasp::Iteration {
     if (!take(target)) return;
     if (state_ == ClaspState::kWaiting && !begin()) return;
     while (steps_ < rules_.most_steps && take_step())
-      ++steps_;
+      way_[static_cast<std::size_t>(steps_++)] = posture_;
     note_touching();
   }
 
@@ -136,16 +139,18 @@ class Clasp::Iteration {
     const double longest = motion_.longest();
     if (longest == 0.0) return false;
     // A clasped hand wants far more than it can do: the steps that it takes say how far to look.
-    const double reach = std::clamp(1.5 * longest + 2.0 * rules_.margin, kSmallestReach_m, reach_);
+    const double reach = std::clamp(1.5 * longest + 2.0 * rules_.margin, kSmallestReach_m, std::min(reach_, limit_));
     bodies_.look(reach, kAheadOfReach * reach);
+    limit_ = std::clamp(bodies_.pair_count() > kAffordablePairs ? 0.5 * reach : 1.25 * limit_, kSmallestReach_m,
+                        kGreatestReach_m);
     bodies_.find_contacts(found_);
     rows_.set(posture_, wanted_, found_, movers_);
     longest_step_ = kStepOfReach * reach;
     const bool goes_on = go(false) || (slides_ && go(true));
     const double taken = goes_on ? motion_.longest() : 0.0;
     const bool is_clipped = taken > 0.9 * longest_step_;
-    reach_ = std::clamp(is_clipped ? 2.0 * reach : std::max(0.5 * reach, 2.0 * taken), kSmallestReach_m,
-                        kGreatestReach_m);
+    reach_ =
+        std::clamp(is_clipped ? 2.0 * reach : std::max(0.5 * reach, 2.0 * taken), kSmallestReach_m, kGreatestReach_m);
     return goes_on;
   }
 
@@ -232,8 +237,10 @@ class Clasp::Iteration {
   ChainStep step_;
   bool slides_ = false;  // the root did not arrive
   double reach_ = kGreatestReach_m;
+  double limit_ = 1e-3;        // metres: that the pairs found allow
   double longest_step_ = 0.0;  // metres
   int steps_ = 0;
+  std::vector<Posture> way_;
   std::vector<Eigen::Isometry3d> X_WL_;
   std::vector<Eigen::Isometry3d> X_WL_target_;
   std::vector<haptics::Contact> found_;
@@ -283,8 +290,8 @@ const std::vector<LinkContact>& Clasp::contacts() const {
   return iteration_->contacts();
 }
 
-int Clasp::steps() const {
-  return iteration_->steps();
+std::span<const Posture> Clasp::way() const {
+  return iteration_->way();
 }
 
 }  // namespace glissade::grasping

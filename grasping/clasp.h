@@ -72,8 +72,9 @@ class Clasp {
   std::span<const char> touching() const;
   /// The contacts of all links that touch.
   const std::vector<LinkContact>& contacts() const;
-  /// Steps of the last call.
-  int steps() const;
+  /// The postures at which the steps of the last call ended. The root moves straight and by a rotation at a constant
+  /// rate about its origin from each to the next, and the flex values at constant rates; all of this is proven free.
+  std::span<const Posture> way() const;
 
  private:
   class Iteration;

@@ -79,6 +79,8 @@ class CertifiedBodies::State {
     candidates_.look(reach, ahead, {});
   }
 
+  std::size_t pair_count() const { return candidates_.size(); }
+
   void find_contacts(std::vector<Contact>& contacts) {
     candidates_.within(reach_, pairs_);
     haptics::find_contacts(scene_.bodies(), scene_.body_of_part(first_mover_), pairs_, reach_, margin_, contacts);
@@ -184,6 +186,10 @@ bool CertifiedBodies::is_free() const {
 
 void CertifiedBodies::look(double reach, double ahead) {
   state_->look(reach, ahead);
+}
+
+std::size_t CertifiedBodies::pair_count() const {
+  return state_->pair_count();
 }
 
 void CertifiedBodies::find_contacts(std::vector<Contact>& contacts) {

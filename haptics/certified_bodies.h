@@ -59,6 +59,8 @@ class CertifiedBodies {
   /// looks `ahead` (metres) farther, and serves until the bodies have moved so far. Throws std::invalid_argument for a
   /// pose that is not rigid.
   void look(double reach, double ahead);
+  /// Work of the calls below: the pairs of triangles and boxes that the last search has found.
+  std::size_t pair_count() const;
 
   /// Replaces `contacts` by those within the reach of the last `look`, at the present poses. `Contact::part` is the
   /// number of the mover, `Contact::obstacle` that of the other body; normals point to the mover. Gaps are positive.
