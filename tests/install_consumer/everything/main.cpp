@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -9,6 +10,8 @@
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
+#include <glissade/grasping/hand_model.h>
+#include <glissade/grasping/urdf_chain.h>
 #include <glissade/haptics/sliding.h>
 #include <glissade/realtime/triple_buffer.h>
 
@@ -51,5 +54,12 @@ int main() {
   realtime::TripleBuffer<devices::SafeCommand> buffer;
   buffer.publish(envelope.limit(command, devices::GloveState{}, std::chrono::milliseconds(1)));
   expect(buffer.latest().reasons().force_limited, "a glove is not sent a million newtons");
+
+  std::ofstream("wheel.urdf")
+      << "<robot name='r'><link name='a'/><link name='b'/><joint name='wheel' type='continuous'>"
+         "<parent link='a'/><child link='b'/></joint></robot>";
+  const grasping::KinematicChain wheel = grasping::read_urdf("wheel.urdf");
+  expect(wheel.values().size() == 1, "a chain is read from a URDF file");
+  expect(grasping::make_hand().chain.moves(0, 4), "the thumb rolls");
   std::cout << "The installed package works.\n";
 }

@@ -1,0 +1,95 @@
+#pragma once
+
+/// Hand poses from and for others: the 26 joints of OpenXR hand tracking, and the 24 joints of recordings made with the
+/// Adroit hand, a simulated robot hand. Frames: W world, R root of the hand (`HandModel`).
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include <Eigen/Geometry>
+
+#include <glissade/devices/glove_device.h>
+#include <glissade/grasping/hand_model.h>
+
+namespace glissade::grasping {
+
+/// What places a hand: its root, and its flex values in rad.
+struct HandPose {
+  Eigen::Isometry3d X_WR = Eigen::Isometry3d::Identity();
+  devices::JointValues values{};
+};
+
+inline constexpr std::size_t kOpenXrJoints = 26;
+
+/// The joints of XR_EXT_hand_tracking, in its order.
+inline constexpr std::array<std::string_view, kOpenXrJoints> kOpenXrJointNames{"palm",
+                                                                               "wrist",
+                                                                               "thumb_metacarpal",
+                                                                               "thumb_proximal",
+                                                                               "thumb_distal",
+                                                                               "thumb_tip",
+                                                                               "index_metacarpal",
+                                                                               "index_proximal",
+                                                                               "index_intermediate",
+                                                                               "index_distal",
+                                                                               "index_tip",
+                                                                               "middle_metacarpal",
+                                                                               "middle_proximal",
+                                                                               "middle_intermediate",
+                                                                               "middle_distal",
+                                                                               "middle_tip",
+                                                                               "ring_metacarpal",
+                                                                               "ring_proximal",
+                                                                               "ring_intermediate",
+                                                                               "ring_distal",
+                                                                               "ring_tip",
+                                                                               "little_metacarpal",
+                                                                               "little_proximal",
+                                                                               "little_intermediate",
+                                                                               "little_distal",
+                                                                               "little_tip"};
+
+/// A joint of OpenXR and its frame: the origin is the joint nearer to the wrist, −z points along the bone to the
+/// tip, y out of the back of the hand (for the thumb: of the nail).
+struct OpenXrJoint {
+  Eigen::Isometry3d X_WOpenXr = Eigen::Isometry3d::Identity();
+  double radius = 0.0;  ///< from the joint to the skin, m
+};
+
+using OpenXrJoints = std::array<OpenXrJoint, kOpenXrJoints>;
+
+/// The joints of a hand. The joint `wrist` is at the wrist, with the axes of the palm; the joint `palm` in the middle
+/// of the middle finger's metacarpal. Real-time safe; about 2 µs.
+OpenXrJoints to_openxr(const HandModel& hand, const HandPose& pose) noexcept;
+
+/// The pose of `hand` that is nearest to tracked joints. Reads the rotations of the joints and the position of the
+/// wrist, so the lengths of the tracked hand's bones do not matter. Each flex value is the least-squares angle of its
+/// joint; for the thumb's metacarpal, the direction of the bone counts four times as much as the direction of the nail.
+/// The poses must be rigid; a runtime says which joints it tracks.
+///
+/// OpenXR does not know the forearm. So both wrist angles are 0, and R is the frame of the palm. Values may lie beyond
+/// the limits (`KinematicChain::clamp`). The inverse of `to_openxr` up to rounding where the wrist angles are 0.
+/// Real-time safe; about 2 µs.
+HandPose from_openxr(const HandModel& hand, const OpenXrJoints& joints) noexcept;
+
+inline constexpr std::size_t kAdroitJoints = 24;
+
+/// The joints of the Adroit hand in the order of its recordings: wrist; first, middle, ring and little finger; thumb.
+inline constexpr std::array<std::string_view, kAdroitJoints> kAdroitJointNames{
+    "WRJ1", "WRJ0", "FFJ3", "FFJ2", "FFJ1", "FFJ0", "MFJ3", "MFJ2", "MFJ1", "MFJ0", "RFJ3", "RFJ2",
+    "RFJ1", "RFJ0", "LFJ4", "LFJ3", "LFJ2", "LFJ1", "LFJ0", "THJ4", "THJ3", "THJ2", "THJ1", "THJ0"};
+
+/// The pose of a right hand for joint angles of the Adroit hand, in rad. The frame Adroit is that of its wrist: z
+/// points to the fingers, x to the thumb's side, y out of the back of the hand.
+///
+/// Both hands are built differently, so a pose is matched as follows. Angles of the wrist, MCP, PIP and DIP are taken
+/// over; so are the angles between fingers. `palm_arch` lowers the knuckle of the little finger as far as LFJ4 does.
+/// The thumb's metacarpal points as the recorded one does; its MCP and IP joints take over −THJ1 and −THJ0. THJ2, a
+/// sideways motion of the thumb's MCP joint, has no counterpart. Values may lie beyond the limits.
+///
+/// Throws std::invalid_argument for a left hand.
+HandPose from_adroit(const HandModel& hand, const std::array<double, kAdroitJoints>& joints,
+                     const Eigen::Isometry3d& X_WAdroit);
+
+}  // namespace glissade::grasping

@@ -1,0 +1,95 @@
+#pragma once
+
+/// A tree of rigid segments joined by hinges: a hand, a gripper, an arm. Use it to place the segments for given joint
+/// angles, and to find out which segments an angle moves, and how far at most.
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <glissade/geometry/triangle_mesh.h>
+
+namespace glissade::grasping {
+
+/// A number that sets joint angles, in radians, with its limits. The founding paper calls it a flex value (paper §4).
+struct FlexValue {
+  std::string name;
+  double lower = 0.0;
+  double upper = 0.0;
+};
+
+/// A part of a joint's angle: `factor` times the flex value with the number `value`.
+struct JointTerm {
+  std::size_t value = 0;
+  double factor = 1.0;
+};
+
+/// A segment, and the joint by which it hangs on its parent. Frames: P parent link, J joint, L link. At angle 0, L = J;
+/// a positive angle turns L about `axis_J` by the right-hand rule. A joint with two degrees of freedom consists of two
+/// links at the same place, the first without a mesh.
+struct ChainLink {
+  std::string name;
+  std::optional<std::size_t> parent;  ///< a link with a lower number; none for the root, link 0, whose frame is R
+  Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d axis_J = Eigen::Vector3d::UnitX();   ///< of unit length
+  double offset = 0.0;                                 ///< rad
+  std::vector<JointTerm> terms;                        ///< angle = offset + sum of the terms; none: a fixed joint
+  std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< in L, in metres; null: nothing that could touch
+};
+
+/// Immutable after construction, so safe to share between threads. All functions but the constructor are real-time
+/// safe: they neither allocate nor wait.
+class KinematicChain {
+ public:
+  /// Throws std::invalid_argument, naming the link or the flex value: without links; for a name that is empty or occurs
+  /// twice; for numbers that are not finite; for a lower limit above the upper one; for a parent that does not come
+  /// before its child; for a root that has a joint; for an X_PJ that is no rigid pose; for an axis not of unit length
+  /// (to 1e-6); for a term with a value that does not exist; for a mesh without vertices. Cost
+  /// O(links · (links + values) + vertices).
+  KinematicChain(std::vector<FlexValue> values, std::vector<ChainLink> links);
+
+  std::span<const FlexValue> values() const& noexcept { return values_; }
+  std::span<const ChainLink> links() const& noexcept { return links_; }
+  std::span<const FlexValue> values() const&& = delete;  // of a chain that ends with the expression
+  std::span<const ChainLink> links() const&& = delete;
+
+  /// Poses X_WL of all links, for the root at X_WR and flex values in rad, within the limits or not. `values` and
+  /// `X_WL` must have one entry for each value and each link. Cost O(links), about 50 ns a link that moves.
+  void poses(const Eigen::Isometry3d& X_WR, std::span<const double> values,
+             std::span<Eigen::Isometry3d> X_WL) const noexcept;
+
+  /// Whether the pose of a link in R depends on a flex value. O(1).
+  bool moves(std::size_t value, std::size_t link) const noexcept;
+
+  /// Whether `descendant` is `link` itself or hangs on it, directly or through other links. O(1).
+  bool hangs_on(std::size_t descendant, std::size_t link) const noexcept;
+
+  /// An upper bound, for any flex values, of the distance (m) of the mesh points of `link` from the origin of `joint`:
+  /// the frame of `link` itself or of a link on which it hangs (`hangs_on(link, joint)` must hold). So, where this
+  /// joint turns by an angle a, no point of `link` moves farther than 2 sin(a/2) · reach. 0 for a link without a mesh.
+  /// O(1).
+  double reach(std::size_t link, std::size_t joint) const noexcept;
+
+  /// Moves each value that is beyond a limit to this limit.
+  void clamp(std::span<double> values) const noexcept;
+
+ private:
+  void find_dependencies();
+  void find_reaches();
+  std::size_t pair(std::size_t link, std::size_t other) const noexcept { return link * links_.size() + other; }
+
+  std::vector<FlexValue> values_;
+  std::vector<ChainLink> links_;
+  std::vector<Eigen::Isometry3d> X_PJ_;  ///< of links with a fixed joint: X_PL
+  std::vector<char> moves_;              ///< by link and value
+  std::vector<char> hangs_on_;           ///< by link and other link
+  std::vector<double> reach_;            ///< by link and joint
+};
+
+}  // namespace glissade::grasping

@@ -1,0 +1,30 @@
+#pragma once
+
+/// Kinematic chains from URDF files, the format of robot descriptions of ROS.
+
+#include <filesystem>
+
+#include <glissade/grasping/kinematic_chain.h>
+
+namespace glissade::grasping {
+
+/// Reads a robot as a chain. Its root is the root link of the file; each link comes before those that hang on it.
+///
+/// - Joints: `revolute` with its limits, `continuous` with limits of ±π, and `fixed`. Every joint that turns and mimics
+///   no other gives a flex value with its name, in the order of the links.
+/// - `<mimic>`: the joint turns with the value of the joint that it mimics, directly or through other mimics. Limits of
+///   a joint that mimics are not used.
+/// - Meshes: the collision geometry of a link, as one mesh. Boxes, cylinders and spheres become triangles. Mesh files
+///   are read by `geometry::import_mesh`, with `scale`; their paths are absolute, relative to the folder of the URDF
+///   file, `file://`, or `package://NAME/PATH`. The folder of a package is the nearest folder NAME that contains the
+///   URDF file, or that is in a folder that contains it.
+///
+/// Visual geometry, masses, dynamics and transmissions are ignored.
+///
+/// Throws std::invalid_argument, naming the file and the link or joint, for a file that is missing or not well formed;
+/// for prismatic, floating and planar joints; for links that do not form one tree; for limits, axes, sizes and scales
+/// that are no proper numbers; for mimics of joints that are missing, fixed or mimic in a circle; for mesh files that
+/// cannot be found or imported. May block on the disk.
+KinematicChain read_urdf(const std::filesystem::path& path);
+
+}  // namespace glissade::grasping
