@@ -1,0 +1,256 @@
+/// The clasp: fingers close tight round an object and never go in.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/grasping/clasp.h>
+
+#include "clasped_hand.h"
+#include "poses.h"
+
+namespace glissade::grasping {
+namespace {
+
+using test_support::at;
+using test_support::bent_hand;
+using test_support::ClaspedHand;
+using test_support::hand_chain;
+using test_support::open_hand;
+
+/// A ball in front of the palm.
+ClaspedHand hand_at_ball() {
+  return {geometry::make_sphere(0.035, 2000), at(0.095, 0.0, -0.056)};
+}
+
+void close(Clasp& clasp, double angle, int calls) {
+  for (int i = 1; i <= calls; ++i)
+    clasp.advance(bent_hand(angle * std::min(1.0, 2.0 * i / calls)));
+}
+
+TEST(Clasp, FollowsATargetThatTouchesNothing) {
+  ClaspedHand hand(geometry::make_sphere(0.03, 200), at(1.0, 0.0, 0.0));
+  hand.clasp.advance(open_hand());
+  EXPECT_EQ(hand.clasp.state(), ClaspState::kClasping);
+  Posture target = bent_hand(0.8);
+  target.X_WR = at(0.01, 0.02, 0.03);
+  for (int i = 0; i < 40; ++i)
+    hand.clasp.advance(target);
+  EXPECT_EQ(hand.clasp.posture().values, target.values);
+  EXPECT_TRUE(hand.clasp.posture().X_WR.isApprox(target.X_WR, 1e-12));
+  EXPECT_TRUE(hand.clasp.contacts().empty());
+}
+
+TEST(Clasp, ClosesTightRoundABallAndStaysOutside) {
+  ClaspedHand hand = hand_at_ball();
+  Posture last = open_hand();
+  hand.clasp.advance(last);
+  for (int i = 1; i <= 200; ++i) {
+    hand.clasp.advance(bent_hand(1.2 * std::min(1.0, i / 100.0)));
+    ASSERT_FALSE(hand.collides(hand.clasp.posture())) << i;
+    ASSERT_FALSE(hand.way_collides(last, 4)) << i;
+    last = hand.clasp.posture();
+  }
+  const auto count = std::count(hand.clasp.touching().begin(), hand.clasp.touching().end(), 1);
+  EXPECT_GE(count, 4) << "segments that touch";
+  for (std::size_t link = 0; link < hand.clasp.touching().size(); ++link) {
+    if (hand.clasp.touching()[link] == 0) continue;
+    double gap = std::numeric_limits<double>::infinity();
+    for (const LinkContact& contact : hand.clasp.contacts()) {
+      if (contact.link == link) gap = std::min(gap, contact.contact.gap);
+    }
+    EXPECT_LE(gap, 0.1e-3) << hand_chain()->links()[link].name;
+  }
+}
+
+TEST(Clasp, LeavesNoFlexValueThatAloneCouldComeNearer) {
+  ClaspedHand hand = hand_at_ball();
+  hand.clasp.advance(open_hand());
+  close(hand.clasp, 1.2, 300);
+  const Posture target = bent_hand(1.2);
+  constexpr double kFarther_rad = 0.2e-3 / 0.02;  // moves the point of a finger that is 20 mm from the joint by 0.2 mm
+  for (std::size_t v = 0; v < target.values.size(); ++v) {
+    const double left = target.values[v] - hand.clasp.posture().values[v];
+    if (std::abs(left) < kFarther_rad) continue;
+    Posture nearer = hand.clasp.posture();
+    nearer.values[v] += std::copysign(kFarther_rad, left);
+    EXPECT_TRUE(hand.collides(nearer)) << hand_chain()->values()[v].name << " stopped " << left << " rad too early";
+  }
+}
+
+TEST(Clasp, OpensAgain) {
+  ClaspedHand hand = hand_at_ball();
+  hand.clasp.advance(open_hand());
+  close(hand.clasp, 1.2, 200);
+  for (int i = 0; i < 100; ++i)
+    hand.clasp.advance(open_hand());
+  EXPECT_EQ(hand.clasp.posture().values, open_hand().values);
+  EXPECT_TRUE(hand.clasp.contacts().empty());
+}
+
+TEST(Clasp, SlidesAlongAPlateThatThePalmIsPressedOn) {
+  ClaspedHand hand(geometry::make_plate({0.6, 0.6}, 200), at(0.1, 0.0, -0.08));
+  hand.clasp.advance(open_hand());
+  Posture pressed = open_hand();
+  for (int i = 0; i < 100; ++i) {
+    pressed.X_WR = at(0.0, 0.0, -1e-3 * i);
+    hand.clasp.advance(pressed);
+  }
+  const double height = hand.clasp.posture().X_WR.translation().z();
+  EXPECT_GT(height, -0.08);
+  for (int i = 0; i < 100; ++i) {
+    pressed.X_WR = at(0.0, 0.5e-3 * i, -0.1);
+    hand.clasp.advance(pressed);
+  }
+  EXPECT_FALSE(hand.collides(hand.clasp.posture()));
+  EXPECT_NEAR(hand.clasp.posture().X_WR.translation().y(), 0.0495, 1e-3);
+}
+
+TEST(Clasp, PassesThroughNoSheetHoweverFastTheHand) {
+  ClaspedHand hand(geometry::make_plate({0.6, 0.6}, 200), at(0.1, 0.0, -0.08));
+  hand.clasp.advance(open_hand());
+  Posture beyond = open_hand();
+  beyond.X_WR = at(0.0, 0.0, -0.3);
+  for (int i = 0; i < 100; ++i)
+    hand.clasp.advance(beyond);
+  EXPECT_GT(hand.clasp.posture().X_WR.translation().z(), -0.08) << "the target itself is free";
+}
+
+TEST(Clasp, WaitsWhileAHandThatStartsInsideIsNotFree) {
+  ClaspedHand hand(geometry::make_sphere(0.035, 2000), at(0.095, 0.0, 0.0));
+  hand.clasp.advance(open_hand());
+  EXPECT_EQ(hand.clasp.state(), ClaspState::kWaiting);
+  EXPECT_TRUE(hand.clasp.contacts().empty());
+  Posture away = open_hand();
+  away.X_WR = at(0.0, 0.0, 0.2);
+  hand.clasp.advance(away);
+  EXPECT_EQ(hand.clasp.state(), ClaspState::kClasping);
+  EXPECT_EQ(hand.clasp.posture().values, away.values);
+}
+
+TEST(Clasp, WaitsAfterTheCartHasMovedTheHandIntoAnObject) {
+  ClaspedHand hand = hand_at_ball();
+  hand.clasp.advance(open_hand());
+  Posture inside = open_hand();
+  inside.X_WR = at(0.0, 0.0, -0.05);
+  hand.clasp.move_cart(inside);
+  EXPECT_EQ(hand.clasp.state(), ClaspState::kWaiting);
+  hand.clasp.advance(inside);
+  EXPECT_EQ(hand.clasp.state(), ClaspState::kWaiting);
+  EXPECT_TRUE(hand.clasp.contacts().empty());
+  hand.clasp.advance(open_hand());
+  EXPECT_EQ(hand.clasp.state(), ClaspState::kClasping);
+}
+
+TEST(Clasp, WaitsWhenAnObjectIsPlacedInsideTheHand) {
+  ClaspedHand hand = hand_at_ball();
+  hand.clasp.advance(open_hand());
+  hand.clasp.place_object(0, at(0.095, 0.0, 0.0));
+  EXPECT_EQ(hand.clasp.state(), ClaspState::kWaiting);
+}
+
+TEST(Clasp, IgnoresATargetThatIsNotFinite) {
+  ClaspedHand hand = hand_at_ball();
+  hand.clasp.advance(open_hand());
+  Posture bad = bent_hand(0.5);
+  bad.values[5] = std::numeric_limits<double>::quiet_NaN();
+  hand.clasp.advance(bad);
+  EXPECT_EQ(hand.clasp.posture().values, open_hand().values);
+  bad = open_hand();
+  bad.X_WR.translation().x() = std::numeric_limits<double>::infinity();
+  hand.clasp.advance(bad);
+  EXPECT_EQ(hand.clasp.posture().values, open_hand().values);
+}
+
+TEST(Clasp, GivesTheSameBitsAgain) {
+  ClaspedHand first = hand_at_ball();
+  ClaspedHand second = hand_at_ball();
+  for (ClaspedHand* hand : {&first, &second}) {
+    hand->clasp.advance(open_hand());
+    close(hand->clasp, 1.0, 100);
+  }
+  EXPECT_EQ(first.clasp.posture().values, second.clasp.posture().values);
+  EXPECT_EQ(first.clasp.posture().X_WR.matrix(), second.clasp.posture().X_WR.matrix());
+}
+
+/// A hand that moves about an object at random, each flex value through its whole range at up to 10 rad/s or more.
+class RandomHand {
+ public:
+  RandomHand(std::uint64_t seed, double speed) : random_(seed), speed_(speed) {
+    for (const FlexValue& value : hand_chain()->values())
+      waves_.push_back({value, std::numbers::pi * unit_(random_), speed * (6.0 + 4.0 * unit_(random_))});
+  }
+
+  Posture at_ms(int ms) const {
+    const double t = 1e-3 * ms;
+    Posture posture = open_hand();
+    for (std::size_t v = 0; v < waves_.size(); ++v) {
+      const Wave& wave = waves_[v];
+      const double middle = 0.5 * (wave.value.lower + wave.value.upper);
+      posture.values[v] = middle + (wave.value.upper - middle) * std::sin(wave.rate * t + wave.phase);
+    }
+    const Eigen::Quaterniond turn = Eigen::AngleAxisd(0.7 * speed_ * t, Eigen::Vector3d(0.3, 0.5, 0.8).normalized()) *
+                                    Eigen::AngleAxisd(0.5 * std::sin(3.0 * speed_ * t), Eigen::Vector3d::UnitX());
+    const double distance = 0.07 + 0.05 * std::sin(2.1 * speed_ * t);
+    posture.X_WR.linear() = turn.toRotationMatrix();
+    posture.X_WR.translation() = turn * Eigen::Vector3d(-0.09, 0.0, distance);
+    return posture;
+  }
+
+ private:
+  struct Wave {
+    FlexValue value;
+    double phase;
+    double rate;
+  };
+
+  std::mt19937_64 random_;
+  std::uniform_real_distribution<double> unit_{-1.0, 1.0};
+  double speed_;
+  std::vector<Wave> waves_;
+};
+
+/// GLISSADE_GRASP_MS: milliseconds for each object, for a longer run.
+int torture_ms() {
+  const char* const text = std::getenv("GLISSADE_GRASP_MS");
+  return text != nullptr ? std::atoi(text) : 300;
+}
+
+TEST(Clasp, OfAWildHandIsFreeAtEveryPostureAndOnEveryWay) {
+  const std::vector<std::pair<std::string, geometry::TriangleMesh>> objects{
+      {"ball", geometry::make_sphere(0.035, 1000)},
+      {"box", geometry::make_box({0.06, 0.05, 0.08}, 300)},
+      {"ring", geometry::make_torus(0.04, 0.008, 1000)},
+      {"open sheet", geometry::make_plate({0.15, 0.1}, 100)}};
+  for (const auto& [name, object] : objects) {
+    int touching = 0;
+    for (const double speed : {1.0, 3.0}) {
+      constexpr std::uint64_t kSeed = 11;
+      const RandomHand random(kSeed, speed);
+      ClaspedHand hand(object, Eigen::Isometry3d::Identity());
+      Posture last = hand.clasp.posture();
+      for (int ms = 0; ms < torture_ms(); ++ms) {
+        const bool was_clasping = hand.clasp.state() == ClaspState::kClasping;
+        hand.clasp.advance(random.at_ms(ms));
+        if (hand.clasp.state() == ClaspState::kWaiting) continue;
+        ASSERT_FALSE(hand.collides(hand.clasp.posture())) << name << ", seed " << kSeed << ", ms " << ms;
+        const bool is_bad = was_clasping && hand.way_collides(last, 4);
+        ASSERT_FALSE(is_bad) << name << ", seed " << kSeed << ", ms " << ms;
+        last = hand.clasp.posture();
+        touching += hand.clasp.contacts().empty() ? 0 : 1;
+      }
+    }
+    EXPECT_GT(touching, 0) << name;
+  }
+}
+
+}  // namespace
+}  // namespace glissade::grasping

@@ -1,0 +1,139 @@
+/// Kinds of grasps by their contacts.
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/grasping/grasp_analysis.h>
+
+#include "clasped_hand.h"
+
+namespace glissade::grasping {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr SegmentMeaning kPalm{Finger::kNone, HandSegment::kPalm};
+
+SegmentMeaning inner(Finger finger) {
+  return {finger, HandSegment::kInner};
+}
+SegmentMeaning middle(Finger finger) {
+  return {finger, HandSegment::kMiddle};
+}
+SegmentMeaning outer(Finger finger) {
+  return {finger, HandSegment::kOuter};
+}
+
+/// The contact of a segment with a body.
+LinkContact touch(const SegmentMeaning& segment, const Vector3d& n_W = Vector3d::UnitX(), std::int32_t object = 0) {
+  LinkContact contact{};
+  for (std::size_t link = 0; link < kHandLinks; ++link) {
+    const SegmentMeaning& meaning = test_support::hand_model()->meaning[link];
+    if (meaning.finger == segment.finger && meaning.segment == segment.segment) contact.link = link;
+  }
+  contact.contact.n_W = n_W;
+  contact.contact.obstacle = object;
+  return contact;
+}
+
+Grasp grasp_of(const std::vector<LinkContact>& contacts) {
+  GraspAnalysis analysis(*test_support::hand_model());
+  return analysis.update(contacts, 1.0);
+}
+
+TEST(GraspAnalysis, NothingThatTouchesIsNoGrasp) {
+  EXPECT_EQ(grasp_of({}).type, GraspType::kNone);
+  EXPECT_EQ(reason_of(grasp_of({})), "none: nothing touches");
+}
+
+TEST(GraspAnalysis, OneSegmentOrThePalmAlonePushes) {
+  EXPECT_EQ(grasp_of({touch(outer(Finger::kIndex))}).type, GraspType::kPush);
+  EXPECT_EQ(grasp_of({touch(kPalm)}).type, GraspType::kPush);
+  EXPECT_EQ(grasp_of({touch(outer(Finger::kThumb))}).type, GraspType::kPush);
+  EXPECT_EQ(reason_of(grasp_of({touch(kPalm)})), "push: the palm touches");
+}
+
+TEST(GraspAnalysis, FingersWithoutThumbAndPalmPush) {
+  EXPECT_EQ(grasp_of({touch(outer(Finger::kIndex)), touch(middle(Finger::kRing))}).type, GraspType::kPush);
+}
+
+TEST(GraspAnalysis, TheThumbAloneWithSeveralSegmentsPushes) {
+  EXPECT_EQ(grasp_of({touch(outer(Finger::kThumb)), touch(middle(Finger::kThumb))}).type, GraspType::kPush);
+}
+
+TEST(GraspAnalysis, ThumbAndFingerWithoutPalmAreAPrecisionGrasp) {
+  const Grasp grasp = grasp_of({touch(outer(Finger::kThumb)), touch(middle(Finger::kRing))});
+  EXPECT_EQ(grasp.type, GraspType::kPrecision);
+  EXPECT_TRUE(grasp.holds());
+}
+
+TEST(GraspAnalysis, PalmAndAMiddleOrOuterSegmentAreAPowerGrasp) {
+  const Grasp grasp = grasp_of({touch(kPalm), touch(inner(Finger::kRing)), touch(middle(Finger::kIndex))});
+  EXPECT_EQ(grasp.type, GraspType::kPower);
+  EXPECT_EQ(reason_of(grasp),
+            "power: the palm, the middle segment of the index and the inner segment of the ring finger touch");
+  EXPECT_EQ(grasp_of({touch(kPalm), touch(outer(Finger::kThumb))}).type, GraspType::kPower);
+}
+
+TEST(GraspAnalysis, PalmAndInnerSegmentsPush) {
+  EXPECT_EQ(grasp_of({touch(kPalm), touch(inner(Finger::kIndex)), touch(inner(Finger::kRing))}).type, GraspType::kPush);
+}
+
+TEST(GraspAnalysis, NamesTheFormsOfPrecision) {
+  const LinkContact thumb = touch(outer(Finger::kThumb), -Vector3d::UnitX());
+  const LinkContact index = touch(outer(Finger::kIndex));
+  EXPECT_EQ(grasp_of({thumb, index}).form, GraspForm::kTipPinch);
+  EXPECT_EQ(grasp_of({thumb, index, touch(outer(Finger::kMiddle))}).form, GraspForm::kThreeJaw);
+  const Vector3d beside = Vector3d(0.5, 0.87, 0.0).normalized();
+  EXPECT_EQ(grasp_of({thumb, touch(outer(Finger::kIndex), beside),
+                      touch(outer(Finger::kMiddle), Vector3d(beside.x(), -beside.y(), 0.0))})
+                .form,
+            GraspForm::kThreePoint);
+  EXPECT_EQ(grasp_of({thumb, touch(middle(Finger::kIndex))}).form, GraspForm::kKey);
+  EXPECT_EQ(grasp_of({thumb, index, touch(outer(Finger::kLittle))}).form, GraspForm::kNone);
+}
+
+TEST(GraspAnalysis, TwoNeighboringFingersFromOppositeSidesHoldACigarette) {
+  const LinkContact index = touch(middle(Finger::kIndex), Vector3d::UnitY());
+  const LinkContact middle_finger = touch(middle(Finger::kMiddle), -Vector3d::UnitY());
+  const Grasp grasp = grasp_of({index, middle_finger});
+  EXPECT_EQ(grasp.type, GraspType::kPush) << "by the paper's rules";
+  EXPECT_EQ(grasp.form, GraspForm::kCigarette);
+  EXPECT_TRUE(grasp.holds());
+  EXPECT_EQ(grasp_of({index, touch(middle(Finger::kMiddle), Vector3d::UnitY())}).form, GraspForm::kNone);
+  EXPECT_EQ(grasp_of({index, touch(middle(Finger::kRing), -Vector3d::UnitY())}).form, GraspForm::kNone);
+}
+
+TEST(GraspAnalysis, SegmentsBelowAnObjectCarryIt) {
+  const Vector3d down = -Vector3d::UnitZ();
+  EXPECT_EQ(grasp_of({touch(kPalm, down), touch(inner(Finger::kMiddle), down)}).form, GraspForm::kGravity);
+  EXPECT_EQ(grasp_of({touch(kPalm, down)}).form, GraspForm::kNone) << "one contact does not carry";
+  EXPECT_EQ(grasp_of({touch(kPalm, down), touch(middle(Finger::kMiddle), -down)}).form, GraspForm::kNone);
+}
+
+TEST(GraspAnalysis, SegmentsOnDifferentBodiesMakeNoGrasp) {
+  const Grasp grasp =
+      grasp_of({touch(outer(Finger::kThumb), Vector3d::UnitX(), 0), touch(outer(Finger::kIndex), Vector3d::UnitX(), 1),
+                touch(outer(Finger::kMiddle), Vector3d::UnitX(), 1)});
+  EXPECT_EQ(grasp.type, GraspType::kPush);
+  EXPECT_EQ(grasp.object, 1) << "most segments touch it";
+}
+
+TEST(GraspAnalysis, AContactThatIsMissingForAMomentMakesNoGraspFlicker) {
+  GraspAnalysis analysis(*test_support::hand_model());
+  const std::vector<LinkContact> whole{touch(outer(Finger::kThumb)), touch(outer(Finger::kIndex))};
+  const std::vector<LinkContact> without_thumb{whole[1]};
+  analysis.update(whole, 1.0);
+  for (int i = 0; i < 50; ++i)
+    EXPECT_EQ(analysis.update(without_thumb, 1.0).type, GraspType::kPrecision) << i;
+  for (int i = 0; i < 50; ++i)
+    analysis.update(without_thumb, 1.0);
+  EXPECT_EQ(analysis.grasp().type, GraspType::kPush) << "it is over";
+  analysis.clear();
+  EXPECT_EQ(analysis.update({}, 1.0).type, GraspType::kNone);
+}
+
+}  // namespace
+}  // namespace glissade::grasping
