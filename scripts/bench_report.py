@@ -29,7 +29,7 @@ def machine(command, bench):
         packages = {"libccd": "ccd", "FCL": "fcl", "Bullet": "bullet"}
     elif bench == "handoff":
         packages = {"Boost": "boost"}
-    elif bench in ("sliding", "tick", "latency"):
+    elif bench in ("sliding", "tick", "passivity", "latency"):
         packages = {}
     versions = [f"{title} {output_of('dpkg-query', '-W', '-f=${Version}', f'lib{package}-dev')}" for title, package in packages.items()]
     facts = [datetime.date.today().isoformat(), cpu[1] if cpu else "unknown processor", output_of("c++", "--version").splitlines()[0]]
@@ -327,6 +327,30 @@ def tick(figures, _):
     return text + table(["rows of the set, or the envelope alone", "time of a call, µs (median of 101 means of 1000 calls)"], costs)
 
 
+FEEL = {"stiffness": "stiffness, N/m", "force": "force, N", "overshoot": "overshoot, %", "settled_after": "within 2 % after, ms",
+        "unrest": "change in the last second, N"}
+
+
+def passivity(figures, _):
+    """Stiffness by theory and in simulation; energy of random walls; what a delay feels like."""
+    limits = {}
+    for case in figures.cases:
+        if figures.get(case, "simulation", "stiffness") is not None:
+            device, delay = case.rsplit("-", 1)
+            limits.setdefault(device, {})[delay.removesuffix("ms")] = case
+    delays = list(next(iter(limits.values())))
+    rows = [[device] + [f"{number(figures.get(case, 'glissade', 'stiffness'))}, {number(figures.get(case, 'simulation', 'stiffness'))} "
+                        f"({figures.get(case, 'glissade', 'ratio_to_simulation'):.3f})" for case in cases.values()]
+            for device, cases in limits.items()]
+    text = table(["N/m: by theory, in simulation (ratio)"] + [f"{delay} ms" for delay in delays], rows)
+    settings, least, given = (figures.get("random", "glissade", metric) for metric in ("settings", "least_energy", "most_given"))
+    text += (f"Over {settings:.0f} random settings, the energy of the observer was never below {1000 * least:.1f} mJ; a wall gave a "
+             f"hand at most {given:.2f} J more than it had taken.\n\n")
+    rows = [[case.removeprefix("wall-").removesuffix("ms") + " ms"] + [number(figures.get(case, "glissade", metric)) for metric in FEEL]
+            for case in figures.cases if case.startswith("wall-")]
+    return text + table(["delay of the round trip"] + list(FEEL.values()), rows)
+
+
 HANDOFFS = {"glissade": "triple buffer", "glissade-ring": "ring", "mutex": "mutex", "boost-spsc": "boost spsc_queue"}
 HANDOFF_FIGURES = [("one-thread", "time"), ("two-threads", "time"), ("two-threads", "time_p99"), ("two-threads", "publish_p50"),
                    ("two-threads", "publish_p99")]
@@ -372,7 +396,7 @@ def latency(figures, _):
 
 
 SECTIONS = {"zachmann": zachmann, "close": queries, "shells": queries, "coherent": coherent, "all-pairs": all_pairs,
-            "build": build, "hull": hull, "scene": scene, "threads": threads, "sliding": sliding, "tick": tick,
+            "build": build, "hull": hull, "scene": scene, "threads": threads, "sliding": sliding, "tick": tick, "passivity": passivity,
             "handoff": handoff, "latency": latency}
 
 
