@@ -54,11 +54,11 @@ std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
 /// largest force, and 0.1 J at the start for errors of sampling. Below 0.1 J the wrench shrinks smoothly with the
 /// energy, to a fifth; what this would still give too much within ten periods is cut. When there is no force any more,
 /// the energy is at most 0.1 J, and recovers by 0.1 W; while the force returns from an interruption and up to half a
-/// second after, it is at least 0.1 J. In a calm contact, in which less than 10 mJ went to and fro in about the last half
-/// second, it recovers to 0.1 J by up to 0.1 W, so that a force that was reduced comes back before the contact ends.
-/// Returns and calm contacts together take at most 1 J and 0.1 W. For a glove that tells the delay of its link, the
-/// envelope at the glove's end does this alone. So no delay and no error of the simulation can feed an oscillation, and
-/// a hand at rest feels no jump. Joint torques are not counted. Sources: Hannaford and Ryu, Time-domain passivity
+/// second after, it is at least 0.1 J. In a calm contact, in which less than 10 mJ went to and fro in about the last
+/// half second, it recovers to 0.1 J by up to 0.1 W, so that a force that was reduced comes back before the contact
+/// ends. Returns and calm contacts together take at most 1 J and 0.1 W. For a glove that tells the delay of its link,
+/// the envelope at the glove's end does this alone. So no delay and no error of the simulation can feed an oscillation,
+/// and a hand at rest feels no jump. Joint torques are not counted. Sources: Hannaford and Ryu, Time-domain passivity
 /// control of haptic interfaces, 2002, for the observer; Franken et al., Bilateral telemanipulation with time delays: a
 /// two-layer approach combining passivity and transparency, 2011, for the shrinking with the energy in a tank.
 ///

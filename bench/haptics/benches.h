@@ -46,10 +46,10 @@ void run_solver(const SlidingBenchOptions& options, Results& results);
 /// force; `sideways` on the plane. Cases `cost-ROWS` and `cost-envelope`: metric `time` of a tick, and of the envelope.
 void run_tick(const SlidingBenchOptions& options, Results& results);
 
-/// The stability of the coupling, without a clock. Cases `DEVICE-DELAYms`: metric `stiffness` of the subjects `glissade`
-/// (`passive_stiffness`) and `simulation` (from where an oscillation grows), `ratio_to_simulation`. Case `random`:
-/// `settings`, `least_energy` of the observer, `most_given` to a hand. Cases `wall-DELAYms`, by the delay of the round
-/// trip: `stiffness`, `force`, `overshoot`, `settled_after` and `unrest` of a hand that presses on a wall.
+/// The stability of the coupling, without a clock. Cases `DEVICE-DELAYms`: metric `stiffness` of the subjects
+/// `glissade` (`passive_stiffness`) and `simulation` (from where an oscillation grows), `ratio_to_simulation`. Case
+/// `random`: `settings`, `least_energy` of the observer, `most_given` to a hand. Cases `wall-DELAYms`, by the delay of
+/// the round trip: `stiffness`, `force`, `overshoot`, `settled_after` and `unrest` of a hand that presses on a wall.
 void run_passivity(const SlidingBenchOptions& options, Results& results);
 
 }  // namespace glissade::bench
