@@ -24,10 +24,13 @@ constexpr double kLeastScale = 0.2;     // where all energy is gone: with less, 
 constexpr double kScaleFall_s = 0.03;
 constexpr double kScaleRise_s = 0.3;
 constexpr double kReserve_J = 0.005;     // not given away, because the rates come after this limit
-constexpr double kMostRefill_J = 1.0;    // for the returns from interruptions; comes back by kRecovery_W
+constexpr double kMostRefill_J = 1.0;    // for returns and calm contacts; comes back by kRecovery_W
 constexpr double kRecovery_W = 0.1;      // without a force, up to the energy at the start
 constexpr double kEnergyPeriods = 10.0;  // longer than a fade
 constexpr nanoseconds kReturnIsFree = std::chrono::milliseconds(500);
+constexpr double kStir_s = 0.5;
+constexpr double kMostStirred_J = 0.01;  // from which a contact is not calm
+constexpr double kCalmRefill_W = 0.1;
 constexpr nanoseconds kHalfSecond = std::chrono::milliseconds(500);
 constexpr nanoseconds kLongestDelay = std::chrono::milliseconds(150);
 
@@ -195,7 +198,9 @@ void SafetyEnvelope::observe_work(const GloveState& state) noexcept {
   if (!has_state_ || summed_ == 0) return;
   const Eigen::Vector3d moved = state.X_WH.translation() - state_.X_WH.translation();
   const Eigen::Vector3d turned = turn_between(state_.X_WH.linear(), state.X_WH.linear());
-  energy_ = std::min(energy_ - (f_sum_.dot(moved) + t_sum_.dot(turned)) / summed_, most_energy());
+  const double work = (f_sum_.dot(moved) + t_sum_.dot(turned)) / summed_;
+  energy_ = std::min(energy_ - work, most_energy());
+  stirred_ += std::abs(work);
 }
 
 double SafetyEnvelope::most_energy() const noexcept {
@@ -211,6 +216,7 @@ void SafetyEnvelope::take_supply(const GloveCommand& wanted, double dt) noexcept
   supply_ += step;
   // What was taken stays owed when there is nothing left: the other side has it.
   energy_ = std::clamp(energy_ + step, -most_energy(), most_energy());
+  stirred_ += std::abs(step);
 }
 
 void SafetyEnvelope::observe_delay(nanoseconds age, nanoseconds now) noexcept {
@@ -351,12 +357,17 @@ void SafetyEnvelope::limit_energy(Forces& forces, double dt, LimitReasons& reaso
 }
 
 /// What was given or kept in a contact is settled when there is no force any more. While the force returns from an
-/// interruption, in which the hand may have gone anywhere, a refill lifts it; many interruptions use it up.
+/// interruption, in which the hand may have gone anywhere, a refill lifts it; many interruptions use it up. It also
+/// pays off slowly what a contact has given too much, e.g. because its contacts vanished for a moment: but only while
+/// nothing oscillates.
 void SafetyEnvelope::settle_energy(bool has_force, nanoseconds now, double dt) noexcept {
   refill_ = std::min(kMostRefill_J, refill_ + kRecovery_W * dt);
   if (gain_ < 1.0) free_until_ = now + kReturnIsFree;
-  if (now < free_until_ && energy_ < kStartEnergy_J) {
-    const double refilled = std::min(kStartEnergy_J - energy_, refill_);
+  stirred_ -= std::min(1.0, dt / kStir_s) * stirred_;
+  const double calm = std::max(0.0, 1.0 - stirred_ / kMostStirred_J);
+  if (energy_ < kStartEnergy_J) {
+    const double most = now < free_until_ ? refill_ : std::min(refill_, calm * kCalmRefill_W * dt);
+    const double refilled = std::min(kStartEnergy_J - energy_, most);
     refill_ -= refilled;
     energy_ += refilled;
   }

@@ -54,11 +54,13 @@ std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
 /// largest force, and 0.1 J at the start for errors of sampling. Below 0.1 J the wrench shrinks smoothly with the
 /// energy, to a fifth; what this would still give too much within ten periods is cut. When there is no force any more,
 /// the energy is at most 0.1 J, and recovers by 0.1 W; while the force returns from an interruption and up to half a
-/// second after, it is at least 0.1 J. For a glove that tells the delay of its link, the envelope at the glove's end
-/// does this alone. So no delay and no error of the simulation can feed an oscillation, and a hand at rest feels no
-/// change. Joint torques are not counted. Sources: Hannaford and Ryu, Time-domain passivity control of haptic
-/// interfaces, 2002, for the observer; Franken et al., Bilateral telemanipulation with time delays: a two-layer
-/// approach combining passivity and transparency, 2011, for the shrinking with the energy in a tank.
+/// second after, it is at least 0.1 J. In a calm contact, in which less than 10 mJ went to and fro in about the last
+/// half second, it recovers to 0.1 J by up to 0.1 W, so that a force that was reduced comes back before the contact
+/// ends. Returns and calm contacts together take at most 1 J and 0.1 W. For a glove that tells the delay of its link,
+/// the envelope at the glove's end does this alone. So no delay and no error of the simulation can feed an oscillation,
+/// and a hand at rest feels no jump. Joint torques are not counted. Sources: Hannaford and Ryu, Time-domain passivity
+/// control of haptic interfaces, 2002, for the observer; Franken et al., Bilateral telemanipulation with time delays: a
+/// two-layer approach combining passivity and transparency, 2011, for the shrinking with the energy in a tank.
 ///
 /// What moves without the hand may push it. `GloveCommand::supply` tells the energy for that: it counts as if the hand
 /// had put it in, by at most the largest power.
@@ -141,7 +143,8 @@ class SafetyEnvelope {
   double energy_;
   double supply_ = 0.0;               // J, of `GloveCommand::supply`, as far as it is taken
   std::int64_t supply_sequence_ = 0;  // of the command that told it
-  double refill_;                     // J, for the return from interruptions
+  double refill_;                     // J, for the return from interruptions and in calm contacts
+  double stirred_ = 0.0;              // J, that went to and fro in about the last half second
   double energy_scale_ = 1.0;
   std::chrono::nanoseconds free_until_{0};           // up to then the force returns, and its work is not counted
   Eigen::Vector3d f_sum_ = Eigen::Vector3d::Zero();  // of the commands since the newest state

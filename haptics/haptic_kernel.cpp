@@ -64,6 +64,7 @@ struct HapticKernel::Hand {
   std::int64_t sequence = 0;
   double supply = 0.0;  // J, of the commands
   double owed = 0.0;    // J: work of the hand against force that was withheld, as far as it has not been lifted again
+  Wrench solved;        // of the contacts when they last had a solution
 
   /// A hand that sinks while the force of its contacts is withheld is lifted when it returns, as if it had sunk against
   /// the force. From the work against the withheld and the exerted force in this tick, the energy to lift it with.
@@ -259,9 +260,14 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   tick.is_unsolved = contacts.is_unsolved;
   hand.supply += holds_->supply_of_pull(number, tick.pull);
   hand.supply += share_of(tick.contacts.f, contacts.wrench.f) * holds_->supply_share(number) * contacts.supply;
-  if (contacts.wrench.f.isZero(0.0) && contacts.wrench.t.isZero(0.0)) hand.owed = 0.0;
-  hand.supply += hand.lift(holds_->work_against(number, scaled(hand.contacts.withheld(), softness)),
-                           holds_->work_against(number, tick.contacts));
+  if (!contacts.is_unsolved) hand.solved = contacts.wrench;
+  if (hand.solved.f.isZero(0.0) && hand.solved.t.isZero(0.0)) hand.owed = 0.0;
+  const double against_exerted = holds_->work_against(number, tick.contacts);
+  // Without a solution, what the contacts exerted before stands for what they would exert.
+  const double against_withheld = contacts.is_unsolved
+                                      ? holds_->work_against(number, scaled(hand.solved, softness)) - against_exerted
+                                      : holds_->work_against(number, scaled(hand.contacts.withheld(), softness));
+  hand.supply += hand.lift(against_withheld, against_exerted);
 
   devices::GloveCommand command;
   command.sequence = ++hand.sequence;

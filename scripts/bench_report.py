@@ -27,7 +27,9 @@ def machine(command, bench):
     packages = {PEER_TITLES[peer]: peer for peer in PEERS}
     if bench == "hull":
         packages = {"libccd": "ccd", "FCL": "fcl", "Bullet": "bullet"}
-    elif bench in ("sliding", "tick"):
+    elif bench == "handoff":
+        packages = {"Boost": "boost"}
+    elif bench in ("sliding", "tick", "passivity", "latency"):
         packages = {}
     versions = [f"{title} {output_of('dpkg-query', '-W', '-f=${Version}', f'lib{package}-dev')}" for title, package in packages.items()]
     facts = [datetime.date.today().isoformat(), cpu[1] if cpu else "unknown processor", output_of("c++", "--version").splitlines()[0]]
@@ -325,8 +327,77 @@ def tick(figures, _):
     return text + table(["rows of the set, or the envelope alone", "time of a call, µs (median of 101 means of 1000 calls)"], costs)
 
 
+FEEL = {"stiffness": "stiffness, N/m", "force": "force, N", "overshoot": "overshoot, %", "settled_after": "within 2 % after, ms",
+        "unrest": "change in the last second, N"}
+
+
+def passivity(figures, _):
+    """Stiffness by theory and in simulation; energy of random walls; what a delay feels like."""
+    limits = {}
+    for case in figures.cases:
+        if figures.get(case, "simulation", "stiffness") is not None:
+            device, delay = case.rsplit("-", 1)
+            limits.setdefault(device, {})[delay.removesuffix("ms")] = case
+    delays = list(next(iter(limits.values())))
+    rows = [[device] + [f"{number(figures.get(case, 'glissade', 'stiffness'))}, {number(figures.get(case, 'simulation', 'stiffness'))} "
+                        f"({figures.get(case, 'glissade', 'ratio_to_simulation'):.3f})" for case in cases.values()]
+            for device, cases in limits.items()]
+    text = table(["N/m: by theory, in simulation (ratio)"] + [f"{delay} ms" for delay in delays], rows)
+    settings, least, given = (figures.get("random", "glissade", metric) for metric in ("settings", "least_energy", "most_given"))
+    text += (f"Over {settings:.0f} random settings, the energy of the observer was never below {1000 * least:.1f} mJ; a wall gave a "
+             f"hand at most {given:.2f} J more than it had taken.\n\n")
+    rows = [[case.removeprefix("wall-").removesuffix("ms") + " ms"] + [number(figures.get(case, "glissade", metric)) for metric in FEEL]
+            for case in figures.cases if case.startswith("wall-")]
+    return text + table(["delay of the round trip"] + list(FEEL.values()), rows)
+
+
+HANDOFFS = {"glissade": "triple buffer", "glissade-ring": "ring", "mutex": "mutex", "boost-spsc": "boost spsc_queue"}
+HANDOFF_FIGURES = [("one-thread", "time"), ("two-threads", "time"), ("two-threads", "time_p99"), ("two-threads", "publish_p50"),
+                   ("two-threads", "publish_p99")]
+
+
+def handoff(figures, _):
+    """Times of each value and way; ratios of the medians."""
+    rows = []
+    for name in (case for case in figures.cases if figures.get(case, "value", "size") is not None):
+        size = figures.get(name, "value", "size")
+        for who, title in HANDOFFS.items():
+            rows.append([f"{name}, {size:.0f} B, {title}"] + [number(figures.get(f"{name}-{case}", who, what)) for case, what in HANDOFF_FIGURES])
+    text = table(["ns", "publish and take, one thread", "handoff, median", "handoff, p99", "publish, median", "publish, p99"], rows)
+    ratios = []
+    for who in ("glissade", "glissade-ring"):
+        cells = []
+        for case in ("one-thread", "two-threads"):
+            for peer in ("mutex", "boost-spsc"):
+                mean, worst = (figures.get(f"{case}-{what}", who, "ratio_to_" + peer) for what in ("geomean", "worst"))
+                cells.append(f"{mean:.2f}, {worst:.2f}")
+        ratios.append([HANDOFFS[who]] + cells)
+    header = [f"{peer}, {case}" for case in ("one thread", "two threads") for peer in ("mutex", "spsc_queue")]
+    return text + table(["times faster than (geometric mean, worst case)"] + header, ratios)
+
+
+STAGES_OF_LATENCY = {"transport": "transport", "wait": "wait for the tick", "computation": "computation", "way_back": "way back",
+                     "whole": "sample to force", "haptic_lateness": "haptic loop is late", "bare_lateness": "bare loop is late"}
+LATENCY_RATIOS = {"ratio_lateness_p50": "lateness of the haptic loop to that of the bare loop, median",
+                  "ratio_lateness_p99": "the same, 99th percentile",
+                  "ratio_udpm_p50": "sample to force over udpm to a UDP round trip and half a tick, median"}
+
+
+def latency(figures, _):
+    """Medians and 99th percentiles of each stage; ratios."""
+    cases = [case for case in figures.cases if figures.get(case, "glissade", "whole_p50") is not None]
+
+    def cells(metric):
+        return [" / ".join(number(figures.get(case, "glissade", f"{metric}_{p}")) for p in ("p50", "p99")) for case in cases]
+
+    text = table(["µs, median / p99"] + cases, [[title] + cells(metric) for metric, title in STAGES_OF_LATENCY.items()])
+    rows = [[title] + [f"{figures.get(load, 'glissade', metric):.2f}" for load in ("idle", "loaded")] for metric, title in LATENCY_RATIOS.items()]
+    return text + table(["ratios", "idle", "loaded"], rows)
+
+
 SECTIONS = {"zachmann": zachmann, "close": queries, "shells": queries, "coherent": coherent, "all-pairs": all_pairs,
-            "build": build, "hull": hull, "scene": scene, "threads": threads, "sliding": sliding, "tick": tick}
+            "build": build, "hull": hull, "scene": scene, "threads": threads, "sliding": sliding, "tick": tick, "passivity": passivity,
+            "handoff": handoff, "latency": latency}
 
 
 def main():

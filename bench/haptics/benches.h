@@ -1,6 +1,7 @@
 #pragma once
 
-/// The benchmarks of sliding contact. Each adds rows to the bench `sliding`, `run_tick` to the bench `tick`.
+/// The benchmarks of sliding contact. Each adds rows to the bench `sliding`, `run_tick` to the bench `tick`,
+/// `run_passivity` to the bench `passivity`.
 
 #include <cstdint>
 #include <string>
@@ -12,6 +13,7 @@ namespace glissade::bench {
 
 inline constexpr const char* kSliding = "sliding";
 inline constexpr const char* kTick = "tick";
+inline constexpr const char* kPassivity = "passivity";
 
 struct SlidingBenchOptions {
   bool quick = false;
@@ -43,5 +45,11 @@ void run_solver(const SlidingBenchOptions& options, Results& results);
 /// `error_max` and `error_rms` against the simulation's answer to the ghost of that tick, in percent of the peak of the
 /// force; `sideways` on the plane. Cases `cost-ROWS` and `cost-envelope`: metric `time` of a tick, and of the envelope.
 void run_tick(const SlidingBenchOptions& options, Results& results);
+
+/// The stability of the coupling, without a clock. Cases `DEVICE-DELAYms`: metric `stiffness` of the subjects
+/// `glissade` (`passive_stiffness`) and `simulation` (from where an oscillation grows), `ratio_to_simulation`. Case
+/// `random`: `settings`, `least_energy` of the observer, `most_given` to a hand. Cases `wall-DELAYms`, by the delay of
+/// the round trip: `stiffness`, `force`, `overshoot`, `settled_after` and `unrest` of a hand that presses on a wall.
+void run_passivity(const SlidingBenchOptions& options, Results& results);
 
 }  // namespace glissade::bench

@@ -29,6 +29,7 @@ constexpr const char* kDescription =
     "  nut      a nut that turns ten times on its bolt, by a ghost that does not move along it\n"
     "  solver   the projection on up to 64 contacts\n"
     "  tick     the force on the hand when the simulation's answers are old, and the time of a tick\n"
+    "  passivity  from which stiffness a device oscillates, by theory and in simulation; energy; delays\n"
     "\n"
     "Progress goes to standard error, the figures to results.csv with the columns\n"
     "bench,case,subject,metric,value,unit.";
@@ -41,9 +42,9 @@ constexpr const char* kFooter =
     "Exit code: 0 on success, 1 if a run fails, 2 for wrong usage.";
 
 using Part = void (*)(const SlidingBenchOptions&, Results&);
-const std::vector<std::pair<std::string, Part>> kParts{{"scenes", run_scenes}, {"sheets", run_sheets},
-                                                       {"pegs", run_pegs},     {"nut", run_nut},
-                                                       {"solver", run_solver}, {"tick", run_tick}};
+const std::vector<std::pair<std::string, Part>> kParts{
+    {"scenes", run_scenes}, {"sheets", run_sheets}, {"pegs", run_pegs},          {"nut", run_nut},
+    {"solver", run_solver}, {"tick", run_tick},     {"passivity", run_passivity}};
 
 int fail(int exit_code, const std::string& message) {
   std::fprintf(stderr, "haptics_bench: %s\n", message.c_str());

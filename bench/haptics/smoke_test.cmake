@@ -10,7 +10,7 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK_DIR})
 file(MAKE_DIRECTORY ${WORK_DIR})
-execute_process(COMMAND ${BENCH} --quick --parts scenes,sheets,pegs,solver --scenes plane,sheets --out ${WORK_DIR}
+execute_process(COMMAND ${BENCH} --quick --parts scenes,sheets,pegs,solver,passivity --scenes plane,sheets --out ${WORK_DIR}
   RESULT_VARIABLE status ERROR_VARIABLE said)
 expect("exit code 0" status EQUAL 0)
 
@@ -19,7 +19,7 @@ list(GET results 0 header)
 expect("the header" header STREQUAL "bench,case,subject,metric,value,unit")
 list(SUBLIST results 1 -1 rows)
 foreach(row IN LISTS rows)
-  expect("six columns, a number in the fifth: ${row}" row MATCHES "^sliding,[^,]+,[^,]+,[^,]+,[-+.e0-9]+,[^,]+$")
+  expect("six columns, a number in the fifth: ${row}" row MATCHES "^(sliding|passivity),[^,]+,[^,]+,[^,]+,[-+.e0-9]+,[^,]+$")
 endforeach()
 foreach(case plane sheets)
   foreach(subject glissade glissade-paper)
@@ -38,12 +38,18 @@ foreach(rows 1 64)
   expect("the cost of ${rows} rows" results MATCHES "sliding,solver-${rows},glissade,time_per_active,[0-9.e+-]+,us")
 endforeach()
 
+foreach(delay 0 1 5 20 50)
+  expect("the stiffness with ${delay} ms" results MATCHES "passivity,sigma.7-${delay}ms,simulation,stiffness,[0-9.e+]+,N/m")
+endforeach()
+expect("no energy from nowhere" results MATCHES "passivity,random,glissade,least_energy,[0-9.e+-]+,J")
+
 file(COPY ${SOURCE_DIR}/docs/benchmarks.md DESTINATION ${WORK_DIR})
 execute_process(COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 ${SOURCE_DIR}/scripts/bench_report.py
   ${WORK_DIR}/results.csv ${WORK_DIR}/benchmarks.md --command "smoke test" RESULT_VARIABLE status ERROR_VARIABLE said)
 expect("exit code 0 of the report" status EQUAL 0)
 file(READ ${WORK_DIR}/benchmarks.md page)
 expect("the new section" page MATCHES "<!-- begin sliding -->\n[^\n]*smoke test.*[|] plane [|].*<!-- end sliding -->")
+expect("the stability" page MATCHES "[|] sigma.7 [|] 4000, .*<!-- end passivity -->")
 expect("the prose by hand" page MATCHES "## How it is measured")
 
 execute_process(COMMAND ${BENCH} --scenes nowhere --parts scenes --out ${WORK_DIR} RESULT_VARIABLE status ERROR_VARIABLE said)

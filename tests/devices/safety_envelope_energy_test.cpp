@@ -26,6 +26,32 @@ TEST_F(Envelope, GivesBackNoMoreEnergyThanTheHandPutIn) {
   EXPECT_EQ(push_at(-0.1, 500).values().f_H_W.x(), 20.0) << "the hand has put in new energy";
 }
 
+TEST_F(Envelope, GivesAReducedForceBackToAHandThatRests) {
+  push_at(0.0, 800);
+  push_at(0.1, 500);
+  double last = push_at(0.0, 20).values().f_H_W.x();
+  EXPECT_NEAR(last, 4.0, 0.2);
+  for (int i = 0; i < 3000; ++i) {
+    const double force = push_at(0.0, 1).values().f_H_W.x();
+    ASSERT_GE(force, last);
+    ASSERT_LE(force, last + 0.1) << "softly";
+    last = force;
+  }
+  EXPECT_EQ(last, 20.0);
+}
+
+/// 4 mm to and fro, 5 times a second: about 20 mJ.
+TEST_F(Envelope, GivesNothingBackToAHandThatOscillates) {
+  push_at(0.0, 800);
+  push_at(0.1, 500);
+  const auto round = [&] {
+    push_at(-0.04, 100);
+    return push_at(0.04, 100).energy();
+  };
+  for (int i = 0; i < 50; ++i)
+    EXPECT_LT(round(), 0.01) << i;
+}
+
 TEST_F(Envelope, ForgetsTheEnergyOfAContactThatHasEnded) {
   push_at(0.0, 800);
   EXPECT_GT(push_at(-0.1, 200).energy(), 0.4);

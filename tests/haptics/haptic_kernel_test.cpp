@@ -176,21 +176,40 @@ TEST_F(Kernel, TheSupplyIsTheWorkOfTheExertedForceOnly) {
   }
 }
 
-/// The simulation halts, the hand sinks by 10 mm while there is no force, and is lifted when the force is back.
+/// The hand sinks by 10 mm while there is no force, and is lifted when the force is back.
 class SunkenHand : public Kernel {
  protected:
+  /// The simulation halts.
   void sink() {
-    tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
-    settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
+    press();
     ContactSet old = floor_below(0.0);
     old.time = now_;
     for (int i = 0; i < 300; ++i) {
       now_ += kTickPeriod;
-      devices::GloveState state = hand_at({0.0, 0.0, 0.498 - 1e-4 * std::clamp(i - 150, 0, 100)});
+      devices::GloveState state = sinking_hand(i);
       state.time = now_;
       state.sequence = ++sequence_;
       tick_at(state, old);
     }
+  }
+
+  /// The part is to go up and down at once.
+  void sink_without_a_solution() {
+    press();
+    ContactSet set = floor_below(-1e-3);
+    set.row_count = 2;
+    set.row_array[1] = {{{-Vector3d::UnitZ(), Vector3d::Zero(), 1e-3}}};
+    for (int i = 0; i < 300; ++i)
+      EXPECT_TRUE(tick(sinking_hand(i), set).is_unsolved);
+  }
+
+  void press() {
+    tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
+    settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
+  }
+
+  static devices::GloveState sinking_hand(int ms) {
+    return hand_at({0.0, 0.0, 0.498 - 1e-4 * std::clamp(ms - 150, 0, 100)});
   }
 
   /// J, told as supply.
@@ -206,6 +225,11 @@ class SunkenHand : public Kernel {
 TEST_F(SunkenHand, IsLiftedByTheForceThatReturns) {
   sink();
   EXPECT_NEAR(lift(), 0.5 * (2.0 + 12.0) * 10e-3, 2e-3) << "the work that the force would have taken";
+}
+
+TEST_F(SunkenHand, IsLiftedAsIfTheLastForceHadGoneOnWhileThereWasNoSolution) {
+  sink_without_a_solution();
+  EXPECT_NEAR(lift(), 2.0 * 10e-3, 2e-3);
 }
 
 TEST_F(SunkenHand, IsOwedNothingAfterItsContactHasEnded) {
