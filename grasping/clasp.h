@@ -11,7 +11,6 @@
 #include <vector>
 
 #include <glissade/grasping/kinematic_chain.h>
-#include <glissade/grasping/posture.h>
 #include <glissade/haptics/contact_body.h>
 #include <glissade/haptics/sliding_result.h>
 

@@ -43,6 +43,12 @@ struct ChainLink {
   std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< in L, in metres; null: nothing that could touch
 };
 
+/// Where a chain is: the pose of its root and its flex values, the paper's (M, F).
+struct Posture {
+  Eigen::Isometry3d X_WR = Eigen::Isometry3d::Identity();
+  std::vector<double> values;  ///< rad, one for each flex value
+};
+
 /// Immutable after construction, so safe to share between threads. All functions but the constructor are real-time
 /// safe: they neither allocate nor wait.
 class KinematicChain {

@@ -10,23 +10,11 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/haptics/bodies_motion.h>
 #include <glissade/haptics/contact_body.h>
 #include <glissade/haptics/sliding_result.h>
 
 namespace glissade::haptics {
-
-/// A motion of all movers, over t from 0 to 1.
-class BodiesMotion {
- public:
-  virtual ~BodiesMotion() = default;
-
-  /// The poses X_WM at t. One entry for each mover.
-  virtual void poses(double t, std::span<Eigen::Isometry3d> X_WM) const = 0;
-  /// Bound (metres) of |x(t) − x(0)| for every point x of a mover and every t.
-  virtual double length(std::size_t mover) const = 0;
-  /// Bound (metres) of |d²x/dt²| for every point x of a mover and every t.
-  virtual double acceleration(std::size_t mover) const = 0;
-};
 
 /// Bodies are numbered: fixed ones first, then objects, then movers. Objects stand still while movers move; between two
 /// motions the caller may place them elsewhere. Pairs of movers are never considered, nor are pairs of the others. Not

@@ -9,7 +9,6 @@
 
 #include <glissade/geometry/displacement.h>
 #include <glissade/grasping/kinematic_chain.h>
-#include <glissade/grasping/posture.h>
 #include <glissade/haptics/certified_bodies.h>
 
 namespace glissade::grasping {

@@ -12,7 +12,7 @@
 
 #include <glissade/geometry/displacement.h>
 #include <glissade/geometry/triangle_pair.h>
-#include <glissade/haptics/certified_bodies.h>
+#include <glissade/haptics/bodies_motion.h>
 
 #include "scene/contact_scene.h"
 
