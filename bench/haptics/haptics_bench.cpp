@@ -29,6 +29,7 @@ constexpr const char* kDescription =
     "  nut      a nut that turns ten times on its bolt, by a ghost that does not move along it\n"
     "  solver   the projection on up to 64 contacts\n"
     "  tick     the force on the hand when the simulation's answers are old, and the time of a tick\n"
+    "  ages     how old the simulation's answers are in real time, with and without a budget of work\n"
     "\n"
     "Progress goes to standard error, the figures to results.csv with the columns\n"
     "bench,case,subject,metric,value,unit.";
@@ -41,9 +42,9 @@ constexpr const char* kFooter =
     "Exit code: 0 on success, 1 if a run fails, 2 for wrong usage.";
 
 using Part = void (*)(const SlidingBenchOptions&, Results&);
-const std::vector<std::pair<std::string, Part>> kParts{{"scenes", run_scenes}, {"sheets", run_sheets},
-                                                       {"pegs", run_pegs},     {"nut", run_nut},
-                                                       {"solver", run_solver}, {"tick", run_tick}};
+const std::vector<std::pair<std::string, Part>> kParts{
+    {"scenes", run_scenes}, {"sheets", run_sheets}, {"pegs", run_pegs}, {"nut", run_nut},
+    {"solver", run_solver}, {"tick", run_tick},     {"ages", run_ages}};
 
 int fail(int exit_code, const std::string& message) {
   std::fprintf(stderr, "haptics_bench: %s\n", message.c_str());
@@ -66,6 +67,9 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--scene-files", options.scene_files,
                  "More scenes for the part tick: scene files (YAML) with one movable object and a script")
       ->delimiter(',');
+  app.add_option("--meshes", options.meshes,
+                 "Folder with more meshes for the part ages: koala/koala.obj, scallop/scallop.ply,\n"
+                 "ycb_power_drill/, drivaer_body/, industreal_gear_small/ and industreal_gear_base/ likewise");
   app.add_flag("--quick", options.quick, "Shorter runs, fewer trials: within two minutes");
   app.add_option("--out", folder, "Folder for results.csv, created if necessary")->capture_default_str();
   try {

@@ -94,8 +94,17 @@ bool CandidatePairs::is_settled() {
     throw;
   }
   is_with_thread_ = false;
-  if (work_of_call_ != kUnlimitedWork) work_left_ = std::min(work_of_call_, allowed_ - thread_->work());
+  if (work_of_call_ == kUnlimitedWork) return true;
+  work_ = thread_->work();
+  work_left_ = std::min(work_of_call_, allowed_ - work_);
   return true;
+}
+
+void CandidatePairs::cancel() {
+  if (is_with_thread_) thread_->cancel();
+  is_with_thread_ = false;
+  next_.is_there = false;
+  search_.start_afresh();
 }
 
 void CandidatePairs::moved() {

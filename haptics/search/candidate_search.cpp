@@ -39,23 +39,30 @@ CandidateSearch::CandidateSearch(const ContactScene& scene, double greatest_radi
     : scene_(scene),
       meter_(meter),
       bodies_(scene.bodies().begin(), scene.bodies().end()),
-      world_(static_cast<int>(bodies_.size())),
-      pipeline_(world_, clock_, pipeline_options(greatest_radius, meter)) {
+      greatest_radius_(greatest_radius) {
   workspace_.set_meter(meter);
-  world_.disable_groups(kObstacles, kObstacles);
-  for (const Obstacle& obstacle : scene.obstacles())
-    world_.add(description(obstacle.body, obstacle.X_WO, kObstacles));
-  for (const auto& part_V : scene.parts())
-    part_ids_.push_back(world_.add(description(part_V, Eigen::Isometry3d::Identity(), kPart)));
+  start_afresh();
+}
+
+void CandidateSearch::start_afresh() {
+  pipeline_.reset();
+  world_.emplace(static_cast<int>(bodies_.size()));
+  pipeline_.emplace(*world_, clock_, pipeline_options(greatest_radius_, meter_));
+  world_->disable_groups(kObstacles, kObstacles);
+  for (const Obstacle& obstacle : scene_.obstacles())
+    world_->add(description(obstacle.body, obstacle.X_WO, kObstacles));
+  part_ids_.clear();
+  for (const auto& part_V : scene_.parts())
+    part_ids_.push_back(world_->add(description(part_V, Eigen::Isometry3d::Identity(), kPart)));
 }
 
 void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
   for (std::size_t p = 0; p < part_ids_.size(); ++p) {
-    if (!world_.move(part_ids_[p], request.X_WV[p]))
+    if (!world_->move(part_ids_[p], request.X_WV[p]))
       throw std::invalid_argument("the pose of a part must be a rotation and translation");
     bodies_[scene_.body_of_part(p)].X_WB = request.X_WV[p];
   }
-  const collision::FrameResult& near = pipeline_.step(request.radius);
+  const collision::FrameResult& near = pipeline_->step(request.radius);
   set.report = near.report;
   collect_pairs(near, request.ignored, set.pairs);
   find_pairs_to_certify(scene_, bodies_, request.radius, request.ignored, workspace_, set.to_certify);

@@ -27,7 +27,6 @@ void SearchThread::wait_for_work(std::int64_t allowed) {
   allowed_ = allowed;
   changed_.notify_all();
   changed_.wait(lock, [&] { return is_done() || work_ > allowed; });
-  if (runs_ahead_) allowed_ = kUnlimitedWork;
 }
 
 bool SearchThread::wait(std::int64_t allowed) {
@@ -38,11 +37,26 @@ bool SearchThread::wait(std::int64_t allowed) {
   return true;
 }
 
+void SearchThread::cancel() {
+  std::unique_lock lock(mutex_);
+  is_cancelled_ = true;
+  allowed_ = -1;
+  changed_.notify_all();
+  changed_.wait(lock, [this] { return is_done(); });
+  is_cancelled_ = false;
+  error_ = nullptr;
+}
+
 void SearchThread::spend(std::int64_t work) {
   if (work_.fetch_add(work) + work <= allowed_) return;
   std::unique_lock lock(mutex_);
   changed_.notify_all();
-  if (!runs_ahead_) changed_.wait(lock, stop_, [this] { return work_ <= allowed_; });
+  if (runs_ahead_) {
+    allowed_ = kUnlimitedWork;  // until the next wait: to lock again and again would starve the waiting thread
+  } else {
+    changed_.wait(lock, stop_, [this] { return work_ <= allowed_ || is_cancelled_; });
+  }
+  if (is_cancelled_) throw Cancelled{};
 }
 
 void SearchThread::run(const std::stop_token& stop) {

@@ -38,6 +38,9 @@ class SearchThread final : public collision::WorkMeter {
   bool wait(std::int64_t allowed = kUnlimitedWork);
 
   bool runs_ahead() const { return runs_ahead_; }
+  /// Ends a search that is under way without an answer.
+  void cancel();
+
   /// Work of the search that `wait` has last waited for, so far.
   std::int64_t work() const { return work_.load(std::memory_order_relaxed); }
 
@@ -54,11 +57,14 @@ class SearchThread final : public collision::WorkMeter {
   void run(const std::stop_token& stop);
   bool is_done() const { return job_.search == nullptr; }
 
+  struct Cancelled : std::exception {};
+
   bool runs_ahead_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
   Job job_;  // null when it is done
   std::exception_ptr error_;
+  bool is_cancelled_ = false;
   std::atomic<std::int64_t> work_{0};
   std::atomic<std::int64_t> allowed_{0};  // with more work the thread takes the lock
   std::stop_token stop_;                  // of the thread, which alone uses it
