@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <thread>
@@ -57,9 +56,9 @@ SlidingScene pressed_and_dragged(const std::string& name, haptics::Obstacle obst
 SlidingScene balls(const std::string& name, std::int64_t of_part, std::int64_t of_obstacle, double speed,
                    bool at_poles = false) {
   const Eigen::Quaterniond q = turn(at_poles ? 0.0 : 1.3, Vector3d(1.0, 0.4, 0.0).normalized());
-  return pressed_and_dragged(name, test_support::obstacle_of(geometry::make_sphere(0.1, of_obstacle), pose(Vector3d::Zero(), q)),
-                             test_support::part_of(geometry::make_sphere(0.02, of_part)), pose({0.0, 0.0, 0.1205}, q),
-                             3.5e-3, speed);
+  return pressed_and_dragged(
+      name, test_support::obstacle_of(geometry::make_sphere(0.1, of_obstacle), pose(Vector3d::Zero(), q)),
+      test_support::part_of(geometry::make_sphere(0.02, of_part)), pose({0.0, 0.0, 0.1205}, q), 3.5e-3, speed);
 }
 
 /// A ball in a hollow one with 0.1 mm of play, pressed against it and turned: thousands of triangles are near.
@@ -170,8 +169,7 @@ void run_ages(const SlidingBenchOptions& options, Results& results) {
   }
   haptics::SlidingRules without = haptics::real_time_rules();
   without.work_budget.reset();
-  haptics::SlidingRules with = haptics::real_time_rules();
-  if (const char* b = std::getenv("BUDGET")) with.work_budget = std::atoll(b);
+  const haptics::SlidingRules with = haptics::real_time_rules();
   for (const SlidingScene& scene : scenes) {
     if (!options.scenes.empty() &&
         std::find(options.scenes.begin(), options.scenes.end(), scene.name) == options.scenes.end())

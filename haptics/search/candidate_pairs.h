@@ -43,6 +43,8 @@ class CandidatePairs {
   /// the candidates stay, `covers(reach)` is still false, and the same call of `look` must be repeated.
   bool look(double reach, double ahead, std::span<const BodyPair> ignored);
 
+  /// Whether the search that `look` could not complete has had the work of several calls.
+  bool is_too_large() const;
   /// Gives up the search that `look` could not complete. The next one begins afresh, and can be for a smaller radius.
   void cancel();
 
@@ -67,6 +69,8 @@ class CandidatePairs {
   /// Number of candidate pairs plus number of pairs to certify.
   std::size_t size() const { return now_.set.pairs.size() + now_.set.to_certify.size(); }
 
+  /// Work of the search under way, or of the last one, so far; only with a limit of work.
+  std::int64_t work_of_search() const { return thread_->work(); }
   /// Work of the search that found the candidates; 0 without a limit of work.
   std::int64_t work() const { return work_; }
 

@@ -10,7 +10,7 @@ constexpr int kObstacles = 0;  // groups of the interest matrix
 constexpr int kPart = 1;
 
 /// Work of taking over and sorting a pair, in the unit of `collision::WorkMeter`, as measured.
-constexpr std::int64_t kWorkOfPair = 150;
+constexpr std::int64_t kWorkOfPair = 400;
 
 // A single thread: the other processors belong to the haptic thread and to the viewer.
 collision::PipelineOptions pipeline_options(double greatest_distance, collision::WorkMeter* meter) {

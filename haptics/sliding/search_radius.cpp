@@ -43,7 +43,8 @@ bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignore
   const double ahead =
       std::min(std::clamp(kTicksAhead * shared.ghost_motion(), kLeastLookAhead_m, kMostLookAhead_m), limit_of_search_);
   const bool is_other = shared.candidates.look(reach_ahead_, ahead, ignored);
-  if (!shared.candidates.covers(reach_ahead_) && limit_of_search_ > kSmallestLimitOfSearch_m) {
+  if (!shared.candidates.covers(reach_ahead_) && shared.candidates.is_too_large() &&
+      limit_of_search_ > kSmallestLimitOfSearch_m) {
     shared.candidates.cancel();
     limit_of_search_ =
         std::max(0.25 * std::min(limit_of_search_, std::max(reach_ahead_, ahead)), kSmallestLimitOfSearch_m);
@@ -55,7 +56,7 @@ bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignore
   limit_ = adapted(limit_, shared.candidates.size() <= shared.rules.affordable_pairs, kSmallestReachLimit_m);
   limit_ahead_ = adapted(limit_ahead_, shared.candidates.size() <= kAffordablePairsAhead, kSmallestLimitAhead_m);
   limit_of_search_ =
-      adapted(limit_of_search_, shared.candidates.work() <= shared.work_of_searches / 2, kSmallestLimitOfSearch_m);
+      adapted(limit_of_search_, shared.candidates.work() <= shared.work_of_searches, kSmallestLimitOfSearch_m);
   return true;
 }
 
