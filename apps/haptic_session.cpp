@@ -59,6 +59,7 @@ Session finished(std::int64_t ticks, std::chrono::nanoseconds period, const Hapt
           std::ssize(scene.body_names),
           work.searches,
           work.reports,
+          sliding.call_statistics(),
           std::move(devices),
           std::move(samples),
           std::move(real_time)};

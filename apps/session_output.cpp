@@ -127,6 +127,11 @@ Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose
   Rows rows;
   rows.emplace_back("objects", std::to_string(session.objects));
   rows.emplace_back("ticks", std::to_string(summary.ticks));
+  if (session.calls.ended_early > 0) {
+    rows.emplace_back("calls ended early", formatted("%lld of %lld: their work was used up",
+                                                     static_cast<long long>(session.calls.ended_early),
+                                                     static_cast<long long>(session.calls.calls)));
+  }
   if (session.real_time) add_real_time_rows(*session.real_time, rows);
   for (const PartSummary& part : summary.parts)
     add_part_rows(part, summary, rows);
@@ -259,6 +264,8 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
     hands.push_back(to_json(hand, tick_s));
   nlohmann::json json = {{"ticks", summary.ticks},
                          {"objects", session.objects},
+                         {"calls", session.calls.calls},
+                         {"calls_ended_early", session.calls.ended_early},
                          {"collision_frames", session.collision_frames},
                          {"collision_stages",
                           {{"queue", stage(session.collision.queue)},

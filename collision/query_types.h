@@ -46,7 +46,7 @@ struct QueryCounters {
 class WorkMeter {
  public:
   /// Adds the work that has just been done, or is done next: on a pair of nodes, on a pair of leaves, or on the exact
-  /// tests of up to 16 triangle pairs of two leaves. Must not throw.
+  /// tests of up to 16 triangle pairs of two leaves. An exception ends the query; a pipeline is of no use then.
   virtual void spend(std::int64_t work) = 0;
 
  protected:

@@ -107,13 +107,15 @@ struct SlidingRules {
 };
 
 /// The rules for a simulation behind a `HapticServer`: few cycles, a search thread, contacts ahead for the time that a
-/// contact set is in use, and short searches, so that the age of the answers does not depend on the meshes.
+/// contact set is in use, short searches, and a budget of work, so that the age of the answers does not depend on the
+/// meshes.
 constexpr SlidingRules real_time_rules() {
   SlidingRules rules;
   rules.max_cycles = 3;
   rules.has_search_thread = true;
   rules.contacts_ahead_ms = 6.0;
   rules.affordable_pairs = 3000;
+  rules.work_budget = 4'000'000;  // docs/benchmarks.md has the ages of answers with and without it
   return rules;
 }
 

@@ -5,17 +5,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <numbers>
 #include <random>
-#include <stdexcept>
 
-#include <glissade/apps/embedded_scene.h>
-#include <glissade/apps/files/scene_file.h>
-#include <glissade/apps/files/trajectory_file.h>
-#include <glissade/apps/haptic_scene.h>
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
@@ -27,6 +21,7 @@
 #include "loop/contact_set_maker.h"
 #include "one_hand_force.h"
 #include "poses.h"
+#include "scripted_scene.h"
 #include "sliding_account.h"
 #include "sliding_scenes.h"
 
@@ -107,40 +102,6 @@ SlidingScene sphere() {
   };
   scene.X_WV_start = scene.ghost(0);
   return scene;
-}
-
-/// The part of a scene file led by the script of the hand, which moves at 0.2 m/s in the mean.
-SlidingScene scripted(const std::string& name, const apps::Scene& file, const geometry::PoseTrajectory& script_X_WH) {
-  const apps::HapticScene haptic = make_haptic_scene(file, movable_objects(file));
-  SlidingScene scene;
-  scene.name = name;
-  scene.obstacles = haptic.obstacles;
-  scene.part_V = haptic.parts.front().part_V;
-  scene.X_WV_start = haptic.parts.front().X_WV_start;
-  double way = 0.0;
-  constexpr int kPieces = 10'000;
-  Isometry3d last = script_X_WH.pose_at(script_X_WH.first_time());
-  for (int i = 1; i <= kPieces; ++i) {
-    const Isometry3d next = script_X_WH.pose_at(script_X_WH.first_time() + i * script_X_WH.duration() / kPieces);
-    way += (next.translation() - last.translation()).norm();
-    last = next;
-  }
-  scene.ticks = static_cast<int>(way / (kSpeed * kTick_s));
-  const geometry::PoseTrajectory scaled = script_X_WH.time_scaled(milliseconds(scene.ticks));
-  const Isometry3d X_HG = scaled.pose_at(scaled.first_time()).inverse() * scene.X_WV_start;
-  scene.ghost = [=](int tick) -> Isometry3d { return scaled.pose_at(scaled.first_time() + milliseconds(tick)) * X_HG; };
-  return scene;
-}
-
-SlidingScene car_door() {
-  return scripted("car-door", apps::parse_scene(std::string(apps::embedded_scene_yaml()), "car_door.yaml", "."),
-                  apps::parse_trajectory(apps::embedded_scene_script(), "car_door_script.csv"));
-}
-
-SlidingScene from_file(const std::string& path) {
-  const apps::Scene file = apps::read_scene(path);
-  if (!file.script_path) throw std::invalid_argument(path + ": the scene has no script for the hand to follow");
-  return scripted(std::filesystem::path(path).stem().string(), file, apps::read_trajectory(*file.script_path));
 }
 
 constexpr int kSlower = 10;
@@ -374,10 +335,10 @@ void run_costs(Results& results) {
 }  // namespace
 
 void run_tick(const SlidingBenchOptions& options, Results& results) {
-  for (const SlidingScene& scene : {plane(), groove(), corner(), sphere(), car_door()})
+  for (const SlidingScene& scene : {plane(), groove(), corner(), sphere(), car_door_scene(kSpeed)})
     run_scene(scene, options.quick, results);
   for (const std::string& path : options.scene_files)
-    run_scene(from_file(path), options.quick, results);
+    run_scene(scene_from_file(path, kSpeed), options.quick, results);
   run_sideways(options.quick, results);
   run_costs(results);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The benchmarks of sliding contact. Each adds rows to the bench `sliding`, `run_tick` to the bench `tick`,
-/// `run_passivity` to the bench `passivity`.
+/// `run_passivity` to the bench `passivity`, `run_ages` to the bench `ages`.
 
 #include <cstdint>
 #include <string>
@@ -14,11 +14,13 @@ namespace glissade::bench {
 inline constexpr const char* kSliding = "sliding";
 inline constexpr const char* kTick = "tick";
 inline constexpr const char* kPassivity = "passivity";
+inline constexpr const char* kAges = "ages";
 
 struct SlidingBenchOptions {
   bool quick = false;
   std::vector<std::string> scenes;       ///< names of `sliding_scene_names`; empty: all
   std::vector<std::string> scene_files;  ///< more scenes for `run_tick`
+  std::string meshes;                    ///< folder of more meshes for `run_ages`; empty: none
 };
 
 /// Each scene with each method: case `SCENE`, the metrics of `SlidingAccount`, and p50 and p99 of the tick times.
@@ -51,5 +53,12 @@ void run_tick(const SlidingBenchOptions& options, Results& results);
 /// `random`: `settings`, `least_energy` of the observer, `most_given` to a hand. Cases `wall-DELAYms`, by the delay of
 /// the round trip: `stiffness`, `force`, `overshoot`, `settled_after` and `unrest` of a hand that presses on a wall.
 void run_passivity(const SlidingBenchOptions& options, Results& results);
+
+/// The simulation in real time with `real_time_rules`: case `SCENE`, subjects `without-budget` and `with-budget` of
+/// work
+/// (`SlidingRules::work_budget`), metrics `age_p50`, `age_p99` and `age_max` of the newest answer, each millisecond,
+/// the same of the durations of calls, `lag_mean` of the visible part behind the ghost, and `ended_early`, the share of
+/// calls.
+void run_ages(const SlidingBenchOptions& options, Results& results);
 
 }  // namespace glissade::bench

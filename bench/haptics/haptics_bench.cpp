@@ -30,6 +30,7 @@ constexpr const char* kDescription =
     "  solver   the projection on up to 64 contacts\n"
     "  tick     the force on the hand when the simulation's answers are old, and the time of a tick\n"
     "  passivity  from which stiffness a device oscillates, by theory and in simulation; energy; delays\n"
+    "  ages     how old the simulation's answers are in real time, with and without a budget of work\n"
     "\n"
     "Progress goes to standard error, the figures to results.csv with the columns\n"
     "bench,case,subject,metric,value,unit.";
@@ -43,8 +44,8 @@ constexpr const char* kFooter =
 
 using Part = void (*)(const SlidingBenchOptions&, Results&);
 const std::vector<std::pair<std::string, Part>> kParts{
-    {"scenes", run_scenes}, {"sheets", run_sheets}, {"pegs", run_pegs},          {"nut", run_nut},
-    {"solver", run_solver}, {"tick", run_tick},     {"passivity", run_passivity}};
+    {"scenes", run_scenes}, {"sheets", run_sheets}, {"pegs", run_pegs},           {"nut", run_nut},
+    {"solver", run_solver}, {"tick", run_tick},     {"passivity", run_passivity}, {"ages", run_ages}};
 
 int fail(int exit_code, const std::string& message) {
   std::fprintf(stderr, "haptics_bench: %s\n", message.c_str());
@@ -67,6 +68,9 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--scene-files", options.scene_files,
                  "More scenes for the part tick: scene files (YAML) with one movable object and a script")
       ->delimiter(',');
+  app.add_option("--meshes", options.meshes,
+                 "Folder with more meshes for the part ages: koala/koala.obj, scallop/scallop.ply,\n"
+                 "ycb_power_drill/, drivaer_body/, industreal_gear_small/ and industreal_gear_base/ likewise");
   app.add_flag("--quick", options.quick, "Shorter runs, fewer trials: within two minutes");
   app.add_option("--out", folder, "Folder for results.csv, created if necessary")->capture_default_str();
   try {

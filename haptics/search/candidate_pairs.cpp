@@ -7,6 +7,17 @@
 #include <glissade/geometry/displacement.h>
 
 namespace glissade::haptics {
+namespace {
+
+/// A search that takes more calls than this is too large: a thread that went on with it would be late for the next.
+constexpr std::int64_t kCallsAhead = 4;
+
+std::int64_t work_ahead(bool runs_ahead, std::int64_t work_of_call) {
+  if (!runs_ahead) return 0;
+  return work_of_call > kUnlimitedWork / kCallsAhead ? kUnlimitedWork : kCallsAhead * work_of_call;
+}
+
+}  // namespace
 
 template <typename Pair>
 void CandidatePairs::Search::collect(const std::vector<Pair>& pairs, double reach, std::vector<Pair>& found) const {
@@ -22,7 +33,9 @@ CandidatePairs::CandidatePairs(const ContactScene& scene, double greatest_radius
     : scene_(scene),
       work_of_call_(work_of_call),
       work_left_(work_of_call),
-      thread_(runs_ahead || work_of_call != kUnlimitedWork ? std::make_unique<SearchThread>(runs_ahead) : nullptr),
+      thread_(runs_ahead || work_of_call != kUnlimitedWork
+                  ? std::make_unique<SearchThread>(work_ahead(runs_ahead, work_of_call))
+                  : nullptr),
       search_(scene, greatest_radius, thread_.get()) {}
 
 CandidatePairs::~CandidatePairs() {
@@ -33,7 +46,7 @@ void CandidatePairs::begin_call() {
   work_left_ = work_of_call_;
   if (!is_with_thread_ || work_of_call_ == kUnlimitedWork) return;
   allowed_ += std::exchange(work_left_, 0);
-  if (!thread_->runs_ahead()) thread_->wait_for_work(allowed_);
+  if (thread_->work_ahead() == 0) thread_->wait_for_work(allowed_);
 }
 
 bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> ignored) {
@@ -81,7 +94,7 @@ void CandidatePairs::ask(Search& search, double reach, double ahead, std::span<c
   is_with_thread_ = true;
   allowed_ = work_of_call_ == kUnlimitedWork ? kUnlimitedWork : std::exchange(work_left_, 0);
   thread_->begin(search_, search.request, search.set);
-  if (!thread_->runs_ahead()) thread_->wait_for_work(allowed_);
+  if (thread_->work_ahead() == 0) thread_->wait_for_work(allowed_);
 }
 
 /// Whether the thread, if there is one, is done with its search, within the work that is allowed.
@@ -94,8 +107,21 @@ bool CandidatePairs::is_settled() {
     throw;
   }
   is_with_thread_ = false;
-  if (work_of_call_ != kUnlimitedWork) work_left_ = std::min(work_of_call_, allowed_ - thread_->work());
+  if (work_of_call_ == kUnlimitedWork) return true;
+  work_ = thread_->work();
+  work_left_ = std::min(work_of_call_, allowed_ - work_);
   return true;
+}
+
+bool CandidatePairs::is_too_large() const {
+  return is_with_thread_ && allowed_ > kCallsAhead * work_of_call_;
+}
+
+void CandidatePairs::cancel() {
+  if (is_with_thread_) thread_->cancel();
+  is_with_thread_ = false;
+  next_.is_there = false;
+  search_.start_afresh();
 }
 
 void CandidatePairs::moved() {

@@ -43,6 +43,11 @@ class CandidatePairs {
   /// the candidates stay, `covers(reach)` is still false, and the same call of `look` must be repeated.
   bool look(double reach, double ahead, std::span<const BodyPair> ignored);
 
+  /// Whether the search that `look` could not complete has had the work of several calls.
+  bool is_too_large() const;
+  /// Gives up the search that `look` could not complete. The next one begins afresh, and can be for a smaller radius.
+  void cancel();
+
   /// To be called when parts have been placed at other poses.
   void moved();
 
@@ -63,6 +68,11 @@ class CandidatePairs {
 
   /// Number of candidate pairs plus number of pairs to certify.
   std::size_t size() const { return now_.set.pairs.size() + now_.set.to_certify.size(); }
+
+  /// Work of the search under way, or of the last one, so far; only with a limit of work.
+  std::int64_t work_of_search() const { return thread_->work(); }
+  /// Work of the search that found the candidates; 0 without a limit of work.
+  std::int64_t work() const { return work_; }
 
   const SearchStatistics& statistics() const { return statistics_; }
 
@@ -110,6 +120,7 @@ class CandidatePairs {
   CandidateSearch search_;
   Search now_;
   Search next_;
+  std::int64_t work_ = 0;
   SearchStatistics statistics_;
 };
 

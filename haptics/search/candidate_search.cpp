@@ -7,7 +7,7 @@ namespace glissade::haptics {
 namespace {
 
 /// Work of taking over and sorting a pair, in the unit of `collision::WorkMeter`, as measured.
-constexpr std::int64_t kWorkOfPair = 150;
+constexpr std::int64_t kWorkOfPair = 400;
 
 // A single thread: the other processors belong to the haptic thread and to the viewer.
 collision::PipelineOptions pipeline_options(double greatest_distance, collision::WorkMeter* meter) {
@@ -36,29 +36,36 @@ CandidateSearch::CandidateSearch(const ContactScene& scene, double greatest_radi
     : scene_(scene),
       meter_(meter),
       bodies_(scene.bodies().begin(), scene.bodies().end()),
-      world_(static_cast<int>(bodies_.size())),
-      pipeline_(world_, clock_, pipeline_options(greatest_radius, meter)) {
+      greatest_radius_(greatest_radius) {
   workspace_.set_meter(meter);
+  start_afresh();
+}
+
+void CandidateSearch::start_afresh() {
+  pipeline_.reset();
+  world_.emplace(static_cast<int>(bodies_.size()));
+  pipeline_.emplace(*world_, clock_, pipeline_options(greatest_radius_, meter_));
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
-    const int group = scene.group(body);
-    if (!ContactScene::can_touch(group, group)) world_.disable_groups(group, group);
+    const int group = scene_.group(body);
+    if (!ContactScene::can_touch(group, group)) world_->disable_groups(group, group);
   }
-  for (const Obstacle& obstacle : scene.obstacles())
-    world_.add(description(obstacle.body, obstacle.X_WO, ContactScene::kStill));
-  for (std::size_t p = 0; p < scene.parts().size(); ++p) {
+  for (const Obstacle& obstacle : scene_.obstacles())
+    world_->add(description(obstacle.body, obstacle.X_WO, ContactScene::kStill));
+  part_ids_.clear();
+  for (std::size_t p = 0; p < scene_.parts().size(); ++p) {
     const collision::ObjectDescription description_V =
-        description(scene.parts()[p], Eigen::Isometry3d::Identity(), scene.group(scene.body_of_part(p)));
-    part_ids_.push_back(world_.add(description_V));
+        description(scene_.parts()[p], Eigen::Isometry3d::Identity(), scene_.group(scene_.body_of_part(p)));
+    part_ids_.push_back(world_->add(description_V));
   }
 }
 
 void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
   for (std::size_t p = 0; p < part_ids_.size(); ++p) {
-    if (!world_.move(part_ids_[p], request.X_WV[p]))
+    if (!world_->move(part_ids_[p], request.X_WV[p]))
       throw std::invalid_argument("the pose of a part must be a rotation and translation");
     bodies_[scene_.body_of_part(p)].X_WB = request.X_WV[p];
   }
-  const collision::FrameResult& near = pipeline_.step(request.radius);
+  const collision::FrameResult& near = pipeline_->step(request.radius);
   set.report = near.report;
   collect_pairs(near, request.ignored, set.pairs);
   find_pairs_to_certify(scene_, bodies_, request.radius, request.ignored, workspace_, set.to_certify);

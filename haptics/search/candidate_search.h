@@ -4,6 +4,7 @@
 /// poses from requests only, so it may run in a thread of its own while the simulation goes on (paper Figure 7).
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,6 +49,9 @@ class CandidateSearch {
   /// `geometry::rigid_pose` rejects.
   void find(const CandidateRequest& request, CandidateSet& set);
 
+  /// Forgets earlier searches; required after one that ended with an exception of the meter.
+  void start_afresh();
+
  private:
   void collect_pairs(const collision::FrameResult& near, std::span<const BodyPair> ignored,
                      std::vector<CandidatePair>& pairs) const;
@@ -57,8 +61,9 @@ class CandidateSearch {
   std::vector<PlacedBody> bodies_;
   std::vector<collision::ObjectId> part_ids_;
   realtime::SteadyClock clock_;
-  collision::World world_;
-  collision::CollisionPipeline pipeline_;
+  double greatest_radius_;
+  std::optional<collision::World> world_;
+  std::optional<collision::CollisionPipeline> pipeline_;  // of the world
   collision::QueryWorkspace workspace_;
 };
 

@@ -6,8 +6,8 @@
 
 namespace glissade::haptics {
 
-SearchThread::SearchThread(bool runs_ahead)
-    : runs_ahead_(runs_ahead), thread_([this](const std::stop_token& stop) {
+SearchThread::SearchThread(std::int64_t work_ahead)
+    : work_ahead_(work_ahead), thread_([this](const std::stop_token& stop) {
         realtime::name_this_thread("search");
         run(stop);
       }) {}
@@ -17,17 +17,17 @@ void SearchThread::begin(CandidateSearch& search, const CandidateRequest& reques
     const std::lock_guard lock(mutex_);
     job_ = {&search, &request, &set};
     work_ = 0;
-    allowed_ = runs_ahead_ ? kUnlimitedWork : 0;
+    allowed_ = 0;
+    lock_at_ = work_ahead_;
   }
   changed_.notify_all();
 }
 
 void SearchThread::wait_for_work(std::int64_t allowed) {
   std::unique_lock lock(mutex_);
-  allowed_ = allowed;
+  lock_at_ = allowed_ = allowed;
   changed_.notify_all();
   changed_.wait(lock, [&] { return is_done() || work_ > allowed; });
-  if (runs_ahead_) allowed_ = kUnlimitedWork;
 }
 
 bool SearchThread::wait(std::int64_t allowed) {
@@ -38,11 +38,25 @@ bool SearchThread::wait(std::int64_t allowed) {
   return true;
 }
 
+void SearchThread::cancel() {
+  std::unique_lock lock(mutex_);
+  is_cancelled_ = true;
+  lock_at_ = -1;
+  changed_.notify_all();
+  changed_.wait(lock, [this] { return is_done(); });
+  is_cancelled_ = false;
+  error_ = nullptr;
+}
+
 void SearchThread::spend(std::int64_t work) {
-  if (work_.fetch_add(work) + work <= allowed_) return;
+  const std::int64_t done = work_.fetch_add(work) + work;
+  if (done <= lock_at_) return;
   std::unique_lock lock(mutex_);
   changed_.notify_all();
-  if (!runs_ahead_) changed_.wait(lock, stop_, [this] { return work_ <= allowed_; });
+  changed_.wait(lock, stop_, [&] { return done - work_ahead_ <= allowed_ || is_cancelled_; });
+  if (is_cancelled_) throw Cancelled{};
+  // To lock again and again would starve a thread that waits for the lock.
+  lock_at_ = allowed_ > kUnlimitedWork - work_ahead_ ? kUnlimitedWork : allowed_ + work_ahead_;
 }
 
 void SearchThread::run(const std::stop_token& stop) {

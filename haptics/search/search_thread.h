@@ -20,8 +20,9 @@ namespace glissade::haptics {
 /// Thread-safety: one thread owns the object, never the haptic thread, because calls may lock and wait.
 class SearchThread final : public collision::WorkMeter {
  public:
-  /// A thread that `runs_ahead` works on a search until it is done; any other only while `wait` waits for it.
-  explicit SearchThread(bool runs_ahead = true);
+  /// The thread does at most `work_ahead` more than the work that `wait_for_work` has allowed; with 0 it works only
+  /// while somebody waits.
+  explicit SearchThread(std::int64_t work_ahead = kUnlimitedWork);
   SearchThread(const SearchThread&) = delete;
   SearchThread& operator=(const SearchThread&) = delete;
   /// Waits for a search that is under way.
@@ -37,7 +38,10 @@ class SearchThread final : public collision::WorkMeter {
   /// thread is. Rethrows the exception of the search.
   bool wait(std::int64_t allowed = kUnlimitedWork);
 
-  bool runs_ahead() const { return runs_ahead_; }
+  std::int64_t work_ahead() const { return work_ahead_; }
+  /// Ends a search that is under way without an answer.
+  void cancel();
+
   /// Work of the search that `wait` has last waited for, so far.
   std::int64_t work() const { return work_.load(std::memory_order_relaxed); }
 
@@ -54,13 +58,17 @@ class SearchThread final : public collision::WorkMeter {
   void run(const std::stop_token& stop);
   bool is_done() const { return job_.search == nullptr; }
 
-  bool runs_ahead_;
+  struct Cancelled : std::exception {};
+
+  std::int64_t work_ahead_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
   Job job_;  // null when it is done
   std::exception_ptr error_;
+  bool is_cancelled_ = false;
   std::atomic<std::int64_t> work_{0};
-  std::atomic<std::int64_t> allowed_{0};  // with more work the thread takes the lock
+  std::int64_t allowed_ = 0;
+  std::atomic<std::int64_t> lock_at_{0};  // with more work the thread takes the lock
   std::stop_token stop_;                  // of the thread, which alone uses it
   std::jthread thread_;                   // last: it ends before the members that it uses
 };

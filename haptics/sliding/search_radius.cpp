@@ -13,10 +13,12 @@ constexpr double kLeastLookAhead_m = 45e-6;
 constexpr double kSmallestReachLimit_m = 0.2e-3;
 constexpr std::size_t kAffordablePairsAhead = 3000;
 constexpr double kSmallestLimitAhead_m = 50e-6;
+constexpr double kSmallestLimitOfSearch_m = 60e-6;
 
 }  // namespace
 
-SearchRadius::SearchRadius() : limit_(kLargestReach_m), limit_ahead_(kLargestReach_m) {}
+SearchRadius::SearchRadius()
+    : limit_(kLargestReach_m), limit_ahead_(kLargestReach_m), limit_of_search_(kLargestReach_m) {}
 
 void SearchRadius::choose(const SimulatedParts& shared, double depenetration, double milliseconds) {
   const double ghosts = shared.ghost_motion();
@@ -29,20 +31,32 @@ void SearchRadius::choose(const SimulatedParts& shared, double depenetration, do
   reach_ = std::clamp(std::min(reach, slew + ghosts + 2.0 * shared.largest_margin), kSmallestReach_m, limit_);
   const double ticks_ahead = milliseconds > 0.0 ? shared.rules.contacts_ahead_ms / milliseconds : 0.0;
   reach_ahead_ = std::max(reach_, std::min(ticks_ahead * ghosts + 2.0 * shared.largest_margin, limit_ahead_));
+  const double most = std::max(limit_of_search_, 2.0 * shared.largest_margin + kSmallestReach_m);
+  reach_ = std::min(reach_, most);
+  reach_ahead_ = std::min(reach_ahead_, most);
 }
 
 /// Finely tessellated surfaces that lie close together have very many pairs. A part that falls behind would look
 /// farther with every search and so fall behind more; the limit on the reach ends that. Contacts ahead are a help that
 /// must not make the answers late: their limit comes first.
 bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignored) {
-  const double ahead = std::clamp(kTicksAhead * shared.ghost_motion(), kLeastLookAhead_m, kMostLookAhead_m);
-  if (!shared.candidates.look(reach_ahead_, ahead, ignored)) return false;
-  const auto adapted = [&](double limit, std::size_t affordable, double smallest) {
-    const double factor = shared.candidates.size() > affordable ? 0.5 : 1.25;
-    return std::clamp(factor * limit, smallest, kLargestReach_m);
+  const double ahead =
+      std::min(std::clamp(kTicksAhead * shared.ghost_motion(), kLeastLookAhead_m, kMostLookAhead_m), limit_of_search_);
+  const bool is_other = shared.candidates.look(reach_ahead_, ahead, ignored);
+  if (!shared.candidates.covers(reach_ahead_) && shared.candidates.is_too_large() &&
+      limit_of_search_ > kSmallestLimitOfSearch_m) {
+    shared.candidates.cancel();
+    limit_of_search_ =
+        std::max(0.25 * std::min(limit_of_search_, std::max(reach_ahead_, ahead)), kSmallestLimitOfSearch_m);
+  }
+  if (!is_other) return false;
+  const auto adapted = [&](double limit, bool is_affordable, double smallest) {
+    return std::clamp((is_affordable ? 1.25 : 0.5) * limit, smallest, kLargestReach_m);
   };
-  limit_ = adapted(limit_, shared.rules.affordable_pairs, kSmallestReachLimit_m);
-  limit_ahead_ = adapted(limit_ahead_, kAffordablePairsAhead, kSmallestLimitAhead_m);
+  limit_ = adapted(limit_, shared.candidates.size() <= shared.rules.affordable_pairs, kSmallestReachLimit_m);
+  limit_ahead_ = adapted(limit_ahead_, shared.candidates.size() <= kAffordablePairsAhead, kSmallestLimitAhead_m);
+  limit_of_search_ =
+      adapted(limit_of_search_, shared.candidates.work() <= shared.work_of_searches, kSmallestLimitOfSearch_m);
   return true;
 }
 

@@ -19,8 +19,9 @@ class SearchRadius {
   double reach_ahead() const { return reach_ahead_; }
 
   /// Makes every pair within the reach ahead a candidate, except pairs of `ignored` bodies. A search looks some ticks
-  /// farther.
-  /// Returns whether the candidates changed.
+  /// farther. Returns whether the candidates changed. Where the work of a call does not suffice for the search, the
+  /// candidates do not cover the reach afterwards. The next call then goes on with the search if its radius is the
+  /// smallest, and otherwise begins another one with a smaller radius.
   bool look(SimulatedParts& shared, std::span<const BodyPair> ignored);
 
   /// Notes the step that was taken; the next reach depends on it.
@@ -36,6 +37,7 @@ class SearchRadius {
   // Metres; they adapt to the number of pairs that searches find.
   double limit_;
   double limit_ahead_;
+  double limit_of_search_;  // metres of reach and look-ahead each; adapts to the work of searches
 };
 
 }  // namespace glissade::haptics

@@ -88,6 +88,7 @@ HeldPartState state_at_start(const HeldPart& held, const Eigen::Isometry3d& X_WV
 SimulatedParts::SimulatedParts(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts,
                                const SlidingRules& sliding_rules)
     : rules(checked(sliding_rules, parts)),
+      work_of_searches(half_of(rules.work_budget)),
       work_of_steps(half_of(rules.work_budget)),
       scene(std::move(obstacles), bodies_of(parts), margins_of(parts, rules)),
       candidates(scene, kLargestReach_m + kMostLookAhead_m, rules.has_search_thread, half_of(rules.work_budget)) {

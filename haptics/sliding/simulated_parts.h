@@ -32,7 +32,8 @@ struct SimulatedParts {
   double ghost_motion() const;
 
   SlidingRules rules;
-  std::int64_t work_of_steps;  // in a call, without searches
+  std::int64_t work_of_searches;  // of a call
+  std::int64_t work_of_steps;     // of a call, without searches
   ContactScene scene;
   CandidatePairs candidates;
   std::vector<HeldPartState> states;

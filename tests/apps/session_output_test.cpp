@@ -59,6 +59,7 @@ TEST(SessionText, ARunWithoutASearchHasNoMeans) {
   const nlohmann::json json = to_json(summary_of(session), session);
   EXPECT_TRUE(json["collision_stages"]["exact"]["us"].is_null());
   EXPECT_EQ(json["collision_frames"], 0);
+  EXPECT_EQ(json["calls_ended_early"], 0);
 }
 
 TEST(SessionReport, OfARunThatNeverBeganIsAPage) {

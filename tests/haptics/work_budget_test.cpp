@@ -1,0 +1,189 @@
+// A budget of work for each call: it ends early, says so, never moves through what is not proven free, and gets there.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/haptics/multi_part_sliding.h>
+#include <glissade/haptics/sliding.h>
+#include <glissade/reference/brute_force.h>
+
+#include "certificate/path_certificate.h"
+#include "held_part.h"
+#include "poses.h"
+#include "random_numbers.h"
+#include "sanitizers.h"
+#include "search/candidate_pairs.h"
+
+namespace glissade::haptics {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using test_support::pose;
+using test_support::turn;
+
+/// A ball over a finely meshed block whose upper face is z = 0.
+Obstacle fine_block() {
+  return test_support::obstacle_of(geometry::make_box({0.1, 0.1, 0.05}, 6000), pose({0.0, 0.0, -0.025}));
+}
+std::shared_ptr<const SlidingPart> fine_ball() {
+  return test_support::part_of(geometry::make_sphere(0.02, 2000));
+}
+const Isometry3d kAbove = pose({0.0, 0.0, 0.021}, turn(1.0, Vector3d::UnitX()));
+
+Sliding ball_on_block(std::optional<std::int64_t> budget, bool has_search_thread = false) {
+  return {
+      {fine_block()}, fine_ball(), kAbove, {.rules = {.has_search_thread = has_search_thread, .work_budget = budget}}};
+}
+
+/// 2 mm deep into the block, and 10 mm along it.
+const Isometry3d kGoal = pose({0.01, 0.0, 0.018}, kAbove.linear() * turn(0.1, Vector3d::UnitY()));
+
+/// Leads the ball to the goal and holds the ghost there. Returns the number of calls that ended early.
+int lead_to_goal(Sliding& sliding, int most_calls) {
+  int early = 0;
+  for (int i = 1; i <= most_calls; ++i) {
+    early += sliding.advance(test_support::between(kAbove, kGoal, std::min(1.0, 1e-2 * i))).ended_early ? 1 : 0;
+    if (i > 100 && early == 0 && sliding.result().state == SlidingState::kResting) break;
+  }
+  return early;
+}
+
+TEST(WorkBudget, WithoutOneNoCallEndsEarly) {
+  Sliding sliding = ball_on_block(std::nullopt);
+  EXPECT_EQ(lead_to_goal(sliding, 300), 0);
+  EXPECT_EQ(sliding.call_statistics().ended_early, 0);
+  EXPECT_GT(sliding.call_statistics().calls, 0);
+}
+
+TEST(WorkBudget, ThePartGetsToTheSamePlaceInMoreCalls) {
+  Sliding unlimited = ball_on_block(std::nullopt);
+  lead_to_goal(unlimited, 1000);
+  for (const std::int64_t budget : {20'000, 200'000}) {
+    SCOPED_TRACE(budget);
+    Sliding sliding = ball_on_block(budget);
+    EXPECT_GT(lead_to_goal(sliding, test_support::kSanitized ? 4000 : 20'000), 50);
+    EXPECT_LT((sliding.result().X_WV.translation() - unlimited.result().X_WV.translation()).norm(), 20e-6);
+  }
+}
+
+TEST(WorkBudget, ACallDoesNoMoreThanItsWorkAndOnePiece) {
+  constexpr std::int64_t kBudget = 20'000;
+  // A projection on the contacts of a ball on a plane, or the proof of two leaves: the greatest piece here.
+  constexpr std::int64_t kPiece = 100'000;
+  Sliding sliding = ball_on_block(kBudget);
+  lead_to_goal(sliding, 2000);
+  EXPECT_GT(sliding.call_statistics().ended_early, 100);
+  EXPECT_LE(sliding.call_statistics().most_work, kBudget / 2 + kPiece);
+  Sliding unlimited = ball_on_block(std::nullopt);
+  lead_to_goal(unlimited, 1000);
+  EXPECT_GT(unlimited.call_statistics().most_work, kBudget / 2 + kPiece) << "otherwise the bound says nothing";
+}
+
+/// A thread works on the search of the candidates while a call waits for it.
+TEST(WorkBudget, ASearchDoesNoMoreInACallEither) {
+  constexpr std::int64_t kWork = 5'000;
+  constexpr std::int64_t kPiece = 16 * 300 + 60;  // the triangle pairs of two leaves
+  ContactScene scene({fine_block()}, {fine_ball()}, std::vector<double>{1e-5});
+  scene.place(0, pose({0.0, 0.0, 0.0201}));
+  CandidatePairs all(scene, 5e-3);
+  all.look(1e-3, 0.0, {});
+  CandidatePairs candidates(scene, 5e-3, false, kWork);
+  int calls = 1;
+  std::int64_t before = 0;
+  for (candidates.begin_call(); !candidates.look(1e-3, 0.0, {}); candidates.begin_call(), ++calls) {
+    ASSERT_FALSE(candidates.covers(0.0)) << "before it is done";
+    ASSERT_LE(candidates.work_of_search() - before, kWork + kPiece);
+    before = candidates.work_of_search();
+    ASSERT_LT(calls, 10'000);
+  }
+  EXPECT_GT(calls, 10);
+  EXPECT_TRUE(candidates.covers(1e-3));
+  EXPECT_EQ(candidates.size(), all.size());
+}
+
+TEST(WorkBudget, ACertificateGoesOnWhereItStopped) {
+  ContactScene scene({fine_block()}, {fine_ball()}, std::vector<double>{1e-5});
+  scene.place(0, pose({0.0, 0.0, 0.0201}));
+  CandidatePairs candidates(scene, 5e-3);
+  candidates.look(1e-3, 0.0, {});
+  std::vector<PairToCertify> to_certify;
+  candidates.within(1e-3, to_certify);
+  const std::vector<geometry::Displacement> down{{Vector3d(0.0, 0.0, -0.5e-3), Vector3d(0.01, 0.0, 0.0)}};
+  const auto failures_with = [&](std::int64_t work) {
+    PathCertificate certificate(scene);
+    certificate.begin(down, to_certify);
+    for (WorkBudget budget{work}; !certificate.go_on(budget); budget = {work}) {
+    }
+    std::vector<std::int32_t> failures;
+    for (const UncertifiedPair& pair : certificate.failures())
+      failures.insert(failures.end(), {pair.obstacle_triangle, pair.part_triangle});
+    return failures;
+  };
+  EXPECT_FALSE(failures_with(kUnlimitedWork).empty());
+  EXPECT_EQ(failures_with(1), failures_with(kUnlimitedWork));
+}
+
+/// A ball that is pushed at random into rough ground, with random budgets down to the least.
+TEST(WorkBudget, NothingEverCollides) {
+  constexpr std::uint64_t kSeed = 81;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  test_support::RandomNumbers random(kSeed);
+  int early = 0;
+  for (int trial = 0; trial < test_support::affordable(12); ++trial) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
+    geometry::TriangleMesh ground = geometry::make_plate({0.06, 0.06}, 400);
+    for (Vector3d& x : ground.vertices)
+      x.z() += random.uniform(-2e-3, 2e-3);
+    const auto ball = geometry::make_sphere(0.01, 300);
+    const std::int64_t budget = static_cast<std::int64_t>(2.0 * random.power_of_ten(0.0, 5.0));
+    Sliding sliding({test_support::obstacle_of(ground)}, test_support::part_of(ball), pose({0.0, 0.0, 0.013}),
+                    {.metaphor = random.chance(0.5) ? Metaphor::kForceFeedback : Metaphor::kRubberBandSpring,
+                     .rules = {.work_budget = budget}});
+    for (int leg = 0; leg < 4; ++leg) {
+      const Isometry3d X_from = sliding.result().X_WG;
+      const Isometry3d X_to =
+          pose({random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02), random.uniform(-5e-3, 0.01)},
+               turn(random.uniform(-1.0, 1.0), random.direction()));
+      for (int i = 1; i <= 100; ++i) {
+        const SlidingResult& result = sliding.advance(test_support::between(X_from, X_to, 0.01 * i));
+        early += result.ended_early ? 1 : 0;
+        if (i % 10 != 0) continue;
+        ASSERT_FALSE(reference::brute_force_intersects(ground, ball, result.X_WV)) << "leg " << leg << ", call " << i;
+      }
+      if (random.chance(0.3)) sliding.grasp(X_to);
+    }
+  }
+  EXPECT_GT(early, 100);
+}
+
+TEST(WorkBudget, NoBitDependsOnTheSearchThread) {
+  for (const std::int64_t budget : {20'000, 200'000, 2'000'000}) {
+    Sliding without = ball_on_block(budget);
+    Sliding with = ball_on_block(budget, true);
+    for (int i = 1; i <= 600; ++i) {
+      const Isometry3d X_WG = test_support::between(kAbove, kGoal, std::min(1.0, 5e-3 * i));
+      const SlidingResult& a = without.advance(X_WG);
+      const SlidingResult& b = with.advance(X_WG);
+      ASSERT_EQ(a.X_WV.matrix(), b.X_WV.matrix()) << budget << ", call " << i;
+      ASSERT_EQ(a.ended_early, b.ended_early) << budget << ", call " << i;
+      ASSERT_EQ(a.contacts.size(), b.contacts.size()) << budget << ", call " << i;
+    }
+    EXPECT_EQ(without.call_statistics().most_work, with.call_statistics().most_work);
+    EXPECT_GT(without.call_statistics().ended_early, 0);
+  }
+}
+
+TEST(WorkBudget, MustAllowSomething) {
+  EXPECT_THROW(ball_on_block(1), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace glissade::haptics
