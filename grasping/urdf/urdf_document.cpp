@@ -13,8 +13,8 @@
 namespace glissade::grasping {
 namespace {
 
-/// liburdfdom logs its errors: first what is wrong, then the joint or link where it is. Keeps them, as one line, instead
-/// of printing them.
+/// liburdfdom logs its errors: first what is wrong, then the joint or link where it is. Keeps them, as one line,
+/// instead of printing them.
 class Errors : public console_bridge::OutputHandler {
  public:
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
