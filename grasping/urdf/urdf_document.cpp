@@ -2,19 +2,20 @@
 
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <mutex>
-#include <set>
 #include <stdexcept>
 #include <string>
 
 #include <console_bridge/console.h>
+#include <tinyxml.h>
 #include <urdf_parser/urdf_parser.h>
 
 namespace glissade::grasping {
 namespace {
 
-/// liburdfdom logs its errors: first what is wrong, then the joint or link where it is. Keeps them, as one line, instead
-/// of printing them.
+/// liburdfdom logs its errors: first what is wrong, then the joint or link where it is. Keeps them, as one line,
+/// instead of printing them.
 class Errors : public console_bridge::OutputHandler {
  public:
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
@@ -34,9 +35,43 @@ std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& path) {
+void require(bool holds, const std::filesystem::path& path, const std::string& what) {
+  if (!holds) throw std::invalid_argument(path.string() + ": " + what + ".");
+}
+
+std::string name_in(const TiXmlElement& joint, const char* role) {
+  const TiXmlElement* const link = joint.FirstChildElement(role);
+  const char* const name = link ? link->Attribute("link") : nullptr;
+  return name ? name : "";
+}
+
+/// Each link has one parent, and no link hangs on itself. Checked before liburdfdom makes a model: it takes links with
+/// several parents, and the links of a loop would keep each other in memory for ever.
+void check_tree(const std::string& text, const std::filesystem::path& path) {
+  TiXmlDocument document;
+  document.Parse(text.c_str());
+  const TiXmlElement* const robot = document.FirstChildElement("robot");
+  std::map<std::string, std::string> parents;
+  for (const TiXmlElement* joint = robot ? robot->FirstChildElement("joint") : nullptr; joint;
+       joint = joint->NextSiblingElement("joint")) {
+    const std::string child = name_in(*joint, "child");
+    if (child.empty()) continue;  // liburdfdom says so
+    require(parents.emplace(child, name_in(*joint, "parent")).second, path,
+            "link '" + child + "' is the child of several joints");
+  }
+  for (const auto& [child, parent] : parents) {
+    std::size_t steps = 0;
+    for (auto above = parents.find(parent); above != parents.end(); above = parents.find(above->second))
+      require(++steps <= parents.size(), path, "link '" + child + "' hangs in a loop, not on the root");
+  }
+}
+
+}  // namespace
+
+urdf::ModelInterfaceSharedPtr read_urdf_document(const std::filesystem::path& path) {
   static std::mutex one_at_a_time;  // the handler is the process's
   const std::string text = text_of(path);
+  check_tree(text, path);
   const std::lock_guard lock(one_at_a_time);
   Errors errors;
   console_bridge::OutputHandler* const before = console_bridge::getOutputHandler();
@@ -49,27 +84,8 @@ urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& path) {
     thrown = exception.what();
   }
   console_bridge::useOutputHandler(before);
-  if (model) return model;
   const std::string& why = errors.line().empty() ? thrown : errors.line();
-  throw std::invalid_argument(path.string() + ": no valid URDF" + (why.empty() ? "." : ": " + why));
-}
-
-void add_descendants(const urdf::Link& link, const std::filesystem::path& path, std::set<std::string>& found) {
-  if (!found.insert(link.name).second)
-    throw std::invalid_argument(path.string() + ": link '" + link.name + "' is the child of several joints.");
-  for (const urdf::LinkSharedPtr& child : link.child_links)
-    add_descendants(*child, path, found);
-}
-
-}  // namespace
-
-urdf::ModelInterfaceSharedPtr read_urdf_document(const std::filesystem::path& path) {
-  const urdf::ModelInterfaceSharedPtr model = parse(path);
-  std::set<std::string> found;
-  add_descendants(*model->getRoot(), path, found);
-  for (const auto& [name, link] : model->links_)
-    if (!found.contains(name))
-      throw std::invalid_argument(path.string() + ": link '" + name + "' hangs in a loop, not on the root.");
+  require(model != nullptr, path, "no valid URDF" + (why.empty() ? "" : ": " + why));
   return model;
 }
 

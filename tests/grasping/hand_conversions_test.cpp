@@ -8,6 +8,7 @@
 
 #include <glissade/grasping/hand_conversions.h>
 
+#include "allocation_counter.h"
 #include "expect_bad_input.h"
 #include "poses.h"
 #include "random_chain.h"
@@ -117,6 +118,18 @@ TEST(OpenXr, FitsTheDirectionOfTheThumbRatherThanItsNail) {
   const Vector3d bone = joints[metacarpal].X_WOpenXr.linear().col(2);
   const OpenXrJoints fitted = to_openxr(hand, from_openxr(hand, joints));
   EXPECT_GT(fitted[metacarpal].X_WOpenXr.linear().col(2).dot(bone), std::cos(0.1));
+}
+
+TEST(OpenXr, AllocatesNothing) {
+  if (!test_support::allocations_are_counted()) GTEST_SKIP() << "allocations are not counted";
+  const HandModel hand = make_hand();
+  HandPose pose;
+  const std::int64_t before = test_support::allocations_of_this_thread();
+  pose.values[value_named("index_pip")] = 2.0;
+  hand.chain.clamp(pose.values);
+  pose = from_openxr(hand, to_openxr(hand, pose));
+  EXPECT_EQ(test_support::allocations_of_this_thread(), before);
+  EXPECT_GT(pose.values[value_named("index_pip")], 1.5);
 }
 
 std::array<double, kAdroitJoints> adroit(const std::vector<std::pair<std::string, double>>& named) {

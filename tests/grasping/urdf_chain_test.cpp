@@ -192,12 +192,13 @@ TEST_F(BadUrdf, NamesBadMimics) {
 
 TEST_F(BadUrdf, NamesLinksThatFormNoTree) {
   expect_error(robot(kTwoLinks), {"root"});
+  expect_error(robot(kTwoLinks + "<joint name='j' type='fixed'/>"), {"[j]", "missing a parent"});
   expect_error(robot(kTwoLinks + joint("fixed", "", "j") + joint("fixed", "", "k")), {"link 'b'", "several joints"});
   const std::string loop =
       "<link name='c'/><link name='d'/>"
       "<joint name='cd' type='fixed'><parent link='c'/><child link='d'/></joint>"
       "<joint name='dc' type='fixed'><parent link='d'/><child link='c'/></joint>";
-  expect_error(robot(loop), {"root"});
+  expect_error(robot(loop), {"link 'c'", "loop"});
   expect_error(robot(kTwoLinks + joint("fixed", "") + loop), {"link 'c'", "loop"});
 }
 
