@@ -115,7 +115,7 @@ constexpr SlidingRules real_time_rules() {
   rules.has_search_thread = true;
   rules.contacts_ahead_ms = 6.0;
   rules.affordable_pairs = 3000;
-  rules.work_budget = 4'000'000;  // docs/benchmarks.md has the ages of answers with and without it
+  rules.work_budget = 8'000'000;  // docs/benchmarks.md has the ages of answers with and without it
   return rules;
 }
 

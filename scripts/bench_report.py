@@ -29,7 +29,7 @@ def machine(command, bench):
         packages = {"libccd": "ccd", "FCL": "fcl", "Bullet": "bullet"}
     elif bench == "handoff":
         packages = {"Boost": "boost"}
-    elif bench in ("sliding", "tick", "passivity", "latency"):
+    elif bench in ("sliding", "tick", "passivity", "ages", "latency"):
         packages = {}
     versions = [f"{title} {output_of('dpkg-query', '-W', '-f=${Version}', f'lib{package}-dev')}" for title, package in packages.items()]
     facts = [datetime.date.today().isoformat(), cpu[1] if cpu else "unknown processor", output_of("c++", "--version").splitlines()[0]]
@@ -395,8 +395,17 @@ def latency(figures, _):
     return text + table(["ratios", "idle", "loaded"], rows)
 
 
+def ages(figures, _):
+    """Ages of the answers and durations of the calls, with and without a budget of work."""
+    what = {"age_p50": "age p50, ms", "age_p99": "age p99, ms", "age_max": "age worst, ms", "call_p99": "call p99, ms", "call_max": "call worst, ms",
+            "lag_mean": "mean lag, mm", "ended_early": "calls ended early, %"}
+    rows = [[f"{case}, {subject.replace('-', ' ')}"] + [number(figures.get(case, subject, metric)) for metric in what]
+            for case in figures.cases for subject in ("without-budget", "with-budget")]
+    return table(["scene"] + list(what.values()), rows)
+
+
 SECTIONS = {"zachmann": zachmann, "close": queries, "shells": queries, "coherent": coherent, "all-pairs": all_pairs,
-            "build": build, "hull": hull, "scene": scene, "threads": threads, "sliding": sliding, "tick": tick, "passivity": passivity,
+            "build": build, "hull": hull, "scene": scene, "threads": threads, "sliding": sliding, "tick": tick, "passivity": passivity, "ages": ages,
             "handoff": handoff, "latency": latency}
 
 

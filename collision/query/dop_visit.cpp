@@ -13,8 +13,8 @@
 namespace glissade::collision {
 namespace {
 
-// Work of a pair of nodes, of leaves, and of the distance of a triangle pair: nanoseconds on the machine of
-// docs/benchmarks.md, rounded up: memory that grows and pairs that are sorted take their time too.
+// Work of a pair of nodes, of leaves, and of the distance of a triangle pair: about nanoseconds, rather more than
+// less: memory that grows and pairs that are sorted take their time too.
 constexpr std::int64_t kWorkOfNodes = 100;
 constexpr std::int64_t kWorkOfLeaves = 100;
 constexpr std::int64_t kWorkOfTriangles = 500;

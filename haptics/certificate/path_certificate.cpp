@@ -8,7 +8,7 @@ namespace glissade::haptics {
 namespace {
 
 // Work of the proof of a pair of boxes, of leaves, of triangles that a known direction separates, and of each stretch
-// of a path that needs distances: in the unit of `collision::WorkMeter`, as measured.
+// of a path that needs distances: in the unit of `collision::WorkMeter`: rough. Steps take 0.4 ns a unit.
 constexpr std::int64_t kWorkOfBoxes = 60;
 constexpr std::int64_t kWorkOfLeaves = 300;
 constexpr std::int64_t kWorkOfTriangles = 150;

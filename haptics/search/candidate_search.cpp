@@ -6,7 +6,7 @@
 namespace glissade::haptics {
 namespace {
 
-/// Work of taking over and sorting a pair, in the unit of `collision::WorkMeter`, as measured.
+/// Work of taking over and sorting a pair, in the unit of `collision::WorkMeter`: rough, and high rather than low.
 constexpr std::int64_t kWorkOfPair = 400;
 
 // A single thread: the other processors belong to the haptic thread and to the viewer.
@@ -80,8 +80,8 @@ void CandidateSearch::collect_pairs(const collision::FrameResult& near, std::spa
     if (std::find(ignored.begin(), ignored.end(), bodies) != ignored.end()) continue;
     const PlacedBody& obstacle = bodies_[static_cast<std::size_t>(bodies.obstacle)];
     const PlacedBody& part = bodies_[static_cast<std::size_t>(bodies.part)];
-    if (meter_ != nullptr) meter_->spend(kWorkOfPair * std::ssize(near.close_pairs(i)));
     for (const collision::ClosePair& pair : near.close_pairs(i)) {
+      if (meter_ != nullptr) meter_->spend(kWorkOfPair);
       if (!obstacle.body->topology.can_stop_each_other(pair.triangles.triangle_A, part.body->topology,
                                                        pair.triangles.triangle_B)) {
         continue;

@@ -44,7 +44,7 @@ Sliding ball_on_block(std::optional<std::int64_t> budget, bool has_search_thread
 }
 
 /// 2 mm deep into the block, and 10 mm along it.
-const Isometry3d kGoal = pose({0.01, 0.0, 0.018}, kAbove.linear() * turn(0.1, Vector3d::UnitY()));
+const Isometry3d kGoal = pose({0.01, 0.0, 0.018}, turn(1.1, Vector3d::UnitX()));
 
 /// Leads the ball to the goal and holds the ghost there. Returns the number of calls that ended early.
 int lead_to_goal(Sliding& sliding, int most_calls) {
@@ -77,7 +77,7 @@ TEST(WorkBudget, ThePartGetsToTheSamePlaceInMoreCalls) {
 TEST(WorkBudget, ACallDoesNoMoreThanItsWorkAndOnePiece) {
   constexpr std::int64_t kBudget = 20'000;
   // A projection on the contacts of a ball on a plane, or the proof of two leaves: the greatest piece here.
-  constexpr std::int64_t kPiece = 100'000;
+  constexpr std::int64_t kPiece = 60'000;
   Sliding sliding = ball_on_block(kBudget);
   lead_to_goal(sliding, 2000);
   EXPECT_GT(sliding.call_statistics().ended_early, 100);
@@ -90,7 +90,7 @@ TEST(WorkBudget, ACallDoesNoMoreThanItsWorkAndOnePiece) {
 /// A thread works on the search of the candidates while a call waits for it.
 TEST(WorkBudget, ASearchDoesNoMoreInACallEither) {
   constexpr std::int64_t kWork = 5'000;
-  constexpr std::int64_t kPiece = 16 * 300 + 60;  // the triangle pairs of two leaves
+  constexpr std::int64_t kPiece = 16 * 500 + 100;  // the triangle pairs of two leaves
   ContactScene scene({fine_block()}, {fine_ball()}, std::vector<double>{1e-5});
   scene.place(0, pose({0.0, 0.0, 0.0201}));
   CandidatePairs all(scene, 5e-3);
@@ -165,6 +165,7 @@ TEST(WorkBudget, NothingEverCollides) {
 }
 
 TEST(WorkBudget, NoBitDependsOnTheSearchThread) {
+  std::int64_t early = 0;
   for (const std::int64_t budget : {20'000, 200'000, 2'000'000}) {
     Sliding without = ball_on_block(budget);
     Sliding with = ball_on_block(budget, true);
@@ -177,8 +178,9 @@ TEST(WorkBudget, NoBitDependsOnTheSearchThread) {
       ASSERT_EQ(a.contacts.size(), b.contacts.size()) << budget << ", call " << i;
     }
     EXPECT_EQ(without.call_statistics().most_work, with.call_statistics().most_work);
-    EXPECT_GT(without.call_statistics().ended_early, 0);
+    early += without.call_statistics().ended_early;
   }
+  EXPECT_GT(early, 100);
 }
 
 TEST(WorkBudget, MustAllowSomething) {
