@@ -2,6 +2,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -31,9 +32,11 @@ struct LogOptions {
 
 int write_tables(const LogOptions& options) {
   std::string damage;
-  for (const LogTable& table : write_log_tables(options.log, options.folder, damage))
+  const std::vector<LogTable> tables = write_log_tables(options.log, options.folder, damage);
+  for (const LogTable& table : tables)
     std::cout << table.file << ": " << table.rows << (table.rows == 1 ? " row\n" : " rows\n");
   if (!damage.empty()) throw std::runtime_error(damage);
+  if (tables.empty()) throw std::invalid_argument(options.log + ": has no channel from which a table can be made");
   return 0;
 }
 

@@ -107,8 +107,9 @@ void add_replay_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("replay", kReplayDescription);
   command->footer(kReplayFooter);
   command->add_option("LOG", options->log, "Event log of LCM")->required();
-  command->add_option("--scene", options->scene, "Scene file, in place of the recorded name");
+  CLI::Option* scene = command->add_option("--scene", options->scene, "Scene file, in place of the recorded name");
   add_lcm_options(*command, options->lcm);
+  command->get_option("--lcm")->excludes(scene);
   command->add_flag("--json", options->json, "Print the outcome as JSON");
   command->callback([options, &chosen] {
     chosen = [options] { return options->lcm.url.empty() ? repeat(*options) : play(*options); };

@@ -42,7 +42,7 @@ RecordedSession real_time_session(const HapticScene& scene, const std::vector<de
                                   const RunSettings& settings, std::chrono::nanoseconds period) {
   RecordedSession session{.scene_file = recorded_path(settings.record.scene_file),
                           .scene_hash = scene_hash(scene),
-                          .is_real_time = true,
+                          .rules = haptics::real_time_rules(),
                           .choice = settings.choice,
                           .period = period};
   for (std::size_t h = 0; h < gloves.size(); ++h)
@@ -162,7 +162,10 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
     hands.push_back({gloves.back().get(), settings.hands[h].part});
     numbers.push_back(device);
   }
-  RunRecorders recorders(settings.record, real_time_session(scene, infos, settings, period));
+  // A run that ends before all gloves have been heard leaves an older file alone.
+  const bool has_all = infos.size() == settings.hands.size();
+  RunRecorders recorders(has_all ? settings.record : RecordSettings{},
+                         real_time_session(scene, infos, settings, period));
   realtime::SteadyClock clock;
   haptics::HapticServer server(hands, sliding, clock,
                                [&sink](const devices::HapticState& sample) { sink.receive(sample); },
@@ -189,7 +192,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   if (server.has_failed()) throw std::runtime_error("the simulation failed: " + server.failure());
   Session session = finished(server.ticks(), period, scene, sliding, numbers, recorder,
                              RealTimeFigures{server.statistics(), bare_timer.statistics()});
-  session.recording = settings.record.log;
+  if (has_all) session.recording = settings.record.log;
   session.is_recording_whole = recorders.is_whole();
   return session;
 }

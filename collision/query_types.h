@@ -42,7 +42,9 @@ struct QueryCounters {
 
 /// Receives the work of a query while it runs, in the thread that runs it: so another thread can see how far a query
 /// has come, and the query can be made to wait. The unit is about a nanosecond of an ordinary processor; the work
-/// depends on the trees, their poses and the memory of coherent queries, never on the machine.
+/// depends on the trees, their poses and the memory of coherent queries, never on the speed of the machine.
+/// Conservative tests in single precision may keep a few pairs more on one instruction set than on another, so the work
+/// may differ there.
 class WorkMeter {
  public:
   /// Adds the work that has just been done, or is done next: on a pair of nodes, on a pair of leaves, or on the exact

@@ -57,10 +57,11 @@ std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
 /// second after, it is at least 0.1 J. In a calm contact, in which less than 10 mJ went to and fro in about the last
 /// half second, it recovers to 0.1 J by up to 0.1 W, so that a force that was reduced comes back before the contact
 /// ends. Returns and calm contacts together take at most 1 J and 0.1 W. For a glove that tells the delay of its link,
-/// the envelope at the glove's end does this alone. So no delay and no error of the simulation can feed an oscillation,
-/// and a hand at rest feels no jump. Joint torques are not counted. Sources: Hannaford and Ryu, Time-domain passivity
-/// control of haptic interfaces, 2002, for the observer; Franken et al., Bilateral telemanipulation with time delays: a
-/// two-layer approach combining passivity and transparency, 2011, for the shrinking with the energy in a tank.
+/// the envelope at the glove's end does this alone. So no delay and no error of the simulation can feed an oscillation
+/// that gives more than 17 mW, and a hand at rest feels no jump. Joint torques are not counted. Sources: Hannaford and
+/// Ryu, Time-domain passivity control of haptic interfaces, 2002, for the observer; Franken et al., Bilateral
+/// telemanipulation with time delays: a two-layer approach combining passivity and transparency, 2011, for the
+/// shrinking with the energy in a tank.
 ///
 /// What moves without the hand may push it. `GloveCommand::supply` tells the energy for that: it counts as if the hand
 /// had put it in, by at most the largest power.

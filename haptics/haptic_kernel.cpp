@@ -239,6 +239,7 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   if (tick.part != hand.last_part) {
     hand.contacts.move_reference(hand.p_Wref, p_Wref);
     hand.owed = 0.0;
+    hand.solved = {};
   }
   hand.last_part = tick.part;
   hand.p_Wref = p_Wref;
@@ -260,12 +261,15 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   tick.is_unsolved = contacts.is_unsolved;
   hand.supply += holds_->supply_of_pull(number, tick.pull);
   hand.supply += share_of(tick.contacts.f, contacts.wrench.f) * holds_->supply_share(number) * contacts.supply;
-  if (!contacts.is_unsolved) hand.solved = contacts.wrench;
+  if (!contacts.is_unsolved) {
+    hand.solved = {tick.contacts.f + softness * hand.contacts.withheld().f,
+                   tick.contacts.t + softness * hand.contacts.withheld().t};
+  }
   if (hand.solved.f.isZero(0.0) && hand.solved.t.isZero(0.0)) hand.owed = 0.0;
   const double against_exerted = holds_->work_against(number, tick.contacts);
   // Without a solution, what the contacts exerted before stands for what they would exert.
   const double against_withheld = contacts.is_unsolved
-                                      ? holds_->work_against(number, scaled(hand.solved, softness)) - against_exerted
+                                      ? holds_->work_against(number, hand.solved) - against_exerted
                                       : holds_->work_against(number, scaled(hand.contacts.withheld(), softness));
   hand.supply += hand.lift(against_withheld, against_exerted);
 

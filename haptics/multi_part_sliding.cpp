@@ -30,18 +30,19 @@ class MultiPartSliding::Cycle {
 
   const SimulatedParts& shared() const { return shared_; }
   const CallStatistics& statistics() const { return statistics_; }
+  std::int64_t answered_call() const { return answered_call_; }
   HeldPartState& part(std::size_t number) {
     GLISSADE_ASSERT(number < shared_.count());
     return shared_.states[number];
   }
 
   void grasp(std::size_t number, const Eigen::Isometry3d& X_WG) {
-    give_up();
+    step_finder_.give_up();  // the answer under way goes on with another cycle
     if (part(number).grasp(X_WG)) step_finder_.rows().forget_forces();
   }
 
   void release(std::size_t number) {
-    give_up();
+    step_finder_.give_up();  // the answer under way goes on with another cycle
     part(number).result.X_WG = part(number).result.X_WV;
     part(number).rest(SlidingState::kReleased);
     step_finder_.rows().forget_forces();
@@ -52,8 +53,9 @@ class MultiPartSliding::Cycle {
     unanswered_ms_ += milliseconds;
     shared_.candidates.begin_call();
     WorkBudget budget{shared_.work_of_steps};
+    ++calls_;
     bool is_complete = !is_under_way_ || go_on(budget);
-    if (is_complete) is_complete = !begin(X_WG) || go_on(budget);
+    if (is_complete) is_complete = !budget.is_used_up() && (!begin(X_WG) || go_on(budget));
     for (HeldPartState& part : shared_.states)
       part.result.ended_early = !is_complete;
     ++statistics_.calls;
@@ -67,15 +69,14 @@ class MultiPartSliding::Cycle {
 
   enum class Progress { kNextCycle, kDone, kUsedUp };
 
-  void give_up() {
-    step_finder_.give_up();
-    is_under_way_ = false;
-  }
-
   /// Begins to answer these ghosts. Returns whether there is anything to do.
   bool begin(std::span<const Eigen::Isometry3d> X_WG) {
     milliseconds_ = std::exchange(unanswered_ms_, 0.0);
-    if (!follow_ghosts(X_WG)) return false;
+    begun_call_ = calls_;
+    if (!follow_ghosts(X_WG)) {
+      answered_call_ = calls_;
+      return false;
+    }
     starts_.depenetrate(kSlew_m * milliseconds_);
     is_under_way_ = true;
     cycles_ = 0;
@@ -127,6 +128,7 @@ class MultiPartSliding::Cycle {
     const std::optional<Step> step = step_finder_.find(budget);
     if (!step) return Progress::kUsedUp;
     ++cycles_;
+    answered_call_ = begun_call_;
     const bool all_arrived = std::all_of(step->arrives.begin(), step->arrives.begin() + std::ssize(shared_.states),
                                          [](bool arrives) { return arrives; });
     const bool is_done =
@@ -186,6 +188,9 @@ class MultiPartSliding::Cycle {
   bool is_under_way_ = false;
   double milliseconds_ = 0.0;
   int cycles_ = 0;
+  std::int64_t begun_call_ = 0;
+  std::int64_t calls_ = 0;          // so far
+  std::int64_t answered_call_ = 0;  // whose ghosts the poses answer
 };
 
 MultiPartSliding::MultiPartSliding(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts,
@@ -250,6 +255,10 @@ const SearchStatistics& MultiPartSliding::search_statistics() const {
 
 const CallStatistics& MultiPartSliding::call_statistics() const {
   return cycle_->statistics();
+}
+
+std::int64_t MultiPartSliding::answered_call() const {
+  return cycle_->answered_call();
 }
 
 const ContactScene& MultiPartSliding::scene() const {

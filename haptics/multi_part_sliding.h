@@ -76,6 +76,9 @@ class MultiPartSliding {
 
   const SearchStatistics& search_statistics() const;
   const CallStatistics& call_statistics() const;
+  /// The number, from 1 on, of the call of `advance` whose ghosts the poses answer with at least one cycle: the last
+  /// one, unless a call ended early. 0 before the first.
+  std::int64_t answered_call() const;
 
  private:
   friend struct SceneAccess;

@@ -60,6 +60,9 @@ class Replay {
   /// channels. Returns false if the recording cannot be repeated from here on: `difference` says why.
   bool take(const devices::LogEvent& event);
 
+  /// To be called after the last event. Returns false, as `take` does, if the recording ends within a tick or has none.
+  bool finish();
+
   std::int64_t ticks() const noexcept { return ticks_; }
   std::int64_t answers() const noexcept { return answers_; }
   std::chrono::nanoseconds duration() const noexcept { return last_ - first_; }  ///< recorded time

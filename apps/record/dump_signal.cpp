@@ -13,7 +13,9 @@ static_assert(std::atomic<bool>::is_always_lock_free);  // a handler must not lo
 }  // namespace
 
 DumpSignal::DumpSignal() {
-  std::signal(SIGUSR1, [](int) { is_requested = true; });
+  // Leaves alone what somebody has installed before.
+  const auto before = std::signal(SIGUSR1, [](int) { is_requested = true; });
+  if (before != SIG_DFL && before != SIG_IGN && before != SIG_ERR) std::signal(SIGUSR1, before);
 }
 
 bool DumpSignal::take() {

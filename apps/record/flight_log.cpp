@@ -36,18 +36,19 @@ void FlightLog::after_tick(const haptics::TickRecord& record) noexcept {
   is_due_.store(true, std::memory_order_relaxed);
 }
 
-std::string FlightLog::write() {
+std::string FlightLog::write(bool is_last) {
   is_due_.store(false, std::memory_order_relaxed);
-  if (files_ == kMostFiles) {
+  if (files_ == kMostFiles && !is_last) {
     return "the flight recorder has written " + std::to_string(kMostFiles) + " files and writes no more";
   }
   ++files_;
-  std::filesystem::path path(path_);
-  if (files_ > 1) {
-    const std::filesystem::path extension = path.extension();
+  const std::filesystem::path first(path_);
+  std::filesystem::path path = first;
+  for (int number = 2; std::filesystem::exists(path); ++number) {
+    path = first;
     path.replace_extension();
-    path += "-" + std::to_string(files_);
-    path += extension;
+    path += "-" + std::to_string(number);
+    path += first.extension();
   }
   try {
     recorder_.write(path.string());

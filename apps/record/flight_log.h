@@ -26,9 +26,10 @@ class FlightLog final : public haptics::LoopObserver {
   /// Whether a fault is to be written. Any thread.
   bool is_due() const noexcept { return is_due_.load(std::memory_order_relaxed); }
 
-  /// Writes what is kept: the first time to the path, then to the path with "-2", "-3", ... before its extension.
-  /// Returns a sentence for the user: the file's name, or what went wrong. One thread; blocks.
-  std::string write();
+  /// Writes what is kept to the path or, if there is such a file, to the path with the next free number before its
+  /// extension: "-2", "-3", ... Returns a sentence for the user: the file's name, or what went wrong. `is_last`: the
+  /// run ends by a failure, which is written however many files there are. One thread; blocks.
+  std::string write(bool is_last = false);
 
  private:
   std::string path_;

@@ -12,8 +12,6 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr std::chrono::milliseconds kPeriod(1);
-
 /// A recorded glove on the bus.
 class Player {
  public:
@@ -24,11 +22,18 @@ class Player {
     state_.sequence = 0;
   }
 
+  /// Between two states of the glove.
+  std::chrono::nanoseconds period() const {
+    return std::chrono::round<std::chrono::nanoseconds>(
+        std::chrono::duration<double>(1.0 / track_.glove.descriptor.update_rate));
+  }
   bool is_commanded() const { return host_.statistics().accepted > 0; }
   void stop() { host_.stop(); }
 
-  /// One period of the glove, at `time` of the track. Returns whether it has a force.
+  /// Sends a state, if it is due `now`, at `time` of the track. Returns whether the glove has a force.
   bool step(std::chrono::nanoseconds time, std::chrono::nanoseconds now) {
+    if (now < due_) return has_force_;
+    due_ = std::max(due_ + period(), now);
     const devices::GloveCommand command = host_.newest_command(state_).values();
     played_.greatest_force_N = std::max(played_.greatest_force_N, command.f_H_W.norm());
     while (next_ + 1 < track_.samples.size() && track_.samples[next_ + 1].time <= time)
@@ -39,7 +44,8 @@ class Player {
     state_.time = now;
     host_.publish(state_);
     ++played_.states;
-    return !command.f_H_W.isZero(0.0) || !command.t_H_W.isZero(0.0);
+    has_force_ = !command.f_H_W.isZero(0.0) || !command.t_H_W.isZero(0.0);
+    return has_force_;
   }
 
   PlayedGlove played() const {
@@ -52,8 +58,10 @@ class Player {
  private:
   const GloveTrack& track_;
   devices::LcmGloveHost host_;
-  devices::GloveState state_;  // as sent
-  std::size_t next_ = 0;       // the newest sample
+  devices::GloveState state_;        // as sent
+  std::size_t next_ = 0;             // the newest sample
+  std::chrono::nanoseconds due_{0};  // the next state
+  bool has_force_ = false;
   PlayedGlove played_;
 };
 
@@ -93,15 +101,19 @@ std::vector<PlayedGlove> play_gloves(const std::vector<GloveTrack>& tracks, cons
                                      const std::function<void(std::chrono::nanoseconds)>& watch) {
   constexpr int kLongestEnd = 100;  // periods, in which the force fades
   constexpr std::uint64_t kWatchPeriods = 100;
+  constexpr std::chrono::nanoseconds kShortestPeriod(std::chrono::microseconds(100));
   std::vector<std::unique_ptr<Player>> players;
   for (const GloveTrack& track : tracks)
     players.push_back(std::make_unique<Player>(track, bus));
   const std::chrono::nanoseconds duration = duration_of(tracks);
+  std::chrono::nanoseconds period(std::chrono::milliseconds(1));
+  for (const auto& player : players)
+    period = std::clamp(player->period(), kShortestPeriod, period);
   std::optional<std::chrono::nanoseconds> start;
   int ending_ticks = 0;
   realtime::SteadyClock clock;
   realtime::PeriodicStatistics statistics;
-  realtime::run_periodic(clock, kPeriod, statistics, [&](const realtime::PeriodicTick& tick) {
+  realtime::run_periodic(clock, period, statistics, [&](const realtime::PeriodicTick& tick) {
     const bool is_commanded =
         std::any_of(players.begin(), players.end(), [](const auto& player) { return player->is_commanded(); });
     if (!start && is_commanded) start = tick.deadline;

@@ -40,9 +40,10 @@ struct PlayedGlove {
   double greatest_force_N = 0.0;  ///< that a hand would have felt
 };
 
-/// Sends the states in the recorded rhythm, as new ones: with new numbers and times, and sessions of this program. All
-/// wait at their first states until a server commands one of them. Ends after the last state, or when `should_stop`
-/// returns true. `watch` gets the played time, ten times a second. The commands have no effect on the recorded hands.
+/// Sends the states at the rate of each glove and at the recorded times, as new ones: with new numbers and times, and
+/// sessions of this program. All wait at their first states until a server commands one of them. Ends after the last
+/// state, or when `should_stop` returns true. `watch` gets the played time, ten times a second. The commands have no
+/// effect on the recorded hands.
 std::vector<PlayedGlove> play_gloves(const std::vector<GloveTrack>& tracks, const std::shared_ptr<devices::LcmBus>& bus,
                                      const std::function<bool()>& should_stop,
                                      const std::function<void(std::chrono::nanoseconds)>& watch);

@@ -41,7 +41,7 @@ ReplayOutcome replay_offline(const std::string& log_path, const std::string& sce
     grips.push_back({hand.glove.descriptor, hand.part});
     hands.push_back({hand.glove.descriptor, hand.part});
   }
-  haptics::SlidingRules rules = session.is_real_time ? haptics::real_time_rules() : haptics::SlidingRules{};
+  haptics::SlidingRules rules = session.rules;
   rules.has_search_thread = true;  // takes less time, and gives the same bits
   haptics::MultiPartSliding sliding = start_sliding(scene, grips, session.choice, rules, session.period);
   haptics::Replay replay(sliding, hands, session.period, head_of(session));
@@ -55,6 +55,7 @@ ReplayOutcome replay_offline(const std::string& log_path, const std::string& sce
     bytes += std::ssize(event->message);
     progress.update(bytes);
   }
+  if (log.damage().empty()) replay.finish();
   return {.ticks = replay.ticks(),
           .contact_sets = replay.answers(),
           .recorded = replay.duration(),

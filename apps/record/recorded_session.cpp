@@ -26,10 +26,15 @@ devices::LogEvent event_of(const RecordedSession& session) {
     const nlohmann::json part = hand.part ? nlohmann::json(*hand.part) : nlohmann::json(nullptr);
     hands.push_back({{"device", hand.glove.device}, {"part", part}});
   }
+  const std::optional<std::int64_t>& budget = session.rules.work_budget;
+  const nlohmann::json rules{{"max_cycles", session.rules.max_cycles},
+                             {"contacts_ahead_ms", session.rules.contacts_ahead_ms},
+                             {"affordable_pairs", session.rules.affordable_pairs},
+                             {"work_budget", budget ? nlohmann::json(*budget) : nlohmann::json(nullptr)}};
   const nlohmann::json text{{"version", kVersion},
                             {"scene_file", session.scene_file},
                             {"scene_hash", hexadecimal(session.scene_hash)},
-                            {"real_time", session.is_real_time},
+                            {"rules", rules},
                             {"metaphor", session.choice.metaphor},
                             {"friction", session.choice.friction},
                             {"spiral_search", session.choice.spiral_search},
@@ -47,7 +52,11 @@ RecordedSession session_of(const devices::LogEvent& event) {
   RecordedSession session;
   session.scene_file = text.at("scene_file");
   session.scene_hash = std::stoull(text.at("scene_hash").get<std::string>(), nullptr, 16);
-  session.is_real_time = text.at("real_time");
+  const nlohmann::json& rules = text.at("rules");
+  session.rules.max_cycles = rules.at("max_cycles");
+  session.rules.contacts_ahead_ms = rules.at("contacts_ahead_ms");
+  session.rules.affordable_pairs = rules.at("affordable_pairs");
+  if (!rules.at("work_budget").is_null()) session.rules.work_budget = rules.at("work_budget").get<std::int64_t>();
   session.choice.metaphor = text.at("metaphor");
   session.choice.friction = text.at("friction").get<std::vector<double>>();
   session.choice.spiral_search = text.at("spiral_search");

@@ -14,6 +14,7 @@
 #include <glissade/devices/glove_device.h>
 #include <glissade/haptics/haptic_kernel.h>
 #include <glissade/haptics/recording.h>
+#include <glissade/haptics/sliding_rules.h>
 
 namespace glissade::apps {
 
@@ -30,7 +31,7 @@ struct RecordedHand {
 struct RecordedSession {
   std::string scene_file;        ///< absolute path; empty: the car door of the demonstration
   std::uint64_t scene_hash = 0;  ///< as `scene_hash` gives it
-  bool is_real_time = false;     ///< the simulation had `haptics::real_time_rules`
+  haptics::SlidingRules rules;   ///< of the simulation, without those of `choice`
   SlidingChoice choice;
   std::chrono::nanoseconds period{haptics::kTickPeriod};  ///< of the haptic loop
   std::vector<RecordedHand> hands;

@@ -34,7 +34,7 @@ std::vector<std::string> RunRecorders::finish(bool has_failed) {
   if (!background_) return {};
   const std::uint64_t dropped = background_->dropped();
   background_.reset();
-  std::vector<std::string> sentences = write_flight(has_failed);
+  std::vector<std::string> sentences = flight_ && has_failed ? std::vector{flight_->write(true)} : write_flight(false);
   if (dropped > 0) {
     sentences.push_back(std::to_string(dropped) +
                         " ticks and contact sets were not recorded, because the disk was too slow");

@@ -104,7 +104,7 @@ SlidingScene of_meshes(const std::string& folder, const char* part, double part_
 }
 
 struct Ages {
-  std::vector<double> age_ms;   ///< of the newest answer, each millisecond
+  std::vector<double> age_ms;   ///< of the ghost that the newest poses answer, each millisecond
   std::vector<double> call_ms;  ///< duration of each call
   double mean_lag_mm = 0.0;     ///< of the visible part behind the ghost, over all calls
   double early_share = 0.0;     ///< of the calls
@@ -118,16 +118,18 @@ Ages ages_of(const SlidingScene& scene, const haptics::SlidingRules& rules, int 
   haptics::MultiPartSliding sliding(scene.obstacles, {{.part_V = scene.part_V, .X_WV_start = scene.X_WV_start}}, rules);
   Ages ages;
   const Clock::time_point start = Clock::now();
-  double answered = 0.0;   // the ghost of the newest answer, ms
-  double next_tick = 0.0;  // of the haptic thread, ms
-  while (answered < ticks) {
+  std::vector<double> begins{0.0};  // of the calls and so the times of their ghosts, ms
+  double answered = 0.0;            // the ghost that the poses answer, ms
+  double next_tick = 0.0;           // of the haptic thread, ms
+  while (begins.back() < ticks) {
     const double begin = Milliseconds(Clock::now() - start).count();
     const Isometry3d X_WG = scene.ghost(static_cast<int>(begin));
-    sliding.advance({&X_WG, 1}, std::min(begin - answered, kLongestCatchUp_ms));
+    sliding.advance({&X_WG, 1}, std::min(begin - begins.back(), kLongestCatchUp_ms));
+    begins.push_back(begin);
     const double end = Milliseconds(Clock::now() - start).count();
     for (; next_tick < end; next_tick += 1.0)
       ages.age_ms.push_back(next_tick - answered);
-    answered = begin;
+    answered = begins[static_cast<std::size_t>(sliding.answered_call())];
     ages.call_ms.push_back(end - begin);
     ages.mean_lag_mm += 1e3 * (X_WG.translation() - sliding.result(0).X_WV.translation()).norm();
     std::this_thread::sleep_until(start + std::chrono::duration_cast<Clock::duration>(Milliseconds(begin + 1.0)));

@@ -10,7 +10,7 @@ namespace {
 constexpr double kLongestCatchUp_ms = 250.0;
 }  // namespace
 
-Answerer::Answerer(MultiPartSliding& sliding) : sliding_(sliding) {
+Answerer::Answerer(MultiPartSliding& sliding) : sliding_(sliding), calls_before_(sliding.call_statistics().calls) {
   for (std::size_t p = 0; p < sliding.part_count(); ++p) {
     if (!sliding.is_scripted(p)) sliding.release(p);
     X_WG_.push_back(sliding.result(p).X_WV);
@@ -39,10 +39,18 @@ ContactSet Answerer::answer(const Ghosts& ghosts, std::chrono::nanoseconds first
   answered_ = ghosts.time;
   const double milliseconds = std::chrono::duration<double, std::milli>(passed).count();
   sliding_.advance(X_WG_, std::clamp(milliseconds, 0.0, kLongestCatchUp_ms));
-  ContactSet set = make_contact_set(sliding_, ++sequence_, ghosts.time, scratch_);
+  ++sequence_;
+  times_[static_cast<std::size_t>(sequence_) % times_.size()] = ghosts.time;
+  ContactSet set = make_contact_set(sliding_, sequence_, time_of_answered(), scratch_);
   for (std::size_t p = 0; p < sliding_.part_count(); ++p)
     set.parts[p].hold = holds_[p];
   return set;
+}
+
+std::chrono::nanoseconds Answerer::time_of_answered() const {
+  const std::int64_t oldest = std::max<std::int64_t>(1, sequence_ - std::ssize(times_) + 1);
+  const std::int64_t answered = std::clamp(sliding_.answered_call() - calls_before_, oldest, sequence_);
+  return times_[static_cast<std::size_t>(answered) % times_.size()];
 }
 
 }  // namespace glissade::haptics

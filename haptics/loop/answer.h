@@ -2,6 +2,7 @@
 
 /// The simulation's side of the haptic loop.
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -22,13 +23,20 @@ class Answerer {
   ContactSet at_start() const;
 
   /// Grasps and releases of `ghosts` happen first, then all parts move for the time since the last call, which is
-  /// `first` at the first one. The numbers of the sets are 1, 2, 3, …
+  /// `first` at the first one. The numbers of the sets are 1, 2, 3, … The time of a set is that of the ghosts which its
+  /// poses answer: older ones where the work of a call did not suffice for the newest.
   ContactSet answer(const Ghosts& ghosts, std::chrono::nanoseconds first);
 
  private:
   MultiPartSliding& sliding_;
+  std::int64_t calls_before_;                    // of `MultiPartSliding::advance`, by others
   std::array<std::int64_t, kMaxParts> holds_{};  // those that the simulation knows
   std::optional<std::chrono::nanoseconds> answered_;
+  std::chrono::nanoseconds time_of_answered() const;
+
+  /// The times of the ghosts of the last calls, by their numbers: more than a set may be old before its force has
+  /// faded.
+  std::array<std::chrono::nanoseconds, 1024> times_{};
   std::int64_t sequence_ = 0;
   std::vector<Eigen::Isometry3d> X_WG_;
   std::vector<std::int32_t> scratch_;

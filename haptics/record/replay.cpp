@@ -37,6 +37,14 @@ bool Replay::take(const devices::LogEvent& event) {
   return compare_with_last_tick(event);
 }
 
+bool Replay::finish() {
+  if (!difference_.empty()) return false;
+  if (ticks_ == 0) return differs("there is no tick in the recording");
+  if (expected_.empty()) return true;
+  return differs("the recording ends within tick " + std::to_string(ticks_) + ": an event is missing on " +
+                 expected_.front().channel);
+}
+
 bool Replay::repeat_tick(const devices::LogEvent& event) {
   std::optional<TickRecord> consumed = decode_tick(event.message);
   const std::string name =

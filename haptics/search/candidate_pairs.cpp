@@ -46,7 +46,11 @@ void CandidatePairs::begin_call() {
   work_left_ = work_of_call_;
   if (!is_with_thread_ || work_of_call_ == kUnlimitedWork) return;
   allowed_ += std::exchange(work_left_, 0);
-  if (thread_->work_ahead() == 0) thread_->wait_for_work(allowed_);
+  if (thread_->work_ahead() == 0) {
+    thread_->wait_for_work(allowed_);
+  } else {
+    thread_->allow(allowed_);
+  }
 }
 
 bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> ignored) {

@@ -23,6 +23,18 @@ void SearchThread::begin(CandidateSearch& search, const CandidateRequest& reques
   changed_.notify_all();
 }
 
+void SearchThread::allow(std::int64_t allowed) {
+  const std::lock_guard lock(mutex_);
+  allowed_ = allowed;
+  lock_at_ = at_most_ahead();
+  changed_.notify_all();
+}
+
+/// The work with which the thread must look again whether it may go on.
+std::int64_t SearchThread::at_most_ahead() const {
+  return allowed_ > kUnlimitedWork - work_ahead_ ? kUnlimitedWork : allowed_ + work_ahead_;
+}
+
 void SearchThread::wait_for_work(std::int64_t allowed) {
   std::unique_lock lock(mutex_);
   lock_at_ = allowed_ = allowed;
@@ -54,9 +66,10 @@ void SearchThread::spend(std::int64_t work) {
   std::unique_lock lock(mutex_);
   changed_.notify_all();
   changed_.wait(lock, stop_, [&] { return done - work_ahead_ <= allowed_ || is_cancelled_; });
-  if (is_cancelled_) throw Cancelled{};
-  // To lock again and again would starve a thread that waits for the lock.
-  lock_at_ = allowed_ > kUnlimitedWork - work_ahead_ ? kUnlimitedWork : allowed_ + work_ahead_;
+  if (is_cancelled_ || stop_.stop_requested()) throw Cancelled{};
+  // Somebody may wait for more work than is allowed. Once that is done, to lock again and again would starve a thread
+  // that waits for the lock.
+  lock_at_ = done <= allowed_ ? allowed_ : at_most_ahead();
 }
 
 void SearchThread::run(const std::stop_token& stop) {

@@ -32,6 +32,8 @@ class SearchThread final : public collision::WorkMeter {
   /// until `wait` returns true again. The search must have this object as its meter.
   void begin(CandidateSearch& search, const CandidateRequest& request, CandidateSet& set);
 
+  /// Allows the search to have done so much work since its beginning. Does not wait.
+  void allow(std::int64_t allowed);
   /// Waits until the search is done or has done more work than `allowed` since its beginning.
   void wait_for_work(std::int64_t allowed);
   /// The same; returns whether the search is done and has done no more. So the answer does not depend on how fast the
@@ -57,6 +59,7 @@ class SearchThread final : public collision::WorkMeter {
 
   void run(const std::stop_token& stop);
   bool is_done() const { return job_.search == nullptr; }
+  std::int64_t at_most_ahead() const;
 
   struct Cancelled : std::exception {};
 

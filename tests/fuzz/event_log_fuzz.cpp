@@ -86,7 +86,7 @@ bool try_log(devices::EventLogReader& log) {
     goes_on = goes_on && replay.take(*event);
     require(goes_on == replay.difference().empty(), "a difference without a sentence");
   }
-  return log.damage().empty() && goes_on;
+  return log.damage().empty() && replay.finish();
 }
 
 }  // namespace

@@ -93,6 +93,7 @@ class Recording : public testing::Test {
     while (const auto event = log.next()) {
       if (!replay.take(*event)) break;
     }
+    if (log.damage().empty()) replay.finish();
     ticks_ = replay.ticks();
     answers_ = replay.answers();
     return log.damage() + replay.difference();
@@ -187,6 +188,33 @@ TEST_F(Recording, ThatIsCutOffGivesAllBeforeTheEnd) {
   const std::string whole = bytes();
   EXPECT_NE(fault(changed(whole.substr(0, whole.size() - 5))).find("the file ends within an event"), std::string::npos);
   EXPECT_GE(ticks_, kRecordedTicks - 1);
+}
+
+TEST_F(Recording, ThatIsCutOffBetweenTwoEventsOfATickIsFoundOut) {
+  std::vector<devices::LogEvent> events;
+  devices::EventLogReader log(path_);
+  while (const auto event = log.next())
+    events.push_back(*event);
+  std::size_t last_tick = events.size() - 1;
+  while (events[last_tick].channel != "HAPTIC_TICK")
+    --last_tick;
+  ASSERT_LT(last_tick + 1, events.size());
+  for (std::size_t count = last_tick + 1; events.at(count).channel != "CONTACT_SET"; ++count) {
+    const std::string path = folder_.path("cut.lcmlog");
+    devices::EventLogWriter writer(path);
+    for (std::size_t i = 0; i < count; ++i)
+      writer.write(events[i]);
+    writer.close();
+    EXPECT_NE(fault(path).find("the recording ends within tick 600"), std::string::npos) << count;
+  }
+}
+
+TEST_F(Recording, WithoutATickIsNoRun) {
+  const std::string path = folder_.path("empty.lcmlog");
+  devices::EventLogWriter writer(path);
+  writer.write(recorded_head().events.front());
+  writer.close();
+  EXPECT_EQ(fault(path), "there is no tick in the recording");
 }
 
 TEST_F(Recording, WithOneChangedBitIsFoundOut) {

@@ -1,5 +1,7 @@
 // A budget of work for each call: it ends early, says so, never moves through what is not proven free, and gets there.
 
+#include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,6 +18,7 @@
 
 #include "certificate/path_certificate.h"
 #include "held_part.h"
+#include "loop/answer.h"
 #include "poses.h"
 #include "random_numbers.h"
 #include "sanitizers.h"
@@ -185,6 +188,34 @@ TEST(WorkBudget, NoBitDependsOnTheSearchThread) {
 
 TEST(WorkBudget, MustAllowSomething) {
   EXPECT_THROW(ball_on_block(1), std::invalid_argument);
+}
+
+/// A ghost that presses the ball on the block and rolls and drags it to and fro.
+Isometry3d rolling_ghost(int call) {
+  const double phase = 0.05 * call;
+  return pose({0.01 * std::sin(phase), 0.005 * std::sin(1.7 * phase), 0.019},
+              Eigen::Quaterniond(kAbove.linear()) * turn(phase, Vector3d::UnitY()));
+}
+
+TEST(WorkBudget, TheTimeOfAContactSetIsThatOfTheGhostsThatItAnswers) {
+  MultiPartSliding sliding({fine_block()}, {{.part_V = fine_ball(), .X_WV_start = kAbove}}, {.work_budget = 20'000});
+  Answerer answerer(sliding);
+  int old = 0;
+  std::chrono::nanoseconds last{0};
+  for (int call = 1; call <= 300; ++call) {
+    Ghosts ghosts;
+    ghosts.time = std::chrono::milliseconds(call);
+    ghosts.parts[0].X_WG = rolling_ghost(call);
+    ghosts.parts[0].is_held = true;
+    ghosts.parts[0].hold = 1;
+    const ContactSet set = answerer.answer(ghosts, kTickPeriod);
+    EXPECT_GE(set.time, last) << call;
+    const bool is_complete = !sliding.result(0).ended_early;
+    EXPECT_TRUE(!is_complete || set.time == ghosts.time) << call;
+    old += set.time < ghosts.time ? 1 : 0;
+    last = set.time;
+  }
+  EXPECT_GT(old, 20);
 }
 
 }  // namespace
