@@ -147,7 +147,7 @@ class CertifiedBodies::State {
 };
 
 CertifiedBodies::CertifiedBodies(std::vector<Obstacle> fixed, std::vector<std::shared_ptr<const SlidingPart>> objects,
-                                 std::vector<std::shared_ptr<const SlidingPart>> movers, double margin)
+                                 const std::vector<std::shared_ptr<const SlidingPart>>& movers, double margin)
     : state_(std::make_unique<State>(std::move(fixed), std::move(objects), movers, margin)) {}
 
 CertifiedBodies::CertifiedBodies(CertifiedBodies&&) noexcept = default;

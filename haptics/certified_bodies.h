@@ -25,7 +25,7 @@ class CertifiedBodies {
   /// motion keeps kMinClearanceOfMargin of it. Throws std::invalid_argument as `MultiPartSliding` does for bodies,
   /// poses and margins, and when there is no mover.
   CertifiedBodies(std::vector<Obstacle> fixed, std::vector<std::shared_ptr<const SlidingPart>> objects,
-                  std::vector<std::shared_ptr<const SlidingPart>> movers, double margin);
+                  const std::vector<std::shared_ptr<const SlidingPart>>& movers, double margin);
   CertifiedBodies(CertifiedBodies&&) noexcept;
   CertifiedBodies& operator=(CertifiedBodies&&) noexcept;
   ~CertifiedBodies();

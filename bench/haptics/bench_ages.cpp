@@ -28,7 +28,7 @@ using test_support::pose;
 using test_support::SlidingScene;
 using test_support::turn;
 
-constexpr double kTick_s = 1e-3;
+constexpr double kMillisecond_s = 1e-3;
 constexpr double kLongestCatchUp_ms = 250.0;  // as the server
 
 /// Down by `depth` at `speed` (m/s), then to and fro along x, 15 mm to either side.
@@ -43,7 +43,7 @@ SlidingScene pressed_and_dragged(const std::string& name, haptics::Obstacle obst
   scene.ticks = 5000;
   scene.ghost = [=](int tick) -> Isometry3d {
     constexpr double kAmplitude = 15e-3;
-    const double way = speed * kTick_s * tick;
+    const double way = speed * kMillisecond_s * tick;
     const double along = std::fmod(std::max(0.0, way - depth) + kAmplitude, 4.0 * kAmplitude);
     const double x = along < 2.0 * kAmplitude ? along - kAmplitude : 3.0 * kAmplitude - along;
     return pose({x, 0.0, -std::min(way, depth)}) * X_WV_start;
@@ -69,7 +69,7 @@ SlidingScene ball_in_socket() {
   scene.part_V = test_support::part_of(geometry::make_sphere(0.02, 100'000));
   scene.ticks = 5000;
   scene.ghost = [](int tick) -> Isometry3d {
-    const double t = kTick_s * tick;
+    const double t = kMillisecond_s * tick;
     return pose({2e-3 * std::sin(3.0 * t), 0.0, -std::min(0.1 * t, 3e-3)}, turn(std::sin(2.0 * t), Vector3d::UnitY()));
   };
   return scene;

@@ -115,12 +115,12 @@ void two_threads(Handoff& handoff, const Value& value, int handoffs, HandoffTime
 /// A slice of each way; they take turns.
 template <typename Value, template <typename> typename... Handoffs>
 void measure(const std::string& name, bool quick, Results& results) {
-  constexpr std::array subjects{Handoffs<Value>::kSubject...};
+  constexpr std::array kSubjects{Handoffs<Value>::kSubject...};
   const int slices = quick ? 5 : 51;
   const int calls = sizeof(Value) > 4096 ? 500 : 5000;
   const auto value = std::make_unique<Value>();
   std::fprintf(stderr, "handoff %s, %zu bytes\n", name.c_str(), sizeof(Value));
-  std::vector<HandoffTimes> times(subjects.size());
+  std::vector<HandoffTimes> times(kSubjects.size());
   for (int slice = 0; slice < slices; ++slice) {
     auto next = times.begin();
     const auto one_slice = [&](auto handoff) {
@@ -129,9 +129,9 @@ void measure(const std::string& name, bool quick, Results& results) {
     };
     (one_slice(std::make_unique<Handoffs<Value>>()), ...);
   }
-  for (std::size_t i = 0; i < subjects.size(); ++i) {
+  for (std::size_t i = 0; i < kSubjects.size(); ++i) {
     const auto add = [&](const std::string& threads, const std::string& metric, const std::vector<double>& of_slices) {
-      results.add({kHandoff, name + threads, subjects[i], metric, median(of_slices), "ns"});
+      results.add({kHandoff, name + threads, kSubjects[i], metric, median(of_slices), "ns"});
     };
     add(kOneThread, "time", times[i].one_thread);
     add(kTwoThreads, "time", times[i].handoff_p50);

@@ -20,7 +20,7 @@ void check_margin(double margin, const std::string& whose) {
 
 ContactScene::ContactScene(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> parts,
                            std::span<const double> margins)
-    : ContactScene(std::move(obstacles), parts, margins, std::vector<int>(parts.size(), kPart)) {}
+    : ContactScene(std::move(obstacles), std::move(parts), margins, std::vector<int>(margins.size(), kPart)) {}
 
 ContactScene::ContactScene(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> parts,
                            std::span<const double> margins, std::span<const int> groups)

@@ -39,11 +39,13 @@ Obstacle fine_block() {
 std::shared_ptr<const SlidingPart> fine_ball() {
   return test_support::part_of(geometry::make_sphere(0.02, 2000));
 }
-const Isometry3d kAbove = pose({0.0, 0.0, 0.021}, turn(1.0, Vector3d::UnitX()));
+const Isometry3d kAboveBlock = pose({0.0, 0.0, 0.021}, turn(1.0, Vector3d::UnitX()));
 
 Sliding ball_on_block(std::optional<std::int64_t> budget, bool has_search_thread = false) {
-  return {
-      {fine_block()}, fine_ball(), kAbove, {.rules = {.has_search_thread = has_search_thread, .work_budget = budget}}};
+  return {{fine_block()},
+          fine_ball(),
+          kAboveBlock,
+          {.rules = {.has_search_thread = has_search_thread, .work_budget = budget}}};
 }
 
 /// 2 mm deep into the block, and 10 mm along it.
@@ -53,7 +55,7 @@ const Isometry3d kGoal = pose({0.01, 0.0, 0.018}, turn(1.1, Vector3d::UnitX()));
 int lead_to_goal(Sliding& sliding, int most_calls) {
   int early = 0;
   for (int i = 1; i <= most_calls; ++i) {
-    early += sliding.advance(test_support::between(kAbove, kGoal, std::min(1.0, 1e-2 * i))).ended_early ? 1 : 0;
+    early += sliding.advance(test_support::between(kAboveBlock, kGoal, std::min(1.0, 1e-2 * i))).ended_early ? 1 : 0;
     if (i > 100 && early == 0 && sliding.result().state == SlidingState::kResting) break;
   }
   return early;
@@ -173,7 +175,7 @@ TEST(WorkBudget, NoBitDependsOnTheSearchThread) {
     Sliding without = ball_on_block(budget);
     Sliding with = ball_on_block(budget, true);
     for (int i = 1; i <= 600; ++i) {
-      const Isometry3d X_WG = test_support::between(kAbove, kGoal, std::min(1.0, 5e-3 * i));
+      const Isometry3d X_WG = test_support::between(kAboveBlock, kGoal, std::min(1.0, 5e-3 * i));
       const SlidingResult& a = without.advance(X_WG);
       const SlidingResult& b = with.advance(X_WG);
       ASSERT_EQ(a.X_WV.matrix(), b.X_WV.matrix()) << budget << ", call " << i;
@@ -194,11 +196,12 @@ TEST(WorkBudget, MustAllowSomething) {
 Isometry3d rolling_ghost(int call) {
   const double phase = 0.05 * call;
   return pose({0.01 * std::sin(phase), 0.005 * std::sin(1.7 * phase), 0.019},
-              Eigen::Quaterniond(kAbove.linear()) * turn(phase, Vector3d::UnitY()));
+              Eigen::Quaterniond(kAboveBlock.linear()) * turn(phase, Vector3d::UnitY()));
 }
 
 TEST(WorkBudget, TheTimeOfAContactSetIsThatOfTheGhostsThatItAnswers) {
-  MultiPartSliding sliding({fine_block()}, {{.part_V = fine_ball(), .X_WV_start = kAbove}}, {.work_budget = 20'000});
+  MultiPartSliding sliding({fine_block()}, {{.part_V = fine_ball(), .X_WV_start = kAboveBlock}},
+                           {.work_budget = 20'000});
   Answerer answerer(sliding);
   int old = 0;
   std::chrono::nanoseconds last{0};
