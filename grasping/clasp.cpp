@@ -63,6 +63,7 @@ class Clasp::Iteration {
     posture_.values.resize(chain_->values().size());
     chain_->clamp(posture_.values);
     if (rules.most_steps < 1) throw std::invalid_argument("a call of the clasp needs at least one step");
+    if (rules.touching > kSmallestReach_m) throw std::invalid_argument("a link that touches is at most 0.2 mm away");
     way_.assign(static_cast<std::size_t>(rules.most_steps), posture_);
   }
 
@@ -75,6 +76,7 @@ class Clasp::Iteration {
 
   void place_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
     bodies_.place_object(object, X_WB);
+    is_found_here_ = false;
     if (state_ == ClaspState::kClasping && !bodies_.is_free()) wait();
   }
 
@@ -130,6 +132,7 @@ class Clasp::Iteration {
   void place_links() {
     chain_->poses(posture_.X_WR, posture_.values, X_WL_);
     bodies_.place_movers(X_WL_, movers_);
+    is_found_here_ = false;
   }
 
   /// Moves the chain by one step. Returns whether another one may be worth it.
@@ -144,6 +147,7 @@ class Clasp::Iteration {
     limit_ = std::clamp(bodies_.pair_count() > kAffordablePairs ? 0.5 * reach : 1.25 * limit_, kSmallestReach_m,
                         kGreatestReach_m);
     bodies_.find_contacts(found_);
+    is_found_here_ = true;
     rows_.set(posture_, wanted_, found_, movers_);
     longest_step_ = kStepOfReach * reach;
     const bool goes_on = go(false) || (slides_ && go(true));
@@ -208,8 +212,10 @@ class Clasp::Iteration {
   void note_touching() {
     std::fill(touching_.begin(), touching_.end(), char{0});
     link_contacts_.clear();
-    bodies_.look(kSmallestReach_m, kAheadOfReach * kSmallestReach_m);
-    bodies_.find_contacts(found_);
+    if (!is_found_here_) {
+      bodies_.look(kSmallestReach_m, kAheadOfReach * kSmallestReach_m);
+      bodies_.find_contacts(found_);
+    }
     chain_->poses(target_.X_WR, target_.values, X_WL_target_);
     for (const haptics::Contact& contact : found_) {
       if (contact.gap > rules_.touching) continue;
@@ -244,6 +250,7 @@ class Clasp::Iteration {
   std::vector<Eigen::Isometry3d> X_WL_;
   std::vector<Eigen::Isometry3d> X_WL_target_;
   std::vector<haptics::Contact> found_;
+  bool is_found_here_ = false;  // the contacts, at the present posture
   std::vector<haptics::Contact> failures_;
   std::vector<double> forces_;
   std::vector<char> touching_;

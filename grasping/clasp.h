@@ -28,7 +28,7 @@ std::string_view name_of(ClaspState state);
 struct ClaspRules {
   /// The gap (metres) at which contacts stop a link.
   double margin = 20e-6;
-  /// A link that is nearer to an object than this (metres) and whose target lies deeper touches it.
+  /// A link that is nearer to an object than this (metres, at most 0.2 mm) and whose target lies deeper touches it.
   double touching = 0.1e-3;
   /// The steps of one call; each has a proof. More of them follow a fast hand more closely.
   int most_steps = 8;
@@ -45,7 +45,7 @@ class Clasp {
  public:
   /// `fixed` are bodies that never move; `objects` stand still during a call, and may be placed elsewhere between two.
   /// The links of the chain may touch each other. Throws std::invalid_argument for a null chain or one without meshes,
-  /// and as `haptics::CertifiedBodies` does. Cost: the trees of the links.
+  /// for rules out of range, and as `haptics::CertifiedBodies` does. Cost: the trees of the links.
   Clasp(std::shared_ptr<const KinematicChain> chain, std::vector<haptics::Obstacle> fixed,
         std::vector<std::shared_ptr<const haptics::SlidingPart>> objects, const ClaspRules& rules = {});
   Clasp(Clasp&&) noexcept;

@@ -53,12 +53,11 @@ class MultiPartSliding::Cycle {
     unanswered_ms_ += milliseconds;
     shared_.candidates.begin_call();
     WorkBudget budget{shared_.work_of_steps};
-    ++calls_;
+    ++statistics_.calls;
     bool is_complete = !is_under_way_ || go_on(budget);
     if (is_complete) is_complete = !budget.is_used_up() && (!begin(X_WG) || go_on(budget));
     for (HeldPartState& part : shared_.states)
       part.result.ended_early = !is_complete;
-    ++statistics_.calls;
     statistics_.ended_early += is_complete ? 0 : 1;
     statistics_.most_work = std::max(statistics_.most_work, shared_.work_of_steps - budget.left);
   }
@@ -72,9 +71,9 @@ class MultiPartSliding::Cycle {
   /// Begins to answer these ghosts. Returns whether there is anything to do.
   bool begin(std::span<const Eigen::Isometry3d> X_WG) {
     milliseconds_ = std::exchange(unanswered_ms_, 0.0);
-    begun_call_ = calls_;
+    begun_call_ = statistics_.calls;
     if (!follow_ghosts(X_WG)) {
-      answered_call_ = calls_;
+      answered_call_ = statistics_.calls;
       return false;
     }
     starts_.depenetrate(kSlew_m * milliseconds_);
@@ -189,7 +188,6 @@ class MultiPartSliding::Cycle {
   double milliseconds_ = 0.0;
   int cycles_ = 0;
   std::int64_t begun_call_ = 0;
-  std::int64_t calls_ = 0;          // so far
   std::int64_t answered_call_ = 0;  // whose ghosts the poses answer
 };
 

@@ -36,7 +36,7 @@ CandidatePairs::CandidatePairs(const ContactScene& scene, double greatest_radius
       thread_(runs_ahead || work_of_call != kUnlimitedWork
                   ? std::make_unique<SearchThread>(work_ahead(runs_ahead, work_of_call))
                   : nullptr),
-      search_(scene, greatest_radius, thread_.get()) {}
+      search_(scene, greatest_radius, work_of_call == kUnlimitedWork ? nullptr : thread_.get()) {}
 
 CandidatePairs::~CandidatePairs() {
   thread_.reset();

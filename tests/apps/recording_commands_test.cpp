@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <glissade/apps/record/flight_log.h>
 #include <glissade/apps/text.h>
 #include <glissade/devices/event_log.h>
 
@@ -150,6 +151,24 @@ TEST_F(RecordingCommands, AFileThatCannotBeWrittenIsRefused) {
   expect_refused({"demo", "--offline", "--record", folder_.path("no/run.lcmlog")},
                  {"no/run.lcmlog", "cannot be created"});
   expect_refused({"log", "to-csv", log_, scene_ + "/tables"}, {"scene.yaml/tables"});
+}
+
+TEST(FlightLog, ReplacesNoOlderFile) {
+  const test_support::TemporaryFolder folder;
+  const std::string path = folder.write("flight.lcmlog", "of an earlier run");
+  FlightLog log(path, {});
+  EXPECT_THAT(log.write(), HasSubstr("flight-2.lcmlog"));
+  EXPECT_THAT(log.write(), HasSubstr("flight-3.lcmlog"));
+  EXPECT_EQ(read_text_file(path), "of an earlier run");
+}
+
+TEST(FlightLog, WritesTheFileOfAFailureHoweverManyThereAre) {
+  const test_support::TemporaryFolder folder;
+  FlightLog log(folder.path("flight.lcmlog"), {});
+  for (int i = 0; i < FlightLog::kMostFiles; ++i)
+    EXPECT_THAT(log.write(), HasSubstr("the last seconds are in"));
+  EXPECT_THAT(log.write(), HasSubstr("writes no more"));
+  EXPECT_THAT(log.write(true), HasSubstr("flight-11.lcmlog"));
 }
 
 TEST_F(RecordingCommands, AFullDiskIsTold) {

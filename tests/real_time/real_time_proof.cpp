@@ -1,7 +1,7 @@
 // Runs the haptic server with two hands and three parts, as `glissade run` does, and watches the haptic thread from its
-// first counted tick to its end: it allocates and releases no memory, calls no function that could wait for another
-// thread, makes no system call but those of the timer, and causes no page fault. Page faults are judged only where the
-// system grants locked memory.
+// first counted tick to its end. The thread allocates and releases no memory, and calls no function that could wait for
+// another thread. The timer's are its only system calls. It waits for no page, which is judged only where the system
+// grants locked memory.
 //
 // The loop runs at 5 kHz, so that 60,000 ticks take 12 seconds. Nothing is judged by the clock.
 
