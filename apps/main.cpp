@@ -42,6 +42,7 @@ int parse_and_run(int argc, char** argv) {
   glissade::apps::add_info_command(app, chosen);
   glissade::apps::add_collide_command(app, chosen);
   glissade::apps::add_slide_command(app, chosen);
+  glissade::apps::add_grasp_command(app, chosen);
   glissade::apps::add_run_command(app, chosen);
   glissade::apps::add_record_command(app, chosen);
   glissade::apps::add_replay_command(app, chosen);

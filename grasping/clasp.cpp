@@ -10,7 +10,7 @@
 #include "clasp/chain_step.h"
 #include "clasp/closing_rows.h"
 #include "clasp/interpolation.h"
-#include "clasp/root_slide.h"
+#include "clasp/slide_past.h"
 
 namespace glissade::grasping {
 namespace {
@@ -74,9 +74,20 @@ class Clasp::Iteration {
   const std::vector<LinkContact>& contacts() const { return link_contacts_; }
   std::span<const Posture> way() const { return {way_.data(), static_cast<std::size_t>(steps_)}; }
 
-  void place_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
+  void place_free_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
     bodies_.place_object(object, X_WB);
     is_found_here_ = false;
+  }
+
+  void carry(const Posture& posture) {
+    if (state_ != ClaspState::kClasping || !take(posture)) return;
+    posture_ = target_;
+    place_links();
+    is_carried_ = true;
+  }
+
+  void place_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
+    place_free_object(object, X_WB);
     if (state_ == ClaspState::kClasping && !bodies_.is_free()) wait();
   }
 
@@ -94,6 +105,7 @@ class Clasp::Iteration {
     while (steps_ < rules_.most_steps && take_step())
       way_[static_cast<std::size_t>(steps_++)] = posture_;
     note_touching();
+    is_carried_ = false;
   }
 
  private:
@@ -191,7 +203,7 @@ class Clasp::Iteration {
   }
 
   void find_slide() {
-    step_.root = slide_root(wanted_.root, rows_, radius_, forces_);
+    step_.root = slide_past(wanted_.root, rows_.planes(), radius_, forces_);
     step_.values.assign(step_.values.size(), 0.0);
   }
 
@@ -208,7 +220,7 @@ class Clasp::Iteration {
       value *= factor;
   }
 
-  /// A link touches if it is near an object and its target lies deeper.
+  /// A link touches if it is near an object and its target lies deeper; if it is carried, also if it stays.
   void note_touching() {
     std::fill(touching_.begin(), touching_.end(), char{0});
     link_contacts_.clear();
@@ -221,9 +233,10 @@ class Clasp::Iteration {
       if (contact.gap > rules_.touching) continue;
       const std::size_t link = movers_[static_cast<std::size_t>(contact.part)];
       const Eigen::Vector3d p_target_W = X_WL_target_[link] * (X_WL_[link].inverse(Eigen::Isometry) * contact.p_W);
-      if (contact.n_W.dot(p_target_W - contact.p_W) > -kBracket_m) continue;
+      const double depth = -contact.n_W.dot(p_target_W - contact.p_W);
+      if (depth < (is_carried_ ? -kBracket_m : kBracket_m)) continue;
       touching_[link] = 1;
-      link_contacts_.push_back({link, contact});
+      link_contacts_.push_back({link, contact, std::max(0.0, depth)});
     }
   }
 
@@ -251,6 +264,7 @@ class Clasp::Iteration {
   std::vector<Eigen::Isometry3d> X_WL_target_;
   std::vector<haptics::Contact> found_;
   bool is_found_here_ = false;  // the contacts, at the present posture
+  bool is_carried_ = false;     // by an object, since the last call of `advance`
   std::vector<haptics::Contact> failures_;
   std::vector<double> forces_;
   std::vector<char> touching_;
@@ -271,6 +285,14 @@ const KinematicChain& Clasp::chain() const {
 
 void Clasp::place_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
   iteration_->place_object(object, X_WB);
+}
+
+void Clasp::place_free_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
+  iteration_->place_free_object(object, X_WB);
+}
+
+void Clasp::carry(const Posture& posture) {
+  iteration_->carry(posture);
 }
 
 void Clasp::advance(const Posture& target) {

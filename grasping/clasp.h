@@ -38,6 +38,7 @@ struct ClaspRules {
 struct LinkContact {
   std::size_t link = 0;
   haptics::Contact contact;  ///< `Contact::obstacle`: fixed bodies first, then objects
+  double depth = 0.0;        ///< metres, to first order: how far beyond the contact the target of the link lies
 };
 
 /// Deterministic. Not thread-safe.
@@ -56,6 +57,13 @@ class Clasp {
 
   /// Places an object. If the chain is no longer free there, the clasp waits.
   void place_object(std::size_t object, const Eigen::Isometry3d& X_WB);
+
+  /// The same for an object of which the caller knows that it has touched nothing on its way there.
+  void place_free_object(std::size_t object, const Eigen::Isometry3d& X_WB);
+  /// Places the chain, which moves with an object that it holds. The caller knows that it has touched nothing on its way.
+  /// In the next call of `advance`, every link that is near an object touches it unless its target leads away: a root
+  /// that is led has no target that lies deeper.
+  void carry(const Posture& posture);
 
   /// Moves the chain towards the target; flex values beyond their limits count as the limits. A target that is not
   /// finite is ignored.

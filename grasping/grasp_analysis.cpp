@@ -82,8 +82,12 @@ std::string reason_of(const Grasp& grasp) {
 }
 
 const Grasp& GraspAnalysis::update(std::span<const LinkContact> contacts, double milliseconds,
-                                   const Eigen::Vector3d& up_W) {
+                                   const Eigen::Vector3d& up_W, std::int32_t held) {
   follow(contacts, milliseconds);
+  if (held >= 0) {
+    grasp_ = analyze(held, up_W);
+    if (grasp_.holds()) return grasp_;
+  }
   Grasp firmest;
   for (const Touch& touch : touches_) {
     if (touch.object < 0 || touch.object == firmest.object) continue;

@@ -83,9 +83,10 @@ class GraspAnalysis {
  public:
   explicit GraspAnalysis(const HandModel& hand) : meaning_(hand.meaning) {}
 
-  /// The grasp after `milliseconds` with these contacts. `up_W` is a unit vector against gravity.
+  /// The grasp after `milliseconds` with these contacts. `up_W` is a unit vector against gravity. As long as the hand
+  /// holds the body with the number `held`, no other body counts.
   const Grasp& update(std::span<const LinkContact> contacts, double milliseconds,
-                      const Eigen::Vector3d& up_W = Eigen::Vector3d::UnitZ());
+                      const Eigen::Vector3d& up_W = Eigen::Vector3d::UnitZ(), std::int32_t held = -1);
   const Grasp& grasp() const { return grasp_; }
 
   /// Forgets all contacts, as after a loss of tracking.

@@ -40,7 +40,7 @@ class CertifiedBodies::State {
         const std::vector<std::shared_ptr<const SlidingPart>>& movers, double margin)
       : margin_(margin),
         first_mover_(objects.size()),
-        scene_(std::move(fixed), joined(std::move(objects), movers),
+        scene_(std::move(fixed), joined(std::move(objects), movers), first_mover_ + movers.size(),
                std::vector<double>(first_mover_ + movers.size(), margin), groups(first_mover_, movers.size())),
         candidates_(scene_, kGreatestRadius_m),
         certificate_(scene_) {}
@@ -63,8 +63,8 @@ class CertifiedBodies::State {
   bool is_free() {
     const std::span<const PlacedBody> bodies = scene_.bodies();
     const double certain = certificate_.certain_distance();
-    for (std::size_t mover = scene_.body_of_part(first_mover_); mover < bodies.size(); ++mover) {
-      for (std::size_t other = 0; other < scene_.body_of_part(first_mover_); ++other) {
+    for (std::size_t mover = scene_.body_of_mover(first_mover_); mover < bodies.size(); ++mover) {
+      for (std::size_t other = 0; other < scene_.body_of_mover(first_mover_); ++other) {
         const Eigen::Isometry3d X_OM = bodies[other].X_WB.inverse(Eigen::Isometry) * bodies[mover].X_WB;
         if (collision::intersects(bodies[other].body->tree, bodies[mover].body->tree, X_OM, workspace_, certain))
           return false;
@@ -83,7 +83,7 @@ class CertifiedBodies::State {
 
   void find_contacts(std::vector<Contact>& contacts) {
     candidates_.within(reach_, pairs_);
-    haptics::find_contacts(scene_.bodies(), scene_.body_of_part(first_mover_), pairs_, reach_, margin_, contacts);
+    haptics::find_contacts(scene_.bodies(), scene_.body_of_mover(first_mover_), pairs_, reach_, margin_, contacts);
     for (Contact& contact : contacts)
       contact.margin = scene_.margin(contact.obstacle, body_of_mover(static_cast<std::size_t>(contact.part)));
   }
@@ -91,7 +91,7 @@ class CertifiedBodies::State {
   bool certify(const BodiesMotion& motion, std::vector<Contact>& failures) {
     failures.clear();
     double longest = 0.0;
-    for (std::size_t m = 0; first_mover_ + m < scene_.parts().size(); ++m)
+    for (std::size_t m = 0; first_mover_ + m < scene_.movers().size(); ++m)
       longest = std::max(longest, motion.length(m));
     const double concerned = longest + kMinClearanceOfMargin * margin_ + certificate_.certain_distance();
     if (!candidates_.covers(concerned)) return false;
@@ -106,7 +106,7 @@ class CertifiedBodies::State {
 
  private:
   std::int32_t body_of_mover(std::size_t mover) const {
-    return static_cast<std::int32_t>(scene_.body_of_part(first_mover_ + mover));
+    return static_cast<std::int32_t>(scene_.body_of_mover(first_mover_ + mover));
   }
 
   /// The nearest corner of the mover's triangle, over the plane that separates the triangles.
@@ -130,7 +130,7 @@ class CertifiedBodies::State {
                     failure.n_W,
                     p_W,
                     gap};
-    contact.part = failure.bodies.part - static_cast<std::int32_t>(scene_.body_of_part(first_mover_));
+    contact.part = failure.bodies.part - static_cast<std::int32_t>(scene_.body_of_mover(first_mover_));
     contact.margin = scene_.margin(failure.bodies.obstacle, failure.bodies.part);
     return contact;
   }
@@ -163,7 +163,7 @@ std::size_t CertifiedBodies::object_count() const {
 }
 
 std::size_t CertifiedBodies::mover_count() const {
-  return state_->scene().parts().size() - state_->first_mover();
+  return state_->scene().movers().size() - state_->first_mover();
 }
 
 double CertifiedBodies::margin() const {

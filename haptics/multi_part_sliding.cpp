@@ -23,8 +23,9 @@ namespace glissade::haptics {
 /// with which it began; so its result is that of a simulation that is called less often.
 class MultiPartSliding::Cycle {
  public:
-  Cycle(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const SlidingRules& rules)
-      : shared_(std::move(obstacles), parts, rules),
+  Cycle(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const std::vector<RiderChain>& chains,
+        const SlidingRules& rules)
+      : shared_(std::move(obstacles), parts, chains, rules),
         step_finder_(shared_),
         starts_(shared_, parts, kTouching * step_finder_.certain_distance()) {}
 
@@ -46,6 +47,26 @@ class MultiPartSliding::Cycle {
     part(number).result.X_WG = part(number).result.X_WV;
     part(number).rest(SlidingState::kReleased);
     step_finder_.rows().forget_forces();
+  }
+
+  void place_riders(std::size_t chain, std::span<const Eigen::Isometry3d> X_WB) {
+    step_finder_.give_up();  // the answer under way goes on with another cycle
+    shared_.riders.place(chain, X_WB) ? shared_.candidates.clear() : shared_.candidates.moved();
+    measure_levers();
+  }
+
+  void remove_riders(std::size_t chain) {
+    step_finder_.give_up();
+    shared_.riders.remove(chain);
+    shared_.candidates.clear();
+    measure_levers();
+  }
+
+  void attach(std::size_t chain, std::int32_t part) {
+    step_finder_.give_up();
+    shared_.riders.attach(chain, part);
+    shared_.candidates.clear();
+    measure_levers();
   }
 
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds) {
@@ -120,7 +141,8 @@ class MultiPartSliding::Cycle {
   Progress take_step(WorkBudget& budget) {
     if (!step_finder_.is_under_way()) {
       radius_.choose(shared_, starts_.depenetration(), milliseconds_);
-      if (radius_.look(shared_, starts_.overlaps().pairs())) starts_.restore_min_clearances();
+      find_ignored();
+      if (radius_.look(shared_, ignored_)) starts_.restore_min_clearances();
       if (!shared_.candidates.covers(radius_.reach_ahead())) return Progress::kUsedUp;
       step_finder_.look(radius_.reach(), budget);
     }
@@ -147,6 +169,22 @@ class MultiPartSliding::Cycle {
     return is_done ? Progress::kDone : Progress::kNextCycle;
   }
 
+  /// The pairs of bodies that no search looks at: those that overlap, and those that keep their distance.
+  void find_ignored() {
+    const std::span<const BodyPair> overlapping = starts_.overlaps().pairs();
+    ignored_.assign(overlapping.begin(), overlapping.end());
+    const std::vector<BodyPair>& inert = shared_.riders.inert_pairs();
+    ignored_.insert(ignored_.end(), inert.begin(), inert.end());
+    std::sort(ignored_.begin(), ignored_.end());
+  }
+
+  void measure_levers() {
+    for (std::size_t p = 0; p < shared_.count(); ++p) {
+      HeldPartState& part = shared_.states[p];
+      part.lever = std::max(part.part_V->radius(), shared_.riders.lever(static_cast<std::int32_t>(p)));
+    }
+  }
+
   void move(const Step& step) {
     step_finder_.rows().take_forces(step_finder_.forces());
     for (std::size_t p = 0; p < shared_.count(); ++p) {
@@ -161,7 +199,9 @@ class MultiPartSliding::Cycle {
         part.result.X_WV = geometry::displaced(part.result.X_WV, part.p_Vref(), step.displacements[p]);
       }
       part.moved += step.lengths[p];
-      if (step.lengths[p] > 0.0 || step.arrives[p]) shared_.scene.place(p, part.result.X_WV);
+      if (step.lengths[p] == 0.0 && !step.arrives[p]) continue;
+      shared_.scene.place(p, part.result.X_WV);
+      shared_.riders.follow(static_cast<std::int32_t>(p));
     }
     shared_.candidates.moved();
   }
@@ -180,6 +220,7 @@ class MultiPartSliding::Cycle {
   StepFinder step_finder_;
   Starts starts_;
   SearchRadius radius_;
+  std::vector<BodyPair> ignored_;
   CallStatistics statistics_;
   std::chrono::duration<double, std::milli> time_{0.0};  // since the simulation began
   double unanswered_ms_ = 0.0;                           // since the ghosts that the newest answer is for
@@ -192,8 +233,8 @@ class MultiPartSliding::Cycle {
 };
 
 MultiPartSliding::MultiPartSliding(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts,
-                                   const SlidingRules& rules)
-    : cycle_(std::make_unique<Cycle>(std::move(obstacles), parts, rules)) {}
+                                   const SlidingRules& rules, const std::vector<RiderChain>& chains)
+    : cycle_(std::make_unique<Cycle>(std::move(obstacles), parts, chains, rules)) {}
 
 MultiPartSliding::MultiPartSliding(MultiPartSliding&&) noexcept = default;
 MultiPartSliding& MultiPartSliding::operator=(MultiPartSliding&&) noexcept = default;
@@ -207,6 +248,26 @@ void MultiPartSliding::grasp(std::size_t part, const Eigen::Isometry3d& X_WG) {
 void MultiPartSliding::release(std::size_t part) {
   GLISSADE_ASSERT(!is_scripted(part));
   cycle_->release(part);
+}
+
+void MultiPartSliding::place_riders(std::size_t chain, std::span<const Eigen::Isometry3d> X_WB) {
+  GLISSADE_ASSERT(chain < cycle_->shared().riders.chain_count());
+  cycle_->place_riders(chain, X_WB);
+}
+
+void MultiPartSliding::remove_riders(std::size_t chain) {
+  GLISSADE_ASSERT(chain < cycle_->shared().riders.chain_count());
+  cycle_->remove_riders(chain);
+}
+
+void MultiPartSliding::attach(std::size_t chain, std::size_t part) {
+  GLISSADE_ASSERT(chain < cycle_->shared().riders.chain_count() && part < part_count());
+  cycle_->attach(chain, static_cast<std::int32_t>(part));
+}
+
+void MultiPartSliding::detach(std::size_t chain) {
+  GLISSADE_ASSERT(chain < cycle_->shared().riders.chain_count());
+  cycle_->attach(chain, ContactScene::kStands);
 }
 
 void MultiPartSliding::advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds) {
@@ -241,6 +302,10 @@ bool MultiPartSliding::is_scripted(std::size_t part) const {
 
 std::size_t MultiPartSliding::obstacle_count() const {
   return cycle_->shared().scene.obstacles().size();
+}
+
+std::int32_t MultiPartSliding::part_of_body(std::int32_t body) const {
+  return cycle_->shared().scene.leader(body);
 }
 
 geometry::Displacement MultiPartSliding::error(std::size_t part) const {

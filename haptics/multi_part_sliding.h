@@ -32,14 +32,17 @@ namespace glissade::haptics {
 
 class ContactScene;
 
-/// The simulation of up to kMaxParts parts among fixed obstacles. Deterministic: the same calls give the same bits.
+/// The simulation of up to kMaxParts parts among fixed obstacles, and of riders: hands, for example, that are in the way
+/// of parts or move with them. Deterministic: the same calls give the same bits.
 /// Not thread-safe; several simulations may share bodies.
 class MultiPartSliding {
  public:
-  /// Throws std::invalid_argument for no part or more than kMaxParts parts, for a single part without obstacles, for
-  /// null pointers, for poses and numbers out of range, and for overlaps at the start that `OverlapRule` refuses.
-  /// Bodies closer than the rounding of their coordinates count as overlapping.
-  MultiPartSliding(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const SlidingRules& rules = {});
+  /// Nothing touches the riders of `chains` before they are placed. Throws std::invalid_argument for no part or more
+  /// than kMaxParts parts, for a single part without obstacles and riders, for null pointers, for poses and numbers out
+  /// of range, and for overlaps at the start that `OverlapRule` refuses. Bodies closer than the rounding of their
+  /// coordinates count as overlapping.
+  MultiPartSliding(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const SlidingRules& rules = {},
+                   const std::vector<RiderChain>& chains = {});
   MultiPartSliding(MultiPartSliding&&) noexcept;
   MultiPartSliding& operator=(MultiPartSliding&&) noexcept;
   ~MultiPartSliding();
@@ -53,6 +56,17 @@ class MultiPartSliding {
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG);
   void release(std::size_t part);
 
+  /// Places the riders of a chain, one rigid pose X_WB for each. The caller must know that they are free on the way
+  /// there. An attached chain stays so relative to its part from now on.
+  void place_riders(std::size_t chain, std::span<const Eigen::Isometry3d> X_WB);
+  /// Takes a chain away, and detaches it, until it is placed again.
+  void remove_riders(std::size_t chain);
+  /// From now on, the chain, which has been placed, moves with the part, as one rigid body: its contacts stop the part. While neither is
+  /// attached to anything, riders and obstacles are no obstacles of each other.
+  void attach(std::size_t chain, std::size_t part);
+  /// From now on, the chain stands still again.
+  void detach(std::size_t chain);
+
   /// As `SlidingSimulation::advance`, for all parts at once. X_WG must have one pose for each part; that of a scripted
   /// part is ignored. The scripts advance by `milliseconds` even while nothing else moves. A call whose work is used up
   /// (`SlidingRules::work_budget`) ends with the last poses that are proven free, and says so
@@ -62,6 +76,8 @@ class MultiPartSliding {
 
   std::size_t part_count() const;
   std::size_t obstacle_count() const;
+  /// The part with which a body, numbered as in `Contact::obstacle`, moves; −1: it stands still.
+  std::int32_t part_of_body(std::int32_t body) const;
   // Result and properties of the part with the number `part`, which must be below `part_count`.
   const SlidingResult& result(std::size_t part) const;
   const SlidingPart& part(std::size_t part) const;

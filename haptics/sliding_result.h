@@ -31,14 +31,14 @@ std::string_view name_of(ContactKind kind);
 
 /// A place where a part and an obstacle are close.
 ///
-/// Part, obstacle, kind and the two features identify a contact as long as the same features are close.
+/// Part, rider, obstacle, kind and the two features identify a contact as long as the same features are close.
 /// The triangles follow from the features, because one triangle owns each edge and each vertex
 /// (`geometry::MeshTopology`).
 struct Contact {
   ContactKind kind;
   std::int32_t part_triangle;
-  /// Number of the other body. The fixed obstacles come first, then the parts, each in the order given to the
-  /// simulation's constructor.
+  /// Number of the other body. The fixed obstacles come first, then the parts, then the riders, each in the order given
+  /// to the simulation's constructor.
   std::int32_t obstacle;
   std::int32_t obstacle_triangle;
   Eigen::Vector3d n_W;  ///< unit normal, from the obstacle to the part
@@ -51,7 +51,9 @@ struct Contact {
   /// classify.
   std::int32_t part_feature = -1;
   std::int32_t obstacle_feature = -1;
-  std::int32_t part = 0;                                 ///< number of the part among the parts
+  std::int32_t part = 0;  ///< number of the part among the parts
+  /// Number of the rider (`RiderChain`) whose contact it is, among the riders; −1: it is a contact of the part itself.
+  std::int32_t rider = -1;
   Eigen::Vector3d friction_W = Eigen::Vector3d::Zero();  ///< newtons on the part, perpendicular to n_W
   /// Metres: the gap at which the contact stops the part. For the paper's method, the margin is instead the largest gap
   /// of a reported contact, 2 µm: 4 brackets, where a bracket is the width at which a bisection ends, 0.5 µm. The

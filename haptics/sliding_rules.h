@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -98,7 +99,8 @@ struct SlidingRules {
   /// Work of a search: where a search finds more pairs of triangles than this, the next ones look half as far, though
   /// not less than 0.2 mm, and steps are shorter. Answers then come sooner, and a fast part falls behind. At least 1.
   std::size_t affordable_pairs = 30'000;
-  /// Work of one call: half of it for searches, half for cycles. The unit is about a nanosecond of an ordinary
+  /// Work of one call: searches may take so much, and cycles as much again. Where a search takes more than half of it,
+  /// the next ones look less far. The unit is about a nanosecond of an ordinary
   /// processor, but it counts pairs and proofs, so no bit depends on the speed of the machine. On another
   /// instruction set (SSE4, AVX2, AVX-512, NEON) it may differ by a few pairs, and so may the call that ends. A call
   /// ends when the work is used up, or one indivisible piece later: a projection on the contacts, or the proof of a
@@ -128,6 +130,13 @@ struct PartScript {
   Eigen::Isometry3d pose_at(std::chrono::duration<double, std::milli> since_start) const noexcept {
     return X_WB.pose_at(start + std::chrono::round<std::chrono::nanoseconds>(since_start));
   }
+};
+
+/// Bodies without a ghost of their own, such as the segments of a hand. They stand where the caller places them, like
+/// obstacles, or move with a part to which they are attached. Bodies of one chain never touch each other.
+struct RiderChain {
+  std::vector<std::shared_ptr<const SlidingPart>> bodies;
+  double margin = 20e-6;  ///< metres: the gap at which contacts with these bodies stop a part, or they stop with a part
 };
 
 /// One of the parts and its holder: a hand, or a script. To push other parts, a scripted part needs a greater

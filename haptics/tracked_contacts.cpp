@@ -15,13 +15,13 @@ constexpr double kCosOfOneDirection = 0.999847695156391;  // 1°
 constexpr std::int64_t kUnited = -1;                      // as an id: the contact is merged into another
 
 auto features_of(const Contact& c) {
-  return std::make_tuple(c.part, c.obstacle, c.kind, c.part_feature, c.obstacle_feature, c.part_triangle,
+  return std::make_tuple(c.part, c.rider, c.obstacle, c.kind, c.part_feature, c.obstacle_feature, c.part_triangle,
                          c.obstacle_triangle);
 }
 
 /// Whether two contacts are one to the user: same obstacle, same place, same direction.
 bool are_one(const Contact& a, const Contact& b, double margin) {
-  return a.part == b.part && a.obstacle == b.obstacle && a.n_W.dot(b.n_W) >= kCosOfOneDirection &&
+  return a.part == b.part && a.rider == b.rider && a.obstacle == b.obstacle && a.n_W.dot(b.n_W) >= kCosOfOneDirection &&
          (a.p_W - b.p_W).norm() <= margin && (a.q_W() - b.q_W()).norm() <= margin;
 }
 
@@ -174,7 +174,7 @@ std::int32_t ContactTracker::predecessor_of(const Contact& contact, double wides
   std::tuple<bool, double, std::int64_t> least;
   for (; at != ended_.end() && candidate(*at).contact.p_W.x() <= contact.p_W.x() + widest; ++at) {
     const Contact& old = candidate(*at).contact;
-    if (at->continued || old.part != contact.part || old.obstacle != contact.obstacle ||
+    if (at->continued || old.part != contact.part || old.rider != contact.rider || old.obstacle != contact.obstacle ||
         old.n_W.dot(contact.n_W) < kCosOfSameNormal)
       continue;
     const double distance = (old.p_W - contact.p_W).norm();

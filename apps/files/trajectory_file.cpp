@@ -12,12 +12,6 @@ namespace glissade::apps {
 
 namespace {
 
-std::vector<std::string> trajectory_columns() {
-  std::vector<std::string> columns{"t_s"};
-  columns.insert(columns.end(), pose_columns().begin(), pose_columns().end());
-  return columns;
-}
-
 std::chrono::nanoseconds time_of(double t_s, const std::string& where) {
   constexpr double kLatestSeconds = 1e9;
   if (std::abs(t_s) > kLatestSeconds) {
@@ -26,11 +20,23 @@ std::chrono::nanoseconds time_of(double t_s, const std::string& where) {
   return std::chrono::nanoseconds(std::llround(t_s * 1e9));
 }
 
+}  // namespace
+
+std::vector<std::string> trajectory_columns() {
+  std::vector<std::string> columns{"t_s"};
+  columns.insert(columns.end(), pose_columns().begin(), pose_columns().end());
+  return columns;
+}
+
+std::chrono::nanoseconds time_of(const CsvTable& table, std::size_t row) {
+  return time_of(table.rows[row][0], table.where(row));
+}
+
 geometry::PoseTrajectory trajectory_from(const CsvTable& table) {
   std::vector<geometry::TimedPose> rows;
   rows.reserve(table.rows.size());
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const std::chrono::nanoseconds time = time_of(table.rows[row][0], table.where(row));
+    const std::chrono::nanoseconds time = time_of(table, row);
     if (!rows.empty() && time <= rows.back().time) {
       throw std::invalid_argument(table.where(row) + ": column t_s: the time " + format_number(table.rows[row][0]) +
                                   " does not rise above " + format_number(table.rows[row - 1][0]) +
@@ -40,8 +46,6 @@ geometry::PoseTrajectory trajectory_from(const CsvTable& table) {
   }
   return geometry::PoseTrajectory(rows);
 }
-
-}  // namespace
 
 HandScript HandScript::time_scaled(std::chrono::nanoseconds duration) const {
   HandScript scaled{X_WH.time_scaled(duration), starts_closed, {}};
@@ -75,7 +79,7 @@ HandScript parse_hand_script(std::string_view text, const std::string& source) {
     if (row == 0) {
       script.starts_closed = grip == 1.0;
     } else if (grip != table.rows[row - 1].back()) {
-      script.grip_changes.push_back(time_of(table.rows[row][0], table.where(row)));
+      script.grip_changes.push_back(time_of(table, row));
     }
   }
   return script;

@@ -7,10 +7,19 @@
 #include <string_view>
 #include <vector>
 
+#include <glissade/apps/files/csv.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/pose_trajectory.h>
 
 namespace glissade::apps {
+
+/// The columns of a trajectory.
+std::vector<std::string> trajectory_columns();
+
+/// The time of a row, and the trajectory of all rows, of a table whose first columns are those of a trajectory. Throw
+/// as `read_trajectory`.
+std::chrono::nanoseconds time_of(const CsvTable& table, std::size_t row);
+geometry::PoseTrajectory trajectory_from(const CsvTable& table);
 
 /// Reads a trajectory; times are rounded to nanoseconds.
 /// Throws std::invalid_argument, naming file, line and value, when a time does not exceed that of the row before or is

@@ -6,10 +6,8 @@ namespace glissade::grasping {
 
 void ClosingRows::set(const Posture& posture, const ChainStep& wanted, std::span<const haptics::Contact> contacts,
                       std::span<const std::size_t> movers) {
-  rooms_.clear();
+  planes_.clear();
   rates_.clear();
-  normals_.clear();
-  arms_.clear();
   p_WR_ = posture.X_WR.translation();
   root_ = wanted.root;
   wanted_ = wanted.values;
@@ -19,12 +17,11 @@ void ClosingRows::set(const Posture& posture, const ChainStep& wanted, std::span
 }
 
 void ClosingRows::add(const haptics::Contact& contact, std::size_t link) {
-  rooms_.push_back(std::max(0.0, contact.gap - contact.margin));
-  normals_.push_back(contact.n_W);
-  arms_.push_back(contact.p_W - p_WR_);
+  const Eigen::Vector3d r_W = contact.p_W - p_WR_;
+  planes_.push_back({contact.n_W, r_W, std::max(0.0, contact.gap - contact.margin)});
   const std::size_t first = rates_.size();
   rates_.resize(first + columns_, 0.0);
-  rates_[first] = contact.n_W.dot(root_.v + root_.w.cross(arms_.back()));
+  rates_[first] = contact.n_W.dot(root_.v + root_.w.cross(r_W));
   const std::span<const ChainLink> links = chain_.links();
   for (std::optional<std::size_t> l = link; l; l = links[*l].parent) {
     if (links[*l].terms.empty()) continue;

@@ -13,6 +13,7 @@
 #include <glissade/haptics/sliding_result.h>
 
 #include "clasp/chain_step.h"
+#include "clasp/slide_past.h"
 
 namespace glissade::grasping {
 
@@ -28,15 +29,14 @@ class ClosingRows {
   /// Adds a row to them.
   void add(const haptics::Contact& contact, std::size_t link);
 
-  std::size_t count() const { return rooms_.size(); }
+  std::size_t count() const { return planes_.size(); }
   std::size_t columns() const { return columns_; }
   /// Metres that the gap of a contact may shrink, at least 0.
-  double room(std::size_t row) const { return rooms_[row]; }
+  double room(std::size_t row) const { return planes_[row].room; }
   /// Metres by which the gap grows when this mover makes its whole step; negative where it closes.
   double rate(std::size_t row, std::size_t mover) const { return rates_[row * columns_ + mover]; }
-  /// The contact of a row: its normal, and the contact point relative to the root's origin.
-  const Eigen::Vector3d& n_W(std::size_t row) const { return normals_[row]; }
-  const Eigen::Vector3d& r_W(std::size_t row) const { return arms_[row]; }
+  /// The contacts as those of one rigid body, whose reference point is the root's origin.
+  std::span<const ContactPlane> planes() const { return planes_; }
 
  private:
   const KinematicChain& chain_;
@@ -45,10 +45,8 @@ class ClosingRows {
   geometry::Displacement root_;
   std::vector<double> wanted_;  // of each flex value
   std::vector<Eigen::Isometry3d> X_WL_;
-  std::vector<double> rooms_;
+  std::vector<ContactPlane> planes_;
   std::vector<double> rates_;
-  std::vector<Eigen::Vector3d> normals_;
-  std::vector<Eigen::Vector3d> arms_;
 };
 
 }  // namespace glissade::grasping

@@ -8,32 +8,41 @@
 namespace glissade::haptics {
 
 MovingBodies::MovingBodies(const ContactScene& scene)
-    : scene_(scene), first_part_(static_cast<std::int32_t>(scene.obstacles().size())) {
-  for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
+    : scene_(scene),
+      first_mover_body_(static_cast<std::int32_t>(scene.obstacles().size())),
+      paths_(scene.movers().size()) {
+  for (std::size_t b = 0; b < scene.obstacles().size(); ++b) {
     const PlacedBody& placed = scene.bodies()[b];
     const collision::DopTree& tree = placed.body->tree;
-    if (b < scene.obstacles().size()) {
-      reach_of_obstacles_ =
-          std::max(reach_of_obstacles_, placed.X_WB.translation().norm() + tree.center().norm() + tree.radius());
-    } else {
-      const SlidingPart& part = *scene.parts()[b - scene.obstacles().size()];
-      paths_.push_back({part.p_Vref(), part.radius(), {}, false, 0.0, 0.0, {}, {}});
-    }
+    reach_of_obstacles_ =
+        std::max(reach_of_obstacles_, placed.X_WB.translation().norm() + tree.center().norm() + tree.radius());
   }
 }
 
+void MovingBodies::begin(Path& path, std::size_t mover) const {
+  path.known.fill(false);
+  path.X_WB_at[0] = scene_.bodies()[scene_.body_of_mover(mover)].X_WB;
+  path.known[0] = true;
+}
+
 void MovingBodies::begin_step(std::span<const geometry::Displacement> displacements) {
-  GLISSADE_ASSERT(displacements.size() == paths_.size());
+  GLISSADE_ASSERT(displacements.size() == scene_.first_rider());
   motion_ = nullptr;
-  for (std::size_t p = 0; p < paths_.size(); ++p) {
-    Path& path = paths_[p];
-    path.displacement = displacements[p];
-    path.moves = !displacements[p].is_zero();
-    path.motion = geometry::motion_bound(displacements[p], path.radius);
-    path.acceleration = displacements[p].w.squaredNorm() * path.radius;
-    path.known.fill(false);
-    path.X_WV_at[0] = scene_.bodies()[scene_.body_of_part(p)].X_WB;
-    path.known[0] = true;
+  for (std::size_t m = 0; m < paths_.size(); ++m) {
+    Path& path = paths_[m];
+    begin(path, m);
+    const std::int32_t leader = scene_.leader(first_mover_body_ + static_cast<std::int32_t>(m));
+    const geometry::Displacement d =
+        leader == ContactScene::kStands ? geometry::Displacement{} : displacements[static_cast<std::size_t>(leader)];
+    path.displacement = d;
+    path.moves = !d.is_zero();
+    path.motion = 0.0;
+    path.acceleration = 0.0;
+    if (!path.moves) continue;
+    path.p_Bref = scene_.p_Bref(m);
+    const double lever = scene_.lever(m);
+    path.motion = geometry::motion_bound(d, lever);
+    path.acceleration = d.w.squaredNorm() * lever;
   }
 }
 
@@ -42,44 +51,42 @@ void MovingBodies::begin_step(const BodiesMotion& motion, std::size_t first_move
   motion_ = &motion;
   first_mover_ = first_mover;
   X_WM_.resize(paths_.size() - first_mover);
-  for (std::size_t p = 0; p < paths_.size(); ++p) {
-    Path& path = paths_[p];
+  for (std::size_t m = 0; m < paths_.size(); ++m) {
+    Path& path = paths_[m];
+    begin(path, m);
     path.displacement = {};
-    path.moves = p >= first_mover;
-    path.motion = path.moves ? motion.length(p - first_mover) : 0.0;
-    path.acceleration = path.moves ? motion.acceleration(p - first_mover) : 0.0;
-    path.known.fill(false);
-    path.X_WV_at[0] = scene_.bodies()[scene_.body_of_part(p)].X_WB;
-    path.known[0] = true;
+    path.moves = m >= first_mover;
+    path.motion = path.moves ? motion.length(m - first_mover) : 0.0;
+    path.acceleration = path.moves ? motion.acceleration(m - first_mover) : 0.0;
   }
 }
 
-/// Computes the poses of all parts that follow the motion.
+/// Computes the poses of all movers that follow the motion.
 void MovingBodies::follow_motion(std::size_t moment) {
   motion_->poses(static_cast<double>(moment) / kMoments, X_WM_);
-  for (std::size_t p = first_mover_; p < paths_.size(); ++p) {
-    paths_[p].X_WV_at[moment] = X_WM_[p - first_mover_];
-    paths_[p].known[moment] = true;
+  for (std::size_t m = first_mover_; m < paths_.size(); ++m) {
+    paths_[m].X_WB_at[moment] = X_WM_[m - first_mover_];
+    paths_[m].known[moment] = true;
   }
 }
 
 double MovingBodies::curvature(std::int32_t body, int begin, int end) const {
-  if (!is_part(body)) return 0.0;
+  if (!is_mover(body)) return 0.0;
   const double share = static_cast<double>(end - begin) / kMoments;
   return share * share * path(body).acceleration / 8.0;
 }
 
 const Eigen::Isometry3d& MovingBodies::pose(std::int32_t body, int moment) {
-  if (!is_part(body)) return scene_.bodies()[static_cast<std::size_t>(body)].X_WB;
+  if (!is_mover(body)) return scene_.bodies()[static_cast<std::size_t>(body)].X_WB;
   Path& moving = path(body);
   const auto m = static_cast<std::size_t>(moment);
   if (!moving.known[m] && motion_ != nullptr && moving.moves) follow_motion(m);
   if (!moving.known[m]) {
     const double t = static_cast<double>(moment) / kMoments;
-    moving.X_WV_at[m] = geometry::displaced(moving.X_WV_at[0], moving.p_Vref, moving.displacement.scaled(t));
+    moving.X_WB_at[m] = geometry::displaced(moving.X_WB_at[0], moving.p_Bref, moving.displacement.scaled(t));
     moving.known[m] = true;
   }
-  return moving.X_WV_at[m];
+  return moving.X_WB_at[m];
 }
 
 geometry::TrianglePoints MovingBodies::triangle_W(std::int32_t body, std::int32_t triangle, int moment) {
@@ -88,9 +95,10 @@ geometry::TrianglePoints MovingBodies::triangle_W(std::int32_t body, std::int32_
 
 double MovingBodies::certain_distance() const {
   double reach = reach_of_obstacles_;
-  for (std::size_t p = 0; p < paths_.size(); ++p) {
-    const Eigen::Isometry3d& X_WV = scene_.bodies()[scene_.body_of_part(p)].X_WB;
-    reach = std::max(reach, X_WV.translation().norm() + paths_[p].p_Vref.norm() + paths_[p].radius);
+  for (std::size_t m = 0; m < paths_.size(); ++m) {
+    const SlidingPart& mover = *scene_.movers()[m];
+    const Eigen::Isometry3d& X_WB = scene_.bodies()[scene_.body_of_mover(m)].X_WB;
+    reach = std::max(reach, X_WB.translation().norm() + mover.p_Vref().norm() + mover.radius());
   }
   return 128.0 * std::numeric_limits<double>::epsilon() * reach;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Poses of the bodies at any moment of a step: obstacles stand still, each part follows its displacement or a common
-/// motion.
+/// Poses of the bodies at any moment of a step: obstacles stand still, parts follow their displacements, riders the
+/// parts to which they are attached; or movers follow a common motion.
 
 #include <array>
 #include <cstdint>
@@ -30,14 +30,14 @@ class MovingBodies {
   /// Begins a step at the present poses of the parts; `displacements` has one entry for each part.
   void begin_step(std::span<const geometry::Displacement> displacements);
 
-  /// The same for the parts from `first_mover` on, which follow a motion; the other parts stand still. The motion must
+  /// The same for the movers from `first_mover` on, which follow a motion; the others stand still. The motion must
   /// begin at the present poses, and outlive the step.
   void begin_step(const BodiesMotion& motion, std::size_t first_mover);
 
   /// Whether a body moves at all.
-  bool moves(std::int32_t body) const { return is_part(body) && path(body).moves; }
+  bool moves(std::int32_t body) const { return is_mover(body) && path(body).moves; }
   /// Bound (metres) of the motion of every point of a body in the whole step.
-  double motion(std::int32_t body) const { return is_part(body) ? path(body).motion : 0.0; }
+  double motion(std::int32_t body) const { return is_mover(body) ? path(body).motion : 0.0; }
   /// Bound (metres) of the deviation of every point of a body from its chord between two moments: an eighth of the
   /// bound of the second derivative of its path between them.
   double curvature(std::int32_t body, int begin, int end) const;
@@ -51,29 +51,30 @@ class MovingBodies {
   double certain_distance() const;
 
  private:
+  /// B is the frame of the mover.
   struct Path {
-    Eigen::Vector3d p_Vref;
-    double radius;
+    Eigen::Vector3d p_Bref;  ///< the reference point of the part with which the mover moves
     geometry::Displacement displacement;
-    bool moves;
-    double motion;
-    double acceleration;  ///< metres: bound of the second derivative over the whole step; |w|² ρ for a displacement
-    std::array<Eigen::Isometry3d, kMoments + 1> X_WV_at;
+    bool moves = false;
+    double motion = 0.0;
+    double acceleration = 0.0;  ///< metres: bound of the second derivative over the whole step; |w|² ρ of a displacement
+    std::array<Eigen::Isometry3d, kMoments + 1> X_WB_at;
     std::array<bool, kMoments + 1> known{};  ///< which of these poses have been computed
   };
 
-  bool is_part(std::int32_t body) const { return body >= first_part_; }
+  bool is_mover(std::int32_t body) const { return body >= first_mover_body_; }
+  void begin(Path& path, std::size_t mover) const;
   void follow_motion(std::size_t moment);
-  Path& path(std::int32_t body) { return paths_[static_cast<std::size_t>(body - first_part_)]; }
-  const Path& path(std::int32_t body) const { return paths_[static_cast<std::size_t>(body - first_part_)]; }
+  Path& path(std::int32_t body) { return paths_[static_cast<std::size_t>(body - first_mover_body_)]; }
+  const Path& path(std::int32_t body) const { return paths_[static_cast<std::size_t>(body - first_mover_body_)]; }
 
   const ContactScene& scene_;
-  std::int32_t first_part_;
+  std::int32_t first_mover_body_;
   double reach_of_obstacles_ = 0.0;       // metres from the origin
-  std::vector<Path> paths_;               // one for each part
-  const BodiesMotion* motion_ = nullptr;  // of the parts from `first_mover_` on; null: each has its displacement
+  std::vector<Path> paths_;               // one for each mover
+  const BodiesMotion* motion_ = nullptr;  // of the movers from `first_mover_` on; null: displacements
   std::size_t first_mover_ = 0;
-  std::vector<Eigen::Isometry3d> X_WM_;  // of these parts
+  std::vector<Eigen::Isometry3d> X_WM_;  // of these movers
 };
 
 }  // namespace glissade::haptics

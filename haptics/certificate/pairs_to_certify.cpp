@@ -105,7 +105,7 @@ void find_pairs_to_certify(const ContactScene& scene, std::span<const PlacedBody
     for (std::size_t other = 0; other < part; ++other) {
       if (!ContactScene::can_touch(scene.group(other), scene.group(part))) continue;
       const BodyPair pair{static_cast<std::int32_t>(other), static_cast<std::int32_t>(part)};
-      if (std::find(ignored.begin(), ignored.end(), pair) != ignored.end()) continue;
+      if (std::binary_search(ignored.begin(), ignored.end(), pair)) continue;
       if (are_far_apart(bodies[other], bodies[part], radius)) continue;  // as most bodies are in a large scene
       PairSearch search(pair, bodies[other], bodies[part], scene.margin(pair.obstacle, pair.part), to_certify);
       collision::traverse_near(search.tree_O(), search.tree_V(), search.X_OV(), radius, workspace, search);

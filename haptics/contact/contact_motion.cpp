@@ -16,7 +16,7 @@ Contact carried(const Contact& contact, const Eigen::Isometry3d& part_motion_W,
   return moved;
 }
 
-Contact mirrored(const Contact& contact, std::int32_t body_of_part, std::int32_t other_part) {
+Contact mirrored(const Contact& contact, std::int32_t own_body) {
   Contact mirror = contact;
   switch (contact.kind) {
     case ContactKind::kVertexFace:
@@ -38,8 +38,7 @@ Contact mirrored(const Contact& contact, std::int32_t body_of_part, std::int32_t
   }
   std::swap(mirror.part_triangle, mirror.obstacle_triangle);
   std::swap(mirror.part_feature, mirror.obstacle_feature);
-  mirror.part = other_part;
-  mirror.obstacle = body_of_part;
+  mirror.obstacle = own_body;
   mirror.n_W = -contact.n_W;
   mirror.p_W = contact.q_W();
   mirror.friction_W = -contact.friction_W;

@@ -17,8 +17,8 @@ namespace glissade::haptics {
 Contact carried(const Contact& contact, const Eigen::Isometry3d& part_motion_W,
                 const Eigen::Isometry3d& obstacle_motion_W = Eigen::Isometry3d::Identity());
 
-/// A contact of two parts as the other one sees it. `body_of_part` is the body number of the part that has the contact,
-/// `other_part` is the part number of the other.
-Contact mirrored(const Contact& contact, std::int32_t body_of_part, std::int32_t other_part);
+/// A contact as the other body sees it. `own_body` is the number of the body that has the contact. The part and the
+/// rider that the other body is are left as they were.
+Contact mirrored(const Contact& contact, std::int32_t own_body);
 
 }  // namespace glissade::haptics

@@ -35,7 +35,7 @@ class SetMaker {
 
   /// The part on the other side of the contact, if a hand leads it; otherwise −1.
   std::int32_t other_of(const Contact& contact) const {
-    const std::int32_t other = contact.obstacle - static_cast<std::int32_t>(sliding_.obstacle_count());
+    const std::int32_t other = sliding_.part_of_body(contact.obstacle);
     return other >= 0 && is_led_by_hand(static_cast<std::size_t>(other)) ? other : -1;
   }
 

@@ -20,13 +20,20 @@ void check_margin(double margin, const std::string& whose) {
 
 ContactScene::ContactScene(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> parts,
                            std::span<const double> margins)
-    : ContactScene(std::move(obstacles), std::move(parts), margins, std::vector<int>(margins.size(), kPart)) {}
+    : ContactScene(std::move(obstacles), std::move(parts), margins.size(), margins,
+                   std::vector<int>(margins.size(), kPart)) {}
 
-ContactScene::ContactScene(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> parts,
-                           std::span<const double> margins, std::span<const int> groups)
-    : obstacles_(std::move(obstacles)), parts_(std::move(parts)), groups_(obstacles_.size(), kStill) {
+ContactScene::ContactScene(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> movers,
+                           std::size_t first_rider, std::span<const double> margins, std::span<const int> groups)
+    : obstacles_(std::move(obstacles)),
+      movers_(std::move(movers)),
+      first_rider_(first_rider),
+      groups_(obstacles_.size(), kStill),
+      leaders_(obstacles_.size() + movers_.size(), kStands) {
   groups_.insert(groups_.end(), groups.begin(), groups.end());
-  if (obstacles_.size() + parts_.size() < 2) throw std::invalid_argument("there is nothing that the part could touch");
+  for (std::size_t part = 0; part < first_rider; ++part)
+    leaders_[body_of_mover(part)] = static_cast<std::int32_t>(part);
+  if (obstacles_.size() + movers_.size() < 2) throw std::invalid_argument("there is nothing that the part could touch");
   for (Obstacle& obstacle : obstacles_) {
     if (obstacle.body == nullptr) throw std::invalid_argument(obstacle.name + " needs a body, not a null pointer");
     const std::optional<Eigen::Isometry3d> X_WO = geometry::rigid_pose(obstacle.X_WO);
@@ -44,8 +51,21 @@ ContactScene::ContactScene(std::vector<Obstacle> obstacles, std::vector<std::sha
   }
   for (const double margin : margins_)
     min_clearances_.push_back(kMinClearanceOfMargin * margin);
-  for (const auto& part_V : parts_)
-    bodies_.push_back({part_V.get(), Eigen::Isometry3d::Identity()});
+  for (const auto& mover : movers_)
+    bodies_.push_back({mover.get(), Eigen::Isometry3d::Identity()});
+}
+
+Eigen::Vector3d ContactScene::p_Bref(std::size_t mover) const {
+  const std::int32_t part = leaders_[body_of_mover(mover)];
+  if (mover < first_rider_ || part == kStands) return movers_[mover]->p_Vref();
+  const auto leader = static_cast<std::size_t>(part);
+  const Eigen::Isometry3d& X_WB = bodies_[body_of_mover(mover)].X_WB;
+  return X_WB.inverse(Eigen::Isometry) * (bodies_[body_of_mover(leader)].X_WB * movers_[leader]->p_Vref());
+}
+
+double ContactScene::lever(std::size_t mover) const {
+  const double radius = movers_[mover]->radius();
+  return mover < first_rider_ ? radius : (p_Bref(mover) - movers_[mover]->p_Vref()).norm() + radius;
 }
 
 }  // namespace glissade::haptics

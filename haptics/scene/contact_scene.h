@@ -1,6 +1,6 @@
 #pragma once
 
-/// The contact scene: obstacles and held parts, their poses, margins and minimum clearances.
+/// The contact scene: obstacles, parts and riders, their poses, margins and minimum clearances.
 
 #include <algorithm>
 #include <compare>
@@ -40,7 +40,7 @@ inline PlacedBody placed(const Obstacle& obstacle) {
   return {obstacle.body.get(), obstacle.X_WO};
 }
 
-/// Two bodies by their numbers. `part` is a part; `obstacle` is an obstacle, or a part of lower number.
+/// Two bodies by their numbers. `part` is a mover; `obstacle` is an obstacle, or a mover of lower number.
 struct BodyPair {
   std::int32_t obstacle;
   std::int32_t part;
@@ -57,8 +57,8 @@ struct TrianglesOfBodies {
   auto operator<=>(const TrianglesOfBodies&) const = default;
 };
 
-/// Bodies are numbered: the obstacles first, then the parts. Not every pair of bodies is considered: see `can_touch`.
-/// Not thread-safe.
+/// Bodies are numbered: the obstacles first, then the parts, then the riders. Parts and riders together are the movers.
+/// Not every pair of bodies is considered: see `can_touch`. Not thread-safe.
 class ContactScene {
  public:
   /// Groups of bodies. Bodies that stand still touch each other as pieces of an assembly do, and neighboring links of a
@@ -72,22 +72,44 @@ class ContactScene {
   /// that `geometry::rigid_pose` rejects, and for a margin that is not positive or above kGreatestMargin_m.
   ContactScene(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> parts,
                std::span<const double> margins);
-  /// The same with a group for each part.
-  ContactScene(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> parts,
-               std::span<const double> margins, std::span<const int> groups);
+  /// The same with riders, which are the movers from the number `first_rider` on, and with a margin and a group for
+  /// each mover.
+  ContactScene(std::vector<Obstacle> obstacles, std::vector<std::shared_ptr<const SlidingPart>> movers,
+               std::size_t first_rider, std::span<const double> margins, std::span<const int> groups);
 
   std::span<const Obstacle> obstacles() const { return obstacles_; }
-  std::span<const std::shared_ptr<const SlidingPart>> parts() const { return parts_; }
+  std::span<const std::shared_ptr<const SlidingPart>> movers() const { return movers_; }
   std::span<const PlacedBody> bodies() const { return bodies_; }
-  /// The body number of a part.
-  std::size_t body_of_part(std::size_t part) const { return obstacles_.size() + part; }
+  /// The body number of a mover; the movers begin with the parts.
+  std::size_t body_of_mover(std::size_t mover) const { return obstacles_.size() + mover; }
+  std::size_t first_rider() const { return first_rider_; }
+  bool is_rider(std::int32_t body) const { return rider(body) >= 0; }
+  /// The number of a rider among the riders; −1 for another body.
+  std::int32_t rider(std::int32_t body) const {
+    return std::max(-1, body - static_cast<std::int32_t>(body_of_mover(first_rider_)));
+  }
+
+  /// The part with which a body moves: a part moves with itself, a rider with the part to which it is attached.
+  /// kStands: with none.
+  static constexpr std::int32_t kStands = -1;
+  std::int32_t leader(std::int32_t body) const { return leaders_[static_cast<std::size_t>(body)]; }
+  void set_leader(std::int32_t rider_body, std::int32_t part) {
+    GLISSADE_ASSERT(is_rider(rider_body));
+    leaders_[static_cast<std::size_t>(rider_body)] = part;
+  }
+  /// A number that is equal for bodies between which no pair matters as long as their leaders stay: bodies that move
+  /// together, that stand still together, or that belong to one chain.
+  std::int32_t unit(std::int32_t body) const {
+    const bool moves_with_part = is_rider(body) ? leader(body) != kStands : group(static_cast<std::size_t>(body)) == kPart;
+    return moves_with_part ? -1 - leader(body) : group(static_cast<std::size_t>(body));
+  }
 
   int group(std::size_t body) const { return groups_[body]; }
   /// Whether pairs of these groups are considered.
   static bool can_touch(int group, int other) { return group != other || group == kPart; }
 
-  /// Margin (metres) of contacts between a body and a part: the obstacle's own margin if it has one, otherwise the
-  /// part's; between two parts, the smaller of both.
+  /// Margin (metres) of contacts between a body and a mover: the obstacle's own margin if it has one, otherwise the
+  /// mover's; between two movers, the smaller of both.
   double margin(std::int32_t obstacle, std::int32_t part_body) const {
     return margins_[pair_index(obstacle, part_body)];
   }
@@ -104,24 +126,32 @@ class ContactScene {
         std::min(kMinClearanceOfMargin * margin(obstacle, part_body), 0.95 * distance);
   }
 
-  /// Places a part at X_WV, a rigid pose; after any other pose the next search for candidates throws.
-  void place(std::size_t part, const Eigen::Isometry3d& X_WV) {
-    GLISSADE_ASSERT(part < parts_.size());
-    bodies_[body_of_part(part)].X_WB = X_WV;
+  /// The reference point of the part with which a mover moves, in the mover's own frame B; that of the mover itself if
+  /// it stands.
+  Eigen::Vector3d p_Bref(std::size_t mover) const;
+  /// Bound (metres) of the distance of the mover's points from there.
+  double lever(std::size_t mover) const;
+
+  /// Places a mover at X_WB, a rigid pose; after any other pose the next search for candidates throws.
+  void place(std::size_t mover, const Eigen::Isometry3d& X_WB) {
+    GLISSADE_ASSERT(mover < movers_.size());
+    bodies_[body_of_mover(mover)].X_WB = X_WB;
   }
 
  private:
   std::size_t pair_index(std::int32_t obstacle, std::int32_t part_body) const {
-    const auto part = static_cast<std::size_t>(part_body) - obstacles_.size();
-    GLISSADE_ASSERT(part < parts_.size() && static_cast<std::size_t>(obstacle) < bodies_.size());
-    return part * bodies_.size() + static_cast<std::size_t>(obstacle);
+    const auto mover = static_cast<std::size_t>(part_body) - obstacles_.size();
+    GLISSADE_ASSERT(mover < movers_.size() && static_cast<std::size_t>(obstacle) < bodies_.size());
+    return mover * bodies_.size() + static_cast<std::size_t>(obstacle);
   }
 
   std::vector<Obstacle> obstacles_;
-  std::vector<std::shared_ptr<const SlidingPart>> parts_;
+  std::vector<std::shared_ptr<const SlidingPart>> movers_;
+  std::size_t first_rider_;
   std::vector<PlacedBody> bodies_;
   std::vector<int> groups_;             // of each body
-  std::vector<double> margins_;         // for each part, one entry for each body
+  std::vector<std::int32_t> leaders_;   // of each body
+  std::vector<double> margins_;         // for each mover, one entry for each body
   std::vector<double> min_clearances_;  // likewise
 };
 

@@ -1,6 +1,7 @@
 #include "search/candidate_pairs.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <glissade/base/assert.h>
@@ -85,9 +86,9 @@ bool CandidatePairs::take_next(double reach, double ahead, std::span<const BodyP
 
 void CandidatePairs::ask(Search& search, double reach, double ahead, std::span<const BodyPair> ignored) {
   GLISSADE_ASSERT(!is_with_thread_);
-  search.request.X_WV.clear();
-  for (const PlacedBody& part : scene_.bodies().subspan(scene_.obstacles().size()))
-    search.request.X_WV.push_back(part.X_WB);
+  search.request.X_WB.clear();
+  for (const PlacedBody& mover : scene_.bodies().subspan(scene_.obstacles().size()))
+    search.request.X_WB.push_back(mover.X_WB);
   search.request.radius = reach + ahead;
   search.request.ignored.assign(ignored.begin(), ignored.end());
   search.half = 0.5 * ahead;
@@ -133,18 +134,29 @@ void CandidatePairs::moved() {
   follow(next_);
 }
 
+/// Two bodies come nearer by their motions. Those of one unit keep their distance, or do not matter.
 void CandidatePairs::follow(Search& search) const {
   if (!search.is_there) return;
-  search.drift = 0.0;
-  for (std::size_t p = 0; p < search.request.X_WV.size(); ++p) {
-    const std::size_t body = scene_.body_of_part(p);
-    const SlidingPart& part = *scene_.parts()[p];
+  double farthest = 0.0;
+  double farthest_of_others = 0.0;  // than the unit of the body that moved farthest
+  std::optional<std::int32_t> unit;
+  for (std::size_t mover = 0; mover < search.request.X_WB.size(); ++mover) {
+    const std::size_t body = scene_.body_of_mover(mover);
+    const SlidingPart& part = *scene_.movers()[mover];
     const geometry::Displacement d =
-        geometry::displacement_between(search.request.X_WV[p], scene_.bodies()[body].X_WB, part.p_Vref());
+        geometry::displacement_between(search.request.X_WB[mover], scene_.bodies()[body].X_WB, part.p_Vref());
     const double all = geometry::motion_bound(d, part.radius());
     search.motions[body] = {d.v, all - d.v.norm()};
-    search.drift += all;
+    const std::int32_t own_unit = scene_.unit(static_cast<std::int32_t>(body));
+    if (all > farthest) {
+      if (unit != own_unit) farthest_of_others = farthest;
+      farthest = all;
+      unit = own_unit;
+    } else if (unit != own_unit) {
+      farthest_of_others = std::max(farthest_of_others, all);
+    }
   }
+  search.drift = farthest + farthest_of_others;
 }
 
 /// Also discards the answer of a search under way, which the thread completes all the same.

@@ -37,8 +37,8 @@ class CandidatePairs {
   void begin_call();
 
   /// Makes every pair within `reach` (metres) of the parts' present poses a candidate, except pairs of `ignored`
-  /// bodies. A new search uses radius reach + `ahead` (metres). Returns whether the candidates changed. `ignored` must
-  /// be the same in all calls until `clear`. Exceptions of a search (no memory, or a pose that `geometry::rigid_pose`
+  /// bodies, in ascending order. A new search uses radius reach + `ahead` (metres). Returns whether the candidates
+  /// changed. `ignored` must be the same in all calls until `clear`. Exceptions of a search (no memory, or a pose that `geometry::rigid_pose`
   /// rejects) reach the caller; nothing is covered then. Where the work of this call does not suffice for the search,
   /// the candidates stay, `covers(reach)` is still false, and the same call of `look` must be repeated.
   bool look(double reach, double ahead, std::span<const BodyPair> ignored);
@@ -48,7 +48,7 @@ class CandidatePairs {
   /// Gives up the search that `look` could not complete. The next one begins afresh, and can be for a smaller radius.
   void cancel();
 
-  /// To be called when parts have been placed at other poses.
+  /// To be called when movers have been placed at other poses.
   void moved();
 
   /// Discards all candidates: nothing is covered until the next `look`.

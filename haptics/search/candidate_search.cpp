@@ -49,35 +49,47 @@ void CandidateSearch::start_afresh() {
     const int group = scene_.group(body);
     if (!ContactScene::can_touch(group, group)) world_->disable_groups(group, group);
   }
+  ids_.clear();
+  ignored_.clear();
   for (const Obstacle& obstacle : scene_.obstacles())
-    world_->add(description(obstacle.body, obstacle.X_WO, ContactScene::kStill));
-  part_ids_.clear();
-  for (std::size_t p = 0; p < scene_.parts().size(); ++p) {
-    const collision::ObjectDescription description_V =
-        description(scene_.parts()[p], Eigen::Isometry3d::Identity(), scene_.group(scene_.body_of_part(p)));
-    part_ids_.push_back(world_->add(description_V));
+    ids_.push_back(world_->add(description(obstacle.body, obstacle.X_WO, ContactScene::kStill)));
+  for (std::size_t mover = 0; mover < scene_.movers().size(); ++mover) {
+    const int group = scene_.group(scene_.body_of_mover(mover));
+    ids_.push_back(world_->add(description(scene_.movers()[mover], Eigen::Isometry3d::Identity(), group)));
   }
 }
 
 void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
-  for (std::size_t p = 0; p < part_ids_.size(); ++p) {
-    if (!world_->move(part_ids_[p], request.X_WV[p]))
+  ignore(request.ignored);
+  for (std::size_t mover = 0; mover < request.X_WB.size(); ++mover) {
+    const std::size_t body = scene_.body_of_mover(mover);
+    if (!world_->move(ids_[body], request.X_WB[mover]))
       throw std::invalid_argument("the pose of a part must be a rotation and translation");
-    bodies_[scene_.body_of_part(p)].X_WB = request.X_WV[p];
+    bodies_[body].X_WB = request.X_WB[mover];
   }
   const collision::FrameResult& near = pipeline_->step(request.radius);
   set.report = near.report;
-  collect_pairs(near, request.ignored, set.pairs);
+  collect_pairs(near, set.pairs);
   find_pairs_to_certify(scene_, bodies_, request.radius, request.ignored, workspace_, set.to_certify);
 }
 
-void CandidateSearch::collect_pairs(const collision::FrameResult& near, std::span<const BodyPair> ignored,
-                                    std::vector<CandidatePair>& pairs) const {
+void CandidateSearch::ignore(const std::vector<BodyPair>& bodies) {
+  if (bodies == ignored_) return;
+  const auto ids = [&](const BodyPair& pair) {
+    return std::pair{ids_[static_cast<std::size_t>(pair.obstacle)], ids_[static_cast<std::size_t>(pair.part)]};
+  };
+  for (const BodyPair& pair : ignored_)
+    world_->enable_pair(ids(pair).first, ids(pair).second);
+  for (const BodyPair& pair : bodies)
+    world_->disable_pair(ids(pair).first, ids(pair).second);
+  ignored_ = bodies;
+}
+
+void CandidateSearch::collect_pairs(const collision::FrameResult& near, std::vector<CandidatePair>& pairs) const {
   pairs.clear();
   for (std::size_t i = 0; i < near.meeting.size(); ++i) {
     const BodyPair bodies{static_cast<std::int32_t>(near.meeting[i].object_A.index),
                           static_cast<std::int32_t>(near.meeting[i].object_B.index)};
-    if (std::find(ignored.begin(), ignored.end(), bodies) != ignored.end()) continue;
     const PlacedBody& obstacle = bodies_[static_cast<std::size_t>(bodies.obstacle)];
     const PlacedBody& part = bodies_[static_cast<std::size_t>(bodies.part)];
     for (const collision::ClosePair& pair : near.close_pairs(i)) {

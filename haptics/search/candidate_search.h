@@ -24,11 +24,11 @@ struct CandidatePair : TrianglesOfBodies {
   Eigen::Vector3d n_W;  ///< unit, from the obstacle's closest point to the part's; zero below kSharpDistance_m
 };
 
-/// Poses of the parts, radius, and body pairs to leave out.
+/// Poses of the movers, radius, and body pairs to leave out.
 struct CandidateRequest {
-  std::vector<Eigen::Isometry3d> X_WV;  ///< one for each part
+  std::vector<Eigen::Isometry3d> X_WB;  ///< one for each mover
   double radius = 0.0;                  ///< metres
-  std::vector<BodyPair> ignored;        ///< body pairs to leave out
+  std::vector<BodyPair> ignored;        ///< in ascending order
 };
 
 /// The answer: all pairs within the radius, nearest first.
@@ -53,13 +53,14 @@ class CandidateSearch {
   void start_afresh();
 
  private:
-  void collect_pairs(const collision::FrameResult& near, std::span<const BodyPair> ignored,
-                     std::vector<CandidatePair>& pairs) const;
+  void ignore(const std::vector<BodyPair>& bodies);
+  void collect_pairs(const collision::FrameResult& near, std::vector<CandidatePair>& pairs) const;
 
   const ContactScene& scene_;
   collision::WorkMeter* meter_;
   std::vector<PlacedBody> bodies_;
-  std::vector<collision::ObjectId> part_ids_;
+  std::vector<collision::ObjectId> ids_;  // of the bodies
+  std::vector<BodyPair> ignored_;         // pairs that the world leaves out
   realtime::SteadyClock clock_;
   double greatest_radius_;
   std::optional<collision::World> world_;

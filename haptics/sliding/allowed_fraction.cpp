@@ -39,13 +39,13 @@ std::array<double, kMaxParts> allowed_fractions(const SimulatedParts& shared, co
   for (std::size_t p = 0; p < shared.count(); ++p) {
     const HeldPartState& part = shared.states[p];
     const double radius = part.part_V->radius();
-    fractions[p] = geometry::fraction_within(d[p], radius, share);
+    fractions[p] = geometry::fraction_within(d[p], part.lever, share);
     if (part.slew != kUnbounded && part.is_held()) {
       const double by_lag = fraction_with_lag(part.previous_lag, part.lag(), d[p], radius, part.slew);
       fractions[p] = std::min(fractions[p], by_lag);
     }
     const double angle = d[p].w.norm();
-    const double largest_angle = std::sqrt(part.margin / radius);
+    const double largest_angle = std::sqrt(part.margin / part.lever);
     if (!rows.empty() && angle * fractions[p] > largest_angle) fractions[p] = largest_angle / angle;
   }
   for (std::size_t pass = 1; pass < shared.count(); ++pass) {

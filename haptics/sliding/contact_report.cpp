@@ -35,7 +35,7 @@ double speed_along(const Eigen::Vector3d& n_W, const Eigen::Vector3d& q_W, const
 /// of both sides.
 void distribute(SimulatedParts& shared, const std::vector<Contact>& contacts, double milliseconds) {
   std::vector<HeldPartState>& parts = shared.states;
-  const auto obstacles = static_cast<std::int32_t>(shared.scene.obstacles().size());
+  const ContactScene& scene = shared.scene;
   std::array<Eigen::Isometry3d, kMaxParts> motions;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     SlidingResult& result = parts[p].result;
@@ -45,14 +45,17 @@ void distribute(SimulatedParts& shared, const std::vector<Contact>& contacts, do
   }
   for (const Contact& found : contacts) {
     const auto number = static_cast<std::size_t>(found.part);
-    const std::int32_t other = found.obstacle - obstacles;
-    if (other < 0) {
+    const std::int32_t other = scene.leader(found.obstacle);
+    if (other == ContactScene::kStands) {
       parts[number].result.contacts.push_back(carried(found, motions[number]));
       continue;
     }
     HeldPartState& other_part = parts[static_cast<std::size_t>(other)];
     Contact contact = carried(found, motions[number], motions[static_cast<std::size_t>(other)]);
-    Contact mirror = mirrored(contact, static_cast<std::int32_t>(shared.scene.body_of_part(number)), other);
+    const std::size_t own_mover = found.rider < 0 ? number : scene.first_rider() + static_cast<std::size_t>(found.rider);
+    Contact mirror = mirrored(contact, static_cast<std::int32_t>(scene.body_of_mover(own_mover)));
+    mirror.part = other;
+    mirror.rider = scene.rider(found.obstacle);
     contact.approach = speed_along(contact.n_W, contact.q_W(), other_part, milliseconds);
     mirror.approach = speed_along(mirror.n_W, mirror.q_W(), parts[number], milliseconds);
     parts[number].result.contacts.push_back(contact);

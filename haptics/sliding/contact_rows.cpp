@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "contact/contact_motion.h"
 #include "contact/contact_search.h"
 #include "sliding/sliding_constants.h"
 
@@ -10,6 +11,11 @@ namespace {
 
 // Work of the contacts of a pair of triangles, in the unit of `collision::WorkMeter`: rough. Steps take 0.4 ns a unit.
 constexpr std::int64_t kWorkOfContacts = 300;
+
+/// The pair as the other body sees it.
+UncertifiedPair swapped(const UncertifiedPair& pair) {
+  return {{{pair.bodies.part, pair.bodies.obstacle}, pair.part_triangle, pair.obstacle_triangle}, -pair.n_W};
+}
 
 }  // namespace
 
@@ -37,8 +43,14 @@ void ContactRows::find_within(double reach, std::vector<Contact>& contacts, Work
   budget.spend(kWorkOfContacts * std::ssize(pairs_));
   find_contacts(scene.bodies(), scene.obstacles().size(), pairs_, reach, shared_.largest_margin, contacts);
   for (Contact& contact : contacts) {
-    const auto body = static_cast<std::int32_t>(scene.body_of_part(static_cast<std::size_t>(contact.part)));
+    const auto body = static_cast<std::int32_t>(scene.body_of_mover(static_cast<std::size_t>(contact.part)));
     contact.margin = scene.margin(contact.obstacle, body);
+    // A rider that stands is an obstacle of the parts, though its number is higher.
+    const bool is_obstacle = scene.leader(body) == ContactScene::kStands;
+    const std::int32_t own_body = is_obstacle ? contact.obstacle : body;
+    if (is_obstacle) contact = mirrored(contact, body);
+    contact.part = scene.leader(own_body);
+    contact.rider = scene.rider(own_body);
   }
 }
 
@@ -61,10 +73,9 @@ void ContactRows::add(std::int32_t obstacle, std::size_t part, const Eigen::Vect
   row.r = p_W - states[part].p_Wref();
   row.bound = bound;
   row.part = static_cast<std::int32_t>(part);
-  const auto obstacles = static_cast<std::int32_t>(shared_.scene.obstacles().size());
   bool is_held_by_any = states[part].is_held();
-  if (obstacle >= obstacles) {
-    row.other = obstacle - obstacles;
+  row.other = shared_.scene.leader(obstacle);
+  if (row.other != ContactScene::kStands) {
     const auto other = static_cast<std::size_t>(row.other);
     row.r_other = p_W - states[other].p_Wref();
     is_held_by_any = is_held_by_any || states[other].is_held();
@@ -76,20 +87,23 @@ void ContactRows::add(std::int32_t obstacle, std::size_t part, const Eigen::Vect
 void ContactRows::add_failures(std::span<const UncertifiedPair> failures) {
   const ContactScene& scene = shared_.scene;
   for (const UncertifiedPair& failure : failures) {
-    const PlacedBody& obstacle = scene.bodies()[static_cast<std::size_t>(failure.bodies.obstacle)];
-    const PlacedBody& part = scene.bodies()[static_cast<std::size_t>(failure.bodies.part)];
-    const std::size_t number = static_cast<std::size_t>(failure.bodies.part) - scene.obstacles().size();
     const double margin = scene.margin(failure.bodies.obstacle, failure.bodies.part);
+    const UncertifiedPair pair =
+        scene.leader(failure.bodies.part) == ContactScene::kStands ? swapped(failure) : failure;
+    const PlacedBody& obstacle = scene.bodies()[static_cast<std::size_t>(pair.bodies.obstacle)];
+    const PlacedBody& part = scene.bodies()[static_cast<std::size_t>(pair.bodies.part)];
+    const std::int32_t number = scene.leader(pair.bodies.part);
     double top = -kUnbounded;
-    for (const Eigen::Vector3d& y_W : obstacle.triangle_W(failure.obstacle_triangle))
-      top = std::max(top, failure.n_W.dot(y_W));
-    for (const Eigen::Vector3d& x_W : part.triangle_W(failure.part_triangle)) {
-      const double gap = failure.n_W.dot(x_W) - top;
-      add(failure.bodies.obstacle, number, failure.n_W, x_W, std::min(0.0, margin - gap));
-      Contact& contact = failure_contacts_.emplace_back(Contact{ContactKind::kVertexFace, failure.part_triangle,
-                                                                failure.bodies.obstacle, failure.obstacle_triangle,
-                                                                failure.n_W, x_W, gap});
-      contact.part = static_cast<std::int32_t>(number);
+    for (const Eigen::Vector3d& y_W : obstacle.triangle_W(pair.obstacle_triangle))
+      top = std::max(top, pair.n_W.dot(y_W));
+    for (const Eigen::Vector3d& x_W : part.triangle_W(pair.part_triangle)) {
+      const double gap = pair.n_W.dot(x_W) - top;
+      add(pair.bodies.obstacle, static_cast<std::size_t>(number), pair.n_W, x_W, std::min(0.0, margin - gap));
+      Contact& contact = failure_contacts_.emplace_back(Contact{ContactKind::kVertexFace, pair.part_triangle,
+                                                                pair.bodies.obstacle, pair.obstacle_triangle, pair.n_W,
+                                                                x_W, gap});
+      contact.part = number;
+      contact.rider = scene.rider(pair.bodies.part);
       contact.margin = margin;
     }
   }
@@ -117,8 +131,8 @@ void ContactRows::recall_forces(std::vector<RowForce>& forces) const {
     const Contact& contact = contacts_[i];
     if (rows_[i].bound == -kUnbounded) continue;  // two released parts
     for (const Contact& before : pushed_) {
-      if (before.part != contact.part || before.obstacle != contact.obstacle || before.kind != contact.kind ||
-          before.part_feature != contact.part_feature || before.obstacle_feature != contact.obstacle_feature) {
+      if (before.part != contact.part || before.rider != contact.rider || before.obstacle != contact.obstacle ||
+          before.kind != contact.kind || before.part_feature != contact.part_feature || before.obstacle_feature != contact.obstacle_feature) {
         continue;
       }
       forces.push_back({static_cast<std::int32_t>(i), before.force, before.friction_W});

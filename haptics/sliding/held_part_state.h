@@ -23,6 +23,7 @@ struct HeldPartState {
   Metaphor metaphor;
   CouplingStiffness stiffness;
   double margin;  // metres
+  double lever;   // metres: bound of the distance of all points that move with the part from its reference point
   std::optional<PartScript> script;
   bool may_search;  // in a spiral
   SpiralSearch spiral_search;

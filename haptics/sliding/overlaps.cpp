@@ -23,7 +23,7 @@ bool Overlaps::update() {
 }
 
 const WayOut* Overlaps::way_out_of(std::size_t part) const {
-  const auto body = static_cast<std::int32_t>(scene_.body_of_part(part));
+  const auto body = static_cast<std::int32_t>(scene_.body_of_mover(part));
   const auto way = std::find_if(ways_out_.begin(), ways_out_.end(),
                                 [&](const WayOut& candidate) { return candidate.bodies.part == body; });
   return way == ways_out_.end() ? nullptr : &*way;

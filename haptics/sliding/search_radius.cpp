@@ -56,7 +56,7 @@ bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignore
   limit_ = adapted(limit_, shared.candidates.size() <= shared.rules.affordable_pairs, kSmallestReachLimit_m);
   limit_ahead_ = adapted(limit_ahead_, shared.candidates.size() <= kAffordablePairsAhead, kSmallestLimitAhead_m);
   limit_of_search_ =
-      adapted(limit_of_search_, shared.candidates.work() <= shared.work_of_searches, kSmallestLimitOfSearch_m);
+      adapted(limit_of_search_, shared.candidates.work() <= shared.affordable_search, kSmallestLimitOfSearch_m);
   return true;
 }
 

@@ -48,22 +48,25 @@ const SlidingRules& checked(const SlidingRules& rules, const std::vector<HeldPar
   return rules;
 }
 
-std::int64_t half_of(const std::optional<std::int64_t>& work_budget) {
-  return work_budget ? *work_budget / 2 : kUnlimitedWork;
-}
-
-std::vector<std::shared_ptr<const SlidingPart>> bodies_of(const std::vector<HeldPart>& parts) {
-  std::vector<std::shared_ptr<const SlidingPart>> bodies;
-  for (const HeldPart& part : parts)
-    bodies.push_back(part.part_V);
-  return bodies;
-}
-
-std::vector<double> margins_of(const std::vector<HeldPart>& parts, const SlidingRules& rules) {
+/// Parts and riders with their margins and groups.
+ContactScene make_scene(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts,
+                        const std::vector<RiderChain>& chains, const SlidingRules& rules) {
+  std::vector<std::shared_ptr<const SlidingPart>> movers;
   std::vector<double> margins;
-  for (const HeldPart& part : parts)
+  for (const HeldPart& part : parts) {
+    movers.push_back(part.part_V);
     margins.push_back(rules.margin.value_or(default_margin(*part.part_V)));
-  return margins;
+  }
+  std::vector<int> groups(parts.size(), ContactScene::kPart);
+  for (std::size_t chain = 0; chain < chains.size(); ++chain) {
+    for (const auto& body : chains[chain].bodies) {
+      if (body == nullptr) throw std::invalid_argument("a rider needs a body, not a null pointer");
+      movers.push_back(body);
+      margins.push_back(chains[chain].margin);
+      groups.push_back(ContactScene::kFirstChain + static_cast<int>(chain));
+    }
+  }
+  return {std::move(obstacles), std::move(movers), parts.size(), margins, groups};
 }
 
 HeldPartState state_at_start(const HeldPart& held, const Eigen::Isometry3d& X_WV, const SlidingRules& rules) {
@@ -71,6 +74,7 @@ HeldPartState state_at_start(const HeldPart& held, const Eigen::Isometry3d& X_WV
                       .metaphor = held.metaphor,
                       .stiffness = held.stiffness.value_or(default_stiffness(held.part_V->radius())),
                       .margin = rules.margin.value_or(default_margin(*held.part_V)),
+                      .lever = held.part_V->radius(),
                       .script = held.script,
                       .may_search = rules.spiral_search && !held.script,
                       .spiral_search = SpiralSearch(held.part_V->radius())};
@@ -86,12 +90,13 @@ HeldPartState state_at_start(const HeldPart& held, const Eigen::Isometry3d& X_WV
 }  // namespace
 
 SimulatedParts::SimulatedParts(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts,
-                               const SlidingRules& sliding_rules)
+                               const std::vector<RiderChain>& chains, const SlidingRules& sliding_rules)
     : rules(checked(sliding_rules, parts)),
-      work_of_searches(half_of(rules.work_budget)),
-      work_of_steps(half_of(rules.work_budget)),
-      scene(std::move(obstacles), bodies_of(parts), margins_of(parts, rules)),
-      candidates(scene, kLargestReach_m + kMostLookAhead_m, rules.has_search_thread, half_of(rules.work_budget)) {
+      affordable_search(rules.work_budget ? *rules.work_budget / 2 : kUnlimitedWork),
+      work_of_steps(rules.work_budget.value_or(kUnlimitedWork)),
+      scene(make_scene(std::move(obstacles), parts, chains, rules)),
+      candidates(scene, kLargestReach_m + kMostLookAhead_m, rules.has_search_thread, work_of_steps),
+      riders(scene, chains) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const std::optional<PartScript>& script = parts[p].script;
     const std::optional<Eigen::Isometry3d> X_WV =

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The data that all stages of a simulation cycle share: held parts, contact scene and candidate pairs.
+/// The data that all stages of a simulation cycle share: held parts, riders, contact scene and candidate pairs.
 
 #include <array>
 #include <cstddef>
@@ -14,6 +14,7 @@
 #include "scene/contact_scene.h"
 #include "search/candidate_pairs.h"
 #include "sliding/held_part_state.h"
+#include "sliding/riders.h"
 #include "work/work_budget.h"
 
 namespace glissade::haptics {
@@ -24,7 +25,8 @@ using Displacements = std::array<geometry::Displacement, kMaxParts>;
 /// Not thread-safe.
 struct SimulatedParts {
   /// Throws std::invalid_argument as `MultiPartSliding` does, except for overlaps, which are not checked here.
-  SimulatedParts(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const SlidingRules& rules);
+  SimulatedParts(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts,
+                 const std::vector<RiderChain>& chains, const SlidingRules& rules);
 
   std::size_t count() const { return states.size(); }
   std::span<const geometry::Displacement> of_parts(const Displacements& d) const { return {d.data(), count()}; }
@@ -32,11 +34,12 @@ struct SimulatedParts {
   double ghost_motion() const;
 
   SlidingRules rules;
-  std::int64_t work_of_searches;  // of a call
-  std::int64_t work_of_steps;     // of a call, without searches
+  std::int64_t affordable_search;  // work of one that is not too large
+  std::int64_t work_of_steps;      // of a call, without searches
   ContactScene scene;
   CandidatePairs candidates;
   std::vector<HeldPartState> states;
+  Riders riders;
   double largest_margin = 0.0;  // metres
 };
 

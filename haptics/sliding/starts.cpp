@@ -10,14 +10,14 @@ namespace glissade::haptics {
 Starts::Starts(SimulatedParts& shared, const std::vector<HeldPart>& parts, double touching)
     : shared_(shared), overlaps_(shared.scene) {
   for (std::size_t part = 0; part < parts.size(); ++part) {
-    for (std::size_t other = 0; other < shared_.scene.body_of_part(part); ++other)
+    for (std::size_t other = 0; other < shared_.scene.body_of_mover(part); ++other)
       look(parts, part, other, touching);
   }
 }
 
 void Starts::look(const std::vector<HeldPart>& parts, std::size_t part, std::size_t other, double touching) {
   ContactScene& scene = shared_.scene;
-  const BodyPair bodies{static_cast<std::int32_t>(other), static_cast<std::int32_t>(scene.body_of_part(part))};
+  const BodyPair bodies{static_cast<std::int32_t>(other), static_cast<std::int32_t>(scene.body_of_mover(part))};
   const double min_clearance = scene.min_clearance(bodies.obstacle, bodies.part);
   const double gap = gap_of(bodies, std::max(min_clearance, 2.0 * touching));
   if (gap > touching) {

@@ -179,11 +179,11 @@ bool StepFinder::gains_energy() {
 std::array<bool, kMaxParts> StepFinder::parts_that_fail() const {
   std::array<bool, kMaxParts> fails{};
   if (certificate_.failures().empty()) fails.fill(true);
-  const auto obstacles = static_cast<std::int32_t>(shared_.scene.obstacles().size());
   for (const UncertifiedPair& failure : certificate_.failures()) {
-    fails[static_cast<std::size_t>(failure.bodies.part - obstacles)] = true;
-    if (failure.bodies.obstacle >= obstacles)
-      fails[static_cast<std::size_t>(failure.bodies.obstacle - obstacles)] = true;
+    for (const std::int32_t body : {failure.bodies.part, failure.bodies.obstacle}) {
+      const std::int32_t part = shared_.scene.leader(body);
+      if (part != ContactScene::kStands) fails[static_cast<std::size_t>(part)] = true;
+    }
   }
   return fails;
 }
@@ -193,7 +193,7 @@ void StepFinder::begin_certificate(const Displacements& displacements) {
   step_.displacements = displacements;
   step_.length = 0.0;
   for (std::size_t p = 0; p < shared_.count(); ++p) {
-    step_.lengths[p] = geometry::motion_bound(displacements[p], shared_.states[p].part_V->radius());
+    step_.lengths[p] = geometry::motion_bound(displacements[p], shared_.states[p].lever);
     step_.length += step_.lengths[p];
   }
   // Bodies farther apart than this keep their minimum clearance whatever happens on the way.

@@ -33,12 +33,12 @@ constexpr double kGreatest = 5e-3;  // metres
 
 /// Moves each part at random by up to `most` metres, or not at all.
 void move_parts(ContactScene& scene, double most, RandomNumbers& random) {
-  for (std::size_t p = 0; p < scene.parts().size(); ++p) {
+  for (std::size_t p = 0; p < scene.movers().size(); ++p) {
     if (random.chance(0.2)) continue;
-    const SlidingPart& part = *scene.parts()[p];
+    const SlidingPart& part = *scene.movers()[p];
     const geometry::Displacement d{random.uniform(0.0, 0.5) * most * random.direction(),
                                    random.uniform(0.0, 0.5) * most / part.radius() * random.direction()};
-    scene.place(p, geometry::displaced(scene.bodies()[scene.body_of_part(p)].X_WB, part.p_Vref(), d));
+    scene.place(p, geometry::displaced(scene.bodies()[scene.body_of_mover(p)].X_WB, part.p_Vref(), d));
   }
 }
 

@@ -108,7 +108,7 @@ class PathProof {
   PathProof(const MultiPartSliding& sliding, std::vector<PlacedBody> before)
       : sliding_(sliding), before_(std::move(before)), bodies_(before_) {
     for (std::size_t p = 0; p < sliding.part_count(); ++p) {
-      const std::size_t body = scene_of(sliding).body_of_part(p);
+      const std::size_t body = scene_of(sliding).body_of_mover(p);
       displacements_.push_back(geometry::displacement_between(before_[body].X_WB, scene_of(sliding).bodies()[body].X_WB,
                                                               sliding.part(p).p_Vref()));
     }
@@ -128,7 +128,7 @@ class PathProof {
   bool keeps_floor(const BodyPair& pair, double begin, double end) {
     const double middle = 0.5 * (begin + end);
     for (std::size_t p = 0; p < displacements_.size(); ++p) {
-      const std::size_t body = scene_of(sliding_).body_of_part(p);
+      const std::size_t body = scene_of(sliding_).body_of_mover(p);
       bodies_[body].X_WB =
           geometry::displaced(before_[body].X_WB, sliding_.part(p).p_Vref(), displacements_[p].scaled(middle));
     }
@@ -171,9 +171,9 @@ SlidingRules random_rules(RandomNumbers& random) {
 
 std::vector<HeldPart> random_held_parts(const ContactScene& scene, RandomNumbers& random) {
   std::vector<HeldPart> parts;
-  for (std::size_t p = 0; p < scene.parts().size(); ++p) {
-    parts.push_back({.part_V = scene.parts()[p],
-                     .X_WV_start = scene.bodies()[scene.body_of_part(p)].X_WB,
+  for (std::size_t p = 0; p < scene.movers().size(); ++p) {
+    parts.push_back({.part_V = scene.movers()[p],
+                     .X_WV_start = scene.bodies()[scene.body_of_mover(p)].X_WB,
                      .metaphor = static_cast<Metaphor>(random.integer(0, std::ssize(kMetaphorNames) - 1))});
   }
   return parts;
@@ -248,7 +248,7 @@ class TortureTrial {
     if (parts_[p].metaphor == Metaphor::kForceFeedback) {
       ASSERT_LE((lag_of(sliding_, p) - lags_[p]).norm(), allowed_ * (1.0 + 1e-9));
     }
-    events_.moved += result.X_WV.matrix() != before[scene_of(sliding_).body_of_part(p)].X_WB.matrix() ? 1 : 0;
+    events_.moved += result.X_WV.matrix() != before[scene_of(sliding_).body_of_mover(p)].X_WB.matrix() ? 1 : 0;
     events_.pushed_by_each_other +=
         static_cast<int>(std::count_if(result.contacts.begin(), result.contacts.end(), [&](const Contact& contact) {
           return contact.force > 0.0 && contact.obstacle >= obstacles_;

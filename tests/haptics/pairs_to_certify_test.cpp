@@ -117,7 +117,7 @@ TEST_F(PairsToCertify, LeavesOutBodiesThatAreIgnored) {
   for (int trial = 0; trial < test_support::affordable(40); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     const auto scene = test_support::random_contact_scene(kSize, 1e-4, 1e-4, random_);
-    const BodyPair ignored{0, static_cast<std::int32_t>(scene->body_of_part(0))};
+    const BodyPair ignored{0, static_cast<std::int32_t>(scene->body_of_mover(0))};
     const std::vector<PairToCertify> all = pairs_to_certify_of(*scene, 1e-3);
     const std::vector<PairToCertify> rest = pairs_to_certify_of(*scene, 1e-3, {ignored});
     const auto of_ignored =

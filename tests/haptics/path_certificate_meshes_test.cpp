@@ -39,7 +39,7 @@ struct Proof {
 Proof prove(const ContactScene& scene, const std::vector<geometry::Displacement>& displacements) {
   double radius = kMinClearanceOfMargin * kGreatestMargin_m;
   for (std::size_t p = 0; p < displacements.size(); ++p)
-    radius += geometry::motion_bound(displacements[p], scene.parts()[p]->radius());
+    radius += geometry::motion_bound(displacements[p], scene.movers()[p]->radius());
   collision::QueryWorkspace workspace;
   std::vector<PairToCertify> to_certify;
   find_pairs_to_certify(scene, scene.bodies(), radius, {}, workspace, to_certify);
@@ -62,11 +62,11 @@ std::string what_comes_too_near(const ContactScene& scene, const std::vector<geo
   for (int i = 0; i <= kMoments; ++i) {
     std::vector<PlacedBody> bodies = start;
     for (std::size_t p = 0; p < displacements.size(); ++p) {
-      Isometry3d& X_WV = bodies[scene.body_of_part(p)].X_WB;
-      X_WV = geometry::displaced(X_WV, scene.parts()[p]->p_Vref(), displacements[p].scaled(1.0 * i / kMoments));
+      Isometry3d& X_WV = bodies[scene.body_of_mover(p)].X_WB;
+      X_WV = geometry::displaced(X_WV, scene.movers()[p]->p_Vref(), displacements[p].scaled(1.0 * i / kMoments));
     }
     // All have the same margin.
-    const double floor = scene.min_clearance(0, static_cast<std::int32_t>(scene.body_of_part(0)));
+    const double floor = scene.min_clearance(0, static_cast<std::int32_t>(scene.body_of_mover(0)));
     for (const auto& [pair, distance] :
          test_support::near_triangles(bodies, scene.obstacles().size(), floor - kRounding)) {
       if (distance >= 0.95 * test_support::distance_of(start, pair) - kRounding) continue;
@@ -100,7 +100,7 @@ TEST(PathCertificate, WhatIsProvedOfRandomMeshesHoldsAllAlong) {
     for (int step = 0; step < 5; ++step) {
       std::vector<geometry::Displacement> displacements;
       double motion = 0.0;
-      for (const auto& part : scene->parts()) {
+      for (const auto& part : scene->movers()) {
         displacements.push_back(random_displacement(gap, part->radius(), random));
         if (random.chance(0.2)) displacements.back() = {};
         motion += geometry::motion_bound(displacements.back(), part->radius());
@@ -160,7 +160,7 @@ TEST_F(FinePlates, ThatTiltAreProvedAsLongAsTheLowestCornerKeepsTheFloor) {
   EXPECT_EQ(proof.boxes, proof.to_certify) << "nothing but boxes";
   EXPECT_FALSE(proof.holds);
   for (const UncertifiedPair& failure : proof.failures) {
-    const geometry::TriangleMesh& mesh = scene.parts()[0]->tree.mesh();
+    const geometry::TriangleMesh& mesh = scene.movers()[0]->tree.mesh();
     double farthest = 0.0;
     for (int corner = 0; corner < 3; ++corner)
       farthest = std::max(farthest, mesh.corner(failure.part_triangle, corner).x());

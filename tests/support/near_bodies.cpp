@@ -54,7 +54,7 @@ const PlacedBody& body_of(std::span<const PlacedBody> bodies, std::int32_t numbe
 /// The smallest distance between a part and all bodies with lower numbers.
 double clearance(const haptics::ContactScene& scene, std::size_t part) {
   collision::QueryWorkspace workspace;
-  const std::size_t number = scene.body_of_part(part);
+  const std::size_t number = scene.body_of_mover(part);
   const PlacedBody& placed = scene.bodies()[number];
   double least = std::numeric_limits<double>::infinity();
   for (const PlacedBody& other : scene.bodies().first(number)) {
@@ -66,7 +66,7 @@ double clearance(const haptics::ContactScene& scene, std::size_t part) {
 
 /// Moves a part from far away straight towards a point, until its clearance is hardly more than `gap`.
 void approach(haptics::ContactScene& scene, std::size_t part, double far, double gap, RandomNumbers& random) {
-  const haptics::ContactBody& body = *scene.bodies()[scene.body_of_part(part)].body;
+  const haptics::ContactBody& body = *scene.bodies()[scene.body_of_mover(part)].body;
   const Eigen::Vector3d direction = random.direction();
   Isometry3d X_WV = Isometry3d::Identity();
   X_WV.linear() = random.chance(0.5) ? random.rotation() : random.cube_rotation();

@@ -1,0 +1,263 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <glissade/base/assert.h>
+#include <glissade/grasping/grasp_simulation.h>
+
+#include "life/grasping_hand.h"
+#include "life/push.h"
+
+namespace glissade::grasping {
+namespace {
+
+constexpr double kUnitTolerance = 1e-6;
+
+std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const std::vector<haptics::HeldPart>& parts) {
+  std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies;
+  for (const haptics::HeldPart& part : parts)
+    bodies.push_back(part.part_V);
+  return bodies;
+}
+
+std::vector<haptics::RiderChain> chains_of(const std::vector<std::shared_ptr<const HandModel>>& hands,
+                                           const ClaspRules& rules) {
+  std::vector<haptics::RiderChain> chains;
+  for (const auto& hand : hands) {
+    if (hand == nullptr) throw std::invalid_argument("a hand needs a model, not a null pointer");
+    chains.push_back({GraspingHand::bodies_of(*hand), rules.margin});
+  }
+  return chains;
+}
+
+}  // namespace
+
+std::string_view name_of(HandState state) {
+  switch (state) {
+    case HandState::kLost:
+      return "lost";
+    case HandState::kWaiting:
+      return "waiting";
+    case HandState::kFree:
+      return "free";
+    case HandState::kHolding:
+      return "holding";
+  }
+  return "unknown";
+}
+
+class GraspSimulation::Life {
+ public:
+  Life(const std::vector<haptics::Obstacle>& fixed, const std::vector<haptics::HeldPart>& parts,
+       const std::vector<std::shared_ptr<const HandModel>>& hands, const GraspRules& rules)
+      : up_W_(rules.up_W),
+        parts_(fixed, parts, rules.sliding, chains_of(hands, rules.clasp)),
+        X_WG_(parts.size(), Eigen::Isometry3d::Identity()),
+        pushes_(parts.size()),
+        is_present_(hands.size(), 0) {
+    if (std::abs(up_W_.norm() - 1.0) > kUnitTolerance)
+      throw std::invalid_argument("the direction against gravity must be a unit vector");
+    hands_.reserve(hands.size());
+    for (const auto& hand : hands)
+      hands_.emplace_back(hand, fixed, bodies_of(parts), rules.clasp);
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      if (!parts_.is_scripted(p)) parts_.release(p);
+      for (GraspingHand& hand : hands_)
+        hand.clasp().place_free_object(p, parts_.result(p).X_WV);
+    }
+  }
+
+  std::size_t hand_count() const { return hands_.size(); }
+  const GraspingHand& hand(std::size_t number) const {
+    GLISSADE_ASSERT(number < hands_.size());
+    return hands_[number];
+  }
+  const haptics::MultiPartSliding& parts() const { return parts_; }
+
+  void advance(std::span<const std::optional<Posture>> targets, double milliseconds) {
+    GLISSADE_ASSERT(targets.size() == hands_.size());
+    for (std::size_t h = 0; h < hands_.size(); ++h)
+      aim(h, targets[h]);
+    for (std::size_t p = 0; p < X_WG_.size(); ++p)
+      choose_ghost(p);
+    parts_.advance(X_WG_, milliseconds);
+    for (std::size_t h = 0; h < hands_.size(); ++h)
+      move_hand(h);
+    for (GraspingHand& hand : hands_)
+      hand.analyze(milliseconds, up_W_);
+    for (std::size_t h = 0; h < hands_.size(); ++h)
+      take_or_let_go(h);
+    for (std::size_t p = 0; p < X_WG_.size(); ++p)
+      note_push(p);
+  }
+
+ private:
+  bool is_held(std::size_t part) const {
+    return std::any_of(hands_.begin(), hands_.end(), [&](const GraspingHand& hand) { return hand.part() == part; });
+  }
+
+  /// A hand that is found again may be anywhere: a free one jumps, and a held part goes there slowly.
+  void aim(std::size_t h, const std::optional<Posture>& target) {
+    GraspingHand& hand = hands_[h];
+    if (!hand.aim(target)) return;
+    if (!hand.part()) {
+      hand.clasp().move_cart(*target);
+      remove(h);
+    } else if (const std::optional<Eigen::Isometry3d> X_WG = wish(*hand.part())) {
+      parts_.grasp(*hand.part(), *X_WG);
+    }
+  }
+
+  /// The mean of what the hands that hold a part want of it; none while none of them has a target.
+  std::optional<Eigen::Isometry3d> wish(std::size_t part) {
+    const Eigen::Isometry3d& X_WV = parts_.result(part).X_WV;
+    const Eigen::Vector3d& p_Vref = parts_.part(part).p_Vref();
+    geometry::Displacement sum;
+    int count = 0;
+    for (GraspingHand& hand : hands_) {
+      if (hand.part() != part) continue;
+      const std::optional<Eigen::Isometry3d> X_WG = hand.ghost();
+      if (!X_WG) continue;
+      const geometry::Displacement d = geometry::displacement_between(X_WV, *X_WG, p_Vref);
+      sum = {sum.v + d.v, sum.w + d.w};
+      ++count;
+    }
+    if (count == 0) return std::nullopt;
+    return geometry::displaced(X_WV, p_Vref, sum.scaled(1.0 / count));
+  }
+
+  void choose_ghost(std::size_t p) {
+    const Eigen::Isometry3d& X_WV = parts_.result(p).X_WV;
+    X_WG_[p] = X_WV;
+    if (is_held(p)) {
+      X_WG_[p] = wish(p).value_or(X_WV);
+      return;
+    }
+    Push& push = pushes_[p];
+    if (push.is_empty()) return;
+    const haptics::SlidingPart& part = parts_.part(p);
+    X_WG_[p] = geometry::displaced(X_WV, part.p_Vref(), push.displacement(part.radius()));
+  }
+
+  void move_hand(std::size_t h) {
+    GraspingHand& hand = hands_[h];
+    for (std::size_t p = 0; p < X_WG_.size(); ++p)
+      hand.clasp().place_free_object(p, parts_.result(p).X_WV);
+    if (hand.part()) hand.follow(parts_.result(*hand.part()).X_WV);
+    hand.advance();
+    if (hand.clasp().state() == ClaspState::kWaiting) return;
+    parts_.place_riders(h, hand.segments());
+    is_present_[h] = 1;
+  }
+
+  void remove(std::size_t h) {
+    if (std::exchange(is_present_[h], char{0}) != 0) parts_.remove_riders(h);
+  }
+
+  /// The part that the grasp of a hand holds.
+  std::optional<std::size_t> grasped_part(const GraspingHand& hand) const {
+    const Grasp& grasp = hand.grasp();
+    const std::int64_t number = grasp.object - static_cast<std::int64_t>(parts_.obstacle_count());
+    if (!grasp.holds() || number < 0) return std::nullopt;
+    const auto part = static_cast<std::size_t>(number);
+    return parts_.is_scripted(part) ? std::nullopt : std::optional(part);
+  }
+
+  /// A hand without a target keeps what it has.
+  void take_or_let_go(std::size_t h) {
+    GraspingHand& hand = hands_[h];
+    if (hand.is_lost()) return;
+    const std::optional<std::size_t> grasped = grasped_part(hand);
+    if (grasped == hand.part()) return;
+    if (const std::optional<std::size_t> old = hand.part()) {
+      hand.let_go();
+      parts_.detach(h);
+      settle(*old);
+    }
+    if (!grasped) return;
+    hand.take(*grasped, parts_.result(*grasped).X_WV);
+    parts_.attach(h, *grasped);
+    settle(*grasped);
+  }
+
+  /// After another hand has taken hold of a part or let go of it. The part approaches its new ghost slowly.
+  void settle(std::size_t p) {
+    pushes_[p].clear();
+    if (!is_held(p)) {
+      parts_.release(p);
+    } else if (const std::optional<Eigen::Isometry3d> X_WG = wish(p)) {
+      parts_.grasp(p, *X_WG);
+    }
+  }
+
+  /// A part that is pushed follows the push, and is released when no hand pushes it any more.
+  void note_push(std::size_t p) {
+    if (parts_.is_scripted(p) || is_held(p)) return;
+    Push& push = pushes_[p];
+    const bool was_pushed = !push.is_empty();
+    push.clear();
+    const auto body = static_cast<std::int32_t>(parts_.obstacle_count() + p);
+    const Eigen::Isometry3d& X_WV = parts_.result(p).X_WV;
+    for (const GraspingHand& hand : hands_) {
+      if (!hand.is_lost()) push.add(hand.clasp().contacts(), body, X_WV, parts_.part(p));
+    }
+    if (push.is_empty() && was_pushed) parts_.release(p);
+    if (!push.is_empty() && !was_pushed) parts_.grasp(p, X_WV);
+  }
+
+  Eigen::Vector3d up_W_;
+  haptics::MultiPartSliding parts_;
+  std::vector<GraspingHand> hands_;
+  std::vector<Eigen::Isometry3d> X_WG_;  // of each part
+  std::vector<Push> pushes_;             // of each part
+  std::vector<char> is_present_;         // by hand: among the riders
+};
+
+GraspSimulation::GraspSimulation(const std::vector<haptics::Obstacle>& fixed,
+                                 const std::vector<haptics::HeldPart>& parts,
+                                 const std::vector<std::shared_ptr<const HandModel>>& hands, const GraspRules& rules)
+    : life_(std::make_unique<Life>(fixed, parts, hands, rules)) {}
+
+GraspSimulation::GraspSimulation(GraspSimulation&&) noexcept = default;
+GraspSimulation& GraspSimulation::operator=(GraspSimulation&&) noexcept = default;
+GraspSimulation::~GraspSimulation() = default;
+
+void GraspSimulation::advance(std::span<const std::optional<Posture>> targets, double milliseconds) {
+  life_->advance(targets, milliseconds);
+}
+
+std::size_t GraspSimulation::hand_count() const {
+  return life_->hand_count();
+}
+
+std::size_t GraspSimulation::part_count() const {
+  return life_->parts().part_count();
+}
+
+HandState GraspSimulation::state(std::size_t hand) const {
+  return life_->hand(hand).state();
+}
+
+const Posture& GraspSimulation::posture(std::size_t hand) const {
+  return life_->hand(hand).clasp().posture();
+}
+
+const Clasp& GraspSimulation::clasp(std::size_t hand) const {
+  return life_->hand(hand).clasp();
+}
+
+const Grasp& GraspSimulation::grasp(std::size_t hand) const {
+  return life_->hand(hand).grasp();
+}
+
+std::optional<std::size_t> GraspSimulation::held_part(std::size_t hand) const {
+  return life_->hand(hand).part();
+}
+
+const haptics::MultiPartSliding& GraspSimulation::parts() const {
+  return life_->parts();
+}
+
+}  // namespace glissade::grasping

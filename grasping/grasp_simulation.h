@@ -1,0 +1,85 @@
+#pragma once
+
+/// Hands that grasp, carry, push and let go of parts (paper §4): the clasp and the analysis of each hand, and sliding
+/// contact for the parts that hands hold.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <glissade/grasping/clasp.h>
+#include <glissade/grasping/grasp_analysis.h>
+#include <glissade/grasping/hand_model.h>
+#include <glissade/haptics/contact_body.h>
+#include <glissade/haptics/multi_part_sliding.h>
+#include <glissade/haptics/sliding_rules.h>
+
+namespace glissade::grasping {
+
+struct GraspRules {
+  ClaspRules clasp{};
+  haptics::SlidingRules sliding{};
+  Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();  ///< of unit length, against gravity
+};
+
+/// What a hand does.
+enum class HandState : std::uint8_t {
+  kLost,     ///< there is no target: the hand stays where it is, and presses on nothing
+  kWaiting,  ///< as `ClaspState::kWaiting`
+  kFree,     ///< the hand holds nothing, though it may touch
+  kHolding,  ///< a part moves with the hand
+};
+
+std::string_view name_of(HandState state);
+
+/// Loose parts stand still where they were left; nothing falls. Deterministic. Not thread-safe.
+///
+/// A hand takes hold of a part when the contacts of its segments say so (`GraspAnalysis`). From then on its palm and the
+/// part are one rigid body, which follows the tracked palm by sliding contact: the hand stays clasped round the visible
+/// part, wherever the tracked hand goes, and segments of the hand stop the part as its own faces do. The fingers still
+/// follow the glove; when they open, the hand lets go. A part in two hands follows the mean of their wishes. A hand that
+/// touches a loose part without a grasp pushes it: the part yields by the shortest way on which the target of the hand
+/// has room, as far as obstacles let it.
+class GraspSimulation {
+ public:
+  /// Parts are loose at the start, unless scripts lead them; scripted parts cannot be held. Throws
+  /// std::invalid_argument as `haptics::MultiPartSliding` and `Clasp` do, for a hand that is null, and for an `up_W`
+  /// that is no unit vector (to 1e-6).
+  GraspSimulation(const std::vector<haptics::Obstacle>& fixed, const std::vector<haptics::HeldPart>& parts,
+                  const std::vector<std::shared_ptr<const HandModel>>& hands, const GraspRules& rules = {});
+  GraspSimulation(GraspSimulation&&) noexcept;
+  GraspSimulation& operator=(GraspSimulation&&) noexcept;
+  ~GraspSimulation();
+
+  /// One target for each hand: the tracked posture, or none while the tracking is lost. `milliseconds` have passed since
+  /// the last call.
+  void advance(std::span<const std::optional<Posture>> targets, double milliseconds = 1.0);
+
+  std::size_t hand_count() const;
+  std::size_t part_count() const;
+
+  // Of the hand with this number:
+  HandState state(std::size_t hand) const;
+  /// The visible hand. It touches nothing, nor did it on its way.
+  const Posture& posture(std::size_t hand) const;
+  const Clasp& clasp(std::size_t hand) const;
+  /// `Grasp::object` numbers the fixed bodies first, then the parts.
+  const Grasp& grasp(std::size_t hand) const;
+  /// The part that moves with the hand.
+  std::optional<std::size_t> held_part(std::size_t hand) const;
+
+  /// Poses, lag and contacts of the parts.
+  const haptics::MultiPartSliding& parts() const;
+
+ private:
+  class Life;
+  std::unique_ptr<Life> life_;
+};
+
+}  // namespace glissade::grasping

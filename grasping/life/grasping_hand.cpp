@@ -1,0 +1,108 @@
+#include "life/grasping_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glissade/geometry/rigid_pose.h>
+
+#include "clasp/chain_step.h"
+#include "hand/hand_links.h"
+
+namespace glissade::grasping {
+namespace {
+
+std::shared_ptr<const KinematicChain> chain_of(const std::shared_ptr<const HandModel>& model) {
+  return {model, &model->chain};
+}
+
+bool is_usable(const Posture& target, std::size_t values) {
+  return target.values.size() == values && geometry::rigid_pose(target.X_WR).has_value() &&
+         std::all_of(target.values.begin(), target.values.end(), [](double value) { return std::isfinite(value); });
+}
+
+}  // namespace
+
+GraspingHand::GraspingHand(std::shared_ptr<const HandModel> model, const std::vector<haptics::Obstacle>& fixed,
+                           std::vector<std::shared_ptr<const haptics::SlidingPart>> parts, const ClaspRules& rules)
+    : model_(std::move(model)),
+      links_(links_that_touch(model_->chain)),
+      first_part_(static_cast<std::int32_t>(fixed.size())),
+      clasp_(chain_of(model_), fixed, std::move(parts), rules),
+      analysis_(*model_),
+      X_WL_(model_->chain.links().size()),
+      X_WB_(links_.size()) {}
+
+HandState GraspingHand::state() const {
+  if (is_lost()) return HandState::kLost;
+  if (clasp_.state() == ClaspState::kWaiting) return HandState::kWaiting;
+  return part_ ? HandState::kHolding : HandState::kFree;
+}
+
+std::vector<std::shared_ptr<const haptics::SlidingPart>> GraspingHand::bodies_of(const HandModel& model) {
+  std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies;
+  for (const std::size_t link : links_that_touch(model.chain))
+    bodies.push_back(std::make_shared<const haptics::SlidingPart>(model.chain.links()[link].mesh));
+  return bodies;
+}
+
+std::span<const Eigen::Isometry3d> GraspingHand::segments() {
+  const Posture& posture = clasp_.posture();
+  model_->chain.poses(posture.X_WR, posture.values, X_WL_);
+  for (std::size_t i = 0; i < links_.size(); ++i)
+    X_WB_[i] = X_WL_[links_[i]];
+  return X_WB_;
+}
+
+Eigen::Isometry3d GraspingHand::palm(std::span<const double> values) {
+  model_->chain.poses(Eigen::Isometry3d::Identity(), values, X_WL_);
+  return X_WL_[kPalmLink];
+}
+
+bool GraspingHand::aim(const std::optional<Posture>& target) {
+  const bool was_lost = is_lost();
+  target_ = target;
+  if (target_ && !is_usable(*target_, model_->chain.values().size())) target_.reset();
+  if (target_) model_->chain.clamp(target_->values);
+  return was_lost && !is_lost();
+}
+
+void GraspingHand::take(std::size_t part, const Eigen::Isometry3d& X_WV) {
+  const Posture& posture = clasp_.posture();
+  part_ = part;
+  X_PV_ = (posture.X_WR * palm(posture.values)).inverse(Eigen::Isometry) * X_WV;
+}
+
+std::optional<Eigen::Isometry3d> GraspingHand::ghost() {
+  if (is_lost()) return std::nullopt;
+  return target_->X_WR * palm(target_->values) * X_PV_;
+}
+
+void GraspingHand::follow(const Eigen::Isometry3d& X_WV) {
+  posture_ = clasp_.posture();
+  if (target_) {
+    // The forearm goes where the glove's wrist has it: nothing on it touches.
+    for (const std::size_t v : {kWristFlexionValue, kWristAbductionValue})
+      posture_.values[v] = target_->values[v];
+  }
+  posture_.X_WR = X_WV * X_PV_.inverse(Eigen::Isometry) * palm(posture_.values).inverse(Eigen::Isometry);
+  clasp_.carry(posture_);
+}
+
+void GraspingHand::advance() {
+  if (is_lost()) return;
+  posture_ = *target_;
+  if (part_) posture_.X_WR = clasp_.posture().X_WR;
+  clasp_.advance(posture_);
+}
+
+void GraspingHand::analyze(double milliseconds, const Eigen::Vector3d& up_W) {
+  if (is_lost() || clasp_.state() == ClaspState::kWaiting) {
+    analysis_.clear();
+    return;
+  }
+  const std::int32_t held = part_ ? first_part_ + static_cast<std::int32_t>(*part_) : -1;
+  analysis_.update(clasp_.contacts(), milliseconds, up_W, held);
+}
+
+}  // namespace glissade::grasping

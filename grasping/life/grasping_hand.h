@@ -1,0 +1,67 @@
+#pragma once
+
+/// One hand of a simulation: its clasp, its grasp, and how it moves with the part that it holds.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/grasping/grasp_simulation.h>
+
+namespace glissade::grasping {
+
+/// The palm P and a held part are one rigid body. Not thread-safe.
+class GraspingHand {
+ public:
+  GraspingHand(std::shared_ptr<const HandModel> model, const std::vector<haptics::Obstacle>& fixed,
+               std::vector<std::shared_ptr<const haptics::SlidingPart>> parts, const ClaspRules& rules);
+
+  const Clasp& clasp() const { return clasp_; }
+  Clasp& clasp() { return clasp_; }
+  const Grasp& grasp() const { return analysis_.grasp(); }
+  HandState state() const;
+  std::optional<std::size_t> part() const { return part_; }
+
+  /// The pose of a segment for each of the hand's bodies: the riders of the sliding simulation.
+  std::span<const Eigen::Isometry3d> segments();
+  static std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const HandModel& model);
+
+  /// Takes the target of a call; none while the tracking is lost. Returns whether the hand has just been found again.
+  bool aim(const std::optional<Posture>& target);
+  bool is_lost() const { return !target_; }
+
+  /// Takes hold of the part at X_WV.
+  void take(std::size_t part, const Eigen::Isometry3d& X_WV);
+  void let_go() { part_.reset(); }
+  /// Where the target of this hand has the held part; none while the tracking is lost.
+  std::optional<Eigen::Isometry3d> ghost();
+
+  /// Moves the hand: with the held part, which is now at X_WV, or towards its target.
+  void follow(const Eigen::Isometry3d& X_WV);
+  void advance();
+  /// Looks at the contacts.
+  void analyze(double milliseconds, const Eigen::Vector3d& up_W);
+
+ private:
+  /// The palm in the root's frame, for these flex values.
+  Eigen::Isometry3d palm(std::span<const double> values);
+
+  std::shared_ptr<const HandModel> model_;
+  std::vector<std::size_t> links_;  // with meshes
+  std::int32_t first_part_;  // the number of its body
+  Clasp clasp_;
+  GraspAnalysis analysis_;
+  std::optional<Posture> target_;
+  std::optional<std::size_t> part_;
+  Eigen::Isometry3d X_PV_ = Eigen::Isometry3d::Identity();
+  Posture posture_;  // scratch memory
+  std::vector<Eigen::Isometry3d> X_WL_;
+  std::vector<Eigen::Isometry3d> X_WB_;
+};
+
+}  // namespace glissade::grasping

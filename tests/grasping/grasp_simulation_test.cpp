@@ -1,0 +1,255 @@
+/// The life of a grasp: grasp, carry, slide, push, let go, one and two hands, and a hand that is lost.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/grasping/grasp_simulation.h>
+#include <glissade/reference/grid_check.h>
+
+#include "clasped_hand.h"
+#include "poses.h"
+
+namespace glissade::grasping {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using test_support::at;
+using test_support::bent_hand;
+using test_support::hand_chain;
+using test_support::hand_model;
+using test_support::open_hand;
+
+constexpr double kBall_m = 0.035;
+
+/// A ball before the palm of the hand that has its root at the origin, and a wall beyond it: at x = 0.25 m.
+class HandAndBall {
+ public:
+  explicit HandAndBall(std::size_t hands = 1, double wall_x = 0.25)
+      : ball_(std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(kBall_m, 2000))),
+        wall_(std::make_shared<const geometry::TriangleMesh>(
+            geometry::make_box({0.02, 0.6, 0.6}, 2000))),
+        X_WWall_(at(wall_x, 0.0, 0.0)),
+        simulation({{std::make_shared<const haptics::ContactBody>(wall_), X_WWall_, "the wall"}},
+                   {{.part_V = std::make_shared<const haptics::SlidingPart>(ball_), .X_WV_start = at(0.095, 0.0, -0.056)}},
+                   std::vector<std::shared_ptr<const HandModel>>(hands, hand_model())),
+        targets_(hands) {}
+
+ private:
+  std::shared_ptr<const geometry::TriangleMesh> ball_;
+  std::shared_ptr<const geometry::TriangleMesh> wall_;
+  Isometry3d X_WWall_;
+
+ public:
+  GraspSimulation simulation;
+
+  void advance(const Posture& target) {
+    targets_[0] = target;
+    advance();
+  }
+  void lose() {
+    targets_[0].reset();
+    advance();
+  }
+  std::optional<Posture>& target(std::size_t hand) { return targets_[hand]; }
+  void advance() {
+    simulation.advance(targets_);
+    ASSERT_FALSE(collides());
+  }
+
+  Isometry3d X_WV() const { return simulation.parts().result(0).X_WV; }
+  double force() const {
+    const geometry::Displacement lag = simulation.parts().error(0);
+    return simulation.parts().stiffness(0).translational * lag.v.norm();
+  }
+
+  /// By a check without code of the trees: hands against ball and wall, ball against wall.
+  bool collides() const {
+    const reference::GridCheck wall({{wall_, X_WWall_}});
+    const reference::GridCheck all({{wall_, X_WWall_}, {ball_, X_WV()}});
+    if (wall.collides(*ball_, X_WV())) return true;
+    std::vector<Isometry3d> X_WL(hand_chain()->links().size());
+    for (std::size_t h = 0; h < simulation.hand_count(); ++h) {
+      if (simulation.clasp(h).state() == ClaspState::kWaiting) continue;
+      const Posture& posture = simulation.posture(h);
+      hand_chain()->poses(posture.X_WR, posture.values, X_WL);
+      for (std::size_t link = 0; link < X_WL.size(); ++link) {
+        const auto& mesh = hand_chain()->links()[link].mesh;
+        if (mesh != nullptr && all.collides(*mesh, X_WL[link])) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  std::vector<std::optional<Posture>> targets_;
+};
+
+Posture moved(Posture posture, double x, double y, double z) {
+  posture.X_WR = at(x, y, z) * posture.X_WR;
+  return posture;
+}
+
+void close_round_ball(HandAndBall& scene) {
+  for (int ms = 0; ms <= 200; ++ms)
+    scene.advance(bent_hand(1.2 * std::min(1.0, ms / 150.0)));
+}
+
+TEST(GraspSimulation, TakesHoldOfThePartThatTheHandClosesRound) {
+  HandAndBall scene;
+  scene.advance(open_hand());
+  EXPECT_EQ(scene.simulation.state(0), HandState::kFree);
+  EXPECT_FALSE(scene.simulation.held_part(0));
+  close_round_ball(scene);
+  EXPECT_EQ(scene.simulation.state(0), HandState::kHolding);
+  EXPECT_EQ(scene.simulation.held_part(0), 0U);
+}
+
+TEST(GraspSimulation, CarriesAHeldPartRigidlyWithThePalm) {
+  HandAndBall scene;
+  close_round_ball(scene);
+  const Isometry3d X_WV = scene.X_WV();
+  const Posture closed = bent_hand(1.2);
+  for (int ms = 1; ms <= 400; ++ms)
+    scene.advance(moved(closed, 0.0, 0.0, 0.25e-3 * std::min(ms, 300)));
+  EXPECT_EQ(scene.simulation.held_part(0), 0U);
+  EXPECT_LT((scene.X_WV().translation() - X_WV.translation() - Vector3d(0.0, 0.0, 0.075)).norm(), 1e-3);
+  const Posture& visible = scene.simulation.posture(0);
+  EXPECT_LT((visible.X_WR.translation() - Vector3d(0.0, 0.0, 0.075)).norm(), 2e-3);
+}
+
+TEST(GraspSimulation, StopsAtAWallByThePartOrTheHand) {
+  HandAndBall scene;
+  close_round_ball(scene);
+  const Posture closed = bent_hand(1.2);
+  double furthest = 0.0;
+  for (int ms = 1; ms <= 500; ++ms) {
+    scene.advance(moved(closed, 0.3e-3 * ms, 0.1e-3 * ms, 0.0));
+    furthest = std::max(furthest, scene.X_WV().translation().x());
+  }
+  EXPECT_EQ(scene.simulation.held_part(0), 0U);
+  EXPECT_LT(furthest, 0.24 - kBall_m);
+  EXPECT_GT(scene.force(), 1.0) << "the hand feels the wall";
+  EXPECT_GT(scene.X_WV().translation().y(), 0.03) << "it slides along the wall";
+}
+
+TEST(GraspSimulation, LetsGoWhenTheHandOpens) {
+  HandAndBall scene;
+  close_round_ball(scene);
+  for (int ms = 0; ms < 200; ++ms)
+    scene.advance(bent_hand(1.2 * std::max(0.0, 1.0 - ms / 100.0)));
+  EXPECT_EQ(scene.simulation.state(0), HandState::kFree);
+  EXPECT_EQ(scene.force(), 0.0);
+  const Isometry3d X_WV = scene.X_WV();
+  for (int ms = 1; ms <= 200; ++ms)
+    scene.advance(moved(open_hand(), 0.0, 0.0, 0.5e-3 * ms));
+  EXPECT_EQ(scene.X_WV().matrix(), X_WV.matrix()) << "a part stays where it was left";
+  EXPECT_LT((scene.simulation.posture(0).X_WR.translation() - Vector3d(0.0, 0.0, 0.1)).norm(), 1e-3);
+}
+
+TEST(GraspSimulation, PushesALoosePartAlongUntilTheWallStopsIt) {
+  HandAndBall scene;
+  // Straight fingers from the wrist push the ball with their tips: from x = -0.13 on.
+  Posture hand = moved(open_hand(), -0.15, 0.0, -0.056);
+  scene.advance(hand);
+  const double z = scene.X_WV().translation().z();
+  for (int ms = 1; ms <= 800; ++ms)
+    scene.advance(moved(hand, 0.2e-3 * ms, 0.0, 0.0));
+  EXPECT_FALSE(scene.simulation.held_part(0));
+  EXPECT_GT(scene.X_WV().translation().x(), 0.15);
+  EXPECT_LT(std::abs(scene.X_WV().translation().z() - z), 0.03);
+  for (int ms = 1; ms <= 400; ++ms)
+    scene.advance(moved(hand, 0.16 + 0.2e-3 * ms, 0.0, 0.0));
+  EXPECT_NEAR(scene.X_WV().translation().x(), 0.24 - kBall_m, 0.5e-3) << "a facet of the ball lies at the wall";
+}
+
+TEST(GraspSimulation, PressesOnNothingWhileTheHandIsLost) {
+  HandAndBall scene;
+  close_round_ball(scene);
+  const Posture closed = bent_hand(1.2);
+  for (int ms = 1; ms <= 500; ++ms)
+    scene.advance(moved(closed, 0.3e-3 * ms, 0.0, 0.0));
+  ASSERT_GT(scene.force(), 1.0);
+  const Isometry3d X_WV = scene.X_WV();
+  for (int ms = 0; ms < 300; ++ms)
+    scene.lose();
+  EXPECT_EQ(scene.simulation.state(0), HandState::kLost);
+  EXPECT_EQ(scene.simulation.held_part(0), 0U) << "nothing is dropped";
+  EXPECT_LT(scene.force(), 1e-9);
+  EXPECT_LT((scene.X_WV().translation() - X_WV.translation()).norm(), 1e-3);
+  for (int ms = 0; ms < 300; ++ms)
+    scene.advance(closed);
+  EXPECT_EQ(scene.simulation.state(0), HandState::kHolding);
+}
+
+TEST(GraspSimulation, AHandThatIsFoundAgainInsideAnObjectWaitsUntilItIsFree) {
+  HandAndBall scene;
+  scene.advance(open_hand());
+  scene.lose();
+  const Posture inside = moved(open_hand(), 0.0, 0.0, -0.05);
+  for (int ms = 0; ms < 10; ++ms)
+    scene.advance(inside);
+  EXPECT_EQ(scene.simulation.state(0), HandState::kWaiting);
+  scene.advance(moved(open_hand(), 0.0, 0.0, 0.2));
+  EXPECT_EQ(scene.simulation.state(0), HandState::kFree);
+  EXPECT_LT((scene.simulation.posture(0).X_WR.translation() - Vector3d(0.0, 0.0, 0.2)).norm(), 1e-9);
+}
+
+TEST(GraspSimulation, TwoHandsHoldOnePartAndPassItOn) {
+  HandAndBall scene(2, 0.6);
+  Posture below = open_hand();
+  const auto second = [&](double angle) {
+    Posture posture = bent_hand(angle);
+    posture.X_WR = below.X_WR;
+    return posture;
+  };
+  for (int ms = 0; ms <= 200; ++ms) {
+    scene.target(0) = bent_hand(0.9 * std::min(1.0, ms / 150.0));
+    scene.advance();
+  }
+  ASSERT_EQ(scene.simulation.held_part(0), 0U);
+  // The second hand comes from below with its palm up, to where the first one has pushed the ball.
+  const Vector3d ball = scene.X_WV().translation();
+  below.X_WR = at(ball.x() + 0.095, ball.y(), ball.z() - 0.056) * Eigen::AngleAxisd(M_PI, Vector3d::UnitY());
+  for (int ms = 0; ms <= 300; ++ms) {
+    scene.target(1) = moved(below, 0.0, 0.0, -0.15 + 0.5e-3 * ms);
+    scene.advance();
+  }
+  for (int ms = 0; ms <= 300; ++ms) {
+    scene.target(1) = second(1.2 * std::min(1.0, ms / 200.0));
+    scene.advance();
+  }
+  EXPECT_EQ(scene.simulation.held_part(1), 0U);
+  for (int ms = 0; ms <= 300; ++ms) {
+    scene.target(0) = bent_hand(0.9 * std::max(0.0, 1.0 - ms / 150.0));
+    scene.advance();
+  }
+  EXPECT_FALSE(scene.simulation.held_part(0));
+  EXPECT_EQ(scene.simulation.held_part(1), 0U);
+  const double z = scene.X_WV().translation().z();
+  for (int ms = 0; ms <= 300; ++ms) {
+    scene.target(1) = moved(second(1.2), 0.0, 0.0, -0.2e-3 * ms);
+    scene.advance();
+  }
+  EXPECT_LT(scene.X_WV().translation().z(), z - 0.05) << "the part goes with the second hand";
+}
+
+TEST(GraspSimulation, GivesTheSameBitsAgain) {
+  const auto run = [] {
+    HandAndBall scene;
+    close_round_ball(scene);
+    for (int ms = 1; ms <= 300; ++ms)
+      scene.advance(moved(bent_hand(1.2), 0.3e-3 * ms, 0.0, 0.1e-3 * ms));
+    return std::pair{scene.X_WV().matrix().eval(), scene.simulation.posture(0).values};
+  };
+  EXPECT_EQ(run(), run());
+}
+
+}  // namespace
+}  // namespace glissade::grasping
