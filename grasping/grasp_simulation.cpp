@@ -162,7 +162,8 @@ class GraspSimulation::Life {
     const std::int64_t number = grasp.object - static_cast<std::int64_t>(parts_.obstacle_count());
     if (!grasp.holds() || number < 0) return std::nullopt;
     const auto part = static_cast<std::size_t>(number);
-    return parts_.is_scripted(part) ? std::nullopt : std::optional(part);
+    if (parts_.is_scripted(part) || hand.has_just_left(part)) return std::nullopt;
+    return part;
   }
 
   /// A hand without a target keeps what it has.

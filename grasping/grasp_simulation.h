@@ -43,7 +43,8 @@ std::string_view name_of(HandState state);
 /// A hand takes hold of a part when the contacts of its segments say so (`GraspAnalysis`). From then on its palm and the
 /// part are one rigid body, which follows the tracked palm by sliding contact: the hand stays clasped round the visible
 /// part, wherever the tracked hand goes, and segments of the hand stop the part as its own faces do. The fingers still
-/// follow the glove; when they open, the hand lets go. A part in two hands follows the mean of their wishes. A hand that
+/// follow the glove; when they open, the hand lets go, and takes hold of the same part again after 0.2 s at the
+/// earliest. A part in two hands follows the mean of their wishes. A hand that
 /// touches a loose part without a grasp pushes it: the part yields by the shortest way on which the target of the hand
 /// has room, as far as obstacles let it.
 class GraspSimulation {

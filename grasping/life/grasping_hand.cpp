@@ -73,6 +73,12 @@ void GraspingHand::take(std::size_t part, const Eigen::Isometry3d& X_WV) {
   X_PV_ = (posture.X_WR * palm(posture.values)).inverse(Eigen::Isometry) * X_WV;
 }
 
+void GraspingHand::let_go() {
+  left_ = part_;
+  since_left_ms_ = 0.0;
+  part_.reset();
+}
+
 std::optional<Eigen::Isometry3d> GraspingHand::ghost() {
   if (is_lost()) return std::nullopt;
   return target_->X_WR * palm(target_->values) * X_PV_;
@@ -97,6 +103,7 @@ void GraspingHand::advance() {
 }
 
 void GraspingHand::analyze(double milliseconds, const Eigen::Vector3d& up_W) {
+  since_left_ms_ += milliseconds;
   if (is_lost() || clasp_.state() == ClaspState::kWaiting) {
     analysis_.clear();
     return;

@@ -37,7 +37,9 @@ class GraspingHand {
 
   /// Takes hold of the part at X_WV.
   void take(std::size_t part, const Eigen::Isometry3d& X_WV);
-  void let_go() { part_.reset(); }
+  void let_go();
+  /// Whether the hand let go of this part only a moment ago.
+  bool has_just_left(std::size_t part) const { return part == left_ && since_left_ms_ < kPause_ms; }
   /// Where the target of this hand has the held part; none while the tracking is lost.
   std::optional<Eigen::Isometry3d> ghost();
 
@@ -48,6 +50,8 @@ class GraspingHand {
   void analyze(double milliseconds, const Eigen::Vector3d& up_W);
 
  private:
+  static constexpr double kPause_ms = 200.0;  // before the hand takes hold of the same part again
+
   /// The palm in the root's frame, for these flex values.
   Eigen::Isometry3d palm(std::span<const double> values);
 
@@ -58,6 +62,8 @@ class GraspingHand {
   GraspAnalysis analysis_;
   std::optional<Posture> target_;
   std::optional<std::size_t> part_;
+  std::optional<std::size_t> left_;  // the part that the hand held last
+  double since_left_ms_ = 0.0;
   Eigen::Isometry3d X_PV_ = Eigen::Isometry3d::Identity();
   Posture posture_;  // scratch memory
   std::vector<Eigen::Isometry3d> X_WL_;
