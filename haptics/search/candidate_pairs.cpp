@@ -1,6 +1,8 @@
 #include "search/candidate_pairs.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -147,6 +149,10 @@ void CandidatePairs::follow(Search& search) const {
         geometry::displacement_between(search.request.X_WB[mover], scene_.bodies()[body].X_WB, part.p_Vref());
     const double all = geometry::motion_bound(d, part.radius());
     search.motions[body] = {d.v, all - d.v.norm()};
+    if (!std::isfinite(all)) {  // nothing is covered: the next search reports the pose
+      search.drift = std::numeric_limits<double>::infinity();
+      return;
+    }
     const std::int32_t own_unit = scene_.unit(static_cast<std::int32_t>(body));
     if (all > farthest) {
       if (unit != own_unit) farthest_of_others = farthest;
