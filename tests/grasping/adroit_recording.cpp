@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 using grasping::kAdroitJoints;
 
 constexpr std::array<std::string_view, 3> kArm{"ARRx", "ARRy", "ARRz"};
-constexpr std::array<std::string_view, 3> kPalm{"palm_x_m", "palm_y_m", "palm_z_m"};
+constexpr std::array<std::string_view, 3> kGraspSite{"palm_x_m", "palm_y_m", "palm_z_m"};
 
 /// Each number of a row with the name of its column.
 template <typename Row, typename Use>
@@ -34,7 +34,7 @@ void for_each_field(Row& row, const Use& use) {
     use(grasping::kAdroitJointNames[i], row.joints[i]);
   use(std::string_view("latch_rad"), row.latch);
   for (int i = 0; i < 3; ++i)
-    use(kPalm[static_cast<std::size_t>(i)], row.p_WGrasp[i]);
+    use(kGraspSite[static_cast<std::size_t>(i)], row.p_WGrasp[i]);
 }
 
 constexpr double kPlay = 0.012;  // rad: so far the door stands open while its latch is not turned

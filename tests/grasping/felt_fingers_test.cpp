@@ -25,7 +25,7 @@ using test_support::bent_hand;
 using test_support::hand_chain;
 using test_support::WornGlove;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kOneDegree = std::numbers::pi / 180.0;
 
 /// Closes after 100 ms round a ball before the palm, and opens after three seconds.
 WornGlove glove_at_ball(const Posture& fist = bent_hand(0.9),
@@ -34,18 +34,13 @@ WornGlove glove_at_ball(const Posture& fist = bent_hand(0.9),
           geometry::PoseTrajectory({{milliseconds(0), Eigen::Isometry3d::Identity()}}), fist, std::move(grips)};
 }
 
-void run(WornGlove& glove, int ms) {
-  for (int i = 0; i < ms; ++i)
-    glove.step();
-}
-
 /// The angle at which a joint is stopped if all others are as in the visible hand: by halving, with the independent
 /// check. At most 2 degrees away from the visible hand's.
 double geometric_stop(const WornGlove& glove, std::size_t joint, double direction) {
   const Posture visible = glove.hand.clasp.posture();
   double free = 0.0;
-  double colliding = 2.0 * kDegree;
-  while (colliding - free > 1e-4 * kDegree) {
+  double colliding = 2.0 * kOneDegree;
+  while (colliding - free > 1e-4 * kOneDegree) {
     const double middle = 0.5 * (free + colliding);
     Posture nearer = visible;
     nearer.values[joint] += std::copysign(middle, direction);
@@ -58,18 +53,20 @@ double geometric_stop(const WornGlove& glove, std::size_t joint, double directio
 // at most 0.45 of the device's 0.5 Nm.
 TEST(FeltFingers, StopWithinADegreeOfTheSurface) {
   WornGlove glove = glove_at_ball();
-  run(glove, 2500);
+  glove.run(2500);
   const JointValues& torques = glove.command().values().joint_torques;
   const JointValues angles = glove.state().joint_angles;
   int stopped = 0;
   for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
     const double will = bent_hand(0.9).values[joint] - angles[joint];
     if (torques[joint] == 0.0) {
-      EXPECT_NEAR(will, 0.0, 0.01 * kDegree) << hand_chain()->values()[joint].name << " is not where the wearer wants";
+      EXPECT_NEAR(will, 0.0, 0.01 * kOneDegree)
+          << hand_chain()->values()[joint].name << " is not where the wearer wants";
       continue;
     }
     EXPECT_NEAR(torques[joint], -devices::SimulatedGloveParameters{}.finger_stiffness * will, 1e-6);
-    EXPECT_NEAR(angles[joint], geometric_stop(glove, joint, will), 1.0 * kDegree) << hand_chain()->values()[joint].name;
+    EXPECT_NEAR(angles[joint], geometric_stop(glove, joint, will), 1.0 * kOneDegree)
+        << hand_chain()->values()[joint].name;
     ++stopped;
   }
   EXPECT_GE(stopped, 5);
@@ -77,13 +74,13 @@ TEST(FeltFingers, StopWithinADegreeOfTheSurface) {
 
 TEST(FeltFingers, AreAtRestAndFeelASteadyTorque) {
   WornGlove glove = glove_at_ball();
-  run(glove, 2000);
+  glove.run(2000);
   const JointValues angles = glove.state().joint_angles;
   const JointValues torques = glove.command().values().joint_torques;
   for (int i = 0; i < 500; ++i) {
     glove.step();
     for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
-      ASSERT_NEAR(glove.state().joint_angles[joint], angles[joint], 0.01 * kDegree) << "after " << i << " ms";
+      ASSERT_NEAR(glove.state().joint_angles[joint], angles[joint], 0.01 * kOneDegree) << "after " << i << " ms";
       ASSERT_NEAR(glove.command().values().joint_torques[joint], torques[joint], 1e-3) << "after " << i << " ms";
     }
   }
@@ -102,17 +99,17 @@ TEST(FeltFingers, GetBackNoMoreEnergyThanTheyPutIn) {
   }
   EXPECT_GT(glove.energy(), 1e-3);
   const double at_rest = glove.energy();
-  run(glove, 500);
+  glove.run(500);
   EXPECT_NEAR(glove.energy(), at_rest, 1e-6);
 }
 
 TEST(FeltFingers, FeelExactlyNothingBeforeAndAfterTheContact) {
   WornGlove glove = glove_at_ball();
-  run(glove, 100);
+  glove.run(100);
   EXPECT_EQ(glove.command().values().joint_torques, JointValues{});
-  run(glove, 2000);
+  glove.run(2000);
   EXPECT_NE(glove.command().values().joint_torques, JointValues{});
-  run(glove, 1400);
+  glove.run(1400);
   EXPECT_EQ(glove.command().values().joint_torques, JointValues{});
 }
 
@@ -138,7 +135,7 @@ TEST(FeltFingers, OfAStrongWearerGoOnAgainstTheLargestTorque) {
   for (double& value : fist.values)
     value *= 3.0;
   WornGlove glove = glove_at_ball(fist);
-  run(glove, 2500);
+  glove.run(2500);
   const JointValues& torques = glove.command().values().joint_torques;
   EXPECT_GE(std::count(torques.begin(), torques.end(), -glove.descriptor().max_joint_torque), 5);
   EXPECT_FALSE(glove.hand.collides(glove.hand.clasp.posture()));

@@ -31,7 +31,7 @@ using test_support::at;
 using test_support::expect_bad_input;
 
 /// A finger along x that bends towards −z: a joint at the origin, and another one 50 mm farther.
-std::shared_ptr<const KinematicChain> finger() {
+std::shared_ptr<const KinematicChain> straight_finger() {
   std::vector<ChainLink> links(3);
   links[0].name = "hand";
   links[1] = {.name = "inner", .parent = 0, .axis_J = Vector3d::UnitY(), .terms = {{0}}};
@@ -59,7 +59,7 @@ JointValues angles(double inner, double outer) {
 }
 
 FingerForces forces_of_simulated_glove() {
-  return {finger(), devices::simulated_glove_descriptor()};
+  return {straight_finger(), devices::simulated_glove_descriptor()};
 }
 
 TEST(FingerForces, AreZeroWhileNothingTouches) {
@@ -131,7 +131,7 @@ TEST(FingerForces, AreZeroForAnglesThatAreNotFinite) {
 TEST(FingerForces, AskNothingOfAJointThatTheDeviceDoesNotHave) {
   devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
   device.joint_lower[0] = device.joint_upper[0] = 0.0;
-  FingerForces forces(finger(), device);
+  FingerForces forces(straight_finger(), device);
   const JointValues torques = forces.update(angles(0.1, 0.1), kStraight, std::vector{below(2, 0.08)});
   EXPECT_EQ(torques[0], 0.0);
   EXPECT_LT(torques[1], 0.0);
@@ -201,7 +201,7 @@ TEST(FingerStiffness, IsWhereTheOscillationOfAHeavyFingerBeginsToGrow) {
 class DelayedFinger {
  public:
   DelayedFinger(std::mt19937_64& random, milliseconds delay)
-      : forces_(finger(), devices::simulated_glove_descriptor()),
+      : forces_(straight_finger(), devices::simulated_glove_descriptor()),
         on_their_way_(static_cast<std::size_t>(delay.count()), 0.0) {
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     inertia_ = std::pow(10.0, -5.0 + 2.0 * unit(random));

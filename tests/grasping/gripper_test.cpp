@@ -48,7 +48,7 @@ std::string gripper_finger(int number, const std::string& mimic_inner, const std
 }
 
 /// With two values for each finger, or with one for all six joints.
-std::shared_ptr<const KinematicChain> gripper(bool has_one_motor) {
+std::shared_ptr<const KinematicChain> gripper_chain(bool has_one_motor) {
   std::string text =
       "<robot name='gripper'><link name='palm'><collision><origin xyz='0 0 0.045'/><geometry>"
       "<cylinder radius='0.06' length='0.09'/></geometry></collision></link>";
@@ -104,7 +104,7 @@ void expect_tight(const ClaspedHand& gripper, double angle) {
 
 TEST(Gripper, ClaspsABallWithThreeFingers) {
   for (const bool has_one_motor : {false, true}) {
-    ClaspedHand hand(gripper(has_one_motor), geometry::make_sphere(0.035, 2000), at(0.0, 0.0, 0.15));
+    ClaspedHand hand(gripper_chain(has_one_motor), geometry::make_sphere(0.035, 2000), at(0.0, 0.0, 0.15));
     EXPECT_EQ(hand.clasp.chain().values().size(), has_one_motor ? 1U : 6U);
     close_slowly(hand, 1.0);
     EXPECT_EQ(touching_fingers(hand.clasp), (std::set<char>{'0', '1', '2'}));
@@ -115,7 +115,7 @@ TEST(Gripper, ClaspsABallWithThreeFingers) {
 // Not all fingers meet faces of the box alike: with one motor the first that touches stops all.
 TEST(Gripper, ClaspsABox) {
   for (const bool has_one_motor : {false, true}) {
-    ClaspedHand hand(gripper(has_one_motor), geometry::make_box({0.05, 0.04, 0.06}, 300), at(0.005, 0.0, 0.15));
+    ClaspedHand hand(gripper_chain(has_one_motor), geometry::make_box({0.05, 0.04, 0.06}, 300), at(0.005, 0.0, 0.15));
     close_slowly(hand, 1.0);
     EXPECT_GE(touching_fingers(hand.clasp).size(), has_one_motor ? 1U : 3U);
     expect_tight(hand, 1.0);
@@ -123,7 +123,7 @@ TEST(Gripper, ClaspsABox) {
 }
 
 TEST(Gripper, OpensAgain) {
-  ClaspedHand hand(gripper(false), geometry::make_sphere(0.035, 2000), at(0.0, 0.0, 0.15));
+  ClaspedHand hand(gripper_chain(false), geometry::make_sphere(0.035, 2000), at(0.0, 0.0, 0.15));
   close_slowly(hand, 1.0);
   for (int i = 0; i < 100; ++i)
     hand.clasp.advance(with_all(hand.clasp.chain(), -0.5));

@@ -41,11 +41,6 @@ Eigen::Isometry3d before_the_palm() {
   return at(0.095, 0.0, -0.056);
 }
 
-void run(WornGlove& glove, int ms) {
-  for (int i = 0; i < ms; ++i)
-    glove.step();
-}
-
 TEST(LostHand, ThatStartsInsideGivesNoTorqueUntilItIsFree) {
   WornGlove glove = glove_at(at(0.095, 0.0, 0.0));
   for (int i = 0; i < 500; ++i) {
@@ -55,10 +50,10 @@ TEST(LostHand, ThatStartsInsideGivesNoTorqueUntilItIsFree) {
     ASSERT_TRUE(glove.hand.clasp.contacts().empty());
   }
   glove.hand.clasp.place_object(0, before_the_palm());
-  run(glove, 1);
+  glove.run(1);
   EXPECT_EQ(glove.hand.clasp.state(), ClaspState::kWaiting) << "the fist is still inside";
   glove.hand.clasp.place_object(0, at(1.0));
-  run(glove, 1);
+  glove.run(1);
   EXPECT_EQ(glove.hand.clasp.state(), ClaspState::kClasping);
 }
 
@@ -92,7 +87,7 @@ TEST(LostHand, ThatTheCartMovesIntoSomethingGivesNoTorqueUntilItIsFree) {
 TEST(LostHand, OfAShortGapKeepsTheGraspButNotTheTorques) {
   WornGlove glove = glove_at(before_the_palm());
   GraspAnalysis analysis(*hand_model());
-  run(glove, 1000);
+  glove.run(1000);
   const TouchingSegments segments = analysis.update(glove.hand.clasp.contacts(), 1.0).segments;
   ASSERT_GE(segments.count(), 4);
   const std::vector<double> values = glove.hand.clasp.posture().values;
@@ -105,7 +100,7 @@ TEST(LostHand, OfAShortGapKeepsTheGraspButNotTheTorques) {
     EXPECT_EQ(analysis.update(glove.hand.clasp.contacts(), 1.0).segments, segments);
   }
   EXPECT_EQ(glove.command().values().joint_torques, JointValues{}) << "the fade lasts seven periods";
-  run(glove, 500);
+  glove.run(500);
   EXPECT_NE(glove.command().values().joint_torques, JointValues{});
 }
 
@@ -114,20 +109,20 @@ TEST(LostHand, OfAShortGapKeepsTheGraspButNotTheTorques) {
 TEST(LostHand, OfALongGapLetsGoAndBeginsAnewWhereItIsFree) {
   WornGlove glove = glove_at(before_the_palm(), {milliseconds(100), milliseconds(2000), milliseconds(2500)});
   GraspAnalysis analysis(*hand_model());
-  run(glove, 1000);
+  glove.run(1000);
   const Posture last = glove.hand.clasp.posture();
   glove.lose_tracking(300);
-  run(glove, 200);
+  glove.run(200);
   EXPECT_EQ(glove.hand.clasp.state(), ClaspState::kLost);
   EXPECT_EQ(name_of(glove.hand.clasp.state()), "lost");
   EXPECT_EQ(glove.hand.clasp.posture().values, last.values) << "the visible hand stays";
   EXPECT_TRUE(glove.hand.clasp.contacts().empty());
-  run(glove, 200);
+  glove.run(200);
   EXPECT_EQ(glove.hand.clasp.state(), ClaspState::kWaiting) << "the tracker is back, but the fist is inside";
   EXPECT_EQ(glove.command().values().joint_torques, JointValues{});
-  run(glove, 1000);
+  glove.run(1000);
   EXPECT_EQ(glove.hand.clasp.state(), ClaspState::kClasping) << "the hand has opened";
-  run(glove, 1000);
+  glove.run(1000);
   EXPECT_GE(analysis.update(glove.hand.clasp.contacts(), 1.0).segments.count(), 4);
   EXPECT_NE(glove.command().values().joint_torques, JointValues{});
 }

@@ -36,6 +36,11 @@ WornGlove::WornGlove(const geometry::TriangleMesh& object, const Eigen::Isometry
       forces_(hand_chain(), glove_.descriptor()),
       envelope_(glove_.descriptor()) {}
 
+void WornGlove::run(int milliseconds) {
+  for (int i = 0; i < milliseconds; ++i)
+    step();
+}
+
 void WornGlove::step() {
   constexpr int kPatience_ms = 20;  // without a target, before the clasp is told
   const devices::JointValues before = glove_.state().joint_angles;

@@ -23,6 +23,7 @@ class WornGlove {
 
   /// One millisecond.
   void step();
+  void run(int milliseconds);
   /// The next so many milliseconds, the glove's tracker sees nothing: all its numbers are NaN.
   void lose_tracking(int milliseconds) { lost_for_ = milliseconds; }
 
