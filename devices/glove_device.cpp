@@ -34,6 +34,7 @@ void validate(const DeviceDescriptor& descriptor) {
       {"max_joint_torque", descriptor.max_joint_torque},
       {"damping", descriptor.damping},
       {"rotational_damping", descriptor.rotational_damping},
+      {"joint_damping", descriptor.joint_damping},
       {"friction", descriptor.friction},
       {"resolution", descriptor.resolution},
       {"max_force_rate", descriptor.max_force_rate},

@@ -47,6 +47,14 @@ void check_stable(std::string_view what, double inertia, double stiffness, doubl
                               " stiffness or damping is too large for the inertia to be simulated in steps of 1 ms.");
 }
 
+void check_posture(std::string_view name, const JointValues& posture) {
+  for (std::size_t i = 0; i < kGloveJoints; ++i) {
+    if (std::isfinite(posture[i])) continue;
+    throw std::invalid_argument("Simulated glove: " + std::string(name) + " of " + std::string(kGloveJointNames[i]) +
+                                " is not finite.");
+  }
+}
+
 void check(const SimulatedGloveParameters& p) {
   check_sign("mass", p.mass, false);
   check_sign("rotational_inertia", p.rotational_inertia, false);
@@ -61,12 +69,8 @@ void check(const SimulatedGloveParameters& p) {
   check_stable("linear", p.mass, p.wearer_stiffness, p.wearer_damping + p.arm_damping);
   check_stable("rotational", p.rotational_inertia, p.wearer_rotational_stiffness,
                p.wearer_rotational_damping + p.arm_rotational_damping);
-  for (std::size_t i = 0; i < kGloveJoints; ++i) {
-    if (!std::isfinite(p.grasp_posture[i])) {
-      throw std::invalid_argument("Simulated glove: grasp_posture of " + std::string(kGloveJointNames[i]) +
-                                  " is not finite.");
-    }
-  }
+  check_posture("grasp_posture", p.grasp_posture);
+  if (p.open_posture) check_posture("open_posture", *p.open_posture);
 }
 
 }  // namespace
@@ -82,6 +86,7 @@ DeviceDescriptor simulated_glove_descriptor() {
   descriptor.max_joint_torque = 0.5;
   descriptor.damping = kArmDamping;
   descriptor.rotational_damping = kArmRotationalDamping;
+  descriptor.joint_damping = kJointDamping;
   descriptor.max_power = 40.0;
   // thumb roll, MCP, IP, abduction; index; middle and abduction; ring and abduction; little and abduction; palm; wrist
   descriptor.joint_lower =
@@ -101,8 +106,7 @@ SimulatedGlove::SimulatedGlove(geometry::PoseTrajectory script_X_WH, const Simul
   state_.X_WH = script_X_WH_.pose_at(state_.time);
   q_WH_ = Eigen::Quaterniond(state_.X_WH.linear());
   for (std::size_t i = 0; i < kGloveJoints; ++i) {
-    state_.joint_angles[i] =
-        std::clamp(parameters_.grasp_posture[i], descriptor_.joint_lower[i], descriptor_.joint_upper[i]);
+    state_.joint_angles[i] = std::clamp(aim_of_fingers()[i], descriptor_.joint_lower[i], descriptor_.joint_upper[i]);
   }
 }
 
@@ -126,6 +130,11 @@ std::int64_t SimulatedGlove::grip_at(std::chrono::nanoseconds time) const noexce
   const auto& changes = parameters_.grip_changes;
   return (parameters_.starts_closed ? 1 : 0) +
          (std::upper_bound(changes.begin(), changes.end(), time) - changes.begin());
+}
+
+const JointValues& SimulatedGlove::aim_of_fingers() const noexcept {
+  const bool is_open = grip_at(state_.time) % 2 == 0;
+  return is_open && parameters_.open_posture ? *parameters_.open_posture : parameters_.grasp_posture;
 }
 
 void SimulatedGlove::move_hand(double h, const GloveCommand& command) noexcept {
@@ -154,8 +163,9 @@ void SimulatedGlove::turn_hand(double h, const GloveCommand& command) noexcept {
 // Fingers weigh little: each approaches the equilibrium of the wearer's grip and the torque without overshoot.
 void SimulatedGlove::move_fingers(double h, const GloveCommand& command) noexcept {
   const double part = -std::expm1(-h / parameters_.finger_time_constant);
+  const JointValues& aim = aim_of_fingers();
   for (std::size_t i = 0; i < kGloveJoints; ++i) {
-    const double balance = parameters_.grasp_posture[i] + command.joint_torques[i] / parameters_.finger_stiffness;
+    const double balance = aim[i] + command.joint_torques[i] / parameters_.finger_stiffness;
     double& angle = state_.joint_angles[i];
     angle = std::clamp(angle + part * (balance - angle), descriptor_.joint_lower[i], descriptor_.joint_upper[i]);
   }

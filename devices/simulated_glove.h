@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -21,6 +22,9 @@ namespace glissade::devices {
 inline constexpr double kArmDamping = 2.0;
 inline constexpr double kArmRotationalDamping = 0.01;
 
+/// Viscous friction of each finger joint of the glove, Nm s/rad.
+inline constexpr double kJointDamping = 0.02;
+
 /// The glove and its wearer, in SI units. The wearer is a critically damped spring and damper between hand and script,
 /// about as stiff as a relaxed to lightly tensed human arm. A steady force F displaces the hand from the script by
 /// F / stiffness.
@@ -34,8 +38,12 @@ struct SimulatedGloveParameters {
   double wearer_rotational_stiffness = 4.0;               ///< Nm/rad
   double wearer_rotational_damping = 0.22;                ///< Nm s/rad
   double finger_stiffness = 0.5;                          ///< Nm/rad
-  double finger_time_constant = 0.05;  ///< time constant of a finger's approach to its equilibrium; s
-  JointValues grasp_posture{};         ///< joint angles to which the wearer's fingers return; rad
+  /// Time constant of a finger's approach to its equilibrium; s. Times the stiffness it is the friction of glove and
+  /// finger together.
+  double finger_time_constant = 0.05;
+  JointValues grasp_posture{};  ///< joint angles to which the wearer's fingers return; rad
+  /// The same while the hand is open; none: the hand opens without moving its fingers.
+  std::optional<JointValues> open_posture{};
   std::chrono::nanoseconds frozen{0};  ///< `DeviceDescriptor::frozen`
   bool starts_closed = true;           ///< the hand is closed at the start of the script
   /// Times of the script, ascending, at which the hand closes or opens.
@@ -67,6 +75,7 @@ class SimulatedGlove {
 
  private:
   std::int64_t grip_at(std::chrono::nanoseconds time) const noexcept;
+  const JointValues& aim_of_fingers() const noexcept;
   void move_hand(double h, const GloveCommand& command) noexcept;
   void turn_hand(double h, const GloveCommand& command) noexcept;
   void move_fingers(double h, const GloveCommand& command) noexcept;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -41,7 +42,8 @@ const KinematicChain& checked(const std::shared_ptr<const KinematicChain>& chain
 }  // namespace
 
 std::string_view name_of(ClaspState state) {
-  return state == ClaspState::kClasping ? "clasping" : "waiting";
+  constexpr std::array<std::string_view, 3> kNames{"clasping", "waiting", "lost"};
+  return kNames[static_cast<std::size_t>(state)];
 }
 
 class Clasp::Iteration {
@@ -98,10 +100,15 @@ class Clasp::Iteration {
     wait();
   }
 
+  void lose_track() {
+    wait();
+    state_ = ClaspState::kLost;
+  }
+
   void advance(const Posture& target) {
     steps_ = 0;
     if (!take(target)) return;
-    if (state_ == ClaspState::kWaiting && !begin()) return;
+    if (state_ != ClaspState::kClasping && !begin()) return;
     while (steps_ < rules_.most_steps && take_step())
       way_[static_cast<std::size_t>(steps_++)] = posture_;
     note_touching();
@@ -138,6 +145,7 @@ class Clasp::Iteration {
     }
     std::swap(posture_, target_);
     place_links();
+    state_ = ClaspState::kWaiting;
     return false;
   }
 
@@ -297,6 +305,10 @@ void Clasp::carry(const Posture& posture) {
 
 void Clasp::advance(const Posture& target) {
   iteration_->advance(target);
+}
+
+void Clasp::lose_track() {
+  iteration_->lose_track();
 }
 
 void Clasp::move_cart(const Posture& target) {

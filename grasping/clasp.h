@@ -21,6 +21,7 @@ enum class ClaspState : std::uint8_t {
   /// The chain has not been free since the start, since the motion of the cart, or since an object was placed inside
   /// it. The posture stays where it is, and gives no forces; the clasp begins once the target is free.
   kWaiting,
+  kLost,  ///< `lose_track`, and no target since: as `kWaiting`
 };
 
 std::string_view name_of(ClaspState state);
@@ -66,8 +67,12 @@ class Clasp {
   void carry(const Posture& posture);
 
   /// Moves the chain towards the target; flex values beyond their limits count as the limits. A target that is not
-  /// finite is ignored.
+  /// finite is ignored: the posture stays, and touches what it touched.
   void advance(const Posture& target);
+
+  /// The tracker has not seen the hand for a while. Nothing touches any more; the clasp begins anew once a target is
+  /// free, wherever that is.
+  void lose_track();
 
   /// Moves the chain with the user's cart, whatever is in the way: the clasp waits until a target is free.
   void move_cart(const Posture& target);

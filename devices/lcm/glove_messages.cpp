@@ -143,6 +143,7 @@ void for_each_limit(Message& message, Descriptor& descriptor, const Use& use) {
   use(message.max_joint_torque_Nm, descriptor.max_joint_torque);
   use(message.damping_N_s_per_m, descriptor.damping);
   use(message.rotational_damping_Nm_s_per_rad, descriptor.rotational_damping);
+  use(message.joint_damping_Nm_s_per_rad, descriptor.joint_damping);
   use(message.friction_N, descriptor.friction);
   use(message.resolution_m, descriptor.resolution);
   use(message.max_force_rate_N_per_s, descriptor.max_force_rate);

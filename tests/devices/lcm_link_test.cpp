@@ -55,6 +55,7 @@ TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
   DeviceDescriptor descriptor = simulated_glove_descriptor();
   descriptor.name = "a glove whose name has more than 31 letters";
   descriptor.max_mean_force = 4.0;
+  descriptor.joint_damping = 0.03;
   descriptor.frozen = milliseconds(50);
   LcmGloveHost host(bus, descriptor, {.device = 3, .side = HandSide::kLeft});
   std::atomic<bool> should_end{false};
@@ -72,6 +73,7 @@ TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
   EXPECT_EQ(found->side, HandSide::kLeft);
   EXPECT_EQ(found->descriptor.name, "a glove whose name has more tha");
   EXPECT_EQ(found->descriptor.max_mean_force, 4.0);
+  EXPECT_EQ(found->descriptor.joint_damping, 0.03);
   EXPECT_EQ(found->descriptor.frozen, milliseconds(50));
   EXPECT_EQ(found->descriptor.joint_upper, descriptor.joint_upper);
   EXPECT_EQ(found->descriptor.update_rate, 1000.0);

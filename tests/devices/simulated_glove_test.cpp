@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -137,6 +138,22 @@ TEST(SimulatedGlove, FingersYieldWithinTheirLimits) {
   EXPECT_NEAR(glove.state().joint_angles[4], 0.1 + 0.2 / parameters.finger_stiffness, 1e-6);
   EXPECT_EQ(glove.state().joint_angles[5], glove.descriptor().joint_lower[5]);
   EXPECT_NEAR(glove.state().joint_angles[6], 0.1, 1e-12);
+}
+
+TEST(SimulatedGlove, FingersFollowTheGrip) {
+  SimulatedGloveParameters parameters{.starts_closed = false, .grip_changes = {milliseconds(1000)}};
+  parameters.open_posture.emplace().fill(0.1);
+  parameters.grasp_posture.fill(0.3);
+  SimulatedGlove glove(hold({0, 0, 0}), parameters);
+  const auto angle = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i)
+      glove.step(kTick, {});
+    return glove.state().joint_angles[4];
+  };
+  EXPECT_EQ(angle(0), 0.1);
+  EXPECT_NEAR(angle(1000), 0.1, 1e-12) << "it is still open";
+  EXPECT_NEAR(angle(50), 0.3 - 0.2 / std::exp(1.0), 0.004) << "after the time constant";
+  EXPECT_NEAR(angle(1000), 0.3, 1e-6);
 }
 
 TEST(SimulatedGlove, IsDeterministicAndDividesLongSteps) {

@@ -33,11 +33,16 @@ Posture between(const Posture& from, const Posture& to, double t) {
 
 ClaspedHand::ClaspedHand(const geometry::TriangleMesh& object, const Eigen::Isometry3d& X_WB,
                          const grasping::ClaspRules& rules)
-    : ClaspedHand(std::make_shared<const geometry::TriangleMesh>(object), X_WB, rules) {}
+    : ClaspedHand(hand_chain(), std::make_shared<const geometry::TriangleMesh>(object), X_WB, rules) {}
 
-ClaspedHand::ClaspedHand(std::shared_ptr<const geometry::TriangleMesh> object, const Eigen::Isometry3d& X_WB,
+ClaspedHand::ClaspedHand(std::shared_ptr<const grasping::KinematicChain> chain, const geometry::TriangleMesh& object,
+                         const Eigen::Isometry3d& X_WB)
+    : ClaspedHand(std::move(chain), std::make_shared<const geometry::TriangleMesh>(object), X_WB, {}) {}
+
+ClaspedHand::ClaspedHand(std::shared_ptr<const grasping::KinematicChain> chain,
+                         std::shared_ptr<const geometry::TriangleMesh> object, const Eigen::Isometry3d& X_WB,
                          const grasping::ClaspRules& rules)
-    : clasp(hand_chain(), {}, {std::make_shared<const haptics::SlidingPart>(object)}, rules),
+    : clasp(std::move(chain), {}, {std::make_shared<const haptics::SlidingPart>(object)}, rules),
       check_({{std::move(object), X_WB}}) {
   clasp.place_object(0, X_WB);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A hand that clasps one object, and an independent check of its postures.
+/// A hand, or another chain, that clasps one object, and an independent check of its postures.
 
 #include <memory>
 #include <vector>
@@ -37,6 +37,8 @@ class ClaspedHand {
  public:
   ClaspedHand(const geometry::TriangleMesh& object, const Eigen::Isometry3d& X_WB,
               const grasping::ClaspRules& rules = {});
+  ClaspedHand(std::shared_ptr<const grasping::KinematicChain> chain, const geometry::TriangleMesh& object,
+              const Eigen::Isometry3d& X_WB);
 
   grasping::Clasp clasp;
 
@@ -47,8 +49,9 @@ class ClaspedHand {
   bool way_collides(const grasping::Posture& start, int parts) const;
 
  private:
-  explicit ClaspedHand(std::shared_ptr<const geometry::TriangleMesh> object, const Eigen::Isometry3d& X_WB,
-                       const grasping::ClaspRules& rules);
+  ClaspedHand(std::shared_ptr<const grasping::KinematicChain> chain,
+              std::shared_ptr<const geometry::TriangleMesh> object, const Eigen::Isometry3d& X_WB,
+              const grasping::ClaspRules& rules);
 
   reference::GridCheck check_;
 };

@@ -1,0 +1,269 @@
+/// What fingers feel: springs at the joints that press, nothing at the others, and nothing that comes or goes at once.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/devices/simulated_glove.h>
+#include <glissade/grasping/finger_forces.h>
+
+#include "allocation_counter.h"
+#include "delayed_wall.h"
+#include "expect_bad_input.h"
+#include "poses.h"
+
+namespace glissade::grasping {
+namespace {
+
+using devices::JointValues;
+using Eigen::Vector3d;
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using test_support::at;
+using test_support::expect_bad_input;
+
+/// A finger along x that bends towards −z: a joint at the origin, and another one 50 mm farther.
+std::shared_ptr<const KinematicChain> straight_finger() {
+  std::vector<ChainLink> links(3);
+  links[0].name = "hand";
+  links[1] = {.name = "inner", .parent = 0, .axis_J = Vector3d::UnitY(), .terms = {{0}}};
+  links[2] = {.name = "outer", .parent = 1, .X_PJ = at(0.05), .axis_J = Vector3d::UnitY(), .terms = {{1}}};
+  return std::make_shared<const KinematicChain>(std::vector<FlexValue>{{"inner", -1.0, 1.0}, {"outer", -1.0, 1.0}},
+                                                std::move(links));
+}
+
+/// Something below the straight finger, `distance` from the first joint.
+LinkContact below(std::size_t link, double distance, double gap = 0.0) {
+  haptics::Contact contact{};
+  contact.n_W = Vector3d::UnitZ();
+  contact.p_W = Vector3d(distance, 0.0, 0.0);
+  contact.gap = gap;
+  return {link, contact};
+}
+
+const Posture kStraight{.values = {0.0, 0.0}};
+
+JointValues angles(double inner, double outer) {
+  JointValues values{};
+  values[0] = inner;
+  values[1] = outer;
+  return values;
+}
+
+FingerForces forces_of_simulated_glove() {
+  return {straight_finger(), devices::simulated_glove_descriptor()};
+}
+
+TEST(FingerForces, AreZeroWhileNothingTouches) {
+  FingerForces forces = forces_of_simulated_glove();
+  EXPECT_EQ(forces.update(angles(0.5, 0.3), kStraight, {}), JointValues{});
+}
+
+TEST(FingerForces, PushBackEachJointThatPressesAndNoOther) {
+  FingerForces forces = forces_of_simulated_glove();
+  const double stiffness = forces.stiffness();
+  const std::vector<LinkContact> at_inner{below(1, 0.03)};
+  const std::vector<LinkContact> at_outer{below(2, 0.08)};
+  EXPECT_EQ(forces.update(angles(0.004, 0.006), kStraight, at_inner), angles(-stiffness * 0.004, 0.0));
+  EXPECT_EQ(forces.update(angles(0.004, 0.006), kStraight, at_outer), angles(-stiffness * 0.004, -stiffness * 0.006));
+  EXPECT_EQ(forces.update(angles(-0.004, -0.006), kStraight, at_outer), JointValues{}) << "a finger that opens";
+  EXPECT_EQ(forces.update(angles(0.004, -0.012), kStraight, at_outer), JointValues{}) << "80 mm by 4, less 30 by 12";
+}
+
+// The outer joint lifts the finger by 30 mm times 12 mrad, so of 80 mm times 9 mrad a half is left.
+TEST(FingerForces, PushBackAJointOnlyAsFarAsItIsToBlame) {
+  FingerForces forces = forces_of_simulated_glove();
+  const std::vector<LinkContact> at_outer{below(2, 0.08)};
+  const JointValues torques = forces.update(angles(0.009, -0.012), kStraight, at_outer);
+  EXPECT_NEAR(torques[0], -forces.stiffness() * 0.0045, 1e-12);
+  EXPECT_EQ(torques[1], 0.0);
+}
+
+TEST(FingerForces, AreZeroUntilAGapIsClosed) {
+  FingerForces forces = forces_of_simulated_glove();
+  const std::vector<LinkContact> contact{below(1, 0.03, 30e-6)};
+  EXPECT_EQ(forces.update(angles(0.9e-3, 0.0), kStraight, contact), JointValues{});
+  EXPECT_NEAR(forces.update(angles(1.1e-3, 0.0), kStraight, contact)[0], -forces.stiffness() * 0.1e-3, 1e-12);
+}
+
+TEST(FingerForces, OfABlockedFingerAreAtTheDevicesLimit) {
+  FingerForces forces = forces_of_simulated_glove();
+  const double largest = devices::simulated_glove_descriptor().max_joint_torque;
+  const std::vector<LinkContact> contact{below(1, 0.03)};
+  EXPECT_EQ(forces.update(angles(0.5, 0.0), kStraight, contact)[0], -largest);
+  EXPECT_EQ(forces.update(angles(5.0, 0.0), kStraight, contact)[0], -largest);
+}
+
+TEST(FingerForces, OfAShortArmAreSmall) {
+  FingerForces forces = forces_of_simulated_glove();
+  const double full = forces.update(angles(0.004, 0.0), kStraight, std::vector{below(1, 0.002)})[0];
+  EXPECT_NEAR(full, -forces.stiffness() * 0.004, 1e-12);
+  EXPECT_NEAR(forces.update(angles(0.004, 0.0), kStraight, std::vector{below(1, 0.0005)})[0], 0.25 * full, 1e-12);
+  EXPECT_EQ(forces.update(angles(0.004, 0.0), kStraight, std::vector{below(1, 0.0)})[0], 0.0);
+}
+
+TEST(FingerForces, FadeWithTheAgeOfTheContacts) {
+  FingerForces forces = forces_of_simulated_glove();
+  const std::vector<LinkContact> contact{below(1, 0.03)};
+  const auto torque = [&](milliseconds age) { return forces.update(angles(0.5, 0.0), kStraight, contact, age)[0]; };
+  const double full = torque(milliseconds(0));
+  EXPECT_EQ(torque(milliseconds(20)), full);
+  EXPECT_NEAR(torque(milliseconds(60)), 0.5 * full, 1e-12);
+  EXPECT_EQ(torque(milliseconds(100)), 0.0);
+  EXPECT_EQ(torque(milliseconds(5000)), 0.0);
+}
+
+TEST(FingerForces, AreZeroForAnglesThatAreNotFinite) {
+  FingerForces forces = forces_of_simulated_glove();
+  const std::vector<LinkContact> contact{below(1, 0.03)};
+  EXPECT_EQ(forces.update(angles(0.5, std::numeric_limits<double>::quiet_NaN()), kStraight, contact), JointValues{});
+  EXPECT_NE(forces.update(angles(0.5, 0.0), kStraight, contact), JointValues{});
+}
+
+TEST(FingerForces, AskNothingOfAJointThatTheDeviceDoesNotHave) {
+  devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
+  device.joint_lower[0] = device.joint_upper[0] = 0.0;
+  FingerForces forces(straight_finger(), device);
+  const JointValues torques = forces.update(angles(0.1, 0.1), kStraight, std::vector{below(2, 0.08)});
+  EXPECT_EQ(torques[0], 0.0);
+  EXPECT_LT(torques[1], 0.0);
+}
+
+TEST(FingerForces, RefuseAChainThatNoGloveCouldMove) {
+  const devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
+  expect_bad_input([&] { FingerForces(nullptr, device); }, {"null"});
+  std::vector<ChainLink> links(1);
+  links[0].name = "hand";
+  std::vector<FlexValue> values(devices::kGloveJoints + 1);
+  for (std::size_t v = 0; v < values.size(); ++v)
+    values[v] = {"v" + std::to_string(v), 0.0, 1.0};
+  const auto chain = std::make_shared<const KinematicChain>(values, links);
+  expect_bad_input([&] { FingerForces(chain, device); }, {"joints"});
+}
+
+// A millionth of a radian changes no torque by more than the largest ratio of two arms: 80 mm by the 2 mm from which on
+// a contact counts wholly.
+TEST(FingerForces, AreContinuous) {
+  constexpr std::uint64_t kSeed = 5;
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  FingerForces forces = forces_of_simulated_glove();
+  const std::vector<LinkContact> contacts{below(1, 0.03, 20e-6), below(2, 0.08), below(2, 0.051, 50e-6)};
+  const double steepest = forces.stiffness() * 0.08 / 0.002;
+  int pressing = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    constexpr double kStep_rad = 1e-6;
+    const double inner = 0.02 * unit(random);
+    const double outer = 0.02 * unit(random);
+    const JointValues here = forces.update(angles(inner, outer), kStraight, contacts);
+    const JointValues there =
+        forces.update(angles(inner + kStep_rad * unit(random), outer + kStep_rad * unit(random)), kStraight, contacts);
+    for (std::size_t v = 0; v < 2; ++v)
+      ASSERT_LE(std::abs(there[v] - here[v]), 2.0 * steepest * kStep_rad)
+          << inner << ", " << outer << ", seed " << kSeed;
+    pressing += here == JointValues{} ? 0 : 1;
+  }
+  EXPECT_GT(pressing, 5'000);
+}
+
+TEST(FingerForces, AllocateNothing) {
+  if (!test_support::allocations_are_counted()) GTEST_SKIP();
+  FingerForces forces = forces_of_simulated_glove();
+  const std::vector<LinkContact> contacts{below(1, 0.03), below(2, 0.08)};
+  const std::int64_t allocations = test_support::allocations_of_this_thread();
+  for (int i = 0; i < 100; ++i) {
+    forces.set_link_delay(milliseconds(i));
+    forces.update(angles(0.01 * i, 0.0), kStraight, contacts);
+  }
+  EXPECT_EQ(test_support::allocations_of_this_thread(), allocations);
+}
+
+// A finger of 0.04 kg m², a hundredth of the mass there with a hundredth of the friction.
+TEST(FingerStiffness, IsWhereTheOscillationOfAHeavyFingerBeginsToGrow) {
+  const devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
+  for (const milliseconds delay : {milliseconds(1), milliseconds(5), milliseconds(20), milliseconds(50)}) {
+    const double low = test_support::stiffness_that_grows(100.0 * device.joint_damping, delay) / 100.0;
+    const double limit = finger_stiffness(device, milliseconds(1), delay);
+    EXPECT_NEAR(limit / low, 1.0, 0.1) << delay.count() << " ms of delay: " << limit << " and " << low << " Nm/rad";
+  }
+}
+
+/// A finger of some inertia whose first joint touches something at angle 0; its wearer moves it at random. The torques
+/// come as late as the link makes them.
+class DelayedFinger {
+ public:
+  DelayedFinger(std::mt19937_64& random, milliseconds delay)
+      : forces_(straight_finger(), devices::simulated_glove_descriptor()),
+        on_their_way_(static_cast<std::size_t>(delay.count()), 0.0) {
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    inertia_ = std::pow(10.0, -5.0 + 2.0 * unit(random));
+    muscle_ = 0.1 + 2.0 * unit(random);
+    friction_ = 0.02 * unit(random);
+    rate_ = 5.0 + 60.0 * unit(random);
+    forces_.set_link_delay(delay);
+  }
+
+  /// One millisecond. Returns the energy (J) that the finger has put into the glove so far, against torque and
+  /// friction.
+  double step() {
+    const std::vector<LinkContact> contact{below(1, 0.03)};
+    on_their_way_.push_back(forces_.update(angles(angle_, 0.0), kStraight, contact)[0]);
+    const double torque = on_their_way_.front();
+    on_their_way_.pop_front();
+    for (int i = 0; i < 50; ++i) {
+      constexpr double kStep_s = 2e-5;
+      time_ += kStep_s;
+      const double will = 0.2 * std::sin(rate_ * time_) + 0.1 * std::sin(2.7 * rate_ * time_);
+      const double muscles = muscle_ * (will - angle_) - friction_ * speed_;
+      // Friction without a limit of the step, by its implicit form.
+      const double damping = devices::kJointDamping;
+      speed_ = (speed_ + kStep_s / inertia_ * (muscles + torque)) / (1.0 + kStep_s / inertia_ * damping);
+      angle_ += kStep_s * speed_;
+      energy_ += kStep_s * (damping * speed_ - torque) * speed_;
+    }
+    return energy_;
+  }
+
+ private:
+  FingerForces forces_;
+  std::deque<double> on_their_way_;
+  double inertia_;
+  double muscle_;
+  double friction_;
+  double rate_;
+  double time_ = 0.0;
+  double angle_ = -0.05;
+  double speed_ = 0.0;
+  double energy_ = 0.0;
+};
+
+TEST(FingerStiffness, GivesNoFingerMoreEnergyThanItPutIn) {
+  constexpr std::uint64_t kSeed = 3;
+  std::mt19937_64 random(kSeed);
+  for (int i = 0; i < 100; ++i) {
+    const milliseconds delay(random() % 20);
+    DelayedFinger finger(random, delay);
+    for (int ms = 0; ms < 1000; ++ms)
+      ASSERT_GE(finger.step(), -1e-6) << i << ", " << delay.count() << " ms of delay, after " << ms << " ms, seed "
+                                      << kSeed;
+  }
+}
+
+TEST(FingerStiffness, GivesTheLargestTorqueWithinADegreeWhereThatIsPassive) {
+  devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
+  const double wanted = device.max_joint_torque / (0.8 * std::numbers::pi / 180.0);
+  EXPECT_DOUBLE_EQ(finger_stiffness(device, milliseconds(1), nanoseconds(0)), wanted);
+  device.joint_damping = 0.0;
+  EXPECT_DOUBLE_EQ(finger_stiffness(device, milliseconds(1), milliseconds(50)), wanted) << "not known";
+}
+
+}  // namespace
+}  // namespace glissade::grasping
