@@ -14,6 +14,7 @@
 #include <glissade/reference/grid_check.h>
 
 #include "random_numbers.h"
+#include "solver/projection.h"
 #include "swept_check.h"
 #include "torture_scene.h"
 
