@@ -21,7 +21,7 @@
 #include "random_numbers.h"
 #include "sanitizers.h"
 #include "search/candidate_search.h"
-#include "sliding_scenes.h"
+#include "sweeps/sliding_scenes.h"
 
 namespace glissade::haptics {
 namespace {
