@@ -64,7 +64,7 @@ expect("exit code 0 of the report of the ages" status EQUAL 0)
 file(READ ${WORK_DIR}/benchmarks.md page)
 expect("the new section" page MATCHES "<!-- begin sliding -->\n[^\n]*smoke test.*[|] plane [|].*<!-- end sliding -->")
 expect("the stability" page MATCHES "[|] sigma.7 [|] 4000, .*<!-- end passivity -->")
-expect("the ages" page MATCHES "<!-- begin ages -->\n[^\n]*smoke test.*[|] car-door [|].*<!-- end ages -->")
+expect("the ages" page MATCHES "<!-- begin ages -->\n[^\n]*smoke test.*[|] car-door, with budget [|].*<!-- end ages -->")
 expect("the prose by hand" page MATCHES "## How it is measured")
 
 execute_process(COMMAND ${BENCH} --scenes nowhere --parts scenes --out ${WORK_DIR} RESULT_VARIABLE status ERROR_VARIABLE said)
