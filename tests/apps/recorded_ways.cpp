@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <memory>
+#include <sstream>
 
+#include <glissade/geometry/displacement.h>
 #include <glissade/geometry/mesh_generators.h>
 
 #include "moving_boxes.h"
@@ -51,12 +53,9 @@ void RecordedWays::take(const Poses& X_WV) {
   if (moves) {
     ++figures_.ways;
     if (const std::optional<Pair> blocked = what_meets(last_, now)) {
-      constexpr std::array<double, 3> kAside_m{20e-6, 0.1e-3, 0.4e-3};
-      const bool is_free = std::any_of(kAside_m.begin(), kAside_m.end(),
-                                       [&](double aside) { return has_detour(last_, now, *blocked, aside); });
+      const bool is_free = goes_round(last_, now, *blocked);
       ++(is_free ? figures_.detours : figures_.blocked);
-      if (!is_free)
-        fault("no free way for bodies " + std::to_string(blocked->first) + " and " + std::to_string(blocked->second));
+      if (!is_free) fault(*blocked, "have no free way", now);
     }
   }
   last_ = std::move(now);
@@ -77,31 +76,49 @@ std::optional<RecordedWays::Pair> RecordedWays::what_meets(const Poses& from, co
   return std::nullopt;
 }
 
-/// Whether all bodies get there by poses half-way at which those that block each other are moved apart.
+/// Whether there is a detour no farther aside than the parts move in all.
+bool RecordedWays::goes_round(const Poses& from, const Poses& to, Pair blocked) const {
+  const double most = length_of(from, to);
+  for (double aside = 20e-6; aside < most; aside *= 2.0) {
+    if (has_detour(from, to, blocked, aside)) return true;
+  }
+  return has_detour(from, to, blocked, most);
+}
+
+/// Whether all bodies get there if those that block each other go apart first, and come together again at the end.
 bool RecordedWays::has_detour(const Poses& from, const Poses& to, Pair blocked, double aside) const {
   constexpr int kMostPairs = 4;
-  Poses via;
-  for (std::size_t body = 0; body < from.size(); ++body)
-    via.push_back(MovingBox{halves_[body], from[body], to[body]}.at(0.5));
+  Poses leave = from;
+  Poses arrive = to;
   for (int i = 0; i < kMostPairs; ++i) {
-    if (!move_apart(from, to, blocked, aside, via)) return false;
-    std::optional<Pair> next = what_meets(from, via);
-    if (!next) next = what_meets(via, to);
+    if (!move_apart(blocked, aside, from, leave) || !move_apart(blocked, aside, to, arrive)) return false;
+    std::optional<Pair> next = what_meets(from, leave);
+    if (!next) next = what_meets(leave, arrive);
+    if (!next) next = what_meets(arrive, to);
     if (!next) return true;
     blocked = *next;
   }
   return false;
 }
 
-bool RecordedWays::move_apart(const Poses& from, const Poses& to, Pair pair, double aside, Poses& via) const {
+/// Moves two bodies of `via` apart, along the direction in which they are apart at the poses `at`.
+bool RecordedWays::move_apart(Pair pair, double aside, const Poses& at, Poses& via) const {
   const auto [a, b] = pair;
-  const auto n_from = separating_axis(halves_[a], from[a], halves_[b], from[b]);
-  const auto n_to = separating_axis(halves_[a], to[a], halves_[b], to[b]);
-  if (!n_from || !n_to) return false;
-  const Vector3d way = aside * (*n_from + *n_to).stableNormalized();
-  via[b].translation() += way;
-  if (a >= first_part_) via[a].translation() -= way;
+  const auto n = separating_axis(halves_[a], at[a], halves_[b], at[b]);
+  if (!n) return false;
+  via[b].translation() += aside * *n;
+  if (a >= first_part_) via[a].translation() -= aside * *n;
   return true;
+}
+
+/// The sum of the ways of all bodies, metres: of the point of each that moves farthest.
+double RecordedWays::length_of(const Poses& from, const Poses& to) const {
+  double length = 0.0;
+  for (std::size_t body = first_part_; body < from.size(); ++body) {
+    const geometry::Displacement d = geometry::displacement_between(from[body], to[body], Vector3d::Zero());
+    length += geometry::motion_bound(d, halves_[body].norm());
+  }
+  return length;
 }
 
 void RecordedWays::note_poses(const Poses& now) {
@@ -121,14 +138,20 @@ void RecordedWays::check_poses() {
     const std::ptrdiff_t count = std::count(collides.begin(), collides.end(), 1);
     figures_.poses += std::ssize(collides);
     figures_.colliding += count;
-    if (count > 0) fault("bodies " + std::to_string(a) + " and " + std::to_string(b) + " collide");
+    if (count > 0) fault(pairs_[i], "collide, at or before", last_);
     X_AB_[i].clear();
   }
 }
 
-void RecordedWays::fault(const std::string& text) {
-  if (figures_.first_fault.empty())
-    figures_.first_fault = text + ", at or before answer " + std::to_string(figures_.answers);
+void RecordedWays::fault(Pair pair, const std::string& what, const Poses& poses) {
+  if (!figures_.first_fault.empty()) return;
+  const auto [a, b] = pair;
+  std::ostringstream text;
+  text.precision(17);
+  text << "bodies " << a << " and " << b << ' ' << what << " in answer " << figures_.answers;
+  for (const std::size_t body : {a, b})
+    text << "\nfrom\n" << last_[body].matrix() << "\nto\n" << poses[body].matrix();
+  figures_.first_fault = text.str();
 }
 
 }  // namespace glissade::test_support

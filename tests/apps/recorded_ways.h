@@ -31,7 +31,7 @@ struct WayFigures {
   std::int64_t colliding = 0;  ///< of these
   std::int64_t ways = 0;       ///< of all parts at once, from one answer to the next that differs
   /// Of these, the ones round a corner. An answer takes up to three steps, of which a recording has only the last pose:
-  /// where the straight way is not free, one that goes aside by up to 0.4 mm must be.
+  /// where the straight way is not free, one by two poses aside must be, no farther than the parts move in all.
   std::int64_t detours = 0;
   std::int64_t blocked = 0;  ///< of these ways, not proven free
   std::string first_fault;
@@ -53,11 +53,13 @@ class RecordedWays {
   using Poses = std::vector<Eigen::Isometry3d>;      // of all bodies
 
   std::optional<Pair> what_meets(const Poses& from, const Poses& to) const;
+  bool goes_round(const Poses& from, const Poses& to, Pair blocked) const;
   bool has_detour(const Poses& from, const Poses& to, Pair blocked, double aside) const;
-  bool move_apart(const Poses& from, const Poses& to, Pair pair, double aside, Poses& via) const;
+  bool move_apart(Pair pair, double aside, const Poses& at, Poses& via) const;
+  double length_of(const Poses& from, const Poses& to) const;
   void note_poses(const Poses& now);
   void check_poses();
-  void fault(const std::string& text);
+  void fault(Pair pair, const std::string& what, const Poses& poses);
 
   std::size_t first_part_;
   std::vector<Eigen::Vector3d> halves_;
