@@ -55,7 +55,8 @@ void RecordedWays::take(const Poses& X_WV) {
     if (const std::optional<Pair> blocked = what_meets(last_, now)) {
       const bool is_free = goes_round(last_, now, *blocked);
       ++(is_free ? figures_.detours : figures_.blocked);
-      if (!is_free) fault(*blocked, "have no free way", now);
+      const auto [a, b] = *blocked;
+      if (!is_free) fault(*blocked, "have no free way to", {{last_[a], last_[b], now[a], now[b]}});
     }
   }
   last_ = std::move(now);
@@ -138,19 +139,18 @@ void RecordedWays::check_poses() {
     const std::ptrdiff_t count = std::count(collides.begin(), collides.end(), 1);
     figures_.poses += std::ssize(collides);
     figures_.colliding += count;
-    if (count > 0) fault(pairs_[i], "collide, at or before", last_);
+    if (count > 0) fault(pairs_[i], "collide in or before");
     X_AB_[i].clear();
   }
 }
 
-void RecordedWays::fault(Pair pair, const std::string& what, const Poses& poses) {
+void RecordedWays::fault(Pair pair, const std::string& what, std::span<const Isometry3d> poses_of_both) {
   if (!figures_.first_fault.empty()) return;
-  const auto [a, b] = pair;
   std::ostringstream text;
   text.precision(17);
-  text << "bodies " << a << " and " << b << ' ' << what << " in answer " << figures_.answers;
-  for (const std::size_t body : {a, b})
-    text << "\nfrom\n" << last_[body].matrix() << "\nto\n" << poses[body].matrix();
+  text << "bodies " << pair.first << " and " << pair.second << ' ' << what << " answer " << figures_.answers;
+  for (const Isometry3d& X_WB : poses_of_both)
+    text << '\n' << X_WB.matrix().topRows<3>();
   figures_.first_fault = text.str();
 }
 

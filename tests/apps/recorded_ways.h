@@ -59,7 +59,7 @@ class RecordedWays {
   double length_of(const Poses& from, const Poses& to) const;
   void note_poses(const Poses& now);
   void check_poses();
-  void fault(Pair pair, const std::string& what, const Poses& poses);
+  void fault(Pair pair, const std::string& what, std::span<const Eigen::Isometry3d> poses_of_both = {});
 
   std::size_t first_part_;
   std::vector<Eigen::Vector3d> halves_;
