@@ -98,15 +98,17 @@ class GraspSimulation::Life {
     return std::any_of(hands_.begin(), hands_.end(), [&](const GraspingHand& hand) { return hand.part() == part; });
   }
 
-  /// A hand that is found again may be anywhere: a free one jumps, and a held part goes there slowly.
+  /// A hand that is found again may be anywhere: a free one begins there, and a held part goes there slowly.
   void aim(std::size_t h, const std::optional<Posture>& target) {
     GraspingHand& hand = hands_[h];
-    if (!hand.aim(target)) return;
-    if (!hand.part()) {
-      hand.clasp().move_cart(*target);
+    const bool was_lost = hand.is_lost();
+    hand.aim(target);
+    if (hand.is_lost() == was_lost) return;
+    if (hand.part()) {
+      settle(*hand.part());
+    } else if (hand.is_lost()) {
+      hand.clasp().lose_track();
       remove(h);
-    } else if (const std::optional<Eigen::Isometry3d> X_WG = wish(*hand.part())) {
-      parts_.grasp(*hand.part(), *X_WG);
     }
   }
 
@@ -147,7 +149,7 @@ class GraspSimulation::Life {
       hand.clasp().place_free_object(p, parts_.result(p).X_WV);
     if (hand.part()) hand.follow(parts_.result(*hand.part()).X_WV);
     hand.advance();
-    if (hand.clasp().state() == ClaspState::kWaiting) return;
+    if (hand.clasp().state() != ClaspState::kClasping) return;
     parts_.place_riders(h, hand.segments());
     is_present_[h] = 1;
   }

@@ -35,6 +35,23 @@ bool has_pose(const devices::GloveState& state) {
   return state.X_WH.matrix().allFinite() && state.v_WH.allFinite() && state.w_WH.allFinite();
 }
 
+/// Finite, and so small that no product of two of them overflows. No scene and no hand comes near the bound.
+template <typename Numbers>
+bool is_usable(const Eigen::MatrixBase<Numbers>& numbers) {
+  constexpr double kGreatest = 1e12;
+  return (numbers.array().abs() < kGreatest).all();
+}
+
+bool is_usable_part(const PartAnswer& part) {
+  const auto is_pose = [](const Eigen::Isometry3d& X) { return is_usable(X.matrix()); };
+  return is_pose(part.X_WV) && is_pose(part.X_WV_of_rows) && is_pose(part.X_WG) && is_pose(part.X_GT);
+}
+
+bool is_usable_row(const ContactRow& row) {
+  return is_usable(row.n) && is_usable(row.r) && is_usable(row.r_other) && is_usable(row.friction_ratio_W) &&
+         is_usable(Eigen::Vector2d(row.bound, row.approach)) && !std::isnan(row.range);
+}
+
 }  // namespace
 
 std::vector<KernelPart> kernel_parts(const MultiPartSliding& sliding) {
@@ -159,9 +176,19 @@ const Coupling& HapticKernel::present_coupling(std::size_t hand) const {
   return hands_[hand]->present;
 }
 
-HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states, const ContactSet& set,
+const ContactSet& HapticKernel::usable(const ContactSet& set) noexcept {
+  const std::span<const PartAnswer> parts{set.parts.data(), parts_.size()};
+  const bool is_whole = std::all_of(parts.begin(), parts.end(), is_usable_part) &&
+                        std::all_of(set.rows().begin(), set.rows().end(), is_usable_row);
+  if (!is_whole) return last_poses_;
+  std::copy(parts.begin(), parts.end(), last_poses_.parts.begin());
+  return set;
+}
+
+HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states, const ContactSet& newest,
                               std::chrono::nanoseconds now) noexcept {
   GLISSADE_ASSERT(states.size() == hands_.size());
+  const ContactSet& set = usable(newest);
   const double dt = seconds_since_last_tick(now);
   std::array<HandPose, kMaxHands> poses;
   for (std::size_t h = 0; h < hands_.size(); ++h) {

@@ -95,7 +95,8 @@ class HapticKernel {
   /// is null. `set` is the newest contact set. `now` is on the clock of `ContactSet::time`, and never goes back. A pose
   /// that is not finite or not plausible leaves the ghost unchanged, and the force fades. A hand that opens lets go. A
   /// hand that closes grasps the part whose bounding sphere, about the compliance point, is nearest to the hand root.
-  /// Opening and closing count once three states have told the same `GloveState::grip`.
+  /// Opening and closing count once three states have told the same `GloveState::grip`. A contact set with a number
+  /// that is not finite counts as one without contacts, whose parts are where they last were.
   HapticTick tick(std::span<const devices::GloveState* const> states, const ContactSet& set,
                   std::chrono::nanoseconds now) noexcept;
 
@@ -111,6 +112,7 @@ class HapticKernel {
  private:
   struct Hand;
 
+  const ContactSet& usable(const ContactSet& set) noexcept;
   void follow_grip(std::size_t hand, const devices::GloveState& state, const ContactSet& set) noexcept;
   std::optional<std::size_t> nearest_part(const Eigen::Vector3d& p_WH, const ContactSet& set) const noexcept;
   double seconds_since_last_tick(std::chrono::nanoseconds now) noexcept;
@@ -120,6 +122,7 @@ class HapticKernel {
   std::vector<KernelPart> parts_;
   std::chrono::nanoseconds period_;
   std::vector<std::unique_ptr<Hand>> hands_;
+  ContactSet last_poses_;  // of the parts; without rows
   std::unique_ptr<Holds> holds_;
   std::unique_ptr<ContactProjection> contacts_;
   std::optional<std::chrono::nanoseconds> last_tick_;

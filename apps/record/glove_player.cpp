@@ -33,7 +33,8 @@ class Player {
   /// Sends a state, if it is due `now`, at `time` of the track. Returns whether the glove has a force.
   bool step(std::chrono::nanoseconds time, std::chrono::nanoseconds now) {
     if (now < due_) return has_force_;
-    due_ = std::max(due_ + period(), now);
+    due_ += period();
+    if (due_ <= now) due_ = now + period();
     const devices::GloveCommand command = host_.newest_command(state_).values();
     played_.greatest_force_N = std::max(played_.greatest_force_N, command.f_H_W.norm());
     while (next_ + 1 < track_.samples.size() && track_.samples[next_ + 1].time <= time)

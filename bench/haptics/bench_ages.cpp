@@ -5,8 +5,12 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/geometry/mesh_import.h>
@@ -62,9 +66,9 @@ SlidingScene balls(const std::string& name, std::int64_t of_part, std::int64_t o
 }
 
 /// A ball in a hollow one with 0.1 mm of play, pressed against it and turned: thousands of triangles are near.
-SlidingScene ball_in_socket() {
+SlidingScene ball_in_socket(const std::string& name) {
   SlidingScene scene;
-  scene.name = "socket";
+  scene.name = name;
   scene.obstacles.push_back(test_support::obstacle_of(geometry::make_sphere(0.0201, 100'000)));
   scene.part_V = test_support::part_of(geometry::make_sphere(0.02, 100'000));
   scene.ticks = 5000;
@@ -92,13 +96,11 @@ geometry::TriangleMesh mesh_of_size(const std::string& folder, const char* file,
 }
 
 /// Meshes of a folder, scaled to the sizes here (metres), the part 2 mm above the obstacle and then pressed into it.
-SlidingScene of_meshes(const std::string& folder, const char* part, double part_size, const char* obstacle,
-                       double obstacle_size, double depth) {
+SlidingScene of_meshes(const std::string& name, const std::string& folder, const char* part, double part_size,
+                       const char* obstacle, double obstacle_size, double depth) {
   geometry::TriangleMesh mesh_V = mesh_of_size(folder, part, part_size);
   geometry::TriangleMesh mesh_O = mesh_of_size(folder, obstacle, obstacle_size);
   const double z = bounds_of(mesh_O).max().z() - bounds_of(mesh_V).min().z() + 2e-3;
-  const std::string name =
-      std::filesystem::path(part).stem().string() + " on " + std::filesystem::path(obstacle).stem().string();
   return pressed_and_dragged(name, test_support::obstacle_of(std::move(mesh_O)),
                              test_support::part_of(std::move(mesh_V)), pose({0.0, 0.0, z}), depth, 0.1);
 }
@@ -157,29 +159,36 @@ void add_ages(const std::string& scene, const std::string& subject, const Ages& 
 }  // namespace
 
 void run_ages(const SlidingBenchOptions& options, Results& results) {
-  std::vector<SlidingScene> scenes;
-  scenes.push_back(car_door_scene(0.1));
-  scenes.push_back(balls("balls-200k-on-100k-0.1-m/s", 200'000, 100'000, 0.1));
-  scenes.push_back(balls("balls-20k-on-100k-0.5-m/s", 20'000, 100'000, 0.5));
-  scenes.push_back(balls("poles-20k-on-100k-0.1-m/s", 20'000, 100'000, 0.1, true));
-  scenes.push_back(ball_in_socket());
+  // Made one by one, and only those that are wanted: their trees take seconds.
+  std::vector<std::pair<std::string, std::function<SlidingScene(const std::string& name)>>> scenes{
+      {"car-door", [](const auto& /*name*/) { return car_door_scene(0.1); }},
+      {"balls-200k-on-100k-0.1-m/s", [](const auto& name) { return balls(name, 200'000, 100'000, 0.1); }},
+      {"balls-20k-on-100k-0.5-m/s", [](const auto& name) { return balls(name, 20'000, 100'000, 0.5); }},
+      {"poles-20k-on-100k-0.1-m/s", [](const auto& name) { return balls(name, 20'000, 100'000, 0.1, true); }},
+      {"socket", [](const auto& name) { return ball_in_socket(name); }}};
   if (!options.meshes.empty()) {
-    scenes.push_back(of_meshes(options.meshes, "koala.obj", 0.06, "scallop.ply", 0.4, 0.03));
-    scenes.push_back(of_meshes(options.meshes, "ycb_power_drill.obj", 0.15, "drivaer_body.obj", 4.6, 0.01));
-    scenes.push_back(
-        of_meshes(options.meshes, "industreal_gear_small.obj", 0.022, "industreal_gear_base.obj", 0.15, 0.02));
+    const auto add = [&](const std::string& scene, const char* part, double part_size, const char* obstacle,
+                         double obstacle_size, double depth) {
+      scenes.emplace_back(scene, [=, &options](const std::string& name) {
+        return of_meshes(name, options.meshes, part, part_size, obstacle, obstacle_size, depth);
+      });
+    };
+    add("koala on scallop", "koala.obj", 0.06, "scallop.ply", 0.4, 0.03);
+    add("ycb_power_drill on drivaer_body", "ycb_power_drill.obj", 0.15, "drivaer_body.obj", 4.6, 0.01);
+    add("industreal_gear_small on industreal_gear_base", "industreal_gear_small.obj", 0.022, "industreal_gear_base.obj",
+        0.15, 0.02);
   }
   haptics::SlidingRules without = haptics::real_time_rules();
   without.work_budget.reset();
   const haptics::SlidingRules with = haptics::real_time_rules();
-  for (const SlidingScene& scene : scenes) {
-    if (!options.scenes.empty() &&
-        std::find(options.scenes.begin(), options.scenes.end(), scene.name) == options.scenes.end())
-      continue;
-    std::fprintf(stderr, "ages %s\n", scene.name.c_str());
+  for (const auto& [name, make] : scenes) {
+    const std::vector<std::string>& wanted = options.scenes;
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), name) == wanted.end()) continue;
+    std::fprintf(stderr, "ages %s\n", name.c_str());
+    const SlidingScene scene = make(name);
     const int ticks = options.quick ? std::min(scene.ticks, 1000) : scene.ticks;
-    add_ages(scene.name, "without-budget", ages_of(scene, without, ticks), results);
-    add_ages(scene.name, "with-budget", ages_of(scene, with, ticks), results);
+    add_ages(name, "without-budget", ages_of(scene, without, ticks), results);
+    add_ages(name, "with-budget", ages_of(scene, with, ticks), results);
   }
 }
 

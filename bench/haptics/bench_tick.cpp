@@ -23,7 +23,7 @@
 #include "poses.h"
 #include "scripted_scene.h"
 #include "sliding_account.h"
-#include "sliding_scenes.h"
+#include "sweeps/sliding_scenes.h"
 
 namespace glissade::bench {
 namespace {

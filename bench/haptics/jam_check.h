@@ -10,8 +10,8 @@
 #include <glissade/haptics/sliding_result.h>
 
 #include "search/candidate_pairs.h"
-#include "sliding_scenes.h"
 #include "solver/projection.h"
+#include "sweeps/sliding_scenes.h"
 
 namespace glissade::bench {
 

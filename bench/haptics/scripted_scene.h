@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "sliding_scenes.h"
+#include "sweeps/sliding_scenes.h"
 
 namespace glissade::bench {
 

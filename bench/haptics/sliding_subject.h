@@ -10,7 +10,7 @@
 
 #include <glissade/haptics/sliding.h>
 
-#include "sliding_scenes.h"
+#include "sweeps/sliding_scenes.h"
 
 namespace glissade::bench {
 

@@ -43,13 +43,28 @@ foreach(delay 0 1 5 20 50)
 endforeach()
 expect("no energy from nowhere" results MATCHES "passivity,random,glissade,least_energy,[0-9.e+-]+,J")
 
+# The scenes of this part have names of their own.
+execute_process(COMMAND ${BENCH} --quick --parts ages --scenes car-door --out ${WORK_DIR}/ages
+  RESULT_VARIABLE status ERROR_VARIABLE said)
+expect("exit code 0 of the ages" status EQUAL 0)
+file(STRINGS ${WORK_DIR}/ages/results.csv results)
+foreach(subject without-budget with-budget)
+  foreach(metric age_p50 age_p99 age_max call_p50 call_p99 call_max lag_mean ended_early)
+    expect("${metric} ${subject}" results MATCHES "ages,car-door,${subject},${metric},[0-9.e+-]+,")
+  endforeach()
+endforeach()
+
 file(COPY ${SOURCE_DIR}/docs/benchmarks.md DESTINATION ${WORK_DIR})
 execute_process(COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 ${SOURCE_DIR}/scripts/bench_report.py
   ${WORK_DIR}/results.csv ${WORK_DIR}/benchmarks.md --command "smoke test" RESULT_VARIABLE status ERROR_VARIABLE said)
 expect("exit code 0 of the report" status EQUAL 0)
+execute_process(COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 ${SOURCE_DIR}/scripts/bench_report.py
+  ${WORK_DIR}/ages/results.csv ${WORK_DIR}/benchmarks.md --command "smoke test" RESULT_VARIABLE status ERROR_VARIABLE said)
+expect("exit code 0 of the report of the ages" status EQUAL 0)
 file(READ ${WORK_DIR}/benchmarks.md page)
 expect("the new section" page MATCHES "<!-- begin sliding -->\n[^\n]*smoke test.*[|] plane [|].*<!-- end sliding -->")
 expect("the stability" page MATCHES "[|] sigma.7 [|] 4000, .*<!-- end passivity -->")
+expect("the ages" page MATCHES "<!-- begin ages -->\n[^\n]*smoke test.*[|] car-door, with budget [|].*<!-- end ages -->")
 expect("the prose by hand" page MATCHES "## How it is measured")
 
 execute_process(COMMAND ${BENCH} --scenes nowhere --parts scenes --out ${WORK_DIR} RESULT_VARIABLE status ERROR_VARIABLE said)

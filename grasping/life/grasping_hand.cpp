@@ -59,12 +59,10 @@ Eigen::Isometry3d GraspingHand::palm(std::span<const double> values) {
   return X_WL_[kPalmLink];
 }
 
-bool GraspingHand::aim(const std::optional<Posture>& target) {
-  const bool was_lost = is_lost();
+void GraspingHand::aim(const std::optional<Posture>& target) {
   target_ = target;
   if (target_ && !is_usable(*target_, model_->chain.values().size())) target_.reset();
   if (target_) model_->chain.clamp(target_->values);
-  return was_lost && !is_lost();
 }
 
 void GraspingHand::take(std::size_t part, const Eigen::Isometry3d& X_WV) {
@@ -104,7 +102,7 @@ void GraspingHand::advance() {
 
 void GraspingHand::analyze(double milliseconds, const Eigen::Vector3d& up_W) {
   since_left_ms_ += milliseconds;
-  if (is_lost() || clasp_.state() == ClaspState::kWaiting) {
+  if (is_lost() || clasp_.state() != ClaspState::kClasping) {
     analysis_.clear();
     return;
   }

@@ -31,8 +31,8 @@ class GraspingHand {
   std::span<const Eigen::Isometry3d> segments();
   static std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const HandModel& model);
 
-  /// Takes the target of a call; none while the tracking is lost. Returns whether the hand has just been found again.
-  bool aim(const std::optional<Posture>& target);
+  /// Takes the target of a call; none while the tracking is lost.
+  void aim(const std::optional<Posture>& target);
   bool is_lost() const { return !target_; }
 
   /// Takes hold of the part at X_WV.

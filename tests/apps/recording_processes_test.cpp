@@ -104,6 +104,54 @@ TEST_F(RecordingProcesses, AServersRunIsRepeatedAndPlayed) {
   EXPECT_GT(glove["force_max_N"], 0.5);
 }
 
+/// The recorded gloves of a log, as if they had told `rate` states a second: every second one is left out.
+void halve_rate(const std::string& from, const std::string& to, double rate) {
+  devices::EventLogReader reader(from);
+  devices::EventLogWriter writer(to);
+  bool is_kept = false;
+  while (const auto event = reader.next()) {
+    if (auto glove = devices::glove_info_of(*event)) {
+      glove->descriptor.update_rate = rate;
+      writer.write(devices::to_event(event->time, *glove));
+    } else if (devices::glove_state_of(*event)) {
+      is_kept = !is_kept;
+      if (is_kept) writer.write(*event);
+    }
+  }
+  writer.close();
+}
+
+TEST_F(RecordingProcesses, ASlowerGloveIsPlayedAtItsOwnRate) {
+  constexpr double kRate = 500.0;
+  ASSERT_EQ(test_support::glissade({"demo", "--offline", "--seconds", "1", "--scene", scene, "--record", log("1kHz")})
+                .exit_code,
+            0);
+  halve_rate(log("1kHz"), log("500Hz"), kRate);
+  // The player waits at the first states; so the times of the states are those of its own clock from then on.
+  Process logger({"lcm-logger", "--lcm-url", kUrl, "--quiet", log("played.lcmlog")});
+  ASSERT_TRUE(comes_at_last(log("played.lcmlog")));
+  Process player({GLISSADE_PROGRAM, "replay", log("500Hz"), "--lcm", kUrl, "--json"});
+  const ProgramResult server = test_support::glissade({"run", scene, "--lcm", kUrl, "--seconds", "0.7", "--json"});
+  const ProgramResult played = player.wait();
+  logger.signal(SIGINT);
+  logger.wait();
+  ASSERT_EQ(server.exit_code, 0) << server.standard_error;
+  const nlohmann::json summary = nlohmann::json::parse(server.standard_output);
+  EXPECT_EQ(summary["ticks"], 350) << "the server goes at the rate of the glove";
+  EXPECT_EQ(summary["colliding_poses"], 0);
+  EXPECT_GT(summary["parts"][0]["contact_fraction"], 0.3);
+  ASSERT_EQ(played.exit_code, 0) << played.standard_error;
+  EXPECT_GT(nlohmann::json::parse(played.standard_output)["gloves"][0]["force_max_N"], 0.5);
+  std::vector<std::chrono::nanoseconds> times;
+  devices::EventLogReader reader(log("played.lcmlog"));
+  while (const auto event = reader.next()) {
+    if (const auto logged = devices::glove_state_of(*event)) times.push_back(logged->state.time);
+  }
+  ASSERT_GT(times.size(), 300U);
+  for (std::size_t i = 1; i < times.size(); ++i)
+    ASSERT_GE((times[i] - times[i - 1]).count(), 2'000'000) << "more often than the glove told";
+}
+
 TEST_F(RecordingProcesses, LcmLoggerRecordsARun) {
   {
     Process logger({"lcm-logger", "--lcm-url", kUrl, "--quiet", log("logger.lcmlog")});

@@ -16,7 +16,7 @@
 #include "mesh_oracle.h"
 #include "random_numbers.h"
 #include "sanitizers.h"
-#include "sweep_meshes.h"
+#include "sweeps/sweep_meshes.h"
 #include "tree_triangles.h"
 
 namespace glissade::collision {

@@ -16,7 +16,7 @@
 
 #include "hull_oracle.h"
 #include "random_numbers.h"
-#include "sweep_report.h"
+#include "sweeps/sweep_report.h"
 
 namespace glissade::collision {
 namespace {

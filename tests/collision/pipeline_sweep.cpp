@@ -16,8 +16,8 @@
 #include <glissade/geometry/rigid_pose.h>
 
 #include "random_numbers.h"
-#include "sweep_meshes.h"
-#include "sweep_report.h"
+#include "sweeps/sweep_meshes.h"
+#include "sweeps/sweep_report.h"
 
 namespace glissade::collision {
 namespace {

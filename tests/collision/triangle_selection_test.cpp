@@ -17,7 +17,7 @@
 #include "expect_bad_input.h"
 #include "query/parallel_query.h"
 #include "random_numbers.h"
-#include "sweep_meshes.h"
+#include "sweeps/sweep_meshes.h"
 #include "triangle_points.h"
 
 namespace glissade::collision {

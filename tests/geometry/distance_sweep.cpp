@@ -9,9 +9,9 @@
 #include <glissade/collision/dop_query.h>
 
 #include "near_pairs.h"
-#include "sweep_poses.h"
-#include "sweep_report.h"
-#include "sweep_variants.h"
+#include "sweeps/sweep_poses.h"
+#include "sweeps/sweep_report.h"
+#include "sweeps/sweep_variants.h"
 
 namespace glissade::geometry {
 namespace {

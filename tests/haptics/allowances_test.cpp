@@ -21,7 +21,7 @@
 #include "poses.h"
 #include "sanitizers.h"
 #include "scene/scene_access.h"
-#include "sliding_scenes.h"
+#include "sweeps/sliding_scenes.h"
 
 namespace glissade::haptics {
 namespace {

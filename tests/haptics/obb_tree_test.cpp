@@ -17,7 +17,7 @@
 
 #include "random_numbers.h"
 #include "sanitizers.h"
-#include "sweep_meshes.h"
+#include "sweeps/sweep_meshes.h"
 #include "tree_triangles.h"
 #include "trees.h"
 

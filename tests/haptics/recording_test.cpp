@@ -22,7 +22,7 @@
 
 #include "held_part.h"
 #include "poses.h"
-#include "sweep_variants.h"
+#include "sweeps/sweep_variants.h"
 #include "temporary_folder.h"
 
 namespace glissade::haptics {

@@ -1,9 +1,13 @@
 // Sliding with the collision detection in a thread of its own: every bit is what it is without.
 
+#include "search/search_thread.h"
+
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,7 +20,8 @@
 #include "poses.h"
 #include "random_numbers.h"
 #include "sanitizers.h"
-#include "sliding_scenes.h"
+#include "search/candidate_search.h"
+#include "sweeps/sliding_scenes.h"
 
 namespace glissade::haptics {
 namespace {
@@ -184,6 +189,44 @@ TEST(SearchThread, EndsWithASearchUnderWay) {
     for (int i = 1; i <= ticks; ++i)
       sliding.advance(pose({3e-4 * i, 0.0, 0.0102}));
   }
+}
+
+/// A ball so near to a block that a search finds very many pairs of triangles.
+ContactScene crowded_scene() {
+  ContactScene scene({test_support::obstacle_of(geometry::make_box({0.1, 0.1, 0.05}, 6000), pose({0.0, 0.0, -0.025}))},
+                     {test_support::part_of(geometry::make_sphere(0.02, 2000))}, std::vector<double>{1e-5});
+  scene.place(0, pose({0.0, 0.0, 0.0201}));
+  return scene;
+}
+
+/// Waits until the thread has done more work than this, or for twenty seconds.
+void wait_for_more_work(const SearchThread& thread, std::int64_t work) {
+  for (int i = 0; i < 20'000 && thread.work() <= work; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+TEST(SearchThread, RunsAheadByNoMoreWorkThanItMay) {
+  constexpr std::int64_t kAhead = 20'000;
+  constexpr std::int64_t kPiece = 16 * 500 + 100;  // the triangle pairs of two leaves
+  const ContactScene scene = crowded_scene();
+  SearchThread thread(kAhead);
+  CandidateSearch search(scene, 5e-3, &thread);
+  const CandidateRequest request{.X_WV = {scene.bodies().back().X_WB}, .radius = 2e-3, .ignored = {}};
+  CandidateSet found;
+  thread.begin(search, request, found);
+  for (const std::int64_t allowed : {0, 10'000, 30'000}) {
+    SCOPED_TRACE(allowed);
+    if (allowed > 0) thread.allow(allowed);
+    wait_for_more_work(thread, allowed + kAhead);
+    const std::int64_t work = thread.work();
+    EXPECT_GT(work, allowed + kAhead) << "it goes on while nobody waits";
+    EXPECT_LE(work, allowed + kAhead + kPiece);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(thread.work(), work) << "it stands still";
+  }
+  EXPECT_TRUE(thread.wait());
+  EXPECT_GT(thread.work(), 30'000 + 2 * kAhead) << "otherwise the bound says nothing";
+  EXPECT_FALSE(found.pairs.empty());
 }
 
 }  // namespace

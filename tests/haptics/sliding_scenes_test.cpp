@@ -1,7 +1,7 @@
 // The scenes that tests and benchmarks of sliding share: they start free, the ghost comes from there without jumps and
 // goes into something, and each is the same whenever it is made.
 
-#include "sliding_scenes.h"
+#include "sweeps/sliding_scenes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -20,7 +20,7 @@
 #include <CLI/CLI.hpp>
 
 #include "sanitizers.h"
-#include "torture_run.h"
+#include "sweeps/torture_run.h"
 
 namespace glissade::test_support {
 namespace {

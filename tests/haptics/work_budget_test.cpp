@@ -1,5 +1,7 @@
 // A budget of work for each call: it ends early, says so, never moves through what is not proven free, and gets there.
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -219,6 +221,32 @@ TEST(WorkBudget, TheTimeOfAContactSetIsThatOfTheGhostsThatItAnswers) {
     last = set.time;
   }
   EXPECT_GT(old, 20);
+}
+
+/// The part repeats each motion of its ghost, so motion that a call lost would never come back.
+TEST(WorkBudget, TheMotionOfOnePartIsKeptWhileAnotherIsGraspedAndLetGo) {
+  constexpr double kWay_m = 2e-3;
+  constexpr int kMoving = 100;
+  const Isometry3d X_WV_start = pose({0.0, 0.0, 0.0202});
+  const Isometry3d X_aside = pose({0.5, 0.0, 0.0});
+  MultiPartSliding sliding({fine_block()},
+                           {{.part_V = fine_ball(), .X_WV_start = X_WV_start, .metaphor = Metaphor::kIncremental},
+                            {.part_V = test_support::cube(0.04), .X_WV_start = X_aside}},
+                           {.work_budget = 2'000});
+  int early = 0;
+  bool is_held = true;
+  for (int call = 1; call <= 1000; ++call) {
+    if (call <= kMoving && call % 5 == 0) {
+      is_held ? sliding.release(1) : sliding.grasp(1, X_aside);
+      is_held = !is_held;
+    }
+    const double x = kWay_m * std::min(1.0, 1.0 * call / kMoving);
+    const std::array<Isometry3d, 2> X_WG{pose({x, 0.0, 0.0202}), X_aside};
+    sliding.advance(X_WG);
+    early += call <= kMoving && sliding.result(0).ended_early ? 1 : 0;
+  }
+  EXPECT_GT(early, kMoving / 2) << "otherwise no call was under way at a grasp";
+  EXPECT_NEAR(sliding.result(0).X_WV.translation().x(), kWay_m, 1e-9);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/geometry/triangle_pair.h>
 
-#include "sweep_meshes.h"
+#include "sweeps/sweep_meshes.h"
 #include "tree_triangles.h"
 
 namespace glissade::test_support {

@@ -1,4 +1,4 @@
-#include "torture_scene.h"
+#include "sweeps/torture_scene.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <glissade/geometry/triangle_mesh.h>
 #include <glissade/reference/grid_check.h>
 
-#include "sweep_meshes.h"
+#include "sweeps/sweep_meshes.h"
 
 namespace glissade::test_support {
 

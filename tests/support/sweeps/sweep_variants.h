@@ -12,7 +12,7 @@
 
 #include "kernels/instruction_set.h"
 #include "random_numbers.h"
-#include "sweep_meshes.h"
+#include "sweeps/sweep_meshes.h"
 
 namespace glissade::test_support {
 

@@ -2,7 +2,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "sliding_scenes.h"
+#include "sweeps/sliding_scenes.h"
 
 namespace glissade::test_support {
 namespace {

@@ -1,4 +1,4 @@
-#include "sweep_report.h"
+#include "sweeps/sweep_report.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -8,8 +8,8 @@
 #include <CLI/CLI.hpp>
 
 #include "sanitizers.h"
-#include "sweep_poses.h"
-#include "sweep_variants.h"
+#include "sweeps/sweep_poses.h"
+#include "sweeps/sweep_variants.h"
 
 namespace glissade::test_support {
 

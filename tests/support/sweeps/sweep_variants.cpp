@@ -1,4 +1,4 @@
-#include "sweep_variants.h"
+#include "sweeps/sweep_variants.h"
 
 #include <stdexcept>
 

@@ -1,4 +1,4 @@
-#include "torture_run.h"
+#include "sweeps/torture_run.h"
 
 #include <bit>
 #include <cmath>
@@ -14,8 +14,9 @@
 #include <glissade/reference/grid_check.h>
 
 #include "random_numbers.h"
+#include "solver/projection.h"
+#include "sweeps/torture_scene.h"
 #include "swept_check.h"
-#include "torture_scene.h"
 
 namespace glissade::test_support {
 namespace {

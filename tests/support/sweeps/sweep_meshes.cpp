@@ -1,4 +1,4 @@
-#include "sweep_meshes.h"
+#include "sweeps/sweep_meshes.h"
 
 #include <algorithm>
 #include <array>

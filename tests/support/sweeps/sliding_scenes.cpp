@@ -1,4 +1,4 @@
-#include "sliding_scenes.h"
+#include "sweeps/sliding_scenes.h"
 
 #include <algorithm>
 #include <cmath>

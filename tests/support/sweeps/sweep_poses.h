@@ -13,7 +13,7 @@
 #include <Eigen/Geometry>
 
 #include "random_numbers.h"
-#include "sweep_meshes.h"
+#include "sweeps/sweep_meshes.h"
 
 namespace glissade::test_support {
 

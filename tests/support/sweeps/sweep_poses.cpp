@@ -1,4 +1,4 @@
-#include "sweep_poses.h"
+#include "sweeps/sweep_poses.h"
 
 #include <algorithm>
 #include <array>

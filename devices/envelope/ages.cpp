@@ -1,0 +1,136 @@
+/// Whether the basis of a command is new and plausible: states, clocks, delays and reasons to let the force fade.
+
+#include <algorithm>
+#include <cmath>
+
+#include <glissade/devices/safety_envelope.h>
+
+#include "envelope/envelope_numbers.h"
+
+namespace glissade::devices {
+
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kDistrust = std::chrono::milliseconds(100);
+constexpr nanoseconds kLateForGood = std::chrono::seconds(1);
+constexpr std::int64_t kDriftShare = 5000;  // clocks may drift apart by one part in so many
+constexpr double kJumpTolerance_m = 1e-3;
+constexpr double kTurnTolerance = 1e-2;  // rad
+constexpr double kSpeedMismatch = 0.5;   // share of the largest speed
+constexpr nanoseconds kHalfSecond = std::chrono::milliseconds(500);
+constexpr nanoseconds kLongestDelay = std::chrono::milliseconds(150);
+
+double angle_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept {
+  const double cosine = 0.5 * ((A.transpose() * B).trace() - 1.0);
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+}  // namespace
+
+bool SafetyEnvelope::trusts(const GloveState& newest, nanoseconds now) noexcept {
+  observe(newest, now);
+  return is_finite(newest) && now >= distrust_until_;
+}
+
+void SafetyEnvelope::observe(const GloveState& state, nanoseconds now) noexcept {
+  if (!is_finite(state)) {
+    distrust_until_ = now + kDistrust;
+    return;
+  }
+  const bool is_new = !has_state_ || state.sequence != state_.sequence || state.time != state_.time;
+  if (!is_new) return;
+  if (is_plausible(state)) {
+    observe_work(state);
+  } else {
+    distrust_until_ = now + kDistrust;
+  }
+  f_sum_.setZero();
+  t_sum_.setZero();
+  summed_ = 0;
+  update_offset(state, now);
+  const bool repeats = has_state_ && state.X_WH.matrix() == state_.X_WH.matrix();
+  if (!repeats) pose_time_ = state.time;
+  state_ = state;
+  has_state_ = true;
+}
+
+bool SafetyEnvelope::is_plausible(const GloveState& state) noexcept {
+  if (state.v_WH.norm() > descriptor_.max_speed || state.w_WH.norm() > descriptor_.max_turn_rate) return false;
+  if (state.X_WH.translation().norm() > descriptor_.workspace_radius) return false;
+  if (!has_state_) return true;  // nothing to compare with
+  if (state.time < state_.time) return false;
+  if (descriptor_.frozen > nanoseconds(0) && state.X_WH.matrix() == state_.X_WH.matrix() &&
+      state.time - pose_time_ > descriptor_.frozen) {
+    return false;
+  }
+  const double dt = in_seconds(state.time - state_.time);
+  const Eigen::Vector3d moved = state.X_WH.translation() - state_.X_WH.translation();
+  if (moved.norm() > descriptor_.max_speed * dt + kJumpTolerance_m) return false;
+  const double turned = angle_between(state_.X_WH.linear(), state.X_WH.linear());
+  if (turned > descriptor_.max_turn_rate * dt + kTurnTolerance) return false;
+  const Eigen::Vector3d unexplained = moved - 0.5 * dt * (state.v_WH + state_.v_WH);
+  return unexplained.norm() <= kSpeedMismatch * descriptor_.max_speed * dt + kJumpTolerance_m;
+}
+
+void SafetyEnvelope::update_offset(const GloveState& state, nanoseconds now) noexcept {
+  const nanoseconds difference = now - state.time;
+  const bool is_first = !has_state_ || state.time < state_.time;
+  // A clock that stands still does not go wrong, it fails.
+  const bool is_late_for_good =
+      late_since_ && now - *late_since_ > kLateForGood && state.time - late_time_ > kLateForGood / 2;
+  if (is_first || is_late_for_good) {
+    offset_ = difference;
+  } else {
+    offset_ = std::min(offset_ + (state.time - state_.time) / kDriftShare, difference);
+  }
+  if (difference - offset_ <= patience_) {
+    late_since_.reset();
+  } else if (!late_since_) {
+    late_since_ = now;
+    late_time_ = state.time;
+  }
+}
+
+nanoseconds SafetyEnvelope::age_of(nanoseconds measured, nanoseconds now) const noexcept {
+  return now - offset_ - measured;
+}
+
+void SafetyEnvelope::observe_delay(nanoseconds age, nanoseconds now) noexcept {
+  if (now - half_second_begin_ >= kHalfSecond) {
+    // The first half second is not whole: nothing is known before.
+    least_age_before_ = half_second_begin_ == nanoseconds(0) ? nanoseconds(0) : least_age_;
+    least_age_ = age;
+    half_second_begin_ = now;
+  }
+  least_age_ = std::max(nanoseconds(0), std::min(least_age_, age));
+}
+
+nanoseconds SafetyEnvelope::link_delay() const noexcept {
+  const nanoseconds least = std::min(least_age_before_, least_age_);
+  return least <= kLongestDelay ? least : nanoseconds(0);
+}
+
+nanoseconds SafetyEnvelope::oldest_command() const noexcept {
+  const nanoseconds delay = link_delay();
+  return delay > patience_ ? delay + patience_ : patience_;
+}
+
+LimitReasons SafetyEnvelope::faults(const GloveCommand& wanted, const GloveState& newest,
+                                    nanoseconds now) const noexcept {
+  LimitReasons reasons;
+  reasons.is_stopped = is_stopped_;
+  reasons.is_disabled = !newest.is_enabled;
+  reasons.is_refused = newest.obeys_another;
+  reasons.not_finite = !is_finite(wanted) || !is_finite(newest);
+  reasons.is_implausible = now < distrust_until_;
+  if (reasons.not_finite) return reasons;  // no ages are known
+  reasons.is_state_old = age_of(state_.time, now) > patience_;
+  const bool is_from_future = wanted.state_time > state_.time;
+  reasons.is_command_old =
+      !reasons.is_state_old && (is_from_future || age_of(wanted.state_time, now) > oldest_command());
+  return reasons;
+}
+
+}  // namespace glissade::devices

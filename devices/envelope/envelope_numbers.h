@@ -1,0 +1,41 @@
+#pragma once
+
+/// What the parts of the safety envelope share: which numbers count as finite, and the energies at the start.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+
+#include <glissade/devices/glove_device.h>
+
+namespace glissade::devices {
+
+inline constexpr double kStartEnergy_J = 0.1;
+inline constexpr double kMostRefill_J = 1.0;  // for returns and calm contacts; comes back by kRecovery_W
+
+inline double in_seconds(std::chrono::nanoseconds time) noexcept {
+  return std::chrono::duration<double>(time).count();
+}
+
+inline bool all_finite(const JointValues& values) noexcept {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+/// Sums of times within these bounds cannot overflow.
+inline bool is_finite(std::chrono::nanoseconds time) noexcept {
+  constexpr std::chrono::nanoseconds kGreatest(std::int64_t{1} << 61);
+  return -kGreatest < time && time < kGreatest;
+}
+
+inline bool is_finite(const GloveCommand& command) noexcept {
+  return std::isfinite(command.supply) && is_finite(command.state_time) && command.f_H_W.allFinite() &&
+         command.t_H_W.allFinite() && all_finite(command.joint_torques);
+}
+
+inline bool is_finite(const GloveState& state) noexcept {
+  return is_finite(state.time) && state.X_WH.matrix().allFinite() && state.v_WH.allFinite() && state.w_WH.allFinite() &&
+         all_finite(state.joint_angles);
+}
+
+}  // namespace glissade::devices
