@@ -1,0 +1,120 @@
+/// `glissade grasp`: a hand takes a ball from a table and leaves it in a tray.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/apps/text.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/grasping/hand_model.h>
+#include <glissade/reference/grid_check.h>
+
+#include "glissade_program.h"
+#include "poses.h"
+#include "temporary_folder.h"
+
+namespace glissade::apps {
+namespace {
+
+using Eigen::Isometry3d;
+using test_support::at;
+using test_support::CsvRow;
+using test_support::expect_refused;
+using test_support::glissade;
+using test_support::ProgramResult;
+using test_support::rows_of;
+using test_support::TemporaryFolder;
+
+const std::string kScene = GLISSADE_SCENES "/ball_and_tray.yaml";
+const std::string kHand = GLISSADE_SCENES "/ball_and_tray_hand.csv";
+
+double number(const CsvRow& row, const std::string& column) {
+  return std::stod(row.at(column));
+}
+
+/// The pose in the columns `<prefix>x_m` to `<prefix>qz`.
+Isometry3d pose_from(const CsvRow& row, const std::string& prefix = "") {
+  Isometry3d X = at(number(row, prefix + "x_m"), number(row, prefix + "y_m"), number(row, prefix + "z_m"));
+  X.linear() = Eigen::Quaterniond(number(row, prefix + "qw"), number(row, prefix + "qx"), number(row, prefix + "qy"),
+                                  number(row, prefix + "qz"))
+                   .toRotationMatrix();
+  return X;
+}
+
+class GraspCommand : public testing::Test {
+ protected:
+  TemporaryFolder folder;
+  std::string hands = folder.path("hands.csv");
+  std::string objects = folder.path("objects.csv");
+
+  ProgramResult run() {
+    return glissade({"grasp", kScene, "--hand-trajectory", kHand, "--out", hands, "--objects", objects});
+  }
+};
+
+TEST_F(GraspCommand, CarriesTheBallToTheTrayAndLeavesItThere) {
+  const ProgramResult result = run();
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  bool held = false;
+  const std::vector<CsvRow> postures = rows_of(read_text_file(hands));
+  for (const CsvRow& row : postures)
+    held = held || (row.at("state") == "holding" && row.at("object") == "ball");
+  EXPECT_TRUE(held);
+  EXPECT_EQ(postures.back().at("state"), "free");
+  const CsvRow left = rows_of(read_text_file(objects)).back();
+  EXPECT_EQ(left.at("object"), "ball");
+  EXPECT_EQ(left.at("state"), "released");
+  EXPECT_NEAR(number(left, "y_m"), 0.3, 0.03) << "over the tray";
+  EXPECT_LT(number(left, "z_m"), 0.06);
+}
+
+TEST_F(GraspCommand, ShowsNoHandThatGoesIntoAnything) {
+  ASSERT_EQ(run().exit_code, 0);
+  const grasping::HandModel hand = grasping::make_hand();
+  const auto table = std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.5, 0.8, 0.02}, 12));
+  const auto tray = std::make_shared<const geometry::TriangleMesh>(geometry::make_torus(0.06, 0.015, 2000));
+  const auto ball = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.035, 2000));
+  const std::vector<reference::PlacedMesh> still{{table, at(0.0, 0.15, -0.0101)}, {tray, at(0.0, 0.3, 0.0152)}};
+  const std::vector<CsvRow> postures = rows_of(read_text_file(hands));
+  const std::vector<CsvRow> moved = rows_of(read_text_file(objects));
+  ASSERT_EQ(postures.size(), moved.size());
+  std::vector<Isometry3d> X_WL(hand.chain.links().size());
+  for (std::size_t row = 0; row < postures.size(); row += 25) {
+    const Isometry3d X_WV = pose_from(moved[row]);
+    ASSERT_FALSE(reference::GridCheck(still).collides(*ball, X_WV)) << row;
+    std::vector<reference::PlacedMesh> all = still;
+    all.push_back({ball, X_WV});
+    const reference::GridCheck check(all);
+    std::vector<double> values;
+    for (const grasping::FlexValue& value : hand.chain.values())
+      values.push_back(number(postures[row], value.name + "_rad"));
+    hand.chain.poses(pose_from(postures[row]), values, X_WL);
+    for (std::size_t link = 0; link < X_WL.size(); ++link) {
+      const auto& mesh = hand.chain.links()[link].mesh;
+      if (mesh != nullptr) {
+        ASSERT_FALSE(check.collides(*mesh, X_WL[link])) << row << " " << hand.chain.links()[link].name;
+      }
+    }
+  }
+}
+
+TEST_F(GraspCommand, TakesOtherHands) {
+  const std::string shape = folder.write("hand.yaml", "side: left\nlength_m: 0.166\nbreadth_m: 0.075\n");
+  const ProgramResult result = glissade({"grasp", kScene, "--hand-trajectory", kHand, "--hand", shape, "--out", hands});
+  EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+}
+
+TEST_F(GraspCommand, NamesWhatIsWrong) {
+  expect_refused({"grasp", kScene, "--hand-trajectory", folder.write("few.csv", "t_s,x_m\n0,0\n")}, {"few.csv:1"});
+  const std::string shape = folder.write("hand.yaml", "side: left\nlength_m: 3\n");
+  expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--hand", shape}, {"hand.yaml", "length"});
+  const std::string side = folder.write("side.yaml", "side: upper\n");
+  expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--hand", side}, {"side.yaml:1", "upper"});
+  expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--hand", shape, shape}, {"--hand: 2 files for 1 hands"});
+  expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--out", hands, "--objects", hands}, {"--objects", "--out"});
+}
+
+}  // namespace
+}  // namespace glissade::apps
