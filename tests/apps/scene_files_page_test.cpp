@@ -304,6 +304,24 @@ TEST_F(ScenePages, TheTablesHaveExactlyTheColumnsOfCollide) {
   EXPECT_EQ(formats.names_below("## Output of collide"), header_of("pairs.csv"));
 }
 
+TEST_F(ScenePages, TheTablesHaveExactlyTheColumnsOfGrasp) {
+  std::string header;
+  std::string row;
+  for (const std::string& column : formats.names_below("### Hand trajectories")) {
+    if (column == "side" || column == "length_m" || column == "breadth_m") continue;
+    header += (header.empty() ? "" : ",") + column;
+    row += (row.empty() ? "" : ",") + std::string(column == "qw" || column == "z_m" ? "1" : "0");
+  }
+  folder.write("open_hand.csv", header + "\n" + row + "\n");
+  folder.write("whose.yaml", "side: left\nlength_m: 0.17\nbreadth_m: 0.08\n");
+  folder.write("loose.yaml",
+               "objects:\n- {name: ball, movable: true, shape: {type: sphere}}\n"
+               "- {name: floor, shape: {type: plate}, pose: {position_m: [0, 0, -0.1]}}\n");
+  run("grasp loose.yaml --hand-trajectory open_hand.csv --hand whose.yaml --out hands.csv --objects objects.csv");
+  EXPECT_EQ(formats.names_below("### Visible hands"), header_of("hands.csv"));
+  EXPECT_EQ(formats.names_below("### Movable objects"), header_of("objects.csv"));
+}
+
 TEST_F(ScenePages, TheTablesHaveExactlyTheColumnsOfSlide) {
   const std::string slide = "slide lift.yaml --part cube --trajectory hold.csv ";
   run(slide + "--out motion.csv --contacts contacts.csv --patches patches.csv --moving moving.csv");
