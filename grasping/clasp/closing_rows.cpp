@@ -35,4 +35,13 @@ void ClosingRows::add(const haptics::Contact& contact, std::size_t link) {
   }
 }
 
+void ClosingRows::bar(std::size_t link) {
+  rooms_.push_back(0.0);
+  normals_.emplace_back(Eigen::Vector3d::Zero());
+  arms_.emplace_back(Eigen::Vector3d::Zero());
+  rates_.push_back(-1.0);
+  for (std::size_t value = 0; value < wanted_.size(); ++value)
+    rates_.push_back(chain_.moves(value, link) ? -1.0 : 0.0);
+}
+
 }  // namespace glissade::grasping
