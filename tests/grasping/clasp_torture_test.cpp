@@ -104,7 +104,7 @@ class Torturer {
   }
 
   void try_values(Posture target) {
-    constexpr double kFarther_m = 25e-6;  // five times the bracket of the clasp
+    constexpr double kFarther_m = 0.1e-3;  // a link that is so near touches
     constexpr double kRounding_m = 1e-9;
     ++torture_.resting;
     hand_chain()->clamp(target.values);
