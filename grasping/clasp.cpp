@@ -170,7 +170,8 @@ class Clasp::Iteration {
     is_found_here_ = true;
     rows_.set(posture_, wanted_, found_, movers_);
     longest_step_ = kStepOfReach * reach;
-    const bool goes_on = go(false) || (slides_ && go(true));
+    failures_.clear();
+    const bool goes_on = go(false) || (slides_ && go(true)) || go_without_failures();
     const double taken = goes_on ? motion_.longest() : 0.0;
     const bool is_clipped = taken > 0.9 * longest_step_;
     reach_ =
@@ -197,6 +198,17 @@ class Clasp::Iteration {
       motion_.set(posture_, step_);
       if (motion_.longest() < kBracket_m) return false;
       if (bodies_.certify(motion_, failures_)) return move();
+    }
+    return false;
+  }
+
+  /// Leaves out the links whose motion cannot be proven free, so that they do not hold up the others.
+  bool go_without_failures() {
+    for (int retry = 0; retry < kRetries && !failures_.empty(); ++retry) {
+      for (const haptics::Contact& failure : failures_)
+        rows_.bar(movers_[static_cast<std::size_t>(failure.part)]);
+      failures_.clear();
+      if (go(false)) return true;
     }
     return false;
   }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <vector>
 
 #include <glissade/grasping/grasp_analysis.h>
@@ -7,7 +8,10 @@
 namespace glissade::grasping {
 namespace {
 
-constexpr double kHold_ms = 60.0;
+// A level is the low-pass filtered fact that a segment touches.
+constexpr double kFilter_ms = 30.0;
+constexpr double kCounts = 0.5;
+constexpr double kCountsNoMore = 0.1;
 constexpr double kOpposed = -0.7;   // cosine of the angle between two normals
 constexpr double kAlike = 0.6;      // the same for normals on one side
 constexpr double kFromBelow = 0.7;  // cosine of the angle to the vertical
@@ -90,7 +94,7 @@ const Grasp& GraspAnalysis::update(std::span<const LinkContact> contacts, double
   }
   Grasp firmest;
   for (const Touch& touch : touches_) {
-    if (touch.object < 0 || touch.object == firmest.object) continue;
+    if (!touch.counts || touch.object == firmest.object) continue;
     const Grasp grasp = analyze(touch.object, up_W);
     const bool is_firmer =
         grasp.type > firmest.type || (grasp.type == firmest.type && grasp.segments.count() > firmest.segments.count());
@@ -106,20 +110,21 @@ void GraspAnalysis::clear() {
 }
 
 void GraspAnalysis::follow(std::span<const LinkContact> contacts, double milliseconds) {
-  for (Touch& touch : touches_) {
-    touch.age_ms += milliseconds;
-    if (touch.age_ms > kHold_ms) touch = {};
-  }
+  const double share = 1.0 - std::exp(-milliseconds / kFilter_ms);
   std::array<Eigen::Vector3d, kHandLinks> sums;
   sums.fill(Eigen::Vector3d::Zero());
   for (const LinkContact& contact : contacts) {
     Touch& touch = touches_[contact.link];
-    Eigen::Vector3d& sum = sums[contact.link];
-    if (sum.isZero(0.0)) touch.object = contact.contact.obstacle;  // the first one that touches in this call
-    if (contact.contact.obstacle != touch.object) continue;
-    sum += contact.contact.n_W;
-    touch.age_ms = 0.0;
-    if (!sum.isZero(0.0)) touch.n_W = sum.normalized();
+    if (touch.object < 0) touch.object = contact.contact.obstacle;
+    if (touch.object == contact.contact.obstacle) sums[contact.link] += contact.contact.n_W;
+  }
+  for (std::size_t link = 0; link < kHandLinks; ++link) {
+    Touch& touch = touches_[link];
+    const bool touches_now = !sums[link].isZero(1e-12);
+    touch.level += share * ((touches_now ? 1.0 : 0.0) - touch.level);
+    if (touch.level >= kCounts) touch.counts = true;
+    if (!touches_now && touch.level < kCountsNoMore) touch = {};
+    if (touches_now) touch.n_W = ((1.0 - share) * touch.n_W + share * sums[link].normalized()).normalized();
   }
 }
 
@@ -127,8 +132,7 @@ Grasp GraspAnalysis::analyze(std::int32_t object, const Eigen::Vector3d& up_W) c
   Grasp grasp;
   grasp.object = object;
   for (std::size_t link = 0; link < kHandLinks; ++link) {
-    if (touches_[link].object == object && meaning_[link].segment != HandSegment::kNone)
-      grasp.segments.add(meaning_[link]);
+    if (touches(link, object) && meaning_[link].segment != HandSegment::kNone) grasp.segments.add(meaning_[link]);
   }
   grasp.type = type_of(grasp.segments);
   grasp.form = form_of(grasp, up_W);
@@ -139,9 +143,9 @@ GraspForm GraspAnalysis::form_of(const Grasp& grasp, const Eigen::Vector3d& up_W
   if (grasp.type == GraspType::kPrecision) return precision_form(grasp);
   int carrying = 0;
   bool all_carry = true;
-  for (const Touch& touch : touches_) {
-    if (touch.object != grasp.object) continue;
-    all_carry = all_carry && touch.n_W.dot(up_W) < -kFromBelow;
+  for (std::size_t link = 0; link < kHandLinks; ++link) {
+    if (!touches(link, grasp.object)) continue;
+    all_carry = all_carry && touches_[link].n_W.dot(up_W) < -kFromBelow;
     ++carrying;
   }
   if (all_carry && carrying >= 2) return GraspForm::kGravity;
@@ -176,21 +180,19 @@ bool GraspAnalysis::are_opposed(const Grasp& grasp) const {
   std::array<Eigen::Vector3d, 6> sums;
   sums.fill(Eigen::Vector3d::Zero());
   for (std::size_t link = 0; link < kHandLinks; ++link) {
-    if (touches_[link].object == grasp.object)
-      sums[static_cast<std::size_t>(meaning_[link].finger)] += touches_[link].n_W;
+    if (touches(link, grasp.object)) sums[static_cast<std::size_t>(meaning_[link].finger)] += touches_[link].n_W;
   }
-  const auto touches = [&](Finger finger) { return grasp.segments.has(finger); };
-  if (touches(Finger::kNone) || touches(Finger::kThumb)) return false;
-  const auto first = std::find_if(kAllFingers.begin(), kAllFingers.end(), touches);
-  if (std::count_if(first, kAllFingers.end(), touches) != 2 || !touches(*(first + 1))) return false;
+  const auto has = [&](Finger finger) { return grasp.segments.has(finger); };
+  if (has(Finger::kNone) || has(Finger::kThumb)) return false;
+  const auto first = std::find_if(kAllFingers.begin(), kAllFingers.end(), has);
+  if (std::count_if(first, kAllFingers.end(), has) != 2 || !has(*(first + 1))) return false;
   const auto n_W = [&](Finger finger) { return sums[static_cast<std::size_t>(finger)].normalized(); };
   return n_W(*first).dot(n_W(*(first + 1))) < kOpposed;
 }
 
 std::optional<Eigen::Vector3d> GraspAnalysis::normal(std::int32_t object, const SegmentMeaning& segment) const {
   for (std::size_t link = 0; link < kHandLinks; ++link) {
-    if (touches_[link].object == object && meaning_[link].finger == segment.finger &&
-        meaning_[link].segment == segment.segment)
+    if (touches(link, object) && meaning_[link].finger == segment.finger && meaning_[link].segment == segment.segment)
       return touches_[link].n_W;
   }
   return std::nullopt;

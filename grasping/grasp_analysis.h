@@ -75,10 +75,10 @@ struct Grasp {
 /// A sentence without a stop, such as "power: the palm and the middle segment of the index touch".
 std::string reason_of(const Grasp& grasp);
 
-/// Follows the grasp over time. A segment counts as touching until it has not touched for 60 ms, so that the noise of a
-/// sensor makes no grasp flicker; and no grasp lasts longer than that without its contacts. If several bodies are
-/// touched, the body counts whose grasp is the firmest: power, precision, push. Real-time safe after construction. Not
-/// thread-safe.
+/// Follows the grasp over time. A segment counts as touching once it has touched in most of the last 40 ms or so, and
+/// until it has hardly touched for 70 ms, so that the noise of sensors makes no grasp flicker. No grasp lasts longer
+/// than that without its contacts. If several bodies are touched, the body counts whose grasp is the firmest: power,
+/// precision, push. Real-time safe after construction. Not thread-safe.
 class GraspAnalysis {
  public:
   explicit GraspAnalysis(const HandModel& hand) : meaning_(hand.meaning) {}
@@ -96,11 +96,15 @@ class GraspAnalysis {
   /// A segment's contact with one body.
   struct Touch {
     std::int32_t object = -1;
-    Eigen::Vector3d n_W = Eigen::Vector3d::Zero();  // unit, from the object to the segment
-    double age_ms = 0.0;                            // since it last touched
+    bool counts = false;
+    double level = 0.0;                             // how much of the last milliseconds it touched, 0 to 1
+    Eigen::Vector3d n_W = Eigen::Vector3d::Zero();  // unit, from the object to the segment, the mean of them
   };
 
   void follow(std::span<const LinkContact> contacts, double milliseconds);
+  bool touches(std::size_t link, std::int32_t object) const {
+    return touches_[link].counts && touches_[link].object == object;
+  }
   Grasp analyze(std::int32_t object, const Eigen::Vector3d& up_W) const;
   GraspForm form_of(const Grasp& grasp, const Eigen::Vector3d& up_W) const;
   GraspForm precision_form(const Grasp& grasp) const;

@@ -9,6 +9,7 @@
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/shapes/benchmark_shapes.h>
 #include <glissade/shapes/car_door_parts.h>
+#include <glissade/shapes/household_objects.h>
 #include <glissade/shapes/shape_catalog.h>
 #include <glissade/shapes/sheet_metal.h>
 
@@ -186,11 +187,21 @@ std::vector<Entry> surface_and_part_entries() {
           door_part("window_motor", "window motor of the car door in its own frame", &make_window_motor)};
 }
 
+std::vector<Entry> household_entries() {
+  std::vector<Entry> entries;
+  for (const HouseholdObject& object : household_objects()) {
+    entries.push_back({{object.name, object.description, {{"edge_m", "longest edge of round surfaces", 0.006}}},
+                       [make = object.make](const Values& values) { return make(values.at("edge_m")); }});
+  }
+  return entries;
+}
+
 /// In alphabetical order.
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> kEntries = [] {
     std::vector<Entry> all = surface_and_part_entries();
     std::ranges::copy(machine_element_entries(), std::back_inserter(all));
+    std::ranges::copy(household_entries(), std::back_inserter(all));
     std::ranges::sort(all, {}, [](const Entry& entry) { return entry.shape.name; });
     return all;
   }();

@@ -1,7 +1,8 @@
 #pragma once
 
-/// The generators of `mesh_generators.h`, `benchmark_shapes.h`, `car_door_parts.h` and of the machine elements
-/// (`peg_and_hole.h`, `screw_thread.h`, `slide_in_unit.h`, `spur_gear.h`) by name, for scene files and command lines.
+/// The generators of `mesh_generators.h`, `benchmark_shapes.h`, `car_door_parts.h`, `household_objects.h` and of the
+/// machine elements (`peg_and_hole.h`, `screw_thread.h`, `slide_in_unit.h`, `spur_gear.h`) by name, for scene files and
+/// command lines.
 
 #include <map>
 #include <string>

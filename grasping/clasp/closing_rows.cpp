@@ -32,4 +32,11 @@ void ClosingRows::add(const haptics::Contact& contact, std::size_t link) {
   }
 }
 
+void ClosingRows::bar(std::size_t link) {
+  planes_.push_back({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0.0});
+  rates_.push_back(-1.0);
+  for (std::size_t value = 0; value < wanted_.size(); ++value)
+    rates_.push_back(chain_.moves(value, link) ? -1.0 : 0.0);
+}
+
 }  // namespace glissade::grasping

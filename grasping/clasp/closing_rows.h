@@ -28,6 +28,8 @@ class ClosingRows {
            std::span<const std::size_t> movers);
   /// Adds a row to them.
   void add(const haptics::Contact& contact, std::size_t link);
+  /// Adds a row that no mover of this link may close, whichever way it moves the link.
+  void bar(std::size_t link);
 
   std::size_t count() const { return planes_.size(); }
   std::size_t columns() const { return columns_; }

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -179,77 +176,6 @@ TEST(Clasp, GivesTheSameBitsAgain) {
   }
   EXPECT_EQ(first.clasp.posture().values, second.clasp.posture().values);
   EXPECT_EQ(first.clasp.posture().X_WR.matrix(), second.clasp.posture().X_WR.matrix());
-}
-
-/// A hand that moves about an object at random, each flex value through its whole range at up to 10 rad/s or more.
-class RandomHand {
- public:
-  RandomHand(std::uint64_t seed, double speed) : random_(seed), speed_(speed) {
-    for (const FlexValue& value : hand_chain()->values())
-      waves_.push_back({value, std::numbers::pi * unit_(random_), speed * (6.0 + 4.0 * unit_(random_))});
-  }
-
-  Posture at_ms(int ms) const {
-    const double t = 1e-3 * ms;
-    Posture posture = open_hand();
-    for (std::size_t v = 0; v < waves_.size(); ++v) {
-      const Wave& wave = waves_[v];
-      const double middle = 0.5 * (wave.value.lower + wave.value.upper);
-      posture.values[v] = middle + (wave.value.upper - middle) * std::sin(wave.rate * t + wave.phase);
-    }
-    const Eigen::Quaterniond turn = Eigen::AngleAxisd(0.7 * speed_ * t, Eigen::Vector3d(0.3, 0.5, 0.8).normalized()) *
-                                    Eigen::AngleAxisd(0.5 * std::sin(3.0 * speed_ * t), Eigen::Vector3d::UnitX());
-    const double distance = 0.07 + 0.05 * std::sin(2.1 * speed_ * t);
-    posture.X_WR.linear() = turn.toRotationMatrix();
-    posture.X_WR.translation() = turn * Eigen::Vector3d(-0.09, 0.0, distance);
-    return posture;
-  }
-
- private:
-  struct Wave {
-    FlexValue value;
-    double phase;
-    double rate;
-  };
-
-  std::mt19937_64 random_;
-  std::uniform_real_distribution<double> unit_{-1.0, 1.0};
-  double speed_;
-  std::vector<Wave> waves_;
-};
-
-/// GLISSADE_GRASP_MS: milliseconds for each object, for a longer run.
-int torture_ms() {
-  const char* const text = std::getenv("GLISSADE_GRASP_MS");
-  return text != nullptr ? std::atoi(text) : 300;
-}
-
-TEST(Clasp, OfAWildHandIsFreeAtEveryPostureAndOnEveryWay) {
-  const std::vector<std::pair<std::string, geometry::TriangleMesh>> objects{
-      {"ball", geometry::make_sphere(0.035, 1000)},
-      {"box", geometry::make_box({0.06, 0.05, 0.08}, 300)},
-      {"ring", geometry::make_torus(0.04, 0.008, 1000)},
-      {"open sheet", geometry::make_plate({0.15, 0.1}, 100)}};
-  for (const auto& [name, object] : objects) {
-    int touching = 0;
-    for (const double speed : {1.0, 3.0}) {
-      constexpr std::uint64_t kSeed = 11;
-      const RandomHand random(kSeed, speed);
-      ClaspedHand hand(object, Eigen::Isometry3d::Identity());
-      Posture last = hand.clasp.posture();
-      for (int ms = 0; ms < torture_ms(); ++ms) {
-        const bool was_clasping = hand.clasp.state() == ClaspState::kClasping;
-        hand.clasp.advance(random.at_ms(ms));
-        if (hand.clasp.state() == ClaspState::kWaiting) continue;
-        ASSERT_FALSE(hand.collides(hand.clasp.posture())) << name << ", seed " << kSeed << ", ms " << ms;
-        const bool is_bad = was_clasping && hand.way_collides(last, 4);
-        ASSERT_FALSE(is_bad) << name << ", seed " << kSeed << ", ms " << ms;
-        last = hand.clasp.posture();
-        touching += hand.clasp.contacts().empty() ? 0 : 1;
-      }
-    }
-    EXPECT_GT(touching, 0) << name;
-  }
 }
 
 }  // namespace

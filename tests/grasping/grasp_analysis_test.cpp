@@ -40,7 +40,8 @@ LinkContact touch(const SegmentMeaning& segment, const Vector3d& n_W = Vector3d:
 
 Grasp grasp_of(const std::vector<LinkContact>& contacts) {
   GraspAnalysis analysis(*test_support::hand_model());
-  return analysis.update(contacts, 1.0);
+  constexpr double kLong_ms = 100.0;
+  return analysis.update(contacts, kLong_ms);
 }
 
 TEST(GraspAnalysis, NothingThatTouchesIsNoGrasp) {
@@ -125,7 +126,8 @@ TEST(GraspAnalysis, AContactThatIsMissingForAMomentMakesNoGraspFlicker) {
   GraspAnalysis analysis(*test_support::hand_model());
   const std::vector<LinkContact> whole{touch(outer(Finger::kThumb)), touch(outer(Finger::kIndex))};
   const std::vector<LinkContact> without_thumb{whole[1]};
-  analysis.update(whole, 1.0);
+  for (int i = 0; i < 100; ++i)
+    analysis.update(whole, 1.0);
   for (int i = 0; i < 50; ++i)
     EXPECT_EQ(analysis.update(without_thumb, 1.0).type, GraspType::kPrecision) << i;
   for (int i = 0; i < 50; ++i)
@@ -133,6 +135,27 @@ TEST(GraspAnalysis, AContactThatIsMissingForAMomentMakesNoGraspFlicker) {
   EXPECT_EQ(analysis.grasp().type, GraspType::kPush) << "it is over";
   analysis.clear();
   EXPECT_EQ(analysis.update({}, 1.0).type, GraspType::kNone);
+}
+
+TEST(GraspAnalysis, AContactThatComesNowAndThenChangesNoGrasp) {
+  GraspAnalysis analysis(*test_support::hand_model());
+  const std::vector<LinkContact> pinch{touch(outer(Finger::kThumb)), touch(outer(Finger::kIndex))};
+  std::vector<LinkContact> grazed = pinch;
+  grazed.push_back(touch(middle(Finger::kIndex)));
+  for (int i = 0; i < 100; ++i)
+    analysis.update(pinch, 1.0);
+  for (int i = 0; i < 1000; ++i)
+    ASSERT_EQ(analysis.update(i % 4 == 0 ? grazed : pinch, 1.0).form, GraspForm::kTipPinch) << i;
+}
+
+TEST(GraspAnalysis, ANewContactCountsAfterSomeMilliseconds) {
+  GraspAnalysis analysis(*test_support::hand_model());
+  const std::vector<LinkContact> contacts{touch(outer(Finger::kIndex))};
+  int delay_ms = 1;
+  while (analysis.update(contacts, 1.0).type == GraspType::kNone && delay_ms < 100)
+    ++delay_ms;
+  EXPECT_GT(delay_ms, 5);
+  EXPECT_LE(delay_ms, 25);
 }
 
 }  // namespace

@@ -1,0 +1,27 @@
+#pragma once
+
+/// Things of a household that a hand grasps, for tests and pictures of grasping: tools, tableware and small things at
+/// their real sizes, with rounded edges.
+
+#include <string>
+#include <vector>
+
+#include <glissade/geometry/triangle_mesh.h>
+
+namespace glissade::shapes {
+
+/// A kind of object. `make` returns its mesh in metres. `edge` (metres) is the longest edge of cells on round surfaces;
+/// flat faces have larger triangles. The shape hardly depends on it. Every object consists of closed components with
+/// triangles that face outward, which may overlap where parts are joined, such as a handle and its mug. The sheet of
+/// paper alone is an open sheet without thickness. `make` throws std::invalid_argument for an edge outside
+/// 0.5 ... 20 mm. Its cost is linear in the number of triangles.
+struct HouseholdObject {
+  std::string name;
+  std::string description;
+  geometry::TriangleMesh (*make)(double edge);
+};
+
+/// All objects, in alphabetical order. `shape_catalog.h` finds them by name.
+const std::vector<HouseholdObject>& household_objects();
+
+}  // namespace glissade::shapes

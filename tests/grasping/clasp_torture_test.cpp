@@ -1,0 +1,156 @@
+/// Wild hands about things of a household: no posture, and no place on the way to it, collides, by a check that shares
+/// no code with the trees; and no flex value stops before it must.
+///
+/// Environment: GLISSADE_GRASP_POSTURES, postures in total (default 4,000); GLISSADE_GRASP_MESHES, mesh files in metres
+/// separated by colons, about which hands move too. What happens at these is only reported.
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/geometry/mesh_import.h>
+#include <glissade/shapes/household_objects.h>
+
+#include "clasped_hand.h"
+#include "nearer_posture.h"
+#include "wild_hand.h"
+
+namespace glissade::grasping {
+namespace {
+
+using geometry::TriangleMesh;
+using test_support::ClaspedHand;
+using test_support::hand_chain;
+using test_support::NearerPosture;
+using test_support::WildHand;
+using test_support::WildMotion;
+
+constexpr double kObjectEdge_m = 8e-3;
+constexpr int kPlacesOfStep = 4;
+
+int postures_in_total() {
+  const char* const text = std::getenv("GLISSADE_GRASP_POSTURES");
+  return text != nullptr ? std::atoi(text) : 4000;
+}
+
+/// What hands have done about one object.
+struct Torture {
+  int postures = 0;
+  int touching = 0;
+  int places = 0;     ///< looked at on the way
+  int colliding = 0;  ///< postures that collide, or have collided on the way to them
+  int resting = 0;    ///< postures at rest, in which every flex value was tried
+  int too_early = 0;  ///< of these, with a flex value that stopped before it had to
+  std::string first_failure;
+};
+
+std::ostream& operator<<(std::ostream& out, const Torture& t) {
+  return out << t.postures << " postures (" << t.touching << " touching) and " << t.places << " places between, "
+             << t.colliding << " collide; " << t.resting << " postures at rest, in " << t.too_early
+             << " a flex value stopped too early" << t.first_failure;
+}
+
+/// Lets hands with consecutive seeds move about one object.
+class Torturer {
+ public:
+  explicit Torturer(const TriangleMesh& object)
+      : object_(object), hand_(object, Eigen::Isometry3d::Identity()), nearer_(*hand_chain(), object) {}
+
+  /// Until there are `least` postures. At the end of each motion the target rests until the hand rests too, and every
+  /// flex value is tried.
+  const Torture& run(std::uint64_t seed, int least) {
+    while (torture_.postures < least)
+      move(seed++);
+    return torture_;
+  }
+
+ private:
+  void move(std::uint64_t seed) {
+    constexpr int kLongestRest_ms = 400;
+    const auto motion = static_cast<WildMotion>(seed % test_support::kWildMotions);
+    name_ = "seed " + std::to_string(seed);
+    const WildHand wild(seed, motion, object_);
+    hand_.clasp.move_cart(wild.at_ms(0));
+    for (int ms = 0; ms < WildHand::kMs + kLongestRest_ms; ++ms) {
+      advance(wild.at_ms(std::min(ms, WildHand::kMs)), ms);
+      const bool rests = hand_.clasp.state() == ClaspState::kClasping && hand_.clasp.way().empty();
+      if (ms >= WildHand::kMs && rests) return try_values(wild.at_ms(WildHand::kMs));
+    }
+  }
+
+  void advance(const Posture& target, int ms) {
+    const bool was_clasping = hand_.clasp.state() == ClaspState::kClasping;
+    const Posture last = hand_.clasp.posture();
+    hand_.clasp.advance(target);
+    if (hand_.clasp.state() == ClaspState::kWaiting) return;
+    ++torture_.postures;
+    torture_.touching += hand_.clasp.contacts().empty() ? 0 : 1;
+    bool collides = hand_.collides(hand_.clasp.posture());
+    if (was_clasping) {
+      collides = collides || hand_.way_collides(last, kPlacesOfStep);
+      torture_.places += kPlacesOfStep * static_cast<int>(hand_.clasp.way().size());
+    }
+    if (!collides) return;
+    ++torture_.colliding;
+    note("a collision at " + std::to_string(ms) + " ms");
+  }
+
+  void try_values(Posture target) {
+    constexpr double kFarther_m = 0.1e-3;  // a link that is so near touches
+    constexpr double kRounding_m = 1e-9;
+    ++torture_.resting;
+    hand_chain()->clamp(target.values);
+    const auto early = nearer_.find(hand_.clasp.posture(), target, ClaspRules{}.margin + kRounding_m, kFarther_m);
+    if (!early) return;
+    ++torture_.too_early;
+    note(hand_chain()->values()[*early].name + " too early");
+  }
+
+  void note(const std::string& what) {
+    if (torture_.first_failure.empty()) torture_.first_failure = "; first: " + what + " with " + name_;
+  }
+
+  TriangleMesh object_;
+  ClaspedHand hand_;
+  NearerPosture nearer_;
+  std::string name_;
+  Torture torture_;
+};
+
+class ClaspTorture : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(ClaspTorture, NothingCollidesAndNoFlexValueStopsTooEarly) {
+  const shapes::HouseholdObject& object = shapes::household_objects()[GetParam()];
+  const std::uint64_t seed = 1001 * (GetParam() + 1);
+  const int least = postures_in_total() / static_cast<int>(shapes::household_objects().size());
+  const Torture result = Torturer(object.make(kObjectEdge_m)).run(seed, least);
+  std::cout << object.name << ", seed " << seed << ": " << result << "\n";
+  EXPECT_EQ(result.colliding, 0) << result;
+  EXPECT_EQ(result.too_early, 0) << result;
+  EXPECT_GT(result.touching, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Objects, ClaspTorture, testing::Range(std::size_t{0}, shapes::household_objects().size()),
+                         [](const auto& object) { return shapes::household_objects()[object.param].name; });
+
+TEST(ClaspTortureOfFiles, IsReported) {
+  const char* const files = std::getenv("GLISSADE_GRASP_MESHES");
+  if (files == nullptr) GTEST_SKIP() << "GLISSADE_GRASP_MESHES names no mesh files";
+  std::istringstream list(files);
+  for (std::string file; std::getline(list, file, ':');) {
+    const TriangleMesh mesh = geometry::import_mesh(file).mesh;
+    const Torture result = Torturer(mesh).run(1, postures_in_total() / 20);
+    std::cout << std::filesystem::path(file).stem().string() << ", seed 1: " << result << "\n";
+  }
+}
+
+}  // namespace
+}  // namespace glissade::grasping

@@ -1,0 +1,133 @@
+/// The grasps of docs/grasps.md: their types, their forms, and that noise makes none of them flicker.
+///
+/// Environment: GLISSADE_GRASP_NOISE_MS, how long each held grasp is disturbed (default 50).
+
+#include "labelled_grasps.h"
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace glissade::grasping {
+namespace {
+
+using test_support::GraspTrial;
+using test_support::LabelledGrasp;
+
+const std::vector<LabelledGrasp>& labelled_grasps() {
+  static const std::vector<LabelledGrasp> kGrasps = test_support::read_labelled_grasps(GLISSADE_LABELLED_GRASPS);
+  return kGrasps;
+}
+
+std::string label(GraspType type, GraspForm form) {
+  return std::string(name_of(type)) + (form == GraspForm::kNone ? "" : ", " + std::string(name_of(form)));
+}
+
+/// How often grasps with one label were analyzed as another.
+using Confusion = std::map<std::string, std::map<std::string, int>>;
+
+void print(const Confusion& confusion) {
+  std::cout << "labelled as -> analyzed as\n";
+  for (const auto& [labelled, row] : confusion) {
+    std::cout << std::setw(24) << labelled << " ->";
+    for (const auto& [analyzed, count] : row)
+      std::cout << "  " << count << " " << analyzed;
+    std::cout << "\n";
+  }
+}
+
+TEST(LabelledGrasps, AllTypesAndNearlyAllFormsAreRecognized) {
+  Confusion confusion;
+  int right = 0;
+  for (const LabelledGrasp& labelled : labelled_grasps()) {
+    GraspTrial trial(labelled);
+    const Grasp grasp = trial.close();
+    EXPECT_EQ(name_of(grasp.type), name_of(labelled.type)) << labelled.name << " is " << reason_of(grasp);
+    EXPECT_FALSE(trial.hand().collides(trial.hand().clasp.posture())) << labelled.name;
+    ++confusion[label(labelled.type, labelled.form)][label(grasp.type, grasp.form)];
+    right += grasp.type == labelled.type && grasp.form == labelled.form ? 1 : 0;
+  }
+  print(confusion);
+  EXPECT_GE(labelled_grasps().size(), 60U);
+  EXPECT_GE(right, 0.95 * static_cast<double>(labelled_grasps().size()));
+}
+
+/// A glove and a tracker that are not quite sure, with normally distributed errors.
+class NoisySensors {
+ public:
+  explicit NoisySensors(std::uint64_t seed) : random_(seed) {}
+
+  Posture disturbed(const Posture& posture) {
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    Posture noisy = posture;
+    for (double& value : noisy.values)
+      value += 2.0 * kDegree * normal_(random_);
+    noisy.X_WR.translation() += 1e-3 * vector();
+    const Eigen::Vector3d turn = kDegree * vector();
+    noisy.X_WR.rotate(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+    return noisy;
+  }
+
+ private:
+  /// Each coordinate with the standard deviation 1 / √3, so that its length is about 1.
+  Eigen::Vector3d vector() {
+    const double x = normal_(random_);
+    const double y = normal_(random_);
+    return Eigen::Vector3d(x, y, normal_(random_)) / std::numbers::sqrt3;
+  }
+
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+};
+
+int noise_ms() {
+  const char* const text = std::getenv("GLISSADE_GRASP_NOISE_MS");
+  return text != nullptr ? std::atoi(text) : 50;
+}
+
+TEST(LabelledGrasps, NoiseOfTheSensorsMakesNoHeldGraspFlicker) {
+  constexpr std::uint64_t kSeed = 5;
+  constexpr int kSettling_ms = 70;
+  for (const LabelledGrasp& labelled : labelled_grasps()) {
+    if (labelled.slips) continue;
+    GraspTrial trial(labelled);
+    if (!trial.close().holds()) continue;
+    NoisySensors sensors(kSeed);
+    for (int ms = 0; ms < kSettling_ms; ++ms)
+      trial.advance(sensors.disturbed(labelled.close));
+    const Grasp held = trial.analysis().grasp();
+    EXPECT_EQ(label(held.type, held.form), label(labelled.type, labelled.form)) << labelled.name << ", seed " << kSeed;
+    int changes = 0;
+    for (int ms = 0; ms < noise_ms(); ++ms) {
+      const Grasp& grasp = trial.advance(sensors.disturbed(labelled.close));
+      changes += grasp.type != held.type || grasp.form != held.form ? 1 : 0;
+    }
+    EXPECT_EQ(changes, 0) << labelled.name << ", seed " << kSeed;
+  }
+}
+
+TEST(LabelledGrasps, EachHasItsFigureOnThePage) {
+  const std::filesystem::path docs(GLISSADE_DOCS);
+  std::ifstream file(docs / "grasps.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  int number = 0;
+  for (const LabelledGrasp& labelled : labelled_grasps()) {
+    const std::string figure = "images/grasps/" + std::to_string(++number) + ".png";
+    EXPECT_NE(page.find("![" + labelled.name + "](" + figure + ")"), std::string::npos) << labelled.name;
+    EXPECT_TRUE(std::filesystem::exists(docs / figure)) << figure;
+  }
+}
+
+}  // namespace
+}  // namespace glissade::grasping
