@@ -211,7 +211,7 @@ TEST(SearchThread, RunsAheadByNoMoreWorkThanItMay) {
   const ContactScene scene = crowded_scene();
   SearchThread thread(kAhead);
   CandidateSearch search(scene, 5e-3, &thread);
-  const CandidateRequest request{.X_WV = {scene.bodies().back().X_WB}, .radius = 2e-3, .ignored = {}};
+  const CandidateRequest request{.X_WB = {scene.bodies().back().X_WB}, .radius = 2e-3, .ignored = {}};
   CandidateSet found;
   thread.begin(search, request, found);
   for (const std::int64_t allowed : {0, 10'000, 30'000}) {
