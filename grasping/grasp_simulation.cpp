@@ -240,7 +240,10 @@ std::size_t GraspSimulation::part_count() const {
 }
 
 HandState GraspSimulation::state(std::size_t hand) const {
-  return life_->hand(hand).state();
+  const GraspingHand& one = life_->hand(hand);
+  if (one.is_lost()) return HandState::kLost;
+  if (one.clasp().state() == ClaspState::kWaiting) return HandState::kWaiting;
+  return one.part() ? HandState::kHolding : HandState::kFree;
 }
 
 const Posture& GraspSimulation::posture(std::size_t hand) const {

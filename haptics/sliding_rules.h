@@ -99,8 +99,8 @@ struct SlidingRules {
   /// Work of a search: where a search finds more pairs of triangles than this, the next ones look half as far, though
   /// not less than 0.2 mm, and steps are shorter. Answers then come sooner, and a fast part falls behind. At least 1.
   std::size_t affordable_pairs = 30'000;
-  /// Work of one call: searches may take so much, and cycles as much again. Where a search takes more than half of it,
-  /// the next ones look less far. The unit is about a nanosecond of an ordinary
+  /// Work of one call: searches may take so much, and cycles as much again. Where searches take more than half of it
+  /// on average, the next ones look less far. The unit is about a nanosecond of an ordinary
   /// processor, but it counts pairs and proofs, so no bit depends on the speed of the machine. On another
   /// instruction set (SSE4, AVX2, AVX-512, NEON) it may differ by a few pairs, and so may the call that ends. A call
   /// ends when the work is used up, or one indivisible piece later: a projection on the contacts, or the proof of a

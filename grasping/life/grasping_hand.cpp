@@ -33,12 +33,6 @@ GraspingHand::GraspingHand(std::shared_ptr<const HandModel> model, const std::ve
       X_WL_(model_->chain.links().size()),
       X_WB_(links_.size()) {}
 
-HandState GraspingHand::state() const {
-  if (is_lost()) return HandState::kLost;
-  if (clasp_.state() == ClaspState::kWaiting) return HandState::kWaiting;
-  return part_ ? HandState::kHolding : HandState::kFree;
-}
-
 std::vector<std::shared_ptr<const haptics::SlidingPart>> GraspingHand::bodies_of(const HandModel& model) {
   std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies;
   for (const std::size_t link : links_that_touch(model.chain))

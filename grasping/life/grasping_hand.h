@@ -11,7 +11,10 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/grasping/grasp_simulation.h>
+#include <glissade/grasping/clasp.h>
+#include <glissade/grasping/grasp_analysis.h>
+#include <glissade/grasping/hand_model.h>
+#include <glissade/haptics/contact_body.h>
 
 namespace glissade::grasping {
 
@@ -24,7 +27,6 @@ class GraspingHand {
   const Clasp& clasp() const { return clasp_; }
   Clasp& clasp() { return clasp_; }
   const Grasp& grasp() const { return analysis_.grasp(); }
-  HandState state() const;
   std::optional<std::size_t> part() const { return part_; }
 
   /// The pose of a segment for each of the hand's bodies: the riders of the sliding simulation.

@@ -46,6 +46,7 @@ CandidatePairs::~CandidatePairs() {
 }
 
 void CandidatePairs::begin_call() {
+  ++calls_;
   work_left_ = work_of_call_;
   if (!is_with_thread_ || work_of_call_ == kUnlimitedWork) return;
   allowed_ += std::exchange(work_left_, 0);
@@ -81,6 +82,7 @@ bool CandidatePairs::take_next(double reach, double ahead, std::span<const BodyP
   if (!thread_) search_.find(next_.request, next_.set);  // only now, when its answer is certainly needed
   std::swap(now_, next_);
   next_.is_there = false;
+  calls_served_ = std::exchange(calls_, 0);
   ++statistics_.searches;
   statistics_.reports += now_.set.report;
   return true;

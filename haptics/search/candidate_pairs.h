@@ -73,6 +73,8 @@ class CandidatePairs {
   std::int64_t work_of_search() const { return thread_->work(); }
   /// Work of the search that found the candidates; 0 without a limit of work.
   std::int64_t work() const { return work_; }
+  /// Number of calls that the candidates before these served.
+  int calls_served() const { return calls_served_; }
 
   const SearchStatistics& statistics() const { return statistics_; }
 
@@ -121,6 +123,8 @@ class CandidatePairs {
   Search now_;
   Search next_;
   std::int64_t work_ = 0;
+  int calls_ = 0;  // since the search that found the candidates
+  int calls_served_ = 0;
   SearchStatistics statistics_;
 };
 

@@ -1,6 +1,7 @@
 #include "sliding/search_radius.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "sliding/sliding_constants.h"
 
@@ -14,6 +15,7 @@ constexpr double kSmallestReachLimit_m = 0.2e-3;
 constexpr std::size_t kAffordablePairsAhead = 3000;
 constexpr double kSmallestLimitAhead_m = 50e-6;
 constexpr double kSmallestLimitOfSearch_m = 60e-6;
+constexpr int kMostCallsOfSearch = 4;  // over which the work of a search is spread in the account
 
 }  // namespace
 
@@ -55,8 +57,9 @@ bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignore
   };
   limit_ = adapted(limit_, shared.candidates.size() <= shared.rules.affordable_pairs, kSmallestReachLimit_m);
   limit_ahead_ = adapted(limit_ahead_, shared.candidates.size() <= kAffordablePairsAhead, kSmallestLimitAhead_m);
-  limit_of_search_ =
-      adapted(limit_of_search_, shared.candidates.work() <= shared.affordable_search, kSmallestLimitOfSearch_m);
+  const std::int64_t calls = std::clamp(shared.candidates.calls_served(), 1, kMostCallsOfSearch);
+  const bool is_affordable = shared.candidates.work() / calls <= shared.affordable_search;
+  limit_of_search_ = adapted(limit_of_search_, is_affordable, kSmallestLimitOfSearch_m);
   return true;
 }
 

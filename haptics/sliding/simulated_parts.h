@@ -34,7 +34,7 @@ struct SimulatedParts {
   double ghost_motion() const;
 
   SlidingRules rules;
-  std::int64_t affordable_search;  // work of one that is not too large
+  std::int64_t affordable_search;  // work of searches in a call, on average, that are not too large
   std::int64_t work_of_steps;      // of a call, without searches
   ContactScene scene;
   CandidatePairs candidates;
