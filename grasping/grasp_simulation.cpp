@@ -195,7 +195,8 @@ class GraspSimulation::Life {
     }
   }
 
-  /// A part that is pushed follows the push, and is released when no hand pushes it any more.
+  /// A part that is pushed follows the push, and is released when no hand pushes it any more. A hand that is about to
+  /// take hold of it pushes it no farther.
   void note_push(std::size_t p) {
     if (parts_.is_scripted(p) || is_held(p)) return;
     Push& push = pushes_[p];
@@ -204,7 +205,7 @@ class GraspSimulation::Life {
     const auto body = static_cast<std::int32_t>(parts_.obstacle_count() + p);
     const Eigen::Isometry3d& X_WV = parts_.result(p).X_WV;
     for (const GraspingHand& hand : hands_) {
-      if (!hand.is_lost()) push.add(hand.clasp().contacts(), body, X_WV, parts_.part(p));
+      if (!hand.is_lost() && !hand.closes_round(body)) push.add(hand.clasp().contacts(), body, X_WV, parts_.part(p));
     }
     if (push.is_empty() && was_pushed) parts_.release(p);
     if (!push.is_empty() && !was_pushed) parts_.grasp(p, X_WV);

@@ -6,7 +6,7 @@
 namespace glissade::grasping {
 
 geometry::Displacement slide_past(const geometry::Displacement& wanted, std::span<const ContactPlane> planes,
-                                  double radius, std::vector<double>& forces) {
+                                  double radius, std::vector<double>& forces, double compliance) {
   constexpr int kSweeps = 60;
   constexpr double kDone = 1e-3;
   const double per_turn = 1.0 / (radius * radius);
@@ -22,7 +22,7 @@ geometry::Displacement slide_past(const geometry::Displacement& wanted, std::spa
       const Eigen::Vector3d turning = planes[i].r_W.cross(n);
       const double stiffness = 1.0 + per_turn * turning.squaredNorm();
       const double short_of = -planes[i].room - (n.dot(d.v) + turning.dot(d.w));
-      const double push = std::max(-forces[i], short_of / stiffness);
+      const double push = std::max(-forces[i], (short_of - compliance * forces[i]) / (stiffness + compliance));
       forces[i] += push;
       d.v += push * n;
       d.w += push * per_turn * turning;

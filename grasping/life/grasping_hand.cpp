@@ -30,6 +30,7 @@ GraspingHand::GraspingHand(std::shared_ptr<const HandModel> model, const std::ve
       first_part_(static_cast<std::int32_t>(fixed.size())),
       clasp_(chain_of(model_), fixed, std::move(parts), rules),
       analysis_(*model_),
+      now_(*model_),
       X_WL_(model_->chain.links().size()),
       X_WB_(links_.size()) {}
 
@@ -95,13 +96,14 @@ void GraspingHand::advance() {
 }
 
 void GraspingHand::analyze(double milliseconds, const Eigen::Vector3d& up_W) {
+  constexpr double kAtOnce_ms = 1e6;
   since_left_ms_ += milliseconds;
-  if (is_lost() || clasp_.state() != ClaspState::kClasping) {
-    analysis_.clear();
-    return;
-  }
+  now_.clear();
+  if (clasp_.state() != ClaspState::kClasping) analysis_.clear();
+  if (is_lost() || clasp_.state() != ClaspState::kClasping) return;
   const std::int32_t held = part_ ? first_part_ + static_cast<std::int32_t>(*part_) : -1;
   analysis_.update(clasp_.contacts(), milliseconds, up_W, held);
+  now_.update(clasp_.contacts(), kAtOnce_ms, up_W);
 }
 
 }  // namespace glissade::grasping

@@ -48,6 +48,8 @@ class GraspingHand {
   /// Moves the hand: with the held part, which is now at X_WV, or towards its target.
   void follow(const Eigen::Isometry3d& X_WV);
   void advance();
+  /// Whether the contacts of this moment hold the body: before the analysis says so, they must last.
+  bool closes_round(std::int32_t body) const { return now_.grasp().holds() && now_.grasp().object == body; }
   /// Looks at the contacts.
   void analyze(double milliseconds, const Eigen::Vector3d& up_W);
 
@@ -62,6 +64,7 @@ class GraspingHand {
   std::int32_t first_part_;  // the number of its body
   Clasp clasp_;
   GraspAnalysis analysis_;
+  GraspAnalysis now_;  // of this moment alone
   std::optional<Posture> target_;
   std::optional<std::size_t> part_;
   std::optional<std::size_t> left_;  // the part that the hand held last

@@ -25,10 +25,13 @@ class Push {
            const haptics::SlidingPart& part);
   bool is_empty() const { return planes_.empty(); }
 
-  /// The shortest displacement of the part on which the targets of all hands have room, to first order.
-  geometry::Displacement displacement(double radius) { return slide_past({}, planes_, radius, forces_); }
+  /// The shortest displacement of the part on which the targets of all hands have room, to first order; where they have
+  /// none, because they press from all sides, a balance.
+  geometry::Displacement displacement(double radius) { return slide_past({}, planes_, radius, forces_, kCompliance); }
 
  private:
+  static constexpr double kCompliance = 0.1;
+
   std::vector<ContactPlane> planes_;
   std::vector<double> forces_;
 };

@@ -64,10 +64,10 @@ class Torturer {
   explicit Torturer(const TriangleMesh& object)
       : object_(object), hand_(object, Eigen::Isometry3d::Identity()), nearer_(*hand_chain(), object) {}
 
-  /// Until there are `least` postures. At the end of each motion the target rests until the hand rests too, and every
+  /// Until there are `least` postures, and one that touches. At the end of each motion the target rests until the hand rests too, and every
   /// flex value is tried.
   const Torture& run(std::uint64_t seed, int least) {
-    while (torture_.postures < least)
+    while (torture_.postures < least || torture_.touching == 0)
       move(seed++);
     return torture_;
   }
@@ -135,7 +135,6 @@ TEST_P(ClaspTorture, NothingCollidesAndNoFlexValueStopsTooEarly) {
   std::cout << object.name << ", seed " << seed << ": " << result << "\n";
   EXPECT_EQ(result.colliding, 0) << result;
   EXPECT_EQ(result.too_early, 0) << result;
-  EXPECT_GT(result.touching, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Objects, ClaspTorture, testing::Range(std::size_t{0}, shapes::household_objects().size()),

@@ -203,7 +203,7 @@ Isometry3d rolling_ghost(int call) {
 
 TEST(WorkBudget, TheTimeOfAContactSetIsThatOfTheGhostsThatItAnswers) {
   MultiPartSliding sliding({fine_block()}, {{.part_V = fine_ball(), .X_WV_start = kAboveBlock}},
-                           {.work_budget = 20'000});
+                           {.work_budget = 10'000});
   Answerer answerer(sliding);
   int old = 0;
   std::chrono::nanoseconds last{0};
@@ -232,7 +232,7 @@ TEST(WorkBudget, TheMotionOfOnePartIsKeptWhileAnotherIsGraspedAndLetGo) {
   MultiPartSliding sliding({fine_block()},
                            {{.part_V = fine_ball(), .X_WV_start = X_WV_start, .metaphor = Metaphor::kIncremental},
                             {.part_V = test_support::cube(0.04), .X_WV_start = X_aside}},
-                           {.work_budget = 2'000});
+                           {.work_budget = 1'000});
   int early = 0;
   bool is_held = true;
   for (int call = 1; call <= 1000; ++call) {
