@@ -45,7 +45,8 @@ constexpr const char* kGraspFooter =
     "All columns: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples:\n"
-    "  glissade grasp examples/scenes/ball_and_tray.yaml --hand-trajectory examples/scenes/ball_and_tray_hand.csv --out hand.csv\n"
+    "  glissade grasp examples/scenes/ball_and_tray.yaml --hand-trajectory examples/scenes/ball_and_tray_hand.csv "
+    "--out hand.csv\n"
     "  glissade grasp desk.yaml --hand-trajectory left.csv right.csv --hand left.yaml right.yaml --objects moved.csv";
 
 struct GraspOptions {
@@ -61,14 +62,13 @@ std::vector<std::string> hand_columns() {
   std::vector<std::string> columns{"t_s", "hand", "state", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};
   for (const std::string& column : flex_columns())
     columns.push_back(column);
-  for (const char* column :
-       {"touching", "grasp", "form", "object", "ox_m", "oy_m", "oz_m", "oqw", "oqx", "oqy", "oqz"})
+  for (const char* column : {"touching", "grasp", "form", "object", "ox_m", "oy_m", "oz_m", "oqw", "oqx", "oqy", "oqz"})
     columns.emplace_back(column);
   return columns;
 }
 
 std::vector<std::string> object_columns() {
-  return {"t_s", "object", "x_m",  "y_m",  "z_m",   "qw",    "qx",   "qy",
+  return {"t_s", "object", "x_m",  "y_m",  "z_m",  "qw",    "qx",    "qy",
           "qz",  "state",  "fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm"};
 }
 
@@ -219,7 +219,8 @@ void add_grasp_command(CLI::App& app, Command& chosen) {
   command->footer(std::string(kGraspFooter) + kSlidingChoiceHelp + kSceneFileHelp);
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
   command
-      ->add_option("--hand-trajectory", options->trajectories, "Trajectory of a hand (CSV), see below; one for each hand")
+      ->add_option("--hand-trajectory", options->trajectories,
+                   "Trajectory of a hand (CSV), see below; one for each hand")
       ->required();
   command->add_option("--hand", options->hands, "Whose hand (YAML), see below");
   add_sliding_options(*command, options->sliding);

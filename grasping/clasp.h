@@ -61,9 +61,9 @@ class Clasp {
 
   /// The same for an object of which the caller knows that it has touched nothing on its way there.
   void place_free_object(std::size_t object, const Eigen::Isometry3d& X_WB);
-  /// Places the chain, which moves with an object that it holds. The caller knows that it has touched nothing on its way.
-  /// In the next call of `advance`, every link that is near an object touches it unless its target leads away: a root
-  /// that is led has no target that lies deeper.
+  /// Places the chain, which moves with an object that it holds. The caller knows that it has touched nothing on its
+  /// way. In the next call of `advance`, every link that is near an object touches it unless its target leads away: a
+  /// root that is led has no target that lies deeper.
   void carry(const Posture& posture);
 
   /// Moves the chain towards the target; flex values beyond their limits count as the limits. A target that is not

@@ -40,13 +40,13 @@ std::string_view name_of(HandState state);
 
 /// Loose parts stand still where they were left; nothing falls. Deterministic. Not thread-safe.
 ///
-/// A hand takes hold of a part when the contacts of its segments say so (`GraspAnalysis`). From then on its palm and the
-/// part are one rigid body, which follows the tracked palm by sliding contact: the hand stays clasped round the visible
-/// part, wherever the tracked hand goes, and segments of the hand stop the part as its own faces do. The fingers still
-/// follow the glove; when they open, the hand lets go, and takes hold of the same part again after 0.2 s at the
-/// earliest. A part in two hands follows the mean of their wishes. A hand that
-/// touches a loose part without a grasp pushes it: the part yields by the shortest way on which the target of the hand
-/// has room, as far as obstacles let it.
+/// A hand takes hold of a part when the contacts of its segments say so (`GraspAnalysis`). From then on its palm and
+/// the part are one rigid body, which follows the tracked palm by sliding contact: the hand stays clasped round the
+/// visible part, wherever the tracked hand goes, and segments of the hand stop the part as its own faces do. The
+/// fingers still follow the glove; when they open, the hand lets go, and takes hold of the same part again after 0.2 s
+/// at the earliest. A part in two hands follows the mean of their wishes. A hand that touches a loose part without a
+/// grasp pushes it: the part yields by the shortest way on which the target of the hand has room, as far as obstacles
+/// let it.
 class GraspSimulation {
  public:
   /// Parts are loose at the start, unless scripts lead them; scripted parts cannot be held. Throws
@@ -58,8 +58,8 @@ class GraspSimulation {
   GraspSimulation& operator=(GraspSimulation&&) noexcept;
   ~GraspSimulation();
 
-  /// One target for each hand: the tracked posture, or none while the tracking is lost. `milliseconds` have passed since
-  /// the last call.
+  /// One target for each hand: the tracked posture, or none while the tracking is lost. `milliseconds` have passed
+  /// since the last call.
   void advance(std::span<const std::optional<Posture>> targets, double milliseconds = 1.0);
 
   std::size_t hand_count() const;

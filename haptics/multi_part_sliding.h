@@ -32,9 +32,9 @@ namespace glissade::haptics {
 
 class ContactScene;
 
-/// The simulation of up to kMaxParts parts among fixed obstacles, and of riders: hands, for example, that are in the way
-/// of parts or move with them. Deterministic: the same calls give the same bits.
-/// Not thread-safe; several simulations may share bodies.
+/// The simulation of up to kMaxParts parts among fixed obstacles, and of riders: hands, for example, that are in the
+/// way of parts or move with them. Deterministic: the same calls give the same bits. Not thread-safe; several
+/// simulations may share bodies.
 class MultiPartSliding {
  public:
   /// Nothing touches the riders of `chains` before they are placed. Throws std::invalid_argument for no part or more
@@ -61,8 +61,8 @@ class MultiPartSliding {
   void place_riders(std::size_t chain, std::span<const Eigen::Isometry3d> X_WB);
   /// Takes a chain away, and detaches it, until it is placed again.
   void remove_riders(std::size_t chain);
-  /// From now on, the chain, which has been placed, moves with the part, as one rigid body: its contacts stop the part. While neither is
-  /// attached to anything, riders and obstacles are no obstacles of each other.
+  /// From now on, the chain, which has been placed, moves with the part, as one rigid body: its contacts stop the part.
+  /// While neither is attached to anything, riders and obstacles are no obstacles of each other.
   void attach(std::size_t chain, std::size_t part);
   /// From now on, the chain stands still again.
   void detach(std::size_t chain);

@@ -40,8 +40,8 @@ class HandTrajectory {
 /// Reads a trajectory. Throws std::invalid_argument as `read_trajectory`.
 HandTrajectory read_hand_trajectory(const std::string& path);
 
-/// Reads the description of a hand: YAML with the keys `side` (left or right), `length_m` and `breadth_m`, all optional.
-/// Throws std::invalid_argument, naming the file, the line and the key.
+/// Reads the description of a hand: YAML with the keys `side` (left or right), `length_m` and `breadth_m`, all
+/// optional. Throws std::invalid_argument, naming the file, the line and the key.
 grasping::HandShape read_hand_shape(const std::string& path);
 
 }  // namespace glissade::apps

@@ -61,7 +61,7 @@ class GraspingHand {
 
   std::shared_ptr<const HandModel> model_;
   std::vector<std::size_t> links_;  // with meshes
-  std::int32_t first_part_;  // the number of its body
+  std::int32_t first_part_;         // the number of its body
   Clasp clasp_;
   GraspAnalysis analysis_;
   GraspAnalysis now_;  // of this moment alone

@@ -57,7 +57,8 @@ class MovingBodies {
     geometry::Displacement displacement;
     bool moves = false;
     double motion = 0.0;
-    double acceleration = 0.0;  ///< metres: bound of the second derivative over the whole step; |w|² ρ of a displacement
+    double acceleration =
+        0.0;  ///< metres: bound of the second derivative over the whole step; |w|² ρ of a displacement
     std::array<Eigen::Isometry3d, kMoments + 1> X_WB_at;
     std::array<bool, kMoments + 1> known{};  ///< which of these poses have been computed
   };

@@ -100,7 +100,8 @@ class ContactScene {
   /// A number that is equal for bodies between which no pair matters as long as their leaders stay: bodies that move
   /// together, that stand still together, or that belong to one chain.
   std::int32_t unit(std::int32_t body) const {
-    const bool moves_with_part = is_rider(body) ? leader(body) != kStands : group(static_cast<std::size_t>(body)) == kPart;
+    const bool moves_with_part =
+        is_rider(body) ? leader(body) != kStands : group(static_cast<std::size_t>(body)) == kPart;
     return moves_with_part ? -1 - leader(body) : group(static_cast<std::size_t>(body));
   }
 

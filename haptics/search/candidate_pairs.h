@@ -38,9 +38,10 @@ class CandidatePairs {
 
   /// Makes every pair within `reach` (metres) of the parts' present poses a candidate, except pairs of `ignored`
   /// bodies, in ascending order. A new search uses radius reach + `ahead` (metres). Returns whether the candidates
-  /// changed. `ignored` must be the same in all calls until `clear`. Exceptions of a search (no memory, or a pose that `geometry::rigid_pose`
-  /// rejects) reach the caller; nothing is covered then. Where the work of this call does not suffice for the search,
-  /// the candidates stay, `covers(reach)` is still false, and the same call of `look` must be repeated.
+  /// changed. `ignored` must be the same in all calls until `clear`. Exceptions of a search (no memory, or a pose that
+  /// `geometry::rigid_pose` rejects) reach the caller; nothing is covered then. Where the work of this call does not
+  /// suffice for the search, the candidates stay, `covers(reach)` is still false, and the same call of `look` must be
+  /// repeated.
   bool look(double reach, double ahead, std::span<const BodyPair> ignored);
 
   /// Whether the search that `look` could not complete has had the work of several calls.

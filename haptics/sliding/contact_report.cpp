@@ -52,7 +52,8 @@ void distribute(SimulatedParts& shared, const std::vector<Contact>& contacts, do
     }
     HeldPartState& other_part = parts[static_cast<std::size_t>(other)];
     Contact contact = carried(found, motions[number], motions[static_cast<std::size_t>(other)]);
-    const std::size_t own_mover = found.rider < 0 ? number : scene.first_rider() + static_cast<std::size_t>(found.rider);
+    const std::size_t own_mover =
+        found.rider < 0 ? number : scene.first_rider() + static_cast<std::size_t>(found.rider);
     Contact mirror = mirrored(contact, static_cast<std::int32_t>(scene.body_of_mover(own_mover)));
     mirror.part = other;
     mirror.rider = scene.rider(found.obstacle);

@@ -99,9 +99,9 @@ void ContactRows::add_failures(std::span<const UncertifiedPair> failures) {
     for (const Eigen::Vector3d& x_W : part.triangle_W(pair.part_triangle)) {
       const double gap = pair.n_W.dot(x_W) - top;
       add(pair.bodies.obstacle, static_cast<std::size_t>(number), pair.n_W, x_W, std::min(0.0, margin - gap));
-      Contact& contact = failure_contacts_.emplace_back(Contact{ContactKind::kVertexFace, pair.part_triangle,
-                                                                pair.bodies.obstacle, pair.obstacle_triangle, pair.n_W,
-                                                                x_W, gap});
+      Contact& contact =
+          failure_contacts_.emplace_back(Contact{ContactKind::kVertexFace, pair.part_triangle, pair.bodies.obstacle,
+                                                 pair.obstacle_triangle, pair.n_W, x_W, gap});
       contact.part = number;
       contact.rider = scene.rider(pair.bodies.part);
       contact.margin = margin;
@@ -132,7 +132,8 @@ void ContactRows::recall_forces(std::vector<RowForce>& forces) const {
     if (rows_[i].bound == -kUnbounded) continue;  // two released parts
     for (const Contact& before : pushed_) {
       if (before.part != contact.part || before.rider != contact.rider || before.obstacle != contact.obstacle ||
-          before.kind != contact.kind || before.part_feature != contact.part_feature || before.obstacle_feature != contact.obstacle_feature) {
+          before.kind != contact.kind || before.part_feature != contact.part_feature ||
+          before.obstacle_feature != contact.obstacle_feature) {
         continue;
       }
       forces.push_back({static_cast<std::int32_t>(i), before.force, before.friction_W});

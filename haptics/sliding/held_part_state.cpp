@@ -42,8 +42,7 @@ void HeldPartState::begin_tick() {
 
 void HeldPartState::follow(const Eigen::Isometry3d& X_WG, double milliseconds) {
   result.X_WG = X_WG;
-  ghost_motion =
-      geometry::motion_bound(geometry::displacement_between(X_WG_previous, X_WG, p_Vref()), lever);
+  ghost_motion = geometry::motion_bound(geometry::displacement_between(X_WG_previous, X_WG, p_Vref()), lever);
   const double left = offset.v.norm() + part_V->radius() * offset.w.norm();
   closing = std::min(left, kClosing_m * milliseconds);
   offset = closing < left ? offset.scaled(1.0 - closing / left) : geometry::Displacement{};

@@ -25,8 +25,8 @@ class Riders {
   bool empty() const { return first_bodies_.size() == 1; }
   std::size_t chain_count() const { return first_bodies_.size() - 1; }
 
-  /// Places the bodies of a chain. If it is attached, they stay so relative to its part from now on. Returns whether the
-  /// chain was absent.
+  /// Places the bodies of a chain. If it is attached, they stay so relative to its part from now on. Returns whether
+  /// the chain was absent.
   bool place(std::size_t chain, std::span<const Eigen::Isometry3d> X_WB);
   /// Takes a chain away, until it is placed again.
   void remove(std::size_t chain);
@@ -38,8 +38,8 @@ class Riders {
   /// Bound (metres) of the distance of a part's riders from its reference point; 0 without riders.
   double lever(std::int32_t part) const;
 
-  /// Pairs of bodies with a rider that is absent, or that keep their distance because both stand still or move together.
-  /// In ascending order.
+  /// Pairs of bodies with a rider that is absent, or that keep their distance because both stand still or move
+  /// together. In ascending order.
   const std::vector<BodyPair>& inert_pairs() const { return inert_pairs_; }
 
  private:

@@ -112,8 +112,10 @@ TEST_F(GraspCommand, NamesWhatIsWrong) {
   expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--hand", shape}, {"hand.yaml", "length"});
   const std::string side = folder.write("side.yaml", "side: upper\n");
   expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--hand", side}, {"side.yaml:1", "upper"});
-  expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--hand", shape, shape}, {"--hand: 2 files for 1 hands"});
-  expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--out", hands, "--objects", hands}, {"--objects", "--out"});
+  expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--hand", shape, shape},
+                 {"--hand: 2 files for 1 hands"});
+  expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--out", hands, "--objects", hands},
+                 {"--objects", "--out"});
 }
 
 }  // namespace

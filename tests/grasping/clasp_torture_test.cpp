@@ -64,8 +64,8 @@ class Torturer {
   explicit Torturer(const TriangleMesh& object)
       : object_(object), hand_(object, Eigen::Isometry3d::Identity()), nearer_(*hand_chain(), object) {}
 
-  /// Until there are `least` postures, and one that touches. At the end of each motion the target rests until the hand rests too, and every
-  /// flex value is tried.
+  /// Until there are `least` postures, and one that touches. At the end of each motion the target rests until the hand
+  /// rests too, and every flex value is tried.
   const Torture& run(std::uint64_t seed, int least) {
     while (torture_.postures < least || torture_.touching == 0)
       move(seed++);

@@ -33,12 +33,12 @@ class HandAndBall {
  public:
   explicit HandAndBall(std::size_t hands = 1, double wall_x = 0.25)
       : ball_(std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(kBall_m, 2000))),
-        wall_(std::make_shared<const geometry::TriangleMesh>(
-            geometry::make_box({0.02, 0.6, 0.6}, 2000))),
+        wall_(std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.02, 0.6, 0.6}, 2000))),
         X_WWall_(at(wall_x, 0.0, 0.0)),
-        simulation({{std::make_shared<const haptics::ContactBody>(wall_), X_WWall_, "the wall"}},
-                   {{.part_V = std::make_shared<const haptics::SlidingPart>(ball_), .X_WV_start = at(0.095, 0.0, -0.056)}},
-                   std::vector<std::shared_ptr<const HandModel>>(hands, hand_model())),
+        simulation(
+            {{std::make_shared<const haptics::ContactBody>(wall_), X_WWall_, "the wall"}},
+            {{.part_V = std::make_shared<const haptics::SlidingPart>(ball_), .X_WV_start = at(0.095, 0.0, -0.056)}},
+            std::vector<std::shared_ptr<const HandModel>>(hands, hand_model())),
         targets_(hands) {}
 
  private:

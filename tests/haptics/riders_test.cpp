@@ -73,8 +73,8 @@ TEST_F(CubeAndRider, AnAttachedRiderMovesWithThePartAndStopsItAtAWall) {
   EXPECT_GT(X_WV().translation().y(), 0.025) << "it slides along the wall";
   const geometry::TriangleMesh& rider = scene_of(sliding_).bodies()[2].body->tree.mesh();
   const geometry::TriangleMesh& obstacle = scene_of(sliding_).bodies()[0].body->tree.mesh();
-  EXPECT_FALSE(reference::brute_force_intersects(rider, obstacle,
-                                                 X_WRider().inverse() * scene_of(sliding_).bodies()[0].X_WB));
+  EXPECT_FALSE(
+      reference::brute_force_intersects(rider, obstacle, X_WRider().inverse() * scene_of(sliding_).bodies()[0].X_WB));
   ASSERT_GT(sliding_.result(0).pushing, 0);
   for (const Contact& contact : sliding_.result(0).contacts) {
     if (contact.force > 0.0) {
@@ -105,8 +105,8 @@ TEST_F(CubeAndRider, ARiderFarFromThePartLimitsItsTurns) {
   lead(pose({0.0, 0.0, 0.0}, turn(-1.4, Vector3d::UnitZ())), 400);
   const geometry::TriangleMesh& rider = scene_of(sliding_).bodies()[2].body->tree.mesh();
   const geometry::TriangleMesh& obstacle = scene_of(sliding_).bodies()[0].body->tree.mesh();
-  EXPECT_FALSE(reference::brute_force_intersects(rider, obstacle,
-                                                 X_WRider().inverse() * scene_of(sliding_).bodies()[0].X_WB));
+  EXPECT_FALSE(
+      reference::brute_force_intersects(rider, obstacle, X_WRider().inverse() * scene_of(sliding_).bodies()[0].X_WB));
   EXPECT_NEAR((X_WRider().translation() - X_WV().translation()).norm(), std::hypot(0.02, 0.095), 1e-9);
   EXPECT_GT(sliding_.result(0).pushing, 0);
 }
