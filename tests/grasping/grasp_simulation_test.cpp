@@ -26,13 +26,13 @@ using test_support::hand_chain;
 using test_support::hand_model;
 using test_support::open_hand;
 
-constexpr double kBall_m = 0.035;
+constexpr double kBallRadius_m = 0.035;
 
 /// A ball before the palm of the hand that has its root at the origin, and a wall beyond it: at x = 0.25 m.
 class HandAndBall {
  public:
   explicit HandAndBall(std::size_t hands = 1, double wall_x = 0.25)
-      : ball_(std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(kBall_m, 2000))),
+      : ball_(std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(kBallRadius_m, 2000))),
         wall_(std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.02, 0.6, 0.6}, 2000))),
         X_WWall_(at(wall_x, 0.0, 0.0)),
         simulation(
@@ -137,7 +137,7 @@ TEST(GraspSimulation, StopsAtAWallByThePartOrTheHand) {
     furthest = std::max(furthest, scene.X_WV().translation().x());
   }
   EXPECT_EQ(scene.simulation.held_part(0), 0U);
-  EXPECT_LT(furthest, 0.24 - kBall_m);
+  EXPECT_LT(furthest, 0.24 - kBallRadius_m);
   EXPECT_GT(scene.force(), 1.0) << "the hand feels the wall";
   EXPECT_GT(scene.X_WV().translation().y(), 0.03) << "it slides along the wall";
 }
@@ -169,7 +169,7 @@ TEST(GraspSimulation, PushesALoosePartAlongUntilTheWallStopsIt) {
   EXPECT_LT(std::abs(scene.X_WV().translation().z() - z), 0.03);
   for (int ms = 1; ms <= 400; ++ms)
     scene.advance(moved(hand, 0.16 + 0.2e-3 * ms, 0.0, 0.0));
-  EXPECT_NEAR(scene.X_WV().translation().x(), 0.24 - kBall_m, 0.5e-3) << "a facet of the ball lies at the wall";
+  EXPECT_NEAR(scene.X_WV().translation().x(), 0.24 - kBallRadius_m, 0.5e-3) << "a facet of the ball lies at the wall";
 }
 
 TEST(GraspSimulation, PressesOnNothingWhileTheHandIsLost) {
