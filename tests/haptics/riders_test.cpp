@@ -22,12 +22,12 @@ using test_support::pose;
 using test_support::turn;
 using test_support::wall;
 
-constexpr double kMargin_m = 20e-6;
+constexpr double kMarginOfRider_m = 20e-6;
 
 /// A cube of 40 mm at the origin, a wall at x = 0.1 m, and a chain of one cube of 20 mm.
 class CubeAndRider : public ::testing::Test {
  protected:
-  MultiPartSliding sliding_{{wall(0.1)}, {{.part_V = cube(0.04)}}, {}, {{{cube(0.02)}, kMargin_m}}};
+  MultiPartSliding sliding_{{wall(0.1)}, {{.part_V = cube(0.04)}}, {}, {{{cube(0.02)}, kMarginOfRider_m}}};
 
   Isometry3d X_WV() const { return sliding_.result(0).X_WV; }
   Isometry3d X_WRider() const { return scene_of(sliding_).bodies()[2].X_WB; }
@@ -55,7 +55,7 @@ TEST_F(CubeAndRider, NothingTouchesARiderBeforeItIsPlaced) {
 TEST_F(CubeAndRider, AStandingRiderStopsAPart) {
   place(0.06, 0.0, 0.0);
   lead(pose({0.05, 0.0, 0.0}), 100);
-  EXPECT_NEAR(X_WV().translation().x(), 0.06 - 0.01 - 0.02, 2.0 * kMargin_m);
+  EXPECT_NEAR(X_WV().translation().x(), 0.06 - 0.01 - 0.02, 2.0 * kMarginOfRider_m);
   ASSERT_FALSE(sliding_.result(0).contacts.empty());
   EXPECT_EQ(sliding_.result(0).contacts.front().obstacle, 2);
   EXPECT_EQ(sliding_.result(0).contacts.front().rider, -1);
@@ -115,7 +115,7 @@ TEST(Riders, OfAHeldPartPushAnotherPart) {
   const std::vector<HeldPart> parts{
       {.part_V = cube(0.04), .stiffness = CouplingStiffness{3000.0, 3.0}},
       {.part_V = cube(0.04), .X_WV_start = pose({0.0665, 0.0, 0.0}), .stiffness = CouplingStiffness{1000.0, 1.0}}};
-  MultiPartSliding sliding({}, parts, {}, {{{cube(0.02)}, kMargin_m}});
+  MultiPartSliding sliding({}, parts, {}, {{{cube(0.02)}, kMarginOfRider_m}});
   sliding.place_riders(0, std::array{pose({0.035, 0.0, 0.0})});
   sliding.attach(0, 0);
   const Isometry3d still = parts[1].X_WV_start;
