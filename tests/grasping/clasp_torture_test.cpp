@@ -21,6 +21,7 @@
 
 #include "clasped_hand.h"
 #include "nearer_posture.h"
+#include "sanitizers.h"
 #include "wild_hand.h"
 
 namespace glissade::grasping {
@@ -38,7 +39,7 @@ constexpr int kPlacesOfStep = 4;
 
 int postures_in_total() {
   const char* const text = std::getenv("GLISSADE_GRASP_POSTURES");
-  return text != nullptr ? std::atoi(text) : 4000;
+  return text != nullptr ? std::atoi(text) : test_support::affordable(4000);
 }
 
 /// What hands have done about one object.
