@@ -42,12 +42,15 @@ ContactScene::ContactScene(std::vector<Obstacle> obstacles, std::vector<std::sha
     obstacle.X_WO = *X_WO;
     bodies_.push_back({obstacle.body.get(), obstacle.X_WO});
   }
-  for (const double margin : margins) {
+  for (std::size_t mover = 0; mover < margins.size(); ++mover) {
+    const double margin = margins[mover];
     check_margin(margin, "of a part");
     for (const Obstacle& obstacle : obstacles_)
       margins_.push_back(obstacle.margin.value_or(margin));
-    for (const double other : margins)
-      margins_.push_back(std::min(margin, other));
+    for (std::size_t other = 0; other < margins.size(); ++other) {
+      const bool is_with_rider = std::max(mover, other) >= first_rider;
+      margins_.push_back(is_with_rider ? std::max(margin, margins[other]) : std::min(margin, margins[other]));
+    }
   }
   for (const double margin : margins_)
     min_clearances_.push_back(kMinClearanceOfMargin * margin);

@@ -110,7 +110,8 @@ class ContactScene {
   static bool can_touch(int group, int other) { return group != other || group == kPart; }
 
   /// Margin (metres) of contacts between a body and a mover: the obstacle's own margin if it has one, otherwise the
-  /// mover's; between two movers, the smaller of both.
+  /// mover's; between two parts, the smaller of both; between a rider and another mover, the greater of both, so that
+  /// the rider's owner finds the clearance that it demands itself.
   double margin(std::int32_t obstacle, std::int32_t part_body) const {
     return margins_[pair_index(obstacle, part_body)];
   }

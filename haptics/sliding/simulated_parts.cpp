@@ -108,6 +108,8 @@ SimulatedParts::SimulatedParts(std::vector<Obstacle> obstacles, const std::vecto
   }
   for (const Obstacle& obstacle : scene.obstacles())
     largest_margin = std::max(largest_margin, obstacle.margin.value_or(0.0));
+  for (const RiderChain& chain : chains)
+    largest_margin = std::max(largest_margin, chain.margin);
 }
 
 double SimulatedParts::ghost_motion() const {
