@@ -264,15 +264,15 @@ TEST_F(CommandsToAGlove, TheGloveTellsWhatItMadeOfThem) {
   LcmGlove server(bus, simulated_glove_descriptor());
   GloveState measured;
   GloveState told;
+  const SafeCommand of_long_ago;  // answers the state of time zero
   const auto period = [&] {
+    server.command(of_long_ago);
     measured.time = nanoseconds(std::chrono::steady_clock::now().time_since_epoch());
     ++measured.sequence;
     host.newest_command(measured);
     host.publish(measured);
     return server.read(told) && told.command_age > nanoseconds(0);
   };
-  const SafeCommand to_be_answered;  // answers the state of time zero, of long ago
-  server.command(to_be_answered);
   ASSERT_TRUE(eventually(period));
   EXPECT_TRUE(told.limits.is_command_old);
   EXPECT_GT(told.command_age, milliseconds(10));
