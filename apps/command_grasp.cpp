@@ -13,6 +13,7 @@
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
 #include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/sliding_option.h>
@@ -180,11 +181,12 @@ int run(const GraspOptions& options) {
   }
   std::vector<HandTrajectory> trajectories;
   for (const std::string& file : options.trajectories)
-    trajectories.push_back(read_hand_trajectory(file));
+    check_duration(trajectories.emplace_back(read_hand_trajectory(file)).duration(), file);
   const std::vector<std::shared_ptr<const grasping::HandModel>> hands = make_hands(options);
   const Scene scene_file = read_scene(options.scene);
   const HapticScene scene = make_haptic_scene(scene_file, movable_objects(scene_file));
-  check_names_fit_csv(scene);
+  for (const std::string& name : scene.body_names)
+    check_name_fits_csv(scene, name);
   grasping::GraspRules rules;
   rules.sliding = with_choice({}, options.sliding);
   grasping::GraspSimulation simulation(scene.obstacles, held_parts(scene, metaphor_of(options.sliding)), hands, rules);

@@ -142,17 +142,9 @@ std::unique_ptr<haptics::SlidingSimulation> start(const HapticScene& scene, cons
   }
 }
 
-/// Longest duration: a day, which writes some 20 GB of rows. More is an error in the unit of t_s.
-void check_duration(const geometry::PoseTrajectory& trajectory, const std::string& file) {
-  constexpr std::chrono::hours kLongest{24};
-  if (trajectory.duration() <= kLongest) return;
-  const double duration_s = std::chrono::duration<double>(trajectory.duration()).count();
-  throw std::invalid_argument(file + ": lasts " + format_number(duration_s) + " s, longer than a day (86400 s)");
-}
-
 geometry::PoseTrajectory read(const std::string& file) {
   geometry::PoseTrajectory trajectory = read_trajectory(file);
-  check_duration(trajectory, file);
+  check_duration(trajectory.duration(), file);
   return trajectory;
 }
 

@@ -157,13 +157,15 @@ std::vector<haptics::HeldPart> held_parts(const HapticScene& scene, haptics::Met
 }
 
 void check_names_fit_csv(const HapticScene& scene) {
-  for (std::size_t body = 0; body < scene.body_names.size(); ++body) {
-    const std::string& name = scene.body_names[body];
-    if (scene.part_number(name)) continue;  // no row names it
-    if (name.find_first_of(",\"\n\r") == std::string::npos) continue;
-    throw std::invalid_argument(scene.source + ": object " + in_quotes(name) +
-                                " has a comma, quote or line break in its name, which a CSV file cannot hold");
+  for (const std::string& name : scene.body_names) {
+    if (!scene.part_number(name)) check_name_fits_csv(scene, name);  // no row names a part
   }
+}
+
+void check_name_fits_csv(const HapticScene& scene, const std::string& name) {
+  if (name.find_first_of(",\"\n\r") == std::string::npos) return;
+  throw std::invalid_argument(scene.source + ": object " + in_quotes(name) +
+                              " has a comma, quote or line break in its name, which a CSV file cannot hold");
 }
 
 }  // namespace glissade::apps

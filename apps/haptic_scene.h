@@ -54,5 +54,7 @@ std::vector<haptics::HeldPart> held_parts(const HapticScene& scene, haptics::Met
 /// Throws std::invalid_argument, naming scene and object, when the name of an obstacle or a moving object does not fit
 /// into a cell of a CSV file.
 void check_names_fit_csv(const HapticScene& scene);
+/// The same for the name of this object alone.
+void check_name_fits_csv(const HapticScene& scene, const std::string& name);
 
 }  // namespace glissade::apps

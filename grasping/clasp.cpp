@@ -53,7 +53,8 @@ class Clasp::Iteration {
       : chain_(std::move(chain)),
         rules_(rules),
         movers_(links_that_touch(checked(chain_))),
-        bodies_(std::move(fixed), std::move(objects), bodies_of(*chain_, movers_), rules.margin),
+        link_bodies_(bodies_of(*chain_, movers_)),
+        bodies_(std::move(fixed), std::move(objects), link_bodies_, rules.margin),
         motion_(*chain_, movers_),
         rows_(*chain_),
         interpolation_(*chain_),
@@ -70,6 +71,7 @@ class Clasp::Iteration {
   }
 
   const KinematicChain& chain() const { return *chain_; }
+  const std::vector<std::shared_ptr<const haptics::SlidingPart>>& bodies() const { return link_bodies_; }
   ClaspState state() const { return state_; }
   const Posture& posture() const { return posture_; }
   std::span<const char> touching() const { return touching_; }
@@ -98,6 +100,11 @@ class Clasp::Iteration {
     posture_ = target_;
     place_links();
     wait();
+  }
+
+  void forget_contacts() {
+    std::fill(touching_.begin(), touching_.end(), char{0});
+    link_contacts_.clear();
   }
 
   void lose_track() {
@@ -130,8 +137,7 @@ class Clasp::Iteration {
 
   void wait() {
     state_ = ClaspState::kWaiting;
-    std::fill(touching_.begin(), touching_.end(), char{0});
-    link_contacts_.clear();
+    forget_contacts();
   }
 
   /// Begins at the target if it is free.
@@ -262,7 +268,8 @@ class Clasp::Iteration {
 
   std::shared_ptr<const KinematicChain> chain_;
   ClaspRules rules_;
-  std::vector<std::size_t> movers_;  // links with meshes
+  std::vector<std::size_t> movers_;                                       // links with meshes
+  std::vector<std::shared_ptr<const haptics::SlidingPart>> link_bodies_;  // of the movers
   haptics::CertifiedBodies bodies_;
   ChainMotion motion_;
   ClosingRows rows_;
@@ -303,6 +310,10 @@ const KinematicChain& Clasp::chain() const {
   return iteration_->chain();
 }
 
+const std::vector<std::shared_ptr<const haptics::SlidingPart>>& Clasp::bodies() const {
+  return iteration_->bodies();
+}
+
 void Clasp::place_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
   iteration_->place_object(object, X_WB);
 }
@@ -317,6 +328,10 @@ void Clasp::carry(const Posture& posture) {
 
 void Clasp::advance(const Posture& target) {
   iteration_->advance(target);
+}
+
+void Clasp::forget_contacts() {
+  iteration_->forget_contacts();
 }
 
 void Clasp::lose_track() {

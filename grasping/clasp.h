@@ -55,6 +55,8 @@ class Clasp {
   ~Clasp();
 
   const KinematicChain& chain() const;
+  /// The links with meshes, in their order.
+  const std::vector<std::shared_ptr<const haptics::SlidingPart>>& bodies() const;
 
   /// Places an object. If the chain is no longer free there, the clasp waits.
   void place_object(std::size_t object, const Eigen::Isometry3d& X_WB);
@@ -73,6 +75,9 @@ class Clasp {
   /// The tracker has not seen the hand for a while. Nothing touches any more; the clasp begins anew once a target is
   /// free, wherever that is.
   void lose_track();
+
+  /// Nothing touches any more, until the next call of `advance`: nobody knows where the hand wants to go.
+  void forget_contacts();
 
   /// Moves the chain with the user's cart, whatever is in the way: the clasp waits until a target is free.
   void move_cart(const Posture& target);

@@ -22,13 +22,22 @@ std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const std::ve
   return bodies;
 }
 
-std::vector<haptics::RiderChain> chains_of(const std::vector<std::shared_ptr<const HandModel>>& hands,
-                                           const ClaspRules& rules) {
-  std::vector<haptics::RiderChain> chains;
-  for (const auto& hand : hands) {
-    if (hand == nullptr) throw std::invalid_argument("a hand needs a model, not a null pointer");
-    chains.push_back({GraspingHand::bodies_of(*hand), rules.margin});
+std::vector<GraspingHand> hands_of(const std::vector<std::shared_ptr<const HandModel>>& models,
+                                   const std::vector<haptics::Obstacle>& fixed,
+                                   const std::vector<haptics::HeldPart>& parts, const ClaspRules& rules) {
+  std::vector<GraspingHand> hands;
+  hands.reserve(models.size());
+  for (const auto& model : models) {
+    if (model == nullptr) throw std::invalid_argument("a hand needs a model, not a null pointer");
+    hands.emplace_back(model, fixed, bodies_of(parts), rules);
   }
+  return hands;
+}
+
+std::vector<haptics::RiderChain> chains_of(const std::vector<GraspingHand>& hands, double margin) {
+  std::vector<haptics::RiderChain> chains;
+  for (const GraspingHand& hand : hands)
+    chains.push_back({hand.clasp().bodies(), margin});
   return chains;
 }
 
@@ -53,15 +62,13 @@ class GraspSimulation::Life {
   Life(const std::vector<haptics::Obstacle>& fixed, const std::vector<haptics::HeldPart>& parts,
        const std::vector<std::shared_ptr<const HandModel>>& hands, const GraspRules& rules)
       : up_W_(rules.up_W),
-        parts_(fixed, parts, rules.sliding, chains_of(hands, rules.clasp)),
+        hands_(hands_of(hands, fixed, parts, rules.clasp)),
+        parts_(fixed, parts, rules.sliding, chains_of(hands_, rules.clasp.margin)),
         X_WG_(parts.size(), Eigen::Isometry3d::Identity()),
         pushes_(parts.size()),
         is_present_(hands.size(), 0) {
     if (std::abs(up_W_.norm() - 1.0) > kUnitTolerance)
       throw std::invalid_argument("the direction against gravity must be a unit vector");
-    hands_.reserve(hands.size());
-    for (const auto& hand : hands)
-      hands_.emplace_back(hand, fixed, bodies_of(parts), rules.clasp);
     for (std::size_t p = 0; p < parts.size(); ++p) {
       if (!parts_.is_scripted(p)) parts_.release(p);
       for (GraspingHand& hand : hands_)
@@ -105,6 +112,7 @@ class GraspSimulation::Life {
     hand.aim(target);
     if (hand.is_lost() == was_lost) return;
     if (hand.part()) {
+      if (hand.is_lost()) hand.clasp().forget_contacts();
       settle(*hand.part());
     } else if (hand.is_lost()) {
       hand.clasp().lose_track();
@@ -196,7 +204,7 @@ class GraspSimulation::Life {
   }
 
   /// A part that is pushed follows the push, and is released when no hand pushes it any more. A hand that is about to
-  /// take hold of it pushes it no farther.
+  /// take hold of it pushes it no farther, and one that has just let go of it leaves it where it is.
   void note_push(std::size_t p) {
     if (parts_.is_scripted(p) || is_held(p)) return;
     Push& push = pushes_[p];
@@ -205,15 +213,16 @@ class GraspSimulation::Life {
     const auto body = static_cast<std::int32_t>(parts_.obstacle_count() + p);
     const Eigen::Isometry3d& X_WV = parts_.result(p).X_WV;
     for (const GraspingHand& hand : hands_) {
-      if (!hand.is_lost() && !hand.closes_round(body)) push.add(hand.clasp().contacts(), body, X_WV, parts_.part(p));
+      if (!hand.is_lost() && !hand.closes_round(body) && !hand.has_just_left(p))
+        push.add(hand.clasp().contacts(), body, X_WV, parts_.part(p));
     }
     if (push.is_empty() && was_pushed) parts_.release(p);
     if (!push.is_empty() && !was_pushed) parts_.grasp(p, X_WV);
   }
 
   Eigen::Vector3d up_W_;
-  haptics::MultiPartSliding parts_;
   std::vector<GraspingHand> hands_;
+  haptics::MultiPartSliding parts_;
   std::vector<Eigen::Isometry3d> X_WG_;  // of each part
   std::vector<Push> pushes_;             // of each part
   std::vector<char> is_present_;         // by hand: among the riders

@@ -67,7 +67,8 @@ class GraspSimulation {
 
   // Of the hand with this number:
   HandState state(std::size_t hand) const;
-  /// The visible hand. It touches nothing, nor did it on its way.
+  /// The visible hand. While it is free or holds a part, it touches nothing, nor did it on its way. A hand that is lost
+  /// or waits stays as it was, and is in nobody's way.
   const Posture& posture(std::size_t hand) const;
   const Clasp& clasp(std::size_t hand) const;
   /// `Grasp::object` numbers the fixed bodies first, then the parts.

@@ -28,7 +28,7 @@ std::vector<std::shared_ptr<const SlidingPart>> joined(std::vector<std::shared_p
 
 std::vector<int> groups(std::size_t objects, std::size_t movers) {
   std::vector<int> result(objects, ContactScene::kStill);
-  result.resize(objects + movers, ContactScene::kFirstChain);
+  result.resize(objects + movers, ContactScene::kChain);
   return result;
 }
 

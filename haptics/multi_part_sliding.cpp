@@ -172,10 +172,11 @@ class MultiPartSliding::Cycle {
   /// The pairs of bodies that no search looks at: those that overlap, and those that keep their distance.
   void find_ignored() {
     const std::span<const BodyPair> overlapping = starts_.overlaps().pairs();
-    ignored_.assign(overlapping.begin(), overlapping.end());
-    const std::vector<BodyPair>& inert = shared_.riders.inert_pairs();
-    ignored_.insert(ignored_.end(), inert.begin(), inert.end());
-    std::sort(ignored_.begin(), ignored_.end());
+    ignored_ = shared_.riders.inert_pairs();
+    const auto sorted = std::ssize(ignored_);
+    ignored_.insert(ignored_.end(), overlapping.begin(), overlapping.end());
+    std::sort(ignored_.begin() + sorted, ignored_.end());
+    std::inplace_merge(ignored_.begin(), ignored_.begin() + sorted, ignored_.end());
   }
 
   void measure_levers() {

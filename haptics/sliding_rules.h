@@ -133,7 +133,8 @@ struct PartScript {
 };
 
 /// Bodies without a ghost of their own, such as the segments of a hand. They stand where the caller places them, like
-/// obstacles, or move with a part to which they are attached. Bodies of one chain never touch each other.
+/// obstacles, or move with a part to which they are attached. Riders, of one chain or of two, never
+/// stop each other: hands may come into each other.
 struct RiderChain {
   std::vector<std::shared_ptr<const SlidingPart>> bodies;
   double margin = 20e-6;  ///< metres: the gap at which contacts with these bodies stop a part, or they stop with a part

@@ -29,6 +29,7 @@ class HandTrajectory {
 
   std::chrono::nanoseconds first_time() const { return times_.front(); }
   std::chrono::nanoseconds last_time() const { return times_.back(); }
+  std::chrono::nanoseconds duration() const { return last_time() - first_time(); }
   grasping::Posture posture_at(std::chrono::nanoseconds time) const;
 
  private:

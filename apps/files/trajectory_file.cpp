@@ -89,6 +89,13 @@ HandScript read_hand_script(const std::string& path) {
   return parse_hand_script(read_text_file(path), path);
 }
 
+void check_duration(std::chrono::nanoseconds duration, const std::string& file) {
+  constexpr std::chrono::hours kLongest{24};
+  if (duration <= kLongest) return;
+  const double duration_s = std::chrono::duration<double>(duration).count();
+  throw std::invalid_argument(file + ": lasts " + format_number(duration_s) + " s, longer than a day (86400 s)");
+}
+
 geometry::PoseTrajectory read_trajectory(const std::string& path) {
   return trajectory_from(read_csv(path, trajectory_columns()));
 }

@@ -21,6 +21,10 @@ std::vector<std::string> trajectory_columns();
 std::chrono::nanoseconds time_of(const CsvTable& table, std::size_t row);
 geometry::PoseTrajectory trajectory_from(const CsvTable& table);
 
+/// Throws std::invalid_argument for a file that lasts longer than a day, which gives some 20 GB of rows:
+/// that is an error in the unit of t_s.
+void check_duration(std::chrono::nanoseconds duration, const std::string& file);
+
 /// Reads a trajectory; times are rounded to nanoseconds.
 /// Throws std::invalid_argument, naming file, line and value, when a time does not exceed that of the row before or is
 /// beyond ±1e9 s, and for all that `read_csv` and `checked_pose` reject.

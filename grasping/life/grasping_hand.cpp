@@ -34,13 +34,6 @@ GraspingHand::GraspingHand(std::shared_ptr<const HandModel> model, const std::ve
       X_WL_(model_->chain.links().size()),
       X_WB_(links_.size()) {}
 
-std::vector<std::shared_ptr<const haptics::SlidingPart>> GraspingHand::bodies_of(const HandModel& model) {
-  std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies;
-  for (const std::size_t link : links_that_touch(model.chain))
-    bodies.push_back(std::make_shared<const haptics::SlidingPart>(model.chain.links()[link].mesh));
-  return bodies;
-}
-
 std::span<const Eigen::Isometry3d> GraspingHand::segments() {
   const Posture& posture = clasp_.posture();
   model_->chain.poses(posture.X_WR, posture.values, X_WL_);

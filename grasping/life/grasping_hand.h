@@ -31,7 +31,6 @@ class GraspingHand {
 
   /// The pose of a segment for each of the hand's bodies: the riders of the sliding simulation.
   std::span<const Eigen::Isometry3d> segments();
-  static std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const HandModel& model);
 
   /// Takes the target of a call; none while the tracking is lost.
   void aim(const std::optional<Posture>& target);

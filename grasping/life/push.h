@@ -26,8 +26,9 @@ class Push {
   bool is_empty() const { return planes_.empty(); }
 
   /// The shortest displacement of the part on which the targets of all hands have room, to first order; where they have
-  /// none, because they press from all sides, a balance.
-  geometry::Displacement displacement(double radius) { return slide_past({}, planes_, radius, forces_, kCompliance); }
+  /// none, because they press from all sides, a balance. No point of the part, which has this radius about its
+  /// reference point, moves farther than the deepest target lies.
+  geometry::Displacement displacement(double radius);
 
  private:
   static constexpr double kCompliance = 0.1;

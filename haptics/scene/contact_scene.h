@@ -62,10 +62,11 @@ struct TrianglesOfBodies {
 class ContactScene {
  public:
   /// Groups of bodies. Bodies that stand still touch each other as pieces of an assembly do, and neighboring links of a
-  /// chain touch at their joint: such pairs are not considered. From kFirstChain on, each group is one chain.
+  /// chain touch at their joint: such pairs are not considered. Nothing stops two chains, so all of
+  /// them are one group.
   static constexpr int kStill = 0;
   static constexpr int kPart = 1;
-  static constexpr int kFirstChain = 2;
+  static constexpr int kChain = 2;
 
   /// All parts are at the identity pose until they are placed. `margins` (metres) has one entry for each part. Throws
   /// std::invalid_argument when there is nothing that a part could touch, for an obstacle without a body, for a pose
@@ -98,7 +99,7 @@ class ContactScene {
     leaders_[static_cast<std::size_t>(rider_body)] = part;
   }
   /// A number that is equal for bodies between which no pair matters as long as their leaders stay: bodies that move
-  /// together, that stand still together, or that belong to one chain.
+  /// together, that stand still together, or that belong to chains.
   std::int32_t unit(std::int32_t body) const {
     const bool moves_with_part =
         is_rider(body) ? leader(body) != kStands : group(static_cast<std::size_t>(body)) == kPart;

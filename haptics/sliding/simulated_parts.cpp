@@ -58,12 +58,12 @@ ContactScene make_scene(std::vector<Obstacle> obstacles, const std::vector<HeldP
     margins.push_back(rules.margin.value_or(default_margin(*part.part_V)));
   }
   std::vector<int> groups(parts.size(), ContactScene::kPart);
-  for (std::size_t chain = 0; chain < chains.size(); ++chain) {
-    for (const auto& body : chains[chain].bodies) {
+  for (const RiderChain& chain : chains) {
+    for (const auto& body : chain.bodies) {
       if (body == nullptr) throw std::invalid_argument("a rider needs a body, not a null pointer");
       movers.push_back(body);
-      margins.push_back(chains[chain].margin);
-      groups.push_back(ContactScene::kFirstChain + static_cast<int>(chain));
+      margins.push_back(chain.margin);
+      groups.push_back(ContactScene::kChain);
     }
   }
   return {std::move(obstacles), std::move(movers), parts.size(), margins, groups};

@@ -108,6 +108,13 @@ TEST_F(GraspCommand, TakesOtherHands) {
 
 TEST_F(GraspCommand, NamesWhatIsWrong) {
   expect_refused({"grasp", kScene, "--hand-trajectory", folder.write("few.csv", "t_s,x_m\n0,0\n")}, {"few.csv:1"});
+  const std::string comma = folder.write("comma.yaml",
+                                         "objects:\n- {name: 'ball, red', movable: true, shape: {type: sphere}}\n"
+                                         "- {name: floor, shape: {type: plate}, pose: {position_m: [0, 0, -0.1]}}\n");
+  expect_refused({"grasp", comma, "--hand-trajectory", kHand}, {"comma.yaml", "ball, red", "comma"});
+  std::string late = read_text_file(kHand);
+  late.replace(late.find("\n5.2,"), 5, "\n90000,");
+  expect_refused({"grasp", kScene, "--hand-trajectory", folder.write("late.csv", late)}, {"late.csv", "a day"});
   const std::string shape = folder.write("hand.yaml", "side: left\nlength_m: 3\n");
   expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--hand", shape}, {"hand.yaml", "length"});
   const std::string side = folder.write("side.yaml", "side: upper\n");

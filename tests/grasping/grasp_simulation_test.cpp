@@ -114,6 +114,19 @@ TEST(GraspSimulation, TakesHoldOfThePartThatTheHandClosesRound) {
   EXPECT_EQ(scene.simulation.held_part(0), 0U);
 }
 
+TEST(GraspSimulation, PullsAtNothingWhenItTakesHold) {
+  HandAndBall scene;
+  int ms = 0;
+  for (; ms < 400 && !scene.simulation.held_part(0); ++ms)
+    scene.advance(bent_hand(1.2 * std::min(1.0, ms / 150.0)));
+  ASSERT_TRUE(scene.simulation.held_part(0));
+  const Isometry3d X_WV = scene.X_WV();
+  for (int i = 0; i < 100; ++i) {
+    scene.advance(bent_hand(1.2 * std::min(1.0, ++ms / 150.0)));
+    ASSERT_LT((scene.X_WV().translation() - X_WV.translation()).norm(), 1e-6) << i << " ms after";
+  }
+}
+
 TEST(GraspSimulation, CarriesAHeldPartRigidlyWithThePalm) {
   HandAndBall scene;
   close_round_ball(scene);
@@ -184,6 +197,7 @@ TEST(GraspSimulation, PressesOnNothingWhileTheHandIsLost) {
     scene.lose();
   EXPECT_EQ(scene.simulation.state(0), HandState::kLost);
   EXPECT_EQ(scene.simulation.held_part(0), 0U) << "nothing is dropped";
+  EXPECT_TRUE(scene.simulation.clasp(0).contacts().empty()) << "no finger feels anything";
   EXPECT_LT(scene.force(), 1e-9);
   EXPECT_LT((scene.X_WV().translation() - X_WV.translation()).norm(), 1e-3);
   for (int ms = 0; ms < 300; ++ms)

@@ -111,6 +111,18 @@ TEST_F(CubeAndRider, ARiderFarFromThePartLimitsItsTurns) {
   EXPECT_GT(sliding_.result(0).pushing, 0);
 }
 
+// Hands may come into each other: nothing stops them.
+TEST(Riders, OfTwoChainsInsideEachOtherHoldUpNoPart) {
+  MultiPartSliding sliding({wall(0.1)}, {{.part_V = cube(0.04)}}, {},
+                           {{{cube(0.02)}, kMarginOfRider_m}, {{cube(0.02)}, kMarginOfRider_m}});
+  sliding.place_riders(0, std::array{pose({0.0, 0.0, 0.035})});
+  sliding.place_riders(1, std::array{pose({0.005, 0.0, 0.04})});
+  sliding.attach(0, 0);
+  for (int i = 1; i <= 100; ++i)
+    sliding.advance(std::array{pose({0.0, 1e-4 * i, 0.0})});
+  EXPECT_NEAR(sliding.result(0).X_WV.translation().y(), 0.01, 1e-9);
+}
+
 TEST(Riders, OfAHeldPartPushAnotherPart) {
   const std::vector<HeldPart> parts{
       {.part_V = cube(0.04), .stiffness = CouplingStiffness{3000.0, 3.0}},
