@@ -124,7 +124,7 @@ class GraspTables {
     const grasping::Grasp& grasp = simulation_.grasp(h);
     hand_rows_.add(time_s)
         .add(static_cast<std::int64_t>(h))
-        .add(grasping::name_of(simulation_.state(h)))
+        .add(devices::name_of(simulation_.activity(h)))
         .add(posture.X_WR);
     for (const double value : posture.values)
       hand_rows_.add(value);

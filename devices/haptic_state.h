@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <glissade/devices/glove_device.h>
 #include <glissade/devices/safety_envelope.h>
 
 namespace glissade::devices {
@@ -41,6 +42,36 @@ PartState part_state_from_number(std::int32_t number) noexcept;
 inline constexpr std::size_t kHapticParts = 4;
 inline constexpr std::size_t kHapticHands = 4;
 
+/// What a hand with fingers does. Messages carry its number.
+enum class HandActivity : std::int32_t {
+  kNone = 0,     ///< not reported: the hand has no fingers in the simulation, and holds by its grip
+  kLost = 1,     ///< its tracker does not see it
+  kWaiting = 2,  ///< it has been inside an object since the start or since it was found, and waits until it is free
+  kFree = 3,     ///< it holds nothing, though it may touch
+  kHolding = 4,  ///< a part moves with it
+};
+
+/// Number of activities; their values run from 0 to kHandActivities − 1.
+inline constexpr std::int32_t kHandActivities = 5;
+
+/// What the segments that touch make of a grasp (paper §4). Messages carry its number.
+enum class GraspKind : std::int32_t { kNone = 0, kPush = 1, kPrecision = 2, kPower = 3 };
+
+/// Number of kinds; their values run from 0 to kGraspKinds − 1.
+inline constexpr std::int32_t kGraspKinds = 4;
+
+/// Such as "holding" and "power"; "none" for a value that is none of the above.
+std::string_view name_of(HandActivity activity);
+std::string_view name_of(GraspKind kind);
+
+/// A hand with fingers as the simulation shows it: it never goes into anything.
+struct VisibleHand {
+  HandActivity activity = HandActivity::kNone;
+  GraspKind grasp = GraspKind::kNone;
+  Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
+  JointValues angles{};  ///< rad
+};
+
 /// A part after one haptic tick.
 struct HapticPartState {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< of a part that no hand holds: X_WV
@@ -68,6 +99,8 @@ struct HapticHandState {
   std::chrono::nanoseconds command_age{0};  ///< `GloveState::command_age`
   double energy = 0.0;                      ///< `SafeCommand::energy`, J
   double glove_energy = 0.0;                ///< `GloveState::energy`
+  VisibleHand visible;                      ///< of a hand with fingers
+  JointValues joint_torques{};              ///< Nm, as its device got them
 };
 
 /// One haptic tick. The contact set is the newest answer of the simulation to a pose of each ghost: the poses X_WV and

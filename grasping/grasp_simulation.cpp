@@ -7,6 +7,8 @@
 #include <glissade/base/assert.h>
 #include <glissade/grasping/grasp_simulation.h>
 
+#include "hand/hand_links.h"
+#include "life/finger_rows.h"
 #include "life/grasping_hand.h"
 #include "life/push.h"
 
@@ -41,20 +43,26 @@ std::vector<haptics::RiderChain> chains_of(const std::vector<GraspingHand>& hand
   return chains;
 }
 
+devices::HandActivity activity_of(const GraspingHand& hand) {
+  if (hand.is_lost()) return devices::HandActivity::kLost;
+  if (hand.clasp().state() == ClaspState::kWaiting) return devices::HandActivity::kWaiting;
+  return hand.part() ? devices::HandActivity::kHolding : devices::HandActivity::kFree;
+}
+
 }  // namespace
 
-std::string_view name_of(HandState state) {
-  switch (state) {
-    case HandState::kLost:
-      return "lost";
-    case HandState::kWaiting:
-      return "waiting";
-    case HandState::kFree:
-      return "free";
-    case HandState::kHolding:
-      return "holding";
+haptics::FingerHand finger_hand(const HandModel& hand) {
+  haptics::FingerHand result;
+  const std::span<const FlexValue> values = hand.chain.values();
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    result.limits.lower[v] = values[v].lower;
+    result.limits.upper[v] = values[v].upper;
   }
-  return "unknown";
+  for (const std::size_t l : {kWrist, kPalmLink}) {
+    const ChainLink& link = hand.chain.links()[l];
+    result.wrist.push_back({link.terms.front().value, link.X_PJ, link.axis_J});
+  }
+  return result;
 }
 
 class GraspSimulation::Life {
@@ -66,7 +74,8 @@ class GraspSimulation::Life {
         parts_(fixed, parts, rules.sliding, chains_of(hands_, rules.clasp.margin)),
         X_WG_(parts.size(), Eigen::Isometry3d::Identity()),
         pushes_(parts.size()),
-        is_present_(hands.size(), 0) {
+        is_present_(hands.size(), 0),
+        answers_(hands.size()) {
     if (std::abs(up_W_.norm() - 1.0) > kUnitTolerance)
       throw std::invalid_argument("the direction against gravity must be a unit vector");
     for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -85,19 +94,55 @@ class GraspSimulation::Life {
 
   void advance(std::span<const std::optional<Posture>> targets, double milliseconds) {
     GLISSADE_ASSERT(targets.size() == hands_.size());
-    for (std::size_t h = 0; h < hands_.size(); ++h)
-      aim(h, targets[h]);
+    for (std::size_t h = 0; h < hands_.size(); ++h) {
+      if (aim(h, targets[h]) && hands_[h].part()) settle(*hands_[h].part());
+    }
     for (std::size_t p = 0; p < X_WG_.size(); ++p)
-      choose_ghost(p);
-    parts_.advance(X_WG_, milliseconds);
-    for (std::size_t h = 0; h < hands_.size(); ++h)
-      move_hand(h);
-    for (GraspingHand& hand : hands_)
-      hand.analyze(milliseconds, up_W_);
-    for (std::size_t h = 0; h < hands_.size(); ++h)
-      take_or_let_go(h);
+      X_WG_[p] = is_held(p) ? wish(p).value_or(parts_.result(p).X_WV) : yielding(p);
+    move(milliseconds);
+    for (std::size_t h = 0; h < hands_.size(); ++h) {
+      const std::optional<std::size_t> before = hands_[h].part();
+      if (!hold(h, wanted_part(h))) continue;
+      if (before) settle(*before);
+      if (hands_[h].part()) settle(*hands_[h].part());
+    }
+    note_pushes();
+  }
+
+  void advance(const haptics::Ghosts& ghosts, double milliseconds) {
+    for (std::size_t h = 0; h < hands_.size(); ++h) {
+      const haptics::GhostOfHand& ghost = ghosts.hands[h];
+      aim(h, ghost.is_tracked ? std::optional(Posture{ghost.X_WH, {ghost.angles.begin(), ghost.angles.end()}})
+                              : std::nullopt);
+      hold(h, ghost.part < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(ghost.part)));
+    }
     for (std::size_t p = 0; p < X_WG_.size(); ++p)
-      note_push(p);
+      X_WG_[p] = ghosts.parts[p].is_held ? ghosts.parts[p].X_WG : yielding(p);
+    move(milliseconds);
+    for (std::size_t h = 0; h < hands_.size(); ++h)
+      decide(h);
+    note_pushes();
+  }
+
+  void take_part(std::size_t p, const Eigen::Isometry3d& X_WG) {
+    pushes_[p].clear();
+    parts_.grasp(p, X_WG);
+  }
+
+  void leave_part(std::size_t p) {
+    pushes_[p].clear();
+    parts_.release(p);
+  }
+
+  void tell_hands(haptics::ContactSet& set) {
+    for (std::size_t h = 0; h < hands_.size(); ++h) {
+      const GraspingHand& hand = hands_[h];
+      haptics::HandAnswer& answer = answers_[h];
+      answer.visible.activity = activity_of(hand);
+      answer.visible.grasp = static_cast<devices::GraspKind>(hand.grasp().type);
+      tell_visible(hand.clasp().chain(), hand.clasp().posture(), hand.clasp().contacts(), X_WL_, answer);
+      set.hands[h] = answer;
+    }
   }
 
  private:
@@ -105,19 +150,32 @@ class GraspSimulation::Life {
     return std::any_of(hands_.begin(), hands_.end(), [&](const GraspingHand& hand) { return hand.part() == part; });
   }
 
-  /// A hand that is found again may be anywhere: a free one begins there, and a held part goes there slowly.
-  void aim(std::size_t h, const std::optional<Posture>& target) {
+  /// A hand that is found again may be anywhere: a free one begins there, and a held part goes there slowly. Returns
+  /// whether the hand was lost or found.
+  bool aim(std::size_t h, const std::optional<Posture>& target) {
     GraspingHand& hand = hands_[h];
     const bool was_lost = hand.is_lost();
     hand.aim(target);
-    if (hand.is_lost() == was_lost) return;
-    if (hand.part()) {
-      if (hand.is_lost()) hand.clasp().forget_contacts();
-      settle(*hand.part());
+    if (hand.is_lost() == was_lost) return false;
+    if (hand.is_lost() && hand.part()) {
+      hand.clasp().forget_contacts();
     } else if (hand.is_lost()) {
       hand.clasp().lose_track();
       remove(h);
     }
+    return true;
+  }
+
+  /// Moves parts, then hands. While the parts are within a step, hands stand still: they would change what it is about.
+  void move(double milliseconds) {
+    parts_.advance(X_WG_, milliseconds);
+    waited_ms_ += milliseconds;
+    if (parts_.is_within_cycle()) return;
+    for (std::size_t h = 0; h < hands_.size(); ++h)
+      move_hand(h);
+    for (GraspingHand& hand : hands_)
+      hand.analyze(waited_ms_, up_W_);
+    waited_ms_ = 0.0;
   }
 
   /// The mean of what the hands that hold a part want of it; none while none of them has a target.
@@ -138,17 +196,12 @@ class GraspSimulation::Life {
     return geometry::displaced(X_WV, p_Vref, sum.scaled(1.0 / count));
   }
 
-  void choose_ghost(std::size_t p) {
+  /// Where a loose part goes that hands push.
+  Eigen::Isometry3d yielding(std::size_t p) {
     const Eigen::Isometry3d& X_WV = parts_.result(p).X_WV;
-    X_WG_[p] = X_WV;
-    if (is_held(p)) {
-      X_WG_[p] = wish(p).value_or(X_WV);
-      return;
-    }
-    Push& push = pushes_[p];
-    if (push.is_empty()) return;
+    if (pushes_[p].is_empty()) return X_WV;
     const haptics::SlidingPart& part = parts_.part(p);
-    X_WG_[p] = geometry::displaced(X_WV, part.p_Vref(), push.displacement(part.radius()));
+    return geometry::displaced(X_WV, part.p_Vref(), pushes_[p].displacement(part.radius()));
   }
 
   void move_hand(std::size_t h) {
@@ -159,7 +212,7 @@ class GraspSimulation::Life {
     hand.advance();
     if (hand.clasp().state() != ClaspState::kClasping) return;
     parts_.place_riders(h, hand.segments());
-    is_present_[h] = 1;
+    if (std::exchange(is_present_[h], char{1}) == 0 && hand.part()) parts_.attach(h, *hand.part());
   }
 
   void remove(std::size_t h) {
@@ -176,21 +229,35 @@ class GraspSimulation::Life {
     return part;
   }
 
-  /// A hand without a target keeps what it has.
-  void take_or_let_go(std::size_t h) {
+  /// What the hand is to hold. One without a target keeps what it has.
+  std::optional<std::size_t> wanted_part(std::size_t h) const {
+    const GraspingHand& hand = hands_[h];
+    return hand.is_lost() ? hand.part() : grasped_part(hand);
+  }
+
+  /// Returns whether the hand holds something else than before.
+  bool hold(std::size_t h, std::optional<std::size_t> part) {
     GraspingHand& hand = hands_[h];
-    if (hand.is_lost()) return;
-    const std::optional<std::size_t> grasped = grasped_part(hand);
-    if (grasped == hand.part()) return;
-    if (const std::optional<std::size_t> old = hand.part()) {
+    if (part == hand.part()) return false;
+    if (hand.part()) {
       hand.let_go();
-      parts_.detach(h);
-      settle(*old);
+      if (is_present_[h] != 0) parts_.detach(h);
     }
-    if (!grasped) return;
-    hand.take(*grasped, parts_.result(*grasped).X_WV);
-    parts_.attach(h, *grasped);
-    settle(*grasped);
+    if (part) {
+      hand.take(*part, parts_.result(*part).X_WV);
+      if (is_present_[h] != 0) parts_.attach(h, *part);
+    }
+    return true;
+  }
+
+  /// Decides for the haptic thread.
+  void decide(std::size_t h) {
+    const std::optional<std::size_t> part = wanted_part(h);
+    const std::int32_t number = part ? static_cast<std::int32_t>(*part) : -1;
+    haptics::HandAnswer& answer = answers_[h];
+    if (number == answer.part) return;
+    answer.part = number;
+    ++answer.decision;
   }
 
   /// After another hand has taken hold of a part or let go of it. The part approaches its new ghost slowly.
@@ -201,6 +268,11 @@ class GraspSimulation::Life {
     } else if (const std::optional<Eigen::Isometry3d> X_WG = wish(p)) {
       parts_.grasp(p, *X_WG);
     }
+  }
+
+  void note_pushes() {
+    for (std::size_t p = 0; p < X_WG_.size(); ++p)
+      note_push(p);
   }
 
   /// A part that is pushed follows the push, and is released when no hand pushes it any more. A hand that is about to
@@ -226,6 +298,10 @@ class GraspSimulation::Life {
   std::vector<Eigen::Isometry3d> X_WG_;  // of each part
   std::vector<Push> pushes_;             // of each part
   std::vector<char> is_present_;         // by hand: among the riders
+  double waited_ms_ = 0.0;               // since the hands moved
+  // In the haptic loop:
+  std::vector<haptics::HandAnswer> answers_;  // for each hand
+  std::vector<Eigen::Isometry3d> X_WL_;       // scratch memory
 };
 
 GraspSimulation::GraspSimulation(const std::vector<haptics::Obstacle>& fixed,
@@ -249,11 +325,8 @@ std::size_t GraspSimulation::part_count() const {
   return life_->parts().part_count();
 }
 
-HandState GraspSimulation::state(std::size_t hand) const {
-  const GraspingHand& one = life_->hand(hand);
-  if (one.is_lost()) return HandState::kLost;
-  if (one.clasp().state() == ClaspState::kWaiting) return HandState::kWaiting;
-  return one.part() ? HandState::kHolding : HandState::kFree;
+devices::HandActivity GraspSimulation::activity(std::size_t hand) const {
+  return activity_of(life_->hand(hand));
 }
 
 const Posture& GraspSimulation::posture(std::size_t hand) const {
@@ -274,6 +347,24 @@ std::optional<std::size_t> GraspSimulation::held_part(std::size_t hand) const {
 
 const haptics::MultiPartSliding& GraspSimulation::parts() const {
   return life_->parts();
+}
+
+void GraspSimulation::take_part(std::size_t part, const Eigen::Isometry3d& X_WG) {
+  GLISSADE_ASSERT(part < part_count());
+  life_->take_part(part, X_WG);
+}
+
+void GraspSimulation::leave_part(std::size_t part) {
+  GLISSADE_ASSERT(part < part_count());
+  life_->leave_part(part);
+}
+
+void GraspSimulation::advance(const haptics::Ghosts& ghosts, double milliseconds) {
+  life_->advance(ghosts, milliseconds);
+}
+
+void GraspSimulation::tell_hands(haptics::ContactSet& set) const {
+  life_->tell_hands(set);
 }
 
 }  // namespace glissade::grasping

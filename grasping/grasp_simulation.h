@@ -4,19 +4,20 @@
 /// contact for the parts that hands hold.
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
+#include <glissade/devices/haptic_state.h>
 #include <glissade/grasping/clasp.h>
 #include <glissade/grasping/grasp_analysis.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/haptics/contact_body.h>
+#include <glissade/haptics/haptic_kernel.h>
+#include <glissade/haptics/loop_simulation.h>
 #include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/haptics/sliding_rules.h>
 
@@ -28,15 +29,8 @@ struct GraspRules {
   Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();  ///< of unit length, against gravity
 };
 
-/// What a hand does.
-enum class HandState : std::uint8_t {
-  kLost,     ///< there is no target: the hand stays where it is, and presses on nothing
-  kWaiting,  ///< as `ClaspState::kWaiting`
-  kFree,     ///< the hand holds nothing, though it may touch
-  kHolding,  ///< a part moves with the hand
-};
-
-std::string_view name_of(HandState state);
+/// What the haptic loop needs to know of a hand (`haptics::KernelHand::fingers`).
+haptics::FingerHand finger_hand(const HandModel& hand);
 
 /// Loose parts stand still where they were left; nothing falls. Deterministic. Not thread-safe.
 ///
@@ -47,7 +41,11 @@ std::string_view name_of(HandState state);
 /// at the earliest. A part in two hands follows the mean of their wishes. A hand that touches a loose part without a
 /// grasp pushes it: the part yields by the shortest way on which the target of the hand has room, as far as obstacles
 /// let it.
-class GraspSimulation {
+///
+/// In the haptic loop (`haptics::HapticServer`), the haptic thread has the ghosts of parts in hands, and this simulation
+/// decides who takes hold. A decision takes effect once the haptic thread has followed it. Then a part is where the
+/// tracked palm, not the visible one, would have it: nothing moves when a hand takes hold.
+class GraspSimulation final : public haptics::LoopSimulation {
  public:
   /// Parts are loose at the start, unless scripts lead them; scripted parts cannot be held. Throws
   /// std::invalid_argument as `haptics::MultiPartSliding` and `Clasp` do, for a hand that is null, and for an `up_W`
@@ -56,7 +54,7 @@ class GraspSimulation {
                   const std::vector<std::shared_ptr<const HandModel>>& hands, const GraspRules& rules = {});
   GraspSimulation(GraspSimulation&&) noexcept;
   GraspSimulation& operator=(GraspSimulation&&) noexcept;
-  ~GraspSimulation();
+  ~GraspSimulation() override;
 
   /// One target for each hand: the tracked posture, or none while the tracking is lost. `milliseconds` have passed
   /// since the last call.
@@ -66,7 +64,7 @@ class GraspSimulation {
   std::size_t part_count() const;
 
   // Of the hand with this number:
-  HandState state(std::size_t hand) const;
+  devices::HandActivity activity(std::size_t hand) const;
   /// The visible hand. While it is free or holds a part, it touches nothing, nor did it on its way. A hand that is lost
   /// or waits stays as it was, and is in nobody's way.
   const Posture& posture(std::size_t hand) const;
@@ -77,7 +75,13 @@ class GraspSimulation {
   std::optional<std::size_t> held_part(std::size_t hand) const;
 
   /// Poses, lag and contacts of the parts.
-  const haptics::MultiPartSliding& parts() const;
+  const haptics::MultiPartSliding& parts() const override;
+
+  // In the haptic loop; not together with the other `advance`.
+  void take_part(std::size_t part, const Eigen::Isometry3d& X_WG) override;
+  void leave_part(std::size_t part) override;
+  void advance(const haptics::Ghosts& ghosts, double milliseconds) override;
+  void tell_hands(haptics::ContactSet& set) const override;
 
  private:
   class Life;

@@ -1,8 +1,8 @@
 #pragma once
 
 /// What the haptic thread (the 1 kHz loop that computes the forces) and the simulation pass to each other, as plain
-/// data of a fixed size: the ghosts of all parts one way; the visible poses and the constraints of the contacts near
-/// them the other way.
+/// data of a fixed size: the ghosts of all parts and the postures of all hands one way; the visible poses and the
+/// constraints of the contacts near them the other way.
 
 #include <array>
 #include <chrono>
@@ -13,11 +13,16 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/devices/glove_device.h>
+#include <glissade/devices/haptic_state.h>
 #include <glissade/geometry/displacement.h>
 #include <glissade/haptics/sliding_result.h>
 #include <glissade/haptics/sliding_rules.h>
 
 namespace glissade::haptics {
+
+/// Maximum number of hands, i.e. devices, of one loop.
+inline constexpr std::size_t kMaxHands = 4;
 
 /// The force of a set is full up to kFullForce after the ghost pose that the set answers, and zero from kForceless on.
 /// In between it fades smoothly.
@@ -80,6 +85,27 @@ struct PartAnswer {
   std::int64_t hold = 0;     ///< `GhostOfPart::hold` of the ghost that the set answers
 };
 
+/// A contact of a segment of a hand with fingers. Where its joints turn by d (rad, one for each joint), the gap grows by
+/// rates · d, to first order.
+struct FingerRow {
+  devices::JointValues rates{};  ///< m/rad
+  double gap = 0.0;              ///< metres at the visible hand, less the margin; at least 0
+};
+
+/// Maximum number of rows of one hand in a contact set. The set omits the contacts that are the least deep.
+inline constexpr std::size_t kMaxFingerRows = 32;
+
+/// The simulation's answer for one hand with fingers: the visible hand, and what it is to hold.
+struct HandAnswer {
+  devices::VisibleHand visible;
+  std::int32_t part = -1;      ///< number of the part that the hand is to hold; −1: none
+  std::int64_t decision = 0;   ///< increases whenever the simulation decides on another part
+  std::int32_t row_count = 0;  ///< rows in use
+  std::array<FingerRow, kMaxFingerRows> row_array{};
+
+  std::span<const FingerRow> rows() const { return {row_array.data(), static_cast<std::size_t>(row_count)}; }
+};
+
 /// The simulation's answer to one pose of each ghost, i.e. to a pose that the part would have if nothing were in the
 /// way. Only parts that hands lead have rows.
 struct ContactSet {
@@ -90,6 +116,7 @@ struct ContactSet {
   std::int32_t row_count = 0;  ///< rows in use
   /// Part by part; of each, first the pushing contacts, then the others, the nearest first.
   std::array<ContactRow, kMaxParts * kMaxContactRows> row_array{};
+  std::array<HandAnswer, kMaxHands> hands{};  ///< of those with fingers
 
   std::span<const ContactRow> rows() const { return {row_array.data(), static_cast<std::size_t>(row_count)}; }
 };
@@ -103,10 +130,19 @@ struct GhostOfPart {
   std::int64_t release = 0;  ///< value of `hold` when the last hand let go
 };
 
-/// All parts at one time of the haptic clock.
+/// One hand with fingers as the haptic thread knows it.
+struct GhostOfHand {
+  bool is_tracked = false;  ///< posture and pose are known and plausible
+  Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
+  devices::JointValues angles{};  ///< rad
+  std::int32_t part = -1;         ///< number of the part that it holds; −1: none
+};
+
+/// All parts and hands at one time of the haptic clock.
 struct Ghosts {
   std::chrono::nanoseconds time{0};
   std::array<GhostOfPart, kMaxParts> parts{};
+  std::array<GhostOfHand, kMaxHands> hands{};  ///< of those with fingers
 };
 
 }  // namespace glissade::haptics

@@ -9,6 +9,7 @@
 
 #include "loop/contact_force.h"
 #include "loop/contact_projection.h"
+#include "loop/finger_forces.h"
 #include "loop/holds.h"
 
 namespace glissade::haptics {
@@ -35,6 +36,10 @@ bool has_pose(const devices::GloveState& state) {
   return state.X_WH.matrix().allFinite() && state.v_WH.allFinite() && state.w_WH.allFinite();
 }
 
+bool are_finite(const devices::JointValues& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
 /// Finite, and so small that no product of two of them overflows. No scene and no hand comes near the bound.
 template <typename Numbers>
 bool is_usable(const Eigen::MatrixBase<Numbers>& numbers) {
@@ -51,6 +56,37 @@ bool is_usable_row(const ContactRow& row) {
   return is_usable(row.n) && is_usable(row.r) && is_usable(row.r_other) && is_usable(row.friction_ratio_W) &&
          is_usable(Eigen::Vector2d(row.bound, row.approach)) && !std::isnan(row.range);
 }
+
+bool is_usable_hand(const HandAnswer& hand) {
+  const auto has_numbers = [](const FingerRow& row) { return are_finite(row.rates) && std::isfinite(row.gap); };
+  return is_usable(hand.visible.X_WH.matrix()) && are_finite(hand.visible.angles) &&
+         std::all_of(hand.rows().begin(), hand.rows().end(), has_numbers);
+}
+
+/// Fingers of a hand that has them.
+struct Fingers {
+  FingerHand hand;
+  FingerForces forces;
+  devices::JointValues angles{};  // of the wrist, as the ghost has them
+  bool is_found = false;          // the angles are those of a state
+  std::int64_t decision = 0;      // of the simulation, that the hand has followed
+  Eigen::Isometry3d X_WP = Eigen::Isometry3d::Identity();  // the palm
+
+  /// The joints of the wrist turn no faster than a hand can, whatever their sensors say.
+  void move_palm(const devices::GloveState& state, double dt) noexcept {
+    constexpr double kFastest_rad_per_s = 30.0;
+    X_WP = state.X_WH;
+    for (const WristJoint& joint : hand.wrist) {
+      const std::size_t j = joint.angle;
+      const double wanted = std::clamp(state.joint_angles[j], hand.limits.lower[j], hand.limits.upper[j]);
+      const double step = is_found ? std::clamp(wanted - angles[j], -kFastest_rad_per_s * dt, kFastest_rad_per_s * dt)
+                                   : wanted - angles[j];
+      angles[j] += step;
+      X_WP = X_WP * joint.X_PJ * Eigen::AngleAxisd(angles[j], joint.axis_J);
+    }
+    is_found = true;
+  }
+};
 
 }  // namespace
 
@@ -82,6 +118,7 @@ struct HapticKernel::Hand {
   double supply = 0.0;  // J, of the commands
   double owed = 0.0;    // J: work of the hand against force that was withheld, as far as it has not been lifted again
   Wrench solved;        // of the contacts when they last had a solution
+  std::optional<Fingers> fingers;
 
   /// A hand that sinks while the force of its contacts is withheld is lifted when it returns, as if it had sunk against
   /// the force. From the work against the withheld and the exerted force in this tick, the energy to lift it with.
@@ -103,6 +140,7 @@ struct HapticKernel::Hand {
     const auto delay =
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(link_delay_s));
     present = coupling_within_limits(envelope.descriptor(), coupling.stiffness, period, delay);
+    if (fingers) fingers->forces.set_link_delay(delay);
     return std::min(present.stiffness.translational / coupling.stiffness.translational,
                     present.stiffness.rotational / coupling.stiffness.rotational);
   }
@@ -125,16 +163,22 @@ HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<Kern
       of_hand[p] = couplings[p].stiffness;
     }
     ContactForce contacts(parts_.front().radius, couplings.front().stiffness, kHeadroom * hand.device.max_force);
+    std::optional<Fingers> fingers;
+    if (hand.fingers)
+      fingers.emplace(Fingers{.hand = *hand.fingers, .forces = {hand.fingers->limits, hand.device, period}});
     hands_.push_back(
         std::make_unique<Hand>(Hand{.couplings = couplings,
                                     .present = couplings.front(),
                                     .contacts = contacts,
-                                    .envelope = devices::SafetyEnvelope(hand.device, kPatiencePeriods, period)}));
+                                    .envelope = devices::SafetyEnvelope(hand.device, kPatiencePeriods, period),
+                                    .fingers = std::move(fingers)}));
   }
   contacts_ = std::make_unique<ContactProjection>(p_Vref);
   holds_ = std::make_unique<Holds>(std::move(p_Vref), std::move(stiffness));
   for (std::size_t h = 0; h < hands.size(); ++h) {
     if (!hands[h].part) continue;
+    if (hands[h].fingers)
+      throw std::invalid_argument("hand " + std::to_string(h) + " has fingers, so it is given no part: it takes hold");
     const bool can_hold = grasp(h, *hands[h].part);
     hands_[h]->given = hands[h].part;
     if (can_hold) continue;
@@ -145,7 +189,7 @@ HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<Kern
 HapticKernel::~HapticKernel() = default;
 
 bool HapticKernel::can_grasp(std::size_t hand, std::size_t part) const noexcept {
-  return hand < hands_.size() && part < parts_.size() && !parts_[part].is_scripted;
+  return hand < hands_.size() && !hands_[hand]->fingers && part < parts_.size() && !parts_[part].is_scripted;
 }
 
 bool HapticKernel::grasp(std::size_t hand, std::size_t part) noexcept {
@@ -156,7 +200,7 @@ bool HapticKernel::grasp(std::size_t hand, std::size_t part) noexcept {
 }
 
 void HapticKernel::release(std::size_t hand) noexcept {
-  if (hand >= hands_.size()) return;
+  if (hand >= hands_.size() || hands_[hand]->fingers) return;
   hands_[hand]->given.reset();
   holds_->release(hand);
 }
@@ -178,10 +222,18 @@ const Coupling& HapticKernel::present_coupling(std::size_t hand) const {
 
 const ContactSet& HapticKernel::usable(const ContactSet& set) noexcept {
   const std::span<const PartAnswer> parts{set.parts.data(), parts_.size()};
+  const std::span<const HandAnswer> hands{set.hands.data(), hands_.size()};
   const bool is_whole = std::all_of(parts.begin(), parts.end(), is_usable_part) &&
-                        std::all_of(set.rows().begin(), set.rows().end(), is_usable_row);
+                        std::all_of(set.rows().begin(), set.rows().end(), is_usable_row) &&
+                        std::all_of(hands.begin(), hands.end(), is_usable_hand);
   if (!is_whole) return last_poses_;
   std::copy(parts.begin(), parts.end(), last_poses_.parts.begin());
+  for (std::size_t h = 0; h < hands.size(); ++h) {
+    HandAnswer& last = last_poses_.hands[h];
+    last.visible = hands[h].visible;
+    last.part = hands[h].part;
+    last.decision = hands[h].decision;
+  }
   return set;
 }
 
@@ -194,11 +246,19 @@ HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     if (states[h] == nullptr) continue;
     // Judged before the pose can move anything that another hand feels.
-    const bool is_trusted = hands_[h]->envelope.trusts(*states[h], now) && has_pose(*states[h]);
-    poses[h].is_fading = hands_[h]->is_fading || !is_trusted;
+    Hand& hand = *hands_[h];
+    const bool is_trusted = hand.envelope.trusts(*states[h], now) && has_pose(*states[h]) &&
+                            !(hand.fingers && !are_finite(states[h]->joint_angles));
+    poses[h].is_fading = hand.is_fading || !is_trusted;
     if (!is_trusted) continue;
-    poses[h].X_WH = &states[h]->X_WH;
-    follow_grip(h, *states[h], set);
+    if (hand.fingers) {
+      hand.fingers->move_palm(*states[h], dt);
+      poses[h].X_WH = &hand.fingers->X_WP;
+      follow_decision(h, set.hands[h]);
+    } else {
+      poses[h].X_WH = &states[h]->X_WH;
+      follow_grip(h, *states[h], set);
+    }
   }
   holds_->update({poses.data(), hands_.size()}, set, dt);
   const std::chrono::nanoseconds age = set.sequence == 0 ? std::chrono::nanoseconds(0) : now - set.time;
@@ -209,9 +269,29 @@ HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states
   for (std::size_t p = 0; p < parts_.size(); ++p)
     tick.ghosts.parts[p] = holds_->ghost(p);
   for (std::size_t h = 0; h < hands_.size(); ++h) {
-    if (states[h] != nullptr) tick.hands[h] = render(h, *states[h], age, now, dt);
+    if (states[h] != nullptr) tick.hands[h] = render(h, *states[h], set, age, now, dt);
+    if (!hands_[h]->fingers) continue;
+    GhostOfHand& ghost = tick.ghosts.hands[h];
+    ghost.part = tick.hands[h].part ? static_cast<std::int32_t>(*tick.hands[h].part) : -1;
+    ghost.is_tracked = poses[h].X_WH != nullptr && !poses[h].is_fading;
+    if (!ghost.is_tracked) continue;
+    ghost.X_WH = states[h]->X_WH;
+    ghost.angles = states[h]->joint_angles;
   }
   return tick;
+}
+
+/// What the contacts say counts, and no grip.
+void HapticKernel::follow_decision(std::size_t number, const HandAnswer& answer) noexcept {
+  Fingers& fingers = *hands_[number]->fingers;
+  if (answer.decision == fingers.decision) return;
+  fingers.decision = answer.decision;
+  const auto part = static_cast<std::size_t>(answer.part);
+  if (answer.part >= 0 && part < parts_.size() && !parts_[part].is_scripted) {
+    holds_->grasp(number, part);
+  } else {
+    holds_->release(number);
+  }
 }
 
 /// One state alone may be wrong, and one while the force fades too.
@@ -251,8 +331,8 @@ std::optional<std::size_t> HapticKernel::nearest_part(const Eigen::Vector3d& p_W
   return nearest;
 }
 
-HandTick HapticKernel::render(std::size_t number, const devices::GloveState& state, std::chrono::nanoseconds age,
-                              std::chrono::nanoseconds now, double dt) noexcept {
+HandTick HapticKernel::render(std::size_t number, const devices::GloveState& state, const ContactSet& set,
+                              std::chrono::nanoseconds age, std::chrono::nanoseconds now, double dt) noexcept {
   Hand& hand = *hands_[number];
   HandTick tick;
   tick.part = holds_->part_of(number);
@@ -314,6 +394,7 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
     command.f_H_W = on_hand.f;
     command.t_H_W = on_hand.t;
   }
+  if (hand.fingers) command.joint_torques = hand.fingers->forces.update(state.joint_angles, set.hands[number], age);
   tick.command = hand.envelope.limit(command, state, now);
   hand.is_fading = tick.command.reasons().is_fading();
   return tick;

@@ -25,9 +25,6 @@ class ContactProjection;
 class MultiPartSliding;
 class Holds;
 
-/// Maximum number of hands, i.e. devices, of one kernel.
-inline constexpr std::size_t kMaxHands = 4;
-
 /// What the kernel knows of a part.
 struct KernelPart {
   Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< the compliance point: `SlidingPart::p_Vref`
@@ -39,10 +36,33 @@ struct KernelPart {
 /// The parts of a simulation.
 std::vector<KernelPart> kernel_parts(const MultiPartSliding& sliding);
 
+/// The range of each joint of a hand, rad.
+struct FingerLimits {
+  devices::JointValues lower{};
+  devices::JointValues upper{};
+};
+
+/// A hinge between the hand root and the palm: frames P, the one before, and J, which turns by the angle about `axis_J`.
+struct WristJoint {
+  std::size_t angle = 0;  ///< number of the glove's joint
+  Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d axis_J = Eigen::Vector3d::UnitX();  ///< of unit length
+};
+
+/// A hand with fingers in the simulation, as far as the kernel knows it.
+struct FingerHand {
+  FingerLimits limits;
+  std::vector<WristJoint> wrist{};  ///< from the hand root on; a part in the hand moves with the frame of the last one
+};
+
 /// A hand in a device.
 struct KernelHand {
   devices::DeviceDescriptor device;
-  std::optional<std::size_t> part{};  ///< number of the part that it grasps at its first state, if it is closed then
+  /// Number of the part that it grasps at its first state, if it is closed then. None for a hand with fingers.
+  std::optional<std::size_t> part{};
+  /// A hand with fingers holds what the simulation decides (`HandAnswer::part`), and its joints feel what stops them.
+  /// Without them, the hand holds by its grip.
+  std::optional<FingerHand> fingers{};
 };
 
 /// A hand that closes takes no part whose bounding sphere is farther from the hand root than this, metres.
@@ -73,7 +93,8 @@ class HapticKernel {
   /// the usual time between two ticks. If the simulation is stiffer than the device allows, the contact forces that the
   /// simulation reports differ from the force on the hand. To avoid this, construct the simulation with the stiffness
   /// that `coupling_for` returns. Throws as `coupling_for` does, and std::invalid_argument for no hands, no parts, more
-  /// than kMaxHands or kMaxParts, and for a part to hold that is scripted or does not exist.
+  /// than kMaxHands or kMaxParts, for a part to hold that is scripted or does not exist, for a hand with fingers that is
+  /// given a part, and for limits of fingers that are no range.
   HapticKernel(std::vector<KernelPart> parts, const std::vector<KernelHand>& hands,
                std::chrono::nanoseconds period = kTickPeriod);
   ~HapticKernel();
@@ -85,10 +106,10 @@ class HapticKernel {
   /// part already takes hold of it anew. Returns false, and does nothing, if there is no such hand, or no such part
   /// that can be held.
   bool grasp(std::size_t hand, std::size_t part) noexcept;
-  /// Whether there is such a hand, and such a part that can be held.
+  /// Whether there is such a hand without fingers, and such a part that can be held.
   bool can_grasp(std::size_t hand, std::size_t part) const noexcept;
-  /// In the next tick the hand lets go; its force fades. Nothing happens if it holds nothing or if there is no such
-  /// hand.
+  /// In the next tick the hand lets go; its force fades. Nothing happens if it holds nothing, if it has fingers or if
+  /// there is no such hand.
   void release(std::size_t hand) noexcept;
 
   /// Computes the tick at time `now`. `states` has the newest state of each hand; the entry of a hand without a state
@@ -96,7 +117,8 @@ class HapticKernel {
   /// that is not finite or not plausible leaves the ghost unchanged, and the force fades. A hand that opens lets go. A
   /// hand that closes grasps the part whose bounding sphere, about the compliance point, is nearest to the hand root.
   /// Opening and closing count once three states have told the same `GloveState::grip`. A contact set with a number
-  /// that is not finite counts as one without contacts, whose parts are where they last were.
+  /// that is not finite counts as one without contacts, whose parts are where they last were. A hand with fingers
+  /// follows the decisions of the set instead of its grip, and gets torques at its joints.
   HapticTick tick(std::span<const devices::GloveState* const> states, const ContactSet& set,
                   std::chrono::nanoseconds now) noexcept;
 
@@ -114,10 +136,11 @@ class HapticKernel {
 
   const ContactSet& usable(const ContactSet& set) noexcept;
   void follow_grip(std::size_t hand, const devices::GloveState& state, const ContactSet& set) noexcept;
+  void follow_decision(std::size_t hand, const HandAnswer& answer) noexcept;
   std::optional<std::size_t> nearest_part(const Eigen::Vector3d& p_WH, const ContactSet& set) const noexcept;
   double seconds_since_last_tick(std::chrono::nanoseconds now) noexcept;
-  HandTick render(std::size_t hand, const devices::GloveState& state, std::chrono::nanoseconds age,
-                  std::chrono::nanoseconds now, double dt) noexcept;
+  HandTick render(std::size_t hand, const devices::GloveState& state, const ContactSet& set,
+                  std::chrono::nanoseconds age, std::chrono::nanoseconds now, double dt) noexcept;
 
   std::vector<KernelPart> parts_;
   std::chrono::nanoseconds period_;

@@ -20,7 +20,7 @@
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/haptic_state.h>
 #include <glissade/haptics/haptic_kernel.h>
-#include <glissade/haptics/multi_part_sliding.h>
+#include <glissade/haptics/loop_simulation.h>
 #include <glissade/haptics/recording.h>
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/latency_histogram.h>
@@ -51,6 +51,7 @@ struct HapticServerOptions {
 struct HandOfServer {
   devices::GloveDevice* device = nullptr;
   std::optional<std::size_t> part = 0;  ///< number of the part in the simulation; none: `HapticServer::grasp` follows
+  std::optional<FingerHand> fingers{};  ///< as in `KernelHand`; then there is no part
 };
 
 /// Measurements of the server. Complete after `stop`.
@@ -64,7 +65,7 @@ struct HapticServerStatistics {
 };
 
 /// Runs both threads from construction to `stop`. Thread-safety: one thread owns the object. Between construction and
-/// the end of `stop`, the devices and `sliding` belong to the server's threads.
+/// the end of `stop`, the devices and `simulation` belong to the server's threads.
 class HapticServer {
  public:
   /// Receives the state of each counted tick (`HapticServerOptions::ticks`). Called by the haptic thread; must be
@@ -77,7 +78,7 @@ class HapticServer {
   /// obstacles. The coupling is the result of `coupling_for` with the descriptor of the device and the stiffness of the
   /// simulation. Throws std::invalid_argument for a null device, an empty sink or a period out of bounds, and as the
   /// constructors of `HapticKernel` and `realtime::PeriodicThread` do.
-  HapticServer(const std::vector<HandOfServer>& hands, MultiPartSliding& sliding, realtime::Clock& clock, Sink sink,
+  HapticServer(const std::vector<HandOfServer>& hands, LoopSimulation& simulation, realtime::Clock& clock, Sink sink,
                const HapticServerOptions& options = {});
   HapticServer(const HapticServer&) = delete;
   HapticServer& operator=(const HapticServer&) = delete;

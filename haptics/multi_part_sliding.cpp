@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -32,6 +33,7 @@ class MultiPartSliding::Cycle {
   const SimulatedParts& shared() const { return shared_; }
   const CallStatistics& statistics() const { return statistics_; }
   std::int64_t answered_call() const { return answered_call_; }
+  bool is_within_cycle() const { return step_finder_.is_under_way(); }
   HeldPartState& part(std::size_t number) {
     GLISSADE_ASSERT(number < shared_.count());
     return shared_.states[number];
@@ -275,6 +277,17 @@ void MultiPartSliding::advance(std::span<const Eigen::Isometry3d> X_WG, double m
   GLISSADE_ASSERT(X_WG.size() == part_count());
   GLISSADE_ASSERT(milliseconds >= 0.0 && std::isfinite(milliseconds));
   cycle_->advance(X_WG, milliseconds);
+}
+
+bool MultiPartSliding::is_within_cycle() const {
+  return cycle_->is_within_cycle();
+}
+
+void MultiPartSliding::advance(const Ghosts& ghosts, double milliseconds) {
+  std::array<Eigen::Isometry3d, kMaxParts> X_WG;
+  for (std::size_t p = 0; p < part_count(); ++p)
+    X_WG[p] = ghosts.parts[p].X_WG;
+  advance({X_WG.data(), part_count()}, milliseconds);
 }
 
 std::size_t MultiPartSliding::part_count() const {

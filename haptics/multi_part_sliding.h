@@ -24,6 +24,7 @@
 #include <glissade/geometry/displacement.h>
 #include <glissade/haptics/contact_body.h>
 #include <glissade/haptics/coupling.h>
+#include <glissade/haptics/loop_simulation.h>
 #include <glissade/haptics/sliding_result.h>
 #include <glissade/haptics/sliding_rules.h>
 #include <glissade/haptics/sliding_simulation.h>
@@ -35,7 +36,7 @@ class ContactScene;
 /// The simulation of up to kMaxParts parts among fixed obstacles, and of riders: hands, for example, that are in the
 /// way of parts or move with them. Deterministic: the same calls give the same bits. Not thread-safe; several
 /// simulations may share bodies.
-class MultiPartSliding {
+class MultiPartSliding final : public LoopSimulation {
  public:
   /// Nothing touches the riders of `chains` before they are placed. Throws std::invalid_argument for no part or more
   /// than kMaxParts parts, for a single part without obstacles and riders, for null pointers, for poses and numbers out
@@ -45,7 +46,7 @@ class MultiPartSliding {
                    const std::vector<RiderChain>& chains = {});
   MultiPartSliding(MultiPartSliding&&) noexcept;
   MultiPartSliding& operator=(MultiPartSliding&&) noexcept;
-  ~MultiPartSliding();
+  ~MultiPartSliding() override;
 
   /// As in `SlidingSimulation`, for one part; `part` is its number, below `part_count`. A released part stands still
   /// like an obstacle. Under force feedback, `grasp` does not move the target at once to the new ghost: if the part was
@@ -73,6 +74,16 @@ class MultiPartSliding {
   /// (`SlidingResult::ended_early`). If it ended within a cycle, the next call completes that cycle for the old ghosts,
   /// and then goes on with its own.
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds = 1.0);
+  /// Whether the last call ended within a cycle, which the next one completes. Other calls than `advance` give the cycle
+  /// up.
+  bool is_within_cycle() const;
+
+  // In the haptic loop: hands have no fingers.
+  const MultiPartSliding& parts() const override { return *this; }
+  void take_part(std::size_t part, const Eigen::Isometry3d& X_WG) override { grasp(part, X_WG); }
+  void leave_part(std::size_t part) override { release(part); }
+  void advance(const Ghosts& ghosts, double milliseconds) override;
+  void tell_hands(ContactSet& /*set*/) const override {}
 
   std::size_t part_count() const;
   std::size_t obstacle_count() const;

@@ -8,12 +8,12 @@
 
 namespace glissade::haptics {
 
-void run_offline(const std::vector<HandOffline>& hands, MultiPartSliding& sliding, std::int64_t ticks,
+void run_offline(const std::vector<HandOffline>& hands, LoopSimulation& simulation, std::int64_t ticks,
                  const std::function<void(const devices::HapticState&)>& sink, const OfflineRunOptions& options) {
   validate_tick_period(options.period);
   if (!sink) throw std::invalid_argument("an offline run needs a sink for its states, not an empty function");
-  HapticKernel kernel(kernel_parts(sliding), kernel_hands(hands), options.period);
-  Answerer answerer(sliding);
+  HapticKernel kernel(kernel_parts(simulation.parts()), kernel_hands(hands), options.period);
+  Answerer answerer(simulation);
   TickRecord record;
   record.hand_count = static_cast<std::int32_t>(hands.size());
   AnswerRecord answer;

@@ -17,7 +17,7 @@
 #include <glissade/devices/haptic_state.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/haptics/haptic_kernel.h>
-#include <glissade/haptics/multi_part_sliding.h>
+#include <glissade/haptics/loop_simulation.h>
 #include <glissade/haptics/recording.h>
 
 namespace glissade::haptics {
@@ -28,6 +28,7 @@ class Answerer;
 struct HandOffline {
   devices::SimulatedGlove* device = nullptr;
   std::optional<std::size_t> part = 0;  ///< number of the part in the simulation
+  std::optional<FingerHand> fingers{};  ///< as in `KernelHand`; then there is no part
 };
 
 struct OfflineRunOptions {
@@ -41,7 +42,7 @@ struct OfflineRunOptions {
 /// poses of the previous tick. Hands, parts and couplings are as in `HapticServer`. Throws std::invalid_argument for a
 /// null glove, an empty sink or a period out of the bounds of `validate_tick_period`, and as the constructor of
 /// `HapticKernel` does.
-void run_offline(const std::vector<HandOffline>& hands, MultiPartSliding& sliding, std::int64_t ticks,
+void run_offline(const std::vector<HandOffline>& hands, LoopSimulation& simulation, std::int64_t ticks,
                  const std::function<void(const devices::HapticState&)>& sink, const OfflineRunOptions& options = {});
 
 /// Repeats a recorded run: ticks and answers consume what they consumed then, and must produce the same bytes.
@@ -49,7 +50,7 @@ class Replay {
  public:
   /// A loop as the recorded one. Scene, rules, hands, period and `head` must be those of the recording. Throws as the
   /// constructor of `HapticKernel` does.
-  Replay(MultiPartSliding& sliding, const std::vector<KernelHand>& hands, std::chrono::nanoseconds period,
+  Replay(LoopSimulation& simulation, const std::vector<KernelHand>& hands, std::chrono::nanoseconds period,
          RecordingHead head);
   ~Replay();
   Replay(const Replay&) = delete;

@@ -191,6 +191,10 @@ MessageError check(const haptic_state_t& message) noexcept {
     fields.magnitude(hand.contact_share, 1.0);
     fields.magnitude(hand.energy_J, kLargestEnergy);
     fields.magnitude(hand.glove_energy_J, kLargestEnergy);
+    fields.magnitude(hand.position_WH_m, kLargestPosition);
+    fields.unit_quaternion(hand.orientation_WH_wxyz);
+    fields.magnitude(hand.joint_angles_rad, kLargestAngle);
+    fields.magnitude(hand.joint_torques_Nm, kLargestTorque);
   }
   return fields.result();
 }
@@ -226,11 +230,31 @@ haptic_hand_t message_of(const HapticHandState& hand) {
   message.state_age_ns = hand.state_age.count();
   message.energy_J = hand.energy;
   message.glove_energy_J = hand.glove_energy;
+  message.activity = static_cast<std::int32_t>(hand.visible.activity);
+  message.grasp = static_cast<std::int32_t>(hand.visible.grasp);
+  put(Eigen::Vector3d(hand.visible.X_WH.translation()), message.position_WH_m);
+  put(Eigen::Matrix3d(hand.visible.X_WH.linear()), message.orientation_WH_wxyz);
+  std::copy(hand.visible.angles.begin(), hand.visible.angles.end(), message.joint_angles_rad);
+  std::copy(hand.joint_torques.begin(), hand.joint_torques.end(), message.joint_torques_Nm);
   return message;
 }
 
+/// Zero for a number that has no meaning here.
+template <typename Enumeration>
+Enumeration enumeration_of(std::int32_t number, std::int32_t count) noexcept {
+  return static_cast<Enumeration>(number >= 0 && number < count ? number : 0);
+}
+
+VisibleHand visible_hand_of(const haptic_hand_t& message) noexcept {
+  VisibleHand visible{.activity = enumeration_of<HandActivity>(message.activity, kHandActivities),
+                      .grasp = enumeration_of<GraspKind>(message.grasp, kGraspKinds),
+                      .X_WH = pose_of(message.position_WH_m, message.orientation_WH_wxyz)};
+  std::copy_n(message.joint_angles_rad, kGloveJoints, visible.angles.begin());
+  return visible;
+}
+
 HapticHandState hand_of(const haptic_hand_t& message) noexcept {
-  return {.part = message.part,
+  HapticHandState hand{.part = message.part,
           .force_W = Eigen::Vector3d(message.force_W_N),
           .torque_V_W = Eigen::Vector3d(message.torque_V_W_Nm),
           .contact_share = message.contact_share,
@@ -240,7 +264,10 @@ HapticHandState hand_of(const haptic_hand_t& message) noexcept {
           .glove_reasons = limit_reasons_from_bits(message.glove_reasons),
           .command_age = std::chrono::nanoseconds(message.command_age_ns),
           .energy = message.energy_J,
-          .glove_energy = message.glove_energy_J};
+          .glove_energy = message.glove_energy_J,
+          .visible = visible_hand_of(message)};
+  std::copy_n(message.joint_torques_Nm, kGloveJoints, hand.joint_torques.begin());
+  return hand;
 }
 
 }  // namespace

@@ -10,10 +10,10 @@ namespace {
 constexpr double kLongestCatchUp_ms = 250.0;
 }  // namespace
 
-Answerer::Answerer(MultiPartSliding& sliding) : sliding_(sliding), calls_before_(sliding.call_statistics().calls) {
-  for (std::size_t p = 0; p < sliding.part_count(); ++p) {
-    if (!sliding.is_scripted(p)) sliding.release(p);
-    X_WG_.push_back(sliding.result(p).X_WV);
+Answerer::Answerer(LoopSimulation& simulation)
+    : simulation_(simulation), sliding_(simulation.parts()), calls_before_(sliding_.call_statistics().calls) {
+  for (std::size_t p = 0; p < sliding_.part_count(); ++p) {
+    if (!sliding_.is_scripted(p)) simulation_.leave_part(p);
   }
 }
 
@@ -22,28 +22,29 @@ ContactSet Answerer::at_start() const {
   set.part_count = static_cast<std::int32_t>(sliding_.part_count());
   for (std::size_t p = 0; p < sliding_.part_count(); ++p)
     set.parts[p].X_WV = sliding_.result(p).X_WV;
+  simulation_.tell_hands(set);
   return set;
 }
 
 ContactSet Answerer::answer(const Ghosts& ghosts, std::chrono::nanoseconds first) {
   for (std::size_t p = 0; p < sliding_.part_count(); ++p) {
     const GhostOfPart& ghost = ghosts.parts[p];
-    X_WG_[p] = ghost.X_WG;
     if (sliding_.is_scripted(p) || ghost.hold == holds_[p]) continue;
-    if (ghost.release > holds_[p]) sliding_.release(p);
-    if (ghost.is_held) sliding_.grasp(p, ghost.X_WG);
+    if (ghost.release > holds_[p]) simulation_.leave_part(p);
+    if (ghost.is_held) simulation_.take_part(p, ghost.X_WG);
     holds_[p] = ghost.hold;
   }
   // An answer that takes long must not slow the parts down: the slew is a speed.
   const std::chrono::nanoseconds passed = answered_ ? ghosts.time - *answered_ : first;
   answered_ = ghosts.time;
   const double milliseconds = std::chrono::duration<double, std::milli>(passed).count();
-  sliding_.advance(X_WG_, std::clamp(milliseconds, 0.0, kLongestCatchUp_ms));
+  simulation_.advance(ghosts, std::clamp(milliseconds, 0.0, kLongestCatchUp_ms));
   ++sequence_;
   times_[static_cast<std::size_t>(sequence_) % times_.size()] = ghosts.time;
   ContactSet set = make_contact_set(sliding_, sequence_, time_of_answered(), scratch_);
   for (std::size_t p = 0; p < sliding_.part_count(); ++p)
     set.parts[p].hold = holds_[p];
+  simulation_.tell_hands(set);
   return set;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <glissade/haptics/contact_set.h>
+#include <glissade/haptics/loop_simulation.h>
 #include <glissade/haptics/multi_part_sliding.h>
 
 namespace glissade::haptics {
@@ -16,8 +17,8 @@ namespace glissade::haptics {
 /// Answers the ghost poses of the haptic thread, one after the other. Not thread-safe.
 class Answerer {
  public:
-  /// Lets go of all parts without a script, which hands may take later. `sliding` must outlive this object.
-  explicit Answerer(MultiPartSliding& sliding);
+  /// Lets go of all parts without a script, which hands may take later. `simulation` must outlive this object.
+  explicit Answerer(LoopSimulation& simulation);
 
   /// The set before the first answer.
   ContactSet at_start() const;
@@ -28,7 +29,8 @@ class Answerer {
   ContactSet answer(const Ghosts& ghosts, std::chrono::nanoseconds first);
 
  private:
-  MultiPartSliding& sliding_;
+  LoopSimulation& simulation_;
+  const MultiPartSliding& sliding_;
   std::int64_t calls_before_;                    // of `MultiPartSliding::advance`, by others
   std::array<std::int64_t, kMaxParts> holds_{};  // those that the simulation knows
   std::optional<std::chrono::nanoseconds> answered_;
@@ -38,7 +40,6 @@ class Answerer {
   /// faded.
   std::array<std::chrono::nanoseconds, 1024> times_{};
   std::int64_t sequence_ = 0;
-  std::vector<Eigen::Isometry3d> X_WG_;
   std::vector<std::int32_t> scratch_;
 };
 

@@ -29,7 +29,7 @@ devices::HapticPartState part_after(const GhostOfPart& ghost, const PartAnswer& 
   return part;
 }
 
-devices::HapticHandState hand_after(const HandTick& tick, const ContactSet& set,
+devices::HapticHandState hand_after(const HandTick& tick, const ContactSet& set, const devices::VisibleHand& visible,
                                     const devices::GloveState& state) noexcept {
   const devices::GloveCommand& command = tick.command.values();
   const Eigen::Vector3d& p_WH = state.X_WH.translation();
@@ -47,6 +47,8 @@ devices::HapticHandState hand_after(const HandTick& tick, const ContactSet& set,
   hand.command_age = state.command_age;
   hand.energy = tick.command.energy();
   hand.glove_energy = state.energy;
+  hand.visible = visible;
+  hand.joint_torques = command.joint_torques;
   return hand;
 }
 
@@ -66,7 +68,7 @@ devices::HapticState make_sample(std::int64_t sequence, const HapticTick& tick, 
   for (std::size_t p = 0; p < static_cast<std::size_t>(set.part_count); ++p)
     sample.parts[p] = part_after(tick.ghosts.parts[p], set.parts[p], set.sequence != 0);
   for (std::size_t h = 0; h < states.size(); ++h) {
-    if (states[h] != nullptr) sample.hands[h] = hand_after(tick.hands[h], set, *states[h]);
+    if (states[h] != nullptr) sample.hands[h] = hand_after(tick.hands[h], set, set.hands[h].visible, *states[h]);
   }
   return sample;
 }

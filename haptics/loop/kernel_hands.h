@@ -13,7 +13,7 @@ std::vector<KernelHand> kernel_hands(const std::vector<Hand>& hands) {
   std::vector<KernelHand> result;
   for (const Hand& hand : hands) {
     if (hand.device == nullptr) throw std::invalid_argument("a haptic loop needs a device, not a null pointer");
-    result.push_back({hand.device->descriptor(), hand.part});
+    result.push_back({hand.device->descriptor(), hand.part, hand.fingers});
   }
   return result;
 }

@@ -38,6 +38,54 @@ contact_row_t message_of(const ContactRow& row) {
   return message;
 }
 
+ghost_hand_t message_of(const GhostOfHand& ghost, bool has_fingers) {
+  ghost_hand_t message{};
+  message.fingers = has_fingers ? 1 : 0;
+  message.tracked = ghost.is_tracked ? 1 : 0;
+  message.part = ghost.part;
+  message.X_WH = pose_message(ghost.X_WH);
+  put(ghost.angles.data(), message.joint_angles_rad);
+  return message;
+}
+
+GhostOfHand ghost_of(const ghost_hand_t& message) {
+  GhostOfHand ghost{
+      .is_tracked = message.tracked != 0, .X_WH = pose_of(message.X_WH), .angles = {}, .part = message.part};
+  std::copy_n(message.joint_angles_rad, ghost.angles.size(), ghost.angles.begin());
+  return ghost;
+}
+
+hand_answer_t message_of(const HandAnswer& answer) {
+  hand_answer_t message{};
+  message.activity = static_cast<std::int32_t>(answer.visible.activity);
+  message.grasp = static_cast<std::int32_t>(answer.visible.grasp);
+  message.X_WH = pose_message(answer.visible.X_WH);
+  put(answer.visible.angles.data(), message.joint_angles_rad);
+  message.part = answer.part;
+  message.decision = answer.decision;
+  return message;
+}
+
+finger_row_t message_of(std::size_t hand, const FingerRow& row) {
+  finger_row_t message{};
+  message.hand = static_cast<std::int32_t>(hand);
+  put(row.rates.data(), message.rates_m_per_rad);
+  message.gap_m = row.gap;
+  return message;
+}
+
+bool has_fingers(const HandAnswer& answer) {
+  return answer.visible.activity != devices::HandActivity::kNone;
+}
+
+/// Up to the last one with fingers.
+std::size_t hands_with_fingers(const ContactSet& set) {
+  std::size_t count = kMaxHands;
+  while (count > 0 && !has_fingers(set.hands[count - 1]))
+    --count;
+  return count;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encode(const AnswerRecord& record) {
@@ -54,17 +102,29 @@ std::vector<std::uint8_t> encode(const AnswerRecord& record) {
   message.row_count = set.row_count;
   for (const ContactRow& row : set.rows())
     message.rows.push_back(message_of(row));
+  for (std::size_t h = 0; h < hands_with_fingers(set); ++h) {
+    message.ghost_hands.push_back(message_of(record.ghosts.hands[h], has_fingers(set.hands[h])));
+    message.hands.push_back(message_of(set.hands[h]));
+    for (const FingerRow& row : set.hands[h].rows())
+      message.finger_rows.push_back(message_of(h, row));
+  }
+  message.finger_row_count = static_cast<std::int32_t>(message.finger_rows.size());
+  message.hand_count = static_cast<std::int32_t>(message.hands.size());
   return to_checked_bytes(message);
 }
 
 std::optional<AnswerRecord> decode_answer(std::span<const std::uint8_t> bytes) {
-  constexpr std::array<std::int32_t, 2> kLargest{kMaxParts, kMaxParts * kMaxContactRows};
+  constexpr std::array<std::int32_t, 4> kLargest{kMaxParts, kMaxParts * kMaxContactRows, kMaxHands,
+                                                 kMaxHands * kMaxFingerRows};
   const auto message = from_checked_bytes<contact_set_t>(bytes, kLargest);
   if (!message) return std::nullopt;
   AnswerRecord record;
   record.ghosts.time = std::chrono::nanoseconds(message->time_ns);
   for (std::size_t p = 0; p < message->ghosts.size(); ++p)
     record.ghosts.parts[p] = ghost_of(message->ghosts[p]);
+  for (std::size_t h = 0; h < message->ghost_hands.size(); ++h) {
+    if (message->ghost_hands[h].fingers != 0) record.ghosts.hands[h] = ghost_of(message->ghost_hands[h]);
+  }
   record.set.sequence = message->sequence;
   return record;
 }

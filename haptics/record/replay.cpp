@@ -18,11 +18,11 @@ std::string follows(const std::string& kind, std::int64_t previous) {
 
 }  // namespace
 
-Replay::Replay(MultiPartSliding& sliding, const std::vector<KernelHand>& hands, std::chrono::nanoseconds period,
+Replay::Replay(LoopSimulation& simulation, const std::vector<KernelHand>& hands, std::chrono::nanoseconds period,
                RecordingHead head)
-    : kernel_(kernel_parts(sliding), hands, period),
+    : kernel_(kernel_parts(simulation.parts()), hands, period),
       period_(period),
-      answerer_(std::make_unique<Answerer>(sliding)),
+      answerer_(std::make_unique<Answerer>(simulation)),
       events_(std::move(head)) {
   record_.hand_count = static_cast<std::int32_t>(hands.size());
   sets_[0] = answerer_->at_start();

@@ -18,6 +18,8 @@
 namespace glissade::grasping {
 namespace {
 
+using devices::HandActivity;
+
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using test_support::at;
@@ -107,10 +109,10 @@ void close_round_ball(HandAndBall& scene) {
 TEST(GraspSimulation, TakesHoldOfThePartThatTheHandClosesRound) {
   HandAndBall scene;
   scene.advance(open_hand());
-  EXPECT_EQ(scene.simulation.state(0), HandState::kFree);
+  EXPECT_EQ(scene.simulation.activity(0), HandActivity::kFree);
   EXPECT_FALSE(scene.simulation.held_part(0));
   close_round_ball(scene);
-  EXPECT_EQ(scene.simulation.state(0), HandState::kHolding);
+  EXPECT_EQ(scene.simulation.activity(0), HandActivity::kHolding);
   EXPECT_EQ(scene.simulation.held_part(0), 0U);
 }
 
@@ -160,7 +162,7 @@ TEST(GraspSimulation, LetsGoWhenTheHandOpens) {
   close_round_ball(scene);
   for (int ms = 0; ms < 200; ++ms)
     scene.advance(bent_hand(1.2 * std::max(0.0, 1.0 - ms / 100.0)));
-  EXPECT_EQ(scene.simulation.state(0), HandState::kFree);
+  EXPECT_EQ(scene.simulation.activity(0), HandActivity::kFree);
   EXPECT_EQ(scene.force(), 0.0);
   const Isometry3d X_WV = scene.X_WV();
   for (int ms = 1; ms <= 200; ++ms)
@@ -195,14 +197,14 @@ TEST(GraspSimulation, PressesOnNothingWhileTheHandIsLost) {
   const Isometry3d X_WV = scene.X_WV();
   for (int ms = 0; ms < 300; ++ms)
     scene.lose();
-  EXPECT_EQ(scene.simulation.state(0), HandState::kLost);
+  EXPECT_EQ(scene.simulation.activity(0), HandActivity::kLost);
   EXPECT_EQ(scene.simulation.held_part(0), 0U) << "nothing is dropped";
   EXPECT_TRUE(scene.simulation.clasp(0).contacts().empty()) << "no finger feels anything";
   EXPECT_LT(scene.force(), 1e-9);
   EXPECT_LT((scene.X_WV().translation() - X_WV.translation()).norm(), 1e-3);
   for (int ms = 0; ms < 300; ++ms)
     scene.advance(closed);
-  EXPECT_EQ(scene.simulation.state(0), HandState::kHolding);
+  EXPECT_EQ(scene.simulation.activity(0), HandActivity::kHolding);
 }
 
 TEST(GraspSimulation, AHandThatIsFoundAgainInsideAnObjectWaitsUntilItIsFree) {
@@ -212,9 +214,9 @@ TEST(GraspSimulation, AHandThatIsFoundAgainInsideAnObjectWaitsUntilItIsFree) {
   const Posture inside = moved(open_hand(), 0.0, 0.0, -0.05);
   for (int ms = 0; ms < 10; ++ms)
     scene.advance(inside);
-  EXPECT_EQ(scene.simulation.state(0), HandState::kWaiting);
+  EXPECT_EQ(scene.simulation.activity(0), HandActivity::kWaiting);
   scene.advance(moved(open_hand(), 0.0, 0.0, 0.2));
-  EXPECT_EQ(scene.simulation.state(0), HandState::kFree);
+  EXPECT_EQ(scene.simulation.activity(0), HandActivity::kFree);
   EXPECT_LT((scene.simulation.posture(0).X_WR.translation() - Vector3d(0.0, 0.0, 0.2)).norm(), 1e-9);
 }
 

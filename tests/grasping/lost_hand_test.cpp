@@ -10,7 +10,9 @@
 
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/grasping/grasp_analysis.h>
+#include <glissade/grasping/grasp_simulation.h>
 
+#include "life/finger_rows.h"
 #include "poses.h"
 #include "worn_glove.h"
 
@@ -58,13 +60,16 @@ TEST(LostHand, ThatStartsInsideGivesNoTorqueUntilItIsFree) {
 }
 
 TEST(LostHand, ThatTheCartMovesIntoSomethingGivesNoTorqueUntilItIsFree) {
-  FingerForces forces(hand_chain(), devices::simulated_glove_descriptor());
+  haptics::FingerForces forces(finger_hand(*hand_model()).limits, devices::simulated_glove_descriptor());
+  haptics::HandAnswer answer;
+  std::vector<Eigen::Isometry3d> X_WL;
   ClaspedHand hand(geometry::make_sphere(kBall_m, 2000), before_the_palm());
   const auto torques_at = [&](const Posture& target) {
     hand.clasp.advance(target);
     JointValues angles{};
     std::copy(target.values.begin(), target.values.end(), angles.begin());
-    return forces.update(angles, hand.clasp.posture(), hand.clasp.contacts());
+    tell_visible(hand.clasp.chain(), hand.clasp.posture(), hand.clasp.contacts(), X_WL, answer);
+    return forces.update(angles, answer);
   };
   torques_at(open_hand());
   for (int i = 0; i < 100; ++i)

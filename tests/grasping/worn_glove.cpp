@@ -4,6 +4,10 @@
 #include <limits>
 #include <utility>
 
+#include <glissade/grasping/grasp_simulation.h>
+
+#include "life/finger_rows.h"
+
 namespace glissade::test_support {
 namespace {
 
@@ -33,7 +37,7 @@ WornGlove::WornGlove(const geometry::TriangleMesh& object, const Eigen::Isometry
                      std::vector<std::chrono::nanoseconds> grip_changes)
     : hand(object, X_WB),
       glove_(std::move(script_X_WR), wearer(fist, std::move(grip_changes))),
-      forces_(hand_chain(), glove_.descriptor()),
+      forces_(grasping::finger_hand(grasping::make_hand()).limits, glove_.descriptor()),
       envelope_(glove_.descriptor()) {}
 
 void WornGlove::run(int milliseconds) {
@@ -57,7 +61,8 @@ void WornGlove::step() {
   const devices::GloveState told = is_seen ? glove_.state() : unseen(glove_.state());
   if (silent_for_ == kPatience_ms) hand.clasp.lose_track();
   hand.clasp.advance({told.X_WH, {told.joint_angles.begin(), told.joint_angles.end()}});
-  wanted_ = forces_.update(told.joint_angles, hand.clasp.posture(), hand.clasp.contacts());
+  tell_visible(hand.clasp.chain(), hand.clasp.posture(), hand.clasp.contacts(), X_WL_, answer_);
+  wanted_ = forces_.update(told.joint_angles, answer_);
   devices::GloveCommand command{.sequence = told.sequence, .state_sequence = told.sequence, .state_time = told.time};
   command.joint_torques = wanted_;
   command_ = envelope_.limit(command, told, told.time);

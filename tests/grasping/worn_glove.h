@@ -7,9 +7,10 @@
 
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/devices/simulated_glove.h>
-#include <glissade/grasping/finger_forces.h>
+#include <glissade/haptics/contact_set.h>
 
 #include "clasped_hand.h"
+#include "loop/finger_forces.h"
 
 namespace glissade::test_support {
 
@@ -38,10 +39,12 @@ class WornGlove {
 
  private:
   devices::SimulatedGlove glove_;
-  grasping::FingerForces forces_;
+  haptics::FingerForces forces_;
   devices::SafetyEnvelope envelope_;
   devices::SafeCommand command_;
   devices::JointValues wanted_{};
+  haptics::HandAnswer answer_;
+  std::vector<Eigen::Isometry3d> X_WL_;
   double energy_ = 0.0;
   int lost_for_ = 0;
   int silent_for_ = 0;  // ms without a target

@@ -4,52 +4,54 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
+#include <initializer_list>
 #include <limits>
-#include <memory>
 #include <numbers>
 #include <random>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include <glissade/devices/simulated_glove.h>
-#include <glissade/grasping/finger_forces.h>
 
 #include "allocation_counter.h"
 #include "delayed_wall.h"
 #include "expect_bad_input.h"
-#include "poses.h"
+#include "loop/finger_forces.h"
 
-namespace glissade::grasping {
+namespace glissade::haptics {
 namespace {
 
 using devices::JointValues;
-using Eigen::Vector3d;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
-using test_support::at;
 using test_support::expect_bad_input;
 
-/// A finger along x that bends towards −z: a joint at the origin, and another one 50 mm farther.
-std::shared_ptr<const KinematicChain> straight_finger() {
-  std::vector<ChainLink> links(3);
-  links[0].name = "hand";
-  links[1] = {.name = "inner", .parent = 0, .axis_J = Vector3d::UnitY(), .terms = {{0}}};
-  links[2] = {.name = "outer", .parent = 1, .X_PJ = at(0.05), .axis_J = Vector3d::UnitY(), .terms = {{1}}};
-  return std::make_shared<const KinematicChain>(std::vector<FlexValue>{{"inner", -1.0, 1.0}, {"outer", -1.0, 1.0}},
-                                                std::move(links));
+/// Both joints of a finger.
+const FingerLimits kRange = [] {
+  FingerLimits range;
+  range.lower[0] = range.lower[1] = -1.0;
+  range.upper[0] = range.upper[1] = 1.0;
+  return range;
+}();
+
+enum Segment { kInner, kOuter };
+
+/// A straight finger along x with two joints that bend it towards −z, at the origin and 50 mm farther; and something
+/// below a segment, `distance` from the first joint.
+FingerRow below(Segment segment, double distance, double gap = 0.0) {
+  FingerRow row{.gap = gap};
+  row.rates[0] = -distance;
+  if (segment == kOuter) row.rates[1] = -(distance - 0.05);
+  return row;
 }
 
-/// Something below the straight finger, `distance` from the first joint.
-LinkContact below(std::size_t link, double distance, double gap = 0.0) {
-  haptics::Contact contact{};
-  contact.n_W = Vector3d::UnitZ();
-  contact.p_W = Vector3d(distance, 0.0, 0.0);
-  contact.gap = gap;
-  return {link, contact};
+/// The visible finger is straight.
+HandAnswer touching(std::initializer_list<FingerRow> rows) {
+  HandAnswer hand;
+  for (const FingerRow& row : rows)
+    hand.row_array[static_cast<std::size_t>(hand.row_count++)] = row;
+  return hand;
 }
-
-const Posture kStraight{.values = {0.0, 0.0}};
 
 JointValues angles(double inner, double outer) {
   JointValues values{};
@@ -59,61 +61,61 @@ JointValues angles(double inner, double outer) {
 }
 
 FingerForces forces_of_simulated_glove() {
-  return {straight_finger(), devices::simulated_glove_descriptor()};
+  return {kRange, devices::simulated_glove_descriptor()};
 }
 
 TEST(FingerForces, AreZeroWhileNothingTouches) {
   FingerForces forces = forces_of_simulated_glove();
-  EXPECT_EQ(forces.update(angles(0.5, 0.3), kStraight, {}), JointValues{});
+  EXPECT_EQ(forces.update(angles(0.5, 0.3), touching({})), JointValues{});
 }
 
 TEST(FingerForces, PushBackEachJointThatPressesAndNoOther) {
   FingerForces forces = forces_of_simulated_glove();
   const double stiffness = forces.stiffness();
-  const std::vector<LinkContact> at_inner{below(1, 0.03)};
-  const std::vector<LinkContact> at_outer{below(2, 0.08)};
-  EXPECT_EQ(forces.update(angles(0.004, 0.006), kStraight, at_inner), angles(-stiffness * 0.004, 0.0));
-  EXPECT_EQ(forces.update(angles(0.004, 0.006), kStraight, at_outer), angles(-stiffness * 0.004, -stiffness * 0.006));
-  EXPECT_EQ(forces.update(angles(-0.004, -0.006), kStraight, at_outer), JointValues{}) << "a finger that opens";
-  EXPECT_EQ(forces.update(angles(0.004, -0.012), kStraight, at_outer), JointValues{}) << "80 mm by 4, less 30 by 12";
+  const HandAnswer at_inner = touching({below(kInner, 0.03)});
+  const HandAnswer at_outer = touching({below(kOuter, 0.08)});
+  EXPECT_EQ(forces.update(angles(0.004, 0.006), at_inner), angles(-stiffness * 0.004, 0.0));
+  EXPECT_EQ(forces.update(angles(0.004, 0.006), at_outer), angles(-stiffness * 0.004, -stiffness * 0.006));
+  EXPECT_EQ(forces.update(angles(-0.004, -0.006), at_outer), JointValues{}) << "a finger that opens";
+  EXPECT_EQ(forces.update(angles(0.004, -0.012), at_outer), JointValues{}) << "80 mm by 4, less 30 by 12";
 }
 
 // The outer joint lifts the finger by 30 mm times 12 mrad, so of 80 mm times 9 mrad a half is left.
 TEST(FingerForces, PushBackAJointOnlyAsFarAsItIsToBlame) {
   FingerForces forces = forces_of_simulated_glove();
-  const std::vector<LinkContact> at_outer{below(2, 0.08)};
-  const JointValues torques = forces.update(angles(0.009, -0.012), kStraight, at_outer);
+  const HandAnswer at_outer = touching({below(kOuter, 0.08)});
+  const JointValues torques = forces.update(angles(0.009, -0.012), at_outer);
   EXPECT_NEAR(torques[0], -forces.stiffness() * 0.0045, 1e-12);
   EXPECT_EQ(torques[1], 0.0);
 }
 
 TEST(FingerForces, AreZeroUntilAGapIsClosed) {
   FingerForces forces = forces_of_simulated_glove();
-  const std::vector<LinkContact> contact{below(1, 0.03, 30e-6)};
-  EXPECT_EQ(forces.update(angles(0.9e-3, 0.0), kStraight, contact), JointValues{});
-  EXPECT_NEAR(forces.update(angles(1.1e-3, 0.0), kStraight, contact)[0], -forces.stiffness() * 0.1e-3, 1e-12);
+  const HandAnswer contact = touching({below(kInner, 0.03, 30e-6)});
+  EXPECT_EQ(forces.update(angles(0.9e-3, 0.0), contact), JointValues{});
+  EXPECT_NEAR(forces.update(angles(1.1e-3, 0.0), contact)[0], -forces.stiffness() * 0.1e-3, 1e-12);
 }
 
 TEST(FingerForces, OfABlockedFingerAreAtTheDevicesLimit) {
   FingerForces forces = forces_of_simulated_glove();
   const double largest = devices::simulated_glove_descriptor().max_joint_torque;
-  const std::vector<LinkContact> contact{below(1, 0.03)};
-  EXPECT_EQ(forces.update(angles(0.5, 0.0), kStraight, contact)[0], -largest);
-  EXPECT_EQ(forces.update(angles(5.0, 0.0), kStraight, contact)[0], -largest);
+  const HandAnswer contact = touching({below(kInner, 0.03)});
+  EXPECT_EQ(forces.update(angles(0.5, 0.0), contact)[0], -largest);
+  EXPECT_EQ(forces.update(angles(5.0, 0.0), contact)[0], -largest);
 }
 
 TEST(FingerForces, OfAShortArmAreSmall) {
   FingerForces forces = forces_of_simulated_glove();
-  const double full = forces.update(angles(0.004, 0.0), kStraight, std::vector{below(1, 0.002)})[0];
+  const double full = forces.update(angles(0.004, 0.0), touching({below(kInner, 0.002)}))[0];
   EXPECT_NEAR(full, -forces.stiffness() * 0.004, 1e-12);
-  EXPECT_NEAR(forces.update(angles(0.004, 0.0), kStraight, std::vector{below(1, 0.0005)})[0], 0.25 * full, 1e-12);
-  EXPECT_EQ(forces.update(angles(0.004, 0.0), kStraight, std::vector{below(1, 0.0)})[0], 0.0);
+  EXPECT_NEAR(forces.update(angles(0.004, 0.0), touching({below(kInner, 0.0005)}))[0], 0.25 * full, 1e-12);
+  EXPECT_EQ(forces.update(angles(0.004, 0.0), touching({below(kInner, 0.0)}))[0], 0.0);
 }
 
 TEST(FingerForces, FadeWithTheAgeOfTheContacts) {
   FingerForces forces = forces_of_simulated_glove();
-  const std::vector<LinkContact> contact{below(1, 0.03)};
-  const auto torque = [&](milliseconds age) { return forces.update(angles(0.5, 0.0), kStraight, contact, age)[0]; };
+  const HandAnswer contact = touching({below(kInner, 0.03)});
+  const auto torque = [&](milliseconds age) { return forces.update(angles(0.5, 0.0), contact, age)[0]; };
   const double full = torque(milliseconds(0));
   EXPECT_EQ(torque(milliseconds(20)), full);
   EXPECT_NEAR(torque(milliseconds(60)), 0.5 * full, 1e-12);
@@ -123,30 +125,24 @@ TEST(FingerForces, FadeWithTheAgeOfTheContacts) {
 
 TEST(FingerForces, AreZeroForAnglesThatAreNotFinite) {
   FingerForces forces = forces_of_simulated_glove();
-  const std::vector<LinkContact> contact{below(1, 0.03)};
-  EXPECT_EQ(forces.update(angles(0.5, std::numeric_limits<double>::quiet_NaN()), kStraight, contact), JointValues{});
-  EXPECT_NE(forces.update(angles(0.5, 0.0), kStraight, contact), JointValues{});
+  const HandAnswer contact = touching({below(kInner, 0.03)});
+  EXPECT_EQ(forces.update(angles(0.5, std::numeric_limits<double>::quiet_NaN()), contact), JointValues{});
+  EXPECT_NE(forces.update(angles(0.5, 0.0), contact), JointValues{});
 }
 
 TEST(FingerForces, AskNothingOfAJointThatTheDeviceDoesNotHave) {
   devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
   device.joint_lower[0] = device.joint_upper[0] = 0.0;
-  FingerForces forces(straight_finger(), device);
-  const JointValues torques = forces.update(angles(0.1, 0.1), kStraight, std::vector{below(2, 0.08)});
+  FingerForces forces(kRange, device);
+  const JointValues torques = forces.update(angles(0.1, 0.1), touching({below(kOuter, 0.08)}));
   EXPECT_EQ(torques[0], 0.0);
   EXPECT_LT(torques[1], 0.0);
 }
 
-TEST(FingerForces, RefuseAChainThatNoGloveCouldMove) {
-  const devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
-  expect_bad_input([&] { FingerForces(nullptr, device); }, {"null"});
-  std::vector<ChainLink> links(1);
-  links[0].name = "hand";
-  std::vector<FlexValue> values(devices::kGloveJoints + 1);
-  for (std::size_t v = 0; v < values.size(); ++v)
-    values[v] = {"v" + std::to_string(v), 0.0, 1.0};
-  const auto chain = std::make_shared<const KinematicChain>(values, links);
-  expect_bad_input([&] { FingerForces(chain, device); }, {"joints"});
+TEST(FingerForces, RefuseLimitsThatAreNoRange) {
+  FingerLimits limits = kRange;
+  limits.lower[3] = 0.2;
+  expect_bad_input([&] { FingerForces(limits, devices::simulated_glove_descriptor()); }, {"joint 3", "no range"});
 }
 
 // A millionth of a radian changes no torque by more than the largest ratio of two arms: 80 mm by the 2 mm from which on
@@ -156,16 +152,16 @@ TEST(FingerForces, AreContinuous) {
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   FingerForces forces = forces_of_simulated_glove();
-  const std::vector<LinkContact> contacts{below(1, 0.03, 20e-6), below(2, 0.08), below(2, 0.051, 50e-6)};
+  const HandAnswer contacts = touching({below(kInner, 0.03, 20e-6), below(kOuter, 0.08), below(kOuter, 0.051, 50e-6)});
   const double steepest = forces.stiffness() * 0.08 / 0.002;
   int pressing = 0;
   for (int i = 0; i < 20'000; ++i) {
     constexpr double kStep_rad = 1e-6;
     const double inner = 0.02 * unit(random);
     const double outer = 0.02 * unit(random);
-    const JointValues here = forces.update(angles(inner, outer), kStraight, contacts);
+    const JointValues here = forces.update(angles(inner, outer), contacts);
     const JointValues there =
-        forces.update(angles(inner + kStep_rad * unit(random), outer + kStep_rad * unit(random)), kStraight, contacts);
+        forces.update(angles(inner + kStep_rad * unit(random), outer + kStep_rad * unit(random)), contacts);
     for (std::size_t v = 0; v < 2; ++v)
       ASSERT_LE(std::abs(there[v] - here[v]), 2.0 * steepest * kStep_rad)
           << inner << ", " << outer << ", seed " << kSeed;
@@ -177,11 +173,11 @@ TEST(FingerForces, AreContinuous) {
 TEST(FingerForces, AllocateNothing) {
   if (!test_support::allocations_are_counted()) GTEST_SKIP();
   FingerForces forces = forces_of_simulated_glove();
-  const std::vector<LinkContact> contacts{below(1, 0.03), below(2, 0.08)};
+  const HandAnswer contacts = touching({below(kInner, 0.03), below(kOuter, 0.08)});
   const std::int64_t allocations = test_support::allocations_of_this_thread();
   for (int i = 0; i < 100; ++i) {
     forces.set_link_delay(milliseconds(i));
-    forces.update(angles(0.01 * i, 0.0), kStraight, contacts);
+    forces.update(angles(0.01 * i, 0.0), contacts);
   }
   EXPECT_EQ(test_support::allocations_of_this_thread(), allocations);
 }
@@ -201,7 +197,7 @@ TEST(FingerStiffness, IsWhereTheOscillationOfAHeavyFingerBeginsToGrow) {
 class DelayedFinger {
  public:
   DelayedFinger(std::mt19937_64& random, milliseconds delay)
-      : forces_(straight_finger(), devices::simulated_glove_descriptor()),
+      : forces_(kRange, devices::simulated_glove_descriptor()),
         on_their_way_(static_cast<std::size_t>(delay.count()), 0.0) {
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     inertia_ = std::pow(10.0, -5.0 + 2.0 * unit(random));
@@ -214,8 +210,8 @@ class DelayedFinger {
   /// One millisecond. Returns the energy (J) that the finger has put into the glove so far, against torque and
   /// friction.
   double step() {
-    const std::vector<LinkContact> contact{below(1, 0.03)};
-    on_their_way_.push_back(forces_.update(angles(angle_, 0.0), kStraight, contact)[0]);
+    const HandAnswer contact = touching({below(kInner, 0.03)});
+    on_their_way_.push_back(forces_.update(angles(angle_, 0.0), contact)[0]);
     const double torque = on_their_way_.front();
     on_their_way_.pop_front();
     for (int i = 0; i < 50; ++i) {
@@ -266,4 +262,4 @@ TEST(FingerStiffness, GivesTheLargestTorqueWithinADegreeWhereThatIsPassive) {
 }
 
 }  // namespace
-}  // namespace glissade::grasping
+}  // namespace glissade::haptics

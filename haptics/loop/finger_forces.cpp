@@ -1,0 +1,84 @@
+#include "loop/finger_forces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "loop/contact_force.h"
+
+namespace glissade::haptics {
+
+namespace {
+
+constexpr double kFullTorque_rad = 0.8 * std::numbers::pi / 180.0;
+constexpr double kShortArm_m = 2e-3;
+
+FingerLimits checked_limits(const FingerLimits& limits) {
+  for (std::size_t joint = 0; joint < limits.lower.size(); ++joint) {
+    if (limits.lower[joint] <= limits.upper[joint]) continue;
+    throw std::invalid_argument("the limits of joint " + std::to_string(joint) + " of a hand are no range");
+  }
+  return limits;
+}
+
+}  // namespace
+
+double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
+                        std::chrono::nanoseconds link_delay) noexcept {
+  const auto seconds = [](std::chrono::nanoseconds time) { return std::chrono::duration<double>(time).count(); };
+  const double wanted = device.max_joint_torque / kFullTorque_rad;
+  if (device.joint_damping <= 0.0) return wanted;
+  const double lag = 0.5 * std::max(seconds(period), 1.0 / device.update_rate) + seconds(device.delay + link_delay);
+  return std::min(wanted, device.joint_damping / lag);
+}
+
+FingerForces::FingerForces(const FingerLimits& limits, const devices::DeviceDescriptor& device,
+                           std::chrono::nanoseconds period)
+    : limits_(checked_limits(limits)),
+      device_(device),
+      period_(period),
+      stiffness_(finger_stiffness(device, period, std::chrono::nanoseconds(0))) {
+  devices::validate(device_);
+  validate_tick_period(period_);
+}
+
+void FingerForces::set_link_delay(std::chrono::nanoseconds delay) noexcept {
+  stiffness_ = finger_stiffness(device_, period_, delay);
+}
+
+const devices::JointValues& FingerForces::update(const devices::JointValues& angles, const HandAnswer& hand,
+                                                 std::chrono::nanoseconds age) noexcept {
+  torques_.fill(0.0);
+  const bool is_finite = std::all_of(angles.begin(), angles.end(), [](double angle) { return std::isfinite(angle); });
+  if (hand.row_count == 0 || !is_finite) return torques_;
+  for (std::size_t j = 0; j < angles.size(); ++j)
+    lags_[j] = std::clamp(angles[j], limits_.lower[j], limits_.upper[j]) - hand.visible.angles[j];
+  depths_.fill(0.0);
+  for (const FingerRow& row : hand.rows())
+    press(row);
+  const double share = force_share(age);
+  for (std::size_t j = 0; j < angles.size(); ++j) {
+    const bool is_absent = device_.joint_lower[j] == 0.0 && device_.joint_upper[j] == 0.0;
+    if (depths_[j] == 0.0 || is_absent) continue;
+    torques_[j] = -std::copysign(share * std::min(stiffness_ * depths_[j], device_.max_joint_torque), lags_[j]);
+  }
+  return torques_;
+}
+
+/// How far each joint would have to go back, alone, to leave the contact; but never farther than to the visible hand.
+void FingerForces::press(const FingerRow& row) noexcept {
+  double depth = -row.gap;
+  for (std::size_t j = 0; j < lags_.size(); ++j)
+    depth -= row.rates[j] * lags_[j];
+  if (depth <= 0.0) return;
+  for (std::size_t j = 0; j < lags_.size(); ++j) {
+    const double arm = lags_[j] > 0.0 ? -row.rates[j] : row.rates[j];  // positive where the lag closes the gap
+    if (arm <= 0.0) continue;
+    const double back = std::min(std::abs(lags_[j]), depth / arm);
+    depths_[j] = std::max(depths_[j], std::min(1.0, arm / kShortArm_m) * back);
+  }
+}
+
+}  // namespace glissade::haptics

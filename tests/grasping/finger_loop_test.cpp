@@ -1,0 +1,214 @@
+/// Hands with fingers in the whole haptic loop: glove, haptic kernel, grasp simulation, and back, a millisecond a turn.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/devices/simulated_glove.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/grasping/grasp_simulation.h>
+#include <glissade/haptics/offline_run.h>
+#include <glissade/reference/grid_check.h>
+
+#include "clasped_hand.h"
+#include "poses.h"
+
+namespace glissade::grasping {
+namespace {
+
+using devices::HandActivity;
+using devices::HapticState;
+using devices::JointValues;
+using devices::kGloveJoints;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using std::chrono::milliseconds;
+using test_support::at;
+using test_support::bent_hand;
+using test_support::hand_chain;
+using test_support::hand_model;
+
+/// A ball before the palm of a hand with its root at the origin, and a wall beyond it, whose face is at 0.24 m.
+struct BallAndWall {
+  std::shared_ptr<const geometry::TriangleMesh> ball =
+      std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.035, 2000));
+  std::shared_ptr<const geometry::TriangleMesh> wall =
+      std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.02, 0.6, 0.6}, 2000));
+  Isometry3d X_WBall = at(0.095, 0.0, -0.056);
+  Isometry3d X_WWall = at(0.25, 0.0, 0.0);
+
+  GraspSimulation simulation(std::size_t hands, const haptics::SlidingRules& rules = {}) const {
+    return {{{std::make_shared<const haptics::ContactBody>(wall), X_WWall, "the wall"}},
+            {{.part_V = std::make_shared<const haptics::SlidingPart>(ball), .X_WV_start = X_WBall}},
+            std::vector<std::shared_ptr<const HandModel>>(hands, hand_model()),
+            {.sliding = rules}};
+  }
+
+  /// Ball and visible hands, by a check without code of the trees.
+  bool collides(const HapticState& state) const {
+    const reference::GridCheck wall_only({{wall, X_WWall}});
+    const reference::GridCheck all({{wall, X_WWall}, {ball, state.parts[0].X_WV}});
+    if (wall_only.collides(*ball, state.parts[0].X_WV)) return true;
+    std::vector<Isometry3d> X_WL(hand_chain()->links().size());
+    for (std::size_t h = 0; h < static_cast<std::size_t>(state.hand_count); ++h) {
+      const devices::VisibleHand& hand = state.hands[h].visible;
+      if (hand.activity == HandActivity::kWaiting || hand.activity == HandActivity::kNone) continue;
+      hand_chain()->poses(hand.X_WH, hand.angles, X_WL);
+      for (std::size_t link = 0; link < X_WL.size(); ++link) {
+        const auto& mesh = hand_chain()->links()[link].mesh;
+        if (mesh != nullptr && all.collides(*mesh, X_WL[link])) return true;
+      }
+    }
+    return false;
+  }
+};
+
+/// A wearer whose open hand closes and opens at these times on the way of its root.
+devices::SimulatedGlove glove_on(geometry::PoseTrajectory script_X_WR, std::vector<std::chrono::nanoseconds> grips) {
+  devices::SimulatedGloveParameters wearer;
+  std::copy_n(bent_hand(1.2).values.begin(), kGloveJoints, wearer.grasp_posture.begin());
+  wearer.open_posture.emplace().fill(0.0);
+  wearer.starts_closed = false;
+  wearer.grip_changes = std::move(grips);
+  return devices::SimulatedGlove(std::move(script_X_WR), wearer);
+}
+
+/// At the ball, round which it closes at 0.2 s, and which it draws to itself; 170 mm on, of which the wall leaves some
+/// 140; back, where it opens at 2.2 s; away.
+devices::SimulatedGlove carrier() {
+  return glove_on(geometry::PoseTrajectory({{milliseconds(0), Isometry3d::Identity()},
+                                            {milliseconds(700), Isometry3d::Identity()},
+                                            {milliseconds(1200), at(0.17, 0.0, 0.0)},
+                                            {milliseconds(1600), at(0.17, 0.0, 0.0)},
+                                            {milliseconds(2000), at(0.02, 0.0, 0.03)},
+                                            {milliseconds(2600), at(0.02, 0.0, 0.03)},
+                                            {milliseconds(3000), at(0.02, 0.0, 0.2)}}),
+                  {milliseconds(200), milliseconds(2200)});
+}
+
+std::vector<HapticState> run(GraspSimulation& simulation, std::vector<devices::SimulatedGlove>& gloves, int ticks,
+                             haptics::LoopObserver* observer = nullptr) {
+  std::vector<haptics::HandOffline> hands;
+  for (devices::SimulatedGlove& glove : gloves)
+    hands.push_back({.device = &glove, .part = std::nullopt, .fingers = finger_hand(*hand_model())});
+  std::vector<HapticState> states;
+  haptics::run_offline(hands, simulation, ticks, [&](const HapticState& state) { states.push_back(state); },
+                       {.observer = observer});
+  return states;
+}
+
+std::vector<HapticState> carried() {
+  const BallAndWall scene;
+  GraspSimulation simulation = scene.simulation(1);
+  std::vector<devices::SimulatedGlove> gloves{carrier()};
+  return run(simulation, gloves, 3200);
+}
+
+const std::vector<HapticState>& carry() {
+  static const std::vector<HapticState> states = carried();
+  return states;
+}
+
+const devices::HapticHandState& hand_at(int ms) {
+  return carry()[static_cast<std::size_t>(ms)].hands[0];
+}
+Vector3d ball_at(int ms) {
+  return carry()[static_cast<std::size_t>(ms)].parts[0].X_WV.translation();
+}
+
+TEST(FingerLoop, TakesHoldByTouchCarriesAndLetsGo) {
+  EXPECT_EQ(hand_at(190).visible.activity, HandActivity::kFree);
+  EXPECT_EQ(hand_at(190).part, -1);
+  EXPECT_EQ(hand_at(650).visible.activity, HandActivity::kHolding);
+  EXPECT_EQ(hand_at(650).visible.grasp, devices::GraspKind::kPrecision);
+  EXPECT_EQ(hand_at(650).part, 0);
+  EXPECT_GT(ball_at(1550).x(), ball_at(650).x() + 0.1);
+  EXPECT_EQ(hand_at(2500).visible.activity, HandActivity::kFree);
+  EXPECT_EQ(hand_at(2500).part, -1);
+  EXPECT_EQ(ball_at(2500), ball_at(3190)) << "it stays where it was left";
+}
+
+TEST(FingerLoop, ShowsNothingThatPenetrates) {
+  const BallAndWall scene;
+  for (std::size_t i = 0; i < carry().size(); i += 4)
+    ASSERT_FALSE(scene.collides(carry()[i])) << "after " << i << " ms";
+}
+
+TEST(FingerLoop, PressesTheHandAtTheWallAndTheFingersAtTheBallAndNowhereElse) {
+  for (int ms = 0; ms < 200; ++ms) {
+    ASSERT_EQ(hand_at(ms).joint_torques, JointValues{}) << ms;
+    ASSERT_EQ(hand_at(ms).force_W, Vector3d::Zero().eval()) << ms;
+  }
+  EXPECT_NE(hand_at(650).joint_torques, JointValues{});
+  EXPECT_LT(hand_at(650).force_W.norm(), 0.2) << "nothing but the wearer's grip holds the ball";
+  EXPECT_LT(hand_at(1550).force_W.x(), -3.0) << "the wall";
+  for (int ms = 2600; ms < 3200; ++ms) {
+    ASSERT_EQ(hand_at(ms).joint_torques, JointValues{}) << ms;
+    ASSERT_EQ(hand_at(ms).force_W, Vector3d::Zero().eval()) << ms;
+  }
+}
+
+TEST(FingerLoop, ChangesNoForceAndNoTorqueFasterThanTheDeviceAllows) {
+  const devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
+  const double periods = 7.0;  // from zero to the maximum
+  for (int ms = 1; ms < 3200; ++ms) {
+    const Vector3d change = hand_at(ms).force_W - hand_at(ms - 1).force_W;
+    ASSERT_LE(change.norm(), device.max_force / periods * (1.0 + 1e-9)) << ms;
+    ASSERT_LE(hand_at(ms).force_W.norm(), device.max_force * (1.0 + 1e-9)) << ms;
+    for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
+      const double torque = hand_at(ms).joint_torques[joint];
+      ASSERT_LE(std::abs(torque - hand_at(ms - 1).joint_torques[joint]),
+                device.max_joint_torque / periods * (1.0 + 1e-9))
+          << ms;
+      ASSERT_LE(std::abs(torque), device.max_joint_torque) << ms;
+    }
+  }
+}
+
+TEST(FingerLoop, PassesThePartFromHandToHand) {
+  const BallAndWall scene;
+  GraspSimulation simulation = scene.simulation(2);
+  // The second hand comes from below, upside down, and finds the ball in the first one as that has it.
+  const Vector3d p_in_hand(0.064, 0.006, -0.055);
+  const Isometry3d X_WSecond = Eigen::Translation3d(p_in_hand) *
+                               Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitX()) *
+                               Eigen::Translation3d(-p_in_hand);
+  std::vector<devices::SimulatedGlove> gloves{
+      glove_on(geometry::PoseTrajectory({{milliseconds(0), Isometry3d::Identity()}}),
+               {milliseconds(200), milliseconds(2000)}),
+      glove_on(geometry::PoseTrajectory({{milliseconds(0), at(0.0, 0.0, -0.2) * X_WSecond},
+                                         {milliseconds(800), at(0.0, 0.0, -0.2) * X_WSecond},
+                                         {milliseconds(1200), X_WSecond},
+                                         {milliseconds(2600), X_WSecond},
+                                         {milliseconds(3000), at(0.0, 0.0, -0.05) * X_WSecond}}),
+               {milliseconds(1300)})};
+  const std::vector<HapticState> states = run(simulation, gloves, 3200);
+  ASSERT_TRUE(states[1000].parts[0].X_WV.translation().isApprox(p_in_hand, 0.02)) << "the test's own premise";
+  EXPECT_EQ(states[1000].hands[0].part, 0);
+  EXPECT_EQ(states[1000].hands[1].part, -1);
+  EXPECT_EQ(states[1900].hands[0].part, 0) << "both hold it";
+  EXPECT_EQ(states[1900].hands[1].part, 0);
+  EXPECT_EQ(states[2500].hands[0].part, -1);
+  EXPECT_EQ(states[2500].hands[1].part, 0);
+  EXPECT_LT(states[3150].parts[0].X_WV.translation().z(), states[2500].parts[0].X_WV.translation().z() - 0.03);
+  for (std::size_t i = 0; i < states.size(); i += 10)
+    ASSERT_FALSE(scene.collides(states[i])) << "after " << i << " ms";
+}
+
+TEST(FingerLoop, HoldsNothingThatItsGripAsksFor) {
+  const BallAndWall scene;
+  GraspSimulation simulation = scene.simulation(1);
+  // Far from the ball, the hand closes and opens.
+  std::vector<devices::SimulatedGlove> gloves{
+      glove_on(geometry::PoseTrajectory({{milliseconds(0), at(0.0, 0.0, 0.15)}}), {milliseconds(50)})};
+  for (const HapticState& state : run(simulation, gloves, 400))
+    ASSERT_EQ(state.hands[0].part, -1);
+}
+
+}  // namespace
+}  // namespace glissade::grasping
