@@ -29,12 +29,14 @@ constexpr const char* kDemoDescription =
 
 constexpr const char* kDemoFooter =
     "Without --scene, the glove carries a window motor into a car door: through the access hole of the inner panel,\n"
-    "past the side-impact tube and back against the panel. The hand follows a script, which is scaled in time to\n"
-    "--seconds, and yields to the forces that it receives. In real time, glove and server communicate over LCM, 1000\n"
-    "times a second. The hand holds the first movable object of the scene; other movable objects lie where they are,\n"
-    "and objects with 'moves: FILE' follow their own scripts. With --offline, everything runs in one thread on a "
-    "simulated clock, with the same result every\n"
-    "time.\n"
+    "past the side-impact tube and back against the panel. With --fingers, it reaches for a motor on a bench, grasps\n"
+    "it with its fingers, carries it to its seat on a door module, lets go and withdraws.\n"
+    "\n"
+    "The hand follows a script, which is scaled in time to --seconds, and yields to the forces that it receives. In\n"
+    "real time, glove and server communicate over LCM, 1000 times a second. If the script of --scene has columns for\n"
+    "the joints, the hand takes hold of movable objects with its fingers; otherwise it holds the first one rigidly.\n"
+    "Other movable objects lie where they are, and objects with 'moves: FILE' follow their own scripts. With\n"
+    "--offline, everything runs in one thread on a simulated clock, with the same result every time.\n"
     "\n"
     "After the run, brute force checks every visible pose, i.e. every pose at which the part was shown. If a pose\n"
     "collides, the exit code is 1.\n"
@@ -42,6 +44,7 @@ constexpr const char* kDemoFooter =
     "\n"
     "Examples:\n"
     "  glissade demo\n"
+    "  glissade demo --fingers\n"
     "  glissade demo --seconds 20 --report report\n"
     "  glissade demo --offline --json\n"
     "  glissade demo --record demo.lcmlog";
@@ -49,6 +52,7 @@ constexpr const char* kDemoFooter =
 struct DemoOptions {
   double seconds = 10.0;
   std::string scene;
+  bool fingers = false;
   bool offline = false;
   bool json = false;
   bool verbose = false;
@@ -70,13 +74,14 @@ struct Demo {
   HandScript script;
 };
 
-Demo demo_of(const std::string& path) {
-  const Scene scene = read_or_embedded_scene(path);
+Demo demo_of(const std::string& path, bool fingers) {
+  const Demonstration demonstration = fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor;
+  const Scene scene = read_or_embedded_scene(path, demonstration);
   if (!scene.script_path && !path.empty()) {
     throw std::invalid_argument(path + ": the scene has no script for the hand to follow");
   }
   return {make_haptic_scene(scene, movable_objects(scene)),
-          path.empty() ? parse_hand_script(embedded_scene_script(), "car_door_script.csv")
+          path.empty() ? parse_hand_script(embedded_scene_script(demonstration), embedded_script_name(demonstration))
                        : read_hand_script(*scene.script_path)};
 }
 
@@ -91,8 +96,11 @@ Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_
   realtime::SteadyClock clock;
   devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script.X_WH, script.with_grip({})), clock);
   StatusLine line;
+  SessionHand hand;
+  if (!script.fingers.empty()) hand = {.part = std::nullopt, .fingers = grasping::HandShape{}};
   return run_session(demo.scene, bus,
-                     {.choice = options.choice,
+                     {.hands = {hand},
+                      .choice = options.choice,
                       .seconds = 1e-3 * static_cast<double>(ticks),
                       .period = haptics::kTickPeriod,
                       .record = record_of(options)},
@@ -105,7 +113,7 @@ Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_
 
 int run(const DemoOptions& options) {
   const std::int64_t ticks = checked_ticks(options.seconds);
-  const Demo demo = demo_of(options.scene);
+  const Demo demo = demo_of(options.scene, options.fingers);
   const HandScript script = demo.script.time_scaled(std::chrono::milliseconds(ticks));
   if (!options.report.empty()) prepare_report_folder(options.report);
   const Session session = options.offline
@@ -125,6 +133,10 @@ void add_demo_command(CLI::App& app, Command& chosen) {
   command->footer(std::string(kDemoFooter) + kSlidingChoiceHelp + kSceneFileHelp);
   command->add_option("--seconds", options->seconds, "Duration of the script in seconds")->capture_default_str();
   command->add_option("--scene", options->scene, "Scene file (YAML) with a movable object and a script");
+  command
+      ->add_flag("--fingers", options->fingers,
+                 "Without --scene: the hand grasps a motor with its fingers, see above")
+      ->excludes("--scene");
   add_sliding_options(*command, options->choice);
   CLI::Option* offline =
       command->add_flag("--offline", options->offline, "Run deterministically, on a simulated clock, in one thread");

@@ -32,9 +32,10 @@ constexpr const char* kGloveDescription = "Simulate a force-feedback glove in a 
 constexpr const char* kGloveFooter =
     "Script: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is a time and the pose X_WH of the hand root, the frame\n"
     "whose pose the glove reports; times increase. A ninth column, grip, may say from each row on whether the hand is\n"
-    "closed (1) or open (0): a hand that opens lets go, one that closes takes the nearest part. Without --script, the "
-    "hand follows the script of the car door\n"
-    "demonstration. The hand waits at the first pose until a haptic server ('glissade run') sends a command, and\n"
+    "closed (1) or open (0): a hand that opens lets go, one that closes takes the nearest part. Instead, 22 columns may\n"
+    "have the angles to which the wearer moves the fingers, thumb_roll_rad to wrist_abduction_rad, for a server that\n"
+    "lets fingers grasp ('glissade run --fingers'). Without --script, the hand follows the script of the car door\n"
+    "demonstration; with --fingers, that of the door module. The hand waits at the first pose until a haptic server ('glissade run') sends a command, and\n"
     "yields to the forces that it receives. The process ends at the end of the script, or with Ctrl-C. When the force\n"
     "fades, the reason goes to standard error.\n"
     "Columns of --record: docs/file_formats.md in the sources.\n"
@@ -46,6 +47,7 @@ struct GloveOptions {
   std::string side = "right";
   LcmAddress lcm;
   std::string script;
+  bool fingers = false;
   std::int64_t device = devices::kDefaultDevice;
   std::string record;
   double frozen_ms = 0.0;
@@ -100,8 +102,11 @@ int run(const GloveOptions& options) {
   }
   const bool has_locked_memory = realtime::lock_memory();
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
-  const HandScript script = options.script.empty() ? parse_hand_script(embedded_scene_script(), "car_door_script.csv")
-                                                   : read_hand_script(options.script);
+  const Demonstration demonstration = options.fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor;
+  const HandScript script =
+      options.script.empty()
+          ? parse_hand_script(embedded_scene_script(demonstration), embedded_script_name(demonstration))
+          : read_hand_script(options.script);
   const std::chrono::nanoseconds duration = script.X_WH.duration();
   const StopSignal stop_signal;
   realtime::SteadyClock clock;
@@ -158,6 +163,8 @@ void add_glove_command(CLI::App& app, Command& chosen) {
   add_device_option(*command, options->device);
   add_lcm_options(*command, options->lcm);
   command->add_option("--script", options->script, "Trajectory of the hand root (CSV), see below");
+  command->add_flag("--fingers", options->fingers, "Without --script: the hand of 'glissade demo --fingers'")
+      ->excludes("--script");
   command
       ->add_option("--frozen-ms", options->frozen_ms,
                    "A pose that repeats to the bit for longer is an error of the tracker, and lets the force fade; "

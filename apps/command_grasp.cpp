@@ -61,7 +61,7 @@ struct GraspOptions {
 
 std::vector<std::string> hand_columns() {
   std::vector<std::string> columns{"t_s", "hand", "state", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};
-  for (const std::string& column : flex_columns())
+  for (const std::string& column : joint_columns())
     columns.push_back(column);
   for (const char* column : {"touching", "grasp", "form", "object", "ox_m", "oy_m", "oz_m", "oqw", "oqx", "oqy", "oqz"})
     columns.emplace_back(column);

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/command.h>
+#include <glissade/apps/files/hand_trajectory_file.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/haptic_session.h>
@@ -35,7 +36,8 @@ constexpr const char* kRunFooter =
     "first part, the second glove the second part or, if there is only one part, the same; --hold says otherwise.\n"
     "A hand that opens lets go, and one that closes takes the nearest part, if the glove tells its grip. Parts that "
     "no\n"
-    "hand holds lie still. Objects with 'moves: FILE' follow their own scripts, from the first state "
+    "hand holds lie still. With --fingers, hands take hold of what their fingers close round, without any gesture;\n"
+    "the joint angles of the gloves move the fingers, which feel what stops them. Objects with 'moves: FILE' follow their own scripts, from the first state "
     "on.\n"
     "Commands to the gloves go out on GLOVE_COMMAND. The state of every tick, i.e. of every cycle of the haptic loop,\n"
     "goes out on HAPTIC_STATE, for viewers and loggers. When a force fades, because a glove's state is old for\n"
@@ -50,7 +52,10 @@ constexpr const char* kRunFooter =
     "  glissade run examples/scenes/car_door.yaml --lcm 'udpm://239.255.76.67:7667?ttl=0' --seconds 12\n"
     "  glissade glove --lcm 'udpm://239.255.76.67:7667?ttl=0'\n"
     "Two gloves, of which the second pushes another part:\n"
-    "  glissade run scene.yaml --device 1 2 --hold 1=motor 2=bracket";
+    "  glissade run scene.yaml --device 1 2 --hold 1=motor 2=bracket\n"
+    "A hand with fingers, and its simulated glove in a second terminal:\n"
+    "  glissade run examples/scenes/door_module.yaml --fingers\n"
+    "  glissade glove --fingers";
 
 constexpr const char* kRecordDescription = "Run the haptic server and record all of it, for 'glissade replay'";
 
@@ -71,6 +76,8 @@ struct RunOptions {
   LcmAddress lcm;
   std::vector<std::int64_t> devices{devices::kDefaultDevice};
   std::vector<std::string> holds;
+  bool fingers = false;
+  std::vector<std::string> hand_files;
   SlidingChoice choice;
   double seconds = 0.0;
   double rate_hz = 0.0;
@@ -89,7 +96,9 @@ std::vector<SessionHand> hands_of(const RunOptions& options, const HapticScene& 
       if (hand.device != device) continue;
       throw std::invalid_argument("--device: glove " + std::to_string(device) + " is named twice");
     }
-    hands.push_back({device, std::min(hands.size(), scene.parts.size() - 1)});
+    SessionHand hand{.device = device, .part = std::min(hands.size(), scene.parts.size() - 1)};
+    if (options.fingers) hand = {.device = device, .part = std::nullopt, .fingers = grasping::HandShape{}};
+    hands.push_back(hand);
   }
   if (hands.size() > haptics::kMaxHands) {
     throw std::invalid_argument("--device: " + std::to_string(hands.size()) + " gloves are too many; at most " +
@@ -114,12 +123,23 @@ std::vector<SessionHand> hands_of(const RunOptions& options, const HapticScene& 
   return hands;
 }
 
+/// The hands of --hand, one for all gloves or one for each.
+void take_shapes(const RunOptions& options, std::vector<SessionHand>& hands) {
+  if (options.hand_files.empty()) return;
+  if (options.hand_files.size() > 1 && options.hand_files.size() != hands.size()) {
+    throw std::invalid_argument("--hand: " + std::to_string(options.hand_files.size()) + " files for " +
+                                std::to_string(hands.size()) + " gloves; give one for all, or one for each");
+  }
+  for (std::size_t h = 0; h < hands.size(); ++h)
+    hands[h].fingers = read_hand_shape(options.hand_files[std::min(h, options.hand_files.size() - 1)]);
+}
+
 std::string held_text(const RunSettings& settings, const HapticScene& scene) {
   std::string text;
   for (const SessionHand& hand : settings.hands) {
     text += text.empty() ? "" : ", ";
     text += settings.hands.size() == 1 ? "the glove" : "glove " + std::to_string(hand.device);
-    text += " holds " + (hand.part ? in_quotes(scene.parts[*hand.part].name) : "nothing");
+    text += hand.fingers ? " grasps with its fingers" : " holds " + (hand.part ? in_quotes(scene.parts[*hand.part].name) : "nothing");
   }
   return text;
 }
@@ -178,6 +198,7 @@ int run(const RunOptions& options) {
                        .seconds = options.seconds,
                        .spin = std::chrono::nanoseconds(std::llround(1e3 * options.spin_us)),
                        .record = options.record};
+  take_shapes(options, settings.hands);
   settings.record.scene_file = options.scene;
   if (options.rate_hz != 0.0) settings.period = std::chrono::nanoseconds(std::llround(1e9 / options.rate_hz));
   if (!options.report.empty()) prepare_report_folder(options.report);
@@ -199,6 +220,14 @@ void add_options(CLI::App& command_line, RunOptions& options) {
       ->capture_default_str();
   command_line.add_option("--hold", options.holds,
                           "GLOVE=PART: the part that the hand in this glove takes; GLOVE= takes none");
+  CLI::Option* fingers = command_line.add_flag(
+      "--fingers", options.fingers, "Hands take hold with their fingers, by the joint angles that the gloves measure");
+  fingers->excludes("--hold");
+  command_line
+      .add_option("--hand", options.hand_files,
+                  "Whose hand (YAML), one for all gloves or one for each: side, length_m, breadth_m; default: a right "
+                  "or left hand, as the glove tells, of 0.183 m and 0.084 m")
+      ->needs(fingers);
   add_sliding_options(command_line, options.choice);
   command_line
       .add_option("--seconds", options.seconds, "Duration in seconds from the first glove state; 0: until Ctrl-C")

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The car door of the demonstration, compiled into the program so that it runs from any folder.
+/// The scenes of the demonstration, compiled into the program so that they run from any folder.
 
 #include <string>
 #include <string_view>
@@ -9,13 +9,18 @@
 
 namespace glissade::apps {
 
-/// `examples/scenes/car_door.yaml` as it was when the program was built.
-std::string_view embedded_scene_yaml();
+enum class Demonstration {
+  kCarDoor,     ///< examples/scenes/car_door.yaml: a hand that holds a motor rigidly from the start
+  kDoorModule,  ///< examples/scenes/door_module.yaml: a hand that grasps a motor with its fingers
+};
 
-/// `examples/scenes/car_door_script.csv`, the trajectory of the hand in that scene.
-std::string_view embedded_scene_script();
+/// The scene file and the trajectory of the hand in it, as they were when the program was built.
+std::string_view embedded_scene_yaml(Demonstration demonstration);
+std::string_view embedded_scene_script(Demonstration demonstration);
+/// The file's name of that script, for messages.
+std::string embedded_script_name(Demonstration demonstration);
 
-/// The scene in this file; with an empty name, the embedded one. Throws as `read_scene` does.
-Scene read_or_embedded_scene(const std::string& path);
+/// The scene in this file; with an empty name, that of the demonstration. Throws as `read_scene` does.
+Scene read_or_embedded_scene(const std::string& path, Demonstration demonstration);
 
 }  // namespace glissade::apps

@@ -27,26 +27,27 @@ constexpr int kFifoPriority = 80;
 constexpr std::size_t kKeptTicks = 60'000;
 
 /// The session of an offline run.
-RecordedSession offline_session(const HapticScene& scene, const devices::DeviceDescriptor& device,
-                                const SlidingChoice& choice, const RecordSettings& record) {
+RecordedSession offline_session(const HapticScene& scene, const Grip& grip, const SlidingChoice& choice,
+                                const RecordSettings& record) {
   // There is no link, so the number of its session is made up.
-  const devices::GloveInfo glove{.device = devices::kDefaultDevice, .session = 1, .descriptor = device};
+  const devices::GloveInfo glove{.device = devices::kDefaultDevice, .session = 1, .descriptor = grip.device};
   return {.scene_file = recorded_path(record.scene_file),
           .scene_hash = scene_hash(scene),
           .choice = choice,
-          .hands = {{glove, 0}}};
+          .hands = {{glove, grip.part, grip.fingers}}};
 }
 
 /// The session of a run in real time, for which all gloves have been heard.
 RecordedSession real_time_session(const HapticScene& scene, const std::vector<devices::GloveInfo>& gloves,
-                                  const RunSettings& settings, std::chrono::nanoseconds period) {
+                                  const std::vector<Grip>& grips, const RunSettings& settings,
+                                  std::chrono::nanoseconds period) {
   RecordedSession session{.scene_file = recorded_path(settings.record.scene_file),
                           .scene_hash = scene_hash(scene),
                           .rules = haptics::real_time_rules(),
                           .choice = settings.choice,
                           .period = period};
   for (std::size_t h = 0; h < gloves.size(); ++h)
-    session.hands.push_back({gloves[h], settings.hands[h].part});
+    session.hands.push_back({gloves[h], grips[h].part, grips[h].fingers});
   return session;
 }
 
@@ -109,12 +110,19 @@ RunWatch watch_of(const HapticScene& scene, const RunSettings& settings) {
 Session run_session_offline(const HapticScene& scene, const HandScript& script, std::int64_t ticks,
                             const SlidingChoice& choice, const RecordSettings& record) {
   devices::SimulatedGlove glove(script.X_WH, script.with_grip({}));
-  haptics::MultiPartSliding sliding = start_sliding(scene, {{glove.descriptor(), 0}}, choice, {});
+  Grip grip{.device = glove.descriptor()};
+  if (script.fingers.empty()) {
+    grip.part = 0;
+  } else {
+    grip.fingers.emplace();
+  }
+  StartedSimulation started = start_simulation(scene, {grip}, choice, {});
+  const haptics::MultiPartSliding& sliding = started.simulation->parts();
   const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks), sliding.part_count(), 1);
   std::optional<haptics::LogRecorder> log;
-  if (!record.log.empty()) log.emplace(record.log, head_of(offline_session(scene, glove.descriptor(), choice, record)));
+  if (!record.log.empty()) log.emplace(record.log, head_of(offline_session(scene, grip, choice, record)));
   ProgressBar progress("offline", ticks);
-  haptics::run_offline({{.device = &glove}}, sliding, ticks,
+  haptics::run_offline({{&glove, grip.part, started.fingers.front()}}, *started.simulation, ticks,
                        [&](const devices::HapticState& sample) {
                          recorder->record(sample);
                          progress.update(recorder->total());
@@ -129,7 +137,7 @@ Session run_session_offline(const HapticScene& scene, const HandScript& script, 
 
 Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, const RunSettings& settings,
                     const std::function<bool()>& should_stop, const std::function<void(const RunNews&)>& watch) {
-  start_sliding(scene, {}, settings.choice, {});  // errors come before waiting
+  start_simulation(scene, {}, settings.choice, {});  // errors come before waiting
   validate(settings.record);
   if (settings.period) check_spin(settings.spin, *settings.period);
   const std::vector<devices::GloveInfo> infos = wait_for_gloves(bus, settings.hands, should_stop, watch);
@@ -137,8 +145,11 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   std::chrono::nanoseconds fastest = haptics::kLongestTickPeriod;
   for (std::size_t h = 0; h < settings.hands.size(); ++h) {
     // Without a glove, the session below ends at once.
-    grips.push_back(
-        {h < infos.size() ? infos[h].descriptor : devices::simulated_glove_descriptor(), settings.hands[h].part});
+    Grip& grip = grips.emplace_back();
+    grip = {h < infos.size() ? infos[h].descriptor : devices::simulated_glove_descriptor(), settings.hands[h].part,
+            settings.hands[h].fingers};
+    if (grip.fingers && h < infos.size() && infos[h].side != devices::HandSide::kUnknown)
+      grip.fingers->side = infos[h].side;
     fastest = std::min(fastest, period_of(grips.back().device));
   }
   const std::chrono::nanoseconds period = settings.period.value_or(fastest);
@@ -146,7 +157,8 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   if (period > fastest)
     watch({.sentences = {"a glove is faster than the haptic loop: its force may fade (--rate-hz)"}});
   const std::int64_t ticks = std::llround(settings.seconds / std::chrono::duration<double>(period).count());
-  haptics::MultiPartSliding sliding = start_sliding(scene, grips, settings.choice, haptics::real_time_rules(), period);
+  StartedSimulation started = start_simulation(scene, grips, settings.choice, haptics::real_time_rules(), period);
+  const haptics::MultiPartSliding& sliding = started.simulation->parts();
   const auto recorder = std::make_shared<SessionRecorder>(ticks > 0 ? static_cast<std::size_t>(ticks) : kKeptTicks,
                                                           sliding.part_count(), settings.hands.size());
   RunWatch run_watch = watch_of(scene, settings);
@@ -159,15 +171,15 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
     gloves.push_back(std::make_unique<devices::LcmGlove>(
         bus, grips[h].device,
         devices::LcmGloveOptions{.device = device, .glove_session = h < infos.size() ? infos[h].session : 0}));
-    hands.push_back({gloves.back().get(), settings.hands[h].part});
+    hands.push_back({gloves.back().get(), grips[h].part, started.fingers[h]});
     numbers.push_back(device);
   }
   // A run that ends before all gloves have been heard leaves an older file alone.
   const bool has_all = infos.size() == settings.hands.size();
   RunRecorders recorders(has_all ? settings.record : RecordSettings{},
-                         real_time_session(scene, infos, settings, period));
+                         real_time_session(scene, infos, grips, settings, period));
   realtime::SteadyClock clock;
-  haptics::HapticServer server(hands, sliding, clock,
+  haptics::HapticServer server(hands, *started.simulation, clock,
                                [&sink](const devices::HapticState& sample) { sink.receive(sample); },
                                {.period = period,
                                 .ticks = ticks,

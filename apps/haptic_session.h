@@ -18,20 +18,23 @@
 #include <glissade/apps/sliding_option.h>
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/devices/lcm_glove.h>
+#include <glissade/grasping/hand_model.h>
 #include <glissade/haptics/coupling.h>
 
 namespace glissade::apps {
 
-/// Runs the whole system on a simulated clock: `ticks` milliseconds of a simulated glove that follows `script`, and
-/// holds the first part if it starts closed. Throws std::invalid_argument, naming scene and part, when a
+/// Runs the whole system on a simulated clock: `ticks` milliseconds of a simulated glove that follows `script`. If the
+/// script has fingers, a right hand takes hold with them; otherwise it holds the first part if it starts closed. Throws std::invalid_argument, naming scene and part, when a
 /// part collides at its start, and naming the file when the recording cannot be created. There is no flight recorder.
 Session run_session_offline(const HapticScene& scene, const HandScript& script, std::int64_t ticks,
                             const SlidingChoice& choice, const RecordSettings& record);
 
-/// A glove of a run, and the part that its hand takes at the first state.
+/// A glove of a run, and the part that its hand takes at the first state; or a hand with fingers, which takes hold of
+/// what it touches.
 struct SessionHand {
   std::int64_t device = devices::kDefaultDevice;  ///< number of the glove
-  std::optional<std::size_t> part = 0;            ///< number of the part in the scene
+  std::optional<std::size_t> part = 0;            ///< number of the part in the scene; none for a hand with fingers
+  std::optional<grasping::HandShape> fingers{};   ///< the side is that of the glove, if the glove tells it
 };
 
 struct RunSettings {

@@ -4,27 +4,38 @@
 
 #include <chrono>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/sliding_option.h>
 #include <glissade/devices/glove_device.h>
-#include <glissade/haptics/multi_part_sliding.h>
+#include <glissade/grasping/hand_model.h>
+#include <glissade/haptics/haptic_kernel.h>
+#include <glissade/haptics/loop_simulation.h>
 #include <glissade/haptics/sliding_rules.h>
 
 namespace glissade::apps {
 
-/// A device and the part that its hand takes.
+/// A device, and what its hand takes.
 struct Grip {
   devices::DeviceDescriptor device;
-  std::optional<std::size_t> part;
+  std::optional<std::size_t> part{};             ///< number of the part; not of a hand with fingers
+  std::optional<grasping::HandShape> fingers{};  ///< of a hand that takes hold with its fingers
 };
 
-/// Starts the simulation. A part has its default stiffness, lowered to the limits of the devices that hold it. Throws
-/// std::invalid_argument, naming the scene, for a part that starts inside an obstacle.
-haptics::MultiPartSliding start_sliding(const HapticScene& scene, const std::vector<Grip>& grips,
-                                        const SlidingChoice& choice, const haptics::SlidingRules& rules,
-                                        std::chrono::nanoseconds period = haptics::kTickPeriod);
+/// A simulation, and its hands as the haptic loop takes them, one for each grip.
+struct StartedSimulation {
+  std::unique_ptr<haptics::LoopSimulation> simulation;
+  std::vector<std::optional<haptics::FingerHand>> fingers;
+};
+
+/// Starts the simulation. A part has its default stiffness, lowered to the limits of the devices that may hold it: with
+/// fingers, of all of them. All hands have fingers, or none. Throws std::invalid_argument, naming the scene, for a part
+/// that starts inside an obstacle.
+StartedSimulation start_simulation(const HapticScene& scene, const std::vector<Grip>& grips,
+                                   const SlidingChoice& choice, const haptics::SlidingRules& rules,
+                                   std::chrono::nanoseconds period = haptics::kTickPeriod);
 
 }  // namespace glissade::apps

@@ -71,9 +71,28 @@ void check(const SimulatedGloveParameters& p) {
                p.wearer_rotational_damping + p.arm_rotational_damping);
   check_posture("grasp_posture", p.grasp_posture);
   if (p.open_posture) check_posture("open_posture", *p.open_posture);
+  for (std::size_t i = 0; i < p.fingers.size(); ++i) {
+    check_posture("fingers", p.fingers[i].angles);
+    if (i > 0 && p.fingers[i].time <= p.fingers[i - 1].time)
+      throw std::invalid_argument("Simulated glove: the times of the fingers must rise.");
+  }
 }
 
 }  // namespace
+
+JointValues angles_at(const std::vector<TimedAngles>& timed, std::chrono::nanoseconds time) noexcept {
+  const auto next = std::upper_bound(timed.begin(), timed.end(), time,
+                                     [](std::chrono::nanoseconds t, const TimedAngles& entry) { return t < entry.time; });
+  if (next == timed.begin()) return timed.front().angles;
+  if (next == timed.end()) return timed.back().angles;
+  const TimedAngles& before = *(next - 1);
+  const double share =
+      static_cast<double>((time - before.time).count()) / static_cast<double>((next->time - before.time).count());
+  JointValues angles{};
+  for (std::size_t i = 0; i < angles.size(); ++i)
+    angles[i] = before.angles[i] + share * (next->angles[i] - before.angles[i]);
+  return angles;
+}
 
 DeviceDescriptor simulated_glove_descriptor() {
   DeviceDescriptor descriptor;
@@ -105,8 +124,9 @@ SimulatedGlove::SimulatedGlove(geometry::PoseTrajectory script_X_WH, const Simul
   state_.grip = grip_at(state_.time);
   state_.X_WH = script_X_WH_.pose_at(state_.time);
   q_WH_ = Eigen::Quaterniond(state_.X_WH.linear());
+  const JointValues aim = aim_of_fingers();
   for (std::size_t i = 0; i < kGloveJoints; ++i) {
-    state_.joint_angles[i] = std::clamp(aim_of_fingers()[i], descriptor_.joint_lower[i], descriptor_.joint_upper[i]);
+    state_.joint_angles[i] = std::clamp(aim[i], descriptor_.joint_lower[i], descriptor_.joint_upper[i]);
   }
 }
 
@@ -132,7 +152,8 @@ std::int64_t SimulatedGlove::grip_at(std::chrono::nanoseconds time) const noexce
          (std::upper_bound(changes.begin(), changes.end(), time) - changes.begin());
 }
 
-const JointValues& SimulatedGlove::aim_of_fingers() const noexcept {
+JointValues SimulatedGlove::aim_of_fingers() const noexcept {
+  if (!parameters_.fingers.empty()) return angles_at(parameters_.fingers, state_.time);
   const bool is_open = grip_at(state_.time) % 2 == 0;
   return is_open && parameters_.open_posture ? *parameters_.open_posture : parameters_.grasp_posture;
 }
@@ -163,7 +184,7 @@ void SimulatedGlove::turn_hand(double h, const GloveCommand& command) noexcept {
 // Fingers weigh little: each approaches the equilibrium of the wearer's grip and the torque without overshoot.
 void SimulatedGlove::move_fingers(double h, const GloveCommand& command) noexcept {
   const double part = -std::expm1(-h / parameters_.finger_time_constant);
-  const JointValues& aim = aim_of_fingers();
+  const JointValues aim = aim_of_fingers();
   for (std::size_t i = 0; i < kGloveJoints; ++i) {
     const double balance = aim[i] + command.joint_torques[i] / parameters_.finger_stiffness;
     double& angle = state_.joint_angles[i];

@@ -25,6 +25,16 @@ inline constexpr double kArmRotationalDamping = 0.01;
 /// Viscous friction of each finger joint of the glove, Nm s/rad.
 inline constexpr double kJointDamping = 0.02;
 
+/// Joint angles (rad) at a time of the script.
+struct TimedAngles {
+  std::chrono::nanoseconds time{0};
+  JointValues angles{};
+};
+
+/// The angles at a time: linear between two entries, constant before the first and after the last. `timed` has at least
+/// one entry; their times rise. Cost O(log n).
+JointValues angles_at(const std::vector<TimedAngles>& timed, std::chrono::nanoseconds time) noexcept;
+
 /// The glove and its wearer, in SI units. The wearer is a critically damped spring and damper between hand and script,
 /// about as stiff as a relaxed to lightly tensed human arm. A steady force F displaces the hand from the script by
 /// F / stiffness.
@@ -44,6 +54,8 @@ struct SimulatedGloveParameters {
   JointValues grasp_posture{};  ///< joint angles to which the wearer's fingers return; rad
   /// The same while the hand is open; none: the hand opens without moving its fingers.
   std::optional<JointValues> open_posture{};
+  /// The same over the time of the script, instead of both postures; none: the grip says which of the two it is.
+  std::vector<TimedAngles> fingers{};
   std::chrono::nanoseconds frozen{0};  ///< `DeviceDescriptor::frozen`
   bool starts_closed = true;           ///< the hand is closed at the start of the script
   /// Times of the script, ascending, at which the hand closes or opens.
@@ -61,7 +73,7 @@ class SimulatedGlove {
   /// Starts at rest at the first pose of `script_X_WH`, the intended trajectory of the hand root. Throws
   /// std::invalid_argument, naming the parameter, for a number that is not finite, for negative damping, and for any
   /// other parameter that is not positive. Angles of the posture may be zero or negative. Also throws when stiffness or
-  /// damping is so large that steps of 1 ms would not be stable.
+  /// damping is so large that steps of 1 ms would not be stable, and for times of the fingers that do not rise.
   explicit SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters = {});
 
   const DeviceDescriptor& descriptor() const noexcept { return descriptor_; }
@@ -75,7 +87,7 @@ class SimulatedGlove {
 
  private:
   std::int64_t grip_at(std::chrono::nanoseconds time) const noexcept;
-  const JointValues& aim_of_fingers() const noexcept;
+  JointValues aim_of_fingers() const noexcept;
   void move_hand(double h, const GloveCommand& command) noexcept;
   void turn_hand(double h, const GloveCommand& command) noexcept;
   void move_fingers(double h, const GloveCommand& command) noexcept;

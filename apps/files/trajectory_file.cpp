@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -28,6 +29,13 @@ std::vector<std::string> trajectory_columns() {
   return columns;
 }
 
+std::vector<std::string> joint_columns() {
+  std::vector<std::string> columns;
+  for (const std::string_view name : devices::kGloveJointNames)
+    columns.push_back(std::string(name) + "_rad");
+  return columns;
+}
+
 std::chrono::nanoseconds time_of(const CsvTable& table, std::size_t row) {
   return time_of(table.rows[row][0], table.where(row));
 }
@@ -47,29 +55,50 @@ geometry::PoseTrajectory trajectory_from(const CsvTable& table) {
   return geometry::PoseTrajectory(rows);
 }
 
-HandScript HandScript::time_scaled(std::chrono::nanoseconds duration) const {
-  HandScript scaled{X_WH.time_scaled(duration), starts_closed, {}};
-  const double factor = static_cast<double>(duration.count()) / static_cast<double>(X_WH.duration().count());
-  for (const std::chrono::nanoseconds time : grip_changes) {
-    const auto since_start = static_cast<double>((time - X_WH.first_time()).count());
-    scaled.grip_changes.push_back(X_WH.first_time() + std::chrono::nanoseconds(std::llround(factor * since_start)));
+std::vector<devices::TimedAngles> fingers_from(const CsvTable& table) {
+  const auto first = static_cast<std::ptrdiff_t>(trajectory_columns().size());
+  std::vector<devices::TimedAngles> fingers(table.rows.size());
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    fingers[row].time = time_of(table, row);
+    std::copy_n(table.rows[row].begin() + first, fingers[row].angles.size(), fingers[row].angles.begin());
   }
+  return fingers;
+}
+
+HandScript HandScript::time_scaled(std::chrono::nanoseconds duration) const {
+  HandScript scaled{X_WH.time_scaled(duration), starts_closed, {}, fingers};
+  const double factor = static_cast<double>(duration.count()) / static_cast<double>(X_WH.duration().count());
+  const auto in_new_time = [&](std::chrono::nanoseconds time) {
+    const auto since_start = static_cast<double>((time - X_WH.first_time()).count());
+    return X_WH.first_time() + std::chrono::nanoseconds(std::llround(factor * since_start));
+  };
+  for (const std::chrono::nanoseconds time : grip_changes)
+    scaled.grip_changes.push_back(in_new_time(time));
+  for (devices::TimedAngles& entry : scaled.fingers)
+    entry.time = in_new_time(entry.time);
   return scaled;
 }
 
 devices::SimulatedGloveParameters HandScript::with_grip(devices::SimulatedGloveParameters parameters) const {
   parameters.starts_closed = starts_closed;
   parameters.grip_changes = grip_changes;
+  parameters.fingers = fingers;
   return parameters;
 }
 
 HandScript parse_hand_script(std::string_view text, const std::string& source) {
   std::vector<std::string> columns = trajectory_columns();
   const std::string_view header = text.substr(0, text.find_first_of("\r\n"));
-  if (!header.ends_with(",grip")) return {parse_trajectory(text, source)};
+  const std::vector<std::string> joints = joint_columns();
+  if (header.find("," + joints.front()) != std::string_view::npos) {
+    columns.insert(columns.end(), joints.begin(), joints.end());
+    const CsvTable table = parse_csv(text, source, columns);
+    return {.X_WH = trajectory_from(table), .fingers = fingers_from(table)};
+  }
+  if (!header.ends_with(",grip")) return {.X_WH = parse_trajectory(text, source)};
   columns.emplace_back("grip");
   const CsvTable table = parse_csv(text, source, columns);
-  HandScript script{trajectory_from(table)};
+  HandScript script{.X_WH = trajectory_from(table)};
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const double grip = table.rows[row].back();
     if (grip != 0.0 && grip != 1.0) {

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Files of timed poses: rows `t_s,x_m,y_m,z_m,qw,qx,qy,qz` at rising times; for a hand with a column `grip`.
+/// Files of timed poses: rows `t_s,x_m,y_m,z_m,qw,qx,qy,qz` at rising times; for a hand with a column `grip`, or with
+/// the angles of its joints.
 
 #include <chrono>
 #include <string>
@@ -16,10 +17,15 @@ namespace glissade::apps {
 /// The columns of a trajectory.
 std::vector<std::string> trajectory_columns();
 
+/// The columns of a hand's joints: `devices::kGloveJointNames` with the ending `_rad`.
+std::vector<std::string> joint_columns();
+
 /// The time of a row, and the trajectory of all rows, of a table whose first columns are those of a trajectory. Throw
 /// as `read_trajectory`.
 std::chrono::nanoseconds time_of(const CsvTable& table, std::size_t row);
 geometry::PoseTrajectory trajectory_from(const CsvTable& table);
+/// The joint angles of all rows, from the columns after those of a trajectory.
+std::vector<devices::TimedAngles> fingers_from(const CsvTable& table);
 
 /// Throws std::invalid_argument for a file that lasts longer than a day, which gives some 20 GB of rows:
 /// that is an error in the unit of t_s.
@@ -38,15 +44,16 @@ struct HandScript {
   geometry::PoseTrajectory X_WH;
   bool starts_closed = true;
   std::vector<std::chrono::nanoseconds> grip_changes{};  ///< times at which it closes or opens, ascending
+  std::vector<devices::TimedAngles> fingers{};           ///< none: its fingers do not move
 
   /// The same in another time.
   HandScript time_scaled(std::chrono::nanoseconds duration) const;
-  /// `parameters` with the grip of this script.
+  /// `parameters` with the grip and the fingers of this script.
   devices::SimulatedGloveParameters with_grip(devices::SimulatedGloveParameters parameters) const;
 };
 
 /// Reads a trajectory that may have one more column, `grip`: 1 from the time of the row on if the hand is closed, 0 if
-/// it is open. Throws as `read_trajectory`, and for any other number in that column.
+/// it is open; or `joint_columns`. Throws as `read_trajectory`, and for any other number in the column `grip`.
 HandScript read_hand_script(const std::string& path);
 HandScript parse_hand_script(std::string_view text, const std::string& source);
 

@@ -18,6 +18,7 @@
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/haptics/haptic_server.h>
+#include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/periodic_thread.h>
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <vector>
@@ -18,7 +19,9 @@ namespace {
 
 HapticScene recorded_scene(const std::string& log_path, const RecordedSession& session, const std::string& scene_file) {
   const std::string& file = scene_file.empty() ? session.scene_file : scene_file;
-  const Scene scene = read_or_embedded_scene(file);
+  const bool has_fingers = std::any_of(session.hands.begin(), session.hands.end(),
+                                       [](const RecordedHand& hand) { return hand.fingers; });
+  const Scene scene = read_or_embedded_scene(file, has_fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor);
   HapticScene result = make_haptic_scene(scene, movable_objects(scene));
   if (scene_hash(result) == session.scene_hash) return result;
   throw std::invalid_argument(result.source + ": is not the scene of " + log_path +
@@ -32,19 +35,20 @@ ReplayOutcome replay_offline(const std::string& log_path, const std::string& sce
   const RecordedSession session = read_session(log, log_path);
   const HapticScene scene = recorded_scene(log_path, session, scene_file);
   std::vector<Grip> grips;
-  std::vector<haptics::KernelHand> hands;
   for (const RecordedHand& hand : session.hands) {
     if (hand.part && *hand.part >= scene.parts.size()) {
       throw std::invalid_argument(log_path + ": glove " + std::to_string(hand.glove.device) + " holds part " +
                                   std::to_string(*hand.part) + ", which the scene does not have");
     }
-    grips.push_back({hand.glove.descriptor, hand.part});
-    hands.push_back({hand.glove.descriptor, hand.part});
+    grips.push_back({hand.glove.descriptor, hand.part, hand.fingers});
   }
   haptics::SlidingRules rules = session.rules;
   rules.has_search_thread = true;  // takes less time, and gives the same bits
-  haptics::MultiPartSliding sliding = start_sliding(scene, grips, session.choice, rules, session.period);
-  haptics::Replay replay(sliding, hands, session.period, head_of(session));
+  StartedSimulation started = start_simulation(scene, grips, session.choice, rules, session.period);
+  std::vector<haptics::KernelHand> hands;
+  for (std::size_t h = 0; h < grips.size(); ++h)
+    hands.push_back({grips[h].device, grips[h].part, started.fingers[h]});
+  haptics::Replay replay(*started.simulation, hands, session.period, head_of(session));
 
   ProgressBar progress("replay", static_cast<std::int64_t>(std::filesystem::file_size(log_path)));
   realtime::SteadyClock clock;

@@ -10,7 +10,7 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 std::string hexadecimal(std::uint64_t number) {
   constexpr const char* kDigits = "0123456789abcdef";
@@ -20,11 +20,25 @@ std::string hexadecimal(std::uint64_t number) {
   return text;
 }
 
+nlohmann::json json_of(const std::optional<grasping::HandShape>& shape) {
+  if (!shape) return nullptr;
+  return {{"side", shape->side == devices::HandSide::kLeft ? "left" : "right"},
+          {"length_m", shape->length_m},
+          {"breadth_m", shape->breadth_m}};
+}
+
+grasping::HandShape shape_of(const nlohmann::json& fingers) {
+  const std::string side = fingers.at("side");
+  return {.length_m = fingers.at("length_m"),
+          .breadth_m = fingers.at("breadth_m"),
+          .side = side == "left" ? devices::HandSide::kLeft : devices::HandSide::kRight};
+}
+
 devices::LogEvent event_of(const RecordedSession& session) {
   nlohmann::json hands = nlohmann::json::array();
   for (const RecordedHand& hand : session.hands) {
     const nlohmann::json part = hand.part ? nlohmann::json(*hand.part) : nlohmann::json(nullptr);
-    hands.push_back({{"device", hand.glove.device}, {"part", part}});
+    hands.push_back({{"device", hand.glove.device}, {"part", part}, {"fingers", json_of(hand.fingers)}});
   }
   const std::optional<std::int64_t>& budget = session.rules.work_budget;
   const nlohmann::json rules{{"max_cycles", session.rules.max_cycles},
@@ -67,6 +81,7 @@ RecordedSession session_of(const devices::LogEvent& event) {
     RecordedHand& recorded = session.hands.emplace_back();
     recorded.glove.device = hand.at("device");
     if (!hand.at("part").is_null()) recorded.part = hand.at("part").get<std::size_t>();
+    if (!hand.at("fingers").is_null()) recorded.fingers = shape_of(hand.at("fingers"));
   }
   return session;
 }

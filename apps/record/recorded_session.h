@@ -12,6 +12,7 @@
 #include <glissade/apps/sliding_option.h>
 #include <glissade/devices/event_log.h>
 #include <glissade/devices/glove_device.h>
+#include <glissade/grasping/hand_model.h>
 #include <glissade/haptics/haptic_kernel.h>
 #include <glissade/haptics/recording.h>
 #include <glissade/haptics/sliding_rules.h>
@@ -25,11 +26,12 @@ inline constexpr const char* kHapticSessionChannel = "HAPTIC_SESSION";
 struct RecordedHand {
   devices::GloveInfo glove;
   std::optional<std::size_t> part;  ///< number of the part in the scene
+  std::optional<grasping::HandShape> fingers{};  ///< of a hand that takes hold with its fingers
 };
 
 /// All that a replay needs to know before the first tick.
 struct RecordedSession {
-  std::string scene_file;        ///< absolute path; empty: the car door of the demonstration
+  std::string scene_file;        ///< absolute path; empty: that of the demonstration
   std::uint64_t scene_hash = 0;  ///< as `scene_hash` gives it
   haptics::SlidingRules rules;   ///< of the simulation, without those of `choice`
   SlidingChoice choice;
