@@ -52,8 +52,9 @@ RecordedSession real_time_session(const HapticScene& scene, const std::vector<de
 }
 
 Session finished(std::int64_t ticks, std::chrono::nanoseconds period, const HapticScene& scene,
-                 const haptics::MultiPartSliding& sliding, std::vector<std::int64_t> devices,
+                 const StartedSimulation& started, std::vector<std::int64_t> devices,
                  std::shared_ptr<const SessionRecorder> samples, std::optional<RealTimeFigures> real_time) {
+  const haptics::MultiPartSliding& sliding = started.simulation->parts();
   const haptics::SearchStatistics& work = sliding.search_statistics();
   return {ticks,
           period,
@@ -62,6 +63,7 @@ Session finished(std::int64_t ticks, std::chrono::nanoseconds period, const Hapt
           work.reports,
           sliding.call_statistics(),
           std::move(devices),
+          started.models,
           std::move(samples),
           std::move(real_time)};
 }
@@ -130,7 +132,7 @@ Session run_session_offline(const HapticScene& scene, const HandScript& script, 
                        {.observer = log ? &*log : nullptr});
   if (log) log->close();
   Session session =
-      finished(ticks, haptics::kTickPeriod, scene, sliding, {devices::kDefaultDevice}, recorder, std::nullopt);
+      finished(ticks, haptics::kTickPeriod, scene, started, {devices::kDefaultDevice}, recorder, std::nullopt);
   session.recording = record.log;
   return session;
 }
@@ -202,7 +204,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   watch({.ticks = server.ticks(), .sentences = recorders.finish(server.has_failed())});
   bare_timer.stop();
   if (server.has_failed()) throw std::runtime_error("the simulation failed: " + server.failure());
-  Session session = finished(server.ticks(), period, scene, sliding, numbers, recorder,
+  Session session = finished(server.ticks(), period, scene, started, numbers, recorder,
                              RealTimeFigures{server.statistics(), bare_timer.statistics()});
   if (has_all) session.recording = settings.record.log;
   session.is_recording_whole = recorders.is_whole();

@@ -1,9 +1,10 @@
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <glissade/apps/hash.h>
-#include <glissade/apps/progress.h>
 #include <glissade/apps/session.h>
+#include <glissade/apps/session_check.h>
 
 namespace glissade::apps {
 
@@ -25,59 +26,11 @@ std::uint64_t hash_of(const SessionRecorder& samples) {
   return hash.value();
 }
 
-/// The parts of a scene and their poses over the kept ticks. A part at rest repeats its pose, which is checked once.
-class PoseCheck {
- public:
-  PoseCheck(const SessionRecorder& samples, const HapticScene& scene) : samples_(samples), scene_(scene) {
-    for (const ScenePart& part : scene.parts)
-      meshes_.emplace_back(part.part_V, &part.part_V->tree.mesh());
-    for (const haptics::ScriptedPart& part : scene.moving)
-      meshes_.emplace_back(part.part_B, &part.part_B->tree.mesh());
-  }
-
-  /// Marks the ticks in which the part collides with an obstacle or with a part of lower number. Returns their number.
-  std::int64_t colliding_ticks(std::size_t part) const {
-    std::vector<char> collides(samples_.size(), 0);
-    const auto X_WV = [&](std::size_t i) { return samples_.part(i, part).X_WV; };
-    check(scene_.placed_obstacles, part, X_WV, collides);
-    for (std::size_t other = 0; other < part; ++other) {
-      const auto X_OV = [&](std::size_t i) -> Eigen::Isometry3d {
-        return samples_.part(i, other).X_WV.inverse(Eigen::Isometry) * samples_.part(i, part).X_WV;
-      };
-      check({{meshes_[other]}}, part, X_OV, collides);
-    }
-    return std::count(collides.begin(), collides.end(), 1);
-  }
-
- private:
-  template <typename PoseAt>
-  void check(const std::vector<reference::PlacedMesh>& obstacles, std::size_t part, const PoseAt& pose_at,
-             std::vector<char>& collides) const {
-    std::vector<Eigen::Isometry3d> poses;
-    std::vector<std::size_t> pose_of_tick(samples_.size());
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const Eigen::Isometry3d X = pose_at(i);
-      if (poses.empty() || poses.back().matrix() != X.matrix()) poses.push_back(X);
-      pose_of_tick[i] = poses.size() - 1;
-    }
-    if (poses.empty() || obstacles.empty()) return;
-    ProgressBar progress("checking poses", static_cast<std::int64_t>(poses.size()));
-    const std::vector<char> of_pose = reference::GridCheck(obstacles).collisions(
-        *meshes_[part], poses, [&](std::size_t done) { progress.update(static_cast<std::int64_t>(done)); });
-    for (std::size_t i = 0; i < samples_.size(); ++i)
-      collides[i] = static_cast<char>(collides[i] | of_pose[pose_of_tick[i]]);
-  }
-
-  const SessionRecorder& samples_;
-  const HapticScene& scene_;
-  std::vector<std::shared_ptr<const geometry::TriangleMesh>> meshes_;
-};
-
 PartSummary summarize_part(const SessionRecorder& samples, std::size_t p, const HapticScene& scene,
-                           const PoseCheck& check) {
+                           const SessionCheck& check) {
   PartSummary summary;
   summary.name = scene.body_names[scene.obstacles.size() + p];
-  summary.colliding_poses = check.colliding_ticks(p);
+  summary.colliding_poses = check.colliding_ticks_of_part(p);
   std::int64_t in_contact = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const devices::HapticPartState& part = samples.part(i, p);
@@ -92,9 +45,12 @@ PartSummary summarize_part(const SessionRecorder& samples, std::size_t p, const 
   return summary;
 }
 
-HandSummary summarize_hand(const SessionRecorder& samples, std::size_t h, std::int64_t device) {
+HandSummary summarize_hand(const Session& session, std::size_t h, const SessionCheck& check) {
+  const SessionRecorder& samples = *session.samples;
   HandSummary summary;
-  summary.device = device;
+  summary.device = session.devices[h];
+  summary.has_fingers = session.hand_models[h] != nullptr;
+  summary.colliding_postures = check.colliding_ticks_of_hand(h);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const devices::HapticHandState& hand = samples.hand(i, h);
     for (std::size_t k = 0; k < devices::kLimitReasons.size(); ++k)
@@ -102,6 +58,11 @@ HandSummary summarize_hand(const SessionRecorder& samples, std::size_t h, std::i
     summary.lagging_ticks += hand.contact_share < 0.5 ? 1 : 0;
     summary.unsolved_ticks += hand.are_contacts_unsolved ? 1 : 0;
     summary.force_max_N = std::max(summary.force_max_N, hand.force_W.norm());
+    summary.holding_ticks += hand.part >= 0 ? 1 : 0;
+    for (const double torque : hand.joint_torques)
+      summary.joint_torque_max_Nm = std::max(summary.joint_torque_max_Nm, std::abs(torque));
+    const std::int32_t before = i == 0 ? -1 : samples.hand(i - 1, h).part;
+    summary.grasps += hand.part >= 0 && hand.part != before ? 1 : 0;
     if (i == 0) continue;
     const double step = (hand.force_W - samples.hand(i - 1, h).force_W).norm();
     summary.force_step_max_N = std::max(summary.force_step_max_N, step);
@@ -134,6 +95,8 @@ std::int64_t SessionSummary::colliding_poses() const {
   std::int64_t sum = 0;
   for (const PartSummary& part : parts)
     sum += part.colliding_poses;
+  for (const HandSummary& hand : hands)
+    sum += hand.colliding_postures;
   return sum;
 }
 
@@ -142,11 +105,11 @@ SessionSummary summarize(const Session& session, const HapticScene& scene) {
   SessionSummary summary;
   summary.ticks = session.ticks;
   summary.samples = static_cast<std::int64_t>(samples.size());
-  const PoseCheck check(samples, scene);
+  const SessionCheck check(session, scene);
   for (std::size_t p = 0; p < samples.parts(); ++p)
     summary.parts.push_back(summarize_part(samples, p, scene, check));
   for (std::size_t h = 0; h < samples.hands(); ++h)
-    summary.hands.push_back(summarize_hand(samples, h, session.devices[h]));
+    summary.hands.push_back(summarize_hand(session, h, check));
   summary.hash = hash_of(samples);
   if (samples.size() > 0 && scene.X_WGoal) {
     const Eigen::Isometry3d& X_WV = samples.part(samples.size() - 1, 0).X_WV;

@@ -17,6 +17,7 @@
 #include <glissade/collision/frame_result.h>
 #include <glissade/devices/haptic_state.h>
 #include <glissade/devices/safety_envelope.h>
+#include <glissade/grasping/hand_model.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/realtime/periodic_loop.h>
 
@@ -75,6 +76,8 @@ struct Session {
   collision::FrameReport collision;   ///< sum of the reports of these frames
   haptics::CallStatistics calls;      ///< of the simulation
   std::vector<std::int64_t> devices;  ///< the number of each hand's glove
+  /// Of each hand; null if it has no fingers in the simulation.
+  std::vector<std::shared_ptr<const grasping::HandModel>> hand_models;
   std::shared_ptr<const SessionRecorder> samples;
   std::optional<RealTimeFigures> real_time;  ///< none for an offline run
   std::string recording;                     ///< file; empty if none was wanted
@@ -94,6 +97,11 @@ struct PartSummary {
 /// The figures of a hand over the kept ticks.
 struct HandSummary {
   std::int64_t device = 0;  ///< number of its glove
+  std::int64_t grasps = 0;  ///< how often it took hold
+  std::int64_t holding_ticks = 0;
+  bool has_fingers = false;
+  std::int64_t colliding_postures = 0;  ///< of the ticks: of its segments with an obstacle or a part
+  double joint_torque_max_Nm = 0.0;
   double force_max_N = 0.0;
   double force_step_max_N = 0.0;    ///< greatest change of the force from one tick to the next
   std::int64_t lagging_ticks = 0;   ///< ticks whose contacts exerted less than half of their force
@@ -114,8 +122,7 @@ struct SessionSummary {
   std::int64_t colliding_poses() const;
 };
 
-/// Computes the summary. Checks the visible poses of all parts by brute force, independent of the DOP-trees, with a
-/// progress bar.
+/// Computes the summary. Checks the visible poses of all parts and hands by brute force (`SessionCheck`).
 SessionSummary summarize(const Session& session, const HapticScene& scene);
 
 /// The summary as one JSON object; figures that an offline run does not have are null.

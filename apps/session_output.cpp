@@ -116,10 +116,18 @@ void add_part_rows(const PartSummary& part, const SessionSummary& summary, Rows&
   rows.emplace_back("  states", states_text(part, summary.samples));
 }
 
-void add_hand_rows(const HandSummary& hand, const std::string& name, double tick_s, Rows& rows) {
+void add_hand_rows(const HandSummary& hand, const std::string& name, const SessionSummary& summary, double tick_s,
+                   Rows& rows) {
   rows.emplace_back(name, formatted("greatest force %.2f N, greatest step of it %.2f N in a tick", hand.force_max_N,
                                     hand.force_step_max_N));
   rows.emplace_back("  time with reduced force", limits_text(hand, tick_s));
+  rows.emplace_back("  grasps",
+                    formatted("%lld, held for %.3f s", static_cast<long long>(hand.grasps),
+                              tick_s * static_cast<double>(hand.holding_ticks)));
+  if (!hand.has_fingers) return;
+  rows.emplace_back("  fingers", formatted("greatest torque %.2f Nm; %lld of %lld postures collide, by brute force",
+                                           hand.joint_torque_max_Nm, static_cast<long long>(hand.colliding_postures),
+                                           static_cast<long long>(summary.samples)));
 }
 
 Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose) {
@@ -136,7 +144,7 @@ Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose
   for (const PartSummary& part : summary.parts)
     add_part_rows(part, summary, rows);
   for (std::size_t h = 0; h < summary.hands.size(); ++h)
-    add_hand_rows(summary.hands[h], name_of_hand(session, h), tick_seconds(session), rows);
+    add_hand_rows(summary.hands[h], name_of_hand(session, h), summary, tick_seconds(session), rows);
   if (summary.seat_reached) {
     rows.emplace_back("seat reached", formatted("%s, %.3f mm from it", *summary.seat_reached ? "yes" : "no",
                                                 1e3 * summary.seat_distance_m));
@@ -238,6 +246,11 @@ nlohmann::json to_json(const HandSummary& hand, double tick_s) {
   for (std::size_t i = 0; i < hand.limited_ticks.size(); ++i)
     limits[std::string(devices::kLimitReasons[i].name)] = tick_s * static_cast<double>(hand.limited_ticks[i]);
   return {{"device", hand.device},
+          {"grasps", hand.grasps},
+          {"holding_s", tick_s * static_cast<double>(hand.holding_ticks)},
+          {"has_fingers", hand.has_fingers},
+          {"colliding_postures", hand.colliding_postures},
+          {"joint_torque_max_Nm", hand.joint_torque_max_Nm},
           {"force_max_N", hand.force_max_N},
           {"force_step_max_N", hand.force_step_max_N},
           {"limited_s", limits},

@@ -42,18 +42,20 @@ StartedSimulation start_simulation(const HapticScene& scene, const std::vector<G
     for (std::size_t p = 0; has_fingers && p < scene.parts.size(); ++p)
       soften(parts[p], grip.device, period);
   }
-  StartedSimulation started{.simulation = nullptr, .fingers = {grips.size(), std::nullopt}};
+  StartedSimulation started;
+  started.fingers.resize(grips.size());
+  started.models.resize(grips.size());
   try {
     if (!has_fingers) {
       started.simulation =
           std::make_unique<haptics::MultiPartSliding>(scene.obstacles, parts, with_choice(rules, choice));
       return started;
     }
-    const auto models = models_of(grips);
-    for (std::size_t h = 0; h < models.size(); ++h)
-      started.fingers[h] = grasping::finger_hand(*models[h]);
+    started.models = models_of(grips);
+    for (std::size_t h = 0; h < grips.size(); ++h)
+      started.fingers[h] = grasping::finger_hand(*started.models[h]);
     started.simulation = std::make_unique<grasping::GraspSimulation>(
-        scene.obstacles, parts, models, grasping::GraspRules{.sliding = with_choice(rules, choice)});
+        scene.obstacles, parts, started.models, grasping::GraspRules{.sliding = with_choice(rules, choice)});
     return started;
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(scene.source + ": " + error.what());

@@ -29,6 +29,7 @@ struct Grip {
 struct StartedSimulation {
   std::unique_ptr<haptics::LoopSimulation> simulation;
   std::vector<std::optional<haptics::FingerHand>> fingers;
+  std::vector<std::shared_ptr<const grasping::HandModel>> models;  ///< null without fingers
 };
 
 /// Starts the simulation. A part has its default stiffness, lowered to the limits of the devices that may hold it: with

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/force_reason.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/record/log_tables.h>
@@ -54,8 +55,20 @@ Columns glove_columns() {
                   "z_m",          "qw",         "qx",         "qy",           "qz",
                   "vx_m_per_s",   "vy_m_per_s", "vz_m_per_s", "wx_rad_per_s", "wy_rad_per_s",
                   "wz_rad_per_s", "grip",       "enabled",    "command_age_s"};
+  for (const std::string& column : joint_columns())
+    columns.push_back(column);
+  return columns;
+}
+
+Columns hand_columns() {
+  Columns columns{"t_s",    "tick",  "hand",  "part",          "fx_N",        "fy_N",          "fz_N",     "tx_Nm",
+                  "ty_Nm",  "tz_Nm", "contact_share", "state_age_s", "command_age_s", "energy_J", "reason",
+                  "activity", "grasp", "x_m",   "y_m",           "z_m",         "qw",            "qx",       "qy",
+                  "qz"};
+  for (const std::string& column : joint_columns())
+    columns.push_back(column);
   for (const std::string_view joint : devices::kGloveJointNames)
-    columns.push_back(std::string(joint) + "_rad");
+    columns.push_back(std::string(joint) + "_Nm");
   return columns;
 }
 
@@ -68,8 +81,7 @@ class Tables {
                {"t_s",  "tick", "part", "gx_m", "gy_m", "gz_m", "gqw", "gqx",   "gqy",      "gqz",
                 "vx_m", "vy_m", "vz_m", "vqw",  "vqx",  "vqy",  "vqz", "state", "contacts", "contact_set_age_s"}),
         hands_(folder, "hands.csv",
-               {"t_s", "tick", "hand", "part", "fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm", "contact_share",
-                "state_age_s", "command_age_s", "energy_J", "reason"}),
+               hand_columns()),
         gloves_(folder, "gloves.csv", glove_columns()) {}
 
   void add(const devices::LogEvent& event) {
@@ -114,8 +126,8 @@ class Tables {
     }
     for (std::int32_t h = 0; h < state.hand_count; ++h) {
       const devices::HapticHandState& hand = state.hands[static_cast<std::size_t>(h)];
-      hands_.new_row()
-          .add(seconds(state.time))
+      CsvWriter& row = hands_.new_row();
+      row.add(seconds(state.time))
           .add(state.sequence)
           .add(std::int64_t{h})
           .add(std::int64_t{hand.part})
@@ -125,8 +137,13 @@ class Tables {
           .add(seconds(hand.state_age))
           .add(seconds(hand.command_age))
           .add(hand.energy)
-          .add(to_text(force_reason(state, static_cast<std::size_t>(h))))
-          .end_row();
+          .add(to_text(force_reason(state, static_cast<std::size_t>(h))));
+      row.add(devices::name_of(hand.visible.activity)).add(devices::name_of(hand.visible.grasp)).add(hand.visible.X_WH);
+      for (const double angle : hand.visible.angles)
+        row.add(angle);
+      for (const double torque : hand.joint_torques)
+        row.add(torque);
+      row.end_row();
     }
   }
 
