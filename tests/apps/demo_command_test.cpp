@@ -108,6 +108,26 @@ TEST_F(Demo, TheSquarePegDropsIntoItsHole) {
   EXPECT_EQ(summary["colliding_poses"], 0);
 }
 
+TEST_F(Demo, FingersGraspTheMotorSeatItAndLetGo) {
+  if (test_support::kSanitized) GTEST_SKIP() << "takes minutes; the tests of the loop run through the same code";
+  const nlohmann::json summary = run({"--fingers", "--offline"});
+  EXPECT_EQ(summary["colliding_poses"], 0);
+  EXPECT_EQ(summary["seat_reached"], true);
+  const nlohmann::json& hand = summary["hands"][0];
+  EXPECT_EQ(hand["has_fingers"], true);
+  EXPECT_EQ(hand["grasps"], 1);
+  EXPECT_GT(hand["holding_s"], 5.0);
+  EXPECT_EQ(hand["colliding_postures"], 0);
+  EXPECT_GT(hand["joint_torque_max_Nm"], 0.05);
+  EXPECT_LE(hand["joint_torque_max_Nm"], 0.5) << "the limit of the device";
+  EXPECT_GT(summary["parts"][0]["state_s"]["released"], 1.0) << "before and after";
+  EXPECT_LT(summary["parts"][0]["state_changes"], 40) << "a hand that holds does not let go now and then";
+}
+
+TEST_F(Demo, FingersAreThoseOfTheBuiltInScene) {
+  expect_refused({"demo", "--fingers", "--scene", scene}, {"--fingers", "--scene"});
+}
+
 TEST_F(Demo, FrictionHoldsTheHandBack) {
   const auto distance_with = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"demo", "--offline", "--scene", scene, "--seconds", "1", "--json"};

@@ -6,6 +6,7 @@
 #include <glissade/apps/force_reason.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
+#include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/haptics/offline_run.h>
 
 namespace glissade::apps {

@@ -49,6 +49,38 @@ HandScript parse_hand(const std::string& rows) {
   return parse_hand_script("t_s,x_m,y_m,z_m,qw,qx,qy,qz,grip\n" + rows, "hand.csv");
 }
 
+/// A row at rest at the origin, with the first and the last joint at these angles.
+std::string hand_row(const std::string& time, const std::string& first, const std::string& last) {
+  std::string row = time + ",0,0,0,1,0,0,0," + first;
+  for (int joint = 1; joint + 1 < devices::kGloveJoints; ++joint)
+    row += ",0";
+  return row + "," + last + "\n";
+}
+
+HandScript parse_fingers(const std::string& rows) {
+  std::string header = "t_s,x_m,y_m,z_m,qw,qx,qy,qz";
+  for (const std::string& column : joint_columns())
+    header += "," + column;
+  return parse_hand_script(header + "\n" + rows, "hand.csv");
+}
+
+TEST(HandScript, MayHaveTheJointsOfTheHand) {
+  const HandScript script = parse_fingers(hand_row("0", "0.1", "-0.2") + hand_row("2", "0.3", "0.2"));
+  ASSERT_EQ(script.fingers.size(), 2u);
+  EXPECT_EQ(script.fingers[1].time, milliseconds(2000));
+  EXPECT_EQ(script.fingers[1].angles.front(), 0.3);
+  EXPECT_EQ(script.fingers[0].angles.back(), -0.2);
+  EXPECT_EQ(script.time_scaled(milliseconds(500)).fingers[1].time, milliseconds(500));
+  devices::SimulatedGlove glove(script.X_WH, script.with_grip({}));
+  EXPECT_EQ(glove.state().joint_angles.front(), 0.1);
+}
+
+TEST(HandScript, NeedsAllJointsOrNone) {
+  expect_bad_input([] { parse_hand_script("t_s,x_m,y_m,z_m,qw,qx,qy,qz,thumb_roll_rad\n0,0,0,0,1,0,0,0,0\n", "hand.csv"); },
+                   {"hand.csv:1:", "wrist_abduction_rad"});
+  expect_bad_input([] { parse_fingers(hand_row("0", "wide", "0")); }, {"hand.csv:2:", "thumb_roll_rad", "wide"});
+}
+
 TEST(HandScript, TellsWhenTheHandClosesAndOpens) {
   const HandScript script = parse_hand("0,0,0,0,1,0,0,0,0\n1,0,0,0,1,0,0,0,1\n2,0,0,0,1,0,0,0,1\n4,0,0,0,1,0,0,0,0\n");
   EXPECT_FALSE(script.starts_closed);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/devices/haptic_state.h>
+#include <glissade/lcmtypes/haptic_hand_t.hpp>
 #include <glissade/lcmtypes/haptic_part_t.hpp>
 #include <glissade/lcmtypes/haptic_state_t.hpp>
 
@@ -42,6 +43,11 @@ HapticState some_state() {
   hand.glove_reasons.is_disabled = true;
   hand.state_age = milliseconds(14);
   hand.command_age = milliseconds(15);
+  hand.visible.activity = HandActivity::kHolding;
+  hand.visible.grasp = GraspKind::kPrecision;
+  hand.visible.X_WH = Eigen::Translation3d(0.1, 0.2, 0.3) * Eigen::AngleAxisd(0.7, Vector3d::UnitZ());
+  hand.visible.angles[4] = 0.75;
+  hand.joint_torques[21] = -0.25;
   return state;
 }
 
@@ -87,6 +93,31 @@ TEST(HapticState, ArrivesAsItWasSent) {
   EXPECT_TRUE(hand.glove_reasons.is_disabled);
   EXPECT_EQ(hand.state_age, milliseconds(14));
   EXPECT_EQ(hand.command_age, milliseconds(15));
+  EXPECT_EQ(hand.visible.activity, HandActivity::kHolding);
+  EXPECT_EQ(hand.visible.grasp, GraspKind::kPrecision);
+  EXPECT_TRUE(hand.visible.X_WH.isApprox(sent.hands[1].visible.X_WH));
+  EXPECT_EQ(hand.visible.angles, sent.hands[1].visible.angles);
+  EXPECT_EQ(hand.joint_torques, sent.hands[1].joint_torques);
+}
+
+TEST(HapticState, EveryActivityAndGraspHasItsNumberAndName) {
+  EXPECT_EQ(static_cast<std::int32_t>(HandActivity::kWaiting), haptic_hand_t::ACTIVITY_WAITING);
+  EXPECT_EQ(static_cast<std::int32_t>(HandActivity::kHolding), haptic_hand_t::ACTIVITY_HOLDING);
+  EXPECT_EQ(static_cast<std::int32_t>(GraspKind::kPower), haptic_hand_t::GRASP_POWER);
+  for (std::int32_t number = 1; number < kHandActivities; ++number)
+    EXPECT_NE(name_of(static_cast<HandActivity>(number)), "none") << number;
+  for (std::int32_t number = 1; number < kGraspKinds; ++number)
+    EXPECT_NE(name_of(static_cast<GraspKind>(number)), "none") << number;
+}
+
+TEST(HapticState, AnActivityOfANewerSimulationIsNoneAndNoError) {
+  haptic_state_t message = message_of(some_state());
+  message.hands[1].activity = kHandActivities;
+  message.hands[1].grasp = -1;
+  HapticState received;
+  ASSERT_EQ(decoded(message, received), MessageError::kNone);
+  EXPECT_EQ(received.hands[1].visible.activity, HandActivity::kNone);
+  EXPECT_EQ(received.hands[1].visible.grasp, GraspKind::kNone);
 }
 
 TEST(HapticState, EveryStateOfThePartHasItsNumberAndName) {
@@ -115,6 +146,9 @@ TEST(HapticState, WhatCannotBeIsRefusedAndChangesNothing) {
   haptic_state_t message = message_of(some_state());
   message.hands[1].force_W_N[1] = std::nan("");
   EXPECT_EQ(decoded(message, received), MessageError::kNotFinite);
+  message = message_of(some_state());
+  message.hands[1].joint_angles_rad[3] = 7.0;
+  EXPECT_EQ(decoded(message, received), MessageError::kOutOfRange);
   message = message_of(some_state());
   message.parts[3].orientation_WV_wxyz[0] = 3.0;
   EXPECT_EQ(decoded(message, received), MessageError::kOutOfRange);

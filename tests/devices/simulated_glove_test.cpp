@@ -156,6 +156,31 @@ TEST(SimulatedGlove, FingersFollowTheGrip) {
   EXPECT_NEAR(angle(1000), 0.3, 1e-6);
 }
 
+TEST(SimulatedGlove, FingersFollowTheirOwnScriptInsteadOfTheGrip) {
+  SimulatedGloveParameters parameters;
+  parameters.grasp_posture.fill(0.3);
+  JointValues bent{};
+  bent[4] = 0.8;
+  parameters.fingers = {{milliseconds(100), {}}, {milliseconds(200), bent}, {milliseconds(1200), bent}};
+  SimulatedGlove glove(hold({0, 0, 0}), parameters);
+  EXPECT_EQ(glove.state().joint_angles[4], 0.0);
+  glove.step(milliseconds(100), {});
+  EXPECT_EQ(glove.state().joint_angles[4], 0.0);
+  glove.step(milliseconds(600), {});
+  EXPECT_NEAR(glove.state().joint_angles[4], 0.8, 1e-4);
+  EXPECT_EQ(glove.state().joint_angles[5], 0.0);
+}
+
+TEST(SimulatedGlove, AnglesAreLinearBetweenTimesAndConstantBeyond) {
+  JointValues bent{};
+  bent[2] = 0.4;
+  const std::vector<TimedAngles> timed{{milliseconds(10), {}}, {milliseconds(20), bent}};
+  EXPECT_EQ(angles_at(timed, milliseconds(0))[2], 0.0);
+  EXPECT_DOUBLE_EQ(angles_at(timed, milliseconds(15))[2], 0.2);
+  EXPECT_EQ(angles_at(timed, milliseconds(20))[2], 0.4);
+  EXPECT_EQ(angles_at(timed, milliseconds(99))[2], 0.4);
+}
+
 TEST(SimulatedGlove, IsDeterministicAndDividesLongSteps) {
   const geometry::PoseTrajectory script = line({0, 0, 0}, {0.3, 0.1, 0}, milliseconds(200));
   SimulatedGlove one(script);
@@ -188,6 +213,7 @@ TEST(SimulatedGlove, RefusesParametersByName) {
   EXPECT_THAT(complaint({.wearer_stiffness = 1e9}), testing::HasSubstr("1 ms"));
   EXPECT_THAT(complaint({.wearer_rotational_damping = std::numeric_limits<double>::quiet_NaN()}),
               testing::HasSubstr("wearer_rotational_damping"));
+  EXPECT_THAT(complaint({.fingers = {{milliseconds(5), {}}, {milliseconds(5), {}}}}), testing::HasSubstr("must rise"));
 }
 
 }  // namespace

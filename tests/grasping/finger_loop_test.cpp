@@ -13,6 +13,7 @@
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/grasping/grasp_simulation.h>
 #include <glissade/haptics/offline_run.h>
+#include <glissade/haptics/recording.h>
 #include <glissade/reference/grid_check.h>
 
 #include "clasped_hand.h"
@@ -198,6 +199,80 @@ TEST(FingerLoop, PassesThePartFromHandToHand) {
   EXPECT_LT(states[3150].parts[0].X_WV.translation().z(), states[2500].parts[0].X_WV.translation().z() - 0.03);
   for (std::size_t i = 0; i < states.size(); i += 10)
     ASSERT_FALSE(scene.collides(states[i])) << "after " << i << " ms";
+}
+
+/// The recording of a hand that carries, and what repeats it.
+haptics::RecordingHead recording_head() {
+  return {.gloves = {{.device = 1, .session = 1, .descriptor = devices::simulated_glove_descriptor()}}, .events = {}};
+}
+
+std::vector<devices::LogEvent> recorded_carry(const BallAndWall& scene, int ticks) {
+  class Events final : public haptics::LoopObserver {
+   public:
+    void after_tick(const haptics::TickRecord& record) noexcept override {
+      for (devices::LogEvent& event : events_.of(record))
+        all.push_back(std::move(event));
+    }
+    void after_answer(const haptics::AnswerRecord& record) noexcept override {
+      all.push_back(haptics::RecordedEvents::of(record));
+    }
+    std::vector<devices::LogEvent> all;
+
+   private:
+    haptics::RecordedEvents events_{recording_head()};
+  };
+  Events events;
+  GraspSimulation simulation = scene.simulation(1);
+  std::vector<devices::SimulatedGlove> gloves{carrier()};
+  run(simulation, gloves, ticks, &events);
+  return std::move(events.all);
+}
+
+TEST(FingerLoop, IsRepeatedFromItsRecordingToTheBit) {
+  const BallAndWall scene;
+  const std::vector<devices::LogEvent> events = recorded_carry(scene, 2500);
+  GraspSimulation simulation = scene.simulation(1);
+  haptics::Replay replay(simulation,
+                         {{.device = devices::simulated_glove_descriptor(), .fingers = finger_hand(*hand_model())}},
+                         haptics::kTickPeriod, recording_head());
+  for (const devices::LogEvent& event : events)
+    ASSERT_TRUE(replay.take(event)) << replay.difference();
+  EXPECT_TRUE(replay.finish()) << replay.difference();
+  EXPECT_EQ(replay.ticks(), 2500);
+}
+
+// Hands stand still while the parts are within a step; so they must come to move all the same, and the steps to an end.
+TEST(FingerLoop, CarriesWithSoLittleWorkThatCallsEndEarly) {
+  const BallAndWall scene;
+  GraspSimulation simulation = scene.simulation(1, {.work_budget = 200'000});
+  std::vector<devices::SimulatedGlove> gloves{carrier()};
+  const std::vector<HapticState> states = run(simulation, gloves, 3200);
+  EXPECT_GT(simulation.parts().call_statistics().ended_early, 50);
+  EXPECT_EQ(states[1550].hands[0].part, 0);
+  EXPECT_GT(states[1550].parts[0].X_WV.translation().x(), states[650].parts[0].X_WV.translation().x() + 0.09);
+  EXPECT_EQ(states[2700].hands[0].part, -1);
+  for (std::size_t i = 0; i < states.size(); i += 10)
+    ASSERT_FALSE(scene.collides(states[i])) << "after " << i << " ms";
+}
+
+// Each joint that is stopped rests as deep as its muscle presses into the spring, with less than a degree at the
+// device's largest torque.
+TEST(FingerLoop, StopsFingersWithinADegreeOfTheVisibleOnes) {
+  const HapticState& state = carry()[650];
+  const BallAndWall scene;
+  int stopped = 0;
+  for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
+    const double torque = state.hands[0].joint_torques[joint];
+    if (torque == 0.0) continue;
+    // What the muscles want less what they get is the angle of the glove.
+    const double muscle = devices::SimulatedGloveParameters{}.finger_stiffness;
+    const double glove = bent_hand(1.2).values[joint] + torque / muscle;
+    EXPECT_NEAR(glove, state.hands[0].visible.angles[joint], std::numbers::pi / 180.0) << joint;
+    HapticState deeper = state;
+    deeper.hands[0].visible.angles[joint] -= std::copysign(std::numbers::pi / 180.0, torque);
+    stopped += scene.collides(deeper) ? 1 : 0;
+  }
+  EXPECT_GE(stopped, 3) << "joints that a degree more would bring into the ball";
 }
 
 TEST(FingerLoop, HoldsNothingThatItsGripAsksFor) {
