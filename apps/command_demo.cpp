@@ -134,8 +134,7 @@ void add_demo_command(CLI::App& app, Command& chosen) {
   command->add_option("--seconds", options->seconds, "Duration of the script in seconds")->capture_default_str();
   command->add_option("--scene", options->scene, "Scene file (YAML) with a movable object and a script");
   command
-      ->add_flag("--fingers", options->fingers,
-                 "Without --scene: the hand grasps a motor with its fingers, see above")
+      ->add_flag("--fingers", options->fingers, "Without --scene: the hand grasps a motor with its fingers, see above")
       ->excludes("--scene");
   add_sliding_options(*command, options->choice);
   CLI::Option* offline =

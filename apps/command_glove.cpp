@@ -32,10 +32,12 @@ constexpr const char* kGloveDescription = "Simulate a force-feedback glove in a 
 constexpr const char* kGloveFooter =
     "Script: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is a time and the pose X_WH of the hand root, the frame\n"
     "whose pose the glove reports; times increase. A ninth column, grip, may say from each row on whether the hand is\n"
-    "closed (1) or open (0): a hand that opens lets go, one that closes takes the nearest part. Instead, 22 columns may\n"
+    "closed (1) or open (0): a hand that opens lets go, one that closes takes the nearest part. Instead, 22 columns "
+    "may\n"
     "have the angles to which the wearer moves the fingers, thumb_roll_rad to wrist_abduction_rad, for a server that\n"
     "lets fingers grasp ('glissade run --fingers'). Without --script, the hand follows the script of the car door\n"
-    "demonstration; with --fingers, that of the door module. The hand waits at the first pose until a haptic server ('glissade run') sends a command, and\n"
+    "demonstration; with --fingers, that of the door module. The hand waits at the first pose until a haptic server "
+    "('glissade run') sends a command, and\n"
     "yields to the forces that it receives. The process ends at the end of the script, or with Ctrl-C. When the force\n"
     "fades, the reason goes to standard error.\n"
     "Columns of --record: docs/file_formats.md in the sources.\n"
@@ -103,10 +105,9 @@ int run(const GloveOptions& options) {
   const bool has_locked_memory = realtime::lock_memory();
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   const Demonstration demonstration = options.fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor;
-  const HandScript script =
-      options.script.empty()
-          ? parse_hand_script(embedded_scene_script(demonstration), embedded_script_name(demonstration))
-          : read_hand_script(options.script);
+  const HandScript script = options.script.empty() ? parse_hand_script(embedded_scene_script(demonstration),
+                                                                       embedded_script_name(demonstration))
+                                                   : read_hand_script(options.script);
   const std::chrono::nanoseconds duration = script.X_WH.duration();
   const StopSignal stop_signal;
   realtime::SteadyClock clock;

@@ -37,7 +37,8 @@ constexpr const char* kRunFooter =
     "A hand that opens lets go, and one that closes takes the nearest part, if the glove tells its grip. Parts that "
     "no\n"
     "hand holds lie still. With --fingers, hands take hold of what their fingers close round, without any gesture;\n"
-    "the joint angles of the gloves move the fingers, which feel what stops them. Objects with 'moves: FILE' follow their own scripts, from the first state "
+    "the joint angles of the gloves move the fingers, which feel what stops them. Objects with 'moves: FILE' follow "
+    "their own scripts, from the first state "
     "on.\n"
     "Commands to the gloves go out on GLOVE_COMMAND. The state of every tick, i.e. of every cycle of the haptic loop,\n"
     "goes out on HAPTIC_STATE, for viewers and loggers. When a force fades, because a glove's state is old for\n"
@@ -139,7 +140,8 @@ std::string held_text(const RunSettings& settings, const HapticScene& scene) {
   for (const SessionHand& hand : settings.hands) {
     text += text.empty() ? "" : ", ";
     text += settings.hands.size() == 1 ? "the glove" : "glove " + std::to_string(hand.device);
-    text += hand.fingers ? " grasps with its fingers" : " holds " + (hand.part ? in_quotes(scene.parts[*hand.part].name) : "nothing");
+    text += hand.fingers ? " grasps with its fingers"
+                         : " holds " + (hand.part ? in_quotes(scene.parts[*hand.part].name) : "nothing");
   }
   return text;
 }

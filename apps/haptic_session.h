@@ -24,8 +24,9 @@
 namespace glissade::apps {
 
 /// Runs the whole system on a simulated clock: `ticks` milliseconds of a simulated glove that follows `script`. If the
-/// script has fingers, a right hand takes hold with them; otherwise it holds the first part if it starts closed. Throws std::invalid_argument, naming scene and part, when a
-/// part collides at its start, and naming the file when the recording cannot be created. There is no flight recorder.
+/// script has fingers, a right hand takes hold with them; otherwise it holds the first part if it starts closed. Throws
+/// std::invalid_argument, naming scene and part, when a part collides at its start, and naming the file when the
+/// recording cannot be created. There is no flight recorder.
 Session run_session_offline(const HapticScene& scene, const HandScript& script, std::int64_t ticks,
                             const SlidingChoice& choice, const RecordSettings& record);
 

@@ -27,7 +27,8 @@ SessionCheck::SessionCheck(const Session& session, const HapticScene& scene)
 std::int64_t SessionCheck::colliding_ticks_of_part(std::size_t part) const {
   std::vector<char> collides(samples_.size(), 0);
   const std::vector<char> all(samples_.size(), 1);
-  check(obstacles_, *meshes_[part], all, [&](std::size_t i) { return samples_.part(i, part).X_WV; }, collides);
+  check(
+      obstacles_, *meshes_[part], all, [&](std::size_t i) { return samples_.part(i, part).X_WV; }, collides);
   for (std::size_t other = 0; other < part; ++other) {
     const auto X_OV = [&](std::size_t i) -> Eigen::Isometry3d {
       return samples_.part(i, other).X_WV.inverse(Eigen::Isometry) * samples_.part(i, part).X_WV;
@@ -52,7 +53,8 @@ std::int64_t SessionCheck::colliding_ticks_of_hand(std::size_t hand) const {
   for (std::size_t l = 0; l < links; ++l) {
     const geometry::TriangleMesh* const mesh = model->chain.links()[l].mesh.get();
     if (mesh == nullptr) continue;
-    check(obstacles_, *mesh, counts, [&](std::size_t i) { return X_WL[i * links + l]; }, collides);
+    check(
+        obstacles_, *mesh, counts, [&](std::size_t i) { return X_WL[i * links + l]; }, collides);
     for (std::size_t p = 0; p < parts_.size(); ++p) {
       const auto X_VL = [&](std::size_t i) -> Eigen::Isometry3d {
         return samples_.part(i, p).X_WV.inverse(Eigen::Isometry) * X_WL[i * links + l];
@@ -77,8 +79,8 @@ void SessionCheck::check(const reference::GridCheck& obstacles, const geometry::
   }
   if (poses.empty()) return;
   ProgressBar progress("checking poses", static_cast<std::int64_t>(poses.size()));
-  const std::vector<char> of_pose = obstacles.collisions(
-      mesh, poses, [&](std::size_t done) { progress.update(static_cast<std::int64_t>(done)); });
+  const std::vector<char> of_pose =
+      obstacles.collisions(mesh, poses, [&](std::size_t done) { progress.update(static_cast<std::int64_t>(done)); });
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     if (counts[i] != 0) collides[i] = static_cast<char>(collides[i] | of_pose[pose_of_tick[i]]);
   }

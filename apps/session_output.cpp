@@ -121,9 +121,8 @@ void add_hand_rows(const HandSummary& hand, const std::string& name, const Sessi
   rows.emplace_back(name, formatted("greatest force %.2f N, greatest step of it %.2f N in a tick", hand.force_max_N,
                                     hand.force_step_max_N));
   rows.emplace_back("  time with reduced force", limits_text(hand, tick_s));
-  rows.emplace_back("  grasps",
-                    formatted("%lld, held for %.3f s", static_cast<long long>(hand.grasps),
-                              tick_s * static_cast<double>(hand.holding_ticks)));
+  rows.emplace_back("  grasps", formatted("%lld, held for %.3f s", static_cast<long long>(hand.grasps),
+                                          tick_s * static_cast<double>(hand.holding_ticks)));
   if (!hand.has_fingers) return;
   rows.emplace_back("  fingers", formatted("greatest torque %.2f Nm; %lld of %lld postures collide, by brute force",
                                            hand.joint_torque_max_Nm, static_cast<long long>(hand.colliding_postures),

@@ -12,8 +12,7 @@ namespace glissade::apps {
 namespace {
 
 void soften(haptics::HeldPart& part, const devices::DeviceDescriptor& device, std::chrono::nanoseconds period) {
-  const haptics::CouplingStiffness wanted =
-      part.stiffness.value_or(haptics::default_stiffness(part.part_V->radius()));
+  const haptics::CouplingStiffness wanted = part.stiffness.value_or(haptics::default_stiffness(part.part_V->radius()));
   part.stiffness = coupling_for(device, wanted, period).stiffness;
 }
 

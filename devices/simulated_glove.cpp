@@ -81,8 +81,9 @@ void check(const SimulatedGloveParameters& p) {
 }  // namespace
 
 JointValues angles_at(const std::vector<TimedAngles>& timed, std::chrono::nanoseconds time) noexcept {
-  const auto next = std::upper_bound(timed.begin(), timed.end(), time,
-                                     [](std::chrono::nanoseconds t, const TimedAngles& entry) { return t < entry.time; });
+  const auto next =
+      std::upper_bound(timed.begin(), timed.end(), time,
+                       [](std::chrono::nanoseconds t, const TimedAngles& entry) { return t < entry.time; });
   if (next == timed.begin()) return timed.front().angles;
   if (next == timed.end()) return timed.back().angles;
   const TimedAngles& before = *(next - 1);

@@ -42,9 +42,9 @@ haptics::FingerHand finger_hand(const HandModel& hand);
 /// grasp pushes it: the part yields by the shortest way on which the target of the hand has room, as far as obstacles
 /// let it.
 ///
-/// In the haptic loop (`haptics::HapticServer`), the haptic thread has the ghosts of parts in hands, and this simulation
-/// decides who takes hold. A decision takes effect once the haptic thread has followed it. Then a part is where the
-/// tracked palm, not the visible one, would have it: nothing moves when a hand takes hold.
+/// In the haptic loop (`haptics::HapticServer`), the haptic thread has the ghosts of parts in hands, and this
+/// simulation decides who takes hold. A decision takes effect once the haptic thread has followed it. Then a part is
+/// where the tracked palm, not the visible one, would have it: nothing moves when a hand takes hold.
 class GraspSimulation final : public haptics::LoopSimulation {
  public:
   /// Parts are loose at the start, unless scripts lead them; scripted parts cannot be held. Throws

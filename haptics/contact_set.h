@@ -85,8 +85,8 @@ struct PartAnswer {
   std::int64_t hold = 0;     ///< `GhostOfPart::hold` of the ghost that the set answers
 };
 
-/// A contact of a segment of a hand with fingers. Where its joints turn by d (rad, one for each joint), the gap grows by
-/// rates · d, to first order.
+/// A contact of a segment of a hand with fingers. Where its joints turn by d (rad, one for each joint), the gap grows
+/// by rates · d, to first order.
 struct FingerRow {
   devices::JointValues rates{};  ///< m/rad
   double gap = 0.0;              ///< metres at the visible hand, less the margin; at least 0

@@ -67,9 +67,9 @@ bool is_usable_hand(const HandAnswer& hand) {
 struct Fingers {
   FingerHand hand;
   FingerForces forces;
-  devices::JointValues angles{};  // of the wrist, as the ghost has them
-  bool is_found = false;          // the angles are those of a state
-  std::int64_t decision = 0;      // of the simulation, that the hand has followed
+  devices::JointValues angles{};                           // of the wrist, as the ghost has them
+  bool is_found = false;                                   // the angles are those of a state
+  std::int64_t decision = 0;                               // of the simulation, that the hand has followed
   Eigen::Isometry3d X_WP = Eigen::Isometry3d::Identity();  // the palm
 
   /// The joints of the wrist turn no faster than a hand can, whatever their sensors say.

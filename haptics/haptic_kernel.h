@@ -42,7 +42,8 @@ struct FingerLimits {
   devices::JointValues upper{};
 };
 
-/// A hinge between the hand root and the palm: frames P, the one before, and J, which turns by the angle about `axis_J`.
+/// A hinge between the hand root and the palm: frames P, the one before, and J, which turns by the angle about
+/// `axis_J`.
 struct WristJoint {
   std::size_t angle = 0;  ///< number of the glove's joint
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
@@ -93,8 +94,8 @@ class HapticKernel {
   /// the usual time between two ticks. If the simulation is stiffer than the device allows, the contact forces that the
   /// simulation reports differ from the force on the hand. To avoid this, construct the simulation with the stiffness
   /// that `coupling_for` returns. Throws as `coupling_for` does, and std::invalid_argument for no hands, no parts, more
-  /// than kMaxHands or kMaxParts, for a part to hold that is scripted or does not exist, for a hand with fingers that is
-  /// given a part, and for limits of fingers that are no range.
+  /// than kMaxHands or kMaxParts, for a part to hold that is scripted or does not exist, for a hand with fingers that
+  /// is given a part, and for limits of fingers that are no range.
   HapticKernel(std::vector<KernelPart> parts, const std::vector<KernelHand>& hands,
                std::chrono::nanoseconds period = kTickPeriod);
   ~HapticKernel();

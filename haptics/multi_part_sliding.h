@@ -74,8 +74,8 @@ class MultiPartSliding final : public LoopSimulation {
   /// (`SlidingResult::ended_early`). If it ended within a cycle, the next call completes that cycle for the old ghosts,
   /// and then goes on with its own.
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds = 1.0);
-  /// Whether the last call ended within a cycle, which the next one completes. Other calls than `advance` give the cycle
-  /// up.
+  /// Whether the last call ended within a cycle, which the next one completes. Other calls than `advance` give the
+  /// cycle up.
   bool is_within_cycle() const;
 
   // In the haptic loop: hands have no fingers.

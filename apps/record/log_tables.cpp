@@ -61,10 +61,10 @@ Columns glove_columns() {
 }
 
 Columns hand_columns() {
-  Columns columns{"t_s",    "tick",  "hand",  "part",          "fx_N",        "fy_N",          "fz_N",     "tx_Nm",
-                  "ty_Nm",  "tz_Nm", "contact_share", "state_age_s", "command_age_s", "energy_J", "reason",
-                  "activity", "grasp", "x_m",   "y_m",           "z_m",         "qw",            "qx",       "qy",
-                  "qz"};
+  Columns columns{"t_s",    "tick",     "hand",  "part",          "fx_N",        "fy_N",          "fz_N",
+                  "tx_Nm",  "ty_Nm",    "tz_Nm", "contact_share", "state_age_s", "command_age_s", "energy_J",
+                  "reason", "activity", "grasp", "x_m",           "y_m",         "z_m",           "qw",
+                  "qx",     "qy",       "qz"};
   for (const std::string& column : joint_columns())
     columns.push_back(column);
   for (const std::string_view joint : devices::kGloveJointNames)
@@ -80,8 +80,7 @@ class Tables {
         parts_(folder, "parts.csv",
                {"t_s",  "tick", "part", "gx_m", "gy_m", "gz_m", "gqw", "gqx",   "gqy",      "gqz",
                 "vx_m", "vy_m", "vz_m", "vqw",  "vqx",  "vqy",  "vqz", "state", "contacts", "contact_set_age_s"}),
-        hands_(folder, "hands.csv",
-               hand_columns()),
+        hands_(folder, "hands.csv", hand_columns()),
         gloves_(folder, "gloves.csv", glove_columns()) {}
 
   void add(const devices::LogEvent& event) {

@@ -19,8 +19,8 @@ namespace {
 
 HapticScene recorded_scene(const std::string& log_path, const RecordedSession& session, const std::string& scene_file) {
   const std::string& file = scene_file.empty() ? session.scene_file : scene_file;
-  const bool has_fingers = std::any_of(session.hands.begin(), session.hands.end(),
-                                       [](const RecordedHand& hand) { return hand.fingers; });
+  const bool has_fingers =
+      std::any_of(session.hands.begin(), session.hands.end(), [](const RecordedHand& hand) { return hand.fingers; });
   const Scene scene = read_or_embedded_scene(file, has_fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor);
   HapticScene result = make_haptic_scene(scene, movable_objects(scene));
   if (scene_hash(result) == session.scene_hash) return result;

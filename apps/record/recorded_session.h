@@ -25,7 +25,7 @@ inline constexpr const char* kHapticSessionChannel = "HAPTIC_SESSION";
 /// A glove, and the part that its hand took at the first state.
 struct RecordedHand {
   devices::GloveInfo glove;
-  std::optional<std::size_t> part;  ///< number of the part in the scene
+  std::optional<std::size_t> part;               ///< number of the part in the scene
   std::optional<grasping::HandShape> fingers{};  ///< of a hand that takes hold with its fingers
 };
 

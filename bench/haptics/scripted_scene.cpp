@@ -42,8 +42,10 @@ SlidingScene scripted(const std::string& name, const apps::Scene& file, const ge
 }  // namespace
 
 SlidingScene car_door_scene(double speed) {
-  return scripted("car-door", apps::parse_scene(std::string(apps::embedded_scene_yaml(apps::Demonstration::kCarDoor)), "car_door.yaml", "."),
-                  apps::parse_trajectory(apps::embedded_scene_script(apps::Demonstration::kCarDoor), "car_door_script.csv"), speed);
+  return scripted(
+      "car-door",
+      apps::parse_scene(std::string(apps::embedded_scene_yaml(apps::Demonstration::kCarDoor)), "car_door.yaml", "."),
+      apps::parse_trajectory(apps::embedded_scene_script(apps::Demonstration::kCarDoor), "car_door_script.csv"), speed);
 }
 
 SlidingScene scene_from_file(const std::string& path, double speed) {

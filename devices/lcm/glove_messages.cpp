@@ -255,17 +255,17 @@ VisibleHand visible_hand_of(const haptic_hand_t& message) noexcept {
 
 HapticHandState hand_of(const haptic_hand_t& message) noexcept {
   HapticHandState hand{.part = message.part,
-          .force_W = Eigen::Vector3d(message.force_W_N),
-          .torque_V_W = Eigen::Vector3d(message.torque_V_W_Nm),
-          .contact_share = message.contact_share,
-          .are_contacts_unsolved = (message.flags & haptic_hand_t::FLAG_CONTACTS_UNSOLVED) != 0,
-          .reasons = limit_reasons_from_bits(message.reasons),
-          .state_age = std::chrono::nanoseconds(message.state_age_ns),
-          .glove_reasons = limit_reasons_from_bits(message.glove_reasons),
-          .command_age = std::chrono::nanoseconds(message.command_age_ns),
-          .energy = message.energy_J,
-          .glove_energy = message.glove_energy_J,
-          .visible = visible_hand_of(message)};
+                       .force_W = Eigen::Vector3d(message.force_W_N),
+                       .torque_V_W = Eigen::Vector3d(message.torque_V_W_Nm),
+                       .contact_share = message.contact_share,
+                       .are_contacts_unsolved = (message.flags & haptic_hand_t::FLAG_CONTACTS_UNSOLVED) != 0,
+                       .reasons = limit_reasons_from_bits(message.reasons),
+                       .state_age = std::chrono::nanoseconds(message.state_age_ns),
+                       .glove_reasons = limit_reasons_from_bits(message.glove_reasons),
+                       .command_age = std::chrono::nanoseconds(message.command_age_ns),
+                       .energy = message.energy_J,
+                       .glove_energy = message.glove_energy_J,
+                       .visible = visible_hand_of(message)};
   std::copy_n(message.joint_torques_Nm, kGloveJoints, hand.joint_torques.begin());
   return hand;
 }

@@ -13,8 +13,7 @@ namespace {
 class EmbeddedScene : public testing::TestWithParam<Demonstration> {
  protected:
   const Scene scene = read_or_embedded_scene("", GetParam());
-  const HandScript script =
-      parse_hand_script(embedded_scene_script(GetParam()), embedded_script_name(GetParam()));
+  const HandScript script = parse_hand_script(embedded_scene_script(GetParam()), embedded_script_name(GetParam()));
 };
 
 TEST_P(EmbeddedScene, HasOneMovablePartAndASeatForIt) {

@@ -76,8 +76,9 @@ TEST(HandScript, MayHaveTheJointsOfTheHand) {
 }
 
 TEST(HandScript, NeedsAllJointsOrNone) {
-  expect_bad_input([] { parse_hand_script("t_s,x_m,y_m,z_m,qw,qx,qy,qz,thumb_roll_rad\n0,0,0,0,1,0,0,0,0\n", "hand.csv"); },
-                   {"hand.csv:1:", "wrist_abduction_rad"});
+  expect_bad_input(
+      [] { parse_hand_script("t_s,x_m,y_m,z_m,qw,qx,qy,qz,thumb_roll_rad\n0,0,0,0,1,0,0,0,0\n", "hand.csv"); },
+      {"hand.csv:1:", "wrist_abduction_rad"});
   expect_bad_input([] { parse_fingers(hand_row("0", "wide", "0")); }, {"hand.csv:2:", "thumb_roll_rad", "wide"});
 }
 

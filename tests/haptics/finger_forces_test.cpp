@@ -1,5 +1,7 @@
 /// What fingers feel: springs at the joints that press, nothing at the others, and nothing that comes or goes at once.
 
+#include "loop/finger_forces.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -16,7 +18,6 @@
 #include "allocation_counter.h"
 #include "delayed_wall.h"
 #include "expect_bad_input.h"
-#include "loop/finger_forces.h"
 
 namespace glissade::haptics {
 namespace {

@@ -171,8 +171,11 @@ TEST_F(FingerHandInKernel, AllocatesNothing) {
 
 TEST(FingerHand, IsGivenNoPart) {
   const KernelHand hand{devices::simulated_glove_descriptor(), 0, hand_with_wrist()};
-  test_support::expect_bad_input([&] { HapticKernel({{Vector3d::Zero(), 0.05, {1000.0, 2.0}}}, {hand}); },
-                                 {"hand 0", "fingers"});
+  test_support::expect_bad_input(
+      [&] {
+        HapticKernel({{Vector3d::Zero(), 0.05, {1000.0, 2.0}}}, {hand});
+      },
+      {"hand 0", "fingers"});
 }
 
 }  // namespace
