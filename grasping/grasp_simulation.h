@@ -45,8 +45,8 @@ std::string_view name_of(HandState state);
 /// visible part, wherever the tracked hand goes, and segments of the hand stop the part as its own faces do. The
 /// fingers still follow the glove; when they open, the hand lets go, and takes hold of the same part again after 0.2 s
 /// at the earliest. A part in two hands follows the mean of their wishes. A hand that touches a loose part without a
-/// grasp pushes it: the part yields by the shortest way on which the target of the hand has room, as far as obstacles
-/// let it.
+/// grasp pushes it: the part yields by the shortest way on which the target of the hand lies no deeper than 1 mm in it,
+/// as far as obstacles let it.
 class GraspSimulation {
  public:
   /// Parts are loose at the start, unless scripts lead them; scripted parts cannot be held. Throws
