@@ -30,8 +30,8 @@ class Push {
   bool is_empty() const { return planes_.empty(); }
 
   /// The shortest displacement of the part on which the targets of all hands lie no deeper than kPress_m, to first
-  /// order; where there is none, because they press from all sides, a balance. No point of the part, which has this radius about its
-  /// reference point, moves farther than the deepest target lies.
+  /// order; where there is none, because they press from all sides, a balance. No point of the part, which has this
+  /// radius about its reference point, moves farther than the deepest target lies.
   geometry::Displacement displacement(double radius);
 
  private:

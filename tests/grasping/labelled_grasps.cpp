@@ -162,8 +162,7 @@ const grasping::Grasp& GraspTrial::advance(const Posture& target) {
 LooseGraspTrial::LooseGraspTrial(const LabelledGrasp& grasp)
     : grasp_(grasp),
       object_(std::make_shared<const geometry::TriangleMesh>(shapes::make_shape(grasp.object, {}))),
-      simulation_({},
-                  {{.part_V = std::make_shared<const haptics::SlidingPart>(object_), .X_WV_start = grasp.X_WB}},
+      simulation_({}, {{.part_V = std::make_shared<const haptics::SlidingPart>(object_), .X_WV_start = grasp.X_WB}},
                   {hand_model()}, {.up_W = grasp.up_W}) {}
 
 bool LooseGraspTrial::close() {
