@@ -86,14 +86,14 @@ class GraspSimulation::Life {
   void advance(std::span<const std::optional<Posture>> targets, double milliseconds) {
     GLISSADE_ASSERT(targets.size() == hands_.size());
     for (std::size_t h = 0; h < hands_.size(); ++h)
-      aim(h, targets[h]);
+      aim(h, targets[h], milliseconds);
     for (std::size_t p = 0; p < X_WG_.size(); ++p)
       choose_ghost(p);
     parts_.advance(X_WG_, milliseconds);
     for (std::size_t h = 0; h < hands_.size(); ++h)
       move_hand(h);
     for (GraspingHand& hand : hands_)
-      hand.analyze(milliseconds, up_W_);
+      hand.analyze(milliseconds, up_W_, parts_.result(hand.part().value_or(0)).X_WV);
     for (std::size_t h = 0; h < hands_.size(); ++h)
       take_or_let_go(h);
     for (std::size_t p = 0; p < X_WG_.size(); ++p)
@@ -106,10 +106,10 @@ class GraspSimulation::Life {
   }
 
   /// A hand that is found again may be anywhere: a free one begins there, and a held part goes there slowly.
-  void aim(std::size_t h, const std::optional<Posture>& target) {
+  void aim(std::size_t h, const std::optional<Posture>& target, double milliseconds) {
     GraspingHand& hand = hands_[h];
     const bool was_lost = hand.is_lost();
-    hand.aim(target);
+    hand.aim(target, milliseconds);
     if (hand.is_lost() == was_lost) return;
     if (hand.part()) {
       if (hand.is_lost()) hand.clasp().forget_contacts();

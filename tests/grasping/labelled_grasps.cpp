@@ -100,8 +100,6 @@ LabelledGrasp grasp_of(const YAML::Node& node) {
       grasp.form = named<GraspForm>(value.as<std::string>(), 7);
     else if (key == "reason")
       grasp.reason = value.as<std::string>();
-    else if (key == "slips")
-      grasp.slips = value.as<bool>();
     else if (key != "start" && key != "close")
       throw std::invalid_argument("unknown key '" + key + "'");
   }

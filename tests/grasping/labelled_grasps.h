@@ -29,8 +29,8 @@ struct LabelledGrasp {
   grasping::GraspType type = grasping::GraspType::kNone;  ///< expected
   grasping::GraspForm form = grasping::GraspForm::kNone;
   std::string reason;  ///< of the label
-  /// Whether the object slips out of a trembling hand. (It stands still in W, and does not go with the hand.)
-  bool slips = false;
+
+  bool holds() const { return grasping::Grasp{type, form, 0, {}}.holds(); }
 };
 
 /// Throws std::invalid_argument, naming the grasp, for a key, a finger, a type, or a form that is not known.
