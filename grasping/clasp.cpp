@@ -16,7 +16,11 @@
 namespace glissade::grasping {
 namespace {
 
-constexpr double kBracket_m = 5e-6;  // shorter steps are not worth their proof
+// Shorter steps are not worth their proof. Near an edge, contacts say truly how gaps change for some micrometres only,
+// so a flex value may have many short steps before it.
+constexpr double kBracket_m = 1e-6;
+constexpr double kShort_m = 5e-6;   // steps so short do not tell how far to look
+constexpr double kDeeper_m = 5e-6;  // a target that is so much deeper lies deeper
 constexpr double kSmallestReach_m = 0.2e-3;
 constexpr double kGreatestReach_m = 10e-3;
 constexpr std::size_t kAffordablePairs = 1000;  // where a search finds more, the next ones look less far
@@ -179,6 +183,7 @@ class Clasp::Iteration {
     failures_.clear();
     const bool goes_on = go(false) || (slides_ && go(true)) || go_without_failures();
     const double taken = goes_on ? motion_.longest() : 0.0;
+    if (goes_on && taken < kShort_m) return true;  // it says nothing about the way beyond
     const bool is_clipped = taken > 0.9 * longest_step_;
     reach_ =
         std::clamp(is_clipped ? 2.0 * reach : std::max(0.5 * reach, 2.0 * taken), kSmallestReach_m, kGreatestReach_m);
@@ -260,7 +265,7 @@ class Clasp::Iteration {
       const std::size_t link = movers_[static_cast<std::size_t>(contact.part)];
       const Eigen::Vector3d p_target_W = X_WL_target_[link] * (X_WL_[link].inverse(Eigen::Isometry) * contact.p_W);
       const double depth = -contact.n_W.dot(p_target_W - contact.p_W);
-      if (depth < (is_carried_ ? -kBracket_m : kBracket_m)) continue;
+      if (depth < (is_carried_ ? -kDeeper_m : kDeeper_m)) continue;
       touching_[link] = 1;
       link_contacts_.push_back({link, contact, std::max(0.0, depth)});
     }

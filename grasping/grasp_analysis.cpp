@@ -12,9 +12,10 @@ namespace {
 constexpr double kFilter_ms = 30.0;
 constexpr double kCounts = 0.5;
 constexpr double kCountsNoMore = 0.1;
-constexpr double kOpposed = -0.7;   // cosine of the angle between two normals
+constexpr double kOpposed = -0.7;  // cosine of the angle between two normals
+constexpr double kOpposedStill = -0.4;
 constexpr double kAlike = 0.6;      // the same for normals on one side
-constexpr double kFromBelow = 0.7;  // cosine of the angle to the vertical
+constexpr double kFromBelow = 0.6;  // cosine of the angle to the vertical
 
 constexpr std::array<std::string_view, 6> kFingers{
     "", "thumb", "index", "middle finger", "ring finger", "little finger"};
@@ -141,16 +142,23 @@ Grasp GraspAnalysis::analyze(std::int32_t object, const Eigen::Vector3d& up_W) c
 
 GraspForm GraspAnalysis::form_of(const Grasp& grasp, const Eigen::Vector3d& up_W) const {
   if (grasp.type == GraspType::kPrecision) return precision_form(grasp);
-  int carrying = 0;
-  bool all_carry = true;
-  for (std::size_t link = 0; link < kHandLinks; ++link) {
-    if (!touches(link, grasp.object)) continue;
-    all_carry = all_carry && touches_[link].n_W.dot(up_W) < -kFromBelow;
-    ++carrying;
-  }
-  if (all_carry && carrying >= 2) return GraspForm::kGravity;
+  if (carries(grasp, up_W)) return GraspForm::kGravity;
   if (grasp.type == GraspType::kPush && are_opposed(grasp)) return GraspForm::kCigarette;
   return GraspForm::kNone;
+}
+
+/// Whether two contacts at least carry the object, and all others do as well. What is being carried may be touched from
+/// the side.
+bool GraspAnalysis::carries(const Grasp& grasp, const Eigen::Vector3d& up_W) const {
+  const double least = had(GraspForm::kGravity, grasp.object) ? -kFromBelow : kFromBelow;
+  int carrying = 0;
+  for (std::size_t link = 0; link < kHandLinks; ++link) {
+    if (!touches(link, grasp.object)) continue;
+    const double from_below = -touches_[link].n_W.dot(up_W);
+    if (from_below < least) return false;
+    carrying += from_below > kFromBelow ? 1 : 0;
+  }
+  return carrying >= 2;
 }
 
 GraspForm GraspAnalysis::precision_form(const Grasp& grasp) const {
@@ -187,7 +195,8 @@ bool GraspAnalysis::are_opposed(const Grasp& grasp) const {
   const auto first = std::find_if(kAllFingers.begin(), kAllFingers.end(), has);
   if (std::count_if(first, kAllFingers.end(), has) != 2 || !has(*(first + 1))) return false;
   const auto n_W = [&](Finger finger) { return sums[static_cast<std::size_t>(finger)].normalized(); };
-  return n_W(*first).dot(n_W(*(first + 1))) < kOpposed;
+  const double limit = had(GraspForm::kCigarette, grasp.object) ? kOpposedStill : kOpposed;
+  return n_W(*first).dot(n_W(*(first + 1))) < limit;
 }
 
 std::optional<Eigen::Vector3d> GraspAnalysis::normal(std::int32_t object, const SegmentMeaning& segment) const {

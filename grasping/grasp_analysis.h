@@ -89,6 +89,9 @@ class GraspAnalysis {
                       const Eigen::Vector3d& up_W = Eigen::Vector3d::UnitZ(), std::int32_t held = -1);
   const Grasp& grasp() const { return grasp_; }
 
+  /// The link, by its number in the chain, touches nothing any more, at once: it has plainly left the body.
+  void forget(std::size_t link) { touches_[link] = {}; }
+
   /// Forgets all contacts, as after a loss of tracking.
   void clear();
 
@@ -108,7 +111,10 @@ class GraspAnalysis {
   Grasp analyze(std::int32_t object, const Eigen::Vector3d& up_W) const;
   GraspForm form_of(const Grasp& grasp, const Eigen::Vector3d& up_W) const;
   GraspForm precision_form(const Grasp& grasp) const;
+  bool carries(const Grasp& grasp, const Eigen::Vector3d& up_W) const;
   bool are_opposed(const Grasp& grasp) const;
+  /// Whether the grasp so far is one of this form of this body: it ends later than it would begin.
+  bool had(GraspForm form, std::int32_t object) const { return grasp_.form == form && grasp_.object == object; }
   std::optional<Eigen::Vector3d> normal(std::int32_t object, const SegmentMeaning& segment) const;
 
   std::array<SegmentMeaning, kHandLinks> meaning_;

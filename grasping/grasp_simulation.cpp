@@ -95,7 +95,7 @@ class GraspSimulation::Life {
   void advance(std::span<const std::optional<Posture>> targets, double milliseconds) {
     GLISSADE_ASSERT(targets.size() == hands_.size());
     for (std::size_t h = 0; h < hands_.size(); ++h) {
-      if (aim(h, targets[h]) && hands_[h].part()) settle(*hands_[h].part());
+      if (aim(h, targets[h], milliseconds) && hands_[h].part()) settle(*hands_[h].part());
     }
     for (std::size_t p = 0; p < X_WG_.size(); ++p)
       X_WG_[p] = is_held(p) ? wish(p).value_or(parts_.result(p).X_WV) : yielding(p);
@@ -112,8 +112,10 @@ class GraspSimulation::Life {
   void advance(const haptics::Ghosts& ghosts, double milliseconds) {
     for (std::size_t h = 0; h < hands_.size(); ++h) {
       const haptics::GhostOfHand& ghost = ghosts.hands[h];
-      aim(h, ghost.is_tracked ? std::optional(Posture{ghost.X_WH, {ghost.angles.begin(), ghost.angles.end()}})
-                              : std::nullopt);
+      aim(h,
+          ghost.is_tracked ? std::optional(Posture{ghost.X_WH, {ghost.angles.begin(), ghost.angles.end()}})
+                           : std::nullopt,
+          milliseconds);
       hold(h, ghost.part < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(ghost.part)));
     }
     for (std::size_t p = 0; p < X_WG_.size(); ++p)
@@ -152,10 +154,10 @@ class GraspSimulation::Life {
 
   /// A hand that is found again may be anywhere: a free one begins there, and a held part goes there slowly. Returns
   /// whether the hand was lost or found.
-  bool aim(std::size_t h, const std::optional<Posture>& target) {
+  bool aim(std::size_t h, const std::optional<Posture>& target, double milliseconds) {
     GraspingHand& hand = hands_[h];
     const bool was_lost = hand.is_lost();
-    hand.aim(target);
+    hand.aim(target, milliseconds);
     if (hand.is_lost() == was_lost) return false;
     if (hand.is_lost() && hand.part()) {
       hand.clasp().forget_contacts();
@@ -174,7 +176,7 @@ class GraspSimulation::Life {
     for (std::size_t h = 0; h < hands_.size(); ++h)
       move_hand(h);
     for (GraspingHand& hand : hands_)
-      hand.analyze(waited_ms_, up_W_);
+      hand.analyze(waited_ms_, up_W_, parts_.result(hand.part().value_or(0)).X_WV);
     waited_ms_ = 0.0;
   }
 

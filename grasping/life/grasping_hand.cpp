@@ -1,6 +1,7 @@
 #include "life/grasping_hand.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -31,7 +32,9 @@ GraspingHand::GraspingHand(std::shared_ptr<const HandModel> model, const std::ve
       clasp_(chain_of(model_), fixed, std::move(parts), rules),
       analysis_(*model_),
       now_(*model_),
+      held_(model_->chain.links().size()),
       X_WL_(model_->chain.links().size()),
+      X_WL_target_(model_->chain.links().size()),
       X_WB_(links_.size()) {}
 
 std::span<const Eigen::Isometry3d> GraspingHand::segments() {
@@ -47,10 +50,23 @@ Eigen::Isometry3d GraspingHand::palm(std::span<const double> values) {
   return X_WL_[kPalmLink];
 }
 
-void GraspingHand::aim(const std::optional<Posture>& target) {
+void GraspingHand::aim(const std::optional<Posture>& target, double milliseconds) {
+  const bool was_lost = is_lost();
   target_ = target;
   if (target_ && !is_usable(*target_, model_->chain.values().size())) target_.reset();
-  if (target_) model_->chain.clamp(target_->values);
+  if (!target_) return;
+  std::vector<double>& values = target_->values;
+  model_->chain.clamp(values);
+  if (!part_ || was_lost) {
+    fingers_.begin(values);
+    return;
+  }
+  // The wrist moves the palm, and so the part, with the root.
+  const std::array wrist{values[kWristFlexionValue], values[kWristAbductionValue]};
+  const std::span<const double> smooth = fingers_.follow(values, milliseconds);
+  std::copy(smooth.begin(), smooth.end(), values.begin());
+  values[kWristFlexionValue] = wrist[0];
+  values[kWristAbductionValue] = wrist[1];
 }
 
 void GraspingHand::take(std::size_t part, const Eigen::Isometry3d& X_WV) {
@@ -60,6 +76,7 @@ void GraspingHand::take(std::size_t part, const Eigen::Isometry3d& X_WV) {
 }
 
 void GraspingHand::let_go() {
+  held_.clear();
   left_ = part_;
   since_left_ms_ = 0.0;
   part_.reset();
@@ -88,15 +105,25 @@ void GraspingHand::advance() {
   clasp_.advance(posture_);
 }
 
-void GraspingHand::analyze(double milliseconds, const Eigen::Vector3d& up_W) {
+void GraspingHand::analyze(double milliseconds, const Eigen::Vector3d& up_W, const Eigen::Isometry3d& X_WV) {
   constexpr double kAtOnce_ms = 1e6;
   since_left_ms_ += milliseconds;
   now_.clear();
   if (clasp_.state() != ClaspState::kClasping) analysis_.clear();
   if (is_lost() || clasp_.state() != ClaspState::kClasping) return;
-  const std::int32_t held = part_ ? first_part_ + static_cast<std::int32_t>(*part_) : -1;
-  analysis_.update(clasp_.contacts(), milliseconds, up_W, held);
-  now_.update(clasp_.contacts(), kAtOnce_ms, up_W);
+  if (!part_) {
+    analysis_.update(clasp_.contacts(), milliseconds, up_W);
+    now_.update(clasp_.contacts(), kAtOnce_ms, up_W);
+    return;
+  }
+  const std::int32_t body = first_part_ + static_cast<std::int32_t>(*part_);
+  const Posture& posture = clasp_.posture();
+  model_->chain.poses(posture.X_WR, posture.values, X_WL_);
+  model_->chain.poses(posture_.X_WR, posture_.values, X_WL_target_);
+  const std::vector<LinkContact>& contacts = held_.update(clasp_.contacts(), body, X_WV, X_WL_, X_WL_target_);
+  for (const std::size_t link : held_.left())
+    analysis_.forget(link);
+  analysis_.update(contacts, milliseconds, up_W, body);
 }
 
 }  // namespace glissade::grasping

@@ -16,6 +16,9 @@
 #include <glissade/grasping/hand_model.h>
 #include <glissade/haptics/contact_body.h>
 
+#include "life/held_contacts.h"
+#include "life/steady_fingers.h"
+
 namespace glissade::grasping {
 
 /// The palm P and a held part are one rigid body. Not thread-safe.
@@ -32,8 +35,9 @@ class GraspingHand {
   /// The pose of a segment for each of the hand's bodies: the riders of the sliding simulation.
   std::span<const Eigen::Isometry3d> segments();
 
-  /// Takes the target of a call; none while the tracking is lost.
-  void aim(const std::optional<Posture>& target);
+  /// Takes the target of a call, `milliseconds` after the last one; none while the tracking is lost. The fingers of a
+  /// hand that holds a part follow it smoothly.
+  void aim(const std::optional<Posture>& target, double milliseconds);
   bool is_lost() const { return !target_; }
 
   /// Takes hold of the part at X_WV.
@@ -49,8 +53,8 @@ class GraspingHand {
   void advance();
   /// Whether the contacts of this moment hold the body: before the analysis says so, they must last.
   bool closes_round(std::int32_t body) const { return now_.grasp().holds() && now_.grasp().object == body; }
-  /// Looks at the contacts.
-  void analyze(double milliseconds, const Eigen::Vector3d& up_W);
+  /// Looks at the contacts. The held part, if there is one, is at X_WV.
+  void analyze(double milliseconds, const Eigen::Vector3d& up_W, const Eigen::Isometry3d& X_WV);
 
  private:
   static constexpr double kPause_ms = 200.0;  // before the hand takes hold of the same part again
@@ -64,6 +68,8 @@ class GraspingHand {
   Clasp clasp_;
   GraspAnalysis analysis_;
   GraspAnalysis now_;  // of this moment alone
+  SteadyFingers fingers_;
+  HeldContacts held_;
   std::optional<Posture> target_;
   std::optional<std::size_t> part_;
   std::optional<std::size_t> left_;  // the part that the hand held last
@@ -71,6 +77,7 @@ class GraspingHand {
   Eigen::Isometry3d X_PV_ = Eigen::Isometry3d::Identity();
   Posture posture_;  // scratch memory
   std::vector<Eigen::Isometry3d> X_WL_;
+  std::vector<Eigen::Isometry3d> X_WL_target_;
   std::vector<Eigen::Isometry3d> X_WB_;
 };
 

@@ -9,7 +9,8 @@ void Push::add(const std::vector<LinkContact>& contacts, std::int32_t body, cons
   const Eigen::Vector3d p_Wref = X_WV * part.p_Vref();
   for (const LinkContact& touch : contacts) {
     const haptics::Contact& contact = touch.contact;
-    if (contact.obstacle == body) planes_.push_back({-contact.n_W, contact.q_W() - p_Wref, -touch.depth});
+    if (contact.obstacle == body)
+      planes_.push_back({-contact.n_W, contact.q_W() - p_Wref, std::min(0.0, kPress_m - touch.depth)});
   }
 }
 

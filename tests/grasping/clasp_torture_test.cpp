@@ -105,7 +105,7 @@ class Torturer {
   }
 
   void try_values(Posture target) {
-    constexpr double kFarther_m = 0.1e-3;  // a link that is so near touches
+    constexpr double kFarther_m = 10e-6;
     constexpr double kRounding_m = 1e-9;
     ++torture_.resting;
     hand_chain()->clamp(target.values);
@@ -140,6 +140,24 @@ TEST_P(ClaspTorture, NothingCollidesAndNoFlexValueStopsTooEarly) {
 
 INSTANTIATE_TEST_SUITE_P(Objects, ClaspTorture, testing::Range(std::size_t{0}, shapes::household_objects().size()),
                          [](const auto& object) { return shapes::household_objects()[object.param].name; });
+
+/// A motion after which a flex value was as near to its target as a step of 5 µm could bring it, but not as near as
+/// several short ones.
+struct ManyShortSteps {
+  std::string object;
+  std::uint64_t seed;
+};
+
+TEST(ClaspTortureOfShortSteps, NoFlexValueStopsTooEarly) {
+  for (const auto& [name, seed] : {ManyShortSteps{"screwdriver", 20035}, ManyShortSteps{"jar_lid", 14059}}) {
+    const auto& objects = shapes::household_objects();
+    const auto object = std::find_if(objects.begin(), objects.end(), [&](const auto& one) { return one.name == name; });
+    ASSERT_NE(object, objects.end());
+    const Torture result = Torturer(object->make(kObjectEdge_m)).run(seed, 1);
+    EXPECT_EQ(result.resting, 1) << name;
+    EXPECT_EQ(result.too_early, 0) << name << ": " << result;
+  }
+}
 
 TEST(ClaspTortureOfFiles, IsReported) {
   const char* const files = std::getenv("GLISSADE_GRASP_MESHES");

@@ -100,8 +100,6 @@ LabelledGrasp grasp_of(const YAML::Node& node) {
       grasp.form = named<GraspForm>(value.as<std::string>(), 7);
     else if (key == "reason")
       grasp.reason = value.as<std::string>();
-    else if (key == "slips")
-      grasp.slips = value.as<bool>();
     else if (key != "start" && key != "close")
       throw std::invalid_argument("unknown key '" + key + "'");
   }
@@ -130,6 +128,15 @@ std::vector<LabelledGrasp> read_labelled_grasps(const std::filesystem::path& fil
   return grasps;
 }
 
+Posture target_at(const LabelledGrasp& grasp, int ms) {
+  constexpr int kPressing_ms = 100;
+  constexpr int kClosing_ms = 200;
+  Posture pressed = grasp.start;
+  pressed.X_WR = grasp.close.X_WR;
+  if (ms < kPressing_ms) return between(grasp.start, pressed, static_cast<double>(ms) / kPressing_ms);
+  return between(pressed, grasp.close, std::min(1.0, static_cast<double>(ms - kPressing_ms) / kClosing_ms));
+}
+
 GraspTrial::GraspTrial(const LabelledGrasp& grasp)
     : grasp_(grasp),
       object_(std::make_shared<const geometry::TriangleMesh>(shapes::make_shape(grasp.object, {}))),
@@ -137,26 +144,45 @@ GraspTrial::GraspTrial(const LabelledGrasp& grasp)
       analysis_(*hand_model()) {}
 
 const grasping::Grasp& GraspTrial::close() {
-  constexpr int kPressing_ms = 100;
-  constexpr int kClosing_ms = 200;
-  constexpr int kHolding_ms = 200;
-  advance(grasp_.start);
-  if (hand_.clasp.state() != grasping::ClaspState::kClasping)
-    throw std::invalid_argument(grasp_.name + ": the start is not free");
-  Posture pressed = grasp_.start;
-  pressed.X_WR = grasp_.close.X_WR;
-  for (int ms = 1; ms <= kPressing_ms; ++ms)
-    advance(between(grasp_.start, pressed, static_cast<double>(ms) / kPressing_ms));
-  for (int ms = 1; ms <= kClosing_ms; ++ms)
-    advance(between(pressed, grasp_.close, static_cast<double>(ms) / kClosing_ms));
-  for (int ms = 0; ms < kHolding_ms; ++ms)
-    advance(grasp_.close);
+  for (int ms = 0; ms <= kClosed_ms; ++ms) {
+    advance(target_at(grasp_, ms));
+    if (ms == 0 && hand_.clasp.state() != grasping::ClaspState::kClasping)
+      throw std::invalid_argument(grasp_.name + ": the start is not free");
+  }
   return analysis_.grasp();
 }
 
 const grasping::Grasp& GraspTrial::advance(const Posture& target) {
   hand_.clasp.advance(target);
   return analysis_.update(hand_.clasp.contacts(), 1.0, grasp_.up_W);
+}
+
+LooseGraspTrial::LooseGraspTrial(const LabelledGrasp& grasp)
+    : grasp_(grasp),
+      object_(std::make_shared<const geometry::TriangleMesh>(shapes::make_shape(grasp.object, {}))),
+      simulation_({}, {{.part_V = std::make_shared<const haptics::SlidingPart>(object_), .X_WV_start = grasp.X_WB}},
+                  {hand_model()}, {.up_W = grasp.up_W}) {}
+
+bool LooseGraspTrial::close() {
+  for (int ms = 0; ms <= kClosed_ms; ++ms)
+    advance(target_at(grasp_, ms));
+  return holds();
+}
+
+void LooseGraspTrial::advance(const Posture& target) {
+  simulation_.advance(std::array{std::optional<Posture>(target)});
+}
+
+bool LooseGraspTrial::collides() const {
+  const reference::GridCheck check({{object_, simulation_.parts().result(0).X_WV}});
+  const Posture& posture = simulation_.posture(0);
+  std::vector<Eigen::Isometry3d> X_WL(hand_chain()->links().size());
+  hand_chain()->poses(posture.X_WR, posture.values, X_WL);
+  for (std::size_t link = 0; link < X_WL.size(); ++link) {
+    const auto& mesh = hand_chain()->links()[link].mesh;
+    if (mesh != nullptr && check.collides(*mesh, X_WL[link])) return true;
+  }
+  return false;
 }
 
 }  // namespace glissade::test_support

@@ -37,16 +37,21 @@ class PushedBall : public ::testing::Test {
   Push push_;
 };
 
-TEST_F(PushedBall, GoesWhereOneSegmentPressesIt) {
-  press(Vector3d::UnitX(), 2e-3);
+TEST_F(PushedBall, GoesWhereOneSegmentPressesItAndResistsALittle) {
+  press(Vector3d::UnitX(), Push::kPress_m + 2e-3);
   EXPECT_LT(displacement().v.x(), -1.5e-3);
   EXPECT_GE(displacement().v.x(), -2e-3);
   EXPECT_LT(displacement().v.tail<2>().norm(), 1e-9);
 }
 
+TEST_F(PushedBall, StaysWhereASegmentHardlyPressesIt) {
+  press(Vector3d::UnitX(), 0.9 * Push::kPress_m);
+  EXPECT_TRUE(displacement().is_zero());
+}
+
 TEST_F(PushedBall, StaysBetweenSegmentsThatPressFromBothSides) {
-  press(Vector3d::UnitX(), 2e-3);
-  press(-Vector3d::UnitX(), 2e-3);
+  press(Vector3d::UnitX(), Push::kPress_m + 2e-3);
+  press(-Vector3d::UnitX(), Push::kPress_m + 2e-3);
   EXPECT_LT(displacement().v.norm(), 0.1e-3);
 }
 

@@ -1,0 +1,51 @@
+#pragma once
+
+/// The contacts of a hand with the part that it holds, over time.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/grasping/clasp.h>
+
+namespace glissade::grasping {
+
+/// A segment that has touched the held part goes on touching it, even when it has left it by less than what noise
+/// does. Not thread-safe.
+class HeldContacts {
+ public:
+  /// For a hand with so many links.
+  explicit HeldContacts(std::size_t links) : last_(links) {}
+
+  void clear();
+  /// The contacts of this moment, and those that go on. `body` is the number of the held part, which is at X_WV; X_WL
+  /// and X_WL_target are the poses of the visible links and of their targets.
+  const std::vector<LinkContact>& update(const std::vector<LinkContact>& contacts, std::int32_t body,
+                                         const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> X_WL,
+                                         std::span<const Eigen::Isometry3d> X_WL_target);
+  /// The links whose targets have left the part by more than noise does since the last call.
+  std::span<const std::size_t> left() const { return left_; }
+
+ private:
+  static constexpr double kNear_m = 1.5e-3;
+  static constexpr double kAway_m = 4e-3;
+  static constexpr double kAside_m = 15e-3;
+
+  /// A contact that a link has had, which moves with the part.
+  struct LastContact {
+    LinkContact touch;
+    Eigen::Vector3d p_L;  // on the link
+    Eigen::Vector3d q_V;  // on the part
+    Eigen::Vector3d n_V;
+  };
+
+  std::vector<std::optional<LastContact>> last_;  // by link
+  std::vector<LinkContact> contacts_;
+  std::vector<std::size_t> left_;
+};
+
+}  // namespace glissade::grasping
