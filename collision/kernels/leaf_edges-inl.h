@@ -1,4 +1,5 @@
-// Gaps between triangles along cross products of their edges, for 16 pairs at once. Compiled once for each instruction
+// Gaps between triangles along cross products of their edges, and across edges in the planes of the triangles, for 16
+// pairs at once. Compiled once for each instruction
 // set.
 #if defined(GLISSADE_COLLISION_LEAF_EDGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef GLISSADE_COLLISION_LEAF_EDGES_INL_H_
@@ -42,6 +43,31 @@ HWY_INLINE V signed_square_of_gap(const Vector3<V>& n, const Vector3<V> (&p)[3],
   return hn::IfThenElseZero(hn::Ge(square, hn::Set(d, kLeastSquare)), hn::Div(hn::Mul(gap, hn::Abs(gap)), square));
 }
 
+// The greatest signed square of a gap along a cross product of two edges; 0 if none separates.
+template <class V>
+HWY_INLINE V gap_along_cross_products(const Vector3<V> (&p)[3], const Vector3<V> (&q)[3]) {
+  V most = hn::Zero(hn::DFromV<V>());
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3<V> edge_M = minus(p[(i + 1) % 3], p[i]);
+    for (std::size_t j = 0; j < 3; ++j)
+      most = hn::Max(most, signed_square_of_gap(times(edge_M, minus(q[(j + 1) % 3], q[j])), p, q));
+  }
+  return most;
+}
+
+// The same across the edges of both triangles within their planes: nothing else separates triangles beside each other
+// in about one plane. Normals have about unit length, because powers of the size of a triangle would underflow.
+template <class V>
+HWY_INLINE V gap_across_edges(const Vector3<V>& normal_M, const Vector3<V>& normal_N, const Vector3<V> (&p)[3],
+                              const Vector3<V> (&q)[3]) {
+  V most = hn::Zero(hn::DFromV<V>());
+  for (std::size_t i = 0; i < 3; ++i) {
+    most = hn::Max(most, signed_square_of_gap(times(normal_M, minus(p[(i + 1) % 3], p[i])), p, q));
+    most = hn::Max(most, signed_square_of_gap(times(normal_N, minus(q[(i + 1) % 3], q[i])), p, q));
+  }
+  return most;
+}
+
 PairMask edges(const LeafFrame& frame, float distance, PairMask pairs, LeafPair& leaves) {
   const hn::CappedTag<float, kPairs> d;
   using V = hn::Vec<decltype(d)>;
@@ -52,19 +78,20 @@ PairMask edges(const LeafFrame& frame, float distance, PairMask pairs, LeafPair&
     Vector3<V> p[3];
     Vector3<V> q[3];
     load_corners(d, leaves, first, p, q);
-    V most = hn::Zero(d);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vector3<V> edge_M = minus(p[(i + 1) % 3], p[i]);
-      for (std::size_t j = 0; j < 3; ++j)
-        most = hn::Max(most, signed_square_of_gap(times(edge_M, minus(q[(j + 1) % 3], q[j])), p, q));
-    }
-    const V along_edges = hn::MulSub(hn::Sqrt(most), hn::Set(d, 0.999999F), hn::Set(d, frame.uncertainty + kUnderflow));
     float* const gaps = leaves.gaps.gap.data() + first;
-    const V gap = hn::Max(along_edges, hn::Load(d, gaps));
-    hn::Store(gap, d, gaps);
-    mask |= bits_of(d, hn::Not(hn::Gt(gap, hn::Set(d, distance)))) << first;
+    // Raises the gaps; returns the pairs within the distance.
+    const auto raise = [&](V signed_square) HWY_ATTR {
+      const V beyond =
+          hn::MulSub(hn::Sqrt(signed_square), hn::Set(d, 0.999999F), hn::Set(d, frame.uncertainty + kUnderflow));
+      const V gap = hn::Max(beyond, hn::Load(d, gaps));
+      hn::Store(gap, d, gaps);
+      return bits_of(d, hn::Not(hn::Gt(gap, hn::Set(d, distance)))) & asked;
+    };
+    PairMask near = raise(gap_along_cross_products(p, q));
+    if (near != 0) near = raise(gap_across_edges(unit_normal_M(d, leaves, first), unit_normal_N(d, leaves), p, q));
+    mask |= near << first;
   }
-  return mask & pairs;
+  return mask;
 }
 
 }  // namespace glissade::collision::HWY_NAMESPACE

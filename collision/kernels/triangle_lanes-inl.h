@@ -36,6 +36,22 @@ HWY_INLINE void load_corners(D d, const LeafPair& leaves, std::size_t first, Vec
   }
 }
 
+// The normals of both triangles of each pair, of length 1 − 10⁻⁶ up to rounding, or 0 for a triangle that is too small.
+template <class D>
+HWY_INLINE Vector3<hn::Vec<D>> unit_normal_M(D d, const LeafPair& leaves, std::size_t first) {
+  const auto length = of_M(d, leaves.p.inverse_length.data(), first);
+  const auto& n = leaves.p.normal;
+  return {hn::Mul(of_M(d, n[0].data(), first), length), hn::Mul(of_M(d, n[1].data(), first), length),
+          hn::Mul(of_M(d, n[2].data(), first), length)};
+}
+template <class D>
+HWY_INLINE Vector3<hn::Vec<D>> unit_normal_N(D d, const LeafPair& leaves) {
+  const auto length = of_N(d, leaves.q.inverse_length.data());
+  const auto& n = leaves.q.normal;
+  return {hn::Mul(of_N(d, n[0].data()), length), hn::Mul(of_N(d, n[1].data()), length),
+          hn::Mul(of_N(d, n[2].data()), length)};
+}
+
 template <class V>
 HWY_INLINE Vector3<V> minus(const Vector3<V>& a, const Vector3<V>& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};

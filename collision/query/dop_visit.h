@@ -89,8 +89,8 @@ class DopVisit {
   /// greater than 0.
   CertainPairs cross(const LeafPair& leaves) const;
 
-  /// The pairs in the mask that no cross product of edges certainly separates by more than the distance. Raises their
-  /// gaps. These pairs are then tested exactly, which counts as work here.
+  /// The pairs in the mask that `LeafKernels::edges` does not certainly separate by more than the distance. Raises
+  /// their gaps. These pairs are then tested exactly, which counts as work here.
   PairMask edges(LeafPair& leaves, PairMask pairs) const;
 
   /// The least known gap of the triangle pairs in the mask, in radii of the base; 1e30 for an empty mask.
@@ -99,8 +99,7 @@ class DopVisit {
   /// The least gap of the pairs of children in the mask, which must not be 0, in radii of the base.
   double least_gap(const PairOverlaps& overlaps, PairMask pairs) const;
 
-  /// Whether the distance is greater than 0. If it is 0, the exact predicate costs no more than the cross products of
-  /// edges.
+  /// Whether the distance is greater than 0. If it is 0, the exact predicate costs no more than `edges`.
   bool has_distance() const { return distance_ > 0.0F; }
 
   /// Whether a gap (radii of the base) is greater than the distance.

@@ -79,6 +79,7 @@ class PathCertificate {
   void prove(const OpenItems& items, WorkBudget& budget);
   bool are_apart(const MovingItem& item_O, const MovingItem& item_V) const;
   bool separates(const Eigen::Vector3d& n_W, const MovingItem& item_O, const MovingItem& item_V) const;
+  bool separates(const Eigen::Vector3d& n_W, std::int32_t triangle_O, std::int32_t triangle_V) const;
   void prove_triangles(std::int32_t triangle_O, std::int32_t triangle_V, const Eigen::Vector3d& n_hint,
                        WorkBudget& budget);
   void prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_V, WorkBudget& budget);
@@ -93,7 +94,8 @@ class PathCertificate {
   // Of the pair of bodies at hand:
   MovingBody obstacle_;
   MovingBody part_;
-  bool moves_ = false;
+  bool obstacle_moves_ = false;
+  bool moves_ = false;  // either of them
   double min_clearance_ = 0.0;
   double far_ = 0.0;     // metres: items farther apart keep the minimum clearance in any case
   double needed_ = 0.0;  // metres of gap at both ends that keep the minimum clearance in between

@@ -73,17 +73,17 @@ bool TriangleCertificate::prove(const Eigen::Vector3d& n_hint, Eigen::Vector3d& 
       bodies_.motion(pair_.bodies.obstacle) + bodies_.motion(pair_.bodies.part) + min_clearance_ + rounding_)
     return true;
   if (closest.distance < min_clearance_) min_clearance_ = 0.95 * closest.distance;
-  return prove_stretch(0, MovingBodies::kMoments);
+  return prove_stretch(0, MovingBodies::kMoments, start, closest);
 }
 
-bool TriangleCertificate::prove_stretch(int begin, int end) {
+/// `closest` are the closest points at the beginning.
+bool TriangleCertificate::prove_stretch(int begin, int end, const Moment& at_begin,
+                                        const geometry::TriangleDistance& closest) {
   ++stretches_;
-  const Moment at_begin = at(begin);
   const Moment at_end = at(end);
   const Stretch stretch{at_begin, at_end, needed(begin, end)};
-  const geometry::TriangleDistance closest_begin = geometry::triangle_distance(at_begin.obstacle, at_begin.part);
-  if (closest_begin.distance < min_clearance_) return false;
-  const Eigen::Vector3d n_begin = direction(closest_begin);
+  if (closest.distance < min_clearance_) return false;
+  const Eigen::Vector3d n_begin = direction(closest);
   if (separates(n_begin, stretch)) return true;
 
   const geometry::TriangleDistance closest_end = geometry::triangle_distance(at_end.obstacle, at_end.part);
@@ -96,7 +96,9 @@ bool TriangleCertificate::prove_stretch(int begin, int end) {
 
   if (end - begin == 1) return false;
   const int middle = begin + (end - begin) / 2;
-  return prove_stretch(begin, middle) && prove_stretch(middle, end);
+  if (!prove_stretch(begin, middle, at_begin, closest)) return false;
+  const Moment at_middle = at(middle);
+  return prove_stretch(middle, end, at_middle, geometry::triangle_distance(at_middle.obstacle, at_middle.part));
 }
 
 /// Whether n separates the pair by the minimum clearance on the whole stretch.

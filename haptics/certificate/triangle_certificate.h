@@ -45,7 +45,7 @@ class TriangleCertificate {
     double needed;  ///< metres of gap at both ends that keep the minimum clearance in between
   };
 
-  bool prove_stretch(int begin, int end);
+  bool prove_stretch(int begin, int end, const Moment& at_begin, const geometry::TriangleDistance& closest);
   bool separates(const Eigen::Vector3d& n, const Stretch& stretch) const;
   Moment at(int moment);
   double needed(int begin, int end) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "contact/contact_filter.h"
 #include "contact/triangle_features.h"
 
 namespace glissade::haptics {
@@ -139,7 +140,8 @@ class ContactSearch {
         margin_(margin),
         contacts_(contacts) {}
 
-  void search(const CandidatePair& pair) {
+  /// Looks at these features of a pair.
+  void search(const CandidatePair& pair, FeaturePairs features) {
     obstacle_number_ = pair.bodies.obstacle;
     part_number_ = pair.bodies.part - first_part_;
     part_.select(bodies_[static_cast<std::size_t>(pair.bodies.part)], pair.part_triangle);
@@ -147,9 +149,9 @@ class ContactSearch {
     // Candidates are near at the poses of a search some steps ago.
     if (!part_.may_be_near(obstacle_, reach_)) return;
     for (int i = 0; i < 3; ++i) {
-      if (part_.owns_corner(i)) search_part_corner(i);
-      if (obstacle_.owns_corner(i)) search_obstacle_corner(i);
-      if (part_.owns_edge(i)) search_part_edge(i);
+      if ((features & with_part_corner(i)) != 0) search_part_corner(i);
+      if ((features & with_obstacle_corner(i)) != 0) search_obstacle_corner(i);
+      search_part_edge(i, features);
     }
   }
 
@@ -243,9 +245,9 @@ class ContactSearch {
     }
   }
 
-  void search_part_edge(int i) {
+  void search_part_edge(int i, FeaturePairs features) {
     for (int j = 0; j < 3; ++j) {
-      if (!obstacle_.owns_edge(j)) continue;
+      if ((features & with_edges(i, j)) == 0) continue;
       SegmentPoints closest;
       if (!closest_points_of_lines(part_.corner(i), part_.corner((i + 1) % 3), obstacle_.corner(j),
                                    obstacle_.corner((j + 1) % 3), closest) ||
@@ -296,11 +298,19 @@ class ContactSearch {
 
 void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part,
                    std::span<const CandidatePair> candidates, double reach, double margin,
-                   std::vector<Contact>& contacts) {
+                   std::vector<Contact>& contacts, std::vector<double>* gaps) {
   contacts.clear();
+  if (gaps != nullptr) gaps->clear();
   ContactSearch search(bodies, first_part, reach, margin, contacts);
-  for (const CandidatePair& pair : candidates)
-    search.search(pair);
+  ContactFilter filter(bodies, reach, kPastEnd * margin);
+  for (std::size_t first = 0; first < candidates.size(); first += ContactFilter::kMostPairs) {
+    const auto pairs = candidates.subspan(first, std::min(ContactFilter::kMostPairs, candidates.size() - first));
+    filter.look(pairs);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (filter.features(i) != 0) search.search(pairs[i], filter.features(i));
+      if (gaps != nullptr) gaps->push_back(filter.gap(i));
+    }
+  }
   search.leave_out_what_rims_hold();
 }
 

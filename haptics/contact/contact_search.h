@@ -24,8 +24,11 @@ namespace glissade::haptics {
 /// Edges and vertices inside plane patches and vertices inside straight rims are left out, because other features bound
 /// patch and rim. Each edge and vertex is considered only for the triangle that owns it, which is among the
 /// candidates whenever the feature is within reach. `first_part` is the body number of the first part.
+///
+/// `gaps`, if not null, receives a number for each candidate, metres: no contact of that pair has a smaller gap, as
+/// long as its bodies do not come nearer. Where they do, this bound decreases by as much.
 void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part,
                    std::span<const CandidatePair> candidates, double reach, double margin,
-                   std::vector<Contact>& contacts);
+                   std::vector<Contact>& contacts, std::vector<double>* gaps = nullptr);
 
 }  // namespace glissade::haptics

@@ -82,6 +82,10 @@ bool CandidatePairs::take_next(double reach, double ahead, std::span<const BodyP
   if (!thread_) search_.find(next_.request, next_.set);  // only now, when its answer is certainly needed
   std::swap(now_, next_);
   next_.is_there = false;
+  clock_ = 0.0;
+  gaps_.assign(now_.set.pairs.size(), 0.0);
+  motions_of_clock_.assign(scene_.bodies().size(), {});
+  place_clock();
   calls_served_ = std::exchange(calls_, 0);
   ++statistics_.searches;
   statistics_.reports += now_.set.report;
@@ -136,25 +140,28 @@ void CandidatePairs::cancel() {
 void CandidatePairs::moved() {
   follow(now_);
   follow(next_);
+  advance_clock();
 }
 
-/// Two bodies come nearer by their motions. Those of one unit keep their distance, or do not matter.
 void CandidatePairs::follow(Search& search) const {
-  if (!search.is_there) return;
+  if (search.is_there) search.drift = approach_since(search.request.X_WB, search.motions);
+}
+
+/// Bound (metres) of how much nearer two bodies have come since the movers were at X_WB; infinite for a pose that is
+/// not finite: nothing is covered then, and the next search reports the pose. Sets the motions. Two bodies come nearer
+/// by their motions. Those of one unit keep their distance, or do not matter.
+double CandidatePairs::approach_since(std::span<const Eigen::Isometry3d> X_WB, std::vector<Motion>& motions) const {
   double farthest = 0.0;
   double farthest_of_others = 0.0;  // than the unit of the body that moved farthest
   std::optional<std::int32_t> unit;
-  for (std::size_t mover = 0; mover < search.request.X_WB.size(); ++mover) {
+  for (std::size_t mover = 0; mover < X_WB.size(); ++mover) {
     const std::size_t body = scene_.body_of_mover(mover);
     const SlidingPart& part = *scene_.movers()[mover];
     const geometry::Displacement d =
-        geometry::displacement_between(search.request.X_WB[mover], scene_.bodies()[body].X_WB, part.p_Vref());
+        geometry::displacement_between(X_WB[mover], scene_.bodies()[body].X_WB, part.p_Vref());
     const double all = geometry::motion_bound(d, part.radius());
-    search.motions[body] = {d.v, all - d.v.norm()};
-    if (!std::isfinite(all)) {  // nothing is covered: the next search reports the pose
-      search.drift = std::numeric_limits<double>::infinity();
-      return;
-    }
+    motions[body] = {d.v, all - d.v.norm()};
+    if (!std::isfinite(all)) return std::numeric_limits<double>::infinity();
     const std::int32_t own_unit = scene_.unit(static_cast<std::int32_t>(body));
     if (all > farthest) {
       if (unit != own_unit) farthest_of_others = farthest;
@@ -164,7 +171,39 @@ void CandidatePairs::follow(Search& search) const {
       farthest_of_others = std::max(farthest_of_others, all);
     }
   }
-  search.drift = farthest + farthest_of_others;
+  return farthest + farthest_of_others;
+}
+
+void CandidatePairs::advance_clock() {
+  if (!now_.is_there) return;
+  clock_ += approach_since(X_WB_of_clock_, motions_of_clock_);
+  place_clock();
+}
+
+/// From now on, motions count from the present poses.
+void CandidatePairs::place_clock() {
+  X_WB_of_clock_.clear();
+  for (const PlacedBody& mover : scene_.bodies().subspan(scene_.obstacles().size()))
+    X_WB_of_clock_.push_back(mover.X_WB);
+}
+
+void CandidatePairs::with_contacts(double reach, std::vector<CandidatePair>& pairs,
+                                   std::vector<std::uint32_t>& numbers) const {
+  pairs.clear();
+  numbers.clear();
+  for (std::size_t i = 0; i < now_.set.pairs.size(); ++i) {
+    const CandidatePair& pair = now_.set.pairs[i];
+    if (pair.distance > reach + now_.drift) return;  // as are all that follow
+    if (gaps_[i] > reach + clock_ || now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
+    pairs.push_back(pair);
+    numbers.push_back(static_cast<std::uint32_t>(i));
+  }
+}
+
+void CandidatePairs::note_gaps(std::span<const std::uint32_t> numbers, std::span<const double> gaps) {
+  GLISSADE_ASSERT(numbers.size() == gaps.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    gaps_[numbers[i]] = gaps[i] + clock_;
 }
 
 /// Also discards the answer of a search under way, which the thread completes all the same.

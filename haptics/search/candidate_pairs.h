@@ -67,7 +67,15 @@ class CandidatePairs {
     now_.collect(now_.set.to_certify, reach, to_certify);
   }
 
-  /// Number of candidate pairs plus number of pairs to certify.
+  /// The candidates that may have contacts within `reach` (metres) at the present poses, as far as `note_gaps` told, in
+  /// the same order, and their numbers.
+  void with_contacts(double reach, std::vector<CandidatePair>& pairs, std::vector<std::uint32_t>& numbers) const;
+  /// Notes for the pairs with these numbers that their contacts have at least these gaps (metres) at the present poses.
+  void note_gaps(std::span<const std::uint32_t> numbers, std::span<const double> gaps);
+
+  /// Number of candidate pairs.
+  std::size_t pair_count() const { return now_.set.pairs.size(); }
+  /// The same plus the number of pairs to certify.
   std::size_t size() const { return now_.set.pairs.size() + now_.set.to_certify.size(); }
 
   /// Work of the search under way, or of the last one, so far; only with a limit of work.
@@ -111,7 +119,10 @@ class CandidatePairs {
   bool take_next(double reach, double ahead, std::span<const BodyPair> ignored);
   void ask(Search& search, double reach, double ahead, std::span<const BodyPair> ignored);
   bool is_settled();
+  double approach_since(std::span<const Eigen::Isometry3d> X_WB, std::vector<Motion>& motions) const;
   void follow(Search& search) const;
+  void advance_clock();
+  void place_clock();
   void forget();
 
   const ContactScene& scene_;
@@ -123,6 +134,12 @@ class CandidatePairs {
   CandidateSearch search_;
   Search now_;
   Search next_;
+  // Of the candidates: since they are there, two bodies have come nearer by at most `clock_` (metres). No contact of a
+  // pair has a gap below its entry of `gaps_` minus the clock.
+  double clock_ = 0.0;
+  std::vector<double> gaps_;
+  std::vector<Eigen::Isometry3d> X_WB_of_clock_;  // of each mover
+  std::vector<Motion> motions_of_clock_;
   std::int64_t work_ = 0;
   int calls_ = 0;  // since the search that found the candidates
   int calls_served_ = 0;

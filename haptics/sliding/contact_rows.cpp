@@ -9,7 +9,9 @@
 namespace glissade::haptics {
 namespace {
 
-// Work of the contacts of a pair of triangles, in the unit of `collision::WorkMeter`: rough. Steps take 0.4 ns a unit.
+// Work of a candidate pair and of the contacts of one that may have some, in the unit of `collision::WorkMeter`: rough.
+// Steps take 0.4 ns a unit.
+constexpr std::int64_t kWorkOfCandidate = 8;
 constexpr std::int64_t kWorkOfContacts = 300;
 
 /// The pair as the other body sees it.
@@ -39,9 +41,11 @@ void ContactRows::find_ahead(double reach_ahead, WorkBudget& budget) {
 
 void ContactRows::find_within(double reach, std::vector<Contact>& contacts, WorkBudget& budget) {
   const ContactScene& scene = shared_.scene;
-  shared_.candidates.within(reach, pairs_);
-  budget.spend(kWorkOfContacts * std::ssize(pairs_));
-  find_contacts(scene.bodies(), scene.obstacles().size(), pairs_, reach, shared_.largest_margin, contacts);
+  shared_.candidates.with_contacts(reach, pairs_, numbers_);
+  budget.spend(kWorkOfCandidate * static_cast<std::int64_t>(shared_.candidates.pair_count()) +
+               kWorkOfContacts * std::ssize(pairs_));
+  find_contacts(scene.bodies(), scene.obstacles().size(), pairs_, reach, shared_.largest_margin, contacts, &gaps_);
+  shared_.candidates.note_gaps(numbers_, gaps_);
   for (Contact& contact : contacts) {
     const auto body = static_cast<std::int32_t>(scene.body_of_mover(static_cast<std::size_t>(contact.part)));
     contact.margin = scene.margin(contact.obstacle, body);

@@ -3,6 +3,7 @@
 /// The constraint rows of a step: one for each contact within reach, and more for pairs that could not be certified.
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -55,7 +56,9 @@ class ContactRows {
 
   SimulatedParts& shared_;
   double reach_ = 0.0;
-  std::vector<CandidatePair> pairs_;       // within reach
+  std::vector<CandidatePair> pairs_;       // that may have contacts within reach
+  std::vector<std::uint32_t> numbers_;     // of them among the candidates
+  std::vector<double> gaps_;               // metres: none of their contacts has a smaller one
   std::vector<Contact> contacts_;          // one for each of the first rows
   std::vector<Contact> contacts_ahead_;    // beyond the reach
   std::vector<CoupledRow> rows_;           // of contacts, then of failed certificates

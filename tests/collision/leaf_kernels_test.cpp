@@ -97,6 +97,26 @@ TEST_P(LeafKernelsTest, NormalsAndEdgesSeparateOnlyWhatIsFurtherApart) {
   }
 }
 
+// All normals and cross products of edges are perpendicular to the plane, where there is no gap.
+TEST_P(LeafKernelsTest, TrianglesBesideEachOtherInOnePlaneAreSeparatedByTheirDistance) {
+  const geometry::TriangleMesh below{{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.3, -1.0, 0.0}}, {{0, 1, 2}}};
+  const geometry::TriangleMesh above{{{0.2, 0.0, 0.0}, {0.9, 0.0, 0.0}, {0.6, 1.0, 0.0}}, {{0, 1, 2}}};
+  for (const double gap : {0.01, 0.1, 1.0}) {
+    const DopTree tree_A = tree(below, 1.0, Vector3d::Zero());
+    const DopTree tree_B = tree(above, 1.0, {0.0, gap, 0.0});
+    const Isometry3d X_AB = Isometry3d::Identity();
+    const PlacedTrees placed{tree_A, tree_B, X_AB};
+    const LeafFrame frame(placed.frame);
+    LeafPair leaves;
+    leaf_kernels().prepare_M(leaves_of(placed.base())[0], leaves);
+    leaf_kernels().prepare_N(frame, leaves_of(placed.other())[0], leaves);
+    const auto radii = static_cast<float>(gap / placed.frame.base_radius);
+    ASSERT_TRUE(has(leaf_kernels().test(frame, 0.99F * radii, leaves), 0));
+    EXPECT_FALSE(has(leaf_kernels().edges(frame, 0.99F * radii, 1U, leaves), 0)) << "gap " << gap;
+    EXPECT_NEAR(leaves.gaps.gap[0], radii, 1e-5) << "gap " << gap;
+  }
+}
+
 TEST_P(LeafKernelsTest, NoTwoTrianglesAreNearerThanTheirLeaves) {
   int separated = 0;
   for (const Setting& s : kSettings) {

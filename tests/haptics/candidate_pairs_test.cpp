@@ -17,6 +17,7 @@
 #include <glissade/geometry/displacement.h>
 #include <glissade/geometry/mesh_generators.h>
 
+#include "contact/contact_search.h"
 #include "held_part.h"
 #include "near_bodies.h"
 #include "poses.h"
@@ -112,6 +113,57 @@ TEST(CandidatePairs, HoldEverythingWithinTheReachOverManySteps) {
   }
   EXPECT_GT(kept, 10);
   EXPECT_GT(searches, test_support::affordable(100));
+}
+
+/// Kind, triangles, features, gap and force of contacts, bit for bit.
+std::vector<double> numbers_of(const std::vector<Contact>& contacts) {
+  std::vector<double> numbers;
+  for (const Contact& c : contacts) {
+    numbers.insert(numbers.end(), {1.0 * static_cast<int>(c.kind), 1.0 * c.obstacle, 1.0 * c.obstacle_triangle,
+                                   1.0 * c.part, 1.0 * c.part_triangle, 1.0 * c.part_feature, 1.0 * c.obstacle_feature,
+                                   c.gap, c.range, c.n_W.x(), c.n_W.y(), c.n_W.z(), c.p_W.x(), c.p_W.y(), c.p_W.z()});
+  }
+  return numbers;
+}
+
+// Pairs whose contacts are known to have greater gaps are not looked at again before the parts have come nearer.
+TEST(CandidatePairs, HaveTheSameContactsWhereGapsAreNoted) {
+  constexpr std::uint64_t kSeed = 63;
+  constexpr double kMargin = 1e-6;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  RandomNumbers random(kSeed);
+  std::size_t all = 0;
+  std::size_t looked_at = 0;
+  std::size_t contacts = 0;
+  for (int trial = 0; trial < test_support::affordable(60); ++trial) {
+    const auto scene = test_support::random_contact_scene(0.02, 1e-4, 2e-4, random);
+    const std::size_t first_part = scene->obstacles().size();
+    CandidatePairs candidates(*scene, kGreatest);
+    for (int step = 0; step < 40; ++step) {
+      SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", step " +
+                   std::to_string(step));
+      const double reach = random.power_of_ten(-4.0, -3.0);
+      candidates.look(reach, 1e-3, {});
+      std::vector<Contact> of_all;
+      const std::vector<CandidatePair> pairs = pairs_within(candidates, reach);
+      find_contacts(scene->bodies(), first_part, pairs, reach, kMargin, of_all);
+      std::vector<CandidatePair> some;
+      std::vector<std::uint32_t> numbers;
+      std::vector<double> gaps;
+      std::vector<Contact> of_some;
+      candidates.with_contacts(reach, some, numbers);
+      find_contacts(scene->bodies(), first_part, some, reach, kMargin, of_some, &gaps);
+      candidates.note_gaps(numbers, gaps);
+      ASSERT_EQ(numbers_of(of_some), numbers_of(of_all));
+      all += pairs.size();
+      looked_at += some.size();
+      contacts += of_all.size();
+      move_parts(*scene, random.power_of_ten(-6.0, -4.5), random);
+      candidates.moved();
+    }
+  }
+  EXPECT_LT(3 * looked_at, 2 * all);
+  EXPECT_GT(contacts, 1000u);
 }
 
 TEST(CandidatePairs, LeaveOutBodiesThatAreIgnored) {

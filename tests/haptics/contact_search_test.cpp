@@ -16,6 +16,7 @@
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/geometry/triangle_mesh.h>
 
+#include "near_bodies.h"
 #include "poses.h"
 #include "random_numbers.h"
 #include "sanitizers.h"
@@ -124,6 +125,41 @@ TEST(ContactSearch, CrossedEdgesMeetAlongTheirCommonNormal) {
   EXPECT_NEAR(found[0].gap, 2e-4, 1e-12);
   EXPECT_NEAR(found[0].range, 0.048, 1e-9) << "to the nearer end of the upper edge";
   EXPECT_TRUE(found[0].p_W.isApprox(Vector3d(0.001, 0.0, 2e-4), 1e-9));
+}
+
+// The vector code looks at many pairs only.
+TEST(ContactSearch, OfManyPairsFindsTheContactsOfEach) {
+  constexpr std::uint64_t kSeed = 8;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  test_support::RandomNumbers random(kSeed);
+  constexpr double kNoMargin = 1e-12;  // nothing is left out at rims
+  std::size_t contacts = 0;
+  for (int trial = 0; trial < test_support::affordable(100); ++trial) {
+    const auto scene = test_support::random_contact_scene(0.02, 1e-4, 2e-4, random);
+    const double reach = random.power_of_ten(-3.5, -2.5);
+    CandidatePairs candidates(*scene, reach);
+    candidates.look(reach, 0.0, {});
+    std::vector<CandidatePair> pairs;
+    candidates.within(reach, pairs);
+    const std::size_t first_part = scene->obstacles().size();
+    std::vector<Contact> of_all;
+    find_contacts(scene->bodies(), first_part, pairs, reach, kNoMargin, of_all);
+    std::size_t i = 0;
+    for (const CandidatePair& pair : pairs) {
+      std::vector<Contact> of_one;
+      find_contacts(scene->bodies(), first_part, {&pair, 1}, reach, kNoMargin, of_one);
+      for (const Contact& contact : of_one) {
+        ASSERT_LT(i, of_all.size()) << "trial " << trial;
+        EXPECT_EQ(contact.kind, of_all[i].kind);
+        EXPECT_EQ(contact.part_feature, of_all[i].part_feature);
+        EXPECT_EQ(contact.obstacle_feature, of_all[i].obstacle_feature);
+        EXPECT_EQ(contact.gap, of_all[i++].gap);
+      }
+    }
+    ASSERT_EQ(i, of_all.size()) << "trial " << trial;
+    contacts += i;
+  }
+  EXPECT_GT(contacts, static_cast<std::size_t>(test_support::affordable(500)));
 }
 
 /// The corners of feature `number` of a mesh, a vertex, edge or face.

@@ -84,7 +84,7 @@ TEST(WorkBudget, ThePartGetsToTheSamePlaceInMoreCalls) {
 TEST(WorkBudget, ACallDoesNoMoreThanItsWorkAndOnePiece) {
   constexpr std::int64_t kBudget = 10'000;
   // A projection on the contacts of a ball on a plane, or the proof of two leaves: the greatest piece here.
-  constexpr std::int64_t kPiece = 60'000;
+  constexpr std::int64_t kPiece = 20'000;
   Sliding sliding = ball_on_block(kBudget);
   lead_to_goal(sliding, 2000);
   EXPECT_GT(sliding.call_statistics().ended_early, 100);

@@ -1,0 +1,59 @@
+#pragma once
+
+/// Which features of candidate pairs may be in contact: a fast look at many pairs before the exact one at few.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "contact/feature_kernel.h"
+#include "scene/contact_scene.h"
+#include "search/candidate_search.h"
+
+namespace glissade::haptics {
+
+/// Not thread-safe.
+class ContactFilter {
+ public:
+  static constexpr std::size_t kMostPairs = 256;
+
+  /// Contacts have gaps up to `reach`, and may miss the end of an edge by `past_end` (metres). The bodies must stay
+  /// where they are.
+  ContactFilter(std::span<const PlacedBody> bodies, double reach, double past_end)
+      : bodies_(bodies), reach_(reach), past_end_(past_end) {}
+
+  /// Looks at up to kMostPairs pairs, which replace those of the last call.
+  void look(std::span<const CandidatePair> pairs);
+  /// The features of a pair that its triangles own and that may be in contact.
+  FeaturePairs features(std::size_t pair) const { return features_[pair]; }
+  /// Metres: a certain lower bound of the gaps of all contacts that the pair can have, however far its bodies are; not
+  /// positive if nothing is known. Where the bodies come nearer, it decreases by as much at most.
+  double gap(std::size_t pair) const { return gaps_[pair]; }
+
+ private:
+  /// Pairs of two bodies that wait until there are enough of them.
+  struct Batch {
+    BodyPair bodies;
+    RelativePose X_OV;
+    double coordinates;  ///< metres: bound of all coordinates in O
+    std::size_t count = 0;
+    std::array<std::size_t, kTrianglePairs> numbers;  ///< of the pairs
+    TrianglePairs pairs;
+    PossibleContacts possible;
+  };
+
+  Batch& batch_of(const BodyPair& bodies);
+  void add(Batch& batch, const CandidatePair& pair, std::size_t number);
+  void complete(Batch& batch);
+
+  std::span<const PlacedBody> bodies_;
+  double reach_;
+  double past_end_;
+  std::vector<Batch> batches_;  // one for each pair of bodies so far
+  std::size_t last_ = 0;        // the batch of the last pair
+  std::array<FeaturePairs, kMostPairs> features_;
+  std::array<double, kMostPairs> gaps_;
+};
+
+}  // namespace glissade::haptics

@@ -1,0 +1,276 @@
+// Compiled once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "contact/feature_kernel.cpp"
+#include "contact/feature_kernel.h"
+
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace glissade::haptics::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Coordinates are relative to a corner of the obstacle's triangle, and divided by the greatest of them. They are
+// rounded by half of 2^-24, and by less than that in double precision if the greatest exceeds kLeastSize of the
+// coordinates of the bodies.
+constexpr double kLeastSize = 1e-7;
+// Along a unit vector, the difference of two projections then errs by less than 32 · 2^-24, and its division by the
+// length of a vector by a few units of the last place.
+constexpr float kSlack = 1e-5F;
+// The squares of shorter vectors may underflow.
+constexpr float kLeastSquare = 1e-30F;
+// The cross product c of edges d and e errs by less than 70 · 2^-24, and so does e × c by 172 · 2^-24 |e|, and the
+// product of that with the difference of two corners by 1024 · 2^-24 |e|; the same with d.
+constexpr float kSlackOfEnds = 1e-4F;
+constexpr float kFarAway = 1e30F;
+
+using Tag = hn::CappedTag<float, kTrianglePairs>;
+using V = hn::Vec<Tag>;
+
+struct Vector3 {
+  V x;
+  V y;
+  V z;
+};
+struct Triangle {
+  Vector3 corner[3];
+  Vector3 edge[3];
+};
+
+HWY_INLINE Vector3 minus(const Vector3& a, const Vector3& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
+          hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
+}
+HWY_INLINE V dot(const Vector3& a, const Vector3& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+
+// All pairs in units of their own size.
+struct alignas(64) ScaledPairs {
+  float obstacle[3][3][kTrianglePairs];  // [corner][axis][pair]
+  float part[3][3][kTrianglePairs];
+  float reach[kTrianglePairs];
+  float past_end[kTrianglePairs];
+  float size[kTrianglePairs];  // metres
+};
+
+HWY_INLINE void scale(const TrianglePairs& pairs, const RelativePose& X_OV, const ContactReach& reach,
+                      ScaledPairs& scaled) {
+  const hn::CappedTag<double, kTrianglePairs> d;
+  const hn::Rebind<float, decltype(d)> df;
+  for (std::size_t first = 0; first < kTrianglePairs; first += hn::Lanes(d)) {
+    hn::Vec<decltype(d)> obstacle[3][3];
+    hn::Vec<decltype(d)> part[3][3];
+    auto size = hn::Zero(d);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto origin = hn::Load(d, pairs.p_O[0][axis].data() + first);
+      const auto& R = X_OV.R_OV[axis];
+      for (std::size_t c = 0; c < 3; ++c) {
+        obstacle[c][axis] = hn::Sub(hn::Load(d, pairs.p_O[c][axis].data() + first), origin);
+        const auto in_V = [&](std::size_t a) HWY_ATTR { return hn::Load(d, pairs.p_V[c][a].data() + first); };
+        const auto in_O = hn::MulAdd(
+            in_V(0), hn::Set(d, R[0]),
+            hn::MulAdd(in_V(1), hn::Set(d, R[1]), hn::MulAdd(in_V(2), hn::Set(d, R[2]), hn::Set(d, X_OV.p_OV[axis]))));
+        part[c][axis] = hn::Sub(in_O, origin);
+        size = hn::Max(size, hn::Max(hn::Abs(obstacle[c][axis]), hn::Abs(part[c][axis])));
+      }
+    }
+    const auto is_known = hn::Gt(size, hn::Set(d, kLeastSize * reach.coordinates));
+    const auto factor = hn::IfThenElseZero(is_known, hn::Div(hn::Set(d, 1.0), size));
+    const auto store = [&](hn::Vec<decltype(d)> value, float* to)
+                           HWY_ATTR { hn::Store(hn::DemoteTo(df, value), df, to + first); };
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        store(hn::Mul(obstacle[c][axis], factor), scaled.obstacle[c][axis]);
+        store(hn::Mul(part[c][axis], factor), scaled.part[c][axis]);
+      }
+    }
+    const auto in_sizes = [&](double length) HWY_ATTR {
+      const auto far_away = hn::Set(d, static_cast<double>(kFarAway));
+      return hn::IfThenElse(is_known, hn::Min(hn::Mul(hn::Set(d, 1.000001 * length), factor), far_away), far_away);
+    };
+    store(in_sizes(reach.reach + reach.past_end), scaled.reach);
+    store(in_sizes(reach.past_end), scaled.past_end);
+    store(hn::IfThenElseZero(is_known, size), scaled.size);
+  }
+}
+
+HWY_INLINE Triangle load(const float (&corners)[3][3][kTrianglePairs], std::size_t first) {
+  const Tag d;
+  Triangle t;
+  for (std::size_t c = 0; c < 3; ++c) {
+    t.corner[c] = {hn::Load(d, corners[c][0] + first), hn::Load(d, corners[c][1] + first),
+                   hn::Load(d, corners[c][2] + first)};
+  }
+  for (std::size_t c = 0; c < 3; ++c)
+    t.edge[c] = minus(t.corner[(c + 1) % 3], t.corner[c]);
+  return t;
+}
+
+HWY_INLINE V not_negative(V x) {
+  return hn::Max(x, hn::Zero(Tag()));
+}
+
+// Raises the lower bounds of the distances of three points from a triangle by the gaps along n, whatever its error.
+HWY_INLINE void raise_along(const Vector3& n, const Triangle& t, const Vector3 (&points)[3], V (&gaps)[3]) {
+  const Tag d;
+  const V square = dot(n, n);
+  const V inverse_length =
+      hn::IfThenElseZero(hn::Ge(square, hn::Set(d, kLeastSquare)), hn::Div(hn::Set(d, 1.0F), hn::Sqrt(square)));
+  const V h0 = dot(n, t.corner[0]);
+  const V h1 = dot(n, t.corner[1]);
+  const V h2 = dot(n, t.corner[2]);
+  const V low = hn::Min(h0, hn::Min(h1, h2));
+  const V high = hn::Max(h0, hn::Max(h1, h2));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const V h = dot(n, points[i]);
+    const V beyond = hn::Max(hn::Sub(low, h), hn::Sub(h, high));
+    gaps[i] = hn::Max(gaps[i], hn::MulSub(beyond, inverse_length, hn::Set(d, kSlack)));
+  }
+}
+
+// Lower bounds of the distances of three points from a triangle: along its normal and across its edges.
+HWY_INLINE void find_gaps(const Triangle& t, const Vector3 (&points)[3], V (&gaps)[3]) {
+  const Vector3 normal = cross(t.edge[0], t.edge[1]);
+  for (V& gap : gaps)
+    gap = hn::Zero(Tag());
+  raise_along(normal, t, points, gaps);
+  for (std::size_t i = 0; i < 3; ++i)
+    raise_along(cross(normal, t.edge[i]), t, points, gaps);
+}
+
+// Two edges at one moment.
+struct EdgePair {
+  V gap;      // a lower bound of their distance
+  V outside;  // one of the closest points of their lines lies at least so far outside its edge; 0: that is not certain
+};
+
+// How far the interval from h to h + rise lies on one side of 0; negative if 0 is inside.
+HWY_INLINE V beyond_zero(V h, V rise) {
+  const V other = hn::Add(h, rise);
+  return hn::Max(hn::Min(h, other), hn::Neg(hn::Max(h, other)));
+}
+
+// Edges d and e, whose first corners differ by `between` (from e to d).
+HWY_INLINE EdgePair look_at_edges(const Vector3& d, V inverse_d, const Vector3& e, V inverse_e,
+                                  const Vector3& between) {
+  const Tag tag;
+  const V zero = hn::Zero(tag);
+  const Vector3 c = cross(d, e);
+  const V square = dot(c, c);
+  const auto is_known = hn::Ge(square, hn::Set(tag, kLeastSquare));
+  const V inverse_c = hn::IfThenElseZero(is_known, hn::Div(hn::Set(tag, 1.0F), hn::Sqrt(square)));
+  const V h = dot(c, between);
+  const V h_end = hn::Add(h, dot(c, d));
+  const V along_e = dot(c, e);
+  const V along_c =
+      hn::Max(hn::Sub(hn::Min(h, h_end), hn::Max(zero, along_e)), hn::Sub(hn::Min(zero, along_e), hn::Max(h, h_end)));
+  // The plane through e along c has both ends of d on one side, or that through d those of e.
+  const Vector3 u = cross(e, c);
+  const Vector3 v = cross(d, c);
+  const V across_e = hn::Mul(beyond_zero(dot(u, between), dot(u, d)), inverse_e);
+  const V across_d = hn::Mul(beyond_zero(hn::Neg(dot(v, between)), dot(v, e)), inverse_d);
+  const V across = hn::Sub(hn::Max(across_d, across_e), hn::Set(tag, kSlackOfEnds));
+  const V outside = not_negative(hn::Mul(across, inverse_c));
+  return {hn::Max(outside, hn::MulSub(along_c, inverse_c, hn::Set(tag, kSlack))), outside};
+}
+
+// The features of as many pairs as fit into a vector.
+class Look {
+ public:
+  HWY_INLINE Look(const ScaledPairs& scaled, PossibleContacts& possible, std::size_t first)
+      : obstacle_(load(scaled.obstacle, first)),
+        part_(load(scaled.part, first)),
+        reach_(hn::Load(Tag(), scaled.reach + first)),
+        past_end_(hn::Load(Tag(), scaled.past_end + first)),
+        size_(hn::Load(Tag(), scaled.size + first)),
+        counting_(hn::Load(Bits(), possible.features.data() + first)),
+        left_(counting_),
+        least_(hn::Set(Tag(), kFarAway)) {}
+
+  HWY_INLINE void at_corners() {
+    V gaps[3];
+    find_gaps(obstacle_, part_.corner, gaps);
+    for (int i = 0; i < 3; ++i)
+      note(with_part_corner(i), gaps[i], hn::Gt(gaps[i], reach_));
+    find_gaps(part_, obstacle_.corner, gaps);
+    for (int i = 0; i < 3; ++i)
+      note(with_obstacle_corner(i), gaps[i], hn::Gt(gaps[i], reach_));
+  }
+
+  HWY_INLINE void at_edges() {
+    V inverse_e[3];
+    for (std::size_t j = 0; j < 3; ++j)
+      inverse_e[j] = inverse_length(obstacle_.edge[j]);
+    for (int i = 0; i < 3; ++i) {
+      const V inverse_d = inverse_length(part_.edge[i]);
+      for (int j = 0; j < 3; ++j) {
+        const EdgePair pair = look_at_edges(part_.edge[i], inverse_d, obstacle_.edge[j], inverse_e[j],
+                                            minus(part_.corner[i], obstacle_.corner[j]));
+        note(with_edges(i, j), pair.gap, hn::Or(hn::Gt(pair.gap, reach_), hn::Gt(pair.outside, past_end_)));
+      }
+    }
+  }
+
+  HWY_INLINE void store(PossibleContacts& possible, std::size_t first) const {
+    hn::Store(left_, Bits(), possible.features.data() + first);
+    hn::Store(hn::Mul(least_, size_), Tag(), possible.gaps.data() + first);
+  }
+
+ private:
+  using Bits = hn::RebindToUnsigned<Tag>;
+
+  static HWY_INLINE V inverse_length(const Vector3& edge) {
+    return hn::Div(hn::Set(Tag(), 1.0F), hn::Sqrt(dot(edge, edge)));
+  }
+
+  HWY_INLINE void note(FeaturePairs feature, V gap, hn::Mask<Tag> is_apart) {
+    const Bits bits;
+    const auto bit = hn::Set(bits, feature);
+    left_ = hn::AndNot(hn::IfThenElseZero(hn::RebindMask(bits, is_apart), bit), left_);
+    least_ = hn::IfThenElse(hn::RebindMask(Tag(), hn::TestBit(counting_, bit)), hn::Min(least_, gap), least_);
+  }
+
+  Triangle obstacle_;
+  Triangle part_;
+  V reach_;
+  V past_end_;
+  V size_;
+  hn::Vec<Bits> counting_;
+  hn::Vec<Bits> left_;
+  V least_;
+};
+
+void leave_out_impossible(const TrianglePairs& pairs, const RelativePose& X_OV, const ContactReach& reach,
+                          PossibleContacts& possible) {
+  ScaledPairs scaled;
+  scale(pairs, X_OV, reach, scaled);
+  for (std::size_t first = 0; first < kTrianglePairs; first += hn::Lanes(Tag())) {
+    Look look(scaled, possible, first);
+    look.at_corners();
+    look.at_edges();
+    look.store(possible, first);
+  }
+}
+
+}  // namespace glissade::haptics::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace glissade::haptics {
+namespace {
+
+HWY_EXPORT(leave_out_impossible);
+
+}  // namespace
+
+void leave_out_impossible(const TrianglePairs& pairs, const RelativePose& X_OV, const ContactReach& reach,
+                          PossibleContacts& possible) {
+  HWY_DYNAMIC_DISPATCH(leave_out_impossible)(pairs, X_OV, reach, possible);
+}
+
+}  // namespace glissade::haptics
+#endif

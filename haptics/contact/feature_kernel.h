@@ -1,0 +1,64 @@
+#pragma once
+
+/// The vector code in front of the contact search: which features of two triangles may be in contact. Single precision,
+/// with slack for its rounding: what it leaves out is certainly no contact.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace glissade::haptics {
+
+/// Pairs of features of two triangles, one bit each.
+using FeaturePairs = std::uint32_t;
+
+/// Corner i of the part's triangle with the obstacle's triangle.
+constexpr FeaturePairs with_part_corner(int i) {
+  return 1U << i;
+}
+/// Corner i of the obstacle's triangle with the part's triangle.
+constexpr FeaturePairs with_obstacle_corner(int i) {
+  return 8U << i;
+}
+/// Edge i of the part's triangle with edge j of the obstacle's.
+constexpr FeaturePairs with_edges(int i, int j) {
+  return 64U << (3 * i + j);
+}
+inline constexpr FeaturePairs kAllFeaturePairs = 0x7fff;
+
+inline constexpr std::size_t kTrianglePairs = 16;
+
+/// The corners of up to sixteen pairs of triangles of two bodies.
+struct alignas(64) TrianglePairs {
+  using Corners = std::array<std::array<std::array<double, kTrianglePairs>, 3>, 3>;  // [corner][axis][pair]
+  Corners p_O;  ///< of the obstacle, in its frame O, metres
+  Corners p_V;  ///< of the part, in its frame V, metres
+};
+
+/// The pose of V in O.
+struct RelativePose {
+  std::array<std::array<double, 3>, 3> R_OV;  // [row][column]
+  std::array<double, 3> p_OV;                 ///< metres
+};
+
+/// What makes a contact, metres.
+struct ContactReach {
+  double reach;        ///< the largest gap
+  double past_end;     ///< the length by which the ends of edges may be missed
+  double coordinates;  ///< bound of all coordinates in O: nothing is left out of triangles as small as its rounding
+};
+
+/// Features of the pairs of triangles.
+struct alignas(64) PossibleContacts {
+  /// Features that count; then those of them that may be in contact: within reach and, for two edges, with the closest
+  /// points of their lines inside both.
+  std::array<FeaturePairs, kTrianglePairs> features;
+  /// Metres, not negative: a certain lower bound of the distances of all features that counted.
+  std::array<float, kTrianglePairs> gaps;
+};
+
+/// Leaves out features that are certainly not in contact, and sets the gaps.
+void leave_out_impossible(const TrianglePairs& pairs, const RelativePose& X_OV, const ContactReach& reach,
+                          PossibleContacts& possible);
+
+}  // namespace glissade::haptics
