@@ -67,9 +67,11 @@ bool is_usable_hand(const HandAnswer& hand) {
 struct Fingers {
   FingerHand hand;
   FingerForces forces;
-  devices::JointValues angles{};                           // of the wrist, as the ghost has them
-  bool is_found = false;                                   // the angles are those of a state
-  std::int64_t decision = 0;                               // of the simulation, that the hand has followed
+  devices::JointValues angles{};  // of the wrist, as the ghost has them
+  bool is_found = false;          // the angles are those of a state
+  std::int64_t decision = 0;      // of the simulation, that the hand has followed
+  GhostOfHand ghost;
+  double unseen_s = 0.0;                                   // since the last state that could be trusted
   Eigen::Isometry3d X_WP = Eigen::Isometry3d::Identity();  // the palm
 
   /// The joints of the wrist turn no faster than a hand can, whatever their sensors say.
@@ -85,6 +87,17 @@ struct Fingers {
       X_WP = X_WP * joint.X_PJ * Eigen::AngleAxisd(angles[j], joint.axis_J);
     }
     is_found = true;
+  }
+
+  /// A hand whose states stay away for a moment is where it was last.
+  void note(const devices::GloveState* trusted, std::optional<std::size_t> part, double dt) noexcept {
+    constexpr double kPatience_s = 0.1;
+    unseen_s = trusted != nullptr ? 0.0 : unseen_s + dt;
+    ghost.part = part ? static_cast<std::int32_t>(*part) : -1;
+    ghost.is_tracked = is_found && unseen_s < kPatience_s;
+    if (trusted == nullptr) return;
+    ghost.X_WH = trusted->X_WH;
+    ghost.angles = trusted->joint_angles;
   }
 };
 
@@ -271,12 +284,9 @@ HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     if (states[h] != nullptr) tick.hands[h] = render(h, *states[h], set, age, now, dt);
     if (!hands_[h]->fingers) continue;
-    GhostOfHand& ghost = tick.ghosts.hands[h];
-    ghost.part = tick.hands[h].part ? static_cast<std::int32_t>(*tick.hands[h].part) : -1;
-    ghost.is_tracked = poses[h].X_WH != nullptr && !poses[h].is_fading;
-    if (!ghost.is_tracked) continue;
-    ghost.X_WH = states[h]->X_WH;
-    ghost.angles = states[h]->joint_angles;
+    const bool is_trusted = poses[h].X_WH != nullptr && !poses[h].is_fading;
+    hands_[h]->fingers->note(is_trusted ? states[h] : nullptr, tick.hands[h].part, dt);
+    tick.ghosts.hands[h] = hands_[h]->fingers->ghost;
   }
   return tick;
 }

@@ -145,14 +145,21 @@ TEST_F(FingerHandInKernel, KeepsItsHoldThroughASetWithNumbersThatAreNone) {
     EXPECT_TRUE(std::isfinite(torque));
 }
 
-TEST_F(FingerHandInKernel, IsNotTrackedWhileItsAnglesAreNone) {
+// The simulation would take a gap for the loss of the hand, and begin its clasp anew.
+TEST_F(FingerHandInKernel, IsWhereItWasLastForATenthOfASecondWithoutAngles) {
+  state_.joint_angles[3] = 0.25;
   tick();
   tick();
   EXPECT_TRUE(tick_.ghosts.hands[0].is_tracked);
   state_.joint_angles[3] = std::numeric_limits<double>::quiet_NaN();
-  tick();
+  for (int i = 0; i < 99; ++i)
+    tick();
+  EXPECT_TRUE(tick_.ghosts.hands[0].is_tracked);
+  EXPECT_EQ(tick_.ghosts.hands[0].angles[3], 0.25);
+  EXPECT_EQ(tick_.hands[0].command.values().joint_torques, JointValues{}) << "all the same";
+  for (int i = 0; i < 3; ++i)
+    tick();
   EXPECT_FALSE(tick_.ghosts.hands[0].is_tracked);
-  EXPECT_EQ(tick().command.values().joint_torques, JointValues{});
 }
 
 TEST_F(FingerHandInKernel, AllocatesNothing) {
