@@ -31,7 +31,9 @@ const std::vector<LinkContact>& HeldContacts::update(const std::vector<LinkConta
     if (!last) continue;
     const Eigen::Vector3d from_part_V = X_VW * (X_WL_target[link] * last->p_L) - last->q_V;
     const double away = last->n_V.dot(from_part_V);
-    if (away > kAway_m || (from_part_V - away * last->n_V).norm() > kAside_m) {
+    // A target that lies within the part goes anywhere aside: nothing may hold the fingers of the glove back.
+    const double aside = away > -kWithin_m ? (from_part_V - away * last->n_V).norm() : 0.0;
+    if (away > kAway_m || aside > kAside_m) {
       left_.push_back(link);
       last.reset();
     } else if (away < kNear_m) {

@@ -34,6 +34,7 @@ class HeldContacts {
   static constexpr double kNear_m = 1.5e-3;
   static constexpr double kAway_m = 4e-3;
   static constexpr double kAside_m = 15e-3;
+  static constexpr double kWithin_m = 2e-3;  // a target as deep as that has not left the part
 
   /// A contact that a link has had, which moves with the part.
   struct LastContact {

@@ -1,6 +1,7 @@
 /// Hands with fingers in the whole haptic loop: glove, haptic kernel, grasp simulation, and back, a millisecond a turn.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -30,17 +31,16 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using std::chrono::milliseconds;
 using test_support::at;
-using test_support::bent_hand;
 using test_support::hand_chain;
 using test_support::hand_model;
 
-/// A ball before the palm of a hand with its root at the origin, and a wall beyond it, whose face is at 0.24 m.
+/// A ball in the open palm of a hand with its root at the origin, and a wall beyond it, whose face is at 0.24 m.
 struct BallAndWall {
   std::shared_ptr<const geometry::TriangleMesh> ball =
       std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.035, 2000));
   std::shared_ptr<const geometry::TriangleMesh> wall =
       std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.02, 0.6, 0.6}, 2000));
-  Isometry3d X_WBall = at(0.095, 0.0, -0.056);
+  Isometry3d X_WBall = at(0.07, -0.006, -0.057);
   Isometry3d X_WWall = at(0.25, 0.0, 0.0);
 
   GraspSimulation simulation(std::size_t hands, const haptics::SlidingRules& rules = {}) const {
@@ -69,18 +69,34 @@ struct BallAndWall {
   }
 };
 
+/// The joints of thumb and fingers, the latter all alike; degrees.
+JointValues joints(const std::array<double, 4>& thumb, const std::array<double, 3>& finger) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  JointValues angles{};
+  for (std::size_t i = 0; i < 4; ++i)
+    angles[i] = kDegree * thumb[i];
+  for (const std::size_t first : {4U, 7U, 11U, 15U}) {
+    for (std::size_t i = 0; i < 3; ++i)
+      angles[first + i] = kDegree * finger[i];
+  }
+  return angles;
+}
+
+const JointValues kOpen = joints({20, -10, -15, 35}, {-15, 0, -5});
+const JointValues kClosed = joints({60, 45, 40, 20}, {55, 75, 55});
+
 /// A wearer whose open hand closes and opens at these times on the way of its root.
 devices::SimulatedGlove glove_on(geometry::PoseTrajectory script_X_WR, std::vector<std::chrono::nanoseconds> grips) {
   devices::SimulatedGloveParameters wearer;
-  std::copy_n(bent_hand(1.2).values.begin(), kGloveJoints, wearer.grasp_posture.begin());
-  wearer.open_posture.emplace().fill(0.0);
+  wearer.grasp_posture = kClosed;
+  wearer.open_posture = kOpen;
   wearer.starts_closed = false;
   wearer.grip_changes = std::move(grips);
   return devices::SimulatedGlove(std::move(script_X_WR), wearer);
 }
 
-/// At the ball, round which it closes at 0.2 s, and which it draws to itself; 170 mm on, of which the wall leaves some
-/// 140; back, where it opens at 2.2 s; away.
+/// At the ball, round which it closes at 0.2 s; 170 mm on, of which the wall leaves less; back, where it opens at
+/// 2.2 s; away.
 devices::SimulatedGlove carrier() {
   return glove_on(geometry::PoseTrajectory({{milliseconds(0), Isometry3d::Identity()},
                                             {milliseconds(700), Isometry3d::Identity()},
@@ -175,7 +191,7 @@ TEST(FingerLoop, PassesThePartFromHandToHand) {
   const BallAndWall scene;
   GraspSimulation simulation = scene.simulation(2);
   // The second hand comes from below, upside down, and finds the ball in the first one as that has it.
-  const Vector3d p_in_hand(0.064, 0.006, -0.055);
+  const Vector3d p_in_hand = scene.X_WBall.translation();
   const Isometry3d X_WSecond = Eigen::Translation3d(p_in_hand) *
                                Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitX()) *
                                Eigen::Translation3d(-p_in_hand);
@@ -189,7 +205,7 @@ TEST(FingerLoop, PassesThePartFromHandToHand) {
                                          {milliseconds(3000), at(0.0, 0.0, -0.05) * X_WSecond}}),
                {milliseconds(1300)})};
   const std::vector<HapticState> states = run(simulation, gloves, 3200);
-  ASSERT_TRUE(states[1000].parts[0].X_WV.translation().isApprox(p_in_hand, 0.02)) << "the test's own premise";
+  ASSERT_TRUE(states[1000].parts[0].X_WV.translation().isApprox(p_in_hand, 0.1)) << "the test's own premise";
   EXPECT_EQ(states[1000].hands[0].part, 0);
   EXPECT_EQ(states[1000].hands[1].part, -1);
   EXPECT_EQ(states[1900].hands[0].part, 0) << "both hold it";
@@ -266,7 +282,7 @@ TEST(FingerLoop, StopsFingersWithinADegreeOfTheVisibleOnes) {
     if (torque == 0.0) continue;
     // What the muscles want less what they get is the angle of the glove.
     const double muscle = devices::SimulatedGloveParameters{}.finger_stiffness;
-    const double glove = bent_hand(1.2).values[joint] + torque / muscle;
+    const double glove = kClosed[joint] + torque / muscle;
     EXPECT_NEAR(glove, state.hands[0].visible.angles[joint], std::numbers::pi / 180.0) << joint;
     HapticState deeper = state;
     deeper.hands[0].visible.angles[joint] -= std::copysign(std::numbers::pi / 180.0, torque);

@@ -59,5 +59,12 @@ TEST_F(HeldPart, IsLeftSidewaysToo) {
   EXPECT_EQ(held_.left().size(), 1U);
 }
 
+// A glove without torques lets its fingers go deep into the part, and there anywhere.
+TEST_F(HeldPart, IsNotLeftByATargetDeepWithinIt) {
+  touching_at(0.0, -1e-3, touch());
+  EXPECT_EQ(touching_at(20e-3, -10e-3).size(), 1U);
+  EXPECT_TRUE(held_.left().empty());
+}
+
 }  // namespace
 }  // namespace glissade::grasping
