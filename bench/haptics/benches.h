@@ -65,7 +65,7 @@ void run_ages(const SlidingBenchOptions& options, Results& results);
 /// The clasp of a hand round a ball of 16,000 triangles (`grasping::Clasp`), a millisecond a call: cases `free` and
 /// `closing` (fingers that close, before and after the first contact), `held`, `wild` and `from-scratch`; and
 /// `two-hands-100-objects`, whole calls of `grasping::GraspSimulation`, with the share `both_hold`. Metrics `call_p50`,
-/// `call_p99` and `call_max`.
+/// `call_p99` and `call_max`: time of the thread on a processor.
 void run_clasp(const SlidingBenchOptions& options, Results& results);
 
 }  // namespace glissade::bench
