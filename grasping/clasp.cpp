@@ -29,6 +29,7 @@ constexpr std::size_t kAffordablePairs = 100;  // of a link: where a search find
 constexpr double kStepOfReach = 0.8;
 constexpr int kRetries = 4;  // with the contacts that a proof has missed
 constexpr int kHalvings = 6;
+constexpr double kSame = 0.01;
 
 std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const KinematicChain& chain,
                                                                    std::span<const std::size_t> links) {
@@ -221,12 +222,15 @@ class Clasp::Iteration {
   /// Finds, certifies and takes a step: by the interpolation, or by a slide of the whole chain. Returns whether it was
   /// long enough to be worth another one.
   bool go(bool slides) {
+    double last = 0.0;
     for (int retry = 0; retry < kRetries; ++retry) {
       slides ? find_slide() : find_shares();
       motion_.set(posture_, step_);
       if (motion_.longest() < kBracket_m) return false;
       if (const double share = share_in_sight(); share < 1.0) scale(step_, share);
       motion_.set(posture_, step_);
+      if (std::abs(motion_.longest() - last) < kSame * last) break;  // the proof has missed no contact
+      last = motion_.longest();
       if (bodies_.certify(motion_, failures_)) return move();
       if (failures_.empty()) break;
       for (const haptics::Contact& failure : failures_)
