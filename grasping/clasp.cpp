@@ -39,6 +39,12 @@ std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const Kinemat
   return bodies;
 }
 
+double greatest_margin(const std::vector<haptics::Obstacle>& fixed, double margin) {
+  for (const haptics::Obstacle& obstacle : fixed)
+    margin = std::max(margin, obstacle.margin.value_or(margin));
+  return margin;
+}
+
 const KinematicChain& checked(const std::shared_ptr<const KinematicChain>& chain) {
   if (chain == nullptr) throw std::invalid_argument("a clasp needs a chain, not a null pointer");
   if (links_that_touch(*chain).empty()) throw std::invalid_argument("no link of the chain has a mesh");
@@ -59,6 +65,7 @@ class Clasp::Iteration {
       : chain_(std::move(chain)),
         rules_(rules),
         movers_(links_that_touch(checked(chain_))),
+        smallest_reach_(std::max(kSmallestReach_m, greatest_margin(fixed, rules.margin) + rules.touching)),
         link_bodies_(bodies_of(*chain_, movers_)),
         bodies_(std::move(fixed), std::move(objects), link_bodies_, rules.margin),
         motion_(*chain_, movers_),
@@ -180,7 +187,7 @@ class Clasp::Iteration {
     bodies_.look(reach_);
     for (std::size_t m = 0; m < movers_.size(); ++m)
       limit_[m] = std::clamp(bodies_.pair_count(m) > kAffordablePairs ? 0.5 * reach_[m] : 1.25 * limit_[m],
-                             kSmallestReach_m, kGreatestReach_m);
+                             smallest_reach_, kGreatestReach_m);
     bodies_.find_contacts(found_);
     is_found_here_ = true;
     rows_.set(posture_, wanted_, found_, movers_);
@@ -198,7 +205,7 @@ class Clasp::Iteration {
   void choose_reach() {
     for (std::size_t m = 0; m < movers_.size(); ++m) {
       const double wanted = 1.5 * motion_.length(m) + 2.0 * rules_.margin;
-      reach_[m] = std::clamp(wanted, kSmallestReach_m, std::min(next_reach_[m], limit_[m]));
+      reach_[m] = std::clamp(wanted, smallest_reach_, std::min(next_reach_[m], limit_[m]));
     }
   }
 
@@ -207,7 +214,7 @@ class Clasp::Iteration {
       const double taken = goes_on ? motion_.length(m) : 0.0;
       const bool is_clipped = taken > 0.9 * kStepOfReach * reach_[m];
       next_reach_[m] = std::clamp(is_clipped ? 2.0 * reach_[m] : std::max(0.5 * reach_[m], 2.0 * taken),
-                                  kSmallestReach_m, kGreatestReach_m);
+                                  smallest_reach_, kGreatestReach_m);
     }
   }
 
@@ -288,13 +295,13 @@ class Clasp::Iteration {
     std::fill(touching_.begin(), touching_.end(), char{0});
     link_contacts_.clear();
     if (!is_found_here_) {
-      std::fill(reach_.begin(), reach_.end(), kSmallestReach_m);
+      std::fill(reach_.begin(), reach_.end(), smallest_reach_);
       bodies_.look(reach_);
       bodies_.find_contacts(found_);
     }
     chain_->poses(target_.X_WR, target_.values, X_WL_target_);
     for (const haptics::Contact& contact : found_) {
-      if (contact.gap > rules_.touching) continue;
+      if (contact.gap > std::max(rules_.touching, contact.margin + rules_.touching - rules_.margin)) continue;
       const std::size_t link = movers_[static_cast<std::size_t>(contact.part)];
       const Eigen::Vector3d p_target_W = X_WL_target_[link] * (X_WL_[link].inverse(Eigen::Isometry) * contact.p_W);
       const double depth = -contact.n_W.dot(p_target_W - contact.p_W);
@@ -306,7 +313,8 @@ class Clasp::Iteration {
 
   std::shared_ptr<const KinematicChain> chain_;
   ClaspRules rules_;
-  std::vector<std::size_t> movers_;                                       // links with meshes
+  std::vector<std::size_t> movers_;  // links with meshes
+  double smallest_reach_;            // metres: all contacts that count are within it
   std::vector<std::shared_ptr<const haptics::SlidingPart>> link_bodies_;  // of the movers
   haptics::CertifiedBodies bodies_;
   ChainMotion motion_;

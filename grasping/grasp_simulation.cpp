@@ -70,6 +70,7 @@ class GraspSimulation::Life {
     if (std::abs(up_W_.norm() - 1.0) > kUnitTolerance)
       throw std::invalid_argument("the direction against gravity must be a unit vector");
     for (std::size_t p = 0; p < parts.size(); ++p) {
+      metaphors_.push_back(parts[p].metaphor);
       if (!parts_.is_scripted(p)) parts_.release(p);
       for (GraspingHand& hand : hands_)
         hand.clasp().place_free_object(p, parts_.result(p).X_WV);
@@ -139,16 +140,18 @@ class GraspSimulation::Life {
   }
 
   void choose_ghost(std::size_t p) {
-    const Eigen::Isometry3d& X_WV = parts_.result(p).X_WV;
-    X_WG_[p] = X_WV;
     if (is_held(p)) {
-      X_WG_[p] = wish(p).value_or(X_WV);
+      X_WG_[p] = wish(p).value_or(X_WG_[p]);  // where it was when the last hand was lost
       return;
     }
+    const Eigen::Isometry3d& X_WV = parts_.result(p).X_WV;
+    X_WG_[p] = X_WV;
     Push& push = pushes_[p];
     if (push.is_empty()) return;
     const haptics::SlidingPart& part = parts_.part(p);
-    X_WG_[p] = geometry::displaced(X_WV, part.p_Vref(), push.displacement(part.radius()));
+    const bool repeats_motion = metaphors_[p] == haptics::Metaphor::kIncremental;
+    const Eigen::Isometry3d& X_WG_from = repeats_motion ? parts_.result(p).X_WG : X_WV;
+    X_WG_[p] = geometry::displaced(X_WG_from, part.p_Vref(), push.displacement(part.radius()));
   }
 
   void move_hand(std::size_t h) {
@@ -193,13 +196,15 @@ class GraspSimulation::Life {
     settle(*grasped);
   }
 
-  /// After another hand has taken hold of a part or let go of it. The part approaches its new ghost slowly.
+  /// After another hand has taken hold of a part or let go of it, or is lost or found again. The part approaches its
+  /// new ghost slowly: its own pose while nobody knows where it should go.
   void settle(std::size_t p) {
     pushes_[p].clear();
     if (!is_held(p)) {
       parts_.release(p);
-    } else if (const std::optional<Eigen::Isometry3d> X_WG = wish(p)) {
-      parts_.grasp(p, *X_WG);
+    } else {
+      X_WG_[p] = wish(p).value_or(parts_.result(p).X_WV);
+      parts_.grasp(p, X_WG_[p]);
     }
   }
 
@@ -223,9 +228,10 @@ class GraspSimulation::Life {
   Eigen::Vector3d up_W_;
   std::vector<GraspingHand> hands_;
   haptics::MultiPartSliding parts_;
-  std::vector<Eigen::Isometry3d> X_WG_;  // of each part
-  std::vector<Push> pushes_;             // of each part
-  std::vector<char> is_present_;         // by hand: among the riders
+  std::vector<Eigen::Isometry3d> X_WG_;       // of each part
+  std::vector<haptics::Metaphor> metaphors_;  // of each part
+  std::vector<Push> pushes_;                  // of each part
+  std::vector<char> is_present_;              // by hand: among the riders
 };
 
 GraspSimulation::GraspSimulation(const std::vector<haptics::Obstacle>& fixed,
