@@ -147,9 +147,11 @@ void run_shelf(int repeats, Results& results) {
     bodies.push_back(std::make_shared<const haptics::ContactBody>(
         std::make_shared<const geometry::TriangleMesh>(kind.make(kEdge_m))));
   for (std::size_t i = 0; i < kThings; ++i) {
-    const auto column = static_cast<double>(i % 14);
-    const auto row = static_cast<double>(i / 14);
-    things.push_back({bodies[i % bodies.size()], at(-1.5 + 0.25 * column, 0.35 + 0.3 * row, -0.1), "a thing"});
+    const std::size_t column = i % 14;
+    const std::size_t row = i / 14;
+    const Eigen::Isometry3d X_WO =
+        at(-1.5 + 0.25 * static_cast<double>(column), 0.35 + 0.3 * static_cast<double>(row), -0.1);
+    things.push_back({bodies[i % bodies.size()], X_WO, "a thing"});
   }
   const auto mesh = std::make_shared<const geometry::TriangleMesh>(ball());
   const auto part = std::make_shared<const haptics::SlidingPart>(mesh);
