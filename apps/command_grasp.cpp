@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -175,8 +176,15 @@ class GraspTables {
   std::unique_ptr<CsvWriter> object_rows_;
 };
 
+/// Whether two names are those of one file, perhaps one that is still to be written. "-" is the standard output.
+bool are_one_file(const std::string& one, const std::string& other) {
+  if (one == other) return true;
+  if (one.empty() || other.empty() || one == "-" || other == "-") return false;
+  return std::filesystem::weakly_canonical(one) == std::filesystem::weakly_canonical(other);
+}
+
 int run(const GraspOptions& options) {
-  if (options.out == options.objects) {
+  if (are_one_file(options.out, options.objects)) {
     throw std::invalid_argument("--objects: " + in_quotes(options.objects) + " is already the file of --out");
   }
   std::vector<HandTrajectory> trajectories;

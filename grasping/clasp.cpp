@@ -19,15 +19,17 @@ namespace {
 // Shorter steps are not worth their proof. Near an edge, contacts say truly how gaps change for some micrometres only,
 // so a flex value may have many short steps before it.
 constexpr double kBracket_m = 1e-6;
-constexpr double kShort_m = 5e-6;   // steps so short do not tell how far to look
+// Steps so short do not tell how far to look. In a call there are so many, then the next call goes on.
+constexpr double kShort_m = 5e-6;
+constexpr int kShortSteps = 2;
 constexpr double kDeeper_m = 5e-6;  // a target that is so much deeper lies deeper
 constexpr double kSmallestReach_m = 0.2e-3;
-constexpr double kGreatestReach_m = 10e-3;
-constexpr std::size_t kAffordablePairs = 1000;  // where a search finds more, the next ones look less far
+constexpr double kGreatestReach_m = 2.5e-3;
+constexpr std::size_t kAffordablePairs = 100;  // of a link: where a search finds more, the next ones look less far
 constexpr double kStepOfReach = 0.8;
-constexpr double kAheadOfReach = 1.0;  // a search looks so much farther
-constexpr int kRetries = 4;            // with the contacts that a proof has missed
+constexpr int kRetries = 4;  // with the contacts that a proof has missed
 constexpr int kHalvings = 6;
+constexpr double kSame = 0.01;
 
 std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const KinematicChain& chain,
                                                                    std::span<const std::size_t> links) {
@@ -35,6 +37,12 @@ std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const Kinemat
   for (const std::size_t link : links)
     bodies.push_back(std::make_shared<const haptics::SlidingPart>(chain.links()[link].mesh));
   return bodies;
+}
+
+double greatest_margin(const std::vector<haptics::Obstacle>& fixed, double margin) {
+  for (const haptics::Obstacle& obstacle : fixed)
+    margin = std::max(margin, obstacle.margin.value_or(margin));
+  return margin;
 }
 
 const KinematicChain& checked(const std::shared_ptr<const KinematicChain>& chain) {
@@ -57,6 +65,7 @@ class Clasp::Iteration {
       : chain_(std::move(chain)),
         rules_(rules),
         movers_(links_that_touch(checked(chain_))),
+        smallest_reach_(std::max(kSmallestReach_m, greatest_margin(fixed, rules.margin) + rules.touching)),
         link_bodies_(bodies_of(*chain_, movers_)),
         bodies_(std::move(fixed), std::move(objects), link_bodies_, rules.margin),
         motion_(*chain_, movers_),
@@ -71,6 +80,9 @@ class Clasp::Iteration {
     chain_->clamp(posture_.values);
     if (rules.most_steps < 1) throw std::invalid_argument("a call of the clasp needs at least one step");
     if (rules.touching > kSmallestReach_m) throw std::invalid_argument("a link that touches is at most 0.2 mm away");
+    reach_.assign(movers_.size(), 0.0);
+    next_reach_.assign(movers_.size(), kGreatestReach_m);
+    limit_.assign(movers_.size(), 1e-3);
     way_.assign(static_cast<std::size_t>(rules.most_steps), posture_);
   }
 
@@ -120,7 +132,8 @@ class Clasp::Iteration {
     steps_ = 0;
     if (!take(target)) return;
     if (state_ != ClaspState::kClasping && !begin()) return;
-    while (steps_ < rules_.most_steps && take_step())
+    short_steps_ = 0;
+    while (steps_ < rules_.most_steps && short_steps_ < kShortSteps && take_step())
       way_[static_cast<std::size_t>(steps_++)] = posture_;
     note_touching();
     is_carried_ = false;
@@ -169,36 +182,62 @@ class Clasp::Iteration {
   bool take_step() {
     step_between(posture_, target_, wanted_);
     motion_.set(posture_, wanted_);
-    const double longest = motion_.longest();
-    if (longest == 0.0) return false;
-    // A clasped hand wants far more than it can do: the steps that it takes say how far to look.
-    const double reach = std::clamp(1.5 * longest + 2.0 * rules_.margin, kSmallestReach_m, std::min(reach_, limit_));
-    bodies_.look(reach, kAheadOfReach * reach);
-    limit_ = std::clamp(bodies_.pair_count() > kAffordablePairs ? 0.5 * reach : 1.25 * limit_, kSmallestReach_m,
-                        kGreatestReach_m);
+    if (motion_.longest() == 0.0) return false;
+    choose_reach();
+    bodies_.look(reach_);
+    for (std::size_t m = 0; m < movers_.size(); ++m)
+      limit_[m] = std::clamp(bodies_.pair_count(m) > kAffordablePairs ? 0.5 * reach_[m] : 1.25 * limit_[m],
+                             smallest_reach_, kGreatestReach_m);
     bodies_.find_contacts(found_);
     is_found_here_ = true;
     rows_.set(posture_, wanted_, found_, movers_);
-    longest_step_ = kStepOfReach * reach;
     failures_.clear();
     const bool goes_on = go(false) || (slides_ && go(true)) || go_without_failures();
-    const double taken = goes_on ? motion_.longest() : 0.0;
-    if (goes_on && taken < kShort_m) return true;  // it says nothing about the way beyond
-    const bool is_clipped = taken > 0.9 * longest_step_;
-    reach_ =
-        std::clamp(is_clipped ? 2.0 * reach : std::max(0.5 * reach, 2.0 * taken), kSmallestReach_m, kGreatestReach_m);
+    if (goes_on && motion_.longest() < kShort_m) {
+      ++short_steps_;
+      return true;
+    }
+    note_taken(goes_on);
     return goes_on;
+  }
+
+  /// A clasped hand wants far more than it can do: the steps that a link takes say how far to look.
+  void choose_reach() {
+    for (std::size_t m = 0; m < movers_.size(); ++m) {
+      const double wanted = 1.5 * motion_.length(m) + 2.0 * rules_.margin;
+      reach_[m] = std::clamp(wanted, smallest_reach_, std::min(next_reach_[m], limit_[m]));
+    }
+  }
+
+  void note_taken(bool goes_on) {
+    for (std::size_t m = 0; m < movers_.size(); ++m) {
+      const double taken = goes_on ? motion_.length(m) : 0.0;
+      const bool is_clipped = taken > 0.9 * kStepOfReach * reach_[m];
+      next_reach_[m] = std::clamp(is_clipped ? 2.0 * reach_[m] : std::max(0.5 * reach_[m], 2.0 * taken),
+                                  smallest_reach_, kGreatestReach_m);
+    }
+  }
+
+  /// The share of the step at hand on which no link goes beyond what it has seen.
+  double share_in_sight() const {
+    double share = 1.0;
+    for (std::size_t m = 0; m < movers_.size(); ++m)
+      share = std::min(share, kStepOfReach * reach_[m] / std::max(motion_.length(m), kBracket_m));
+    return share;
   }
 
   /// Finds, certifies and takes a step: by the interpolation, or by a slide of the whole chain. Returns whether it was
   /// long enough to be worth another one.
   bool go(bool slides) {
+    double last = 0.0;
     for (int retry = 0; retry < kRetries; ++retry) {
       slides ? find_slide() : find_shares();
       motion_.set(posture_, step_);
       if (motion_.longest() < kBracket_m) return false;
-      if (motion_.longest() > longest_step_) scale(step_, longest_step_ / motion_.longest());
+      if (const double share = share_in_sight(); share < 1.0) scale(step_, share);
       motion_.set(posture_, step_);
+      if (std::abs(motion_.longest() - last) < kSame * last) break;  // the proof has missed no contact
+      last = motion_.longest();
       if (bodies_.certify(motion_, failures_)) return move();
       if (failures_.empty()) break;
       for (const haptics::Contact& failure : failures_)
@@ -256,12 +295,13 @@ class Clasp::Iteration {
     std::fill(touching_.begin(), touching_.end(), char{0});
     link_contacts_.clear();
     if (!is_found_here_) {
-      bodies_.look(kSmallestReach_m, kAheadOfReach * kSmallestReach_m);
+      std::fill(reach_.begin(), reach_.end(), smallest_reach_);
+      bodies_.look(reach_);
       bodies_.find_contacts(found_);
     }
     chain_->poses(target_.X_WR, target_.values, X_WL_target_);
     for (const haptics::Contact& contact : found_) {
-      if (contact.gap > rules_.touching) continue;
+      if (contact.gap > std::max(rules_.touching, contact.margin + rules_.touching - rules_.margin)) continue;
       const std::size_t link = movers_[static_cast<std::size_t>(contact.part)];
       const Eigen::Vector3d p_target_W = X_WL_target_[link] * (X_WL_[link].inverse(Eigen::Isometry) * contact.p_W);
       const double depth = -contact.n_W.dot(p_target_W - contact.p_W);
@@ -273,7 +313,8 @@ class Clasp::Iteration {
 
   std::shared_ptr<const KinematicChain> chain_;
   ClaspRules rules_;
-  std::vector<std::size_t> movers_;                                       // links with meshes
+  std::vector<std::size_t> movers_;  // links with meshes
+  double smallest_reach_;            // metres: all contacts that count are within it
   std::vector<std::shared_ptr<const haptics::SlidingPart>> link_bodies_;  // of the movers
   haptics::CertifiedBodies bodies_;
   ChainMotion motion_;
@@ -286,11 +327,12 @@ class Clasp::Iteration {
   Posture next_;
   ChainStep wanted_;
   ChainStep step_;
-  bool slides_ = false;  // the root did not arrive
-  double reach_ = kGreatestReach_m;
-  double limit_ = 1e-3;        // metres: that the pairs found allow
-  double longest_step_ = 0.0;  // metres
+  bool slides_ = false;             // the root did not arrive
+  std::vector<double> reach_;       // metres, of each mover: how far this step looks
+  std::vector<double> next_reach_;  // metres: that the last steps of the mover suggest
+  std::vector<double> limit_;       // metres: that the pairs found allow
   int steps_ = 0;
+  int short_steps_ = 0;
   std::vector<Posture> way_;
   std::vector<Eigen::Isometry3d> X_WL_;
   std::vector<Eigen::Isometry3d> X_WL_target_;

@@ -29,7 +29,8 @@ std::string_view name_of(ClaspState state);
 struct ClaspRules {
   /// The gap (metres) at which contacts stop a link.
   double margin = 20e-6;
-  /// A link that is nearer to an object than this (metres, at most 0.2 mm) and whose target lies deeper touches it.
+  /// A link that is nearer to an object than this (metres, at most 0.2 mm) and whose target lies deeper touches it. It
+  /// may be as much farther from an obstacle as that one's own margin is greater.
   double touching = 0.1e-3;
   /// The steps of one call; each has a proof. More of them follow a fast hand more closely.
   int most_steps = 8;

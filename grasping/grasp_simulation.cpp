@@ -79,6 +79,7 @@ class GraspSimulation::Life {
     if (std::abs(up_W_.norm() - 1.0) > kUnitTolerance)
       throw std::invalid_argument("the direction against gravity must be a unit vector");
     for (std::size_t p = 0; p < parts.size(); ++p) {
+      metaphors_.push_back(parts[p].metaphor);
       if (!parts_.is_scripted(p)) parts_.release(p);
       for (GraspingHand& hand : hands_)
         hand.clasp().place_free_object(p, parts_.result(p).X_WV);
@@ -98,7 +99,7 @@ class GraspSimulation::Life {
       if (aim(h, targets[h], milliseconds) && hands_[h].part()) settle(*hands_[h].part());
     }
     for (std::size_t p = 0; p < X_WG_.size(); ++p)
-      X_WG_[p] = is_held(p) ? wish(p).value_or(parts_.result(p).X_WV) : yielding(p);
+      X_WG_[p] = is_held(p) ? wish(p).value_or(X_WG_[p]) : yielding(p);  // held: where it was if all hands are lost
     move(milliseconds);
     for (std::size_t h = 0; h < hands_.size(); ++h) {
       const std::optional<std::size_t> before = hands_[h].part();
@@ -203,7 +204,9 @@ class GraspSimulation::Life {
     const Eigen::Isometry3d& X_WV = parts_.result(p).X_WV;
     if (pushes_[p].is_empty()) return X_WV;
     const haptics::SlidingPart& part = parts_.part(p);
-    return geometry::displaced(X_WV, part.p_Vref(), pushes_[p].displacement(part.radius()));
+    const bool repeats_motion = metaphors_[p] == haptics::Metaphor::kIncremental;
+    const Eigen::Isometry3d& X_WG_from = repeats_motion ? parts_.result(p).X_WG : X_WV;
+    return geometry::displaced(X_WG_from, part.p_Vref(), pushes_[p].displacement(part.radius()));
   }
 
   void move_hand(std::size_t h) {
@@ -262,13 +265,15 @@ class GraspSimulation::Life {
     ++answer.decision;
   }
 
-  /// After another hand has taken hold of a part or let go of it. The part approaches its new ghost slowly.
+  /// After another hand has taken hold of a part or let go of it, or is lost or found again. The part approaches its
+  /// new ghost slowly: its own pose while nobody knows where it should go.
   void settle(std::size_t p) {
     pushes_[p].clear();
     if (!is_held(p)) {
       parts_.release(p);
-    } else if (const std::optional<Eigen::Isometry3d> X_WG = wish(p)) {
-      parts_.grasp(p, *X_WG);
+    } else {
+      X_WG_[p] = wish(p).value_or(parts_.result(p).X_WV);
+      parts_.grasp(p, X_WG_[p]);
     }
   }
 
@@ -297,10 +302,11 @@ class GraspSimulation::Life {
   Eigen::Vector3d up_W_;
   std::vector<GraspingHand> hands_;
   haptics::MultiPartSliding parts_;
-  std::vector<Eigen::Isometry3d> X_WG_;  // of each part
-  std::vector<Push> pushes_;             // of each part
-  std::vector<char> is_present_;         // by hand: among the riders
-  double waited_ms_ = 0.0;               // since the hands moved
+  std::vector<Eigen::Isometry3d> X_WG_;       // of each part
+  std::vector<haptics::Metaphor> metaphors_;  // of each part
+  std::vector<Push> pushes_;                  // of each part
+  std::vector<char> is_present_;              // by hand: among the riders
+  double waited_ms_ = 0.0;                    // since the hands moved
   // In the haptic loop:
   std::vector<haptics::HandAnswer> answers_;  // for each hand
   std::vector<Eigen::Isometry3d> X_WL_;       // scratch memory

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <glissade/base/assert.h>
 #include <glissade/collision/dop_query.h>
@@ -15,6 +16,10 @@ namespace glissade::haptics {
 namespace {
 
 constexpr double kGreatestRadius_m = 0.1;
+// A search looks so many times as far as it must, so that it serves for several calls; so far at least where nothing is
+// near.
+constexpr double kAhead = 2.0;
+constexpr double kRadiusOfNothing_m = 2e-3;
 
 std::vector<std::shared_ptr<const SlidingPart>> joined(std::vector<std::shared_ptr<const SlidingPart>> objects,
                                                        const std::vector<std::shared_ptr<const SlidingPart>>& movers) {
@@ -32,6 +37,65 @@ std::vector<int> groups(std::size_t objects, std::size_t movers) {
   return result;
 }
 
+/// The search for what is near one mover. Searches of their own let a link that stands still keep what it has found,
+/// and a link that is far away look once.
+class MoverSearch {
+ public:
+  MoverSearch(const std::vector<Obstacle>& fixed, std::vector<std::shared_ptr<const SlidingPart>> objects,
+              const std::shared_ptr<const SlidingPart>& mover, double margin)
+      : mover_(objects.size()),
+        scene_(fixed, joined(std::move(objects), {mover}), mover_ + 1, std::vector<double>(mover_ + 1, margin),
+               groups(mover_, 1)),
+        candidates_(scene_, kGreatestRadius_m) {}
+
+  void place_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
+    scene_.place(object, X_WB);
+    has_moved_ = true;
+  }
+  void place_mover(const Eigen::Isometry3d& X_WM) { place_object(mover_, X_WM); }
+
+  /// Finds all pairs within `reach` (metres). Returns false where this is too far.
+  bool look(double reach) {
+    if (std::exchange(has_moved_, false)) candidates_.moved();
+    if (reach * kAhead > kGreatestRadius_m) return false;
+    const double radius = std::max(kAhead * reach, candidates_.size() == 0 ? kRadiusOfNothing_m : 0.0);
+    candidates_.begin_call();
+    candidates_.look(reach, radius - reach, {});
+    reach_ = reach;
+    return true;
+  }
+
+  double reach() const { return reach_; }
+  std::size_t pair_count() const { return candidates_.size(); }
+
+  /// Appends the pairs within `reach` that the last search knows, with the mover as the body `number`.
+  void add_within(double reach, std::int32_t number, std::vector<CandidatePair>& pairs) {
+    add_within(reach, number, pairs_, pairs);
+  }
+  void add_within(double reach, std::int32_t number, std::vector<PairToCertify>& to_certify) {
+    add_within(reach, number, to_certify_, to_certify);
+  }
+
+ private:
+  template <typename Pair>
+  void add_within(double reach, std::int32_t number, std::vector<Pair>& found, std::vector<Pair>& all) const {
+    if (candidates_.size() == 0) return;
+    candidates_.within(reach, found);
+    for (Pair& pair : found) {
+      pair.bodies.part = number;
+      all.push_back(pair);
+    }
+  }
+
+  std::size_t mover_;  // its number among the movers of the scene, after the objects
+  ContactScene scene_;
+  CandidatePairs candidates_;
+  bool has_moved_ = false;
+  double reach_ = 0.0;
+  std::vector<CandidatePair> pairs_;
+  std::vector<PairToCertify> to_certify_;
+};
+
 }  // namespace
 
 class CertifiedBodies::State {
@@ -40,9 +104,9 @@ class CertifiedBodies::State {
         const std::vector<std::shared_ptr<const SlidingPart>>& movers, double margin)
       : margin_(margin),
         first_mover_(objects.size()),
+        searches_(searches(fixed, objects, movers, margin)),
         scene_(std::move(fixed), joined(std::move(objects), movers), first_mover_ + movers.size(),
                std::vector<double>(first_mover_ + movers.size(), margin), groups(first_mover_, movers.size())),
-        candidates_(scene_, kGreatestRadius_m),
         certificate_(scene_) {}
 
   const ContactScene& scene() const { return scene_; }
@@ -50,14 +114,17 @@ class CertifiedBodies::State {
   std::size_t first_mover() const { return first_mover_; }
 
   void place_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
+    if (scene_.bodies()[scene_.body_of_mover(object)].X_WB.matrix() == X_WB.matrix()) return;
     scene_.place(object, X_WB);
-    candidates_.moved();
+    for (const auto& search : searches_)
+      search->place_object(object, X_WB);
   }
 
   void place_movers(std::span<const Eigen::Isometry3d> X_WM, std::span<const std::size_t> numbers) {
-    for (std::size_t m = 0; m < numbers.size(); ++m)
+    for (std::size_t m = 0; m < numbers.size(); ++m) {
       scene_.place(first_mover_ + m, X_WM[numbers[m]]);
-    candidates_.moved();
+      if (!searches_.empty()) searches_[m]->place_mover(X_WM[numbers[m]]);
+    }
   }
 
   bool is_free() {
@@ -73,29 +140,36 @@ class CertifiedBodies::State {
     return true;
   }
 
-  void look(double reach, double ahead) {
-    reach_ = reach;
-    candidates_.begin_call();
-    candidates_.look(reach, ahead, {});
+  void look(std::span<const double> reach) {
+    for (std::size_t m = 0; m < searches_.size(); ++m)
+      searches_[m]->look(reach[m]);
   }
 
-  std::size_t pair_count() const { return candidates_.size(); }
+  std::size_t pair_count(std::size_t mover) const { return searches_.empty() ? 0 : searches_[mover]->pair_count(); }
 
   void find_contacts(std::vector<Contact>& contacts) {
-    candidates_.within(reach_, pairs_);
-    haptics::find_contacts(scene_.bodies(), scene_.body_of_mover(first_mover_), pairs_, reach_, margin_, contacts);
+    contacts.clear();
+    const std::size_t first = scene_.body_of_mover(first_mover_);
+    for (std::size_t m = 0; m < searches_.size(); ++m) {
+      const double reach = searches_[m]->reach();
+      pairs_.clear();
+      searches_[m]->add_within(reach, body_of_mover(m), pairs_);
+      if (pairs_.empty()) continue;
+      haptics::find_contacts(scene_.bodies(), first, pairs_, reach, margin_, contacts_of_mover_);
+      contacts.insert(contacts.end(), contacts_of_mover_.begin(), contacts_of_mover_.end());
+    }
     for (Contact& contact : contacts)
       contact.margin = scene_.margin(contact.obstacle, body_of_mover(static_cast<std::size_t>(contact.part)));
   }
 
   bool certify(const BodiesMotion& motion, std::vector<Contact>& failures) {
     failures.clear();
-    double longest = 0.0;
-    for (std::size_t m = 0; first_mover_ + m < scene_.movers().size(); ++m)
-      longest = std::max(longest, motion.length(m));
-    const double concerned = longest + kMinClearanceOfMargin * margin_ + certificate_.certain_distance();
-    if (!candidates_.covers(concerned)) return false;
-    candidates_.within(concerned, to_certify_);
+    to_certify_.clear();
+    for (std::size_t m = 0; m < searches_.size(); ++m) {
+      const double concerned = motion.length(m) + kMinClearanceOfMargin * margin_ + certificate_.certain_distance();
+      if (!searches_[m]->look(concerned)) return false;
+      searches_[m]->add_within(concerned, body_of_mover(m), to_certify_);
+    }
     certificate_.begin(motion, first_mover_, to_certify_);
     WorkBudget unlimited;
     certificate_.go_on(unlimited);
@@ -105,6 +179,17 @@ class CertifiedBodies::State {
   }
 
  private:
+  /// None if there is nothing to touch.
+  static std::vector<std::unique_ptr<MoverSearch>> searches(
+      const std::vector<Obstacle>& fixed, const std::vector<std::shared_ptr<const SlidingPart>>& objects,
+      const std::vector<std::shared_ptr<const SlidingPart>>& movers, double margin) {
+    std::vector<std::unique_ptr<MoverSearch>> result;
+    if (fixed.empty() && objects.empty()) return result;
+    for (const auto& mover : movers)
+      result.push_back(std::make_unique<MoverSearch>(fixed, objects, mover, margin));
+    return result;
+  }
+
   std::int32_t body_of_mover(std::size_t mover) const {
     return static_cast<std::int32_t>(scene_.body_of_mover(first_mover_ + mover));
   }
@@ -136,12 +221,12 @@ class CertifiedBodies::State {
   }
 
   double margin_;
-  std::size_t first_mover_;  // among the parts of the scene
+  std::size_t first_mover_;                             // among the parts of the scene
+  std::vector<std::unique_ptr<MoverSearch>> searches_;  // of each mover
   ContactScene scene_;
-  CandidatePairs candidates_;
   PathCertificate certificate_;
-  double reach_ = 0.0;
   std::vector<CandidatePair> pairs_;
+  std::vector<Contact> contacts_of_mover_;
   std::vector<PairToCertify> to_certify_;
   collision::QueryWorkspace workspace_;
 };
@@ -184,12 +269,14 @@ bool CertifiedBodies::is_free() const {
   return state_->is_free();
 }
 
-void CertifiedBodies::look(double reach, double ahead) {
-  state_->look(reach, ahead);
+void CertifiedBodies::look(std::span<const double> reach) {
+  GLISSADE_ASSERT(reach.size() == mover_count());
+  state_->look(reach);
 }
 
-std::size_t CertifiedBodies::pair_count() const {
-  return state_->pair_count();
+std::size_t CertifiedBodies::pair_count(std::size_t mover) const {
+  GLISSADE_ASSERT(mover < mover_count());
+  return state_->pair_count(mover);
 }
 
 void CertifiedBodies::find_contacts(std::vector<Contact>& contacts) {

@@ -43,20 +43,20 @@ class CertifiedBodies {
   /// Whether no mover touches anything at the present poses, or comes nearer than the smallest certain distance. Exact.
   bool is_free() const;
 
-  /// Finds everything within `reach` (metres) of the movers. The cost of a search is spread over several calls: it
-  /// looks `ahead` (metres) farther, and serves until the bodies have moved so far. Throws std::invalid_argument for a
-  /// pose that is not rigid.
-  void look(double reach, double ahead);
-  /// Work of the calls below: the pairs of triangles and boxes that the last search has found.
-  std::size_t pair_count() const;
+  /// Finds everything within its `reach` (metres, at most 50 mm) of each mover. A search looks farther, and serves
+  /// until the mover has used this up, so movers that hardly move cost nothing. Throws std::invalid_argument for a pose
+  /// that is not rigid.
+  void look(std::span<const double> reach);
+  /// Work of the calls below: the pairs of triangles and boxes that the last search of a mover has found.
+  std::size_t pair_count(std::size_t mover) const;
 
   /// Replaces `contacts` by those within the reach of the last `look`, at the present poses. `Contact::part` is the
   /// number of the mover, `Contact::obstacle` that of the other body; normals point to the mover. Gaps are positive.
   void find_contacts(std::vector<Contact>& contacts);
 
-  /// Whether the motion, from the present poses, certainly touches nothing. Longer motions than the reach of the last
-  /// `look` are not certified. `failures` are the contacts in the way, at the present poses; without any, the motion is
-  /// too long. Does not move anything.
+  /// Whether the motion, from the present poses, certainly touches nothing. Motions that are longer than the reach of
+  /// the last `look` cost another search. `failures` are the contacts in the way, at the present poses; without any,
+  /// the motion is too long. Does not move anything.
   bool certify(const BodiesMotion& motion, std::vector<Contact>& failures);
 
  private:

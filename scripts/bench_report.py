@@ -29,7 +29,7 @@ def machine(command, bench):
         packages = {"libccd": "ccd", "FCL": "fcl", "Bullet": "bullet"}
     elif bench == "handoff":
         packages = {"Boost": "boost"}
-    elif bench in ("sliding", "tick", "passivity", "ages", "latency"):
+    elif bench in ("sliding", "tick", "passivity", "ages", "clasp", "latency"):
         packages = {}
     versions = [f"{title} {output_of('dpkg-query', '-W', '-f=${Version}', f'lib{package}-dev')}" for title, package in packages.items()]
     facts = [datetime.date.today().isoformat(), cpu[1] if cpu else "unknown processor", output_of("c++", "--version").splitlines()[0]]
@@ -404,8 +404,15 @@ def ages(figures, _):
     return table(["scene"] + list(what.values()), rows)
 
 
+def clasp(figures, _):
+    """Times of calls."""
+    what = {"call_p50": "p50, ms", "call_p99": "p99, ms", "call_max": "worst, ms", "calls": "calls"}
+    rows = [[case] + [number(figures.get(case, "glissade", metric)) for metric in what] for case in figures.cases]
+    return table(["hand"] + list(what.values()), rows)
+
+
 SECTIONS = {"zachmann": zachmann, "close": queries, "shells": queries, "coherent": coherent, "all-pairs": all_pairs,
-            "build": build, "hull": hull, "scene": scene, "threads": threads, "sliding": sliding, "tick": tick, "passivity": passivity, "ages": ages,
+            "build": build, "hull": hull, "scene": scene, "threads": threads, "sliding": sliding, "tick": tick, "passivity": passivity, "ages": ages, "clasp": clasp,
             "handoff": handoff, "latency": latency}
 
 

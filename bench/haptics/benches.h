@@ -1,7 +1,7 @@
 #pragma once
 
 /// The benchmarks of sliding contact. Each adds rows to the bench `sliding`, `run_tick` to the bench `tick`,
-/// `run_passivity` to the bench `passivity`, `run_ages` to the bench `ages`.
+/// `run_passivity` to the bench `passivity`, `run_ages` to the bench `ages`, `run_clasp` to the bench `clasp`.
 
 #include <cstdint>
 #include <string>
@@ -15,6 +15,7 @@ inline constexpr const char* kSliding = "sliding";
 inline constexpr const char* kTick = "tick";
 inline constexpr const char* kPassivity = "passivity";
 inline constexpr const char* kAges = "ages";
+inline constexpr const char* kClasp = "clasp";
 
 struct SlidingBenchOptions {
   bool quick = false;
@@ -60,5 +61,11 @@ void run_passivity(const SlidingBenchOptions& options, Results& results);
 /// the same of the durations of calls, `lag_mean` of the visible part behind the ghost, and `ended_early`, the share of
 /// calls.
 void run_ages(const SlidingBenchOptions& options, Results& results);
+
+/// The clasp of a hand round a ball of 16,000 triangles (`grasping::Clasp`), a millisecond a call: cases `free` and
+/// `closing` (fingers that close, before and after the first contact), `held`, `wild` and `from-scratch`; and
+/// `two-hands-100-objects`, whole calls of `grasping::GraspSimulation`, with the share `both_hold`. Metrics `call_p50`,
+/// `call_p99` and `call_max`: time of the thread on a processor.
+void run_clasp(const SlidingBenchOptions& options, Results& results);
 
 }  // namespace glissade::bench

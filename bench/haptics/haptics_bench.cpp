@@ -31,6 +31,7 @@ constexpr const char* kDescription =
     "  tick     the force on the hand when the simulation's answers are old, and the time of a tick\n"
     "  passivity  from which stiffness a device oscillates, by theory and in simulation; energy; delays\n"
     "  ages     how old the simulation's answers are in real time, with and without a budget of work\n"
+    "  clasp    a hand that closes round a ball, and two hands among 100 objects\n"
     "\n"
     "Progress goes to standard error, the figures to results.csv with the columns\n"
     "bench,case,subject,metric,value,unit.";
@@ -45,7 +46,8 @@ constexpr const char* kFooter =
 using Part = void (*)(const SlidingBenchOptions&, Results&);
 const std::vector<std::pair<std::string, Part>> kParts{
     {"scenes", run_scenes}, {"sheets", run_sheets}, {"pegs", run_pegs},           {"nut", run_nut},
-    {"solver", run_solver}, {"tick", run_tick},     {"passivity", run_passivity}, {"ages", run_ages}};
+    {"solver", run_solver}, {"tick", run_tick},     {"passivity", run_passivity}, {"ages", run_ages},
+    {"clasp", run_clasp}};
 
 int fail(int exit_code, const std::string& message) {
   std::fprintf(stderr, "haptics_bench: %s\n", message.c_str());

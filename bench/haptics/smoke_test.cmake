@@ -10,7 +10,7 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK_DIR})
 file(MAKE_DIRECTORY ${WORK_DIR})
-execute_process(COMMAND ${BENCH} --quick --parts scenes,sheets,pegs,solver,passivity --scenes plane,sheets --out ${WORK_DIR}
+execute_process(COMMAND ${BENCH} --quick --parts scenes,sheets,pegs,solver,passivity,clasp --scenes plane,sheets --out ${WORK_DIR}
   RESULT_VARIABLE status ERROR_VARIABLE said)
 expect("exit code 0" status EQUAL 0)
 
@@ -19,7 +19,7 @@ list(GET results 0 header)
 expect("the header" header STREQUAL "bench,case,subject,metric,value,unit")
 list(SUBLIST results 1 -1 rows)
 foreach(row IN LISTS rows)
-  expect("six columns, a number in the fifth: ${row}" row MATCHES "^(sliding|passivity),[^,]+,[^,]+,[^,]+,[-+.e0-9]+,[^,]+$")
+  expect("six columns, a number in the fifth: ${row}" row MATCHES "^(sliding|passivity|clasp),[^,]+,[^,]+,[^,]+,[-+.e0-9]+,[^,]+$")
 endforeach()
 foreach(case plane sheets)
   foreach(subject glissade glissade-paper)
@@ -43,6 +43,10 @@ foreach(delay 0 1 5 20 50)
 endforeach()
 expect("no energy from nowhere" results MATCHES "passivity,random,glissade,least_energy,[0-9.e+-]+,J")
 
+foreach(case free closing held wild from-scratch two-hands-100-objects)
+  expect("the clasp of ${case}" results MATCHES "clasp,${case},glissade,call_p99,[0-9.e+-]+,ms")
+endforeach()
+
 # The scenes of this part have names of their own.
 execute_process(COMMAND ${BENCH} --quick --parts ages --scenes car-door --out ${WORK_DIR}/ages
   RESULT_VARIABLE status ERROR_VARIABLE said)
@@ -65,6 +69,7 @@ file(READ ${WORK_DIR}/benchmarks.md page)
 expect("the new section" page MATCHES "<!-- begin sliding -->\n[^\n]*smoke test.*[|] plane [|].*<!-- end sliding -->")
 expect("the stability" page MATCHES "[|] sigma.7 [|] 4000, .*<!-- end passivity -->")
 expect("the ages" page MATCHES "<!-- begin ages -->\n[^\n]*smoke test.*[|] car-door, with budget [|].*<!-- end ages -->")
+expect("the clasp" page MATCHES "[|] from-scratch [|].*<!-- end clasp -->")
 expect("the prose by hand" page MATCHES "## How it is measured")
 
 execute_process(COMMAND ${BENCH} --scenes nowhere --parts scenes --out ${WORK_DIR} RESULT_VARIABLE status ERROR_VARIABLE said)

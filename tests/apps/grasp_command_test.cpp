@@ -1,5 +1,6 @@
 /// `glissade grasp`: a hand takes a ball from a table and leaves it in a tray.
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -122,6 +123,10 @@ TEST_F(GraspCommand, NamesWhatIsWrong) {
   expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--hand", shape, shape},
                  {"--hand: 2 files for 1 hands"});
   expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--out", hands, "--objects", hands},
+                 {"--objects", "--out"});
+  const std::filesystem::path path = hands;
+  expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--out", hands, "--objects",
+                  (path.parent_path() / "." / path.filename()).string()},
                  {"--objects", "--out"});
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/grasping/clasp.h>
+#include <glissade/haptics/sliding_rules.h>
 
 #include "clasped_hand.h"
 #include "poses.h"
@@ -66,6 +68,18 @@ TEST(Clasp, ClosesTightRoundABallAndStaysOutside) {
     }
     EXPECT_LE(gap, 0.1e-3) << hand_chain()->links()[link].name;
   }
+}
+
+TEST(Clasp, TouchesAnObstacleWithAWideMarginToo) {
+  constexpr double kMargin_m = haptics::kGreatestMargin_m;
+  const auto ball = std::make_shared<const haptics::ContactBody>(
+      std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.035, 2000)));
+  Clasp clasp(hand_chain(), {{ball, at(0.095, 0.0, -0.056), "the ball", kMargin_m}}, {});
+  clasp.advance(open_hand());
+  close(clasp, 1.2, 200);
+  EXPECT_GE(std::count(clasp.touching().begin(), clasp.touching().end(), 1), 4);
+  for (const LinkContact& touch : clasp.contacts())
+    EXPECT_GE(touch.contact.gap, 0.9 * kMargin_m);
 }
 
 TEST(Clasp, LeavesNoFlexValueThatAloneCouldComeNearer) {

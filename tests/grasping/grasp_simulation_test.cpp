@@ -33,14 +33,16 @@ constexpr double kBallRadius_m = 0.035;
 /// A ball before the palm of the hand that has its root at the origin, and a wall beyond it: at x = 0.25 m.
 class HandAndBall {
  public:
-  explicit HandAndBall(std::size_t hands = 1, double wall_x = 0.25)
+  explicit HandAndBall(std::size_t hands = 1, double wall_x = 0.25,
+                       haptics::Metaphor metaphor = haptics::Metaphor::kForceFeedback)
       : ball_(std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(kBallRadius_m, 2000))),
         wall_(std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.02, 0.6, 0.6}, 2000))),
         X_WWall_(at(wall_x, 0.0, 0.0)),
-        simulation(
-            {{std::make_shared<const haptics::ContactBody>(wall_), X_WWall_, "the wall"}},
-            {{.part_V = std::make_shared<const haptics::SlidingPart>(ball_), .X_WV_start = at(0.095, 0.0, -0.056)}},
-            std::vector<std::shared_ptr<const HandModel>>(hands, hand_model())),
+        simulation({{std::make_shared<const haptics::ContactBody>(wall_), X_WWall_, "the wall"}},
+                   {{.part_V = std::make_shared<const haptics::SlidingPart>(ball_),
+                     .X_WV_start = at(0.095, 0.0, -0.056),
+                     .metaphor = metaphor}},
+                   std::vector<std::shared_ptr<const HandModel>>(hands, hand_model())),
         targets_(hands) {}
 
  private:
@@ -195,8 +197,14 @@ TEST(GraspSimulation, PressesOnNothingWhileTheHandIsLost) {
     scene.advance(moved(closed, 0.3e-3 * ms, 0.0, 0.0));
   ASSERT_GT(scene.force(), 1.0);
   const Isometry3d X_WV = scene.X_WV();
-  for (int ms = 0; ms < 300; ++ms)
+  double last = scene.force();
+  for (int ms = 0; ms < 1500; ++ms) {
     scene.lose();
+    ASSERT_LE(scene.force(), last * (1.0 + 1e-9)) << ms;
+    const double slowest = scene.simulation.parts().stiffness(0).translational * 0.11e-3;
+    ASSERT_GE(scene.force(), last - slowest) << "it fades, and does not jump, after " << ms;
+    last = scene.force();
+  }
   EXPECT_EQ(scene.simulation.activity(0), HandActivity::kLost);
   EXPECT_EQ(scene.simulation.held_part(0), 0U) << "nothing is dropped";
   EXPECT_TRUE(scene.simulation.clasp(0).contacts().empty()) << "no finger feels anything";
@@ -205,6 +213,32 @@ TEST(GraspSimulation, PressesOnNothingWhileTheHandIsLost) {
   for (int ms = 0; ms < 300; ++ms)
     scene.advance(closed);
   EXPECT_EQ(scene.simulation.activity(0), HandActivity::kHolding);
+}
+
+TEST(GraspSimulation, PushesAPartThatRepeatsMotionsAndNeverBack) {
+  HandAndBall scene(1, 0.25, haptics::Metaphor::kIncremental);
+  const Posture hand = moved(open_hand(), -0.15, 0.0, -0.056);
+  scene.advance(hand);
+  for (int ms = 1; ms <= 1200; ++ms)
+    scene.advance(moved(hand, 0.2e-3 * ms, 0.0, 0.0));
+  const double at_wall = scene.X_WV().translation().x();
+  EXPECT_GT(at_wall, 0.2);
+  for (int ms = 1; ms <= 100; ++ms) {
+    scene.advance(moved(hand, 0.24 - 0.1e-3 * ms, 0.0, 0.0));
+    ASSERT_NEAR(scene.X_WV().translation().x(), at_wall, 0.5e-3) << "the hand draws back, " << ms;
+  }
+}
+
+TEST(GraspSimulation, LeavesAPartThatRepeatsMotionsWhereItsHandIsLost) {
+  HandAndBall scene(1, 0.25, haptics::Metaphor::kIncremental);
+  close_round_ball(scene);
+  for (int ms = 1; ms <= 300; ++ms)
+    scene.advance(moved(bent_hand(1.2), 0.3e-3 * ms, 0.0, 0.0));
+  ASSERT_EQ(scene.simulation.held_part(0), 0U);
+  const Isometry3d X_WV = scene.X_WV();
+  for (int ms = 0; ms < 100; ++ms)
+    scene.lose();
+  EXPECT_LT((scene.X_WV().translation() - X_WV.translation()).norm(), 1e-6);
 }
 
 TEST(GraspSimulation, AHandThatIsFoundAgainInsideAnObjectWaitsUntilItIsFree) {
