@@ -38,7 +38,7 @@ class CollisionPipeline {
   /// at most `distance` (metres). With `distance` 0, objects meet if their surfaces touch or intersect. The answers are
   /// exact: they are the answers of the queries of `dop_query.h` at the pose X_AB given by `relative_pose`. An object
   /// may have a selection of its triangles (`ObjectDescription`). With PairQuery::kClosePairs, two objects that both
-  /// have a selection meet only if two of their triangles, at least one of them selected, are within the distance. The
+  /// have a selection meet only if a selected pair of their triangles is within the distance. The
   /// other values of `PairQuery` (`frame_result.h`) ignore selections. The next call overwrites the result. Throws
   /// std::invalid_argument for a distance that is negative, not a number, or greater than
   /// `PipelineOptions::greatest_distance`. Cost: see `FrameReport`.

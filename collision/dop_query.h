@@ -40,7 +40,7 @@ void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eige
 
 /// Replaces `pairs` by all triangle pairs at most `distance` (metres, ≥ 0) apart, with their closest points, in
 /// ascending order of the triangle indices. If `selection` has an entry for both trees, the answer is restricted to
-/// pairs of which at least one triangle is selected, and the cost grows with the number of such pairs. A missing entry
+/// selected pairs, and the cost grows with the number of such pairs. A missing entry
 /// selects all triangles of its tree, and thus all pairs. Throws std::invalid_argument for a selection that was made
 /// for another tree.
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,

@@ -19,7 +19,7 @@ enum class PairQuery : std::uint8_t {
   kVerdict,        ///< only whether two objects meet
   kTrianglePairs,  ///< also the triangle pairs within the distance given to the step
   /// Also the closest points of each triangle pair. If both objects have a selection (`ObjectDescription`), only
-  /// triangle pairs with a selected triangle count.
+  /// selected triangle pairs count.
   kClosePairs,
 };
 

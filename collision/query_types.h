@@ -99,19 +99,27 @@ class CoherentWorkspace {
   std::unique_ptr<CoherentFront> front_;
 };
 
-/// A set of selected triangles of one tree. A byte for each node marks the children with a selected triangle below
-/// them; a byte for each leaf marks its selected triangles. Immutable after construction, so safe to share between
-/// threads.
+/// A set of selected triangles of one tree. Further triangles may be half selected. Two triangles of two trees are a
+/// selected pair if one of them is selected, or if both are half selected. A byte for each node marks the children with
+/// such triangles below them; a byte for each leaf marks its triangles. Immutable after construction, so safe to share
+/// between threads.
 class TriangleSelection {
  public:
-  /// Calls `is_selected` once for each triangle, with its index in the mesh. The selection is valid for `tree` and its
-  /// copies, also after a refit. Throws std::invalid_argument for an empty function. Cost O(n).
-  TriangleSelection(const DopTree& tree, const std::function<bool(std::int32_t)>& is_selected);
+  /// Calls the functions once for each triangle, with its index in the mesh. Without `is_half_selected`, no triangle is
+  /// half selected. The selection is valid for `tree` and its copies, also after a refit. Throws std::invalid_argument
+  /// for an empty function `is_selected`. Cost O(n).
+  TriangleSelection(const DopTree& tree, const std::function<bool(std::int32_t)>& is_selected,
+                    const std::function<bool(std::int32_t)>& is_half_selected = {});
 
-  /// By node: bit c is set if there is a selected triangle below child c.
-  std::span<const std::uint8_t> nodes() const { return nodes_; }
-  /// By leaf: bit t is set if triangle t of the leaf is selected.
-  std::span<const std::uint8_t> leaves() const { return leaves_; }
+  /// For each node and leaf of a tree, a set of its children or triangles.
+  struct Marks {
+    std::vector<std::uint8_t> nodes;   ///< by node: bit c is set if there is such a triangle below child c
+    std::vector<std::uint8_t> leaves;  ///< by leaf: bit t is set if triangle t of the leaf is such a one
+  };
+  /// Of the selected triangles.
+  const Marks& selected() const { return selected_; }
+  /// Of the selected and half selected triangles.
+  const Marks& at_least_half() const { return at_least_half_; }
 
   /// Whether the selection can belong to `tree`: compares the numbers of nodes and leaves.
   bool is_of(const DopTree& tree) const;
@@ -120,14 +128,13 @@ class TriangleSelection {
   std::uint64_t id() const { return id_; }
 
  private:
-  std::vector<std::uint8_t> nodes_;
-  std::vector<std::uint8_t> leaves_;
+  Marks selected_;
+  Marks at_least_half_;
   std::uint64_t id_;
 };
 
-/// Restricts a query to triangle pairs with at least one selected triangle. A null selection selects all triangles of
-/// its tree, so every pair then has a selected triangle. Therefore a query is restricted only if both selections are
-/// given.
+/// Restricts a query to selected pairs of triangles. A null selection selects all triangles of its tree, so every pair
+/// then has a selected triangle. Therefore a query is restricted only if both selections are given.
 struct PairSelection {
   const TriangleSelection* of_A = nullptr;
   const TriangleSelection* of_B = nullptr;

@@ -36,8 +36,8 @@ struct ObjectDescription {
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   int group = 0;  ///< 0 to 63; `World::enable_groups` enables pairs of groups
   /// Selected triangles of the tree; null: no selection. If both objects of a pair have a selection, a pipeline that
-  /// looks for closest points (`PairQuery::kClosePairs` in `frame_result.h`) reports only triangle pairs with at least
-  /// one selected triangle.
+  /// looks for closest points (`PairQuery::kClosePairs` in `frame_result.h`) reports only selected triangle pairs
+  /// (`PairSelection`).
   std::shared_ptr<const TriangleSelection> selection = nullptr;
 };
 

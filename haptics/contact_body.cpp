@@ -14,13 +14,19 @@ const std::shared_ptr<const geometry::TriangleMesh>& checked(
   return mesh;
 }
 
+bool owns_corner(const geometry::MeshTopology& topology, std::int32_t triangle) {
+  return topology.owns_corner(triangle, 0) || topology.owns_corner(triangle, 1) || topology.owns_corner(triangle, 2);
+}
+
 }  // namespace
 
 ContactBody::ContactBody(const std::shared_ptr<const geometry::TriangleMesh>& mesh)
     : tree(checked(mesh)),
       hull(*mesh),
       topology(*mesh),
-      features(tree, [this](std::int32_t triangle) { return topology.owns_stopping_feature(triangle); }),
+      features(
+          tree, [this](std::int32_t triangle) { return owns_corner(topology, triangle); },
+          [this](std::int32_t triangle) { return topology.owns_stopping_feature(triangle); }),
       obbs_(std::make_unique<const ObbTree>(tree)) {}
 
 ContactBody::~ContactBody() = default;

@@ -29,8 +29,9 @@ struct ContactBody {
   collision::DopTree tree;
   collision::ConvexHull hull;
   geometry::MeshTopology topology;
-  /// The triangles that own an edge or a vertex that can stop another body. `MeshTopology` assigns each edge and each
-  /// vertex to one triangle, its owner.
+  /// The triangles that own a vertex that can stop another body, and half selected those that own such an edge: an edge
+  /// stops only edges and vertices. `MeshTopology` assigns each edge and each vertex to one triangle, its owner. The
+  /// selected pairs are those that `MeshTopology::can_stop_each_other` tells.
   collision::TriangleSelection features;
 
  private:

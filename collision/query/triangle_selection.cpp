@@ -19,29 +19,48 @@ std::uint8_t selected_of(const TriangleLeaf& leaf, const std::function<bool(std:
   return static_cast<std::uint8_t>(mask);
 }
 
-}  // namespace
-
-TriangleSelection::TriangleSelection(const DopTree& tree, const std::function<bool(std::int32_t)>& is_selected)
-    : nodes_(nodes_of(tree).size()), leaves_(leaves_of(tree).size()) {
-  if (!is_selected) throw std::invalid_argument("a selection of triangles needs a function that selects them");
-  static std::atomic<std::uint64_t> ids{0};
-  id_ = ++ids;
-  for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf)
-    leaves_[leaf] = selected_of(leaves_of(tree)[leaf], is_selected);
+TriangleSelection::Marks marks_of(const DopTree& tree, const std::function<bool(std::int32_t)>& is_selected) {
+  TriangleSelection::Marks marks;
+  marks.nodes.resize(nodes_of(tree).size());
+  marks.leaves.resize(leaves_of(tree).size());
+  for (std::size_t leaf = 0; leaf < marks.leaves.size(); ++leaf)
+    marks.leaves[leaf] = selected_of(leaves_of(tree)[leaf], is_selected);
   // Nodes come after their parents.
-  for (std::size_t node = nodes_.size(); node-- > 0;) {
+  for (std::size_t node = marks.nodes.size(); node-- > 0;) {
     const NodeHead& head = nodes_of(tree)[node];
     unsigned mask = 0;
     for (int c = 0; c < head.child_count(); ++c) {
       const std::uint32_t child = head.child(c);
-      if ((head.is_leaf(c) ? leaves_ : nodes_)[child] != 0) mask |= 1U << c;
+      if ((head.is_leaf(c) ? marks.leaves : marks.nodes)[child] != 0) mask |= 1U << c;
     }
-    nodes_[node] = static_cast<std::uint8_t>(mask);
+    marks.nodes[node] = static_cast<std::uint8_t>(mask);
   }
+  return marks;
+}
+
+/// Adds the marks of `others`.
+void add(const std::vector<std::uint8_t>& others, std::vector<std::uint8_t>& marks) {
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    marks[i] = static_cast<std::uint8_t>(marks[i] | others[i]);
+}
+
+}  // namespace
+
+TriangleSelection::TriangleSelection(const DopTree& tree, const std::function<bool(std::int32_t)>& is_selected,
+                                     const std::function<bool(std::int32_t)>& is_half_selected) {
+  if (!is_selected) throw std::invalid_argument("a selection of triangles needs a function that selects them");
+  static std::atomic<std::uint64_t> ids{0};
+  id_ = ++ids;
+  selected_ = marks_of(tree, is_selected);
+  at_least_half_ = selected_;
+  if (!is_half_selected) return;
+  const Marks half = marks_of(tree, is_half_selected);
+  add(half.nodes, at_least_half_.nodes);
+  add(half.leaves, at_least_half_.leaves);
 }
 
 bool TriangleSelection::is_of(const DopTree& tree) const {
-  return nodes_.size() == nodes_of(tree).size() && leaves_.size() == leaves_of(tree).size();
+  return selected_.nodes.size() == nodes_of(tree).size() && selected_.leaves.size() == leaves_of(tree).size();
 }
 
 }  // namespace glissade::collision

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The pairs of the children of two nodes, or of the triangles of two leaves, that hold something selected.
+/// The pairs of the children of two nodes, or of the triangles of two leaves, that hold selected pairs of triangles.
 
 #include <array>
 #include <cstdint>
@@ -45,8 +45,8 @@ class VisitSelection {
   /// Selects all pairs.
   VisitSelection() = default;
 
-  /// Selects the pairs in which either side is selected; all pairs if one selection is null. Throws
-  /// std::invalid_argument for a selection that cannot belong to its tree.
+  /// Selects the pairs in which either side is selected, or both are half selected; all pairs if one selection is null.
+  /// Throws std::invalid_argument for a selection that cannot belong to its tree.
   VisitSelection(const DopTree& base, const DopTree& other, const TriangleSelection* of_M,
                  const TriangleSelection* of_N) {
     check(base, of_M);
@@ -57,10 +57,14 @@ class VisitSelection {
   }
 
   PairMask pairs_of_nodes(std::uint32_t node_M, std::uint32_t node_N) const {
-    return of_M_ == nullptr ? kAllPairs : rows_of(of_M_->nodes()[node_M]) | columns_of(of_N_->nodes()[node_N]);
+    if (of_M_ == nullptr) return kAllPairs;
+    return pairs(of_M_->selected().nodes[node_M], of_M_->at_least_half().nodes[node_M], of_N_->selected().nodes[node_N],
+                 of_N_->at_least_half().nodes[node_N]);
   }
   PairMask pairs_of_leaves(std::uint32_t leaf_M, std::uint32_t leaf_N) const {
-    return of_M_ == nullptr ? kAllPairs : rows_of(of_M_->leaves()[leaf_M]) | columns_of(of_N_->leaves()[leaf_N]);
+    if (of_M_ == nullptr) return kAllPairs;
+    return pairs(of_M_->selected().leaves[leaf_M], of_M_->at_least_half().leaves[leaf_M],
+                 of_N_->selected().leaves[leaf_N], of_N_->at_least_half().leaves[leaf_N]);
   }
 
   /// Numbers of the selections, 0 where there are none.
@@ -69,6 +73,10 @@ class VisitSelection {
   }
 
  private:
+  static PairMask pairs(std::uint32_t selected_M, std::uint32_t half_M, std::uint32_t selected_N,
+                        std::uint32_t half_N) {
+    return rows_of(selected_M) | columns_of(selected_N) | (rows_of(half_M) & columns_of(half_N));
+  }
   static void check(const DopTree& tree, const TriangleSelection* selection) {
     if (selection == nullptr || selection->is_of(tree)) return;
     throw std::invalid_argument("a selection of triangles was made for another tree than that of the query");

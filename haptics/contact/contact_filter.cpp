@@ -7,8 +7,9 @@
 namespace glissade::haptics {
 namespace {
 
-/// Fewer pairs are not worth a look.
-constexpr std::size_t kFewPairs = 4;
+/// Fewer pairs, and fewer of the same two bodies, are not worth a look.
+constexpr std::size_t kFewPairs = 32;
+constexpr std::size_t kFewOfBodies = 4;
 
 /// The pairs of features that may count at all: an edge or vertex does for the triangle that owns it.
 FeaturePairs owned(const geometry::MeshTopology& of_part, std::int32_t part_triangle,
@@ -43,7 +44,7 @@ void ContactFilter::look(std::span<const CandidatePair> pairs) {
         owned(bodies_[static_cast<std::size_t>(pair.bodies.part)].body->topology, pair.part_triangle,
               bodies_[static_cast<std::size_t>(pair.bodies.obstacle)].body->topology, pair.obstacle_triangle);
     gaps_[i] = 0.0;
-    if (features_[i] != 0) add(batch_of(pair.bodies), pair, i);
+    if (features_[i] != 0 && pairs.size() >= kFewPairs) add(batch_of(pair.bodies), pair, i);
   }
   for (Batch& batch : batches_)
     complete(batch);
@@ -70,8 +71,6 @@ ContactFilter::Batch& ContactFilter::batch_of(const BodyPair& bodies) {
     return placed.X_WB.translation().norm() + placed.body->tree.center().norm() + placed.body->tree.radius();
   };
   batch.coordinates = reach_of(obstacle) + reach_of(part);
-  batch.pairs = {};
-  batch.possible = {};
   return batch;
 }
 
@@ -87,7 +86,7 @@ void ContactFilter::add(Batch& batch, const CandidatePair& pair, std::size_t num
 
 /// Leaves out what cannot be in contact, and empties the batch.
 void ContactFilter::complete(Batch& batch) {
-  if (batch.count >= kFewPairs) {
+  if (batch.count >= kFewOfBodies) {
     leave_out_impossible(batch.pairs, batch.X_OV, {reach_, past_end_, batch.coordinates}, batch.possible);
     for (std::size_t i = 0; i < batch.count; ++i) {
       features_[batch.numbers[i]] = batch.possible.features[i];

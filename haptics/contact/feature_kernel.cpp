@@ -20,8 +20,9 @@ constexpr float kSlack = 1e-5F;
 // The squares of shorter vectors may underflow.
 constexpr float kLeastSquare = 1e-30F;
 // The cross product c of edges d and e errs by less than 70 · 2^-24, and so does e × c by 172 · 2^-24 |e|, and the
-// product of that with the difference of two corners by 1024 · 2^-24 |e|; the same with d.
-constexpr float kSlackOfEnds = 1e-4F;
+// product of that with the difference of two corners by 1024 · 2^-24 |e|, or twice that for the other end of d; the
+// same with d and e exchanged.
+constexpr float kSlackOfEnds = 2e-4F;
 constexpr float kFarAway = 1e30F;
 
 using Tag = hn::CappedTag<float, kTrianglePairs>;
@@ -114,12 +115,16 @@ HWY_INLINE V not_negative(V x) {
   return hn::Max(x, hn::Zero(Tag()));
 }
 
+// 1 over the length of a vector with this square; 0 for a vector that is too short.
+HWY_INLINE V inverse_root(V square) {
+  const Tag d;
+  return hn::IfThenElseZero(hn::Ge(square, hn::Set(d, kLeastSquare)), hn::Div(hn::Set(d, 1.0F), hn::Sqrt(square)));
+}
+
 // Raises the lower bounds of the distances of three points from a triangle by the gaps along n, whatever its error.
 HWY_INLINE void raise_along(const Vector3& n, const Triangle& t, const Vector3 (&points)[3], V (&gaps)[3]) {
   const Tag d;
-  const V square = dot(n, n);
-  const V inverse_length =
-      hn::IfThenElseZero(hn::Ge(square, hn::Set(d, kLeastSquare)), hn::Div(hn::Set(d, 1.0F), hn::Sqrt(square)));
+  const V inverse_length = inverse_root(dot(n, n));
   const V h0 = dot(n, t.corner[0]);
   const V h1 = dot(n, t.corner[1]);
   const V h2 = dot(n, t.corner[2]);
@@ -160,9 +165,7 @@ HWY_INLINE EdgePair look_at_edges(const Vector3& d, V inverse_d, const Vector3& 
   const Tag tag;
   const V zero = hn::Zero(tag);
   const Vector3 c = cross(d, e);
-  const V square = dot(c, c);
-  const auto is_known = hn::Ge(square, hn::Set(tag, kLeastSquare));
-  const V inverse_c = hn::IfThenElseZero(is_known, hn::Div(hn::Set(tag, 1.0F), hn::Sqrt(square)));
+  const V inverse_c = inverse_root(dot(c, c));
   const V h = dot(c, between);
   const V h_end = hn::Add(h, dot(c, d));
   const V along_e = dot(c, e);
@@ -204,9 +207,9 @@ class Look {
   HWY_INLINE void at_edges() {
     V inverse_e[3];
     for (std::size_t j = 0; j < 3; ++j)
-      inverse_e[j] = inverse_length(obstacle_.edge[j]);
+      inverse_e[j] = inverse_root(dot(obstacle_.edge[j], obstacle_.edge[j]));
     for (int i = 0; i < 3; ++i) {
-      const V inverse_d = inverse_length(part_.edge[i]);
+      const V inverse_d = inverse_root(dot(part_.edge[i], part_.edge[i]));
       for (int j = 0; j < 3; ++j) {
         const EdgePair pair = look_at_edges(part_.edge[i], inverse_d, obstacle_.edge[j], inverse_e[j],
                                             minus(part_.corner[i], obstacle_.corner[j]));
@@ -222,10 +225,6 @@ class Look {
 
  private:
   using Bits = hn::RebindToUnsigned<Tag>;
-
-  static HWY_INLINE V inverse_length(const Vector3& edge) {
-    return hn::Div(hn::Set(Tag(), 1.0F), hn::Sqrt(dot(edge, edge)));
-  }
 
   HWY_INLINE void note(FeaturePairs feature, V gap, hn::Mask<Tag> is_apart) {
     const Bits bits;

@@ -91,13 +91,8 @@ void CandidateSearch::collect_pairs(const collision::FrameResult& near, std::vec
     const BodyPair bodies{static_cast<std::int32_t>(near.meeting[i].object_A.index),
                           static_cast<std::int32_t>(near.meeting[i].object_B.index)};
     const PlacedBody& obstacle = bodies_[static_cast<std::size_t>(bodies.obstacle)];
-    const PlacedBody& part = bodies_[static_cast<std::size_t>(bodies.part)];
     for (const collision::ClosePair& pair : near.close_pairs(i)) {
       if (meter_ != nullptr) meter_->spend(kWorkOfPair);
-      if (!obstacle.body->topology.can_stop_each_other(pair.triangles.triangle_A, part.body->topology,
-                                                       pair.triangles.triangle_B)) {
-        continue;
-      }
       pairs.push_back({{bodies, pair.triangles.triangle_A, pair.triangles.triangle_B},
                        pair.distance,
                        obstacle.X_WB.linear() * direction_of(pair)});

@@ -1,4 +1,4 @@
-/// Queries after pairs with a selected triangle, against plain loops.
+/// Queries after selected pairs of triangles, against plain loops.
 
 #include <cstdint>
 #include <memory>
@@ -32,13 +32,18 @@ using testing::IsEmpty;
 
 using Flags = std::vector<char>;
 
-/// A tree, and which of its triangles are selected.
+constexpr char kSelected = 1;
+constexpr char kHalf = 2;
+
+/// A tree, and which of its triangles are selected or half selected.
 struct Selected {
   Selected(geometry::TriangleMesh triangles, Flags is_selected)
       : mesh(std::make_shared<geometry::TriangleMesh>(std::move(triangles))),
         tree(mesh),
         flags(std::move(is_selected)),
-        selection(tree, [this](std::int32_t t) { return flags[static_cast<std::size_t>(t)] != 0; }) {}
+        selection(
+            tree, [this](std::int32_t t) { return flags[static_cast<std::size_t>(t)] == kSelected; },
+            [this](std::int32_t t) { return flags[static_cast<std::size_t>(t)] == kHalf; }) {}
 
   std::shared_ptr<geometry::TriangleMesh> mesh;
   DopTree tree;
@@ -46,15 +51,20 @@ struct Selected {
   TriangleSelection selection;
 };
 
-/// None, all, or about a share of the triangles of a mesh.
+/// Selected: none, all, or about a share of the triangles of a mesh; half selected: none or half of the others.
 Flags random_flags(const geometry::TriangleMesh& mesh, double share, RandomNumbers& random) {
+  const bool has_half = random.chance(0.5);
   Flags flags(mesh.triangles.size());
   for (char& flag : flags)
-    flag = random.chance(share) ? 1 : 0;
+    flag = random.chance(share) ? kSelected : has_half && random.chance(0.5) ? kHalf : 0;
   return flags;
 }
 
-/// All pairs of which a triangle is selected, one after the other.
+bool is_selected_pair(char a, char b) {
+  return a == kSelected || b == kSelected || (a == kHalf && b == kHalf);
+}
+
+/// All selected pairs, one after the other.
 std::vector<TrianglePair> expected_pairs(const Selected& A, const Selected& B, const Isometry3d& X_AB,
                                          double distance) {
   std::vector<TrianglePair> pairs;
@@ -62,7 +72,7 @@ std::vector<TrianglePair> expected_pairs(const Selected& A, const Selected& B, c
     const geometry::TrianglePoints a = points_of(*A.mesh, i);
     if (geometry::is_degenerate(a)) continue;
     for (std::int32_t j = 0; j < static_cast<std::int32_t>(B.flags.size()); ++j) {
-      if (A.flags[static_cast<std::size_t>(i)] == 0 && B.flags[static_cast<std::size_t>(j)] == 0) continue;
+      if (!is_selected_pair(A.flags[static_cast<std::size_t>(i)], B.flags[static_cast<std::size_t>(j)])) continue;
       if (geometry::is_degenerate(points_of(*B.mesh, j))) continue;
       if (geometry::triangle_distance(a, points_of(*B.mesh, j, X_AB)).distance <= distance) pairs.push_back({i, j});
     }
@@ -88,7 +98,7 @@ Isometry3d pose(const Eigen::Matrix3d& R, const Vector3d& p) {
   return X;
 }
 
-TEST(TriangleSelection, AnswersThePairsOfWhichATriangleIsSelected) {
+TEST(TriangleSelection, AnswersTheSelectedPairs) {
   constexpr std::uint64_t kSeed = 71;
   RecordProperty("seed", std::to_string(kSeed));
   RandomNumbers random(kSeed);
