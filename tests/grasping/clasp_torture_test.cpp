@@ -149,13 +149,14 @@ struct ManyShortSteps {
 };
 
 TEST(ClaspTortureOfShortSteps, NoFlexValueStopsTooEarly) {
-  for (const auto& [name, seed] : {ManyShortSteps{"screwdriver", 20035}, ManyShortSteps{"jar_lid", 14059}}) {
-    const auto& objects = shapes::household_objects();
-    const auto object = std::find_if(objects.begin(), objects.end(), [&](const auto& one) { return one.name == name; });
+  const auto& objects = shapes::household_objects();
+  for (const ManyShortSteps& motion : {ManyShortSteps{"screwdriver", 20035}, ManyShortSteps{"jar_lid", 14059}}) {
+    const auto object =
+        std::find_if(objects.begin(), objects.end(), [&](const auto& one) { return one.name == motion.object; });
     ASSERT_NE(object, objects.end());
-    const Torture result = Torturer(object->make(kObjectEdge_m)).run(seed, 1);
-    EXPECT_EQ(result.resting, 1) << name;
-    EXPECT_EQ(result.too_early, 0) << name << ": " << result;
+    const Torture result = Torturer(object->make(kObjectEdge_m)).run(motion.seed, 1);
+    EXPECT_EQ(result.resting, 1) << motion.object;
+    EXPECT_EQ(result.too_early, 0) << motion.object << ": " << result;
   }
 }
 

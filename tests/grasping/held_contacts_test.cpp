@@ -15,20 +15,20 @@ namespace {
 using Eigen::Vector3d;
 using test_support::at;
 
-constexpr std::int32_t kBody = 2;
+constexpr std::int32_t kHeldBody = 2;
 
 /// A link 0 at the origin, which touches a part below it with its own origin.
 class HeldPart : public ::testing::Test {
  protected:
   /// The links that touch after the target has gone this far.
   std::vector<LinkContact> touching_at(double x, double z, const std::vector<LinkContact>& contacts = {}) {
-    return held_.update(contacts, kBody, at(0.0), std::array{at(0.0)}, std::array{at(x, 0.0, z)});
+    return held_.update(contacts, kHeldBody, at(0.0), std::array{at(0.0)}, std::array{at(x, 0.0, z)});
   }
   static std::vector<LinkContact> touch() {
     LinkContact touch{};
     touch.contact.n_W = Vector3d::UnitZ();
     touch.contact.p_W = Vector3d::Zero();
-    touch.contact.obstacle = kBody;
+    touch.contact.obstacle = kHeldBody;
     touch.depth = 1e-3;
     return {touch};
   }
