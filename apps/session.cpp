@@ -50,7 +50,7 @@ HandSummary summarize_hand(const Session& session, std::size_t h, const SessionC
   HandSummary summary;
   summary.device = session.devices[h];
   summary.has_fingers = session.hand_models[h] != nullptr;
-  summary.colliding_postures = check.colliding_ticks_of_hand(h);
+  if (summary.has_fingers) summary.colliding_postures = check.colliding_ticks_of_hand(h, *session.hand_models[h]);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const devices::HapticHandState& hand = samples.hand(i, h);
     for (std::size_t k = 0; k < devices::kLimitReasons.size(); ++k)
@@ -72,25 +72,6 @@ HandSummary summarize_hand(const Session& session, std::size_t h, const SessionC
 
 }  // namespace
 
-SessionRecorder::SessionRecorder(std::size_t capacity, std::size_t parts, std::size_t hands)
-    : parts_(parts), hands_(hands), ticks_(capacity), part_states_(capacity * parts), hand_states_(capacity * hands) {}
-
-void SessionRecorder::record(const devices::HapticState& sample) noexcept {
-  const std::size_t slot = static_cast<std::size_t>(total_) % ticks_.size();
-  ticks_[slot] = {sample.time, sample.contact_set_age};
-  std::copy_n(sample.parts.begin(), parts_, part_states_.begin() + static_cast<std::ptrdiff_t>(slot * parts_));
-  std::copy_n(sample.hands.begin(), hands_, hand_states_.begin() + static_cast<std::ptrdiff_t>(slot * hands_));
-  ++total_;
-}
-
-std::size_t SessionRecorder::size() const {
-  return std::min(static_cast<std::size_t>(total_), ticks_.size());
-}
-
-std::size_t SessionRecorder::slot(std::size_t i) const {
-  return (static_cast<std::size_t>(total_) - size() + i) % ticks_.size();
-}
-
 std::int64_t SessionSummary::colliding_poses() const {
   std::int64_t sum = 0;
   for (const PartSummary& part : parts)
@@ -105,7 +86,7 @@ SessionSummary summarize(const Session& session, const HapticScene& scene) {
   SessionSummary summary;
   summary.ticks = session.ticks;
   summary.samples = static_cast<std::int64_t>(samples.size());
-  const SessionCheck check(session, scene);
+  const SessionCheck check(samples, scene);
   for (std::size_t p = 0; p < samples.parts(); ++p)
     summary.parts.push_back(summarize_part(samples, p, scene, check));
   for (std::size_t h = 0; h < samples.hands(); ++h)

@@ -8,14 +8,16 @@ namespace glissade::apps {
 
 namespace {
 
-bool is_in_the_way(const devices::VisibleHand& hand) {
-  return hand.activity == devices::HandActivity::kFree || hand.activity == devices::HandActivity::kHolding;
+bool is_in_the_way(const devices::HapticHandState& hand) {
+  const devices::HandActivity activity = hand.visible.activity;
+  return activity == devices::HandActivity::kFree || activity == devices::HandActivity::kHolding ||
+         (activity == devices::HandActivity::kLost && hand.part >= 0);
 }
 
 }  // namespace
 
-SessionCheck::SessionCheck(const Session& session, const HapticScene& scene)
-    : samples_(*session.samples), session_(session), obstacles_(scene.placed_obstacles) {
+SessionCheck::SessionCheck(const SessionRecorder& samples, const HapticScene& scene)
+    : samples_(samples), obstacles_(scene.placed_obstacles) {
   for (const ScenePart& part : scene.parts)
     meshes_.emplace_back(part.part_V, &part.part_V->tree.mesh());
   for (const haptics::ScriptedPart& part : scene.moving)
@@ -38,20 +40,18 @@ std::int64_t SessionCheck::colliding_ticks_of_part(std::size_t part) const {
   return std::count(collides.begin(), collides.end(), 1);
 }
 
-std::int64_t SessionCheck::colliding_ticks_of_hand(std::size_t hand) const {
-  const grasping::HandModel* const model = session_.hand_models[hand].get();
-  if (model == nullptr) return 0;
+std::int64_t SessionCheck::colliding_ticks_of_hand(std::size_t hand, const grasping::HandModel& model) const {
   std::vector<char> counts(samples_.size(), 0);
-  const std::size_t links = model->chain.links().size();
+  const std::size_t links = model.chain.links().size();
   std::vector<Eigen::Isometry3d> X_WL(samples_.size() * links);
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const devices::VisibleHand& visible = samples_.hand(i, hand).visible;
-    counts[i] = is_in_the_way(visible) ? 1 : 0;
-    if (counts[i] != 0) model->chain.poses(visible.X_WH, visible.angles, std::span(X_WL).subspan(i * links, links));
+    counts[i] = is_in_the_way(samples_.hand(i, hand)) ? 1 : 0;
+    if (counts[i] != 0) model.chain.poses(visible.X_WH, visible.angles, std::span(X_WL).subspan(i * links, links));
   }
   std::vector<char> collides(samples_.size(), 0);
   for (std::size_t l = 0; l < links; ++l) {
-    const geometry::TriangleMesh* const mesh = model->chain.links()[l].mesh.get();
+    const geometry::TriangleMesh* const mesh = model.chain.links()[l].mesh.get();
     if (mesh == nullptr) continue;
     check(
         obstacles_, *mesh, counts, [&](std::size_t i) { return X_WL[i * links + l]; }, collides);

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include <glissade/apps/haptic_scene.h>
-#include <glissade/apps/session.h>
+#include <glissade/apps/session_recorder.h>
+#include <glissade/grasping/hand_model.h>
 #include <glissade/reference/grid_check.h>
 
 namespace glissade::apps {
@@ -17,13 +18,13 @@ namespace glissade::apps {
 /// repeats its pose, which is checked once. All arguments must outlive the object.
 class SessionCheck {
  public:
-  SessionCheck(const Session& session, const HapticScene& scene);
+  SessionCheck(const SessionRecorder& samples, const HapticScene& scene);
 
   /// The number of ticks in which the part collides with an obstacle or with a part of lower number.
   std::int64_t colliding_ticks_of_part(std::size_t part) const;
-  /// The number of ticks in which a segment of the hand collides with an obstacle or a part. Hands that are lost or
-  /// wait are in nobody's way, and count as free.
-  std::int64_t colliding_ticks_of_hand(std::size_t hand) const;
+  /// The number of ticks in which a segment of the hand, made like `model`, collides with an obstacle or a part. Hands
+  /// that wait, or are lost and hold nothing, are in nobody's way, and count as free.
+  std::int64_t colliding_ticks_of_hand(std::size_t hand, const grasping::HandModel& model) const;
 
  private:
   template <typename PoseAt>
@@ -31,7 +32,6 @@ class SessionCheck {
              const PoseAt& pose_at, std::vector<char>& collides) const;
 
   const SessionRecorder& samples_;
-  const Session& session_;
   reference::GridCheck obstacles_;
   std::vector<std::shared_ptr<const geometry::TriangleMesh>> meshes_;  // of the parts
   std::vector<reference::GridCheck> parts_;                            // each at its own origin

@@ -37,6 +37,7 @@ StartedSimulation start_simulation(const HapticScene& scene, const std::vector<G
   std::vector<haptics::HeldPart> parts = held_parts(scene, metaphor_of(choice));
   const bool has_fingers = std::any_of(grips.begin(), grips.end(), [](const Grip& grip) { return grip.fingers; });
   for (const Grip& grip : grips) {
+    if (grip.fingers.has_value() != has_fingers) throw std::invalid_argument("either all hands have fingers, or none");
     if (grip.part) soften(parts[*grip.part], grip.device, period);
     for (std::size_t p = 0; has_fingers && p < scene.parts.size(); ++p)
       soften(parts[p], grip.device, period);

@@ -76,6 +76,9 @@ class GraspSimulation::Life {
         pushes_(parts.size()),
         is_present_(hands.size(), 0),
         answers_(hands.size()) {
+    if (hands.size() > haptics::kMaxHands)
+      throw std::invalid_argument("at most " + std::to_string(haptics::kMaxHands) + " hands can grasp, not " +
+                                  std::to_string(hands.size()));
     if (std::abs(up_W_.norm() - 1.0) > kUnitTolerance)
       throw std::invalid_argument("the direction against gravity must be a unit vector");
     for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -124,7 +127,9 @@ class GraspSimulation::Life {
     move(milliseconds);
     for (std::size_t h = 0; h < hands_.size(); ++h)
       decide(h);
-    note_pushes();
+    for (std::size_t p = 0; p < X_WG_.size(); ++p) {
+      if (!ghosts.parts[p].is_held) note_push(p);  // another hand, without fingers, may hold it
+    }
   }
 
   void take_part(std::size_t p, const Eigen::Isometry3d& X_WG) {
@@ -163,8 +168,7 @@ class GraspSimulation::Life {
     if (hand.is_lost() && hand.part()) {
       hand.clasp().forget_contacts();
     } else if (hand.is_lost()) {
-      hand.clasp().lose_track();
-      remove(h);
+      vanish(h);
     }
     return true;
   }
@@ -220,7 +224,9 @@ class GraspSimulation::Life {
     if (std::exchange(is_present_[h], char{1}) == 0 && hand.part()) parts_.attach(h, *hand.part());
   }
 
-  void remove(std::size_t h) {
+  /// A hand that is lost and holds nothing is nowhere.
+  void vanish(std::size_t h) {
+    hands_[h].clasp().lose_track();
     if (std::exchange(is_present_[h], char{0}) != 0) parts_.remove_riders(h);
   }
 
@@ -251,12 +257,15 @@ class GraspSimulation::Life {
     if (part) {
       hand.take(*part, parts_.result(*part).X_WV);
       if (is_present_[h] != 0) parts_.attach(h, *part);
+    } else if (hand.is_lost()) {
+      vanish(h);
     }
     return true;
   }
 
-  /// Decides for the haptic thread.
+  /// Decides for the haptic thread; nothing new about a hand that is lost.
   void decide(std::size_t h) {
+    if (hands_[h].is_lost()) return;
     const std::optional<std::size_t> part = wanted_part(h);
     const std::int32_t number = part ? static_cast<std::int32_t>(*part) : -1;
     haptics::HandAnswer& answer = answers_[h];

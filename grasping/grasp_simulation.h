@@ -48,8 +48,8 @@ haptics::FingerHand finger_hand(const HandModel& hand);
 class GraspSimulation final : public haptics::LoopSimulation {
  public:
   /// Parts are loose at the start, unless scripts lead them; scripted parts cannot be held. Throws
-  /// std::invalid_argument as `haptics::MultiPartSliding` and `Clasp` do, for a hand that is null, and for an `up_W`
-  /// that is no unit vector (to 1e-6).
+  /// std::invalid_argument as `haptics::MultiPartSliding` and `Clasp` do, for a hand that is null, for more than
+  /// `haptics::kMaxHands`, and for an `up_W` that is no unit vector (to 1e-6).
   GraspSimulation(const std::vector<haptics::Obstacle>& fixed, const std::vector<haptics::HeldPart>& parts,
                   const std::vector<std::shared_ptr<const HandModel>>& hands, const GraspRules& rules = {});
   GraspSimulation(GraspSimulation&&) noexcept;
@@ -65,8 +65,8 @@ class GraspSimulation final : public haptics::LoopSimulation {
 
   // Of the hand with this number:
   devices::HandActivity activity(std::size_t hand) const;
-  /// The visible hand. While it is free or holds a part, it touches nothing, nor did it on its way. A hand that is lost
-  /// or waits stays as it was, and is in nobody's way.
+  /// The visible hand. While it is free or holds a part, it touches nothing, nor did it on its way. A hand that waits,
+  /// or is lost while it holds nothing, stays as it was, and is in nobody's way.
   const Posture& posture(std::size_t hand) const;
   const Clasp& clasp(std::size_t hand) const;
   /// `Grasp::object` numbers the fixed bodies first, then the parts.
@@ -77,7 +77,7 @@ class GraspSimulation final : public haptics::LoopSimulation {
   /// Poses, lag and contacts of the parts.
   const haptics::MultiPartSliding& parts() const override;
 
-  // In the haptic loop; not together with the other `advance`.
+  // In the haptic loop: in one only, and not together with the other `advance`.
   void take_part(std::size_t part, const Eigen::Isometry3d& X_WG) override;
   void leave_part(std::size_t part) override;
   void advance(const haptics::Ghosts& ghosts, double milliseconds) override;

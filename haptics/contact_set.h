@@ -85,6 +85,12 @@ struct PartAnswer {
   std::int64_t hold = 0;     ///< `GhostOfPart::hold` of the ghost that the set answers
 };
 
+/// The range of each joint of a hand with fingers, rad.
+struct FingerLimits {
+  devices::JointValues lower{};
+  devices::JointValues upper{};
+};
+
 /// A contact of a segment of a hand with fingers. Where its joints turn by d (rad, one for each joint), the gap grows
 /// by rates · d, to first order.
 struct FingerRow {
@@ -132,7 +138,7 @@ struct GhostOfPart {
 
 /// One hand with fingers as the haptic thread knows it.
 struct GhostOfHand {
-  bool is_tracked = false;  ///< posture and pose are known and plausible
+  bool is_tracked = false;  ///< pose and angles are known, or were less than 0.1 s ago
   Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
   devices::JointValues angles{};  ///< rad
   std::int32_t part = -1;         ///< number of the part that it holds; −1: none

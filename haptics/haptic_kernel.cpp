@@ -4,12 +4,12 @@
 #include <utility>
 
 #include <glissade/base/assert.h>
+#include <glissade/haptics/finger_forces.h>
 #include <glissade/haptics/haptic_kernel.h>
 #include <glissade/haptics/multi_part_sliding.h>
 
 #include "loop/contact_force.h"
 #include "loop/contact_projection.h"
-#include "loop/finger_forces.h"
 #include "loop/holds.h"
 
 namespace glissade::haptics {
@@ -63,6 +63,14 @@ bool is_usable_hand(const HandAnswer& hand) {
          std::all_of(hand.rows().begin(), hand.rows().end(), has_numbers);
 }
 
+void check_wrist(const FingerHand& hand) {
+  for (const WristJoint& joint : hand.wrist) {
+    const bool is_axis = std::abs(joint.axis_J.norm() - 1.0) < 1e-6;  // false for NaN
+    if (joint.angle < devices::kGloveJoints && is_axis && is_usable(joint.X_PJ.matrix())) continue;
+    throw std::invalid_argument("a joint of the wrist needs a joint of the glove, a pose, and an axis of unit length");
+  }
+}
+
 /// Fingers of a hand that has them.
 struct Fingers {
   FingerHand hand;
@@ -90,14 +98,14 @@ struct Fingers {
   }
 
   /// A hand whose states stay away for a moment is where it was last.
-  void note(const devices::GloveState* trusted, std::optional<std::size_t> part, double dt) noexcept {
+  void note(const devices::GloveState* seen, std::optional<std::size_t> part, double dt) noexcept {
     constexpr double kPatience_s = 0.1;
-    unseen_s = trusted != nullptr ? 0.0 : unseen_s + dt;
+    unseen_s = seen != nullptr ? 0.0 : unseen_s + dt;
     ghost.part = part ? static_cast<std::int32_t>(*part) : -1;
     ghost.is_tracked = is_found && unseen_s < kPatience_s;
-    if (trusted == nullptr) return;
-    ghost.X_WH = trusted->X_WH;
-    ghost.angles = trusted->joint_angles;
+    if (seen == nullptr) return;
+    ghost.X_WH = seen->X_WH;
+    ghost.angles = seen->joint_angles;
   }
 };
 
@@ -177,6 +185,7 @@ HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<Kern
     }
     ContactForce contacts(parts_.front().radius, couplings.front().stiffness, kHeadroom * hand.device.max_force);
     std::optional<Fingers> fingers;
+    if (hand.fingers) check_wrist(*hand.fingers);
     if (hand.fingers)
       fingers.emplace(Fingers{.hand = *hand.fingers, .forces = {hand.fingers->limits, hand.device, period}});
     hands_.push_back(
@@ -284,8 +293,8 @@ HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     if (states[h] != nullptr) tick.hands[h] = render(h, *states[h], set, age, now, dt);
     if (!hands_[h]->fingers) continue;
-    const bool is_trusted = poses[h].X_WH != nullptr && !poses[h].is_fading;
-    hands_[h]->fingers->note(is_trusted ? states[h] : nullptr, tick.hands[h].part, dt);
+    const bool is_seen = poses[h].X_WH != nullptr && !tick.hands[h].command.reasons().is_state_old;
+    hands_[h]->fingers->note(is_seen ? states[h] : nullptr, tick.hands[h].part, dt);
     tick.ghosts.hands[h] = hands_[h]->fingers->ghost;
   }
   return tick;

@@ -36,12 +36,6 @@ struct KernelPart {
 /// The parts of a simulation.
 std::vector<KernelPart> kernel_parts(const MultiPartSliding& sliding);
 
-/// The range of each joint of a hand, rad.
-struct FingerLimits {
-  devices::JointValues lower{};
-  devices::JointValues upper{};
-};
-
 /// A hinge between the hand root and the palm: frames P, the one before, and J, which turns by the angle about
 /// `axis_J`.
 struct WristJoint {
@@ -95,7 +89,7 @@ class HapticKernel {
   /// simulation reports differ from the force on the hand. To avoid this, construct the simulation with the stiffness
   /// that `coupling_for` returns. Throws as `coupling_for` does, and std::invalid_argument for no hands, no parts, more
   /// than kMaxHands or kMaxParts, for a part to hold that is scripted or does not exist, for a hand with fingers that
-  /// is given a part, and for limits of fingers that are no range.
+  /// is given a part, for limits of fingers that are no range, and for joints of a wrist that are none.
   HapticKernel(std::vector<KernelPart> parts, const std::vector<KernelHand>& hands,
                std::chrono::nanoseconds period = kTickPeriod);
   ~HapticKernel();

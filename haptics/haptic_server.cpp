@@ -18,7 +18,8 @@ namespace {
 std::chrono::nanoseconds longest_fade(const devices::DeviceDescriptor& device) noexcept {
   const auto time = [](double maximum, double rate) { return rate > 0.0 ? maximum / rate : 0.0; };
   const double slowest_s =
-      std::max({time(device.max_force, device.max_force_rate), time(device.max_torque, device.max_torque_rate), 0.5});
+      std::max({time(device.max_force, device.max_force_rate), time(device.max_torque, device.max_torque_rate),
+                time(device.max_joint_torque, device.max_joint_torque_rate), 0.5});
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::duration<double>(2.0 * std::min(slowest_s, 1e6)));
 }
@@ -118,7 +119,8 @@ bool HapticServer::go_on_fading() noexcept {
   bool goes_on = false;
   for (std::size_t h = 0; h < devices_.size(); ++h) {
     const devices::GloveCommand& command = record_.tick.hands[h].command.values();
-    const bool is_at_rest = command.f_H_W.isZero(0.0) && command.t_H_W.isZero(0.0);
+    const bool is_at_rest =
+        command.f_H_W.isZero(0.0) && command.t_H_W.isZero(0.0) && command.joint_torques == devices::JointValues{};
     const std::chrono::nanoseconds fading = record_.time - *fading_since_;
     goes_on = goes_on || (!is_at_rest && fading < longest_fade(devices_[h]->descriptor()));
   }

@@ -86,7 +86,7 @@ class HapticServer {
 
   /// As `HapticKernel::grasp` and `HapticKernel::release`, in the next tick. Returns false, and does nothing, as those
   /// do, and if 256 calls wait for the haptic thread; then the caller may try again, so none is lost. Wait-free. One
-  /// thread.
+  /// thread. Hands with fingers hold what the simulation decides: `release` does nothing to them.
   bool grasp(std::size_t hand, std::size_t part) noexcept {
     return kernel_.can_grasp(hand, part) &&
            requests_.push({static_cast<std::int32_t>(hand), static_cast<std::int32_t>(part)});

@@ -173,7 +173,7 @@ class LogRecorder final : public LoopObserver {
 /// Thread-safe.
 class FlightRecorder final : public LoopObserver {
  public:
-  static constexpr std::size_t kDefaultBytes = std::size_t{64} << 20;  ///< more than ten seconds of one hand
+  static constexpr std::size_t kDefaultBytes = std::size_t{64} << 20;  ///< about five seconds or more of one hand
 
   explicit FlightRecorder(RecordingHead head, std::size_t most_bytes = kDefaultBytes);
 

@@ -77,6 +77,7 @@ RecordedSession session_of(const devices::LogEvent& event) {
   session.choice.depenetrate = text.at("depenetrate");
   session.period = std::chrono::nanoseconds(text.at("period_ns").get<std::int64_t>());
   haptics::validate_tick_period(session.period);
+  if (text.at("hands").size() > haptics::kMaxHands) throw std::invalid_argument("too many hands");
   for (const nlohmann::json& hand : text.at("hands")) {
     RecordedHand& recorded = session.hands.emplace_back();
     recorded.glove.device = hand.at("device");

@@ -123,9 +123,11 @@ std::optional<AnswerRecord> decode_answer(std::span<const std::uint8_t> bytes) {
   for (std::size_t p = 0; p < message->ghosts.size(); ++p)
     record.ghosts.parts[p] = ghost_of(message->ghosts[p]);
   for (std::size_t h = 0; h < message->ghost_hands.size(); ++h) {
+    if (message->ghost_hands[h].part < -1 || message->ghost_hands[h].part >= message->part_count) return std::nullopt;
     if (message->ghost_hands[h].fingers != 0) record.ghosts.hands[h] = ghost_of(message->ghost_hands[h]);
   }
   record.set.sequence = message->sequence;
+  record.set.part_count = message->part_count;
   return record;
 }
 

@@ -20,7 +20,7 @@ std::vector<std::uint8_t> encode(const AnswerRecord& record);
 /// What a tick consumed, and its duration. What it produced is not read: only `devices::SafetyEnvelope` makes commands.
 /// No value for bytes that are no such message, or whose checksum is wrong.
 std::optional<TickRecord> decode_tick(std::span<const std::uint8_t> bytes);
-/// What an answer consumed, and the number of its set.
+/// What an answer consumed, and the number and the parts of its set. The parts that hands hold are among them.
 std::optional<AnswerRecord> decode_answer(std::span<const std::uint8_t> bytes);
 
 }  // namespace glissade::haptics

@@ -77,6 +77,8 @@ bool Replay::repeat_answer(const devices::LogEvent& event) {
   }
   const std::string name = "contact set " + std::to_string(consumed->set.sequence);
   if (consumed->set.sequence != answers_ + 1) return differs(name + follows("contact set", answers_));
+  if (consumed->set.part_count != sets_.begin()->second.part_count)
+    return differs(name + " has another number of parts");
   const AnswerRecord repeated{consumed->ghosts, answerer_->answer(consumed->ghosts, period_)};
   ++answers_;
   if (RecordedEvents::of(repeated) != event) return differs(name + " differs");

@@ -241,6 +241,40 @@ TEST(GraspSimulation, LeavesAPartThatRepeatsMotionsWhereItsHandIsLost) {
   EXPECT_LT((scene.X_WV().translation() - X_WV.translation()).norm(), 1e-6);
 }
 
+haptics::Ghosts ghosts_of(const Isometry3d& X_WH, bool is_tracked, std::int32_t part) {
+  haptics::Ghosts ghosts;
+  ghosts.parts[0].X_WG = at(0.095, 0.0, -0.056);
+  ghosts.hands[0] = {.is_tracked = is_tracked, .X_WH = X_WH, .angles = {}, .part = part};
+  return ghosts;
+}
+
+// A hand that is only carried on from where it was lost would meet the wall.
+TEST(GraspSimulation, AHandThatIsLostAndLetsGoInTheLoopBeginsAnewWhereItIsFree) {
+  HandAndBall scene;
+  const Isometry3d here = at(0.0, 0.0, 0.1);
+  for (int ms = 0; ms < 3; ++ms)
+    scene.simulation.advance(ghosts_of(here, true, ms == 0 ? -1 : 0), 1.0);
+  ASSERT_EQ(scene.simulation.held_part(0), 0U);
+  scene.simulation.advance(ghosts_of(here, false, 0), 1.0);
+  scene.simulation.advance(ghosts_of(here, false, -1), 1.0);
+  EXPECT_EQ(scene.simulation.activity(0), HandActivity::kLost);
+  const Isometry3d beyond = at(0.5, 0.0, 0.1);
+  scene.simulation.advance(ghosts_of(beyond, true, -1), 1.0);
+  EXPECT_EQ(scene.simulation.activity(0), HandActivity::kFree);
+  EXPECT_TRUE(scene.simulation.posture(0).X_WR.isApprox(beyond));
+}
+
+TEST(GraspSimulation, DecidesNothingNewInTheLoopAboutAHandThatIsLost) {
+  HandAndBall scene;
+  haptics::ContactSet set;
+  scene.simulation.advance(ghosts_of(at(0.0, 0.0, 0.1), true, -1), 1.0);
+  for (int ms = 0; ms < 6; ++ms) {
+    scene.simulation.advance(ghosts_of(at(0.0, 0.0, 0.1), false, ms % 2 == 0 ? 0 : -1), 1.0);
+    scene.simulation.tell_hands(set);
+    EXPECT_EQ(set.hands[0].decision, 0) << ms;
+  }
+}
+
 TEST(GraspSimulation, AHandThatIsFoundAgainInsideAnObjectWaitsUntilItIsFree) {
   HandAndBall scene;
   scene.advance(open_hand());

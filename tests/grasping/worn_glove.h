@@ -8,9 +8,9 @@
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/haptics/contact_set.h>
+#include <glissade/haptics/finger_forces.h>
 
 #include "clasped_hand.h"
-#include "loop/finger_forces.h"
 
 namespace glissade::test_support {
 

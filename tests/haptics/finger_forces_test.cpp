@@ -1,7 +1,5 @@
 /// What fingers feel: springs at the joints that press, nothing at the others, and nothing that comes or goes at once.
 
-#include "loop/finger_forces.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/devices/simulated_glove.h>
+#include <glissade/haptics/finger_forces.h>
 
 #include "allocation_counter.h"
 #include "delayed_wall.h"

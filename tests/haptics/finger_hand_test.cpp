@@ -185,5 +185,12 @@ TEST(FingerHand, IsGivenNoPart) {
       {"hand 0", "fingers"});
 }
 
+TEST(FingerHand, NeedsAWristOfJointsThatTheGloveHas) {
+  FingerHand fingers = hand_with_wrist();
+  fingers.wrist[0].angle = devices::kGloveJoints;
+  const KernelHand hand{.device = devices::simulated_glove_descriptor(), .fingers = fingers};
+  test_support::expect_bad_input([&] { HapticKernel({{Vector3d::Zero(), 0.05, {1000.0, 2.0}}}, {hand}); }, {"wrist"});
+}
+
 }  // namespace
 }  // namespace glissade::haptics

@@ -121,6 +121,7 @@ TEST_F(Server, PressesThePartOnThePlateAndSendsTheForces) {
 void expect_faded(const SteppedDevice& device) {
   EXPECT_EQ(device.last_command().values().f_H_W, Vector3d::Zero());
   EXPECT_EQ(device.last_command().values().t_H_W, Vector3d::Zero());
+  EXPECT_EQ(device.last_command().values().joint_torques, devices::JointValues{});
   constexpr double kForceStep_N = 20.0 / 7.0;
   EXPECT_LE(device.greatest_step(), 2.0 * kForceStep_N * (1.0 + 1e-9)) << "two periods count at most";
 }
@@ -144,6 +145,42 @@ TEST_F(Server, TheForceFadesAtTheEnd) {
   wait_for(server);
   expect_faded(*device_);
   EXPECT_EQ(server.ticks(), 1000);
+}
+
+/// Parts, and a hand whose first joint something stops, far before the angle of the glove.
+class StoppedFinger final : public LoopSimulation {
+ public:
+  explicit StoppedFinger(MultiPartSliding& parts) : parts_(parts) {}
+  const MultiPartSliding& parts() const override { return parts_; }
+  void take_part(std::size_t part, const Isometry3d& X_WG) override { parts_.grasp(part, X_WG); }
+  void leave_part(std::size_t part) override { parts_.release(part); }
+  void advance(const Ghosts& ghosts, double milliseconds) override { parts_.advance(ghosts, milliseconds); }
+  void tell_hands(ContactSet& set) const override {
+    HandAnswer& hand = set.hands[0];
+    hand.visible.activity = devices::HandActivity::kFree;
+    hand.visible.angles[0] = -0.2;
+    hand.row_count = 1;
+    hand.row_array[0].rates[0] = -0.03;
+  }
+
+ private:
+  MultiPartSliding& parts_;
+};
+
+TEST_F(Server, TheTorquesOfFingersFadeAtTheEndToo) {
+  StoppedFinger simulation(*sliding_);
+  FingerHand fingers;
+  fingers.limits.lower.fill(-1.0);
+  fingers.limits.upper.fill(1.0);
+  double greatest_Nm = 0.0;
+  HapticServer server({{.device = device_.get(), .part = std::nullopt, .fingers = fingers}}, simulation, clock_,
+                      [&](const devices::HapticState& sample) {
+                        greatest_Nm = std::max(greatest_Nm, -sample.hands[0].joint_torques[0]);
+                      },
+                      {.ticks = 1000});
+  wait_for(server);
+  EXPECT_GT(greatest_Nm, 0.4);
+  expect_faded(*device_);
 }
 
 TEST_F(Server, TheForceFadesWhenItIsStopped) {

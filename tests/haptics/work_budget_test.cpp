@@ -249,23 +249,25 @@ TEST(WorkBudget, TheMotionOfOnePartIsKeptWhileAnotherIsGraspedAndLetGo) {
   EXPECT_NEAR(sliding.result(0).X_WV.translation().x(), kWay_m, 1e-9);
 }
 
-/// How far a ball comes in 300 calls, its ghost 2 mm away, while somebody moves a rider far from it: in every call, or
-/// between cycles only.
-double way_beside_riders(bool between_cycles_only) {
+/// In how many calls a ball comes to its ghost, 2 mm away, while somebody moves a rider far from it: in every call, or
+/// between cycles only. Gives up after 5,000.
+int calls_beside_riders(bool between_cycles_only) {
   MultiPartSliding sliding({fine_block()}, {{.part_V = fine_ball(), .X_WV_start = pose({0.0, 0.0, 0.0202})}},
                            {.work_budget = 1'000}, {{{test_support::cube(0.04)}}});
-  for (int call = 1; call <= 300; ++call) {
-    const Isometry3d X_WRider = pose({0.5, 0.0, 1e-5 * call});
+  int call = 0;
+  while (call < 5'000 && sliding.result(0).X_WV.translation().x() < 2e-3 - 1e-9) {
+    ++call;
+    const Isometry3d X_WRider = pose({0.5, 0.0, 1e-6 * call});
     if (!between_cycles_only || !sliding.is_within_cycle()) sliding.place_riders(0, {&X_WRider, 1});
     const Isometry3d X_WG = pose({2e-3, 0.0, 0.0201});
     sliding.advance({&X_WG, 1});
   }
-  return sliding.result(0).X_WV.translation().x();
+  return call;
 }
 
 TEST(WorkBudget, RidersThatAreMovedBetweenCyclesHoldNoPartUp) {
-  EXPECT_NEAR(way_beside_riders(true), 2e-3, 1e-9);
-  EXPECT_LT(way_beside_riders(false), 1.9e-3) << "each cycle begins anew";
+  EXPECT_LT(calls_beside_riders(true), 2'000);
+  EXPECT_GT(calls_beside_riders(false), 1.5 * calls_beside_riders(true)) << "each cycle begins anew";
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-#include "loop/finger_forces.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+
+#include <glissade/haptics/finger_forces.h>
 
 #include "loop/contact_force.h"
 

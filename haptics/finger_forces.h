@@ -7,7 +7,6 @@
 #include <glissade/devices/glove_device.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
-#include <glissade/haptics/haptic_kernel.h>
 
 namespace glissade::haptics {
 
