@@ -173,10 +173,13 @@ class GraspSimulation::Life {
     return true;
   }
 
-  /// Moves parts, then hands. While the parts are within a step, hands stand still: they would change what it is about.
+  /// Moves parts, then hands. While the parts are within a step, hands only go along with what they hold: moving by
+  /// themselves, they would change what the step is about.
   void move(double milliseconds) {
     parts_.advance(X_WG_, milliseconds);
     waited_ms_ += milliseconds;
+    for (std::size_t h = 0; h < hands_.size(); ++h)
+      carry_hand(h);
     if (parts_.is_within_cycle()) return;
     for (std::size_t h = 0; h < hands_.size(); ++h)
       move_hand(h);
@@ -213,11 +216,15 @@ class GraspSimulation::Life {
     return geometry::displaced(X_WG_from, part.p_Vref(), pushes_[p].displacement(part.radius()));
   }
 
-  void move_hand(std::size_t h) {
+  void carry_hand(std::size_t h) {
     GraspingHand& hand = hands_[h];
     for (std::size_t p = 0; p < X_WG_.size(); ++p)
       hand.clasp().place_free_object(p, parts_.result(p).X_WV);
     if (hand.part()) hand.follow(parts_.result(*hand.part()).X_WV);
+  }
+
+  void move_hand(std::size_t h) {
+    GraspingHand& hand = hands_[h];
     hand.advance();
     if (hand.clasp().state() != ClaspState::kClasping) return;
     parts_.place_riders(h, hand.segments());

@@ -33,7 +33,7 @@ class MultiPartSliding::Cycle {
   const SimulatedParts& shared() const { return shared_; }
   const CallStatistics& statistics() const { return statistics_; }
   std::int64_t answered_call() const { return answered_call_; }
-  bool is_within_cycle() const { return step_finder_.is_under_way(); }
+  bool is_within_cycle() const { return step_finder_.is_under_way() || waits_for_search_; }
   HeldPartState& part(std::size_t number) {
     GLISSADE_ASSERT(number < shared_.count());
     return shared_.states[number];
@@ -145,7 +145,8 @@ class MultiPartSliding::Cycle {
       radius_.choose(shared_, starts_.depenetration(), milliseconds_);
       find_ignored();
       if (radius_.look(shared_, ignored_)) starts_.restore_min_clearances();
-      if (!shared_.candidates.covers(radius_.reach_ahead())) return Progress::kUsedUp;
+      waits_for_search_ = !shared_.candidates.covers(radius_.reach_ahead());
+      if (waits_for_search_) return Progress::kUsedUp;
       step_finder_.look(radius_.reach(), budget);
     }
     const std::optional<Step> step = step_finder_.find(budget);
@@ -229,6 +230,7 @@ class MultiPartSliding::Cycle {
   double unanswered_ms_ = 0.0;                           // since the ghosts that the newest answer is for
   // Of the answer under way, or of the last one:
   bool is_under_way_ = false;
+  bool waits_for_search_ = false;
   double milliseconds_ = 0.0;
   int cycles_ = 0;
   std::int64_t begun_call_ = 0;

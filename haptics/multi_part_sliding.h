@@ -75,7 +75,7 @@ class MultiPartSliding final : public LoopSimulation {
   /// and then goes on with its own.
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds = 1.0);
   /// Whether the last call ended within a cycle, which the next one completes. Other calls than `advance` give the
-  /// cycle up.
+  /// cycle up, and the search for which it may be waiting.
   bool is_within_cycle() const;
 
   // In the haptic loop: hands have no fingers.

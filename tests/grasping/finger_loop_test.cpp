@@ -260,7 +260,7 @@ TEST(FingerLoop, IsRepeatedFromItsRecordingToTheBit) {
 // Hands stand still while the parts are within a step; so they must come to move all the same, and the steps to an end.
 TEST(FingerLoop, CarriesWithSoLittleWorkThatCallsEndEarly) {
   const BallAndWall scene;
-  GraspSimulation simulation = scene.simulation(1, {.work_budget = 200'000});
+  GraspSimulation simulation = scene.simulation(1, {.work_budget = 50'000});
   std::vector<devices::SimulatedGlove> gloves{carrier()};
   const std::vector<HapticState> states = run(simulation, gloves, 3200);
   EXPECT_GT(simulation.parts().call_statistics().ended_early, 50);
