@@ -190,29 +190,29 @@ class TwoHands : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
-    folder_ = std::make_unique<test_support::TemporaryFolder>();
-    const std::string scene = folder_->write("scene.yaml", kScene);
+    folder = std::make_unique<test_support::TemporaryFolder>();
+    const std::string scene = folder->write("scene.yaml", kScene);
     std::array<std::unique_ptr<Process>, 2> gloves;
     for (std::size_t h = 0; h < gloves.size(); ++h) {
       const std::string number = std::to_string(h + 1);
       gloves[h] = std::make_unique<Process>(std::vector<std::string>{
           GLISSADE_PROGRAM, "glove", "--lcm", kUrl, "--device", number, "--script",
-          folder_->write("hand_" + number + ".csv", csv_of(h == 0 ? first_hand() : second_hand()))});
+          folder->write("hand_" + number + ".csv", csv_of(h == 0 ? first_hand() : second_hand()))});
     }
-    server_ = test_support::glissade({"record", log(), scene, "--lcm", kUrl, "--device", "1", "2", "--fingers",
-                                      "--seconds", std::to_string(kSeconds), "--json"});
+    server = test_support::glissade({"record", log(), scene, "--lcm", kUrl, "--device", "1", "2", "--fingers",
+                                     "--seconds", std::to_string(kSeconds), "--json"});
     for (const std::unique_ptr<Process>& glove : gloves) {
       glove->signal(SIGINT);
       EXPECT_EQ(glove->wait().exit_code, 0);
     }
-    ASSERT_EQ(server_.exit_code, 0) << server_.standard_error;
-    ticks_ = read_ticks(log());
+    ASSERT_EQ(server.exit_code, 0) << server.standard_error;
+    recorded = read_ticks(log());
   }
-  static void TearDownTestSuite() { folder_.reset(); }
+  static void TearDownTestSuite() { folder.reset(); }
 
-  static std::string log() { return folder_->path("run.lcmlog"); }
+  static std::string log() { return folder->path("run.lcmlog"); }
   static const RecordedTick& at_time(double seconds) {
-    return ticks_[std::min(static_cast<std::size_t>(std::llround(1e3 * seconds)), ticks_.size() - 1)];
+    return recorded[std::min(static_cast<std::size_t>(std::llround(1e3 * seconds)), recorded.size() - 1)];
   }
   static std::pair<std::int32_t, std::int32_t> held_at(double seconds) {
     const HapticState& state = at_time(seconds).state;
@@ -220,31 +220,31 @@ class TwoHands : public testing::Test {
   }
   static Vector3d ball_at(double seconds) { return at_time(seconds).state.parts[0].X_WV.translation(); }
 
-  static inline std::unique_ptr<test_support::TemporaryFolder> folder_;
-  static inline ProgramResult server_;
-  static inline std::vector<RecordedTick> ticks_;
+  static inline std::unique_ptr<test_support::TemporaryFolder> folder;
+  static inline ProgramResult server;
+  static inline std::vector<RecordedTick> recorded;
 };
 
 TEST_F(TwoHands, TakeHoldShareCarryAndLeave) {
   EXPECT_EQ(held_at(0.4), std::pair(-1, -1));
-  EXPECT_EQ(held_at(1.5), std::pair(0, -1)) << server_.standard_error;
-  EXPECT_EQ(held_at(2.8), std::pair(0, 0)) << server_.standard_error;
-  EXPECT_EQ(held_at(3.9), std::pair(-1, 0)) << server_.standard_error;
+  EXPECT_EQ(held_at(1.5), std::pair(0, -1)) << server.standard_error;
+  EXPECT_EQ(held_at(2.8), std::pair(0, 0)) << server.standard_error;
+  EXPECT_EQ(held_at(3.9), std::pair(-1, 0)) << server.standard_error;
   EXPECT_EQ(held_at(6.8), std::pair(-1, 0));
   EXPECT_EQ(held_at(8.4), std::pair(-1, -1));
   EXPECT_GT(ball_at(5.6).x(), ball_at(3.9).x() + 0.08) << "carried to the wall";
   EXPECT_GT(ball_at(6.2).y(), ball_at(5.6).y() + 0.03) << "along it";
   EXPECT_LT(ball_at(6.8).x(), ball_at(5.6).x() - 0.02) << "and back";
   EXPECT_TRUE(ball_at(8.0).isApprox(ball_at(8.4), 1e-12)) << "it stays where it was left";
-  const nlohmann::json summary = nlohmann::json::parse(server_.standard_output);
+  const nlohmann::json summary = nlohmann::json::parse(server.standard_output);
   EXPECT_EQ(summary["colliding_poses"], 0);
   EXPECT_EQ(summary["hands"][0]["has_fingers"], true);
 }
 
 TEST_F(TwoHands, ShowNothingThatPenetrates) {
   VisibleBodies bodies;
-  for (std::size_t i = 0; i < ticks_.size(); i += 5)
-    ASSERT_FALSE(bodies.collide(ticks_[i].state)) << "after " << i << " ms";
+  for (std::size_t i = 0; i < recorded.size(); i += 5)
+    ASSERT_FALSE(bodies.collide(recorded[i].state)) << "after " << i << " ms";
 }
 
 TEST_F(TwoHands, StopTheFingersAtTheSurface) {
@@ -268,13 +268,13 @@ TEST_F(TwoHands, FeelNothingThatJumpsAndNothingThatLasts) {
   const devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
   constexpr double kRise_s = 7e-3;  // from zero to the maximum
   double greatest_N = 0.0;
-  for (std::size_t i = 1; i < ticks_.size(); ++i) {
+  for (std::size_t i = 1; i < recorded.size(); ++i) {
     // The envelope counts at most two periods for a step.
     const double dt =
-        std::clamp(std::chrono::duration<double>(ticks_[i].time - ticks_[i - 1].time).count(), 0.0, 2e-3) + 1e-9;
+        std::clamp(std::chrono::duration<double>(recorded[i].time - recorded[i - 1].time).count(), 0.0, 2e-3) + 1e-9;
     for (std::size_t h = 0; h < 2; ++h) {
-      const devices::HapticHandState& now = ticks_[i].state.hands[h];
-      const devices::HapticHandState& before = ticks_[i - 1].state.hands[h];
+      const devices::HapticHandState& now = recorded[i].state.hands[h];
+      const devices::HapticHandState& before = recorded[i - 1].state.hands[h];
       ASSERT_LE((now.force_W - before.force_W).norm(), device.max_force / kRise_s * dt) << i;
       ASSERT_LE(now.force_W.norm(), device.max_force * (1.0 + 1e-9)) << i;
       greatest_N = std::max(greatest_N, now.force_W.norm());
@@ -286,10 +286,10 @@ TEST_F(TwoHands, FeelNothingThatJumpsAndNothingThatLasts) {
     }
   }
   EXPECT_GT(greatest_N, 2.0) << "the wall";
-  for (std::size_t i = static_cast<std::size_t>(8.3e3); i < ticks_.size(); ++i) {
+  for (std::size_t i = static_cast<std::size_t>(8.3e3); i < recorded.size(); ++i) {
     for (std::size_t h = 0; h < 2; ++h) {
-      ASSERT_TRUE(ticks_[i].state.hands[h].force_W.isZero(0.0)) << i;
-      ASSERT_EQ(ticks_[i].state.hands[h].joint_torques, JointValues{}) << i;
+      ASSERT_TRUE(recorded[i].state.hands[h].force_W.isZero(0.0)) << i;
+      ASSERT_EQ(recorded[i].state.hands[h].joint_torques, JointValues{}) << i;
     }
   }
 }
