@@ -72,3 +72,12 @@ function(glissade_add_component name)
       FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   endif()
 endfunction()
+
+# glissade_compile_for_instruction_sets(TARGET): the vector code. SSSE3 adds nothing to SSE4 here, nor the newest AVX-512
+# to the first; vectors of unknown length do not fit code for sixteen pairs. EMU128 is plain C++ in vectors of 16 bytes.
+# Highway leaves it out before g++ 12.3 for a fault of the compiler; what we use of it is compared with the other
+# instruction sets by the tests of the kernels.
+function(glissade_compile_for_instruction_sets target)
+  target_compile_definitions(${target} PRIVATE HWY_BROKEN_EMU128=0
+    "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL|HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV)")
+endfunction()

@@ -60,7 +60,7 @@ enum class GraspKind : std::int32_t { kNone = 0, kPush = 1, kPrecision = 2, kPow
 /// Number of kinds; their values run from 0 to kGraspKinds − 1.
 inline constexpr std::int32_t kGraspKinds = 4;
 
-/// Such as "holding" and "power"; "none" for a value that is none of the above.
+/// The name of an activity or a kind, such as "holding" or "power". Any other value is called "none".
 std::string_view name_of(HandActivity activity);
 std::string_view name_of(GraspKind kind);
 

@@ -54,7 +54,8 @@ struct SimulatedGloveParameters {
   JointValues grasp_posture{};  ///< joint angles to which the wearer's fingers return; rad
   /// The same while the hand is open; none: the hand opens without moving its fingers.
   std::optional<JointValues> open_posture{};
-  /// The same over the time of the script, instead of both postures; none: the grip says which of the two it is.
+  /// Joint angles over the time of the script, which replace both postures. Without entries, the grip chooses the
+  /// posture.
   std::vector<TimedAngles> fingers{};
   std::chrono::nanoseconds frozen{0};  ///< `DeviceDescriptor::frozen`
   bool starts_closed = true;           ///< the hand is closed at the start of the script

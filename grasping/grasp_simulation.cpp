@@ -43,6 +43,15 @@ std::vector<haptics::RiderChain> chains_of(const std::vector<GraspingHand>& hand
   return chains;
 }
 
+devices::GraspKind kind_of(GraspType type) {
+  const auto has_number = [](GraspType a, devices::GraspKind b) { return static_cast<int>(a) == static_cast<int>(b); };
+  static_assert(has_number(GraspType::kNone, devices::GraspKind::kNone) &&
+                has_number(GraspType::kPush, devices::GraspKind::kPush) &&
+                has_number(GraspType::kPrecision, devices::GraspKind::kPrecision) &&
+                has_number(GraspType::kPower, devices::GraspKind::kPower));
+  return static_cast<devices::GraspKind>(type);
+}
+
 devices::HandActivity activity_of(const GraspingHand& hand) {
   if (hand.is_lost()) return devices::HandActivity::kLost;
   if (hand.clasp().state() == ClaspState::kWaiting) return devices::HandActivity::kWaiting;
@@ -147,7 +156,7 @@ class GraspSimulation::Life {
       const GraspingHand& hand = hands_[h];
       haptics::HandAnswer& answer = answers_[h];
       answer.visible.activity = activity_of(hand);
-      answer.visible.grasp = static_cast<devices::GraspKind>(hand.grasp().type);
+      answer.visible.grasp = kind_of(hand.grasp().type);
       tell_visible(hand.clasp().chain(), hand.clasp().posture(), hand.clasp().contacts(), X_WL_, answer);
       set.hands[h] = answer;
     }
@@ -273,7 +282,7 @@ class GraspSimulation::Life {
   /// Decides for the haptic thread; nothing new about a hand that is lost.
   void decide(std::size_t h) {
     if (hands_[h].is_lost()) return;
-    const std::optional<std::size_t> part = wanted_part(h);
+    const std::optional<std::size_t> part = grasped_part(hands_[h]);
     const std::int32_t number = part ? static_cast<std::int32_t>(*part) : -1;
     haptics::HandAnswer& answer = answers_[h];
     if (number == answer.part) return;

@@ -14,8 +14,8 @@
 
 namespace glissade::grasping {
 
-/// A segment that has touched the held part goes on touching it, even when it has left it by less than what noise
-/// does. Not thread-safe.
+/// The noise of a glove takes a segment off the held part by millimetres. Within such a distance, the segment counts as
+/// touching. Not thread-safe.
 class HeldContacts {
  public:
   /// For a hand with so many links.

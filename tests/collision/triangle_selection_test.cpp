@@ -35,7 +35,7 @@ using Flags = std::vector<char>;
 constexpr char kSelected = 1;
 constexpr char kHalf = 2;
 
-/// A tree, and which of its triangles are selected or half selected.
+/// A tree, with marks of its selected and its half selected triangles.
 struct Selected {
   Selected(geometry::TriangleMesh triangles, Flags is_selected)
       : mesh(std::make_shared<geometry::TriangleMesh>(std::move(triangles))),

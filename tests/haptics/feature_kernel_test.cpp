@@ -1,5 +1,5 @@
 // The vector code in front of the contact search: what it leaves out is no contact, by plain formulas in double
-// precision, and it leaves out nearly all that is none.
+// precision, and it leaves out nearly every pair without one.
 
 #include "contact/feature_kernel.h"
 
