@@ -17,6 +17,7 @@
 #include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/view/session_view.h>
 #include <glissade/devices/simulated_glove_service.h>
 #include <glissade/realtime/periodic_thread.h>
 
@@ -47,6 +48,7 @@ constexpr const char* kDemoFooter =
     "  glissade demo --fingers\n"
     "  glissade demo --seconds 20 --report report\n"
     "  glissade demo --offline --json\n"
+    "  glissade demo --fingers --view\n"
     "  glissade demo --record demo.lcmlog";
 
 struct DemoOptions {
@@ -59,6 +61,7 @@ struct DemoOptions {
   std::string lcm_url = "memq://";
   std::string report;
   std::string record;
+  std::optional<std::uint16_t> view_port;
   SlidingChoice choice;
 };
 
@@ -103,7 +106,9 @@ Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_
                       .choice = options.choice,
                       .seconds = 1e-3 * static_cast<double>(ticks),
                       .period = haptics::kTickPeriod,
-                      .record = record_of(options)},
+                      .record = record_of(options),
+                      .view_port = options.view_port,
+                      .waits_for_page = true},
                      &StopSignal::requested, [&](const RunNews& news) {
                        for (const std::string& sentence : news.sentences)
                          line.say("glissade demo: " + sentence);
@@ -145,6 +150,7 @@ void add_demo_command(CLI::App& app, Command& chosen) {
       ->capture_default_str()
       ->excludes(offline);
   command->add_option("--record", options->record, "File for a recording, which 'glissade replay' repeats to the bit");
+  add_view_option(*command, options->view_port)->excludes(offline);
   command
       ->add_option("--report", options->report,
                    "Folder for a page, index.html, with the summary and plots of force, lag (distance from the visible "

@@ -22,6 +22,7 @@
 #include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/view/session_view.h>
 #include <glissade/realtime/periodic_thread.h>
 
 namespace glissade::apps {
@@ -86,6 +87,7 @@ struct RunOptions {
   bool verbose = false;
   std::string report;
   RecordSettings record;
+  std::optional<std::uint16_t> view_port;
 };
 
 /// The gloves and the parts that their hands take.
@@ -198,7 +200,8 @@ int run(const RunOptions& options) {
                        .choice = options.choice,
                        .seconds = options.seconds,
                        .spin = std::chrono::nanoseconds(std::llround(1e3 * options.spin_us)),
-                       .record = options.record};
+                       .record = options.record,
+                       .view_port = options.view_port};
   take_shapes(options, settings.hands);
   settings.record.scene_file = options.scene;
   if (options.rate_hz != 0.0) settings.period = std::chrono::nanoseconds(std::llround(1e9 / options.rate_hz));
@@ -243,6 +246,7 @@ void add_options(CLI::App& command_line, RunOptions& options) {
   command_line.add_option("--flight-recorder", options.record.flight,
                           "File for the last seconds: written when a glove fails, when the simulation fails, and on "
                           "SIGUSR1; later ones get a number");
+  add_view_option(command_line, options.view_port);
   command_line.add_flag("--json", options.json, "Print the summary as JSON");
   command_line.add_flag("--verbose", options.verbose, kVerboseHelp);
   command_line.add_option("--report", options.report,

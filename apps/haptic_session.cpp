@@ -13,6 +13,7 @@
 #include <glissade/apps/session_sink.h>
 #include <glissade/apps/session_start.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/view/session_view.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/haptics/offline_run.h>
@@ -107,6 +108,22 @@ RunWatch watch_of(const HapticScene& scene, const RunSettings& settings) {
   return {std::move(part_names), hands, settings.seconds};
 }
 
+/// Shows the run to browsers, and waits for the first one if that is wanted.
+std::unique_ptr<viewer::ViewServer> view_of(const HapticScene& scene, const RunSettings& settings,
+                                            const StartedSimulation& started, const std::function<bool()>& should_stop,
+                                            const std::function<void(const RunNews&)>& watch) {
+  if (!settings.view_port) return nullptr;
+  std::vector<std::int64_t> devices;
+  for (const SessionHand& hand : settings.hands)
+    devices.push_back(hand.device);
+  auto server = std::make_unique<viewer::ViewServer>(view_scene_of(scene, devices, started.models),
+                                                     viewer::ViewServerOptions{.port = *settings.view_port});
+  watch({.sentences = {"open " + server->url() + (settings.waits_for_page ? " in a browser: then it starts" : "")}});
+  while (settings.waits_for_page && !server->has_had_client() && !should_stop())
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  return server;
+}
+
 }  // namespace
 
 Session run_session_offline(const HapticScene& scene, const HandScript& script, std::int64_t ticks,
@@ -164,7 +181,8 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   const auto recorder = std::make_shared<SessionRecorder>(ticks > 0 ? static_cast<std::size_t>(ticks) : kKeptTicks,
                                                           sliding.part_count(), settings.hands.size());
   RunWatch run_watch = watch_of(scene, settings);
-  SessionSink sink(bus, recorder, run_watch);
+  const std::unique_ptr<viewer::ViewServer> view = view_of(scene, settings, started, should_stop, watch);
+  SessionSink sink(bus, recorder, run_watch, view.get());
   std::vector<std::unique_ptr<devices::LcmGlove>> gloves;
   std::vector<haptics::HandOfServer> hands;
   std::vector<std::int64_t> numbers;

@@ -46,6 +46,8 @@ struct RunSettings {
   std::optional<std::chrono::nanoseconds> period{};
   std::chrono::nanoseconds spin{0};  ///< as `haptics::HapticServerOptions::spin`
   RecordSettings record{};
+  std::optional<std::uint16_t> view_port{};  ///< for browsers that look on; 0: any; none: nobody does
+  bool waits_for_page = false;               ///< with a port: the run starts when the first page looks on
 };
 
 /// What a run tells ten times a second.

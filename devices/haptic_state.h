@@ -42,6 +42,9 @@ PartState part_state_from_number(std::int32_t number) noexcept;
 inline constexpr std::size_t kHapticParts = 4;
 inline constexpr std::size_t kHapticHands = 4;
 
+/// Maximum number of contacts in a `HapticState`: without friction, six of a single part push at once.
+inline constexpr std::size_t kHapticContacts = 24;
+
 /// What a hand with fingers does. Messages carry its number.
 enum class HandActivity : std::int32_t {
   kNone = 0,     ///< not reported: the hand has no fingers in the simulation, and holds by its grip
@@ -103,6 +106,13 @@ struct HapticHandState {
   JointValues joint_torques{};              ///< Nm, as its device got them
 };
 
+/// A contact that pushes, on a part that hands lead.
+struct HapticContact {
+  std::int32_t part = 0;
+  Eigen::Vector3f p_V = Eigen::Vector3f::Zero();  ///< the contact point in the part's frame, metres
+  Eigen::Vector3f n_W = Eigen::Vector3f::Zero();  ///< unit normal, from the obstacle to the part
+};
+
 /// One haptic tick. The contact set is the newest answer of the simulation to a pose of each ghost: the poses X_WV and
 /// the contacts of the parts.
 struct HapticState {
@@ -110,10 +120,14 @@ struct HapticState {
   std::chrono::nanoseconds time{0};             ///< time of the tick, on the haptic loop's clock
   std::chrono::nanoseconds contact_set_age{0};  ///< time since these ghost poses; 0 before the first set
   bool is_contact_set_late = false;             ///< the contact set was older than 5 ms
+  std::chrono::nanoseconds lateness{0};         ///< `time` less the time for which the tick was scheduled
+  std::chrono::nanoseconds last_duration{0};    ///< of the tick before, until its commands were handed over
   std::int32_t part_count = 1;
   std::int32_t hand_count = 1;
+  std::int32_t contact_count = 0;  ///< contacts that push, as far as there is room
   std::array<HapticPartState, kHapticParts> parts{};
   std::array<HapticHandState, kHapticHands> hands{};
+  std::array<HapticContact, kHapticContacts> contacts{};
 };
 
 }  // namespace glissade::devices

@@ -120,6 +120,8 @@ class HapticKernel {
   /// Emergency stop: the force of all hands fades to zero and stays there.
   void stop() noexcept;
 
+  const std::vector<KernelPart>& parts() const noexcept { return parts_; }
+
   /// The coupling without delay of the link. Both numbers must be below those of hands and parts.
   const Coupling& coupling(std::size_t hand, std::size_t part) const;
   /// The coupling of the hand in the last tick: with the delay that the glove tells (`GloveState::link_delay`),

@@ -84,6 +84,7 @@ bool HapticServer::haptic_tick(const realtime::PeriodicTick& timing) noexcept {
   const bool is_ending = should_end || (options_.ticks > 0 && ticks() == options_.ticks);
   ++record_.number;
   record_.sequence = is_ending ? 0 : ticks() + 1;
+  record_.last_duration = record_.duration;
   record_.deadline = timing.deadline;
   record_.time = timing.start;
   record_.is_stopped = is_ending || emergency_.load(std::memory_order_relaxed) || has_failed();
@@ -93,10 +94,8 @@ bool HapticServer::haptic_tick(const realtime::PeriodicTick& timing) noexcept {
   for (std::size_t h = 0; h < devices_.size(); ++h) {
     if (record_.has_state[h]) devices_[h]->command(record_.tick.hands[h].command);
   }
-  if (options_.observer != nullptr) {
-    record_.duration = clock_.now() - timing.start;
-    options_.observer->after_tick(record_);
-  }
+  record_.duration = clock_.now() - timing.start;
+  if (options_.observer != nullptr) options_.observer->after_tick(record_);
   if (is_ending) return go_on_fading();
   ghosts_.publish(record_.tick.ghosts);
   report();

@@ -60,12 +60,13 @@ class HoldRequests {
 /// One tick of the haptic thread.
 struct TickRecord {
   // Consumed.
-  std::int64_t number = 0;               ///< 1, 2, 3, …: of all ticks with a state of any hand
-  std::int64_t sequence = 0;             ///< of `state`; 0: a tick of the fade at the end, which has no state
-  std::chrono::nanoseconds deadline{0};  ///< scheduled start
-  std::chrono::nanoseconds time{0};      ///< actual start, on the loop's clock
-  bool is_stopped = false;               ///< the force of all hands was stopped before this tick
-  std::int32_t hand_count = 0;           ///< entries in use in arrays of hands
+  std::int64_t number = 0;                    ///< 1, 2, 3, …: of all ticks with a state of any hand
+  std::int64_t sequence = 0;                  ///< of `state`; 0: a tick of the fade at the end, which has no state
+  std::chrono::nanoseconds deadline{0};       ///< scheduled start
+  std::chrono::nanoseconds time{0};           ///< actual start, on the loop's clock
+  std::chrono::nanoseconds last_duration{0};  ///< `duration` of the tick before
+  bool is_stopped = false;                    ///< the force of all hands was stopped before this tick
+  std::int32_t hand_count = 0;                ///< entries in use in arrays of hands
   std::array<bool, kMaxHands> has_state{};
   std::array<devices::GloveState, kMaxHands> states{};  ///< the newest one of each hand that has one
   HoldRequests requests;

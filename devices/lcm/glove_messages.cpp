@@ -8,6 +8,7 @@
 #include <glissade/lcmtypes/glove_command_t.hpp>
 #include <glissade/lcmtypes/glove_info_t.hpp>
 #include <glissade/lcmtypes/glove_state_t.hpp>
+#include <glissade/lcmtypes/haptic_contact_t.hpp>
 #include <glissade/lcmtypes/haptic_hand_t.hpp>
 #include <glissade/lcmtypes/haptic_part_t.hpp>
 #include <glissade/lcmtypes/haptic_state_t.hpp>
@@ -23,6 +24,7 @@ constexpr double kLargestAngle = 2.0 * std::numbers::pi;
 constexpr double kLargestForce = 1e6;   // N
 constexpr double kLargestTorque = 1e6;  // Nm
 constexpr double kLargestEnergy = 1e9;  // J
+constexpr double kLargestNormal = 1.001;
 constexpr double kQuaternionTolerance = 1e-3;
 constexpr std::int64_t kLargestTime_ns = std::int64_t{1} << 60;  // 36 years
 
@@ -30,6 +32,10 @@ static_assert(haptic_hand_t::REASON_STOPPED == 1);
 static_assert(haptic_hand_t::REASON_ENERGY == 1 << (kLimitReasons.size() - 1));
 
 void put(const Eigen::Vector3d& vector, double (&out)[3]) {
+  std::copy_n(vector.data(), 3, out);
+}
+
+void put(const Eigen::Vector3f& vector, float (&out)[3]) {
   std::copy_n(vector.data(), 3, out);
 }
 
@@ -65,9 +71,10 @@ MessageError from_bytes(std::span<const std::uint8_t> bytes, Message& message) n
 /// Checks the fields of a message and keeps the most serious error.
 class FieldCheck {
  public:
-  template <std::size_t N>
-  void magnitude(const double (&values)[N], double largest) noexcept {
-    for (const double value : values) {
+  template <typename Number, std::size_t N>
+  void magnitude(const Number (&values)[N], double largest) noexcept {
+    for (const Number number : values) {
+      const auto value = static_cast<double>(number);
       is_finite_ = is_finite_ && std::isfinite(value);
       is_in_range_ = is_in_range_ && std::abs(value) <= largest;
     }
@@ -177,6 +184,9 @@ MessageError check(const haptic_state_t& message) noexcept {
   fields.not_negative(message.contact_set_age_ns);
   fields.between(message.part_count, 0, static_cast<std::int32_t>(kHapticParts));
   fields.between(message.hand_count, 0, static_cast<std::int32_t>(kHapticHands));
+  fields.between(message.contact_count, 0, static_cast<std::int32_t>(kHapticContacts));
+  fields.time(message.lateness_ns);
+  fields.time(message.last_duration_ns);
   for (const haptic_part_t& part : message.parts) {
     fields.magnitude(part.position_WG_m, kLargestPosition);
     fields.unit_quaternion(part.orientation_WG_wxyz);
@@ -195,6 +205,11 @@ MessageError check(const haptic_state_t& message) noexcept {
     fields.unit_quaternion(hand.orientation_WH_wxyz);
     fields.magnitude(hand.joint_angles_rad, kLargestAngle);
     fields.magnitude(hand.joint_torques_Nm, kLargestTorque);
+  }
+  for (const haptic_contact_t& contact : message.contacts) {
+    fields.between(contact.part, 0, static_cast<std::int32_t>(kHapticParts) - 1);
+    fields.magnitude(contact.position_V_m, kLargestPosition);
+    fields.magnitude(contact.normal_W, kLargestNormal);
   }
   return fields.result();
 }
@@ -237,6 +252,18 @@ haptic_hand_t message_of(const HapticHandState& hand) {
   std::copy(hand.visible.angles.begin(), hand.visible.angles.end(), message.joint_angles_rad);
   std::copy(hand.joint_torques.begin(), hand.joint_torques.end(), message.joint_torques_Nm);
   return message;
+}
+
+haptic_contact_t message_of(const HapticContact& contact) {
+  haptic_contact_t message{};
+  message.part = contact.part;
+  put(contact.p_V, message.position_V_m);
+  put(contact.n_W, message.normal_W);
+  return message;
+}
+
+HapticContact contact_of(const haptic_contact_t& message) noexcept {
+  return {message.part, Eigen::Vector3f(message.position_V_m), Eigen::Vector3f(message.normal_W)};
 }
 
 /// Zero for a number that has no meaning here.
@@ -335,10 +362,15 @@ std::vector<std::uint8_t> encode(const HapticState& state) {
   message.flags = state.is_contact_set_late ? haptic_state_t::FLAG_CONTACT_SET_LATE : 0;
   message.part_count = state.part_count;
   message.hand_count = state.hand_count;
+  message.lateness_ns = state.lateness.count();
+  message.last_duration_ns = state.last_duration.count();
+  message.contact_count = state.contact_count;
   for (std::size_t p = 0; p < kHapticParts; ++p)
     message.parts[p] = message_of(state.parts[p]);
   for (std::size_t h = 0; h < kHapticHands; ++h)
     message.hands[h] = message_of(state.hands[h]);
+  for (std::size_t c = 0; c < kHapticContacts; ++c)
+    message.contacts[c] = message_of(state.contacts[c]);
   return to_bytes(message);
 }
 
@@ -423,10 +455,15 @@ MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noe
   state.is_contact_set_late = (message.flags & haptic_state_t::FLAG_CONTACT_SET_LATE) != 0;
   state.part_count = message.part_count;
   state.hand_count = message.hand_count;
+  state.lateness = std::chrono::nanoseconds(message.lateness_ns);
+  state.last_duration = std::chrono::nanoseconds(message.last_duration_ns);
+  state.contact_count = message.contact_count;
   for (std::size_t p = 0; p < kHapticParts; ++p)
     state.parts[p] = part_of(message.parts[p]);
   for (std::size_t h = 0; h < kHapticHands; ++h)
     state.hands[h] = hand_of(message.hands[h]);
+  for (std::size_t c = 0; c < kHapticContacts; ++c)
+    state.contacts[c] = contact_of(message.contacts[c]);
   return MessageError::kNone;
 }
 

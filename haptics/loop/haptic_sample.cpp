@@ -1,5 +1,7 @@
 #include "loop/haptic_sample.h"
 
+#include <algorithm>
+
 namespace glissade::haptics {
 
 devices::PartState part_state_of(SlidingState state) noexcept {
@@ -52,16 +54,30 @@ devices::HapticHandState hand_after(const HandTick& tick, const ContactSet& set,
   return hand;
 }
 
+/// The contacts move with the visible part.
+void add_contacts(std::span<const KernelPart> parts, const ContactSet& set, devices::HapticState& sample) noexcept {
+  for (const ContactRow& row : set.rows()) {
+    if (!row.pushes) continue;
+    if (static_cast<std::size_t>(sample.contact_count) == sample.contacts.size()) return;
+    const auto part = static_cast<std::size_t>(row.part);
+    const Eigen::Vector3d p_V = parts[part].p_Vref + set.parts[part].X_WV_of_rows.linear().transpose() * row.r;
+    sample.contacts[static_cast<std::size_t>(sample.contact_count++)] = {row.part, p_V.cast<float>(),
+                                                                         row.n.cast<float>()};
+  }
+}
+
 }  // namespace
 
-devices::HapticState make_sample(std::int64_t sequence, const HapticTick& tick, const ContactSet& set,
-                                 std::span<const devices::GloveState* const> states,
-                                 std::chrono::nanoseconds now) noexcept {
+devices::HapticState make_sample(const TickRecord& record, std::span<const KernelPart> parts, const ContactSet& set,
+                                 std::span<const devices::GloveState* const> states) noexcept {
   static_assert(kMaxParts == devices::kHapticParts && kMaxHands == devices::kHapticHands);
+  const HapticTick& tick = record.tick;
   devices::HapticState sample;
-  sample.sequence = sequence;
-  sample.time = now;
-  sample.contact_set_age = set.sequence == 0 ? std::chrono::nanoseconds(0) : now - set.time;
+  sample.sequence = record.sequence;
+  sample.time = record.time;
+  sample.contact_set_age = set.sequence == 0 ? std::chrono::nanoseconds(0) : record.time - set.time;
+  sample.lateness = std::max(record.time - record.deadline, std::chrono::nanoseconds(0));
+  sample.last_duration = record.last_duration;
   sample.is_contact_set_late = sample.contact_set_age > kLateContactSet;
   sample.part_count = set.part_count;
   sample.hand_count = static_cast<std::int32_t>(states.size());
@@ -70,6 +86,7 @@ devices::HapticState make_sample(std::int64_t sequence, const HapticTick& tick, 
   for (std::size_t h = 0; h < states.size(); ++h) {
     if (states[h] != nullptr) sample.hands[h] = hand_after(tick.hands[h], set, set.hands[h].visible, *states[h]);
   }
+  add_contacts(parts, set, sample);
   return sample;
 }
 

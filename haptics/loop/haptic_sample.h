@@ -3,11 +3,11 @@
 /// The record of one haptic tick: the kernel's outcome and the contact set that it used.
 
 #include <chrono>
-#include <cstdint>
 #include <span>
 
 #include <glissade/devices/haptic_state.h>
 #include <glissade/haptics/haptic_kernel.h>
+#include <glissade/haptics/recording.h>
 
 namespace glissade::haptics {
 
@@ -17,11 +17,10 @@ inline constexpr std::chrono::milliseconds kLateContactSet{5};
 /// The state as sent on the wire.
 devices::PartState part_state_of(SlidingState state) noexcept;
 
-/// The state for viewers and recorders after the tick number `sequence` at time `now` of the haptic clock. `states` are
-/// those of the hands, as for the kernel. The wrench of a hand is the one sent to its device, moved to the origin of
-/// the visible part that it holds. Real-time safe.
-devices::HapticState make_sample(std::int64_t sequence, const HapticTick& tick, const ContactSet& set,
-                                 std::span<const devices::GloveState* const> states,
-                                 std::chrono::nanoseconds now) noexcept;
+/// The state for viewers and recorders after a tick. `parts` are those of the kernel, `states` those of the hands, as
+/// for the kernel. The wrench of a hand is the one sent to its device, moved to the origin of the visible part that it
+/// holds. Real-time safe.
+devices::HapticState make_sample(const TickRecord& record, std::span<const KernelPart> parts, const ContactSet& set,
+                                 std::span<const devices::GloveState* const> states) noexcept;
 
 }  // namespace glissade::haptics

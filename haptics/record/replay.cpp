@@ -59,6 +59,7 @@ bool Replay::repeat_tick(const devices::LogEvent& event) {
                    ", which is not in the recording before it");
   sets_.erase(sets_.begin(), set);  // no tick goes back to an older set
 
+  consumed->last_duration = record_.duration;
   record_ = std::move(*consumed);
   run_tick(kernel_, record_, set->second);
   const std::vector<devices::LogEvent> repeated = events_.of(record_);

@@ -23,8 +23,12 @@ HapticState some_state() {
   state.sequence = 12;
   state.time = milliseconds(34);
   state.contact_set_age = milliseconds(2);
+  state.lateness = milliseconds(3);
+  state.last_duration = milliseconds(1);
   state.part_count = 3;
   state.hand_count = 2;
+  state.contact_count = 1;
+  state.contacts[0] = {2, {0.5F, 0.25F, 0.125F}, Eigen::Vector3f::UnitY()};
   HapticPartState& part = state.parts[2];
   part.X_WG = Eigen::Translation3d(1.0, 2.0, 3.0) * Eigen::AngleAxisd(0.5, Vector3d::UnitX());
   part.X_WV = Eigen::Translation3d(4.0, 5.0, 6.0) * Eigen::AngleAxisd(0.6, Vector3d::UnitY());
@@ -74,6 +78,12 @@ TEST(HapticState, ArrivesAsItWasSent) {
   EXPECT_FALSE(received.is_contact_set_late);
   EXPECT_EQ(received.part_count, 3);
   EXPECT_EQ(received.hand_count, 2);
+  EXPECT_EQ(received.lateness, milliseconds(3));
+  EXPECT_EQ(received.last_duration, milliseconds(1));
+  ASSERT_EQ(received.contact_count, 1);
+  EXPECT_EQ(received.contacts[0].part, 2);
+  EXPECT_EQ(received.contacts[0].p_V, sent.contacts[0].p_V);
+  EXPECT_EQ(received.contacts[0].n_W, sent.contacts[0].n_W);
   const HapticPartState& part = received.parts[2];
   EXPECT_TRUE(part.X_WG.isApprox(sent.parts[2].X_WG));
   EXPECT_TRUE(part.X_WV.isApprox(sent.parts[2].X_WV));
@@ -169,6 +179,14 @@ TEST(HapticState, WhatCannotBeIsRefusedAndChangesNothing) {
     message.hands[0].part = part;
     EXPECT_EQ(decoded(message, received), MessageError::kOutOfRange) << part;
   }
+  for (const std::int32_t count : {-1, static_cast<std::int32_t>(kHapticContacts) + 1}) {
+    message = message_of(some_state());
+    message.contact_count = count;
+    EXPECT_EQ(decoded(message, received), MessageError::kOutOfRange) << count;
+  }
+  message = message_of(some_state());
+  message.contacts[0].normal_W[2] = 2.0F;
+  EXPECT_EQ(decoded(message, received), MessageError::kOutOfRange);
   auto bytes = encode(some_state());
   bytes.pop_back();
   EXPECT_EQ(decode(bytes, received), MessageError::kWrongSize);

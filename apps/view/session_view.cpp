@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <charconv>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/text.h>
+#include <glissade/apps/view/session_view.h>
+
+namespace glissade::apps {
+
+namespace {
+
+std::shared_ptr<const geometry::TriangleMesh> mesh_of(const std::shared_ptr<const haptics::ContactBody>& body) {
+  return {body, &body->tree.mesh()};
+}
+
+/// CLI11 gives "true" for an option without its value.
+std::optional<std::uint16_t> port_of(const std::string& text) {
+  if (text == "true") return kViewPort;
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return port;
+}
+
+}  // namespace
+
+viewer::ViewScene view_scene_of(const HapticScene& scene, const std::vector<std::int64_t>& devices,
+                                const std::vector<std::shared_ptr<const grasping::HandModel>>& models) {
+  viewer::ViewScene view;
+  view.title = scene.source;
+  view.X_WGoal = scene.X_WGoal;
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i)
+    view.objects.push_back({scene.body_names[i], mesh_of(scene.obstacles[i].body), scene.obstacles[i].X_WO});
+  std::size_t number = 0;
+  for (const ScenePart& part : scene.parts)
+    view.objects.push_back({part.name, mesh_of(part.part_V), part.X_WV_start, number++});
+  for (const haptics::ScriptedPart& part : scene.moving) {
+    const std::string& name = scene.body_names[scene.obstacles.size() + number];
+    view.objects.push_back({name, mesh_of(part.part_B), part.script_X_WB.pose_at(std::chrono::nanoseconds(0)), number, true});
+    ++number;
+  }
+  for (std::size_t h = 0; h < devices.size(); ++h)
+    view.hands.push_back({devices[h], h < models.size() ? models[h] : nullptr});
+  return view;
+}
+
+CLI::Option* add_view_option(CLI::App& command, std::optional<std::uint16_t>& port) {
+  return command
+      .add_option_function<std::string>(
+          "--view",
+          [&port](const std::string& text) {
+            port = port_of(text);
+            if (!port) throw CLI::ValidationError("--view", "must be a port, 0 to 65535, not " + in_quotes(text));
+          },
+          "Show the scene in a browser, at http://127.0.0.1:PORT/; 0: any port that is free (" +
+              std::to_string(kViewPort) + " without PORT)")
+      ->expected(0, 1)
+      ->type_name("[PORT]");
+}
+
+}  // namespace glissade::apps

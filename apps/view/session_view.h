@@ -1,0 +1,32 @@
+#pragma once
+
+/// The scene of a run as viewers show it, and the option --view.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glissade/apps/haptic_scene.h>
+#include <glissade/grasping/hand_model.h>
+#include <glissade/viewer/view_scene.h>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace glissade::apps {
+
+inline constexpr std::uint16_t kViewPort = 8421;
+
+/// The scene with hands in the gloves `devices`; the model of a hand without fingers is null. The bodies of the scene
+/// are shared, not copied.
+viewer::ViewScene view_scene_of(const HapticScene& scene, const std::vector<std::int64_t>& devices,
+                                const std::vector<std::shared_ptr<const grasping::HandModel>>& models);
+
+/// Adds --view [PORT]; `port` stays empty without it.
+CLI::Option* add_view_option(CLI::App& command, std::optional<std::uint16_t>& port);
+
+}  // namespace glissade::apps

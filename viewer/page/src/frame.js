@@ -1,0 +1,104 @@
+// A frame as viewer/view_frame.h describes it.
+
+export const PART_STATES = ['unknown', 'released', 'free', 'sliding', 'resting', 'catching up'];
+export const ACTIVITIES = ['none', 'lost', 'waiting until it is free', 'free', 'holding'];
+export const GRASPS = ['none', 'push', 'precision', 'power'];
+// By bit; the first seven let the force fade to zero.
+export const REASONS = [
+  'emergency stop', 'enable switch is open', 'glove obeys another server', 'number is not finite', 'pose is implausible',
+  'glove state is old', 'command is old', 'force returns softly', 'force limit', 'torque limit', 'joint limit',
+  'rate limit', 'power limit', 'mean force limit', 'energy limit',
+];
+
+export function reasonsOf(bits) {
+  return REASONS.filter((_, bit) => (bits >> bit) & 1);
+}
+
+class Reader {
+  constructor(buffer) {
+    this.view = new DataView(buffer);
+    this.offset = 0;
+  }
+
+  double() {
+    this.offset += 8;
+    return this.view.getFloat64(this.offset - 8, true);
+  }
+
+  number() {
+    this.offset += 4;
+    return this.view.getFloat32(this.offset - 4, true);
+  }
+
+  numbers(count) {
+    return Array.from({ length: count }, () => this.number());
+  }
+
+  list(count, read) {
+    return Array.from({ length: count }, read);
+  }
+
+  // Position in metres; quaternion as x, y, z, w, which is three.js' order.
+  pose() {
+    const [x, y, z, qw, qx, qy, qz] = this.numbers(7);
+    return { p: [x, y, z], q: [qx, qy, qz, qw] };
+  }
+}
+
+function part(reader) {
+  return { ghost: reader.pose(), visible: reader.pose(), state: reader.number(), contacts: reader.number() };
+}
+
+function hand(reader) {
+  return {
+    part: reader.number(),
+    force: reader.numbers(3),
+    torque: reader.numbers(3),
+    peak: reader.number(),
+    share: reader.number(),
+    unsolved: reader.number() !== 0,
+    reasons: reader.number(),
+    gloveReasons: reader.number(),
+    energy: reader.number(),
+    activity: reader.number(),
+    grasp: reader.number(),
+    jointTorque: reader.number(),
+    links: reader.list(reader.number(), () => reader.pose()),
+  };
+}
+
+function contact(reader) {
+  return { part: reader.number(), p: reader.numbers(3), n: reader.numbers(3) };
+}
+
+export function decodeFrame(buffer) {
+  const reader = new Reader(buffer);
+  const frame = { time: reader.double(), sequence: reader.double(), late: reader.number() !== 0 };
+  [frame.age, frame.lateness, frame.duration, frame.missed] = reader.numbers(4);
+  const [parts, hands, contacts] = reader.numbers(3);
+  frame.parts = reader.list(parts, () => part(reader));
+  frame.hands = reader.list(hands, () => hand(reader));
+  frame.contacts = reader.list(contacts, () => contact(reader));
+  return frame;
+}
+
+// Frames one after another, each after its length in bytes.
+export function decodeFrames(buffer) {
+  const view = new DataView(buffer);
+  const frames = [];
+  for (let offset = 0; offset < buffer.byteLength;) {
+    const length = view.getUint32(offset, true);
+    frames.push(decodeFrame(buffer.slice(offset + 4, offset + 4 + length)));
+    offset += 4 + length;
+  }
+  return frames;
+}
+
+export function length(v) {
+  return Math.hypot(...v);
+}
+
+// Distance in mm from the visible part to its ghost.
+export function lag(part) {
+  return 1e3 * Math.hypot(...part.ghost.p.map((x, i) => x - part.visible.p[i]));
+}

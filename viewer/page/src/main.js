@@ -1,0 +1,131 @@
+import { Connection } from './connection.js';
+import { Controls } from './controls.js';
+import { parseModel } from './model.js';
+import { isReport, LinkedPlots, reportData } from './report.js';
+import { Stage } from './stage.js';
+import { rowsOf, rowsOfObject, showRows } from './status.js';
+import { Strips } from './strips.js';
+import { Timeline } from './timeline.js';
+
+const byId = (id) => document.getElementById(id);
+
+class Page {
+  constructor(timeline) {
+    this.timeline = timeline;
+    this.stage = new Stage(byId('canvas'));
+    this.controls = new Controls(this.stage, timeline, (node) => this.pick(node));
+    this.isNew = true;
+    timeline.onChange(() => { this.isNew = true; });
+    this.lastTime = performance.now();
+    requestAnimationFrame((time) => this.tick(time));
+  }
+
+  setModel(model) {
+    this.info = model.info;
+    this.picked = undefined;
+    this.stage.setModel(model);
+    byId('title').textContent = this.info.title;
+    document.title = `${this.info.title} · Glissade`;
+    byId('scale').textContent = `grid ${mm(this.stage.gridStep)}, 1 N ${mm(this.stage.metresPerNewton)}, ` +
+      `1 Nm ${mm(this.stage.metresPerNewtonMetre)}`;
+    byId('wait').hidden = true;
+    this.strips?.make(this.info);
+    this.isNew = true;
+  }
+
+  pick(node) {
+    this.picked = node;
+    this.isNew = true;
+  }
+
+  tick(time) {
+    requestAnimationFrame((next) => this.tick(next));
+    this.timeline.advance(Math.min((time - this.lastTime) / 1000, 0.1));
+    this.lastTime = time;
+    const { frame } = this.timeline;
+    if (this.isNew && this.info) {
+      this.isNew = false;
+      if (frame) {
+        this.stage.show(frame);
+        showRows(byId('status'), rowsOf(frame, this.info));
+      }
+      byId('object').hidden = !this.picked;
+      if (this.picked) showRows(byId('picked'), [rowsOfObject(this.picked, frame, this.info)]);
+      this.controls.show();
+      this.plots?.show();
+    }
+    this.strips?.drawSometimes();
+    this.stage.render();
+  }
+}
+
+function mm(metres) {
+  return metres >= 1 ? `${metres} m` : `${Number((1e3 * metres).toPrecision(3))} mm`;
+}
+
+function say(text) {
+  byId('state').textContent = text;
+}
+
+async function showReport() {
+  document.body.classList.add('report');
+  const { model, frames } = reportData();
+  const page = new Page(new Timeline(frames));
+  page.plots = new LinkedPlots(page.timeline);
+  page.setModel(await parseModel(model));
+  return page;
+}
+
+async function load(name) {
+  const answer = await fetch(name, { cache: 'no-store' });
+  if (answer.status === 503) return undefined; // it is being made
+  if (!answer.ok) throw new Error(`${name}: ${answer.status}`);
+  return parseModel(await answer.arrayBuffer());
+}
+
+// Loads the model each time that the server is there again: it may show another scene then.
+async function loadModels(page) {
+  page.setModel(await load('model.glb'));
+  const { coarse } = page.stage;
+  if (coarse.triangles >= page.info.triangles) return;
+  for (let whole; !whole && page.stage.coarse === coarse;) {
+    await new Promise((resolve) => setTimeout(resolve, 500));
+    whole = await load('whole_model.glb');
+    if (whole && page.stage.coarse === coarse) page.stage.setWholeModel(whole);
+  }
+}
+
+function showLive() {
+  const page = new Page(new Timeline());
+  page.strips = new Strips(byId('strips'), page.timeline);
+  new Connection((frame) => page.timeline.push(frame), (isConnected) => {
+    page.isConnected = isConnected;
+    say(isConnected ? 'connected' : 'no connection: tries again');
+    document.body.classList.toggle('lost', !isConnected);
+    if (isConnected) loadModels(page).catch((error) => say(`the scene could not be loaded: ${error.message}`));
+  });
+  return page;
+}
+
+// For tests and the curious: what is shown, in world axes about the scene's origin.
+function inspect(page) {
+  const poseOf = (node) => ({ p: node.position.toArray(), q: node.quaternion.toArray(), visible: node.visible });
+  return () => ({
+    isConnected: page.isConnected ?? false,
+    isLive: page.timeline.isLive,
+    frames: page.timeline.frames.length,
+    frame: page.timeline.frame,
+    info: page.info,
+    triangles: page.stage.coarse?.triangles ?? 0,
+    wholeTriangles: page.stage.whole?.triangles ?? 0,
+    parts: [...(page.stage.coarse?.parts ?? [])].map(([number, node]) => ({ number, ...poseOf(node) })),
+    ghosts: [...(page.stage.ghostOf ?? [])].map(([number, node]) => ({ number, ...poseOf(node) })),
+    segments: (page.stage.coarse?.segments ?? []).map(({ node, hand, link }) => ({ hand, link, ...poseOf(node) })),
+    contacts: page.stage.contacts.filter((marker) => marker.visible).map((marker) => marker.position.toArray()),
+    forces: page.stage.forces.map(({ force }) => force.visible),
+    drawCalls: page.stage.renderer.info.render.calls,
+  });
+}
+
+const page = isReport() ? await showReport() : showLive();
+window.glissade = { inspect: inspect(page), page };

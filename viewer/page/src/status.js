@@ -1,0 +1,63 @@
+// The frame that is shown, in words.
+
+import { ACTIVITIES, GRASPS, PART_STATES, lag, length, reasonsOf } from './frame.js';
+
+function number(value, digits, unit) {
+  const text = value.toFixed(digits);
+  return `${Number(text) === 0 ? (0).toFixed(digits) : text} ${unit}`; // no -0.00
+}
+
+function rowsOfHand(hand, name, parts) {
+  const holds = parts[hand.part] ?? 'nothing';
+  const rows = [[name, `holds ${holds}`]];
+  if (hand.activity > 0) rows.push(['hand', `${ACTIVITIES[hand.activity]}${hand.grasp > 0 ? `, ${GRASPS[hand.grasp]} grasp` : ''}`]);
+  rows.push(['force', number(length(hand.force), 2, 'N')], ['torque', number(length(hand.torque), 3, 'Nm')]);
+  if (hand.links.length > 0) rows.push(['finger torque', number(hand.jointTorque, 3, 'Nm')]);
+  const reasons = [...new Set([...reasonsOf(hand.reasons), ...reasonsOf(hand.gloveReasons)])];
+  if (hand.unsolved) reasons.push('contacts have no solution');
+  if (reasons.length > 0) rows.push(['force is reduced', reasons.join(', ')]);
+  return rows;
+}
+
+function rowsOfPart(part, name) {
+  return [[name, PART_STATES[part.state] ?? 'unknown'], ['lag', number(lag(part), 2, 'mm')], ['contacts', `${part.contacts}`]];
+}
+
+export function rowsOf(frame, info) {
+  return [
+    ...frame.hands.map((hand, h) => rowsOfHand(hand, `glove ${info.hands[h]?.device ?? h + 1}`, info.parts)),
+    ...frame.parts.map((part, p) => rowsOfPart(part, info.parts[p] ?? `part ${p}`)),
+    [
+      ['loop', frame.late ? 'contacts are late' : 'on time'],
+      ['age of contacts', number(frame.age, 1, 'ms')],
+      ['lateness of ticks', number(frame.lateness, 0, 'µs')],
+      ['frames missed', `${frame.missed}`],
+    ],
+  ];
+}
+
+// Fills a definition list; only what has changed is touched, so that screen readers and selections stay calm.
+export function showRows(list, groups) {
+  const lines = groups.flatMap((rows) => rows.map(([name, value], i) => ({ name, value, isHead: i === 0 })));
+  while (list.children.length > 2 * lines.length) list.lastChild.remove();
+  lines.forEach(({ name, value, isHead }, i) => {
+    const place = 2 * i;
+    if (!list.children[place]) list.append(document.createElement('dt'), document.createElement('dd'));
+    const [term, detail] = [list.children[place], list.children[place + 1]];
+    if (term.textContent !== name) term.textContent = name;
+    if (detail.textContent !== value) detail.textContent = value;
+    term.className = detail.className = isHead ? 'head' : '';
+  });
+}
+
+// What is known of an object that was picked.
+export function rowsOfObject(node, frame, info) {
+  const { name, kind, part, triangles, hand } = node.userData;
+  const rows = [[name, kind === 'segment' ? 'segment of a hand' : kind]];
+  if (triangles) rows.push(['triangles', triangles.toLocaleString('en')]);
+  const place = node.position.toArray().map((x, i) => 1e3 * (x + info.origin_W_m[i]));
+  rows.push(['position', `${place.map((x) => x.toFixed(1)).join(', ')} mm`]);
+  if (frame && part !== undefined && frame.parts[part]) rows.push(...rowsOfPart(frame.parts[part], 'state'));
+  if (frame && hand !== undefined && frame.hands[hand]) rows.push(...rowsOfHand(frame.hands[hand], 'hand', info.parts));
+  return rows;
+}

@@ -1,0 +1,99 @@
+// The frames that can be shown: those of the last minute, or all of a report; and which one is shown.
+
+const KEPT_S = 60;
+
+export class Timeline {
+  constructor(frames = []) {
+    this.frames = frames;
+    this.isLive = frames.length === 0;
+    this.isPlaying = false;
+    this.index = frames.length > 0 ? 0 : -1;
+    this.listeners = [];
+  }
+
+  onChange(listener) {
+    this.listeners.push(listener);
+  }
+
+  changed() {
+    for (const listener of this.listeners) listener();
+  }
+
+  get frame() {
+    return this.frames[this.index];
+  }
+
+  get first() {
+    return this.frames.length > 0 ? this.frames[0].time : 0;
+  }
+
+  get last() {
+    return this.frames.length > 0 ? this.frames[this.frames.length - 1].time : 0;
+  }
+
+  // A live frame. A server that was started again begins anew.
+  push(frame) {
+    if (this.frames.length > 0 && frame.sequence < this.frames[this.frames.length - 1].sequence) {
+      this.frames = [];
+      this.index = -1;
+    }
+    this.frames.push(frame);
+    // The past that is looked at stays.
+    while (this.isLive && this.frames.length > 2 && this.frames[0].time < frame.time - KEPT_S) this.frames.shift();
+    if (this.isLive || this.index < 0) this.index = this.frames.length - 1;
+    this.changed();
+  }
+
+  goLive() {
+    this.isLive = true;
+    this.isPlaying = false;
+    this.index = this.frames.length - 1;
+    this.changed();
+  }
+
+  pause() {
+    this.isLive = false;
+    this.isPlaying = false;
+    this.changed();
+  }
+
+  play() {
+    if (this.frames.length === 0) return;
+    this.isLive = false;
+    this.isPlaying = true;
+    if (this.index >= this.frames.length - 1) this.index = 0;
+    this.changed();
+  }
+
+  seek(time) {
+    if (this.frames.length === 0) return;
+    let low = 0;
+    let high = this.frames.length - 1;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (this.frames[middle].time <= time) low = middle;
+      else high = middle - 1;
+    }
+    this.isLive = false;
+    this.index = low;
+    this.changed();
+  }
+
+  step(count) {
+    if (this.frames.length === 0) return;
+    this.isLive = false;
+    this.isPlaying = false;
+    this.index = Math.min(Math.max(this.index + count, 0), this.frames.length - 1);
+    this.changed();
+  }
+
+  // While it plays: `seconds` have passed.
+  advance(seconds) {
+    if (!this.isPlaying || this.frames.length === 0) return;
+    const time = (this.playTime ?? this.frame.time) + seconds;
+    this.seek(time);
+    this.isPlaying = time < this.last;
+    this.playTime = this.isPlaying ? time : undefined;
+    if (!this.isPlaying) this.changed();
+  }
+}

@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include <glissade/viewer/scene_model.h>
+
+#include "model/glb.h"
+
+namespace glissade::viewer {
+
+namespace {
+
+// Linear RGB, as glTF has it. The page gives parts other colours by their state.
+constexpr std::array<double, 4> kFixedColor{0.52, 0.55, 0.58, 1.0};
+constexpr std::array<double, 4> kPartColor{0.08, 0.27, 0.62, 1.0};
+constexpr std::array<double, 4> kMovingColor{0.55, 0.30, 0.06, 1.0};
+constexpr std::array<double, 4> kSkinColor{0.72, 0.45, 0.32, 1.0};
+
+struct Kind {
+  const char* name;
+  std::array<double, 4> color;
+};
+
+Kind kind_of(const ViewObject& object) {
+  if (!object.part) return {"fixed", kFixedColor};
+  return object.moves_on_its_own ? Kind{"moving", kMovingColor} : Kind{"part", kPartColor};
+}
+
+/// Objects of one mesh and one kind share it.
+class Meshes {
+ public:
+  Meshes(GlbWriter& writer, double share) : writer_(writer), share_(share) {}
+
+  std::size_t number_of(const geometry::TriangleMesh& mesh, const Kind& kind) {
+    const auto [place, is_new] = numbers_.try_emplace({&mesh, kind.name}, 0);
+    if (!is_new) return place->second;
+    constexpr double kLeast = 200.0;  // triangles of a simplified object
+    const double most = std::max(kLeast, std::ceil(share_ * static_cast<double>(mesh.triangles.size())));
+    return place->second = writer_.add_mesh(display_mesh(mesh, static_cast<std::size_t>(most)), kind.color);
+  }
+
+ private:
+  GlbWriter& writer_;
+  double share_;  // of the triangles to keep
+  std::map<std::pair<const geometry::TriangleMesh*, const char*>, std::size_t> numbers_;
+};
+
+void add_hand(const ViewHand& hand, std::size_t number, GlbWriter& writer, nlohmann::json& hands) {
+  hands.push_back({{"device", hand.device}, {"has_fingers", hand.model != nullptr}});
+  if (!hand.model) return;
+  const std::span<const grasping::ChainLink> links = hand.model->chain.links();
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    if (!links[l].mesh) continue;
+    const std::size_t mesh = writer.add_mesh(display_mesh(*links[l].mesh, links[l].mesh->triangles.size()), kSkinColor);
+    writer.add_node(links[l].name, Eigen::Isometry3d::Identity(), mesh,
+                    {{"name", links[l].name}, {"kind", "segment"}, {"hand", number}, {"link", l}});
+  }
+}
+
+nlohmann::json pose_json(const Eigen::Isometry3d& X) {
+  const Eigen::Quaterniond q(X.linear());
+  const Eigen::Vector3d& p = X.translation();
+  return {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()};
+}
+
+}  // namespace
+
+std::string scene_model(const ViewScene& scene, std::size_t most_triangles) {
+  const Eigen::Vector3d p_WO = scene.p_WO();
+  const Eigen::Isometry3d X_OW(Eigen::Translation3d(-p_WO));
+  std::size_t triangles = 0;
+  for (const ViewObject& object : scene.objects)
+    triangles += object.mesh->triangles.size();
+  GlbWriter writer;
+  Meshes meshes(writer, std::min(1.0, static_cast<double>(most_triangles) /
+                                          static_cast<double>(std::max<std::size_t>(triangles, 1))));
+  std::vector<std::string> parts;
+  for (const ViewObject& object : scene.objects) {
+    const Kind kind = kind_of(object);
+    nlohmann::json extras = {{"name", object.name}, {"kind", kind.name}, {"triangles", object.mesh->triangles.size()}};
+    if (object.part) {
+      extras["part"] = *object.part;
+      parts.resize(std::max(parts.size(), *object.part + 1));
+      parts[*object.part] = object.name;
+    }
+    writer.add_node(object.name, X_OW * object.X_WB, meshes.number_of(*object.mesh, kind), extras);
+  }
+  nlohmann::json hands = nlohmann::json::array();
+  for (std::size_t h = 0; h < scene.hands.size(); ++h)
+    add_hand(scene.hands[h], h, writer, hands);
+  nlohmann::json extras = {{"title", scene.title},
+                           {"origin_W_m", {p_WO.x(), p_WO.y(), p_WO.z()}},
+                           {"parts", parts},
+                           {"hands", hands},
+                           {"triangles", triangles}};
+  if (scene.X_WGoal) extras["goal"] = pose_json(X_OW * *scene.X_WGoal);
+  return writer.finish(extras);
+}
+
+}  // namespace glissade::viewer

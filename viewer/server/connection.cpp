@@ -1,0 +1,95 @@
+#include "server/connection.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <utility>
+
+#include <boost/beast/websocket.hpp>
+
+namespace glissade::viewer {
+
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+
+namespace {
+
+constexpr std::chrono::seconds kPatience{60};
+constexpr std::size_t kLongestHeader = 16'384;
+
+/// The page is one file and talks to its own server only.
+constexpr const char* kPolicy =
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
+    "connect-src 'self' blob: data:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
+
+std::string_view view_of(beast::string_view text) {
+  return {text.data(), text.size()};
+}
+
+}  // namespace
+
+bool is_own_request(std::string_view host, std::string_view origin) {
+  constexpr std::string_view kScheme = "http://";
+  if (!origin.empty() && (!origin.starts_with(kScheme) || origin.substr(kScheme.size()) != host)) return false;
+  const std::size_t colon = host.find(':');
+  const std::string_view name = host.substr(0, colon);
+  const std::string_view port = colon == std::string_view::npos ? "" : host.substr(colon + 1);
+  const bool is_number = std::all_of(port.begin(), port.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return is_number && (name == "127.0.0.1" || name == "localhost");
+}
+
+Connection::Connection(beast::tcp_stream&& stream, const Answers& answers, Upgrade upgrade)
+    : stream_(std::move(stream)), answers_(answers), upgrade_(std::move(upgrade)) {}
+
+void Connection::read() {
+  parser_.emplace();
+  parser_->header_limit(kLongestHeader);
+  stream_.expires_after(kPatience);
+  http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+    if (!error) self->answer();
+  });
+}
+
+void Connection::answer() {
+  const HttpRequest& request = parser_->get();
+  const std::string_view target = view_of(request.target());
+  const auto plain = [&](http::status status, std::string_view text) { send(status, "text/plain", text); };
+  if (!is_own_request(view_of(request[http::field::host]), view_of(request[http::field::origin])))
+    return plain(http::status::forbidden, "only pages of this machine are served\n");
+  if (target == "/live" && beast::websocket::is_upgrade(request)) return upgrade_(std::move(stream_), request);
+  if (request.method() != http::verb::get) return plain(http::status::method_not_allowed, "only GET is known\n");
+  if (target == "/") return send(http::status::ok, "text/html; charset=utf-8", answers_.page);
+  constexpr std::string_view kModel = "model/gltf-binary";
+  if (target == "/model.glb") return send(http::status::ok, kModel, *answers_.first_model, answers_.first_model);
+  if (target == "/whole_model.glb") {
+    if (answers_.whole_model) return send(http::status::ok, kModel, *answers_.whole_model, answers_.whole_model);
+    return plain(http::status::service_unavailable, "the model is being made\n");
+  }
+  plain(http::status::not_found, "there is no such page\n");
+}
+
+void Connection::send(http::status status, std::string_view type, std::string_view content,
+                      std::shared_ptr<const std::string> owner) {
+  using Response = http::response<http::span_body<const char>>;
+  const auto response = std::make_shared<Response>(status, parser_->get().version());
+  const auto put = [&](http::field field, std::string_view value) {
+    response->set(field, beast::string_view(value.data(), value.size()));
+  };
+  put(http::field::content_type, type);
+  put(http::field::cache_control, "no-store");
+  response->set("Content-Security-Policy", kPolicy);
+  response->set("Referrer-Policy", "no-referrer");
+  response->set("X-Content-Type-Options", "nosniff");
+  response->keep_alive(parser_->get().keep_alive());
+  response->body() = beast::span<const char>(content.data(), content.size());
+  response->prepare_payload();
+  stream_.expires_after(kPatience);
+  http::async_write(
+      stream_, *response,
+      [self = shared_from_this(), response, owner = std::move(owner)](beast::error_code error, std::size_t) {
+        if (error || !response->keep_alive()) return;
+        self->read();
+      });
+}
+
+}  // namespace glissade::viewer

@@ -1,0 +1,52 @@
+#pragma once
+
+/// One connection of a browser: answers its requests, or hands it over as a page that looks on.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+
+namespace glissade::viewer {
+
+/// What a server has to offer.
+struct Answers {
+  std::string_view page;
+  std::shared_ptr<const std::string> first_model;
+  std::shared_ptr<const std::string> whole_model;  ///< null until it has been made
+};
+
+using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
+
+/// All calls in the thread of the stream's io_context; `answers` must outlive the connection.
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  /// Gets the stream after a request for the WebSocket `/live`.
+  using Upgrade = std::function<void(boost::beast::tcp_stream&&, const HttpRequest&)>;
+
+  Connection(boost::beast::tcp_stream&& stream, const Answers& answers, Upgrade upgrade);
+
+  void start() { read(); }
+
+ private:
+  void read();
+  void answer();
+  void send(boost::beast::http::status status, std::string_view type, std::string_view content,
+            std::shared_ptr<const std::string> owner = nullptr);
+
+  boost::beast::tcp_stream stream_;
+  const Answers& answers_;
+  Upgrade upgrade_;
+  boost::beast::flat_buffer buffer_;
+  std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
+};
+
+/// Whether a request with this Host, and this Origin if it has one, is one of a page of ours: a page of another site
+/// that resolves its name to this machine has another Host.
+bool is_own_request(std::string_view host, std::string_view origin);
+
+}  // namespace glissade::viewer

@@ -1,0 +1,42 @@
+#pragma once
+
+/// One page that looks on.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+
+namespace glissade::viewer {
+
+/// A WebSocket on which frames go out and each is acknowledged by a message, whatever its content. All calls in the
+/// thread of the stream's io_context.
+class LiveClient : public std::enable_shared_from_this<LiveClient> {
+ public:
+  explicit LiveClient(boost::beast::tcp_stream&& stream);
+
+  /// Answers the request for the WebSocket; then sends `first_frame` unless it is empty.
+  void start(const boost::beast::http::request<boost::beast::http::empty_body>& request, std::string first_frame);
+
+  /// Sends the frame, or counts it as missed if the last one has not been acknowledged.
+  void offer(const std::string& frame);
+
+  bool has_ended() const noexcept { return has_ended_; }
+
+ private:
+  void wait_for_message();
+
+  boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+  boost::beast::flat_buffer received_;
+  std::string frame_;  // in flight
+  bool is_open_ = false;
+  bool is_busy_ = false;     // a frame is not acknowledged yet
+  bool is_writing_ = false;  // nor even sent
+  bool has_ended_ = false;
+  std::uint64_t missed_ = 0;
+};
+
+}  // namespace glissade::viewer

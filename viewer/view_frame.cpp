@@ -1,0 +1,135 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glissade/base/byte_order.h>
+#include <glissade/viewer/view_frame.h>
+
+namespace glissade::viewer {
+
+namespace {
+
+constexpr std::size_t kMissedOffset = 2 * sizeof(double) + 4 * sizeof(float);
+
+class Bytes {
+ public:
+  void add_double(double number) { base::append_number(bytes_, number); }
+  template <typename Number>
+  void add(Number number) {
+    base::append_number(bytes_, static_cast<float>(number));
+  }
+  void add(const Eigen::Vector3d& v) {
+    for (const double number : v)
+      add(number);
+  }
+  void add(const Eigen::Isometry3d& X) {
+    add(Eigen::Vector3d(X.translation()));
+    const Eigen::Quaterniond q(X.linear());
+    for (const double number : {q.w(), q.x(), q.y(), q.z()})
+      add(number);
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+double milliseconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double, std::milli>(time).count();
+}
+
+double microseconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double, std::micro>(time).count();
+}
+
+double greatest(const devices::JointValues& torques) {
+  double most = 0.0;
+  for (const double torque : torques)
+    most = std::max(most, std::abs(torque));
+  return most;
+}
+
+}  // namespace
+
+FrameMaker::FrameMaker(const ViewScene& scene) : X_OW_(Eigen::Translation3d(-scene.p_WO())) {
+  for (const ViewHand& hand : scene.hands)
+    models_.push_back(hand.model);
+}
+
+void FrameMaker::add(const devices::HapticState& state) {
+  newest_ = state;
+  has_news_ = true;
+  age_ms_ = std::max(age_ms_, milliseconds(state.contact_set_age));
+  lateness_us_ = std::max(lateness_us_, microseconds(state.lateness));
+  duration_us_ = std::max(duration_us_, microseconds(state.last_duration));
+  for (std::size_t h = 0; h < forces_N_.size(); ++h)
+    forces_N_[h] = std::max(forces_N_[h], state.hands[h].force_W.norm());
+}
+
+std::string FrameMaker::make() {
+  const auto part_count = static_cast<std::size_t>(newest_.part_count);
+  const auto hand_count = static_cast<std::size_t>(newest_.hand_count);
+  const auto contact_count = static_cast<std::size_t>(newest_.contact_count);
+  Bytes frame;
+  frame.add_double(std::chrono::duration<double>(newest_.time).count());
+  frame.add_double(static_cast<double>(newest_.sequence));
+  frame.add(newest_.is_contact_set_late ? 1 : 0);
+  frame.add(age_ms_);
+  frame.add(lateness_us_);
+  frame.add(duration_us_);
+  frame.add(0);
+  frame.add(part_count);
+  frame.add(hand_count);
+  frame.add(contact_count);
+  for (std::size_t p = 0; p < part_count; ++p) {
+    const devices::HapticPartState& part = newest_.parts[p];
+    frame.add(X_OW_ * part.X_WG);
+    frame.add(X_OW_ * part.X_WV);
+    frame.add(static_cast<std::int32_t>(part.state));
+    frame.add(part.contact_count);
+  }
+  for (std::size_t h = 0; h < hand_count; ++h) {
+    const devices::HapticHandState& hand = newest_.hands[h];
+    frame.add(hand.part);
+    frame.add(hand.force_W);
+    frame.add(hand.torque_V_W);
+    frame.add(forces_N_[h]);
+    frame.add(hand.contact_share);
+    frame.add(hand.are_contacts_unsolved ? 1 : 0);
+    frame.add(devices::to_bits(hand.reasons));
+    frame.add(devices::to_bits(hand.glove_reasons));
+    frame.add(hand.energy);
+    frame.add(static_cast<std::int32_t>(hand.visible.activity));
+    frame.add(static_cast<std::int32_t>(hand.visible.grasp));
+    frame.add(greatest(hand.joint_torques));
+    const bool has_fingers = h < models_.size() && models_[h] && hand.visible.activity != devices::HandActivity::kNone;
+    if (!has_fingers) {
+      frame.add(0);
+      continue;
+    }
+    links_.resize(models_[h]->chain.links().size());
+    models_[h]->chain.poses(X_OW_ * hand.visible.X_WH, hand.visible.angles, links_);
+    frame.add(links_.size());
+    for (const Eigen::Isometry3d& X_OL : links_)
+      frame.add(X_OL);
+  }
+  for (std::size_t c = 0; c < contact_count; ++c) {
+    const devices::HapticContact& contact = newest_.contacts[c];
+    frame.add(contact.part);
+    for (const auto& numbers : {contact.p_V, contact.n_W}) {
+      for (const float number : numbers)
+        frame.add(number);
+    }
+  }
+  has_news_ = false;
+  age_ms_ = lateness_us_ = duration_us_ = 0.0;
+  forces_N_.fill(0.0);
+  return frame.take();
+}
+
+void set_missed(std::string& frame, std::uint64_t missed) {
+  std::string bytes;
+  base::append_number(bytes, static_cast<float>(missed));
+  frame.replace(kMissedOffset, bytes.size(), bytes);
+}
+
+}  // namespace glissade::viewer

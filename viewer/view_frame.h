@@ -1,0 +1,57 @@
+#pragma once
+
+/// The state of the haptic loop as a viewer gets it, at most 60 times a second.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/devices/haptic_state.h>
+#include <glissade/viewer/view_scene.h>
+
+namespace glissade::viewer {
+
+/// Makes frames of the states of ticks. A frame shows the newest state, and the worst figures since the last frame: a
+/// force that lasts a millisecond is not overlooked. Not thread-safe; allocates.
+///
+/// A frame is little endian: two numbers in double precision, the time of the tick in seconds and its number; then
+/// numbers in single precision. First eight: 1 if the contact set was late or else 0; its greatest age in ms; the
+/// greatest lateness of a tick and the greatest duration of one in µs; the number of frames that this viewer has
+/// missed; the numbers of parts, hands and contacts. For each part: the poses of ghost G and visible part V, each as x,
+/// y, z in metres and w, x, y, z, relative to `ViewScene::p_WO()`; its state; the number of contacts that push. For
+/// each hand: the number of the part that it holds or −1; force in N; torque in Nm; the greatest force; the share of
+/// the contacts' force; 1 if they were unsolved or else 0; the reasons of the server and those of the glove, as bits;
+/// the energy in J; activity; grasp; the greatest torque on a joint in Nm; the number of its links, 0 without fingers,
+/// and the pose of each. For each contact: the part; x, y, z in the part's frame V in metres; the normal in world axes.
+class FrameMaker {
+ public:
+  explicit FrameMaker(const ViewScene& scene);
+
+  /// Takes the state of a tick.
+  void add(const devices::HapticState& state);
+  /// Whether there is one since the last frame.
+  bool has_news() const noexcept { return has_news_; }
+  /// The frame, for a viewer that has missed none.
+  std::string make();
+
+ private:
+  Eigen::Isometry3d X_OW_;
+  std::vector<std::shared_ptr<const grasping::HandModel>> models_;
+  std::vector<Eigen::Isometry3d> links_;
+  devices::HapticState newest_;
+  bool has_news_ = false;
+  double age_ms_ = 0.0;
+  double lateness_us_ = 0.0;
+  double duration_us_ = 0.0;
+  std::array<double, devices::kHapticHands> forces_N_{};
+};
+
+/// Writes into a frame how many the viewer has missed.
+void set_missed(std::string& frame, std::uint64_t missed);
+
+}  // namespace glissade::viewer

@@ -1,0 +1,16 @@
+#include <glissade/viewer/view_scene.h>
+
+namespace glissade::viewer {
+
+Eigen::Vector3d ViewScene::p_WO() const {
+  Eigen::AlignedBox3d bounds_W;
+  for (const ViewObject& object : objects) {
+    Eigen::AlignedBox3d bounds_B;
+    for (const Eigen::Vector3d& vertex : object.mesh->vertices)
+      bounds_B.extend(vertex);
+    if (!bounds_B.isEmpty()) bounds_W.extend(object.X_WB * bounds_B.center());
+  }
+  return bounds_W.isEmpty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(bounds_W.center());
+}
+
+}  // namespace glissade::viewer

@@ -1,0 +1,45 @@
+#pragma once
+
+/// What a viewer shows: the objects of a scene and the hands, before anything moves.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/geometry/triangle_mesh.h>
+#include <glissade/grasping/hand_model.h>
+
+namespace glissade::viewer {
+
+/// An object of the scene. One with a part number moves as that part of `devices::HapticState` does.
+struct ViewObject {
+  std::string name;
+  std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< metres, in the object's frame B; equal meshes are sent once
+  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();  ///< at the start
+  std::optional<std::size_t> part{};
+  bool moves_on_its_own = false;  ///< a part that no hand can hold
+};
+
+/// A hand, by its number in `devices::HapticState`.
+struct ViewHand {
+  std::int64_t device = 0;                             ///< number of its glove
+  std::shared_ptr<const grasping::HandModel> model{};  ///< null without fingers: only its force is shown
+};
+
+struct ViewScene {
+  std::string title;
+  std::vector<ViewObject> objects;
+  std::vector<ViewHand> hands;
+  std::optional<Eigen::Isometry3d> X_WGoal{};  ///< where the first part is to go
+
+  /// The origin O of everything that a viewer gets: the middle of the objects at their start. Numbers in single
+  /// precision are precise about it, wherever the scene is.
+  Eigen::Vector3d p_WO() const;
+};
+
+}  // namespace glissade::viewer

@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include <glissade/realtime/spsc_ring.h>
+#include <glissade/viewer/page.h>
+#include <glissade/viewer/scene_model.h>
+#include <glissade/viewer/view_frame.h>
+#include <glissade/viewer/view_server.h>
+
+#include "server/connection.h"
+#include "server/live_client.h"
+
+namespace glissade::viewer {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+using asio::ip::tcp;
+
+namespace {
+
+constexpr std::size_t kRingStates = 256;  // a quarter of a second
+constexpr std::chrono::microseconds kFramePeriod{16'667};
+constexpr std::size_t kMostClients = 64;
+
+tcp::acceptor listening(asio::io_context& io, std::uint16_t port) {
+  try {
+    return {io, tcp::endpoint(asio::ip::address_v4::loopback(), port)};
+  } catch (const boost::system::system_error& error) {
+    throw std::invalid_argument("port " + std::to_string(port) + " cannot be opened: " + error.code().message());
+  }
+}
+
+}  // namespace
+
+/// Everything but `push` runs in the thread of `io_`, and the whole model is made in one of its own.
+class ViewServer::Service {
+ public:
+  Service(ViewScene scene, const ViewServerOptions& options)
+      : scene_(std::move(scene)),
+        frames_(scene_),
+        acceptor_(listening(io_, options.port)),
+        timer_(io_),
+        port_(acceptor_.local_endpoint().port()) {
+    answers_.page = page();
+    answers_.first_model = std::make_shared<const std::string>(scene_model(scene_, options.first_triangles));
+    accept();
+    next_frame();
+    serving_ = std::thread([this] { io_.run(); });
+    making_ = std::thread([this] { make_whole_model(); });
+  }
+
+  ~Service() {
+    io_.stop();
+    serving_.join();
+    making_.join();
+  }
+
+  std::uint16_t port() const noexcept { return port_; }
+  bool has_had_client() const noexcept { return has_had_client_.load(std::memory_order_relaxed); }
+  void push(const devices::HapticState& state) noexcept { states_.push(state); }
+
+ private:
+  void accept() {
+    acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
+      if (!error) {
+        socket.set_option(tcp::no_delay(true), error);
+        std::make_shared<Connection>(
+            beast::tcp_stream(std::move(socket)), answers_,
+            [this](beast::tcp_stream&& stream, const HttpRequest& request) { add_client(std::move(stream), request); })
+            ->start();
+      }
+      accept();
+    });
+  }
+
+  void add_client(beast::tcp_stream&& stream, const HttpRequest& request) {
+    std::erase_if(clients_, [](const auto& client) { return client->has_ended(); });
+    if (clients_.size() >= kMostClients) return;  // the stream closes
+    clients_.push_back(std::make_shared<LiveClient>(std::move(stream)));
+    clients_.back()->start(request, frame_);
+    has_had_client_.store(true, std::memory_order_relaxed);
+  }
+
+  void next_frame() {
+    timer_.expires_after(kFramePeriod);
+    timer_.async_wait([this](beast::error_code) {
+      states_.pop_waiting([this](const devices::HapticState& state) { frames_.add(state); });
+      if (frames_.has_news()) {
+        frame_ = frames_.make();
+        for (const std::shared_ptr<LiveClient>& client : clients_)
+          client->offer(frame_);
+        std::erase_if(clients_, [](const auto& client) { return client->has_ended(); });
+      }
+      next_frame();
+    });
+  }
+
+  void make_whole_model() {
+    auto model = std::make_shared<const std::string>(scene_model(scene_, std::numeric_limits<std::size_t>::max()));
+    asio::post(io_, [this, model = std::move(model)] { answers_.whole_model = model; });
+  }
+
+  ViewScene scene_;
+  FrameMaker frames_;
+  std::string frame_;  // the last one
+  asio::io_context io_{1};
+  tcp::acceptor acceptor_;
+  asio::steady_timer timer_;
+  std::uint16_t port_;
+  Answers answers_;
+  std::vector<std::shared_ptr<LiveClient>> clients_;
+  realtime::SpscRing<devices::HapticState> states_{kRingStates};
+  std::atomic<bool> has_had_client_{false};
+  std::thread serving_;
+  std::thread making_;
+};
+
+ViewServer::ViewServer(ViewScene scene, const ViewServerOptions& options)
+    : service_(std::make_unique<Service>(std::move(scene), options)) {}
+
+ViewServer::~ViewServer() = default;
+
+std::uint16_t ViewServer::port() const noexcept {
+  return service_->port();
+}
+
+std::string ViewServer::url() const {
+  return "http://127.0.0.1:" + std::to_string(service_->port()) + "/";
+}
+
+bool ViewServer::has_had_client() const noexcept {
+  return service_->has_had_client();
+}
+
+void ViewServer::push(const devices::HapticState& state) noexcept {
+  service_->push(state);
+}
+
+}  // namespace glissade::viewer
