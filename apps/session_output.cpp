@@ -10,6 +10,7 @@
 
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/session.h>
+#include <glissade/apps/view/session_view.h>
 
 namespace glissade::apps {
 
@@ -173,7 +174,7 @@ PlotSeries series_of(const SessionRecorder& samples, const std::string& name, co
 Plot plot_of_states(const SessionRecorder& samples, std::size_t part, const std::string& name) {
   constexpr std::size_t kMostStretches = 300;
   const std::size_t stretch = std::max<std::size_t>(1, (samples.size() + kMostStretches - 1) / kMostStretches);
-  Plot plot{"States of " + name, "time [s]", "share of the time [%]", {}};
+  Plot plot{"States of " + name, kTimeLabel, "share of the time [%]", {}};
   for (std::size_t state = 0; state < static_cast<std::size_t>(devices::kPartStates); ++state) {
     PlotSeries series{name_of_state(state), {}, {}};
     bool occurs = false;
@@ -194,7 +195,7 @@ Plot plot_of_states(const SessionRecorder& samples, std::size_t part, const std:
 Plot plot_of_force(const SessionRecorder& samples, std::size_t hand, const std::string& name) {
   const auto force = [&, hand](std::size_t i) -> const Eigen::Vector3d& { return samples.hand(i, hand).force_W; };
   return {"Force on the " + name,
-          "time [s]",
+          kTimeLabel,
           "force [N]",
           {series_of(samples, "magnitude", [&](std::size_t i) { return force(i).norm(); }),
            series_of(samples, "x", [&](std::size_t i) { return force(i).x(); }),
@@ -207,8 +208,8 @@ std::vector<Plot> plots_of(const SessionSummary& summary, const Session& session
   std::vector<Plot> plots;
   for (std::size_t h = 0; h < samples.hands(); ++h)
     plots.push_back(plot_of_force(samples, h, name_of_hand(session, h)));
-  Plot lag{"Lag of the visible parts behind their ghosts", "time [s]", "lag [mm]", {}};
-  Plot contacts{"Contacts that push", "time [s]", "contacts", {}};
+  Plot lag{"Lag of the visible parts behind their ghosts", kTimeLabel, "lag [mm]", {}};
+  Plot contacts{"Contacts that push", kTimeLabel, "contacts", {}};
   for (std::size_t p = 0; p < samples.parts(); ++p) {
     const std::string& name = summary.parts[p].name;
     lag.series.push_back(series_of(samples, name, [&](std::size_t i) {
@@ -222,7 +223,7 @@ std::vector<Plot> plots_of(const SessionSummary& summary, const Session& session
   plots.push_back(std::move(contacts));
   for (std::size_t p = 0; p < samples.parts(); ++p)
     plots.push_back(plot_of_states(samples, p, summary.parts[p].name));
-  plots.push_back({"Age of the contact set", "time [s]", "age [ms]", {series_of(samples, "age", [&](std::size_t i) {
+  plots.push_back({"Age of the contact set", kTimeLabel, "age [ms]", {series_of(samples, "age", [&](std::size_t i) {
                      return 1e-6 * static_cast<double>(samples.tick(i).contact_set_age.count());
                    })}});
   return plots;
@@ -342,8 +343,11 @@ std::string to_text(const SessionSummary& summary, const Session& session, bool 
 }
 
 std::string write_session_report(const SessionSummary& summary, const Session& session, const std::string& title,
-                                 const std::string& folder) {
-  return write_html_report({title, rows_of(summary, session, true), plots_of(summary, session)}, folder);
+                                 const std::string& folder, const HapticScene& scene) {
+  std::optional<Replay> replay;
+  if (summary.samples > 0) replay = replay_of(session, scene);
+  return write_html_report({title, rows_of(summary, session, true), plots_of(summary, session), std::move(replay)},
+                           folder);
 }
 
 void conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json, bool verbose,
@@ -355,7 +359,7 @@ void conclude(const Session& session, const HapticScene& scene, const std::strin
     std::cout << title << '\n' << to_text(summary, session, verbose);
   }
   if (!report_folder.empty()) {
-    const std::string page = write_session_report(summary, session, title, report_folder);
+    const std::string page = write_session_report(summary, session, title, report_folder, scene);
     if (!as_json) std::cout << "  report                       " << page << '\n';
   }
   if (!session.recording.empty() && !as_json)

@@ -9,7 +9,9 @@ SessionRecorder::SessionRecorder(std::size_t capacity, std::size_t parts, std::s
 
 void SessionRecorder::record(const devices::HapticState& sample) noexcept {
   const std::size_t slot = static_cast<std::size_t>(total_) % ticks_.size();
-  ticks_[slot] = {sample.time, sample.contact_set_age};
+  ticks_[slot] = {sample.time,          sample.contact_set_age,     sample.lateness,
+                  sample.last_duration, sample.is_contact_set_late, sample.contact_count,
+                  sample.contacts};
   std::copy_n(sample.parts.begin(), parts_, part_states_.begin() + static_cast<std::ptrdiff_t>(slot * parts_));
   std::copy_n(sample.hands.begin(), hands_, hand_states_.begin() + static_cast<std::ptrdiff_t>(slot * hands_));
   ++total_;
@@ -17,6 +19,26 @@ void SessionRecorder::record(const devices::HapticState& sample) noexcept {
 
 std::size_t SessionRecorder::size() const {
   return std::min(static_cast<std::size_t>(total_), ticks_.size());
+}
+
+devices::HapticState SessionRecorder::state(std::size_t i) const {
+  const Tick& tick = this->tick(i);
+  devices::HapticState state;
+  state.sequence = total_ - static_cast<std::int64_t>(size() - i) + 1;
+  state.time = tick.time;
+  state.contact_set_age = tick.contact_set_age;
+  state.is_contact_set_late = tick.is_contact_set_late;
+  state.lateness = tick.lateness;
+  state.last_duration = tick.last_duration;
+  state.part_count = static_cast<std::int32_t>(parts_);
+  state.hand_count = static_cast<std::int32_t>(hands_);
+  state.contact_count = tick.contact_count;
+  state.contacts = tick.contacts;
+  for (std::size_t p = 0; p < parts_; ++p)
+    state.parts[p] = part(i, p);
+  for (std::size_t h = 0; h < hands_; ++h)
+    state.hands[h] = hand(i, h);
+  return state;
 }
 
 std::size_t SessionRecorder::slot(std::size_t i) const {

@@ -2,6 +2,7 @@
 
 /// The record of a run of the haptic loop.
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +18,11 @@ class SessionRecorder {
   struct Tick {
     std::chrono::nanoseconds time{0};
     std::chrono::nanoseconds contact_set_age{0};
+    std::chrono::nanoseconds lateness{0};
+    std::chrono::nanoseconds last_duration{0};
+    bool is_contact_set_late = false;
+    std::int32_t contact_count = 0;
+    std::array<devices::HapticContact, devices::kHapticContacts> contacts{};
   };
 
   SessionRecorder(std::size_t capacity, std::size_t parts, std::size_t hands);
@@ -37,6 +43,8 @@ class SessionRecorder {
   const devices::HapticHandState& hand(std::size_t i, std::size_t hand) const {
     return hand_states_[slot(i) * hands_ + hand];
   }
+  /// All of a tick.
+  devices::HapticState state(std::size_t i) const;
 
  private:
   std::size_t slot(std::size_t i) const;

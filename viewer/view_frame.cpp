@@ -126,6 +126,11 @@ std::string FrameMaker::make() {
   return frame.take();
 }
 
+void append_frame(std::string& frames, const std::string& frame) {
+  base::append_number(frames, static_cast<std::uint32_t>(frame.size()));
+  frames += frame;
+}
+
 void set_missed(std::string& frame, std::uint64_t missed) {
   std::string bytes;
   base::append_number(bytes, static_cast<float>(missed));

@@ -51,6 +51,9 @@ class FrameMaker {
   std::array<double, devices::kHapticHands> forces_N_{};
 };
 
+/// Appends a frame to others, after its length in 4 bytes.
+void append_frame(std::string& frames, const std::string& frame);
+
 /// Writes into a frame how many the viewer has missed.
 void set_missed(std::string& frame, std::uint64_t missed);
 

@@ -2,11 +2,14 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
+#include <sodium.h>
 #include <unistd.h>
 
 #include <glissade/apps/report/html_report.h>
+#include <glissade/viewer/page.h>
 
 namespace glissade::apps {
 
@@ -27,10 +30,10 @@ constexpr const char* kStyle = R"(
 }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--page); color: var(--text); font: 15px/1.5 system-ui, sans-serif; }
-main { max-width: 960px; margin: 0 auto; padding: 32px 20px 48px; }
+.paper { max-width: 960px; margin: 0 auto; padding: 32px 20px 48px; }
 h1 { font-size: 26px; line-height: 1.25; margin: 0 0 20px; }
-h2 { font-size: 16px; margin: 0 0 6px; }
-section { background: var(--card); border: 1px solid var(--grid); border-radius: 8px; padding: 16px 20px; margin: 0 0 18px; }
+.paper h2 { font-size: 16px; margin: 0 0 6px; }
+.paper section { background: var(--card); border: 1px solid var(--grid); border-radius: 8px; padding: 16px 20px; margin: 0 0 18px; }
 table { border-collapse: collapse; width: 100%; }
 th, td { padding: 5px 0; border-bottom: 1px solid var(--grid); text-align: left; vertical-align: top; }
 tr:last-child > * { border-bottom: 0; }
@@ -42,15 +45,15 @@ td { font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
   margin-right: 7px; vertical-align: middle; background: currentColor;
 }
 .legend span { color: var(--text); }
-svg { display: block; width: 100%; height: auto; font: 12px system-ui, sans-serif; }
-svg text { fill: var(--quiet); }
-svg text.name { fill: var(--text); font-size: 13px; }
+.paper svg { display: block; width: 100%; height: auto; font: 12px system-ui, sans-serif; }
+.paper svg text { fill: var(--quiet); }
+.paper svg text.name { fill: var(--text); font-size: 13px; }
 .grid { stroke: var(--grid); }
 .zero, .axis { stroke: var(--axis); }
 .line { fill: none; stroke: currentColor; stroke-width: 1.4; stroke-linejoin: round; }
 .c0 { color: var(--c0); } .c1 { color: var(--c1); } .c2 { color: var(--c2); }
 .c3 { color: var(--c3); } .c4 { color: var(--c4); } .c5 { color: var(--c5); }
-@media print { section { break-inside: avoid; } }
+@media print { .paper section { break-inside: avoid; } }
 )";
 
 std::string summary_table(const std::vector<std::pair<std::string, std::string>>& summary) {
@@ -72,20 +75,56 @@ std::string legend(const std::vector<PlotSeries>& series) {
   return html + "</ul>\n";
 }
 
+/// Puts `text` in the place of the mark.
+void fill_in(std::string& page, std::string_view mark, std::string_view text) {
+  const std::size_t place = page.find(mark);
+  if (place == std::string::npos) throw std::logic_error("the viewer's page has no " + std::string(mark));
+  page.replace(place, mark.size(), text);
+}
+
+std::string to_base64(const std::string& bytes) {
+  constexpr int kVariant = sodium_base64_VARIANT_ORIGINAL;
+  std::string text(sodium_base64_encoded_len(bytes.size(), kVariant), '\0');
+  sodium_bin2base64(text.data(), text.size(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
+                    kVariant);
+  text.pop_back();  // the zero at the end
+  return text;
+}
+
+std::string data_element(const char* id, const std::string& bytes) {
+  return "<script type=\"application/octet-stream\" id=\"" + std::string(id) + "\">" + to_base64(bytes) + "</script>\n";
+}
+
+/// The viewer's page, which finds the data of the replay in itself.
+std::string page_with_replay(const std::string& title, const std::string& summary, const std::string& plots,
+                             const Replay& replay) {
+  const auto paper = [](const std::string& content) { return "<div class=\"paper\">\n" + content + "</div>\n"; };
+  std::string page(viewer::page());
+  fill_in(page, "<!--report-style-->", "<style>" + std::string(kStyle) + "</style>");
+  fill_in(page, "<title>Glissade</title>", "<title>" + title + "</title>");
+  fill_in(page, "<h1 id=\"title\">Glissade</h1>", "<h1 id=\"title\">" + title + "</h1>");
+  fill_in(page, "<!--summary-->", paper(summary));
+  fill_in(page, "<!--plots-->", paper(plots));
+  fill_in(page, "<!--data-->",
+          data_element("report-model", replay.model) + data_element("report-frames", replay.frames));
+  return page;
+}
+
 }  // namespace
 
 std::string html_report(const Report& report) {
   const std::string title = html_escaped(report.title);
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      title + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n<main>\n<h1>" + title + "</h1>\n";
-  if (!report.summary.empty()) html += summary_table(report.summary);
+  const std::string summary = report.summary.empty() ? "" : summary_table(report.summary);
+  std::string plots;
   for (const Plot& plot : report.plots) {
-    html += "<section>\n<h2>" + html_escaped(plot.title) + "</h2>\n" + legend(plot.series) + svg_plot(plot) +
-            "</section>\n";
+    plots += "<section>\n<h2>" + html_escaped(plot.title) + "</h2>\n" + legend(plot.series) + svg_plot(plot) +
+             "</section>\n";
   }
-  return html + "</main>\n</body>\n</html>\n";
+  if (report.replay) return page_with_replay(title, summary, plots, *report.replay);
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+         title + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n<main class=\"paper\">\n<h1>" + title +
+         "</h1>\n" + summary + plots + "</main>\n</body>\n</html>\n";
 }
 
 void prepare_report_folder(const std::string& folder) {

@@ -1,7 +1,9 @@
 #pragma once
 
-/// A page of figures and plots in one file: no scripts, no network, legible on light and dark screens and on paper.
+/// A page of figures and plots in one file: no network, legible on light and dark screens and on paper. With a replay,
+/// it also shows the run in three dimensions; a click on a plot over time goes to that moment.
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,11 +12,18 @@
 
 namespace glissade::apps {
 
+/// A run to look at: `viewer::scene_model`, and frames of `viewer::FrameMaker`, each after its length in 4 bytes.
+struct Replay {
+  std::string model;
+  std::string frames;
+};
+
 /// The content of the page, from top to bottom.
 struct Report {
   std::string title;
   std::vector<std::pair<std::string, std::string>> summary;  ///< rows of a table: name, and value with unit
   std::vector<Plot> plots;
+  std::optional<Replay> replay{};  ///< between summary and plots
 };
 
 /// The page as HTML; texts are plain text and escaped here.

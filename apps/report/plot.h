@@ -15,6 +15,9 @@ struct PlotSeries {
   std::vector<double> y;
 };
 
+/// The label of an axis that shows the time of a run.
+inline constexpr const char* kTimeLabel = "time [s]";
+
 /// One plot. The labels carry the units, for example "force [N]".
 struct Plot {
   std::string title;

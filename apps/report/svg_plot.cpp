@@ -2,7 +2,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <limits>
+#include <utility>
 
 #include <glissade/apps/report/plot_axis.h>
 #include <glissade/apps/report/svg_plot.h>
@@ -94,6 +96,19 @@ std::string axes(const Plot& plot, const Canvas& canvas) {
   return svg;
 }
 
+/// Which times lie where in the drawing, for a page with a replay.
+std::string times_of(const Canvas& canvas) {
+  std::string attributes;
+  for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{{"from", canvas.x.low},
+                                                                                         {"to", canvas.x.high},
+                                                                                         {"left", kLeft},
+                                                                                         {"right", kWidth - kRight},
+                                                                                         {"top", kTop},
+                                                                                         {"bottom", kHeight - kBottom}})
+    attributes += " data-" + std::string(name) + "=\"" + coordinate(value) + "\"";
+  return attributes;
+}
+
 std::string curve(const PlotSeries& series, const Canvas& canvas, std::size_t color) {
   const PlotSeries points = decimated(series, kMostPoints);
   std::string path;
@@ -121,6 +136,7 @@ std::string svg_plot(const Plot& plot) {
     return svg + label(0.5 * kWidth, 0.5 * kHeight, "middle", "no data") + "</svg>\n";
   }
   const Canvas canvas = canvas_for(plot.series);
+  if (plot.x_label == kTimeLabel) svg.insert(svg.find('>'), times_of(canvas));
   svg += axes(plot, canvas);
   for (std::size_t i = 0; i < plot.series.size(); ++i)
     svg += curve(plot.series[i], canvas, i % kPlotColors);

@@ -5,6 +5,8 @@
 
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/session_view.h>
+#include <glissade/viewer/scene_model.h>
+#include <glissade/viewer/view_frame.h>
 
 namespace glissade::apps {
 
@@ -37,12 +39,32 @@ viewer::ViewScene view_scene_of(const HapticScene& scene, const std::vector<std:
     view.objects.push_back({part.name, mesh_of(part.part_V), part.X_WV_start, number++});
   for (const haptics::ScriptedPart& part : scene.moving) {
     const std::string& name = scene.body_names[scene.obstacles.size() + number];
-    view.objects.push_back({name, mesh_of(part.part_B), part.script_X_WB.pose_at(std::chrono::nanoseconds(0)), number, true});
+    view.objects.push_back(
+        {name, mesh_of(part.part_B), part.script_X_WB.pose_at(std::chrono::nanoseconds(0)), number, true});
     ++number;
   }
   for (std::size_t h = 0; h < devices.size(); ++h)
     view.hands.push_back({devices[h], h < models.size() ? models[h] : nullptr});
   return view;
+}
+
+Replay replay_of(const Session& session, const HapticScene& scene) {
+  constexpr std::size_t kMostTriangles = 60'000;
+  constexpr std::chrono::nanoseconds kFramePeriod{16'667'000};
+  const viewer::ViewScene view = view_scene_of(scene, session.devices, session.hand_models);
+  Replay replay{viewer::scene_model(view, kMostTriangles), {}};
+  viewer::FrameMaker maker(view);
+  const SessionRecorder& samples = *session.samples;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    maker.add(samples.state(i));
+    const bool is_last = i + 1 == samples.size();
+    const auto frame_number = [&](std::size_t tick) {
+      return (samples.tick(tick).time - samples.tick(0).time) / kFramePeriod;
+    };
+    if (!is_last && frame_number(i) == frame_number(i + 1)) continue;
+    viewer::append_frame(replay.frames, maker.make());
+  }
+  return replay;
 }
 
 CLI::Option* add_view_option(CLI::App& command, std::optional<std::uint16_t>& port) {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/report/html_report.h>
+#include <glissade/apps/session.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/viewer/view_scene.h>
 
@@ -18,6 +20,9 @@ class Option;
 }  // namespace CLI
 
 namespace glissade::apps {
+
+/// The run for a report: the scene with at most 60,000 triangles, and 60 frames a second.
+Replay replay_of(const Session& session, const HapticScene& scene);
 
 inline constexpr std::uint16_t kViewPort = 8421;
 

@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <meshoptimizer.h>
 
+#include <glissade/geometry/mesh_topology.h>
+
 namespace glissade::viewer {
 
 namespace {
@@ -132,6 +134,34 @@ class NormalMaker {
   std::vector<std::uint32_t> next_;      // by vertex: the one before it with the same source
 };
 
+/// Whether two triangles meet at more than 30°, or other than two triangles.
+bool is_sharp(const geometry::TriangleMesh& mesh, const geometry::MeshTopology& topology, std::size_t number) {
+  const geometry::MeshTopology::Edge& edge = topology.edges()[number];
+  if (edge.flat) return false;
+  const std::span<const std::int32_t> apexes = topology.apexes_of(static_cast<std::int32_t>(number));
+  if (apexes.size() != 2) return true;
+  const auto point = [&](std::int32_t vertex) { return mesh.vertices[static_cast<std::size_t>(vertex)]; };
+  const Eigen::Vector3d along = point(edge.vertices[1]) - point(edge.vertices[0]);
+  const auto normal = [&](std::int32_t apex) -> Eigen::Vector3d {
+    return along.cross(point(apex) - point(edge.vertices[0])).normalized();
+  };
+  return -normal(apexes[0]).dot(normal(apexes[1])) < kCosCrease;
+}
+
+std::vector<std::array<std::uint16_t, 4>> edges_of(const geometry::TriangleMesh& mesh,
+                                                   const std::vector<std::array<std::uint16_t, 4>>& positions) {
+  constexpr std::size_t kMostTriangles = 1'000'000;
+  std::vector<std::array<std::uint16_t, 4>> ends;
+  if (mesh.triangles.size() > kMostTriangles) return ends;
+  const geometry::MeshTopology topology(mesh);
+  for (std::size_t e = 0; e < topology.edges().size(); ++e) {
+    if (!is_sharp(mesh, topology, e)) continue;
+    for (const std::int32_t vertex : topology.edges()[e].vertices)
+      ends.push_back(positions[static_cast<std::size_t>(vertex)]);
+  }
+  return ends;
+}
+
 }  // namespace
 
 DisplayMesh display_mesh(const geometry::TriangleMesh& mesh, std::size_t most_triangles) {
@@ -154,6 +184,7 @@ DisplayMesh display_mesh(const geometry::TriangleMesh& mesh, std::size_t most_tr
     for (int axis = 0; axis < 3; ++axis)
       vertices.push_back(static_cast<float>(place[axis]));
   }
+  result.edges = edges_of(mesh, positions);
   result.indices = indices_of(mesh);
   if (result.triangles() > most_triangles) result.indices = simplified(result.indices, vertices, most_triangles);
   NormalMaker(mesh, result).run(positions);

@@ -1,9 +1,11 @@
 #include "model/glb.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <glissade/base/byte_order.h>
 
@@ -17,6 +19,7 @@ constexpr int kUnsignedShort = 5123;
 constexpr int kUnsignedInt = 5125;
 constexpr int kVertices = 34962;
 constexpr int kIndices = 34963;
+constexpr int kLines = 1;
 
 constexpr std::uint32_t kMagic = 0x46546C67;  // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
@@ -44,23 +47,27 @@ std::size_t GlbWriter::add_view(const std::vector<Value>& values, int target, st
   return views_.size() - 1;
 }
 
-std::size_t GlbWriter::add_mesh(const DisplayMesh& mesh, const std::array<double, 4>& color_rgba) {
-  grids_.push_back({mesh.lower, mesh.step});
+std::size_t GlbWriter::add_positions(const std::vector<std::array<std::uint16_t, 4>>& positions) {
   std::array<std::uint16_t, 3> least{65535, 65535, 65535};
   std::array<std::uint16_t, 3> most{0, 0, 0};
-  for (const auto& position : mesh.positions) {
+  for (const auto& position : positions) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       least[axis] = std::min(least[axis], position[axis]);
       most[axis] = std::max(most[axis], position[axis]);
     }
   }
-  const std::size_t first = accessors_.size();
-  accessors_.push_back({{"bufferView", add_view(mesh.positions, kVertices, 8)},
+  accessors_.push_back({{"bufferView", add_view(positions, kVertices, 8)},
                         {"componentType", kUnsignedShort},
-                        {"count", mesh.positions.size()},
+                        {"count", positions.size()},
                         {"type", "VEC3"},
                         {"min", least},
                         {"max", most}});
+  return accessors_.size() - 1;
+}
+
+std::size_t GlbWriter::add_mesh(const DisplayMesh& mesh, const std::array<double, 4>& color_rgba) {
+  grids_.push_back({mesh.lower, mesh.step});
+  const std::size_t first = add_positions(mesh.positions);
   accessors_.push_back({{"bufferView", add_view(mesh.normals, kVertices, 4)},
                         {"componentType", kByte},
                         {"normalized", true},
@@ -76,10 +83,13 @@ std::size_t GlbWriter::add_mesh(const DisplayMesh& mesh, const std::array<double
   materials_.push_back({{"doubleSided", true},
                         {"pbrMetallicRoughness",
                          {{"baseColorFactor", color_rgba}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.65}}}});
-  meshes_.push_back({{"primitives",
-                      {{{"attributes", {{"POSITION", first}, {"NORMAL", first + 1}}},
+  nlohmann::json primitives = nlohmann::json::array();
+  primitives.push_back({{"attributes", {{"POSITION", first}, {"NORMAL", first + 1}}},
                         {"indices", first + 2},
-                        {"material", materials_.size() - 1}}}}});
+                        {"material", materials_.size() - 1}});
+  if (!mesh.edges.empty())
+    primitives.push_back({{"attributes", {{"POSITION", add_positions(mesh.edges)}}}, {"mode", kLines}});
+  meshes_.push_back({{"primitives", std::move(primitives)}});
   return meshes_.size() - 1;
 }
 

@@ -37,6 +37,9 @@ class GlbWriter {
   template <typename Value>
   std::size_t add_view(const std::vector<Value>& values, int target, std::size_t stride);
 
+  /// An accessor of positions on a grid; returns its number.
+  std::size_t add_positions(const std::vector<std::array<std::uint16_t, 4>>& positions);
+
   nlohmann::json nodes_ = nlohmann::json::array();
   nlohmann::json roots_ = nlohmann::json::array();
   nlohmann::json meshes_ = nlohmann::json::array();

@@ -22,10 +22,12 @@ class Page {
 
   setModel(model) {
     this.info = model.info;
-    this.picked = undefined;
+    this.picked = this.stage.focus = undefined;
     this.stage.setModel(model);
-    byId('title').textContent = this.info.title;
-    document.title = `${this.info.title} · Glissade`;
+    if (this.timeline.isLive) {
+      byId('title').textContent = this.info.title;
+      document.title = `${this.info.title} · Glissade`;
+    }
     byId('scale').textContent = `grid ${mm(this.stage.gridStep)}, 1 N ${mm(this.stage.metresPerNewton)}, ` +
       `1 Nm ${mm(this.stage.metresPerNewtonMetre)}`;
     byId('wait').hidden = true;
@@ -34,7 +36,7 @@ class Page {
   }
 
   pick(node) {
-    this.picked = node;
+    this.picked = this.stage.focus = node;
     this.isNew = true;
   }
 
@@ -114,7 +116,7 @@ function inspect(page) {
     isConnected: page.isConnected ?? false,
     isLive: page.timeline.isLive,
     frames: page.timeline.frames.length,
-    frame: page.timeline.frame,
+    frame: page.stage.frame,
     info: page.info,
     triangles: page.stage.coarse?.triangles ?? 0,
     wholeTriangles: page.stage.whole?.triangles ?? 0,

@@ -35,10 +35,13 @@ export async function parseModel(buffer) {
 export function copyOf(node, material) {
   const copy = new Group();
   for (const child of node.children) {
-    const mesh = new Mesh(child.geometry, material);
-    mesh.position.copy(child.position);
-    mesh.scale.copy(child.scale);
-    copy.add(mesh);
+    child.traverse((original) => {
+      if (!(original instanceof Mesh)) return;
+      const mesh = new Mesh(original.geometry, material);
+      mesh.position.copy(child.position);
+      mesh.scale.copy(child.scale);
+      copy.add(mesh);
+    });
   }
   return copy;
 }

@@ -1,7 +1,7 @@
 // The three-dimensional view.
 
 import {
-  AmbientLight, ArrowHelper, Box3, Color, DirectionalLight, EdgesGeometry, GridHelper, Group, HemisphereLight,
+  ArrowHelper, Box3, Color, DirectionalLight, GridHelper, Group, HemisphereLight,
   LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Plane, Quaternion,
   Raycaster, Scene, Sphere, SphereGeometry, Vector2, Vector3, WebGLRenderer, DoubleSide,
 } from 'three';
@@ -11,7 +11,6 @@ import { copyOf } from './model.js';
 import { length } from './frame.js';
 
 const MOST_CONTACTS = 24;
-const MOST_EDGE_TRIANGLES = 60000; // of an object: its edges are found in the page
 const WHOLE_ALWAYS = 600000; // triangles that are drawn whole even while things move
 const STILL_MS = 400;
 
@@ -59,15 +58,17 @@ export class Stage {
   }
 
   addLights() {
-    this.scene.add(new HemisphereLight(0xffffff, 0x777788, 1.6), new AmbientLight(0xffffff, 0.35));
-    const sun = new DirectionalLight(0xffffff, 1.9);
-    sun.position.set(0.5, -0.7, 1);
-    this.scene.add(sun);
+    // One light from above, one from beside the eye: no side that is looked at is dark.
+    const sky = new HemisphereLight(0xffffff, 0x8a8a99, 1.5);
+    sky.position.set(0, 0, 1);
+    const lamp = new DirectionalLight(0xffffff, 1.6);
+    lamp.position.set(-0.6, 0.8, 1);
+    this.camera.add(lamp, lamp.target);
+    this.scene.add(sky, this.camera);
   }
 
   addMarkers() {
     this.ghosts = new Group();
-    this.edges = new Group();
     this.contacts = Array.from({ length: MOST_CONTACTS }, () => {
       const marker = new Group();
       marker.add(new Mesh(new SphereGeometry(1, 12, 8), this.materials.contact));
@@ -117,7 +118,6 @@ export class Stage {
     this.addForces(model.info.hands.length);
     this.addGrid();
     if (!this.hasView) this.fit('corner');
-    this.addEdges(model);
     this.isDirty = true;
   }
 
@@ -133,6 +133,10 @@ export class Stage {
     for (const node of model.group.children) {
       node.traverse((child) => {
         if (child instanceof Mesh) child.material = this.materials[names[node.userData.kind]];
+        if (!(child instanceof LineSegments)) return;
+        child.material = this.materials.edge;
+        child.visible = this.shown.edges;
+        child.raycast = () => {};
       });
     }
     for (const { node } of model.segments) node.visible = false;
@@ -187,30 +191,6 @@ export class Stage {
     this.grid.position.z = this.box.isEmpty() ? 0 : this.box.min.z;
     this.scene.add(this.grid);
     this.gridStep = step;
-  }
-
-  // Sharp edges make sheet metal readable. Found object by object, between frames.
-  addEdges(model) {
-    const meshes = [];
-    for (const node of model.objects) {
-      node.traverse((child) => {
-        if (child instanceof Mesh && child.geometry.index.count / 3 <= MOST_EDGE_TRIANGLES) meshes.push(child);
-      });
-    }
-    const known = new Map();
-    const next = () => {
-      const mesh = meshes.pop();
-      if (!mesh || this.coarse !== model) return;
-      if (!known.has(mesh.geometry)) known.set(mesh.geometry, new EdgesGeometry(mesh.geometry, 30));
-      const lines = new LineSegments(known.get(mesh.geometry), this.materials.edge);
-      lines.userData.isEdge = true;
-      lines.visible = this.shown.edges;
-      lines.raycast = () => {};
-      mesh.add(lines);
-      this.isDirty = true;
-      setTimeout(next);
-    };
-    setTimeout(next);
   }
 
   show(frame) {
@@ -294,9 +274,11 @@ export class Stage {
       Object.assign(this.materials.fixed, { transparent: isShown, opacity: isShown ? 0.22 : 1, depthWrite: !isShown });
     }
     if (what === 'edges') {
-      this.coarse?.group.traverse((child) => {
-        if (child.userData.isEdge) child.visible = isShown;
-      });
+      for (const model of [this.coarse, this.whole]) {
+        model?.group.traverse((child) => {
+          if (child instanceof LineSegments) child.visible = isShown;
+        });
+      }
     }
     if (this.frame) this.show(this.frame);
     this.isDirty = true;
@@ -318,12 +300,15 @@ export class Stage {
     this.touched();
   }
 
+  // The whole scene, or the focus: an object that was picked.
   fit(view) {
+    const box = this.focus ? new Box3().expandByObject(this.focus) : this.box;
+    const bounds = box.getBoundingSphere(new Sphere());
     const direction = new Vector3(...(VIEWS[view] ?? this.camera.position.clone().sub(this.controls.target).toArray()));
     direction.normalize();
-    const distance = this.distanceToFit(direction);
-    this.controls.target.copy(this.bounds.center);
-    this.camera.position.copy(this.bounds.center).addScaledVector(direction, distance);
+    const distance = this.distanceToFit(direction, box);
+    this.controls.target.copy(bounds.center);
+    this.camera.position.copy(bounds.center).addScaledVector(direction, distance);
     this.camera.near = this.bounds.radius / 500;
     this.camera.far = 20 * (distance + this.bounds.radius);
     this.camera.updateProjectionMatrix();
@@ -332,16 +317,17 @@ export class Stage {
     this.touched();
   }
 
-  // From where, seen along `direction`, the corners of the scene just fit into the picture.
-  distanceToFit(direction) {
+  // From where, seen along `direction`, the corners of the box just fit into the picture.
+  distanceToFit(direction, box) {
     const right = new Vector3().crossVectors(this.camera.up, direction).normalize();
     const up = new Vector3().crossVectors(direction, right);
     const tanY = Math.tan(0.5 * this.camera.fov * (Math.PI / 180)) / 1.08;
     const tanX = tanY * this.camera.aspect;
-    let distance = 0.1 * this.bounds.radius;
+    const center = box.getCenter(new Vector3());
+    let distance = 0.02 * this.bounds.radius;
     for (let i = 0; i < 8; ++i) {
-      const corner = new Vector3(...[0, 1, 2].map((axis) => ((i >> axis) & 1 ? this.box.max : this.box.min).getComponent(axis)));
-      corner.sub(this.bounds.center);
+      const corner = new Vector3(...[0, 1, 2].map((axis) => ((i >> axis) & 1 ? box.max : box.min).getComponent(axis)));
+      corner.sub(center);
       const near = corner.dot(direction);
       distance = Math.max(distance, near + Math.abs(corner.dot(right)) / tanX, near + Math.abs(corner.dot(up)) / tanY);
     }

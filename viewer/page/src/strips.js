@@ -57,7 +57,7 @@ export class Strips {
       height: 112,
       cursor: { y: false, points: { show: false }, sync: { key: 'strips' }, drag: { setScale: false } },
       legend: { show: this.namesOf(strip).length > 1, live: false },
-      scales: { x: { time: false }, y: { range: (_, low, high) => [Math.min(0, low), high > 0 ? 1.1 * high : 1] } },
+      scales: { x: { time: false }, y: { range: (_, low, high) => [Math.min(0, low), Math.max(1.1 * high, 0.01)] } },
       axes: [{ ...axis, font, size: 24, space: 60 }, { ...axis, font, size: 44, space: 26 }],
       series: [{}, ...this.namesOf(strip).map((label, i) => ({
         label, stroke: cssColor(SERIES[i % SERIES.length]), width: 1.3, points: { show: false },

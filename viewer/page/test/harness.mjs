@@ -1,0 +1,78 @@
+// Starts the program and a browser for the tests. GLISSADE_PROGRAM is the program; GLISSADE_CHROMIUM the browser.
+
+import { spawn } from 'node:child_process';
+import { mkdirSync } from 'node:fs';
+import { chromium } from 'playwright-core';
+
+const PROGRAM = process.env.GLISSADE_PROGRAM ?? new URL('../../../build/release/apps/glissade', import.meta.url).pathname;
+const BROWSER = process.env.GLISSADE_CHROMIUM ?? '/usr/bin/chromium';
+const SHOTS = process.env.GLISSADE_SCREENSHOTS ?? new URL('../../../build/screenshots/', import.meta.url).pathname;
+const PATIENCE_MS = 60000;
+
+export class Program {
+  constructor(args) {
+    this.output = '';
+    this.child = spawn(PROGRAM, args, { stdio: ['ignore', 'pipe', 'pipe'] });
+    for (const stream of [this.child.stdout, this.child.stderr]) stream.on('data', (data) => { this.output += data; });
+    this.exited = new Promise((resolve) => { this.child.on('exit', (code) => resolve(code)); });
+  }
+
+  // The address that it prints.
+  async url() {
+    return (await eventually(() => this.output.match(/http:\/\/127\.0\.0\.1:\d+\//), () => this.output))[0];
+  }
+
+  // Ends it as Ctrl-C does; returns the exit code.
+  stop() {
+    this.child.kill('SIGINT');
+    return this.exited;
+  }
+}
+
+// Waits until `test` is truthy, and returns what it is.
+export async function eventually(test, explain = () => '') {
+  for (const end = Date.now() + PATIENCE_MS; Date.now() < end;) {
+    const result = await test();
+    if (result) return result;
+    await new Promise((resolve) => setTimeout(resolve, 20));
+  }
+  throw new Error(`this did not happen: ${test}\n${explain()}`);
+}
+
+export function launch() {
+  return chromium.launch({
+    executablePath: BROWSER,
+    args: [
+      '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic',
+      '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+    ],
+  });
+}
+
+// A page, with what it asked for and what went wrong in it.
+export async function open(browser, url, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, ...options });
+  const page = await context.newPage();
+  page.faults = [];
+  page.requests = [];
+  page.on('console', (message) => { if (message.type() === 'error') page.faults.push(message.text()); });
+  page.on('pageerror', (error) => page.faults.push(error.message));
+  page.on('request', (request) => page.requests.push(request.url()));
+  await page.goto(url);
+  await eventually(async () => (await inspect(page))?.triangles > 0, () => page.faults.join('\n'));
+  return page;
+}
+
+export function inspect(page) {
+  return page.evaluate(() => window.glissade?.inspect());
+}
+
+export async function screenshot(page, name) {
+  mkdirSync(SHOTS, { recursive: true });
+  await page.screenshot({ path: `${SHOTS}/${name}.png` });
+}
+
+// Positions in metres, and angles of unit quaternions, that differ by less than a tenth of a millimetre or milliradian.
+export function isNear(a, b, tolerance = 1e-4) {
+  return a.length === b.length && a.every((x, i) => Math.abs(x - b[i]) < tolerance);
+}

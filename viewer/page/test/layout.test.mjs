@@ -1,0 +1,94 @@
+// The page on large and small screens, in light and dark, and by keyboard alone.
+
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { eventually, inspect, launch, open, Program, screenshot } from './harness.mjs';
+
+let browser;
+let program;
+let url;
+before(async () => {
+  browser = await launch();
+  program = new Program(['demo', '--fingers', '--seconds', '120', '--view', '0']);
+  url = await program.url();
+});
+after(async () => {
+  await program.stop();
+  await browser.close();
+});
+
+for (const { name, options } of [
+  { name: 'wide_light', options: { viewport: { width: 1280, height: 720 }, colorScheme: 'light' } },
+  { name: 'wide_dark', options: { viewport: { width: 1280, height: 720 }, colorScheme: 'dark' } },
+  { name: 'narrow_light', options: { viewport: { width: 390, height: 844 }, colorScheme: 'light' } },
+  { name: 'narrow_dark', options: { viewport: { width: 390, height: 844 }, colorScheme: 'dark', reducedMotion: 'reduce' } },
+]) {
+  test(`nothing is cut off: ${name}`, async () => {
+    const page = await open(browser, url, options);
+    await eventually(async () => (await inspect(page)).frame);
+    await screenshot(page, name);
+    const { width } = options.viewport;
+    const beyond = await page.evaluate((limit) => [...document.querySelectorAll('button, input, select, label, dl, canvas, h1')]
+      .filter((element) => element.getBoundingClientRect().right > limit + 0.5 || element.getBoundingClientRect().left < -0.5)
+      .map((element) => element.id || element.textContent), width);
+    assert.deepEqual(beyond, []);
+    const canvas = await page.locator('#canvas').boundingBox();
+    assert.ok(canvas.width > 0.6 * Math.min(width, 900) && canvas.height > 240);
+    assert.deepEqual(page.faults, []);
+    await page.context().close();
+  });
+}
+
+test('everything works by keyboard alone', async () => {
+  const page = await open(browser, url);
+  await eventually(async () => (await inspect(page)).frames > 5);
+  const camera = () => page.evaluate(() => window.glissade.page.stage.camera.position.toArray());
+  const start = await camera();
+  await page.keyboard.press('ArrowLeft');
+  const turned = await camera();
+  assert.notDeepEqual(turned, start);
+  await page.keyboard.press('5');
+  assert.notDeepEqual(await camera(), turned);
+  await page.keyboard.press('+');
+  await page.keyboard.press(' ');
+  const paused = (await inspect(page)).frame.sequence;
+  await page.keyboard.press(',');
+  await eventually(async () => (await inspect(page)).frame.sequence < paused);
+  await page.keyboard.press('l');
+  await eventually(async () => (await inspect(page)).isLive);
+  await page.keyboard.press('g');
+  assert.equal(await page.locator('#show-ghosts').isChecked(), false);
+  // Every control can be reached, and shows that it is.
+  const reached = new Set();
+  for (let i = 0; i < 40; ++i) {
+    await page.keyboard.press('Tab');
+    const { id, outline } = await page.evaluate(() => ({
+      id: document.activeElement.id, outline: getComputedStyle(document.activeElement).outlineStyle,
+    }));
+    if (id) {
+      assert.notEqual(outline, 'none', id);
+      reached.add(id);
+    }
+  }
+  for (const id of ['canvas', 'view-front', 'fit', 'show-forces', 'section-axis', 'back', 'play', 'forward', 'time', 'live'])
+    assert.ok(reached.has(id), `${id} is not reached by the Tab key: ${[...reached]}`);
+  await page.locator('#section-axis').selectOption('0');
+  assert.equal(await page.evaluate(() => window.glissade.page.stage.renderer.clippingPlanes.length), 1);
+  await page.context().close();
+});
+
+test('an object that is picked tells of itself', async () => {
+  const page = await open(browser, url);
+  await eventually(async () => (await inspect(page)).frame);
+  const at = await page.evaluate(() => {
+    const { stage } = window.glissade.page;
+    const node = stage.coarse.parts.get(0);
+    const place = stage.box.getCenter(node.position.clone());
+    return place.project(stage.camera).toArray();
+  });
+  const canvas = await page.locator('#canvas').boundingBox();
+  await page.mouse.click(canvas.x + ((at[0] + 1) / 2) * canvas.width, canvas.y + ((1 - at[1]) / 2) * canvas.height);
+  await eventually(async () => page.locator('#object').isVisible());
+  assert.match(await page.locator('#picked').textContent(), /triangles/);
+  await page.context().close();
+});

@@ -1,0 +1,157 @@
+// The page of a running program.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { eventually, inspect, isNear, launch, open, Program, screenshot } from './harness.mjs';
+
+const PROGRAM = process.env.GLISSADE_PROGRAM ?? new URL('../../../build/release/apps/glissade', import.meta.url).pathname;
+
+let browser;
+let folder;
+before(async () => {
+  browser = await launch();
+  folder = mkdtempSync(join(tmpdir(), 'glissade_page_'));
+});
+after(async () => {
+  await browser.close();
+  rmSync(folder, { recursive: true });
+});
+
+function rowsOf(csv) {
+  const [head, ...lines] = readFileSync(csv, 'utf8').trim().split('\n').map((line) => line.split(','));
+  return lines.map((line) => Object.fromEntries(line.map((cell, i) => [head[i], cell])));
+}
+
+test('a part stands where the recording of the run says', async () => {
+  const log = join(folder, 'demo.lcmlog');
+  const program = new Program(['demo', '--seconds', '8', '--view', '0', '--record', log]);
+  const page = await open(browser, await program.url());
+  const seen = [];
+  await eventually(async () => {
+    const state = await inspect(page);
+    if (state.frame) seen.push({ ...state, part: state.parts[0], ghost: state.ghosts[0] });
+    return (await Promise.race([program.exited, Promise.resolve('runs')])) !== 'runs';
+  }, () => program.output);
+  assert.equal(await program.exited, 0, program.output);
+
+  execFileSync(PROGRAM, ['log', 'to-csv', log, folder]);
+  const rows = new Map(rowsOf(join(folder, 'parts.csv')).map((row) => [Number(row.tick), row]));
+  const shown = [...new Map(seen.map((state) => [state.frame.sequence, state])).values()];
+  assert.ok(shown.length > 10, `${shown.length} different moments were seen`);
+  let moved = 0;
+  for (const { frame, part, ghost, info } of shown) {
+    const row = rows.get(frame.sequence);
+    const of = (names) => names.split(' ').map((name) => Number(row[name]));
+    const origin = info.origin_W_m;
+    const world = (p) => p.map((x, i) => x + origin[i]);
+    assert.ok(isNear(world(part.p), of('vx_m vy_m vz_m')), `tick ${frame.sequence}: ${part.p}`);
+    assert.ok(isNear(part.q, of('vqx vqy vqz vqw'), 1e-3), `tick ${frame.sequence}: ${part.q}`);
+    if (ghost.visible) assert.ok(isNear(world(ghost.p), of('gx_m gy_m gz_m')));
+    moved = Math.max(moved, Math.hypot(...part.p.map((x, i) => x - shown[0].part.p[i])));
+  }
+  assert.ok(moved > 0.1, `the part moves by ${moved} m`);
+  const touching = shown.filter(({ frame }) => frame.parts[0].contacts > 0 && frame.hands[0].peak > 0.5);
+  assert.ok(touching.length > 0);
+  assert.ok(touching.some(({ forces, contacts }) => forces[0] && contacts.length > 0), 'arrows of force and contacts');
+  assert.deepEqual(page.faults.filter((fault) => !fault.includes('WebSocket')), []);
+  await screenshot(page, 'demo');
+  await page.context().close();
+});
+
+test('a hand closes round the part and holds it', async () => {
+  const program = new Program(['demo', '--fingers', '--seconds', '12', '--view', '0']);
+  const page = await open(browser, await program.url());
+  const state = await eventually(async () => {
+    const now = await inspect(page);
+    return now.frame?.hands[0].activity === 4 && now;
+  }, () => program.output);
+  assert.equal(state.frame.hands[0].part, 0);
+  assert.ok(state.frame.hands[0].grasp > 0);
+  const shown = state.segments.filter((segment) => segment.visible);
+  assert.ok(shown.length >= 17, `${shown.length} segments`);
+  // All near the part that they hold.
+  for (const { p } of shown) assert.ok(Math.hypot(...p.map((x, i) => x - state.parts[0].p[i])) < 0.25);
+  await screenshot(page, 'hand');
+  await program.stop();
+  await page.context().close();
+});
+
+test('the past can be looked at while the run goes on', async () => {
+  const program = new Program(['demo', '--seconds', '10', '--view', '0']);
+  const page = await open(browser, await program.url());
+  await eventually(async () => (await inspect(page)).frame?.sequence > 3000);
+  const newest = (await inspect(page)).frame.sequence;
+  await page.locator('#time').evaluate((slider) => {
+    slider.value = 1;
+    slider.dispatchEvent(new Event('input'));
+  });
+  const past = await eventually(async () => {
+    const state = await inspect(page);
+    return !state.isLive && state.frame.sequence < newest - 1000 && state;
+  });
+  const frames = past.frames;
+  await eventually(async () => (await inspect(page)).frames > frames + 2); // it goes on listening
+  assert.equal((await inspect(page)).frame.sequence, past.frame.sequence);
+  await page.keyboard.press('.');
+  await eventually(async () => (await inspect(page)).frame.sequence > past.frame.sequence);
+  await page.locator('#live').click();
+  await eventually(async () => (await inspect(page)).frame.sequence > newest);
+  await page.reload();
+  await eventually(async () => (await inspect(page))?.frame?.sequence > newest);
+  await program.stop();
+  await page.context().close();
+});
+
+test('a server that starts again is found again', async () => {
+  const first = new Program(['demo', '--seconds', '20', '--view', '0']);
+  const url = await first.url();
+  const page = await open(browser, url);
+  await eventually(async () => (await inspect(page)).frame?.sequence > 500);
+  await first.stop();
+  await eventually(async () => !(await inspect(page)).isConnected);
+  assert.match(await page.locator('#state').textContent(), /no connection/);
+  const second = new Program(['demo', '--seconds', '20', '--view', new URL(url).port]);
+  await eventually(async () => {
+    const state = await inspect(page);
+    return state.isConnected && state.frames > 1 && state.frame.sequence < 2000;
+  }, () => second.output);
+  await second.stop();
+  await page.context().close();
+});
+
+test('nothing is asked of any other machine, and other sites are refused', async () => {
+  const program = new Program(['demo', '--seconds', '10', '--view', '0']);
+  const url = await program.url();
+  const page = await open(browser, url);
+  for (const request of page.requests) assert.ok(request.startsWith(url) || request.startsWith('data:'), request);
+  const answer = await fetch(url, { headers: { Origin: 'http://elsewhere.example' } });
+  assert.equal(answer.status, 403);
+  assert.match((await fetch(url)).headers.get('content-security-policy'), /default-src 'none'/);
+  await program.stop();
+  await page.context().close();
+});
+
+test('ten pages look on, of which one does not read', async () => {
+  const program = new Program(['demo', '--seconds', '8', '--view', '0', '--json']);
+  const url = await program.url();
+  const page = await open(browser, url);
+  await page.evaluate(() => {
+    window.count = Array.from({ length: 10 }, () => 0);
+    window.count.forEach((_, i) => {
+      const socket = new WebSocket(`ws://${location.host}/live`);
+      socket.onmessage = () => {
+        ++window.count[i];
+        if (i > 0) socket.send('shown'); // the first one never acknowledges
+      };
+    });
+  });
+  assert.equal(await program.exited, 0, program.output);
+  const count = await page.evaluate(() => window.count);
+  await page.context().close();
+  assert.equal(count[0], 1);
+  for (const frames of count.slice(1)) assert.ok(frames > 50, `${count}`);
+});

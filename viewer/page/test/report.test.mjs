@@ -1,0 +1,65 @@
+// A report, opened from disk.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, rmSync, statSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { eventually, inspect, launch, open, screenshot } from './harness.mjs';
+
+const PROGRAM = process.env.GLISSADE_PROGRAM ?? new URL('../../../build/release/apps/glissade', import.meta.url).pathname;
+
+let browser;
+let folder;
+before(async () => {
+  browser = await launch();
+  folder = mkdtempSync(join(tmpdir(), 'glissade_report_'));
+});
+after(async () => {
+  await browser.close();
+  rmSync(folder, { recursive: true });
+});
+
+test('the replay of a report is linked with its plots', async () => {
+  execFileSync(PROGRAM, ['demo', '--offline', '--seconds', '10', '--report', folder]);
+  const file = join(folder, 'index.html');
+  assert.ok(statSync(file).size <= 5e6, `${statSync(file).size} bytes`);
+  const page = await open(browser, `file://${file}`);
+  for (const request of page.requests) assert.ok(request.startsWith('file://') || request.startsWith('data:'), request);
+  const start = await inspect(page);
+  assert.ok(start.frames >= 590 && start.frames <= 610, `${start.frames} frames of 10 s`);
+  await screenshot(page, 'report');
+
+  // A click at seven tenths of the force plot.
+  const plot = page.locator('svg[data-from]').first();
+  await plot.scrollIntoViewIfNeeded();
+  const box = await plot.boundingBox();
+  const [left, right, width] = await plot.evaluate((svg) => [+svg.dataset.left, +svg.dataset.right, svg.viewBox.baseVal.width]);
+  const x = box.x + ((left + 0.7 * (right - left)) / width) * box.width;
+  await page.mouse.click(x, box.y + box.height / 2);
+  const there = await eventually(async () => {
+    const state = await inspect(page);
+    return state.frame.time > start.frame.time + 1 && state;
+  });
+  const passed = there.frame.time - start.frame.time;
+  assert.ok(Math.abs(passed - 7) < 0.05, `${passed} s`);
+  assert.notDeepEqual(there.parts[0].p, start.parts[0].p);
+  const lines = await page.locator('.moment').evaluateAll((all) => all.map((line) => Number(line.getAttribute('x1'))));
+  assert.ok(lines.length >= 3 && lines.every((place) => Math.abs(place - lines[0]) < 1.5), `${lines}`);
+
+  // It plays on from there.
+  await page.locator('#play').click();
+  await eventually(async () => (await inspect(page)).frame.time > there.frame.time + 0.3);
+  assert.deepEqual(page.faults, []);
+  await page.context().close();
+});
+
+test('a report of a hand shows the hand', async () => {
+  execFileSync(PROGRAM, ['demo', '--fingers', '--offline', '--seconds', '6', '--report', folder]);
+  const file = join(folder, 'index.html');
+  assert.ok(statSync(file).size <= 5e6, `${statSync(file).size} bytes`);
+  const page = await open(browser, `file://${file}`);
+  await eventually(async () => (await inspect(page)).segments.some((segment) => segment.visible));
+  await page.context().close();
+});
