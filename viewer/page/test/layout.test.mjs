@@ -51,8 +51,10 @@ test('everything works by keyboard alone', async () => {
   assert.notDeepEqual(await camera(), turned);
   await page.keyboard.press('+');
   await page.keyboard.press(' ');
-  const paused = (await inspect(page)).frame.sequence;
+  const chosen = () => page.evaluate(() => window.glissade.page.timeline.frame.sequence);
+  const paused = await chosen();
   await page.keyboard.press(',');
+  assert.ok((await chosen()) < paused);
   await eventually(async () => (await inspect(page)).frame.sequence < paused);
   await page.keyboard.press('l');
   await eventually(async () => (await inspect(page)).isLive);
