@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -55,17 +57,21 @@ struct Received {
 int view(const ViewOptions& options) {
   const Scene file =
       read_or_embedded_scene(options.scene, options.fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor);
-  const HapticScene scene = make_haptic_scene(file, movable_objects(file));
   std::shared_ptr<const grasping::HandModel> model;
   if (options.fingers) {
     const grasping::HandShape shape =
         options.hand_file.empty() ? grasping::HandShape{} : read_hand_shape(options.hand_file);
     model = std::make_shared<const grasping::HandModel>(grasping::make_hand(shape));
   }
-  const std::vector<std::shared_ptr<const grasping::HandModel>> models(options.devices.size(), model);
+  viewer::ViewScene scene{
+      .title = file.source, .objects = shown_objects(file, movable_objects(file)), .X_WGoal = file.X_WGoal};
+  const auto parts = static_cast<std::int32_t>(std::count_if(
+      scene.objects.begin(), scene.objects.end(), [](const viewer::ViewObject& object) { return object.part; }));
+  for (const std::int64_t device : options.devices)
+    scene.hands.push_back({device, model});
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   const StopSignal stop_signal;
-  viewer::ViewServer server(view_scene_of(scene, options.devices, models), {.port = options.port});
+  viewer::ViewServer server(std::move(scene), {.port = options.port});
   Received received;
   const auto subscription = bus->subscribe("HAPTIC_STATE", [&](std::span<const std::uint8_t> bytes) {
     const auto state = devices::haptic_state_of({.channel = "HAPTIC_STATE", .message = {bytes.begin(), bytes.end()}});
@@ -79,7 +85,6 @@ int view(const ViewOptions& options) {
   });
   StatusLine line;
   line.say("glissade view: " + server.url() + " shows what a server at " + options.lcm.url + " publishes; Ctrl-C ends");
-  const auto parts = static_cast<std::int32_t>(scene.parts.size() + scene.moving.size());
   bool has_warned = false;
   while (!StopSignal::requested()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -88,7 +93,7 @@ int view(const ViewOptions& options) {
       has_warned = true;
       line.say(received.has_unreadable
                    ? "glissade view: states of the server cannot be read: another version of glissade sends them"
-                   : "glissade view: the server moves " + std::to_string(count) + " parts, " + scene.source + " has " +
+                   : "glissade view: the server moves " + std::to_string(count) + " parts, " + file.source + " has " +
                          std::to_string(parts) + ": is it the server's scene?");
     }
     line.show(received.states == 0 ? "waiting for a server" : std::to_string(received.states) + " states");

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -93,6 +94,7 @@ HapticScene make_haptic_scene(const Scene& scene, const std::vector<std::string>
   HapticScene result;
   result.source = scene.source;
   result.X_WGoal = scene.X_WGoal;
+  result.shown = shown_objects(scene, part_names);
   for (const SceneObject& object : scene.objects)
     check(scene, object);
   for (const std::string& name : part_names) {
@@ -132,6 +134,19 @@ HapticScene make_haptic_scene(const Scene& scene, const std::vector<std::string>
                                 " in the scene");
   }
   return result;
+}
+
+std::vector<viewer::ViewObject> shown_objects(const Scene& scene, const std::vector<std::string>& part_names) {
+  std::vector<viewer::ViewObject> objects;
+  std::size_t next = part_names.size();
+  for (const SceneObject& object : scene.objects) {
+    viewer::ViewObject& shown = objects.emplace_back(viewer::ViewObject{object.name, object.mesh, object.X_WB});
+    const auto name = std::find(part_names.begin(), part_names.end(), object.name);
+    if (name != part_names.end()) shown.part = static_cast<std::size_t>(name - part_names.begin());
+    shown.moves_on_its_own = object.motion.has_value();
+    if (object.motion) shown.part = next++;
+  }
+  return objects;
 }
 
 std::vector<std::string> movable_objects(const Scene& scene) {

@@ -13,6 +13,7 @@
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/haptics/sliding.h>
 #include <glissade/reference/grid_check.h>
+#include <glissade/viewer/view_scene.h>
 
 namespace glissade::apps {
 
@@ -29,6 +30,7 @@ struct HapticScene {
   std::vector<haptics::Obstacle> obstacles;
   std::vector<haptics::ScriptedPart> moving;            ///< the objects that move on their own
   std::vector<reference::PlacedMesh> placed_obstacles;  ///< `obstacles` without triangles that give way, for the check
+  std::vector<viewer::ViewObject> shown;                ///< all objects, for viewers
   /// Names in the scene file, by the number of the body in contacts: obstacles, parts, moving objects.
   std::vector<std::string> body_names;
   std::optional<Eigen::Isometry3d> X_WGoal;  ///< of the first part
@@ -43,6 +45,10 @@ struct HapticScene {
 /// the object, when there is no such object or no other one, when an object at its pose has no area or reaches beyond
 /// ±1e9 m, when a part moves on its own, and for more than four parts and objects that move on their own.
 HapticScene make_haptic_scene(const Scene& scene, const std::vector<std::string>& part_names);
+
+/// All objects of the scene for viewers; the movable ones with the numbers that `part_names` gives them, then those
+/// that move on their own.
+std::vector<viewer::ViewObject> shown_objects(const Scene& scene, const std::vector<std::string>& part_names);
 
 /// The names of the movable objects. Throws std::invalid_argument, naming the scene, when there is none.
 std::vector<std::string> movable_objects(const Scene& scene);

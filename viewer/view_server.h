@@ -13,8 +13,8 @@
 namespace glissade::viewer {
 
 struct ViewServerOptions {
-  std::uint16_t port = 0;                 ///< on 127.0.0.1; 0: any that is free
-  std::size_t first_triangles = 150'000;  ///< of the model that a page loads first
+  std::uint16_t port = 0;                ///< on 127.0.0.1; 0: any that is free
+  std::size_t first_triangles = 40'000;  ///< of the model that a page loads first
 };
 
 /// Serves at most 60 frames a second to each page, the next one only after the page has shown the last: a slow page

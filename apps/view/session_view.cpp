@@ -12,10 +12,6 @@ namespace glissade::apps {
 
 namespace {
 
-std::shared_ptr<const geometry::TriangleMesh> mesh_of(const std::shared_ptr<const haptics::ContactBody>& body) {
-  return {body, &body->tree.mesh()};
-}
-
 /// CLI11 gives "true" for an option without its value.
 std::optional<std::uint16_t> port_of(const std::string& text) {
   if (text == "true") return kViewPort;
@@ -29,20 +25,7 @@ std::optional<std::uint16_t> port_of(const std::string& text) {
 
 viewer::ViewScene view_scene_of(const HapticScene& scene, const std::vector<std::int64_t>& devices,
                                 const std::vector<std::shared_ptr<const grasping::HandModel>>& models) {
-  viewer::ViewScene view;
-  view.title = scene.source;
-  view.X_WGoal = scene.X_WGoal;
-  for (std::size_t i = 0; i < scene.obstacles.size(); ++i)
-    view.objects.push_back({scene.body_names[i], mesh_of(scene.obstacles[i].body), scene.obstacles[i].X_WO});
-  std::size_t number = 0;
-  for (const ScenePart& part : scene.parts)
-    view.objects.push_back({part.name, mesh_of(part.part_V), part.X_WV_start, number++});
-  for (const haptics::ScriptedPart& part : scene.moving) {
-    const std::string& name = scene.body_names[scene.obstacles.size() + number];
-    view.objects.push_back(
-        {name, mesh_of(part.part_B), part.script_X_WB.pose_at(std::chrono::nanoseconds(0)), number, true});
-    ++number;
-  }
+  viewer::ViewScene view{.title = scene.source, .objects = scene.shown, .X_WGoal = scene.X_WGoal};
   for (std::size_t h = 0; h < devices.size(); ++h)
     view.hands.push_back({devices[h], h < models.size() ? models[h] : nullptr});
   return view;

@@ -26,8 +26,7 @@ Replay replay_of(const Session& session, const HapticScene& scene);
 
 inline constexpr std::uint16_t kViewPort = 8421;
 
-/// The scene with hands in the gloves `devices`; the model of a hand without fingers is null. The bodies of the scene
-/// are shared, not copied.
+/// A scene with hands in the gloves `devices`; the model of a hand without fingers is null.
 viewer::ViewScene view_scene_of(const HapticScene& scene, const std::vector<std::int64_t>& devices,
                                 const std::vector<std::shared_ptr<const grasping::HandModel>>& models);
 

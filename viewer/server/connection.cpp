@@ -63,7 +63,7 @@ void Connection::answer() {
   if (target == "/model.glb") return send(http::status::ok, kModel, *answers_.first_model, answers_.first_model);
   if (target == "/whole_model.glb") {
     if (answers_.whole_model) return send(http::status::ok, kModel, *answers_.whole_model, answers_.whole_model);
-    return plain(http::status::service_unavailable, "the model is being made\n");
+    return plain(http::status::accepted, "the model is being made\n");
   }
   plain(http::status::not_found, "there is no such page\n");
 }

@@ -80,7 +80,7 @@ async function showReport() {
 
 async function load(name) {
   const answer = await fetch(name, { cache: 'no-store' });
-  if (answer.status === 503) return undefined; // it is being made
+  if (answer.status === 202) return undefined; // it is being made
   if (!answer.ok) throw new Error(`${name}: ${answer.status}`);
   return parseModel(await answer.arrayBuffer());
 }

@@ -11,8 +11,9 @@ import { copyOf } from './model.js';
 import { length } from './frame.js';
 
 const MOST_CONTACTS = 24;
-const WHOLE_ALWAYS = 600000; // triangles that are drawn whole even while things move
+const HEAVY_TRIANGLES = 2000000; // not drawn whole while things move
 const STILL_MS = 400;
+const SLOW_MS = 60; // between two pictures: then less is drawn while things move
 
 export const VIEWS = {
   front: [0, -1, 0], back: [0, 1, 0], left: [-1, 0, 0], right: [1, 0, 0], top: [0, -1e-3, 1], corner: [0.8, -1, 0.6],
@@ -124,6 +125,7 @@ export class Stage {
   setWholeModel(model) {
     this.paint(model);
     this.whole = model;
+    this.isHeavy = model.triangles > HEAVY_TRIANGLES;
     this.scene.add(model.group);
     this.touched();
   }
@@ -371,16 +373,25 @@ export class Stage {
     this.isDirty = true;
   }
 
-  // Draws if something has changed. A large model is drawn whole once nothing has moved for a moment.
+  // Draws if something has changed. A model that takes long is drawn whole once nothing has moved for a moment.
   render() {
-    const isStill = performance.now() - this.lastMotion > STILL_MS;
-    const showsWhole = this.whole !== undefined && (isStill || this.whole.triangles <= WHOLE_ALWAYS);
+    const now = performance.now();
+    const isStill = now - this.lastMotion > STILL_MS;
+    const showsWhole = this.whole !== undefined && (isStill || !this.isHeavy);
     if (this.coarse && showsWhole === this.coarse.group.visible) this.isDirty = true;
-    if (!this.isDirty) return false;
+    if (!this.isDirty) return;
     if (this.coarse) this.coarse.group.visible = !showsWhole;
     if (this.whole) this.whole.group.visible = showsWhole;
     this.isDirty = false;
     this.renderer.render(this.scene, this.camera);
-    return true;
+    this.judgeSpeed(showsWhole && !isStill, now);
+  }
+
+  // Three slow pictures in a row of the whole model make it heavy.
+  judgeSpeed(isWhole, now) {
+    const isSlow = isWhole && this.lastWhole !== undefined && now - this.lastWhole > SLOW_MS && now - this.lastWhole < 1000;
+    this.slowPictures = isSlow ? (this.slowPictures ?? 0) + 1 : 0;
+    this.lastWhole = isWhole ? now : undefined;
+    if (this.slowPictures >= 3) this.isHeavy = true;
   }
 }

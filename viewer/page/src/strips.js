@@ -11,7 +11,7 @@ const PERIOD_MS = 100; // of drawing
 const STRIPS = [
   { title: 'Force [N]', perHand: (hand) => hand.peak },
   { title: 'Lag [mm]', perPart: lag },
-  { title: 'Contacts', perPart: (part) => part.contacts },
+  { title: 'Contacts', least: 1, perPart: (part) => part.contacts },
   { title: 'Duration and lateness of ticks [µs]', names: ['duration', 'lateness'], values: (f) => [f.duration, f.lateness] },
   { title: 'Age of contacts [ms]', names: ['age'], values: (f) => [f.age] },
   { title: 'Energy left to the hand [J]', perHand: (hand) => hand.energy },
@@ -57,7 +57,7 @@ export class Strips {
       height: 112,
       cursor: { y: false, points: { show: false }, sync: { key: 'strips' }, drag: { setScale: false } },
       legend: { show: this.namesOf(strip).length > 1, live: false },
-      scales: { x: { time: false }, y: { range: (_, low, high) => [Math.min(0, low), Math.max(1.1 * high, 0.01)] } },
+      scales: { x: { time: false }, y: { range: (_, low, high) => [Math.min(0, low), Math.max(1.1 * high, strip.least ?? 0.01)] } },
       axes: [{ ...axis, font, size: 24, space: 60 }, { ...axis, font, size: 44, space: 26 }],
       series: [{}, ...this.namesOf(strip).map((label, i) => ({
         label, stroke: cssColor(SERIES[i % SERIES.length]), width: 1.3, points: { show: false },
