@@ -74,7 +74,7 @@ void GraspReport::add(std::chrono::nanoseconds time) {
 
 Report GraspReport::finish() {
   Report report{
-      "glissade grasp: " + scene_.source, {{"duration", format_number(1e-3 * static_cast<double>(ticks_)) + " s"}}, {}};
+      "glissade grasp: " + scene_.source, {{"duration", fixed_text(1e-3 * static_cast<double>(ticks_), 3) + " s"}}, {}};
   for (std::size_t h = 0; h < sums_.size(); ++h) {
     const double held_s = 1e-3 * static_cast<double>(sums_[h].holding_ms);
     report.summary.emplace_back(name_of_hand(h),
