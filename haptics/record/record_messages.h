@@ -21,6 +21,11 @@ std::vector<std::uint8_t> encode(const AnswerRecord& record);
 /// No value for bytes that are no such message, or whose checksum is wrong.
 std::optional<TickRecord> decode_tick(std::span<const std::uint8_t> bytes);
 /// What an answer consumed, and the number and the parts of its set. The parts that hands hold are among them.
-std::optional<AnswerRecord> decode_answer(std::span<const std::uint8_t> bytes);
+struct ConsumedByAnswer {
+  Ghosts ghosts;
+  std::int64_t sequence = 0;
+  std::int32_t part_count = 0;
+};
+std::optional<ConsumedByAnswer> decode_answer(std::span<const std::uint8_t> bytes);
 
 }  // namespace glissade::haptics

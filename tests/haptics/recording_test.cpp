@@ -93,7 +93,7 @@ class Recording : public testing::Test {
     while (const auto event = log.next()) {
       if (!replay.take(*event)) break;
     }
-    if (log.damage().empty()) replay.finish();
+    log.damage().empty() ? replay.finish() : replay.settle();
     ticks_ = replay.ticks();
     answers_ = replay.answers();
     return log.damage() + replay.difference();
