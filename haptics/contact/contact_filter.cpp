@@ -1,6 +1,7 @@
 #include "contact/contact_filter.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <glissade/base/assert.h>
 
@@ -44,6 +45,7 @@ void ContactFilter::look(std::span<const CandidatePair> pairs) {
         owned(bodies_[static_cast<std::size_t>(pair.bodies.part)].body->topology, pair.part_triangle,
               bodies_[static_cast<std::size_t>(pair.bodies.obstacle)].body->topology, pair.obstacle_triangle);
     gaps_[i] = 0.0;
+    gaps_beyond_[i] = std::numeric_limits<double>::infinity();
     if (features_[i] != 0 && pairs.size() >= kFewPairs) add(batch_of(pair.bodies), pair, i);
   }
   for (Batch& batch : batches_)
@@ -91,6 +93,7 @@ void ContactFilter::complete(Batch& batch) {
     for (std::size_t i = 0; i < batch.count; ++i) {
       features_[batch.numbers[i]] = batch.possible.features[i];
       gaps_[batch.numbers[i]] = static_cast<double>(batch.possible.gaps[i]) - past_end_;
+      gaps_beyond_[batch.numbers[i]] = static_cast<double>(batch.possible.gaps_beyond[i]) - past_end_;
     }
   }
   batch.count = 0;

@@ -30,6 +30,8 @@ class ContactFilter {
   /// Metres: a certain lower bound of the gaps of all contacts that the pair can have, however far its bodies are; not
   /// positive if nothing is known. Where the bodies come nearer, it decreases by as much at most.
   double gap(std::size_t pair) const { return gaps_[pair]; }
+  /// The same of those contacts that were left out because they are beyond reach; infinite if nothing was left out.
+  double gap_beyond(std::size_t pair) const { return gaps_beyond_[pair]; }
 
  private:
   /// Pairs of two bodies that wait until there are enough of them.
@@ -54,6 +56,7 @@ class ContactFilter {
   std::size_t last_ = 0;        // the batch of the last pair
   std::array<FeaturePairs, kMostPairs> features_;
   std::array<double, kMostPairs> gaps_;
+  std::array<double, kMostPairs> gaps_beyond_;
 };
 
 }  // namespace glissade::haptics

@@ -140,19 +140,21 @@ class ContactSearch {
         margin_(margin),
         contacts_(contacts) {}
 
-  /// Looks at these features of a pair.
-  void search(const CandidatePair& pair, FeaturePairs features) {
+  /// Looks at these features of a pair. Returns false if any may be in contact beyond reach.
+  bool search(const CandidatePair& pair, FeaturePairs features) {
+    is_any_beyond_ = false;
     obstacle_number_ = pair.bodies.obstacle;
     part_number_ = pair.bodies.part - first_part_;
     part_.select(bodies_[static_cast<std::size_t>(pair.bodies.part)], pair.part_triangle);
     obstacle_.select(bodies_[static_cast<std::size_t>(pair.bodies.obstacle)], pair.obstacle_triangle);
     // Candidates are near at the poses of a search some steps ago.
-    if (!part_.may_be_near(obstacle_, reach_)) return;
+    if (!part_.may_be_near(obstacle_, reach_)) return false;
     for (int i = 0; i < 3; ++i) {
       if ((features & with_part_corner(i)) != 0) search_part_corner(i);
       if ((features & with_obstacle_corner(i)) != 0) search_obstacle_corner(i);
       search_part_edge(i, features);
     }
+    return !is_any_beyond_;
   }
 
   /// Leaves out a vertex over a face within a margin of the face's rim, if one of the vertex's edges crosses that rim:
@@ -160,9 +162,10 @@ class ContactSearch {
   /// sufficient.
   void leave_out_what_rims_hold() {
     std::erase_if(rims_, [&](const AtRim& rim) { return !rim_holds(contacts_[rim.contact], rim.edge); });
-    std::size_t kept = 0;
+    if (rims_.empty()) return;
     auto rim = rims_.begin();
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    std::size_t kept = rim->contact;
+    for (std::size_t i = kept; i < contacts_.size(); ++i) {
       if (rim != rims_.end() && rim->contact == i) {
         ++rim;
       } else {
@@ -265,9 +268,10 @@ class ContactSearch {
   }
 
   /// The gap between a point of the obstacle and one of the part, −1 where it is out of reach or has no direction.
-  double gap_and_normal(const Eigen::Vector3d& q, const Eigen::Vector3d& p, Eigen::Vector3d& n) const {
+  double gap_and_normal(const Eigen::Vector3d& q, const Eigen::Vector3d& p, Eigen::Vector3d& n) {
     n = p - q;
     const double gap = n.norm();
+    is_any_beyond_ = is_any_beyond_ || gap > reach_;
     if (gap > reach_ || gap == 0.0) return -1.0;
     n /= gap;
     return gap;
@@ -287,6 +291,7 @@ class ContactSearch {
   Side obstacle_{-1.0};
   std::int32_t obstacle_number_ = -1;
   std::int32_t part_number_ = 0;
+  bool is_any_beyond_ = false;  // of the pair
   double reach_;
   double margin_;
   std::vector<Contact>& contacts_;
@@ -298,7 +303,7 @@ class ContactSearch {
 
 void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part,
                    std::span<const CandidatePair> candidates, double reach, double margin,
-                   std::vector<Contact>& contacts, std::vector<double>* gaps) {
+                   std::vector<Contact>& contacts, std::vector<GapsOfPair>* gaps) {
   contacts.clear();
   if (gaps != nullptr) gaps->clear();
   ContactSearch search(bodies, first_part, reach, margin, contacts);
@@ -307,8 +312,8 @@ void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part,
     const auto pairs = candidates.subspan(first, std::min(ContactFilter::kMostPairs, candidates.size() - first));
     filter.look(pairs);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      if (filter.features(i) != 0) search.search(pairs[i], filter.features(i));
-      if (gaps != nullptr) gaps->push_back(filter.gap(i));
+      const bool is_complete = filter.features(i) == 0 || search.search(pairs[i], filter.features(i));
+      if (gaps != nullptr) gaps->push_back({filter.gap(i), is_complete ? filter.gap_beyond(i) : filter.gap(i)});
     }
   }
   search.leave_out_what_rims_hold();

@@ -55,6 +55,8 @@ struct alignas(64) PossibleContacts {
   std::array<FeaturePairs, kTrianglePairs> features;
   /// Metres, not negative: a certain lower bound of the distances of all features that counted.
   std::array<float, kTrianglePairs> gaps;
+  /// The same of those features that were left out because they are beyond reach.
+  std::array<float, kTrianglePairs> gaps_beyond;
 };
 
 /// Leaves out features that are certainly not in contact, and sets the gaps.

@@ -200,10 +200,10 @@ void CandidatePairs::with_contacts(double reach, std::vector<CandidatePair>& pai
   }
 }
 
-void CandidatePairs::note_gaps(std::span<const std::uint32_t> numbers, std::span<const double> gaps) {
+void CandidatePairs::note_gaps(std::span<const std::uint32_t> numbers, std::span<const GapsOfPair> gaps) {
   GLISSADE_ASSERT(numbers.size() == gaps.size());
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    gaps_[numbers[i]] = gaps[i] + clock_;
+    gaps_[numbers[i]] = gaps[i].least + clock_;
 }
 
 /// Also discards the answer of a search under way, which the thread completes all the same.

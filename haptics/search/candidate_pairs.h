@@ -71,7 +71,7 @@ class CandidatePairs {
   /// the same order, and their numbers.
   void with_contacts(double reach, std::vector<CandidatePair>& pairs, std::vector<std::uint32_t>& numbers) const;
   /// Notes for the pairs with these numbers that their contacts have at least these gaps (metres) at the present poses.
-  void note_gaps(std::span<const std::uint32_t> numbers, std::span<const double> gaps);
+  void note_gaps(std::span<const std::uint32_t> numbers, std::span<const GapsOfPair> gaps);
 
   /// Number of candidate pairs.
   std::size_t pair_count() const { return now_.set.pairs.size(); }

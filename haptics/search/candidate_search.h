@@ -24,6 +24,12 @@ struct CandidatePair : TrianglesOfBodies {
   Eigen::Vector3d n_W;  ///< unit, from the obstacle's closest point to the part's; zero below kSharpDistance_m
 };
 
+/// Lower bounds, metres, of the gaps of the contacts of a candidate pair.
+struct GapsOfPair {
+  double least;   ///< of all contacts
+  double beyond;  ///< of those beyond the reach of the search for contacts
+};
+
 /// Poses of the movers, radius, and body pairs to leave out.
 struct CandidateRequest {
   std::vector<Eigen::Isometry3d> X_WB;  ///< one for each mover

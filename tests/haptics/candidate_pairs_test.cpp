@@ -149,7 +149,7 @@ TEST(CandidatePairs, HaveTheSameContactsWhereGapsAreNoted) {
       find_contacts(scene->bodies(), first_part, pairs, reach, kMargin, of_all);
       std::vector<CandidatePair> some;
       std::vector<std::uint32_t> numbers;
-      std::vector<double> gaps;
+      std::vector<GapsOfPair> gaps;
       std::vector<Contact> of_some;
       candidates.with_contacts(reach, some, numbers);
       find_contacts(scene->bodies(), first_part, some, reach, kMargin, of_some, &gaps);
