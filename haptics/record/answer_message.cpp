@@ -86,9 +86,7 @@ std::size_t hands_with_fingers(const ContactSet& set) {
   return count;
 }
 
-}  // namespace
-
-std::vector<std::uint8_t> encode(const AnswerRecord& record) {
+contact_set_t message_of(const AnswerRecord& record) {
   const ContactSet& set = record.set;
   contact_set_t message{};
   message.version = contact_set_t::VERSION;
@@ -110,7 +108,18 @@ std::vector<std::uint8_t> encode(const AnswerRecord& record) {
   }
   message.finger_row_count = static_cast<std::int32_t>(message.finger_rows.size());
   message.hand_count = static_cast<std::int32_t>(message.hands.size());
+  return message;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode(const AnswerRecord& record) {
+  contact_set_t message = message_of(record);
   return to_checked_bytes(message);
+}
+
+bool is_message_of(const AnswerRecord& record, std::span<const std::uint8_t> bytes) {
+  return is_of(bytes, message_of(record));
 }
 
 std::optional<ConsumedByAnswer> decode_answer(std::span<const std::uint8_t> bytes) {

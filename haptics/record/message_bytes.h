@@ -2,12 +2,14 @@
 
 /// Messages of variable size with a checksum at their end.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 #include <vector>
 
 #include <glissade/base/byte_order.h>
@@ -28,12 +30,25 @@ inline std::span<const std::uint8_t> checked_part(std::span<const std::uint8_t> 
   return bytes.subspan(kTypeBytes, bytes.size() - kTypeBytes - kChecksumBytes);
 }
 
+template <typename Message>
+std::vector<std::uint8_t> to_bytes(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+/// Whether `bytes`, whose checksum was found right, are those of the message: equal bytes have the same checksum, which
+/// takes longer to compute than all the rest.
+template <typename Message>
+bool is_of(std::span<const std::uint8_t> bytes, const Message& message) {
+  const std::vector<std::uint8_t> own = to_bytes(message);
+  return bytes.size() == own.size() && std::equal(own.begin(), own.end() - kChecksumBytes, bytes.begin());
+}
+
 /// The bytes of a message, of which `checksum` is the last field.
 template <typename Message>
 std::vector<std::uint8_t> to_checked_bytes(Message& message) {
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  const auto size = static_cast<int>(bytes.size());
-  message.encode(bytes.data(), 0, size);
+  std::vector<std::uint8_t> bytes = to_bytes(message);
   message.checksum = fnv_1a(checked_part(bytes));
   const auto checksum = std::bit_cast<std::array<std::uint8_t, kChecksumBytes>>(message.checksum);
   static_assert(std::endian::native == std::endian::little);

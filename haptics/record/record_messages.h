@@ -17,6 +17,10 @@ inline constexpr const char* kContactSetChannel = "CONTACT_SET";
 std::vector<std::uint8_t> encode(const TickRecord& record);
 std::vector<std::uint8_t> encode(const AnswerRecord& record);
 
+/// Whether `bytes`, which `decode_tick` or `decode_answer` could read, are those of the record.
+bool is_message_of(const TickRecord& record, std::span<const std::uint8_t> bytes);
+bool is_message_of(const AnswerRecord& record, std::span<const std::uint8_t> bytes);
+
 /// What a tick consumed, and its duration. What it produced is not read: only `devices::SafetyEnvelope` makes commands.
 /// No value for bytes that are no such message, or whose checksum is wrong.
 std::optional<TickRecord> decode_tick(std::span<const std::uint8_t> bytes);

@@ -5,10 +5,15 @@
 namespace glissade::haptics {
 
 std::vector<devices::LogEvent> RecordedEvents::of(const TickRecord& record) {
+  std::vector<devices::LogEvent> events = others_of(record);
+  events.insert(events.begin(), devices::to_event(record.time, kHapticTickChannel, encode(record)));
+  return events;
+}
+
+std::vector<devices::LogEvent> RecordedEvents::others_of(const TickRecord& record) {
   constexpr std::chrono::seconds kAnnouncementPeriod(1);
   std::vector<devices::LogEvent> events;
   const auto hand_count = static_cast<std::size_t>(record.hand_count);
-  events.push_back(devices::to_event(record.time, kHapticTickChannel, encode(record)));
   if (record.sequence > 0) events.push_back(devices::to_event(record.time, record.state));
   const bool is_due = !announced_ || record.time - *announced_ >= kAnnouncementPeriod;
   if (is_due) announced_ = record.time;
