@@ -44,6 +44,7 @@ void ContactFilter::look(std::span<const CandidatePair> pairs) {
     features_[i] =
         owned(bodies_[static_cast<std::size_t>(pair.bodies.part)].body->topology, pair.part_triangle,
               bodies_[static_cast<std::size_t>(pair.bodies.obstacle)].body->topology, pair.obstacle_triangle);
+    was_looked_at_[i] = false;
     gaps_[i] = 0.0;
     gaps_beyond_[i] = std::numeric_limits<double>::infinity();
     if (features_[i] != 0 && pairs.size() >= kFewPairs) add(batch_of(pair.bodies), pair, i);
@@ -91,6 +92,7 @@ void ContactFilter::complete(Batch& batch) {
   if (batch.count >= kFewOfBodies) {
     leave_out_impossible(batch.pairs, batch.X_OV, {reach_, past_end_, batch.coordinates}, batch.possible);
     for (std::size_t i = 0; i < batch.count; ++i) {
+      was_looked_at_[batch.numbers[i]] = true;
       features_[batch.numbers[i]] = batch.possible.features[i];
       gaps_[batch.numbers[i]] = static_cast<double>(batch.possible.gaps[i]) - past_end_;
       gaps_beyond_[batch.numbers[i]] = static_cast<double>(batch.possible.gaps_beyond[i]) - past_end_;

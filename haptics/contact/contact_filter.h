@@ -27,6 +27,8 @@ class ContactFilter {
   void look(std::span<const CandidatePair> pairs);
   /// The features of a pair that its triangles own and that may be in contact.
   FeaturePairs features(std::size_t pair) const { return features_[pair]; }
+  /// Whether the vector code looked at the pair: without it, nothing is left out.
+  bool was_looked_at(std::size_t pair) const { return was_looked_at_[pair]; }
   /// Metres: a certain lower bound of the gaps of all contacts that the pair can have, however far its bodies are; not
   /// positive if nothing is known. Where the bodies come nearer, it decreases by as much at most.
   double gap(std::size_t pair) const { return gaps_[pair]; }
@@ -55,6 +57,7 @@ class ContactFilter {
   std::vector<Batch> batches_;  // one for each pair of bodies so far
   std::size_t last_ = 0;        // the batch of the last pair
   std::array<FeaturePairs, kMostPairs> features_;
+  std::array<bool, kMostPairs> was_looked_at_;
   std::array<double, kMostPairs> gaps_;
   std::array<double, kMostPairs> gaps_beyond_;
 };

@@ -40,14 +40,26 @@ std::unique_ptr<AnswerRecord> AnswersAhead::take() {
   return answer;
 }
 
+void AnswersAhead::give_back(std::unique_ptr<AnswerRecord> answer) {
+  const std::lock_guard lock(mutex_);
+  unused_.push_back(std::move(answer));
+}
+
 void AnswersAhead::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (changed_.wait(lock, stop, [this] { return !questions_.empty(); }) && !stop.stop_requested()) {
-    const Ghosts ghosts = questions_.front();
+    std::unique_ptr<AnswerRecord> answer;
+    if (!unused_.empty()) {
+      answer = std::move(unused_.back());
+      unused_.pop_back();
+    } else {
+      answer = std::make_unique<AnswerRecord>();
+    }
+    answer->ghosts = questions_.front();
     questions_.pop_front();
     lock.unlock();
     try {
-      std::unique_ptr<AnswerRecord> answer(new AnswerRecord{ghosts, answerer_.answer(ghosts, first_)});
+      answerer_.answer(answer->ghosts, first_, answer->set);
       lock.lock();
       answers_.push_back(std::move(answer));
     } catch (...) {

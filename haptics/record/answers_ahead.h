@@ -13,6 +13,7 @@
 #include <mutex>
 #include <stop_token>
 #include <thread>
+#include <vector>
 
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/recording.h>
@@ -43,6 +44,8 @@ class AnswersAhead {
   /// Takes the oldest answer, waits for it if need be. At least one must be outstanding. Rethrows the exception of the
   /// simulation; then no answer follows any more.
   std::unique_ptr<AnswerRecord> take();
+  /// Gives back an answer that is of no use any more, so that another one can take its place.
+  void give_back(std::unique_ptr<AnswerRecord> answer);
 
  private:
   void run(const std::stop_token& stop);
@@ -55,6 +58,7 @@ class AnswersAhead {
   std::condition_variable_any changed_;
   std::deque<Ghosts> questions_;
   std::deque<std::unique_ptr<AnswerRecord>> answers_;
+  std::vector<std::unique_ptr<AnswerRecord>> unused_;
   std::exception_ptr error_;
   std::size_t wanted_ = 0;                 // the owner waits until so many are answered
   std::atomic<std::size_t> answered_{0};  // or failed

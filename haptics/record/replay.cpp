@@ -111,7 +111,8 @@ bool Replay::repeat_tick(const devices::LogEvent& event) {
   if (set == sets_.end())
     return differs(name + " uses contact set " + std::to_string(consumed->set_sequence) +
                    ", which is not in the recording before it");
-  sets_.erase(sets_.begin(), set);  // no tick goes back to an older set
+  for (auto old = sets_.begin(); old != set; old = sets_.erase(old))  // no tick goes back to an older set
+    ahead_->give_back(std::move(old->second));
 
   record_ = std::move(*consumed);
   run_tick(kernel_, record_, set->second->set);
