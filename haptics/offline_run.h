@@ -85,11 +85,13 @@ class Replay {
   struct Waiting {
     devices::LogEvent event;
     std::string fault;  // of a contact set: why the simulation cannot be asked for it; empty if it was
+    std::optional<bool> is_right{};  // the checksum of a contact set, once it is known
   };
 
   std::string ask_ahead(const devices::LogEvent& event);
   bool repeat_waiting();
   bool repeat(const Waiting& waiting);
+  bool has_right_checksum(const Waiting& first);
   bool repeat_tick(const devices::LogEvent& event);
   bool repeat_answer(const devices::LogEvent& event);
   bool compare_with_last_tick(const devices::LogEvent& event);

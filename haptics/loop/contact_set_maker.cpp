@@ -52,8 +52,9 @@ class SetMaker {
       if (a.pushes != b.pushes) return a.pushes;
       return a.gap != b.gap ? a.gap < b.gap : a.number < b.number;
     };
-    const auto kept = static_cast<std::ptrdiff_t>(std::min(order_.size(), kMaxContactRows));
-    std::partial_sort(order_.begin(), order_.begin() + kept, order_.end(), more_urgent);
+    const auto kept = order_.begin() + static_cast<std::ptrdiff_t>(std::min(order_.size(), kMaxContactRows));
+    std::nth_element(order_.begin(), kept, order_.end(), more_urgent);  // the order is total
+    std::sort(order_.begin(), kept, more_urgent);
   }
 
   void add_row(std::size_t p, const Contact& contact) {

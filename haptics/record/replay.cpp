@@ -1,4 +1,7 @@
+#include <array>
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include <glissade/haptics/offline_run.h>
@@ -13,12 +16,17 @@ namespace glissade::haptics {
 namespace {
 
 /// Answers that the simulation may be ahead: as many as make up for answers that take long.
-constexpr std::size_t kMostAhead = 64;
+constexpr std::size_t kMostAhead = 32;
 
 /// What comes in place of the number after `previous`.
 std::string follows(const std::string& kind, std::int64_t previous) {
   if (previous > 0) return " follows " + kind + " " + std::to_string(previous);
   return " is the first " + kind + " in the recording: only a run from its beginning on can be repeated";
+}
+
+std::string unreadable_after(std::int64_t answers) {
+  return "the contact set after " + std::to_string(answers) +
+         " cannot be read: its bytes were changed, or another version wrote them";
 }
 
 /// The time of an event in a log.
@@ -45,7 +53,7 @@ Replay::~Replay() = default;
 bool Replay::take(devices::LogEvent event) {
   if (!difference_.empty()) return false;
   std::string fault = event.channel == kContactSetChannel ? ask_ahead(event) : "";
-  waiting_.push_back({std::move(event), std::move(fault)});
+  waiting_.push_back({.event = std::move(event), .fault = std::move(fault)});
   if (!waiting_.back().fault.empty()) return settle();
   // To wait for many answers at once costs fewer changes between threads.
   if (ahead_->outstanding() >= kMostAhead) ahead_->wait_for(kMostAhead / 2);
@@ -65,13 +73,11 @@ bool Replay::finish() {
                  expected_.front().channel);
 }
 
-/// Asks the simulation for a recorded answer, or returns why that cannot be done.
+/// Asks the simulation for a recorded answer, or returns why that cannot be done. It does no harm to ask before the
+/// checksum is known.
 std::string Replay::ask_ahead(const devices::LogEvent& event) {
   const std::optional<ConsumedByAnswer> consumed = decode_answer(event.message);
-  if (!consumed) {
-    return "the contact set after " + std::to_string(asked_) +
-           " cannot be read: its bytes were changed, or another version wrote them";
-  }
+  if (!consumed) return unreadable_after(asked_);
   const std::string name = "contact set " + std::to_string(consumed->sequence);
   if (consumed->sequence != asked_ + 1) return name + follows("contact set", asked_);
   if (consumed->part_count != part_count_) return name + " has another number of parts";
@@ -93,6 +99,7 @@ bool Replay::repeat_waiting() {
 }
 
 bool Replay::repeat(const Waiting& waiting) {
+  if (waiting.event.channel == kContactSetChannel && !has_right_checksum(waiting)) return differs(unreadable_after(answers_));
   if (!waiting.fault.empty()) return differs(waiting.fault);
   if (waiting.event.channel == kHapticTickChannel) return repeat_tick(waiting.event);
   if (waiting.event.channel == kContactSetChannel) return repeat_answer(waiting.event);
@@ -132,6 +139,24 @@ bool Replay::repeat_answer(const devices::LogEvent& event) {
     return differs("contact set " + std::to_string(answers_) + " differs");
   sets_[answers_] = std::move(repeated);
   return true;
+}
+
+/// Computes the checksums of several contact sets that wait, where the first one is not known yet.
+bool Replay::has_right_checksum(const Waiting& first) {
+  if (!first.is_right) {
+    std::array<Waiting*, kMessagesAtOnce> sets{};
+    std::array<std::span<const std::uint8_t>, kMessagesAtOnce> messages;
+    std::size_t count = 0;
+    for (auto next = waiting_.begin(); next != waiting_.end() && count < sets.size(); ++next) {
+      if (next->event.channel != kContactSetChannel || next->is_right) continue;
+      messages[count] = next->event.message;
+      sets[count++] = &*next;
+    }
+    const std::array<bool, kMessagesAtOnce> are_right = have_right_checksums(messages);
+    for (std::size_t i = 0; i < count; ++i)
+      sets[i]->is_right = are_right[i];
+  }
+  return *first.is_right;
 }
 
 bool Replay::compare_with_last_tick(const devices::LogEvent& event) {

@@ -192,9 +192,10 @@ void CandidatePairs::with_contacts(double reach, std::vector<CandidatePair>& pai
   pairs.clear();
   numbers.clear();
   for (std::size_t i = 0; i < now_.set.pairs.size(); ++i) {
+    if (gaps_[i] > reach + clock_) continue;
     const CandidatePair& pair = now_.set.pairs[i];
     if (pair.distance > reach + now_.drift) return;  // as are all that follow
-    if (gaps_[i] > reach + clock_ || now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
+    if (now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
     pairs.push_back(pair);
     numbers.push_back(static_cast<std::uint32_t>(i));
   }
