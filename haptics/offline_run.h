@@ -68,8 +68,8 @@ class Replay {
   /// Repeats all that was taken. Returns false, as `take` does, if something differs.
   bool settle();
 
-  /// To be called after the last event: settles. Returns false, as `take` does, also if the recording ends within a tick
-  /// or has none.
+  /// To be called after the last event: settles. Returns false, as `take` does, also if the recording ends within a
+  /// tick or has none.
   bool finish();
 
   /// Ticks and answers that were repeated so far: all before the difference, once `settle` was called.
@@ -84,7 +84,7 @@ class Replay {
   /// An event that is not repeated yet.
   struct Waiting {
     devices::LogEvent event;
-    std::string fault;  // of a contact set: why the simulation cannot be asked for it; empty if it was
+    std::string fault;               // of a contact set: why the simulation cannot be asked for it; empty if it was
     std::optional<bool> is_right{};  // the checksum of a contact set, once it is known
   };
 

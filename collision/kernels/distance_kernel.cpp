@@ -144,15 +144,14 @@ class Measurement {
     const V on_lines = hn::IfThenElseZero(hn::Gt(squared_normal, hn::Zero(d)),
                                           hn::Div(dot(cross(offset, along_b), normal), squared_normal));
     const V start = clamp_to_unit(on_lines);
-    const V t =
-        clamp_to_unit(hn::Div(dot(minus(times(start, along_a), offset), along_b), b_.squared_lengths[j]));
+    const V t = clamp_to_unit(hn::Div(dot(minus(times(start, along_a), offset), along_b), b_.squared_lengths[j]));
     const V s = clamp_to_unit(hn::Div(dot(plus(offset, times(t, along_b)), along_a), a_.squared_lengths[i]));
     const Vector3 gap = minus(plus(offset, times(t, along_b)), times(s, along_a));
     keep_closer(open_, plus(a_.corners[i], times(s, along_a)), plus(b_.corners[j], times(t, along_b)), gap);
     const Vector3 to_corner_a = minus(negative(a_.edges[(i + 2) % 3]), times(s, along_a));
     const Vector3 to_corner_b = minus(negative(b_.edges[(j + 2) % 3]), times(t, along_b));
-    const Mask are_closest = hn::And(hn::Lt(dot(to_corner_a, gap), hn::Neg(uncertainty_)),
-                                     hn::Gt(dot(to_corner_b, gap), uncertainty_));
+    const Mask are_closest =
+        hn::And(hn::Lt(dot(to_corner_a, gap), hn::Neg(uncertainty_)), hn::Gt(dot(to_corner_b, gap), uncertainty_));
     open_ = hn::AndNot(are_closest, open_);
   }
 
@@ -167,8 +166,7 @@ class Measurement {
     face_coordinates(face, negative(gap_at(offset, face, first_u, first_v)), u, v);
     u = hn::Add(first_u, u);
     v = hn::Add(first_v, v);
-    inside = hn::And(hn::And(hn::Ge(u, hn::Zero(d)), hn::Ge(v, hn::Zero(d))),
-                     hn::Le(hn::Add(u, v), hn::Set(d, 1.0)));
+    inside = hn::And(hn::And(hn::Ge(u, hn::Zero(d)), hn::Ge(v, hn::Zero(d))), hn::Le(hn::Add(u, v), hn::Set(d, 1.0)));
     return gap_at(offset, face, u, v);
   }
 

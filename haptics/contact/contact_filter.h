@@ -23,8 +23,9 @@ class ContactFilter {
   ContactFilter(std::span<const PlacedBody> bodies, double reach, double past_end)
       : bodies_(bodies), reach_(reach), past_end_(past_end) {}
 
-  /// Looks at up to kMostPairs pairs, which replace those of the last call.
-  void look(std::span<const CandidatePair> pairs);
+  /// Looks at up to kMostPairs pairs, which replace those of the last call, and of which `known` tells what is known,
+  /// or is empty.
+  void look(std::span<const CandidatePair> pairs, std::span<const KnownFeatures> known);
   /// The features of a pair that its triangles own and that may be in contact.
   FeaturePairs features(std::size_t pair) const { return features_[pair]; }
   /// Whether the vector code looked at the pair: without it, nothing is left out.
@@ -34,6 +35,8 @@ class ContactFilter {
   double gap(std::size_t pair) const { return gaps_[pair]; }
   /// The same of those contacts that were left out because they are beyond reach; infinite if nothing was left out.
   double gap_beyond(std::size_t pair) const { return gaps_beyond_[pair]; }
+  /// The same of all that were left out; 0 if the vector code did not look at the pair now.
+  double gap_left_out(std::size_t pair) const { return gaps_left_out_[pair]; }
 
  private:
   /// Pairs of two bodies that wait until there are enough of them.
@@ -60,6 +63,7 @@ class ContactFilter {
   std::array<bool, kMostPairs> was_looked_at_;
   std::array<double, kMostPairs> gaps_;
   std::array<double, kMostPairs> gaps_beyond_;
+  std::array<double, kMostPairs> gaps_left_out_;
 };
 
 }  // namespace glissade::haptics

@@ -174,8 +174,8 @@ class ContactSearch {
         contacts_(contacts),
         gaps_(gaps) {}
 
-  /// Looks at these features of a pair, now or later, in the order of the calls. `is_near`: the pair is known to be near
-  /// at the present poses, and not only at those of a search some steps ago.
+  /// Looks at these features of a pair, now or later, in the order of the calls. `is_near`: the pair is known to be
+  /// near at the present poses, and not only at those of a search some steps ago.
   void search(const CandidatePair& pair, std::size_t number, FeaturePairs features, bool is_near) {
     const auto corners = static_cast<std::size_t>(std::popcount(features & kAllCorners));
     if (waiting_count_ == waiting_.size() || corners_.count() + corners > kCornersAtOnce) search_waiting();
@@ -293,7 +293,8 @@ class ContactSearch {
     const double gap = gap_and_normal(on.point, x, n);
     if (gap < 0.0) return;
     switch (on.region) {
-      case Region::kFace: break;  // seen above
+      case Region::kFace:
+        break;  // seen above
       case Region::kEdge:
         if (obstacle_->owns_edge(on.index) && obstacle_->edge_is_nearest(on.index, n, margin_) &&
             part_->corner_is_nearest(i, n, margin_)) {
@@ -321,7 +322,7 @@ class ContactSearch {
     const double gap = gap_and_normal(y, on.point, n);
     if (gap < 0.0 || on.region != Region::kEdge) return;  // vertex–vertex is found from the part's side
     if (part_->owns_edge(on.index) && part_->edge_is_nearest(on.index, n, margin_) &&
-               obstacle_->corner_is_nearest(i, n, margin_)) {
+        obstacle_->corner_is_nearest(i, n, margin_)) {
       add(ContactKind::kEdgeVertex, part_->edge(on.index), obstacle_->vertex(i), n, on.point, gap, gap);
     }
   }
@@ -368,9 +369,9 @@ class ContactSearch {
   // The normal of a contact with a vertex or an edge beside it turns with the motion; its gap is a measure of how fast.
   void add(ContactKind kind, std::int32_t part_feature, std::int32_t obstacle_feature, const Eigen::Vector3d& n,
            const Eigen::Vector3d& p, double gap, double range) {
-    Contact& contact = contacts_.emplace_back(Contact{kind, part_->triangle(), pair_->bodies.obstacle,
-                                                      obstacle_->triangle(), n, p, gap, 0.0, part_feature,
-                                                      obstacle_feature, pair_->bodies.part - first_part_});
+    Contact& contact =
+        contacts_.emplace_back(Contact{kind, part_->triangle(), pair_->bodies.obstacle, obstacle_->triangle(), n, p,
+                                       gap, 0.0, part_feature, obstacle_feature, pair_->bodies.part - first_part_});
     contact.range = range;
   }
 
@@ -395,16 +396,18 @@ class ContactSearch {
 
 void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part,
                    std::span<const CandidatePair> candidates, double reach, double margin,
-                   std::vector<Contact>& contacts, std::vector<GapsOfPair>* gaps) {
+                   std::vector<Contact>& contacts, std::vector<GapsOfPair>* gaps,
+                   std::span<const KnownFeatures> known) {
   contacts.clear();
   if (gaps != nullptr) gaps->clear();
   ContactSearch search(bodies, first_part, reach, margin, contacts, gaps);
   ContactFilter filter(bodies, reach, kPastEnd * margin);
   for (std::size_t first = 0; first < candidates.size(); first += ContactFilter::kMostPairs) {
     const auto pairs = candidates.subspan(first, std::min(ContactFilter::kMostPairs, candidates.size() - first));
-    filter.look(pairs);
+    filter.look(pairs, known.empty() ? known : known.subspan(first, pairs.size()));
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      if (gaps != nullptr) gaps->push_back({filter.gap(i), filter.gap_beyond(i)});
+      if (gaps != nullptr)
+        gaps->push_back({filter.gap(i), filter.gap_beyond(i), filter.gap_left_out(i), filter.features(i)});
       if (filter.features(i) != 0) search.search(pairs[i], first + i, filter.features(i), filter.was_looked_at(i));
     }
   }

@@ -193,7 +193,8 @@ class Look {
         counting_(hn::Load(Bits(), possible.features.data() + first)),
         left_(counting_),
         least_(hn::Set(Tag(), kFarAway)),
-        least_beyond_(least_) {}
+        least_beyond_(least_),
+        least_left_out_(least_) {}
 
   HWY_INLINE void at_corners() {
     V gaps[3];
@@ -223,6 +224,7 @@ class Look {
     hn::Store(left_, Bits(), possible.features.data() + first);
     hn::Store(hn::Mul(least_, size_), Tag(), possible.gaps.data() + first);
     hn::Store(hn::Mul(least_beyond_, size_), Tag(), possible.gaps_beyond.data() + first);
+    hn::Store(hn::Mul(least_left_out_, size_), Tag(), possible.gaps_left_out.data() + first);
   }
 
  private:
@@ -235,12 +237,13 @@ class Look {
     const Bits bits;
     const auto bit = hn::Set(bits, feature);
     const auto is_beyond = hn::Gt(gap, reach_);
-    const auto is_left_out = hn::RebindMask(bits, hn::Or(is_beyond, is_none));
-    left_ = hn::AndNot(hn::IfThenElseZero(is_left_out, bit), left_);
+    const auto is_left_out = hn::Or(is_beyond, is_none);
+    left_ = hn::AndNot(hn::IfThenElseZero(hn::RebindMask(bits, is_left_out), bit), left_);
     const auto counts = hn::RebindMask(Tag(), hn::TestBit(counting_, bit));
     least_ = hn::IfThenElse(counts, hn::Min(least_, gap), least_);
     const auto may_come = hn::And(counts, hn::AndNot(is_none, is_beyond));
     least_beyond_ = hn::IfThenElse(may_come, hn::Min(least_beyond_, gap), least_beyond_);
+    least_left_out_ = hn::IfThenElse(hn::And(counts, is_left_out), hn::Min(least_left_out_, gap), least_left_out_);
   }
 
   Triangle obstacle_;
@@ -252,6 +255,7 @@ class Look {
   hn::Vec<Bits> left_;
   V least_;
   V least_beyond_;
+  V least_left_out_;
 };
 
 void leave_out_impossible(const TrianglePairs& pairs, const RelativePose& X_OV, const ContactReach& reach,

@@ -60,9 +60,9 @@ class AnswersAhead {
   std::deque<std::unique_ptr<AnswerRecord>> answers_;
   std::vector<std::unique_ptr<AnswerRecord>> unused_;
   std::exception_ptr error_;
-  std::size_t wanted_ = 0;                 // the owner waits until so many are answered
+  std::size_t wanted_ = 0;                // the owner waits until so many are answered
   std::atomic<std::size_t> answered_{0};  // or failed
-  std::jthread thread_;                    // last: it ends before the members that it uses
+  std::jthread thread_;                   // last: it ends before the members that it uses
 };
 
 }  // namespace glissade::haptics

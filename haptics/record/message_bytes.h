@@ -10,7 +10,6 @@
 #include <string_view>
 #include <utility>
 #include <vector>
-#include <vector>
 
 #include <glissade/base/byte_order.h>
 

@@ -44,8 +44,7 @@ std::array<bool, kMessagesAtOnce> have_right_checksums(
   for (std::size_t i = 0; i < messages.size(); ++i) {
     if (messages[i].size() < kTypeBytes + kChecksumBytes) continue;
     const std::string_view text(reinterpret_cast<const char*>(messages[i].data()), messages[i].size());
-    are_right[i] =
-        base::number_at<std::int64_t>(text, text.size() - kChecksumBytes, std::endian::big) == checksums[i];
+    are_right[i] = base::number_at<std::int64_t>(text, text.size() - kChecksumBytes, std::endian::big) == checksums[i];
   }
   return are_right;
 }

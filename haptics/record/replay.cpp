@@ -99,7 +99,8 @@ bool Replay::repeat_waiting() {
 }
 
 bool Replay::repeat(const Waiting& waiting) {
-  if (waiting.event.channel == kContactSetChannel && !has_right_checksum(waiting)) return differs(unreadable_after(answers_));
+  if (waiting.event.channel == kContactSetChannel && !has_right_checksum(waiting))
+    return differs(unreadable_after(answers_));
   if (!waiting.fault.empty()) return differs(waiting.fault);
   if (waiting.event.channel == kHapticTickChannel) return repeat_tick(waiting.event);
   if (waiting.event.channel == kContactSetChannel) return repeat_answer(waiting.event);

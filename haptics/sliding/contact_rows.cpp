@@ -27,7 +27,7 @@ UncertifiedPair swapped(const UncertifiedPair& pair) {
 void ContactRows::find(double reach, WorkBudget& budget) {
   reach_ = reach;
   contacts_ahead_.clear();
-  shared_.candidates.with_contacts(reach, pairs_, numbers_);
+  shared_.candidates.with_contacts(reach, pairs_, numbers_, known_);
   find_among_pairs(reach, contacts_, budget);
   gaps_beyond_.assign(shared_.candidates.pair_count(), 0.0);
   for (std::size_t i = 0; i < numbers_.size(); ++i)
@@ -43,7 +43,7 @@ void ContactRows::find(double reach, WorkBudget& budget) {
 
 /// Most pairs have no more contacts than those that are found already.
 void ContactRows::find_ahead(double reach_ahead, WorkBudget& budget) {
-  shared_.candidates.with_contacts(reach_ahead, pairs_, numbers_);
+  shared_.candidates.with_contacts(reach_ahead, pairs_, numbers_, known_);
   if (reach_ >= kReachOfRims * shared_.largest_margin) leave_out_complete(reach_ahead);
   find_among_pairs(reach_ahead, contacts_ahead_, budget);
   std::erase_if(contacts_ahead_, [this](const Contact& contact) { return contact.gap <= reach_; });
@@ -55,10 +55,12 @@ void ContactRows::leave_out_complete(double reach_ahead) {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     if (gaps_beyond_[numbers_[i]] > reach_ahead) continue;
     pairs_[kept] = pairs_[i];
+    known_[kept] = known_[i];
     numbers_[kept++] = numbers_[i];
   }
   pairs_.resize(kept);
   numbers_.resize(kept);
+  known_.resize(kept);
 }
 
 /// Finds the contacts of `pairs_`.
@@ -66,7 +68,8 @@ void ContactRows::find_among_pairs(double reach, std::vector<Contact>& contacts,
   const ContactScene& scene = shared_.scene;
   budget.spend(kWorkOfCandidate * static_cast<std::int64_t>(shared_.candidates.pair_count()) +
                kWorkOfContacts * std::ssize(pairs_));
-  find_contacts(scene.bodies(), scene.obstacles().size(), pairs_, reach, shared_.largest_margin, contacts, &gaps_);
+  find_contacts(scene.bodies(), scene.obstacles().size(), pairs_, reach, shared_.largest_margin, contacts, &gaps_,
+                known_);
   shared_.candidates.note_gaps(numbers_, gaps_);
   for (Contact& contact : contacts) {
     const auto body = static_cast<std::int32_t>(scene.body_of_mover(static_cast<std::size_t>(contact.part)));

@@ -60,6 +60,7 @@ class ContactRows {
   double reach_ = 0.0;
   std::vector<CandidatePair> pairs_;       // that may have contacts within reach
   std::vector<std::uint32_t> numbers_;     // of them among the candidates
+  std::vector<KnownFeatures> known_;       // of them
   std::vector<GapsOfPair> gaps_;           // of them
   std::vector<double> gaps_beyond_;        // metres, by candidate: of contacts beyond the reach; 0: not known
   std::vector<Contact> contacts_;          // one for each of the first rows

@@ -36,10 +36,14 @@ Vector3d point_of(const VectorsOfPairs& points, std::size_t pair) {
 
 test_support::TrianglePair any_pair(RandomTriangles& random) {
   switch (random.integer(0, 3)) {
-    case 0: return random.anywhere();
-    case 1: return random.on_lattice(3);
-    case 2: return random.nearly_touching();
-    default: return random.nearly_coplanar();
+    case 0:
+      return random.anywhere();
+    case 1:
+      return random.on_lattice(3);
+    case 2:
+      return random.nearly_touching();
+    default:
+      return random.nearly_coplanar();
   }
 }
 
