@@ -12,6 +12,7 @@
 // that every rounding is the same. There are the reasons too.
 HWY_BEFORE_NAMESPACE();
 namespace glissade::collision::HWY_NAMESPACE {
+namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Tag = hn::CappedTag<double, kPairsToMeasure>;
@@ -190,6 +191,8 @@ class Measurement {
   Vector3 p_b_;
   V squared_distance_;
 };
+
+}  // namespace
 
 void find_closest_points(const TrianglesToMeasure& triangles, ClosestPoints& closest) {
   for (std::size_t first = 0; first < kPairsToMeasure; first += hn::Lanes(Tag())) {

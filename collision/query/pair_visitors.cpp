@@ -11,14 +11,14 @@ namespace {
 /// Fewer pairs are measured faster one by one.
 constexpr std::size_t kWorthVectors = 3;
 
-void put(const geometry::TrianglePoints& points, std::size_t pair, std::array<VectorsOfPairs, 3>& corners) {
+void put_corners(const geometry::TrianglePoints& points, std::size_t pair, std::array<VectorsOfPairs, 3>& corners) {
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       corners[c][axis][pair] = points[c][static_cast<Eigen::Index>(axis)];
   }
 }
 
-Eigen::Vector3d vector_of(const VectorsOfPairs& vectors, std::size_t pair) {
+Eigen::Vector3d point_of_pair(const VectorsOfPairs& vectors, std::size_t pair) {
   return {vectors[0][pair], vectors[1][pair], vectors[2][pair]};
 }
 
@@ -38,8 +38,8 @@ void PairCollector<ClosePair>::measure_waiting() {
   for (std::size_t i = 0; i < count; ++i) {
     a[i] = placed_.points_A(waiting_[i]);
     b[i] = placed_.points_B(waiting_[i]);
-    put(a[i], i, triangles.a);
-    put(b[i], i, triangles.b);
+    put_corners(a[i], i, triangles.a);
+    put_corners(b[i], i, triangles.b);
   }
   ClosestPoints closest;
   find_closest_points(triangles, closest);
@@ -51,7 +51,7 @@ void PairCollector<ClosePair>::measure_waiting() {
     // As in `geometry::triangle_distance`.
     const double distance = std::max(std::sqrt(closest.squared_distance[i]), std::numeric_limits<double>::min());
     if (distance > tolerance_) continue;
-    pairs_.push_back({waiting_[i], distance, vector_of(closest.p_a, i), vector_of(closest.p_b, i)});
+    pairs_.push_back({waiting_[i], distance, point_of_pair(closest.p_a, i), point_of_pair(closest.p_b, i)});
   }
 }
 

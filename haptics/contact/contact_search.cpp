@@ -159,7 +159,7 @@ class WaitingCorners {
   std::size_t count_ = 0;
 };
 
-Eigen::Vector3d vector_of(const VectorsOfCorners& vectors, std::size_t corner) {
+Eigen::Vector3d at_corner(const VectorsOfCorners& vectors, std::size_t corner) {
   return {vectors[0][corner], vectors[1][corner], vectors[2][corner]};
 }
 
@@ -278,8 +278,8 @@ class ContactSearch {
                      const Eigen::Vector3d& p, const CornersOverFaces& over, std::size_t corner) {
     const double gap = over.gap[corner];
     if (!is_within_reach(gap)) return;
-    if (gap <= kNearRims * margin_) note_rim(of_face.rim_near(vector_of(over.point, corner), margin_));
-    add(kind, part_feature, obstacle_feature, vector_of(over.n, corner), p, gap, over.to_rims[corner]);
+    if (gap <= kNearRims * margin_) note_rim(of_face.rim_near(at_corner(over.point, corner), margin_));
+    add(kind, part_feature, obstacle_feature, at_corner(over.n, corner), p, gap, over.to_rims[corner]);
   }
 
   void search_part_corner(int i, const CornersOverFaces& over, std::size_t corner) {
@@ -314,7 +314,7 @@ class ContactSearch {
     const Eigen::Vector3d& y = obstacle_->corner(i);
     if (over.is_inside[corner] > 0.0) {
       add_over_face(ContactKind::kFaceVertex, part_->triangle(), obstacle_->vertex(i), *part_,
-                    vector_of(over.point, corner), over, corner);
+                    at_corner(over.point, corner), over, corner);
       return;
     }
     const ClosestOnTriangle on = part_->closest_to(y, kPastEnd * margin_);

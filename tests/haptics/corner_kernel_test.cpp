@@ -21,16 +21,16 @@ using geometry::TrianglePoints;
 using test_support::RandomNumbers;
 
 /// A corner near the plane of a triangle, over its face or beside it, and the edges of that triangle that are rims.
-struct Corner {
+struct CornerOverTriangle {
   Vector3d x;
   TrianglePoints triangle;
   std::array<bool, 3> is_rim;
   bool is_of_obstacle;
 };
 
-Corner random_corner(RandomNumbers& random) {
+CornerOverTriangle random_corner(RandomNumbers& random) {
   const auto anywhere = [&] { return Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
-  Corner corner;
+  CornerOverTriangle corner;
   const Vector3d place = 3.0 * anywhere();
   for (Vector3d& point : corner.triangle)
     point = place + 0.05 * anywhere();
@@ -44,16 +44,16 @@ Corner random_corner(RandomNumbers& random) {
   return corner;
 }
 
-void put(const Vector3d& from, std::size_t corner, VectorsOfCorners& to) {
+void put_at(const Vector3d& from, std::size_t corner, VectorsOfCorners& to) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     to[axis][corner] = from[static_cast<Eigen::Index>(axis)];
 }
 
-Vector3d vector_of(const VectorsOfCorners& vectors, std::size_t corner) {
+Vector3d vector_at(const VectorsOfCorners& vectors, std::size_t corner) {
   return {vectors[0][corner], vectors[1][corner], vectors[2][corner]};
 }
 
-double distance_to_rims(const Corner& corner, const Vector3d& point) {
+double distance_to_rims(const CornerOverTriangle& corner, const Vector3d& point) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3d& begin = corner.triangle[i];
@@ -73,21 +73,21 @@ TEST_P(CornerKernel, GivesTheBitsOfOneCornerAtATime) {
   int beside = 0;
   for (int trial = 0; trial < test_support::affordable(4000); ++trial) {
     SCOPED_TRACE("trial " + std::to_string(trial));
-    std::array<Corner, kCornersAtOnce> corners;
+    std::array<CornerOverTriangle, kCornersAtOnce> corners;
     CornersOverTriangles over_triangles;
     for (std::size_t i = 0; i < kCornersAtOnce; ++i) {
       corners[i] = random_corner(random);
-      put(corners[i].x, i, over_triangles.x);
+      put_at(corners[i].x, i, over_triangles.x);
       over_triangles.is_of_obstacle[i] = corners[i].is_of_obstacle ? 1.0 : 0.0;
       for (std::size_t c = 0; c < 3; ++c) {
-        put(corners[i].triangle[c], i, over_triangles.triangle[c]);
+        put_at(corners[i].triangle[c], i, over_triangles.triangle[c]);
         over_triangles.is_rim[c][i] = corners[i].is_rim[c] ? 1.0 : 0.0;
       }
     }
     CornersOverFaces over;
     find_corners_over_faces(over_triangles, over);
     for (std::size_t i = 0; i < kCornersAtOnce; ++i) {
-      const Corner& corner = corners[i];
+      const CornerOverTriangle& corner = corners[i];
       const ClosestOnTriangle expected = closest_on_triangle(corner.x, corner.triangle);
       ASSERT_EQ(over.is_inside[i], expected.region == Region::kFace ? 1.0 : 0.0);
       if (expected.region != Region::kFace) {
@@ -97,9 +97,9 @@ TEST_P(CornerKernel, GivesTheBitsOfOneCornerAtATime) {
       ++inside;
       const Vector3d between =
           corner.is_of_obstacle ? (expected.point - corner.x).eval() : (corner.x - expected.point).eval();
-      ASSERT_EQ(vector_of(over.point, i), expected.point);
+      ASSERT_EQ(vector_at(over.point, i), expected.point);
       ASSERT_EQ(over.gap[i], between.norm());
-      ASSERT_EQ(vector_of(over.n, i), between / between.norm());
+      ASSERT_EQ(vector_at(over.n, i), between / between.norm());
       ASSERT_EQ(over.to_rims[i], distance_to_rims(corner, expected.point));
     }
   }
