@@ -37,7 +37,7 @@ void add_run_command(CLI::App& app, Command& chosen);
 /// `glissade record LOG SCENE`, and the options of `run`
 void add_record_command(CLI::App& app, Command& chosen);
 
-/// `glissade replay LOG [--scene FILE] [--lcm URL] [--json]`
+/// `glissade replay LOG [--scene FILE] [--lcm URL] [--view [PORT]] [--report DIR] [--json]`
 void add_replay_command(CLI::App& app, Command& chosen);
 
 /// `glissade log to-csv LOG FOLDER`

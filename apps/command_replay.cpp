@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -11,9 +12,12 @@
 #include <glissade/apps/lcm_option.h>
 #include <glissade/apps/record/glove_player.h>
 #include <glissade/apps/record/offline_replay.h>
+#include <glissade/apps/record/replay_audiences.h>
+#include <glissade/apps/report/html_report.h>
 #include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/view/session_view.h>
 
 namespace glissade::apps {
 
@@ -31,16 +35,21 @@ constexpr const char* kReplayFooter =
     "With --lcm, the recorded gloves lead a server that runs elsewhere. They wait for its first command, take the\n"
     "recorded time, and do not yield to forces. Any log with GLOVE_INFO and GLOVE_STATE will do, also one of\n"
     "lcm-logger.\n"
+    "With --view, the run is shown in a browser at the pace at which it was recorded.\n"
     "Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples:\n"
     "  glissade demo --record demo.lcmlog && glissade replay demo.lcmlog\n"
+    "  glissade replay demo.lcmlog --view\n"
+    "  glissade replay demo.lcmlog --report report\n"
     "  glissade replay demo.lcmlog --lcm 'udpm://239.255.76.67:7667?ttl=0'";
 
 struct ReplayOptions {
   std::string log;
   std::string scene;
   LcmAddress lcm{.url = "", .key_file = ""};
+  std::optional<std::uint16_t> view_port;
+  std::string report;
   bool json = false;
 };
 
@@ -48,8 +57,23 @@ double seconds_of(std::chrono::nanoseconds time) {
   return std::chrono::duration<double>(time).count();
 }
 
+/// Repeats the run for its audience, if there is one.
+ReplayOutcome repeat_for_audience(const ReplayOptions& options) {
+  if (options.view_port) {
+    const StopSignal stop_signal;
+    ReplayView view(*options.view_port);
+    return replay_offline(options.log, options.scene, &view);
+  }
+  if (options.report.empty()) return replay_offline(options.log, options.scene, nullptr);
+  prepare_report_folder(options.report);
+  ReplayReport report("glissade replay: " + options.log);
+  ReplayOutcome outcome = replay_offline(options.log, options.scene, &report);
+  report.write(options.report);
+  return outcome;
+}
+
 int repeat(const ReplayOptions& options) {
-  const ReplayOutcome outcome = replay_offline(options.log, options.scene);
+  const ReplayOutcome outcome = repeat_for_audience(options);
   const double speed = seconds_of(outcome.recorded) / seconds_of(outcome.elapsed);
   if (options.json) {
     const nlohmann::json json{{"ticks", outcome.ticks},
@@ -110,6 +134,14 @@ void add_replay_command(CLI::App& app, Command& chosen) {
   CLI::Option* scene = command->add_option("--scene", options->scene, "Scene file, in place of the recorded name");
   add_lcm_options(*command, options->lcm);
   command->get_option("--lcm")->excludes(scene);
+  CLI::Option* view = add_view_option(*command, options->view_port);
+  view->excludes("--lcm");
+  command
+      ->add_option("--report", options->report,
+                   "Folder for a page, index.html, as that of 'glissade run', of the last minute of the recording")
+      ->take_last()
+      ->excludes(view)
+      ->excludes("--lcm");
   command->add_flag("--json", options->json, "Print the outcome as JSON");
   command->callback([options, &chosen] {
     chosen = [options] { return options->lcm.url.empty() ? repeat(*options) : play(*options); };

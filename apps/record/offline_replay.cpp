@@ -31,7 +31,7 @@ HapticScene recorded_scene(const std::string& log_path, const RecordedSession& s
 
 }  // namespace
 
-ReplayOutcome replay_offline(const std::string& log_path, const std::string& scene_file) {
+ReplayOutcome replay_offline(const std::string& log_path, const std::string& scene_file, ReplayAudience* audience) {
   devices::EventLogReader log(log_path);
   const RecordedSession session = read_session(log, log_path);
   const HapticScene scene = recorded_scene(log_path, session, scene_file);
@@ -49,18 +49,28 @@ ReplayOutcome replay_offline(const std::string& log_path, const std::string& sce
   std::vector<haptics::KernelHand> hands;
   for (std::size_t h = 0; h < grips.size(); ++h)
     hands.push_back({grips[h].device, grips[h].part, started.fingers[h]});
+  if (audience != nullptr) {
+    std::vector<std::int64_t> devices;
+    for (const RecordedHand& hand : session.hands)
+      devices.push_back(hand.glove.device);
+    audience->begin(scene, session.period, devices, started.models);
+  }
   haptics::Replay replay(*started.simulation, hands, session.period, head_of(session));
 
   ProgressBar progress("replay", static_cast<std::int64_t>(std::filesystem::file_size(log_path)));
   realtime::SteadyClock clock;
   const std::chrono::nanoseconds start = clock.now();
   std::int64_t bytes = 0;
+  bool is_watched = true;
   while (std::optional<devices::LogEvent> event = log.next()) {
     bytes += std::ssize(event->message);
     progress.update(bytes);
+    const auto state = audience != nullptr ? devices::haptic_state_of(*event) : std::nullopt;
     if (!replay.take(std::move(*event))) break;
+    is_watched = !state || audience->take(*state);
+    if (!is_watched) break;
   }
-  log.damage().empty() ? replay.finish() : replay.settle();
+  log.damage().empty() && is_watched ? replay.finish() : replay.settle();
   return {.ticks = replay.ticks(),
           .contact_sets = replay.answers(),
           .recorded = replay.duration(),

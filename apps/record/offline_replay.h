@@ -4,7 +4,13 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <vector>
+
+#include <glissade/apps/haptic_scene.h>
+#include <glissade/devices/haptic_state.h>
+#include <glissade/grasping/hand_model.h>
 
 namespace glissade::apps {
 
@@ -20,9 +26,24 @@ struct ReplayOutcome {
   bool is_same() const { return difference.empty() && damage.empty(); }
 };
 
+/// Who looks on while a run is repeated.
+class ReplayAudience {
+ public:
+  virtual ~ReplayAudience() = default;
+
+  /// Before the first tick: the scene, the period of ticks, and each hand's glove and model, which is null without
+  /// fingers.
+  virtual void begin(const HapticScene& scene, std::chrono::nanoseconds period,
+                     const std::vector<std::int64_t>& devices,
+                     const std::vector<std::shared_ptr<const grasping::HandModel>>& models) = 0;
+  /// The recorded state of a tick. The replay ends if the answer is false.
+  virtual bool take(const devices::HapticState& state) = 0;
+};
+
 /// Repeats the run of a log up to its end, the first difference or the first damage. The scene is that of `scene_file`,
-/// or the recorded one if the name is empty. Shows a progress bar. Throws std::invalid_argument, naming the file, for a
-/// log that does not begin with a session, and for a scene that cannot be read or is not the recorded one.
-ReplayOutcome replay_offline(const std::string& log_path, const std::string& scene_file);
+/// or the recorded one if the name is empty. `audience` may be null. Shows a progress bar. Throws
+/// std::invalid_argument, naming the file, for a log that does not begin with a session, and for a scene that cannot be
+/// read or is not the recorded one.
+ReplayOutcome replay_offline(const std::string& log_path, const std::string& scene_file, ReplayAudience* audience);
 
 }  // namespace glissade::apps

@@ -11,9 +11,9 @@ namespace glissade::apps {
 
 namespace {
 
-/// CLI11 gives "true" for an option without its value.
+/// CLI11 gives nothing for an option without its value.
 std::optional<std::uint16_t> port_of(const std::string& text) {
-  if (text == "true") return kViewPort;
+  if (text.empty()) return kViewPort;
   std::uint16_t port = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;

@@ -6,7 +6,7 @@ import { mkdtempSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { eventually, inspect, launch, open, screenshot } from './harness.mjs';
+import { eventually, inspect, launch, open, Program, screenshot } from './harness.mjs';
 
 const PROGRAM = process.env.GLISSADE_PROGRAM ?? new URL('../../../build/release/apps/glissade', import.meta.url).pathname;
 
@@ -62,4 +62,21 @@ test('a report of a hand shows the hand', async () => {
   const page = await open(browser, `file://${file}`);
   await eventually(async () => (await inspect(page)).segments.some((segment) => segment.visible));
   await page.context().close();
+});
+
+test('a recorded run is shown again, in a browser and in a report', async () => {
+  const log = join(folder, 'run.lcmlog');
+  execFileSync(PROGRAM, ['demo', '--offline', '--seconds', '3', '--record', log]);
+  const program = new Program(['replay', log, '--view', '0']);
+  const page = await open(browser, await program.url());
+  const seen = new Set(); // at the speed of the repetition, the page would see a handful
+  await eventually(async () => seen.add((await inspect(page)).frame?.sequence).has(3000), () => program.output);
+  assert.ok(seen.size > 5, `${[...seen]}`);
+  assert.equal(await program.exited, 0, program.output);
+  await page.context().close();
+
+  execFileSync(PROGRAM, ['replay', log, '--report', folder]);
+  const report = await open(browser, `file://${join(folder, 'index.html')}`);
+  assert.ok((await inspect(report)).frames >= 175);
+  await report.context().close();
 });

@@ -1,0 +1,54 @@
+#include <thread>
+#include <utility>
+
+#include <glissade/apps/record/replay_audiences.h>
+#include <glissade/apps/say.h>
+#include <glissade/apps/stop_signal.h>
+#include <glissade/apps/view/session_view.h>
+
+namespace glissade::apps {
+
+void ReplayView::begin(const HapticScene& scene, std::chrono::nanoseconds /*period*/,
+                       const std::vector<std::int64_t>& devices,
+                       const std::vector<std::shared_ptr<const grasping::HandModel>>& models) {
+  server_ = std::make_unique<viewer::ViewServer>(view_scene_of(scene, devices, models),
+                                                 viewer::ViewServerOptions{.port = port_});
+  say("glissade replay: open " + server_->url() + " in a browser: then it starts");
+  while (!server_->has_had_client() && !StopSignal::requested())
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+}
+
+bool ReplayView::take(const devices::HapticState& state) {
+  if (!start_) {
+    start_ = std::chrono::steady_clock::now();
+    first_ = state.time;
+  }
+  std::this_thread::sleep_until(*start_ + (state.time - first_));
+  server_->push(state);
+  return !StopSignal::requested();
+}
+
+void ReplayReport::begin(const HapticScene& scene, std::chrono::nanoseconds period,
+                         const std::vector<std::int64_t>& devices,
+                         const std::vector<std::shared_ptr<const grasping::HandModel>>& models) {
+  constexpr std::size_t kKeptTicks = 60'000;
+  scene_ = scene;
+  samples_ = std::make_shared<SessionRecorder>(kKeptTicks, scene.parts.size() + scene.moving.size(), devices.size());
+  session_.period = period;
+  session_.objects = std::ssize(scene.body_names);
+  session_.devices = devices;
+  session_.hand_models = models;
+  session_.samples = samples_;
+}
+
+bool ReplayReport::take(const devices::HapticState& state) {
+  samples_->record(state);
+  ++session_.ticks;
+  return true;
+}
+
+std::string ReplayReport::write(const std::string& folder) const {
+  return write_session_report(summarize(session_, *scene_), session_, title_, folder, *scene_);
+}
+
+}  // namespace glissade::apps
