@@ -401,7 +401,7 @@ TEST_F(ScenePages, TheTablesHaveExactlyTheKeysAndColumnsOfRecordings) {
 }
 
 TEST_F(ScenePages, TheHelpOfEveryCommandWithASceneNamesThePageAndAnExample) {
-  for (const char* command : {"demo", "record", "run", "slide"}) {
+  for (const char* command : {"demo", "export", "record", "run", "slide"}) {
     EXPECT_THAT(run(std::string(command) + " --help").standard_output, HasSubstr(kSceneFileHelp)) << command;
   }
   EXPECT_THAT(kSceneFileHelp, HasSubstr("docs/scene_files.md"));
