@@ -40,7 +40,7 @@ void add_record_command(CLI::App& app, Command& chosen);
 /// `glissade replay LOG [--scene FILE] [--lcm URL] [--json]`
 void add_replay_command(CLI::App& app, Command& chosen);
 
-/// `glissade log to-csv LOG FOLDER`
+/// `glissade log to-csv LOG FOLDER`, `glissade log to-mcap LOG FILE [--scene FILE]`
 void add_log_command(CLI::App& app, Command& chosen);
 
 /// `glissade export [SCENE] [--log LOG] [--at S] --out FILE`
