@@ -27,7 +27,7 @@ void add_demo_command(CLI::App& app, Command& chosen);
 /// `glissade slide SCENE --part NAME --trajectory FILE [--metaphor M] [--out FILE]`
 void add_slide_command(CLI::App& app, Command& chosen);
 
-/// `glissade grasp SCENE --hand-trajectory FILE [--hand FILE] [--out FILE] [--objects FILE]`
+/// `glissade grasp SCENE --hand-trajectory FILE [--hand FILE] [--out FILE] [--objects FILE] [--report DIR]`
 void add_grasp_command(CLI::App& app, Command& chosen);
 
 /// `glissade run SCENE [--lcm URL] [--device N] [--seconds S] [--rate-hz R] [--spin-us T] [--flight-recorder FILE]

@@ -19,6 +19,7 @@
 #include <glissade/apps/progress.h>
 #include <glissade/apps/sliding_option.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/view/grasp_report.h>
 #include <glissade/grasping/grasp_simulation.h>
 #include <glissade/haptics/coupling.h>
 
@@ -49,7 +50,9 @@ constexpr const char* kGraspFooter =
     "Examples:\n"
     "  glissade grasp examples/scenes/ball_and_tray.yaml --hand-trajectory examples/scenes/ball_and_tray_hand.csv "
     "--out hand.csv\n"
-    "  glissade grasp desk.yaml --hand-trajectory left.csv right.csv --hand left.yaml right.yaml --objects moved.csv";
+    "  glissade grasp desk.yaml --hand-trajectory left.csv right.csv --hand left.yaml right.yaml --objects moved.csv\n"
+    "  glissade grasp examples/scenes/ball_and_tray.yaml --hand-trajectory examples/scenes/ball_and_tray_hand.csv "
+    "--out hand.csv --report grasp";
 
 struct GraspOptions {
   std::string scene;
@@ -58,6 +61,7 @@ struct GraspOptions {
   SlidingChoice sliding;
   std::string out = "-";
   std::string objects;
+  std::string report;
 };
 
 std::vector<std::string> hand_columns() {
@@ -187,6 +191,7 @@ int run(const GraspOptions& options) {
   if (are_one_file(options.out, options.objects)) {
     throw std::invalid_argument("--objects: " + in_quotes(options.objects) + " is already the file of --out");
   }
+  if (!options.report.empty()) prepare_report_folder(options.report);
   std::vector<HandTrajectory> trajectories;
   for (const std::string& file : options.trajectories)
     check_duration(trajectories.emplace_back(read_hand_trajectory(file)).duration(), file);
@@ -207,6 +212,8 @@ int run(const GraspOptions& options) {
   }
   const std::int64_t ticks = (last - first) / kTick;
   GraspTables tables(scene, simulation, hands, options);
+  std::optional<GraspReport> report;
+  if (!options.report.empty()) report.emplace(scene, simulation, hands);
   ProgressBar progress("grasping", ticks + 1);
   std::vector<std::optional<grasping::Posture>> targets(hands.size());
   for (std::int64_t tick = 0; tick <= ticks; ++tick) {
@@ -215,9 +222,11 @@ int run(const GraspOptions& options) {
       targets[h] = trajectories[h].posture_at(time);
     simulation.advance(targets, tick == 0 ? 0.0 : 1.0);
     tables.write(std::chrono::duration<double>(time).count());
+    if (report) report->add(time);
     progress.update(tick + 1);
   }
   tables.close();
+  if (report) write_html_report(report->finish(), options.report);
   return 0;
 }
 
@@ -236,6 +245,10 @@ void add_grasp_command(CLI::App& app, Command& chosen) {
   add_sliding_options(*command, options->sliding);
   command->add_option("--out", options->out, "CSV file for the hands (-: standard output)")->capture_default_str();
   command->add_option("--objects", options->objects, "CSV file for the movable objects, see below");
+  command
+      ->add_option("--report", options->report,
+                   "Folder for a page, index.html, with hands and objects in three dimensions, and plots")
+      ->take_last();
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -48,6 +48,7 @@ void find_pairs(const PlacedTrees& placed, double tolerance, Workspace&& workspa
   pairs.clear();
   PairCollector<Pair> visitor(placed, tolerance, pairs);
   visit_all(Goal::kEveryPair, placed, tolerance, workspace, visitor);
+  visitor.finish();
   sort_pairs(pairs, memory_of(workspace));
 }
 

@@ -16,6 +16,7 @@ constexpr std::uint32_t kSync = 0xEDA1DA01;
 constexpr std::size_t kHeaderBytes = 28;
 constexpr std::int32_t kLongestChannel = 63;         // LCM_MAX_CHANNEL_NAME_LENGTH
 constexpr std::int32_t kLongestMessage = 256 << 20;  // bytes
+constexpr std::size_t kBufferBytes = 256 << 10;      // an event has some hundreds or thousands
 
 struct Header {
   std::uint32_t sync;
@@ -61,7 +62,9 @@ void EventLogWriter::close() {
   if (!file_) throw std::runtime_error(path_ + ": not everything could be written; is the disk full?");
 }
 
-EventLogReader::EventLogReader(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+EventLogReader::EventLogReader(const std::string& path) : path_(path), buffer_(kBufferBytes) {
+  file_.rdbuf()->pubsetbuf(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  file_.open(path, std::ios::binary);
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw std::invalid_argument(path + ": is a folder, not an event log");
   if (!file_) throw std::invalid_argument(path + ": cannot be read");
@@ -98,9 +101,9 @@ std::optional<LogEvent> EventLogReader::next() {
     return damaged(offset_ + static_cast<std::int64_t>(kHeaderBytes),
                    "a channel's name has other characters than a word");
   }
-  if (!read(static_cast<std::size_t>(header.message_bytes), bytes))
+  event.message.resize(static_cast<std::size_t>(header.message_bytes));
+  if (!file_.read(reinterpret_cast<char*>(event.message.data()), header.message_bytes))
     return damaged(offset_, "the file cannot be read on");
-  event.message.assign(bytes.begin(), bytes.end());
   offset_ += static_cast<std::int64_t>(kHeaderBytes) + header.channel_bytes + header.message_bytes;
   ++count_;
   return event;

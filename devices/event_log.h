@@ -63,6 +63,7 @@ class EventLogReader {
   bool read(std::size_t size, std::string& bytes);
 
   std::string path_;
+  std::vector<char> buffer_;  // of the file, which it outlives
   std::ifstream file_;
   std::int64_t size_ = 0;
   std::int64_t offset_ = 0;  ///< of the next event

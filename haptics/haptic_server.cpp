@@ -157,7 +157,7 @@ void HapticServer::answer_newest_ghosts() {
   if (!ghosts_.update()) return;
   const std::chrono::nanoseconds start = clock_.now();
   answer_.ghosts = ghosts_.value();
-  answer_.set = answerer_->answer(answer_.ghosts, options_.period);
+  answerer_->answer(answer_.ghosts, options_.period, answer_.set);
   if (options_.observer != nullptr) options_.observer->after_answer(answer_);
   sets_.publish(answer_.set);
   statistics_.simulation.record(clock_.now() - start);

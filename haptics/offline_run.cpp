@@ -30,7 +30,7 @@ void run_offline(const std::vector<HandOffline>& hands, LoopSimulation& simulati
     run_tick(kernel, record, answer.set);
     sink(record.state);
     answer.ghosts = record.tick.ghosts;
-    answer.set = answerer.answer(answer.ghosts, options.period);
+    answerer.answer(answer.ghosts, options.period, answer.set);
     if (options.observer == nullptr) continue;
     options.observer->after_tick(record);
     options.observer->after_answer(answer);

@@ -23,6 +23,7 @@
 namespace glissade::haptics {
 
 class Answerer;
+class AnswersAhead;
 
 /// A simulated glove of an offline run, and the part that its hand grasps at the first tick.
 struct HandOffline {
@@ -45,11 +46,13 @@ struct OfflineRunOptions {
 void run_offline(const std::vector<HandOffline>& hands, LoopSimulation& simulation, std::int64_t ticks,
                  const std::function<void(const devices::HapticState&)>& sink, const OfflineRunOptions& options = {});
 
-/// Repeats a recorded run: ticks and answers consume what they consumed then, and must produce the same bytes.
+/// Repeats a recorded run: ticks and answers consume what they consumed then, and must produce the same bytes. The
+/// simulation works in a thread of its own, ahead of the ticks: it needs nothing but the recorded ghosts. Not
+/// thread-safe.
 class Replay {
  public:
-  /// A loop as the recorded one. Scene, rules, hands, period and `head` must be those of the recording. Throws as the
-  /// constructor of `HapticKernel` does.
+  /// A loop as the recorded one. Scene, rules, hands, period and `head` must be those of the recording. The simulation
+  /// must outlive this object, and must not be used by others. Throws as the constructor of `HapticKernel` does.
   Replay(LoopSimulation& simulation, const std::vector<KernelHand>& hands, std::chrono::nanoseconds period,
          RecordingHead head);
   ~Replay();
@@ -58,12 +61,18 @@ class Replay {
 
   /// Takes the next event of the recording. Repeats the tick of an event of HAPTIC_TICK, and the answer of one of
   /// CONTACT_SET; compares the others on channels of a recording with what the last tick produced. Ignores other
-  /// channels. Returns false if the recording cannot be repeated from here on: `difference` says why.
-  bool take(const devices::LogEvent& event);
+  /// channels. Returns false if the recording cannot be repeated up to here: `difference` says why. As the simulation
+  /// works ahead, the difference of an event may be found by a later call. Rethrows exceptions of the simulation.
+  bool take(devices::LogEvent event);
 
-  /// To be called after the last event. Returns false, as `take` does, if the recording ends within a tick or has none.
+  /// Repeats all that was taken. Returns false, as `take` does, if something differs.
+  bool settle();
+
+  /// To be called after the last event: settles. Returns false, as `take` does, also if the recording ends within a
+  /// tick or has none.
   bool finish();
 
+  /// Ticks and answers that were repeated so far: all before the difference, once `settle` was called.
   std::int64_t ticks() const noexcept { return ticks_; }
   std::int64_t answers() const noexcept { return answers_; }
   std::chrono::nanoseconds duration() const noexcept { return last_ - first_; }  ///< recorded time
@@ -72,23 +81,37 @@ class Replay {
   const std::string& difference() const noexcept { return difference_; }
 
  private:
+  /// An event that is not repeated yet.
+  struct Waiting {
+    devices::LogEvent event;
+    std::string fault;               // of a contact set: why the simulation cannot be asked for it; empty if it was
+    std::optional<bool> is_right{};  // the checksum of a contact set, once it is known
+  };
+
+  std::string ask_ahead(const devices::LogEvent& event);
+  bool repeat_waiting();
+  bool repeat(const Waiting& waiting);
+  bool has_right_checksum(const Waiting& first);
   bool repeat_tick(const devices::LogEvent& event);
   bool repeat_answer(const devices::LogEvent& event);
   bool compare_with_last_tick(const devices::LogEvent& event);
   bool differs(const std::string& what);
 
   HapticKernel kernel_;
-  std::chrono::nanoseconds period_;
-  std::unique_ptr<Answerer> answerer_;
+  std::int32_t part_count_;
   RecordedEvents events_;
   TickRecord record_;
-  std::map<std::int64_t, ContactSet> sets_;  // that ticks may still use, by number
-  std::deque<devices::LogEvent> expected_;   // the other events of the last tick
+  std::map<std::int64_t, std::unique_ptr<AnswerRecord>> sets_;  // that ticks may still use, by number
+  std::deque<devices::LogEvent> expected_;                      // the other events of the last tick
+  std::deque<Waiting> waiting_;
   std::int64_t ticks_ = 0;
   std::int64_t answers_ = 0;
   std::chrono::nanoseconds first_{0};
   std::chrono::nanoseconds last_{0};
   std::string difference_;
+  std::unique_ptr<Answerer> answerer_;
+  std::unique_ptr<AnswersAhead> ahead_;
+  std::int64_t asked_ = 0;  // answers
 };
 
 }  // namespace glissade::haptics

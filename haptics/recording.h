@@ -137,7 +137,9 @@ class RecordedEvents {
   explicit RecordedEvents(RecordingHead head) : head_(std::move(head)) {}
 
   const std::vector<devices::LogEvent>& at_start() const { return head_.events; }
+  /// HAPTIC_TICK, then the others.
   std::vector<devices::LogEvent> of(const TickRecord& record);
+  std::vector<devices::LogEvent> others_of(const TickRecord& record);
   static devices::LogEvent of(const AnswerRecord& record);
 
  private:

@@ -38,4 +38,20 @@ std::string_view name_of(SlidingState state) {
   return "unknown";
 }
 
+devices::PartState part_state_of(SlidingState state) noexcept {
+  switch (state) {
+    case SlidingState::kReleased:
+      return devices::PartState::kReleased;
+    case SlidingState::kFree:
+      return devices::PartState::kFree;
+    case SlidingState::kSliding:
+      return devices::PartState::kSliding;
+    case SlidingState::kResting:
+      return devices::PartState::kResting;
+    case SlidingState::kCatchingUp:
+      return devices::PartState::kCatchingUp;
+  }
+  return devices::PartState::kUnknown;
+}
+
 }  // namespace glissade::haptics

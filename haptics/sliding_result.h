@@ -14,6 +14,8 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/devices/haptic_state.h>
+
 namespace glissade::haptics {
 
 /// The two features (vertex, edge or face) in contact: first the feature of the part, then the feature of the obstacle.
@@ -80,6 +82,8 @@ enum class SlidingState : std::uint8_t {
 };
 
 std::string_view name_of(SlidingState state);
+/// The state as viewers get it.
+devices::PartState part_state_of(SlidingState state) noexcept;
 
 /// The outcome of one call of `advance` for one part.
 struct SlidingResult {

@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <glissade/apps/progress.h>
@@ -36,12 +37,12 @@ ReplayOutcome replay_offline(const std::string& log_path, const std::string& sce
   realtime::SteadyClock clock;
   const std::chrono::nanoseconds start = clock.now();
   std::int64_t bytes = 0;
-  while (const std::optional<devices::LogEvent> event = log.next()) {
-    if (!replay.take(*event)) break;
+  while (std::optional<devices::LogEvent> event = log.next()) {
     bytes += std::ssize(event->message);
     progress.update(bytes);
+    if (!replay.take(std::move(*event))) break;
   }
-  if (log.damage().empty()) replay.finish();
+  log.damage().empty() ? replay.finish() : replay.settle();
   return {.ticks = replay.ticks(),
           .contact_sets = replay.answers(),
           .recorded = replay.duration(),

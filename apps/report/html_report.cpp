@@ -32,6 +32,7 @@ constexpr const char* kStyle = R"(
 body { margin: 0; background: var(--page); color: var(--text); font: 15px/1.5 system-ui, sans-serif; }
 .paper { max-width: 960px; margin: 0 auto; padding: 32px 20px 48px; }
 h1 { font-size: 26px; line-height: 1.25; margin: 0 0 20px; }
+.paper + .paper { padding-top: 0; }
 .paper h2 { font-size: 16px; margin: 0 0 6px; }
 .paper section { background: var(--card); border: 1px solid var(--grid); border-radius: 8px; padding: 16px 20px; margin: 0 0 18px; }
 table { border-collapse: collapse; width: 100%; }

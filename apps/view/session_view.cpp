@@ -4,9 +4,8 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/text.h>
+#include <glissade/apps/view/replay_maker.h>
 #include <glissade/apps/view/session_view.h>
-#include <glissade/viewer/scene_model.h>
-#include <glissade/viewer/view_frame.h>
 
 namespace glissade::apps {
 
@@ -32,22 +31,10 @@ viewer::ViewScene view_scene_of(const HapticScene& scene, const std::vector<std:
 }
 
 Replay replay_of(const Session& session, const HapticScene& scene) {
-  constexpr std::size_t kMostTriangles = 60'000;
-  constexpr std::chrono::nanoseconds kFramePeriod{16'667'000};
-  const viewer::ViewScene view = view_scene_of(scene, session.devices, session.hand_models);
-  Replay replay{viewer::scene_model(view, kMostTriangles), {}};
-  viewer::FrameMaker maker(view);
-  const SessionRecorder& samples = *session.samples;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    maker.add(samples.state(i));
-    const bool is_last = i + 1 == samples.size();
-    const auto frame_number = [&](std::size_t tick) {
-      return (samples.tick(tick).time - samples.tick(0).time) / kFramePeriod;
-    };
-    if (!is_last && frame_number(i) == frame_number(i + 1)) continue;
-    viewer::append_frame(replay.frames, maker.make());
-  }
-  return replay;
+  ReplayMaker maker(view_scene_of(scene, session.devices, session.hand_models));
+  for (std::size_t i = 0; i < session.samples->size(); ++i)
+    maker.add(session.samples->state(i));
+  return maker.finish();
 }
 
 CLI::Option* add_view_option(CLI::App& command, std::optional<std::uint16_t>& port) {

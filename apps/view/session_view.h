@@ -21,7 +21,7 @@ class Option;
 
 namespace glissade::apps {
 
-/// The run for a report: the scene with at most 60,000 triangles, and 60 frames a second.
+/// The run for a report.
 Replay replay_of(const Session& session, const HapticScene& scene);
 
 inline constexpr std::uint16_t kViewPort = 8421;

@@ -101,10 +101,7 @@ class Traversal {
     }
     near &= ~certain.intersect;
     if (near != 0 && step_.has_distance()) near = step_.edges(leaves_, near);
-    for (PairMask rest = near; rest != 0; rest &= rest - 1) {
-      if (visitor_.visit(leaf_M, leaf_N, std::countr_zero(rest)).stop) return true;
-    }
-    return false;
+    return visitor_.visit_each(leaf_M, leaf_N, near);
   }
 
   DopVisit& step_;

@@ -2,11 +2,16 @@
 
 /// Visitors that test the triangle pairs of a query exactly.
 
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <glissade/collision/query_types.h>
 #include <glissade/geometry/triangle_pair.h>
 
+#include "kernels/distance_kernel.h"
 #include "query/placed_trees.h"
 #include "query/triangle_visitor.h"
 
@@ -58,7 +63,8 @@ class AnyPair final : public PlacedVisitor {
   double tolerance_;
 };
 
-/// Collects every pair within the tolerance, as triangle indices or with closest points.
+/// Collects every pair within the tolerance, as triangle indices or with closest points. All are there once `finish` is
+/// called; their order is arbitrary.
 template <typename Pair>
 class PairCollector final : public PlacedVisitor {
  public:
@@ -71,13 +77,23 @@ class PairCollector final : public PlacedVisitor {
   PairOutcome found(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) override {
     return note(placed_.triangles(leaf_M, leaf_N, pair), true);
   }
+  bool visit_each(std::uint32_t leaf_M, std::uint32_t leaf_N, PairMask pairs) override {
+    return PlacedVisitor::visit_each(leaf_M, leaf_N, pairs);
+  }
+  void finish() { measure_waiting(); }
 
  private:
   PairOutcome note(const TrianglePair& triangles, bool intersect);
+  void measure_waiting();
 
   double tolerance_;
   std::vector<Pair>& pairs_;
+  std::array<TrianglePair, kPairsToMeasure> waiting_;  // to be measured at once
+  std::size_t waiting_count_ = 0;
 };
+
+template <>
+inline void PairCollector<TrianglePair>::measure_waiting() {}
 
 template <>
 inline PairOutcome PairCollector<TrianglePair>::note(const TrianglePair& triangles, bool intersect) {
@@ -93,6 +109,18 @@ inline PairOutcome PairCollector<ClosePair>::note(const TrianglePair& triangles,
       geometry::triangle_distance(placed_.points_A(triangles), placed_.points_B(triangles));
   if (closest.distance <= tolerance_) pairs_.push_back({triangles, closest.distance, closest.p_a, closest.p_b});
   return {false, closest.distance};
+}
+
+template <>
+void PairCollector<ClosePair>::measure_waiting();
+
+template <>
+inline bool PairCollector<ClosePair>::visit_each(std::uint32_t leaf_M, std::uint32_t leaf_N, PairMask pairs) {
+  for (; pairs != 0; pairs &= pairs - 1) {
+    waiting_[waiting_count_++] = placed_.triangles(leaf_M, leaf_N, std::countr_zero(pairs));
+    if (waiting_count_ == kPairsToMeasure) measure_waiting();
+  }
+  return false;
 }
 
 }  // namespace glissade::collision

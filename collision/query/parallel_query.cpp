@@ -131,6 +131,7 @@ class SharedQuery {
     while (!continue_all(step, scratch, visitor, scratch.counters.node_tests + kTestsOfPiece)) {
       if (scratch.stack.size() > 1) hand_over(older_half(scratch.stack));
     }
+    visitor.finish();
   }
 
   const PlacedTrees& placed_;
@@ -153,7 +154,9 @@ void find_pairs(const PlacedTrees& placed, double distance, ParallelWorkspace::M
   DopVisit step(placed.base(), placed.other(), placed.frame, distance, scratch.alignment, selection);
   PairCollector<Pair> visitor(placed, distance, pairs);
   begin_all(step, scratch, visitor);
-  if (!continue_all(step, scratch, visitor, kTestsWorthSharing)) {
+  const bool is_all = continue_all(step, scratch, visitor, kTestsWorthSharing);
+  visitor.finish();
+  if (!is_all) {
     SharedQuery<Pair>(placed, distance, memory).run(scratch.stack, pairs);
   }
   memory.counters += scratch.counters;

@@ -2,6 +2,7 @@
 
 /// The test that a query makes of every triangle pair that a traversal cannot exclude.
 
+#include <bit>
 #include <cstdint>
 
 #include "kernels/child_pairs.h"
@@ -24,7 +25,14 @@ class TriangleVisitor {
   virtual PairMask to_open(const NodePair& /*nodes*/, PairMask near) { return near; }
   /// Tests a triangle pair.
   virtual PairOutcome visit(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) = 0;
-  /// The same for a pair that is known to intersect.
+  /// Tests the pairs in the mask, now or later. Returns whether the query is answered.
+  virtual bool visit_each(std::uint32_t leaf_M, std::uint32_t leaf_N, PairMask pairs) {
+    for (; pairs != 0; pairs &= pairs - 1) {
+      if (visit(leaf_M, leaf_N, std::countr_zero(pairs)).stop) return true;
+    }
+    return false;
+  }
+  /// The same as `visit` for a pair that is known to intersect.
   virtual PairOutcome found(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) = 0;
   /// The distance of a pair in metres; 0 when it intersects.
   virtual double distance(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) = 0;

@@ -1,14 +1,14 @@
 #include "contact/contact_filter.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <glissade/base/assert.h>
 
 namespace glissade::haptics {
 namespace {
 
-/// Fewer pairs, and fewer of the same two bodies, are not worth a look.
-constexpr std::size_t kFewPairs = 32;
+/// Fewer pairs of the same two bodies are not worth a look.
 constexpr std::size_t kFewOfBodies = 4;
 
 /// The pairs of features that may count at all: an edge or vertex does for the triangle that owns it.
@@ -36,15 +36,23 @@ void copy(const geometry::TriangleMesh& mesh, std::int32_t triangle, std::size_t
 
 }  // namespace
 
-void ContactFilter::look(std::span<const CandidatePair> pairs) {
-  GLISSADE_ASSERT(pairs.size() <= kMostPairs);
+void ContactFilter::look(std::span<const CandidatePair> pairs, std::span<const KnownFeatures> known) {
+  GLISSADE_ASSERT(pairs.size() <= kMostPairs && (known.empty() || known.size() == pairs.size()));
   for (std::size_t i = 0; i < pairs.size(); ++i) {
+    gaps_[i] = 0.0;
+    gaps_left_out_[i] = 0.0;
+    was_looked_at_[i] = !known.empty() && known[i].features != 0;
+    if (was_looked_at_[i]) {
+      features_[i] = known[i].features;
+      gaps_beyond_[i] = known[i].left_out;
+      continue;
+    }
     const CandidatePair& pair = pairs[i];
     features_[i] =
         owned(bodies_[static_cast<std::size_t>(pair.bodies.part)].body->topology, pair.part_triangle,
               bodies_[static_cast<std::size_t>(pair.bodies.obstacle)].body->topology, pair.obstacle_triangle);
-    gaps_[i] = 0.0;
-    if (features_[i] != 0 && pairs.size() >= kFewPairs) add(batch_of(pair.bodies), pair, i);
+    gaps_beyond_[i] = std::numeric_limits<double>::infinity();
+    if (features_[i] != 0) add(batch_of(pair.bodies), pair, i);
   }
   for (Batch& batch : batches_)
     complete(batch);
@@ -89,8 +97,11 @@ void ContactFilter::complete(Batch& batch) {
   if (batch.count >= kFewOfBodies) {
     leave_out_impossible(batch.pairs, batch.X_OV, {reach_, past_end_, batch.coordinates}, batch.possible);
     for (std::size_t i = 0; i < batch.count; ++i) {
+      was_looked_at_[batch.numbers[i]] = true;
       features_[batch.numbers[i]] = batch.possible.features[i];
       gaps_[batch.numbers[i]] = static_cast<double>(batch.possible.gaps[i]) - past_end_;
+      gaps_beyond_[batch.numbers[i]] = static_cast<double>(batch.possible.gaps_beyond[i]) - past_end_;
+      gaps_left_out_[batch.numbers[i]] = static_cast<double>(batch.possible.gaps_left_out[i]) - past_end_;
     }
   }
   batch.count = 0;

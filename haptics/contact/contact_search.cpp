@@ -1,9 +1,12 @@
 #include "contact/contact_search.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <limits>
 
 #include "contact/contact_filter.h"
+#include "contact/corner_kernel.h"
 #include "contact/triangle_features.h"
 
 namespace glissade::haptics {
@@ -31,13 +34,11 @@ class Side {
     X_WB_ = &placed.X_WB;
     triangle_ = triangle;
     points_ = placed.triangle_W(triangle);
-    bounds_ = Eigen::AlignedBox3d(points_[0]);
-    bounds_.extend(points_[1]).extend(points_[2]);
   }
 
   /// Whether the selected triangle may be within `distance` (metres) of that of the other side.
   bool may_be_near(const Side& other, double distance) const {
-    return bounds_.squaredExteriorDistance(other.bounds_) <= distance * distance;
+    return bounds().squaredExteriorDistance(other.bounds()) <= distance * distance;
   }
 
   std::int32_t triangle() const { return triangle_; }
@@ -83,16 +84,7 @@ class Side {
   bool edge_is_nearest(int i, const Eigen::Vector3d& n, double tolerance) const {
     return none_nearer(topology_->apexes_of(edge(i)), corner(i), n, tolerance);
   }
-  /// Distance of a point of the selected triangle from its edges that are not flat; infinite if all are flat.
-  double distance_to_rims(const Eigen::Vector3d& x) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 3; ++i) {
-      if (topology_->edges()[static_cast<std::size_t>(edge(i))].flat) continue;
-      const Eigen::Vector3d along = corner((i + 1) % 3) - corner(i);
-      least = std::min(least, along.cross(x - corner(i)).norm() / along.norm());
-    }
-    return least;
-  }
+  bool is_flat(int i) const { return topology_->edges()[static_cast<std::size_t>(edge(i))].flat; }
   /// Distance of the point at parameter s of edge i from the ends of its rim; infinite where the rim goes straight on.
   double distance_to_ends(int i, double s) const {
     const double length = (corner((i + 1) % 3) - corner(i)).norm();
@@ -104,7 +96,7 @@ class Side {
   /// An edge of the selected triangle that is not flat and within `tolerance` (metres) of x; −1 if there is none.
   std::int32_t rim_near(const Eigen::Vector3d& x, double tolerance) const {
     for (int i = 0; i < 3; ++i) {
-      if (topology_->edges()[static_cast<std::size_t>(edge(i))].flat) continue;
+      if (is_flat(i)) continue;
       const Eigen::Vector3d along = corner((i + 1) % 3) - corner(i);
       if (along.cross(x - corner(i)).squaredNorm() <= tolerance * tolerance * along.squaredNorm()) return edge(i);
     }
@@ -112,6 +104,11 @@ class Side {
   }
 
  private:
+  Eigen::AlignedBox3d bounds() const {
+    Eigen::AlignedBox3d bounds(points_[0]);
+    return bounds.extend(points_[1]).extend(points_[2]);
+  }
+
   bool none_nearer(std::span<const std::int32_t> vertices, const Eigen::Vector3d& x_W, const Eigen::Vector3d& n,
                    double tolerance) const {
     for (const std::int32_t v : vertices) {
@@ -127,32 +124,94 @@ class Side {
   double sign_;  // +1 for the part, towards which normals point; −1 for the obstacle
   std::int32_t triangle_ = -1;
   geometry::TrianglePoints points_;
-  Eigen::AlignedBox3d bounds_;  // of the triangle
 };
+
+/// Corners that wait to be looked at together.
+class WaitingCorners {
+ public:
+  std::size_t count() const { return count_; }
+
+  void add(const Side& of_corner, int i, const Side& of_triangle, bool is_of_obstacle) {
+    put(of_corner.corner(i), corners_.x);
+    for (int c = 0; c < 3; ++c) {
+      const auto number = static_cast<std::size_t>(c);
+      put(of_triangle.corner(c), corners_.triangle[number]);
+      corners_.is_rim[number][count_] = of_triangle.is_flat(c) ? 0.0 : 1.0;
+    }
+    corners_.is_of_obstacle[count_++] = is_of_obstacle ? 1.0 : 0.0;
+  }
+
+  /// Looks at all that wait, after which none does.
+  const CornersOverFaces& look() {
+    if (count_ > 0) find_corners_over_faces(corners_, over_);
+    count_ = 0;
+    return over_;
+  }
+
+ private:
+  void put(const Eigen::Vector3d& x, VectorsOfCorners& to) const {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      to[axis][count_] = x[static_cast<Eigen::Index>(axis)];
+  }
+
+  CornersOverTriangles corners_{};
+  CornersOverFaces over_;
+  std::size_t count_ = 0;
+};
+
+Eigen::Vector3d at_corner(const VectorsOfCorners& vectors, std::size_t corner) {
+  return {vectors[0][corner], vectors[1][corner], vectors[2][corner]};
+}
 
 class ContactSearch {
  public:
   ContactSearch(std::span<const PlacedBody> bodies, std::size_t first_part, double reach, double margin,
-                std::vector<Contact>& contacts)
+                std::vector<Contact>& contacts, std::vector<GapsOfPair>* gaps)
       : bodies_(bodies),
         first_part_(static_cast<std::int32_t>(first_part)),
         reach_(reach),
         margin_(margin),
-        contacts_(contacts) {}
+        contacts_(contacts),
+        gaps_(gaps) {}
 
-  /// Looks at these features of a pair.
-  void search(const CandidatePair& pair, FeaturePairs features) {
-    obstacle_number_ = pair.bodies.obstacle;
-    part_number_ = pair.bodies.part - first_part_;
-    part_.select(bodies_[static_cast<std::size_t>(pair.bodies.part)], pair.part_triangle);
-    obstacle_.select(bodies_[static_cast<std::size_t>(pair.bodies.obstacle)], pair.obstacle_triangle);
-    // Candidates are near at the poses of a search some steps ago.
-    if (!part_.may_be_near(obstacle_, reach_)) return;
-    for (int i = 0; i < 3; ++i) {
-      if ((features & with_part_corner(i)) != 0) search_part_corner(i);
-      if ((features & with_obstacle_corner(i)) != 0) search_obstacle_corner(i);
-      search_part_edge(i, features);
+  /// Looks at these features of a pair, now or later, in the order of the calls. `is_near`: the pair is known to be
+  /// near at the present poses, and not only at those of a search some steps ago.
+  void search(const CandidatePair& pair, std::size_t number, FeaturePairs features, bool is_near) {
+    const auto corners = static_cast<std::size_t>(std::popcount(features & kAllCorners));
+    if (waiting_count_ == waiting_.size() || corners_.count() + corners > kCornersAtOnce) search_waiting();
+    WaitingPair& waiting = waiting_[waiting_count_];
+    waiting.bodies = pair.bodies;
+    waiting.number = number;
+    waiting.features = features;
+    waiting.part.select(bodies_[static_cast<std::size_t>(pair.bodies.part)], pair.part_triangle);
+    waiting.obstacle.select(bodies_[static_cast<std::size_t>(pair.bodies.obstacle)], pair.obstacle_triangle);
+    if (!is_near && !waiting.part.may_be_near(waiting.obstacle, reach_)) {
+      note_beyond(number);
+      return;
     }
+    for (int i = 0; i < 3; ++i) {
+      if ((features & with_part_corner(i)) != 0) corners_.add(waiting.part, i, waiting.obstacle, false);
+      if ((features & with_obstacle_corner(i)) != 0) corners_.add(waiting.obstacle, i, waiting.part, true);
+    }
+    ++waiting_count_;
+  }
+
+  /// Looks at all pairs that wait.
+  void search_waiting() {
+    const CornersOverFaces& over = corners_.look();
+    std::size_t corner = 0;
+    for (std::size_t k = 0; k < waiting_count_; ++k) {
+      const WaitingPair& pair = waiting_[k];
+      pair_ = &pair;
+      part_ = &pair.part;
+      obstacle_ = &pair.obstacle;
+      for (int i = 0; i < 3; ++i) {
+        if ((pair.features & with_part_corner(i)) != 0) search_part_corner(i, over, corner++);
+        if ((pair.features & with_obstacle_corner(i)) != 0) search_obstacle_corner(i, over, corner++);
+        search_part_edge(i, pair.features);
+      }
+    }
+    waiting_count_ = 0;
   }
 
   /// Leaves out a vertex over a face within a margin of the face's rim, if one of the vertex's edges crosses that rim:
@@ -160,9 +219,10 @@ class ContactSearch {
   /// sufficient.
   void leave_out_what_rims_hold() {
     std::erase_if(rims_, [&](const AtRim& rim) { return !rim_holds(contacts_[rim.contact], rim.edge); });
-    std::size_t kept = 0;
+    if (rims_.empty()) return;
     auto rim = rims_.begin();
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    std::size_t kept = rim->contact;
+    for (std::size_t i = kept; i < contacts_.size(); ++i) {
       if (rim != rims_.end() && rim->contact == i) {
         ++rim;
       } else {
@@ -173,6 +233,17 @@ class ContactSearch {
   }
 
  private:
+  static constexpr FeaturePairs kAllCorners = 0x3f;
+
+  /// A pair that waits until there are enough corners to look at.
+  struct WaitingPair {
+    BodyPair bodies;
+    std::size_t number;  // among the candidates
+    FeaturePairs features;
+    Side part{1.0};
+    Side obstacle{-1.0};
+  };
+
   /// A contact of a vertex over a face, near an edge of that face.
   struct AtRim {
     std::size_t contact;
@@ -202,46 +273,57 @@ class ContactSearch {
     });
   }
 
-  void search_part_corner(int i) {
-    const Eigen::Vector3d& x = part_.corner(i);
-    const ClosestOnTriangle on = obstacle_.closest_to(x, kPastEnd * margin_);
+  /// Adds the contact of a corner of one side over the face of the other, if it is within reach.
+  void add_over_face(ContactKind kind, std::int32_t part_feature, std::int32_t obstacle_feature, const Side& of_face,
+                     const Eigen::Vector3d& p, const CornersOverFaces& over, std::size_t corner) {
+    const double gap = over.gap[corner];
+    if (!is_within_reach(gap)) return;
+    if (gap <= kNearRims * margin_) note_rim(of_face.rim_near(at_corner(over.point, corner), margin_));
+    add(kind, part_feature, obstacle_feature, at_corner(over.n, corner), p, gap, over.to_rims[corner]);
+  }
+
+  void search_part_corner(int i, const CornersOverFaces& over, std::size_t corner) {
+    const Eigen::Vector3d& x = part_->corner(i);
+    if (over.is_inside[corner] > 0.0) {
+      add_over_face(ContactKind::kVertexFace, part_->vertex(i), obstacle_->triangle(), *obstacle_, x, over, corner);
+      return;
+    }
+    const ClosestOnTriangle on = obstacle_->closest_to(x, kPastEnd * margin_);
     Eigen::Vector3d n;
     const double gap = gap_and_normal(on.point, x, n);
     if (gap < 0.0) return;
     switch (on.region) {
       case Region::kFace:
-        if (gap <= kNearRims * margin_) note_rim(obstacle_.rim_near(on.point, margin_));
-        add(ContactKind::kVertexFace, part_.vertex(i), obstacle_.triangle(), n, x, gap,
-            obstacle_.distance_to_rims(on.point));
-        break;
+        break;  // seen above
       case Region::kEdge:
-        if (obstacle_.owns_edge(on.index) && obstacle_.edge_is_nearest(on.index, n, margin_) &&
-            part_.corner_is_nearest(i, n, margin_)) {
-          add(ContactKind::kVertexEdge, part_.vertex(i), obstacle_.edge(on.index), n, x, gap, gap);
+        if (obstacle_->owns_edge(on.index) && obstacle_->edge_is_nearest(on.index, n, margin_) &&
+            part_->corner_is_nearest(i, n, margin_)) {
+          add(ContactKind::kVertexEdge, part_->vertex(i), obstacle_->edge(on.index), n, x, gap, gap);
         }
         break;
       case Region::kVertex:
-        if (obstacle_.owns_corner(on.index) && obstacle_.corner_is_nearest(on.index, n, margin_) &&
-            part_.corner_is_nearest(i, n, margin_)) {
-          add(ContactKind::kVertexVertex, part_.vertex(i), obstacle_.vertex(on.index), n, x, gap, gap);
+        if (obstacle_->owns_corner(on.index) && obstacle_->corner_is_nearest(on.index, n, margin_) &&
+            part_->corner_is_nearest(i, n, margin_)) {
+          add(ContactKind::kVertexVertex, part_->vertex(i), obstacle_->vertex(on.index), n, x, gap, gap);
         }
         break;
     }
   }
 
-  void search_obstacle_corner(int i) {
-    const Eigen::Vector3d& y = obstacle_.corner(i);
-    const ClosestOnTriangle on = part_.closest_to(y, kPastEnd * margin_);
+  void search_obstacle_corner(int i, const CornersOverFaces& over, std::size_t corner) {
+    const Eigen::Vector3d& y = obstacle_->corner(i);
+    if (over.is_inside[corner] > 0.0) {
+      add_over_face(ContactKind::kFaceVertex, part_->triangle(), obstacle_->vertex(i), *part_,
+                    at_corner(over.point, corner), over, corner);
+      return;
+    }
+    const ClosestOnTriangle on = part_->closest_to(y, kPastEnd * margin_);
     Eigen::Vector3d n;
     const double gap = gap_and_normal(y, on.point, n);
-    if (gap < 0.0 || on.region == Region::kVertex) return;  // vertex–vertex is found from the part's side
-    if (on.region == Region::kFace) {
-      if (gap <= kNearRims * margin_) note_rim(part_.rim_near(on.point, margin_));
-      add(ContactKind::kFaceVertex, part_.triangle(), obstacle_.vertex(i), n, on.point, gap,
-          part_.distance_to_rims(on.point));
-    } else if (part_.owns_edge(on.index) && part_.edge_is_nearest(on.index, n, margin_) &&
-               obstacle_.corner_is_nearest(i, n, margin_)) {
-      add(ContactKind::kEdgeVertex, part_.edge(on.index), obstacle_.vertex(i), n, on.point, gap, gap);
+    if (gap < 0.0 || on.region != Region::kEdge) return;  // vertex–vertex is found from the part's side
+    if (part_->owns_edge(on.index) && part_->edge_is_nearest(on.index, n, margin_) &&
+        obstacle_->corner_is_nearest(i, n, margin_)) {
+      add(ContactKind::kEdgeVertex, part_->edge(on.index), obstacle_->vertex(i), n, on.point, gap, gap);
     }
   }
 
@@ -249,47 +331,63 @@ class ContactSearch {
     for (int j = 0; j < 3; ++j) {
       if ((features & with_edges(i, j)) == 0) continue;
       SegmentPoints closest;
-      if (!closest_points_of_lines(part_.corner(i), part_.corner((i + 1) % 3), obstacle_.corner(j),
-                                   obstacle_.corner((j + 1) % 3), closest) ||
-          !part_.is_on_edge(i, closest.along_p, kPastEnd * margin_) ||
-          !obstacle_.is_on_edge(j, closest.along_q, kPastEnd * margin_)) {
+      if (!closest_points_of_lines(part_->corner(i), part_->corner((i + 1) % 3), obstacle_->corner(j),
+                                   obstacle_->corner((j + 1) % 3), closest) ||
+          !part_->is_on_edge(i, closest.along_p, kPastEnd * margin_) ||
+          !obstacle_->is_on_edge(j, closest.along_q, kPastEnd * margin_)) {
         continue;
       }
       Eigen::Vector3d n;
       const double gap = gap_and_normal(closest.q, closest.p, n);
-      if (gap < 0.0 || !part_.edge_is_nearest(i, n, margin_) || !obstacle_.edge_is_nearest(j, n, margin_)) continue;
+      if (gap < 0.0 || !part_->edge_is_nearest(i, n, margin_) || !obstacle_->edge_is_nearest(j, n, margin_)) continue;
       if (gap <= (kNearRims + kAsNear) * margin_) crossings_.push_back(contacts_.size());
-      add(ContactKind::kEdgeEdge, part_.edge(i), obstacle_.edge(j), n, closest.p, gap,
-          std::min(part_.distance_to_ends(i, closest.along_p), obstacle_.distance_to_ends(j, closest.along_q)));
+      add(ContactKind::kEdgeEdge, part_->edge(i), obstacle_->edge(j), n, closest.p, gap,
+          std::min(part_->distance_to_ends(i, closest.along_p), obstacle_->distance_to_ends(j, closest.along_q)));
     }
   }
 
   /// The gap between a point of the obstacle and one of the part, −1 where it is out of reach or has no direction.
-  double gap_and_normal(const Eigen::Vector3d& q, const Eigen::Vector3d& p, Eigen::Vector3d& n) const {
+  double gap_and_normal(const Eigen::Vector3d& q, const Eigen::Vector3d& p, Eigen::Vector3d& n) {
     n = p - q;
     const double gap = n.norm();
-    if (gap > reach_ || gap == 0.0) return -1.0;
+    if (!is_within_reach(gap)) return -1.0;
     n /= gap;
     return gap;
+  }
+
+  /// Whether a contact with this gap is within reach and has a direction.
+  bool is_within_reach(double gap) {
+    if (gap > reach_) note_beyond(pair_->number);
+    return gap <= reach_ && gap != 0.0;
+  }
+
+  /// Notes that the pair may have contacts beyond reach.
+  void note_beyond(std::size_t number) {
+    if (gaps_ != nullptr) (*gaps_)[number].beyond = (*gaps_)[number].least;
   }
 
   // The normal of a contact with a vertex or an edge beside it turns with the motion; its gap is a measure of how fast.
   void add(ContactKind kind, std::int32_t part_feature, std::int32_t obstacle_feature, const Eigen::Vector3d& n,
            const Eigen::Vector3d& p, double gap, double range) {
-    Contact& contact = contacts_.emplace_back(Contact{kind, part_.triangle(), obstacle_number_, obstacle_.triangle(), n,
-                                                      p, gap, 0.0, part_feature, obstacle_feature, part_number_});
+    Contact& contact =
+        contacts_.emplace_back(Contact{kind, part_->triangle(), pair_->bodies.obstacle, obstacle_->triangle(), n, p,
+                                       gap, 0.0, part_feature, obstacle_feature, pair_->bodies.part - first_part_});
     contact.range = range;
   }
 
   std::span<const PlacedBody> bodies_;
   std::int32_t first_part_;
-  Side part_{1.0};
-  Side obstacle_{-1.0};
-  std::int32_t obstacle_number_ = -1;
-  std::int32_t part_number_ = 0;
+  std::array<WaitingPair, 2 * kCornersAtOnce> waiting_;
+  std::size_t waiting_count_ = 0;
+  WaitingCorners corners_;  // of the waiting pairs
+  // The pair that is looked at, and its sides.
+  const WaitingPair* pair_ = nullptr;
+  const Side* part_ = nullptr;
+  const Side* obstacle_ = nullptr;
   double reach_;
   double margin_;
   std::vector<Contact>& contacts_;
+  std::vector<GapsOfPair>* gaps_;
   std::vector<AtRim> rims_;             // ascending
   std::vector<std::size_t> crossings_;  // near contacts of two edges
 };
@@ -298,19 +396,22 @@ class ContactSearch {
 
 void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part,
                    std::span<const CandidatePair> candidates, double reach, double margin,
-                   std::vector<Contact>& contacts, std::vector<double>* gaps) {
+                   std::vector<Contact>& contacts, std::vector<GapsOfPair>* gaps,
+                   std::span<const KnownFeatures> known) {
   contacts.clear();
   if (gaps != nullptr) gaps->clear();
-  ContactSearch search(bodies, first_part, reach, margin, contacts);
+  ContactSearch search(bodies, first_part, reach, margin, contacts, gaps);
   ContactFilter filter(bodies, reach, kPastEnd * margin);
   for (std::size_t first = 0; first < candidates.size(); first += ContactFilter::kMostPairs) {
     const auto pairs = candidates.subspan(first, std::min(ContactFilter::kMostPairs, candidates.size() - first));
-    filter.look(pairs);
+    filter.look(pairs, known.empty() ? known : known.subspan(first, pairs.size()));
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      if (filter.features(i) != 0) search.search(pairs[i], filter.features(i));
-      if (gaps != nullptr) gaps->push_back(filter.gap(i));
+      if (gaps != nullptr)
+        gaps->push_back({filter.gap(i), filter.gap_beyond(i), filter.gap_left_out(i), filter.features(i)});
+      if (filter.features(i) != 0) search.search(pairs[i], first + i, filter.features(i), filter.was_looked_at(i));
     }
   }
+  search.search_waiting();
   search.leave_out_what_rims_hold();
 }
 

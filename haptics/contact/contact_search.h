@@ -25,10 +25,12 @@ namespace glissade::haptics {
 /// patch and rim. Each edge and vertex is considered only for the triangle that owns it, which is among the
 /// candidates whenever the feature is within reach. `first_part` is the body number of the first part.
 ///
-/// `gaps`, if not null, receives a number for each candidate, metres: no contact of that pair has a smaller gap, as
-/// long as its bodies do not come nearer. Where they do, this bound decreases by as much.
+/// `gaps`, if not null, receives what is known then of the contacts of each candidate, as long as its bodies do not
+/// come nearer. Where they do, these bounds decrease by as much. `known`, if not empty, is what is known before; it
+/// must hold within `reach`.
 void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part,
                    std::span<const CandidatePair> candidates, double reach, double margin,
-                   std::vector<Contact>& contacts, std::vector<double>* gaps = nullptr);
+                   std::vector<Contact>& contacts, std::vector<GapsOfPair>* gaps = nullptr,
+                   std::span<const KnownFeatures> known = {});
 
 }  // namespace glissade::haptics

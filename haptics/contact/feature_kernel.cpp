@@ -192,16 +192,18 @@ class Look {
         size_(hn::Load(Tag(), scaled.size + first)),
         counting_(hn::Load(Bits(), possible.features.data() + first)),
         left_(counting_),
-        least_(hn::Set(Tag(), kFarAway)) {}
+        least_(hn::Set(Tag(), kFarAway)),
+        least_beyond_(least_),
+        least_left_out_(least_) {}
 
   HWY_INLINE void at_corners() {
     V gaps[3];
     find_gaps(obstacle_, part_.corner, gaps);
     for (int i = 0; i < 3; ++i)
-      note(with_part_corner(i), gaps[i], hn::Gt(gaps[i], reach_));
+      note(with_part_corner(i), gaps[i], never());
     find_gaps(part_, obstacle_.corner, gaps);
     for (int i = 0; i < 3; ++i)
-      note(with_obstacle_corner(i), gaps[i], hn::Gt(gaps[i], reach_));
+      note(with_obstacle_corner(i), gaps[i], never());
   }
 
   HWY_INLINE void at_edges() {
@@ -213,7 +215,7 @@ class Look {
       for (int j = 0; j < 3; ++j) {
         const EdgePair pair = look_at_edges(part_.edge[i], inverse_d, obstacle_.edge[j], inverse_e[j],
                                             minus(part_.corner[i], obstacle_.corner[j]));
-        note(with_edges(i, j), pair.gap, hn::Or(hn::Gt(pair.gap, reach_), hn::Gt(pair.outside, past_end_)));
+        note(with_edges(i, j), pair.gap, hn::Gt(pair.outside, past_end_));
       }
     }
   }
@@ -221,16 +223,27 @@ class Look {
   HWY_INLINE void store(PossibleContacts& possible, std::size_t first) const {
     hn::Store(left_, Bits(), possible.features.data() + first);
     hn::Store(hn::Mul(least_, size_), Tag(), possible.gaps.data() + first);
+    hn::Store(hn::Mul(least_beyond_, size_), Tag(), possible.gaps_beyond.data() + first);
+    hn::Store(hn::Mul(least_left_out_, size_), Tag(), possible.gaps_left_out.data() + first);
   }
 
  private:
   using Bits = hn::RebindToUnsigned<Tag>;
 
-  HWY_INLINE void note(FeaturePairs feature, V gap, hn::Mask<Tag> is_apart) {
+  HWY_INLINE static hn::Mask<Tag> never() { return hn::FirstN(Tag(), 0); }
+
+  // A pair of features is left out that is beyond reach, and one that is no contact at any distance.
+  HWY_INLINE void note(FeaturePairs feature, V gap, hn::Mask<Tag> is_none) {
     const Bits bits;
     const auto bit = hn::Set(bits, feature);
-    left_ = hn::AndNot(hn::IfThenElseZero(hn::RebindMask(bits, is_apart), bit), left_);
-    least_ = hn::IfThenElse(hn::RebindMask(Tag(), hn::TestBit(counting_, bit)), hn::Min(least_, gap), least_);
+    const auto is_beyond = hn::Gt(gap, reach_);
+    const auto is_left_out = hn::Or(is_beyond, is_none);
+    left_ = hn::AndNot(hn::IfThenElseZero(hn::RebindMask(bits, is_left_out), bit), left_);
+    const auto counts = hn::RebindMask(Tag(), hn::TestBit(counting_, bit));
+    least_ = hn::IfThenElse(counts, hn::Min(least_, gap), least_);
+    const auto may_come = hn::And(counts, hn::AndNot(is_none, is_beyond));
+    least_beyond_ = hn::IfThenElse(may_come, hn::Min(least_beyond_, gap), least_beyond_);
+    least_left_out_ = hn::IfThenElse(hn::And(counts, is_left_out), hn::Min(least_left_out_, gap), least_left_out_);
   }
 
   Triangle obstacle_;
@@ -241,6 +254,8 @@ class Look {
   hn::Vec<Bits> counting_;
   hn::Vec<Bits> left_;
   V least_;
+  V least_beyond_;
+  V least_left_out_;
 };
 
 void leave_out_impossible(const TrianglePairs& pairs, const RelativePose& X_OV, const ContactReach& reach,

@@ -7,10 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace glissade::haptics {
+#include "search/feature_pairs.h"
 
-/// Pairs of features of two triangles, one bit each.
-using FeaturePairs = std::uint32_t;
+namespace glissade::haptics {
 
 /// Corner i of the part's triangle with the obstacle's triangle.
 constexpr FeaturePairs with_part_corner(int i) {
@@ -55,6 +54,9 @@ struct alignas(64) PossibleContacts {
   std::array<FeaturePairs, kTrianglePairs> features;
   /// Metres, not negative: a certain lower bound of the distances of all features that counted.
   std::array<float, kTrianglePairs> gaps;
+  /// The same of those features that were left out because they are beyond reach, and of all that were left out.
+  std::array<float, kTrianglePairs> gaps_beyond;
+  std::array<float, kTrianglePairs> gaps_left_out;
 };
 
 /// Leaves out features that are certainly not in contact, and sets the gaps.

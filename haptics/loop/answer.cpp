@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "loop/contact_set_maker.h"
-
 namespace glissade::haptics {
 
 namespace {
@@ -26,7 +24,7 @@ ContactSet Answerer::at_start() const {
   return set;
 }
 
-ContactSet Answerer::answer(const Ghosts& ghosts, std::chrono::nanoseconds first) {
+void Answerer::answer(const Ghosts& ghosts, std::chrono::nanoseconds first, ContactSet& set) {
   for (std::size_t p = 0; p < sliding_.part_count(); ++p) {
     const GhostOfPart& ghost = ghosts.parts[p];
     if (sliding_.is_scripted(p) || ghost.hold == holds_[p]) continue;
@@ -41,11 +39,10 @@ ContactSet Answerer::answer(const Ghosts& ghosts, std::chrono::nanoseconds first
   simulation_.advance(ghosts, std::clamp(milliseconds, 0.0, kLongestCatchUp_ms));
   ++sequence_;
   times_[static_cast<std::size_t>(sequence_) % times_.size()] = ghosts.time;
-  ContactSet set = make_contact_set(sliding_, sequence_, time_of_answered(), scratch_);
+  renew_contact_set(sliding_, sequence_, time_of_answered(), scratch_, set);
   for (std::size_t p = 0; p < sliding_.part_count(); ++p)
     set.parts[p].hold = holds_[p];
   simulation_.tell_hands(set);
-  return set;
 }
 
 std::chrono::nanoseconds Answerer::time_of_answered() const {

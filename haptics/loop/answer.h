@@ -12,6 +12,8 @@
 #include <glissade/haptics/loop_simulation.h>
 #include <glissade/haptics/multi_part_sliding.h>
 
+#include "loop/contact_set_maker.h"
+
 namespace glissade::haptics {
 
 /// Answers the ghost poses of the haptic thread, one after the other. Not thread-safe.
@@ -25,8 +27,9 @@ class Answerer {
 
   /// Grasps and releases of `ghosts` happen first, then all parts move for the time since the last call, which is
   /// `first` at the first one. The numbers of the sets are 1, 2, 3, … The time of a set is that of the ghosts which its
-  /// poses answer: older ones where the work of a call did not suffice for the newest.
-  ContactSet answer(const Ghosts& ghosts, std::chrono::nanoseconds first);
+  /// poses answer: older ones where the work of a call did not suffice for the newest. The answer takes the place of
+  /// `set`, which must be new or an older one of this object.
+  void answer(const Ghosts& ghosts, std::chrono::nanoseconds first, ContactSet& set);
 
  private:
   LoopSimulation& simulation_;
@@ -40,7 +43,7 @@ class Answerer {
   /// faded.
   std::array<std::chrono::nanoseconds, 1024> times_{};
   std::int64_t sequence_ = 0;
-  std::vector<std::int32_t> scratch_;
+  std::vector<UrgentContact> scratch_;
 };
 
 }  // namespace glissade::haptics

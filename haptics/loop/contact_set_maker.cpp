@@ -7,12 +7,12 @@ namespace {
 
 class SetMaker {
  public:
-  SetMaker(const MultiPartSliding& sliding, ContactSet& set, std::vector<std::int32_t>& scratch)
+  SetMaker(const MultiPartSliding& sliding, ContactSet& set, std::vector<UrgentContact>& scratch)
       : sliding_(sliding), set_(set), order_(scratch) {}
 
   void add(std::size_t p) {
     const SlidingResult& result = sliding_.result(p);
-    PartAnswer& part = set_.parts[p];
+    PartAnswer& part = set_.parts[p] = {};
     part.X_WV = result.X_WV;
     part.X_WV_of_rows = result.X_WV_of_contacts;
     part.X_WG = result.X_WG;
@@ -25,7 +25,7 @@ class SetMaker {
     const std::size_t kept = std::min(order_.size(), kMaxContactRows);
     part.dropped = static_cast<std::int32_t>(order_.size() - kept);
     for (std::size_t i = 0; i < kept; ++i)
-      add_row(p, result.contacts[static_cast<std::size_t>(order_[i])]);
+      add_row(p, result.contacts[static_cast<std::size_t>(order_[i].number)]);
   }
 
  private:
@@ -45,26 +45,22 @@ class SetMaker {
     order_.clear();
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const std::int32_t other = other_of(contacts[i]);
-      if (other < 0 || other > static_cast<std::int32_t>(p)) order_.push_back(static_cast<std::int32_t>(i));
+      if (other < 0 || other > static_cast<std::int32_t>(p))
+        order_.push_back({contacts[i].gap, static_cast<std::int32_t>(i), contacts[i].force > 0.0});
     }
-    const auto more_urgent = [&](std::int32_t i, std::int32_t j) {
-      const Contact& a = contacts[static_cast<std::size_t>(i)];
-      const Contact& b = contacts[static_cast<std::size_t>(j)];
-      if ((a.force > 0.0) != (b.force > 0.0)) return a.force > 0.0;
-      return a.gap != b.gap ? a.gap < b.gap : i < j;
+    const auto more_urgent = [](const UrgentContact& a, const UrgentContact& b) {
+      if (a.pushes != b.pushes) return a.pushes;
+      return a.gap != b.gap ? a.gap < b.gap : a.number < b.number;
     };
-    const auto kept = static_cast<std::ptrdiff_t>(std::min(order_.size(), kMaxContactRows));
-    std::partial_sort(order_.begin(), order_.begin() + kept, order_.end(), more_urgent);
+    const auto kept = order_.begin() + static_cast<std::ptrdiff_t>(std::min(order_.size(), kMaxContactRows));
+    std::nth_element(order_.begin(), kept, order_.end(), more_urgent);  // the order is total
+    std::sort(order_.begin(), kept, more_urgent);
   }
 
   void add_row(std::size_t p, const Contact& contact) {
+    const ConstraintRow constraint{contact.n_W, contact.p_W - p_Wref(p), std::min(0.0, contact.margin - contact.gap)};
     ContactRow& row = set_.row_array[static_cast<std::size_t>(set_.row_count++)];
-    row.n = contact.n_W;
-    row.r = contact.p_W - p_Wref(p);
-    row.bound = std::min(0.0, contact.margin - contact.gap);
-    row.part = static_cast<std::int32_t>(p);
-    row.other = other_of(contact);
-    row.range = contact.range;
+    row = {{constraint, static_cast<std::int32_t>(p), other_of(contact)}, contact.range};
     row.pushes = contact.force > 0.0;
     if (row.pushes) row.friction_ratio_W = contact.friction_W / contact.force;
     if (row.other < 0) {
@@ -80,21 +76,27 @@ class SetMaker {
 
   const MultiPartSliding& sliding_;
   ContactSet& set_;
-  std::vector<std::int32_t>& order_;
+  std::vector<UrgentContact>& order_;
 };
 
 }  // namespace
 
 ContactSet make_contact_set(const MultiPartSliding& sliding, std::int64_t sequence, std::chrono::nanoseconds time,
-                            std::vector<std::int32_t>& scratch) {
+                            std::vector<UrgentContact>& scratch) {
   ContactSet set;
+  renew_contact_set(sliding, sequence, time, scratch, set);
+  return set;
+}
+
+void renew_contact_set(const MultiPartSliding& sliding, std::int64_t sequence, std::chrono::nanoseconds time,
+                       std::vector<UrgentContact>& scratch, ContactSet& set) {
   set.sequence = sequence;
   set.time = time;
+  set.row_count = 0;
   set.part_count = static_cast<std::int32_t>(sliding.part_count());
   SetMaker maker(sliding, set, scratch);
   for (std::size_t p = 0; p < sliding.part_count(); ++p)
     maker.add(p);
-  return set;
 }
 
 }  // namespace glissade::haptics

@@ -4,22 +4,6 @@
 
 namespace glissade::haptics {
 
-devices::PartState part_state_of(SlidingState state) noexcept {
-  switch (state) {
-    case SlidingState::kReleased:
-      return devices::PartState::kReleased;
-    case SlidingState::kFree:
-      return devices::PartState::kFree;
-    case SlidingState::kSliding:
-      return devices::PartState::kSliding;
-    case SlidingState::kResting:
-      return devices::PartState::kResting;
-    case SlidingState::kCatchingUp:
-      return devices::PartState::kCatchingUp;
-  }
-  return devices::PartState::kUnknown;
-}
-
 namespace {
 
 devices::HapticPartState part_after(const GhostOfPart& ghost, const PartAnswer& answer, bool is_answered) noexcept {

@@ -14,9 +14,6 @@ namespace glissade::haptics {
 /// A contact set older than this is late: the simulation takes longer than a few ticks for an answer.
 inline constexpr std::chrono::milliseconds kLateContactSet{5};
 
-/// The state as sent on the wire.
-devices::PartState part_state_of(SlidingState state) noexcept;
-
 /// The state for viewers and recorders after a tick. `parts` are those of the kernel, `states` those of the hands, as
 /// for the kernel. The wrench of a hand is the one sent to its device, moved to the origin of the visible part that it
 /// holds. Real-time safe.

@@ -86,9 +86,7 @@ std::size_t hands_with_fingers(const ContactSet& set) {
   return count;
 }
 
-}  // namespace
-
-std::vector<std::uint8_t> encode(const AnswerRecord& record) {
+contact_set_t message_of(const AnswerRecord& record) {
   const ContactSet& set = record.set;
   contact_set_t message{};
   message.version = contact_set_t::VERSION;
@@ -110,15 +108,26 @@ std::vector<std::uint8_t> encode(const AnswerRecord& record) {
   }
   message.finger_row_count = static_cast<std::int32_t>(message.finger_rows.size());
   message.hand_count = static_cast<std::int32_t>(message.hands.size());
+  return message;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode(const AnswerRecord& record) {
+  contact_set_t message = message_of(record);
   return to_checked_bytes(message);
 }
 
-std::optional<AnswerRecord> decode_answer(std::span<const std::uint8_t> bytes) {
+bool is_message_of(const AnswerRecord& record, std::span<const std::uint8_t> bytes) {
+  return is_of(bytes, message_of(record));
+}
+
+std::optional<ConsumedByAnswer> decode_answer(std::span<const std::uint8_t> bytes) {
   constexpr std::array<std::int32_t, 4> kLargest{kMaxParts, kMaxParts * kMaxContactRows, kMaxHands,
                                                  kMaxHands * kMaxFingerRows};
-  const auto message = from_checked_bytes<contact_set_t>(bytes, kLargest);
+  const auto message = from_bytes<contact_set_t>(bytes, kLargest);
   if (!message) return std::nullopt;
-  AnswerRecord record;
+  ConsumedByAnswer record;
   record.ghosts.time = std::chrono::nanoseconds(message->time_ns);
   for (std::size_t p = 0; p < message->ghosts.size(); ++p)
     record.ghosts.parts[p] = ghost_of(message->ghosts[p]);
@@ -126,8 +135,8 @@ std::optional<AnswerRecord> decode_answer(std::span<const std::uint8_t> bytes) {
     if (message->ghost_hands[h].part < -1 || message->ghost_hands[h].part >= message->part_count) return std::nullopt;
     if (message->ghost_hands[h].fingers != 0) record.ghosts.hands[h] = ghost_of(message->ghost_hands[h]);
   }
-  record.set.sequence = message->sequence;
-  record.set.part_count = message->part_count;
+  record.sequence = message->sequence;
+  record.part_count = message->part_count;
   return record;
 }
 

@@ -1,14 +1,20 @@
 #include <glissade/haptics/recording.h>
 
+#include "record/message_bytes.h"
 #include "record/record_messages.h"
 
 namespace glissade::haptics {
 
 std::vector<devices::LogEvent> RecordedEvents::of(const TickRecord& record) {
+  std::vector<devices::LogEvent> events = others_of(record);
+  events.insert(events.begin(), devices::to_event(record.time, kHapticTickChannel, encode(record)));
+  return events;
+}
+
+std::vector<devices::LogEvent> RecordedEvents::others_of(const TickRecord& record) {
   constexpr std::chrono::seconds kAnnouncementPeriod(1);
   std::vector<devices::LogEvent> events;
   const auto hand_count = static_cast<std::size_t>(record.hand_count);
-  events.push_back(devices::to_event(record.time, kHapticTickChannel, encode(record)));
   if (record.sequence > 0) events.push_back(devices::to_event(record.time, record.state));
   const bool is_due = !announced_ || record.time - *announced_ >= kAnnouncementPeriod;
   if (is_due) announced_ = record.time;
@@ -25,6 +31,22 @@ std::vector<devices::LogEvent> RecordedEvents::of(const TickRecord& record) {
 
 devices::LogEvent RecordedEvents::of(const AnswerRecord& record) {
   return devices::to_event(record.ghosts.time, kContactSetChannel, encode(record));
+}
+
+std::array<bool, kMessagesAtOnce> have_right_checksums(
+    const std::array<std::span<const std::uint8_t>, kMessagesAtOnce>& messages) {
+  std::array<std::span<const std::uint8_t>, kMessagesAtOnce> parts;
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    if (messages[i].size() >= kTypeBytes + kChecksumBytes) parts[i] = checked_part(messages[i]);
+  }
+  const std::array<std::int64_t, kMessagesAtOnce> checksums = fnv_1a_of_each(parts);
+  std::array<bool, kMessagesAtOnce> are_right{};
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    if (messages[i].size() < kTypeBytes + kChecksumBytes) continue;
+    const std::string_view text(reinterpret_cast<const char*>(messages[i].data()), messages[i].size());
+    are_right[i] = base::number_at<std::int64_t>(text, text.size() - kChecksumBytes, std::endian::big) == checksums[i];
+  }
+  return are_right;
 }
 
 std::optional<TickRecord> consumed_by_tick(const devices::LogEvent& event) {

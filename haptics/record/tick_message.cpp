@@ -58,9 +58,7 @@ void put_command(const devices::SafeCommand& safe, tick_hand_t& message) {
   message.energy_J = safe.energy();
 }
 
-}  // namespace
-
-std::vector<std::uint8_t> encode(const TickRecord& record) {
+haptic_tick_t message_of(const TickRecord& record) {
   haptic_tick_t message{};
   message.version = haptic_tick_t::VERSION;
   message.number = record.number;
@@ -85,7 +83,18 @@ std::vector<std::uint8_t> encode(const TickRecord& record) {
   message.request_count = static_cast<std::int32_t>(message.requests.size());
   message.hand_count = record.hand_count;
   message.part_count = record.part_count;
+  return message;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode(const TickRecord& record) {
+  haptic_tick_t message = message_of(record);
   return to_checked_bytes(message);
+}
+
+bool is_message_of(const TickRecord& record, std::span<const std::uint8_t> bytes) {
+  return is_of(bytes, message_of(record));
 }
 
 std::optional<TickRecord> decode_tick(std::span<const std::uint8_t> bytes) {

@@ -84,6 +84,7 @@ bool CandidatePairs::take_next(double reach, double ahead, std::span<const BodyP
   next_.is_there = false;
   clock_ = 0.0;
   gaps_.assign(now_.set.pairs.size(), 0.0);
+  known_.assign(now_.set.pairs.size(), {});
   motions_of_clock_.assign(scene_.bodies().size(), {});
   place_clock();
   calls_served_ = std::exchange(calls_, 0);
@@ -187,23 +188,30 @@ void CandidatePairs::place_clock() {
     X_WB_of_clock_.push_back(mover.X_WB);
 }
 
-void CandidatePairs::with_contacts(double reach, std::vector<CandidatePair>& pairs,
-                                   std::vector<std::uint32_t>& numbers) const {
+void CandidatePairs::with_contacts(double reach, std::vector<CandidatePair>& pairs, std::vector<std::uint32_t>& numbers,
+                                   std::vector<KnownFeatures>& known) const {
   pairs.clear();
   numbers.clear();
+  known.clear();
   for (std::size_t i = 0; i < now_.set.pairs.size(); ++i) {
+    if (gaps_[i] > reach + clock_) continue;
     const CandidatePair& pair = now_.set.pairs[i];
     if (pair.distance > reach + now_.drift) return;  // as are all that follow
-    if (gaps_[i] > reach + clock_ || now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
+    if (now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
     pairs.push_back(pair);
     numbers.push_back(static_cast<std::uint32_t>(i));
+    const bool is_known = known_[i].left_out > reach + clock_;
+    known.push_back(is_known ? KnownFeatures{known_[i].features, known_[i].left_out - clock_} : KnownFeatures{});
   }
 }
 
-void CandidatePairs::note_gaps(std::span<const std::uint32_t> numbers, std::span<const double> gaps) {
+void CandidatePairs::note_gaps(std::span<const std::uint32_t> numbers, std::span<const GapsOfPair> gaps) {
   GLISSADE_ASSERT(numbers.size() == gaps.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    gaps_[numbers[i]] = gaps[i] + clock_;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    double& gap = gaps_[numbers[i]];
+    gap = std::max(gap, gaps[i].least + clock_);
+    if (gaps[i].left_out > 0.0) known_[numbers[i]] = {gaps[i].features, gaps[i].left_out + clock_};
+  }
 }
 
 /// Also discards the answer of a search under way, which the thread completes all the same.

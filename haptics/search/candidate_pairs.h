@@ -68,10 +68,11 @@ class CandidatePairs {
   }
 
   /// The candidates that may have contacts within `reach` (metres) at the present poses, as far as `note_gaps` told, in
-  /// the same order, and their numbers.
-  void with_contacts(double reach, std::vector<CandidatePair>& pairs, std::vector<std::uint32_t>& numbers) const;
+  /// the same order, their numbers, and what is known within `reach` of their features.
+  void with_contacts(double reach, std::vector<CandidatePair>& pairs, std::vector<std::uint32_t>& numbers,
+                     std::vector<KnownFeatures>& known) const;
   /// Notes for the pairs with these numbers that their contacts have at least these gaps (metres) at the present poses.
-  void note_gaps(std::span<const std::uint32_t> numbers, std::span<const double> gaps);
+  void note_gaps(std::span<const std::uint32_t> numbers, std::span<const GapsOfPair> gaps);
 
   /// Number of candidate pairs.
   std::size_t pair_count() const { return now_.set.pairs.size(); }
@@ -138,6 +139,7 @@ class CandidatePairs {
   // pair has a gap below its entry of `gaps_` minus the clock.
   double clock_ = 0.0;
   std::vector<double> gaps_;
+  std::vector<KnownFeatures> known_;              // the gaps are so, too, minus the clock
   std::vector<Eigen::Isometry3d> X_WB_of_clock_;  // of each mover
   std::vector<Motion> motions_of_clock_;
   std::int64_t work_ = 0;

@@ -14,6 +14,7 @@
 
 #include "certificate/pairs_to_certify.h"
 #include "scene/contact_scene.h"
+#include "search/feature_pairs.h"
 
 namespace glissade::haptics {
 
@@ -22,6 +23,20 @@ namespace glissade::haptics {
 struct CandidatePair : TrianglesOfBodies {
   double distance;      ///< metres, at the poses of the request
   Eigen::Vector3d n_W;  ///< unit, from the obstacle's closest point to the part's; zero below kSharpDistance_m
+};
+
+/// Lower bounds, metres, of the gaps of the contacts of a candidate pair, from a search for contacts.
+struct GapsOfPair {
+  double least;           ///< of all contacts
+  double beyond;          ///< of those beyond the reach of the search
+  double left_out;        ///< of those with other features than `features`; 0: nothing is known
+  FeaturePairs features;  ///< those at which the search looked closely
+};
+
+/// The features of a pair that may be in contact, if `features` is not 0; otherwise nothing is known.
+struct KnownFeatures {
+  FeaturePairs features = 0;
+  double left_out = 0.0;  ///< metres: no contact with other features has a smaller gap
 };
 
 /// Poses of the movers, radius, and body pairs to leave out.

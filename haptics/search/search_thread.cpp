@@ -27,7 +27,7 @@ void SearchThread::allow(std::int64_t allowed) {
   const std::lock_guard lock(mutex_);
   allowed_ = allowed;
   lock_at_ = at_most_ahead();
-  changed_.notify_all();
+  if (is_held_up_) changed_.notify_all();
 }
 
 /// The work with which the thread must look again whether it may go on.
@@ -38,7 +38,7 @@ std::int64_t SearchThread::at_most_ahead() const {
 void SearchThread::wait_for_work(std::int64_t allowed) {
   std::unique_lock lock(mutex_);
   lock_at_ = allowed_ = allowed;
-  changed_.notify_all();
+  if (is_held_up_) changed_.notify_all();
   changed_.wait(lock, [&] { return is_done() || work_ > allowed; });
 }
 
@@ -65,7 +65,9 @@ void SearchThread::spend(std::int64_t work) {
   if (done <= lock_at_) return;
   std::unique_lock lock(mutex_);
   changed_.notify_all();
+  is_held_up_ = true;
   changed_.wait(lock, stop_, [&] { return done - work_ahead_ <= allowed_ || is_cancelled_; });
+  is_held_up_ = false;
   if (is_cancelled_ || stop_.stop_requested()) throw Cancelled{};
   // Somebody may wait for more work than is allowed. Once that is done, to lock again and again would starve a thread
   // that waits for the lock.

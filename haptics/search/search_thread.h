@@ -69,6 +69,7 @@ class SearchThread final : public collision::WorkMeter {
   Job job_;  // null when it is done
   std::exception_ptr error_;
   bool is_cancelled_ = false;
+  bool is_held_up_ = false;  // the thread waits until more work is allowed
   std::atomic<std::int64_t> work_{0};
   std::int64_t allowed_ = 0;
   std::atomic<std::int64_t> lock_at_{0};  // with more work the thread takes the lock

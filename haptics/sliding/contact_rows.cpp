@@ -14,6 +14,9 @@ namespace {
 constexpr std::int64_t kWorkOfCandidate = 8;
 constexpr std::int64_t kWorkOfContacts = 300;
 
+/// In margins: contacts at rims are left out up to this gap. Beyond it, contacts do not depend on each other.
+constexpr double kReachOfRims = 2.0;
+
 /// The pair as the other body sees it.
 UncertifiedPair swapped(const UncertifiedPair& pair) {
   return {{{pair.bodies.part, pair.bodies.obstacle}, pair.part_triangle, pair.obstacle_triangle}, -pair.n_W};
@@ -24,7 +27,11 @@ UncertifiedPair swapped(const UncertifiedPair& pair) {
 void ContactRows::find(double reach, WorkBudget& budget) {
   reach_ = reach;
   contacts_ahead_.clear();
-  find_within(reach, contacts_, budget);
+  shared_.candidates.with_contacts(reach, pairs_, numbers_, known_);
+  find_among_pairs(reach, contacts_, budget);
+  gaps_beyond_.assign(shared_.candidates.pair_count(), 0.0);
+  for (std::size_t i = 0; i < numbers_.size(); ++i)
+    gaps_beyond_[numbers_[i]] = gaps_[i].beyond;
   rows_.clear();
   for (const Contact& contact : contacts_) {
     // A contact closer than its margin demands part of it back.
@@ -34,17 +41,35 @@ void ContactRows::find(double reach, WorkBudget& budget) {
   }
 }
 
+/// Most pairs have no more contacts than those that are found already.
 void ContactRows::find_ahead(double reach_ahead, WorkBudget& budget) {
-  find_within(reach_ahead, contacts_ahead_, budget);
+  shared_.candidates.with_contacts(reach_ahead, pairs_, numbers_, known_);
+  if (reach_ >= kReachOfRims * shared_.largest_margin) leave_out_complete(reach_ahead);
+  find_among_pairs(reach_ahead, contacts_ahead_, budget);
   std::erase_if(contacts_ahead_, [this](const Contact& contact) { return contact.gap <= reach_; });
 }
 
-void ContactRows::find_within(double reach, std::vector<Contact>& contacts, WorkBudget& budget) {
+/// Leaves out the pairs all of whose contacts within `reach_ahead` are found.
+void ContactRows::leave_out_complete(double reach_ahead) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (gaps_beyond_[numbers_[i]] > reach_ahead) continue;
+    pairs_[kept] = pairs_[i];
+    known_[kept] = known_[i];
+    numbers_[kept++] = numbers_[i];
+  }
+  pairs_.resize(kept);
+  numbers_.resize(kept);
+  known_.resize(kept);
+}
+
+/// Finds the contacts of `pairs_`.
+void ContactRows::find_among_pairs(double reach, std::vector<Contact>& contacts, WorkBudget& budget) {
   const ContactScene& scene = shared_.scene;
-  shared_.candidates.with_contacts(reach, pairs_, numbers_);
   budget.spend(kWorkOfCandidate * static_cast<std::int64_t>(shared_.candidates.pair_count()) +
                kWorkOfContacts * std::ssize(pairs_));
-  find_contacts(scene.bodies(), scene.obstacles().size(), pairs_, reach, shared_.largest_margin, contacts, &gaps_);
+  find_contacts(scene.bodies(), scene.obstacles().size(), pairs_, reach, shared_.largest_margin, contacts, &gaps_,
+                known_);
   shared_.candidates.note_gaps(numbers_, gaps_);
   for (Contact& contact : contacts) {
     const auto body = static_cast<std::int32_t>(scene.body_of_mover(static_cast<std::size_t>(contact.part)));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "certificate/path_certificate.h"
+#include "contact/contact_search.h"
 #include "search/candidate_pairs.h"
 #include "sliding/simulated_parts.h"
 #include "solver/friction.h"
@@ -50,7 +51,8 @@ class ContactRows {
   void forget_forces() { pushed_.clear(); }
 
  private:
-  void find_within(double reach, std::vector<Contact>& contacts, WorkBudget& budget);
+  void leave_out_complete(double reach_ahead);
+  void find_among_pairs(double reach, std::vector<Contact>& contacts, WorkBudget& budget);
   void add(std::int32_t obstacle, std::size_t part, const Eigen::Vector3d& n_W, const Eigen::Vector3d& p_W,
            double bound);
 
@@ -58,7 +60,9 @@ class ContactRows {
   double reach_ = 0.0;
   std::vector<CandidatePair> pairs_;       // that may have contacts within reach
   std::vector<std::uint32_t> numbers_;     // of them among the candidates
-  std::vector<double> gaps_;               // metres: none of their contacts has a smaller one
+  std::vector<KnownFeatures> known_;       // of them
+  std::vector<GapsOfPair> gaps_;           // of them
+  std::vector<double> gaps_beyond_;        // metres, by candidate: of contacts beyond the reach; 0: not known
   std::vector<Contact> contacts_;          // one for each of the first rows
   std::vector<Contact> contacts_ahead_;    // beyond the reach
   std::vector<CoupledRow> rows_;           // of contacts, then of failed certificates

@@ -1,7 +1,9 @@
 /// `glissade grasp`: a hand takes a ball from a table and leaves it in a tray.
 
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -99,6 +101,16 @@ TEST_F(GraspCommand, ShowsNoHandThatGoesIntoAnything) {
       }
     }
   }
+}
+
+TEST_F(GraspCommand, WritesAPageWithTheHandInThreeDimensions) {
+  const ProgramResult run = glissade(
+      {"grasp", kScene, "--hand-trajectory", kHand, "--out", hands, "--report", folder.path("report")});
+  ASSERT_EQ(run.exit_code, 0) << run.standard_error;
+  std::ostringstream page;
+  page << std::ifstream(folder.path("report/index.html")).rdbuf();
+  for (const char* part : {"1 grasps, held for", "report-frames", "Kind of grasp", "ball"})
+    EXPECT_NE(page.str().find(part), std::string::npos) << part;
 }
 
 TEST_F(GraspCommand, TakesOtherHands) {

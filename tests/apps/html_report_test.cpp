@@ -47,6 +47,28 @@ TEST(HtmlReport, NeedsNoNetworkAndNoScript) {
   EXPECT_THAT(html, Not(HasSubstr("@import")));
 }
 
+TEST(HtmlReport, WithAReplayHoldsItsDataAndStillNeedsNoNetwork) {
+  Report report = small_report();
+  report.replay = Replay{"glTF", std::string("\x01\x02\x03", 3)};
+  const std::string html = html_report(report);
+  EXPECT_THAT(html, HasSubstr("id=\"report-model\">Z2xURg==<"));  // base64 of glTF
+  EXPECT_THAT(html, HasSubstr("id=\"report-frames\">AQID<"));
+  EXPECT_THAT(html, HasSubstr("<h1 id=\"title\">Motor &lt;into&gt; door</h1>"));
+  EXPECT_THAT(html, HasSubstr("<td>12.5 N</td>"));
+  EXPECT_THAT(html, HasSubstr("<canvas"));
+  EXPECT_THAT(html, Not(HasSubstr("<script src")));
+  EXPECT_THAT(html, Not(HasSubstr("<!--")));  // every mark is filled in
+  EXPECT_THAT(html, Not(HasSubstr("rel=\"stylesheet\"")));
+}
+
+TEST(HtmlReport, APlotOverTimeTellsWhereItsTimesLie) {
+  const std::string html = html_report(small_report());
+  EXPECT_THAT(html, HasSubstr("data-from=\"0.00\" data-to=\"1.00\" data-left="));
+  Report other = small_report();
+  other.plots[0].x_label = "force [N]";
+  EXPECT_THAT(html_report(other), Not(HasSubstr("data-from")));
+}
+
 TEST(HtmlReport, EveryElementIsClosed) {
   const std::string html = html_report(small_report());
   for (const std::string tag :

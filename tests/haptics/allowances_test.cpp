@@ -163,7 +163,7 @@ TEST(Margin, OfAnObstacleIsWhatTheHapticThreadKeepsToo) {
   MultiPartSliding sliding({obstacle}, {{.part_V = cube(0.02), .X_WV_start = pose({0.0, 0.0, 0.011})}});
   for (int i = 0; i < 30; ++i)
     sliding.advance(std::vector{pose({0.0, 0.0, 0.005})});
-  std::vector<std::int32_t> scratch;
+  std::vector<UrgentContact> scratch;
   const ContactSet set = make_contact_set(sliding, 1, {}, scratch);
   ASSERT_GT(set.parts[0].pushing, 0);
   for (const ContactRow& row : set.rows()) {

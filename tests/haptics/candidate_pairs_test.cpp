@@ -134,6 +134,7 @@ TEST(CandidatePairs, HaveTheSameContactsWhereGapsAreNoted) {
   RandomNumbers random(kSeed);
   std::size_t all = 0;
   std::size_t looked_at = 0;
+  std::size_t known_ones = 0;
   std::size_t contacts = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const auto scene = test_support::random_contact_scene(0.02, 1e-4, 2e-4, random);
@@ -149,20 +150,24 @@ TEST(CandidatePairs, HaveTheSameContactsWhereGapsAreNoted) {
       find_contacts(scene->bodies(), first_part, pairs, reach, kMargin, of_all);
       std::vector<CandidatePair> some;
       std::vector<std::uint32_t> numbers;
-      std::vector<double> gaps;
+      std::vector<KnownFeatures> known;
+      std::vector<GapsOfPair> gaps;
       std::vector<Contact> of_some;
-      candidates.with_contacts(reach, some, numbers);
-      find_contacts(scene->bodies(), first_part, some, reach, kMargin, of_some, &gaps);
+      candidates.with_contacts(reach, some, numbers, known);
+      find_contacts(scene->bodies(), first_part, some, reach, kMargin, of_some, &gaps, known);
       candidates.note_gaps(numbers, gaps);
       ASSERT_EQ(numbers_of(of_some), numbers_of(of_all));
       all += pairs.size();
       looked_at += some.size();
+      for (const KnownFeatures& of_pair : known)
+        known_ones += of_pair.features != 0 ? 1 : 0;
       contacts += of_all.size();
       move_parts(*scene, random.power_of_ten(-6.0, -4.5), random);
       candidates.moved();
     }
   }
   EXPECT_LT(5 * looked_at, 4 * all);
+  EXPECT_GT(10 * known_ones, looked_at);
   EXPECT_GT(contacts, 1000u);
 }
 

@@ -127,6 +127,43 @@ TEST(ContactSearch, CrossedEdgesMeetAlongTheirCommonNormal) {
   EXPECT_TRUE(found[0].p_W.isApprox(Vector3d(0.001, 0.0, 2e-4), 1e-9));
 }
 
+// A pair whose contacts beyond the reach are certainly farther than another reach has none between the two.
+TEST(ContactSearch, TellsHowFarContactsBeyondItsReachAreAtLeast) {
+  constexpr std::uint64_t kSeed = 9;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  test_support::RandomNumbers random(kSeed);
+  int complete = 0;
+  int contacts_beyond = 0;
+  for (int trial = 0; trial < test_support::affordable(100); ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    const auto scene = test_support::random_contact_scene(0.02, 1e-4, 2e-4, random);
+    const double reach = random.power_of_ten(-3.5, -2.5);
+    const double reach_ahead = 1.5 * reach;
+    CandidatePairs candidates(*scene, reach_ahead);
+    candidates.look(reach_ahead, 0.0, {});
+    std::vector<CandidatePair> pairs;
+    candidates.within(reach_ahead, pairs);
+    const std::size_t first_part = scene->obstacles().size();
+    std::vector<Contact> within;
+    std::vector<GapsOfPair> gaps;
+    find_contacts(scene->bodies(), first_part, pairs, reach, kSearchMargin, within, &gaps);
+    ASSERT_EQ(gaps.size(), pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      std::vector<Contact> ahead;
+      find_contacts(scene->bodies(), first_part, {&pairs[i], 1}, reach_ahead, kSearchMargin, ahead);
+      for (const Contact& contact : ahead) {
+        EXPECT_GE(contact.gap, gaps[i].least);
+        if (contact.gap <= reach) continue;
+        EXPECT_GE(contact.gap, gaps[i].beyond);
+        ++contacts_beyond;
+      }
+      complete += gaps[i].beyond > reach_ahead ? 1 : 0;
+    }
+  }
+  EXPECT_GT(contacts_beyond, test_support::affordable(100));
+  EXPECT_GT(complete, test_support::affordable(1000));
+}
+
 // The vector code looks at many pairs only.
 TEST(ContactSearch, OfManyPairsFindsTheContactsOfEach) {
   constexpr std::uint64_t kSeed = 8;

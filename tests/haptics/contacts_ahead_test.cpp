@@ -67,7 +67,7 @@ double force_error(double contacts_ahead_ms) {
   test_support::OneHandForce force(sliding.part(0).p_Vref(), sliding.part(0).radius(), sliding.stiffness(0), 100.0,
                                    at(-0.05));
   std::vector<ContactSet> sets;
-  std::vector<std::int32_t> scratch;
+  std::vector<UrgentContact> scratch;
   double greatest = 0.0;
   for (int i = 1; i <= 265; ++i) {
     const Isometry3d X_WG = at(-0.05 + i * kStep);

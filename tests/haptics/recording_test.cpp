@@ -5,9 +5,11 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -93,7 +95,7 @@ class Recording : public testing::Test {
     while (const auto event = log.next()) {
       if (!replay.take(*event)) break;
     }
-    if (log.damage().empty()) replay.finish();
+    log.damage().empty() ? replay.finish() : replay.settle();
     ticks_ = replay.ticks();
     answers_ = replay.answers();
     return log.damage() + replay.difference();
@@ -228,6 +230,59 @@ TEST_F(Recording, WithOneChangedBitIsFoundOut) {
     const std::string path = changed(flipped);
     EXPECT_NE(fault(path), "") << "seed " << kSeed << ", byte " << place << " of " << whole.size();
   }
+}
+
+// The simulation is ahead of the ticks then.
+TEST_F(Recording, WithTwoChangesTellsTheFirst) {
+  std::vector<devices::LogEvent> events;
+  devices::EventLogReader log(path_);
+  while (const auto event = log.next())
+    events.push_back(*event);
+  int ticks = 0;
+  for (devices::LogEvent& event : events) {
+    ticks += event.channel == "HAPTIC_TICK" ? 1 : 0;
+    if (ticks == 300 && event.channel == "HAPTIC_STATE") event.message.back() ^= 1U;
+    if (ticks == 302 && event.channel == "CONTACT_SET") event.message.back() ^= 1U;
+  }
+  const std::string path = folder_.path("two.lcmlog");
+  devices::EventLogWriter writer(path);
+  for (const devices::LogEvent& event : events)
+    writer.write(event);
+  writer.close();
+  EXPECT_EQ(fault(path), "the event on HAPTIC_STATE after tick 300 differs");
+  EXPECT_EQ(ticks_, 300);
+}
+
+/// Parts that come to an end.
+class FailingParts final : public LoopSimulation {
+ public:
+  explicit FailingParts(int calls) : calls_(calls) {}
+
+  const MultiPartSliding& parts() const override { return parts_; }
+  void take_part(std::size_t part, const Eigen::Isometry3d& X_WG) override { parts_.grasp(part, X_WG); }
+  void leave_part(std::size_t part) override { parts_.release(part); }
+  void advance(const Ghosts& ghosts, double milliseconds) override {
+    if (--calls_ < 0) throw std::runtime_error("no more");
+    parts_.advance(ghosts, milliseconds);
+  }
+  void tell_hands(ContactSet&) const override {}
+
+ private:
+  MultiPartSliding parts_ = recorded_parts();
+  int calls_;
+};
+
+TEST_F(Recording, PassesFailuresOfTheSimulationOn) {
+  FailingParts parts(200);
+  Replay replay(parts, {{.device = recorded_hand().descriptor(), .part = 0}}, kTickPeriod, recorded_head());
+  devices::EventLogReader log(path_);
+  const auto repeat = [&] {
+    while (auto event = log.next())
+      replay.take(std::move(*event));
+    replay.finish();
+  };
+  EXPECT_THROW(repeat(), std::runtime_error);
+  EXPECT_EQ(replay.answers(), 200);
 }
 
 TEST_F(Recording, OfTheLastSecondsHasABound) {

@@ -112,7 +112,7 @@ class RubbedBox {
 
   void answer() {
     if (!ghosts_ || (disturbance_.holds_simulation && disturbance_.holds_simulation(now_))) return;
-    set_ = answerer_.answer(*ghosts_, kTickPeriod);
+    answerer_.answer(*ghosts_, kTickPeriod, set_);
     ghosts_.reset();
   }
 

@@ -213,7 +213,8 @@ TEST(WorkBudget, TheTimeOfAContactSetIsThatOfTheGhostsThatItAnswers) {
     ghosts.parts[0].X_WG = rolling_ghost(call);
     ghosts.parts[0].is_held = true;
     ghosts.parts[0].hold = 1;
-    const ContactSet set = answerer.answer(ghosts, kTickPeriod);
+    ContactSet set;
+    answerer.answer(ghosts, kTickPeriod, set);
     EXPECT_GE(set.time, last) << call;
     const bool is_complete = !sliding.result(0).ended_early;
     EXPECT_TRUE(!is_complete || set.time == ghosts.time) << call;

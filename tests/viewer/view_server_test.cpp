@@ -1,15 +1,10 @@
 // The server, asked over real sockets.
 
 #include <chrono>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <thread>
 
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
 #include <gtest/gtest.h>
 
 #include <glissade/geometry/mesh_generators.h>
@@ -17,15 +12,15 @@
 #include <glissade/viewer/view_server.h>
 
 #include "expect_bad_input.h"
+#include "page_client.h"
 #include "server/connection.h"
 
 namespace glissade::viewer {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-using asio::ip::tcp;
+namespace http = boost::beast::http;
+using test_support::Browser;
+using test_support::PageViewer;
 
 ViewScene small_scene() {
   ViewScene scene;
@@ -43,56 +38,9 @@ devices::HapticState state_of(std::int64_t sequence) {
   return state;
 }
 
-class Browser {
- public:
-  explicit Browser(const ViewServer& server) : host_("127.0.0.1:" + std::to_string(server.port())), stream_(io_) {
-    stream_.connect({asio::ip::address_v4::loopback(), server.port()});
-  }
-
-  http::response<http::string_body> ask(http::verb verb, const std::string& target, const std::string& host = "") {
-    http::request<http::empty_body> request(verb, target, 11);
-    request.set(http::field::host, host.empty() ? host_ : host);
-    http::write(stream_, request);
-    http::response<http::string_body> answer;
-    http::read(stream_, buffer_, answer);
-    return answer;
-  }
-
- private:
-  std::string host_;
-  asio::io_context io_;
-  beast::tcp_stream stream_;
-  beast::flat_buffer buffer_;
-};
-
-class Viewer {
- public:
-  explicit Viewer(const ViewServer& server) : socket_(io_) {
-    beast::get_lowest_layer(socket_).connect(tcp::endpoint(asio::ip::address_v4::loopback(), server.port()));
-    socket_.handshake("127.0.0.1:" + std::to_string(server.port()), "/live");
-  }
-
-  /// The number of the tick in the next frame, and how many frames were missed before it.
-  std::pair<double, float> next() {
-    beast::flat_buffer buffer;
-    socket_.read(buffer);
-    const auto* bytes = static_cast<const char*>(buffer.data().data());
-    double sequence = 0.0;
-    float missed = 0.0F;
-    std::memcpy(&sequence, bytes + 8, sizeof sequence);
-    std::memcpy(&missed, bytes + 32, sizeof missed);
-    return {sequence, missed};
-  }
-  void acknowledge() { socket_.write(asio::buffer("shown", 5)); }
-
- private:
-  asio::io_context io_;
-  beast::websocket::stream<beast::tcp_stream> socket_;
-};
-
 TEST(ViewServer, ServesThePageAndTheModels) {
   const ViewServer server(small_scene());
-  Browser browser(server);
+  Browser browser(server.port());
   const auto page_answer = browser.ask(http::verb::get, "/");
   EXPECT_EQ(page_answer.result(), http::status::ok);
   EXPECT_EQ(page_answer.body(), page());
@@ -114,14 +62,14 @@ TEST(ViewServer, RefusesPagesOfOtherSites) {
   EXPECT_FALSE(is_own_request("localhost:80.elsewhere.example", ""));
   EXPECT_FALSE(is_own_request("", ""));
   const ViewServer server(small_scene());
-  Browser browser(server);
+  Browser browser(server.port());
   EXPECT_EQ(browser.ask(http::verb::get, "/", "elsewhere.example").result(), http::status::forbidden);
 }
 
 TEST(ViewServer, AViewerGetsTheNextFrameOnlyAfterItHasShownTheLast) {
   ViewServer server(small_scene());
   server.push(state_of(1));
-  Viewer viewer(server);
+  PageViewer viewer(server.port());
   EXPECT_EQ(viewer.next().first, 1.0);
   // Five frames pass by meanwhile.
   for (std::int64_t i = 2; i <= 6; ++i) {
@@ -141,7 +89,7 @@ TEST(ViewServer, WhoComesLaterSeesTheLastFrameAtOnce) {
   EXPECT_FALSE(server.has_had_client());
   server.push(state_of(3));
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  Viewer viewer(server);
+  PageViewer viewer(server.port());
   EXPECT_EQ(viewer.next().first, 3.0);
   EXPECT_TRUE(server.has_had_client());
 }
@@ -155,7 +103,7 @@ TEST(ViewServer, SaysThatAPortIsTaken) {
 TEST(ViewServer, EndsWhileViewersAreThere) {
   auto server = std::make_unique<ViewServer>(small_scene());
   server->push(state_of(1));
-  Viewer viewer(*server);
+  PageViewer viewer(server->port());
   viewer.next();
   server.reset();
   EXPECT_THROW(viewer.next(), boost::system::system_error);

@@ -11,7 +11,7 @@ const FRAME_MS = 100;
 
 const browser = await launch();
 
-async function openReport(width, height) {
+async function openReport(width, height, zoom) {
   const page = await open(browser, `file://${resolve(report)}`, { viewport: { width: 1280, height: 900 }, colorScheme: 'light' });
   await page.evaluate(([w, h]) => {
     const view = document.getElementById('view');
@@ -20,11 +20,16 @@ async function openReport(width, height) {
     document.getElementById('show-through').click();
   }, [width, height]);
   await page.waitForTimeout(300);
-  await page.evaluate(() => {
-    const { stage } = window.glissade.page;
+  // The middle of the part's way is the middle of the picture.
+  await page.evaluate((factor) => {
+    const { stage, timeline } = window.glissade.page;
     stage.fit('corner');
-    stage.zoom(0.82);
-  });
+    const [first, last] = [timeline.frames[0], timeline.frames.at(-1)].map((frame) => frame.parts[0].visible.p);
+    const move = stage.controls.target.clone().fromArray(first.map((x, i) => (x + last[i]) / 2)).sub(stage.controls.target);
+    stage.controls.target.add(move);
+    stage.camera.position.add(move);
+    stage.zoom(factor);
+  }, zoom);
   return page;
 }
 
@@ -40,14 +45,14 @@ async function goTo(page, seconds) {
 
 if (png !== '-') {
   const [file, seconds] = png.split('=');
-  const page = await openReport(1000, 560);
+  const page = await openReport(1000, 560, 0.75);
   await goTo(page, Number(seconds));
   await page.locator('#view').screenshot({ path: file });
 }
 
 if (gif !== '-') {
   const [width, height] = [480, 300];
-  const page = await openReport(width, height);
+  const page = await openReport(width, height, 0.6);
   const duration = await page.evaluate(() => window.glissade.page.timeline.last - window.glissade.page.timeline.first);
   const encoder = GIFEncoder();
   let palette;

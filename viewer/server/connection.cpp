@@ -20,7 +20,8 @@ constexpr std::size_t kLongestHeader = 16'384;
 /// The page is one file and talks to its own server only.
 constexpr const char* kPolicy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
-    "connect-src 'self' blob: data:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
+    "connect-src 'self' ws://127.0.0.1:* ws://localhost:* blob: data:; "
+    "frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
 
 std::string_view view_of(beast::string_view text) {
   return {text.data(), text.size()};

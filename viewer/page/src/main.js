@@ -49,7 +49,7 @@ class Page {
       this.isNew = false;
       if (frame) {
         this.stage.show(frame);
-        showRows(byId('status'), rowsOf(frame, this.info));
+        showRows(byId('status'), rowsOf(frame, this.info, this.plots === undefined));
       }
       byId('object').hidden = !this.picked;
       if (this.picked) showRows(byId('picked'), [rowsOfObject(this.picked, frame, this.info)]);

@@ -23,7 +23,8 @@ function rowsOfPart(part, name) {
   return [[name, PART_STATES[part.state] ?? 'unknown'], ['lag', number(lag(part), 2, 'mm')], ['contacts', `${part.contacts}`]];
 }
 
-export function rowsOf(frame, info) {
+export function rowsOf(frame, info, isLive) {
+  const missed = isLive ? [['frames missed', `${frame.missed}`]] : [];
   return [
     ...frame.hands.map((hand, h) => rowsOfHand(hand, `glove ${info.hands[h]?.device ?? h + 1}`, info.parts)),
     ...frame.parts.map((part, p) => rowsOfPart(part, info.parts[p] ?? `part ${p}`)),
@@ -31,7 +32,7 @@ export function rowsOf(frame, info) {
       ['loop', frame.late ? 'contacts are late' : 'on time'],
       ['age of contacts', number(frame.age, 1, 'ms')],
       ['lateness of ticks', number(frame.lateness, 0, 'µs')],
-      ['frames missed', `${frame.missed}`],
+      ...missed,
     ],
   ];
 }

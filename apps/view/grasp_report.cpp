@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <utility>
+
+#include <glissade/apps/text.h>
+#include <glissade/apps/view/grasp_report.h>
+#include <glissade/apps/view/session_view.h>
+
+namespace glissade::apps {
+
+namespace {
+
+std::string name_of_hand(std::size_t hand) {
+  return "hand " + std::to_string(hand);
+}
+
+std::vector<std::int64_t> numbers(std::size_t count) {
+  std::vector<std::int64_t> result;
+  while (result.size() < count)
+    result.push_back(std::ssize(result));
+  return result;
+}
+
+}  // namespace
+
+GraspReport::GraspReport(const HapticScene& scene, const grasping::GraspSimulation& simulation,
+                         const std::vector<std::shared_ptr<const grasping::HandModel>>& hands)
+    : scene_(scene),
+      simulation_(simulation),
+      replay_(view_scene_of(scene, numbers(hands.size()), hands)),
+      sums_(hands.size()) {
+  for (std::size_t h = 0; h < hands.size(); ++h) {
+    touching_.push_back({name_of_hand(h), {}, {}});
+    kinds_.push_back({name_of_hand(h), {}, {}});
+  }
+  for (std::size_t p = 0; p < simulation.part_count(); ++p)
+    lags_.push_back({scene.body_names[scene.obstacles.size() + p], {}, {}});
+}
+
+void GraspReport::add(std::chrono::nanoseconds time) {
+  devices::HapticState state;
+  state.sequence = ++ticks_;
+  state.time = time;
+  state.part_count = static_cast<std::int32_t>(simulation_.part_count());
+  state.hand_count = static_cast<std::int32_t>(simulation_.hand_count());
+  simulation_.tell_hands(answers_);
+  const double time_s = 1e-3 * static_cast<double>(ticks_ - 1);
+  const auto note = [&](PlotSeries& series, double value) {
+    series.x.push_back(time_s);
+    series.y.push_back(value);
+  };
+  for (std::size_t p = 0; p < simulation_.part_count(); ++p) {
+    const haptics::SlidingResult& result = simulation_.parts().result(p);
+    show_part(result, p, state);
+    note(lags_[p], 1e3 * (result.X_WG.translation() - result.X_WV.translation()).norm());
+  }
+  for (std::size_t h = 0; h < simulation_.hand_count(); ++h) {
+    const auto part = simulation_.held_part(h);
+    devices::HapticHandState& hand = state.hands[h];
+    hand.part = part ? static_cast<std::int32_t>(*part) : -1;
+    hand.visible = answers_.hands[h].visible;
+    Sums& sums = sums_[h];
+    sums.grasps += hand.part >= 0 && hand.part != sums.part ? 1 : 0;
+    sums.holding_ms += hand.part >= 0 ? 1 : 0;
+    sums.part = hand.part;
+    const auto& touching = simulation_.clasp(h).touching();
+    note(touching_[h], static_cast<double>(touching.size() -
+                                           static_cast<std::size_t>(std::count(touching.begin(), touching.end(), 0))));
+    note(kinds_[h], static_cast<double>(hand.visible.grasp));
+  }
+  replay_.add(state);
+}
+
+Report GraspReport::finish() {
+  Report report{
+      "glissade grasp: " + scene_.source, {{"duration", fixed_text(1e-3 * static_cast<double>(ticks_), 3) + " s"}}, {}};
+  for (std::size_t h = 0; h < sums_.size(); ++h) {
+    const double held_s = 1e-3 * static_cast<double>(sums_[h].holding_ms);
+    report.summary.emplace_back(name_of_hand(h),
+                                std::to_string(sums_[h].grasps) + " grasps, held for " + fixed_text(held_s, 3) + " s");
+  }
+  for (std::size_t p = 0; p < simulation_.part_count(); ++p) {
+    const Eigen::Vector3d p_WV = simulation_.parts().result(p).X_WV.translation();
+    const Eigen::Vector3d way = p < scene_.parts.size()
+                                    ? Eigen::Vector3d(p_WV - scene_.parts[p].X_WV_start.translation())
+                                    : Eigen::Vector3d::Zero();
+    report.summary.emplace_back(lags_[p].name, "ends " + fixed_text(1e3 * way.norm(), 1) + " mm from where it started");
+  }
+  report.plots.push_back({"Segments that touch", kTimeLabel, "segments", std::move(touching_)});
+  report.plots.push_back(
+      {"Kind of grasp: 0 none, 1 push, 2 precision, 3 power", kTimeLabel, "kind", std::move(kinds_)});
+  report.plots.push_back({"Lag of the visible parts behind their ghosts", kTimeLabel, "lag [mm]", std::move(lags_)});
+  report.replay = replay_.finish();
+  return report;
+}
+
+}  // namespace glissade::apps

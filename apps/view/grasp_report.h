@@ -1,0 +1,48 @@
+#pragma once
+
+/// The page of a run of `glissade grasp`: the hands and parts in three dimensions, and what they did over time.
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/report/html_report.h>
+#include <glissade/apps/view/replay_maker.h>
+#include <glissade/grasping/grasp_simulation.h>
+#include <glissade/grasping/hand_model.h>
+
+namespace glissade::apps {
+
+/// Looks at a simulation, which must outlive it, millisecond by millisecond.
+class GraspReport {
+ public:
+  GraspReport(const HapticScene& scene, const grasping::GraspSimulation& simulation,
+              const std::vector<std::shared_ptr<const grasping::HandModel>>& hands);
+
+  void add(std::chrono::nanoseconds time);
+  Report finish();
+
+ private:
+  /// What the summary says of a hand.
+  struct Sums {
+    std::int64_t grasps = 0;
+    std::int64_t holding_ms = 0;
+    std::int32_t part = -1;
+  };
+
+  const HapticScene& scene_;
+  const grasping::GraspSimulation& simulation_;
+  ReplayMaker replay_;
+  haptics::ContactSet answers_;  // about the hands
+  std::int64_t ticks_ = 0;
+  std::vector<Sums> sums_;
+  std::vector<PlotSeries> touching_;  // by hand: segments
+  std::vector<PlotSeries> kinds_;     // by hand: the number of the kind of grasp
+  std::vector<PlotSeries> lags_;      // by part, mm
+};
+
+}  // namespace glissade::apps

@@ -1,0 +1,44 @@
+#include <utility>
+
+#include <glissade/apps/view/replay_maker.h>
+#include <glissade/viewer/scene_model.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr std::size_t kMostTriangles = 60'000;
+constexpr std::chrono::nanoseconds kFramePeriod{16'667'000};
+
+}  // namespace
+
+ReplayMaker::ReplayMaker(const viewer::ViewScene& scene)
+    : maker_(scene), replay_{viewer::scene_model(scene, kMostTriangles), {}} {}
+
+void ReplayMaker::add(const devices::HapticState& state) {
+  if (!first_) first_ = state.time;
+  const std::int64_t frame = (state.time - *first_) / kFramePeriod;
+  if (frame != frame_ && maker_.has_news()) viewer::append_frame(replay_.frames, maker_.make());
+  frame_ = frame;
+  maker_.add(state);
+}
+
+Replay ReplayMaker::finish() {
+  if (maker_.has_news()) viewer::append_frame(replay_.frames, maker_.make());
+  return std::move(replay_);
+}
+
+void show_part(const haptics::SlidingResult& result, std::size_t part, devices::HapticState& state) {
+  state.parts[part] = {.X_WG = result.X_WG,
+                       .X_WV = result.X_WV,
+                       .state = haptics::part_state_of(result.state),
+                       .contact_count = result.pushing};
+  const Eigen::Isometry3d X_VW = result.X_WV_of_contacts.inverse(Eigen::Isometry);
+  for (const haptics::Contact& contact : result.contacts) {
+    if (!(contact.force > 0.0) || static_cast<std::size_t>(state.contact_count) == state.contacts.size()) continue;
+    state.contacts[static_cast<std::size_t>(state.contact_count++)] = {
+        static_cast<std::int32_t>(part), (X_VW * contact.p_W).cast<float>(), contact.n_W.cast<float>()};
+  }
+}
+
+}  // namespace glissade::apps

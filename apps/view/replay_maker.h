@@ -1,0 +1,37 @@
+#pragma once
+
+/// The replay of a report, made tick by tick.
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include <glissade/apps/report/html_report.h>
+#include <glissade/devices/haptic_state.h>
+#include <glissade/haptics/sliding_result.h>
+#include <glissade/viewer/view_frame.h>
+#include <glissade/viewer/view_scene.h>
+
+namespace glissade::apps {
+
+/// The scene with at most about 60,000 triangles, and at most 60 frames a second: a minute with a hand takes 4 MB. A
+/// frame has the greatest force and the worst timing since the frame before.
+class ReplayMaker {
+ public:
+  explicit ReplayMaker(const viewer::ViewScene& scene);
+
+  /// States in the order of their times.
+  void add(const devices::HapticState& state);
+  Replay finish();
+
+ private:
+  viewer::FrameMaker maker_;
+  Replay replay_;
+  std::optional<std::chrono::nanoseconds> first_;
+  std::int64_t frame_ = 0;  // the number of the one that is being made
+};
+
+/// Writes a part of a simulation that runs by itself into a state, with the contacts that push on it.
+void show_part(const haptics::SlidingResult& result, std::size_t part, devices::HapticState& state);
+
+}  // namespace glissade::apps

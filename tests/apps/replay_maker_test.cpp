@@ -1,0 +1,73 @@
+// The replay of a report.
+
+#include <cstring>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include <glissade/apps/view/replay_maker.h>
+#include <glissade/geometry/mesh_generators.h>
+
+namespace glissade::apps {
+namespace {
+
+using std::chrono::milliseconds;
+
+viewer::ViewScene scene_of_a_box() {
+  viewer::ViewScene scene;
+  scene.objects.push_back({"part", std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.1, 0.1}, 12)),
+                           Eigen::Isometry3d::Identity(), 0});
+  return scene;
+}
+
+/// The times of the frames, in seconds.
+std::vector<double> times_of(const std::string& frames) {
+  std::vector<double> times;
+  for (std::size_t offset = 0; offset < frames.size();) {
+    std::uint32_t size = 0;
+    std::memcpy(&size, frames.data() + offset, sizeof size);
+    std::memcpy(&times.emplace_back(), frames.data() + offset + 4, sizeof(double));
+    offset += 4 + size;
+  }
+  return times;
+}
+
+TEST(ReplayMaker, MakesSixtyFramesASecondUpToTheLastTick) {
+  ReplayMaker maker(scene_of_a_box());
+  for (int i = 0; i <= 1000; ++i) {
+    devices::HapticState state;
+    state.sequence = i + 1;
+    state.time = milliseconds(5000 + i);
+    maker.add(state);
+  }
+  const Replay replay = maker.finish();
+  EXPECT_EQ(replay.model.substr(0, 4), "glTF");
+  const std::vector<double> times = times_of(replay.frames);
+  ASSERT_EQ(times.size(), 60u);
+  EXPECT_EQ(times.back(), 6.0);
+  for (std::size_t i = 1; i < times.size(); ++i)
+    EXPECT_NEAR(times[i] - times[i - 1], 1.0 / 60.0, 1.1e-3);
+}
+
+TEST(ReplayMaker, ShowsThePushingContactsOfAPartInItsFrame) {
+  haptics::SlidingResult result;
+  result.X_WV = result.X_WV_of_contacts = Eigen::Translation3d(1.0, 2.0, 3.0);
+  result.X_WG = Eigen::Translation3d(1.0, 2.0, 2.9);
+  result.state = haptics::SlidingState::kResting;
+  result.pushing = 1;
+  haptics::Contact contact{};
+  contact.n_W = Eigen::Vector3d::UnitZ();
+  contact.p_W = {1.25, 2.0, 3.0};
+  result.contacts = {contact, contact};
+  result.contacts[1].force = 2.0;
+  devices::HapticState state;
+  show_part(result, 1, state);
+  EXPECT_EQ(state.parts[1].state, devices::PartState::kResting);
+  EXPECT_EQ(state.parts[1].X_WG.translation().z(), 2.9);
+  ASSERT_EQ(state.contact_count, 1);
+  EXPECT_EQ(state.contacts[0].part, 1);
+  EXPECT_TRUE(state.contacts[0].p_V.isApprox(Eigen::Vector3f(0.25F, 0.0F, 0.0F)));
+}
+
+}  // namespace
+}  // namespace glissade::apps

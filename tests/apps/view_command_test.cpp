@@ -1,0 +1,26 @@
+// Wrong use of `glissade view` and of --view.
+
+#include <gtest/gtest.h>
+
+#include "glissade_program.h"
+
+namespace glissade::apps {
+namespace {
+
+using test_support::expect_refused;
+
+TEST(ViewCommand, NamesWhatIsWrong) {
+  expect_refused({"view", "no_such_scene.yaml"}, {"no_such_scene.yaml"});
+  expect_refused({"view", "--lcm", "memq://"}, {"--lcm", "one process only"});
+  expect_refused({"view", "--hand", "hand.yaml"}, {"--hand", "--fingers"});
+  expect_refused({"view", "--port", "65536"}, {"--port", "65536"});
+}
+
+TEST(ViewOption, TakesAPortOrNothing) {
+  expect_refused({"demo", "--view", "nonsense"}, {"--view", "0 to 65535", "nonsense"});
+  expect_refused({"demo", "--view", "65536"}, {"--view", "65536"});
+  expect_refused({"demo", "--view", "--offline"}, {"--view", "--offline"});
+}
+
+}  // namespace
+}  // namespace glissade::apps
