@@ -40,8 +40,11 @@ void add_record_command(CLI::App& app, Command& chosen);
 /// `glissade replay LOG [--scene FILE] [--lcm URL] [--view [PORT]] [--report DIR] [--json]`
 void add_replay_command(CLI::App& app, Command& chosen);
 
-/// `glissade log to-csv LOG FOLDER`
+/// `glissade log to-csv LOG FOLDER`, `glissade log to-mcap LOG FILE [--scene FILE]`
 void add_log_command(CLI::App& app, Command& chosen);
+
+/// `glissade export [SCENE] [--log LOG] [--at S] --out FILE`
+void add_export_command(CLI::App& app, Command& chosen);
 
 /// `glissade glove [--side left|right] [--device N] [--lcm URL] [--script FILE] [--frozen-ms T] [--record FILE]`
 void add_glove_command(CLI::App& app, Command& chosen);

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/command.h>
+#include <glissade/apps/record/log_mcap.h>
 #include <glissade/apps/record/log_tables.h>
 
 namespace glissade::apps {
@@ -25,9 +26,25 @@ constexpr const char* kTablesFooter =
     "Example:\n"
     "  glissade log to-csv demo.lcmlog tables";
 
+constexpr const char* kMcapFooter =
+    "FILE can be opened with Foxglove and PlotJuggler. Its topics are\n"
+    "  /tf      poses of visible parts (part_0, ...), ghosts (ghost_0, ...) and hands (hand_0, ...) in the world\n"
+    "  /scene   the meshes of the scene, with at most about 100,000 triangles\n"
+    "  /part_0  state, contacts, position and lag of each part\n"
+    "  /hand_0  force, torque, energy of each hand, and why its force is reduced\n"
+    "  /loop    when each tick of the haptic loop started, and how long it took\n"
+    "A log that does not begin with the beginning of a run, such as one of a flight recorder, has no /scene. All\n"
+    "values: docs/file_formats.md in the sources. If the log is damaged, the file holds everything before the damage,\n"
+    "and the exit code is 1.\n"
+    "\n"
+    "Example:\n"
+    "  glissade demo --offline --record demo.lcmlog && glissade log to-mcap demo.lcmlog demo.mcap";
+
 struct LogOptions {
   std::string log;
   std::string folder;
+  std::string file;
+  std::string scene;
 };
 
 int write_tables(const LogOptions& options) {
@@ -37,6 +54,16 @@ int write_tables(const LogOptions& options) {
     std::cout << table.file << ": " << table.rows << (table.rows == 1 ? " row\n" : " rows\n");
   if (!damage.empty()) throw std::runtime_error(damage);
   if (tables.empty()) throw std::invalid_argument(options.log + ": has no channel from which a table can be made");
+  return 0;
+}
+
+int write_mcap(const LogOptions& options) {
+  std::string damage;
+  const std::vector<McapTopic> topics = write_log_mcap(options.log, options.file, options.scene, damage);
+  for (const McapTopic& topic : topics)
+    std::cout << topic.topic << ": " << topic.messages << (topic.messages == 1 ? " message\n" : " messages\n");
+  if (!damage.empty()) throw std::runtime_error(damage);
+  if (topics.empty()) throw std::invalid_argument(options.log + ": has no tick of a haptic loop");
   return 0;
 }
 
@@ -51,6 +78,14 @@ void add_log_command(CLI::App& app, Command& chosen) {
   tables->add_option("LOG", options->log, "Event log of LCM")->required();
   tables->add_option("FOLDER", options->folder, "Folder for the tables; made if there is none")->required();
   tables->callback([options, &chosen] { chosen = [options] { return write_tables(*options); }; });
+
+  CLI::App* mcap =
+      command->add_subcommand("to-mcap", "Write an event log of LCM as MCAP, for Foxglove and PlotJuggler");
+  mcap->footer(kMcapFooter);
+  mcap->add_option("LOG", options->log, "Event log of LCM")->required();
+  mcap->add_option("FILE", options->file, "File to write")->required();
+  mcap->add_option("--scene", options->scene, "Scene file, in place of the recorded name");
+  mcap->callback([options, &chosen] { chosen = [options] { return write_mcap(*options); }; });
 }
 
 }  // namespace glissade::apps

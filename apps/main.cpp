@@ -47,6 +47,7 @@ int parse_and_run(int argc, char** argv) {
   glissade::apps::add_record_command(app, chosen);
   glissade::apps::add_replay_command(app, chosen);
   glissade::apps::add_log_command(app, chosen);
+  glissade::apps::add_export_command(app, chosen);
   glissade::apps::add_glove_command(app, chosen);
   glissade::apps::add_view_command(app, chosen);
   glissade::apps::add_doctor_command(app, chosen);

@@ -30,33 +30,67 @@ Kind kind_of(const ViewObject& object) {
   return object.moves_on_its_own ? Kind{"moving", kMovingColor} : Kind{"part", kPartColor};
 }
 
+/// How many triangles the mesh of each object may keep.
+class Shares {
+ public:
+  Shares(const ViewScene& scene, std::size_t most_triangles) {
+    for (const ViewObject& object : scene.objects)
+      triangles_ += object.mesh->triangles.size();
+    share_ =
+        std::min(1.0, static_cast<double>(most_triangles) / static_cast<double>(std::max<std::size_t>(triangles_, 1)));
+  }
+
+  std::size_t of(const geometry::TriangleMesh& mesh) const {
+    constexpr double kLeast = 200.0;  // triangles of a simplified object
+    return static_cast<std::size_t>(std::max(kLeast, std::ceil(share_ * static_cast<double>(mesh.triangles.size()))));
+  }
+  std::size_t in_scene() const { return triangles_; }
+
+ private:
+  std::size_t triangles_ = 0;
+  double share_ = 1.0;  // of the triangles to keep
+};
+
+geometry::TriangleMesh simplified(const geometry::TriangleMesh& mesh, std::size_t most_triangles) {
+  const DisplayMesh shown = display_mesh(mesh, most_triangles);
+  geometry::TriangleMesh result;
+  for (const auto& position : shown.positions)
+    result.vertices.emplace_back(shown.lower + shown.step * Eigen::Vector3d(position[0], position[1], position[2]));
+  for (std::size_t t = 0; t < shown.triangles(); ++t) {
+    auto& triangle = result.triangles.emplace_back();
+    for (std::size_t c = 0; c < 3; ++c)
+      triangle[c] = static_cast<std::int32_t>(shown.indices[3 * t + c]);
+  }
+  return result;
+}
+
 /// Objects of one mesh and one kind share it.
 class Meshes {
  public:
-  Meshes(GlbWriter& writer, double share) : writer_(writer), share_(share) {}
+  Meshes(GlbWriter& writer, const Shares& shares) : writer_(writer), shares_(shares) {}
 
   std::size_t number_of(const geometry::TriangleMesh& mesh, const Kind& kind) {
     const auto [place, is_new] = numbers_.try_emplace({&mesh, kind.name}, 0);
     if (!is_new) return place->second;
-    constexpr double kLeast = 200.0;  // triangles of a simplified object
-    const double most = std::max(kLeast, std::ceil(share_ * static_cast<double>(mesh.triangles.size())));
-    return place->second = writer_.add_mesh(display_mesh(mesh, static_cast<std::size_t>(most)), kind.color);
+    return place->second = writer_.add_mesh(display_mesh(mesh, shares_.of(mesh)), kind.color);
   }
 
  private:
   GlbWriter& writer_;
-  double share_;  // of the triangles to keep
+  Shares shares_;
   std::map<std::pair<const geometry::TriangleMesh*, const char*>, std::size_t> numbers_;
 };
 
-void add_hand(const ViewHand& hand, std::size_t number, GlbWriter& writer, nlohmann::json& hands) {
+void add_hand(const ViewHand& hand, std::size_t number, const Eigen::Isometry3d& X_OW, GlbWriter& writer,
+              nlohmann::json& hands) {
   hands.push_back({{"device", hand.device}, {"has_fingers", hand.model != nullptr}});
   if (!hand.model) return;
   const std::span<const grasping::ChainLink> links = hand.model->chain.links();
   for (std::size_t l = 0; l < links.size(); ++l) {
     if (!links[l].mesh) continue;
     const std::size_t mesh = writer.add_mesh(display_mesh(*links[l].mesh, links[l].mesh->triangles.size()), kSkinColor);
-    writer.add_node(links[l].name, Eigen::Isometry3d::Identity(), mesh,
+    const Eigen::Isometry3d X_OL = hand.X_WL.empty() ? Eigen::Isometry3d::Identity() : X_OW * hand.X_WL[l];
+    writer.add_node(links[l].name, X_OL, mesh,
                     {{"name", links[l].name}, {"kind", "segment"}, {"hand", number}, {"link", l}});
   }
 }
@@ -72,12 +106,9 @@ nlohmann::json pose_json(const Eigen::Isometry3d& X) {
 std::string scene_model(const ViewScene& scene, std::size_t most_triangles) {
   const Eigen::Vector3d p_WO = scene.p_WO();
   const Eigen::Isometry3d X_OW(Eigen::Translation3d(-p_WO));
-  std::size_t triangles = 0;
-  for (const ViewObject& object : scene.objects)
-    triangles += object.mesh->triangles.size();
+  const Shares shares(scene, most_triangles);
   GlbWriter writer;
-  Meshes meshes(writer, std::min(1.0, static_cast<double>(most_triangles) /
-                                          static_cast<double>(std::max<std::size_t>(triangles, 1))));
+  Meshes meshes(writer, shares);
   std::vector<std::string> parts;
   for (const ViewObject& object : scene.objects) {
     const Kind kind = kind_of(object);
@@ -91,14 +122,29 @@ std::string scene_model(const ViewScene& scene, std::size_t most_triangles) {
   }
   nlohmann::json hands = nlohmann::json::array();
   for (std::size_t h = 0; h < scene.hands.size(); ++h)
-    add_hand(scene.hands[h], h, writer, hands);
+    add_hand(scene.hands[h], h, X_OW, writer, hands);
   nlohmann::json extras = {{"title", scene.title},
                            {"origin_W_m", {p_WO.x(), p_WO.y(), p_WO.z()}},
                            {"parts", parts},
                            {"hands", hands},
-                           {"triangles", triangles}};
+                           {"triangles", shares.in_scene()}};
   if (scene.X_WGoal) extras["goal"] = pose_json(X_OW * *scene.X_WGoal);
   return writer.finish(extras);
+}
+
+std::vector<std::shared_ptr<const geometry::TriangleMesh>> simplified_meshes(const ViewScene& scene,
+                                                                             std::size_t most_triangles) {
+  const Shares shares(scene, most_triangles);
+  std::map<const geometry::TriangleMesh*, std::shared_ptr<const geometry::TriangleMesh>> made;
+  std::vector<std::shared_ptr<const geometry::TriangleMesh>> meshes;
+  for (const ViewObject& object : scene.objects) {
+    std::shared_ptr<const geometry::TriangleMesh>& mesh = made[object.mesh.get()];
+    const std::size_t most = shares.of(*object.mesh);
+    if (!mesh && object.mesh->triangles.size() <= most) mesh = object.mesh;
+    if (!mesh) mesh = std::make_shared<const geometry::TriangleMesh>(simplified(*object.mesh, most));
+    meshes.push_back(mesh);
+  }
+  return meshes;
 }
 
 }  // namespace glissade::viewer

@@ -3,8 +3,11 @@
 /// The scene as binary glTF (GLB): what the viewer's page loads, and what other programs read.
 
 #include <cstddef>
+#include <memory>
 #include <string>
+#include <vector>
 
+#include <glissade/geometry/triangle_mesh.h>
 #include <glissade/viewer/view_scene.h>
 
 namespace glissade::viewer {
@@ -15,5 +18,11 @@ namespace glissade::viewer {
 /// a node have `name` and `kind`: `fixed`, `part` and `moving` with the number `part`, or `segment` with the numbers
 /// `hand` and `link`. Throws std::invalid_argument for a model beyond 4 GiB.
 std::string scene_model(const ViewScene& scene, std::size_t most_triangles);
+
+/// The meshes of the objects with at most about `most_triangles` triangles, shared among the objects by their size;
+/// those of the scene if it has no more. Equal meshes stay equal. The vertices of a simplified mesh lie on a grid of
+/// 65,536 steps across it.
+std::vector<std::shared_ptr<const geometry::TriangleMesh>> simplified_meshes(const ViewScene& scene,
+                                                                             std::size_t most_triangles);
 
 }  // namespace glissade::viewer

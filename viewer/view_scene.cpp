@@ -3,6 +3,7 @@
 namespace glissade::viewer {
 
 Eigen::Vector3d ViewScene::p_WO() const {
+  if (p_WO_chosen) return *p_WO_chosen;
   Eigen::AlignedBox3d bounds_W;
   for (const ViewObject& object : objects) {
     Eigen::AlignedBox3d bounds_B;

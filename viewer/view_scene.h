@@ -29,6 +29,7 @@ struct ViewObject {
 struct ViewHand {
   std::int64_t device = 0;                             ///< number of its glove
   std::shared_ptr<const grasping::HandModel> model{};  ///< null without fingers: only its force is shown
+  std::vector<Eigen::Isometry3d> X_WL{};  ///< poses of the model's links; empty where the viewer moves the hand
 };
 
 struct ViewScene {
@@ -36,9 +37,10 @@ struct ViewScene {
   std::vector<ViewObject> objects;
   std::vector<ViewHand> hands;
   std::optional<Eigen::Isometry3d> X_WGoal{};  ///< where the first part is to go
+  std::optional<Eigen::Vector3d> p_WO_chosen{};
 
-  /// The origin O of everything that a viewer gets: the middle of the objects at their start. Numbers in single
-  /// precision are precise about it, wherever the scene is.
+  /// The origin O of everything that a viewer gets: the one chosen, or else the middle of the objects at their start.
+  /// Numbers in single precision are precise about that, wherever the scene is.
   Eigen::Vector3d p_WO() const;
 };
 

@@ -1,35 +1,17 @@
-#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include <glissade/apps/embedded_scene.h>
-#include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/record/offline_replay.h>
+#include <glissade/apps/record/recorded_scene.h>
 #include <glissade/apps/record/recorded_session.h>
-#include <glissade/apps/record/scene_hash.h>
 #include <glissade/apps/session_start.h>
 #include <glissade/haptics/offline_run.h>
 #include <glissade/realtime/clock.h>
 
 namespace glissade::apps {
-
-namespace {
-
-HapticScene recorded_scene(const std::string& log_path, const RecordedSession& session, const std::string& scene_file) {
-  const std::string& file = scene_file.empty() ? session.scene_file : scene_file;
-  const bool has_fingers =
-      std::any_of(session.hands.begin(), session.hands.end(), [](const RecordedHand& hand) { return hand.fingers; });
-  const Scene scene = read_or_embedded_scene(file, has_fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor);
-  HapticScene result = make_haptic_scene(scene, movable_objects(scene));
-  if (scene_hash(result) == session.scene_hash) return result;
-  throw std::invalid_argument(result.source + ": is not the scene of " + log_path +
-                              ", or has changed since; --scene names another file");
-}
-
-}  // namespace
 
 ReplayOutcome replay_offline(const std::string& log_path, const std::string& scene_file, ReplayAudience* audience) {
   devices::EventLogReader log(log_path);

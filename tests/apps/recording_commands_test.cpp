@@ -1,4 +1,4 @@
-/// Recordings made and read by the program: `demo --record`, `replay`, `log to-csv`.
+/// Recordings made and read by the program: `demo --record`, `replay`, `log to-csv`, `log to-mcap`.
 
 #include <cstdint>
 #include <filesystem>
@@ -25,6 +25,7 @@ namespace {
 using test_support::expect_fails;
 using test_support::expect_refused;
 using testing::HasSubstr;
+using testing::Not;
 
 /// The recording of a demonstration of half a second.
 class RecordingCommands : public testing::Test {
@@ -143,6 +144,58 @@ TEST_F(RecordingCommands, TablesOfADamagedLogHoldWhatComesBefore) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.standard_error, HasSubstr("changed.lcmlog: damaged at byte"));
   EXPECT_GT(test_support::rows_of(read_text_file(tables + "/ticks.csv")).size(), 200U);
+}
+
+TEST_F(RecordingCommands, McapHasEveryTickAndTheScene) {
+  const std::string mcap = folder_.path("run.mcap");
+  const test_support::ProgramResult result = test_support::glissade({"log", "to-mcap", log_, mcap});
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  EXPECT_EQ(result.standard_output,
+            "/hand_0: 500 messages\n/loop: 500 messages\n/part_0: 500 messages\n/scene: 1 message\n"
+            "/tf: 500 messages\n");
+  expect_refused({"log", "to-mcap", log_, log_}, {"run.lcmlog", "is the log itself"});
+  expect_refused({"log", "to-mcap", log_, folder_.path("no/run.mcap")}, {"no/run.mcap", "cannot be created"});
+  expect_refused({"log", "to-mcap", scene_, mcap}, {"scene.yaml", "is no LCM event log"});
+}
+
+TEST_F(RecordingCommands, McapOfADamagedLogHoldsWhatComesBefore) {
+  const std::string cut = changed(bytes().substr(0, bytes().size() / 2));
+  const std::string mcap = folder_.path("run.mcap");
+  const test_support::ProgramResult result = test_support::glissade({"log", "to-mcap", cut, mcap});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.standard_error, HasSubstr("changed.lcmlog: damaged at byte"));
+  EXPECT_THAT(result.standard_output, testing::ContainsRegex("/tf: 2[0-9][0-9] messages"));
+  EXPECT_THAT(read_text_file(mcap), testing::EndsWith("MCAP0\r\n")) << "the file is whole";
+}
+
+TEST_F(RecordingCommands, McapOfALogWithoutASessionHasNoScene) {
+  const std::string log = folder_.path("flight.lcmlog");
+  devices::EventLogReader reader(log_);
+  devices::EventLogWriter writer(log);
+  reader.next();
+  while (const std::optional<devices::LogEvent> event = reader.next())
+    writer.write(*event);
+  writer.close();
+  const std::string mcap = folder_.path("flight.mcap");
+  const test_support::ProgramResult result = test_support::glissade({"log", "to-mcap", log, mcap});
+  EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+  EXPECT_THAT(result.standard_output, HasSubstr("/tf: 500 messages"));
+  EXPECT_THAT(result.standard_output, Not(HasSubstr("/scene")));
+  expect_refused({"log", "to-mcap", log, mcap, "--scene", scene_}, {"flight.lcmlog", "HAPTIC_SESSION"});
+
+  const std::string moved = read_text_file(scene_);
+  const std::string other =
+      folder_.write("moved.yaml", std::string(moved).replace(moved.find("0, 0, 0.03"), 10, "0, 0, 0.04"));
+  expect_refused({"log", "to-mcap", log_, mcap, "--scene", other}, {"moved.yaml", "run.lcmlog", "has changed"});
+}
+
+TEST_F(RecordingCommands, McapOfALogWithoutTicksIsNotMade) {
+  const std::string log = folder_.path("other.lcmlog");
+  devices::EventLogWriter writer(log);
+  writer.write(devices::to_event(std::chrono::seconds(1), "OTHER", {1, 2, 3}));
+  writer.close();
+  expect_refused({"log", "to-mcap", log, folder_.path("other.mcap")}, {"other.lcmlog", "no tick"});
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("other.mcap")));
 }
 
 TEST_F(RecordingCommands, AFileThatCannotBeWrittenIsRefused) {

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -17,6 +18,7 @@
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/latency/latency_output.h>
+#include <glissade/apps/record/mcap_schemas.h>
 #include <glissade/apps/session.h>
 #include <glissade/apps/text.h>
 #include <glissade/devices/event_log.h>
@@ -400,8 +402,19 @@ TEST_F(ScenePages, TheTablesHaveExactlyTheKeysAndColumnsOfRecordings) {
               nlohmann::json::parse(session->message.begin(), session->message.end()));
 }
 
+TEST_F(ScenePages, TheTablesHaveExactlyTheKeysOfMcap) {
+  const std::vector<std::pair<std::string, nlohmann::json>> schemas{
+      {"/loop", loop_schema()}, {"/part_N", part_schema()}, {"/hand_N", hand_schema()}};
+  for (const auto& [topic, schema] : schemas) {
+    Texts keys;
+    for (const auto& [key, value] : schema["properties"].items())
+      keys.push_back(key);
+    EXPECT_THAT(formats.names_below("#### " + topic), UnorderedElementsAreArray(keys)) << topic;
+  }
+}
+
 TEST_F(ScenePages, TheHelpOfEveryCommandWithASceneNamesThePageAndAnExample) {
-  for (const char* command : {"demo", "record", "run", "slide"}) {
+  for (const char* command : {"demo", "export", "record", "run", "slide"}) {
     EXPECT_THAT(run(std::string(command) + " --help").standard_output, HasSubstr(kSceneFileHelp)) << command;
   }
   EXPECT_THAT(kSceneFileHelp, HasSubstr("docs/scene_files.md"));

@@ -1,6 +1,5 @@
 // The scene as binary glTF, read by the rules of the format.
 
-#include <cstring>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -9,57 +8,17 @@
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/viewer/scene_model.h>
 
+#include "glb_file.h"
+
 namespace glissade::viewer {
 namespace {
 
+using test_support::bounds_of;
+using test_support::Glb;
+using test_support::pose_of;
+using test_support::read_glb;
+
 constexpr std::size_t kWhole = 10'000'000;
-
-std::uint32_t word_at(const std::string& bytes, std::size_t offset) {
-  std::uint32_t word = 0;
-  std::memcpy(&word, bytes.data() + offset, sizeof word);
-  return word;
-}
-
-struct Glb {
-  nlohmann::json json;
-  std::string binary;
-};
-
-Glb read_glb(const std::string& bytes) {
-  EXPECT_EQ(bytes.substr(0, 4), "glTF");
-  EXPECT_EQ(word_at(bytes, 4), 2u);
-  EXPECT_EQ(word_at(bytes, 8), bytes.size());
-  const std::size_t json_size = word_at(bytes, 12);
-  EXPECT_EQ(bytes.substr(16, 4), "JSON");
-  EXPECT_EQ(json_size % 4, 0u);
-  const std::size_t second = 20 + json_size;
-  EXPECT_EQ(bytes.substr(second + 4, 4), std::string("BIN\0", 4));
-  EXPECT_EQ(second + 8 + word_at(bytes, second), bytes.size());
-  return {nlohmann::json::parse(bytes.substr(20, json_size)), bytes.substr(second + 8)};
-}
-
-Eigen::Isometry3d pose_of(const nlohmann::json& node) {
-  const auto& p = node["translation"];
-  const auto& q = node["rotation"];
-  return Eigen::Translation3d(p[0], p[1], p[2]) * Eigen::Quaterniond(q[3], q[0], q[1], q[2]);
-}
-
-/// The bounding box of a node's mesh, in the frame of the scene.
-Eigen::AlignedBox3d bounds_of(const Glb& glb, const nlohmann::json& node) {
-  const nlohmann::json& grid = glb.json["nodes"][node["children"][0].get<std::size_t>()];
-  const nlohmann::json& primitive = glb.json["meshes"][grid["mesh"].get<std::size_t>()]["primitives"][0];
-  const nlohmann::json& accessor = glb.json["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
-  const nlohmann::json& view = glb.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
-  Eigen::AlignedBox3d box;
-  for (std::size_t i = 0; i < accessor["count"]; ++i) {
-    std::array<std::uint16_t, 3> p{};
-    const std::size_t offset = view["byteOffset"].get<std::size_t>() + i * view["byteStride"].get<std::size_t>();
-    std::memcpy(p.data(), glb.binary.data() + offset, sizeof p);
-    const Eigen::Vector3d lower(grid["translation"][0], grid["translation"][1], grid["translation"][2]);
-    box.extend(pose_of(node) * (lower + grid["scale"][0].get<double>() * Eigen::Vector3d(p[0], p[1], p[2])));
-  }
-  return box;
-}
 
 ViewScene two_boxes(const Eigen::Vector3d& at) {
   const auto box = std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.2, 0.2, 0.2}, 12));
@@ -127,6 +86,36 @@ TEST(SceneModel, ASmallerModelTellsHowManyTrianglesTheSceneHas) {
   for (const nlohmann::json& accessor : glb.json["accessors"])
     if (accessor["type"] == "SCALAR") indices += accessor["count"].get<std::size_t>();
   EXPECT_LT(indices / 3, 5500u);
+}
+
+TEST(SceneModel, AHandWhoseLinksHavePosesStandsThere) {
+  ViewScene scene = two_boxes({1.0, 2.0, 3.0});
+  const auto model = std::make_shared<const grasping::HandModel>(grasping::make_hand());
+  const Eigen::Isometry3d X_WL(Eigen::Translation3d(4.0, 5.0, 6.0));
+  scene.hands = {{.model = model, .X_WL = {model->chain.links().size(), X_WL}}};
+  scene.p_WO_chosen = Eigen::Vector3d(1.0, 0.0, 0.0);
+  const Glb glb = read_glb(scene_model(scene, kWhole));
+  for (const nlohmann::json& node : glb.json["nodes"]) {
+    if (!node.contains("extras") || node["extras"]["kind"] != "segment") continue;
+    EXPECT_TRUE(pose_of(node).translation().isApprox(Eigen::Vector3d(3.0, 5.0, 6.0)));
+  }
+}
+
+TEST(SceneModel, MeshesAreSimplifiedByTheirSize) {
+  ViewScene scene = two_boxes(Eigen::Vector3d::Zero());
+  const auto ball = std::make_shared<geometry::TriangleMesh>(geometry::make_sphere(0.1, 40'000));
+  scene.objects[0].mesh = ball;
+  scene.objects.push_back(scene.objects[0]);
+  EXPECT_EQ(simplified_meshes(scene, kWhole)[0], ball) << "no copy of what fits";
+
+  const auto meshes = simplified_meshes(scene, 8000);
+  ASSERT_EQ(meshes.size(), 3U);
+  EXPECT_EQ(meshes[0], meshes[2]) << "of one mesh";
+  EXPECT_EQ(meshes[1], scene.objects[1].mesh) << "twelve triangles stay";
+  EXPECT_LT(meshes[0]->triangles.size(), 5500U);
+  EXPECT_GT(meshes[0]->triangles.size(), 2500U);
+  for (const Eigen::Vector3d& vertex : meshes[0]->vertices)
+    EXPECT_NEAR(vertex.norm(), 0.1, 1e-3);
 }
 
 }  // namespace

@@ -1,0 +1,244 @@
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include <glissade/apps/force_reason.h>
+#include <glissade/apps/progress.h>
+#include <glissade/apps/record/log_mcap.h>
+#include <glissade/apps/record/mcap_schemas.h>
+#include <glissade/apps/record/mcap_writer.h>
+#include <glissade/apps/record/recorded_scene.h>
+#include <glissade/apps/record/recorded_session.h>
+#include <glissade/devices/event_log.h>
+#include <glissade/haptics/recording.h>
+#include <glissade/viewer/scene_model.h>
+
+namespace glissade::apps {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kWorld = "world";
+constexpr std::size_t kMostTriangles = 100'000;
+
+double in_seconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+std::string numbered(const std::string& name, std::size_t number) {
+  return name + "_" + std::to_string(number);
+}
+
+Json json_of(const Eigen::Vector3d& v) {
+  return {{"x", v.x()}, {"y", v.y()}, {"z", v.z()}};
+}
+
+/// The orientation of a frame, with w ≥ 0.
+Json orientation_of(const Eigen::Isometry3d& X) {
+  Eigen::Quaterniond q(X.linear());
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  return {{"x", q.x()}, {"y", q.y()}, {"z", q.z()}, {"w", q.w()}};
+}
+
+Json stamp_of(std::chrono::nanoseconds time) {
+  constexpr std::int64_t kBillion = 1'000'000'000;
+  return {{"sec", time.count() / kBillion}, {"nsec", time.count() % kBillion}};
+}
+
+Json transform(std::chrono::nanoseconds time, const std::string& child, const Eigen::Isometry3d& X) {
+  return {{"timestamp", stamp_of(time)},
+          {"parent_frame_id", kWorld},
+          {"child_frame_id", child},
+          {"translation", json_of(X.translation())},
+          {"rotation", orientation_of(X)}};
+}
+
+Json triangles_of(const geometry::TriangleMesh& mesh, const Eigen::Isometry3d& X, const Json& color) {
+  Json points = Json::array();
+  for (const Eigen::Vector3d& vertex : mesh.vertices)
+    points.push_back(json_of(vertex));
+  Json indices = Json::array();
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::int32_t vertex : triangle)
+      indices.push_back(vertex);
+  }
+  return {{"pose", {{"position", json_of(X.translation())}, {"orientation", orientation_of(X)}}},
+          {"points", std::move(points)},
+          {"color", color},
+          {"colors", Json::array()},
+          {"indices", std::move(indices)}};
+}
+
+/// A fixed object stands in the world, any other one in the frame of its part.
+Json entity_of(const viewer::ViewObject& object, const geometry::TriangleMesh& mesh, std::chrono::nanoseconds time) {
+  const char* const kind = !object.part ? "fixed" : object.moves_on_its_own ? "moving" : "part";
+  const Json color = !object.part              ? Json{{"r", 0.74}, {"g", 0.77}, {"b", 0.79}, {"a", 1.0}}
+                     : object.moves_on_its_own ? Json{{"r", 0.76}, {"g", 0.58}, {"b", 0.27}, {"a", 1.0}}
+                                               : Json{{"r", 0.31}, {"g", 0.56}, {"b", 0.81}, {"a", 1.0}};
+  const Eigen::Isometry3d X = object.part ? Eigen::Isometry3d::Identity() : object.X_WB;
+  Json entity{{"timestamp", stamp_of(time)},
+              {"frame_id", object.part ? numbered("part", *object.part) : kWorld},
+              {"id", object.name},
+              {"lifetime", stamp_of({})},
+              {"frame_locked", true},
+              {"metadata", Json::array({{{"key", "kind"}, {"value", kind}}})},
+              {"triangles", Json::array({triangles_of(mesh, X, color)})}};
+  for (const char* unused : {"arrows", "cubes", "spheres", "cylinders", "lines", "texts", "models"})
+    entity[unused] = Json::array();
+  return entity;
+}
+
+Json scene_update(const viewer::ViewScene& scene, std::chrono::nanoseconds time) {
+  const auto meshes = viewer::simplified_meshes(scene, kMostTriangles);
+  Json entities = Json::array();
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    entities.push_back(entity_of(scene.objects[i], *meshes[i], time));
+  return {{"deletions", Json::array()}, {"entities", std::move(entities)}};
+}
+
+Json loop_message(const haptics::TickRecord& tick) {
+  return {{"tick", tick.number},
+          {"lateness_s", in_seconds(tick.time - tick.deadline)},
+          {"duration_s", in_seconds(tick.duration)},
+          {"contact_set", tick.set_sequence},
+          {"requests", std::ssize(tick.requests.all())},
+          {"stopped", tick.is_stopped}};
+}
+
+Json part_message(const devices::HapticState& state, const devices::HapticPartState& part) {
+  const Eigen::Isometry3d X_VG = part.X_WV.inverse() * part.X_WG;
+  return {{"tick", state.sequence},
+          {"state", devices::name_of(part.state)},
+          {"contacts", part.contact_count},
+          {"position_m", json_of(part.X_WV.translation())},
+          {"ghost_position_m", json_of(part.X_WG.translation())},
+          {"lag_m", X_VG.translation().norm()},
+          {"lag_rad", Eigen::AngleAxisd(X_VG.linear()).angle()},
+          {"age_s", in_seconds(state.contact_set_age)}};
+}
+
+Json joints_of(const devices::JointValues& values, const std::string& ending) {
+  Json joints = Json::object();
+  for (std::size_t j = 0; j < values.size(); ++j)
+    joints[std::string(devices::kGloveJointNames[j]) + ending] = values[j];
+  return joints;
+}
+
+Json hand_message(const devices::HapticState& state, std::size_t number) {
+  const devices::HapticHandState& hand = state.hands[number];
+  Json message{{"tick", state.sequence},
+               {"part", hand.part},
+               {"force_N", json_of(hand.force_W)},
+               {"torque_Nm", json_of(hand.torque_V_W)},
+               {"contact_share", hand.contact_share},
+               {"state_age_s", in_seconds(hand.state_age)},
+               {"command_age_s", in_seconds(hand.command_age)},
+               {"energy_J", hand.energy},
+               {"reason", to_text(force_reason(state, number))},
+               {"activity", devices::name_of(hand.visible.activity)},
+               {"grasp", devices::name_of(hand.visible.grasp)}};
+  if (hand.visible.activity == devices::HandActivity::kNone) return message;
+  message["angles_rad"] = joints_of(hand.visible.angles, "_rad");
+  message["torques_Nm"] = joints_of(hand.joint_torques, "_Nm");
+  return message;
+}
+
+/// A file that begins with the first message.
+class McapLog {
+ public:
+  McapLog(std::string path, std::optional<viewer::ViewScene> scene)
+      : path_(std::move(path)), scene_(std::move(scene)) {}
+
+  void add(const devices::LogEvent& event) {
+    if (const auto tick = haptics::consumed_by_tick(event)) return add(*tick);
+    if (const auto state = devices::haptic_state_of(event)) add(*state);
+  }
+
+  std::vector<McapTopic> close() {
+    std::vector<McapTopic> topics;
+    if (!writer_) return topics;
+    writer_->close();
+    for (const auto& [topic, channel] : channels_)
+      topics.push_back({topic, writer_->count(channel)});
+    return topics;
+  }
+
+ private:
+  void write(const std::string& topic, Json (*schema)(), std::chrono::nanoseconds time, const Json& message) {
+    if (!writer_) writer_.emplace(path_);
+    const auto [channel, is_new] = channels_.try_emplace(topic, 0);
+    if (is_new) channel->second = writer_->add_channel(topic, schema().at("title"), schema().dump());
+    writer_->write(channel->second, time, message.dump(-1, ' ', false, Json::error_handler_t::replace));
+  }
+
+  void add(const haptics::TickRecord& tick) {
+    for (std::size_t h = 0; h < X_WH_.size(); ++h) {
+      if (tick.has_state[h]) X_WH_[h] = tick.states[h].X_WH;
+    }
+    write("/loop", &loop_schema, tick.time, loop_message(tick));
+  }
+
+  void add(const devices::HapticState& state) {
+    if (scene_) {
+      write("/scene", &scene_update_schema, state.time, scene_update(*scene_, state.time));
+      scene_.reset();
+    }
+    Json transforms = Json::array();
+    for (std::size_t p = 0; p < static_cast<std::size_t>(state.part_count); ++p) {
+      transforms.push_back(transform(state.time, numbered("part", p), state.parts[p].X_WV));
+      transforms.push_back(transform(state.time, numbered("ghost", p), state.parts[p].X_WG));
+      write(numbered("/part", p), &part_schema, state.time, part_message(state, state.parts[p]));
+    }
+    for (std::size_t h = 0; h < static_cast<std::size_t>(state.hand_count); ++h) {
+      const devices::VisibleHand& visible = state.hands[h].visible;
+      if (visible.activity != devices::HandActivity::kNone) X_WH_[h] = visible.X_WH;
+      if (X_WH_[h]) transforms.push_back(transform(state.time, numbered("hand", h), *X_WH_[h]));
+      write(numbered("/hand", h), &hand_schema, state.time, hand_message(state, h));
+    }
+    write("/tf", &frame_transforms_schema, state.time, {{"transforms", std::move(transforms)}});
+  }
+
+  std::string path_;
+  std::optional<viewer::ViewScene> scene_;  // until it is written
+  std::optional<McapWriter> writer_;
+  std::map<std::string, std::uint16_t> channels_;
+  std::array<std::optional<Eigen::Isometry3d>, devices::kHapticHands> X_WH_{};  // of a hand without fingers: its glove
+};
+
+/// A log without a session has no scene.
+std::optional<viewer::ViewScene> scene_of(const std::string& log_path, const std::string& scene_file) {
+  devices::EventLogReader first(log_path);
+  const std::optional<devices::LogEvent> event = first.next();
+  if (scene_file.empty() && (!event || event->channel != kHapticSessionChannel)) return std::nullopt;
+  devices::EventLogReader log(log_path);
+  return recorded_view(log_path, read_session(log, log_path), scene_file);
+}
+
+}  // namespace
+
+std::vector<McapTopic> write_log_mcap(const std::string& log_path, const std::string& mcap_path,
+                                      const std::string& scene_file, std::string& damage) {
+  McapLog mcap(mcap_path, scene_of(log_path, scene_file));
+  std::error_code error;
+  if (std::filesystem::equivalent(log_path, mcap_path, error))
+    throw std::invalid_argument(mcap_path + ": is the log itself");
+  devices::EventLogReader log(log_path);
+  ProgressBar progress("mcap", static_cast<std::int64_t>(std::filesystem::file_size(log_path)));
+  std::int64_t bytes = 0;
+  while (const std::optional<devices::LogEvent> event = log.next()) {
+    mcap.add(*event);
+    bytes += std::ssize(event->message);
+    progress.update(bytes);
+  }
+  damage = log.damage();
+  return mcap.close();
+}
+
+}  // namespace glissade::apps
