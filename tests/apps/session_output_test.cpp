@@ -65,7 +65,8 @@ TEST(SessionText, ARunWithoutASearchHasNoMeans) {
 TEST(SessionReport, OfARunThatNeverBeganIsAPage) {
   test_support::TemporaryFolder folder;
   const Session session = session_of(0);
-  const std::string page = write_session_report(summary_of(session), session, "run", folder.path("report"));
+  const std::string page =
+      write_session_report(summary_of(session), session, "run", folder.path("report"), HapticScene{});
   std::ostringstream text;
   text << std::ifstream(page).rdbuf();
   EXPECT_THAT(text.str(), HasSubstr("before the first state"));
