@@ -1,37 +1,49 @@
 #pragma once
 
-/// Strict validation of mesh files before the importer library reads them.
-///
-/// The library crashes, hangs or invents geometry on broken files. So each `vetted_` function reads `bytes`, the
-/// content of the whole file, and returns a clean file of the same format that contains the geometry only. It throws
-/// std::invalid_argument for the first error, naming the file and the place.
+/// Mesh files: opening and reading them, and messages about them.
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <string>
-#include <string_view>
 
 namespace glissade::geometry {
 
-struct VettedFile {
-  std::string bytes;
-  std::int64_t polygons_triangulated = 0;
+/// A file to read. Its size is known before its content is read, so that a header can be compared with it first.
+class MeshFile {
+ public:
+  /// Largest size in bytes, 16 GiB. The shortest vertex of a text takes 8 bytes, so no larger file has vertices that
+  /// an index of 31 bits can number.
+  static constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 34U;
+
+  /// Opens the file. Throws std::invalid_argument for a file that is missing, not regular, unreadable, empty or larger
+  /// than `kMostBytes`.
+  explicit MeshFile(const std::filesystem::path& path);
+
+  const std::filesystem::path& path() const { return path_; }
+  std::uint64_t size() const { return size_; }
+
+  /// The first `length` bytes, or all if the file is shorter. Throws std::invalid_argument when they cannot be read.
+  std::string beginning(std::uint64_t length);
+  std::string content() { return beginning(size_); }
+
+ private:
+  std::filesystem::path path_;
+  std::uint64_t size_ = 0;
+  std::ifstream stream_;
 };
-
-VettedFile vetted_obj(const std::filesystem::path& path, std::string_view bytes);
-VettedFile vetted_stl(const std::filesystem::path& path, std::string_view bytes);
-VettedFile vetted_ply(const std::filesystem::path& path, std::string_view bytes);
-/// Both kinds of glTF become one GLB. Buffers in separate files are read too.
-VettedFile vetted_gltf(const std::filesystem::path& path, std::string_view bytes);
-VettedFile vetted_glb(const std::filesystem::path& path, std::string_view bytes);
-
-/// The whole content of a file; rejects a file that is missing, not regular, unreadable or empty.
-std::string file_content(const std::filesystem::path& path);
 
 /// Throws std::invalid_argument: `path` and `what` in one line, shortened and without control characters.
 [[noreturn]] void reject(const std::filesystem::path& path, const std::string& what);
 
-/// Rejects a coordinate that is not finite or beyond ±1e9; `where` names the line or element.
-void check_coordinate(const std::filesystem::path& path, const std::string& where, double value);
+/// Whether the number is finite and within ±1e9.
+inline bool is_coordinate(double value) {
+  constexpr double kLargest = 1e9;
+  return std::abs(value) <= kLargest;
+}
+
+/// Rejects a number that is not a coordinate; `where` names the line or element.
+[[noreturn]] void reject_coordinate(const std::filesystem::path& path, const std::string& where, double value);
 
 }  // namespace glissade::geometry

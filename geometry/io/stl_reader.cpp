@@ -1,12 +1,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <limits>
-#include <vector>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include <glissade/base/byte_order.h>
 
-#include "io/mesh_validation.h"
+#include "io/mesh_readers.h"
 #include "io/text_scanner.h"
 
 namespace glissade::geometry {
@@ -15,71 +16,99 @@ namespace {
 constexpr std::size_t kHeaderSize = 84;
 constexpr std::size_t kTriangleSize = 50;
 
-std::string binary_stl(const std::vector<float>& coordinates) {
-  std::string output(80, '\0');
-  base::append_number(output, static_cast<std::uint32_t>(coordinates.size() / 9));
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    if (i % 9 == 0) output.append(12, '\0');  // the normal
-    base::append_number(output, coordinates[i]);
-    if (i % 9 == 8) output.append(2, '\0');  // the attribute
-  }
-  return output;
+/// As much of the file as shows whether it is text.
+constexpr std::uint64_t kBeginning = 4096;
+
+/// Adds a triangle of the three newest vertices.
+void add_triangle_of_newest_vertices(TriangleMesh& mesh) {
+  const auto count = static_cast<std::int32_t>(mesh.vertices.size());
+  mesh.triangles.push_back({count - 3, count - 2, count - 1});
 }
 
-std::string vetted_binary(const std::filesystem::path& path, std::string_view bytes) {
-  if (bytes.size() < kHeaderSize) {
-    reject(path, "The file is truncated: it has " + std::to_string(bytes.size()) + " bytes, an STL header has 84");
+bool equal_ignoring_case(std::string_view a, std::string_view lower_case) {
+  return std::equal(a.begin(), a.end(), lower_case.begin(), lower_case.end(),
+                    [](char x, char y) { return std::tolower(static_cast<unsigned char>(x)) == y; });
+}
+
+/// The size of a binary file with as many triangles as the header says; 0 without a whole header.
+std::uint64_t binary_size(std::string_view beginning) {
+  if (beginning.size() < kHeaderSize) return 0;
+  return kHeaderSize + kTriangleSize * std::uint64_t{base::number_at<std::uint32_t>(beginning, 80)};
+}
+
+/// Binary files may begin with "solid" too. So the exact size of a binary file is tested first, and zero bytes, which
+/// no text has, second.
+bool is_text(std::string_view beginning, std::uint64_t file_size) {
+  if (file_size == binary_size(beginning)) return false;
+  const std::string_view text = without_byte_order_mark(beginning);
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos || text.find('\0') != std::string_view::npos) return false;
+  return equal_ignoring_case(text.substr(begin, 5), "solid");
+}
+
+void check_binary_size(const MeshFile& file, std::string_view beginning) {
+  const std::string size = std::to_string(file.size());
+  if (beginning.size() < kHeaderSize) {
+    reject(file.path(), "The file is truncated: it has " + size + " bytes, an STL header has 84");
   }
-  const std::uint64_t count = base::number_at<std::uint32_t>(bytes, 80);
-  const std::uint64_t expected = kHeaderSize + kTriangleSize * count;
-  if (bytes.size() != expected) {
-    reject(path, std::string(bytes.size() < expected ? "The file is truncated" : "The file is too long") + ": it has " +
-                     std::to_string(bytes.size()) + " bytes, but " + std::to_string(count) + " triangles take " +
-                     std::to_string(expected));
+  const std::uint64_t expected = binary_size(beginning);
+  const std::uint32_t count = base::number_at<std::uint32_t>(beginning, 80);
+  if (file.size() != expected) {
+    reject(file.path(), std::string(file.size() < expected ? "The file is truncated" : "The file is too long") +
+                            ": it has " + size + " bytes, but " + std::to_string(count) + " triangles take " +
+                            std::to_string(expected));
   }
-  if (count == 0) reject(path, "The file has no triangles");
-  std::vector<float> coordinates;
-  coordinates.reserve(9 * count);
+  if (count == 0) reject(file.path(), "The file has no triangles");
+}
+
+TriangleMesh read_binary(const MeshFile& file, std::string_view bytes) {
+  const std::size_t count = (bytes.size() - kHeaderSize) / kTriangleSize;
+  TriangleMesh mesh;
+  mesh.vertices.reserve(3 * count);
+  mesh.triangles.reserve(count);
   for (std::size_t t = 0; t < count; ++t) {
-    for (std::size_t i = 0; i < 9; ++i) {
-      const float value = base::number_at<float>(bytes, kHeaderSize + kTriangleSize * t + 12 + 4 * i);
-      check_coordinate(path, "triangle " + std::to_string(t), static_cast<double>(value));
-      coordinates.push_back(value);
+    const std::size_t begin = kHeaderSize + kTriangleSize * t + 12;  // after the normal
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      Eigen::Vector3d& vertex = mesh.vertices.emplace_back();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto value = double{base::number_at<float>(bytes, begin + 12 * corner + 4 * axis)};
+        if (!is_coordinate(value)) reject_coordinate(file.path(), "triangle " + std::to_string(t), value);
+        vertex[static_cast<Eigen::Index>(axis)] = value;
+      }
     }
+    add_triangle_of_newest_vertices(mesh);
   }
-  return binary_stl(coordinates);
+  return mesh;
 }
 
 /// Reads a text STL file word by word.
 class TextStlReader {
  public:
-  TextStlReader(const std::filesystem::path& path, std::string_view bytes) : path_(path), words_(bytes) {}
+  TextStlReader(const std::filesystem::path& path, std::string_view text)
+      : path_(path), words_(without_byte_order_mark(text)) {}
 
-  std::string clean() {
+  TriangleMesh read() {
     while (words_.has_word()) {
       read_solid();
     }
-    if (coordinates_.empty()) reject(path_, "The file has no triangles");
-    return binary_stl(coordinates_);
+    if (mesh_.triangles.empty()) reject(path_, "The file has no triangles");
+    return std::move(mesh_);
   }
 
  private:
-  std::string_view word(const std::string& expected) {
+  std::string where() const { return words_.lines().where(); }
+
+  std::string_view word(std::string_view expected) {
     if (!words_.has_word()) {
-      reject(path_, words_.lines().where() + ": the file is truncated, '" + expected + "' should follow");
+      reject(path_, where() + ": the file is truncated, '" + std::string(expected) + "' should follow");
     }
     return words_.word();
   }
 
-  static bool equal(std::string_view a, std::string_view lower_case) {
-    return std::equal(a.begin(), a.end(), lower_case.begin(), lower_case.end(), [](char x, char y) {
-      return std::tolower(static_cast<unsigned char>(x)) == static_cast<unsigned char>(y);
-    });
-  }
-
-  void expect(const std::string& expected) {
-    if (!equal(word(expected), expected))
-      reject(path_, words_.lines().where() + ": '" + expected + "' should stand here");
+  void expect(std::string_view expected) {
+    if (!equal_ignoring_case(word(expected), expected)) {
+      reject(path_, where() + ": '" + std::string(expected) + "' should stand here");
+    }
   }
 
   void read_solid() {
@@ -87,8 +116,10 @@ class TextStlReader {
     words_.skip_line();  // the rest of the line is a name
     while (true) {
       const std::string_view keyword = word("endsolid");
-      if (equal(keyword, "endsolid")) break;
-      if (!equal(keyword, "facet")) reject(path_, words_.lines().where() + ": 'facet' or 'endsolid' should stand here");
+      if (equal_ignoring_case(keyword, "endsolid")) break;
+      if (!equal_ignoring_case(keyword, "facet")) {
+        reject(path_, where() + ": 'facet' or 'endsolid' should stand here");
+      }
       read_facet();
     }
     words_.skip_line();
@@ -103,43 +134,32 @@ class TextStlReader {
     expect("loop");
     for (int i = 0; i < 3; ++i) {
       expect("vertex");
-      for (int k = 0; k < 3; ++k) {
-        const std::string_view text = word("a coordinate");
-        const auto value = parse_number(text);
-        if (!value) reject(path_, words_.lines().where() + ": a coordinate is not a number");
-        check_coordinate(path_, words_.lines().where(), *value);
-        coordinates_.push_back(static_cast<float>(*value));
+      Eigen::Vector3d& vertex = mesh_.vertices.emplace_back();
+      for (double& coordinate : vertex) {
+        const auto value = parse_number(word("a coordinate"));
+        if (!value) reject(path_, where() + ": a coordinate is not a number");
+        if (!is_coordinate(*value)) reject_coordinate(path_, where(), *value);
+        coordinate = *value;
       }
     }
     expect("endloop");
     expect("endfacet");
+    add_triangle_of_newest_vertices(mesh_);
   }
 
   const std::filesystem::path& path_;
   WordScanner words_;
-  std::vector<float> coordinates_;
+  TriangleMesh mesh_;
 };
-
-/// Binary files may begin with "solid" too. So the exact size of a binary file is tested first, and zero bytes, which
-/// no text has, second.
-bool is_text(std::string_view bytes) {
-  if (bytes.size() >= kHeaderSize &&
-      bytes.size() == kHeaderSize + kTriangleSize * std::uint64_t{base::number_at<std::uint32_t>(bytes, 80)}) {
-    return false;
-  }
-  const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
-  if (begin == std::string_view::npos || bytes.find('\0') != std::string_view::npos) return false;
-  const std::string_view first = bytes.substr(begin, 5);
-  constexpr std::string_view kSolid = "solid";
-  return std::equal(first.begin(), first.end(), kSolid.begin(), kSolid.end(), [](char x, char y) {
-    return std::tolower(static_cast<unsigned char>(x)) == static_cast<unsigned char>(y);
-  });
-}
 
 }  // namespace
 
-VettedFile vetted_stl(const std::filesystem::path& path, std::string_view bytes) {
-  return {is_text(bytes) ? TextStlReader(path, bytes).clean() : vetted_binary(path, bytes)};
+TriangleSoup read_stl(MeshFile& file) {
+  const std::string beginning = file.beginning(kBeginning);
+  const bool as_text = is_text(beginning, file.size());
+  if (!as_text) check_binary_size(file, beginning);
+  const std::string content = file.content();
+  return {as_text ? TextStlReader(file.path(), content).read() : read_binary(file, content)};
 }
 
 }  // namespace glissade::geometry
