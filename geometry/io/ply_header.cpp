@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "io/polygon_triangulation.h"
@@ -61,7 +62,7 @@ class PlyHeaderReader {
     if (!lines_.next() || lines_.line() != "ply") reject(path_, "line 1: a PLY file begins with 'ply'");
     bool has_format = false;
     while (true) {
-      if (!lines_.next()) fail("the file is truncated, 'end_header' is missing");
+      if (!lines_.next()) fail_without_end();
       split(lines_.line(), words_);
       if (words_.empty() || words_[0] == "comment" || words_[0] == "obj_info") continue;
       if (words_[0] == "end_header") break;
@@ -79,12 +80,18 @@ class PlyHeaderReader {
     if (!has_format) fail("the header names no format");
     check_layout();
     header_.bytes = size_ - lines_.rest().size();
+    if (header_.bytes == kLongestHeader) fail_without_end();  // its last line may go on
     header_.lines = lines_.number();
     return std::move(header_);
   }
 
  private:
   [[noreturn]] void fail(const std::string& what) const { reject(path_, lines_.where() + ": " + what); }
+
+  [[noreturn]] void fail_without_end() const {
+    if (size_ < kLongestHeader) fail("the file is truncated, 'end_header' is missing");
+    reject(path_, "The header does not end within its first " + std::to_string(kLongestHeader) + " bytes");
+  }
 
   void read_format() {
     if (words_.size() != 3 || words_[2] != "1.0") fail("the format must be 'format <kind> 1.0'");
@@ -103,9 +110,7 @@ class PlyHeaderReader {
     if (!count || *count < 0 || *count > std::numeric_limits<std::int32_t>::max()) {
       fail("the count of an element must be from 0 to 2147483647");
     }
-    const bool is_known = std::any_of(header_.elements.begin(), header_.elements.end(),
-                                      [&](const PlyElement& element) { return element.name == words_[1]; });
-    if (is_known) fail("the element " + std::string(words_[1]) + " has been named before");
+    if (!names_.insert(words_[1]).second) fail("the element " + std::string(words_[1]) + " has been named before");
     header_.elements.push_back({std::string(words_[1]), *count, {}});
   }
 
@@ -120,12 +125,12 @@ class PlyHeaderReader {
   }
 
   void check_layout() const {
-    int axes = 0;
+    std::string axes;
     int lists = 0;
     for (const PlyElement& element : header_.elements) {
       for (const PlyProperty& property : element.properties) {
         const bool is_axis = property.name == "x" || property.name == "y" || property.name == "z";
-        if (element.name == "vertex" && is_axis && !property.count_type) ++axes;
+        if (element.name == "vertex" && is_axis && !property.count_type) axes += property.name;
         if (element.name == "face" && property.is_corner_list()) {
           ++lists;
           if (!is_integer(property.type))
@@ -133,7 +138,8 @@ class PlyHeaderReader {
         }
       }
     }
-    if (axes != 3) reject(path_, "The header must give the element vertex the properties x, y and z, once each");
+    std::sort(axes.begin(), axes.end());
+    if (axes != "xyz") reject(path_, "The header must give the element vertex the properties x, y and z, once each");
     if (lists != 1) reject(path_, "The header must give the element face one list vertex_indices: there are no faces");
   }
 
@@ -141,6 +147,7 @@ class PlyHeaderReader {
   std::size_t size_;
   LineScanner lines_;
   std::vector<std::string_view> words_;
+  std::set<std::string_view> names_;  // of elements
   PlyHeader header_;
 };
 
@@ -177,11 +184,7 @@ std::string whole(double number) {
 
 PlyHeader read_ply_header(MeshFile& file) {
   const std::string beginning = file.beginning(kLongestHeader);
-  PlyHeader header = PlyHeaderReader(file.path(), beginning).read();
-  if (header.bytes == kLongestHeader && file.size() > kLongestHeader) {
-    reject(file.path(), "The header is longer than " + std::to_string(kLongestHeader) + " bytes");
-  }
-  return header;
+  return PlyHeaderReader(file.path(), beginning).read();
 }
 
 void check_ply_size(const MeshFile& file, const PlyHeader& header) {

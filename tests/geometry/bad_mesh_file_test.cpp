@@ -110,6 +110,7 @@ TEST_F(BadMeshFile, Ply) {
       {"a.ply", with(kAsciiPly, "3 1 2 3", "3 1 nan 3"), "face 3", "index nan is out of range"},
       {"a.ply", with(kAsciiPly, "3 1 2 3", "3 1 1e300 3"), "face 3", "index 1e+300 is"},
       {"a.ply", with(kAsciiPly, "property float z\n", ""), "header", "x, y and z"},
+      {"a.ply", with(kAsciiPly, "property float z\n", "property float x\n"), "header", "x, y and z"},
       {"a.ply", with(kAsciiPly, "vertex_indices", "corners"), "header", "no faces"},
       {"a.ply", with(kAsciiPly, "comment", "remark"), "line 3", "header line"},
       {"a.ply", with(kAsciiPly, "element face 4", "element face 0").substr(0, kAsciiPly.find("3 0 2 1")), "",
