@@ -14,9 +14,9 @@
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
 #include <glissade/apps/files/scene_file.h>
-#include <glissade/apps/open_files.h>
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/sliding_option.h>
 #include <glissade/apps/text.h>

@@ -14,10 +14,10 @@
 #include <glissade/apps/command.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
 #include <glissade/apps/files/scene_file.h>
-#include <glissade/apps/open_files.h>
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/lcm_option.h>
+#include <glissade/apps/open_files.h>
 #include <glissade/apps/record/dump_signal.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/status_line.h>

@@ -14,9 +14,9 @@
 #include <glissade/apps/command.h>
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/files/scene_file.h>
-#include <glissade/apps/open_files.h>
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/slide_check.h>
