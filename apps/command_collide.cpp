@@ -13,9 +13,9 @@
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/files/poses_file.h>
 #include <glissade/apps/load_or_build_tree.h>
+#include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/text.h>
-#include <glissade/geometry/mesh_import.h>
 
 namespace glissade::apps {
 
@@ -52,10 +52,6 @@ struct CollideOptions {
   CollideQuestion question;
 };
 
-std::shared_ptr<const geometry::TriangleMesh> load(const std::string& path) {
-  return std::make_shared<const geometry::TriangleMesh>(geometry::import_mesh(path).mesh);
-}
-
 void check(const CollideQuestion& question) {
   if (!std::isfinite(question.tolerance) || question.tolerance < 0.0) {
     throw std::invalid_argument("--tolerance-m: must be a distance of at least 0, not " +
@@ -67,8 +63,8 @@ int run(const CollideOptions& options) {
   check(options.question);
   const std::vector<Eigen::Isometry3d> poses_AB = read_poses(options.poses);
   const TreeFiles beside = options.cache ? TreeFiles{options.mesh_A, options.mesh_B} : TreeFiles{};
-  const CollideMethod method =
-      make_collide_method(options.method, load(options.mesh_A), load(options.mesh_B), options.question, beside);
+  const CollideMethod method = make_collide_method(options.method, open_mesh(options.mesh_A), open_mesh(options.mesh_B),
+                                                   options.question, beside);
 
   std::vector<std::string> columns{"pose", "colliding"};
   if (options.question.count_pairs) columns.emplace_back("pairs");

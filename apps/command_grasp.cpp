@@ -16,6 +16,7 @@
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/sliding_option.h>
 #include <glissade/apps/text.h>
@@ -196,7 +197,7 @@ int run(const GraspOptions& options) {
   for (const std::string& file : options.trajectories)
     check_duration(trajectories.emplace_back(read_hand_trajectory(file)).duration(), file);
   const std::vector<std::shared_ptr<const grasping::HandModel>> hands = make_hands(options);
-  const Scene scene_file = read_scene(options.scene);
+  const Scene scene_file = open_scene(options.scene);
   const HapticScene scene = make_haptic_scene(scene_file, movable_objects(scene_file));
   for (const std::string& name : scene.body_names)
     check_name_fits_csv(scene, name);

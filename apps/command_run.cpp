@@ -17,6 +17,7 @@
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/lcm_option.h>
+#include <glissade/apps/open_files.h>
 #include <glissade/apps/record/dump_signal.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/status_line.h>
@@ -194,7 +195,7 @@ int run(const RunOptions& options) {
   }
   realtime::lock_memory();
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
-  const Scene file = read_scene(options.scene);
+  const Scene file = open_scene(options.scene);
   const HapticScene scene = make_haptic_scene(file, movable_objects(file));
   RunSettings settings{.hands = hands_of(options, scene),
                        .choice = options.choice,

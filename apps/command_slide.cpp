@@ -16,6 +16,7 @@
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/slide_check.h>
@@ -249,7 +250,7 @@ int run(const SlideOptions& options) {
       throw std::invalid_argument("--trajectory: " + in_quotes(file) + " has a comma, quote or line break in its name");
     }
   }
-  const HapticScene scene = make_haptic_scene(read_scene(options.scene), {options.part});
+  const HapticScene scene = make_haptic_scene(open_scene(options.scene), {options.part});
   if (check_options.method == haptics::SlidingMethod::kPaper && !scene.moving.empty()) {
     throw std::invalid_argument("--method: paper does not support objects that move on their own, such as " +
                                 scene.moving.front().name);

@@ -20,7 +20,7 @@ std::string_view embedded_scene_script(Demonstration demonstration);
 /// The file's name of that script, for messages.
 std::string embedded_script_name(Demonstration demonstration);
 
-/// The scene in this file; with an empty name, that of the demonstration. Throws as `read_scene` does.
+/// The scene in this file, opened by `open_scene`; with an empty name, that of the demonstration.
 Scene read_or_embedded_scene(const std::string& path, Demonstration demonstration);
 
 }  // namespace glissade::apps

@@ -21,14 +21,14 @@ struct ImportedMesh {
 /// coordinates, materials, lines and points are ignored. Coordinates are multiplied by `scale` (metres per unit of the
 /// file).
 ///
-/// Coordinates are read in single precision, with a relative rounding error of up to 6e-8. The error is 0.06 µm at one
-/// metre from the origin of the file, but 0.06 mm at a kilometre. So meshes should lie near the origin.
+/// Coordinates are read in double precision: the decimal digits of text, also where a PLY header declares floats, and
+/// the numbers of binary files as they are. Scaling, and the transforms of scene nodes, round once more, to 1e-16.
 ///
 /// Throws std::invalid_argument for a file that is missing, not a regular file, of unknown format, unreadable, empty,
-/// truncated or otherwise broken; for coordinates that are not finite or beyond ±1e9, before or after scaling; for
-/// indices out of range; when all triangles are degenerate; for compressed or sparse glTF; and for a scale that is not
-/// positive and finite. The message is one line that names the file and the faulty line, element or value. May block on
-/// the disk.
+/// truncated, larger than 16 GiB or otherwise broken; for coordinates that are not finite or beyond ±1e9, before or
+/// after scaling; for indices out of range; when all triangles are degenerate; for curves and surfaces in OBJ; for
+/// compressed or sparse glTF, and glTF whose buffers lie outside its folder; and for a scale that is not positive and
+/// finite. The message is one line that names the file and the faulty line, element or value. May block on the disk.
 ImportedMesh import_mesh(const std::filesystem::path& path, double scale = 1.0);
 
 }  // namespace glissade::geometry

@@ -1,8 +1,10 @@
 #include "io/gltf_document.h"
 
+#include <algorithm>
+
 #include "io/gltf_buffers.h"
 #include "io/gltf_numbers.h"
-#include "io/mesh_validation.h"
+#include "io/mesh_file.h"
 
 namespace glissade::geometry {
 namespace {
@@ -11,6 +13,8 @@ using nlohmann::json;
 
 /// Levels of nesting: glTF needs about ten. The limit protects the stack, because the JSON library's functions recurse.
 constexpr int kDeepestNesting = 100;
+
+constexpr const char* kQuantization = "KHR_mesh_quantization";
 
 }  // namespace
 
@@ -40,10 +44,22 @@ void GltfDocument::check_version() const {
   if (!root_.contains("extensionsRequired")) return;
   for (const json& extension : root_.at("extensionsRequired")) {
     const auto name = extension.get<std::string>();
-    const bool is_about_looks = name.starts_with("KHR_materials_") || name.starts_with("KHR_texture_") ||
-                                name.starts_with("KHR_lights_") || name.starts_with("EXT_texture_");
-    if (!is_about_looks) reject(path_, "The required extension '" + name + "' is not supported");
+    const bool is_known = name == kQuantization || name.starts_with("KHR_materials_") ||
+                          name.starts_with("KHR_texture_") || name.starts_with("KHR_lights_") ||
+                          name.starts_with("EXT_texture_");
+    if (!is_known) reject(path_, "The required extension '" + name + "' is not supported");
   }
+}
+
+bool GltfDocument::allows_quantized_positions() const {
+  if (!root_.contains("extensionsRequired")) return false;
+  const json& required = root_.at("extensionsRequired");
+  return std::find(required.begin(), required.end(), json(kQuantization)) != required.end();
+}
+
+bool GltfDocument::is_normalized(const json& index) const {
+  const json& accessor = entry("accessors", index);
+  return accessor.contains("normalized") && accessor.at("normalized").get<bool>();
 }
 
 const json& GltfDocument::entry(const char* key, const json& index) const {

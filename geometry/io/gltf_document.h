@@ -15,10 +15,12 @@
 
 namespace glissade::geometry {
 
-/// Values of componentType; the integers are unsigned.
-inline constexpr std::uint64_t kGltfByte = 5121;
-inline constexpr std::uint64_t kGltfShort = 5123;
-inline constexpr std::uint64_t kGltfInt = 5125;
+/// Values of componentType.
+inline constexpr std::uint64_t kGltfInt8 = 5120;
+inline constexpr std::uint64_t kGltfUint8 = 5121;
+inline constexpr std::uint64_t kGltfInt16 = 5122;
+inline constexpr std::uint64_t kGltfUint16 = 5123;
+inline constexpr std::uint64_t kGltfUint32 = 5125;
 inline constexpr std::uint64_t kGltfFloat = 5126;
 
 /// The JSON of a document. Throws std::invalid_argument for text that is not JSON or nested too deeply.
@@ -36,6 +38,9 @@ class GltfDocument {
   /// Rejects versions other than 2, and required extensions that may change the geometry.
   void check_version() const;
 
+  /// Whether positions may be integers of one or two bytes: the document requires KHR_mesh_quantization.
+  bool allows_quantized_positions() const;
+
   /// Entry `index` of the array `key` of the document.
   const nlohmann::json& entry(const char* key, const nlohmann::json& index) const;
 
@@ -45,6 +50,9 @@ class GltfDocument {
 
   /// The componentType of the accessor `index`.
   std::uint64_t component(const nlohmann::json& index) const;
+
+  /// Whether the integers of the accessor `index` stand for fractions of the largest one.
+  bool is_normalized(const nlohmann::json& index) const;
 
   /// The elements of an accessor: element i begins at byte `begin` + i · `stride` of its buffer `bytes`.
   struct Elements {

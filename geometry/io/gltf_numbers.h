@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/mesh_validation.h"
+#include "io/mesh_file.h"
 
 namespace glissade::geometry {
 

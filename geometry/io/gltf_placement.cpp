@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <utility>
 #include <vector>
 
-#include "io/mesh_validation.h"
+#include "io/mesh_file.h"
 
 namespace glissade::geometry {
 namespace {
@@ -21,43 +19,50 @@ std::vector<double> numbers(const std::filesystem::path& path, const json& value
     reject(path, where + " must have " + std::to_string(length) + " numbers");
   auto result = value.get<std::vector<double>>();
   for (const double number : result) {
-    check_coordinate(path, where, number);
+    if (!is_coordinate(number)) reject_coordinate(path, where, number);
   }
   return result;
 }
 
-/// `matrix` is given column by column.
-void check_last_row(const std::filesystem::path& path, const json& matrix, const std::string& where) {
-  const json row{matrix.at(3), matrix.at(7), matrix.at(11), matrix.at(15)};
-  if (row != json{0.0, 0.0, 0.0, 1.0}) reject(path, where + ": its last row is " + row.dump() + ", not 0, 0, 0, 1");
+/// `numbers` are given column by column.
+Eigen::Affine3d affine(const std::filesystem::path& path, const std::vector<double>& numbers,
+                       const std::string& where) {
+  const Eigen::Map<const Eigen::Matrix4d> matrix(numbers.data());
+  const Eigen::RowVector4d row = matrix.row(3);
+  if (row != Eigen::RowVector4d(0, 0, 0, 1)) {
+    reject(path, where + ": its last row is " + json(std::vector<double>(row.begin(), row.end())).dump() +
+                     ", not 0, 0, 0, 1");
+  }
+  return Eigen::Affine3d(Eigen::Matrix4d(matrix));
 }
 
-/// A deviation from unit length by rounding is removed; any other would scale the mesh, and is rejected.
-std::vector<double> unit_quaternion(const std::filesystem::path& path, const json& given, const std::string& where) {
-  auto xyzw = given.get<std::vector<double>>();
-  const double length = std::sqrt(std::inner_product(xyzw.begin(), xyzw.end(), xyzw.begin(), 0.0));
-  if (std::abs(length - 1.0) > 1e-3) {
-    reject(path, where + ": the quaternion " + given.dump() + " has the length " + json(length).dump() + ", not 1");
+/// `xyzw` is given in this order. A deviation from unit length by rounding is removed; any other would scale the mesh,
+/// and is rejected.
+Eigen::Quaterniond unit_quaternion(const std::filesystem::path& path, const std::vector<double>& xyzw,
+                                   const std::string& where) {
+  const Eigen::Quaterniond q(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+  if (std::abs(q.norm() - 1.0) > 1e-3) {
+    reject(path,
+           where + ": the quaternion " + json(xyzw).dump() + " has the length " + json(q.norm()).dump() + ", not 1");
   }
-  for (double& number : xyzw) {
-    number /= length;
-  }
-  return xyzw;
+  return q.normalized();
 }
 
 }  // namespace
 
-json copied_placement(const std::filesystem::path& path, const json& node, const std::string& where) {
-  json copy = json::object();
-  for (const auto& [key, length] :
-       {std::pair<const char*, std::size_t>{"matrix", 16}, {"translation", 3}, {"rotation", 4}, {"scale", 3}}) {
-    if (!node.contains(key)) continue;
-    if (copy.contains("matrix")) reject(path, where + ": it has both a matrix and a " + key);
-    copy[key] = numbers(path, node.at(key), length, where + "." + key);
+Eigen::Affine3d placement(const std::filesystem::path& path, const json& node, const std::string& where) {
+  const auto given = [&](const char* key, std::vector<double> otherwise) {
+    return node.contains(key) ? numbers(path, node.at(key), otherwise.size(), where + "." + key) : otherwise;
+  };
+  for (const char* key : {"translation", "rotation", "scale"}) {
+    if (node.contains("matrix") && node.contains(key)) reject(path, where + ": it has both a matrix and a " + key);
   }
-  if (copy.contains("matrix")) check_last_row(path, copy.at("matrix"), where + ".matrix");
-  if (copy.contains("rotation")) copy["rotation"] = unit_quaternion(path, copy.at("rotation"), where + ".rotation");
-  return copy;
+  if (node.contains("matrix")) return affine(path, given("matrix", std::vector<double>(16)), where + ".matrix");
+  const std::vector<double> translation = given("translation", {0, 0, 0});
+  const Eigen::Quaterniond turn = unit_quaternion(path, given("rotation", {0, 0, 0, 1}), where + ".rotation");
+  const std::vector<double> scale = given("scale", {1, 1, 1});
+  return Eigen::Translation3d(translation[0], translation[1], translation[2]) * turn *
+         Eigen::Scaling(scale[0], scale[1], scale[2]);
 }
 
 }  // namespace glissade::geometry

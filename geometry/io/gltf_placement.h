@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <string>
 
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 namespace glissade::geometry {
 
-/// A copy of the node with its placement only: its matrix, or its translation, rotation and scale, with the quaternion
-/// scaled to unit length. Throws std::invalid_argument for an invalid placement, naming the file and the node `where`.
-nlohmann::json copied_placement(const std::filesystem::path& path, const nlohmann::json& node,
-                                const std::string& where);
+/// The placement of a node in its parent: X_ParentNode from its matrix, or from its translation, rotation and scale. It
+/// may scale and shear. Throws std::invalid_argument for an invalid placement, naming the file and the node `where`.
+Eigen::Affine3d placement(const std::filesystem::path& path, const nlohmann::json& node, const std::string& where);
 
 }  // namespace glissade::geometry

@@ -1,6 +1,7 @@
 #include "io/polygon_triangulation.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -72,6 +73,26 @@ std::vector<std::array<std::size_t, 3>> triangulated(std::span<const Eigen::Vect
     position = (position + 1) % remaining.size();
   }
   return triangles;
+}
+
+void add_polygon(const MeshFile& file, std::span<const std::int32_t> corners, TriangleSoup& soup) {
+  constexpr std::size_t kMostTriangles = std::numeric_limits<std::int32_t>::max();
+  std::vector<Triangle>& triangles = soup.mesh.triangles;
+  if (triangles.size() + corners.size() - 2 > kMostTriangles) {
+    reject(file.path(), "The file has more than " + std::to_string(kMostTriangles) + " triangles");
+  }
+  if (corners.size() == 3) {
+    triangles.push_back({corners[0], corners[1], corners[2]});
+    return;
+  }
+  ++soup.polygons_triangulated;
+  std::vector<Eigen::Vector3d> points;
+  for (const std::int32_t corner : corners) {
+    points.push_back(soup.mesh.vertices[static_cast<std::size_t>(corner)]);
+  }
+  for (const auto& [a, b, c] : triangulated(points)) {
+    triangles.push_back({corners[a], corners[b], corners[c]});
+  }
 }
 
 }  // namespace glissade::geometry

@@ -16,6 +16,12 @@ namespace glissade::geometry {
 
 inline constexpr std::string_view kBlanks = " \t\r\v\f";
 
+/// The text without the byte-order mark of UTF-8, which some editors and exporters put before it.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+}
+
 /// Splits a text into lines, which may end in LF or CR LF.
 class LineScanner {
  public:

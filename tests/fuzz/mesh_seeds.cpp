@@ -115,16 +115,15 @@ std::string text_ply_of_polygons() {
 }
 
 std::vector<Seed> obj_seeds() {
-  return {{"tetrahedron.obj", geometry::kObj},
-          {"box.obj", obj_of(box(), false)},
-          {"relative.obj", obj_of(box(), true)},
-          {"crlf.obj", with_crlf(obj_of(sphere(), false))},
-          {"polygons.obj", obj_of_polygons()}};
+  return {{"tetrahedron.obj", geometry::kObj},   {"box.obj", obj_of(box(), false)},
+          {"relative.obj", obj_of(box(), true)}, {"crlf.obj", with_crlf(obj_of(sphere(), false))},
+          {"polygons.obj", obj_of_polygons()},   {"byte_order_mark.obj", geometry::kByteOrderMark + obj_of_polygons()}};
 }
 
 std::vector<Seed> stl_seeds() {
   return {{"tetrahedron.stl", geometry::kAsciiStl},
           {"two_solids.stl", stl_of(box()) + with_crlf(stl_of(sphere()))},
+          {"byte_order_mark.stl", geometry::kByteOrderMark + geometry::kAsciiStl},
           {"solid.stl", geometry::binary_stl("solid but binary")},
           {"box.stl", binary_stl_of(box())},
           {"sphere.stl", binary_stl_of(sphere())}};
@@ -133,7 +132,7 @@ std::vector<Seed> stl_seeds() {
 std::vector<Seed> ply_seeds() {
   return {{"tetrahedron.ply", geometry::kAsciiPly},
           {"polygons.ply", text_ply_of_polygons()},
-          {"crlf.ply", with_crlf(text_ply_of_polygons())},
+          {"crlf.ply", geometry::kByteOrderMark + with_crlf(text_ply_of_polygons())},
           {"mixed_little.ply", geometry::binary_ply(false)},
           {"mixed_big.ply", geometry::binary_ply(true)},
           {"uint8.ply", binary_ply_of<float, std::uint8_t>(box(), "float", "uchar", false)},
@@ -143,8 +142,9 @@ std::vector<Seed> ply_seeds() {
 }
 
 std::vector<std::string> obj_words() {
-  return {"\nv ",      "\nvt ",     "\nvn ",     "\nvp ",   "\nf ",    "\nl ", "\np ", "\ng ", "\no ",     "\ns 1",
-          "\nusemtl ", "\nmtllib ", "\ncstype ", "\ncurv ", "\nend\n", "\\\n", "//",   "/1/1", "\nf 1 2 3"};
+  return {"\nv ",    "\nvt ",   "\nvn ",   "\nvp ",     "\nf ",      "\nl ",      "\np ",
+          "\ng ",    "\no ",    "\ns 1",   "\nusemtl ", "\nmtllib ", "\ncstype ", "\ncurv ",
+          "\nend\n", "\nlod 1", "\ncall ", "\\\n",      "//",        "/1/1",      "\nf 1 2 3"};
 }
 
 std::vector<std::string> stl_words() {
@@ -212,6 +212,12 @@ std::vector<std::string> gltf_words() {
           "\"type\":",
           "\"uri\":",
           "\"data.bin\"",
+          "../",
+          "%2e%2e%2f",
+          "file:",
+          "5120",
+          "5122",
+          "\"KHR_mesh_quantization\"",
           "\"version\":",
           "\"2.0\"",
           "\"componentType\":",

@@ -73,6 +73,19 @@ class Document {
     return add_accessor(bytes, component, "SCALAR", 3 * mesh.triangles.size(), 0);
   }
 
+  /// Positions in thousandths, as 16-bit integers with a gap.
+  std::size_t add_quantized_positions(const geometry::TriangleMesh& mesh) {
+    json_["extensionsRequired"].push_back("KHR_mesh_quantization");
+    std::string bytes;
+    for (const Eigen::Vector3d& p : mesh.vertices) {
+      for (const double coordinate : p) {
+        bytes += bytes_of<std::int16_t>({static_cast<std::int16_t>(1000 * coordinate)});
+      }
+      bytes += std::string(2, '\x7f');
+    }
+    return add_accessor(bytes, 5122, "VEC3", mesh.vertices.size(), 8);
+  }
+
   void add_mesh(const json& primitives) { json_["meshes"].push_back({{"name", "扉"}, {"primitives", primitives}}); }
   void add_node(const json& node) { json_["nodes"].push_back(node); }
 
@@ -125,6 +138,16 @@ Document strips() {
   return document;
 }
 
+/// A sphere on an integer grid, scaled by its node.
+Document quantized() {
+  const geometry::TriangleMesh sphere = geometry::make_sphere(0.5, 60);
+  Document document;
+  const json attributes{{"POSITION", document.add_quantized_positions(sphere)}};
+  document.add_mesh({{{"attributes", attributes}, {"indices", document.add_indices<std::uint16_t>(sphere, 5123)}}});
+  document.add_node({{"mesh", 0}, {"scale", {0.001, 0.001, 0.001}}});
+  return document;
+}
+
 }  // namespace
 
 std::string mesh_buffer() {
@@ -135,11 +158,13 @@ std::vector<Seed> gltf_seeds(bool is_glb) {
   if (is_glb) {
     return {{"tetrahedron.glb", geometry::tetrahedron_glb()},
             {"assembly.glb", assembly().glb()},
-            {"strips.glb", strips().glb()}};
+            {"strips.glb", strips().glb()},
+            {"quantized.glb", quantized().glb()}};
   }
   return {{"tetrahedron.gltf", geometry::gltf(R"({"byteLength":72,"uri":"%64ata.bin"})")},
           {"assembly.gltf", assembly().gltf()},
-          {"strips.gltf", strips().gltf()}};
+          {"strips.gltf", strips().gltf()},
+          {"quantized.gltf", quantized().gltf()}};
 }
 
 }  // namespace glissade::fuzz

@@ -54,7 +54,27 @@ TEST_F(BadMeshFile, Obj) {
       {"a.obj", with(kObj, "f 1 2 4", "f 1 2 \\"), "line 7", "'f'"},
       {"a.obj", kObj + "f 1 2 \\", "line 10", "ends where the line should go on"},
       {"a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 1\n", "", "has an area"},
+      {"a.obj", "f 1 1 1\n", "line 1", "vertex 1, but the file has 0"},
   });
+}
+
+/// A misspelt statement would otherwise be a hole in the part.
+TEST_F(BadMeshFile, ObjStatementsThatAreNotOfTheFormat) {
+  expect_errors({
+      {"a.obj", kObj + "ff 2 3 4\n", "line 10", "'ff' is not a statement"},
+      {"a.obj", with(kObj, "v 1 0 0", "w 1 0 0"), "line 3", "'w' is not a statement"},
+      {"a.obj", with(kObj, "v 1 0 0", "V 1 0 0"), "line 3", "'V' is not a statement"},
+      {"a.obj", "4\n" + kObj, "line 1", "'4' is not a statement"},
+      {"a.obj", kObj + "\xff\xfe\n", "line 10", "' is not a statement"},
+  });
+}
+
+TEST_F(BadMeshFile, ObjGeometryThatIsNotPolygons) {
+  for (const char* statement : {"curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "con", "end", "call",
+                                "csh", "bsp", "bzp", "cdc", "cdp", "fo"}) {
+    expect_errors(
+        {{"a.obj", kObj + statement + " 0 1 2 3 4\n", "line 10", "'" + std::string(statement) + "' is not supported"}});
+  }
 }
 
 TEST_F(BadMeshFile, Ply) {
@@ -80,6 +100,7 @@ TEST_F(BadMeshFile, Ply) {
       {"a.ply", with(kAsciiPly, "ascii 1.0", "ascii 2.0"), "line 2", "format"},
       {"a.ply", with(kAsciiPly, "ascii", "morse"), "line 2", "format"},
       {"a.ply", with(kAsciiPly, "format ascii 1.0\n", ""), "line", "names no format"},
+      {"a.ply", with(kAsciiPly, "element face", "element vertex 0\nelement face"), "line 8", "named before"},
       {"a.ply", with(kAsciiPly, "vertex 4", "vertex -4"), "line 4", "count"},
       {"a.ply", with(kAsciiPly, "vertex 4", "vertex 99999999999999999999"), "line 4", "count"},
       {"a.ply", with(kAsciiPly, "vertex 4", "vertex 2000000000"), "vertex 9", "truncated"},
@@ -89,6 +110,7 @@ TEST_F(BadMeshFile, Ply) {
       {"a.ply", with(kAsciiPly, "3 1 2 3", "3 1 nan 3"), "face 3", "index nan is out of range"},
       {"a.ply", with(kAsciiPly, "3 1 2 3", "3 1 1e300 3"), "face 3", "index 1e+300 is"},
       {"a.ply", with(kAsciiPly, "property float z\n", ""), "header", "x, y and z"},
+      {"a.ply", with(kAsciiPly, "property float z\n", "property float x\n"), "header", "x, y and z"},
       {"a.ply", with(kAsciiPly, "vertex_indices", "corners"), "header", "no faces"},
       {"a.ply", with(kAsciiPly, "comment", "remark"), "line 3", "header line"},
       {"a.ply", with(kAsciiPly, "element face 4", "element face 0").substr(0, kAsciiPly.find("3 0 2 1")), "",
@@ -246,7 +268,7 @@ TEST_F(BadMeshFile, WordsOfAnyLengthMakeShortMessages) {
   EXPECT_LT(error_of("a.ply", with(kAsciiPly, "vertex 4", name + " 4")).size(), 2000U);
 }
 
-/// Files that end too early are the importer library's weak spot. Beginnings of every 11th length are tried,
+/// Files that end too early are the weak spot of importers. Beginnings of every 11th length are tried,
 /// which falls on all parts of their numbers, and the last one.
 TEST_F(BadMeshFile, EveryTruncationIsNoticed) {
   for (const auto& [name, content] : Files{{"ascii.ply", kAsciiPly},

@@ -66,6 +66,9 @@ inline std::string with_crlf(const std::string& text) {
   return result;
 }
 
+/// Three bytes that some programs write before a text.
+inline const std::string kByteOrderMark = "\xEF\xBB\xBF";
+
 /// A tetrahedron in every format, with its corner i + 1 at distance one along axis i.
 inline const std::string kObj =
     "# tetrahedron\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";

@@ -29,7 +29,11 @@ inline Files tetrahedra() {
           {"relative.obj", with(kObj, "f 1 3 2", "f -4 -2 -3")},
           {"attributes.obj", with(with(kObj, "f 1 3 2", "vt 0 0\nvn 0 0 1\ng group\nusemtl steel\nf 1/1/1 3//1 2/1"),
                                   "v 0 0 0", "mtllib no_such.mtl\no name\nv 0 0 0 0.5 0.5 0.5\nl 1 2")},
-          {"invented.obj", "4\n" + kObj},
+          {"looks.obj", "s off\nmg 1 0.1\nlod 3\nbevel on\ncstype bezier\ndeg 3\nvp 0 0\np 1\n" + kObj},
+          {"comment_that_ends_in_a_backslash.obj", "# C:\\parts\\\n" + kObj},
+          {"byte_order_mark.obj", kByteOrderMark + kObj},
+          {"byte_order_mark.ply", kByteOrderMark + kAsciiPly},
+          {"byte_order_mark.stl", kByteOrderMark + kAsciiStl},
           {"ascii.ply", kAsciiPly},
           {"crlf.ply", with_crlf(kAsciiPly)},
           {"little.ply", binary_ply(false)},
@@ -42,6 +46,7 @@ inline Files tetrahedra() {
           {"solid.stl", binary_stl("solid but binary")},
           {"embedded.gltf", gltf(R"({"byteLength":4,"uri":"data:application/octet-stream;base64,AAAAAA=="},)"
                                  R"({"byteLength":72,"uri":"tetrahedron%20data.bin"})")},
+          {"byte_order_mark.gltf", kByteOrderMark + gltf(R"({"byteLength":72,"uri":"tetrahedron%20data.bin"})")},
           {"binary.glb", tetrahedron_glb()}};
 }
 

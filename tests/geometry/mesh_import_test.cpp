@@ -90,6 +90,60 @@ TEST_F(MeshImport, NodesMayTurnByAQuaternionOfNearlyUnitLength) {
   EXPECT_TRUE(r.bounds.min().isApprox(Eigen::Vector3d(-1, 0, 0), 1e-6));
 }
 
+/// Hand-computed: a strip and a fan over the corners of a unit square, in this order: (0, 0), (1, 0), (0, 1), (1, 1).
+TEST_F(MeshImport, StripsAndFansOfGltf) {
+  const std::string square = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});
+  const auto mode = [&](int number, const std::vector<std::uint16_t>& corners) {
+    std::string binary = square;
+    for (const std::uint16_t corner : corners) {
+      binary += bytes_of<std::uint16_t>({corner});
+    }
+    std::string text =
+        with(gltf(R"({"byteLength":56})"), R"("indices":1)", R"("indices":1,"mode":)" + std::to_string(number));
+    text = with(with(text, R"("count":12)", R"("count":4)"), R"("byteLength":24)", R"("byteLength":8)");
+    return import_mesh(folder_.write("a.glb", glb(text, binary))).mesh;
+  };
+  // Vertices are numbered by their first use.
+  const TriangleMesh strip = mode(5, {0, 1, 2, 3});
+  EXPECT_THAT(strip.triangles, testing::ElementsAre(Triangle{0, 1, 2}, Triangle{1, 3, 2}));
+  EXPECT_EQ(strip.vertices[3], Eigen::Vector3d(1, 1, 0));
+  const TriangleMesh fan = mode(6, {0, 1, 3, 2});
+  EXPECT_THAT(fan.triangles, testing::ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
+  EXPECT_EQ(fan.vertices[3], Eigen::Vector3d(0, 1, 0));
+}
+
+/// KHR_mesh_quantization: positions are integers, as they are or as fractions of the largest one.
+TEST_F(MeshImport, QuantizedPositionsOfGltf) {
+  const std::string corners = bytes_of<std::uint16_t>({0, 1, 2});
+  const auto triangle = [&](const std::string& points, const std::string& component, int point_bytes) {
+    const std::string bytes = std::to_string(3 * point_bytes);
+    std::string text = gltf(R"({"byteLength":)" + std::to_string(3 * point_bytes + 6) + "}");
+    text = with(text, R"("scene":0)", R"("extensionsRequired":["KHR_mesh_quantization"],"scene":0)");
+    text = with(text, R"("componentType":5126,"count":4)", component + R"(,"count":3)");
+    text = with(text, R"("count":12)", R"("count":3)");
+    text = with(text, R"({"buffer":0,"byteLength":48})",
+                R"({"buffer":0,"byteLength":)" + bytes + R"(,"byteStride":)" + std::to_string(point_bytes) + "}");
+    text = with(text, R"("byteOffset":48,"byteLength":24)", R"("byteOffset":)" + bytes + R"(,"byteLength":6)");
+    return import_mesh(folder_.write("a.glb", glb(text, points + corners))).mesh.vertices;
+  };
+  using testing::ElementsAre;
+  using Point = Eigen::Vector3d;
+  EXPECT_THAT(triangle(bytes_of<std::int8_t>({-128, 0, 5, 9, 127, 0, 5, 9, 0, 3, 5, 9}), R"("componentType":5120)", 4),
+              ElementsAre(Point(-128, 0, 5), Point(127, 0, 5), Point(0, 3, 5)));
+  EXPECT_THAT(triangle(bytes_of<std::int8_t>({-128, 0, 0, 9, 127, 0, 0, 9, 0, 127, 0, 9}),
+                       R"("componentType":5120,"normalized":true)", 4),
+              ElementsAre(Point(-1, 0, 0), Point(1, 0, 0), Point(0, 1, 0)));
+  EXPECT_THAT(triangle(bytes_of<std::uint8_t>({0, 0, 0, 9, 255, 0, 0, 9, 0, 51, 0, 9}),
+                       R"("componentType":5121,"normalized":true)", 4),
+              ElementsAre(Point(0, 0, 0), Point(1, 0, 0), Point(0, 0.2, 0)));
+  EXPECT_THAT(
+      triangle(bytes_of<std::int16_t>({-32768, 0, 0, 9, 32767, 0, 0, 9, 0, 7, 0, 9}), R"("componentType":5122)", 8),
+      ElementsAre(Point(-32768, 0, 0), Point(32767, 0, 0), Point(0, 7, 0)));
+  EXPECT_THAT(triangle(bytes_of<std::uint16_t>({0, 0, 0, 9, 65535, 0, 0, 9, 0, 13107, 0, 9}),
+                       R"("componentType":5123,"normalized":true)", 8),
+              ElementsAre(Point(0, 0, 0), Point(1, 0, 0), Point(0, 0.2, 0)));
+}
+
 TEST_F(MeshImport, WhatIsNotAReadableMeshFile) {
   EXPECT_THROW(import_mesh(""), std::invalid_argument);
   EXPECT_THAT(error_of(folder_.path() / "missing.obj"), testing::HasSubstr("no such file"));

@@ -6,9 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/mesh_import.h>
+#include <glissade/geometry/mesh_topology.h>
 #include <glissade/viewer/scene_model.h>
 
 #include "glb_file.h"
+#include "temporary_folder.h"
 
 namespace glissade::viewer {
 namespace {
@@ -54,6 +57,22 @@ TEST(SceneModel, ObjectsStandAtTheirPoses) {
     }
     EXPECT_EQ(found, 2u);
   }
+}
+
+/// Other programs read the model, and so does our own importer. The grid of a mesh has 65535 steps.
+TEST(SceneModel, IsAMeshFile) {
+  const ViewScene scene = two_boxes({3.0, 4.0, 5.0});
+  const test_support::TemporaryFolder folder;
+  const geometry::ImportedMesh imported = geometry::import_mesh(folder.write("model.glb", scene_model(scene, kWhole)));
+  EXPECT_EQ(imported.mesh.triangles.size(), 24u);
+  EXPECT_EQ(imported.mesh.vertices.size(), 16u);
+  const geometry::MeshReport report = geometry::report(imported.mesh);
+  EXPECT_TRUE(report.is_watertight);
+  const Eigen::Vector3d corner = Eigen::Vector3d::Constant(0.1);
+  const Eigen::Vector3d first = scene.objects[0].X_WB.translation() - scene.p_WO();
+  const Eigen::Vector3d second = scene.objects[1].X_WB.translation() - scene.p_WO();
+  EXPECT_TRUE(report.bounds.min().isApprox(first - corner, 1e-6)) << report.bounds.min().transpose();
+  EXPECT_TRUE(report.bounds.max().isApprox(second + corner, 1e-6)) << report.bounds.max().transpose();
 }
 
 TEST(SceneModel, EqualMeshesAreSentOnce) {

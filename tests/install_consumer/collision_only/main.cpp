@@ -1,4 +1,4 @@
-// Links the private dependencies of the component collision: assimp (import), TBB and Highway (trees), Qhull (hulls).
+// Links the private dependencies of the component collision: TBB and Highway (trees), Qhull (hulls).
 
 #include <fstream>
 #include <iostream>

@@ -1,0 +1,19 @@
+#pragma once
+
+/// Meshes and scenes as commands open them: read, with a line on standard error for each mesh from which triangles
+/// without area were left out. Both throw std::invalid_argument as `import_mesh` and `read_scene` do.
+
+#include <memory>
+#include <string>
+
+#include <glissade/apps/files/scene_file.h>
+#include <glissade/geometry/triangle_mesh.h>
+
+namespace glissade::apps {
+
+std::shared_ptr<const geometry::TriangleMesh> open_mesh(const std::string& path);
+
+/// Objects that share a mesh make one line, which names the first of them.
+Scene open_scene(const std::string& path);
+
+}  // namespace glissade::apps

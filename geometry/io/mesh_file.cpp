@@ -1,0 +1,49 @@
+#include "io/mesh_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+
+namespace glissade::geometry {
+
+MeshFile::MeshFile(const std::filesystem::path& path) : path_(path) {
+  if (path.empty()) throw std::invalid_argument("The name of the mesh file is empty.");
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) reject(path, "There is no such file");
+  if (std::filesystem::is_directory(status)) reject(path, "This is a folder, not a file");
+  if (!std::filesystem::is_regular_file(status)) reject(path, "This is not a regular file");
+  size_ = std::filesystem::file_size(path, error);
+  if (error) reject(path, "The file cannot be read");
+  if (size_ == 0) reject(path, "The file is empty");
+  if (size_ > kMostBytes) reject(path, "The file is larger than 16 GiB, it has " + std::to_string(size_) + " bytes");
+  stream_.open(path, std::ios::binary);
+  if (!stream_.is_open()) reject(path, "The file cannot be read");
+}
+
+std::string MeshFile::beginning(std::uint64_t length) {
+  std::string bytes(std::min(length, size_), '\0');
+  stream_.seekg(0);
+  stream_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!stream_) reject(path_, "The file cannot be read");
+  return bytes;
+}
+
+void reject(const std::filesystem::path& path, const std::string& what) {
+  // Names from the file may have any length and content, but the message is one line.
+  constexpr std::size_t kLongest = 1000;
+  std::string line = what.size() > kLongest ? what.substr(0, kLongest) + " ..." : what;
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }, '?');
+  throw std::invalid_argument(path.string() + ": " + line + (line.ends_with('.') ? "" : "."));
+}
+
+void reject_coordinate(const std::filesystem::path& path, const std::string& where, double value) {
+  std::ostringstream message;
+  message << where << ": the coordinate " << value << (std::isfinite(value) ? " is beyond 1e9" : " is not finite");
+  reject(path, message.str());
+}
+
+}  // namespace glissade::geometry
