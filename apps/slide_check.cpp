@@ -1,16 +1,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
 
 #include <glissade/apps/files/csv.h>
+#include <glissade/apps/least_clearance.h>
 #include <glissade/apps/slide_check.h>
 #include <glissade/apps/text.h>
-#include <glissade/collision/dop_query.h>
 
 namespace glissade::apps {
 namespace {
@@ -22,33 +21,6 @@ constexpr std::size_t kPlottedChecks = 6;
 double seconds(std::chrono::nanoseconds time) {
   return std::chrono::duration<double>(time).count();
 }
-
-/// The distance of the visible part from all obstacles and moving objects.
-class Clearance {
- public:
-  explicit Clearance(const HapticScene& scene)
-      : scene_(scene), workspaces_(scene.obstacles.size() + scene.moving.size()) {}
-
-  /// Exact below `limit`.
-  double now(const haptics::SlidingSimulation& sliding, double limit) {
-    double least = limit;
-    std::size_t body = 0;
-    const auto look_at = [&](const collision::DopTree& tree, const Eigen::Isometry3d& X_WB) {
-      const Eigen::Isometry3d X_BV = X_WB.inverse(Eigen::Isometry) * sliding.result().X_WV;
-      least = std::min(
-          least, collision::gap_lower_bound(tree, scene_.parts.front().part_V->tree, X_BV, workspaces_[body++], least));
-    };
-    for (const haptics::Obstacle& obstacle : scene_.obstacles)
-      look_at(obstacle.body->tree, obstacle.X_WO);
-    for (std::size_t i = 0; i < scene_.moving.size(); ++i)
-      look_at(scene_.moving[i].part_B->tree, sliding.scripted_X_WB()[i]);
-    return least;
-  }
-
- private:
-  const HapticScene& scene_;
-  std::vector<collision::CoherentWorkspace> workspaces_;
-};
 
 void note_goal(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WGoal, const SlideCheckOptions& options,
                SlideCheck& check) {
@@ -101,7 +73,6 @@ SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory&
   check.trajectory = name;
   check.force.name = name;
   check.duration_s = seconds(trajectory.duration());
-  check.clearance_min_m = std::numeric_limits<double>::infinity();
   std::unique_ptr<haptics::SlidingSimulation> sliding;
   try {
     sliding = start_sliding(scene, trajectory, options);
@@ -109,7 +80,7 @@ SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory&
     check.problem = error.what();
     return check;
   }
-  Clearance clearance(scene);
+  LeastClearance clearance(scene);
   const std::int64_t ticks = trajectory.duration() / milliseconds(1);
   for (std::int64_t i = 0; i <= ticks; ++i) {
     const std::chrono::nanoseconds time = slide_to(i, trajectory, *sliding) - trajectory.first_time();
@@ -119,10 +90,11 @@ SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory&
     check.contact_s += sliding->result().pushing > 0 ? 1e-3 : 0.0;
     check.force.x.push_back(seconds(time));
     check.force.y.push_back(wrench.f.norm());
-    const double gap = clearance.now(*sliding, check.clearance_min_m);
-    if (gap < check.clearance_min_m) check.clearance_min_at_s = seconds(time);
-    check.clearance_min_m = gap;
+    clearance.note(sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
   }
+  clearance.finish();
+  check.clearance_min_m = clearance.least();
+  check.clearance_min_at_s = seconds(clearance.least_at() * milliseconds(1));
   note_goal(sliding->result().X_WV, scene.X_WGoal.value_or(trajectory.pose_at(trajectory.last_time())), options, check);
   return check;
 }
