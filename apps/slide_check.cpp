@@ -43,8 +43,8 @@ std::string verdict(const SlideCheck& check) {
   return text;
 }
 
-}  // namespace
-
+/// The simulation from the first row of the trajectory on. Throws std::invalid_argument, with one sentence, when a body
+/// is not free there.
 std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& scene,
                                                           const geometry::PoseTrajectory& trajectory,
                                                           const SlideCheckOptions& options) {
@@ -59,6 +59,7 @@ std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& sce
   }
 }
 
+/// Advances to a tick of the trajectory, a millisecond, and returns its time.
 std::chrono::nanoseconds slide_to(std::int64_t tick, const geometry::PoseTrajectory& trajectory,
                                   haptics::SlidingSimulation& sliding) {
   const std::chrono::nanoseconds time = trajectory.first_time() + tick * milliseconds(1);
@@ -67,8 +68,10 @@ std::chrono::nanoseconds slide_to(std::int64_t tick, const geometry::PoseTraject
   return time;
 }
 
+}  // namespace
+
 SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory& trajectory, const std::string& name,
-                       const SlideCheckOptions& options) {
+                       const SlideCheckOptions& options, const SlideWatch& watch) {
   SlideCheck check;
   check.trajectory = name;
   check.force.name = name;
@@ -83,14 +86,18 @@ SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory&
   LeastClearance clearance(scene);
   const std::int64_t ticks = trajectory.duration() / milliseconds(1);
   for (std::int64_t i = 0; i <= ticks; ++i) {
-    const std::chrono::nanoseconds time = slide_to(i, trajectory, *sliding) - trajectory.first_time();
+    const std::chrono::nanoseconds now = slide_to(i, trajectory, *sliding);
+    const std::chrono::nanoseconds time = now - trajectory.first_time();
     const haptics::Wrench wrench = haptics::spring_wrench(sliding->stiffness(), sliding->error());
     check.force_max_N = std::max(check.force_max_N, wrench.f.norm());
     check.torque_max_Nm = std::max(check.torque_max_Nm, wrench.t.norm());
     check.contact_s += sliding->result().pushing > 0 ? 1e-3 : 0.0;
-    check.force.x.push_back(seconds(time));
-    check.force.y.push_back(wrench.f.norm());
-    clearance.note(sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
+    if (options.needs_summary) {
+      check.force.x.push_back(seconds(time));
+      check.force.y.push_back(wrench.f.norm());
+      clearance.note(sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
+    }
+    if (watch) watch(now, *sliding);
   }
   clearance.finish();
   check.clearance_min_m = clearance.least();

@@ -111,6 +111,23 @@ TEST_F(AssemblyCheck, WritesAPage) {
     EXPECT_THAT(page, testing::HasSubstr(part));
 }
 
+TEST_F(AssemblyCheck, OneRunWritesEverything) {
+  const auto file = [&](const std::string& name) { return folder.path(name); };
+  const ProgramResult all =
+      check({below}, {"--out", file("out.csv"), "--contacts", file("contacts.csv"), "--patches", file("patches.csv"),
+                      "--summary", file("summary.csv"), "--report", file("page")});
+  ASSERT_EQ(all.exit_code, 0) << all.standard_error;
+  EXPECT_EQ(all.standard_output, "");
+  EXPECT_THAT(read_text_file(file("page/index.html")), testing::HasSubstr("Assembly check of box"));
+  // Each is what a run for it alone writes.
+  EXPECT_EQ(read_text_file(file("out.csv")), check({below}).standard_output);
+  EXPECT_EQ(read_text_file(file("summary.csv")), check({below}, {"--summary", "-"}).standard_output);
+  for (const char* table : {"contacts", "patches"}) {
+    ASSERT_EQ(check({below}, {"--" + std::string(table), file("alone.csv")}).exit_code, 0);
+    EXPECT_EQ(read_text_file(file(table + std::string(".csv"))), read_text_file(file("alone.csv")));
+  }
+}
+
 TEST_F(AssemblyCheck, OneThatCannotStartFailsAlone) {
   const std::string inside = trajectory("inside.csv", "0,0,0,0.01,1,0,0,0\n0.1,0,0,0.1,1,0,0,0\n");
   const ProgramResult result = check({inside, above});
@@ -127,6 +144,8 @@ TEST_F(AssemblyCheck, GivesTheSameBytesAgain) {
 TEST_F(AssemblyCheck, RefusesWhatMakesNoSense) {
   expect_refused({"slide", scene, "--part", "box", "--trajectory", above, below, "--out", folder.path("rows.csv")},
                  {"--out", "--summary"});
+  expect_refused({"slide", scene, "--part", "box", "--trajectory", above, below, "--contacts", folder.path("rows.csv")},
+                 {"--contacts", "one trajectory"});
   expect_refused({"slide", scene, "--part", "box", "--trajectory", above, folder.path("none.csv")}, {"none.csv"});
   expect_refused({"slide", scene, "--part", "box", "--trajectory", "a,b.csv", above},
                  {"--trajectory", "'a,b.csv'", "comma"});

@@ -167,7 +167,7 @@ TEST_F(Slide, RefusesTwoTablesInOneFile) {
   expect_refused(slide_with({"--contacts", "-"}), {"--contacts", "'-'", "--out"});
   expect_refused(slide_with({"--out", "a.csv", "--patches", "a.csv"}), {"--patches", "'a.csv'", "--out"});
   expect_refused(slide_with({"--contacts", "a.csv", "--patches", "a.csv"}), {"--patches", "--contacts"});
-  expect_refused(slide_with({"--contacts", "a.csv", "--summary", "b.csv"}), {"--contacts", "one trajectory"});
+  expect_refused(slide_with({"--out", "a.csv", "--summary", "./a.csv"}), {"--summary", "'./a.csv'", "--out"});
   const std::string odd = folder.write("odd.yaml",
                                        "objects:\n"
                                        "  - {name: box, movable: true, shape: {type: box}}\n"
