@@ -9,6 +9,8 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/command.h>
+#include <glissade/apps/option_rules.h>
+#include <glissade/apps/standard_streams.h>
 #include <glissade/apps/text.h>
 
 namespace {
@@ -58,6 +60,7 @@ int parse_and_run(int argc, char** argv) {
     return fail(kBadInput, error.what());
   }
   if (!chosen) return fail(kBadInput, "a command is missing: see glissade --help");
+  glissade::apps::check_numbers(app);
   return chosen();
 }
 
@@ -71,6 +74,7 @@ int flush_output(int exit_code) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  glissade::apps::complete_standard_streams();
   try {
     return flush_output(parse_and_run(argc, argv));
   } catch (const std::invalid_argument& error) {

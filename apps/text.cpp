@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -60,7 +59,7 @@ std::string one_line(std::string_view text) {
   return result;
 }
 
-std::string read_text_file(const std::string& path) {
+std::string read_text_file(const std::string& path, std::uintmax_t max_bytes) {
   if (path.empty()) throw std::invalid_argument("the name of a file is empty");
   // A folder opens like a file and fails only later, with a less helpful reason. A pipe or a device may never end.
   std::error_code ignored;
@@ -71,10 +70,16 @@ std::string read_text_file(const std::string& path) {
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::invalid_argument(path + ": " + std::generic_category().message(errno));
-  std::ostringstream text;
-  text << file.rdbuf();
+  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  if (size > max_bytes) {
+    throw std::invalid_argument(path + ": has " + std::to_string(size) + " bytes; at most " +
+                                std::to_string(max_bytes) + " are read");
+  }
+  std::string text(size, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (file.bad()) throw std::invalid_argument(path + ": cannot be read");
-  return std::move(text).str();
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
 }
 
 }  // namespace glissade::apps

@@ -2,6 +2,7 @@
 
 /// Text helpers shared by the file readers and the error messages.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,8 +36,11 @@ std::string joined(const Texts& texts) {
   return result;
 }
 
-/// The file's bytes. Throws std::invalid_argument, naming the file, when it is missing, not a regular file or cannot be
-/// read.
-std::string read_text_file(const std::string& path);
+/// Longer than any trajectory of a day.
+inline constexpr std::uintmax_t kLargestTextFile = std::uintmax_t{1} << 34U;
+
+/// The file's bytes. Throws std::invalid_argument, naming the file, when it is missing, not a regular file, longer than
+/// `max_bytes` or cannot be read.
+std::string read_text_file(const std::string& path, std::uintmax_t max_bytes = kLargestTextFile);
 
 }  // namespace glissade::apps

@@ -13,6 +13,7 @@
 #include <glissade/geometry/triangle_mesh.h>
 #include <glissade/geometry/triangle_pair.h>
 
+#include "io/file_head.h"
 #include "io/mesh_validation.h"
 
 namespace glissade::geometry {
@@ -107,6 +108,7 @@ ImportedMesh import_mesh(const std::filesystem::path& path, double scale) {
     message << "The scale must be positive and finite, but is " << scale;
     reject(path, message.str());
   }
+  check_head(path);
   const std::string content = file_content(path);
   const Format& format = format_of(path);
   const VettedFile clean = format.vetted(path, content);

@@ -191,7 +191,8 @@ const SceneObject& Scene::find(const std::string& name) const {
 }
 
 Scene read_scene(const std::string& path) {
-  return parse_scene(read_text_file(path), path, std::filesystem::path(path).parent_path().string());
+  constexpr std::uintmax_t kLargestScene = std::uintmax_t{1} << 26U;
+  return parse_scene(read_text_file(path, kLargestScene), path, std::filesystem::path(path).parent_path().string());
 }
 
 Scene parse_scene(const std::string& text, const std::string& source, const std::string& base_folder) {

@@ -56,8 +56,12 @@ std::string buffer_content(const std::filesystem::path& path, const std::string&
     return decoded_base64(path, where, std::string_view(uri).substr(mark + kMark.size()));
   }
   if (uri.find("://") != std::string::npos) reject(path, where + ": only files are read, not '" + uri + "'");
+  const std::filesystem::path file = std::filesystem::path(decoded_percent(uri)).lexically_normal();
+  if (file.is_absolute() || (!file.empty() && *file.begin() == "..")) {
+    reject(path, where + ": '" + uri + "' is not in the folder of this file");
+  }
   try {
-    return file_content(path.parent_path() / decoded_percent(uri));
+    return file_content(path.parent_path() / file);
   } catch (const std::invalid_argument& error) {
     reject(path, where + ": " + error.what());
   }
