@@ -46,6 +46,9 @@ void add_log_command(CLI::App& app, Command& chosen);
 /// `glissade glove [--side left|right] [--device N] [--lcm URL] [--script FILE] [--frozen-ms T] [--record FILE]`
 void add_glove_command(CLI::App& app, Command& chosen);
 
+/// `glissade example [FOLDER]`
+void add_example_command(CLI::App& app, Command& chosen);
+
 /// `glissade doctor [--json]`
 void add_doctor_command(CLI::App& app, Command& chosen);
 

@@ -22,8 +22,9 @@ constexpr const char* kTablesFooter =
     "A table of which the log has nothing is left out. All columns: docs/file_formats.md in the sources.\n"
     "If the log is damaged, the tables hold everything before the damage, and the exit code is 1.\n"
     "\n"
-    "Example:\n"
-    "  glissade log to-csv demo.lcmlog tables";
+    "Examples:\n"
+    "  glissade demo --seconds 3 --record demo.lcmlog && glissade log to-csv demo.lcmlog tables\n"
+    "  glissade demo --offline --seconds 2 --record offline.lcmlog && glissade log to-csv offline.lcmlog offline";
 
 struct LogOptions {
   std::string log;
@@ -46,6 +47,7 @@ void add_log_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<LogOptions>();
   CLI::App* command = app.add_subcommand("log", "Make other files of event logs");
   command->require_subcommand(1);
+  command->footer(kTablesFooter);
   CLI::App* tables = command->add_subcommand("to-csv", "Write tables (CSV) of an event log of LCM");
   tables->footer(kTablesFooter);
   tables->add_option("LOG", options->log, "Event log of LCM")->required();

@@ -32,6 +32,8 @@ namespace {
 constexpr const char* kSlideDescription =
     "Move a part through a scene along a trajectory, offline and deterministically";
 
+constexpr int kGoalNotReached = 3;
+
 constexpr const char* kSlideFooter =
     "Trajectory: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is a time and the pose X_WG of the ghost, i.e. the\n"
     "pose that the part would have if nothing were in the way; times increase. Between rows, translation is linear\n"
@@ -65,13 +67,14 @@ constexpr const char* kSlideFooter =
     "whether the part reached the goal of the scene (if the scene has no goal: the last row of the trajectory), and\n"
     "how far from the goal the part ended; the greatest force and torque on the hand; the smallest clearance and its\n"
     "time; how long contacts exerted a force. If the part or a moving object touches another object at the start of\n"
-    "a trajectory, this trajectory has a line on standard error instead of a row, and the exit code is 1.\n"
+    "a trajectory, this trajectory has a line on standard error instead of a row, and the exit code is 1. With\n"
+    "--require-goal, the exit code is 3 if a trajectory does not bring the part to the goal.\n"
     "\n"
     "All columns: docs/file_formats.md in the sources.\n"
     "\n"
-    "Examples:\n"
-    "  glissade slide door.yaml --part motor --trajectory hand.csv --out motion.csv\n"
-    "  glissade slide door.yaml --part motor --trajectory way_*.csv --summary ways.csv --report ways";
+    "Examples, with the files of 'glissade example':\n"
+    "  glissade slide square_peg.yaml --part peg --trajectory square_peg_script.csv --out motion.csv --summary -\n"
+    "  glissade slide square_peg.yaml --part peg --trajectory square_peg_*.csv --summary ways.csv --report ways";
 
 struct SlideOptions {
   std::string scene;
@@ -82,6 +85,7 @@ struct SlideOptions {
   SlideTableFiles tables;
   std::string summary;
   std::string report;
+  bool requires_goal = false;
   double goal_tolerance_m = SlideCheckOptions{}.goal_tolerance_m;
   double goal_tolerance_deg = SlideCheckOptions{}.goal_tolerance_deg;
 
@@ -150,9 +154,15 @@ int conclude(const HapticScene& scene, const std::vector<SlideCheck>& checks, co
   if (!options.report.empty()) write_html_report(report_of(scene, checks, check_options), options.report);
   int exit_code = 0;
   for (const SlideCheck& one : checks) {
-    if (!one.problem) continue;
-    std::cerr << "glissade: " << one.trajectory << ": " << *one.problem << '\n';
-    exit_code = 1;
+    if (one.problem) {
+      std::cerr << "glissade: " << one.trajectory << ": " << *one.problem << '\n';
+      exit_code = 1;
+    } else if (options.requires_goal && !one.goal_reached) {
+      std::cerr << "glissade: " << one.trajectory << ": the goal is not reached: the part ends "
+                << rounded_text(1e3 * one.goal_distance_m) << " mm and " << rounded_text(one.goal_angle_deg)
+                << " degrees from it\n";
+      if (exit_code == 0) exit_code = kGoalNotReached;
+    }
   }
   return exit_code;
 }
@@ -200,10 +210,15 @@ int run(SlideOptions options) {
       throw std::invalid_argument("--trajectory: " + in_quotes(file) + " has a comma, quote or line break in its name");
     }
   }
-  const HapticScene scene = make_haptic_scene(read_scene(options.scene), {options.part});
+  const Scene file = read_scene(options.scene);
+  const HapticScene scene = make_haptic_scene(file, {options.part});
   if (check_options.method == haptics::SlidingMethod::kPaper && !scene.moving.empty()) {
     throw std::invalid_argument("--method: paper does not support objects that move on their own, such as " +
                                 scene.moving.front().name);
+  }
+  if (!file.find(options.part).movable) {
+    throw std::invalid_argument("--part: the object " + in_quotes(options.part) + " in " + scene.source +
+                                " is not movable; a part needs 'movable: true'");
   }
   if (!options.tables.moving.empty() && scene.moving.empty()) {
     throw std::invalid_argument("--moving: no object moves on its own in " + scene.source);
@@ -237,6 +252,8 @@ void add_slide_command(CLI::App& app, Command& chosen) {
   command->add_option("--moving", options->tables.moving, "CSV file for the moving objects, see below");
   command->add_option("--summary", options->summary, "CSV file for the assembly check, - for standard output");
   command->add_option("--report", options->report, "Folder for the assembly check as an HTML page, index.html");
+  command->add_flag("--require-goal", options->requires_goal,
+                    "Exit with code 3 if a trajectory does not bring the part to the goal");
   command
       ->add_option("--goal-tolerance-m", options->goal_tolerance_m,
                    "Greatest distance from the goal at which the goal counts as reached")

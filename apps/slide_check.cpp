@@ -9,6 +9,7 @@
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/least_clearance.h>
 #include <glissade/apps/slide_check.h>
+#include <glissade/apps/start_overlap.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {
@@ -43,6 +44,20 @@ std::string verdict(const SlideCheck& check) {
   return text;
 }
 
+/// How deep the part is in others at the first row, and what can be done about it.
+std::string advice(const HapticScene& scene, const geometry::PoseTrajectory& trajectory,
+                   const SlideCheckOptions& options) {
+  std::vector<Eigen::Isometry3d> moving_X_WB;
+  for (const haptics::ScriptedPart& part : scene.moving)
+    moving_X_WB.push_back(part.script_X_WB.pose_at(trajectory.first_time()));
+  const std::string overlaps = overlaps_at(scene, trajectory.pose_at(trajectory.first_time()), moving_X_WB);
+  if (overlaps.empty()) return "";
+  const bool may_depenetrate = options.method == haptics::SlidingMethod::kProjection &&
+                               options.sliding.rules.overlap != haptics::OverlapRule::kDepenetrate;
+  return ": " + overlaps +
+         (may_depenetrate ? "; begin elsewhere, or let --depenetrate push the part out of obstacles" : "");
+}
+
 /// The simulation from the first row of the trajectory on. Throws std::invalid_argument, with one sentence, when a body
 /// is not free there.
 std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& scene,
@@ -55,7 +70,8 @@ std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& sce
     return haptics::make_sliding(options.method, scene.obstacles, scene.parts.front().part_V,
                                  trajectory.pose_at(trajectory.first_time()), options.sliding, moving);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(std::string(error.what()) + ", at the time of the first row");
+    throw std::invalid_argument(std::string(error.what()) + ", at the time of the first row" +
+                                advice(scene, trajectory, options));
   }
 }
 

@@ -30,7 +30,7 @@ std::optional<double> parse_number(std::string_view text) {
 
 std::string format_number(double value) {
   std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value + 0.0);
   return {buffer.data(), result.ptr};
 }
 
@@ -38,6 +38,15 @@ std::string fixed_text(double value, int decimals) {
   std::array<char, 400> buffer{};  // the largest double has 309 digits before the point
   const auto result =
       std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals);
+  const std::string text(buffer.data(), result.ptr);
+  return text.starts_with('-') && text.find_first_of("123456789") == std::string::npos ? text.substr(1) : text;
+}
+
+std::string rounded_text(double value) {
+  constexpr int kDigits = 3;
+  std::array<char, 32> buffer{};
+  const auto result =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value + 0.0, std::chars_format::general, kDigits);
   return {buffer.data(), result.ptr};
 }
 

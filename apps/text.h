@@ -13,11 +13,14 @@ namespace glissade::apps {
 /// "nan" and values beyond the range of a double are not numbers here.
 std::optional<double> parse_number(std::string_view text);
 
-/// The shortest decimal text that reads back as exactly `value`.
+/// The shortest decimal text that reads back as exactly `value`; zero has no sign.
 std::string format_number(double value);
 
-/// `value` with so many digits after the point.
+/// `value` with so many digits after the point; what rounds to zero has no sign.
 std::string fixed_text(double value, int decimals);
+
+/// `value` with three digits, as many as a person reads in a message: 12.3, 0.00123, 1.23e-07.
+std::string rounded_text(double value);
 
 /// `text` in single quotes, fit for a one-line message: control characters are replaced and long texts cut short.
 std::string in_quotes(std::string_view text);

@@ -6,6 +6,7 @@
 
 #include <yaml-cpp/depthguard.h>
 
+#include <glissade/apps/did_you_mean.h>
 #include <glissade/apps/files/yaml_reader.h>
 #include <glissade/apps/text.h>
 
@@ -88,7 +89,8 @@ void YamlReader::check_keys(const YAML::Node& map, const std::string& what,
   for (const auto& entry : map) {
     const std::string& key = entry.first.Scalar();
     if (std::find(known.begin(), known.end(), key) == known.end()) {
-      fail(entry.first, what + ": unknown key " + in_quotes(key) + " (known: " + joined(known) + ")");
+      fail(entry.first, what + ": unknown key " + in_quotes(key) + did_you_mean(key, {known.begin(), known.end()}) +
+                            " (known: " + joined(known) + ")");
     }
   }
 }

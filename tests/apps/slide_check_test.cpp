@@ -102,6 +102,19 @@ TEST_F(AssemblyCheck, HasAGoalOfItsOwnTolerance) {
   EXPECT_EQ(checks_of(lax.standard_output).at("below.csv").at("goal_reached"), 1.0);
 }
 
+TEST_F(AssemblyCheck, AGoalThatIsRequiredHasAnExitCodeOfItsOwn) {
+  EXPECT_EQ(check({above, below}).exit_code, 0);
+  EXPECT_EQ(check({above}, {"--require-goal"}).exit_code, 0);
+  const ProgramResult missed = check({above, below}, {"--require-goal"});
+  EXPECT_EQ(missed.exit_code, 3);
+  EXPECT_THAT(missed.standard_error, testing::HasSubstr("below.csv: the goal is not reached: the part ends 10 mm"));
+  EXPECT_EQ(checks_of(missed.standard_output).size(), 2U) << "the answer is there all the same";
+  EXPECT_EQ(check({below}, {"--require-goal"}).exit_code, 3) << "also for the motion alone";
+
+  const std::string inside = trajectory("inside.csv", "0,0,0,0.01,1,0,0,0\n0.1,0,0,0.1,1,0,0,0\n");
+  EXPECT_EQ(check({inside, below}, {"--require-goal"}).exit_code, 1) << "a failure counts more";
+}
+
 TEST_F(AssemblyCheck, WritesAPage) {
   const ProgramResult result = check({above, below}, {"--report", folder.path("page")});
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;

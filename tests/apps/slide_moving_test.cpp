@@ -125,7 +125,7 @@ TEST_F(SlideAmongMovingObjects, TheHapticLoopFeelsThemToo) {
 TEST_F(SlideAmongMovingObjects, WhereNothingMovesThereIsNothingToWrite) {
   const std::string still = folder.write("still.yaml",
                                          "objects:\n"
-                                         "  - {name: cube, shape: {type: box}}\n"
+                                         "  - {name: cube, movable: true, shape: {type: box}}\n"
                                          "  - {name: floor, shape: {type: plate}, pose: {position_m: [0, 0, -9]}}\n");
   expect_refused(slide(still, {"--moving", folder.path("moving.csv")}), {"--moving", "still.yaml"});
 }
