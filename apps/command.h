@@ -52,6 +52,9 @@ void add_glove_command(CLI::App& app, Command& chosen);
 /// `glissade view [SCENE] [--lcm URL] [--port N] [--fingers]`
 void add_view_command(CLI::App& app, Command& chosen);
 
+/// `glissade example [FOLDER]`
+void add_example_command(CLI::App& app, Command& chosen);
+
 /// `glissade doctor [--json]`
 void add_doctor_command(CLI::App& app, Command& chosen);
 

@@ -36,11 +36,10 @@ constexpr const char* kCollideFooter =
     "content of its mesh, the file is written anew, and a line on standard error says so. If a file cannot be\n"
     "written, a line on standard error says so, and the command goes on.\n"
     "\n"
-    "Examples:\n"
-    "  glissade collide door.stl motor.obj --poses poses.csv\n"
-    "  glissade collide door.stl motor.obj --poses poses.csv --pairs --tolerance-m 0.001 --out near.csv\n"
-    "  glissade collide door.stl motor.obj --poses poses.csv --method brute-force\n"
-    "  glissade collide door.stl motor.obj --poses poses.csv --cache";
+    "Examples, with the files of 'glissade example':\n"
+    "  glissade collide panel.obj motor.obj --poses poses.csv\n"
+    "  glissade collide panel.obj motor.obj --poses poses.csv --pairs --tolerance-m 0.001 --out near.csv\n"
+    "  glissade collide panel.obj motor.obj --poses poses.csv --cache";
 
 struct CollideOptions {
   std::string mesh_A;

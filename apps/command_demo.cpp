@@ -13,6 +13,7 @@
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/haptic_session.h>
+#include <glissade/apps/lcm_option.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
@@ -44,12 +45,10 @@ constexpr const char* kDemoFooter =
     "Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples:\n"
-    "  glissade demo\n"
-    "  glissade demo --fingers\n"
-    "  glissade demo --seconds 20 --report report\n"
-    "  glissade demo --offline --json\n"
-    "  glissade demo --fingers --view\n"
-    "  glissade demo --record demo.lcmlog";
+    "  glissade demo --seconds 4\n"
+    "  glissade demo --fingers --seconds 6 --report report\n"
+    "  glissade demo --offline --seconds 2 --json\n"
+    "  glissade demo --seconds 3 --record demo.lcmlog";
 
 struct DemoOptions {
   double seconds = 10.0;
@@ -95,7 +94,7 @@ RecordSettings record_of(const DemoOptions& options) {
 Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_t ticks, const DemoOptions& options) {
   realtime::lock_memory();
   const StopSignal stop_signal;
-  const auto bus = std::make_shared<devices::LcmBus>(options.lcm_url);
+  const auto bus = connect_to_lcm(options.lcm_url);
   realtime::SteadyClock clock;
   devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script.X_WH, script.with_grip({})), clock);
   StatusLine line;

@@ -23,7 +23,7 @@ constexpr const char* kDoctorFooter =
     "\n"
     "Examples:\n"
     "  glissade doctor\n"
-    "  glissade doctor --json | jq '.[] | select(.verdict == \"bad\")'";
+    "  glissade doctor --json";
 
 void print(const std::vector<Finding>& findings) {
   for (const Finding& finding : findings) {

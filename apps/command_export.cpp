@@ -38,9 +38,10 @@ constexpr const char* kExportFooter =
     "first tick of the recording, and so do hands with fingers; SCENE may then be left out, and must otherwise be the\n"
     "recorded scene.\n"
     "\n"
-    "Examples:\n"
-    "  glissade export examples/scenes/car_door.yaml --out door.obj\n"
-    "  glissade demo --offline --record demo.lcmlog && glissade export --log demo.lcmlog --at 3.5 --out moment.glb";
+    "Examples, with the files of 'glissade example':\n"
+    "  glissade export car_door.yaml --out door.obj\n"
+    "  glissade demo --offline --seconds 4 --record offline.lcmlog && glissade export --log offline.lcmlog --at 0.2 --out "
+    "moment.glb";
 
 struct ExportOptions {
   std::string scene;

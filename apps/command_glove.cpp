@@ -42,8 +42,9 @@ constexpr const char* kGloveFooter =
     "fades, the reason goes to standard error.\n"
     "Columns of --record: docs/file_formats.md in the sources.\n"
     "\n"
-    "Example, with 'glissade run' in another terminal:\n"
-    "  glissade glove --lcm 'udpm://239.255.76.67:7667?ttl=0' --script hand.csv";
+    "Examples, with the files of 'glissade example' and a server:\n"
+    "  glissade run square_peg.yaml --seconds 4 & glissade glove --script square_peg_script.csv\n"
+    "  glissade run square_peg.yaml --seconds 4 & glissade glove --script square_peg_script.csv --record hand.csv";
 
 struct GloveOptions {
   std::string side = "right";
@@ -148,7 +149,7 @@ int run(const GloveOptions& options) {
   const devices::LinkStatistics link = glove.link_statistics();
   std::cout << "glissade glove: " << glove.script_time() / std::chrono::milliseconds(1) << " ms of the script, "
             << link.accepted << " commands (" << link.lost << " lost, " << link.rejected()
-            << " refused), greatest force " << format_number(glove.greatest_force()) << " N\n";
+            << " refused), greatest force " << fixed_text(glove.greatest_force(), 2) << " N\n";
   return 0;
 }
 

@@ -48,12 +48,10 @@ constexpr const char* kGraspFooter =
     "row per millisecond and movable object with its pose and the wrench on the hands.\n"
     "All columns: docs/file_formats.md in the sources.\n"
     "\n"
-    "Examples:\n"
-    "  glissade grasp examples/scenes/ball_and_tray.yaml --hand-trajectory examples/scenes/ball_and_tray_hand.csv "
-    "--out hand.csv\n"
-    "  glissade grasp desk.yaml --hand-trajectory left.csv right.csv --hand left.yaml right.yaml --objects moved.csv\n"
-    "  glissade grasp examples/scenes/ball_and_tray.yaml --hand-trajectory examples/scenes/ball_and_tray_hand.csv "
-    "--out hand.csv --report grasp";
+    "Examples, with the files of 'glissade example':\n"
+    "  glissade grasp ball_and_tray.yaml --hand-trajectory ball_and_tray_hand.csv --out hand.csv\n"
+    "  glissade grasp ball_and_tray.yaml --hand-trajectory ball_and_tray_hand.csv --friction 0.3 --objects moved.csv\n"
+    "  glissade grasp ball_and_tray.yaml --hand-trajectory ball_and_tray_hand.csv --out hand.csv --report grasp";
 
 struct GraspOptions {
   std::string scene;

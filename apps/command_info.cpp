@@ -26,9 +26,9 @@ constexpr const char* kInfoFooter =
     "A mesh with defects can be used all the same. On import, vertices at equal positions are welded, polygons are\n"
     "triangulated, and triangles without area are left out. Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
-    "Examples:\n"
-    "  glissade info door.stl\n"
-    "  glissade info door.stl --json | jq .bounds_max_m";
+    "Examples, with the files of 'glissade example':\n"
+    "  glissade info motor.obj\n"
+    "  glissade info motor.obj --json";
 
 struct InfoOptions {
   std::string mesh;
@@ -58,8 +58,9 @@ Info gather(const InfoOptions& options) {
           static_cast<double>(tree.memory_bytes()) / static_cast<double>(mesh->triangles.size())};
 }
 
+/// Adding zero turns a negative zero into the plain one.
 std::vector<double> list(const Eigen::Vector3d& p) {
-  return {p.x(), p.y(), p.z()};
+  return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0};
 }
 
 void print_json(const Info& info) {
@@ -85,7 +86,7 @@ void print_json(const Info& info) {
 
 std::string spaced(const Eigen::Vector3d& p) {
   std::ostringstream text;
-  text << p.x() << ' ' << p.y() << ' ' << p.z();
+  text << p.x() + 0.0 << ' ' << p.y() + 0.0 << ' ' << p.z() + 0.0;
   return text.str();
 }
 

@@ -43,9 +43,9 @@ constexpr const char* kLatencyFooter =
     "Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples:\n"
-    "  glissade latency\n"
-    "  glissade latency --seconds 8 --json | jq .loaded.ratios\n"
-    "  glissade latency --report report";
+    "  glissade latency --seconds 8\n"
+    "  glissade latency --seconds 4 --json\n"
+    "  glissade latency --seconds 4 --report latency";
 
 struct LatencyOptions {
   double seconds = 32.0;

@@ -23,8 +23,9 @@ constexpr const char* kTablesFooter =
     "A table of which the log has nothing is left out. All columns: docs/file_formats.md in the sources.\n"
     "If the log is damaged, the tables hold everything before the damage, and the exit code is 1.\n"
     "\n"
-    "Example:\n"
-    "  glissade log to-csv demo.lcmlog tables";
+    "Examples:\n"
+    "  glissade demo --seconds 3 --record demo.lcmlog && glissade log to-csv demo.lcmlog tables\n"
+    "  glissade demo --offline --seconds 2 --record offline.lcmlog && glissade log to-csv offline.lcmlog offline";
 
 constexpr const char* kMcapFooter =
     "FILE can be opened with Foxglove and PlotJuggler. Its topics are\n"
@@ -37,8 +38,9 @@ constexpr const char* kMcapFooter =
     "values: docs/file_formats.md in the sources. If the log is damaged, the file holds everything before the damage,\n"
     "and the exit code is 1.\n"
     "\n"
-    "Example:\n"
-    "  glissade demo --offline --record demo.lcmlog && glissade log to-mcap demo.lcmlog demo.mcap";
+    "Examples:\n"
+    "  glissade demo --offline --seconds 4 --record offline.lcmlog && glissade log to-mcap offline.lcmlog offline.mcap\n"
+    "  glissade demo --seconds 3 --record demo.lcmlog && glissade log to-mcap demo.lcmlog demo.mcap";
 
 struct LogOptions {
   std::string log;
@@ -73,6 +75,7 @@ void add_log_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<LogOptions>();
   CLI::App* command = app.add_subcommand("log", "Make other files of event logs");
   command->require_subcommand(1);
+  command->footer(kTablesFooter);
   CLI::App* tables = command->add_subcommand("to-csv", "Write tables (CSV) of an event log of LCM");
   tables->footer(kTablesFooter);
   tables->add_option("LOG", options->log, "Event log of LCM")->required();

@@ -39,10 +39,11 @@ constexpr const char* kReplayFooter =
     "Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples:\n"
-    "  glissade demo --record demo.lcmlog && glissade replay demo.lcmlog\n"
-    "  glissade replay demo.lcmlog --view\n"
+    "  glissade demo --seconds 3 --record demo.lcmlog && glissade replay demo.lcmlog\n"
+    "  glissade demo --offline --seconds 2 --record offline.lcmlog && glissade replay offline.lcmlog --json\n"
     "  glissade replay demo.lcmlog --report report\n"
-    "  glissade replay demo.lcmlog --lcm 'udpm://239.255.76.67:7667?ttl=0'";
+    "With the files of 'glissade example', for a server that the recorded glove leads:\n"
+    "  glissade run car_door.yaml --seconds 2 & glissade replay demo.lcmlog --lcm 'udpm://239.255.76.67:7667?ttl=0'";
 
 struct ReplayOptions {
   std::string log;
@@ -117,7 +118,7 @@ int play(const ReplayOptions& options) {
                       {"force_max_N", glove.greatest_force_N}});
     if (options.json) continue;
     std::cout << "glissade replay: glove " << glove.device << ": " << glove.states << " states, " << glove.commands
-              << " commands, greatest force " << format_number(glove.greatest_force_N) << " N\n";
+              << " commands, greatest force " << fixed_text(glove.greatest_force_N, 2) << " N\n";
   }
   if (options.json) std::cout << nlohmann::json{{"gloves", gloves}, {"damage", damage}}.dump(2) << '\n';
   if (!damage.empty()) throw std::runtime_error(damage);

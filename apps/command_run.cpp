@@ -50,14 +50,11 @@ constexpr const char* kRunFooter =
     "only those of the last minute are checked. If a pose collides, the exit code is 1.\n"
     "Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
-    "Example, with a simulated glove in a second terminal:\n"
-    "  glissade run examples/scenes/car_door.yaml --lcm 'udpm://239.255.76.67:7667?ttl=0' --seconds 12\n"
-    "  glissade glove --lcm 'udpm://239.255.76.67:7667?ttl=0'\n"
-    "Two gloves, of which the second pushes another part:\n"
-    "  glissade run scene.yaml --device 1 2 --hold 1=motor 2=bracket\n"
-    "A hand with fingers, and its simulated glove in a second terminal:\n"
-    "  glissade run examples/scenes/door_module.yaml --fingers\n"
-    "  glissade glove --fingers";
+    "Examples, with the files of 'glissade example' and a simulated glove:\n"
+    "  glissade glove --script square_peg_script.csv & glissade run square_peg.yaml --seconds 4\n"
+    "  glissade glove --fingers & glissade run door_module.yaml --fingers --seconds 9\n"
+    "Two gloves, of which the second holds another part:\n"
+    "  glissade run SCENE --device 1 2 --hold 1=motor 2=bracket";
 
 constexpr const char* kRecordDescription = "Run the haptic server and record all of it, for 'glissade replay'";
 
@@ -69,9 +66,9 @@ constexpr const char* kRecordFooter =
     "leads\n"
     "a server as the recorded gloves did, and 'glissade log to-csv LOG FOLDER' makes tables of it.\n"
     "\n"
-    "Example, with a simulated glove in a second terminal:\n"
-    "  glissade record door.lcmlog examples/scenes/car_door.yaml --seconds 12\n"
-    "  glissade glove";
+    "Examples, with the files of 'glissade example' and a simulated glove:\n"
+    "  glissade glove --script square_peg_script.csv & glissade record peg.lcmlog square_peg.yaml --seconds 4\n"
+    "  glissade demo --seconds 3 --record demo.lcmlog";
 
 struct RunOptions {
   std::string scene;

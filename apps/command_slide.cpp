@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -20,10 +21,9 @@
 #include <glissade/apps/progress.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/slide_check.h>
-#include <glissade/apps/slide_contacts.h>
+#include <glissade/apps/slide_tables.h>
 #include <glissade/apps/sliding_option.h>
 #include <glissade/apps/text.h>
-#include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 
 namespace glissade::apps {
@@ -32,6 +32,8 @@ namespace {
 
 constexpr const char* kSlideDescription =
     "Move a part through a scene along a trajectory, offline and deterministically";
+
+constexpr int kGoalNotReached = 3;
 
 constexpr const char* kSlideFooter =
     "Trajectory: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is a time and the pose X_WG of the ghost, i.e. the\n"
@@ -66,13 +68,14 @@ constexpr const char* kSlideFooter =
     "whether the part reached the goal of the scene (if the scene has no goal: the last row of the trajectory), and\n"
     "how far from the goal the part ended; the greatest force and torque on the hand; the smallest clearance and its\n"
     "time; how long contacts exerted a force. If the part or a moving object touches another object at the start of\n"
-    "a trajectory, this trajectory has a line on standard error instead of a row, and the exit code is 1.\n"
+    "a trajectory, this trajectory has a line on standard error instead of a row, and the exit code is 1. With\n"
+    "--require-goal, the exit code is 3 if a trajectory does not bring the part to the goal.\n"
     "\n"
     "All columns: docs/file_formats.md in the sources.\n"
     "\n"
-    "Examples:\n"
-    "  glissade slide door.yaml --part motor --trajectory hand.csv --out motion.csv\n"
-    "  glissade slide door.yaml --part motor --trajectory way_*.csv --summary ways.csv --report ways";
+    "Examples, with the files of 'glissade example':\n"
+    "  glissade slide square_peg.yaml --part peg --trajectory square_peg_script.csv --out motion.csv --summary -\n"
+    "  glissade slide square_peg.yaml --part peg --trajectory square_peg_*.csv --summary ways.csv --report ways";
 
 struct SlideOptions {
   std::string scene;
@@ -80,11 +83,10 @@ struct SlideOptions {
   std::vector<std::string> trajectories;
   SlidingChoice sliding;
   std::string method = "projection";
-  std::string out;
-  SlideContactsFiles contacts;
-  std::string moving;
+  SlideTableFiles tables;
   std::string summary;
   std::string report;
+  bool requires_goal = false;
   double goal_tolerance_m = SlideCheckOptions{}.goal_tolerance_m;
   double goal_tolerance_deg = SlideCheckOptions{}.goal_tolerance_deg;
 
@@ -97,80 +99,27 @@ haptics::SlidingMethod parse_method(const std::string& name) {
   throw std::invalid_argument("--method: '" + name + "' is unknown; known are " + joined(haptics::kSlidingMethodNames));
 }
 
-std::vector<std::string> columns(haptics::SlidingMethod method) {
-  std::vector<std::string> names{"t_s",  "gx_m", "gy_m",  "gz_m",  "gqw",   "gqx",      "gqy",  "gqz",
-                                 "vx_m", "vy_m", "vz_m",  "vqw",   "vqx",   "vqy",      "vqz",  "fx_N",
-                                 "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm", "contacts", "state"};
-  if (method == haptics::SlidingMethod::kPaper) names.emplace_back("states");
-  return names;
-}
-
-std::vector<std::string> moving_columns() {
-  return {"t_s", "object", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};
-}
-
-void add_row(CsvWriter& out, double time_s, haptics::SlidingMethod method, const haptics::SlidingSimulation& sliding) {
-  const haptics::SlidingResult& result = sliding.result();
-  const Eigen::Vector3d& p_Vref = sliding.part().p_Vref();
-  const haptics::Wrench wrench = haptics::about_point(haptics::spring_wrench(sliding.stiffness(), sliding.error()),
-                                                      result.X_WT * p_Vref, result.X_WV.translation());
-  out.add(time_s).add(result.X_WG).add(result.X_WV);
-  // Adding zero turns a negative zero into the plain one.
-  for (int i = 0; i < 3; ++i)
-    out.add(wrench.f[i] + 0.0);
-  for (int i = 0; i < 3; ++i)
-    out.add(wrench.t[i] + 0.0);
-  out.add(std::int64_t{result.pushing}).add(haptics::name_of(result.state));
-  if (method == haptics::SlidingMethod::kPaper) out.add(sliding.trace());
-  out.end_row();
-}
-
-/// One row per object that moves on its own.
-void add_moving_rows(CsvWriter& out, double time_s, const HapticScene& scene,
-                     const haptics::SlidingSimulation& sliding) {
-  const std::size_t first = scene.obstacles.size() + 1;
-  for (std::size_t i = 0; i < scene.moving.size(); ++i) {
-    out.add(time_s).add(scene.body_names[first + i]).add(sliding.scripted_X_WB()[i]).end_row();
-  }
-}
-
-std::unique_ptr<haptics::SlidingSimulation> start(const HapticScene& scene, const geometry::PoseTrajectory& trajectory,
-                                                  const SlideCheckOptions& options, const std::string& file) {
-  try {
-    return start_sliding(scene, trajectory, options);
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(file + ": " + error.what());
-  }
-}
-
 geometry::PoseTrajectory read(const std::string& file) {
   geometry::PoseTrajectory trajectory = read_trajectory(file);
   check_duration(trajectory.duration(), file);
   return trajectory;
 }
 
-void slide(const HapticScene& scene, const SlideCheckOptions& check_options, const SlideOptions& options) {
+/// Leads the part along the only trajectory, and writes its tables meanwhile.
+SlideCheck slide(const HapticScene& scene, const SlideCheckOptions& check_options, const SlideOptions& options) {
   const std::string& file = options.trajectories.front();
   const geometry::PoseTrajectory trajectory = read(file);
-  const auto sliding = start(scene, trajectory, check_options, file);
-
+  SlideTables tables(options.tables, scene, check_options.method);
   const std::int64_t ticks = trajectory.duration() / std::chrono::milliseconds(1);
-  CsvWriter out(options.out.empty() ? "-" : options.out, columns(check_options.method));
-  std::unique_ptr<SlideContactsWriter> contacts;
-  if (options.contacts.any()) contacts = std::make_unique<SlideContactsWriter>(options.contacts, scene, *sliding);
-  std::unique_ptr<CsvWriter> moving;
-  if (!options.moving.empty()) moving = std::make_unique<CsvWriter>(options.moving, moving_columns());
   ProgressBar progress("sliding", ticks + 1);
-  for (std::int64_t i = 0; i <= ticks; ++i) {
-    const double time_s = std::chrono::duration<double>(slide_to(i, trajectory, *sliding)).count();
-    add_row(out, time_s, check_options.method, *sliding);
-    if (contacts) contacts->write(time_s);
-    if (moving) add_moving_rows(*moving, time_s, scene, *sliding);
-    progress.update(i + 1);
-  }
-  out.close();
-  if (contacts) contacts->close();
-  if (moving) moving->close();
+  std::int64_t done = 0;
+  SlideCheck check = check_slide(scene, trajectory, file, check_options,
+                                 [&](std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding) {
+                                   tables.write(time, sliding);
+                                   progress.update(++done);
+                                 });
+  tables.close();
+  return check;
 }
 
 /// Checks all trajectories, each on the next free processor.
@@ -197,18 +146,24 @@ std::vector<SlideCheck> check_all(const HapticScene& scene, const std::vector<st
   return checks;
 }
 
-int check(const HapticScene& scene, const SlideCheckOptions& check_options, const SlideOptions& options) {
-  if (!options.report.empty()) prepare_report_folder(options.report);
-  const std::vector<SlideCheck> checks = check_all(scene, options.trajectories, check_options);
-  if (!options.summary.empty() || options.report.empty()) {
+/// Writes what the checks found, and returns the exit code.
+int conclude(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& check_options,
+             const SlideOptions& options) {
+  if (options.is_check() && (!options.summary.empty() || options.report.empty())) {
     write_checks(checks, options.summary.empty() ? "-" : options.summary);
   }
   if (!options.report.empty()) write_html_report(report_of(scene, checks, check_options), options.report);
   int exit_code = 0;
   for (const SlideCheck& one : checks) {
-    if (!one.problem) continue;
-    std::cerr << "glissade: " << one.trajectory << ": " << *one.problem << '\n';
-    exit_code = 1;
+    if (one.problem) {
+      std::cerr << "glissade: " << one.trajectory << ": " << *one.problem << '\n';
+      exit_code = 1;
+    } else if (options.requires_goal && !one.goal_reached) {
+      std::cerr << "glissade: " << one.trajectory << ": the goal is not reached: the part ends "
+                << rounded_text(1e3 * one.goal_distance_m) << " mm and " << rounded_text(one.goal_angle_deg)
+                << " degrees from it\n";
+      if (exit_code == 0) exit_code = kGoalNotReached;
+    }
   }
   return exit_code;
 }
@@ -217,51 +172,64 @@ haptics::SlidingOptions sliding_options(const SlideOptions& options) {
   return {.metaphor = metaphor_of(options.sliding), .rules = with_choice({}, options.sliding)};
 }
 
-/// Two tables must not share a file.
+/// Two tables must not share a file, and one trajectory alone has tables of its motion.
 void check_files(const SlideOptions& options) {
-  const std::vector<std::pair<std::string, std::string>> files{{"--out", options.out.empty() ? "-" : options.out},
-                                                               {"--contacts", options.contacts.contacts},
-                                                               {"--patches", options.contacts.patches},
-                                                               {"--moving", options.moving}};
-  if (options.is_check() && (options.contacts.any() || !options.moving.empty())) {
-    throw std::invalid_argument("--contacts, --patches, --moving: apply to one trajectory, not to an assembly check");
-  }
+  const SlideTableFiles& tables = options.tables;
+  const std::vector<std::pair<std::string, std::string>> files{{"--out", tables.motion},
+                                                               {"--contacts", tables.contacts.contacts},
+                                                               {"--patches", tables.contacts.patches},
+                                                               {"--moving", tables.moving},
+                                                               {"--summary", options.summary}};
+  const auto name_of = [](const std::string& file) {
+    return file.empty() || file == "-" ? file : weakly_canonical(std::filesystem::absolute(file)).string();
+  };
   for (std::size_t i = 0; i < files.size(); ++i) {
+    if (files[i].second.empty()) continue;
+    if (options.trajectories.size() > 1 && files[i].first != "--summary") {
+      throw std::invalid_argument(files[i].first +
+                                  ": applies to one trajectory; several write to --summary and --report");
+    }
     for (std::size_t j = 0; j < i; ++j) {
-      if (files[i].second.empty() || files[i].second != files[j].second) continue;
+      if (name_of(files[i].second) != name_of(files[j].second)) continue;
       throw std::invalid_argument(files[i].first + ": " + in_quotes(files[i].second) + " is already the file of " +
                                   files[j].first);
     }
   }
 }
 
-int run(const SlideOptions& options) {
-  const SlideCheckOptions check_options{sliding_options(options), parse_method(options.method),
-                                        options.goal_tolerance_m, options.goal_tolerance_deg};
+int run(SlideOptions options) {
+  SlideCheckOptions check_options{sliding_options(options), parse_method(options.method), options.goal_tolerance_m,
+                                  options.goal_tolerance_deg};
+  check_options.needs_summary = options.is_check();
   if (check_options.method == haptics::SlidingMethod::kPaper && options.sliding.has_rules()) {
     throw std::invalid_argument("--method: paper does not support --friction, --spiral-search and --depenetrate");
   }
-  if (options.is_check() && !options.out.empty()) {
-    throw std::invalid_argument("--out: applies to one trajectory; an assembly check writes to --summary and --report");
-  }
+  if (!options.is_check() && options.tables.motion.empty()) options.tables.motion = "-";
   check_files(options);
   for (const std::string& file : options.trajectories) {
     if (options.is_check() && file.find_first_of(",\"\n\r") != std::string::npos) {
       throw std::invalid_argument("--trajectory: " + in_quotes(file) + " has a comma, quote or line break in its name");
     }
   }
-  const HapticScene scene = make_haptic_scene(open_scene(options.scene), {options.part});
+  const Scene file = open_scene(options.scene);
+  const HapticScene scene = make_haptic_scene(file, {options.part});
   if (check_options.method == haptics::SlidingMethod::kPaper && !scene.moving.empty()) {
     throw std::invalid_argument("--method: paper does not support objects that move on their own, such as " +
                                 scene.moving.front().name);
   }
-  if (!options.moving.empty() && scene.moving.empty()) {
+  if (!file.find(options.part).movable) {
+    throw std::invalid_argument("--part: the object " + in_quotes(options.part) + " in " + scene.source +
+                                " is not movable; a part needs 'movable: true'");
+  }
+  if (!options.tables.moving.empty() && scene.moving.empty()) {
     throw std::invalid_argument("--moving: no object moves on its own in " + scene.source);
   }
-  if (options.contacts.any() || !options.moving.empty()) check_names_fit_csv(scene);
-  if (options.is_check()) return check(scene, check_options, options);
-  slide(scene, check_options, options);
-  return 0;
+  if (options.tables.contacts.any() || !options.tables.moving.empty()) check_names_fit_csv(scene);
+  if (!options.report.empty()) prepare_report_folder(options.report);
+  const std::vector<SlideCheck> checks = options.trajectories.size() == 1
+                                             ? std::vector{slide(scene, check_options, options)}
+                                             : check_all(scene, options.trajectories, check_options);
+  return conclude(scene, checks, check_options, options);
 }
 
 }  // namespace
@@ -278,12 +246,15 @@ void add_slide_command(CLI::App& app, Command& chosen) {
       ->required();
   add_sliding_options(*command, options->sliding);
   command->add_option("--method", options->method, "Sliding method, see below")->capture_default_str();
-  command->add_option("--out", options->out, "CSV file for the motion (default: standard output)");
-  command->add_option("--contacts", options->contacts.contacts, "CSV file for the contacts, see below");
-  command->add_option("--patches", options->contacts.patches, "CSV file for patches of contacts, see below");
-  command->add_option("--moving", options->moving, "CSV file for the moving objects, see below");
+  command->add_option("--out", options->tables.motion,
+                      "CSV file for the motion (default: standard output, but none with --summary or --report)");
+  command->add_option("--contacts", options->tables.contacts.contacts, "CSV file for the contacts, see below");
+  command->add_option("--patches", options->tables.contacts.patches, "CSV file for patches of contacts, see below");
+  command->add_option("--moving", options->tables.moving, "CSV file for the moving objects, see below");
   command->add_option("--summary", options->summary, "CSV file for the assembly check, - for standard output");
   command->add_option("--report", options->report, "Folder for the assembly check as an HTML page, index.html");
+  command->add_flag("--require-goal", options->requires_goal,
+                    "Exit with code 3 if a trajectory does not bring the part to the goal");
   command
       ->add_option("--goal-tolerance-m", options->goal_tolerance_m,
                    "Greatest distance from the goal at which the goal counts as reached")

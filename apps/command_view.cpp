@@ -34,14 +34,15 @@ constexpr const char* kViewFooter =
     "on this machine. SCENE must be the scene of the server; without it, that of 'glissade demo' is shown. Nothing is\n"
     "sent to the server, so that looking on disturbs no hand. 'run', 'demo' and 'replay' show themselves with --view.\n"
     "\n"
-    "Examples, with a server and a glove in other terminals:\n"
-    "  glissade view examples/scenes/car_door.yaml\n"
-    "  glissade view examples/scenes/door_module.yaml --fingers --port 8500";
+    "Examples, with the files of 'glissade example'; a demonstration publishes:\n"
+    "  glissade demo --seconds 20 --lcm 'udpm://239.255.76.67:7667?ttl=0' & glissade view --seconds 20\n"
+    "  glissade view car_door.yaml --seconds 20 --port 8500 --lcm 'udpm://239.255.76.67:7667?ttl=0'";
 
 struct ViewOptions {
   std::string scene;
   LcmAddress lcm;
   std::uint16_t port = kViewPort;
+  double seconds = 0.0;
   std::vector<std::int64_t> devices{devices::kDefaultDevice};
   bool fingers = false;
   std::string hand_file;
@@ -86,7 +87,12 @@ int view(const ViewOptions& options) {
   StatusLine line;
   line.say("glissade view: " + server.url() + " shows what a server at " + options.lcm.url + " publishes; Ctrl-C ends");
   bool has_warned = false;
-  while (!StopSignal::requested()) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto is_over = [&] {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    return StopSignal::requested() || (options.seconds > 0.0 && passed.count() > options.seconds);
+  };
+  while (!is_over()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     const std::int32_t count = received.part_count;
     if (!has_warned && (received.has_unreadable || (count >= 0 && count != parts))) {
@@ -110,6 +116,9 @@ void add_view_command(CLI::App& app, Command& chosen) {
   command->add_option("SCENE", options->scene, "Scene file (YAML) of the server");
   add_lcm_options(*command, options->lcm);
   command->add_option("--port", options->port, "Port on 127.0.0.1 for the page; 0: any that is free")
+      ->capture_default_str();
+  command->add_option("--seconds", options->seconds, "Duration in seconds; 0: until Ctrl-C")
+      ->check(CLI::Range(0.0, 86400.0))
       ->capture_default_str();
   command->add_option("--device", options->devices, "Numbers of the server's gloves, in its order")
       ->check(glove_number())

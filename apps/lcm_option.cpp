@@ -1,3 +1,4 @@
+#include <cerrno>
 #include <charconv>
 #include <limits>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/lcm_option.h>
+#include <glissade/apps/machine_check.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {
@@ -38,6 +40,17 @@ void add_lcm_options(CLI::App& command, LcmAddress& address) {
       "are dropped. Glove and haptic server need the same");
 }
 
+std::shared_ptr<devices::LcmBus> connect_to_lcm(const std::string& url, const std::optional<devices::LcmKey>& key) {
+  try {
+    return std::make_shared<devices::LcmBus>(url, key);
+  } catch (const std::invalid_argument& error) {
+    const std::string reason = error.what();
+    if (reason.find(std::generic_category().message(ENETUNREACH)) == std::string::npos) throw;
+    throw std::invalid_argument(
+        reason + " There is no route for multicast; this makes one that stays on this machine: " + kMulticastMend);
+  }
+}
+
 std::shared_ptr<devices::LcmBus> open_bus(const LcmAddress& address) {
   if (address.url.starts_with("memq:")) {
     throw std::invalid_argument("--lcm: '" + address.url +
@@ -45,7 +58,7 @@ std::shared_ptr<devices::LcmBus> open_bus(const LcmAddress& address) {
   }
   std::optional<devices::LcmKey> key;
   if (!address.key_file.empty()) key = devices::read_lcm_key(address.key_file);
-  return std::make_shared<devices::LcmBus>(address.url, key);
+  return connect_to_lcm(address.url, key);
 }
 
 }  // namespace glissade::apps

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <glissade/devices/lcm_bus.h>
@@ -21,6 +22,10 @@ struct LcmAddress {
   std::string key_file;
 };
 void add_lcm_options(CLI::App& command, LcmAddress& address);
+/// A connection to LCM. Throws as `LcmBus` does; if this machine has no route for multicast, the message has the
+/// command that makes one.
+std::shared_ptr<devices::LcmBus> connect_to_lcm(const std::string& url,
+                                                const std::optional<devices::LcmKey>& key = std::nullopt);
 /// A bus that reaches other processes. Throws std::invalid_argument, naming option or file, as `LcmBus` and
 /// `read_lcm_key` do.
 std::shared_ptr<devices::LcmBus> open_bus(const LcmAddress& address);

@@ -171,7 +171,7 @@ Finding multicast(const std::filesystem::path& root) {
   const bool has_route = has_multicast_route(root);
   return {"multicast route", has_route ? Verdict::kGood : Verdict::kBad, has_route ? "there is one" : "there is none",
           "glove and server in two processes find each other at udpm://239.255.76.67:7667",
-          has_route ? "" : "sudo ip link set lo multicast on && sudo ip route add 239.0.0.0/8 dev lo"};
+          has_route ? "" : kMulticastMend};
 }
 
 }  // namespace

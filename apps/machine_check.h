@@ -31,6 +31,10 @@ struct Finding {
 /// this process. Changes nothing.
 std::vector<Finding> check_machine(const std::filesystem::path& root = "/");
 
+/// The command that lets glove and server in two processes find each other on this machine.
+inline constexpr const char* kMulticastMend =
+    "sudo ip link set lo multicast on && sudo ip route add 239.0.0.0/8 dev lo";
+
 /// What the system did not grant to a haptic loop, what this means, and the command that mends it, in one sentence;
 /// empty if it granted everything.
 std::string missing_rights(bool has_fifo, bool has_locked_memory);

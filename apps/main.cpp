@@ -1,15 +1,19 @@
 /// The program `glissade`: declares its commands, parses, runs the chosen command, and turns an error into one line and
 /// an exit code.
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/command.h>
+#include <glissade/apps/standard_streams.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/usage.h>
 
 namespace {
 
@@ -23,8 +27,10 @@ constexpr const char* kDescription =
     "Metres, newtons, seconds and radians everywhere; quaternions are w, x, y, z.";
 
 constexpr const char* kFooter =
-    "Help on a command: glissade COMMAND --help\n"
-    "Exit code: 0 on success, 1 if a run fails, 2 for wrong input or usage. An error is one line on standard error.";
+    "Help on a command: glissade help COMMAND\n"
+    "Exit code: 0 on success, 1 if a run fails, 2 for wrong input or usage; 3 if 'slide --require-goal' misses a "
+    "goal.\n"
+    "An error is one line on standard error.";
 
 int fail(int exit_code, const std::string& message) {
   std::cerr << "glissade: " << glissade::apps::one_line(message) << '\n';
@@ -39,6 +45,7 @@ int parse_and_run(int argc, char** argv) {
   app.require_subcommand(0, 1);  // a missing command gets a message of our own below
   Command chosen;
   glissade::apps::add_demo_command(app, chosen);
+  glissade::apps::add_example_command(app, chosen);
   glissade::apps::add_info_command(app, chosen);
   glissade::apps::add_collide_command(app, chosen);
   glissade::apps::add_slide_command(app, chosen);
@@ -52,14 +59,18 @@ int parse_and_run(int argc, char** argv) {
   glissade::apps::add_view_command(app, chosen);
   glissade::apps::add_doctor_command(app, chosen);
   glissade::apps::add_latency_command(app, chosen);
+  std::vector<std::string> arguments = glissade::apps::with_help_as_option(app, {argv + 1, argv + argc});
+  std::reverse(arguments.begin(), arguments.end());  // as the parser takes them
   try {
-    app.parse(argc, argv);
+    app.parse(arguments);
   } catch (const CLI::Success& request) {
     return app.exit(request);  // --help and --version
   } catch (const CLI::ParseError& error) {
-    return fail(kBadInput, error.what());
+    const std::string unexpected = glissade::apps::unexpected_arguments(app);
+    return fail(kBadInput, unexpected.empty() ? error.what() : unexpected);
   }
-  if (!chosen) return fail(kBadInput, "a command is missing: see glissade --help");
+  if (!chosen) return fail(kBadInput, "a command is missing: see glissade help");
+  glissade::apps::check_numbers(app);
   return chosen();
 }
 
@@ -73,6 +84,7 @@ int flush_output(int exit_code) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  glissade::apps::complete_standard_streams();
   try {
     return flush_output(parse_and_run(argc, argv));
   } catch (const std::invalid_argument& error) {

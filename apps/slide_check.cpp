@@ -1,16 +1,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
 
 #include <glissade/apps/files/csv.h>
+#include <glissade/apps/least_clearance.h>
 #include <glissade/apps/slide_check.h>
+#include <glissade/apps/start_overlap.h>
 #include <glissade/apps/text.h>
-#include <glissade/collision/dop_query.h>
 
 namespace glissade::apps {
 namespace {
@@ -22,33 +22,6 @@ constexpr std::size_t kPlottedChecks = 6;
 double seconds(std::chrono::nanoseconds time) {
   return std::chrono::duration<double>(time).count();
 }
-
-/// The distance of the visible part from all obstacles and moving objects.
-class Clearance {
- public:
-  explicit Clearance(const HapticScene& scene)
-      : scene_(scene), workspaces_(scene.obstacles.size() + scene.moving.size()) {}
-
-  /// Exact below `limit`.
-  double now(const haptics::SlidingSimulation& sliding, double limit) {
-    double least = limit;
-    std::size_t body = 0;
-    const auto look_at = [&](const collision::DopTree& tree, const Eigen::Isometry3d& X_WB) {
-      const Eigen::Isometry3d X_BV = X_WB.inverse(Eigen::Isometry) * sliding.result().X_WV;
-      least = std::min(
-          least, collision::gap_lower_bound(tree, scene_.parts.front().part_V->tree, X_BV, workspaces_[body++], least));
-    };
-    for (const haptics::Obstacle& obstacle : scene_.obstacles)
-      look_at(obstacle.body->tree, obstacle.X_WO);
-    for (std::size_t i = 0; i < scene_.moving.size(); ++i)
-      look_at(scene_.moving[i].part_B->tree, sliding.scripted_X_WB()[i]);
-    return least;
-  }
-
- private:
-  const HapticScene& scene_;
-  std::vector<collision::CoherentWorkspace> workspaces_;
-};
 
 void note_goal(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WGoal, const SlideCheckOptions& options,
                SlideCheck& check) {
@@ -71,8 +44,22 @@ std::string verdict(const SlideCheck& check) {
   return text;
 }
 
-}  // namespace
+/// How deep the part is in others at the first row, and what can be done about it.
+std::string advice(const HapticScene& scene, const geometry::PoseTrajectory& trajectory,
+                   const SlideCheckOptions& options) {
+  std::vector<Eigen::Isometry3d> moving_X_WB;
+  for (const haptics::ScriptedPart& part : scene.moving)
+    moving_X_WB.push_back(part.script_X_WB.pose_at(trajectory.first_time()));
+  const std::string overlaps = overlaps_at(scene, trajectory.pose_at(trajectory.first_time()), moving_X_WB);
+  if (overlaps.empty()) return "";
+  const bool may_depenetrate = options.method == haptics::SlidingMethod::kProjection &&
+                               options.sliding.rules.overlap != haptics::OverlapRule::kDepenetrate;
+  return ": " + overlaps +
+         (may_depenetrate ? "; begin elsewhere, or let --depenetrate push the part out of obstacles" : "");
+}
 
+/// The simulation from the first row of the trajectory on. Throws std::invalid_argument, with one sentence, when a body
+/// is not free there.
 std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& scene,
                                                           const geometry::PoseTrajectory& trajectory,
                                                           const SlideCheckOptions& options) {
@@ -83,10 +70,12 @@ std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& sce
     return haptics::make_sliding(options.method, scene.obstacles, scene.parts.front().part_V,
                                  trajectory.pose_at(trajectory.first_time()), options.sliding, moving);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(std::string(error.what()) + ", at the time of the first row");
+    throw std::invalid_argument(std::string(error.what()) + ", at the time of the first row" +
+                                advice(scene, trajectory, options));
   }
 }
 
+/// Advances to a tick of the trajectory, a millisecond, and returns its time.
 std::chrono::nanoseconds slide_to(std::int64_t tick, const geometry::PoseTrajectory& trajectory,
                                   haptics::SlidingSimulation& sliding) {
   const std::chrono::nanoseconds time = trajectory.first_time() + tick * milliseconds(1);
@@ -95,13 +84,14 @@ std::chrono::nanoseconds slide_to(std::int64_t tick, const geometry::PoseTraject
   return time;
 }
 
+}  // namespace
+
 SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory& trajectory, const std::string& name,
-                       const SlideCheckOptions& options) {
+                       const SlideCheckOptions& options, const SlideWatch& watch) {
   SlideCheck check;
   check.trajectory = name;
   check.force.name = name;
   check.duration_s = seconds(trajectory.duration());
-  check.clearance_min_m = std::numeric_limits<double>::infinity();
   std::unique_ptr<haptics::SlidingSimulation> sliding;
   try {
     sliding = start_sliding(scene, trajectory, options);
@@ -109,20 +99,25 @@ SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory&
     check.problem = error.what();
     return check;
   }
-  Clearance clearance(scene);
+  LeastClearance clearance(scene);
   const std::int64_t ticks = trajectory.duration() / milliseconds(1);
   for (std::int64_t i = 0; i <= ticks; ++i) {
-    const std::chrono::nanoseconds time = slide_to(i, trajectory, *sliding) - trajectory.first_time();
+    const std::chrono::nanoseconds now = slide_to(i, trajectory, *sliding);
+    const std::chrono::nanoseconds time = now - trajectory.first_time();
     const haptics::Wrench wrench = haptics::spring_wrench(sliding->stiffness(), sliding->error());
     check.force_max_N = std::max(check.force_max_N, wrench.f.norm());
     check.torque_max_Nm = std::max(check.torque_max_Nm, wrench.t.norm());
     check.contact_s += sliding->result().pushing > 0 ? 1e-3 : 0.0;
-    check.force.x.push_back(seconds(time));
-    check.force.y.push_back(wrench.f.norm());
-    const double gap = clearance.now(*sliding, check.clearance_min_m);
-    if (gap < check.clearance_min_m) check.clearance_min_at_s = seconds(time);
-    check.clearance_min_m = gap;
+    if (options.needs_summary) {
+      check.force.x.push_back(seconds(time));
+      check.force.y.push_back(wrench.f.norm());
+      clearance.note(sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
+    }
+    if (watch) watch(now, *sliding);
   }
+  clearance.finish();
+  check.clearance_min_m = clearance.least();
+  check.clearance_min_at_s = seconds(clearance.least_at() * milliseconds(1));
   note_goal(sliding->result().X_WV, scene.X_WGoal.value_or(trajectory.pose_at(trajectory.last_time())), options, check);
   return check;
 }

@@ -3,13 +3,10 @@
 /// The assembly check of a trajectory: whether the part reaches its goal, and with which forces and clearance.
 
 #include <chrono>
-#include <cstdint>
-#include <memory>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <Eigen/Geometry>
 
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/report/html_report.h>
@@ -25,6 +22,7 @@ struct SlideCheckOptions {
   haptics::SlidingMethod method = haptics::SlidingMethod::kProjection;
   double goal_tolerance_m = 0.3e-3;
   double goal_tolerance_deg = 0.5;
+  bool needs_summary = true;  ///< otherwise clearance and force over time are left out
 };
 
 struct SlideCheck {
@@ -35,29 +33,22 @@ struct SlideCheck {
   double goal_angle_deg = 0.0;
   double force_max_N = 0.0;
   double torque_max_Nm = 0.0;    ///< about the part's reference point
-  double clearance_min_m = 0.0;  ///< of the visible part, by exact queries
+  double clearance_min_m = 0.0;  ///< of the visible part; infinite if left out
   double clearance_min_at_s = 0.0;
   double duration_s = 0.0;
   double contact_s = 0.0;  ///< time during which contacts pushed
   PlotSeries force;        ///< newtons over seconds
 };
 
-/// The simulation of the scene from the first row of the trajectory on. The part starts at the pose of that row;
-/// objects that move on their own start at their poses of that time. Throws std::invalid_argument, with one sentence,
-/// when a body is not free there.
-std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& scene,
-                                                          const geometry::PoseTrajectory& trajectory,
-                                                          const SlideCheckOptions& options);
+/// Called after each millisecond, first for the start, with the time on the clock of the trajectory.
+using SlideWatch = std::function<void(std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding)>;
 
-/// Advances to a tick of the trajectory and returns its time. A tick is a millisecond. Call it with 0, 1, 2 and so on.
-std::chrono::nanoseconds slide_to(std::int64_t tick, const geometry::PoseTrajectory& trajectory,
-                                  haptics::SlidingSimulation& sliding);
-
-/// Moves the part along the trajectory in steps of a millisecond, offline. The goal is that of the scene, by default
-/// the last row of the trajectory. A start that is not free is reported as `problem`. Checks of one scene may run in
-/// several threads at once.
+/// Moves the part along the trajectory in steps of a millisecond, offline. The part starts at the pose of the first
+/// row, objects that move on their own at their poses of that time. The goal is that of the scene, by default the last
+/// row of the trajectory. A start that is not free is reported as `problem`, without a call of `watch`. Checks of one
+/// scene may run in several threads at once.
 SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory& trajectory, const std::string& name,
-                       const SlideCheckOptions& options);
+                       const SlideCheckOptions& options, const SlideWatch& watch = {});
 
 /// Writes one row per check, in their order; `path` as for `CsvWriter`.
 void write_checks(const std::vector<SlideCheck>& checks, const std::string& path);

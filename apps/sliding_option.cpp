@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <glissade/apps/did_you_mean.h>
 #include <glissade/apps/sliding_option.h>
 #include <glissade/apps/text.h>
 
@@ -21,8 +22,10 @@ void add_sliding_options(CLI::App& command, SlidingChoice& choice) {
 haptics::Metaphor metaphor_of(const SlidingChoice& choice) {
   const auto metaphor = haptics::metaphor_from_name(choice.metaphor);
   if (metaphor) return *metaphor;
-  throw std::invalid_argument("--metaphor: " + in_quotes(choice.metaphor) + " is unknown; known are " +
-                              joined(haptics::kMetaphorNames));
+  throw std::invalid_argument(
+      "--metaphor: " + in_quotes(choice.metaphor) + " is unknown" +
+      did_you_mean(choice.metaphor, {haptics::kMetaphorNames.begin(), haptics::kMetaphorNames.end()}) + "; known are " +
+      joined(haptics::kMetaphorNames));
 }
 
 haptics::SlidingRules with_choice(haptics::SlidingRules rules, const SlidingChoice& choice) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -31,7 +30,7 @@ std::optional<double> parse_number(std::string_view text) {
 
 std::string format_number(double value) {
   std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value + 0.0);
   return {buffer.data(), result.ptr};
 }
 
@@ -39,6 +38,15 @@ std::string fixed_text(double value, int decimals) {
   std::array<char, 400> buffer{};  // the largest double has 309 digits before the point
   const auto result =
       std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals);
+  const std::string text(buffer.data(), result.ptr);
+  return text.starts_with('-') && text.find_first_of("123456789") == std::string::npos ? text.substr(1) : text;
+}
+
+std::string rounded_text(double value) {
+  constexpr int kDigits = 3;
+  std::array<char, 32> buffer{};
+  const auto result =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value + 0.0, std::chars_format::general, kDigits);
   return {buffer.data(), result.ptr};
 }
 
@@ -60,7 +68,7 @@ std::string one_line(std::string_view text) {
   return result;
 }
 
-std::string read_text_file(const std::string& path) {
+std::string read_text_file(const std::string& path, std::uintmax_t max_bytes) {
   if (path.empty()) throw std::invalid_argument("the name of a file is empty");
   // A folder opens like a file and fails only later, with a less helpful reason. A pipe or a device may never end.
   std::error_code ignored;
@@ -71,10 +79,16 @@ std::string read_text_file(const std::string& path) {
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::invalid_argument(path + ": " + std::generic_category().message(errno));
-  std::ostringstream text;
-  text << file.rdbuf();
+  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  if (size > max_bytes) {
+    throw std::invalid_argument(path + ": has " + std::to_string(size) + " bytes; at most " +
+                                std::to_string(max_bytes) + " are read");
+  }
+  std::string text(size, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (file.bad()) throw std::invalid_argument(path + ": cannot be read");
-  return std::move(text).str();
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
 }
 
 }  // namespace glissade::apps

@@ -2,6 +2,7 @@
 
 /// Text helpers shared by the file readers and the error messages.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,11 +13,14 @@ namespace glissade::apps {
 /// "nan" and values beyond the range of a double are not numbers here.
 std::optional<double> parse_number(std::string_view text);
 
-/// The shortest decimal text that reads back as exactly `value`.
+/// The shortest decimal text that reads back as exactly `value`; zero has no sign.
 std::string format_number(double value);
 
-/// `value` with so many digits after the point.
+/// `value` with so many digits after the point; what rounds to zero has no sign.
 std::string fixed_text(double value, int decimals);
+
+/// `value` with three digits, as many as a person reads in a message: 12.3, 0.00123, 1.23e-07.
+std::string rounded_text(double value);
 
 /// `text` in single quotes, fit for a one-line message: control characters are replaced and long texts cut short.
 std::string in_quotes(std::string_view text);
@@ -35,8 +39,11 @@ std::string joined(const Texts& texts) {
   return result;
 }
 
-/// The file's bytes. Throws std::invalid_argument, naming the file, when it is missing, not a regular file or cannot be
-/// read.
-std::string read_text_file(const std::string& path);
+/// Longer than any trajectory of a day.
+inline constexpr std::uintmax_t kLargestTextFile = std::uintmax_t{1} << 34U;
+
+/// The file's bytes. Throws std::invalid_argument, naming the file, when it is missing, not a regular file, longer than
+/// `max_bytes` or cannot be read.
+std::string read_text_file(const std::string& path, std::uintmax_t max_bytes = kLargestTextFile);
 
 }  // namespace glissade::apps

@@ -142,6 +142,11 @@ std::filesystem::path tree_cache_path(const std::filesystem::path& mesh_path) {
 }
 
 void write_tree_cache(const std::filesystem::path& path, const DopTree& tree) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::symlink_status(path, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw std::runtime_error(path.string() + ": not a regular file, and not replaced");
+  }
   std::string bytes = head_of(tree.mesh(), tree.options());
   append_shape_code(tree, bytes);
   base::append_number(bytes, content_hash(bytes));

@@ -46,8 +46,8 @@ struct CachedTree {
 std::filesystem::path tree_cache_path(const std::filesystem::path& mesh_path);
 
 /// Writes or replaces the file. The file appears complete or not at all: it has another name until it is complete, and
-/// is deleted if it cannot be completed. Throws std::runtime_error with one line that names the file and the reason.
-/// May block on the disk.
+/// is deleted if it cannot be completed. What is not a regular file, such as a symbolic link, is not replaced. Throws
+/// std::runtime_error with one line that names the file and the reason. May block on the disk.
 void write_tree_cache(const std::filesystem::path& path, const DopTree& tree);
 
 /// Reads the tree that DopTree(mesh, options) would build. An unusable file is not an error: see `CachedTree::state`.

@@ -23,7 +23,7 @@ HandTrajectory read_hand_trajectory(const std::string& path) {
 }
 
 grasping::HandShape read_hand_shape(const std::string& path) {
-  const YamlReader reader(path);
+  YamlReader reader(path);
   const YAML::Node root = reader.parse(read_text_file(path));
   constexpr std::array<std::string_view, 3> kKeys{"side", "length_m", "breadth_m"};
   reader.check_keys(root, "a hand", kKeys);

@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
+#include <glissade/apps/did_you_mean.h>
 #include <glissade/apps/files/pose_rules.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/files/trajectory_file.h>
@@ -19,6 +21,23 @@ namespace glissade::apps {
 namespace {
 
 using geometry::TriangleMesh;
+
+/// The shape or parameter that was meant, if one of them is unknown.
+std::string meant_shape(const std::string& type, const std::map<std::string, double>& parameters) {
+  std::vector<std::string> known;
+  for (const shapes::Shape& shape : shapes::shape_catalog()) {
+    known.push_back(shape.name);
+    if (shape.name != type) continue;
+    known.clear();
+    for (const shapes::ShapeParameter& parameter : shape.parameters)
+      known.push_back(parameter.name);
+    for (const auto& [name, value] : parameters) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) return did_you_mean(name, known);
+    }
+    return "";
+  }
+  return did_you_mean(type, known);
+}
 
 /// Reads one scene file.
 class SceneReader {
@@ -152,7 +171,7 @@ class SceneReader {
       geometry.mesh = std::make_shared<const geometry::TriangleMesh>(shapes::make_shape(type, parameters));
       return geometry;
     } catch (const std::invalid_argument& error) {
-      yaml_.fail(shape, std::string("shape: ") + error.what());
+      yaml_.fail(shape, std::string("shape: ") + error.what() + meant_shape(type, parameters));
     }
   }
 
@@ -187,11 +206,13 @@ const SceneObject& Scene::find(const std::string& name) const {
     if (object.name == name) return object;
     known.push_back(object.name);
   }
-  throw std::invalid_argument(source + ": there is no object " + in_quotes(name) + " (known: " + joined(known) + ")");
+  throw std::invalid_argument(source + ": there is no object " + in_quotes(name) + did_you_mean(name, known) +
+                              " (known: " + joined(known) + ")");
 }
 
 Scene read_scene(const std::string& path) {
-  return parse_scene(read_text_file(path), path, std::filesystem::path(path).parent_path().string());
+  constexpr std::uintmax_t kLargestScene = std::uintmax_t{1} << 26U;
+  return parse_scene(read_text_file(path, kLargestScene), path, std::filesystem::path(path).parent_path().string());
 }
 
 Scene parse_scene(const std::string& text, const std::string& source, const std::string& base_folder) {

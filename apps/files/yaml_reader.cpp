@@ -4,6 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include <yaml-cpp/depthguard.h>
+
+#include <glissade/apps/did_you_mean.h>
 #include <glissade/apps/files/yaml_reader.h>
 #include <glissade/apps/text.h>
 
@@ -13,6 +16,25 @@ namespace {
 
 std::string at_mark(const std::string& source, const YAML::Mark& mark) {
   return mark.is_null() ? source : source + ":" + std::to_string(mark.line + 1);
+}
+
+/// The line, from 0, of the last thing before the mark that is not empty.
+int last_line_before(const std::string& text, const YAML::Mark& mark) {
+  int line = 0;
+  int last = 0;
+  int column = 0;
+  bool is_comment = false;
+  for (const char c : text) {
+    if (line > mark.line || (line == mark.line && column >= mark.column)) break;
+    is_comment = is_comment || c == '#';
+    if (!is_comment && c != ' ' && c != '\r' && c != '\n') last = line;
+    ++column;
+    if (c != '\n') continue;
+    ++line;
+    column = 0;
+    is_comment = false;
+  }
+  return last;
 }
 
 std::string shown(const YAML::Node& node) {
@@ -25,10 +47,14 @@ std::string shown(const YAML::Node& node) {
 
 YamlReader::YamlReader(std::string source) : source_(std::move(source)) {}
 
-YAML::Node YamlReader::parse(const std::string& text) const {
+YAML::Node YamlReader::parse(const std::string& text) {
+  text_ = text;
   std::vector<YAML::Node> documents;
   try {
     documents = YAML::LoadAll(text);
+  } catch (const YAML::DeepRecursion& error) {
+    throw std::invalid_argument(at_mark(source_, error.mark) + ": not valid YAML: lists or maps in more than " +
+                                std::to_string(error.depth()) + " others");
   } catch (const YAML::Exception& error) {
     throw std::invalid_argument(at_mark(source_, error.mark) + ": not valid YAML: " + error.msg);
   }
@@ -37,7 +63,10 @@ YAML::Node YamlReader::parse(const std::string& text) const {
 }
 
 std::string YamlReader::where(const YAML::Node& node) const {
-  return at_mark(source_, node.Mark());
+  YAML::Mark mark = node.Mark();
+  // The mark of an empty value is where the next thing begins, often some lines below.
+  if (node.IsNull()) mark.line = last_line_before(text_, mark);
+  return at_mark(source_, mark);
 }
 
 void YamlReader::fail(const YAML::Node& node, const std::string& message) const {
@@ -60,7 +89,8 @@ void YamlReader::check_keys(const YAML::Node& map, const std::string& what,
   for (const auto& entry : map) {
     const std::string& key = entry.first.Scalar();
     if (std::find(known.begin(), known.end(), key) == known.end()) {
-      fail(entry.first, what + ": unknown key " + in_quotes(key) + " (known: " + joined(known) + ")");
+      fail(entry.first, what + ": unknown key " + in_quotes(key) + did_you_mean(key, {known.begin(), known.end()}) +
+                            " (known: " + joined(known) + ")");
     }
   }
 }

@@ -19,7 +19,7 @@ class YamlReader {
   explicit YamlReader(std::string source);
 
   /// The root node of the one document; throws on a syntax error and on a second document.
-  YAML::Node parse(const std::string& text) const;
+  YAML::Node parse(const std::string& text);
 
   /// "file:line" of a node.
   std::string where(const YAML::Node& node) const;
@@ -45,6 +45,7 @@ class YamlReader {
 
  private:
   std::string source_;
+  std::string text_;
 };
 
 }  // namespace glissade::apps

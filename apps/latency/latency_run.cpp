@@ -14,6 +14,7 @@
 #include <glissade/apps/latency/machine_load.h>
 #include <glissade/apps/latency/shared_stamps.h>
 #include <glissade/apps/latency/udp_ping_pong.h>
+#include <glissade/apps/lcm_option.h>
 #include <glissade/devices/haptic_state_publisher.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/geometry/mesh_generators.h>
@@ -83,7 +84,7 @@ class LatencyRun {
       arrivals_.clear();
       if (link.link == kInProcess) measure_in_process(link);
       if (link.link == kMemq) measure_over(std::make_shared<devices::LcmBus>("memq://"), link);
-      if (link.link == kUdpm) measure_over(std::make_shared<devices::LcmBus>(url_), link);
+      if (link.link == kUdpm) measure_over(connect_to_lcm(url_), link);
     }
     measure_round_trip(figures.round_trip);
   }

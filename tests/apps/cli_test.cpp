@@ -46,7 +46,7 @@ TEST_F(Cli, HelpAndVersionSucceed) {
     EXPECT_EQ(result.standard_error, "");
     EXPECT_NE(result.standard_output, "");
   }
-  EXPECT_THAT(glissade({"collide", "--help"}).standard_output, HasSubstr("glissade collide door.stl motor.obj"));
+  EXPECT_THAT(glissade({"collide", "--help"}).standard_output, HasSubstr("glissade collide panel.obj motor.obj"));
 }
 
 TEST_F(Cli, InfoTellsTheTrianglesAndTheTree) {

@@ -102,6 +102,19 @@ TEST_F(AssemblyCheck, HasAGoalOfItsOwnTolerance) {
   EXPECT_EQ(checks_of(lax.standard_output).at("below.csv").at("goal_reached"), 1.0);
 }
 
+TEST_F(AssemblyCheck, AGoalThatIsRequiredHasAnExitCodeOfItsOwn) {
+  EXPECT_EQ(check({above, below}).exit_code, 0);
+  EXPECT_EQ(check({above}, {"--require-goal"}).exit_code, 0);
+  const ProgramResult missed = check({above, below}, {"--require-goal"});
+  EXPECT_EQ(missed.exit_code, 3);
+  EXPECT_THAT(missed.standard_error, testing::HasSubstr("below.csv: the goal is not reached: the part ends 10 mm"));
+  EXPECT_EQ(checks_of(missed.standard_output).size(), 2U) << "the answer is there all the same";
+  EXPECT_EQ(check({below}, {"--require-goal"}).exit_code, 3) << "also for the motion alone";
+
+  const std::string inside = trajectory("inside.csv", "0,0,0,0.01,1,0,0,0\n0.1,0,0,0.1,1,0,0,0\n");
+  EXPECT_EQ(check({inside, below}, {"--require-goal"}).exit_code, 1) << "a failure counts more";
+}
+
 TEST_F(AssemblyCheck, WritesAPage) {
   const ProgramResult result = check({above, below}, {"--report", folder.path("page")});
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
@@ -109,6 +122,23 @@ TEST_F(AssemblyCheck, WritesAPage) {
   const std::string page = read_text_file(folder.path("page/index.html"));
   for (const char* part : {"Assembly check of box", "1 of 2", "above.csv", "not reached, 10.0", "force [N]"})
     EXPECT_THAT(page, testing::HasSubstr(part));
+}
+
+TEST_F(AssemblyCheck, OneRunWritesEverything) {
+  const auto file = [&](const std::string& name) { return folder.path(name); };
+  const ProgramResult all =
+      check({below}, {"--out", file("out.csv"), "--contacts", file("contacts.csv"), "--patches", file("patches.csv"),
+                      "--summary", file("summary.csv"), "--report", file("page")});
+  ASSERT_EQ(all.exit_code, 0) << all.standard_error;
+  EXPECT_EQ(all.standard_output, "");
+  EXPECT_THAT(read_text_file(file("page/index.html")), testing::HasSubstr("Assembly check of box"));
+  // Each is what a run for it alone writes.
+  EXPECT_EQ(read_text_file(file("out.csv")), check({below}).standard_output);
+  EXPECT_EQ(read_text_file(file("summary.csv")), check({below}, {"--summary", "-"}).standard_output);
+  for (const char* table : {"contacts", "patches"}) {
+    ASSERT_EQ(check({below}, {"--" + std::string(table), file("alone.csv")}).exit_code, 0);
+    EXPECT_EQ(read_text_file(file(table + std::string(".csv"))), read_text_file(file("alone.csv")));
+  }
 }
 
 TEST_F(AssemblyCheck, OneThatCannotStartFailsAlone) {
@@ -127,6 +157,8 @@ TEST_F(AssemblyCheck, GivesTheSameBytesAgain) {
 TEST_F(AssemblyCheck, RefusesWhatMakesNoSense) {
   expect_refused({"slide", scene, "--part", "box", "--trajectory", above, below, "--out", folder.path("rows.csv")},
                  {"--out", "--summary"});
+  expect_refused({"slide", scene, "--part", "box", "--trajectory", above, below, "--contacts", folder.path("rows.csv")},
+                 {"--contacts", "one trajectory"});
   expect_refused({"slide", scene, "--part", "box", "--trajectory", above, folder.path("none.csv")}, {"none.csv"});
   expect_refused({"slide", scene, "--part", "box", "--trajectory", "a,b.csv", above},
                  {"--trajectory", "'a,b.csv'", "comma"});

@@ -94,7 +94,7 @@ TEST_F(SlideAmongMovingObjects, RefusesWhatMakesNoSense) {
   expect_refused(slide(scene(", grip_N_per_m: 0")), {"scene.yaml:4", "grip_N_per_m", "positive"});
   expect_refused({"slide", scene(), "--part", "lift", "--trajectory", hand}, {"scene.yaml", "'lift'", "moves"});
   expect_refused(slide(scene(), {"--method", "paper"}), {"--method", "'lift'"});
-  expect_refused(slide(scene(), {"--summary", "-", "--moving", folder.path("moving.csv")}), {"--moving", "check"});
+  expect_refused(slide(scene(), {"--summary", "-", "--moving", "-"}), {"--summary", "'-'", "--moving"});
   expect_refused(slide(scene(), {"--out", folder.path("a.csv"), "--moving", folder.path("a.csv")}),
                  {"--moving", "a.csv", "--out"});
   folder.write("lift.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,zero,1,0,0,0\n");
@@ -125,7 +125,7 @@ TEST_F(SlideAmongMovingObjects, TheHapticLoopFeelsThemToo) {
 TEST_F(SlideAmongMovingObjects, WhereNothingMovesThereIsNothingToWrite) {
   const std::string still = folder.write("still.yaml",
                                          "objects:\n"
-                                         "  - {name: cube, shape: {type: box}}\n"
+                                         "  - {name: cube, movable: true, shape: {type: box}}\n"
                                          "  - {name: floor, shape: {type: plate}, pose: {position_m: [0, 0, -9]}}\n");
   expect_refused(slide(still, {"--moving", folder.path("moving.csv")}), {"--moving", "still.yaml"});
 }

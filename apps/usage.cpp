@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/did_you_mean.h>
+#include <glissade/apps/text.h>
+#include <glissade/apps/usage.h>
+
+namespace glissade::apps {
+namespace {
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames())
+      names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::string unknown_command(const std::string& name, const std::vector<std::string>& known) {
+  return in_quotes(name) + " is not a command" + did_you_mean(name, known) + "; 'glissade help' lists them";
+}
+
+}  // namespace
+
+std::vector<std::string> with_help_as_option(const CLI::App& app, std::vector<std::string> arguments) {
+  if (arguments.empty() || arguments.front() != "help") return arguments;
+  arguments.erase(arguments.begin());
+  const CLI::App* command = &app;
+  for (const std::string& name : arguments) {
+    const std::vector<std::string> known = command_names(*command);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw std::invalid_argument(unknown_command(name, known));
+    }
+    command = command->get_subcommand(name);
+  }
+  arguments.emplace_back("--help");
+  return arguments;
+}
+
+std::string unexpected_arguments(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty())
+    command = command->get_subcommands().front();
+  const std::vector<std::string> left = app.remaining(true);
+  if (left.empty()) return "";
+  const std::string& first = left.front();
+  const std::vector<std::string> commands = command_names(*command);
+  if (first.starts_with('-')) {
+    const std::string name = first.substr(0, first.find('='));
+    return name + " is not an option of '" + command->get_name() + "'" + did_you_mean(name, option_names(*command));
+  }
+  if (commands.empty()) return in_quotes(first) + " is one argument too many for '" + command->get_name() + "'";
+  return unknown_command(first, commands);
+}
+
+void check_numbers(const CLI::App& app) {
+  for (const CLI::App* command : app.get_subcommands()) {
+    for (const CLI::Option* option : command->get_options()) {
+      // A check adds its name to that of the type.
+      if (!option->get_type_name().starts_with("FLOAT")) continue;
+      for (const std::string& text : option->results()) {
+        if (parse_number(text)) continue;
+        throw std::invalid_argument(option->get_name() + ": must be a finite number, not " + in_quotes(text));
+      }
+    }
+    check_numbers(*command);
+  }
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,26 @@
+#pragma once
+
+/// What the user asked of the program as a whole: help on a command, or something that it does not know.
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace glissade::apps {
+
+/// The arguments of the program with `help COMMAND` turned into `COMMAND --help`. Throws std::invalid_argument for an
+/// unknown command.
+std::vector<std::string> with_help_as_option(const CLI::App& app, std::vector<std::string> arguments);
+
+/// The sentence for the first argument that the last parsing of `app` did not expect: what it is not, and what was
+/// meant. Empty if it expected all.
+std::string unexpected_arguments(const CLI::App& app);
+
+/// Throws std::invalid_argument, naming the option, when a command was given "nan", "inf" or another text that is not a
+/// finite number with a decimal point for an option that takes a number. To be called after parsing.
+void check_numbers(const CLI::App& app);
+
+}  // namespace glissade::apps

@@ -1,0 +1,30 @@
+/// The examples in helps that talk to another process work as they are pasted, in a network namespace of their own.
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "help_examples.h"
+#include "temporary_folder.h"
+
+namespace glissade::apps {
+namespace {
+
+TEST(HelpExamplesWithANetwork, WorkAsTheyArePasted) {
+  ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
+  const test_support::TemporaryFolder folder;
+  ASSERT_EQ(test_support::run_example("glissade example", folder).exit_code, 0);
+  // That of 'replay' leads a server with what an example before it recorded.
+  ASSERT_EQ(test_support::run_example("glissade demo --seconds 3 --record demo.lcmlog", folder).exit_code, 0);
+  for (const std::string& command : test_support::kCommands) {
+    for (const std::string& example : test_support::examples_of(command)) {
+      if (!test_support::needs_network(example)) continue;
+      SCOPED_TRACE(example);
+      const test_support::ProgramResult result = test_support::run_example(example, folder);
+      EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace glissade::apps
