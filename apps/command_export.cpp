@@ -40,7 +40,8 @@ constexpr const char* kExportFooter =
     "\n"
     "Examples, with the files of 'glissade example':\n"
     "  glissade export car_door.yaml --out door.obj\n"
-    "  glissade demo --offline --seconds 4 --record offline.lcmlog && glissade export --log offline.lcmlog --at 0.2 --out "
+    "  glissade demo --offline --seconds 4 --record offline.lcmlog && glissade export --log offline.lcmlog --at 0.2 "
+    "--out "
     "moment.glb";
 
 struct ExportOptions {

@@ -39,7 +39,8 @@ constexpr const char* kMcapFooter =
     "and the exit code is 1.\n"
     "\n"
     "Examples:\n"
-    "  glissade demo --offline --seconds 4 --record offline.lcmlog && glissade log to-mcap offline.lcmlog offline.mcap\n"
+    "  glissade demo --offline --seconds 4 --record offline.lcmlog && glissade log to-mcap offline.lcmlog "
+    "offline.mcap\n"
     "  glissade demo --seconds 3 --record demo.lcmlog && glissade log to-mcap demo.lcmlog demo.mcap";
 
 struct LogOptions {
