@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -24,6 +25,7 @@
 #include <glissade/apps/slide_tables.h>
 #include <glissade/apps/sliding_option.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/view/slide_replay.h>
 #include <glissade/haptics/sliding.h>
 
 namespace glissade::apps {
@@ -105,8 +107,9 @@ geometry::PoseTrajectory read(const std::string& file) {
   return trajectory;
 }
 
-/// Leads the part along the only trajectory, and writes its tables meanwhile.
-SlideCheck slide(const HapticScene& scene, const SlideCheckOptions& check_options, const SlideOptions& options) {
+/// Leads the part along the only trajectory, and writes its tables meanwhile, and its replay if there is one.
+SlideCheck slide(const HapticScene& scene, const SlideCheckOptions& check_options, const SlideOptions& options,
+                 SlideReplay* replay) {
   const std::string& file = options.trajectories.front();
   const geometry::PoseTrajectory trajectory = read(file);
   SlideTables tables(options.tables, scene, check_options.method);
@@ -116,6 +119,7 @@ SlideCheck slide(const HapticScene& scene, const SlideCheckOptions& check_option
   SlideCheck check = check_slide(scene, trajectory, file, check_options,
                                  [&](std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding) {
                                    tables.write(time, sliding);
+                                   if (replay != nullptr) replay->add(time, sliding);
                                    progress.update(++done);
                                  });
   tables.close();
@@ -148,11 +152,15 @@ std::vector<SlideCheck> check_all(const HapticScene& scene, const std::vector<st
 
 /// Writes what the checks found, and returns the exit code.
 int conclude(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& check_options,
-             const SlideOptions& options) {
+             const SlideOptions& options, std::optional<SlideReplay> replay) {
   if (options.is_check() && (!options.summary.empty() || options.report.empty())) {
     write_checks(checks, options.summary.empty() ? "-" : options.summary);
   }
-  if (!options.report.empty()) write_html_report(report_of(scene, checks, check_options), options.report);
+  if (!options.report.empty()) {
+    Report report = report_of(scene, checks, check_options);
+    if (replay && !checks.front().problem) report.replay = replay->finish();
+    write_html_report(report, options.report);
+  }
   int exit_code = 0;
   for (const SlideCheck& one : checks) {
     if (one.problem) {
@@ -226,10 +234,12 @@ int run(SlideOptions options) {
   }
   if (options.tables.contacts.any() || !options.tables.moving.empty()) check_names_fit_csv(scene);
   if (!options.report.empty()) prepare_report_folder(options.report);
-  const std::vector<SlideCheck> checks = options.trajectories.size() == 1
-                                             ? std::vector{slide(scene, check_options, options)}
-                                             : check_all(scene, options.trajectories, check_options);
-  return conclude(scene, checks, check_options, options);
+  if (options.trajectories.size() > 1)
+    return conclude(scene, check_all(scene, options.trajectories, check_options), check_options, options, {});
+  std::optional<SlideReplay> replay;
+  if (!options.report.empty()) replay.emplace(scene);
+  const SlideCheck check = slide(scene, check_options, options, replay ? &*replay : nullptr);
+  return conclude(scene, {check}, check_options, options, std::move(replay));
 }
 
 }  // namespace
@@ -252,7 +262,9 @@ void add_slide_command(CLI::App& app, Command& chosen) {
   command->add_option("--patches", options->tables.contacts.patches, "CSV file for patches of contacts, see below");
   command->add_option("--moving", options->tables.moving, "CSV file for the moving objects, see below");
   command->add_option("--summary", options->summary, "CSV file for the assembly check, - for standard output");
-  command->add_option("--report", options->report, "Folder for the assembly check as an HTML page, index.html");
+  command->add_option(
+      "--report", options->report,
+      "Folder for the assembly check as an HTML page, index.html; of one trajectory also in three dimensions");
   command->add_flag("--require-goal", options->requires_goal,
                     "Exit with code 3 if a trajectory does not bring the part to the goal");
   command

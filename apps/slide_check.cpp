@@ -156,7 +156,7 @@ Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks
   std::stable_sort(by_force.begin(), by_force.end(),
                    [](const SlideCheck* a, const SlideCheck* b) { return a->force_max_N > b->force_max_N; });
   if (by_force.size() > kPlottedChecks) by_force.resize(kPlottedChecks);
-  Plot plot{"Force on the hand, where it was greatest", "time [s]", "force [N]", {}};
+  Plot plot{"Force on the hand, where it was greatest", kTimeLabel, "force [N]", {}};
   for (const SlideCheck* check : by_force)
     plot.series.push_back(check->force);
   if (!plot.series.empty()) report.plots.push_back(std::move(plot));

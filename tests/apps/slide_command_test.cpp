@@ -296,5 +296,22 @@ TEST_F(Slide, RefusesWhatIsWrong) {
   expect_refused({"slide", scene_file, "--part", "box", "--trajectory", skewed}, {"hand.csv:2"});
 }
 
+TEST_F(Slide, AReportOfOneTrajectoryShowsItInThreeDimensions) {
+  const std::string scene_file = scene({floor});
+  const std::string way = trajectory("0,0,0,0.05,1,0,0,0\n0.2,0,0,0.01,1,0,0,0\n");
+  const auto page = [&](const std::vector<std::string>& ways) {
+    std::vector<std::string> arguments{"slide", scene_file, "--part", "box", "--report", folder.path("report")};
+    for (const std::string& one : ways)
+      arguments.insert(arguments.end(), {"--trajectory", one});
+    const ProgramResult result = test_support::glissade(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+    return read_text_file(folder.path("report/index.html"));
+  };
+  const std::string single = page({way});
+  EXPECT_THAT(single, testing::HasSubstr("report-frames\">"));
+  EXPECT_THAT(single, testing::HasSubstr("data-from=\"0.00\" data-to=\"0.20\""));
+  EXPECT_THAT(page({way, way}), testing::Not(testing::HasSubstr("report-frames\">")));
+}
+
 }  // namespace
 }  // namespace glissade::apps
