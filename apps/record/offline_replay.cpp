@@ -58,7 +58,8 @@ ReplayOutcome replay_offline(const std::string& log_path, const std::string& sce
           .recorded = replay.duration(),
           .elapsed = clock.now() - start,
           .difference = replay.difference(),
-          .damage = log.damage()};
+          // The log is read ahead: damage after the first difference is of no interest.
+          .damage = replay.difference().empty() ? log.damage() : ""};
 }
 
 }  // namespace glissade::apps

@@ -162,7 +162,7 @@ TEST(CandidatePairs, HaveTheSameContactsWhereGapsAreNoted) {
       for (const KnownFeatures& of_pair : known)
         known_ones += of_pair.features != 0 ? 1 : 0;
       contacts += of_all.size();
-      move_parts(*scene, random.power_of_ten(-6.0, -4.5), random);
+      move_parts(*scene, random.power_of_ten(-6.0, -3.5), random);
       candidates.moved();
     }
   }

@@ -142,12 +142,14 @@ TEST_P(FeatureKernel, LeavesOutNearlyAllThatIsNoContactAndNothingElse) {
     for (std::size_t pair = 0; pair < kTrianglePairs; ++pair) {
       ASSERT_EQ(possible.features[pair] & ~asked.features[pair], 0U);
       double least = std::numeric_limits<double>::infinity();
+      double least_left_out = least;
       for (FeaturePairs bit = 1; bit <= kAllFeaturePairs; bit <<= 1) {
         if ((asked.features[pair] & bit) == 0) continue;
         const FeaturePair true_one = features_of(pairs.obstacle(pair), pairs.part(pair), bit);
         least = std::min(least, true_one.distance);
         const bool is_impossible = true_one.distance > reach + past_end || true_one.outside > past_end;
         const bool is_left_out = (possible.features[pair] & bit) == 0;
+        if (is_left_out) least_left_out = std::min(least_left_out, true_one.distance);
         ASSERT_TRUE(is_impossible || !is_left_out) << "feature " << bit << " at " << true_one.distance << ", "
                                                    << true_one.outside << " of reach " << reach << ", " << past_end;
         impossible += is_impossible ? 1 : 0;
@@ -156,6 +158,8 @@ TEST_P(FeatureKernel, LeavesOutNearlyAllThatIsNoContactAndNothingElse) {
       }
       ASSERT_LE(static_cast<double>(possible.gaps[pair]), least);
       ASSERT_GE(possible.gaps[pair], 0.0F);
+      ASSERT_LE(static_cast<double>(possible.gaps_left_out[pair]), least_left_out);
+      ASSERT_GE(possible.gaps_beyond[pair], possible.gaps_left_out[pair]);
     }
   }
   EXPECT_GT(static_cast<double>(left_out), 0.9 * static_cast<double>(impossible));
