@@ -31,7 +31,8 @@ constexpr const char* kExportFooter =
     "FILE ends in\n"
     "  .obj  Wavefront OBJ: a group for each object, in double precision\n"
     "  .glb  binary glTF: a node for each object, its vertices on a grid of 65,536 steps across it\n"
-    "Both are in metres and have the axes of the world. Nothing is simplified.\n"
+    "Both are in metres and have the axes of the world. Nothing is simplified. A scene file can name the first as a\n"
+    "mesh, not the second.\n"
     "\n"
     "Without --log, objects stand at their initial poses; with --at, objects that move on their own stand where their\n"
     "trajectory ('moves') has them at this time. With --log, parts stand where they were visible S seconds after the\n"
@@ -125,7 +126,7 @@ void add_export_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<ExportOptions>();
   CLI::App* command = app.add_subcommand("export", kExportDescription);
   command->footer(std::string(kExportFooter) + kSceneFileHelp);
-  command->add_option("SCENE", options->scene, "Scene file (YAML)");
+  command->add_option("SCENE", options->scene, "Scene file (YAML); may be left out with --log");
   command->add_option("--log", options->log, "Recording of a run, which 'glissade record' or 'demo --record' wrote");
   command->add_option("--at", options->at_s, "Time in seconds, see below");
   command->add_option("--out", options->out, "File to write, .obj or .glb")->required();

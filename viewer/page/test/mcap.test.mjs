@@ -11,7 +11,13 @@ import { McapIndexedReader, McapStreamReader } from '@mcap/core';
 const PROGRAM = process.env.GLISSADE_PROGRAM ?? new URL('../../../build/release/apps/glissade', import.meta.url).pathname;
 
 let folder;
-before(() => { folder = mkdtempSync(join(tmpdir(), 'glissade_mcap_')); });
+let door;
+let hand;
+before(() => {
+  folder = mkdtempSync(join(tmpdir(), 'glissade_mcap_'));
+  door = recorded('door');
+  hand = recorded('hand', '--fingers');
+});
 after(() => rmSync(folder, { recursive: true }));
 
 function rowsOf(csv) {
@@ -66,8 +72,7 @@ const xyz = ({ x, y, z }) => [x, y, z];
 const wxyz = ({ x, y, z, w }) => [w, x, y, z];
 
 test('every tick has the poses and forces of the tables', async () => {
-  const run = recorded('door');
-  const reader = await indexed(run.bytes);
+  const reader = await indexed(door.bytes);
   const all = await messages(reader);
   const of = (topic) => all.filter((message) => message.topic === topic);
   for (const topic of ['/tf', '/loop', '/part_0', '/hand_0']) assert.equal(of(topic).length, 2000, topic);
@@ -75,7 +80,7 @@ test('every tick has the poses and forces of the tables', async () => {
   assert.ok(reader.statistics.chunkCount > 3);
 
   const [transforms, parts, hands, loop] = ['/tf', '/part_0', '/hand_0', '/loop'].map(of);
-  for (const [i, row] of run.parts.entries()) {
+  for (const [i, row] of door.parts.entries()) {
     const [tf, part] = [transforms[i], parts[i]];
     assert.ok(Math.abs(tf.time - 1e9 * row.t_s) < 1, `${tf.time} ns`);
     const pose = (name) => tf.json.transforms.find((transform) => transform.child_frame_id === name);
@@ -91,7 +96,7 @@ test('every tick has the poses and forces of the tables', async () => {
     assert.equal(part.json.contacts, Number(row.contacts));
     assert.equal(part.json.age_s, Number(row.contact_set_age_s));
   }
-  for (const [i, row] of run.hands.entries()) {
+  for (const [i, row] of door.hands.entries()) {
     const { json } = hands[i];
     assert.deepEqual(xyz(json.force_N), vector(row, 'fx_N fy_N fz_N'));
     assert.deepEqual(xyz(json.torque_Nm), vector(row, 'tx_Nm ty_Nm tz_Nm'));
@@ -99,16 +104,15 @@ test('every tick has the poses and forces of the tables', async () => {
     assert.equal(json.reason, row.reason);
   }
   assert.ok(hands.some(({ json }) => Math.hypot(...xyz(json.force_N)) > 0.5), 'the hand feels something');
-  for (const [i, row] of run.ticks.entries()) {
+  for (const [i, row] of door.ticks.entries()) {
     assert.equal(loop[i].json.tick, Number(row.tick));
     assert.ok(Math.abs(loop[i].json.lateness_s - 1e-6 * row.lateness_us) < 1e-12);
   }
 });
 
 test('the scene has the meshes where an export has them', async () => {
-  const run = recorded('scene');
   const obj = join(folder, 'start.obj');
-  execFileSync(PROGRAM, ['export', '--log', run.log, '--out', obj]);
+  execFileSync(PROGRAM, ['export', '--log', door.log, '--out', obj]);
   const boxes = new Map();
   let box;
   for (const [kind, ...words] of readFileSync(obj, 'utf8').split('\n').map((line) => line.split(' '))) {
@@ -116,7 +120,7 @@ test('the scene has the meshes where an export has them', async () => {
     if (kind === 'v') include(box, words.map(Number));
   }
 
-  const all = await messages(await indexed(run.bytes), { topics: ['/scene', '/tf'] });
+  const all = await messages(await indexed(door.bytes), { topics: ['/scene', '/tf'] });
   const scenes = all.filter(({ topic }) => topic === '/scene');
   assert.equal(scenes.length, 1);
   const { entities } = scenes[0].json;
@@ -141,12 +145,11 @@ test('the scene has the meshes where an export has them', async () => {
 });
 
 test('hands with fingers have their posture', async () => {
-  const run = recorded('hand', '--fingers');
-  const all = await messages(await indexed(run.bytes), { topics: ['/tf', '/hand_0'] });
+  const all = await messages(await indexed(hand.bytes), { topics: ['/tf', '/hand_0'] });
   const tf = all.filter(({ topic }) => topic === '/tf');
   const hands = all.filter(({ topic }) => topic === '/hand_0');
-  assert.equal(hands.length, run.hands.length);
-  for (const [i, row] of run.hands.entries()) {
+  assert.equal(hands.length, hand.hands.length);
+  for (const [i, row] of hand.hands.entries()) {
     const { json } = hands[i];
     assert.equal(json.activity, row.activity);
     if (row.activity === 'none') continue;
@@ -159,8 +162,7 @@ test('hands with fingers have their posture', async () => {
 });
 
 test('the file is one by the rules of the format', async () => {
-  const run = recorded('rules', '--fingers');
-  const reader = await indexed(run.bytes);
+  const reader = await indexed(hand.bytes);
   const schemas = new Map([...reader.channelsById.values()].map(({ topic, schemaId }) => [topic, reader.schemasById.get(schemaId)]));
   assert.equal(schemas.get('/tf').name, 'foxglove.FrameTransforms');
   assert.equal(schemas.get('/scene').name, 'foxglove.SceneUpdate');
@@ -175,7 +177,7 @@ test('the file is one by the rules of the format', async () => {
 
   // From beginning to end, without the indexes.
   const stream = new McapStreamReader({ validateCrcs: true });
-  stream.append(run.bytes);
+  stream.append(hand.bytes);
   const counts = new Map();
   for (let record; (record = stream.nextRecord());)
     if (record.type === 'Message') counts.set(record.channelId, (counts.get(record.channelId) ?? 0n) + 1n);
