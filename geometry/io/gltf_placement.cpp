@@ -51,7 +51,7 @@ Eigen::Quaterniond unit_quaternion(const std::filesystem::path& path, const std:
 }  // namespace
 
 Eigen::Affine3d placement(const std::filesystem::path& path, const json& node, const std::string& where) {
-  const auto given = [&](const char* key, std::vector<double> otherwise) {
+  const auto given = [&](const char* key, const std::vector<double>& otherwise) {
     return node.contains(key) ? numbers(path, node.at(key), otherwise.size(), where + "." + key) : otherwise;
   };
   for (const char* key : {"translation", "rotation", "scale"}) {
