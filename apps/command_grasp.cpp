@@ -17,6 +17,7 @@
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/size_warnings.h>
 #include <glissade/apps/sliding_option.h>
 #include <glissade/apps/text.h>
 #include <glissade/grasping/grasp_simulation.h>
@@ -192,6 +193,8 @@ int run(const GraspOptions& options) {
   const std::vector<std::shared_ptr<const grasping::HandModel>> hands = make_hands(options);
   const Scene scene_file = read_scene(options.scene);
   const HapticScene scene = make_haptic_scene(scene_file, movable_objects(scene_file));
+  for (const std::string& sentence : doubtful_sizes(scene_file, scene))
+    warn(sentence);
   for (const std::string& name : scene.body_names)
     check_name_fits_csv(scene, name);
   grasping::GraspRules rules;

@@ -19,6 +19,7 @@
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/report/html_report.h>
+#include <glissade/apps/size_warnings.h>
 #include <glissade/apps/slide_check.h>
 #include <glissade/apps/slide_tables.h>
 #include <glissade/apps/sliding_option.h>
@@ -153,7 +154,13 @@ int conclude(const HapticScene& scene, const std::vector<SlideCheck>& checks, co
   }
   if (!options.report.empty()) write_html_report(report_of(scene, checks, check_options), options.report);
   int exit_code = 0;
+  const double size_m = size_of(scene.parts.front().part_V->tree.mesh());
   for (const SlideCheck& one : checks) {
+    constexpr double kFar = 2.0;  // sizes of the part
+    if (!one.problem && one.far_m > kFar * size_m) {
+      warn(one.trajectory + ": the part, " + rounded_text(size_m) + " m across, stays more than " +
+           rounded_text(one.far_m) + " m away from everything: are the trajectory and all poses in metres?");
+    }
     if (one.problem) {
       std::cerr << "glissade: " << one.trajectory << ": " << *one.problem << '\n';
       exit_code = 1;
@@ -225,6 +232,8 @@ int run(SlideOptions options) {
   }
   if (options.tables.contacts.any() || !options.tables.moving.empty()) check_names_fit_csv(scene);
   if (!options.report.empty()) prepare_report_folder(options.report);
+  for (const std::string& sentence : doubtful_sizes(file, scene))
+    warn(sentence);
   const std::vector<SlideCheck> checks = options.trajectories.size() == 1
                                              ? std::vector{slide(scene, check_options, options)}
                                              : check_all(scene, options.trajectories, check_options);
