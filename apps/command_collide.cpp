@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -15,6 +16,7 @@
 #include <glissade/apps/load_or_build_tree.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/size_warnings.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {
@@ -48,8 +50,33 @@ struct CollideOptions {
   std::string method = collide_method_names().front();
   std::string out = "-";
   bool cache = false;
+  std::vector<double> scales;  // none, one for both, or one for each
   CollideQuestion question;
 };
+
+std::shared_ptr<const geometry::TriangleMesh> load(const std::string& path, double scale) {
+  std::shared_ptr<const geometry::TriangleMesh> mesh = open_mesh(path, scale);
+  const double size = size_of(*mesh);
+  if (is_doubtful(size)) warn(path + ": is " + told_size(size, scale, "--scale "));
+  return mesh;
+}
+
+/// Whether any pose brings the meshes as near as ten times the size of the larger one.
+bool any_is_near(const geometry::TriangleMesh& mesh_A, const geometry::TriangleMesh& mesh_B,
+                 const std::vector<Eigen::Isometry3d>& poses_AB) {
+  const auto box_of = [](const geometry::TriangleMesh& mesh) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : mesh.vertices)
+      box.extend(vertex);
+    return box;
+  };
+  const Eigen::AlignedBox3d a = box_of(mesh_A);
+  const Eigen::AlignedBox3d b = box_of(mesh_B);
+  constexpr double kFar = 10.0;  // sizes
+  const double near = kFar * std::max(a.diagonal().norm(), b.diagonal().norm());
+  return std::any_of(poses_AB.begin(), poses_AB.end(),
+                     [&](const Eigen::Isometry3d& X_AB) { return (X_AB * b.center() - a.center()).norm() <= near; });
+}
 
 void check(const CollideQuestion& question) {
   if (!std::isfinite(question.tolerance) || question.tolerance < 0.0) {
@@ -62,8 +89,14 @@ int run(const CollideOptions& options) {
   check(options.question);
   const std::vector<Eigen::Isometry3d> poses_AB = read_poses(options.poses);
   const TreeFiles beside = options.cache ? TreeFiles{options.mesh_A, options.mesh_B} : TreeFiles{};
-  const CollideMethod method = make_collide_method(options.method, open_mesh(options.mesh_A), open_mesh(options.mesh_B),
-                                                   options.question, beside);
+  const bool has_scales = !options.scales.empty();
+  const auto mesh_A = load(options.mesh_A, has_scales ? options.scales.front() : 1.0);
+  const auto mesh_B = load(options.mesh_B, has_scales ? options.scales.back() : 1.0);
+  if (!any_is_near(*mesh_A, *mesh_B, poses_AB)) {
+    warn(options.poses + ": no pose brings the meshes, " + rounded_text(size_of(*mesh_A)) + " m and " +
+         rounded_text(size_of(*mesh_B)) + " m across, near each other: are poses and meshes in metres?");
+  }
+  const CollideMethod method = make_collide_method(options.method, mesh_A, mesh_B, options.question, beside);
 
   std::vector<std::string> columns{"pose", "colliding"};
   if (options.question.count_pairs) columns.emplace_back("pairs");
@@ -86,9 +119,14 @@ void add_collide_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<CollideOptions>();
   CLI::App* command = app.add_subcommand("collide", kCollideDescription);
   command->footer(kCollideFooter);
-  command->add_option("A", options->mesh_A, "Mesh file: OBJ, STL, PLY or glTF, in metres")->required();
+  command->add_option("A", options->mesh_A, "Mesh file: OBJ, STL, PLY or glTF, in metres or with --scale")->required();
   command->add_option("B", options->mesh_B, "Second mesh file")->required();
   command->add_option("--poses", options->poses, "CSV file of the poses of B in the frame of A, see below")->required();
+  command
+      ->add_option("--scale", options->scales,
+                   "Metres per unit of the meshes: 0.001 for millimetres; or two, of A and of B")
+      ->expected(1, 2)
+      ->check(CLI::PositiveNumber);
   command->add_flag("--pairs", options->question.count_pairs, "Count the colliding pairs of triangles");
   command->add_option("--tolerance-m", options->question.tolerance, "Distance in metres up to which triangles collide")
       ->capture_default_str();

@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -15,6 +16,7 @@
 #include <glissade/apps/haptic_session.h>
 #include <glissade/apps/lcm_option.h>
 #include <glissade/apps/report/html_report.h>
+#include <glissade/apps/size_warnings.h>
 #include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
@@ -82,7 +84,10 @@ Demo demo_of(const std::string& path, bool fingers) {
   if (!scene.script_path && !path.empty()) {
     throw std::invalid_argument(path + ": the scene has no script for the hand to follow");
   }
-  return {make_haptic_scene(scene, movable_objects(scene)),
+  HapticScene haptic_scene = make_haptic_scene(scene, movable_objects(scene));
+  for (const std::string& sentence : doubtful_sizes(scene, haptic_scene))
+    warn(sentence);
+  return {std::move(haptic_scene),
           path.empty() ? parse_hand_script(embedded_scene_script(demonstration), embedded_script_name(demonstration))
                        : read_hand_script(*scene.script_path)};
 }

@@ -18,6 +18,7 @@
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/size_warnings.h>
 #include <glissade/apps/sliding_option.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/grasp_report.h>
@@ -197,6 +198,8 @@ int run(const GraspOptions& options) {
   const std::vector<std::shared_ptr<const grasping::HandModel>> hands = make_hands(options);
   const Scene scene_file = open_scene(options.scene);
   const HapticScene scene = make_haptic_scene(scene_file, movable_objects(scene_file));
+  for (const std::string& sentence : doubtful_sizes(scene_file, scene))
+    warn(sentence);
   for (const std::string& name : scene.body_names)
     check_name_fits_csv(scene, name);
   grasping::GraspRules rules;

@@ -12,6 +12,7 @@
 
 #include <glissade/apps/command.h>
 #include <glissade/apps/load_or_build_tree.h>
+#include <glissade/apps/size_warnings.h>
 #include <glissade/collision/dop_tree.h>
 #include <glissade/geometry/mesh_import.h>
 #include <glissade/geometry/mesh_topology.h>
@@ -28,12 +29,14 @@ constexpr const char* kInfoFooter =
     "\n"
     "Examples, with the files of 'glissade example':\n"
     "  glissade info motor.obj\n"
-    "  glissade info motor.obj --json";
+    "  glissade info motor.obj --json\n"
+    "  glissade info motor_in_mm.obj --scale 0.001";
 
 struct InfoOptions {
   std::string mesh;
   bool json = false;
   bool cache = false;
+  double scale = 1.0;
 };
 
 /// The figures that the command prints.
@@ -47,7 +50,7 @@ struct Info {
 };
 
 Info gather(const InfoOptions& options) {
-  geometry::ImportedMesh imported = geometry::import_mesh(options.mesh);
+  geometry::ImportedMesh imported = geometry::import_mesh(options.mesh, options.scale);
   const auto mesh = std::make_shared<const geometry::TriangleMesh>(std::move(imported.mesh));
   const collision::DopTree tree = load_or_build_tree(mesh, options.cache ? options.mesh : "");
   return {geometry::report(*mesh),
@@ -90,7 +93,7 @@ std::string spaced(const Eigen::Vector3d& p) {
   return text.str();
 }
 
-void print_text(const Info& info) {
+void print_text(const Info& info, double scale) {
   const auto row = [](const char* what, const auto& value, const char* unit = "") {
     std::cout << std::left << std::setw(28) << what << value << unit << '\n';
   };
@@ -106,6 +109,7 @@ void print_text(const Info& info) {
   row("components", report.components);
   row("watertight", report.is_watertight ? "yes" : "no");
   row("area", report.area, " m^2");
+  row("size", told_size(report.bounds.sizes().maxCoeff(), scale, "--scale "));
   row("bounds from", spaced(report.bounds.min()), " m");
   row("bounds to", spaced(report.bounds.max()), " m");
   row("tree nodes", info.tree_nodes);
@@ -118,7 +122,7 @@ int run(const InfoOptions& options) {
   if (options.json) {
     print_json(info);
   } else {
-    print_text(info);
+    print_text(info, options.scale);
   }
   return 0;
 }
@@ -129,7 +133,10 @@ void add_info_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<InfoOptions>();
   CLI::App* command = app.add_subcommand("info", kInfoDescription);
   command->footer(kInfoFooter);
-  command->add_option("MESH", options->mesh, "Mesh file: OBJ, STL, PLY or glTF, in metres")->required();
+  command->add_option("MESH", options->mesh, "Mesh file: OBJ, STL, PLY or glTF, in metres or with --scale")->required();
+  command->add_option("--scale", options->scale, "Metres per unit of the mesh: 0.001 for millimetres")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   command->add_flag("--json", options->json, "Print one JSON object instead of a table");
   command->add_flag("--cache", options->cache, kCacheHelp);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });

@@ -20,6 +20,7 @@
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/record/dump_signal.h>
 #include <glissade/apps/report/html_report.h>
+#include <glissade/apps/size_warnings.h>
 #include <glissade/apps/status_line.h>
 #include <glissade/apps/stop_signal.h>
 #include <glissade/apps/text.h>
@@ -194,6 +195,8 @@ int run(const RunOptions& options) {
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   const Scene file = open_scene(options.scene);
   const HapticScene scene = make_haptic_scene(file, movable_objects(file));
+  for (const std::string& sentence : doubtful_sizes(file, scene))
+    warn(sentence);
   RunSettings settings{.hands = hands_of(options, scene),
                        .choice = options.choice,
                        .seconds = options.seconds,

@@ -21,6 +21,7 @@
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/report/html_report.h>
+#include <glissade/apps/size_warnings.h>
 #include <glissade/apps/slide_check.h>
 #include <glissade/apps/slide_tables.h>
 #include <glissade/apps/sliding_option.h>
@@ -162,7 +163,13 @@ int conclude(const HapticScene& scene, const std::vector<SlideCheck>& checks, co
     write_html_report(report, options.report);
   }
   int exit_code = 0;
+  const double size_m = size_of(scene.parts.front().part_V->tree.mesh());
   for (const SlideCheck& one : checks) {
+    constexpr double kFar = 2.0;  // sizes of the part
+    if (!one.problem && one.far_m > kFar * size_m) {
+      warn(one.trajectory + ": the part, " + rounded_text(size_m) + " m across, stays more than " +
+           rounded_text(one.far_m) + " m away from everything: are the trajectory and all poses in metres?");
+    }
     if (one.problem) {
       std::cerr << "glissade: " << one.trajectory << ": " << *one.problem << '\n';
       exit_code = 1;
@@ -234,6 +241,8 @@ int run(SlideOptions options) {
   }
   if (options.tables.contacts.any() || !options.tables.moving.empty()) check_names_fit_csv(scene);
   if (!options.report.empty()) prepare_report_folder(options.report);
+  for (const std::string& sentence : doubtful_sizes(file, scene))
+    warn(sentence);
   if (options.trajectories.size() > 1)
     return conclude(scene, check_all(scene, options.trajectories, check_options), check_options, options, {});
   std::optional<SlideReplay> replay;

@@ -20,8 +20,8 @@ void say_what_is_left_out(const std::string& mesh, std::int64_t triangles) {
 
 }  // namespace
 
-std::shared_ptr<const geometry::TriangleMesh> open_mesh(const std::string& path) {
-  geometry::ImportedMesh imported = geometry::import_mesh(path);
+std::shared_ptr<const geometry::TriangleMesh> open_mesh(const std::string& path, double scale) {
+  geometry::ImportedMesh imported = geometry::import_mesh(path, scale);
   say_what_is_left_out(path, imported.degenerate_triangles);
   return std::make_shared<const geometry::TriangleMesh>(std::move(imported.mesh));
 }

@@ -11,7 +11,8 @@
 
 namespace glissade::apps {
 
-std::shared_ptr<const geometry::TriangleMesh> open_mesh(const std::string& path);
+/// `scale` is the number of metres in a unit of the file.
+std::shared_ptr<const geometry::TriangleMesh> open_mesh(const std::string& path, double scale = 1.0);
 
 /// Objects that share a mesh make one line, which names the first of them.
 Scene open_scene(const std::string& path);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
@@ -58,6 +59,21 @@ std::string advice(const HapticScene& scene, const geometry::PoseTrajectory& tra
          (may_depenetrate ? "; begin elsewhere, or let --depenetrate push the part out of obstacles" : "");
 }
 
+/// The distance of the part's bounding sphere from those of all other objects, metres; negative if they intersect.
+double between_spheres(const HapticScene& scene, const haptics::SlidingSimulation& sliding) {
+  const collision::DopTree& part = scene.parts.front().part_V->tree;
+  const Eigen::Vector3d center_W = sliding.result().X_WV * part.center();
+  double least = std::numeric_limits<double>::infinity();
+  const auto look_at = [&](const collision::DopTree& tree, const Eigen::Isometry3d& X_WB) {
+    least = std::min(least, (X_WB * tree.center() - center_W).norm() - tree.radius() - part.radius());
+  };
+  for (const haptics::Obstacle& obstacle : scene.obstacles)
+    look_at(obstacle.body->tree, obstacle.X_WO);
+  for (std::size_t i = 0; i < scene.moving.size(); ++i)
+    look_at(scene.moving[i].part_B->tree, sliding.scripted_X_WB()[i]);
+  return least;
+}
+
 /// The simulation from the first row of the trajectory on. Throws std::invalid_argument, with one sentence, when a body
 /// is not free there.
 std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& scene,
@@ -92,6 +108,7 @@ SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory&
   check.trajectory = name;
   check.force.name = name;
   check.duration_s = seconds(trajectory.duration());
+  check.far_m = std::numeric_limits<double>::infinity();
   std::unique_ptr<haptics::SlidingSimulation> sliding;
   try {
     sliding = start_sliding(scene, trajectory, options);
@@ -113,6 +130,7 @@ SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory&
       check.force.y.push_back(wrench.f.norm());
       clearance.note(sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
     }
+    check.far_m = std::min(check.far_m, between_spheres(scene, *sliding));
     if (watch) watch(now, *sliding);
   }
   clearance.finish();

@@ -38,6 +38,7 @@ struct SlideCheck {
   double duration_s = 0.0;
   double contact_s = 0.0;  ///< time during which contacts pushed
   PlotSeries force;        ///< newtons over seconds
+  double far_m = 0.0;      ///< a lower bound of the least clearance, from bounding spheres
 };
 
 /// Called after each millisecond, first for the start, with the time on the clock of the trajectory.

@@ -44,6 +44,10 @@ std::string fixed_text(double value, int decimals) {
 
 std::string rounded_text(double value) {
   constexpr int kDigits = 3;
+  constexpr double kShort = 999.5;   // has more digits before the point, once rounded
+  constexpr double kLargest = 1e15;  // whose digits before the point are all known
+  const double size = std::abs(value);
+  if (size >= kShort && size < kLargest) return fixed_text(value, 0);
   std::array<char, 32> buffer{};
   const auto result =
       std::to_chars(buffer.data(), buffer.data() + buffer.size(), value + 0.0, std::chars_format::general, kDigits);

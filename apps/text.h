@@ -19,7 +19,7 @@ std::string format_number(double value);
 /// `value` with so many digits after the point; what rounds to zero has no sign.
 std::string fixed_text(double value, int decimals);
 
-/// `value` with three digits, as many as a person reads in a message: 12.3, 0.00123, 1.23e-07.
+/// `value` with three digits, as many as a person reads in a message, or all before the point: 12.3, 0.00123, 1523.
 std::string rounded_text(double value);
 
 /// `text` in single quotes, fit for a one-line message: control characters are replaced and long texts cut short.

@@ -77,6 +77,7 @@ class SceneReader {
     const Geometry geometry = read_geometry(node, object.name);
     object.degenerate_triangles = geometry.degenerate_triangles;
     object.mesh = geometry.mesh;
+    if (node["mesh"]) object.file_scale = node["scale"] ? yaml_.number(node["scale"], "scale") : 1.0;
     if (node["pose"]) object.X_WB = read_pose(node["pose"], "pose");
     if (node["movable"]) object.movable = yaml_.boolean(node["movable"], "movable");
     if (node["moves"]) object.motion = read_motion(node);

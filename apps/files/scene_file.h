@@ -64,6 +64,7 @@ struct SceneObject {
   std::optional<Eigen::Vector3d> compliance_point_B{};  ///< default: the centre of the bounding box
   std::vector<std::int32_t> giving_way{};               ///< triangles that give way, ascending
   std::int64_t degenerate_triangles = 0;                ///< left out of the mesh, see `import_mesh`
+  std::optional<double> file_scale{};                   ///< of a mesh file; none for a shape
 };
 
 /// A scene with at least one object; all names differ.

@@ -83,6 +83,8 @@ TEST(Numbers, HaveDigitsForPersons) {
   EXPECT_EQ(rounded_text(10.000000001), "10");
   EXPECT_EQ(rounded_text(0.00123456), "0.00123");
   EXPECT_EQ(rounded_text(-0.0), "0");
+  EXPECT_EQ(rounded_text(1523.4), "1523");
+  EXPECT_EQ(rounded_text(999.6), "1000");
 }
 
 TEST(Numbers, ZeroHasNoSign) {

@@ -1,0 +1,101 @@
+/// Wrong units: the program computes what it is told, and says what is probably wrong.
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glissade/apps/size_warnings.h>
+#include <glissade/apps/text.h>
+
+#include "glissade_program.h"
+#include "temporary_folder.h"
+
+namespace glissade::apps {
+namespace {
+
+using test_support::glissade;
+using test_support::ProgramResult;
+using testing::HasSubstr;
+
+class WrongUnits : public testing::Test {
+ protected:
+  /// A tetrahedron of this size as a mesh file.
+  std::string mesh(const std::string& name, const std::string& size) const {
+    return folder.write(name, "v 0 0 0\nv " + size + " 0 0\nv 0 " + size + " 0\nv 0 0 " + size +
+                                  "\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n");
+  }
+
+  ProgramResult slide(const std::string& part, const std::string& obstacle, const std::string& height) const {
+    const std::string scene = folder.write(
+        "scene.yaml", "objects:\n- {name: part, movable: true, " + part + "}\n- {name: block, " + obstacle + "}\n");
+    const std::string hand = folder.write(
+        "hand.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0," + height + ",1,0,0,0\n0.01,0,0," + height + ",1,0,0,0\n");
+    return glissade({"slide", scene, "--part", "part", "--trajectory", hand});
+  }
+
+  test_support::TemporaryFolder folder;
+  const std::string small = mesh("small.obj", "0.06");
+  const std::string large = mesh("large.obj", "60");  // the same in millimetres
+};
+
+TEST_F(WrongUnits, InfoTellsTheSizeAndWhatItMayBe) {
+  EXPECT_THAT(glissade({"info", small}).standard_output, HasSubstr(" 0.06 m across\n"));
+  EXPECT_THAT(glissade({"info", large}).standard_output, HasSubstr(" 60 m across: millimetres? --scale 0.001\n"));
+  EXPECT_EQ(glissade({"info", large, "--scale", "0.001"}).standard_output, glissade({"info", small}).standard_output);
+  test_support::expect_refused({"info", large, "--scale", "0"}, {"--scale"});
+  test_support::expect_refused({"info", large, "--scale", "nan"}, {"--scale"});
+}
+
+TEST_F(WrongUnits, CollideWarnsAndTakesAScaleForEach) {
+  const std::string poses = folder.write("poses.csv", "x_m,y_m,z_m,qw,qx,qy,qz\n0.05,0,0,1,0,0,0\n0.07,0,0,1,0,0,0\n");
+  const std::string right = "pose,colliding\n0,1\n1,0\n";
+  const ProgramResult wrong = glissade({"collide", large, small, "--poses", poses});
+  EXPECT_EQ(wrong.exit_code, 0);
+  EXPECT_EQ(wrong.standard_error, "glissade: warning: " + large + ": is 60 m across: millimetres? --scale 0.001\n");
+  const ProgramResult each = glissade({"collide", large, small, "--poses", poses, "--scale", "0.001", "1"});
+  EXPECT_EQ(each.standard_output, right);
+  EXPECT_EQ(each.standard_error, "");
+  EXPECT_EQ(glissade({"collide", large, large, "--poses", poses, "--scale", "0.001"}).standard_output, right);
+
+  const std::string far = folder.write("far.csv", "x_m,y_m,z_m,qw,qx,qy,qz\n50,0,0,1,0,0,0\n70,0,0,1,0,0,0\n");
+  EXPECT_THAT(glissade({"collide", small, small, "--poses", far}).standard_error,
+              HasSubstr("warning: " + far + ": no pose brings the meshes, 0.06 m and 0.06 m across, near"));
+}
+
+TEST_F(WrongUnits, SlideWarnsOfAMeshInMillimetres) {
+  const ProgramResult result = slide("mesh: small.obj", "mesh: large.obj", "-0.1");
+  EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+  EXPECT_THAT(result.standard_error,
+              HasSubstr("scene.yaml: object 'block' is 60 m across: millimetres? scale: 0.001\n"));
+  EXPECT_EQ(slide("mesh: small.obj", "mesh: large.obj, scale: 0.001", "-0.1").standard_error, "");
+  // A large shape is meant to be: its parameters are in metres.
+  EXPECT_EQ(slide("mesh: small.obj", "shape: {type: plate, size_x_m: 60, size_y_m: 60}", "0.1").standard_error, "");
+}
+
+TEST_F(WrongUnits, SlideWarnsOfAPartThousandsOfTimesAsLargeAsAllElse) {
+  const std::string dust = "shape: {type: sphere, radius_m: 5.0e-6}";
+  const ProgramResult result = slide("shape: {type: box, size_x_m: 0.1, size_y_m: 0.1, size_z_m: 0.1}", dust, "0.06");
+  EXPECT_THAT(result.standard_error,
+              HasSubstr("object 'part' is 0.1 m across, and everything around it at most 1e-05 m"));
+}
+
+TEST_F(WrongUnits, SlideWarnsOfAPartThatNeverComesNearAnything) {
+  const std::string box = "shape: {type: box, size_x_m: 0.1, size_y_m: 0.1, size_z_m: 0.1}";
+  const ProgramResult result = slide(box, box, "30");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.standard_error,
+              HasSubstr("warning: " + folder.path("hand.csv") +
+                        ": the part, 0.1 m across, stays more than 29.8 m away from everything"));
+  EXPECT_EQ(slide(box, box, "0.2").standard_error, "");
+}
+
+TEST(ToldSize, ProposesTheScaleThatMakesMetresOfMillimetres) {
+  EXPECT_EQ(told_size(0.06, 1.0, "--scale "), "0.06 m across");
+  EXPECT_EQ(told_size(60.0, 1.0, "--scale "), "60 m across: millimetres? --scale 0.001");
+  EXPECT_EQ(told_size(1500.0, 25.4, "scale: "), "1500 m across: millimetres? scale: 0.0254");
+}
+
+}  // namespace
+}  // namespace glissade::apps
