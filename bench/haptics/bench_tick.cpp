@@ -129,7 +129,7 @@ Answers answers_of(const SlidingScene& scene, int ticks) {
   haptics::MultiPartSliding slow = held(scene, {});
   haptics::MultiPartSliding sliding = held(scene, {.contacts_ahead_ms = haptics::real_time_rules().contacts_ahead_ms});
   Answers answers;
-  std::vector<UrgentContact> scratch;
+  std::vector<haptics::UrgentContact> scratch;
   for (int tick = 0; tick < ticks; ++tick) {
     answers.X_WG.push_back(scene.ghost(tick));
     sliding.advance({&answers.X_WG.back(), 1});

@@ -104,8 +104,8 @@ TEST_F(GraspCommand, ShowsNoHandThatGoesIntoAnything) {
 }
 
 TEST_F(GraspCommand, WritesAPageWithTheHandInThreeDimensions) {
-  const ProgramResult run = glissade(
-      {"grasp", kScene, "--hand-trajectory", kHand, "--out", hands, "--report", folder.path("report")});
+  const ProgramResult run =
+      glissade({"grasp", kScene, "--hand-trajectory", kHand, "--out", hands, "--report", folder.path("report")});
   ASSERT_EQ(run.exit_code, 0) << run.standard_error;
   std::ostringstream page;
   page << std::ifstream(folder.path("report/index.html")).rdbuf();

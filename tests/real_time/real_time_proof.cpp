@@ -26,6 +26,7 @@
 #include <glissade/devices/simulated_glove_service.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/realtime/periodic_thread.h>
+#include <glissade/viewer/view_server.h>
 
 #include "allocation_counter.h"
 #include "lock_counter.h"
@@ -78,7 +79,7 @@ class Witness {
  public:
   Witness(const std::shared_ptr<devices::LcmBus>& bus, std::int64_t ticks, const std::string& deed)
       : recorder_(std::make_shared<apps::SessionRecorder>(static_cast<std::size_t>(ticks), kParts, kHands)),
-        sink_(bus, recorder_, run_watch_),
+        sink_(bus, recorder_, run_watch_, &view_),
         offender_(deed) {}
 
   /// In each counted tick, in the haptic thread.
@@ -136,6 +137,7 @@ class Witness {
   Deeds newest_;
   const char* last_lock_ = "none";
   std::shared_ptr<apps::SessionRecorder> recorder_;
+  viewer::ViewServer view_{viewer::ViewScene{}};  // which browsers could ask
   apps::RunWatch run_watch_{{"first", "second", "third"}, {{1, 0}, {2, 1}}, 0.0};
   apps::SessionSink sink_;
   Offender offender_;
