@@ -60,7 +60,7 @@ std::chrono::nanoseconds time_of(double at_s) {
 
 viewer::ViewScene scene_at(std::optional<std::chrono::nanoseconds> time, const std::string& scene_file) {
   const Scene file = read_scene(scene_file);
-  viewer::ViewScene scene{.title = file.source, .X_WGoal = file.X_WGoal};
+  viewer::ViewScene scene{.title = file.source};
   for (const SceneObject& object : file.objects) {
     viewer::ViewObject& shown = scene.objects.emplace_back(viewer::ViewObject{object.name, object.mesh, object.X_WB});
     if (object.motion && time) shown.X_WB = object.motion->script_X_WB.pose_at(*time);

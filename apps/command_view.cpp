@@ -64,8 +64,7 @@ int view(const ViewOptions& options) {
         options.hand_file.empty() ? grasping::HandShape{} : read_hand_shape(options.hand_file);
     model = std::make_shared<const grasping::HandModel>(grasping::make_hand(shape));
   }
-  viewer::ViewScene scene{
-      .title = file.source, .objects = shown_objects(file, movable_objects(file)), .X_WGoal = file.X_WGoal};
+  viewer::ViewScene scene{.title = file.source, .objects = shown_objects(file, movable_objects(file))};
   const auto parts = static_cast<std::int32_t>(std::count_if(
       scene.objects.begin(), scene.objects.end(), [](const viewer::ViewObject& object) { return object.part; }));
   for (const std::int64_t device : options.devices)

@@ -24,8 +24,8 @@ namespace glissade::apps {
 namespace {
 
 constexpr int kFifoPriority = 80;
-/// Ticks kept of a run without an end: the last minute.
-constexpr std::size_t kKeptTicks = 60'000;
+/// What is kept of a run without an end.
+constexpr std::chrono::minutes kKept{1};
 
 /// The session of an offline run.
 RecordedSession offline_session(const HapticScene& scene, const Grip& grip, const SlidingChoice& choice,
@@ -178,7 +178,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   const std::int64_t ticks = std::llround(settings.seconds / std::chrono::duration<double>(period).count());
   StartedSimulation started = start_simulation(scene, grips, settings.choice, haptics::real_time_rules(), period);
   const haptics::MultiPartSliding& sliding = started.simulation->parts();
-  const auto recorder = std::make_shared<SessionRecorder>(ticks > 0 ? static_cast<std::size_t>(ticks) : kKeptTicks,
+  const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks > 0 ? ticks : kKept / period),
                                                           sliding.part_count(), settings.hands.size());
   RunWatch run_watch = watch_of(scene, settings);
   const std::unique_ptr<viewer::ViewServer> view = view_of(scene, settings, started, should_stop, watch);

@@ -5,15 +5,22 @@
 namespace glissade::apps {
 
 SessionRecorder::SessionRecorder(std::size_t capacity, std::size_t parts, std::size_t hands)
-    : parts_(parts), hands_(hands), ticks_(capacity), part_states_(capacity * parts), hand_states_(capacity * hands) {}
+    : parts_(parts),
+      hands_(hands),
+      ticks_(capacity),
+      part_states_(capacity * parts),
+      hand_states_(capacity * hands),
+      contacts_(capacity / kContactsEvery + 2) {}
 
 void SessionRecorder::record(const devices::HapticState& sample) noexcept {
   const std::size_t slot = static_cast<std::size_t>(total_) % ticks_.size();
-  ticks_[slot] = {sample.time,          sample.contact_set_age,     sample.lateness,
-                  sample.last_duration, sample.is_contact_set_late, sample.contact_count,
-                  sample.contacts};
+  ticks_[slot] = {sample.time, sample.contact_set_age, sample.lateness, sample.last_duration,
+                  sample.is_contact_set_late};
   std::copy_n(sample.parts.begin(), parts_, part_states_.begin() + static_cast<std::ptrdiff_t>(slot * parts_));
   std::copy_n(sample.hands.begin(), hands_, hand_states_.begin() + static_cast<std::ptrdiff_t>(slot * hands_));
+  if (total_ % kContactsEvery == 0)
+    contacts_[static_cast<std::size_t>(total_ / kContactsEvery) % contacts_.size()] = {sample.contact_count,
+                                                                                       sample.contacts};
   ++total_;
 }
 
@@ -32,8 +39,9 @@ devices::HapticState SessionRecorder::state(std::size_t i) const {
   state.last_duration = tick.last_duration;
   state.part_count = static_cast<std::int32_t>(parts_);
   state.hand_count = static_cast<std::int32_t>(hands_);
-  state.contact_count = tick.contact_count;
-  state.contacts = tick.contacts;
+  const Contacts& kept = contacts_[static_cast<std::size_t>((state.sequence - 1) / kContactsEvery) % contacts_.size()];
+  state.contact_count = kept.count;
+  state.contacts = kept.contacts;
   for (std::size_t p = 0; p < parts_; ++p)
     state.parts[p] = part(i, p);
   for (std::size_t h = 0; h < hands_; ++h)

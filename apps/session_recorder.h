@@ -21,8 +21,6 @@ class SessionRecorder {
     std::chrono::nanoseconds lateness{0};
     std::chrono::nanoseconds last_duration{0};
     bool is_contact_set_late = false;
-    std::int32_t contact_count = 0;
-    std::array<devices::HapticContact, devices::kHapticContacts> contacts{};
   };
 
   SessionRecorder(std::size_t capacity, std::size_t parts, std::size_t hands);
@@ -43,10 +41,17 @@ class SessionRecorder {
   const devices::HapticHandState& hand(std::size_t i, std::size_t hand) const {
     return hand_states_[slot(i) * hands_ + hand];
   }
-  /// All of a tick.
+  /// All of a tick; its contacts are those of the last tick before it whose contacts are kept, one in 16.
   devices::HapticState state(std::size_t i) const;
 
  private:
+  static constexpr std::int64_t kContactsEvery = 16;  // ticks: about as often as a replay has frames
+
+  struct Contacts {
+    std::int32_t count = 0;
+    std::array<devices::HapticContact, devices::kHapticContacts> contacts{};
+  };
+
   std::size_t slot(std::size_t i) const;
 
   std::size_t parts_;
@@ -54,6 +59,7 @@ class SessionRecorder {
   std::vector<Tick> ticks_;
   std::vector<devices::HapticPartState> part_states_;
   std::vector<devices::HapticHandState> hand_states_;
+  std::vector<Contacts> contacts_;
   std::int64_t total_ = 0;
 };
 

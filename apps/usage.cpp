@@ -38,6 +38,7 @@ std::vector<std::string> with_help_as_option(const CLI::App& app, std::vector<st
   if (arguments.empty() || arguments.front() != "help") return arguments;
   arguments.erase(arguments.begin());
   const CLI::App* command = &app;
+  if (!arguments.empty() && arguments.front().starts_with("-")) return {"--help"};
   for (const std::string& name : arguments) {
     const std::vector<std::string> known = command_names(*command);
     if (std::find(known.begin(), known.end(), name) == known.end()) {
@@ -71,7 +72,7 @@ void check_numbers(const CLI::App& app) {
       // A check adds its name to that of the type.
       if (!option->get_type_name().starts_with("FLOAT")) continue;
       for (const std::string& text : option->results()) {
-        if (parse_number(text)) continue;
+        if (parse_number(text.starts_with('+') ? text.substr(1) : text)) continue;
         throw std::invalid_argument(option->get_name() + ": must be a finite number, not " + in_quotes(text));
       }
     }

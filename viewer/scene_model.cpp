@@ -41,7 +41,7 @@ class Shares {
   }
 
   std::size_t of(const geometry::TriangleMesh& mesh) const {
-    constexpr double kLeast = 200.0;  // triangles of a simplified object
+    constexpr double kLeast = 24.0;  // triangles of a simplified object
     return static_cast<std::size_t>(std::max(kLeast, std::ceil(share_ * static_cast<double>(mesh.triangles.size()))));
   }
   std::size_t in_scene() const { return triangles_; }
@@ -95,12 +95,6 @@ void add_hand(const ViewHand& hand, std::size_t number, const Eigen::Isometry3d&
   }
 }
 
-nlohmann::json pose_json(const Eigen::Isometry3d& X) {
-  const Eigen::Quaterniond q(X.linear());
-  const Eigen::Vector3d& p = X.translation();
-  return {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()};
-}
-
 }  // namespace
 
 std::string scene_model(const ViewScene& scene, std::size_t most_triangles) {
@@ -128,7 +122,6 @@ std::string scene_model(const ViewScene& scene, std::size_t most_triangles) {
                            {"parts", parts},
                            {"hands", hands},
                            {"triangles", shares.in_scene()}};
-  if (scene.X_WGoal) extras["goal"] = pose_json(X_OW * *scene.X_WGoal);
   return writer.finish(extras);
 }
 

@@ -16,8 +16,8 @@
 
 namespace glissade::viewer {
 
-/// Makes frames of the states of ticks. A frame shows the newest state, and the worst figures since the last frame: a
-/// force that lasts a millisecond is not overlooked. Not thread-safe; allocates.
+/// Makes frames of the states of ticks. A frame shows the newest state, and the greatest force, age, lateness and
+/// duration since the last frame. Not thread-safe; allocates.
 ///
 /// A frame is little endian: two numbers in double precision, the time of the tick in seconds and its number; then
 /// numbers in single precision. First eight: 1 if the contact set was late or else 0; its greatest age in ms; the

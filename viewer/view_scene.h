@@ -36,7 +36,6 @@ struct ViewScene {
   std::string title;
   std::vector<ViewObject> objects;
   std::vector<ViewHand> hands;
-  std::optional<Eigen::Isometry3d> X_WGoal{};  ///< where the first part is to go
   std::optional<Eigen::Vector3d> p_WO_chosen{};
 
   /// The origin O of everything that a viewer gets: the one chosen, or else the middle of the objects at their start.

@@ -28,7 +28,9 @@ using asio::ip::tcp;
 
 namespace {
 
-constexpr std::size_t kRingStates = 256;  // a quarter of a second
+constexpr std::size_t kRingStates = 1024;  // a second of the usual loop
+constexpr std::size_t kMostConnections = 128;
+constexpr std::chrono::milliseconds kAcceptPause{100};
 constexpr std::chrono::microseconds kFramePeriod{16'667};
 constexpr std::size_t kMostClients = 64;
 
@@ -50,35 +52,46 @@ class ViewServer::Service {
         frames_(scene_),
         acceptor_(listening(io_, options.port)),
         timer_(io_),
+        pause_(io_),
         port_(acceptor_.local_endpoint().port()) {
     answers_.page = page();
     answers_.first_model = std::make_shared<const std::string>(scene_model(scene_, options.first_triangles));
     accept();
     next_frame();
-    serving_ = std::thread([this] { io_.run(); });
-    making_ = std::thread([this] { make_whole_model(); });
+    serving_ = std::jthread([this] { serve(); });
+    making_ = std::jthread([this] { make_whole_model(); });
   }
 
-  ~Service() {
-    io_.stop();
-    serving_.join();
-    making_.join();
-  }
+  ~Service() { io_.stop(); }
 
   std::uint16_t port() const noexcept { return port_; }
   bool has_had_client() const noexcept { return has_had_client_.load(std::memory_order_relaxed); }
   void push(const devices::HapticState& state) noexcept { states_.push(state); }
 
  private:
+  /// What a page makes fail ends its own connection; what else fails ends the viewing, never the run.
+  void serve() noexcept {
+    try {
+      io_.run();
+    } catch (const std::exception&) {
+      io_.stop();
+    }
+  }
+
   void accept() {
     acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
-      if (!error) {
-        socket.set_option(tcp::no_delay(true), error);
-        std::make_shared<Connection>(
-            beast::tcp_stream(std::move(socket)), answers_,
-            [this](beast::tcp_stream&& stream, const HttpRequest& request) { add_client(std::move(stream), request); })
-            ->start();
+      std::erase_if(connections_, [](const auto& connection) { return connection.expired(); });
+      if (error || connections_.size() >= kMostConnections) {
+        pause_.expires_after(kAcceptPause);  // without descriptors, the next one fails at once
+        pause_.async_wait([this](beast::error_code) { accept(); });
+        return;
       }
+      socket.set_option(tcp::no_delay(true), error);
+      const auto connection = std::make_shared<Connection>(
+          beast::tcp_stream(std::move(socket)), answers_,
+          [this](beast::tcp_stream&& stream, const HttpRequest& request) { add_client(std::move(stream), request); });
+      connections_.push_back(connection);
+      connection->start();
       accept();
     });
   }
@@ -86,9 +99,9 @@ class ViewServer::Service {
   void add_client(beast::tcp_stream&& stream, const HttpRequest& request) {
     std::erase_if(clients_, [](const auto& client) { return client->has_ended(); });
     if (clients_.size() >= kMostClients) return;  // the stream closes
-    clients_.push_back(std::make_shared<LiveClient>(std::move(stream)));
+    clients_.push_back(std::make_shared<LiveClient>(
+        std::move(stream), [this] { has_had_client_.store(true, std::memory_order_relaxed); }));
     clients_.back()->start(request, frame_);
-    has_had_client_.store(true, std::memory_order_relaxed);
   }
 
   void next_frame() {
@@ -105,9 +118,13 @@ class ViewServer::Service {
     });
   }
 
-  void make_whole_model() {
-    auto model = std::make_shared<const std::string>(scene_model(scene_, std::numeric_limits<std::size_t>::max()));
-    asio::post(io_, [this, model = std::move(model)] { answers_.whole_model = model; });
+  /// A scene without one, because it is too large, stays as it was loaded first.
+  void make_whole_model() noexcept {
+    try {
+      auto model = std::make_shared<const std::string>(scene_model(scene_, std::numeric_limits<std::size_t>::max()));
+      asio::post(io_, [this, model = std::move(model)] { answers_.whole_model = model; });
+    } catch (const std::exception&) {
+    }
   }
 
   ViewScene scene_;
@@ -116,13 +133,15 @@ class ViewServer::Service {
   asio::io_context io_{1};
   tcp::acceptor acceptor_;
   asio::steady_timer timer_;
+  asio::steady_timer pause_;
   std::uint16_t port_;
   Answers answers_;
   std::vector<std::shared_ptr<LiveClient>> clients_;
   realtime::SpscRing<devices::HapticState> states_{kRingStates};
   std::atomic<bool> has_had_client_{false};
-  std::thread serving_;
-  std::thread making_;
+  std::vector<std::weak_ptr<Connection>> connections_;
+  std::jthread making_;
+  std::jthread serving_;  // joined first
 };
 
 ViewServer::ViewServer(ViewScene scene, const ViewServerOptions& options)

@@ -36,7 +36,7 @@ class ViewServer {
   /// Whether any page has looked on so far. Any thread.
   bool has_had_client() const noexcept;
 
-  /// Takes the state of a tick. When the server lags behind by a quarter of a second, it misses the state. Wait-free,
+  /// Takes the state of a tick. When the server lags behind by 1024 states, it misses the state. Wait-free,
   /// no allocation; one thread.
   void push(const devices::HapticState& state) noexcept;
 

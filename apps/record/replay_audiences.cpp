@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <thread>
 #include <utility>
 
@@ -23,7 +24,11 @@ bool ReplayView::take(const devices::HapticState& state) {
     start_ = std::chrono::steady_clock::now();
     first_ = state.time;
   }
-  std::this_thread::sleep_until(*start_ + (state.time - first_));
+  // In slices: a log may say anything, and Ctrl-C must wake it.
+  constexpr std::chrono::milliseconds kSlice{50};
+  const auto wanted = *start_ + (state.time - first_);
+  while (std::chrono::steady_clock::now() < wanted && !StopSignal::requested())
+    std::this_thread::sleep_until(std::min(wanted, std::chrono::steady_clock::now() + kSlice));
   server_->push(state);
   return !StopSignal::requested();
 }
@@ -31,9 +36,9 @@ bool ReplayView::take(const devices::HapticState& state) {
 void ReplayReport::begin(const HapticScene& scene, std::chrono::nanoseconds period,
                          const std::vector<std::int64_t>& devices,
                          const std::vector<std::shared_ptr<const grasping::HandModel>>& models) {
-  constexpr std::size_t kKeptTicks = 60'000;
+  const auto minute = static_cast<std::size_t>(std::chrono::minutes(1) / period);
   scene_ = scene;
-  samples_ = std::make_shared<SessionRecorder>(kKeptTicks, scene.parts.size() + scene.moving.size(), devices.size());
+  samples_ = std::make_shared<SessionRecorder>(minute, scene.parts.size() + scene.moving.size(), devices.size());
   session_.period = period;
   session_.objects = std::ssize(scene.body_names);
   session_.devices = devices;

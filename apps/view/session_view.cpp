@@ -24,7 +24,7 @@ std::optional<std::uint16_t> port_of(const std::string& text) {
 
 viewer::ViewScene view_scene_of(const HapticScene& scene, const std::vector<std::int64_t>& devices,
                                 const std::vector<std::shared_ptr<const grasping::HandModel>>& models) {
-  viewer::ViewScene view{.title = scene.source, .objects = scene.shown, .X_WGoal = scene.X_WGoal};
+  viewer::ViewScene view{.title = scene.source, .objects = scene.shown};
   for (std::size_t h = 0; h < devices.size(); ++h)
     view.hands.push_back({devices[h], h < models.size() ? models[h] : nullptr});
   return view;

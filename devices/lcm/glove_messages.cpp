@@ -180,8 +180,8 @@ bool is_valid(const DeviceDescriptor& descriptor) noexcept {
 MessageError check(const haptic_state_t& message) noexcept {
   FieldCheck fields;
   fields.not_negative(message.sequence);
-  fields.not_negative(message.time_ns);
-  fields.not_negative(message.contact_set_age_ns);
+  fields.time(message.time_ns);
+  fields.time(message.contact_set_age_ns);
   fields.between(message.part_count, 0, static_cast<std::int32_t>(kHapticParts));
   fields.between(message.hand_count, 0, static_cast<std::int32_t>(kHapticHands));
   fields.between(message.contact_count, 0, static_cast<std::int32_t>(kHapticContacts));

@@ -1,6 +1,9 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
 #include <glissade/lcmtypes/contact_set_t.hpp>
 
-#include "loop/haptic_sample.h"
 #include "record/message_bytes.h"
 #include "record/pose_message.h"
 #include "record/record_messages.h"
@@ -8,6 +11,23 @@
 namespace glissade::haptics {
 
 namespace {
+
+/// Whether a simulation can work on them: bytes that were changed may say anything, and their checksum is looked at
+/// later.
+bool are_plausible(const Ghosts& ghosts) {
+  constexpr double kFarthest_m = 1e6;
+  constexpr std::chrono::nanoseconds kLatest{std::int64_t{1} << 60};
+  const auto is_plausible = [](const Eigen::Isometry3d& X) {
+    return X.matrix().allFinite() && X.translation().cwiseAbs().maxCoeff() <= kFarthest_m;
+  };
+  return ghosts.time >= std::chrono::nanoseconds(0) && ghosts.time <= kLatest &&
+         std::all_of(ghosts.parts.begin(), ghosts.parts.end(),
+                     [&](const GhostOfPart& part) { return is_plausible(part.X_WG); }) &&
+         std::all_of(ghosts.hands.begin(), ghosts.hands.end(), [&](const GhostOfHand& hand) {
+           return is_plausible(hand.X_WH) && std::all_of(hand.angles.begin(), hand.angles.end(),
+                                                         [](double angle) { return std::isfinite(angle); });
+         });
+}
 
 part_answer_t message_of(const PartAnswer& answer) {
   part_answer_t message;
@@ -137,6 +157,7 @@ std::optional<ConsumedByAnswer> decode_answer(std::span<const std::uint8_t> byte
   }
   record.sequence = message->sequence;
   record.part_count = message->part_count;
+  if (!are_plausible(record.ghosts)) return std::nullopt;
   return record;
 }
 

@@ -49,7 +49,10 @@ TEST(ViewServer, ServesThePageAndTheModels) {
   for (http::status status = http::status::accepted; status != http::status::ok;)
     status = browser.ask(http::verb::get, "/whole_model.glb").result();  // it is being made
   EXPECT_EQ(browser.ask(http::verb::get, "/nothing").result(), http::status::not_found);
-  EXPECT_EQ(browser.ask(http::verb::post, "/").result(), http::status::method_not_allowed);
+  EXPECT_EQ(browser.ask(http::verb::get, "/?from=a_bookmark").body(), page());
+  const auto refused = browser.ask(http::verb::post, "/");
+  EXPECT_EQ(refused.result(), http::status::method_not_allowed);
+  EXPECT_FALSE(refused.keep_alive());
 }
 
 TEST(ViewServer, RefusesPagesOfOtherSites) {

@@ -106,7 +106,9 @@ class NormalMaker {
 
   /// The mean of the normals at the vertex that differ little from that of the triangle, by area.
   Eigen::Vector3d normal_at(std::uint32_t vertex, std::size_t triangle) const {
+    constexpr std::size_t kLargestFan = 64;  // at the middle of a disc, all normals are alike
     const Eigen::Vector3d& own = areas_[triangle];
+    if (fans_.at(vertex).size() > kLargestFan) return own.normalized();
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const std::uint32_t other : fans_.at(vertex)) {
       const double product = own.dot(areas_[other]);

@@ -29,7 +29,8 @@ struct DisplayMesh {
 /// The mesh with at most about `most_triangles` triangles: a larger one is simplified. Two triangles that meet at less
 /// than 30° look like one smooth surface, whatever their orientations; a vertex on a sharper edge has several normals.
 /// Meshes of more than a million triangles have no edges, which take seconds.
-/// Cost O(n · triangles at a vertex), about 1 s for a million triangles.
+/// Where more than 64 triangles meet, each has its own normal. About 1 s for a
+/// million triangles.
 DisplayMesh display_mesh(const geometry::TriangleMesh& mesh, std::size_t most_triangles);
 
 }  // namespace glissade::viewer

@@ -124,7 +124,8 @@ std::string GlbWriter::finish(const nlohmann::json& scene_extras) const {
     document["bufferViews"] = views_;
     document["buffers"] = {{{"byteLength", binary_.size()}}};
   }
-  std::string json = document.dump();
+  // A name of a file may be no UTF-8.
+  std::string json = document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   fill(json, ' ');
   const std::size_t size = 12 + 8 + json.size() + 8 + binary_.size();
   if (size > std::numeric_limits<std::uint32_t>::max())

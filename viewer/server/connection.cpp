@@ -17,11 +17,12 @@ namespace {
 constexpr std::chrono::seconds kPatience{60};
 constexpr std::size_t kLongestHeader = 16'384;
 
-/// The page is one file and talks to its own server only.
-constexpr const char* kPolicy =
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
-    "connect-src 'self' ws://127.0.0.1:* ws://localhost:* blob: data:; "
-    "frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
+/// The page is one file and talks to its own server only: `host` is its name with the port.
+std::string policy_for(std::string_view host) {
+  return "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
+         "connect-src 'self' ws://" +
+         std::string(host) + " blob: data:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
+}
 
 std::string_view view_of(beast::string_view text) {
   return {text.data(), text.size()};
@@ -47,13 +48,17 @@ void Connection::read() {
   parser_->header_limit(kLongestHeader);
   stream_.expires_after(kPatience);
   http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-    if (!error) self->answer();
+    if (!error) return self->answer();
+    if (error == http::error::end_of_stream || error.category() != http::make_error_code(http::error{}).category())
+      return;
+    self->send(http::status::bad_request, "text/plain", "only GET without a body is known\n");
   });
 }
 
 void Connection::answer() {
   const HttpRequest& request = parser_->get();
-  const std::string_view target = view_of(request.target());
+  const std::string_view whole_target = view_of(request.target());
+  const std::string_view target = whole_target.substr(0, whole_target.find('?'));
   const auto plain = [&](http::status status, std::string_view text) { send(status, "text/plain", text); };
   if (!is_own_request(view_of(request[http::field::host]), view_of(request[http::field::origin])))
     return plain(http::status::forbidden, "only pages of this machine are served\n");
@@ -78,10 +83,13 @@ void Connection::send(http::status status, std::string_view type, std::string_vi
   };
   put(http::field::content_type, type);
   put(http::field::cache_control, "no-store");
-  response->set("Content-Security-Policy", kPolicy);
+  const std::string_view host = view_of(parser_->get()[http::field::host]);
+  if (is_own_request(host, "")) response->set("Content-Security-Policy", policy_for(host));
   response->set("Referrer-Policy", "no-referrer");
   response->set("X-Content-Type-Options", "nosniff");
-  response->keep_alive(parser_->get().keep_alive());
+  // After anything but a GET, what follows in the stream is unclear.
+  response->keep_alive(parser_->get().keep_alive() && parser_->get().method() == http::verb::get &&
+                       status != http::status::bad_request);
   response->body() = beast::span<const char>(content.data(), content.size());
   response->prepare_payload();
   stream_.expires_after(kPatience);

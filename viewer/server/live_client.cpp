@@ -11,7 +11,8 @@ namespace glissade::viewer {
 namespace beast = boost::beast;
 namespace websocket = boost::beast::websocket;
 
-LiveClient::LiveClient(beast::tcp_stream&& stream) : socket_(std::move(stream)) {
+LiveClient::LiveClient(beast::tcp_stream&& stream, std::function<void()> on_open)
+    : socket_(std::move(stream)), on_open_(std::move(on_open)) {
   constexpr std::size_t kLongestMessage = 64;
   beast::get_lowest_layer(socket_).expires_never();  // the WebSocket has its own time limits
   socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
@@ -26,6 +27,7 @@ void LiveClient::start(const beast::http::request<beast::http::empty_body>& requ
       return;
     }
     self->is_open_ = true;
+    self->on_open_();
     self->wait_for_message();
     if (!first.empty()) self->offer(first);
   });

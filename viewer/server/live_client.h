@@ -3,6 +3,7 @@
 /// One page that looks on.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -16,7 +17,8 @@ namespace glissade::viewer {
 /// thread of the stream's io_context.
 class LiveClient : public std::enable_shared_from_this<LiveClient> {
  public:
-  explicit LiveClient(boost::beast::tcp_stream&& stream);
+  /// `on_open` is called when the page listens.
+  LiveClient(boost::beast::tcp_stream&& stream, std::function<void()> on_open);
 
   /// Answers the request for the WebSocket; then sends `first_frame` unless it is empty.
   void start(const boost::beast::http::request<boost::beast::http::empty_body>& request, std::string first_frame);
@@ -30,6 +32,7 @@ class LiveClient : public std::enable_shared_from_this<LiveClient> {
   void wait_for_message();
 
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+  std::function<void()> on_open_;
   boost::beast::flat_buffer received_;
   std::string frame_;  // in flight
   bool is_open_ = false;

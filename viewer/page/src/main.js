@@ -85,9 +85,8 @@ async function load(name) {
   return parseModel(await answer.arrayBuffer());
 }
 
-// Loads the model each time that the server is there again: it may show another scene then.
-async function loadModels(page) {
-  page.setModel(await load('model.glb'));
+// The rest of a model that was made smaller, when it is there.
+async function loadWhole(page) {
   const { coarse } = page.stage;
   if (coarse.triangles >= page.info.triangles) return;
   for (let whole; !whole && page.stage.coarse === coarse;) {
@@ -100,12 +99,29 @@ async function loadModels(page) {
 function showLive() {
   const page = new Page(new Timeline());
   page.strips = new Strips(byId('strips'), page.timeline);
-  new Connection((frame) => page.timeline.push(frame), (isConnected) => {
+  let newest = performance.now();
+  // Another server may be there after the last one: its scene and its run take the place of what was.
+  const prepare = async () => {
+    const model = await load('model.glb');
+    page.timeline.clear();
+    page.setModel(model);
+    loadWhole(page).catch((error) => say(`the whole scene could not be loaded: ${error.message}`));
+  };
+  const onFrame = (frame) => {
+    newest = performance.now();
+    page.timeline.push(frame);
+  };
+  const onState = (isConnected) => {
     page.isConnected = isConnected;
+    newest = performance.now();
     say(isConnected ? 'connected' : 'no connection: tries again');
     document.body.classList.toggle('lost', !isConnected);
-    if (isConnected) loadModels(page).catch((error) => say(`the scene could not be loaded: ${error.message}`));
-  });
+  };
+  new Connection(prepare, onFrame, onState);
+  setInterval(() => {
+    const seconds = Math.floor((performance.now() - newest) / 1000);
+    if (page.isConnected) say(seconds < 2 ? 'connected' : `connected, nothing new for ${seconds} s`);
+  }, 500);
   return page;
 }
 

@@ -36,6 +36,7 @@ export class Stage {
     this.controls.addEventListener('change', () => this.touched());
     this.plane = new Plane(new Vector3(-1, 0, 0), 0);
     this.bounds = new Sphere(new Vector3(), 1);
+    this.box = new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1)); // until there is a scene
     this.shown = { ghosts: true, contacts: true, forces: true, edges: true, through: false };
     this.lastMotion = 0;
     this.isDirty = true;
@@ -109,7 +110,8 @@ export class Stage {
 
   // The first model of a scene takes the place of the one before; `whole` is added to it.
   setModel(model) {
-    for (const old of [this.coarse, this.whole]) if (old) this.scene.remove(old.group);
+    for (const old of [this.coarse, this.whole]) if (old) this.dispose(old);
+    const isOther = this.coarse?.info.title !== model.info.title;
     this.whole = undefined;
     this.coarse = model;
     this.paint(model);
@@ -118,8 +120,13 @@ export class Stage {
     this.addGhosts(model);
     this.addForces(model.info.hands.length);
     this.addGrid();
-    if (!this.hasView) this.fit('corner');
+    if (isOther) this.fit('corner');
     this.isDirty = true;
+  }
+
+  dispose(model) {
+    this.scene.remove(model.group);
+    model.group.traverse((child) => child.geometry?.dispose());
   }
 
   setWholeModel(model) {
@@ -315,7 +322,6 @@ export class Stage {
     this.camera.far = 20 * (distance + this.bounds.radius);
     this.camera.updateProjectionMatrix();
     this.controls.update();
-    this.hasView = true;
     this.touched();
   }
 

@@ -1,6 +1,7 @@
 // The frames that can be shown: those of the last minute, or all of a report; and which one is shown.
 
 const KEPT_S = 60;
+const MOST_FRAMES = 5 * 60 * KEPT_S; // while an old moment is looked at
 
 export class Timeline {
   constructor(frames = []) {
@@ -33,18 +34,34 @@ export class Timeline {
 
   // A live frame. A server that was started again begins anew.
   push(frame) {
-    if (this.frames.length > 0 && frame.sequence < this.frames[this.frames.length - 1].sequence) {
-      this.frames = [];
-      this.index = -1;
-    }
+    if (this.frames.length > 0 && frame.sequence < this.frames[this.frames.length - 1].sequence) this.clear();
     this.frames.push(frame);
-    // The past that is looked at stays.
-    while (this.isLive && this.frames.length > 2 && this.frames[0].time < frame.time - KEPT_S) this.frames.shift();
+    this.forget(frame.time - KEPT_S);
     if (this.isLive || this.index < 0) this.index = this.frames.length - 1;
     this.changed();
   }
 
+  // Another run may follow.
+  clear() {
+    this.frames = [];
+    this.index = -1;
+    this.playTime = undefined;
+  }
+
+  // Leaves frames before `time` out, but not those from the shown one on.
+  forget(time) {
+    let count = 0;
+    const most = this.isLive ? this.frames.length - 1 : this.index;
+    while (count < most && this.frames[count].time < time) ++count;
+    const excess = this.frames.length - MOST_FRAMES;
+    count = Math.max(count, excess);
+    if (count <= 0) return;
+    this.frames.splice(0, count);
+    this.index = Math.max(this.index - count, 0);
+  }
+
   goLive() {
+    this.playTime = undefined;
     this.isLive = true;
     this.isPlaying = false;
     this.index = this.frames.length - 1;
@@ -52,6 +69,7 @@ export class Timeline {
   }
 
   pause() {
+    this.playTime = undefined;
     this.isLive = false;
     this.isPlaying = false;
     this.changed();
@@ -65,7 +83,13 @@ export class Timeline {
     this.changed();
   }
 
+  // Goes to the last frame before `time`; a run that plays goes on from there.
   seek(time) {
+    this.playTime = undefined;
+    this.show(time);
+  }
+
+  show(time) {
     if (this.frames.length === 0) return;
     let low = 0;
     let high = this.frames.length - 1;
@@ -81,6 +105,7 @@ export class Timeline {
 
   step(count) {
     if (this.frames.length === 0) return;
+    this.playTime = undefined;
     this.isLive = false;
     this.isPlaying = false;
     this.index = Math.min(Math.max(this.index + count, 0), this.frames.length - 1);
@@ -91,7 +116,7 @@ export class Timeline {
   advance(seconds) {
     if (!this.isPlaying || this.frames.length === 0) return;
     const time = (this.playTime ?? this.frame.time) + seconds;
-    this.seek(time);
+    this.show(time);
     this.isPlaying = time < this.last;
     this.playTime = this.isPlaying ? time : undefined;
     if (!this.isPlaying) this.changed();

@@ -48,9 +48,18 @@ test('the replay of a report is linked with its plots', async () => {
   const lines = await page.locator('.moment').evaluateAll((all) => all.map((line) => Number(line.getAttribute('x1'))));
   assert.ok(lines.length >= 3 && lines.every((place) => Math.abs(place - lines[0]) < 1.5), `${lines}`);
 
-  // It plays on from there.
+  // It plays on from there, and after a pause from where it was put.
   await page.locator('#play').click();
   await eventually(async () => (await inspect(page)).frame.time > there.frame.time + 0.3);
+  await page.locator('#play').click();
+  await page.mouse.click(box.x + (left / width) * box.width + 1, box.y + box.height / 2);
+  await eventually(async () => (await inspect(page)).frame.time < start.frame.time + 0.1);
+  await page.locator('#play').click();
+  const again = await eventually(async () => {
+    const { frame } = await inspect(page);
+    return frame.time > start.frame.time + 0.1 && frame;
+  });
+  assert.ok(again.time < start.frame.time + 4, `${again.time - start.frame.time} s`);
   assert.deepEqual(page.faults, []);
   await page.context().close();
 });
