@@ -41,7 +41,7 @@ constexpr const char* kReplayFooter =
     "Examples:\n"
     "  glissade demo --seconds 3 --record demo.lcmlog && glissade replay demo.lcmlog\n"
     "  glissade demo --offline --seconds 2 --record offline.lcmlog && glissade replay offline.lcmlog --json\n"
-    "  glissade replay demo.lcmlog --report report\n"
+    "  glissade demo --offline --seconds 2 --record offline.lcmlog && glissade replay offline.lcmlog --report report\n"
     "With the files of 'glissade example', for a server that the recorded glove leads:\n"
     "  glissade run car_door.yaml --seconds 2 & glissade replay demo.lcmlog --lcm 'udpm://239.255.76.67:7667?ttl=0'";
 
