@@ -45,7 +45,7 @@ double position_at(std::string_view bytes, std::size_t at, std::uint64_t compone
     case kGltfUint16:
       return scaled(base::number_at<std::uint16_t>(bytes, at), 65535);
     default:
-      return double{base::number_at<float>(bytes, at)};
+      return static_cast<double>(base::number_at<float>(bytes, at));
   }
 }
 

@@ -71,7 +71,7 @@ TriangleMesh read_binary(const MeshFile& file, std::string_view bytes) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       Eigen::Vector3d& vertex = mesh.vertices.emplace_back();
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto value = double{base::number_at<float>(bytes, begin + 12 * corner + 4 * axis)};
+        const auto value = static_cast<double>(base::number_at<float>(bytes, begin + 12 * corner + 4 * axis));
         if (!is_coordinate(value)) reject_coordinate(file.path(), "triangle " + std::to_string(t), value);
         vertex[static_cast<Eigen::Index>(axis)] = value;
       }
