@@ -48,7 +48,7 @@ TriangleMesh in_single_precision(TriangleMesh mesh) {
     for (double& coordinate : vertex) {
       // g++ 12 at -O3 forgets the last two coordinates when it vectorizes this loop, hence volatile.
       const volatile float rounded = static_cast<float>(coordinate);
-      coordinate = double{rounded};
+      coordinate = static_cast<double>(rounded);
     }
   }
   return mesh;
