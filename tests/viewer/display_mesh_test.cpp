@@ -72,12 +72,17 @@ TEST(DisplayMesh, ALargeMeshKeepsItsShapeWithFewerTriangles) {
 }
 
 TEST(DisplayMesh, TrianglesThatNothingCanJoinGetFewerToo) {
+  const auto cell = [](int i) -> Eigen::Vector3d {
+    const int y = i / 10 % 10;
+    const int z = i / 100;
+    return 0.01 * Eigen::Vector3d(i % 10, y, z);
+  };
   geometry::TriangleMesh crumbs;
   for (int i = 0; i < 2000; ++i) {
     const auto first = static_cast<std::int32_t>(crumbs.vertices.size());
     for (const Eigen::Vector3d& corner :
          {Eigen::Vector3d(0.0, 0.0, 0.0), Eigen::Vector3d(0.02, 0.0, 0.0), Eigen::Vector3d(0.0, 0.02, 0.0)})
-      crumbs.vertices.push_back(corner + 0.01 * Eigen::Vector3d(i % 10, i / 10 % 10, i / 100));
+      crumbs.vertices.push_back(corner + cell(i));
     crumbs.triangles.push_back({first, first + 1, first + 2});
   }
   EXPECT_LE(display_mesh(crumbs, 500).triangles(), 625u);
