@@ -16,6 +16,7 @@
 #include <glissade/apps/command.h>
 #include <glissade/apps/files/obj_file.h>
 #include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/open_files.h>
 #include <glissade/apps/record/recorded_moment.h>
 #include <glissade/apps/text.h>
 #include <glissade/viewer/scene_model.h>
@@ -59,7 +60,7 @@ std::chrono::nanoseconds time_of(double at_s) {
 }
 
 viewer::ViewScene scene_at(std::optional<std::chrono::nanoseconds> time, const std::string& scene_file) {
-  const Scene file = read_scene(scene_file);
+  const Scene file = open_scene(scene_file);
   viewer::ViewScene scene{.title = file.source};
   for (const SceneObject& object : file.objects) {
     viewer::ViewObject& shown = scene.objects.emplace_back(viewer::ViewObject{object.name, object.mesh, object.X_WB});

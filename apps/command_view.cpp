@@ -71,7 +71,7 @@ int view(const ViewOptions& options) {
     scene.hands.push_back({device, model});
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   const StopSignal stop_signal;
-  viewer::ViewServer server(std::move(scene), {.port = options.port});
+  viewer::ViewServer server(std::move(scene), options.port);
   Received received;
   const auto subscription = bus->subscribe("HAPTIC_STATE", [&](std::span<const std::uint8_t> bytes) {
     const auto state = devices::haptic_state_of({.channel = "HAPTIC_STATE", .message = {bytes.begin(), bytes.end()}});

@@ -28,7 +28,8 @@ using asio::ip::tcp;
 
 namespace {
 
-constexpr std::size_t kRingStates = 1024;  // a second of the usual loop
+constexpr std::size_t kFirstTriangles = 40'000;  // of the model that a page loads first
+constexpr std::size_t kRingStates = 1024;        // a second of the usual loop
 constexpr std::size_t kMostConnections = 128;
 constexpr std::chrono::milliseconds kAcceptPause{100};
 constexpr std::chrono::microseconds kFramePeriod{16'667};
@@ -47,15 +48,15 @@ tcp::acceptor listening(asio::io_context& io, std::uint16_t port) {
 /// Everything but `push` runs in the thread of `io_`, and the whole model is made in one of its own.
 class ViewServer::Service {
  public:
-  Service(ViewScene scene, const ViewServerOptions& options)
+  Service(ViewScene scene, std::uint16_t port)
       : scene_(std::move(scene)),
         frames_(scene_),
-        acceptor_(listening(io_, options.port)),
+        acceptor_(listening(io_, port)),
         timer_(io_),
         pause_(io_),
         port_(acceptor_.local_endpoint().port()) {
     answers_.page = page();
-    answers_.first_model = std::make_shared<const std::string>(scene_model(scene_, options.first_triangles));
+    answers_.first_model = std::make_shared<const std::string>(scene_model(scene_, kFirstTriangles));
     accept();
     next_frame();
     serving_ = std::jthread([this] { serve(); });
@@ -144,8 +145,8 @@ class ViewServer::Service {
   std::jthread serving_;  // joined first
 };
 
-ViewServer::ViewServer(ViewScene scene, const ViewServerOptions& options)
-    : service_(std::make_unique<Service>(std::move(scene), options)) {}
+ViewServer::ViewServer(ViewScene scene, std::uint16_t port)
+    : service_(std::make_unique<Service>(std::move(scene), port)) {}
 
 ViewServer::~ViewServer() = default;
 

@@ -2,7 +2,6 @@
 
 /// Shows a scene in browsers on this machine: a page over HTTP, and the motion over WebSocket, on one port.
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -12,19 +11,14 @@
 
 namespace glissade::viewer {
 
-struct ViewServerOptions {
-  std::uint16_t port = 0;                ///< on 127.0.0.1; 0: any that is free
-  std::size_t first_triangles = 40'000;  ///< of the model that a page loads first
-};
-
 /// Serves at most 60 frames a second to each page, the next one only after the page has shown the last: a slow page
 /// misses frames, which it is told, and delays nobody. Answers only requests to this machine by its own name, so that
 /// no page of another site can look on. Its threads never run in the real-time class.
 class ViewServer {
  public:
-  /// Makes the first model; the whole one is made meanwhile, and pages load it when it is there. Throws
-  /// std::invalid_argument, naming the port, when it cannot be opened.
-  explicit ViewServer(ViewScene scene, const ViewServerOptions& options = {});
+  /// On this port of 127.0.0.1; 0: any that is free. Makes the first model; the whole one is made meanwhile, and pages
+  /// load it when it is there. Throws std::invalid_argument, naming the port, when it cannot be opened.
+  explicit ViewServer(ViewScene scene, std::uint16_t port = 0);
   ViewServer(const ViewServer&) = delete;
   ViewServer& operator=(const ViewServer&) = delete;
   /// Ends all connections.

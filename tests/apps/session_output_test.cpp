@@ -34,6 +34,25 @@ SessionSummary summary_of(const Session& session) {
   return {.ticks = session.ticks, .samples = session.ticks, .parts = {{.name = "motor"}}, .hands = {{.device = 1}}};
 }
 
+TEST(SessionRecorder, KeepsTheNewestTicksAndTheContactsOfEverySixteenth) {
+  SessionRecorder recorder(100, 1, 1);
+  for (int i = 0; i < 250; ++i) {
+    devices::HapticState state;
+    state.sequence = i + 1;
+    state.time = std::chrono::milliseconds(i);
+    state.contact_count = i / 16;  // of ticks 0, 16, 32, …
+    recorder.record(state);
+  }
+  ASSERT_EQ(recorder.size(), 100u);
+  for (std::size_t i = 0; i < recorder.size(); ++i) {
+    const devices::HapticState state = recorder.state(i);
+    const auto tick = static_cast<int>(150 + i);
+    EXPECT_EQ(state.sequence, tick + 1);
+    EXPECT_EQ(state.time, std::chrono::milliseconds(tick));
+    EXPECT_EQ(state.contact_count, tick / 16) << tick;
+  }
+}
+
 TEST(SessionText, OfARunThatNeverBeganSaysSo) {
   const Session session = session_of(0);
   EXPECT_EQ(to_text(summary_of(session), session, true),

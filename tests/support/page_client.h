@@ -24,11 +24,13 @@ class Browser {
     stream_.connect(page_endpoint(port));
   }
 
-  /// The answer to a request; `host` in place of the server's own name.
+  /// The answer to a request with this body; `host` in place of the server's own name.
   boost::beast::http::response<boost::beast::http::string_body> ask(boost::beast::http::verb verb,
                                                                     const std::string& target,
-                                                                    const std::string& host = "") {
-    boost::beast::http::request<boost::beast::http::empty_body> request(verb, target, 11);
+                                                                    const std::string& host = "",
+                                                                    const std::string& body = "") {
+    boost::beast::http::request<boost::beast::http::string_body> request(verb, target, 11, body);
+    if (!body.empty()) request.prepare_payload();
     request.set(boost::beast::http::field::host, host.empty() ? host_ : host);
     boost::beast::http::write(stream_, request);
     boost::beast::http::response<boost::beast::http::string_body> answer;

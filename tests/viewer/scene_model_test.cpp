@@ -75,6 +75,13 @@ TEST(SceneModel, IsAMeshFile) {
   EXPECT_TRUE(report.bounds.max().isApprox(second + corner, 1e-6)) << report.bounds.max().transpose();
 }
 
+TEST(SceneModel, NamesMayBeNoUtf8) {
+  ViewScene scene = two_boxes(Eigen::Vector3d::Zero());
+  scene.title = "folder\xff/scene.yaml";
+  const std::string title = read_glb(scene_model(scene, kWhole)).json["scenes"][0]["extras"]["title"];
+  EXPECT_EQ(title.substr(0, 6), "folder");
+}
+
 TEST(SceneModel, EqualMeshesAreSentOnce) {
   ViewScene scene = two_boxes(Eigen::Vector3d::Zero());
   scene.objects.push_back(scene.objects.front());

@@ -55,6 +55,14 @@ TEST(ViewServer, ServesThePageAndTheModels) {
   EXPECT_FALSE(refused.keep_alive());
 }
 
+TEST(ViewServer, AnswersWhatItDoesNotUnderstand) {
+  const ViewServer server(small_scene());
+  Browser browser(server.port());
+  const auto answer = browser.ask(http::verb::post, "/", "", "a body");
+  EXPECT_EQ(answer.result(), http::status::bad_request);
+  EXPECT_FALSE(answer.keep_alive());
+}
+
 TEST(ViewServer, RefusesPagesOfOtherSites) {
   EXPECT_TRUE(is_own_request("127.0.0.1:8421", ""));
   EXPECT_TRUE(is_own_request("localhost:8421", "http://localhost:8421"));
@@ -99,7 +107,7 @@ TEST(ViewServer, WhoComesLaterSeesTheLastFrameAtOnce) {
 
 TEST(ViewServer, SaysThatAPortIsTaken) {
   const ViewServer first(small_scene());
-  test_support::expect_bad_input([&] { const ViewServer second(small_scene(), {.port = first.port()}); },
+  test_support::expect_bad_input([&] { const ViewServer second(small_scene(), first.port()); },
                                  {"port " + std::to_string(first.port())});
 }
 

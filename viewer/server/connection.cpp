@@ -49,8 +49,8 @@ void Connection::read() {
   stream_.expires_after(kPatience);
   http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
     if (!error) return self->answer();
-    if (error == http::error::end_of_stream || error.category() != http::make_error_code(http::error{}).category())
-      return;
+    const beast::error_code end = http::error::end_of_stream;
+    if (error == end || error.category() != end.category()) return;  // nobody waits for an answer
     self->send(http::status::bad_request, "text/plain", "only GET without a body is known\n");
   });
 }
