@@ -9,7 +9,7 @@ namespace glissade::haptics {
 namespace {
 
 constexpr double kSmallestReach_m = 30e-6;
-constexpr double kTicksAhead = 6.0;  // of the ghosts' motion
+constexpr double kTicksAhead = 16.0;  // of the ghosts' motion
 constexpr double kLeastLookAhead_m = 45e-6;
 constexpr double kSmallestReachLimit_m = 0.2e-3;
 constexpr std::size_t kAffordablePairsAhead = 3000;
