@@ -100,12 +100,11 @@ struct SlidingRules {
   /// not less than 0.2 mm, and steps are shorter. Answers then come sooner, and a fast part falls behind. At least 1.
   std::size_t affordable_pairs = 30'000;
   /// Work of one call: searches may take so much, and cycles as much again. Where searches take more than half of it
-  /// on average, the next ones look less far. The unit is about a nanosecond of an ordinary
-  /// processor, but it counts pairs and proofs, so no bit depends on the speed of the machine. On another
-  /// instruction set (SSE4, AVX2, AVX-512, NEON) it may differ by a few pairs, and so may the call that ends. A call
-  /// ends when the work is used up, or one indivisible piece later: a projection on the contacts, or the proof of a
-  /// pair of boxes or leaves. At least 2; none: no limit. With a limit, searches have a thread even without
-  /// `has_search_thread`, which then works only while the simulation waits.
+  /// on average, the next ones look less far. The unit is about a nanosecond of an ordinary processor, but it counts
+  /// pairs and proofs, so no bit depends on the speed of the machine or its instruction set. A call ends when the work
+  /// is used up, or one indivisible piece later: a projection on the contacts, or the proof of a pair of boxes or
+  /// leaves. At least 2; none: no limit. With a limit, searches have a thread even without `has_search_thread`, which
+  /// then works only while the simulation waits.
   std::optional<std::int64_t> work_budget{};
 };
 

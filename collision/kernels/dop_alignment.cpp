@@ -45,8 +45,8 @@ HWY_INLINE Indices farthest_vertex(const AlignmentTable& table, const V (&direct
   const auto reach_bits = hn::AndNot(number_bits, hn::Set(d32, 0x7fffffff));
   const auto reach = [&](std::size_t i) HWY_ATTR {
     const auto& x = table.position[i];
-    const V exact = hn::MulAdd(direction[0], hn::Set(d, x[0]),
-                               hn::MulAdd(direction[1], hn::Set(d, x[1]), hn::Mul(direction[2], hn::Set(d, x[2]))));
+    const V exact = hn::Add(hn::Mul(direction[0], hn::Set(d, x[0])),
+                            hn::Add(hn::Mul(direction[1], hn::Set(d, x[1])), hn::Mul(direction[2], hn::Set(d, x[2]))));
     return hn::BitCast(d, hn::OrAnd(hn::Set(d32, table.number[i]), hn::BitCast(d32, exact), reach_bits));
   };
   // Even and odd vertices separately, so that maxima do not wait for each other. The number of vertices is even.
@@ -76,17 +76,17 @@ HWY_INLINE void find_correspondence(const AlignmentTable& table, const QueryFram
   for (std::size_t axis = 0; axis < 3; ++axis)
     slab[axis] = hn::Load(d, table.direction[axis].data() + first);
   for (int axis = 0; axis < 3; ++axis) {
-    direction[axis] = hn::MulAdd(slab[0], hn::Set(d, component(frame.R_MN(0, axis))),
-                                 hn::MulAdd(slab[1], hn::Set(d, component(frame.R_MN(1, axis))),
-                                            hn::Mul(slab[2], hn::Set(d, component(frame.R_MN(2, axis))))));
+    direction[axis] = hn::Add(hn::Mul(slab[0], hn::Set(d, component(frame.R_MN(0, axis)))),
+                              hn::Add(hn::Mul(slab[1], hn::Set(d, component(frame.R_MN(1, axis)))),
+                                      hn::Mul(slab[2], hn::Set(d, component(frame.R_MN(2, axis))))));
   }
   const auto vertex = farthest_vertex(table, direction);
 
   V weight[3];
   for (std::size_t term = 0; term < 3; ++term) {
     const auto entry = [&](std::size_t axis) HWY_ATTR { return look_up(table.weights[3 * term + axis], vertex); };
-    weight[term] =
-        hn::MulAdd(direction[0], entry(0), hn::MulAdd(direction[1], entry(1), hn::Mul(direction[2], entry(2))));
+    weight[term] = hn::Add(hn::Mul(direction[0], entry(0)),
+                           hn::Add(hn::Mul(direction[1], entry(1)), hn::Mul(direction[2], entry(2))));
   }
   // For a mirrored vertex, all weights have the opposite sign.
   const V sum = hn::Add(weight[0], hn::Add(weight[1], weight[2]));
@@ -106,11 +106,11 @@ HWY_INLINE void find_correspondence(const AlignmentTable& table, const QueryFram
   // In grid steps: the residual times the radius of N; half a step for the rounding of each of three products; a
   // quarter for single precision in the weights (their matrices have norm 3 at most) and in the centre; and the
   // uncertainty of double precision.
-  const V padding = hn::MulAdd(residual, hn::Set(d, kGridRadius / kWeightUnit * 1.001F),
-                               hn::Set(d, 1.5F + 0.25F + component(kGridRadius * frame.uncertainty * 1.001)));
+  const V padding = hn::Add(hn::Mul(residual, hn::Set(d, kGridRadius / kWeightUnit * 1.001F)),
+                            hn::Set(d, 1.5F + 0.25F + component(kGridRadius * frame.uncertainty * 1.001)));
   const auto coordinate = [&](int axis) HWY_ATTR { return hn::Set(d, component(kGridRadius * frame.p_MN[axis])); };
-  const V center =
-      hn::MulAdd(slab[0], coordinate(0), hn::MulAdd(slab[1], coordinate(1), hn::Mul(slab[2], coordinate(2))));
+  const V center = hn::Add(hn::Mul(slab[0], coordinate(0)),
+                           hn::Add(hn::Mul(slab[1], coordinate(1)), hn::Mul(slab[2], coordinate(2))));
   for (const bool is_above : {true, false}) {
     const V exact = hn::Ceil(is_above ? hn::Add(padding, center) : hn::Sub(padding, center));
     // The exact offset may exceed 16 bits. Above 32767, the offset becomes 32767 and the weights become 0, so the sum

@@ -74,7 +74,7 @@ HWY_INLINE DeterminantErrors<V> determinant_errors(D d, const LeafFrame& frame, 
   const V p = hn::Add(extent_p, hn::Set(d, 4.0F * frame.corner_uncertainty));
   const V q = hn::Add(extent_q, hn::Set(d, 4.0F * frame.corner_uncertainty));
   const Vector3<V> between = minus(t.q[0], t.p[0]);
-  const V most = hn::MulAdd(hn::Sqrt(dot(between, between)), hn::Set(d, 1.000001F), hn::Add(p, q));
+  const V most = hn::Add(hn::Mul(hn::Sqrt(dot(between, between)), hn::Set(d, 1.000001F)), hn::Add(p, q));
 
   const V four_of_both = hn::Set(d, 4.0F * of_both);
   const V one_of_both = hn::Set(d, of_both);
@@ -82,12 +82,12 @@ HWY_INLINE DeterminantErrors<V> determinant_errors(D d, const LeafFrame& frame, 
   const V two_of_p = hn::Set(d, 2.0F * kRoot3 * frame.edge_uncertainty_M);
   // `of_corners`: contribution of the errors of corners; `whole`: |u||v||w|.
   const auto error_of = [&](V of_corners, V whole)
-                            HWY_ATTR { return hn::Add(of_corners, hn::MulAdd(rounding, whole, smallest)); };
+                            HWY_ATTR { return hn::Add(of_corners, hn::Add(hn::Mul(rounding, whole), smallest)); };
   const V q_most = hn::Mul(q, most);
   const V p_most = hn::Mul(p, most);
-  return {error_of(hn::MulAdd(four_of_both, q_most, hn::Mul(one_of_both, hn::Mul(q, q))), hn::Mul(q, q_most)),
-          error_of(hn::MulAdd(two_of_p, p_most, hn::Mul(one_of_both, hn::Mul(p, p))), hn::Mul(p, p_most)),
-          error_of(hn::MulAdd(four_of_both, p_most, hn::Mul(of_p, hn::Mul(most, most))),
+  return {error_of(hn::Add(hn::Mul(four_of_both, q_most), hn::Mul(one_of_both, hn::Mul(q, q))), hn::Mul(q, q_most)),
+          error_of(hn::Add(hn::Mul(two_of_p, p_most), hn::Mul(one_of_both, hn::Mul(p, p))), hn::Mul(p, p_most)),
+          error_of(hn::Add(hn::Mul(four_of_both, p_most), hn::Mul(of_p, hn::Mul(most, most))),
                    hn::Mul(hn::Add(p, p), hn::Mul(most, most)))};
 }
 

@@ -79,16 +79,19 @@ PairMask edges(const LeafFrame& frame, float distance, PairMask pairs, LeafPair&
     Vector3<V> q[3];
     load_corners(d, leaves, first, p, q);
     float* const gaps = leaves.gaps.gap.data() + first;
-    // Raises the gaps; returns the pairs within the distance.
-    const auto raise = [&](V signed_square) HWY_ATTR {
+    // Raises the gaps of some pairs, and of no others, because which others share a vector depends on the instruction
+    // set. Returns those within the distance.
+    const auto raise = [&](PairMask some, V signed_square) HWY_ATTR {
       const V beyond =
-          hn::MulSub(hn::Sqrt(signed_square), hn::Set(d, 0.999999F), hn::Set(d, frame.uncertainty + kUnderflow));
-      const V gap = hn::Max(beyond, hn::Load(d, gaps));
+          hn::Sub(hn::Mul(hn::Sqrt(signed_square), hn::Set(d, 0.999999F)), hn::Set(d, frame.uncertainty + kUnderflow));
+      const V before = hn::Load(d, gaps);
+      const V gap = hn::IfThenElse(mask_of(d, some), hn::Max(beyond, before), before);
       hn::Store(gap, d, gaps);
-      return bits_of(d, hn::Not(hn::Gt(gap, hn::Set(d, distance)))) & asked;
+      return bits_of(d, hn::Not(hn::Gt(gap, hn::Set(d, distance)))) & some;
     };
-    PairMask near = raise(gap_along_cross_products(p, q));
-    if (near != 0) near = raise(gap_across_edges(unit_normal_M(d, leaves, first), unit_normal_N(d, leaves), p, q));
+    PairMask near = raise(asked, gap_along_cross_products(p, q));
+    if (near != 0)
+      near = raise(near, gap_across_edges(unit_normal_M(d, leaves, first), unit_normal_N(d, leaves), p, q));
     mask |= near << first;
   }
   return mask;

@@ -29,15 +29,16 @@ HWY_INLINE void find_normals(LeafTriangles& t) {
     u[axis] = hn::Sub(corner(t, axis, 1), corner(t, axis, 0));
     v[axis] = hn::Sub(corner(t, axis, 2), corner(t, axis, 0));
   }
-  const auto square_of = [](const Four(&e)[3])
-                             HWY_ATTR { return hn::MulAdd(e[0], e[0], hn::MulAdd(e[1], e[1], hn::Mul(e[2], e[2]))); };
+  const auto square_of = [](const Four(&e)[3]) HWY_ATTR {
+    return hn::Add(hn::Mul(e[0], e[0]), hn::Add(hn::Mul(e[1], e[1]), hn::Mul(e[2], e[2])));
+  };
   const Four longer = hn::Sqrt(hn::Max(square_of(u), square_of(v)));
   hn::Store(hn::Mul(longer, hn::Set(d, 1.000001F)), d, t.extent.data());
   Four n[3];
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t y = (axis + 1) % 3;
     const std::size_t z = (axis + 2) % 3;
-    n[axis] = hn::NegMulAdd(u[z], v[y], hn::Mul(u[y], v[z]));
+    n[axis] = hn::Sub(hn::Mul(u[y], v[z]), hn::Mul(u[z], v[y]));
   }
   const Four square = square_of(n);
   // Any vector is a valid separating axis. Gaps along it are taken for distances, so its inverse length is rounded
@@ -47,7 +48,8 @@ HWY_INLINE void find_normals(LeafTriangles& t) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     hn::Store(n[axis], d, t.normal[axis].data());
   const auto project = [&](std::size_t c) HWY_ATTR {
-    return hn::MulAdd(n[0], corner(t, 0, c), hn::MulAdd(n[1], corner(t, 1, c), hn::Mul(n[2], corner(t, 2, c))));
+    return hn::Add(hn::Mul(n[0], corner(t, 0, c)),
+                   hn::Add(hn::Mul(n[1], corner(t, 1, c)), hn::Mul(n[2], corner(t, 2, c))));
   };
   const Four p0 = project(0);
   const Four p1 = project(1);
@@ -84,9 +86,9 @@ void prepare_N(const LeafFrame& frame, const TriangleLeaf& leaf_N, LeafPair& lea
     const Four z = hn::Load(d, leaf_N.corner[2][c].data());
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto& row = frame.matrix[axis];
-      const Four moved = hn::MulAdd(
-          x, hn::Set(d, row[0]),
-          hn::MulAdd(y, hn::Set(d, row[1]), hn::MulAdd(z, hn::Set(d, row[2]), hn::Set(d, frame.p_MN[axis]))));
+      const Four moved = hn::Add(hn::Mul(x, hn::Set(d, row[0])),
+                                 hn::Add(hn::Mul(y, hn::Set(d, row[1])),
+                                         hn::Add(hn::Mul(z, hn::Set(d, row[2])), hn::Set(d, frame.p_MN[axis]))));
       hn::Store(moved, d, leaves.q.corner[axis][c].data());
     }
   }
@@ -116,8 +118,8 @@ float leaf_gap(const LeafFrame& frame, const LeafPair& leaves) {
       for (std::size_t c = 0; c < 3; ++c) {
         for (std::size_t t = 0; t < kWidth; ++t) {
           const auto coordinate = [&](std::size_t axis) HWY_ATTR { return hn::Set(d, leaf.corner[axis][c][t]); };
-          const V at = hn::MulAdd(normal[0], coordinate(0),
-                                  hn::MulAdd(normal[1], coordinate(1), hn::Mul(normal[2], coordinate(2))));
+          const V at = hn::Add(hn::Mul(normal[0], coordinate(0)),
+                               hn::Add(hn::Mul(normal[1], coordinate(1)), hn::Mul(normal[2], coordinate(2))));
           low = c + t == 0 ? at : hn::Min(low, at);
           high = c + t == 0 ? at : hn::Max(high, at);
         }
@@ -140,7 +142,8 @@ float leaf_gap(const LeafFrame& frame, const LeafPair& leaves) {
 template <class D, class Normal, class Corner>
 HWY_INLINE hn::Vec<D> gap_along(D, const Normal& n, hn::Vec<D> low, hn::Vec<D> high, const Corner& corner_of) {
   const auto project = [&](std::size_t c) HWY_ATTR {
-    return hn::MulAdd(n(0), corner_of(0, c), hn::MulAdd(n(1), corner_of(1, c), hn::Mul(n(2), corner_of(2, c))));
+    return hn::Add(hn::Mul(n(0), corner_of(0, c)),
+                   hn::Add(hn::Mul(n(1), corner_of(1, c)), hn::Mul(n(2), corner_of(2, c))));
   };
   const auto p0 = project(0);
   const auto p1 = project(1);

@@ -26,7 +26,7 @@ struct LeafKernels {
   /// For pairs in which each triangle crosses the plane of the other: whether the triangles intersect.
   CertainPairs (*cross)(const LeafFrame& frame, const LeafPair& leaves);
 
-  /// Raises the gaps of the pairs in the mask, and perhaps of others, to those along cross products of two edges and,
+  /// Raises the gaps of the pairs in the mask, and of no others, to those along cross products of two edges and,
   /// in the planes of the two triangles, across their edges. Returns the pairs of the mask that are not certainly
   /// farther apart than `distance` (radii of M).
   PairMask (*edges)(const LeafFrame& frame, float distance, PairMask pairs, LeafPair& leaves);

@@ -45,6 +45,13 @@ HWY_INLINE std::uint32_t bits_of(D d, hwy::HWY_NAMESPACE::Mask<D> mask) {
   return static_cast<std::uint32_t>(bits[0] | bits[1] << 8);
 }
 
+// The reverse.
+template <class D>
+HWY_INLINE hwy::HWY_NAMESPACE::Mask<D> mask_of(D d, std::uint32_t bits) {
+  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+  return hwy::HWY_NAMESPACE::LoadMaskBits(d, bytes);
+}
+
 }  // namespace glissade::collision::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -32,8 +32,8 @@ struct ThinLanes {
 
 template <class D, class V>
 HWY_INLINE V rotated(D d, const ThinSlabFrame& frame, const V (&v)[3], std::size_t row) {
-  return hn::MulAdd(hn::Set(d, frame.R_MN[row][0]), v[0],
-                    hn::MulAdd(hn::Set(d, frame.R_MN[row][1]), v[1], hn::Mul(hn::Set(d, frame.R_MN[row][2]), v[2])));
+  return hn::Add(hn::Mul(hn::Set(d, frame.R_MN[row][0]), v[0]),
+                 hn::Add(hn::Mul(hn::Set(d, frame.R_MN[row][1]), v[1]), hn::Mul(hn::Set(d, frame.R_MN[row][2]), v[2])));
 }
 
 template <class D, class V>
@@ -42,7 +42,7 @@ HWY_INLINE ThinLanes<V> moved_to_base(D d, const ThinSlabFrame& frame, const Thi
   ThinLanes<V> moved;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     moved.normal[axis] = rotated(d, frame, q.normal, axis);
-    moved.center[axis] = hn::MulAdd(ratio, rotated(d, frame, q.center, axis), hn::Set(d, frame.p_MN[axis]));
+    moved.center[axis] = hn::Add(hn::Mul(ratio, rotated(d, frame, q.center, axis)), hn::Set(d, frame.p_MN[axis]));
   }
   moved.offset = hn::Mul(ratio, q.offset);
   moved.half_width = hn::Mul(ratio, q.half_width);
@@ -58,8 +58,9 @@ HWY_INLINE hn::Vec<D> to_float(D d, hn::Vec<hn::Rebind<std::int16_t, D>> values)
 // For each pair, the lesser of its overlaps along the normals of the two slabs.
 template <class D, class V>
 HWY_INLINE V thin_overlap(D d, const ThinLanes<V>& p, const ThinLanes<V>& q) {
-  const auto dot = [](const V(&u)[3], const V(&v)[3])
-                       HWY_ATTR { return hn::MulAdd(u[0], v[0], hn::MulAdd(u[1], v[1], hn::Mul(u[2], v[2]))); };
+  const auto dot = [](const V(&u)[3], const V(&v)[3]) HWY_ATTR {
+    return hn::Add(hn::Mul(u[0], v[0]), hn::Add(hn::Mul(u[1], v[1]), hn::Mul(u[2], v[2])));
+  };
   const V cosine = dot(p.normal, q.normal);
   // The chord between the normals, one of them reversed if they point to opposite sides, bounds the sine. Its error is
   // that of the lengths of the normals.
@@ -73,10 +74,10 @@ HWY_INLINE V thin_overlap(D d, const ThinLanes<V>& p, const ThinLanes<V>& q) {
   const V sine = hn::Add(hn::Sqrt(dot(chord, chord)), hn::Set(d, 3e-4F));
   const V abs_cosine = hn::Abs(cosine);
 
-  const V apart_M = hn::Abs(hn::MulAdd(q.offset, cosine, hn::Sub(dot(p.normal, between), p.offset)));
-  const V reach_M = hn::MulAdd(q.half_width, abs_cosine, hn::MulAdd(q.radius, sine, p.half_width));
-  const V apart_N = hn::Abs(hn::NegMulAdd(p.offset, cosine, hn::Add(dot(q.normal, between), q.offset)));
-  const V reach_N = hn::MulAdd(p.half_width, abs_cosine, hn::MulAdd(p.radius, sine, q.half_width));
+  const V apart_M = hn::Abs(hn::Add(hn::Mul(q.offset, cosine), hn::Sub(dot(p.normal, between), p.offset)));
+  const V reach_M = hn::Add(hn::Mul(q.half_width, abs_cosine), hn::Add(hn::Mul(q.radius, sine), p.half_width));
+  const V apart_N = hn::Abs(hn::Sub(hn::Add(dot(q.normal, between), q.offset), hn::Mul(p.offset, cosine)));
+  const V reach_N = hn::Add(hn::Mul(p.half_width, abs_cosine), hn::Add(hn::Mul(p.radius, sine), q.half_width));
   return hn::Min(hn::Sub(reach_M, apart_M), hn::Sub(reach_N, apart_N));
 }
 

@@ -58,12 +58,12 @@ HWY_INLINE Vector3<V> minus(const Vector3<V>& a, const Vector3<V>& b) {
 }
 template <class V>
 HWY_INLINE Vector3<V> times(const Vector3<V>& a, const Vector3<V>& b) {
-  return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
-          hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
+  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
 template <class V>
 HWY_INLINE V dot(const Vector3<V>& a, const Vector3<V>& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+  return hn::Add(hn::Mul(a.x, b.x), hn::Add(hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)));
 }
 template <class M, class V>
 HWY_INLINE Vector3<V> choose(M mask, const Vector3<V>& yes, const Vector3<V>& no) {

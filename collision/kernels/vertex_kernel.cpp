@@ -56,7 +56,8 @@ HWY_INLINE void realign_rows(const VertexAlignment& alignment, std::span<const V
       const V y = hn::Load(d, group.coordinate[1].data() + lane);
       const V z = hn::Load(d, group.coordinate[2].data() + lane);
       for (std::size_t r = 0; r < kRows; ++r) {
-        const V height = hn::MulAdd(direction[r][0], x, hn::MulAdd(direction[r][1], y, hn::Mul(direction[r][2], z)));
+        const V height =
+            hn::Add(hn::Mul(direction[r][0], x), hn::Add(hn::Mul(direction[r][1], y), hn::Mul(direction[r][2], z)));
         high[r] = hn::Max(high[r], height);
         low[r] = hn::Min(low[r], height);
       }

@@ -42,11 +42,11 @@ HWY_INLINE Vector3 minus(const Vector3& a, const Vector3& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
 HWY_INLINE Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
-          hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
+  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
 HWY_INLINE V dot(const Vector3& a, const Vector3& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+  return hn::Add(hn::Mul(a.x, b.x), hn::Add(hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)));
 }
 
 // All pairs in units of their own size.
@@ -72,9 +72,9 @@ HWY_INLINE void scale(const TrianglePairs& pairs, const RelativePose& X_OV, cons
       for (std::size_t c = 0; c < 3; ++c) {
         obstacle[c][axis] = hn::Sub(hn::Load(d, pairs.p_O[c][axis].data() + first), origin);
         const auto in_V = [&](std::size_t a) HWY_ATTR { return hn::Load(d, pairs.p_V[c][a].data() + first); };
-        const auto in_O = hn::MulAdd(
-            in_V(0), hn::Set(d, R[0]),
-            hn::MulAdd(in_V(1), hn::Set(d, R[1]), hn::MulAdd(in_V(2), hn::Set(d, R[2]), hn::Set(d, X_OV.p_OV[axis]))));
+        const auto in_O = hn::Add(hn::Mul(in_V(0), hn::Set(d, R[0])),
+                                  hn::Add(hn::Mul(in_V(1), hn::Set(d, R[1])),
+                                          hn::Add(hn::Mul(in_V(2), hn::Set(d, R[2])), hn::Set(d, X_OV.p_OV[axis]))));
         part[c][axis] = hn::Sub(in_O, origin);
         size = hn::Max(size, hn::Max(hn::Abs(obstacle[c][axis]), hn::Abs(part[c][axis])));
       }
@@ -133,7 +133,7 @@ HWY_INLINE void raise_along(const Vector3& n, const Triangle& t, const Vector3 (
   for (std::size_t i = 0; i < 3; ++i) {
     const V h = dot(n, points[i]);
     const V beyond = hn::Max(hn::Sub(low, h), hn::Sub(h, high));
-    gaps[i] = hn::Max(gaps[i], hn::MulSub(beyond, inverse_length, hn::Set(d, kSlack)));
+    gaps[i] = hn::Max(gaps[i], hn::Sub(hn::Mul(beyond, inverse_length), hn::Set(d, kSlack)));
   }
 }
 
@@ -178,7 +178,7 @@ HWY_INLINE EdgePair look_at_edges(const Vector3& d, V inverse_d, const Vector3& 
   const V across_d = hn::Mul(beyond_zero(hn::Neg(dot(v, between)), dot(v, e)), inverse_d);
   const V across = hn::Sub(hn::Max(across_d, across_e), hn::Set(tag, kSlackOfEnds));
   const V outside = not_negative(hn::Mul(across, inverse_c));
-  return {hn::Max(outside, hn::MulSub(along_c, inverse_c, hn::Set(tag, kSlack))), outside};
+  return {hn::Max(outside, hn::Sub(hn::Mul(along_c, inverse_c), hn::Set(tag, kSlack))), outside};
 }
 
 // The features of as many pairs as fit into a vector.

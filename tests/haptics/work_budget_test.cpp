@@ -5,10 +5,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -25,6 +27,7 @@
 #include "random_numbers.h"
 #include "sanitizers.h"
 #include "search/candidate_pairs.h"
+#include "sweeps/sweep_variants.h"
 
 namespace glissade::haptics {
 namespace {
@@ -138,7 +141,39 @@ TEST(WorkBudget, ACertificateGoesOnWhereItStopped) {
   EXPECT_EQ(failures_with(1), failures_with(kUnlimitedWork));
 }
 
-/// A ball that is pushed at random into rough ground, with random budgets down to the least.
+/// A ball that is pushed at random into rough ground, with a random budget down to the least.
+struct PushedBall {
+  geometry::TriangleMesh ground = geometry::make_plate({0.06, 0.06}, 400);
+  geometry::TriangleMesh ball = geometry::make_sphere(0.01, 300);
+  std::int64_t budget = 0;
+  Metaphor metaphor = Metaphor::kForceFeedback;
+  std::array<Isometry3d, 4> X_to;
+
+  explicit PushedBall(test_support::RandomNumbers& random) {
+    for (Vector3d& x : ground.vertices)
+      x.z() += random.uniform(-2e-3, 2e-3);
+    budget = static_cast<std::int64_t>(2.0 * random.power_of_ten(0.0, 5.0));
+    if (random.chance(0.5)) metaphor = Metaphor::kRubberBandSpring;
+    for (Isometry3d& X : X_to)
+      X = pose({random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02), random.uniform(-5e-3, 0.01)},
+               turn(random.uniform(-1.0, 1.0), random.direction()));
+  }
+
+  /// Leads the ball to all poses, and shows the result of each call. Takes hold anew at every other pose.
+  void run(const std::function<void(const Sliding&)>& show) const {
+    Sliding sliding({test_support::obstacle_of(ground)}, test_support::part_of(ball), pose({0.0, 0.0, 0.013}),
+                    {.metaphor = metaphor, .rules = {.work_budget = budget}});
+    for (std::size_t leg = 0; leg < X_to.size(); ++leg) {
+      const Isometry3d X_from = sliding.result().X_WG;
+      for (int i = 1; i <= 100; ++i) {
+        sliding.advance(test_support::between(X_from, X_to[leg], 0.01 * i));
+        show(sliding);
+      }
+      if (leg % 2 == 1) sliding.grasp(X_to[leg]);
+    }
+  }
+};
+
 TEST(WorkBudget, NothingEverCollides) {
   constexpr std::uint64_t kSeed = 81;
   RecordProperty("seed", static_cast<int>(kSeed));
@@ -146,29 +181,38 @@ TEST(WorkBudget, NothingEverCollides) {
   int early = 0;
   for (int trial = 0; trial < test_support::affordable(40); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
-    geometry::TriangleMesh ground = geometry::make_plate({0.06, 0.06}, 400);
-    for (Vector3d& x : ground.vertices)
-      x.z() += random.uniform(-2e-3, 2e-3);
-    const auto ball = geometry::make_sphere(0.01, 300);
-    const std::int64_t budget = static_cast<std::int64_t>(2.0 * random.power_of_ten(0.0, 5.0));
-    Sliding sliding({test_support::obstacle_of(ground)}, test_support::part_of(ball), pose({0.0, 0.0, 0.013}),
-                    {.metaphor = random.chance(0.5) ? Metaphor::kForceFeedback : Metaphor::kRubberBandSpring,
-                     .rules = {.work_budget = budget}});
-    for (int leg = 0; leg < 4; ++leg) {
-      const Isometry3d X_from = sliding.result().X_WG;
-      const Isometry3d X_to =
-          pose({random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02), random.uniform(-5e-3, 0.01)},
-               turn(random.uniform(-1.0, 1.0), random.direction()));
-      for (int i = 1; i <= 100; ++i) {
-        const SlidingResult& result = sliding.advance(test_support::between(X_from, X_to, 0.01 * i));
-        early += result.ended_early ? 1 : 0;
-        if (i % 10 != 0) continue;
-        ASSERT_FALSE(reference::brute_force_intersects(ground, ball, result.X_WV)) << "leg " << leg << ", call " << i;
-      }
-      if (random.chance(0.3)) sliding.grasp(X_to);
-    }
+    const PushedBall pushed(random);
+    int call = 0;
+    pushed.run([&](const Sliding& sliding) {
+      early += sliding.result().ended_early ? 1 : 0;
+      if (++call % 10 != 0) return;
+      EXPECT_FALSE(reference::brute_force_intersects(pushed.ground, pushed.ball, sliding.result().X_WV))
+          << "call " << call;
+    });
   }
   EXPECT_GT(early, 0);
+}
+
+/// The work is counted in pairs that the vector code looks at: with every instruction set, these are the same.
+TEST(WorkBudget, ACallEndsAtTheSamePairWithEveryInstructionSet) {
+  constexpr std::uint64_t kSeed = 82;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  test_support::RandomNumbers random(kSeed);
+  for (int trial = 0; trial < test_support::affordable(12); ++trial) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
+    const PushedBall pushed(random);
+    std::vector<double> first;
+    test_support::with_every_instruction_set([&](std::string_view name) {
+      std::vector<double> answers;
+      pushed.run([&](const Sliding& sliding) {
+        const SlidingResult& result = sliding.result();
+        answers.insert(answers.end(), result.X_WV.matrix().data(), result.X_WV.matrix().data() + 16);
+        answers.push_back(result.ended_early ? 1.0 : 0.0);
+      });
+      if (first.empty()) first = answers;
+      EXPECT_TRUE(answers == first) << name;
+    });
+  }
 }
 
 TEST(WorkBudget, NoBitDependsOnTheSearchThread) {
