@@ -1,7 +1,7 @@
 #pragma once
 
-/// Exact queries between two DOP-trees: whether the triangle soups intersect, and which triangle pairs intersect or are
-/// near. Guaranteed bounds: how far the soups are apart at least, and a translation that separates them.
+/// Exact queries between two DOP-trees: whether the triangle soups intersect, which triangle pairs intersect or are
+/// near, and how far apart the soups are. A guaranteed bound: a translation that separates them.
 ///
 /// Each query takes the pose X_AB of tree B in the frame of tree A. Exact means: X_AB is applied to the vertices of B
 /// in double precision; for the resulting vertices of B and the vertices of A, the answer is the one of real
@@ -12,7 +12,7 @@
 /// Each query throws std::invalid_argument for trees that were built with different options, for a distance that is
 /// negative or not a number, for a pose that is not finite, and for a matrix that is not a rotation: a reflection,
 /// or one for which the absolute entries of RᵀR − 1 add up to 1e-3 or more. A smaller deviation costs speed, not
-/// exactness; it also loosens the bound of `gap_lower_bound`.
+/// exactness.
 
 #include <limits>
 #include <optional>

@@ -18,18 +18,19 @@ using geometry::TriangleMesh;
 
 constexpr SlidingStep kPartsStep{.length = 1e-4 * kSize, .angle = 1e-4};
 
-// One question about parts, a bench of its own in the results.
+// One question about parts.
 struct PartsQuestion {
-  const char* bench;
+  const char* name;
   Operation operation;
   double gap;  // share of the size; 0: not at a gap
 };
 constexpr PartsQuestion kPartsQuestions[] = {
-    {"parts-yes-no", Operation::kIntersects, 0.0},        {"parts-yes-no-0.1%", Operation::kIntersects, 0.001},
-    {"parts-yes-no-1%", Operation::kIntersects, 0.01},    {"parts-all-pairs", Operation::kCountPairs, 0.0},
-    {"parts-distance-0.1%", Operation::kDistance, 0.001}, {"parts-distance-1%", Operation::kDistance, 0.01},
-    {"parts-distance-10%", Operation::kDistance, 0.1}};
-constexpr const char* kPartsCoherentName = "parts-distance-coherent";
+    {"yes-no", Operation::kIntersects, 0.0},        {"yes-no-0.1%", Operation::kIntersects, 0.001},
+    {"yes-no-1%", Operation::kIntersects, 0.01},    {"all-pairs", Operation::kCountPairs, 0.0},
+    {"distance-0.1%", Operation::kDistance, 0.001}, {"distance-1%", Operation::kDistance, 0.01},
+    {"distance-10%", Operation::kDistance, 0.1}};
+constexpr const char* kPartsName = "parts";
+constexpr const char* kPartsCoherentName = "distance-coherent";
 
 // Two trees and how many poses a case has.
 class PartsPoses {
@@ -77,14 +78,14 @@ class PartsPoses {
 void run_parts(const BenchOptions& options, Results& results) {
   for (const PartPair& pair : part_pairs(options.suite)) {
     PartsPoses poses(pair, options);
-    QueryCase query_case{.bench = "", .name = pair.name, .mesh_A = *pair.mesh_A, .mesh_B = *pair.mesh_B, .poses = {}};
+    QueryCase query_case{.bench = kPartsName, .name = "", .mesh_A = *pair.mesh_A, .mesh_B = *pair.mesh_B, .poses = {}};
     for (const PartsQuestion& question : kPartsQuestions) {
-      query_case.bench = question.bench;
+      query_case.name = question.name + (" " + pair.name);
       query_case.operation = question.operation;
       query_case.poses = {poses.of(question)};
       run_query_case(query_case, {glissade_subject(), fcl_subject()}, pass_limits(options), results);
     }
-    query_case.bench = kPartsCoherentName;
+    query_case.name = kPartsCoherentName + (" " + pair.name);
     query_case.operation = Operation::kDistance;
     query_case.poses = poses.walk();
     query_case.part_names = {"gap-0.1%", "gap-1%", "gap-10%"};
