@@ -15,9 +15,8 @@ constexpr std::size_t kMostNoted = 8192;
 // A list of pairs serves for so many steps, unless they grow.
 constexpr double kStepsAhead = 16.0;
 constexpr double kLeastAhead_m = 30e-6;
-constexpr double kShareAhead = 0.005;   // of the distance of the search
-constexpr double kShareFurther = 0.02;  // of both radii
-constexpr double kFarAhead = 0.05;      // in radii of the part: how much farther than the nearest a body is looked for
+constexpr double kShareAhead = 0.005;  // of the distance of the search
+constexpr double kFarAhead = 0.05;     // in radii of the part: how much farther than the nearest a body is looked for
 
 // Below this distance, the direction between the closest points of two triangles is not sharp.
 constexpr double kSharp_m = 1e-9;
@@ -111,18 +110,14 @@ void LeastClearance::search(Body& body) {
   double nearest = least_;
   if (was_far) {
     ++work_.searches;
-    body.distance = collision::gap_lower_bound(tree, part_V_.tree, body.X_BV, body.workspace,
-                                               least_ + kFarAhead * part_V_.radius());
+    body.distance =
+        collision::distance(tree, part_V_.tree, body.X_BV, body.workspace, least_ + kFarAhead * part_V_.radius())
+            .distance;
     if (body.distance > least_ + ahead) return;
     nearest = std::min(least_, body.distance);
   }
   body.distance = nearest + std::max(ahead, kShareAhead * nearest);
   find_close(body);
-  // Of bodies far apart, the bound was only that of their spheres.
-  while (was_far && nearest > 0.0 && close_.empty() && body.distance < least_) {
-    body.distance += kShareFurther * (tree.radius() + part_V_.tree.radius());
-    find_close(body);
-  }
   for (const collision::ClosePair& close : close_) {
     Pair& pair = body.pairs.emplace_back(Pair{close.triangles, Eigen::Vector3d::Zero(), 0.0});
     if (close.distance <= kSharp_m) continue;

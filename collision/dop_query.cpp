@@ -3,6 +3,7 @@
 #include "query/coherent_front.h"
 #include "query/coherent_query.h"
 #include "query/dop_traversal.h"
+#include "query/mesh_distance.h"
 #include "query/pair_visitors.h"
 #include "query/placed_trees.h"
 #include "query/sort_pairs.h"
@@ -12,6 +13,7 @@ namespace glissade::collision {
 
 namespace {
 
+// Whether the visitor stopped.
 bool visit_all(Goal goal, const PlacedTrees& placed, double distance, QueryWorkspace& workspace,
                TriangleVisitor& visitor) {
   QueryMemory& memory = memory_of(workspace);
@@ -19,7 +21,12 @@ bool visit_all(Goal goal, const PlacedTrees& placed, double distance, QueryWorks
   const VisitSelection selection = placed.visit_selection();
   if (placed.frame.spheres_apart(distance)) return false;
   DopVisit step(placed.base(), placed.other(), placed.frame, distance, memory.alignment, selection, memory.meter);
-  return traverse(goal, step, memory, visitor);
+  if (goal == Goal::kEveryPair) {
+    visit_every(step, memory, visitor);
+    return false;
+  }
+  const Answer answer = find_any(step, memory, visitor);
+  return answer == Answer::kOpen ? any_pair_within(placed, distance, memory) : answer == Answer::kYes;
 }
 
 bool visit_all(Goal goal, const PlacedTrees& placed, double distance, const CoherentMemory& workspace,

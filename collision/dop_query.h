@@ -1,7 +1,7 @@
 #pragma once
 
-/// Exact queries between two DOP-trees: whether the triangle soups intersect, and which triangle pairs intersect or are
-/// near. Guaranteed bounds: how far the soups are apart at least, and a translation that separates them.
+/// Exact queries between two DOP-trees: whether the triangle soups intersect, which triangle pairs intersect or are
+/// near, and how far apart the soups are. A guaranteed bound: a translation that separates them.
 ///
 /// Each query takes the pose X_AB of tree B in the frame of tree A. Exact means: X_AB is applied to the vertices of B
 /// in double precision; for the resulting vertices of B and the vertices of A, the answer is the one of real
@@ -12,9 +12,10 @@
 /// Each query throws std::invalid_argument for trees that were built with different options, for a distance that is
 /// negative or not a number, for a pose that is not finite, and for a matrix that is not a rotation: a reflection,
 /// or one for which the absolute entries of RᵀR − 1 add up to 1e-3 or more. A smaller deviation costs speed, not
-/// exactness; it also loosens the bound of `gap_lower_bound`.
+/// exactness.
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -48,14 +49,21 @@ void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Iso
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   CoherentWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
 
-/// A guaranteed lower bound of the distance of the two meshes in metres, at most `limit`. The bound is 0 if the meshes
-/// intersect. The bound is the distance of the bounding spheres if the spheres are farther apart than the larger of
-/// their radii. Otherwise the bound is the distance of the meshes, less an allowance: a few units in the last place of
-/// the coordinates, plus a share of the coordinates in proportion to the deviation of the matrix from a rotation.
-double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
-                       QueryWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
-double gap_lower_bound(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
-                       CoherentWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
+/// How far apart two meshes are.
+struct MeshDistance {
+  /// Metres. 0 if the meshes intersect; the limit of the query if nothing is nearer.
+  double distance;
+  /// The nearest pair of triangles; of several, the first in ascending order of the triangle indices. Empty if the
+  /// meshes intersect (see `intersecting_pairs`), or if nothing is nearer than the limit.
+  std::optional<ClosePair> nearest;
+};
+
+/// The least distance of two triangles of the two meshes, if it is less than `limit` (metres). The cost hardly depends on
+/// how far apart the meshes are, and the less the lower the limit.
+MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                      QueryWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
+MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                      CoherentWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
 
 /// A translation that separates two meshes.
 struct Penetration {

@@ -54,7 +54,7 @@ void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Is
   if (placed.frame.spheres_apart(distance)) return;
   DopVisit step(placed.base(), placed.other(), placed.frame, distance, memory.alignment, {}, memory.meter);
   NearPairs pairs(placed, distance, visitor);
-  traverse(Goal::kEveryPair, step, memory, pairs);
+  visit_every(step, memory, pairs);
 }
 
 }  // namespace glissade::collision

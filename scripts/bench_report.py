@@ -13,7 +13,7 @@ import subprocess
 import sys
 
 import bench_plots
-from bench_figures import HULL_PEERS, PEERS, PEER_TITLES, read_results
+from bench_figures import HULL_PEERS, PEERS, PEER_TITLES, geometric_mean, read_results
 
 PHASES = ["gap-1%", "gap-0.5%", "gap-0.1%", "touching", "colliding"]
 
@@ -141,6 +141,30 @@ def all_pairs(figures, _):
     pairs = time_table(figures, ["glissade", "fcl"], "pairs", "pairs a query", 1)
     per_pair = time_table(figures, ["glissade", "fcl"], "time_per_pair", "ns a pair", 1)
     return ratio_table(figures) + query_tables(figures) + folded("Pairs", pairs) + folded("Time a pair", per_pair)
+
+
+PART_QUESTIONS = {"yes-no": "yes or no, Zachmann's procedure", "yes-no-0.1%": "yes or no, 0.1 % apart", "yes-no-1%": "yes or no, 1 % apart",
+                  "all-pairs": "all pairs", "distance-0.1%": "distance, 0.1 % apart", "distance-1%": "distance, 1 % apart",
+                  "distance-10%": "distance, 10 % apart", "distance-coherent": "distance while sliding, coherent"}
+
+
+def parts(figures, _):
+    """Ratios to FCL by question, with the worst parts by name, then of each part."""
+    ratios = {question: {} for question in PART_QUESTIONS}
+    for case in figures.measured_cases():
+        question, part = case.split(" ", 1)
+        who = "glissade-coherent" if question == "distance-coherent" else "glissade"
+        ratios[question][part] = figures.get(case, "fcl", "time") / figures.get(case, who, "time")
+    rows = []
+    for question, of_part in ratios.items():
+        if of_part:
+            worst = sorted(of_part, key=of_part.get)[:3]
+            rows.append([PART_QUESTIONS[question], str(len(of_part)), f"{geometric_mean(of_part.values()):.1f}",
+                         ", ".join(f"{of_part[part]:.2g} {part}" for part in worst)])
+    text = table(["times faster than FCL", "parts and pairs", "geometric mean", "worst"], rows) + disagreements(figures)
+    names = list(dict.fromkeys(case.split(" ", 1)[1] for case in figures.measured_cases()))
+    cells = [[part] + [number(of_part.get(part)) for of_part in ratios.values()] for part in names]
+    return text + folded("Times faster than FCL, of each part", table(["two copies, or two parts"] + list(PART_QUESTIONS), cells))
 
 
 def build(figures, images):
@@ -411,7 +435,7 @@ def clasp(figures, _):
     return table(["hand"] + list(what.values()), rows)
 
 
-SECTIONS = {"zachmann": zachmann, "close": queries, "shells": queries, "coherent": coherent, "all-pairs": all_pairs,
+SECTIONS = {"zachmann": zachmann, "close": queries, "shells": queries, "coherent": coherent, "all-pairs": all_pairs, "parts": parts,
             "build": build, "hull": hull, "scene": scene, "threads": threads, "sliding": sliding, "tick": tick, "passivity": passivity, "ages": ages, "clasp": clasp,
             "handoff": handoff, "latency": latency}
 

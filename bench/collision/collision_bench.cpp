@@ -30,6 +30,7 @@ constexpr const char* kDescription =
     "  shells     nested spheres and stacked bumpy plates, parallel and 2 % apart, boolean query\n"
     "  coherent   one part slides along another in steps of 0.01 mm and 0.005 degrees, boolean query\n"
     "  all-pairs  all intersecting pairs of triangles of two overlapping copies of an object\n"
+    "  parts      meshes of --mesh, two copies and --pairs: yes or no, all pairs, distances, beside FCL\n"
     "  build      time and memory of building\n"
     "  hull       one convex hull turns and goes round another in small steps, boolean query\n"
     "  scene      10 to 1000 objects bounce about in a box: which pairs meet, frame by frame\n"
@@ -50,9 +51,9 @@ using Bench = void (*)(const BenchOptions&, Results&);
 
 const std::vector<std::pair<std::string, Bench>>& benches() {
   static const std::vector<std::pair<std::string, Bench>> all{
-      {"zachmann", run_zachmann}, {"close", run_close},         {"shells", run_shells},
-      {"coherent", run_coherent}, {"all-pairs", run_all_pairs}, {"build", run_build},
-      {"hull", run_hull},         {"scene", run_scene},         {"threads", run_threads}};
+      {"zachmann", run_zachmann},   {"close", run_close},    {"shells", run_shells}, {"coherent", run_coherent},
+      {"all-pairs", run_all_pairs}, {"parts", run_parts},    {"build", run_build},   {"hull", run_hull},
+      {"scene", run_scene},         {"threads", run_threads}};
   return all;
 }
 
@@ -123,7 +124,9 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--only", options.only, "Run only these benches, separated by commas")->delimiter(',');
   app.add_flag("--quick", options.quick, "Fewer meshes and poses: each bench within a minute");
   app.add_option("--out", options.folder, "Folder for results.csv, created if necessary")->capture_default_str();
-  app.add_option("--mesh", options.suite.files, "Another mesh (OBJ, STL, PLY, glTF); may be repeated");
+  app.add_option("--mesh", options.suite.files,
+                 "Another mesh (OBJ, STL, PLY, glTF), or a folder of OBJ, STL and PLY; may be repeated");
+  app.add_option("--pairs", options.suite.pairs, "For parts: a file with the names of two meshes in each line");
   app.add_option("--instruction-set", instruction_set, "Glissade's vector instructions (default: the best available)");
   app.add_option("--seed", options.seed, "Seed of the poses")->capture_default_str();
   app.add_option("--shapes", options.suite.shapes, "Use only these generated shapes, separated by commas")

@@ -1,9 +1,10 @@
 // FCL: OBBRSS tree, first contact for the boolean, all contacts as pairs of triangles (without contact points, which
-// Glissade does not compute either) for the pairs, no cost sources.
+// Glissade does not compute either) for the pairs, no cost sources; distances with the closest points.
 
 #include <limits>
 
 #include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/distance.h>
 
 #include "fcl_model.h"
 #include "subject.h"
@@ -27,6 +28,11 @@ class FclQuery : public Query {
   std::int64_t count_pairs(const Isometry3d& X_AB) override {
     return static_cast<std::int64_t>(contacts(X_AB, std::numeric_limits<std::size_t>::max()));
   }
+  double distance(const Isometry3d& X_AB) override {
+    const fcl::DistanceRequest<double> request(true);
+    distance_.clear();
+    return fcl::distance(&tree_A_, Isometry3d::Identity(), &tree_B_, X_AB, request, distance_);
+  }
 
  private:
   std::size_t contacts(const Isometry3d& X_AB, std::size_t limit) {
@@ -38,6 +44,7 @@ class FclQuery : public Query {
   const FclTree& tree_A_;
   const FclTree& tree_B_;
   fcl::CollisionResult<double> result_;
+  fcl::DistanceResult<double> distance_;
 };
 
 }  // namespace

@@ -36,6 +36,9 @@ class GlissadeQuery : public Query {
     collision::intersecting_pairs(tree_A_, tree_B_, X_AB, workspace_, pairs_);
     return static_cast<std::int64_t>(pairs_.size());
   }
+  double distance(const Isometry3d& X_AB) override {
+    return collision::distance(tree_A_, tree_B_, X_AB, workspace_).distance;
+  }
   std::optional<collision::QueryCounters> counters() const override { return workspace_.counters(); }
 
  private:

@@ -19,8 +19,10 @@ double ns_since(Clock::time_point start) {
 void ask(Query& query, const Isometry3d& X_AB, Operation operation) {
   if (operation == Operation::kIntersects) {
     query.intersects(X_AB);
-  } else {
+  } else if (operation == Operation::kCountPairs) {
     query.count_pairs(X_AB);
+  } else {
+    query.distance(X_AB);
   }
 }
 

@@ -15,7 +15,7 @@
 
 namespace glissade::bench {
 
-enum class Operation { kIntersects, kCountPairs };
+enum class Operation { kIntersects, kCountPairs, kDistance };
 
 /// Poses in order. Each part is also timed by itself, in the same pass. Slow subjects take the first part only.
 using PoseParts = std::vector<std::vector<Eigen::Isometry3d>>;

@@ -74,7 +74,14 @@ std::optional<double> PoseSource::approach(const Matrix3d& R_AB, const Vector3d&
   double apart = 1.01 * box_separation(R_AB, axis) + 2.0 * gap;
   while (close_at(apart))  // the boxes may be closer in other directions
     apart += 2.0 * gap;
-  if (!close_at(close)) return std::nullopt;
+  if (!close_at(close)) {  // B may fit into A: it is close to A's shell only
+    constexpr double kStep = 0.01;
+    const double outside = apart;
+    for (close = outside; !close_at(close); close -= kStep * outside) {
+      if (close < 0.0) return std::nullopt;
+      apart = close;
+    }
+  }
   while (apart - close > 1e-10 * apart) {
     const double middle = 0.5 * (close + apart);
     (close_at(middle) ? close : apart) = middle;

@@ -1,6 +1,7 @@
 #include "query_case.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -34,10 +35,16 @@ class Contest {
 };
 
 struct Answers {
-  std::vector<std::int64_t> of_pose;
+  std::vector<double> of_pose;
   QueryCounters counters;  // sums
   bool counts = false;
 };
+
+double answer(Query& query, const Isometry3d& X_AB, Operation operation) {
+  if (operation == Operation::kIntersects) return query.intersects(X_AB) ? 1.0 : 0.0;
+  if (operation == Operation::kCountPairs) return static_cast<double>(query.count_pairs(X_AB));
+  return std::max(0.0, query.distance(X_AB));
+}
 
 Answers answers(const Contestant& contestant, const QueryCase& query_case) {
   Query& query = *contestant.query;
@@ -45,8 +52,7 @@ Answers answers(const Contestant& contestant, const QueryCase& query_case) {
   query.start();
   for (const std::vector<Isometry3d>& part : parts_for(contestant, query_case.poses)) {
     for (const Isometry3d& X_AB : part) {
-      result.of_pose.push_back(query_case.operation == Operation::kIntersects ? query.intersects(X_AB)
-                                                                              : query.count_pairs(X_AB));
+      result.of_pose.push_back(answer(query, X_AB, query_case.operation));
       if (const auto counters = query.counters()) {
         result.counts = true;
         result.counters.node_tests += counters->node_tests;
@@ -58,16 +64,18 @@ Answers answers(const Contestant& contestant, const QueryCase& query_case) {
   return result;
 }
 
-std::int64_t differences(const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b) {
+// Verdicts and counts are whole numbers; distances may differ by a rounding.
+std::int64_t differences(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr double kRounding = 1e-6;
   std::int64_t count = 0;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-    count += a[i] != b[i] ? 1 : 0;
+    count += std::abs(a[i] - b[i]) <= kRounding ? 0 : 1;
   return count;
 }
 
-std::int64_t sum(const std::vector<std::int64_t>& values) {
-  std::int64_t total = 0;
-  for (const std::int64_t value : values)
+double sum(const std::vector<double>& values) {
+  double total = 0.0;
+  for (const double value : values)
     total += value;
   return total;
 }
@@ -87,13 +95,11 @@ class Reporter {
       row(subject, "realignments", static_cast<double>(ours.counters.realignments) / poses, "1");
       row(subject, "triangle_tests", static_cast<double>(ours.counters.triangle_tests) / poses, "1");
     }
-    if (case_.operation == Operation::kCountPairs)
-      add_pairs(subject, times, static_cast<double>(sum(ours.of_pose)), poses);
+    if (case_.operation == Operation::kCountPairs) add_pairs(subject, times, sum(ours.of_pose), poses);
     if (&ours == &reference) {
       row(subject, "poses", poses, "1");
       row(subject, "triangles", static_cast<double>(case_.mesh_A.triangles.size()), "1");
-      if (case_.operation == Operation::kIntersects)
-        row(subject, "colliding", static_cast<double>(sum(ours.of_pose)), "1");
+      if (case_.operation == Operation::kIntersects) row(subject, "colliding", sum(ours.of_pose), "1");
     } else {
       row(subject, "disagreements", static_cast<double>(differences(ours.of_pose, reference.of_pose)), "1");
     }

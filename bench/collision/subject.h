@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +35,8 @@ class Query {
   virtual bool intersects(const Eigen::Isometry3d& X_AB) = 0;
   /// Number of intersecting pairs of triangles. The library must identify the pairs.
   virtual std::int64_t count_pairs(const Eigen::Isometry3d& X_AB) = 0;
+  /// Distance of the meshes, at most 0 if they intersect; only of libraries that know it.
+  virtual double distance(const Eigen::Isometry3d& /*X_AB*/) { return std::numeric_limits<double>::quiet_NaN(); }
   /// Work of the last query, for subjects that count it.
   virtual std::optional<collision::QueryCounters> counters() const { return std::nullopt; }
 };

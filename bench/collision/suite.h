@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,8 @@ struct Suite {
   std::vector<std::int64_t> scene_triangles;   ///< the same for the objects of `scene` and `threads`
   std::vector<std::int64_t> thread_triangles;  ///< the same for the pairs of `threads`
   std::vector<std::int64_t> hull_vertices;     ///< numbers of corners for `hull`
-  std::vector<std::filesystem::path> files;
+  std::vector<std::filesystem::path> files;    ///< meshes of the user; a folder stands for all meshes in it
+  std::filesystem::path pairs;                 ///< a file with two of these meshes, by name, in each line; or empty
 };
 
 /// Names of all generated shapes, those of shapes/benchmark_shapes.h.
@@ -43,6 +45,17 @@ geometry::TriangleMesh make_shape(const std::string& shape, std::int64_t triangl
 /// `size`. Throws std::invalid_argument for a file that cannot be used.
 std::vector<SuiteMesh> suite_meshes(const Suite& suite, const std::vector<std::int64_t>& triangles,
                                     double size = kSize);
+
+/// Two meshes, centred on their origins and scaled alike, so that the larger has the largest extent `kSize`.
+struct PartPair {
+  std::string name;
+  std::shared_ptr<const geometry::TriangleMesh> mesh_A;
+  std::shared_ptr<const geometry::TriangleMesh> mesh_B;  ///< the same object for two copies of one mesh
+};
+
+/// Two copies of each mesh of the user, then the pairs of `Suite::pairs`. Throws std::invalid_argument for a file that
+/// cannot be used, and for a name that none of the meshes has.
+std::vector<PartPair> part_pairs(const Suite& suite);
 
 /// "20k", "1M", or the number itself.
 std::string short_count(std::int64_t count);

@@ -175,6 +175,37 @@ PairMask test(const LeafFrame& frame, float distance, LeafPair& leaves) {
   return mask & leaves.present();
 }
 
+void along(const LeafFrame& frame, const std::array<float, 3>& direction, LeafPair& leaves) {
+  const Tag4 d4;
+  struct alignas(16) Extents {
+    float low[kWidth];
+    float high[kWidth];
+  };
+  const auto project = [&](const LeafTriangles& t) HWY_ATTR {
+    Four at[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+      at[c] = hn::Add(hn::Mul(hn::Set(d4, direction[0]), corner(t, 0, c)),
+                      hn::Add(hn::Mul(hn::Set(d4, direction[1]), corner(t, 1, c)),
+                              hn::Mul(hn::Set(d4, direction[2]), corner(t, 2, c))));
+    }
+    Extents extents;
+    hn::Store(hn::Min(at[0], hn::Min(at[1], at[2])), d4, extents.low);
+    hn::Store(hn::Max(at[0], hn::Max(at[1], at[2])), d4, extents.high);
+    return extents;
+  };
+  const Extents p = project(leaves.p);
+  const Extents q = project(leaves.q);
+  const hn::CappedTag<float, kPairs> d;
+  for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
+    const auto gap =
+        hn::Max(hn::Sub(of_M(d, p.low, first), of_N(d, q.high)), hn::Sub(of_N(d, q.low), of_M(d, p.high, first)));
+    // The direction may be longer than 1 by its rounding.
+    const auto certain = hn::Sub(hn::Mul(gap, hn::Set(d, 0.999999F)), hn::Set(d, frame.uncertainty));
+    float* const gaps = leaves.gaps.gap.data() + first;
+    hn::Store(hn::Max(certain, hn::Load(d, gaps)), d, gaps);
+  }
+}
+
 // Ignores the gaps of all other pairs.
 float least_gap(const LeafPair& leaves, PairMask pairs) {
   alignas(64) static constexpr std::int32_t kBit[kPairs] = {1,   2,   4,    8,    16,   32,   64,    128,
@@ -191,7 +222,7 @@ float least_gap(const LeafPair& leaves, PairMask pairs) {
 }
 
 const LeafKernels& leaf_kernels_of_target() {
-  static constexpr LeafKernels kKernels = {prepare_M, prepare_N, leaf_gap, test, cross, edges, least_gap};
+  static constexpr LeafKernels kKernels = {prepare_M, prepare_N, leaf_gap, test, along, cross, edges, least_gap};
   return kKernels;
 }
 

@@ -3,6 +3,8 @@
 /// The vector code of leaf visits: four triangles of one tree against four of the other, in single precision with an
 /// error bound. Undecided pairs go to the exact predicate.
 
+#include <array>
+
 #include "kernels/child_pairs.h"
 #include "kernels/leaf_frame.h"
 #include "kernels/leaf_pair.h"
@@ -22,6 +24,9 @@ struct LeafKernels {
   /// Sets the gaps of all pairs along normals. Returns the pairs that no normal certainly separates by more than
   /// `distance` (radii of M).
   PairMask (*test)(const LeafFrame& frame, float distance, LeafPair& leaves);
+
+  /// Raises the gaps of all pairs to those along a direction of about unit length, in the frame of M.
+  void (*along)(const LeafFrame& frame, const std::array<float, 3>& direction, LeafPair& leaves);
 
   /// For pairs in which each triangle crosses the plane of the other: whether the triangles intersect.
   CertainPairs (*cross)(const LeafFrame& frame, const LeafPair& leaves);

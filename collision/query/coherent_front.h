@@ -24,7 +24,7 @@
 
 namespace glissade::collision {
 
-/// The nearest triangle pair of the last gap query.
+/// The nearest triangle pair of the last distance query.
 struct NearestPair {
   std::uint64_t base_id;
   std::uint64_t other_id;
@@ -48,7 +48,7 @@ class CoherentFront {
   /// The triangle pair at which the last query stopped, if it did.
   const std::optional<LastHit>& last_hit() const { return last_hit_; }
 
-  /// For gap queries, which begin with the result of the last one and need no front.
+  /// For distance queries, which begin with the result of the last one and need no front.
   std::optional<NearestPair>& nearest() { return nearest_; }
 
  private:

@@ -8,16 +8,24 @@
 namespace glissade::collision {
 namespace {
 
+// Boxes of fixed directions fail at long slivers on curved surfaces: most of the work are tests of triangles then. A query
+// that has found no answer by so many should look along the direction that separates the meshes where they are near.
+bool is_futile(const QueryCounters& counters) {
+  constexpr std::int64_t kFewTriangleTests = 12 * kWidth * kWidth;
+  constexpr std::int64_t kTriangleTestsOfNodeTest = 2;
+  return counters.triangle_tests > kFewTriangleTests + kTriangleTestsOfNodeTest * counters.node_tests;
+}
+
 class Traversal {
  public:
   Traversal(DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor)
       : step_(step), memory_(memory), visitor_(visitor) {}
 
   /// Stops at the first answer. Visits one pair of children after another, the greatest overlap first.
-  bool find_any() {
+  Answer find_any() {
     memory_.stack.clear();
-    if (dive()) return true;
-    if (step_.boxes_apart()) return false;
+    if (step_.boxes_apart()) return Answer::kNo;
+    if (dive()) return Answer::kYes;
     while (!memory_.stack.empty()) {
       OpenPair& top = memory_.stack.back();
       if (top.near == 0) {
@@ -28,10 +36,11 @@ class Traversal {
       if (!descent.is_leaf) {
         open_if_near(descent.next);
       } else if (visit_leaves(descent.next.node_M, descent.next.node_N)) {
-        return true;
+        return Answer::kYes;
       }
+      if (is_futile(memory_.counters)) return Answer::kOpen;
     }
-    return false;
+    return Answer::kNo;
   }
 
   void open_if_near(const NodePair& nodes) {
@@ -112,11 +121,13 @@ class Traversal {
 
 }  // namespace
 
-bool traverse(Goal goal, DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor) {
-  if (goal == Goal::kAnyPair) return Traversal(step, memory, visitor).find_any();
+Answer find_any(DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor) {
+  return Traversal(step, memory, visitor).find_any();
+}
+
+void visit_every(DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor) {
   begin_all(step, memory, visitor);
   continue_all(step, memory, visitor, std::numeric_limits<std::int64_t>::max());
-  return false;
 }
 
 void begin_all(DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor) {

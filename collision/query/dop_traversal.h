@@ -23,10 +23,10 @@ struct OpenPair {
   PairOverlaps overlaps;
 };
 
-/// Two nodes, and a lower bound of their distance in metres.
+/// Two nodes, and a lower bound of their distance in radii of the base.
 struct PromisingPair {
   NodePair nodes;
-  double gap;
+  float gap;
 };
 
 struct QueryMemory {
@@ -47,10 +47,16 @@ enum class Goal {
   kEveryPair
 };
 
-/// Passes to the visitor every triangle pair that may be near, until the visitor stops. Returns whether it did.
-bool traverse(Goal goal, DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor);
+enum class Answer { kYes, kNo, kOpen };
 
-/// The same in pieces, for a visitor that never stops. This function puts the roots on the stack.
+/// Passes to the visitor triangle pairs that may be near until the visitor stops: `kYes`. `kNo`: it has had all of
+/// them. `kOpen`: both are slow to come. Few queries get so far, and they are better continued by `any_pair_within`.
+Answer find_any(DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor);
+
+/// Passes all triangle pairs that may be near to a visitor that never stops.
+void visit_every(DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor);
+
+/// The same in pieces. This function puts the roots on the stack.
 void begin_all(DopVisit& step, QueryMemory& memory, TriangleVisitor& visitor);
 
 /// Continues with the stack until the counter of node tests exceeds `node_tests`. Returns whether the stack is empty.

@@ -8,6 +8,7 @@
 #include "kernels/prefetch.h"
 #include "kernels/round_up.h"
 #include "query/oriented_boxes.h"
+#include "tree/dop.h"
 #include "tree/tree_nodes.h"
 
 namespace glissade::collision {
@@ -48,7 +49,8 @@ DopVisit::DopVisit(const DopTree& base, const DopTree& other, const QueryFrame& 
       selection_(selection),
       meter_(meter),
       node_kernels_(node_kernels()),
-      leaf_kernels_(leaf_kernels()) {
+      leaf_kernels_(leaf_kernels()),
+      ratio_(static_cast<float>(frame.ratio)) {
   const double radii = frame.in_base_radii(distance);
   const double steps = std::min(radii * kGridRadius, 32768.0);
   const int whole_steps = static_cast<int>(steps) + (static_cast<int>(steps) < steps ? 1 : 0);
@@ -85,6 +87,32 @@ PairMask DopVisit::nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCoun
   counters.node_tests += nodes_of(base_)[pair.node_M].child_count() * children_N;
   spend(kWorkOfNodes);
   return pairs & (always_near_ | realign_and_test(pair, overlaps));
+}
+
+void DopVisit::bounds(const NodePair& pair, const std::array<BoxFrame, kBoxFrames>& frames, bool is_far,
+                      DistanceBounds& bounds, QueryCounters& counters) {
+  const NodeHead& head_M = nodes_of(base_)[pair.node_M];
+  const NodeHead& head_N = nodes_of(other_)[pair.node_N];
+  const SlabLine* slabs_M = slabs_of(base_, pair.node_M);
+  const SlabLine* slabs_N = slabs_of(other_, pair.node_N);
+  const int slabs = dop_directions(base_.options().directions).slabs;
+  counters.realignments += head_M.child_count() + head_N.child_count();
+  counters.node_tests += head_M.child_count() * head_N.child_count();
+  spend(kWorkOfNodes);
+  const BoundedNode node_M{head_M, slabs_M};
+  const BoundedNode node_N{head_N, slabs_N};
+  if (is_far) return bound_along(frames.back(), node_M, node_N, slabs, bounds);
+  bound_distances(frames, node_M, node_N, slabs, bounds);
+  const PairMask thin = pair.pairs & product(head_M.thin, head_N.thin);
+  if (thin == 0) return;
+  if (!thin_frame_) thin_frame_.emplace(frame_);
+  PairOverlaps overlaps;
+  overlaps.overlap.fill(32767);
+  node_kernels_.test_thin(*thin_frame_, head_M, slabs_M, head_N, slabs_N, 0, overlaps);
+  for (PairMask rest = thin; rest != 0; rest &= rest - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+    bounds.bound[i] = std::max(bounds.bound[i], -static_cast<float>(overlaps.overlap[i]) / kGridRadius);
+  }
 }
 
 PairMask DopVisit::realign_and_test(const NodePair& pair, PairOverlaps& overlaps) const {

@@ -2,12 +2,14 @@
 
 /// One step of a dual-tree traversal: the test of two nodes, or of two leaves.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
 #include <glissade/collision/dop_tree.h>
 #include <glissade/collision/query_types.h>
 
+#include "kernels/distance_bounds.h"
 #include "kernels/dop_alignment.h"
 #include "kernels/leaf_kernels.h"
 #include "kernels/node_kernels.h"
@@ -19,8 +21,9 @@
 
 namespace glissade::collision {
 
-/// Two nodes to test, and the pairs of their children to consider. Where one tree ends above the other, its leaf stays
-/// a child of its node, and only the pairs with this leaf are considered.
+/// Two nodes to test, and the pairs of their children to consider. A child that is a leaf, or much smaller than the
+/// node of the other tree, may stay a child of its node while the other is opened: only the pairs with this child are
+/// considered then.
 struct NodePair {
   std::uint32_t node_M;
   std::uint32_t node_N;
@@ -62,6 +65,11 @@ class DopVisit {
   /// The pairs of children whose boxes may be near. Sets the overlaps of all pairs, in grid steps of the base.
   PairMask nodes(const NodePair& pair, PairOverlaps& overlaps, QueryCounters& counters);
 
+  /// Sets lower bounds of the distances of all pairs of children. With `is_far`, only those along the first direction
+  /// of the last frame.
+  void bounds(const NodePair& pair, const std::array<BoxFrame, kBoxFrames>& frames, bool is_far, DistanceBounds& bounds,
+              QueryCounters& counters);
+
   /// The pairs of `near` without those that thin slabs separate. Tests the pairs in which both children have a thin
   /// slab, and lowers their overlaps.
   PairMask thin_slabs(const NodePair& pair, PairMask near, PairOverlaps& overlaps) const;
@@ -72,8 +80,8 @@ class DopVisit {
   /// A pair of children in the mask, which must not be 0, whose overlap is about the greatest.
   int deepest(const PairOverlaps& overlaps, PairMask pairs) const { return node_kernels_.deepest(overlaps, pairs); }
 
-  /// The next step from one pair of children. If one child is a leaf and the other a node, the node is opened for all
-  /// leaves that are paired with it in `near`.
+  /// The next step from one pair of children. If one child is a leaf, or much smaller than the other, only the other is
+  /// opened, at once for all such children that are paired with it in `near`.
   Descent descend(const NodePair& nodes, PairMask near, int pair) const;
 
   /// Transforms two leaves into one frame for the functions below.
@@ -84,6 +92,11 @@ class DopVisit {
 
   /// The selected triangle pairs that no normal certainly separates by more than the distance.
   PairMask leaves(VisitedLeaves& leaves, QueryCounters& counters) const;
+
+  /// Raises the gaps of all triangle pairs to those along a direction of about unit length, in the frame of M.
+  void along(const std::array<float, 3>& direction, LeafPair& leaves) const {
+    leaf_kernels_.along(*leaf_frame_, direction, leaves);
+  }
 
   /// The triangle pairs that certainly intersect, and those that certainly do not. Both sets are empty for a distance
   /// greater than 0.
@@ -113,6 +126,10 @@ class DopVisit {
 
   void begin_nodes();
 
+  /// The nodes of a pair of children that the next step opens.
+  enum class Opened { kNeither, kM, kN, kBoth };
+  Opened opened(const NodeHead& head_M, int p, const NodeHead& head_N, int q) const;
+
   const DopTree& base_;
   const DopTree& other_;
   const QueryFrame& frame_;
@@ -124,6 +141,7 @@ class DopVisit {
   std::optional<LeafFrame> leaf_frame_;              ///< set by the first visit of leaves
   const NodeKernels& node_kernels_;
   const LeafKernels& leaf_kernels_;
+  const float ratio_;  ///< one grid step of N in grid steps of M
   int least_overlap_;
   PairMask always_near_;  ///< all pairs if the distance exceeds the range of 16 bits
   float distance_;
@@ -134,15 +152,36 @@ inline Descent DopVisit::descend(const NodePair& nodes, PairMask near, int pair)
   const NodeHead& head_N = nodes_of(other_)[nodes.node_N];
   const int p = pair / kWidth;
   const int q = pair % kWidth;
-  if (head_M.is_leaf(p) == head_N.is_leaf(q)) {
-    return {{head_M.child(p), head_N.child(q), kAllPairs}, head_M.is_leaf(p), row_of(p) & column_of(q)};
+  const auto is_opened = [&](int child_M, int child_N) { return opened(head_M, child_M, head_N, child_N); };
+  const Opened which = is_opened(p, q);
+  if (which == Opened::kBoth) return {{head_M.child(p), head_N.child(q), kAllPairs}, false, row_of(p) & column_of(q)};
+  if (which == Opened::kNeither) {
+    return {{head_M.child(p), head_N.child(q), kAllPairs}, true, row_of(p) & column_of(q)};
   }
-  if (head_M.is_leaf(p)) {
-    const PairMask leaves = near & column_of(q) & (kAllPairs << (kWidth * head_M.node_count));
-    return {{nodes.node_M, head_N.child(q), (leaves >> q) * row_of(0)}, false, leaves};
+  PairMask alike = 0;  // children that stay closed while the same child is opened
+  if (which == Opened::kN) {
+    for (int c = 0; c < kWidth; ++c)
+      alike |= (near & row_of(c) & column_of(q)) != 0 && is_opened(c, q) == which ? row_of(c) & column_of(q) : 0;
+    return {{nodes.node_M, head_N.child(q), (alike >> q) * row_of(0)}, false, alike};
   }
-  const PairMask leaves = near & row_of(p) & ((0xfU >> head_N.node_count << head_N.node_count) * column_of(0));
-  return {{head_M.child(p), nodes.node_N, (leaves >> (kWidth * p)) * column_of(0)}, false, leaves};
+  for (int c = 0; c < kWidth; ++c)
+    alike |= (near & row_of(p) & column_of(c)) != 0 && is_opened(p, c) == which ? row_of(p) & column_of(c) : 0;
+  return {{head_M.child(p), nodes.node_N, (alike >> (kWidth * p)) * column_of(0)}, false, alike};
+}
+
+inline DopVisit::Opened DopVisit::opened(const NodeHead& head_M, int p, const NodeHead& head_N, int q) const {
+  // A child that is this many times as large as the other is opened alone: opening a small one beside it would multiply
+  // pairs without bringing boxes apart.
+  constexpr float kMuchLarger = 3.0F;
+  const bool is_leaf_M = head_M.is_leaf(p);
+  const bool is_leaf_N = head_N.is_leaf(q);
+  if (is_leaf_M || is_leaf_N) {
+    return is_leaf_M == is_leaf_N ? Opened::kNeither : is_leaf_M ? Opened::kN : Opened::kM;
+  }
+  const float radius_M = head_M.radius[static_cast<std::size_t>(p)];
+  const float radius_N = ratio_ * head_N.radius[static_cast<std::size_t>(q)];
+  if (radius_M > kMuchLarger * radius_N) return Opened::kM;
+  return radius_N > kMuchLarger * radius_M ? Opened::kN : Opened::kBoth;
 }
 
 }  // namespace glissade::collision

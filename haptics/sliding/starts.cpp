@@ -55,7 +55,7 @@ double Starts::gap_of(const BodyPair& pair, double limit) {
   const PlacedBody& obstacle = shared_.scene.bodies()[static_cast<std::size_t>(pair.obstacle)];
   const PlacedBody& part = shared_.scene.bodies()[static_cast<std::size_t>(pair.part)];
   const Eigen::Isometry3d X_OV = obstacle.X_WB.inverse(Eigen::Isometry) * part.X_WB;
-  return collision::gap_lower_bound(obstacle.body->tree, part.body->tree, X_OV, workspace_, limit);
+  return collision::distance(obstacle.body->tree, part.body->tree, X_OV, workspace_, limit).distance;
 }
 
 void Starts::restore_min_clearances() {

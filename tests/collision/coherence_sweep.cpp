@@ -30,7 +30,7 @@ using Eigen::Vector3d;
 
 constexpr int kFramesPerWalk = 1000;
 constexpr int kWalksPerBatch = 16;
-constexpr std::array<const char*, 4> kQueries{"intersects", "intersecting_pairs", "pairs_within", "gap_lower_bound"};
+constexpr std::array<const char*, 4> kQueries{"intersects", "intersecting_pairs", "pairs_within", "distance"};
 
 bool same_bits(double u, double v) {
   return std::bit_cast<std::uint64_t>(u) == std::bit_cast<std::uint64_t>(v);
@@ -188,9 +188,14 @@ class Walk {
     }
     if (query_ == 3) {
       const double limit = tolerance_ > 0.0 ? tolerance_ : std::numeric_limits<double>::infinity();
-      const double gap = gap_lower_bound(tree_A, tree_B, X_AB, fresh_, limit);
-      if (!same_bits(gap_lower_bound(tree_A, tree_B, X_AB, remembering_, limit), gap)) difference_ = "another gap";
-      return gap == 0.0;
+      const MeshDistance fresh = distance(tree_A, tree_B, X_AB, fresh_, limit);
+      const MeshDistance remembering = distance(tree_A, tree_B, X_AB, remembering_, limit);
+      if (!same_bits(remembering.distance, fresh.distance)) difference_ = "another distance";
+      if (remembering.nearest.has_value() != fresh.nearest.has_value() ||
+          (fresh.nearest && !same_bits(*remembering.nearest, *fresh.nearest))) {
+        difference_ = "another nearest pair";
+      }
+      return fresh.distance == 0.0;
     }
     pairs_within(tree_A, tree_B, X_AB, tolerance_, fresh_, close_pairs_, selection);
     pairs_within(tree_A, tree_B, X_AB, tolerance_, remembering_, remembered_close_pairs_, selection);

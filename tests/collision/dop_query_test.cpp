@@ -47,8 +47,8 @@ std::vector<Query> queries_with() {
     queries.push_back({"pairs_within" + suffix, [=](const auto& tree_A, const auto& tree_B, const Isometry3d& X_AB) {
                          pairs_within(tree_A, tree_B, X_AB, tolerance, *workspace, *close_pairs);
                        }});
-    queries.push_back({"gap_lower_bound" + suffix, [=](const auto& tree_A, const auto& tree_B, const Isometry3d& X_AB) {
-                         gap_lower_bound(tree_A, tree_B, X_AB, *workspace, 1.0 + tolerance);
+    queries.push_back({"distance" + suffix, [=](const auto& tree_A, const auto& tree_B, const Isometry3d& X_AB) {
+                         distance(tree_A, tree_B, X_AB, *workspace, 1.0 + tolerance);
                        }});
   }
   return queries;
@@ -118,7 +118,7 @@ TEST(DopQuery, RefusesDistancesThatAreNone) {
         expect_complaint([&] { intersects(tree, tree, X_AB, workspace, bad); });
         expect_complaint([&] { intersecting_pairs(tree, tree, X_AB, workspace, pairs, bad); });
         expect_complaint([&] { pairs_within(tree, tree, X_AB, bad, workspace, close_pairs); });
-        expect_complaint([&] { gap_lower_bound(tree, tree, X_AB, workspace, bad); });
+        expect_complaint([&] { distance(tree, tree, X_AB, workspace, bad); });
       }
     };
     expect_refused(QueryWorkspace());

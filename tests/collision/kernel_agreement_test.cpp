@@ -1,6 +1,7 @@
 // Every instruction set computes the same bits: gaps, overlaps and decisions. What a query visits, and so the work that
 // it counts, depends on nothing else.
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <string>
@@ -11,6 +12,7 @@
 #include <glissade/geometry/mesh_generators.h>
 
 #include "kernel_fixture.h"
+#include "kernels/distance_bounds.h"
 #include "kernels/leaf_kernels.h"
 #include "kernels/node_kernels.h"
 #include "query/placed_trees.h"
@@ -47,6 +49,31 @@ void add_nodes(const PlacedTrees& placed, Bits& bits) {
   }
 }
 
+/// The bounds of what the nodes have, along some axes.
+void add_distance_bounds(const PlacedTrees& placed, Bits& bits) {
+  const Eigen::Matrix3d axes = Eigen::Quaterniond(0.5, 0.1, -0.7, 0.5).normalized().toRotationMatrix();
+  std::array<BoxFrame, kBoxFrames> frames;
+  frames.fill(box_frame(24, placed.frame, axes, 0.1));
+  const int slabs = dop_directions(24).slabs;
+  for (std::uint32_t p = 0; p < nodes_of(placed.base()).size(); p += 7) {
+    for (std::uint32_t q = 0; q < nodes_of(placed.other()).size(); q += 5) {
+      const NodeHead& head_M = nodes_of(placed.base())[p];
+      const NodeHead& head_N = nodes_of(placed.other())[q];
+      DistanceBounds all;
+      DistanceBounds along;
+      bound_distances(frames, {head_M, slabs_of(placed.base(), p)}, {head_N, slabs_of(placed.other(), q)}, slabs, all);
+      bound_along(frames[0], {head_M, slabs_of(placed.base(), p)}, {head_N, slabs_of(placed.other(), q)}, slabs, along);
+      for (int i = 0; i < head_M.child_count(); ++i) {
+        for (int j = 0; j < head_N.child_count(); ++j) {
+          const auto pair = static_cast<std::size_t>(kWidth * i + j);
+          add(all.bound[pair], bits);
+          add(along.bound[pair], bits);
+        }
+      }
+    }
+  }
+}
+
 /// `edges` looks at some pairs only, as after a test of nodes.
 void add_leaves(const PlacedTrees& placed, Bits& bits) {
   const LeafFrame frame(placed.frame);
@@ -59,6 +86,7 @@ void add_leaves(const PlacedTrees& placed, Bits& bits) {
       const PairMask near = leaf_kernels().test(frame, 0.05F, leaves);
       const CertainPairs certain = leaf_kernels().cross(frame, leaves);
       const PairMask nearer = leaf_kernels().edges(frame, 0.05F, near & 0x2b5d, leaves);
+      leaf_kernels().along(frame, {0.6F, 0.0F, -0.8F}, leaves);
       bits.insert(bits.end(), {near, certain.apart, certain.intersect, nearer});
       add(leaf_kernels().least_gap(leaves, near), bits);
       for (std::size_t pair = 0; pair < leaves.gaps.gap.size(); ++pair) {
@@ -84,6 +112,7 @@ TEST_P(KernelAgreement, EveryInstructionSetComputesTheSameBits) {
         const PlacedTrees placed{tree_A, tree_B, X_AB};
         Bits bits;
         add_nodes(placed, bits);
+        add_distance_bounds(placed, bits);
         add_leaves(placed, bits);
         return bits;
       };

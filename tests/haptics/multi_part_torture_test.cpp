@@ -134,9 +134,10 @@ class PathProof {
     }
     const double least = 0.999 * scene_of(sliding_).min_clearance(pair.obstacle, pair.part);
     const double covered = motion_of(pair.obstacle, 0.5 * (end - begin)) + motion_of(pair.part, 0.5 * (end - begin));
-    const double gap = collision::gap_lower_bound(bodies_[static_cast<std::size_t>(pair.obstacle)].body->tree,
-                                                  bodies_[static_cast<std::size_t>(pair.part)].body->tree,
-                                                  relative_pose(bodies_, pair), workspace_, 2.0 * (least + covered));
+    const double gap = collision::distance(bodies_[static_cast<std::size_t>(pair.obstacle)].body->tree,
+                                           bodies_[static_cast<std::size_t>(pair.part)].body->tree,
+                                           relative_pose(bodies_, pair), workspace_, 2.0 * (least + covered))
+                           .distance;
     if (gap >= least + covered) return true;
     if (gap < least || end - begin < 1e-6) return false;
     return keeps_floor(pair, begin, middle) && keeps_floor(pair, middle, end);

@@ -47,7 +47,7 @@ TEST_P(PegAndHole, TheGapIsTheDifferenceOfTheRadiiAtAnyDepth) {
   collision::QueryWorkspace workspace;
   for (const double depth : {1e-3, 4e-3, 12e-3}) {
     const auto gap = [&](const Isometry3d& X) {
-      return collision::gap_lower_bound(plate_tree, peg_tree, X, workspace);
+      return collision::distance(plate_tree, peg_tree, X, workspace).distance;
     };
     EXPECT_NEAR(gap(tip_at(-depth)), kClearance, 1e-12);
     const double step = 2 * pi / peg().segments;

@@ -45,7 +45,7 @@ class NutOnBolt : public ::testing::TestWithParam<Tessellation> {
     Isometry3d X = Isometry3d::Identity();
     X.linear() = Eigen::AngleAxisd(2 * pi * turns, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     X.translation().z() = pitch() * turns;
-    return collision::gap_lower_bound(bolt_tree_, nut_tree_, X, workspace_);
+    return collision::distance(bolt_tree_, nut_tree_, X, workspace_).distance;
   }
 
   collision::DopTree bolt_tree_{std::make_shared<geometry::TriangleMesh>(make_bolt(bolt()))};

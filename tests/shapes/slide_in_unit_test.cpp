@@ -29,9 +29,9 @@ TEST(SlideInUnit, HasItsClearanceOnTheWholeWayHome) {
     const collision::DopTree bay = tree_of(make_bay(shape));
     collision::QueryWorkspace workspace;
     for (const double out : {1e-3, 0.05, 0.12})
-      EXPECT_NEAR(collision::gap_lower_bound(bay, unit, at(0.0, -out, 0.0), workspace), shape.clearance, 1e-12);
+      EXPECT_NEAR(collision::distance(bay, unit, at(0.0, -out, 0.0), workspace).distance, shape.clearance, 1e-12);
     for (const double lift : {1e-6, 0.2e-3})
-      EXPECT_NEAR(collision::gap_lower_bound(bay, unit, at(0.0, -lift, 0.0), workspace), lift, 1e-12);
+      EXPECT_NEAR(collision::distance(bay, unit, at(0.0, -lift, 0.0), workspace).distance, lift, 1e-12);
     EXPECT_TRUE(intersects(bay, unit, at(0.0, 0.0, 0.0), workspace)) << "the bezel lies on the flange";
     for (const double sign : {-1.0, 1.0}) {
       const double inside = 0.999 * sign * shape.clearance;

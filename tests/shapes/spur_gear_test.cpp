@@ -113,9 +113,9 @@ TEST(GearOnItsBase, ComesDownToAFlatSeat) {
   const auto lifted = [](double z) { return Isometry3d(Eigen::Translation3d(0.0, 0.0, z)); };
   EXPECT_TRUE(intersects(base_tree, gear_tree, lifted(0.0), workspace)) << "touches in its seat";
   for (const double lift : {1e-6, 1e-4, 0.3e-3})
-    EXPECT_NEAR(collision::gap_lower_bound(base_tree, gear_tree, lifted(lift), workspace), lift, 1e-12);
+    EXPECT_NEAR(collision::distance(base_tree, gear_tree, lifted(lift), workspace).distance, lift, 1e-12);
   // Further up, the post's corners and the bore's facets are nearest.
-  const double radial = collision::gap_lower_bound(base_tree, gear_tree, lifted(5e-3), workspace);
+  const double radial = collision::distance(base_tree, gear_tree, lifted(5e-3), workspace).distance;
   EXPECT_LE(radial, gear.bore_radius - base.post_radius);
   EXPECT_GE(radial, gear.bore_radius - base.post_radius / std::cos(pi / base.segments) - 1e-12);
 }

@@ -59,7 +59,7 @@ double clearance(const haptics::ContactScene& scene, std::size_t part) {
   double least = std::numeric_limits<double>::infinity();
   for (const PlacedBody& other : scene.bodies().first(number)) {
     const Isometry3d X_OV = other.X_WB.inverse(Eigen::Isometry) * placed.X_WB;
-    least = std::min(least, collision::gap_lower_bound(other.body->tree, placed.body->tree, X_OV, workspace));
+    least = std::min(least, collision::distance(other.body->tree, placed.body->tree, X_OV, workspace).distance);
   }
   return least;
 }
