@@ -2,6 +2,8 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <iomanip>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -15,6 +17,7 @@
 #include <glissade/apps/files/hand_trajectory_file.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/files/trajectory_file.h>
+#include <glissade/apps/grasp_outcome.h>
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
@@ -46,7 +49,8 @@ constexpr const char* kGraspFooter =
     "\n"
     "Output: one row per millisecond and hand with the visible posture, the segments that touch, what kind of grasp\n"
     "they make (none, push, precision, power) and of which object, and the pose of this object. --objects writes one\n"
-    "row per millisecond and movable object with its pose and the wrench on the hands.\n"
+    "row per millisecond and movable object with its pose and the wrench on the hands. If both go to files, the\n"
+    "standard output says how long each hand held something, and how far each part came.\n"
     "All columns: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples, with the files of 'glissade example':\n"
@@ -214,6 +218,7 @@ int run(const GraspOptions& options) {
   }
   const std::int64_t ticks = (last - first) / kTick;
   GraspTables tables(scene, simulation, hands, options);
+  GraspOutcome outcome(scene, simulation);
   std::optional<GraspReport> report;
   if (!options.report.empty()) report.emplace(scene, simulation, hands);
   ProgressBar progress("grasping", ticks + 1);
@@ -224,11 +229,16 @@ int run(const GraspOptions& options) {
       targets[h] = trajectories[h].posture_at(time);
     simulation.advance(targets, tick == 0 ? 0.0 : 1.0);
     tables.write(std::chrono::duration<double>(time).count());
+    outcome.add();
     if (report) report->add(time);
     progress.update(tick + 1);
   }
   tables.close();
-  if (report) write_html_report(report->finish(), options.report);
+  if (report) write_html_report(report->finish(outcome), options.report);
+  if (options.out != "-" && options.objects != "-") {
+    for (const auto& [name, value] : outcome.rows())
+      std::cout << std::left << std::setw(16) << name << "  " << value << '\n';
+  }
   return 0;
 }
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <iomanip>
 #include <iostream>
@@ -87,9 +89,15 @@ void print_json(const Info& info) {
   std::cout << json.dump(2) << '\n';
 }
 
-std::string spaced(const Eigen::Vector3d& p) {
+/// With six digits of the mesh's size, wherever it lies.
+std::string spaced(const Eigen::Vector3d& p, const Eigen::AlignedBox3d& bounds) {
+  constexpr double kDigits = 6.0;
+  const double size = bounds.sizes().maxCoeff();
+  const double farthest = std::max(bounds.min().cwiseAbs().maxCoeff(), bounds.max().cwiseAbs().maxCoeff());
+  const double more = size > 0.0 ? std::ceil(std::log10(farthest / size)) : 0.0;
   std::ostringstream text;
-  text << p.x() + 0.0 << ' ' << p.y() + 0.0 << ' ' << p.z() + 0.0;
+  text << std::setprecision(static_cast<int>(std::clamp(kDigits + more, kDigits, 17.0))) << p.x() + 0.0 << ' '
+       << p.y() + 0.0 << ' ' << p.z() + 0.0;
   return text.str();
 }
 
@@ -110,8 +118,8 @@ void print_text(const Info& info, double scale) {
   row("watertight", report.is_watertight ? "yes" : "no");
   row("area", report.area, " m^2");
   row("size", told_size(report.bounds.sizes().maxCoeff(), scale, "--scale "));
-  row("bounds from", spaced(report.bounds.min()), " m");
-  row("bounds to", spaced(report.bounds.max()), " m");
+  row("bounds from", spaced(report.bounds.min(), report.bounds), " m");
+  row("bounds to", spaced(report.bounds.max(), report.bounds), " m");
   row("tree nodes", info.tree_nodes);
   row("tree depth", info.tree_depth);
   row("tree bytes per triangle", info.tree_bytes_per_triangle);

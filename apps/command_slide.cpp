@@ -26,6 +26,7 @@
 #include <glissade/apps/slide_tables.h>
 #include <glissade/apps/sliding_option.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/usage.h>
 #include <glissade/apps/view/slide_replay.h>
 #include <glissade/haptics/sliding.h>
 
@@ -46,7 +47,8 @@ constexpr const char* kSlideFooter =
     "\n"
     "Output: one row per millisecond with the time, the poses of the ghost and of the visible part (where the part is\n"
     "shown, never inside an obstacle), the wrench on the hand about the part's origin in world axes, the number of\n"
-    "contacts with a force, and the state of the part.\n"
+    "contacts with a force, and the state of the part. If no table goes to the standard output, a line there says\n"
+    "whether the part reached its goal, and with which force.\n"
     "\n"
     "Methods:\n"
     "  projection          the default: projects the wanted motion on the motions that the contacts allow, and takes\n"
@@ -151,6 +153,14 @@ std::vector<SlideCheck> check_all(const HapticScene& scene, const std::vector<st
   return checks;
 }
 
+/// Whether a table goes to the standard output.
+bool has_table_on_standard_output(const SlideOptions& options) {
+  const SlideTableFiles& tables = options.tables;
+  if (options.is_check() && options.summary.empty()) return true;
+  return tables.motion == "-" || tables.contacts.contacts == "-" || tables.contacts.patches == "-" ||
+         tables.moving == "-" || options.summary == "-";
+}
+
 /// Writes what the checks found, and returns the exit code.
 int conclude(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& check_options,
              const SlideOptions& options, std::optional<SlideReplay> replay) {
@@ -173,7 +183,10 @@ int conclude(const HapticScene& scene, const std::vector<SlideCheck>& checks, co
     if (one.problem) {
       std::cerr << "glissade: " << one.trajectory << ": " << *one.problem << '\n';
       exit_code = 1;
-    } else if (options.requires_goal && !one.goal_reached) {
+      continue;
+    }
+    if (!has_table_on_standard_output(options)) std::cout << one.trajectory << ": " << verdict(one) << '\n';
+    if (options.requires_goal && !one.goal_reached) {
       std::cerr << "glissade: " << one.trajectory << ": the goal is not reached: the part ends "
                 << rounded_text(1e3 * one.goal_distance_m) << " mm and " << rounded_text(one.goal_angle_deg)
                 << " degrees from it\n";
@@ -280,12 +293,12 @@ void add_slide_command(CLI::App& app, Command& chosen) {
       ->add_option("--goal-tolerance-m", options->goal_tolerance_m,
                    "Greatest distance from the goal at which the goal counts as reached")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   command
       ->add_option("--goal-tolerance-deg", options->goal_tolerance_deg,
                    "Greatest angle from the goal at which the goal counts as reached")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

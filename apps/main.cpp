@@ -67,6 +67,8 @@ int parse_and_run(int argc, char** argv) {
     return app.exit(request);  // --help and --version
   } catch (const CLI::ParseError& error) {
     const std::string unexpected = glissade::apps::unexpected_arguments(app);
+    if (unexpected.empty())
+      glissade::apps::check_numbers(app);  // says more than the parser of a text that is no number
     return fail(kBadInput, unexpected.empty() ? error.what() : unexpected);
   }
   if (!chosen) return fail(kBadInput, "a command is missing: see glissade help");

@@ -133,6 +133,14 @@ void add_hand_rows(const HandSummary& hand, const std::string& name, const Sessi
 Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose) {
   if (summary.samples == 0) return {{"ticks", "0: the run ended before the first state of a glove"}};
   Rows rows;
+  if (summary.seat_reached) {
+    rows.emplace_back("goal reached", formatted("%s, %.3f mm from it", *summary.seat_reached ? "yes" : "no",
+                                                1e3 * summary.seat_distance_m));
+  }
+  for (const PartSummary& part : summary.parts)
+    add_part_rows(part, summary, rows);
+  for (std::size_t h = 0; h < summary.hands.size(); ++h)
+    add_hand_rows(summary.hands[h], name_of_hand(session, h), summary, tick_seconds(session), rows);
   rows.emplace_back("objects", std::to_string(session.objects));
   rows.emplace_back("ticks", std::to_string(summary.ticks));
   if (session.calls.ended_early > 0) {
@@ -141,14 +149,6 @@ Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose
                                                      static_cast<long long>(session.calls.calls)));
   }
   if (session.real_time) add_real_time_rows(*session.real_time, rows);
-  for (const PartSummary& part : summary.parts)
-    add_part_rows(part, summary, rows);
-  for (std::size_t h = 0; h < summary.hands.size(); ++h)
-    add_hand_rows(summary.hands[h], name_of_hand(session, h), summary, tick_seconds(session), rows);
-  if (summary.seat_reached) {
-    rows.emplace_back("seat reached", formatted("%s, %.3f mm from it", *summary.seat_reached ? "yes" : "no",
-                                                1e3 * summary.seat_distance_m));
-  }
   if (!verbose) return rows;
   add_collision_rows(session, rows);
   rows.emplace_back("hash", hash_text(summary.hash));
@@ -346,7 +346,7 @@ std::string write_session_report(const SessionSummary& summary, const Session& s
                                  const std::string& folder, const HapticScene& scene) {
   std::optional<Replay> replay;
   if (summary.samples > 0) replay = replay_of(session, scene);
-  return write_html_report({title, rows_of(summary, session, true), plots_of(summary, session), std::move(replay)},
+  return write_html_report({title, rows_of(summary, session, false), plots_of(summary, session), std::move(replay)},
                            folder);
 }
 

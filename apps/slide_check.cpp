@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -31,18 +31,6 @@ void note_goal(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WGoal, 
       Eigen::AngleAxisd(X_WGoal.linear().transpose() * X_WV.linear()).angle() * 180.0 / std::numbers::pi;
   check.goal_reached =
       check.goal_distance_m <= options.goal_tolerance_m && check.goal_angle_deg <= options.goal_tolerance_deg;
-}
-
-std::string verdict(const SlideCheck& check) {
-  if (check.problem) return *check.problem;
-  char text[256];
-  std::snprintf(text, sizeof text,
-                "%s, %.3f mm and %.2f degrees from the goal; at most %.2f N and %.3f Nm; least clearance %.1f um at "
-                "%.3f s; %.3f of %.3f s in contact",
-                check.goal_reached ? "reached" : "not reached", 1e3 * check.goal_distance_m, check.goal_angle_deg,
-                check.force_max_N, check.torque_max_Nm, 1e6 * check.clearance_min_m, check.clearance_min_at_s,
-                check.contact_s, check.duration_s);
-  return text;
 }
 
 /// How deep the part is in others at the first row, and what can be done about it.
@@ -117,6 +105,7 @@ SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory&
     return check;
   }
   LeastClearance clearance(scene);
+  std::int64_t contact_ticks = 0;
   const std::int64_t ticks = trajectory.duration() / milliseconds(1);
   for (std::int64_t i = 0; i <= ticks; ++i) {
     const std::chrono::nanoseconds now = slide_to(i, trajectory, *sliding);
@@ -124,7 +113,7 @@ SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory&
     const haptics::Wrench wrench = haptics::spring_wrench(sliding->stiffness(), sliding->error());
     check.force_max_N = std::max(check.force_max_N, wrench.f.norm());
     check.torque_max_Nm = std::max(check.torque_max_Nm, wrench.t.norm());
-    check.contact_s += sliding->result().pushing > 0 ? 1e-3 : 0.0;
+    contact_ticks += sliding->result().pushing > 0 ? 1 : 0;
     if (options.needs_summary) {
       check.force.x.push_back(seconds(time));
       check.force.y.push_back(wrench.f.norm());
@@ -133,11 +122,25 @@ SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory&
     check.far_m = std::min(check.far_m, between_spheres(scene, *sliding));
     if (watch) watch(now, *sliding);
   }
+  check.contact_s = seconds(contact_ticks * milliseconds(1));
   clearance.finish();
   check.clearance_min_m = clearance.least();
   check.clearance_min_at_s = seconds(clearance.least_at() * milliseconds(1));
   note_goal(sliding->result().X_WV, scene.X_WGoal.value_or(trajectory.pose_at(trajectory.last_time())), options, check);
   return check;
+}
+
+std::string verdict(const SlideCheck& check) {
+  if (check.problem) return *check.problem;
+  const std::string clearance = std::isfinite(check.clearance_min_m)
+                                    ? "; least clearance " + fixed_text(1e6 * check.clearance_min_m, 1) + " um at " +
+                                          fixed_text(check.clearance_min_at_s, 3) + " s"
+                                    : "";
+  return std::string(check.goal_reached ? "goal reached, " : "goal not reached, ") +
+         fixed_text(1e3 * check.goal_distance_m, 3) + " mm and " + fixed_text(check.goal_angle_deg, 2) +
+         " degrees from it; at most " + fixed_text(check.force_max_N, 2) + " N and " +
+         fixed_text(check.torque_max_Nm, 3) + " Nm" + clearance + "; " + fixed_text(check.contact_s, 3) + " of " +
+         fixed_text(check.duration_s, 3) + " s in contact";
 }
 
 void write_checks(const std::vector<SlideCheck>& checks, const std::string& path) {

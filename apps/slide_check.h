@@ -51,6 +51,9 @@ using SlideWatch = std::function<void(std::chrono::nanoseconds time, const hapti
 SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory& trajectory, const std::string& name,
                        const SlideCheckOptions& options, const SlideWatch& watch = {});
 
+/// The outcome in one sentence.
+std::string verdict(const SlideCheck& check);
+
 /// Writes one row per check, in their order; `path` as for `CsvWriter`.
 void write_checks(const std::vector<SlideCheck>& checks, const std::string& path);
 

@@ -5,6 +5,7 @@
 #include <glissade/apps/did_you_mean.h>
 #include <glissade/apps/sliding_option.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/usage.h>
 
 namespace glissade::apps {
 
@@ -13,7 +14,7 @@ void add_sliding_options(CLI::App& command, SlidingChoice& choice) {
       ->capture_default_str();
   command.add_option("--friction", choice.friction, "Coefficient of Coulomb friction; or two, sliding and at rest")
       ->expected(1, 2)
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   command.add_flag("--spiral-search", choice.spiral_search, "Search in a spiral when the part is stuck, see below");
   command.add_flag("--depenetrate", choice.depenetrate,
                    "Push a part out of obstacles that overlap it at the start, see below");

@@ -1,9 +1,8 @@
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <CLI/CLI.hpp>
 
 #include <glissade/apps/did_you_mean.h>
 #include <glissade/apps/text.h>
@@ -78,6 +77,15 @@ void check_numbers(const CLI::App& app) {
     }
     check_numbers(*command);
   }
+}
+
+CLI::Validator not_negative() {
+  return {[](const std::string& text) {
+            const std::optional<double> number = parse_number(text);
+            // What is no number is told after parsing, by `check_numbers`.
+            return !number || *number >= 0.0 ? std::string() : "must be at least 0, not " + text;
+          },
+          "NONNEGATIVE"};
 }
 
 }  // namespace glissade::apps

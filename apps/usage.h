@@ -5,9 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include <CLI/CLI.hpp>
 
 namespace glissade::apps {
 
@@ -22,5 +20,8 @@ std::string unexpected_arguments(const CLI::App& app);
 /// Throws std::invalid_argument, naming the option, when a command was given "nan", "inf" or another text that is not a
 /// finite number with a decimal point for an option that takes a number. To be called after parsing.
 void check_numbers(const CLI::App& app);
+
+/// A check of an option that takes a number: it is not negative.
+CLI::Validator not_negative();
 
 }  // namespace glissade::apps

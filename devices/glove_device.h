@@ -43,6 +43,24 @@ inline constexpr std::array<std::string_view, kGloveJoints> kGloveJointNames{"th
                                                                              "wrist_flexion",
                                                                              "wrist_abduction"};
 
+struct JointRange {
+  double lower_deg;
+  double upper_deg;
+};
+
+/// How far the joints of a human hand go, in the order of `kGloveJointNames`. A thumb rolled to its lower limit lies in
+/// the plane of the palm. The ranges of the abductions keep every finger within its range to the palm: index −15..30,
+/// ring −20..15, little −40..20 degrees towards the thumb.
+inline constexpr std::array<JointRange, kGloveJoints> kHandJointRanges{{{-20, 60}, {-10, 60}, {-15, 80}, {0, 60},
+                                                                        {-20, 90}, {0, 105},  {-10, 90},  // index
+                                                                        {-20, 90}, {0, 105},  {-10, 90},  // middle
+                                                                        {-15, 30},  // to the index
+                                                                        {-20, 90}, {0, 105},  {-10, 90},  // ring
+                                                                        {-15, 20},  // to the middle finger
+                                                                        {-20, 90}, {0, 105},  {-10, 90},  // little
+                                                                        {-5, 20},                         // to the ring
+                                                                        {0, 30},   {-70, 80}, {-30, 20}}};
+
 /// The hand that wears a glove. Messages carry the number.
 enum class HandSide : std::int32_t { kUnknown = 0, kLeft = 1, kRight = 2 };
 

@@ -13,11 +13,7 @@ namespace {
 
 constexpr std::chrono::nanoseconds kLargestStep = std::chrono::milliseconds(1);
 
-JointValues radians(JointValues degrees) {
-  for (double& angle : degrees)
-    angle *= std::numbers::pi / 180.0;
-  return degrees;
-}
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 /// Axis times angle, 0 to π.
 Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& q) {
@@ -108,11 +104,10 @@ DeviceDescriptor simulated_glove_descriptor() {
   descriptor.rotational_damping = kArmRotationalDamping;
   descriptor.joint_damping = kJointDamping;
   descriptor.max_power = 40.0;
-  // thumb roll, MCP, IP, abduction; index; middle and abduction; ring and abduction; little and abduction; palm; wrist
-  descriptor.joint_lower =
-      radians({0, -10, -15, -25, -20, 0, -10, -20, 0, -10, -15, -20, 0, -10, -20, -20, 0, -10, -40, 0, -70, -30});
-  descriptor.joint_upper =
-      radians({60, 60, 80, 35, 90, 105, 90, 90, 105, 90, 30, 90, 105, 90, 15, 90, 105, 90, 20, 30, 80, 20});
+  for (std::size_t i = 0; i < kHandJointRanges.size(); ++i) {
+    descriptor.joint_lower[i] = kHandJointRanges[i].lower_deg * kRadiansPerDegree;
+    descriptor.joint_upper[i] = kHandJointRanges[i].upper_deg * kRadiansPerDegree;
+  }
   descriptor.update_rate = 1000.0;
   return descriptor;
 }

@@ -20,24 +20,6 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using geometry::TriangleMesh;
 
-struct DegreeLimits {
-  double lower;
-  double upper;
-};
-
-/// By flex value, in degrees. A thumb rolled to its lower limit lies in the plane of the palm. The limits of the
-/// abductions keep every finger within its range to the palm: index −15..30, ring −20..15, little −40..20 degrees
-/// towards the thumb.
-constexpr std::array<DegreeLimits, devices::kGloveJoints> kLimits{{{-20, 60}, {-10, 60}, {-15, 80}, {0, 60},
-                                                                   {-20, 90}, {0, 105},  {-10, 90},  // index
-                                                                   {-20, 90}, {0, 105},  {-10, 90},  // middle
-                                                                   {-15, 30},                        // to the index
-                                                                   {-20, 90}, {0, 105},  {-10, 90},  // ring
-                                                                   {-15, 20},                        // to the middle
-                                                                   {-20, 90}, {0, 105},  {-10, 90},  // little
-                                                                   {-5, 20},                         // to the ring
-                                                                   {0, 30},   {-70, 80}, {-30, 20}}};
-
 /// Each finger's abduction towards the thumb: minus the sum of the angles between it and the middle finger, or the
 /// angle to the index finger.
 std::vector<JointTerm> abduction(std::size_t finger) {
@@ -153,9 +135,10 @@ ChainLink mirrored_link(ChainLink link) {
 
 std::vector<FlexValue> flex_values() {
   std::vector<FlexValue> values;
-  for (std::size_t i = 0; i < kLimits.size(); ++i)
-    values.push_back(
-        {std::string(devices::kGloveJointNames[i]), kLimits[i].lower * kDegree, kLimits[i].upper * kDegree});
+  for (std::size_t i = 0; i < devices::kHandJointRanges.size(); ++i) {
+    const devices::JointRange& range = devices::kHandJointRanges[i];
+    values.push_back({std::string(devices::kGloveJointNames[i]), range.lower_deg * kDegree, range.upper_deg * kDegree});
+  }
   return values;
 }
 

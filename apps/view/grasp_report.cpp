@@ -26,10 +26,7 @@ std::vector<std::int64_t> numbers(std::size_t count) {
 
 GraspReport::GraspReport(const HapticScene& scene, const grasping::GraspSimulation& simulation,
                          const std::vector<std::shared_ptr<const grasping::HandModel>>& hands)
-    : scene_(scene),
-      simulation_(simulation),
-      replay_(view_scene_of(scene, numbers(hands.size()), hands)),
-      sums_(hands.size()) {
+    : scene_(scene), simulation_(simulation), replay_(view_scene_of(scene, numbers(hands.size()), hands)) {
   for (std::size_t h = 0; h < hands.size(); ++h) {
     touching_.push_back({name_of_hand(h), {}, {}});
     kinds_.push_back({name_of_hand(h), {}, {}});
@@ -60,10 +57,6 @@ void GraspReport::add(std::chrono::nanoseconds time) {
     devices::HapticHandState& hand = state.hands[h];
     hand.part = part ? static_cast<std::int32_t>(*part) : -1;
     hand.visible = answers_.hands[h].visible;
-    Sums& sums = sums_[h];
-    sums.grasps += hand.part >= 0 && hand.part != sums.part ? 1 : 0;
-    sums.holding_ms += hand.part >= 0 ? 1 : 0;
-    sums.part = hand.part;
     const auto& touching = simulation_.clasp(h).touching();
     note(touching_[h], static_cast<double>(touching.size() -
                                            static_cast<std::size_t>(std::count(touching.begin(), touching.end(), 0))));
@@ -72,21 +65,8 @@ void GraspReport::add(std::chrono::nanoseconds time) {
   replay_.add(state);
 }
 
-Report GraspReport::finish() {
-  Report report{
-      "glissade grasp: " + scene_.source, {{"duration", fixed_text(1e-3 * static_cast<double>(ticks_), 3) + " s"}}, {}};
-  for (std::size_t h = 0; h < sums_.size(); ++h) {
-    const double held_s = 1e-3 * static_cast<double>(sums_[h].holding_ms);
-    report.summary.emplace_back(name_of_hand(h),
-                                std::to_string(sums_[h].grasps) + " grasps, held for " + fixed_text(held_s, 3) + " s");
-  }
-  for (std::size_t p = 0; p < simulation_.part_count(); ++p) {
-    const Eigen::Vector3d p_WV = simulation_.parts().result(p).X_WV.translation();
-    const Eigen::Vector3d way = p < scene_.parts.size()
-                                    ? Eigen::Vector3d(p_WV - scene_.parts[p].X_WV_start.translation())
-                                    : Eigen::Vector3d::Zero();
-    report.summary.emplace_back(lags_[p].name, "ends " + fixed_text(1e3 * way.norm(), 1) + " mm from where it started");
-  }
+Report GraspReport::finish(const GraspOutcome& outcome) {
+  Report report{"glissade grasp: " + scene_.source, outcome.rows(), {}};
   report.plots.push_back({"Segments that touch", kTimeLabel, "segments", std::move(touching_)});
   report.plots.push_back(
       {"Kind of grasp: 0 none, 1 push, 2 precision, 3 power", kTimeLabel, "kind", std::move(kinds_)});

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <glissade/apps/grasp_outcome.h>
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/view/replay_maker.h>
@@ -24,22 +25,14 @@ class GraspReport {
               const std::vector<std::shared_ptr<const grasping::HandModel>>& hands);
 
   void add(std::chrono::nanoseconds time);
-  Report finish();
+  Report finish(const GraspOutcome& outcome);
 
  private:
-  /// What the summary says of a hand.
-  struct Sums {
-    std::int64_t grasps = 0;
-    std::int64_t holding_ms = 0;
-    std::int32_t part = -1;
-  };
-
   const HapticScene& scene_;
   const grasping::GraspSimulation& simulation_;
   ReplayMaker replay_;
   haptics::ContactSet answers_;  // about the hands
   std::int64_t ticks_ = 0;
-  std::vector<Sums> sums_;
   std::vector<PlotSeries> touching_;  // by hand: segments
   std::vector<PlotSeries> kinds_;     // by hand: the number of the kind of grasp
   std::vector<PlotSeries> lags_;      // by part, mm

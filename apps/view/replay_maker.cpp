@@ -16,7 +16,13 @@ ReplayMaker::ReplayMaker(const viewer::ViewScene& scene)
     : maker_(scene), replay_{viewer::scene_model(scene, kMostTriangles), {}} {}
 
 void ReplayMaker::add(const devices::HapticState& state) {
-  if (!first_) first_ = state.time;
+  if (!first_) {
+    // The start is a frame of its own, so that the page counts its time from the first state, as plots do.
+    first_ = state.time;
+    maker_.add(state);
+    viewer::append_frame(replay_.frames, maker_.make());
+    return;
+  }
   const std::int64_t frame = (state.time - *first_) / kFramePeriod;
   if (frame != frame_ && maker_.has_news()) viewer::append_frame(replay_.frames, maker_.make());
   frame_ = frame;

@@ -49,6 +49,13 @@ TEST_F(Cli, HelpAndVersionSucceed) {
   EXPECT_THAT(glissade({"collide", "--help"}).standard_output, HasSubstr("glissade collide panel.obj motor.obj"));
 }
 
+TEST_F(Cli, InfoTellsTheBoundsOfAMeshFarFromItsOrigin) {
+  const std::string far = folder.write("far.obj",
+                                       "v 1000000 0 0\nv 1000001 0 0\nv 1000000 1 0\nv 1000000 0 1\n"
+                                       "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  EXPECT_THAT(glissade({"info", far}).standard_output, HasSubstr(" 1000001 1 1 m\n"));
+}
+
 TEST_F(Cli, InfoTellsTheTrianglesAndTheTree) {
   const ProgramResult result = glissade({"info", mesh, "--json"});
   EXPECT_EQ(result.exit_code, 0) << result.standard_error;

@@ -73,6 +73,22 @@ TEST_F(GraspCommand, CarriesTheBallToTheTrayAndLeavesItThere) {
   EXPECT_LT(number(left, "z_m"), 0.06);
 }
 
+TEST_F(GraspCommand, HoldsTheBallWithAThumbBeforeThePalm) {
+  ASSERT_EQ(run().exit_code, 0);
+  const grasping::HandModel hand = grasping::make_hand();
+  std::vector<Isometry3d> X_RL(hand.chain.links().size());
+  for (const CsvRow& row : rows_of(read_text_file(hands))) {
+    std::vector<double> values;
+    for (const grasping::FlexValue& value : hand.chain.values())
+      values.push_back(number(row, value.name + "_rad"));
+    hand.chain.poses(Isometry3d::Identity(), values, X_RL);
+    for (std::size_t link = 0; link < X_RL.size(); ++link) {
+      if (hand.chain.links()[link].name != "thumb_distal") continue;
+      ASSERT_LT(X_RL[link].translation().z(), 0.0) << "out of the back of the hand at " << row.at("t_s") << " s";
+    }
+  }
+}
+
 TEST_F(GraspCommand, ShowsNoHandThatGoesIntoAnything) {
   ASSERT_EQ(run().exit_code, 0);
   const grasping::HandModel hand = grasping::make_hand();
@@ -109,8 +125,22 @@ TEST_F(GraspCommand, WritesAPageWithTheHandInThreeDimensions) {
   ASSERT_EQ(run.exit_code, 0) << run.standard_error;
   std::ostringstream page;
   page << std::ifstream(folder.path("report/index.html")).rdbuf();
-  for (const char* part : {"1 grasps, held for", "report-frames", "Kind of grasp", "ball"})
+  for (const char* part : {"1 grasp, holds for", "report-frames", "Kind of grasp", "ball"})
     EXPECT_NE(page.str().find(part), std::string::npos) << part;
+}
+
+TEST_F(GraspCommand, TellsWhatCameOfIt) {
+  const ProgramResult held = run();
+  EXPECT_NE(held.standard_output.find("1 grasp, holds for 3."), std::string::npos) << held.standard_output;
+  EXPECT_EQ(held.standard_output.find("waits"), std::string::npos);
+  const std::string inside = folder.write("inside.yaml",
+                                          "objects:\n- {name: ball, movable: true, shape: {type: sphere}}\n"
+                                          "- {name: wall, shape: {type: box, size_x_m: 0.4, size_y_m: 0.8},"
+                                          " pose: {position_m: [0, 0, 0.2]}}\n");
+  const ProgramResult waits = glissade({"grasp", inside, "--hand-trajectory", kHand, "--out", hands});
+  EXPECT_NE(waits.standard_output.find("waits for 0."), std::string::npos) << waits.standard_output;
+  const ProgramResult table = glissade({"grasp", kScene, "--hand-trajectory", kHand});
+  EXPECT_EQ(table.standard_output.find("holds for"), std::string::npos) << "among the rows of the table";
 }
 
 TEST_F(GraspCommand, TakesOtherHands) {

@@ -43,9 +43,10 @@ TEST(ReplayMaker, MakesSixtyFramesASecondUpToTheLastTick) {
   const Replay replay = maker.finish();
   EXPECT_EQ(replay.model.substr(0, 4), "glTF");
   const std::vector<double> times = times_of(replay.frames);
-  ASSERT_EQ(times.size(), 60u);
+  ASSERT_EQ(times.size(), 61u);
+  EXPECT_EQ(times.front(), 5.0) << "the start, from which plots count their time too";
   EXPECT_EQ(times.back(), 6.0);
-  for (std::size_t i = 1; i < times.size(); ++i)
+  for (std::size_t i = 2; i < times.size(); ++i)
     EXPECT_NEAR(times[i] - times[i - 1], 1.0 / 60.0, 1.1e-3);
 }
 

@@ -16,6 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 /// A run of a hand with a part, of so many ticks.
 Session session_of(std::int64_t ticks) {
@@ -70,6 +71,14 @@ TEST(SessionText, LeavesTheStagesOfTheSearchToWhoeverAsks) {
     EXPECT_THAT(brief, Not(HasSubstr(internal)));
     EXPECT_THAT(to_text(summary, session, true), HasSubstr(internal));
   }
+}
+
+TEST(SessionText, BeginsWithWhetherTheGoalWasReached) {
+  const Session session = session_of(10);
+  SessionSummary summary = summary_of(session);
+  summary.seat_reached = true;
+  summary.seat_distance_m = 1e-4;
+  EXPECT_THAT(to_text(summary, session, false), StartsWith("  goal reached                 yes, 0.100 mm from it\n"));
 }
 
 TEST(SessionText, ARunWithoutASearchHasNoMeans) {

@@ -244,6 +244,14 @@ TEST_F(Slide, FrictionHoldsThePartBack) {
   EXPECT_EQ(reached({"--friction", "0"}), reached({}));
 }
 
+TEST_F(Slide, TellsTheOutcomeWhereNoTableGoes) {
+  const std::string hand = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n");
+  const ProgramResult result = test_support::glissade(
+      {"slide", scene({floor}), "--part", "box", "--trajectory", hand, "--out", folder.path("motion.csv")});
+  EXPECT_EQ(result.standard_output, hand + ": goal reached, 0.000 mm and 0.00 degrees from it; at most 0.00 N and " +
+                                        "0.000 Nm; 0.000 of 0.010 s in contact\n");
+}
+
 TEST_F(Slide, RefusesRulesThatCannotBe) {
   const std::string hand = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n");
   const auto slide_with = [&](const std::vector<std::string>& more) {
@@ -251,7 +259,7 @@ TEST_F(Slide, RefusesRulesThatCannotBe) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   };
-  expect_refused(slide_with({"--friction", "-0.1"}), {"--friction"});
+  expect_refused(slide_with({"--friction", "-0.1"}), {"--friction: must be at least 0, not -0.1"});
   expect_refused(slide_with({"--friction", "0.3", "0.2"}), {"--friction", "at rest"});
   expect_refused(slide_with({"--method", "paper", "--spiral-search"}), {"--method", "--spiral-search"});
 }

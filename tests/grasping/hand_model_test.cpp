@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/devices/simulated_glove.h>
 #include <glissade/grasping/hand_model.h>
 
 #include "expect_bad_input.h"
@@ -145,6 +146,16 @@ TEST(HandModel, ClosesWithEveryFlexion) {
         last = distance;
       }
     }
+}
+
+TEST(HandModel, GoesAsFarAsTheSimulatedGlove) {
+  const HandModel hand = make_hand();
+  const devices::DeviceDescriptor glove = devices::simulated_glove_descriptor();
+  for (std::size_t i = 0; i < hand.chain.values().size(); ++i) {
+    const FlexValue& value = hand.chain.values()[i];
+    EXPECT_NEAR(value.lower, glove.joint_lower[i], 1e-12) << value.name;
+    EXPECT_NEAR(value.upper, glove.joint_upper[i], 1e-12) << value.name;
+  }
 }
 
 TEST(HandModel, BringsTheThumbBeforeThePalmAndAcrossIt) {
