@@ -29,7 +29,7 @@ constexpr double kMostMotion = 0.25;
 void CoherentFront::clear() {
   base_id_ = 0;
   other_id_ = 0;
-  nearest_.reset();
+  of_distance_.clear();
 }
 
 void CoherentFront::start_afresh(const DopTree& base, const DopTree& other) {

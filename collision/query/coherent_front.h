@@ -17,21 +17,13 @@
 
 #include <glissade/collision/query_types.h>
 
+#include "query/distance_front.h"
 #include "query/dop_traversal.h"
 #include "query/dop_visit.h"
 #include "query/last_hit.h"
 #include "query/triangle_visitor.h"
 
 namespace glissade::collision {
-
-/// The nearest triangle pair of the last distance query.
-struct NearestPair {
-  std::uint64_t base_id;
-  std::uint64_t other_id;
-  std::uint32_t leaf_M;
-  std::uint32_t leaf_N;
-  int pair;
-};
 
 /// The front of one pair of trees. Not thread-safe.
 class CoherentFront {
@@ -48,8 +40,8 @@ class CoherentFront {
   /// The triangle pair at which the last query stopped, if it did.
   const std::optional<LastHit>& last_hit() const { return last_hit_; }
 
-  /// For distance queries, which begin with the result of the last one and need no front.
-  std::optional<NearestPair>& nearest() { return nearest_; }
+  /// The memory of distance queries.
+  DistanceFront& of_distance() { return of_distance_; }
 
  private:
   struct Entry {
@@ -76,7 +68,7 @@ class CoherentFront {
   bool complete_ = false;         ///< a query has visited all entries
   std::size_t most_entries_ = 0;  ///< with more entries the front starts afresh
   std::optional<LastHit> last_hit_;
-  std::optional<NearestPair> nearest_;
+  DistanceFront of_distance_;
   std::vector<Entry> entries_;
   std::vector<float> expiry_;  ///< by entry: the greatest `moved_` for which it is valid; padding never expires
   std::vector<std::uint32_t> expired_;  ///< entries that the clock has passed; has room for all

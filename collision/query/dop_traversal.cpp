@@ -8,8 +8,9 @@
 namespace glissade::collision {
 namespace {
 
-// Boxes of fixed directions fail at long slivers on curved surfaces: most of the work are tests of triangles then. A query
-// that has found no answer by so many should look along the direction that separates the meshes where they are near.
+// Boxes of fixed directions fail at long slivers on curved surfaces: most of the work are tests of triangles then. A
+// query that has found no answer by so many should look along the direction that separates the meshes where they are
+// near.
 bool is_futile(const QueryCounters& counters) {
   constexpr std::int64_t kFewTriangleTests = 12 * kWidth * kWidth;
   constexpr std::int64_t kTriangleTestsOfNodeTest = 2;

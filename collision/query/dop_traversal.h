@@ -11,6 +11,7 @@
 
 #include <glissade/collision/query_types.h>
 
+#include "query/distance_front.h"
 #include "query/dop_visit.h"
 #include "query/triangle_visitor.h"
 
@@ -33,6 +34,7 @@ struct QueryMemory {
   DopAlignment alignment;
   std::vector<OpenPair> stack;
   std::vector<PromisingPair> promising;
+  std::vector<DistanceFront::Entry> expired;
   std::vector<std::uint64_t> places;  ///< sort keys of triangle pairs
   hwy::Sorter sort_places;
   QueryCounters counters;

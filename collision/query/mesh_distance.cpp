@@ -40,10 +40,12 @@ Matrix3d axes_from(const Vector3d& first) {
 
 class DistanceSearch {
  public:
-  DistanceSearch(const PlacedTrees& placed, double limit, QueryMemory& memory)
+  /// `front` may be null.
+  DistanceSearch(const PlacedTrees& placed, double limit, QueryMemory& memory, DistanceFront* front)
       : placed_(placed),
         frame_(placed.frame),
         memory_(memory),
+        front_(front),
         step_(placed.base(), placed.other(), placed.frame, std::numeric_limits<double>::infinity(), memory.alignment,
               {}, memory.meter),
         limit_(limit),
@@ -54,16 +56,11 @@ class DistanceSearch {
     look_along(between > 0.0 ? Vector3d(frame_.p_MN / between) : Vector3d::UnitX());
   }
 
-  /// Begins with this triangle pair. The choice affects the amount of work only.
-  void begin_with(const NearestPair& pair) { compare(pair.leaf_M, pair.leaf_N, pair.pair); }
-
-  /// The nearest pair found, if any was compared: the nearest of all if its distance is below the limit.
-  const std::optional<NearestPair>& nearest() const { return nearest_; }
-
   MeshDistance run() {
     begin();
     while (!memory_.promising.empty() && least_ > 0.0)
       expand_next();
+    keep();
     if (least_ == 0.0) return {0.0, std::nullopt};
     if (!(least_ < limit_)) return {limit_, std::nullopt};
     return {least_, closest_};
@@ -78,20 +75,53 @@ class DistanceSearch {
   }
 
  private:
-  // Finds near triangles and puts the roots onto the stack.
+  // Finds near triangles, and puts onto the stack what is not certainly farther apart than these.
   void begin() {
-    const int k = placed_.base().options().directions;
-    frames_[0] = box_frame(k, frame_, Matrix3d::Identity());
-    frames_[1] = box_frame(k, frame_, frame_.R_MN);
-    if (!nearest_) dive_while_nearer();
+    memory_.promising.clear();
+    if (front_ != nullptr && front_->nearest()) {
+      const NearestPair last = *front_->nearest();
+      compare(last.leaf_M, last.leaf_N, last.pair);
+    } else {
+      dive_while_nearer();
+    }
     threshold_ = threshold_of(std::min(least_, limit_));
-    memory_.promising.assign(1, {{0, 0, kAllPairs}, -1.0F});
+    if (least_ == 0.0) return;
+    keeps_ = front_ != nullptr;
+    if (front_ == nullptr || !front_->has_entries()) {
+      memory_.promising.assign(1, {{0, 0, kAllPairs}, -1.0F});
+      return;
+    }
+    front_->take_expired(static_cast<double>(threshold_), memory_.expired);
+    for (const DistanceFront::Entry& entry : memory_.expired) {
+      if (!entry.is_leaf) {
+        memory_.promising.push_back({entry.nodes, -1.0F});
+      } else {
+        compare_leaves(entry.nodes.node_M, entry.nodes.node_N);
+      }
+    }
+  }
+
+  // Remembers what is left on the stack, and the nearest pair.
+  void keep() {
+    if (front_ == nullptr) return;
+    for (const PromisingPair& pair : memory_.promising)
+      add_entry(pair.nodes, false, pair.gap);
+    front_->nearest() = nearest_;
+    front_->end_search();
+  }
+
+  void add_entry(const NodePair& nodes, bool is_leaf, float gap) {
+    if (keeps_) front_->add({nodes, is_leaf}, static_cast<double>(gap));
   }
 
   void expand_next() {
     const PromisingPair top = memory_.promising.back();
     memory_.promising.pop_back();
-    if (top.gap < threshold_) expand(top.nodes);
+    if (top.gap < threshold_) {
+      expand(top.nodes);
+    } else {
+      add_entry(top.nodes, false, top.gap);
+    }
   }
 
   // Down to two leaves, each time along the least bound, as long as they are nearer than those before. Nearer triangles
@@ -121,6 +151,11 @@ class DistanceSearch {
   }
 
   void find_bounds(const NodePair& nodes, DistanceBounds& bounds) {
+    if (!has_frames_) {
+      frames_[0] = box_frame(placed_.base().options().directions, frame_, Matrix3d::Identity());
+      frames_[1] = box_frame(placed_.base().options().directions, frame_, frame_.R_MN);
+      has_frames_ = true;
+    }
     if (turned_) {
       frames_[2] = box_frame(placed_.base().options().directions, frame_, axes_from(toward_N_), nearer_);
       turned_ = false;
@@ -133,8 +168,9 @@ class DistanceSearch {
     find_bounds(nodes, bounds);
     std::array<int, kWidth * kWidth> order;
     std::size_t count = 0;
+    const PairMask pairs = step_.pairs_of(nodes);
     PairMask near = 0;
-    for (PairMask rest = step_.pairs_of(nodes); rest != 0; rest &= rest - 1) {
+    for (PairMask rest = pairs; rest != 0; rest &= rest - 1) {
       const int pair = std::countr_zero(rest);
       if (!(bound_of(bounds, pair) < threshold_)) continue;
       near |= 1U << pair;
@@ -144,6 +180,7 @@ class DistanceSearch {
       order[place] = pair;
     }
     step_.prefetch(nodes, near);
+    PairMask left_out = pairs & ~near;
     // Leaves are compared at once; nodes go onto the stack, the nearest on top.
     const std::size_t first = memory_.promising.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -155,35 +192,59 @@ class DistanceSearch {
         memory_.promising.push_back({descent.next, bound_of(bounds, pair)});
       } else if (bound_of(bounds, pair) < threshold_) {
         compare_leaves(descent.next.node_M, descent.next.node_N);
+      } else {
+        left_out |= descent.including;
       }
     }
+    if (keeps_ && left_out != 0) add_entry({nodes.node_M, nodes.node_N, left_out}, false, least_of(bounds, left_out));
     std::reverse(memory_.promising.begin() + static_cast<std::ptrdiff_t>(first), memory_.promising.end());
+  }
+
+  static float least_of(const DistanceBounds& bounds, PairMask pairs) {
+    float least = bound_of(bounds, std::countr_zero(pairs));
+    for (; pairs != 0; pairs &= pairs - 1)
+      least = std::min(least, bound_of(bounds, std::countr_zero(pairs)));
+    return least;
   }
 
   static float bound_of(const DistanceBounds& bounds, int pair) { return bounds.bound[static_cast<std::size_t>(pair)]; }
 
   void compare_leaves(std::uint32_t leaf_M, std::uint32_t leaf_N) {
     step_.prepare(leaf_M, leaf_N, leaves_);
-    PairMask near = step_.leaves(leaves_, memory_.counters);
+    const PairMask present = step_.leaves(leaves_, memory_.counters);
     if (is_far_) {  // single precision is of no use
-      for (; near != 0; near &= near - 1)
-        compare(leaf_M, leaf_N, std::countr_zero(near));
-      return;
-    }
-    step_.along(direction_, leaves_);
-    near = below_threshold(near);
-    if (near != 0) near = below_threshold(step_.edges(leaves_, near));
-    while (near != 0) {
-      int nearest = std::countr_zero(near);
-      for (PairMask rest = near & (near - 1); rest != 0; rest &= rest - 1) {
-        const int pair = std::countr_zero(rest);
-        if (gap_of(pair) < gap_of(nearest)) nearest = pair;
-      }
-      near &= ~(1U << nearest);
-      if (!compare(leaf_M, leaf_N, nearest)) continue;
+      for (PairMask rest = present; rest != 0; rest &= rest - 1)
+        compare(leaf_M, leaf_N, std::countr_zero(rest));
+    } else {
       step_.along(direction_, leaves_);
-      near = below_threshold(near);
+      PairMask near = below_threshold(present);
+      if (near != 0) near = below_threshold(step_.edges(leaves_, near));
+      while (near != 0) {
+        const int nearest = nearest_of(near);
+        near &= ~(1U << nearest);
+        const bool is_nearer = compare(leaf_M, leaf_N, nearest);
+        leaves_.gaps.gap[static_cast<std::size_t>(nearest)] = gap_of_compared();
+        if (!is_nearer) continue;
+        step_.along(direction_, leaves_);
+        near = below_threshold(near);
+      }
     }
+    if (present != 0) add_entry({leaf_M, leaf_N, kAllPairs}, true, gap_of(nearest_of(present)));
+  }
+
+  // Of the last compared triangles; single precision rounds up by less.
+  float gap_of_compared() const {
+    return static_cast<float>(compared_ / frame_.base_radius * (1.0 - 1e-6) - 4.0 * frame_.uncertainty);
+  }
+
+  // The pair of triangles with the least gap.
+  int nearest_of(PairMask pairs) const {
+    int nearest = std::countr_zero(pairs);
+    for (PairMask rest = pairs & (pairs - 1); rest != 0; rest &= rest - 1) {
+      const int pair = std::countr_zero(rest);
+      if (gap_of(pair) < gap_of(nearest)) nearest = pair;
+    }
+    return nearest;
   }
 
   float gap_of(int pair) const { return leaves_.gaps.gap[static_cast<std::size_t>(pair)]; }
@@ -201,11 +262,12 @@ class DistanceSearch {
     const TrianglePair triangles = placed_.triangles(leaf_M, leaf_N, pair);
     const geometry::TriangleDistance found =
         geometry::triangle_distance(placed_.points_A(triangles), placed_.points_B(triangles));
+    compared_ = found.distance;
     if (found.distance > least_ || (found.distance == least_ && !(nearest_ && triangles < closest_.triangles))) {
       return false;
     }
     const bool is_nearer = found.distance < least_;
-    nearest_ = NearestPair{placed_.base().id(), placed_.other().id(), leaf_M, leaf_N, pair};
+    nearest_ = NearestPair{leaf_M, leaf_N, pair};
     closest_ = {triangles, found.distance, found.p_a, found.p_b};
     if (!is_nearer) return false;
     least_ = found.distance;
@@ -237,6 +299,7 @@ class DistanceSearch {
   const PlacedTrees& placed_;
   const QueryFrame& frame_;
   QueryMemory& memory_;
+  DistanceFront* const front_;
   DopVisit step_;
   const double limit_;  ///< metres
   const bool is_far_;
@@ -244,41 +307,43 @@ class DistanceSearch {
   double least_ = std::numeric_limits<double>::infinity();  ///< metres
   float threshold_ = 0.0F;                                  ///< of the lower of `least_` and `limit_`
   std::array<BoxFrame, kBoxFrames> frames_;
-  bool turned_ = true;  ///< the last frame is out of date
-  Vector3d toward_N_;   ///< from the nearest point of M to that of N, unit, in the frame of M
+  double compared_ = 0.0;    ///< metres: distance of the last triangles compared
+  bool keeps_ = false;       ///< the front gets entries
+  bool has_frames_ = false;  ///< the first two
+  bool turned_ = true;       ///< the last frame is out of date
+  Vector3d toward_N_;        ///< from the nearest point of M to that of N, unit, in the frame of M
   std::array<float, 3> direction_;
   VisitedLeaves leaves_;
   ClosePair closest_{};
   std::optional<NearestPair> nearest_;
 };
 
-MeshDistance search(const PlacedTrees& placed, double limit, QueryMemory& memory, std::optional<NearestPair>& nearest) {
-  memory.counters = {};
-  if (placed.frame.spheres_apart(limit)) return {limit, std::nullopt};
-  DistanceSearch search(placed, limit, memory);
-  if (nearest && nearest->base_id == placed.base().id() && nearest->other_id == placed.other().id())
-    search.begin_with(*nearest);
-  const MeshDistance found = search.run();
-  nearest = search.nearest();
-  return found;
-}
-
 }  // namespace
 
 bool any_pair_within(const PlacedTrees& placed, double tolerance, QueryMemory& memory) {
-  return DistanceSearch(placed, std::nextafter(tolerance, std::numeric_limits<double>::infinity()), memory).any();
+  const double beyond = std::nextafter(tolerance, std::numeric_limits<double>::infinity());
+  return DistanceSearch(placed, beyond, memory, nullptr).any();
 }
 
 MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                       QueryWorkspace& workspace, double limit) {
-  std::optional<NearestPair> nearest;
-  return search({tree_A, tree_B, X_AB}, limit, memory_of(workspace), nearest);
+  const PlacedTrees placed{tree_A, tree_B, X_AB};
+  QueryMemory& memory = memory_of(workspace);
+  memory.counters = {};
+  if (placed.frame.spheres_apart(limit)) return {limit, std::nullopt};
+  return DistanceSearch(placed, limit, memory, nullptr).run();
 }
 
 MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                       CoherentWorkspace& workspace, double limit) {
-  return search({tree_A, tree_B, X_AB}, limit, memory_of(WorkspaceAccess::scratch(workspace)),
-                WorkspaceAccess::front(workspace).nearest());
+  const PlacedTrees placed{tree_A, tree_B, X_AB};
+  QueryMemory& memory = memory_of(WorkspaceAccess::scratch(workspace));
+  memory.counters = {};
+  if (placed.frame.spheres_apart(limit)) return {limit, std::nullopt};
+  DistanceFront& front = WorkspaceAccess::front(workspace).of_distance();
+  front.follow(placed.base(), placed.other(), placed.frame);
+  const bool is_far = placed.frame.p_MN.norm() > kFarApart;  // bounds are of another distance then
+  return DistanceSearch(placed, limit, memory, is_far ? nullptr : &front).run();
 }
 
 }  // namespace glissade::collision
