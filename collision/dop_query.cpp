@@ -106,4 +106,15 @@ void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Iso
   find_pairs({tree_A, tree_B, X_AB, selection}, distance, memory, pairs);
 }
 
+MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                      QueryWorkspace& workspace, double limit) {
+  return least_distance({tree_A, tree_B, X_AB}, limit, memory_of(workspace), nullptr);
+}
+
+MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                      CoherentWorkspace& workspace, double limit) {
+  const CoherentMemory memory = memory_apart(workspace);
+  return least_distance({tree_A, tree_B, X_AB}, limit, memory_of(memory.scratch), &memory.front.of_distance());
+}
+
 }  // namespace glissade::collision

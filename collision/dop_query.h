@@ -15,7 +15,6 @@
 /// exactness.
 
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -49,17 +48,8 @@ void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Iso
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   CoherentWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
 
-/// How far apart two meshes are.
-struct MeshDistance {
-  /// Metres. 0 if the meshes intersect; the limit of the query if nothing is nearer.
-  double distance;
-  /// The nearest pair of triangles; of several, the first in ascending order of the triangle indices. Empty if the
-  /// meshes intersect (see `intersecting_pairs`), or if nothing is nearer than the limit.
-  std::optional<ClosePair> nearest;
-};
-
-/// The least distance of two triangles of the two meshes, if it is less than `limit` (metres). The cost hardly depends on
-/// how far apart the meshes are, and the less the lower the limit.
+/// The least distance of two triangles of the two meshes, if it is less than `limit` (metres). The cost hardly depends
+/// on how far apart the meshes are, and the less the lower the limit.
 MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                       QueryWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
 MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,

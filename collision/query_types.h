@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,15 @@ struct ClosePair {
   double distance;
   Eigen::Vector3d p_A;  ///< on triangle A
   Eigen::Vector3d p_B;  ///< on triangle B
+};
+
+/// How far apart two meshes are.
+struct MeshDistance {
+  /// Metres. 0 if the meshes intersect; the limit of the query if nothing is nearer.
+  double distance;
+  /// The nearest pair of triangles; of several, the first in ascending order of the triangle indices. Empty if the
+  /// meshes intersect (see `intersecting_pairs`), or if nothing is nearer than the limit.
+  std::optional<ClosePair> nearest;
 };
 
 /// Work of one query.

@@ -162,9 +162,10 @@ def parts(figures, _):
             rows.append([PART_QUESTIONS[question], str(len(of_part)), f"{geometric_mean(of_part.values()):.1f}",
                          ", ".join(f"{of_part[part]:.2g} {part}" for part in worst)])
     text = table(["times faster than FCL", "parts and pairs", "geometric mean", "worst"], rows) + disagreements(figures)
+    ratios = {question: of_part for question, of_part in ratios.items() if of_part}
     names = list(dict.fromkeys(case.split(" ", 1)[1] for case in figures.measured_cases()))
     cells = [[part] + [number(of_part.get(part)) for of_part in ratios.values()] for part in names]
-    return text + folded("Times faster than FCL, of each part", table(["two copies, or two parts"] + list(PART_QUESTIONS), cells))
+    return text + folded("Times faster than FCL, of each part", table(["two copies, or two parts"] + list(ratios), cells))
 
 
 def build(figures, images):

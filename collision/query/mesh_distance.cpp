@@ -10,14 +10,11 @@
 #include <limits>
 #include <optional>
 
-#include <glissade/collision/dop_query.h>
 #include <glissade/geometry/triangle_pair.h>
 
 #include "kernels/distance_bounds.h"
 #include "kernels/round_up.h"
-#include "query/coherent_front.h"
 #include "query/placed_trees.h"
-#include "query/workspace_access.h"
 #include "tree/tree_nodes.h"
 
 namespace glissade::collision {
@@ -325,25 +322,14 @@ bool any_pair_within(const PlacedTrees& placed, double tolerance, QueryMemory& m
   return DistanceSearch(placed, beyond, memory, nullptr).any();
 }
 
-MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
-                      QueryWorkspace& workspace, double limit) {
-  const PlacedTrees placed{tree_A, tree_B, X_AB};
-  QueryMemory& memory = memory_of(workspace);
+MeshDistance least_distance(const PlacedTrees& placed, double limit, QueryMemory& memory, DistanceFront* front) {
   memory.counters = {};
   if (placed.frame.spheres_apart(limit)) return {limit, std::nullopt};
-  return DistanceSearch(placed, limit, memory, nullptr).run();
-}
-
-MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
-                      CoherentWorkspace& workspace, double limit) {
-  const PlacedTrees placed{tree_A, tree_B, X_AB};
-  QueryMemory& memory = memory_of(WorkspaceAccess::scratch(workspace));
-  memory.counters = {};
-  if (placed.frame.spheres_apart(limit)) return {limit, std::nullopt};
-  DistanceFront& front = WorkspaceAccess::front(workspace).of_distance();
-  front.follow(placed.base(), placed.other(), placed.frame);
-  const bool is_far = placed.frame.p_MN.norm() > kFarApart;  // bounds are of another distance then
-  return DistanceSearch(placed, limit, memory, is_far ? nullptr : &front).run();
+  // Far apart, bounds are of another distance.
+  if (front == nullptr || placed.frame.p_MN.norm() > kFarApart)
+    return DistanceSearch(placed, limit, memory, nullptr).run();
+  front->follow(placed.base(), placed.other(), placed.frame);
+  return DistanceSearch(placed, limit, memory, front).run();
 }
 
 }  // namespace glissade::collision
