@@ -97,7 +97,8 @@ TEST_F(HostileInput, NoAnswerIsLostWithSuccess) {
 
 TEST_F(HostileInput, AFileIsNotTakenForAMissingStandardOutput) {
   const ProgramResult result = run_by_shell("exec \"$0\" \"$@\" >&-", slide({"--out", folder.path("out.csv")}));
-  EXPECT_EQ(result.exit_code, 0) << result.standard_error << "nothing had to be printed";
+  EXPECT_EQ(result.exit_code, 1) << "the sentence about the outcome could not be printed";
+  EXPECT_EQ(result.standard_error, "glissade: standard output: not everything could be written\n");
   EXPECT_EQ(read_text_file(folder.path("out.csv")), glissade(slide()).standard_output);
 }
 
