@@ -158,7 +158,7 @@ class StoppedFinger final : public LoopSimulation {
   void tell_hands(ContactSet& set) const override {
     HandAnswer& hand = set.hands[0];
     hand.visible.activity = devices::HandActivity::kFree;
-    hand.visible.angles[0] = -0.2;
+    hand.visible.angles[0] = -0.6;
     hand.row_count = 1;
     hand.row_array[0].rates[0] = -0.03;
   }
