@@ -24,8 +24,8 @@ class PoseSource {
   double box_separation(const Eigen::Matrix3d& R_AB, const Eigen::Vector3d& axis) const;
 
   /// Distance along `axis` at which the rotated B reaches the gap `gap` to A: there it is just farther away, and
-  /// slightly nearer to the centre it is not. Nothing if B is farther away at the centre and, in steps of a hundredth, all
-  /// the way to it.
+  /// slightly nearer to the centre it is not. Nothing if B is farther away at the centre and, in steps of a hundredth,
+  /// all the way to it.
   std::optional<double> approach(const Eigen::Matrix3d& R_AB, const Eigen::Vector3d& axis, double gap);
 
  private:
