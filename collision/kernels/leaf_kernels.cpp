@@ -208,15 +208,11 @@ void along(const LeafFrame& frame, const std::array<float, 3>& direction, LeafPa
 
 // Ignores the gaps of all other pairs.
 float least_gap(const LeafPair& leaves, PairMask pairs) {
-  alignas(64) static constexpr std::int32_t kBit[kPairs] = {1,   2,   4,    8,    16,   32,   64,    128,
-                                                            256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
   const hn::CappedTag<float, kPairs> d;
-  const hn::RebindToSigned<decltype(d)> d32;
-  const auto in_mask = hn::Set(d32, static_cast<std::int32_t>(pairs));
   auto least = hn::Set(d, 1e30F);
   for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
-    const auto asked = hn::RebindMask(d, hn::TestBit(in_mask, hn::Load(d32, kBit + first)));
-    least = hn::Min(least, hn::IfThenElse(asked, hn::Load(d, leaves.gaps.gap.data() + first), least));
+    const auto gap = hn::Load(d, leaves.gaps.gap.data() + first);
+    least = hn::Min(least, hn::IfThenElse(mask_of(d, pairs >> first), gap, least));
   }
   return hn::GetLane(hn::MinOfLanes(d, least));
 }
