@@ -348,7 +348,7 @@ def tick(figures, _):
                                              for metric in ("error_max", "error_rms")]
                     + [number(figures.get(case, "glissade", "sideways"))])
     text = table(header, rows)
-    costs = [[case.removeprefix("cost-"), number(figures.get(case, "glissade", "time"))] for case in figures.cases if case.startswith("cost-")]
+    costs = [[case.removeprefix("cost-").replace("12-two-hands", "12, of two hands among four parts"), number(figures.get(case, "glissade", "time"))] for case in figures.cases if case.startswith("cost-")]
     return text + table(["rows of the set, or the envelope alone", "time of a call, µs (median of 101 means of 1000 calls)"], costs)
 
 
