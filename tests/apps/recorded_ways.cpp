@@ -53,10 +53,9 @@ void RecordedWays::take(const Poses& X_WV) {
   if (moves) {
     ++figures_.ways;
     if (const std::optional<Pair> blocked = what_meets(last_, now)) {
-      const bool is_free = goes_round(last_, now, *blocked);
+      const bool is_free = goes_round(last_, now, *blocked) || goes_one_by_one(last_, now);
       ++(is_free ? figures_.detours : figures_.blocked);
-      const auto [a, b] = *blocked;
-      if (!is_free) fault(*blocked, "have no free way to", {{last_[a], last_[b], now[a], now[b]}});
+      if (!is_free) fault(*blocked, "have no free way to", {last_, now});
     }
   }
   last_ = std::move(now);
@@ -84,6 +83,20 @@ bool RecordedWays::goes_round(const Poses& from, const Poses& to, Pair blocked) 
     if (has_detour(from, to, blocked, aside)) return true;
   }
   return has_detour(from, to, blocked, most);
+}
+
+/// Whether the parts get there one after another in some order, each of them straight or by a detour.
+bool RecordedWays::goes_one_by_one(const Poses& from, const Poses& to) const {
+  bool is_there = true;
+  for (std::size_t part = first_part_; part < from.size(); ++part) {
+    if (from[part].matrix() == to[part].matrix()) continue;
+    is_there = false;
+    Poses next = from;
+    next[part] = to[part];
+    const std::optional<Pair> blocked = what_meets(from, next);
+    if ((!blocked || goes_round(from, next, *blocked)) && goes_one_by_one(next, to)) return true;
+  }
+  return is_there;
 }
 
 /// Whether all bodies get there if those that block each other go apart first, and come together again at the end.
@@ -144,13 +157,15 @@ void RecordedWays::check_poses() {
   }
 }
 
-void RecordedWays::fault(Pair pair, const std::string& what, std::span<const Isometry3d> poses_of_both) {
+void RecordedWays::fault(Pair pair, const std::string& what, std::initializer_list<Poses> poses) {
   if (!figures_.first_fault.empty()) return;
   std::ostringstream text;
   text.precision(17);
   text << "bodies " << pair.first << " and " << pair.second << ' ' << what << " answer " << figures_.answers;
-  for (const Isometry3d& X_WB : poses_of_both)
-    text << '\n' << X_WB.matrix().topRows<3>();
+  for (const Poses& of_all : poses) {
+    for (std::size_t part = first_part_; part < of_all.size(); ++part)
+      text << '\n' << of_all[part].matrix().topRows<3>();
+  }
   figures_.first_fault = text.str();
 }
 

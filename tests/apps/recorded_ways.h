@@ -5,8 +5,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,7 +31,8 @@ struct WayFigures {
   std::int64_t colliding = 0;  ///< of these
   std::int64_t ways = 0;       ///< of all parts at once, from one answer to the next that differs
   /// Of these, the ones round a corner. An answer takes up to three steps, of which a recording has only the last pose:
-  /// where the straight way is not free, one by two poses aside must be, no farther than the parts move in all.
+  /// where the straight way is not free, one by two poses aside must be, no farther than the parts move in all, or one
+  /// on which the parts go one after another.
   std::int64_t detours = 0;
   std::int64_t blocked = 0;  ///< of these ways, not proven free
   std::string first_fault;
@@ -54,12 +55,14 @@ class RecordedWays {
 
   std::optional<Pair> what_meets(const Poses& from, const Poses& to) const;
   bool goes_round(const Poses& from, const Poses& to, Pair blocked) const;
+  bool goes_one_by_one(const Poses& from, const Poses& to) const;
   bool has_detour(const Poses& from, const Poses& to, Pair blocked, double aside) const;
   bool move_apart(Pair pair, double aside, const Poses& at, Poses& via) const;
   double length_of(const Poses& from, const Poses& to) const;
   void note_poses(const Poses& now);
   void check_poses();
-  void fault(Pair pair, const std::string& what, std::span<const Eigen::Isometry3d> poses_of_both = {});
+  /// Keeps the first fault, with the poses of all parts.
+  void fault(Pair pair, const std::string& what, std::initializer_list<Poses> poses = {});
 
   std::size_t first_part_;
   std::vector<Eigen::Vector3d> halves_;
