@@ -32,7 +32,8 @@ struct WayFigures {
   std::int64_t ways = 0;       ///< of all parts at once, from one answer to the next that differs
   /// Of these, the ones round a corner. An answer takes up to three steps, of which a recording has only the last pose:
   /// where the straight way is not free, one by two poses aside must be, no farther than the parts move in all, or one
-  /// on which the parts go one after another.
+  /// on which the parts go one after another. Poses aside are tried along the direction in which the parts are apart,
+  /// and then at random.
   std::int64_t detours = 0;
   std::int64_t blocked = 0;  ///< of these ways, not proven free
   std::string first_fault;
@@ -56,6 +57,7 @@ class RecordedWays {
   std::optional<Pair> what_meets(const Poses& from, const Poses& to) const;
   bool goes_round(const Poses& from, const Poses& to, Pair blocked) const;
   bool goes_one_by_one(const Poses& from, const Poses& to) const;
+  bool goes_somehow(const Poses& from, const Poses& to) const;
   bool has_detour(const Poses& from, const Poses& to, Pair blocked, double aside) const;
   bool move_apart(Pair pair, double aside, const Poses& at, Poses& via) const;
   double length_of(const Poses& from, const Poses& to) const;
