@@ -10,16 +10,10 @@
 #include "certificate/path_certificate.h"
 #include "contact/contact_search.h"
 #include "scene/contact_scene.h"
-#include "search/candidate_pairs.h"
+#include "search/mover_search.h"
 
 namespace glissade::haptics {
 namespace {
-
-constexpr double kGreatestRadius_m = 0.1;
-// A search looks so many times as far as it must, so that it serves for several calls; so far at least where nothing is
-// near.
-constexpr double kAhead = 2.0;
-constexpr double kRadiusOfNothing_m = 2e-3;
 
 std::vector<std::shared_ptr<const SlidingPart>> joined(std::vector<std::shared_ptr<const SlidingPart>> objects,
                                                        const std::vector<std::shared_ptr<const SlidingPart>>& movers) {
@@ -36,65 +30,6 @@ std::vector<int> groups(std::size_t objects, std::size_t movers) {
   result.resize(objects + movers, ContactScene::kChain);
   return result;
 }
-
-/// The search for what is near one mover. Searches of their own let a link that stands still keep what it has found,
-/// and a link that is far away look once.
-class MoverSearch {
- public:
-  MoverSearch(const std::vector<Obstacle>& fixed, std::vector<std::shared_ptr<const SlidingPart>> objects,
-              const std::shared_ptr<const SlidingPart>& mover, double margin)
-      : mover_(objects.size()),
-        scene_(fixed, joined(std::move(objects), {mover}), mover_ + 1, std::vector<double>(mover_ + 1, margin),
-               groups(mover_, 1)),
-        candidates_(scene_, kGreatestRadius_m) {}
-
-  void place_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
-    scene_.place(object, X_WB);
-    has_moved_ = true;
-  }
-  void place_mover(const Eigen::Isometry3d& X_WM) { place_object(mover_, X_WM); }
-
-  /// Finds all pairs within `reach` (metres). Returns false where this is too far.
-  bool look(double reach) {
-    if (std::exchange(has_moved_, false)) candidates_.moved();
-    if (reach * kAhead > kGreatestRadius_m) return false;
-    const double radius = std::max(kAhead * reach, candidates_.size() == 0 ? kRadiusOfNothing_m : 0.0);
-    candidates_.begin_call();
-    candidates_.look(reach, radius - reach, {});
-    reach_ = reach;
-    return true;
-  }
-
-  double reach() const { return reach_; }
-  std::size_t pair_count() const { return candidates_.size(); }
-
-  /// Appends the pairs within `reach` that the last search knows, with the mover as the body `number`.
-  void add_within(double reach, std::int32_t number, std::vector<CandidatePair>& pairs) {
-    add_within(reach, number, pairs_, pairs);
-  }
-  void add_within(double reach, std::int32_t number, std::vector<PairToCertify>& to_certify) {
-    add_within(reach, number, to_certify_, to_certify);
-  }
-
- private:
-  template <typename Pair>
-  void add_within(double reach, std::int32_t number, std::vector<Pair>& found, std::vector<Pair>& all) const {
-    if (candidates_.size() == 0) return;
-    candidates_.within(reach, found);
-    for (Pair& pair : found) {
-      pair.bodies.part = number;
-      all.push_back(pair);
-    }
-  }
-
-  std::size_t mover_;  // its number among the movers of the scene, after the objects
-  ContactScene scene_;
-  CandidatePairs candidates_;
-  bool has_moved_ = false;
-  double reach_ = 0.0;
-  std::vector<CandidatePair> pairs_;
-  std::vector<PairToCertify> to_certify_;
-};
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <glissade/geometry/mesh_generators.h>
@@ -63,10 +64,10 @@ Posture pressing(int ms) {
   return posture;
 }
 
-/// Of this thread on a processor: all of the work is its own.
+/// Of all threads on processors: the search thread works for the calls.
 double now_ms() {
   timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
@@ -135,6 +136,33 @@ void run_wild_hand(int repeats, Results& results) {
   wild.report("wild", results);
 }
 
+/// A hand with an opposed thumb that closes round a ball before its palm: 0 is open, 1 is closed and presses.
+Posture round_ball(double closed) {
+  struct Value {
+    std::string_view name;
+    double open;  // rad
+    double closed;
+  };
+  constexpr std::array kThumb{Value{"thumb_roll", 1.05, 1.0}, Value{"thumb_mcp", -0.17, 0.65},
+                              Value{"thumb_ip", -0.26, 0.55}, Value{"thumb_index_abduction", 1.05, 0.4}};
+  Posture posture = bent_hand(0.0);
+  for (std::size_t v = 0; v < posture.values.size(); ++v) {
+    const std::string_view name = hand_chain()->values()[v].name;
+    const auto* const of_thumb =
+        std::find_if(kThumb.begin(), kThumb.end(), [&](const Value& t) { return t.name == name; });
+    if (of_thumb != kThumb.end()) {
+      posture.values[v] = of_thumb->open + closed * (of_thumb->closed - of_thumb->open);
+    } else if (name.ends_with("_mcp")) {
+      posture.values[v] = -0.26 + closed * 1.4;
+    } else if (name.ends_with("_pip")) {
+      posture.values[v] = closed * 1.15;
+    } else if (name.ends_with("_dip")) {
+      posture.values[v] = -0.09 + closed * 0.85;
+    }
+  }
+  return posture;
+}
+
 /// Two hands, each of which takes a ball of 16,000 triangles from a shelf of things of a household, carries it along
 /// the shelf, and puts it back.
 void run_shelf(int repeats, Results& results) {
@@ -157,16 +185,16 @@ void run_shelf(int repeats, Results& results) {
   const auto part = std::make_shared<const haptics::SlidingPart>(mesh);
   const double apart = 0.5;
   grasping::GraspSimulation simulation(things,
-                                       {{.part_V = part, .X_WV_start = at(0.095, 0.0, -0.056)},
-                                        {.part_V = part, .X_WV_start = at(0.095 + apart, 0.0, -0.056)}},
-                                       {hand_model(), hand_model()});
+                                       {{.part_V = part, .X_WV_start = at(0.095, 0.0, -0.058)},
+                                        {.part_V = part, .X_WV_start = at(0.095 + apart, 0.0, -0.058)}},
+                                       {hand_model(), hand_model()}, {.sliding = haptics::real_time_rules()});
   Times times;
   int holding = 0;
   for (int i = 0; i < repeats; ++i) {
     for (int ms = 0; ms < 1000; ++ms) {
-      const double closed = std::clamp(std::min(ms, 900 - ms) / static_cast<double>(kClosing_ms), 0.0, 1.0);
-      const double way = std::clamp(std::min(ms - 200, 700 - ms) / 250.0, 0.0, 1.0);
-      std::array<std::optional<Posture>, 2> targets{bent_hand(kFist * closed), bent_hand(kFist * closed)};
+      const double closed = std::clamp(std::min(ms, 900 - ms) / 200.0, 0.0, 1.0);
+      const double way = std::clamp(std::min(ms - 250, 700 - ms) / 200.0, 0.0, 1.0);
+      std::array<std::optional<Posture>, 2> targets{round_ball(closed), round_ball(closed)};
       targets[0]->X_WR = at(0.0, 0.2 * way, 0.02 * way);
       targets[1]->X_WR = at(apart, 0.2 * way, 0.02 * way);
       times.measure([&] { simulation.advance(targets); });

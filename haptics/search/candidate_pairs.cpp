@@ -157,6 +157,10 @@ double CandidatePairs::approach_since(std::span<const Eigen::Isometry3d> X_WB, s
   std::optional<std::int32_t> unit;
   for (std::size_t mover = 0; mover < X_WB.size(); ++mover) {
     const std::size_t body = scene_.body_of_mover(mover);
+    if (X_WB[mover].matrix() == scene_.bodies()[body].X_WB.matrix()) {
+      motions[body] = {};
+      continue;
+    }
     const SlidingPart& part = *scene_.movers()[mover];
     const geometry::Displacement d =
         geometry::displacement_between(X_WB[mover], scene_.bodies()[body].X_WB, part.p_Vref());
