@@ -1,9 +1,11 @@
 #pragma once
 
-/// Pictures of hands that grasp, for docs/grasps.md.
+/// Pictures of hands, for docs/grasps.md and docs/grasping.md, in parallel projection. R_VW turns the world into the
+/// view: x to the right, y up, z towards the eye.
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,5 +30,12 @@ Picture blank(int width, int height);
 /// The visible hand and its object, touching segments in another color, seen in parallel projection from the side from
 /// which most of them are in sight.
 Picture draw_grasp(const GraspTrial& trial, const LabelledGrasp& grasp, int size);
+
+/// The open hand, its segments in the colors of their kinds.
+Picture draw_segments(const grasping::HandModel& hand, const Eigen::Matrix3d& R_VW, int size);
+
+/// A hand that closes, at these times (ascending): the visible hand and its object, and the outline of the target.
+std::vector<Picture> draw_clasping(const LabelledGrasp& grasp, std::span<const int> times_ms,
+                                   const Eigen::Matrix3d& R_VW, int size);
 
 }  // namespace glissade::test_support
