@@ -1,9 +1,8 @@
 /// `glissade grasp`: a hand takes a ball from a table and leaves it in a tray.
 
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -52,36 +51,37 @@ class GraspCommand : public testing::Test {
   std::string hands = folder.path("hands.csv");
   std::string objects = folder.path("objects.csv");
 
-  ProgramResult run() {
-    return glissade({"grasp", kScene, "--hand-trajectory", kHand, "--out", hands, "--objects", objects});
+  /// The beginning of the trajectory, up to the grasp: a whole one takes minutes under a sanitizer.
+  std::string first_seconds() const {
+    const std::string all = read_text_file(kHand);
+    return folder.write("first_seconds.csv", all.substr(0, all.find("\n2.4,") + 1));
   }
 };
 
-TEST_F(GraspCommand, CarriesTheBallToTheTrayAndLeavesItThere) {
-  const ProgramResult result = run();
-  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
-  bool held = false;
-  const std::vector<CsvRow> postures = rows_of(read_text_file(hands));
-  for (const CsvRow& row : postures)
-    held = held || (row.at("state") == "holding" && row.at("object") == "ball");
-  EXPECT_TRUE(held);
+void expect_ball_carried_to_tray(const std::vector<CsvRow>& postures, const CsvRow& left) {
+  const bool is_held = std::any_of(postures.begin(), postures.end(), [](const CsvRow& row) {
+    return row.at("state") == "holding" && row.at("object") == "ball";
+  });
+  EXPECT_TRUE(is_held);
   EXPECT_EQ(postures.back().at("state"), "free");
-  const CsvRow left = rows_of(read_text_file(objects)).back();
   EXPECT_EQ(left.at("object"), "ball");
   EXPECT_EQ(left.at("state"), "released");
   EXPECT_NEAR(number(left, "y_m"), 0.3, 0.03) << "over the tray";
   EXPECT_LT(number(left, "z_m"), 0.06);
 }
 
-TEST_F(GraspCommand, HoldsTheBallWithAThumbBeforeThePalm) {
-  ASSERT_EQ(run().exit_code, 0);
+std::vector<double> values_of(const CsvRow& row, const grasping::HandModel& hand) {
+  std::vector<double> values;
+  for (const grasping::FlexValue& value : hand.chain.values())
+    values.push_back(number(row, value.name + "_rad"));
+  return values;
+}
+
+void expect_thumb_before_palm(const std::vector<CsvRow>& postures) {
   const grasping::HandModel hand = grasping::make_hand();
   std::vector<Isometry3d> X_RL(hand.chain.links().size());
-  for (const CsvRow& row : rows_of(read_text_file(hands))) {
-    std::vector<double> values;
-    for (const grasping::FlexValue& value : hand.chain.values())
-      values.push_back(number(row, value.name + "_rad"));
-    hand.chain.poses(Isometry3d::Identity(), values, X_RL);
+  for (const CsvRow& row : postures) {
+    hand.chain.poses(Isometry3d::Identity(), values_of(row, hand), X_RL);
     for (std::size_t link = 0; link < X_RL.size(); ++link) {
       if (hand.chain.links()[link].name != "thumb_distal") continue;
       ASSERT_LT(X_RL[link].translation().z(), 0.0) << "out of the back of the hand at " << row.at("t_s") << " s";
@@ -89,15 +89,12 @@ TEST_F(GraspCommand, HoldsTheBallWithAThumbBeforeThePalm) {
   }
 }
 
-TEST_F(GraspCommand, ShowsNoHandThatGoesIntoAnything) {
-  ASSERT_EQ(run().exit_code, 0);
+void expect_nothing_goes_into_anything(const std::vector<CsvRow>& postures, const std::vector<CsvRow>& moved) {
   const grasping::HandModel hand = grasping::make_hand();
   const auto table = std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.5, 0.8, 0.02}, 12));
   const auto tray = std::make_shared<const geometry::TriangleMesh>(geometry::make_torus(0.06, 0.015, 2000));
   const auto ball = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.035, 2000));
   const std::vector<reference::PlacedMesh> still{{table, at(0.0, 0.15, -0.0101)}, {tray, at(0.0, 0.3, 0.0152)}};
-  const std::vector<CsvRow> postures = rows_of(read_text_file(hands));
-  const std::vector<CsvRow> moved = rows_of(read_text_file(objects));
   ASSERT_EQ(postures.size(), moved.size());
   std::vector<Isometry3d> X_WL(hand.chain.links().size());
   for (std::size_t row = 0; row < postures.size(); row += 25) {
@@ -106,10 +103,7 @@ TEST_F(GraspCommand, ShowsNoHandThatGoesIntoAnything) {
     std::vector<reference::PlacedMesh> all = still;
     all.push_back({ball, X_WV});
     const reference::GridCheck check(all);
-    std::vector<double> values;
-    for (const grasping::FlexValue& value : hand.chain.values())
-      values.push_back(number(postures[row], value.name + "_rad"));
-    hand.chain.poses(pose_from(postures[row]), values, X_WL);
+    hand.chain.poses(pose_from(postures[row]), values_of(postures[row], hand), X_WL);
     for (std::size_t link = 0; link < X_WL.size(); ++link) {
       const auto& mesh = hand.chain.links()[link].mesh;
       if (mesh != nullptr) {
@@ -119,33 +113,41 @@ TEST_F(GraspCommand, ShowsNoHandThatGoesIntoAnything) {
   }
 }
 
-TEST_F(GraspCommand, WritesAPageWithTheHandInThreeDimensions) {
-  const ProgramResult run =
-      glissade({"grasp", kScene, "--hand-trajectory", kHand, "--out", hands, "--report", folder.path("report")});
+TEST_F(GraspCommand, CarriesTheBallToTheTrayAndLeavesItThere) {
+  const ProgramResult run = glissade({"grasp", kScene, "--hand-trajectory", kHand, "--out", hands, "--objects", objects,
+                                      "--report", folder.path("report")});
   ASSERT_EQ(run.exit_code, 0) << run.standard_error;
-  std::ostringstream page;
-  page << std::ifstream(folder.path("report/index.html")).rdbuf();
+  EXPECT_NE(run.standard_output.find("1 grasp, holds for 3."), std::string::npos) << run.standard_output;
+  EXPECT_EQ(run.standard_output.find("waits"), std::string::npos);
+  const std::vector<CsvRow> postures = rows_of(read_text_file(hands));
+  const std::vector<CsvRow> moved = rows_of(read_text_file(objects));
+  expect_ball_carried_to_tray(postures, moved.back());
+  expect_thumb_before_palm(postures);
+  expect_nothing_goes_into_anything(postures, moved);
+  const std::string page = read_text_file(folder.path("report/index.html"));
   for (const char* part : {"1 grasp, holds for", "report-frames", "Kind of grasp", "ball"})
-    EXPECT_NE(page.str().find(part), std::string::npos) << part;
+    EXPECT_NE(page.find(part), std::string::npos) << part;
 }
 
-TEST_F(GraspCommand, TellsWhatCameOfIt) {
-  const ProgramResult held = run();
-  EXPECT_NE(held.standard_output.find("1 grasp, holds for 3."), std::string::npos) << held.standard_output;
-  EXPECT_EQ(held.standard_output.find("waits"), std::string::npos);
+TEST_F(GraspCommand, TellsThatAHandWaits) {
   const std::string inside = folder.write("inside.yaml",
                                           "objects:\n- {name: ball, movable: true, shape: {type: sphere}}\n"
                                           "- {name: wall, shape: {type: box, size_x_m: 0.4, size_y_m: 0.8},"
                                           " pose: {position_m: [0, 0, 0.2]}}\n");
-  const ProgramResult waits = glissade({"grasp", inside, "--hand-trajectory", kHand, "--out", hands});
+  const ProgramResult waits = glissade({"grasp", inside, "--hand-trajectory", first_seconds(), "--out", hands});
   EXPECT_NE(waits.standard_output.find("waits for 0."), std::string::npos) << waits.standard_output;
-  const ProgramResult table = glissade({"grasp", kScene, "--hand-trajectory", kHand});
-  EXPECT_EQ(table.standard_output.find("holds for"), std::string::npos) << "among the rows of the table";
+}
+
+TEST_F(GraspCommand, TellsNothingAmongTheRowsOfATable) {
+  const ProgramResult table = glissade({"grasp", kScene, "--hand-trajectory", first_seconds()});
+  EXPECT_EQ(table.exit_code, 0) << table.standard_error;
+  EXPECT_EQ(table.standard_output.find("holds for"), std::string::npos);
 }
 
 TEST_F(GraspCommand, TakesOtherHands) {
   const std::string shape = folder.write("hand.yaml", "side: left\nlength_m: 0.166\nbreadth_m: 0.075\n");
-  const ProgramResult result = glissade({"grasp", kScene, "--hand-trajectory", kHand, "--hand", shape, "--out", hands});
+  const ProgramResult result =
+      glissade({"grasp", kScene, "--hand-trajectory", first_seconds(), "--hand", shape, "--out", hands});
   EXPECT_EQ(result.exit_code, 0) << result.standard_error;
 }
 
