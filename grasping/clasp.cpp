@@ -192,7 +192,8 @@ class Clasp::Iteration {
     is_found_here_ = true;
     rows_.set(posture_, wanted_, found_, movers_);
     failures_.clear();
-    const bool goes_on = go(false) || (slides_ && go(true)) || go_without_failures();
+    is_in_doubt_ = false;
+    const bool goes_on = go(false) || (slides_ && go(true)) || go_without_failures() || (is_in_doubt_ && go_alone());
     if (goes_on && motion_.longest() < kShort_m) {
       ++short_steps_;
       return true;
@@ -240,6 +241,7 @@ class Clasp::Iteration {
       last = motion_.longest();
       if (bodies_.certify(motion_, failures_)) return move();
       if (failures_.empty()) break;
+      is_in_doubt_ = true;
       for (const haptics::Contact& failure : failures_)
         rows_.add(failure, movers_[static_cast<std::size_t>(failure.part)]);
     }
@@ -258,6 +260,21 @@ class Clasp::Iteration {
       for (const haptics::Contact& failure : failures_)
         rows_.bar(movers_[static_cast<std::size_t>(failure.part)]);
       failures_.clear();
+      if (go(false)) return true;
+    }
+    return false;
+  }
+
+  /// Moves the first flex value that can go on by itself, where the steps of several could not be proven free.
+  bool go_alone() {
+    const ChainStep all = wanted_;
+    for (std::size_t v = 0; v < all.values.size(); ++v) {
+      wanted_.root = {};
+      wanted_.values.assign(all.values.size(), 0.0);
+      wanted_.values[v] = all.values[v];
+      motion_.set(posture_, wanted_);
+      if (motion_.longest() < kBracket_m) continue;
+      rows_.set(posture_, wanted_, found_, movers_);
       if (go(false)) return true;
     }
     return false;
@@ -328,6 +345,7 @@ class Clasp::Iteration {
   ChainStep wanted_;
   ChainStep step_;
   bool slides_ = false;             // the root did not arrive
+  bool is_in_doubt_ = false;        // in this step, a proof has failed
   std::vector<double> reach_;       // metres, of each mover: how far this step looks
   std::vector<double> next_reach_;  // metres: that the last steps of the mover suggest
   std::vector<double> limit_;       // metres: that the pairs found allow

@@ -143,16 +143,17 @@ INSTANTIATE_TEST_SUITE_P(Objects, ClaspTorture, testing::Range(std::size_t{0}, s
                          [](const auto& object) { return shapes::household_objects()[object.param].name; });
 
 /// A motion after which a flex value was as near to its target as a step of 5 µm could bring it, but not as near as
-/// several short ones.
-struct ManyShortSteps {
+/// several short ones; or as a step together with others, but not as one alone.
+struct LastSteps {
   std::string object;
   std::uint64_t seed;
 };
 
-TEST(ClaspTortureOfShortSteps, NoFlexValueStopsTooEarly) {
+TEST(ClaspTortureOfLastSteps, NoFlexValueStopsTooEarly) {
   if (test_support::kSanitized) GTEST_SKIP() << "takes long; the other torture runs through the same code";
   const auto& objects = shapes::household_objects();
-  for (const ManyShortSteps& motion : {ManyShortSteps{"screwdriver", 20035}, ManyShortSteps{"jar_lid", 14059}}) {
+  for (const LastSteps& motion : {LastSteps{"screwdriver", 20035}, LastSteps{"jar_lid", 14059}, LastSteps{"book", 2011},
+                                  LastSteps{"wine_glass", 21027}}) {
     const auto object =
         std::find_if(objects.begin(), objects.end(), [&](const auto& one) { return one.name == motion.object; });
     ASSERT_NE(object, objects.end());
