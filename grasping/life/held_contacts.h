@@ -31,10 +31,13 @@ class HeldContacts {
   std::span<const std::size_t> left() const { return left_; }
 
  private:
+  // How far the target may be from the place of the last contact, measured along its normal: up to kNear_m the segment
+  // goes on touching; in between it does not, but does again if the target comes back; from kAway_m on it has left. A
+  // target that goes aside by more than kAside_m has left as well, unless it is deeper in the part than kWithin_m.
   static constexpr double kNear_m = 1.5e-3;
   static constexpr double kAway_m = 4e-3;
   static constexpr double kAside_m = 15e-3;
-  static constexpr double kWithin_m = 2e-3;  // a target as deep as that has not left the part
+  static constexpr double kWithin_m = 2e-3;
 
   /// A contact that a link has had, which moves with the part.
   struct LastContact {
