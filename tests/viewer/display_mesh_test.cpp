@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -86,6 +87,29 @@ TEST(DisplayMesh, TrianglesThatNothingCanJoinGetFewerToo) {
     crumbs.triangles.push_back({first, first + 1, first + 2});
   }
   EXPECT_LE(display_mesh(crumbs, 500).triangles(), 625u);
+}
+
+TEST(DisplayMesh, OfASmallerMeshTheLongestEdgesAreDrawn) {
+  // Loose triangles of a millimetre, 3 rims each, on a plate of 10 cm.
+  geometry::TriangleMesh mesh = geometry::make_plate({0.1, 0.1}, 2);
+  for (int i = 0; i < 2000; ++i) {
+    const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+    const Eigen::Vector3d place(0.002 * (i % 50 - 25), 0.002 * (i / 50 - 20), 0.01);
+    for (const Eigen::Vector3d& corner :
+         {Eigen::Vector3d::Zero().eval(), Eigen::Vector3d(1e-3, 0.0, 0.0), Eigen::Vector3d(0.0, 1e-3, 0.0)})
+      mesh.vertices.push_back(place + corner);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  EXPECT_EQ(display_mesh(mesh, kAll).edges.size(), 2u * 6004u);
+  const DisplayMesh small = display_mesh(mesh, 400);
+  ASSERT_EQ(small.edges.size(), 2u * 124u);
+  int long_edges = 0;
+  for (std::size_t e = 0; e < small.edges.size(); e += 2) {
+    const auto& [from, to] = std::pair(small.edges[e], small.edges[e + 1]);
+    const double length = small.step * std::hypot(from[0] - to[0], from[1] - to[1]);
+    long_edges += length > 0.099 ? 1 : 0;
+  }
+  EXPECT_EQ(long_edges, 4) << "the rims of the plate";
 }
 
 TEST(DisplayMesh, NothingIsShownOfAMeshWithoutTriangles) {

@@ -94,6 +94,15 @@ export function decodeFrames(buffer) {
   return frames;
 }
 
+// Equal texts for frames that look the same in the three-dimensional picture.
+export function pictureOf(frame) {
+  return JSON.stringify([
+    frame.parts.map((part) => [part.ghost, part.visible]),
+    frame.hands.map((hand) => [hand.part, hand.force, hand.torque, hand.links]),
+    frame.contacts,
+  ]);
+}
+
 export function length(v) {
   return Math.hypot(...v);
 }

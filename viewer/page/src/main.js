@@ -136,6 +136,7 @@ function inspect(page) {
     info: page.info,
     triangles: page.stage.coarse?.triangles ?? 0,
     wholeTriangles: page.stage.whole?.triangles ?? 0,
+    showsWhole: page.stage.whole?.group.visible ?? false,
     parts: [...(page.stage.coarse?.parts ?? [])].map(([number, node]) => ({ number, ...poseOf(node) })),
     ghosts: [...(page.stage.ghostOf ?? [])].map(([number, node]) => ({ number, ...poseOf(node) })),
     segments: (page.stage.coarse?.segments ?? []).map(({ node, hand, link }) => ({ hand, link, ...poseOf(node) })),

@@ -7,13 +7,11 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { cssColor, onSchemeChange } from './colors.js';
+import { Detail } from './detail.js';
 import { copyOf } from './model.js';
-import { length } from './frame.js';
+import { length, pictureOf } from './frame.js';
 
 const MOST_CONTACTS = 24;
-const HEAVY_TRIANGLES = 2000000; // not drawn whole while things move
-const STILL_MS = 400;
-const SLOW_MS = 60; // between two pictures: then less is drawn while things move
 
 export const VIEWS = {
   front: [0, -1, 0], back: [0, 1, 0], left: [-1, 0, 0], right: [1, 0, 0], top: [0, -1e-3, 1], corner: [0.8, -1, 0.6],
@@ -38,7 +36,7 @@ export class Stage {
     this.bounds = new Sphere(new Vector3(), 1);
     this.box = new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1)); // until there is a scene
     this.shown = { ghosts: true, contacts: true, forces: true, edges: true, through: false };
-    this.lastMotion = 0;
+    this.detail = new Detail();
     this.isDirty = true;
     this.materials = this.makeMaterials();
     this.addLights();
@@ -132,9 +130,10 @@ export class Stage {
   setWholeModel(model) {
     this.paint(model);
     this.whole = model;
-    this.isHeavy = model.triangles > HEAVY_TRIANGLES;
+    this.detail.reset(model.triangles);
     this.scene.add(model.group);
-    this.touched();
+    if (this.frame) this.show(this.frame);
+    this.isDirty = true;
   }
 
   paint(model) {
@@ -226,7 +225,10 @@ export class Stage {
     this.showGhosts(frame, held);
     this.showContacts(frame);
     this.showForces(frame);
-    this.touched();
+    // Frames come while nothing moves, too.
+    const picture = pictureOf(frame);
+    if (picture !== this.picture) this.touched();
+    this.picture = picture;
   }
 
   showGhosts(frame, held) {
@@ -375,29 +377,38 @@ export class Stage {
   }
 
   touched() {
-    this.lastMotion = performance.now();
+    this.detail.moved();
     this.isDirty = true;
   }
 
-  // Draws if something has changed. A model that takes long is drawn whole once nothing has moved for a moment.
+  // Draws if something has changed.
   render() {
-    const now = performance.now();
-    const isStill = now - this.lastMotion > STILL_MS;
-    const showsWhole = this.whole !== undefined && (isStill || !this.isHeavy);
+    const showsWhole = this.whole !== undefined && this.detail.showsWhole(performance.now());
     if (this.coarse && showsWhole === this.coarse.group.visible) this.isDirty = true;
     if (!this.isDirty) return;
     if (this.coarse) this.coarse.group.visible = !showsWhole;
     if (this.whole) this.whole.group.visible = showsWhole;
     this.isDirty = false;
-    this.renderer.render(this.scene, this.camera);
-    this.judgeSpeed(showsWhole && !isStill, now);
+    if (showsWhole) this.drawWhole();
+    else this.draw();
+    this.detail.drew(performance.now());
   }
 
-  // Three slow pictures in a row of the whole model make it heavy.
-  judgeSpeed(isWhole, now) {
-    const isSlow = isWhole && this.lastWhole !== undefined && now - this.lastWhole > SLOW_MS && now - this.lastWhole < 1000;
-    this.slowPictures = isSlow ? (this.slowPictures ?? 0) + 1 : 0;
-    this.lastWhole = isWhole ? now : undefined;
-    if (this.slowPictures >= 3) this.isHeavy = true;
+  draw() {
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  drawWhole() {
+    this.waitForPicture();
+    const start = performance.now();
+    this.draw();
+    this.waitForPicture();
+    this.detail.drewWhole(performance.now() - start);
+  }
+
+  // The graphics card draws on its own time, unless somebody wants to know a pixel.
+  waitForPicture() {
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
 }
