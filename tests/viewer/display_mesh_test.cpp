@@ -2,6 +2,7 @@
 
 #include "model/display_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -12,6 +13,8 @@
 
 namespace glissade::viewer {
 namespace {
+
+using Eigen::Vector3d;
 
 constexpr std::size_t kAll = 10'000'000;
 
@@ -110,6 +113,40 @@ TEST(DisplayMesh, OfASmallerMeshTheLongestEdgesAreDrawn) {
     long_edges += length > 0.099 ? 1 : 0;
   }
   EXPECT_EQ(long_edges, 4) << "the rims of the plate";
+}
+
+/// Triangles round the origin whose normals lean by about 11° to one side and the other in turn.
+geometry::TriangleMesh corrugated_fan(int triangles) {
+  geometry::TriangleMesh fan;
+  fan.vertices.push_back(Vector3d::Zero());
+  const double lean = 0.2 * std::sin(2.0 * std::numbers::pi / triangles);
+  for (int i = 0; i < triangles; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / triangles;
+    fan.vertices.emplace_back(std::cos(angle), std::sin(angle), i % 2 == 0 ? 0.0 : lean);
+  }
+  for (std::int32_t i = 0; i < triangles; ++i)
+    fan.triangles.push_back({0, i + 1, (i + 1) % triangles + 1});
+  return fan;
+}
+
+/// How far the normals at the origin are from those of their triangles at most, as cosines.
+double least_agreement_in_the_middle(const geometry::TriangleMesh& fan) {
+  const DisplayMesh mesh = display_mesh(fan, kAll);
+  double least = 1.0;
+  for (std::size_t t = 0; t < mesh.triangles(); ++t) {
+    const auto number = static_cast<std::int32_t>(t);
+    const Vector3d own = fan.corner(number, 1).cross(fan.corner(number, 2)).normalized();
+    least = std::min(least, normal(mesh, mesh.indices[3 * t]).dot(own));
+  }
+  return least;
+}
+
+// To look at all neighbors of each triangle of a fan would take the square of their number.
+TEST(DisplayMesh, InALargeFanNoTriangleLooksAtItsNeighbors) {
+  const double tenth = std::cos(0.1);
+  EXPECT_LT(least_agreement_in_the_middle(corrugated_fan(64)), tenth) << "the mean, which leans to no side";
+  EXPECT_GT(least_agreement_in_the_middle(corrugated_fan(66)), tenth) << "their own";
+  EXPECT_GT(least_agreement_in_the_middle(corrugated_fan(100'000)), tenth);
 }
 
 TEST(DisplayMesh, NothingIsShownOfAMeshWithoutTriangles) {

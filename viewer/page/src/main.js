@@ -141,6 +141,8 @@ function inspect(page) {
     ghosts: [...(page.stage.ghostOf ?? [])].map(([number, node]) => ({ number, ...poseOf(node) })),
     segments: (page.stage.coarse?.segments ?? []).map(({ node, hand, link }) => ({ hand, link, ...poseOf(node) })),
     contacts: page.stage.contacts.filter((marker) => marker.visible).map((marker) => marker.position.toArray()),
+    patches: page.stage.patches.filter((disc) => disc.visible)
+      .map((disc) => ({ p: disc.position.toArray(), radius: disc.scale.x })),
     forces: page.stage.forces.map(({ force }) => force.visible),
     drawCalls: page.stage.renderer.info.render.calls,
   });

@@ -1,7 +1,7 @@
 // The three-dimensional view.
 
 import {
-  ArrowHelper, Box3, Color, DirectionalLight, GridHelper, Group, HemisphereLight,
+  ArrowHelper, Box3, CircleGeometry, Color, DirectionalLight, GridHelper, Group, HemisphereLight,
   LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Plane, Quaternion,
   Raycaster, Scene, Sphere, SphereGeometry, Vector2, Vector3, WebGLRenderer, DoubleSide,
 } from 'three';
@@ -12,6 +12,7 @@ import { copyOf } from './model.js';
 import { length, pictureOf } from './frame.js';
 
 const MOST_CONTACTS = 24;
+const MOST_PATCHES = 8;
 
 export const VIEWS = {
   front: [0, -1, 0], back: [0, 1, 0], left: [-1, 0, 0], right: [1, 0, 0], top: [0, -1e-3, 1], corner: [0.8, -1, 0.6],
@@ -54,6 +55,8 @@ export class Stage {
       fixed: solid(), held: solid(), loose: solid(), moving: solid(), skin: solid(), ghost,
       edge: new LineBasicMaterial({ transparent: true, opacity: 0.55 }),
       contact: new MeshBasicMaterial(),
+      // Over the faces that touch there.
+      patch: new MeshBasicMaterial({ side: DoubleSide, transparent: true, opacity: 0.35, depthWrite: false, depthTest: false }),
     };
   }
 
@@ -78,6 +81,12 @@ export class Stage {
       this.scene.add(marker);
       return marker;
     });
+    this.patches = Array.from({ length: MOST_PATCHES }, () => {
+      const disc = new Mesh(new CircleGeometry(1, 48), this.materials.patch);
+      disc.visible = false;
+      this.scene.add(disc);
+      return disc;
+    });
     this.forces = []; // by hand: { force, torque }
     this.scene.add(this.ghosts);
   }
@@ -85,6 +94,7 @@ export class Stage {
   recolor() {
     for (const name of ['fixed', 'held', 'loose', 'moving', 'skin', 'edge', 'contact'])
       this.materials[name].color = new Color(cssColor(name));
+    this.materials.patch.color = new Color(cssColor('contact'));
     this.materials.ghost.color = new Color(cssColor('held'));
     this.scene.background = new Color(cssColor('stage'));
     for (const marker of this.contacts) marker.arrow.setColor(new Color(cssColor('contact')));
@@ -224,6 +234,7 @@ export class Stage {
     }
     this.showGhosts(frame, held);
     this.showContacts(frame);
+    this.showPatches(frame);
     this.showForces(frame);
     // Frames come while nothing moves, too.
     const picture = pictureOf(frame);
@@ -250,6 +261,19 @@ export class Stage {
       marker.children[0].scale.setScalar(0.008 * size);
       marker.arrow.setDirection(new Vector3(...contact.n).normalize());
       marker.arrow.setLength(0.09 * size, 0.03 * size, 0.015 * size);
+    });
+  }
+
+  // A disc in the plane of the contacts, as far as they reach; that of a single contact is small.
+  showPatches(frame) {
+    this.patches.forEach((disc, i) => {
+      const patch = frame.patches[i];
+      disc.visible = this.shown.contacts && patch !== undefined && frame.parts[patch.part] !== undefined;
+      if (!disc.visible) return;
+      const { p, q } = frame.parts[patch.part].visible;
+      disc.position.set(...patch.p).applyQuaternion(new Quaternion(...q)).add(new Vector3(...p));
+      disc.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...patch.n).normalize());
+      disc.scale.setScalar(Math.max(patch.extent, 0.012 * this.bounds.radius));
     });
   }
 
