@@ -92,7 +92,12 @@ class GloveRecord {
     const devices::SafeCommand& command = period.command;
     csv_.add(seconds(period.state.time)).add(period.state.X_WH);
     csv_.add(command.values().f_H_W).add(command.values().t_H_W);
-    csv_.add(seconds(command.age())).add(to_text(command.reasons(), command.age())).end_row();
+    if (command.values().sequence > 0) {
+      csv_.add(seconds(command.age())).add(to_text(command.reasons(), command.age()));
+    } else {
+      csv_.add("").add("");  // no server has sent a command: there is no age, and no force to reduce
+    }
+    csv_.end_row();
   }
 
   realtime::SpscRing<Period> ring_;

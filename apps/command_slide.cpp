@@ -229,6 +229,7 @@ int run(SlideOptions options) {
   SlideCheckOptions check_options{sliding_options(options), parse_method(options.method), options.goal_tolerance_m,
                                   options.goal_tolerance_deg};
   check_options.needs_summary = options.is_check();
+  check_options.needs_curve = !options.report.empty();
   if (check_options.method == haptics::SlidingMethod::kPaper && options.sliding.has_rules()) {
     throw std::invalid_argument("--method: paper does not support --friction, --spiral-search and --depenetrate");
   }

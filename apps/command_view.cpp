@@ -68,7 +68,7 @@ int view(const ViewOptions& options) {
   const auto parts = static_cast<std::int32_t>(std::count_if(
       scene.objects.begin(), scene.objects.end(), [](const viewer::ViewObject& object) { return object.part; }));
   for (const std::int64_t device : options.devices)
-    scene.hands.push_back({device, model});
+    scene.hands.push_back({"glove " + std::to_string(device), model});
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   const StopSignal stop_signal;
   viewer::ViewServer server(std::move(scene), options.port);
@@ -114,8 +114,12 @@ void add_view_command(CLI::App& app, Command& chosen) {
   command->footer(kViewFooter);
   command->add_option("SCENE", options->scene, "Scene file (YAML) of the server");
   add_lcm_options(*command, options->lcm);
-  command->add_option("--port", options->port, "Port on 127.0.0.1 for the page; 0: any that is free")
-      ->capture_default_str();
+  command
+      ->add_option_function<std::string>(
+          "--port", [options](const std::string& text) { options->port = parse_port("--port", text); },
+          "Port on 127.0.0.1 for the page; 0: any that is free")
+      ->type_name("PORT")
+      ->default_str(std::to_string(kViewPort));
   command->add_option("--seconds", options->seconds, "Duration in seconds; 0: until Ctrl-C")
       ->check(CLI::Range(0.0, 86400.0))
       ->capture_default_str();

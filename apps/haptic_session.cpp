@@ -116,8 +116,8 @@ std::unique_ptr<viewer::ViewServer> view_of(const HapticScene& scene, const RunS
   std::vector<std::int64_t> devices;
   for (const SessionHand& hand : settings.hands)
     devices.push_back(hand.device);
-  auto server =
-      std::make_unique<viewer::ViewServer>(view_scene_of(scene, devices, started.models), *settings.view_port);
+  auto server = std::make_unique<viewer::ViewServer>(view_scene_of(scene, glove_names(devices), started.models),
+                                                     *settings.view_port);
   watch({.sentences = {"open " + server->url() + (settings.waits_for_page ? " in a browser: then it starts" : "")}});
   while (settings.waits_for_page && !server->has_had_client() && !should_stop())
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

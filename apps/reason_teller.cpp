@@ -1,4 +1,5 @@
 #include <glissade/apps/reason_teller.h>
+#include <glissade/apps/text.h>
 
 namespace glissade::apps {
 
@@ -23,7 +24,9 @@ std::vector<TimedSentence> ReasonTeller::news() {
   std::vector<TimedSentence> sentences;
   Change change;
   while (changes_.pop(change)) {
-    if (present_.reason.is_fading() && !change.reason.is_fading()) back_since_ = change.time;
+    const bool was_fading = present_.reason.is_fading();
+    if (was_fading && !change.reason.is_fading()) back_since_ = change.time;
+    if (!was_fading && change.reason.is_fading() && !told_fade_) lost_since_ = change.time;
     present_ = change;
     if (present_.reason.is_fading()) tell_present(present_.time, sentences);
   }
@@ -36,7 +39,8 @@ std::vector<TimedSentence> ReasonTeller::news() {
   if (is_limited && now - present_.time >= kLastingLimit) tell_present(now, sentences);
   if (told_fade_ && now - back_since_ >= kBackForGood) {
     told_fade_.reset();
-    sentences.push_back({back_since_, "the force returns"});
+    const double lost_s = std::chrono::duration<double>(back_since_ - lost_since_).count();
+    sentences.push_back({back_since_, "the force returns after " + fixed_text(lost_s, 2) + " s"});
   }
   return sentences;
 }

@@ -21,7 +21,8 @@ struct TimedSentence {
 };
 
 /// Each sentence has the time at which its reason began. A reason that comes and goes is told once in five seconds, and
-/// the return of the force once it has lasted half a second. A limit is told when it lasts a tenth of a second.
+/// the return of the force, with the time for which it was away, once it has lasted half a second. A limit is told when
+/// it lasts a tenth of a second.
 class ReasonTeller {
  public:
   /// In every tick, with times that rise. One thread. Wait-free, no allocation.
@@ -48,6 +49,7 @@ class ReasonTeller {
   // The thread that tells.
   Change present_;
   std::chrono::nanoseconds back_since_{0};  // the force, if it does not fade
+  std::chrono::nanoseconds lost_since_{0};  // the force that fades, or whose return is not told yet
   std::optional<std::size_t> told_fade_;    // its kind, until the return is told
   std::array<std::optional<std::chrono::nanoseconds>, ForceReason::kKinds> told_;
 };

@@ -10,8 +10,8 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr double kSeatDistance_m = 2e-3;
-constexpr double kSeatAngle_rad = 2.0 * std::numbers::pi / 180.0;
+constexpr double kGoalDistance_m = 2e-3;
+constexpr double kGoalAngle_rad = 2.0 * std::numbers::pi / 180.0;
 
 std::uint64_t hash_of(const SessionRecorder& samples) {
   Hash hash;
@@ -94,9 +94,9 @@ SessionSummary summarize(const Session& session, const HapticScene& scene) {
   summary.hash = hash_of(samples);
   if (samples.size() > 0 && scene.X_WGoal) {
     const Eigen::Isometry3d& X_WV = samples.part(samples.size() - 1, 0).X_WV;
-    summary.seat_distance_m = (X_WV.translation() - scene.X_WGoal->translation()).norm();
+    summary.goal_distance_m = (X_WV.translation() - scene.X_WGoal->translation()).norm();
     const double angle = Eigen::AngleAxisd(X_WV.linear().transpose() * scene.X_WGoal->linear()).angle();
-    summary.seat_reached = summary.seat_distance_m <= kSeatDistance_m && angle <= kSeatAngle_rad;
+    summary.goal_reached = summary.goal_distance_m <= kGoalDistance_m && angle <= kGoalAngle_rad;
   }
   return summary;
 }

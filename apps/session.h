@@ -72,14 +72,14 @@ struct HandSummary {
   std::array<std::int64_t, devices::kLimitReasons.size()> limited_ticks{};  ///< ticks with each of `kLimitReasons`
 };
 
-/// The figures of a session. The first part counts as seated within 2 mm and 2° of the goal at the end.
+/// The figures of a session. The first part reaches the goal if it ends within 2 mm and 2° of it.
 struct SessionSummary {
   std::int64_t ticks = 0;
   std::int64_t samples = 0;  ///< kept ticks
   std::vector<PartSummary> parts;
   std::vector<HandSummary> hands;
-  std::optional<bool> seat_reached;  ///< none when the scene has no goal
-  double seat_distance_m = 0.0;
+  std::optional<bool> goal_reached;  ///< none when the scene has no goal
+  double goal_distance_m = 0.0;
   std::uint64_t hash = 0;  ///< of all visible poses and wrenches
 
   std::int64_t colliding_poses() const;

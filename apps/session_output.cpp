@@ -133,9 +133,9 @@ void add_hand_rows(const HandSummary& hand, const std::string& name, const Sessi
 Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose) {
   if (summary.samples == 0) return {{"ticks", "0: the run ended before the first state of a glove"}};
   Rows rows;
-  if (summary.seat_reached) {
-    rows.emplace_back("goal reached", formatted("%s, %.3f mm from it", *summary.seat_reached ? "yes" : "no",
-                                                1e3 * summary.seat_distance_m));
+  if (summary.goal_reached) {
+    rows.emplace_back("goal reached", formatted("%s, %.3f mm from it", *summary.goal_reached ? "yes" : "no",
+                                                1e3 * summary.goal_distance_m));
   }
   for (const PartSummary& part : summary.parts)
     add_part_rows(part, summary, rows);
@@ -170,26 +170,17 @@ PlotSeries series_of(const SessionRecorder& samples, const std::string& name, co
   return series;
 }
 
-/// The share of each state in each stretch of the run: a state may last a millisecond, which is less than a pixel.
-Plot plot_of_states(const SessionRecorder& samples, std::size_t part, const std::string& name) {
-  constexpr std::size_t kMostStretches = 300;
-  const std::size_t stretch = std::max<std::size_t>(1, (samples.size() + kMostStretches - 1) / kMostStretches);
-  Plot plot{"States of " + name, kTimeLabel, "share of the time [%]", {}};
-  for (std::size_t state = 0; state < static_cast<std::size_t>(devices::kPartStates); ++state) {
-    PlotSeries series{name_of_state(state), {}, {}};
-    bool occurs = false;
-    for (std::size_t first = 0; first < samples.size(); first += stretch) {
-      const std::size_t end = std::min(first + stretch, samples.size());
-      std::size_t count = 0;
-      for (std::size_t i = first; i < end; ++i)
-        if (static_cast<std::size_t>(samples.part(i, part).state) == state) ++count;
-      occurs = occurs || count > 0;
-      series.x.push_back(0.5 * (seconds_of_tick(samples, first) + seconds_of_tick(samples, end - 1)));
-      series.y.push_back(100.0 * static_cast<double>(count) / static_cast<double>(end - first));
-    }
-    if (occurs) plot.series.push_back(std::move(series));
+StripChart chart_of_states(const SessionSummary& summary, const SessionRecorder& samples) {
+  StripChart chart{"States of the parts", {}, {}};
+  for (std::size_t state = 0; state < static_cast<std::size_t>(devices::kPartStates); ++state)
+    chart.words.push_back(name_of_state(state));
+  for (std::size_t p = 0; p < samples.parts(); ++p) {
+    Strip& strip = chart.strips.emplace_back(Strip{summary.parts[p].name, {}});
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      strip.add(seconds_of_tick(samples, i), static_cast<std::size_t>(samples.part(i, p).state));
+    strip.end_at(seconds_of_tick(samples, samples.size() - 1));
   }
-  return plot;
+  return chart;
 }
 
 Plot plot_of_force(const SessionRecorder& samples, std::size_t hand, const std::string& name) {
@@ -209,7 +200,7 @@ std::vector<Plot> plots_of(const SessionSummary& summary, const Session& session
   for (std::size_t h = 0; h < samples.hands(); ++h)
     plots.push_back(plot_of_force(samples, h, name_of_hand(session, h)));
   Plot lag{"Lag of the visible parts behind their ghosts", kTimeLabel, "lag [mm]", {}};
-  Plot contacts{"Contacts that push", kTimeLabel, "contacts", {}};
+  Plot contacts{"Contacts that push", kTimeLabel, "contacts", {}, true};
   for (std::size_t p = 0; p < samples.parts(); ++p) {
     const std::string& name = summary.parts[p].name;
     lag.series.push_back(series_of(samples, name, [&](std::size_t i) {
@@ -221,8 +212,6 @@ std::vector<Plot> plots_of(const SessionSummary& summary, const Session& session
   }
   plots.push_back(std::move(lag));
   plots.push_back(std::move(contacts));
-  for (std::size_t p = 0; p < samples.parts(); ++p)
-    plots.push_back(plot_of_states(samples, p, summary.parts[p].name));
   plots.push_back({"Age of the contact set", kTimeLabel, "age [ms]", {series_of(samples, "age", [&](std::size_t i) {
                      return 1e-6 * static_cast<double>(samples.tick(i).contact_set_age.count());
                    })}});
@@ -291,8 +280,8 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
                          {"parts", parts},
                          {"hands", hands},
                          {"checked_poses", summary.samples},
-                         {"seat_reached", nullptr},
-                         {"seat_distance_m", nullptr},
+                         {"goal_reached", nullptr},
+                         {"goal_distance_m", nullptr},
                          {"tick_us_p50", nullptr},
                          {"tick_us_p99", nullptr},
                          {"lateness_us_p50", nullptr},
@@ -309,9 +298,9 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
                          {"contact_set_age_us_p50", nullptr},
                          {"contact_set_age_us_p99", nullptr},
                          {"hash", hash_text(summary.hash)}};
-  if (summary.seat_reached) {
-    json["seat_reached"] = *summary.seat_reached;
-    json["seat_distance_m"] = summary.seat_distance_m;
+  if (summary.goal_reached) {
+    json["goal_reached"] = *summary.goal_reached;
+    json["goal_distance_m"] = summary.goal_distance_m;
   }
   if (session.real_time) {
     const haptics::HapticServerStatistics& server = session.real_time->server;
@@ -344,10 +333,12 @@ std::string to_text(const SessionSummary& summary, const Session& session, bool 
 
 std::string write_session_report(const SessionSummary& summary, const Session& session, const std::string& title,
                                  const std::string& folder, const HapticScene& scene) {
-  std::optional<Replay> replay;
-  if (summary.samples > 0) replay = replay_of(session, scene);
-  return write_html_report({title, rows_of(summary, session, false), plots_of(summary, session), std::move(replay)},
-                           folder);
+  Report report{title, rows_of(summary, session, false), plots_of(summary, session)};
+  if (summary.samples > 0) {
+    report.strips.push_back(chart_of_states(summary, *session.samples));
+    report.replay = replay_of(session, scene);
+  }
+  return write_html_report(report, folder);
 }
 
 void conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json, bool verbose,

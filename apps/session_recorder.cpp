@@ -19,8 +19,8 @@ void SessionRecorder::record(const devices::HapticState& sample) noexcept {
   std::copy_n(sample.parts.begin(), parts_, part_states_.begin() + static_cast<std::ptrdiff_t>(slot * parts_));
   std::copy_n(sample.hands.begin(), hands_, hand_states_.begin() + static_cast<std::ptrdiff_t>(slot * hands_));
   if (total_ % kContactsEvery == 0)
-    contacts_[static_cast<std::size_t>(total_ / kContactsEvery) % contacts_.size()] = {sample.contact_count,
-                                                                                       sample.contacts};
+    contacts_[static_cast<std::size_t>(total_ / kContactsEvery) % contacts_.size()] = {
+        sample.contact_count, sample.contacts, sample.patch_count, sample.patches_left_out, sample.patches};
   ++total_;
 }
 
@@ -42,6 +42,9 @@ devices::HapticState SessionRecorder::state(std::size_t i) const {
   const Contacts& kept = contacts_[static_cast<std::size_t>((state.sequence - 1) / kContactsEvery) % contacts_.size()];
   state.contact_count = kept.count;
   state.contacts = kept.contacts;
+  state.patch_count = kept.patch_count;
+  state.patches_left_out = kept.patches_left_out;
+  state.patches = kept.patches;
   for (std::size_t p = 0; p < parts_; ++p)
     state.parts[p] = part(i, p);
   for (std::size_t h = 0; h < hands_; ++h)

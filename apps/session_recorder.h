@@ -41,7 +41,7 @@ class SessionRecorder {
   const devices::HapticHandState& hand(std::size_t i, std::size_t hand) const {
     return hand_states_[slot(i) * hands_ + hand];
   }
-  /// All of a tick; its contacts are those of the last tick before it whose contacts are kept, one in 16.
+  /// All of a tick; its contacts and patches are those of the last tick before it whose contacts are kept, one in 16.
   devices::HapticState state(std::size_t i) const;
 
  private:
@@ -50,6 +50,9 @@ class SessionRecorder {
   struct Contacts {
     std::int32_t count = 0;
     std::array<devices::HapticContact, devices::kHapticContacts> contacts{};
+    std::int32_t patch_count = 0;
+    std::int32_t patches_left_out = 0;
+    std::array<devices::HapticPatch, devices::kHapticPatches> patches{};
   };
 
   std::size_t slot(std::size_t i) const;

@@ -19,21 +19,25 @@ class SessionSink {
   /// `watch` must outlive the sink, and so must `view`, which may be null.
   SessionSink(const std::shared_ptr<devices::LcmBus>& bus, std::shared_ptr<SessionRecorder> recorder, RunWatch& watch,
               viewer::ViewServer* view)
-      : recorder_(std::move(recorder)), publisher_(bus), watch_(watch), view_(view) {}
+      : recorder_(std::move(recorder)), publisher_(bus, listener_of(view)), watch_(watch) {}
 
   /// In the haptic thread. Wait-free, no allocation.
   void receive(const devices::HapticState& sample) noexcept {
     recorder_->record(sample);
     publisher_.push(sample);
     watch_.note(sample);
-    if (view_ != nullptr) view_->push(sample);
   }
 
  private:
+  /// From the publisher's thread: a ring of its own would cost the haptic thread another copy of each state.
+  static devices::HapticStatePublisher::Listener listener_of(viewer::ViewServer* view) {
+    if (view == nullptr) return {};
+    return [view](const devices::HapticState& state) { view->push(state); };
+  }
+
   std::shared_ptr<SessionRecorder> recorder_;
   devices::HapticStatePublisher publisher_;
   RunWatch& watch_;
-  viewer::ViewServer* view_;
 };
 
 }  // namespace glissade::apps

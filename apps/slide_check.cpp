@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include <glissade/apps/clearance_curve.h>
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/least_clearance.h>
 #include <glissade/apps/slide_check.h>
@@ -107,6 +108,7 @@ SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory&
   LeastClearance clearance(scene);
   std::int64_t contact_ticks = 0;
   const std::int64_t ticks = trajectory.duration() / milliseconds(1);
+  ClearanceCurve curve(scene, ticks + 1);
   for (std::int64_t i = 0; i <= ticks; ++i) {
     const std::chrono::nanoseconds now = slide_to(i, trajectory, *sliding);
     const std::chrono::nanoseconds time = now - trajectory.first_time();
@@ -119,11 +121,13 @@ SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory&
       check.force.y.push_back(wrench.f.norm());
       clearance.note(sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
     }
+    if (options.needs_curve) curve.note(time, sliding->result().X_WV, sliding->scripted_X_WB());
     check.far_m = std::min(check.far_m, between_spheres(scene, *sliding));
     if (watch) watch(now, *sliding);
   }
   check.contact_s = seconds(contact_ticks * milliseconds(1));
   clearance.finish();
+  check.clearance = curve.take(name);
   check.clearance_min_m = clearance.least();
   check.clearance_min_at_s = seconds(clearance.least_at() * milliseconds(1));
   note_goal(sliding->result().X_WV, scene.X_WGoal.value_or(trajectory.pose_at(trajectory.last_time())), options, check);
@@ -180,7 +184,12 @@ Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks
   Plot plot{"Force on the hand, where it was greatest", kTimeLabel, "force [N]", {}};
   for (const SlideCheck* check : by_force)
     plot.series.push_back(check->force);
-  if (!plot.series.empty()) report.plots.push_back(std::move(plot));
+  if (plot.series.empty()) return report;
+  report.plots.push_back(std::move(plot));
+  Plot clearance{"Clearance of the visible part, up to 20 mm", kTimeLabel, "clearance [um]", {}};
+  for (const SlideCheck* check : by_force)
+    clearance.series.push_back(check->clearance);
+  report.plots.push_back(std::move(clearance));
   return report;
 }
 

@@ -23,6 +23,7 @@ struct SlideCheckOptions {
   double goal_tolerance_m = 0.3e-3;
   double goal_tolerance_deg = 0.5;
   bool needs_summary = true;  ///< otherwise clearance and force over time are left out
+  bool needs_curve = false;   ///< of the clearance
 };
 
 struct SlideCheck {
@@ -38,6 +39,7 @@ struct SlideCheck {
   double duration_s = 0.0;
   double contact_s = 0.0;  ///< time during which contacts pushed
   PlotSeries force;        ///< newtons over seconds
+  PlotSeries clearance;    ///< as of `ClearanceCurve`; empty if left out
   double far_m = 0.0;      ///< a lower bound of the least clearance, from bounding spheres
 };
 

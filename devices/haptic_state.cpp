@@ -50,6 +50,26 @@ std::string_view name_of(GraspKind kind) {
   return "none";
 }
 
+std::string_view name_of(GraspForm form) {
+  switch (form) {
+    case GraspForm::kNone:
+      break;
+    case GraspForm::kTipPinch:
+      return "tip-pinch";
+    case GraspForm::kThreeJaw:
+      return "three-jaw";
+    case GraspForm::kThreePoint:
+      return "three-point";
+    case GraspForm::kKey:
+      return "key";
+    case GraspForm::kCigarette:
+      return "cigarette";
+    case GraspForm::kGravity:
+      return "gravity";
+  }
+  return "";
+}
+
 PartState part_state_from_number(std::int32_t number) noexcept {
   return number >= 0 && number < kPartStates ? static_cast<PartState>(number) : PartState::kUnknown;
 }

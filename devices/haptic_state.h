@@ -45,6 +45,9 @@ inline constexpr std::size_t kHapticHands = 4;
 /// Maximum number of contacts in a `HapticState`: without friction, six of a single part push at once.
 inline constexpr std::size_t kHapticContacts = 24;
 
+/// Maximum number of patches in a `HapticState`: a part in a corner has three.
+inline constexpr std::size_t kHapticPatches = 8;
+
 /// What a hand with fingers does. Messages carry its number.
 enum class HandActivity : std::int32_t {
   kNone = 0,     ///< not reported: the hand has no fingers in the simulation, and holds by its grip
@@ -63,14 +66,35 @@ enum class GraspKind : std::int32_t { kNone = 0, kPush = 1, kPrecision = 2, kPow
 /// Number of kinds; their values run from 0 to kGraspKinds − 1.
 inline constexpr std::int32_t kGraspKinds = 4;
 
+/// A grasp with a name of its own, among those of a kind. Messages carry its number.
+enum class GraspForm : std::int32_t {
+  kNone = 0,
+  kTipPinch = 1,    ///< precision: outer segments of thumb and index only
+  kThreeJaw = 2,    ///< precision: outer segments of thumb, index and middle finger, both fingers from one side
+  kThreePoint = 3,  ///< precision: outer segments of thumb and two fingers, from three sides
+  kKey = 4,         ///< precision: the thumb's outer segment against the side of the index
+  kCigarette = 5,   ///< push: two neighboring fingers from opposite sides, without the thumb
+  kGravity = 6,     ///< push or power: all contacts carry the object from below, two at least
+};
+
+/// Number of forms; their values run from 0 to kGraspForms − 1.
+inline constexpr std::int32_t kGraspForms = 7;
+
 /// The name of an activity or a kind, such as "holding" or "power". Any other value is called "none".
 std::string_view name_of(HandActivity activity);
 std::string_view name_of(GraspKind kind);
+/// The name of a form, such as "tip-pinch"; empty for kNone and any other value.
+std::string_view name_of(GraspForm form);
 
 /// A hand with fingers as the simulation shows it: it never goes into anything.
 struct VisibleHand {
   HandActivity activity = HandActivity::kNone;
   GraspKind grasp = GraspKind::kNone;
+  GraspForm form = GraspForm::kNone;
+  /// The segments that touch what is grasped, the reason of the grasp: the sum of 2^(4 f + s) over them, where f is 0
+  /// for the palm and 1 to 5 for thumb to little finger; s is 0 for the palm and 1 to 3 for a finger's inner, middle
+  /// and outer segment.
+  std::int32_t touching = 0;
   Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
   JointValues angles{};  ///< rad
 };
@@ -113,6 +137,15 @@ struct HapticContact {
   Eigen::Vector3f n_W = Eigen::Vector3f::Zero();  ///< unit normal, from the obstacle to the part
 };
 
+/// Contacts of a part with one object that lie in one plane, and of which at least one pushes.
+struct HapticPatch {
+  std::int32_t part = 0;
+  std::int32_t contact_count = 0;                 ///< those that push
+  Eigen::Vector3f p_V = Eigen::Vector3f::Zero();  ///< centre of their forces in the part's frame, metres
+  Eigen::Vector3f n_W = Eigen::Vector3f::Zero();  ///< unit normal, from the obstacle to the part
+  float extent = 0.0F;                            ///< distance from the centre to the farthest of them, metres
+};
+
 /// One haptic tick. The contact set is the newest answer of the simulation to a pose of each ghost: the poses X_WV and
 /// the contacts of the parts.
 struct HapticState {
@@ -124,10 +157,13 @@ struct HapticState {
   std::chrono::nanoseconds last_duration{0};    ///< of the tick before, until its commands were handed over
   std::int32_t part_count = 1;
   std::int32_t hand_count = 1;
-  std::int32_t contact_count = 0;  ///< contacts that push, as far as there is room
+  std::int32_t contact_count = 0;     ///< contacts that push, as far as there is room
+  std::int32_t patch_count = 0;       ///< patches, as far as there is room
+  std::int32_t patches_left_out = 0;  ///< those for which there is none
   std::array<HapticPartState, kHapticParts> parts{};
   std::array<HapticHandState, kHapticHands> hands{};
   std::array<HapticContact, kHapticContacts> contacts{};
+  std::array<HapticPatch, kHapticPatches> patches{};
 };
 
 }  // namespace glissade::devices

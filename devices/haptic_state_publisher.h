@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <memory>
 
 #include <glissade/devices/haptic_state.h>
@@ -16,13 +17,18 @@
 namespace glissade::devices {
 
 /// The haptic thread, i.e. the thread of the haptic loop, fills a ring buffer. A second thread, which the publisher
-/// starts, sends the contents.
+/// starts, sends the contents. Others that want every state hear of it from this thread: the haptic thread fills no
+/// second ring for them.
 class HapticStatePublisher {
  public:
   static constexpr std::size_t kDefaultCapacity = 1024;  ///< the states of about one second
 
-  /// Throws std::invalid_argument when the bus is null or `capacity` is 0.
-  explicit HapticStatePublisher(std::shared_ptr<LcmBus> bus, std::size_t capacity = kDefaultCapacity);
+  using Listener = std::function<void(const HapticState&)>;
+
+  /// `listener`, which may be empty, gets each state in the publisher's thread, also one that cannot be sent. Throws
+  /// std::invalid_argument when the bus is null or `capacity` is 0.
+  explicit HapticStatePublisher(std::shared_ptr<LcmBus> bus, Listener listener = {},
+                                std::size_t capacity = kDefaultCapacity);
   /// Publishes the states still in the ring.
   ~HapticStatePublisher();
 
@@ -37,6 +43,7 @@ class HapticStatePublisher {
   void publish_all() noexcept;
 
   std::shared_ptr<LcmBus> bus_;
+  Listener listener_;
   realtime::SteadyClock clock_;
   realtime::SpscRing<HapticState> ring_;
   std::unique_ptr<realtime::PeriodicThread> thread_;

@@ -55,25 +55,45 @@ std::string_view name_of(GraspType type) {
   return kNames[static_cast<std::size_t>(type)];
 }
 
-std::string_view name_of(GraspForm form) {
-  constexpr std::array<std::string_view, 7> kNames{"",    "tip-pinch", "three-jaw", "three-point",
-                                                   "key", "cigarette", "gravity"};
-  return kNames[static_cast<std::size_t>(form)];
-}
-
 int TouchingSegments::count() const {
   return std::popcount(bits_);
+}
+
+TouchingSegments TouchingSegments::from_bits(std::int32_t bits) {
+  TouchingSegments segments;
+  segments.bits_ = static_cast<std::uint32_t>(bits);
+  return segments;
+}
+
+std::array<SegmentMeaning, 24> TouchingSegments::meaning_of_bits() {
+  std::array<SegmentMeaning, 24> meaning;
+  meaning[0] = {Finger::kNone, HandSegment::kPalm};
+  for (const Finger finger : kAllFingers) {
+    for (const HandSegment kind : kFingerSegments)
+      meaning[first(finger) + static_cast<unsigned>(kind) - 1U] = {finger, kind};
+  }
+  return meaning;
+}
+
+std::string words_of(const SegmentMeaning& segment) {
+  const std::string words = "the " + std::string(kSegments[static_cast<std::size_t>(segment.segment)]);
+  if (segment.finger == Finger::kNone) return words;
+  return words + " of the " + std::string(kFingers[static_cast<std::size_t>(segment.finger)]);
+}
+
+std::string reason_of(const devices::VisibleHand& hand) {
+  return reason_of({.type = static_cast<GraspType>(hand.grasp),
+                    .form = hand.form,
+                    .segments = TouchingSegments::from_bits(hand.touching)});
 }
 
 std::string reason_of(const Grasp& grasp) {
   if (grasp.type == GraspType::kNone) return "none: nothing touches";
   std::vector<std::string> touching;
-  if (grasp.segments.has_palm()) touching.emplace_back("the palm");
+  if (grasp.segments.has_palm()) touching.push_back(words_of({Finger::kNone, HandSegment::kPalm}));
   for (const Finger finger : kAllFingers) {
     for (const HandSegment kind : kFingerSegments) {
-      if (!grasp.segments.has({finger, kind})) continue;
-      touching.push_back("the " + std::string(kSegments[static_cast<std::size_t>(kind)]) + " of the " +
-                         std::string(kFingers[static_cast<std::size_t>(finger)]));
+      if (grasp.segments.has({finger, kind})) touching.push_back(words_of({finger, kind}));
     }
   }
   std::string text(name_of(grasp.type));

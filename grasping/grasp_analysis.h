@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <glissade/devices/haptic_state.h>
 #include <glissade/grasping/clasp.h>
 #include <glissade/grasping/hand_model.h>
 
@@ -25,19 +26,9 @@ enum class GraspType : std::uint8_t {
   kPower,      ///< the palm and at least one middle or outer segment
 };
 
-/// A grasp with a name of its own, among those of a type.
-enum class GraspForm : std::uint8_t {
-  kNone,
-  kTipPinch,    ///< precision: outer segments of thumb and index only
-  kThreeJaw,    ///< precision: outer segments of thumb, index and middle finger, both fingers from one side
-  kThreePoint,  ///< precision: outer segments of thumb and two fingers, from three sides
-  kKey,         ///< precision: the thumb's outer segment against the side of the index
-  kCigarette,   ///< push: two neighboring fingers from opposite sides, without the thumb
-  kGravity,     ///< push or power: all contacts carry the object from below, two at least
-};
+using devices::GraspForm;
 
 std::string_view name_of(GraspType type);
-std::string_view name_of(GraspForm form);
 
 /// Segments that touch, as a set.
 class TouchingSegments {
@@ -48,6 +39,11 @@ class TouchingSegments {
   bool has_palm() const { return has({Finger::kNone, HandSegment::kPalm}); }
   int count() const;
   bool is_empty() const { return bits_ == 0; }
+  /// As `devices::VisibleHand::touching`.
+  std::int32_t bits() const { return static_cast<std::int32_t>(bits_); }
+  static TouchingSegments from_bits(std::int32_t bits);
+  /// The segment of each bit, the lowest first; `HandSegment::kNone` where no segment has the bit.
+  static std::array<SegmentMeaning, 24> meaning_of_bits();
   bool operator==(const TouchingSegments&) const = default;
 
  private:
@@ -74,6 +70,11 @@ struct Grasp {
 
 /// A sentence without a stop, such as "power: the palm and the middle segment of the index touch".
 std::string reason_of(const Grasp& grasp);
+/// The same of a hand with fingers as the haptic loop tells of it.
+std::string reason_of(const devices::VisibleHand& hand);
+
+/// The words for a segment, such as "the middle segment of the index".
+std::string words_of(const SegmentMeaning& segment);
 
 /// Follows the grasp over time. A segment counts as touching once it has touched in most of the last 40 ms or so, and
 /// until it has hardly touched for 70 ms, so that the noise of sensors makes no grasp flicker. No grasp lasts longer

@@ -157,6 +157,8 @@ class GraspSimulation::Life {
       haptics::HandAnswer& answer = answers_[h];
       answer.visible.activity = activity_of(hand);
       answer.visible.grasp = kind_of(hand.grasp().type);
+      answer.visible.form = hand.grasp().form;
+      answer.visible.touching = hand.grasp().segments.bits();
       tell_visible(hand.clasp().chain(), hand.clasp().posture(), hand.clasp().contacts(),
                    static_cast<std::int32_t>(parts_.obstacle_count()), X_WL_, answer);
       set.hands[h] = answer;

@@ -126,6 +126,10 @@ struct ContactSet {
   /// Part by part; of each, first the pushing contacts, then the others, the nearest first.
   std::array<ContactRow, kMaxParts * kMaxContactRows> row_array{};
   std::array<HandAnswer, kMaxHands> hands{};  ///< of those with fingers
+  // To display. A part's contacts with an object that lie in one plane are a patch.
+  std::int32_t patch_count = 0;
+  std::int32_t patches_left_out = 0;  ///< beyond kHapticPatches
+  std::array<devices::HapticPatch, devices::kHapticPatches> patches{};
 
   std::span<const ContactRow> rows() const { return {row_array.data(), static_cast<std::size_t>(row_count)}; }
 };

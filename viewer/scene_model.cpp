@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <glissade/devices/haptic_state.h>
+#include <glissade/grasping/grasp_analysis.h>
 #include <glissade/viewer/scene_model.h>
 
 #include "model/glb.h"
@@ -83,7 +85,7 @@ class Meshes {
 
 void add_hand(const ViewHand& hand, std::size_t number, const Eigen::Isometry3d& X_OW, GlbWriter& writer,
               nlohmann::json& hands) {
-  hands.push_back({{"device", hand.device}, {"has_fingers", hand.model != nullptr}});
+  hands.push_back({{"name", hand.name}, {"has_fingers", hand.model != nullptr}});
   if (!hand.model) return;
   const std::span<const grasping::ChainLink> links = hand.model->chain.links();
   for (std::size_t l = 0; l < links.size(); ++l) {
@@ -93,6 +95,21 @@ void add_hand(const ViewHand& hand, std::size_t number, const Eigen::Isometry3d&
     writer.add_node(links[l].name, X_OL, mesh,
                     {{"name", links[l].name}, {"kind", "segment"}, {"hand", number}, {"link", l}});
   }
+}
+
+/// The words for the numbers of a grasp in a frame: by kind, by form, and by bit of the segments that touch. The page
+/// has none of its own.
+nlohmann::json grasp_words() {
+  nlohmann::json kinds = nlohmann::json::array();
+  for (std::int32_t kind = 0; kind < devices::kGraspKinds; ++kind)
+    kinds.push_back(devices::name_of(static_cast<devices::GraspKind>(kind)));
+  nlohmann::json forms = nlohmann::json::array();
+  for (std::int32_t form = 0; form < devices::kGraspForms; ++form)
+    forms.push_back(devices::name_of(static_cast<devices::GraspForm>(form)));
+  nlohmann::json segments = nlohmann::json::array();
+  for (const grasping::SegmentMeaning& segment : grasping::TouchingSegments::meaning_of_bits())
+    segments.push_back(segment.segment == grasping::HandSegment::kNone ? "" : grasping::words_of(segment));
+  return {{"kinds", kinds}, {"forms", forms}, {"segments", segments}};
 }
 
 }  // namespace
@@ -121,6 +138,8 @@ std::string scene_model(const ViewScene& scene, std::size_t most_triangles) {
                            {"origin_W_m", {p_WO.x(), p_WO.y(), p_WO.z()}},
                            {"parts", parts},
                            {"hands", hands},
+                           {"has_loop", scene.has_loop},
+                           {"grasp_words", grasp_words()},
                            {"triangles", shares.in_scene()}};
   return writer.finish(extras);
 }

@@ -21,6 +21,10 @@ class Bytes {
     for (const double number : v)
       add(number);
   }
+  void add(const Eigen::Vector3f& v) {
+    for (const float number : v)
+      add(number);
+  }
   void add(const Eigen::Isometry3d& X) {
     add(Eigen::Vector3d(X.translation()));
     const Eigen::Quaterniond q(X.linear());
@@ -50,6 +54,20 @@ double greatest(const devices::JointValues& torques) {
 
 }  // namespace
 
+bool is_present(const devices::HapticHandState& hand) noexcept {
+  switch (hand.visible.activity) {
+    case devices::HandActivity::kFree:
+    case devices::HandActivity::kHolding:
+      return true;
+    case devices::HandActivity::kLost:
+      return hand.part >= 0;
+    case devices::HandActivity::kNone:
+    case devices::HandActivity::kWaiting:
+      break;
+  }
+  return false;
+}
+
 FrameMaker::FrameMaker(const ViewScene& scene) : X_OW_(Eigen::Translation3d(-scene.p_WO())) {
   for (const ViewHand& hand : scene.hands)
     models_.push_back(hand.model);
@@ -69,6 +87,7 @@ std::string FrameMaker::make() {
   const auto part_count = static_cast<std::size_t>(newest_.part_count);
   const auto hand_count = static_cast<std::size_t>(newest_.hand_count);
   const auto contact_count = static_cast<std::size_t>(newest_.contact_count);
+  const auto patch_count = static_cast<std::size_t>(newest_.patch_count);
   Bytes frame;
   frame.add_double(std::chrono::duration<double>(newest_.time).count());
   frame.add_double(static_cast<double>(newest_.sequence));
@@ -80,6 +99,8 @@ std::string FrameMaker::make() {
   frame.add(part_count);
   frame.add(hand_count);
   frame.add(contact_count);
+  frame.add(patch_count);
+  frame.add(newest_.patches_left_out);
   for (std::size_t p = 0; p < part_count; ++p) {
     const devices::HapticPartState& part = newest_.parts[p];
     frame.add(X_OW_ * part.X_WG);
@@ -100,9 +121,11 @@ std::string FrameMaker::make() {
     frame.add(hand.energy);
     frame.add(static_cast<std::int32_t>(hand.visible.activity));
     frame.add(static_cast<std::int32_t>(hand.visible.grasp));
+    frame.add(static_cast<std::int32_t>(hand.visible.form));
+    frame.add(hand.visible.touching);  // below 2^24, so that single precision has it exactly
     frame.add(greatest(hand.joint_torques));
-    const bool has_fingers = h < models_.size() && models_[h] && hand.visible.activity != devices::HandActivity::kNone;
-    if (!has_fingers) {
+    const bool is_shown = h < models_.size() && models_[h] && is_present(hand);
+    if (!is_shown) {
       frame.add(0);
       continue;
     }
@@ -115,10 +138,16 @@ std::string FrameMaker::make() {
   for (std::size_t c = 0; c < contact_count; ++c) {
     const devices::HapticContact& contact = newest_.contacts[c];
     frame.add(contact.part);
-    for (const auto& numbers : {contact.p_V, contact.n_W}) {
-      for (const float number : numbers)
-        frame.add(number);
-    }
+    frame.add(contact.p_V);
+    frame.add(contact.n_W);
+  }
+  for (std::size_t p = 0; p < patch_count; ++p) {
+    const devices::HapticPatch& patch = newest_.patches[p];
+    frame.add(patch.part);
+    frame.add(patch.contact_count);
+    frame.add(patch.p_V);
+    frame.add(patch.n_W);
+    frame.add(patch.extent);
   }
   has_news_ = false;
   age_ms_ = lateness_us_ = duration_us_ = 0.0;

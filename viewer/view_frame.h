@@ -16,18 +16,25 @@
 
 namespace glissade::viewer {
 
+/// Whether the hand has fingers that stand somewhere among the objects. One that waits, or is lost with empty hands, is
+/// in nobody's way, and where it was last or never was.
+bool is_present(const devices::HapticHandState& hand) noexcept;
+
 /// Makes frames of the states of ticks. A frame shows the newest state, and the greatest force, age, lateness and
 /// duration since the last frame. Not thread-safe; allocates.
 ///
 /// A frame is little endian: two numbers in double precision, the time of the tick in seconds and its number; then
-/// numbers in single precision. First eight: 1 if the contact set was late or else 0; its greatest age in ms; the
+/// numbers in single precision. First ten: 1 if the contact set was late or else 0; its greatest age in ms; the
 /// greatest lateness of a tick and the greatest duration of one in µs; the number of frames that this viewer has
-/// missed; the numbers of parts, hands and contacts. For each part: the poses of ghost G and visible part V, each as x,
-/// y, z in metres and w, x, y, z, relative to `ViewScene::p_WO()`; its state; the number of contacts that push. For
-/// each hand: the number of the part that it holds or −1; force in N; torque in Nm; the greatest force; the share of
-/// the contacts' force; 1 if they were unsolved or else 0; the reasons of the server and those of the glove, as bits;
-/// the energy in J; activity; grasp; the greatest torque on a joint in Nm; the number of its links, 0 without fingers,
-/// and the pose of each. For each contact: the part; x, y, z in the part's frame V in metres; the normal in world axes.
+/// missed; the numbers of parts, hands, contacts and patches, and of patches left out. For each part: the poses of
+/// ghost G and visible part V, each as x, y, z in metres and w, x, y, z, relative to `ViewScene::p_WO()`; its state;
+/// the number of contacts that push. For each hand: the number of the part that it holds or −1; force in N; torque in
+/// Nm; the greatest force; the share of the contacts' force; 1 if they were unsolved or else 0; the reasons of the
+/// server and those of the glove, as bits; the energy in J; activity; grasp, its form, and the segments that touch as
+/// `devices::VisibleHand` has them; the greatest torque on a joint in Nm; the number of its links, 0 where it is not
+/// present, and the pose of each. For each contact: the part; x, y, z in the part's frame V in metres; the normal in
+/// world axes. For each patch: the part; the number of contacts; x, y, z and the normal as for a contact; the extent in
+/// metres.
 class FrameMaker {
  public:
   explicit FrameMaker(const ViewScene& scene);

@@ -27,7 +27,7 @@ struct ViewObject {
 
 /// A hand, by its number in `devices::HapticState`.
 struct ViewHand {
-  std::int64_t device = 0;                             ///< number of its glove
+  std::string name{};                                  ///< such as "glove 1"
   std::shared_ptr<const grasping::HandModel> model{};  ///< null without fingers: only its force is shown
   std::vector<Eigen::Isometry3d> X_WL{};  ///< poses of the model's links; empty where the viewer moves the hand
 };
@@ -36,6 +36,7 @@ struct ViewScene {
   std::string title;
   std::vector<ViewObject> objects;
   std::vector<ViewHand> hands;
+  bool has_loop = true;  ///< a haptic loop moves it, whose ticks may be late and whose forces may be reduced
   std::optional<Eigen::Vector3d> p_WO_chosen{};
 
   /// The origin O of everything that a viewer gets: the one chosen, or else the middle of the objects at their start.

@@ -10,6 +10,7 @@
 #include <glissade/apps/latency/latency_output.h>
 #include <glissade/apps/latency/machine_load.h>
 #include <glissade/apps/report/html_report.h>
+#include <glissade/apps/view/replay_maker.h>
 
 namespace glissade::apps {
 
@@ -25,33 +26,19 @@ struct LatencyRow {
 };
 
 const std::vector<LatencyRow>& latency_rows() {
+  using Histogram = const LatencyHistogram&;
   static const std::vector<LatencyRow> rows{
-      {"transport", "transport_us", [](const LinkFigures& link) -> auto& {return link.stages.transport;
-}
-}  // namespace
-, {"wait for the tick", "wait_us", [](const LinkFigures& link) -> auto& {return link.stages.wait;
-}  // namespace glissade::apps
-}
-, {"computation", "computation_us", [](const LinkFigures& link) -> auto& {return link.stages.computation;
-}
-}
-, {"way back", "way_back_us", [](const LinkFigures& link) -> auto& {return link.stages.way_back;
-}
-}
-, {"sample to force", "whole_us", [](const LinkFigures& link) -> auto& {return link.stages.whole;
-}
-}
-, {"haptic loop is late", "haptic_lateness_us", [](const LinkFigures& link) -> auto& {return link.haptic_lateness;
-}
-}
-, {
-  "bare loop is late", "bare_lateness_us", [](const LinkFigures& link) -> auto& {
-    return link.bare_lateness;
-  }
-}
-}
-;
-return rows;
+      {"transport", "transport_us", [](const LinkFigures& link) -> Histogram { return link.stages.transport; }},
+      {"wait for the tick", "wait_us", [](const LinkFigures& link) -> Histogram { return link.stages.wait; }},
+      {"computation", "computation_us", [](const LinkFigures& link) -> Histogram { return link.stages.computation; }},
+      {"way back", "way_back_us", [](const LinkFigures& link) -> Histogram { return link.stages.way_back; }},
+      {"sample to force", "whole_us", [](const LinkFigures& link) -> Histogram { return link.stages.whole; }},
+      {"haptic loop is late", "haptic_lateness_us",
+       [](const LinkFigures& link) -> Histogram { return link.haptic_lateness; }},
+      {"bare loop is late", "bare_lateness_us",
+       [](const LinkFigures& link) -> Histogram { return link.bare_lateness; }},
+  };
+  return rows;
 }
 
 constexpr std::size_t kStages = 5;  // the first of these rows
@@ -201,6 +188,13 @@ std::string write_latency_report(const LatencyFigures& figures, const std::strin
       report.plots.push_back(plot_of(link, std::string(name) + ": stages", 0, kStages));
       report.plots.push_back(plot_of(link, std::string(name) + ": lateness", kStages, latency_rows().size()));
     }
+  }
+  if (figures.slice && figures.slice->size() > 0) {
+    ReplayMaker replay(latency_view());
+    for (std::size_t i = 0; i < figures.slice->size(); ++i)
+      replay.add(figures.slice->state(i));
+    report.summary.emplace_back("replay", "up to a second over the link in process, idle");
+    report.replay = replay.finish();
   }
   return write_html_report(report, folder);
 }

@@ -55,14 +55,23 @@ std::string udpm_url() {
   return "udpm://" + std::string(kPingPongGroup) + ":" + std::to_string(first_port()) + "?ttl=0";
 }
 
-/// A box 2 mm above a plate.
+std::shared_ptr<const geometry::TriangleMesh> plate() {
+  return std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.4, 0.4}, 200));
+}
+
+std::shared_ptr<const geometry::TriangleMesh> box() {
+  return std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.06, 0.04}, 1200));
+}
+
+/// 2 mm above the plate.
+Eigen::Isometry3d start_of_box() {
+  return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.022));
+}
+
 haptics::MultiPartSliding make_sliding_for_latency() {
-  const auto shared = [](const geometry::TriangleMesh& mesh) { return std::make_shared<geometry::TriangleMesh>(mesh); };
-  const auto plate_W = std::make_shared<haptics::ContactBody>(shared(geometry::make_plate({0.4, 0.4}, 200)));
-  const auto box_V = std::make_shared<haptics::SlidingPart>(shared(geometry::make_box({0.1, 0.06, 0.04}, 1200)));
-  return {{{plate_W}},
-          {{.part_V = box_V, .X_WV_start = Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.022))}},
-          haptics::real_time_rules()};
+  const auto plate_W = std::make_shared<haptics::ContactBody>(plate());
+  const auto box_V = std::make_shared<haptics::SlidingPart>(box());
+  return {{{plate_W}}, {{.part_V = box_V, .X_WV_start = start_of_box()}}, haptics::real_time_rules()};
 }
 
 /// Measures slice by slice.
@@ -90,6 +99,8 @@ class LatencyRun {
   }
 
   bool has_fifo_scheduling() const { return has_fifo_scheduling_; }
+  /// The ticks of the first slice in process.
+  std::shared_ptr<const SessionRecorder> first_slice() const { return first_slice_; }
 
  private:
   std::int64_t ticks() const { return slice_ / kLatencyTick; }
@@ -110,8 +121,14 @@ class LatencyRun {
   void measure_in_process(LinkFigures& figures) {
     DirectGlove direct(received_, arrivals_);
     StampedGlove glove(direct, kept_sequences());
-    run_loop(
-        glove, [](const devices::HapticState&) {}, figures);
+    if (first_slice_) {
+      run_loop(
+          glove, [](const devices::HapticState&) {}, figures);
+    } else {
+      first_slice_ = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks()), 1, 1);
+      run_loop(
+          glove, [&](const devices::HapticState& state) { first_slice_->record(state); }, figures);
+    }
     glove.add_ways(received_, arrivals_, figures.stages);
   }
 
@@ -169,6 +186,7 @@ class LatencyRun {
   std::function<void(milliseconds)> watch_;
   milliseconds measured_{0};
   bool has_fifo_scheduling_ = false;
+  std::shared_ptr<SessionRecorder> first_slice_;
   realtime::SteadyClock clock_;
   SharedStamps received_;
   SharedStamps arrivals_;
@@ -182,6 +200,12 @@ double ratio(std::chrono::nanoseconds dividend, std::chrono::nanoseconds divisor
 }
 
 }  // namespace
+
+viewer::ViewScene latency_view() {
+  viewer::ViewScene view{.title = "glissade latency", .objects = {{"plate", plate()}}, .hands = {{"glove"}}};
+  view.objects.push_back({"box", box(), start_of_box(), 0});
+  return view;
+}
 
 LatencyRatios latency_ratios(const LoadFigures& figures) {
   realtime::LatencyHistogram haptic;
@@ -210,6 +234,7 @@ LatencyFigures measure_latency(milliseconds duration, const std::function<void(m
     run.measure(figures.loaded);
   }
   figures.has_fifo_scheduling = run.has_fifo_scheduling();
+  figures.slice = run.first_slice();
   return figures;
 }
 

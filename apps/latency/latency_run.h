@@ -5,11 +5,14 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <string_view>
 #include <vector>
 
 #include <glissade/apps/latency/latency_stages.h>
+#include <glissade/apps/session_recorder.h>
 #include <glissade/realtime/latency_histogram.h>
+#include <glissade/viewer/view_scene.h>
 
 namespace glissade::apps {
 
@@ -31,7 +34,11 @@ struct LatencyFigures {
   LoadFigures idle;
   LoadFigures loaded;
   bool has_fifo_scheduling = false;
+  std::shared_ptr<const SessionRecorder> slice{};  ///< the ticks of the first slice in process, idle
 };
+
+/// The box, the plate and the hand of the measurement.
+viewer::ViewScene latency_view();
 
 /// What of the latency is the library's. Each figure is a quotient of quantiles of the same run.
 struct LatencyRatios {

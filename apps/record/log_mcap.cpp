@@ -16,6 +16,7 @@
 #include <glissade/apps/record/recorded_scene.h>
 #include <glissade/apps/record/recorded_session.h>
 #include <glissade/devices/event_log.h>
+#include <glissade/grasping/grasp_analysis.h>
 #include <glissade/haptics/recording.h>
 #include <glissade/viewer/scene_model.h>
 
@@ -145,6 +146,7 @@ Json hand_message(const devices::HapticState& state, std::size_t number) {
                {"activity", devices::name_of(hand.visible.activity)},
                {"grasp", devices::name_of(hand.visible.grasp)}};
   if (hand.visible.activity == devices::HandActivity::kNone) return message;
+  message["grasp_reason"] = grasping::reason_of(hand.visible);
   message["angles_rad"] = joints_of(hand.visible.angles, "_rad");
   message["torques_Nm"] = joints_of(hand.joint_torques, "_Nm");
   return message;

@@ -135,6 +135,7 @@ Json hand_schema() {
                  {"reason", words("why there is no force or less; empty if there is no reason")},
                  {"activity", words("what a hand with fingers does")},
                  {"grasp", words("kind of the grasp")},
+                 {"grasp_reason", words("kind and form of the grasp, and the segments that touch")},
                  {"angles_rad", joints("_rad", "of the visible hand")},
                  {"torques_Nm", joints("_Nm", "as the device got it")}});
 }

@@ -29,7 +29,7 @@ viewer::ViewScene recorded_view(const std::string& log_path, const RecordedSessi
     models.push_back(hand.fingers ? std::make_shared<const grasping::HandModel>(grasping::make_hand(*hand.fingers))
                                   : nullptr);
   }
-  return view_scene_of(recorded_scene(log_path, session, scene_file), devices, models);
+  return view_scene_of(recorded_scene(log_path, session, scene_file), glove_names(devices), models);
 }
 
 }  // namespace glissade::apps

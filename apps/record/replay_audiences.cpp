@@ -12,7 +12,7 @@ namespace glissade::apps {
 void ReplayView::begin(const HapticScene& scene, std::chrono::nanoseconds /*period*/,
                        const std::vector<std::int64_t>& devices,
                        const std::vector<std::shared_ptr<const grasping::HandModel>>& models) {
-  server_ = std::make_unique<viewer::ViewServer>(view_scene_of(scene, devices, models), port_);
+  server_ = std::make_unique<viewer::ViewServer>(view_scene_of(scene, glove_names(devices), models), port_);
   say("glissade replay: open " + server_->url() + " in a browser: then it starts");
   while (!server_->has_had_client() && !StopSignal::requested())
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -51,6 +51,7 @@ td { font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
 .paper svg text.name { fill: var(--text); font-size: 13px; }
 .grid { stroke: var(--grid); }
 .zero, .axis { stroke: var(--axis); }
+.span { fill: currentColor; }
 .line { fill: none; stroke: currentColor; stroke-width: 1.4; stroke-linejoin: round; }
 .c0 { color: var(--c0); } .c1 { color: var(--c1); } .c2 { color: var(--c2); }
 .c3 { color: var(--c3); } .c4 { color: var(--c4); } .c5 { color: var(--c5); }
@@ -65,15 +66,31 @@ std::string summary_table(const std::vector<std::pair<std::string, std::string>>
   return html + "</table>\n</section>\n";
 }
 
-/// Names and colours of the lines; a single line needs none, because the plot's title names it.
-std::string legend(const std::vector<PlotSeries>& series) {
-  if (series.size() < 2) return "";
+/// Names with the colours of their numbers; an empty name is left out.
+std::string legend(const std::vector<std::string>& names) {
   std::string html = "<ul class=\"legend\">\n";
-  for (std::size_t i = 0; i < series.size(); ++i) {
-    html += "<li class=\"c" + std::to_string(i % kPlotColors) + "\"><span>" + html_escaped(series[i].name) +
-            "</span></li>\n";
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i].empty()) continue;
+    html += "<li class=\"c" + std::to_string(i % kPlotColors) + "\"><span>" + html_escaped(names[i]) + "</span></li>\n";
   }
   return html + "</ul>\n";
+}
+
+/// Names and colours of the lines; a single line needs none, because the plot's title names it.
+std::string legend_of(const Plot& plot) {
+  std::vector<std::string> names;
+  for (const PlotSeries& series : plot.series)
+    names.push_back(series.name);
+  return names.size() < 2 ? "" : legend(names);
+}
+
+std::string legend_of(const StripChart& chart) {
+  std::vector<std::string> names(chart.words.size());
+  for (const Strip& strip : chart.strips) {
+    for (const StripSpan& span : strip.spans)
+      names[span.word] = chart.words[span.word];
+  }
+  return legend(names);
 }
 
 /// Puts `text` in the place of the mark.
@@ -118,7 +135,11 @@ std::string html_report(const Report& report) {
   const std::string summary = report.summary.empty() ? "" : summary_table(report.summary);
   std::string plots;
   for (const Plot& plot : report.plots) {
-    plots += "<section>\n<h2>" + html_escaped(plot.title) + "</h2>\n" + legend(plot.series) + svg_plot(plot) +
+    plots +=
+        "<section>\n<h2>" + html_escaped(plot.title) + "</h2>\n" + legend_of(plot) + svg_plot(plot) + "</section>\n";
+  }
+  for (const StripChart& chart : report.strips) {
+    plots += "<section>\n<h2>" + html_escaped(chart.title) + "</h2>\n" + legend_of(chart) + svg_strips(chart) +
              "</section>\n";
   }
   if (report.replay) return page_with_replay(title, summary, plots, *report.replay);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <glissade/apps/report/strip_chart.h>
 #include <glissade/apps/report/svg_plot.h>
 
 namespace glissade::apps {
@@ -23,7 +24,8 @@ struct Report {
   std::string title;
   std::vector<std::pair<std::string, std::string>> summary;  ///< rows of a table: name, and value with unit
   std::vector<Plot> plots;
-  std::optional<Replay> replay{};  ///< between summary and plots
+  std::vector<StripChart> strips{};  ///< below the plots
+  std::optional<Replay> replay{};    ///< between summary and plots
 };
 
 /// The page as HTML; texts are plain text and escaped here.

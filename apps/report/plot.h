@@ -24,6 +24,7 @@ struct Plot {
   std::string x_label;
   std::string y_label;
   std::vector<PlotSeries> series;
+  bool counts = false;  ///< of things: the axis of values has whole numbers only
 };
 
 /// At most `most` (≥ 4) points that look like `series` when drawn: the first, the last, and the minimum and maximum of

@@ -33,8 +33,8 @@ std::string label_of(double value, double step, double largest) {
 
 }  // namespace
 
-AxisTicks axis_ticks(double low, double high, int most) {
-  AxisTicks ticks{nice_step(high - low, most), {}, {}};
+AxisTicks axis_ticks(double low, double high, int most, double least_step) {
+  AxisTicks ticks{std::max(nice_step(high - low, most), least_step), {}, {}};
   const double slack = 1e-9 * ticks.step;
   const double largest = std::max(std::abs(low), std::abs(high));
   const auto first = std::ceil((low - slack) / ticks.step);
@@ -48,7 +48,7 @@ AxisTicks axis_ticks(double low, double high, int most) {
   return ticks;
 }
 
-AxisRange rounded_range(double low, double high, int most) {
+AxisRange rounded_range(double low, double high, int most, double least_step) {
   // A flat line is drawn in the middle; variation below the resolution of the numbers is flat.
   const double smallest_extent = 1e-9 * std::max(std::abs(low), std::abs(high));
   if (high - low <= smallest_extent) {
@@ -56,7 +56,7 @@ AxisRange rounded_range(double low, double high, int most) {
     low -= room;
     high += room;
   }
-  const double step = nice_step(high - low, most);
+  const double step = std::max(nice_step(high - low, most), least_step);
   return {std::floor(low / step + 1e-9) * step, std::ceil(high / step - 1e-9) * step};
 }
 

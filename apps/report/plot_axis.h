@@ -14,8 +14,9 @@ struct AxisTicks {
   std::vector<std::string> labels;  ///< one per value, all with the same number of decimals
 };
 
-/// Between 2 and `most` + 1 ticks for the range from `low` to `high`; both finite, `low` < `high`, `most` ≥ 2.
-AxisTicks axis_ticks(double low, double high, int most);
+/// Between 2 and `most` + 1 ticks for the range from `low` to `high`; both finite, `low` < `high`, `most` ≥ 2. Fewer
+/// where the step would be less than `least_step`, which is 0 or a step of the kind above.
+AxisTicks axis_ticks(double low, double high, int most, double least_step = 0.0);
 
 /// A range of values with room to draw in.
 struct AxisRange {
@@ -25,6 +26,6 @@ struct AxisRange {
 
 /// The smallest range between multiples of the tick step that holds `low` to `high`; a single value gets room on both
 /// sides.
-AxisRange rounded_range(double low, double high, int most);
+AxisRange rounded_range(double low, double high, int most, double least_step = 0.0);
 
 }  // namespace glissade::apps

@@ -1,11 +1,12 @@
 #pragma once
 
-/// Line plots as inline SVG, styled by the page that holds them (see `html_report.h`).
+/// Line plots and strip charts as inline SVG, styled by the page that holds them (see `html_report.h`).
 
 #include <cstddef>
 #include <string>
 
 #include <glissade/apps/report/plot.h>
+#include <glissade/apps/report/strip_chart.h>
 
 namespace glissade::apps {
 
@@ -14,6 +15,9 @@ inline constexpr std::size_t kPlotColors = 6;
 
 /// The plot as one `<svg>` element, without its title; each line has at most 2000 points.
 std::string svg_plot(const Plot& plot);
+
+/// The chart in the same way; each strip has at most 1500 spans.
+std::string svg_strips(const StripChart& chart);
 
 /// `text` with the special characters of HTML and XML escaped.
 std::string html_escaped(const std::string& text);

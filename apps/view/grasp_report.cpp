@@ -15,21 +15,26 @@ std::string name_of_hand(std::size_t hand) {
   return "hand " + std::to_string(hand);
 }
 
-std::vector<std::int64_t> numbers(std::size_t count) {
-  std::vector<std::int64_t> result;
-  while (result.size() < count)
-    result.push_back(std::ssize(result));
-  return result;
+viewer::ViewScene grasp_view_of(const HapticScene& scene,
+                                const std::vector<std::shared_ptr<const grasping::HandModel>>& hands) {
+  std::vector<std::string> names;
+  for (std::size_t h = 0; h < hands.size(); ++h)
+    names.push_back(name_of_hand(h));
+  viewer::ViewScene view = view_scene_of(scene, names, hands);
+  view.has_loop = false;
+  return view;
 }
 
 }  // namespace
 
 GraspReport::GraspReport(const HapticScene& scene, const grasping::GraspSimulation& simulation,
                          const std::vector<std::shared_ptr<const grasping::HandModel>>& hands)
-    : scene_(scene), simulation_(simulation), replay_(view_scene_of(scene, numbers(hands.size()), hands)) {
+    : scene_(scene), simulation_(simulation), replay_(grasp_view_of(scene, hands)) {
+  for (std::int32_t kind = 0; kind < devices::kGraspKinds; ++kind)
+    kinds_.words.emplace_back(devices::name_of(static_cast<devices::GraspKind>(kind)));
   for (std::size_t h = 0; h < hands.size(); ++h) {
     touching_.push_back({name_of_hand(h), {}, {}});
-    kinds_.push_back({name_of_hand(h), {}, {}});
+    kinds_.strips.push_back({name_of_hand(h), {}});
   }
   for (std::size_t p = 0; p < simulation.part_count(); ++p)
     lags_.push_back({scene.body_names[scene.obstacles.size() + p], {}, {}});
@@ -60,16 +65,20 @@ void GraspReport::add(std::chrono::nanoseconds time) {
     const auto& touching = simulation_.clasp(h).touching();
     note(touching_[h], static_cast<double>(touching.size() -
                                            static_cast<std::size_t>(std::count(touching.begin(), touching.end(), 0))));
-    note(kinds_[h], static_cast<double>(hand.visible.grasp));
+    kinds_.strips[h].add(time_s, static_cast<std::size_t>(hand.visible.grasp));
+    kinds_.strips[h].end_at(time_s);
   }
   replay_.add(state);
 }
 
 Report GraspReport::finish(const GraspOutcome& outcome) {
   Report report{"glissade grasp: " + scene_.source, outcome.rows(), {}};
-  report.plots.push_back({"Segments that touch", kTimeLabel, "segments", std::move(touching_)});
-  report.plots.push_back(
-      {"Kind of grasp: 0 none, 1 push, 2 precision, 3 power", kTimeLabel, "kind", std::move(kinds_)});
+  report.plots.push_back({.title = "Segments that touch",
+                          .x_label = kTimeLabel,
+                          .y_label = "segments",
+                          .series = std::move(touching_),
+                          .counts = true});
+  report.strips.push_back(std::move(kinds_));
   report.plots.push_back({"Lag of the visible parts behind their ghosts", kTimeLabel, "lag [mm]", std::move(lags_)});
   report.replay = replay_.finish();
   return report;

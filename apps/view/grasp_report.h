@@ -33,8 +33,8 @@ class GraspReport {
   ReplayMaker replay_;
   haptics::ContactSet answers_;  // about the hands
   std::int64_t ticks_ = 0;
+  StripChart kinds_{"Kind of grasp", {}, {}};
   std::vector<PlotSeries> touching_;  // by hand: segments
-  std::vector<PlotSeries> kinds_;     // by hand: the number of the kind of grasp
   std::vector<PlotSeries> lags_;      // by part, mm
 };
 

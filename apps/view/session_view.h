@@ -26,9 +26,15 @@ Replay replay_of(const Session& session, const HapticScene& scene);
 
 inline constexpr std::uint16_t kViewPort = 8421;
 
-/// A scene with hands in the gloves `devices`; the model of a hand without fingers is null.
-viewer::ViewScene view_scene_of(const HapticScene& scene, const std::vector<std::int64_t>& devices,
+/// The names of the hands in these gloves.
+std::vector<std::string> glove_names(const std::vector<std::int64_t>& devices);
+
+/// A scene with hands of these names; the model of a hand without fingers is null.
+viewer::ViewScene view_scene_of(const HapticScene& scene, const std::vector<std::string>& hands,
                                 const std::vector<std::shared_ptr<const grasping::HandModel>>& models);
+
+/// The port of the text of an option. Throws CLI::ValidationError, naming the option and what is allowed.
+std::uint16_t parse_port(const std::string& option, const std::string& text);
 
 /// Adds --view [PORT]; `port` stays empty without it.
 CLI::Option* add_view_option(CLI::App& command, std::optional<std::uint16_t>& port);

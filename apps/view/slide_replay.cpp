@@ -6,7 +6,17 @@
 
 namespace glissade::apps {
 
-SlideReplay::SlideReplay(const HapticScene& scene) : maker_(view_scene_of(scene, {1}, {})) {}
+namespace {
+
+viewer::ViewScene slide_view_of(const HapticScene& scene) {
+  viewer::ViewScene view = view_scene_of(scene, {"hand"}, {});
+  view.has_loop = false;
+  return view;
+}
+
+}  // namespace
+
+SlideReplay::SlideReplay(const HapticScene& scene) : maker_(slide_view_of(scene)) {}
 
 void SlideReplay::add(std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding) {
   devices::HapticState state;

@@ -11,6 +11,7 @@
 #include <glissade/lcmtypes/haptic_contact_t.hpp>
 #include <glissade/lcmtypes/haptic_hand_t.hpp>
 #include <glissade/lcmtypes/haptic_part_t.hpp>
+#include <glissade/lcmtypes/haptic_patch_t.hpp>
 #include <glissade/lcmtypes/haptic_state_t.hpp>
 
 namespace glissade::devices {
@@ -25,6 +26,7 @@ constexpr double kLargestForce = 1e6;   // N
 constexpr double kLargestTorque = 1e6;  // Nm
 constexpr double kLargestEnergy = 1e9;  // J
 constexpr double kLargestNormal = 1.001;
+constexpr std::int32_t kAllSegments = (1 << 24) - 1;
 constexpr double kQuaternionTolerance = 1e-3;
 constexpr std::int64_t kLargestTime_ns = std::int64_t{1} << 60;  // 36 years
 
@@ -185,6 +187,8 @@ MessageError check(const haptic_state_t& message) noexcept {
   fields.between(message.part_count, 0, static_cast<std::int32_t>(kHapticParts));
   fields.between(message.hand_count, 0, static_cast<std::int32_t>(kHapticHands));
   fields.between(message.contact_count, 0, static_cast<std::int32_t>(kHapticContacts));
+  fields.between(message.patch_count, 0, static_cast<std::int32_t>(kHapticPatches));
+  fields.not_negative(message.patches_left_out);
   fields.time(message.lateness_ns);
   fields.time(message.last_duration_ns);
   for (const haptic_part_t& part : message.parts) {
@@ -201,6 +205,7 @@ MessageError check(const haptic_state_t& message) noexcept {
     fields.magnitude(hand.contact_share, 1.0);
     fields.magnitude(hand.energy_J, kLargestEnergy);
     fields.magnitude(hand.glove_energy_J, kLargestEnergy);
+    fields.between(hand.touching, 0, kAllSegments);
     fields.magnitude(hand.position_WH_m, kLargestPosition);
     fields.unit_quaternion(hand.orientation_WH_wxyz);
     fields.magnitude(hand.joint_angles_rad, kLargestAngle);
@@ -210,6 +215,13 @@ MessageError check(const haptic_state_t& message) noexcept {
     fields.between(contact.part, 0, static_cast<std::int32_t>(kHapticParts) - 1);
     fields.magnitude(contact.position_V_m, kLargestPosition);
     fields.magnitude(contact.normal_W, kLargestNormal);
+  }
+  for (const haptic_patch_t& patch : message.patches) {
+    fields.between(patch.part, 0, static_cast<std::int32_t>(kHapticParts) - 1);
+    fields.not_negative(patch.contact_count);
+    fields.magnitude(patch.position_V_m, kLargestPosition);
+    fields.magnitude(patch.normal_W, kLargestNormal);
+    fields.magnitude(static_cast<double>(patch.extent_m), kLargestPosition);
   }
   return fields.result();
 }
@@ -247,6 +259,8 @@ haptic_hand_t message_of(const HapticHandState& hand) {
   message.glove_energy_J = hand.glove_energy;
   message.activity = static_cast<std::int32_t>(hand.visible.activity);
   message.grasp = static_cast<std::int32_t>(hand.visible.grasp);
+  message.form = static_cast<std::int32_t>(hand.visible.form);
+  message.touching = hand.visible.touching;
   put(Eigen::Vector3d(hand.visible.X_WH.translation()), message.position_WH_m);
   put(Eigen::Matrix3d(hand.visible.X_WH.linear()), message.orientation_WH_wxyz);
   std::copy(hand.visible.angles.begin(), hand.visible.angles.end(), message.joint_angles_rad);
@@ -266,6 +280,21 @@ HapticContact contact_of(const haptic_contact_t& message) noexcept {
   return {message.part, Eigen::Vector3f(message.position_V_m), Eigen::Vector3f(message.normal_W)};
 }
 
+haptic_patch_t message_of(const HapticPatch& patch) {
+  haptic_patch_t message{};
+  message.part = patch.part;
+  message.contact_count = patch.contact_count;
+  put(patch.p_V, message.position_V_m);
+  put(patch.n_W, message.normal_W);
+  message.extent_m = patch.extent;
+  return message;
+}
+
+HapticPatch patch_of(const haptic_patch_t& message) noexcept {
+  return {message.part, message.contact_count, Eigen::Vector3f(message.position_V_m), Eigen::Vector3f(message.normal_W),
+          message.extent_m};
+}
+
 /// Zero for a number that has no meaning here.
 template <typename Enumeration>
 Enumeration enumeration_of(std::int32_t number, std::int32_t count) noexcept {
@@ -275,6 +304,8 @@ Enumeration enumeration_of(std::int32_t number, std::int32_t count) noexcept {
 VisibleHand visible_hand_of(const haptic_hand_t& message) noexcept {
   VisibleHand visible{.activity = enumeration_of<HandActivity>(message.activity, kHandActivities),
                       .grasp = enumeration_of<GraspKind>(message.grasp, kGraspKinds),
+                      .form = enumeration_of<GraspForm>(message.form, kGraspForms),
+                      .touching = message.touching,
                       .X_WH = pose_of(message.position_WH_m, message.orientation_WH_wxyz)};
   std::copy_n(message.joint_angles_rad, kGloveJoints, visible.angles.begin());
   return visible;
@@ -371,6 +402,10 @@ std::vector<std::uint8_t> encode(const HapticState& state) {
     message.hands[h] = message_of(state.hands[h]);
   for (std::size_t c = 0; c < kHapticContacts; ++c)
     message.contacts[c] = message_of(state.contacts[c]);
+  message.patch_count = state.patch_count;
+  message.patches_left_out = state.patches_left_out;
+  for (std::size_t p = 0; p < kHapticPatches; ++p)
+    message.patches[p] = message_of(state.patches[p]);
   return to_bytes(message);
 }
 
@@ -464,6 +499,10 @@ MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noe
     state.hands[h] = hand_of(message.hands[h]);
   for (std::size_t c = 0; c < kHapticContacts; ++c)
     state.contacts[c] = contact_of(message.contacts[c]);
+  state.patch_count = message.patch_count;
+  state.patches_left_out = message.patches_left_out;
+  for (std::size_t p = 0; p < kHapticPatches; ++p)
+    state.patches[p] = patch_of(message.patches[p]);
   return MessageError::kNone;
 }
 

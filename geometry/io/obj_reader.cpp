@@ -47,6 +47,12 @@ class ObjReader {
       } else if (is_among(kNotSupported, words_[0])) {
         reject(path_, where() + ": the statement '" + std::string(words_[0]) +
                           "' is not supported, only points and polygons are");
+      } else if (parse_number(words_[0])) {
+        // To skip it might lose a vertex whose keyword was lost.
+        reject(path_,
+               where() + ": the line begins with the number " + printable(words_[0]) +
+                   ", but a statement of the format begins with a keyword such as v or f; if it is a count, remove "
+                   "the line");
       } else {
         reject(path_, where() + ": '" + printable(words_[0]) + "' is not a statement of the format");
       }

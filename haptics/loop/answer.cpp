@@ -9,7 +9,10 @@ constexpr double kLongestCatchUp_ms = 250.0;
 }  // namespace
 
 Answerer::Answerer(LoopSimulation& simulation)
-    : simulation_(simulation), sliding_(simulation.parts()), calls_before_(sliding_.call_statistics().calls) {
+    : simulation_(simulation),
+      sliding_(simulation.parts()),
+      calls_before_(sliding_.call_statistics().calls),
+      patches_(sliding_) {
   for (std::size_t p = 0; p < sliding_.part_count(); ++p) {
     if (!sliding_.is_scripted(p)) simulation_.leave_part(p);
   }
@@ -42,6 +45,7 @@ void Answerer::answer(const Ghosts& ghosts, std::chrono::nanoseconds first, Cont
   renew_contact_set(sliding_, sequence_, time_of_answered(), scratch_, set);
   for (std::size_t p = 0; p < sliding_.part_count(); ++p)
     set.parts[p].hold = holds_[p];
+  patches_.tell(set);
   simulation_.tell_hands(set);
 }
 

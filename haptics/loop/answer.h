@@ -13,6 +13,7 @@
 #include <glissade/haptics/multi_part_sliding.h>
 
 #include "loop/contact_set_maker.h"
+#include "loop/patch_maker.h"
 
 namespace glissade::haptics {
 
@@ -44,6 +45,7 @@ class Answerer {
   std::array<std::chrono::nanoseconds, 1024> times_{};
   std::int64_t sequence_ = 0;
   std::vector<UrgentContact> scratch_;
+  PatchMaker patches_;
 };
 
 }  // namespace glissade::haptics

@@ -71,6 +71,10 @@ devices::HapticState make_sample(const TickRecord& record, std::span<const Kerne
     if (states[h] != nullptr) sample.hands[h] = hand_after(tick.hands[h], set, set.hands[h].visible, *states[h]);
   }
   add_contacts(parts, set, sample);
+  sample.patch_count = set.patch_count;
+  sample.patches_left_out = set.patches_left_out;
+  // What an older set left behind the last one does not count.
+  std::copy_n(set.patches.begin(), set.patch_count, sample.patches.begin());
   return sample;
 }
 

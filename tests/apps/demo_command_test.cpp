@@ -44,7 +44,7 @@ TEST_F(Demo, OfflineGivesTheSameHashTwiceAndReachesTheSeatThroughContact) {
   EXPECT_EQ(first["ticks"], 1000);
   EXPECT_EQ(first["colliding_poses"], 0);
   EXPECT_EQ(first["checked_poses"], 1000);
-  EXPECT_EQ(first["seat_reached"], true);
+  EXPECT_EQ(first["goal_reached"], true);
   EXPECT_GT(first["parts"][0]["contact_fraction"], 0.7);
   EXPECT_GT(first["hands"][0]["force_max_N"], 2.0);
   EXPECT_LE(first["hands"][0]["force_step_max_N"], 20.0 / 7.0) << "the slew of the device";
@@ -66,7 +66,7 @@ TEST_F(Demo, InRealTimeGloveAndServerMeetOverLcmAndReachTheSameSeat) {
   const nlohmann::json summary = run({"--scene", scene, "--seconds", "1.2", "--report", files().path("report")});
   EXPECT_EQ(summary["ticks"], 1200);
   EXPECT_EQ(summary["colliding_poses"], 0);
-  EXPECT_EQ(summary["seat_reached"], true);
+  EXPECT_EQ(summary["goal_reached"], true);
   EXPECT_GT(summary["hands"][0]["force_max_N"], 1.0);
   for (const char* figure :
        {"tick_us_p50", "tick_us_p99", "lateness_us_p50", "bare_lateness_us_p50", "late_ticks", "page_faults"}) {
@@ -79,7 +79,7 @@ TEST_F(Demo, InRealTimeGloveAndServerMeetOverLcmAndReachTheSameSeat) {
   std::ifstream page(files().path("report") + "/index.html");
   std::stringstream html;
   html << page.rdbuf();
-  for (const char* text : {"Force on the hand", "States of box", "sliding"})
+  for (const char* text : {"Force on the hand", "States of the parts", "sliding"})
     EXPECT_NE(html.str().find(text), std::string::npos) << text;
   // Nothing is fetched from anywhere.
   for (const char* reference : {"<script src", "src=\"http", "href=\"http", "url(http", "@import"}) {
@@ -104,7 +104,7 @@ TEST_F(Demo, TheCarDoorRunsOfflineWithoutACollision) {
 TEST_F(Demo, TheSquarePegDropsIntoItsHole) {
   const std::string square_peg = std::string(GLISSADE_DOCS) + "/../examples/scenes/square_peg.yaml";
   const nlohmann::json summary = run({"--offline", "--seconds", "5", "--scene", square_peg});
-  EXPECT_EQ(summary["seat_reached"], true);
+  EXPECT_EQ(summary["goal_reached"], true);
   EXPECT_EQ(summary["colliding_poses"], 0);
 }
 
@@ -112,7 +112,7 @@ TEST_F(Demo, FingersGraspTheMotorSeatItAndLetGo) {
   if (test_support::kSanitized) GTEST_SKIP() << "takes minutes; the tests of the loop run through the same code";
   const nlohmann::json summary = run({"--fingers", "--offline"});
   EXPECT_EQ(summary["colliding_poses"], 0);
-  EXPECT_EQ(summary["seat_reached"], true);
+  EXPECT_EQ(summary["goal_reached"], true);
   const nlohmann::json& hand = summary["hands"][0];
   EXPECT_EQ(hand["has_fingers"], true);
   EXPECT_EQ(hand["grasps"], 1);
@@ -134,7 +134,7 @@ TEST_F(Demo, FrictionHoldsTheHandBack) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     const test_support::ProgramResult result = test_support::glissade(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.standard_error;
-    return nlohmann::json::parse(result.standard_output)["seat_distance_m"].get<double>();
+    return nlohmann::json::parse(result.standard_output)["goal_distance_m"].get<double>();
   };
   EXPECT_GT(distance_with({"--friction", "0.6"}), distance_with({}) + 2e-3);
 }

@@ -18,7 +18,7 @@ using testing::Not;
 
 Report small_report() {
   return {"Motor <into> door",
-          {{"greatest force", "12.5 N"}, {"seat reached", "yes & held"}},
+          {{"greatest force", "12.5 N"}, {"goal reached", "yes & held"}},
           {{"Force on the hand", "time [s]", "force [N]", {{"x", {0, 1}, {0, 1}}, {"y", {0, 1}, {1, 0}}}}}};
 }
 
@@ -67,6 +67,19 @@ TEST(HtmlReport, APlotOverTimeTellsWhereItsTimesLie) {
   Report other = small_report();
   other.plots[0].x_label = "force [N]";
   EXPECT_THAT(html_report(other), Not(HasSubstr("data-from")));
+}
+
+TEST(HtmlReport, AStripHasItsWordsAndATimeAxis) {
+  Report report{"strips", {}, {}};
+  report.strips.push_back({"States", {"free", "sliding", "never"}, {{"peg", {{0.0, 1.5, 0}, {1.5, 2.0, 1}}}}});
+  const std::string html = html_report(report);
+  EXPECT_THAT(html, HasSubstr("<h2>States</h2>"));
+  EXPECT_THAT(html, HasSubstr("<li class=\"c1\"><span>sliding</span></li>"));
+  EXPECT_THAT(html, Not(HasSubstr("never")));
+  EXPECT_THAT(html, HasSubstr(">peg</text>"));
+  EXPECT_THAT(html, HasSubstr("data-from=\"0.00\" data-to=\"2.00\""));
+  EXPECT_EQ(count(html, "<rect class=\"span c0\""), 1);
+  EXPECT_EQ(count(html, "<rect class=\"span c1\""), 1);
 }
 
 TEST(HtmlReport, EveryElementIsClosed) {

@@ -1,18 +1,23 @@
 /// `glissade latency` with its second process over UDP multicast, in a network namespace of its own.
 
 #include <cstdlib>
+#include <fstream>
+#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "glissade_program.h"
+#include "temporary_folder.h"
 
 namespace glissade::apps {
 namespace {
 
 TEST(LatencyCommand, AShortRunMeasuresEveryLinkIdleAndLoaded) {
   ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
-  const test_support::ProgramResult result = test_support::glissade({"latency", "--seconds", "1", "--json"});
+  const test_support::TemporaryFolder folder;
+  const test_support::ProgramResult result =
+      test_support::glissade({"latency", "--seconds", "1", "--json", "--report", folder.path("report")});
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
   EXPECT_EQ(result.standard_error, "") << "no progress bar without a terminal";
   const nlohmann::json json = nlohmann::json::parse(result.standard_output);
@@ -28,6 +33,9 @@ TEST(LatencyCommand, AShortRunMeasuresEveryLinkIdleAndLoaded) {
     }
     EXPECT_GT(json[load]["udp_round_trip_us"]["count"], 0);
   }
+  std::ostringstream page;
+  page << std::ifstream(folder.path("report/index.html")).rdbuf();
+  EXPECT_NE(page.str().find("report-frames"), std::string::npos) << "a slice in three dimensions";
 }
 
 }  // namespace

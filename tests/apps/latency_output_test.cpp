@@ -1,4 +1,6 @@
+#include <chrono>
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <string>
 
@@ -56,6 +58,24 @@ TEST(LatencyOutput, TheReportHasAHistogramOfEachLink) {
   EXPECT_THAT(page.str(), HasSubstr("<h2>udpm://, loaded: stages</h2>"));
   EXPECT_THAT(page.str(), HasSubstr("<h2>in process, idle: lateness</h2>"));
   EXPECT_THAT(page.str(), HasSubstr("text-anchor=\"end\">100</text>")) << "one sample is one bar of 100 %";
+}
+
+TEST(LatencyOutput, TheReportShowsASliceInThreeDimensions) {
+  const test_support::TemporaryFolder folder;
+  const auto page_of = [&](const LatencyFigures& figures) {
+    std::ostringstream page;
+    page << std::ifstream(write_latency_report(figures, folder.path("report"))).rdbuf();
+    return page.str();
+  };
+  LatencyFigures figures = given_latency_figures();
+  EXPECT_EQ(page_of(figures).find("report-frames"), std::string::npos) << "nothing was kept";
+  const auto slice = std::make_shared<SessionRecorder>(2, 1, 1);
+  devices::HapticState state;
+  slice->record(state);
+  state.time = std::chrono::milliseconds(20);
+  slice->record(state);
+  figures.slice = slice;
+  EXPECT_THAT(page_of(figures), HasSubstr("report-frames"));
 }
 
 TEST(LatencyCommand, WrongDurationsAreRefused) {

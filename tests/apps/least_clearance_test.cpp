@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/apps/clearance_curve.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/least_clearance.h>
@@ -194,6 +196,27 @@ TEST(LeastClearance, LaterContactsMakeEarlierDistancesNeedless) {
   const ClearanceWork work = comparison.finish();
   EXPECT_LT(comparison.least(), 2e-5);
   EXPECT_LT(work.searches, 60) << "most of them in the last 20 ticks";
+}
+
+TEST(ClearanceCurve, IsTheGapOfABoxAboveAPlate) {
+  const HapticScene scene = scene_of(
+      "  - {name: part, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n"
+      "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n");
+  ClearanceCurve curve(scene, 1501);
+  for (int i = 0; i <= 1500; ++i)
+    curve.note(std::chrono::milliseconds(i), pose({0.0, 0.0, 0.01 + 20e-6 * i}), {});
+  const PlotSeries series = curve.take("way");
+  ASSERT_EQ(series.x.size(), 501u) << "one of three";
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    const double gap_um = 20e3 * series.x[i];
+    EXPECT_NEAR(series.x[i], 3e-3 * static_cast<double>(i), 1e-9);
+    if (gap_um < 20e3 - 1.0) {
+      EXPECT_NEAR(series.y[i], gap_um, 1e-6) << i;
+    }
+    if (gap_um > 20e3 + 1.0) {
+      EXPECT_TRUE(std::isnan(series.y[i])) << i;
+    }
+  }
 }
 
 }  // namespace

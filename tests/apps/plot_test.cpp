@@ -94,5 +94,43 @@ TEST(SvgPlot, SaysWhenThereIsNothingToDraw) {
   EXPECT_THAT(svg_plot({"point", "x", "y", {{"s", {1.0}, {2.0}}}}), Not(HasSubstr("no data")));
 }
 
+TEST(AxisTicks, OfNumbersOfThingsAreWhole) {
+  EXPECT_EQ(axis_ticks(0.0, 2.0, 6).step, 0.5);
+  const AxisRange range = rounded_range(0.0, 2.0, 6, 1.0);
+  EXPECT_EQ(axis_ticks(range.low, range.high, 6, 1.0).labels, (std::vector<std::string>{"0", "1", "2"}));
+  Plot plot{"contacts", "x", "y", {{"a", {0, 1}, {0, 2}}}, true};
+  EXPECT_EQ(svg_plot(plot).find("0.5</text>"), svg_plot(plot).rfind("0.5</text>")) << "only at the other axis";
+}
+
+TEST(Strip, EqualWordsAreOneSpan) {
+  Strip strip{"part", {}};
+  strip.add(0.0, 2);
+  strip.add(1.0, 2);
+  strip.add(2.0, 1);
+  strip.end_at(2.5);
+  ASSERT_EQ(strip.spans.size(), 2u);
+  EXPECT_EQ(strip.spans[0].end, 2.0);
+  EXPECT_EQ(strip.spans[1].word, 1u);
+  EXPECT_EQ(strip.spans[1].end, 2.5);
+}
+
+TEST(Strip, OfManySpansTheLongestInEachStretchIsKept) {
+  // Two states that alternate 1000 times: for 3 ms and 1 ms, and in the second half the other way round.
+  Strip strip{"part", {}};
+  for (int i = 0; i < 2000; ++i) {
+    const bool is_late = i >= 1000;
+    strip.add(0.004 * i, is_late ? 1 : 0);
+    strip.add(0.004 * i + 0.003, is_late ? 0 : 1);
+  }
+  strip.end_at(8.0);
+  const Strip coarse = coarsened(strip, 100);
+  ASSERT_EQ(coarse.spans.size(), 2u);
+  EXPECT_EQ(coarse.spans[0].word, 0u);
+  EXPECT_NEAR(coarse.spans[0].end, 4.0, 1e-9);
+  EXPECT_EQ(coarse.spans[1].word, 1u);
+  EXPECT_EQ(coarse.spans[1].end, 8.0);
+  EXPECT_EQ(coarsened(coarse, 100).spans.size(), 2u);
+}
+
 }  // namespace
 }  // namespace glissade::apps

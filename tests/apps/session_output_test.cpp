@@ -76,8 +76,8 @@ TEST(SessionText, LeavesTheStagesOfTheSearchToWhoeverAsks) {
 TEST(SessionText, BeginsWithWhetherTheGoalWasReached) {
   const Session session = session_of(10);
   SessionSummary summary = summary_of(session);
-  summary.seat_reached = true;
-  summary.seat_distance_m = 1e-4;
+  summary.goal_reached = true;
+  summary.goal_distance_m = 1e-4;
   EXPECT_THAT(to_text(summary, session, false), StartsWith("  goal reached                 yes, 0.100 mm from it\n"));
 }
 

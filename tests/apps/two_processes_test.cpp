@@ -4,7 +4,9 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <future>
+#include <string>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -55,7 +57,7 @@ TEST(TwoProcesses, AGloveInOneProcessCarriesThePartInTheOtherToItsSeat) {
   const nlohmann::json summary = nlohmann::json::parse(server.standard_output);
   EXPECT_EQ(summary["ticks"], 3000);
   EXPECT_EQ(summary["colliding_poses"], 0);
-  EXPECT_EQ(summary["seat_reached"], true);
+  EXPECT_EQ(summary["goal_reached"], true);
   EXPECT_GT(summary["parts"][0]["contact_fraction"], 0.3);
   EXPECT_GT(summary["hands"][0]["force_max_N"], 1.0);
   EXPECT_NE(hand.standard_output.find(" 0 refused)"), std::string::npos) << hand.standard_output;
@@ -126,8 +128,24 @@ TEST(ThreeProcesses, OneGlovePassesAPartToTheOther) {
   ASSERT_EQ(server.exit_code, 0) << server.standard_error;
   const nlohmann::json summary = nlohmann::json::parse(server.standard_output);
   EXPECT_EQ(summary["colliding_poses"], 0);
-  EXPECT_EQ(summary["seat_reached"], true) << summary.dump(1);
+  EXPECT_EQ(summary["goal_reached"], true) << summary.dump(1);
   EXPECT_GT(summary["parts"][0]["state_s"]["released"], 0.5) << "it lies still at the end";
+}
+
+TEST(TwoProcesses, TheRecordOfAGloveHasNoAgeBeforeTheFirstCommand) {
+  ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
+  const test_support::TemporaryFolder folder;
+  test_support::Process glove({GLISSADE_PROGRAM, "glove", "--lcm", kUrl, "--record", folder.path("hand.csv")});
+  while (!std::filesystem::exists(folder.path("hand.csv")))
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // some periods
+  glove.signal(SIGINT);
+  ASSERT_EQ(glove.wait().exit_code, 0);
+  std::ifstream record(folder.path("hand.csv"));
+  std::string row;
+  std::getline(record, row);
+  std::getline(record, row);
+  EXPECT_TRUE(row.ends_with(",0,0,0,0,0,0,,")) << row;
 }
 
 TEST(TwoProcesses, AServerWithAnotherKeySaysThatItRefuses) {

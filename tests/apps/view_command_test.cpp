@@ -13,7 +13,7 @@ TEST(ViewCommand, NamesWhatIsWrong) {
   expect_refused({"view", "no_such_scene.yaml"}, {"no_such_scene.yaml"});
   expect_refused({"view", "--lcm", "memq://"}, {"--lcm", "one process only"});
   expect_refused({"view", "--hand", "hand.yaml"}, {"--hand", "--fingers"});
-  expect_refused({"view", "--port", "65536"}, {"--port", "65536"});
+  expect_refused({"view", "--port", "65536"}, {"--port", "must be a port, 0 to 65535, not '65536'"});
 }
 
 TEST(ViewOption, TakesAPortOrNothing) {

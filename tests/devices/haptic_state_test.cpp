@@ -8,6 +8,7 @@
 #include <glissade/devices/haptic_state.h>
 #include <glissade/lcmtypes/haptic_hand_t.hpp>
 #include <glissade/lcmtypes/haptic_part_t.hpp>
+#include <glissade/lcmtypes/haptic_patch_t.hpp>
 #include <glissade/lcmtypes/haptic_state_t.hpp>
 
 #include "lcm/glove_messages.h"
@@ -29,6 +30,9 @@ HapticState some_state() {
   state.hand_count = 2;
   state.contact_count = 1;
   state.contacts[0] = {2, {0.5F, 0.25F, 0.125F}, Eigen::Vector3f::UnitY()};
+  state.patch_count = 1;
+  state.patches_left_out = 3;
+  state.patches[0] = {2, 4, {0.5F, 0.25F, 0.125F}, Eigen::Vector3f::UnitX(), 0.0625F};
   HapticPartState& part = state.parts[2];
   part.X_WG = Eigen::Translation3d(1.0, 2.0, 3.0) * Eigen::AngleAxisd(0.5, Vector3d::UnitX());
   part.X_WV = Eigen::Translation3d(4.0, 5.0, 6.0) * Eigen::AngleAxisd(0.6, Vector3d::UnitY());
@@ -49,6 +53,8 @@ HapticState some_state() {
   hand.command_age = milliseconds(15);
   hand.visible.activity = HandActivity::kHolding;
   hand.visible.grasp = GraspKind::kPrecision;
+  hand.visible.form = GraspForm::kKey;
+  hand.visible.touching = 0x888;
   hand.visible.X_WH = Eigen::Translation3d(0.1, 0.2, 0.3) * Eigen::AngleAxisd(0.7, Vector3d::UnitZ());
   hand.visible.angles[4] = 0.75;
   hand.joint_torques[21] = -0.25;
@@ -84,6 +90,13 @@ TEST(HapticState, ArrivesAsItWasSent) {
   EXPECT_EQ(received.contacts[0].part, 2);
   EXPECT_EQ(received.contacts[0].p_V, sent.contacts[0].p_V);
   EXPECT_EQ(received.contacts[0].n_W, sent.contacts[0].n_W);
+  ASSERT_EQ(received.patch_count, 1);
+  EXPECT_EQ(received.patches_left_out, 3);
+  EXPECT_EQ(received.patches[0].part, 2);
+  EXPECT_EQ(received.patches[0].contact_count, 4);
+  EXPECT_EQ(received.patches[0].p_V, sent.patches[0].p_V);
+  EXPECT_EQ(received.patches[0].n_W, sent.patches[0].n_W);
+  EXPECT_EQ(received.patches[0].extent, 0.0625F);
   const HapticPartState& part = received.parts[2];
   EXPECT_TRUE(part.X_WG.isApprox(sent.parts[2].X_WG));
   EXPECT_TRUE(part.X_WV.isApprox(sent.parts[2].X_WV));
@@ -105,6 +118,8 @@ TEST(HapticState, ArrivesAsItWasSent) {
   EXPECT_EQ(hand.command_age, milliseconds(15));
   EXPECT_EQ(hand.visible.activity, HandActivity::kHolding);
   EXPECT_EQ(hand.visible.grasp, GraspKind::kPrecision);
+  EXPECT_EQ(hand.visible.form, GraspForm::kKey);
+  EXPECT_EQ(hand.visible.touching, 0x888);
   EXPECT_TRUE(hand.visible.X_WH.isApprox(sent.hands[1].visible.X_WH));
   EXPECT_EQ(hand.visible.angles, sent.hands[1].visible.angles);
   EXPECT_EQ(hand.joint_torques, sent.hands[1].joint_torques);
@@ -114,6 +129,9 @@ TEST(HapticState, EveryActivityAndGraspHasItsNumberAndName) {
   EXPECT_EQ(static_cast<std::int32_t>(HandActivity::kWaiting), haptic_hand_t::ACTIVITY_WAITING);
   EXPECT_EQ(static_cast<std::int32_t>(HandActivity::kHolding), haptic_hand_t::ACTIVITY_HOLDING);
   EXPECT_EQ(static_cast<std::int32_t>(GraspKind::kPower), haptic_hand_t::GRASP_POWER);
+  EXPECT_EQ(static_cast<std::int32_t>(GraspForm::kGravity), haptic_hand_t::FORM_GRAVITY);
+  for (std::int32_t number = 1; number < kGraspForms; ++number)
+    EXPECT_NE(name_of(static_cast<GraspForm>(number)), "") << number;
   for (std::int32_t number = 1; number < kHandActivities; ++number)
     EXPECT_NE(name_of(static_cast<HandActivity>(number)), "none") << number;
   for (std::int32_t number = 1; number < kGraspKinds; ++number)
@@ -124,10 +142,12 @@ TEST(HapticState, AnActivityOfANewerSimulationIsNoneAndNoError) {
   haptic_state_t message = message_of(some_state());
   message.hands[1].activity = kHandActivities;
   message.hands[1].grasp = -1;
+  message.hands[1].form = kGraspForms;
   HapticState received;
   ASSERT_EQ(decoded(message, received), MessageError::kNone);
   EXPECT_EQ(received.hands[1].visible.activity, HandActivity::kNone);
   EXPECT_EQ(received.hands[1].visible.grasp, GraspKind::kNone);
+  EXPECT_EQ(received.hands[1].visible.form, GraspForm::kNone);
 }
 
 TEST(HapticState, EveryStateOfThePartHasItsNumberAndName) {
@@ -187,6 +207,22 @@ TEST(HapticState, WhatCannotBeIsRefusedAndChangesNothing) {
   message = message_of(some_state());
   message.contacts[0].normal_W[2] = 2.0F;
   EXPECT_EQ(decoded(message, received), MessageError::kOutOfRange);
+  for (const std::int32_t count : {-1, static_cast<std::int32_t>(kHapticPatches) + 1}) {
+    message = message_of(some_state());
+    message.patch_count = count;
+    EXPECT_EQ(decoded(message, received), MessageError::kOutOfRange) << count;
+  }
+  message = message_of(some_state());
+  message.patches[7].extent_m = std::nanf("");
+  EXPECT_EQ(decoded(message, received), MessageError::kNotFinite);
+  message = message_of(some_state());
+  message.patches[7].part = 4;
+  EXPECT_EQ(decoded(message, received), MessageError::kOutOfRange);
+  for (const std::int32_t segments : {-1, 1 << 24}) {
+    message = message_of(some_state());
+    message.hands[1].touching = segments;
+    EXPECT_EQ(decoded(message, received), MessageError::kOutOfRange) << segments;
+  }
   auto bytes = encode(some_state());
   bytes.pop_back();
   EXPECT_EQ(decode(bytes, received), MessageError::kWrongSize);

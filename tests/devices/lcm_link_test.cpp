@@ -359,5 +359,24 @@ TEST(HapticStatePublisher, PublishesEveryTickInOrder) {
   EXPECT_EQ(last.flags, haptic_state_t::FLAG_CONTACT_SET_LATE);
 }
 
+TEST(HapticStatePublisher, TellsAListenerOfEveryTickInOrderThoughItFailsOnce) {
+  const auto bus = std::make_shared<LcmBus>("memq://");
+  std::vector<std::int64_t> heard;
+  {
+    HapticStatePublisher publisher(bus, [&](const HapticState& state) {
+      heard.push_back(state.sequence);
+      if (state.sequence == 3) throw std::runtime_error("a viewer that fails");
+    });
+    for (int i = 0; i < 100; ++i) {
+      HapticState state;
+      state.sequence = i;
+      publisher.push(state);
+    }
+  }
+  ASSERT_EQ(heard.size(), 100U);
+  for (int i = 0; i < 100; ++i)
+    EXPECT_EQ(heard[static_cast<std::size_t>(i)], i);
+}
+
 }  // namespace
 }  // namespace glissade::devices

@@ -67,8 +67,7 @@ class Link {
     if (packet->channel == kGloveStateChannel) return take_state(packet->message, now);
     if (packet->channel == kGloveCommandChannel) return take_command(packet->message, now);
     if (packet->channel == kGloveInfoChannel) return take_info(packet->message);
-    HapticState state;
-    return decode(packet->message, state) == MessageError::kNone;
+    return take_haptic_state(packet->message);
   }
 
   /// One period of the device.
@@ -97,6 +96,19 @@ class Link {
     const MessageError error = decode(message, header, state);
     if (!states_.admit(error, {header.device, header.session, state.sequence}, now)) return false;
     state_ = state;
+    return true;
+  }
+
+  /// Viewers use the counts as they come.
+  static bool take_haptic_state(std::span<const std::uint8_t> message) {
+    HapticState state;
+    if (decode(message, state) != MessageError::kNone) return false;
+    const auto is_up_to = [](std::int32_t count, std::size_t most) {
+      return count >= 0 && static_cast<std::size_t>(count) <= most;
+    };
+    require(is_up_to(state.part_count, kHapticParts) && is_up_to(state.hand_count, kHapticHands) &&
+                is_up_to(state.contact_count, kHapticContacts) && is_up_to(state.patch_count, kHapticPatches),
+            "more of a haptic state than there is room for");
     return true;
   }
 
@@ -153,7 +165,12 @@ std::string info_datagram() {
 }
 
 std::string viewer_datagram() {
-  return datagram(kHapticStateChannel, encode(HapticState{}));
+  HapticState state;
+  state.patch_count = 1;
+  state.patches[0] = {1, 4, {0.1F, 0.0F, 0.0F}, Eigen::Vector3f::UnitZ(), 0.02F};
+  state.hands[0].visible.form = GraspForm::kKey;
+  state.hands[0].visible.touching = 0x8888;
+  return datagram(kHapticStateChannel, encode(state));
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TEST_F(BadMeshFile, ObjStatementsThatAreNotOfTheFormat) {
       {"a.obj", kObj + "ff 2 3 4\n", "line 10", "'ff' is not a statement"},
       {"a.obj", with(kObj, "v 1 0 0", "w 1 0 0"), "line 3", "'w' is not a statement"},
       {"a.obj", with(kObj, "v 1 0 0", "V 1 0 0"), "line 3", "'V' is not a statement"},
-      {"a.obj", "4\n" + kObj, "line 1", "'4' is not a statement"},
+      {"a.obj", "4\n" + kObj, "line 1", "begins with the number 4,"},
       {"a.obj", kObj + "\xff\xfe\n", "line 10", "' is not a statement"},
   });
 }

@@ -56,6 +56,17 @@ TEST(GraspAnalysis, OneSegmentOrThePalmAlonePushes) {
   EXPECT_EQ(reason_of(grasp_of({touch(kPalm)})), "push: the palm touches");
 }
 
+TEST(GraspAnalysis, TheHapticLoopTellsTheReasonInNumbers) {
+  const Grasp grasp = grasp_of({touch(kPalm), touch(middle(Finger::kIndex)), touch(outer(Finger::kLittle))});
+  devices::VisibleHand hand;
+  hand.grasp = devices::GraspKind::kPower;
+  hand.form = grasp.form;
+  hand.touching = grasp.segments.bits();
+  EXPECT_EQ(hand.touching, 1 + (1 << (4 * 2 + 2)) + (1 << (4 * 5 + 3))) << "as the message describes it";
+  EXPECT_EQ(reason_of(hand), reason_of(grasp));
+  EXPECT_EQ(reason_of(devices::VisibleHand{}), "none: nothing touches");
+}
+
 TEST(GraspAnalysis, FingersWithoutThumbAndPalmPush) {
   EXPECT_EQ(grasp_of({touch(outer(Finger::kIndex)), touch(middle(Finger::kRing))}).type, GraspType::kPush);
 }

@@ -83,5 +83,19 @@ TEST(HapticSample, ContactsBeyondTheRoomAreLeftOut) {
   EXPECT_EQ(static_cast<std::size_t>(sample_of(set, parts).contact_count), devices::kHapticContacts);
 }
 
+TEST(HapticSample, HasThePatchesOfTheSet) {
+  ContactSet set;
+  set.patch_count = 2;
+  set.patches_left_out = 1;
+  set.patches[1] = {3, 5, Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitZ(), 0.5F};
+  set.patches[2] = set.patches[1];
+  const devices::HapticState sample = sample_of(set);
+  EXPECT_EQ(sample.patch_count, 2);
+  EXPECT_EQ(sample.patches_left_out, 1);
+  EXPECT_EQ(sample.patches[1].part, 3);
+  EXPECT_EQ(sample.patches[1].extent, 0.5F);
+  EXPECT_EQ(sample.patches[2].extent, 0.0F) << "left behind by an older set";
+}
+
 }  // namespace
 }  // namespace glissade::haptics

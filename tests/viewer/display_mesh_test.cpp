@@ -2,8 +2,10 @@
 
 #include "model/display_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +13,8 @@
 
 namespace glissade::viewer {
 namespace {
+
+using Eigen::Vector3d;
 
 constexpr std::size_t kAll = 10'000'000;
 
@@ -86,6 +90,63 @@ TEST(DisplayMesh, TrianglesThatNothingCanJoinGetFewerToo) {
     crumbs.triangles.push_back({first, first + 1, first + 2});
   }
   EXPECT_LE(display_mesh(crumbs, 500).triangles(), 625u);
+}
+
+TEST(DisplayMesh, OfASmallerMeshTheLongestEdgesAreDrawn) {
+  // Loose triangles of a millimetre, 3 rims each, on a plate of 10 cm.
+  geometry::TriangleMesh mesh = geometry::make_plate({0.1, 0.1}, 2);
+  for (int i = 0; i < 2000; ++i) {
+    const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+    const Eigen::Vector3d place(0.002 * (i % 50 - 25), 0.002 * (i / 50 - 20), 0.01);
+    for (const Eigen::Vector3d& corner :
+         {Eigen::Vector3d::Zero().eval(), Eigen::Vector3d(1e-3, 0.0, 0.0), Eigen::Vector3d(0.0, 1e-3, 0.0)})
+      mesh.vertices.push_back(place + corner);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  EXPECT_EQ(display_mesh(mesh, kAll).edges.size(), 2u * 6004u);
+  const DisplayMesh small = display_mesh(mesh, 400);
+  ASSERT_EQ(small.edges.size(), 2u * 124u);
+  int long_edges = 0;
+  for (std::size_t e = 0; e < small.edges.size(); e += 2) {
+    const auto& [from, to] = std::pair(small.edges[e], small.edges[e + 1]);
+    const double length = small.step * std::hypot(from[0] - to[0], from[1] - to[1]);
+    long_edges += length > 0.099 ? 1 : 0;
+  }
+  EXPECT_EQ(long_edges, 4) << "the rims of the plate";
+}
+
+/// Triangles round the origin whose normals lean by about 11° to one side and the other in turn.
+geometry::TriangleMesh corrugated_fan(int triangles) {
+  geometry::TriangleMesh fan;
+  fan.vertices.push_back(Vector3d::Zero());
+  const double lean = 0.2 * std::sin(2.0 * std::numbers::pi / triangles);
+  for (int i = 0; i < triangles; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / triangles;
+    fan.vertices.emplace_back(std::cos(angle), std::sin(angle), i % 2 == 0 ? 0.0 : lean);
+  }
+  for (std::int32_t i = 0; i < triangles; ++i)
+    fan.triangles.push_back({0, i + 1, (i + 1) % triangles + 1});
+  return fan;
+}
+
+/// How far the normals at the origin are from those of their triangles at most, as cosines.
+double least_agreement_in_the_middle(const geometry::TriangleMesh& fan) {
+  const DisplayMesh mesh = display_mesh(fan, kAll);
+  double least = 1.0;
+  for (std::size_t t = 0; t < mesh.triangles(); ++t) {
+    const auto number = static_cast<std::int32_t>(t);
+    const Vector3d own = fan.corner(number, 1).cross(fan.corner(number, 2)).normalized();
+    least = std::min(least, normal(mesh, mesh.indices[3 * t]).dot(own));
+  }
+  return least;
+}
+
+// To look at all neighbors of each triangle of a fan would take the square of their number.
+TEST(DisplayMesh, InALargeFanNoTriangleLooksAtItsNeighbors) {
+  const double tenth = std::cos(0.1);
+  EXPECT_LT(least_agreement_in_the_middle(corrugated_fan(64)), tenth) << "the mean, which leans to no side";
+  EXPECT_GT(least_agreement_in_the_middle(corrugated_fan(66)), tenth) << "their own";
+  EXPECT_GT(least_agreement_in_the_middle(corrugated_fan(100'000)), tenth);
 }
 
 TEST(DisplayMesh, NothingIsShownOfAMeshWithoutTriangles) {

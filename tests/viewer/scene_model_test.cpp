@@ -91,9 +91,9 @@ TEST(SceneModel, EqualMeshesAreSentOnce) {
 TEST(SceneModel, AHandHasItsSegments) {
   ViewScene scene = two_boxes(Eigen::Vector3d::Zero());
   const auto model = std::make_shared<const grasping::HandModel>(grasping::make_hand());
-  scene.hands = {{.device = 7, .model = model}};
+  scene.hands = {{.name = "glove 7", .model = model}};
   const Glb glb = read_glb(scene_model(scene, kWhole));
-  EXPECT_EQ(glb.json["scenes"][0]["extras"]["hands"][0]["device"], 7);
+  EXPECT_EQ(glb.json["scenes"][0]["extras"]["hands"][0]["name"], "glove 7");
   std::size_t segments = 0;
   for (const nlohmann::json& node : glb.json["nodes"]) {
     if (!node.contains("extras") || node["extras"]["kind"] != "segment") continue;
@@ -101,6 +101,22 @@ TEST(SceneModel, AHandHasItsSegments) {
     EXPECT_NE(model->chain.links()[node["extras"]["link"].get<std::size_t>()].mesh, nullptr);
   }
   EXPECT_EQ(segments, 18u);
+}
+
+TEST(SceneModel, HasTheWordsForGraspsAndTellsWhetherThereIsALoop) {
+  ViewScene scene = two_boxes(Eigen::Vector3d::Zero());
+  const nlohmann::json extras = read_glb(scene_model(scene, 1000)).json["scenes"][0]["extras"];
+  EXPECT_EQ(extras["has_loop"], true);
+  const nlohmann::json& words = extras["grasp_words"];
+  EXPECT_EQ(words["kinds"][3], "power");
+  EXPECT_EQ(words["forms"][0], "");
+  EXPECT_EQ(words["forms"][6], "gravity");
+  ASSERT_EQ(words["segments"].size(), 24u);
+  EXPECT_EQ(words["segments"][0], "the palm");
+  EXPECT_EQ(words["segments"][1], "") << "no segment has this bit";
+  EXPECT_EQ(words["segments"][4 * 2 + 2], "the middle segment of the index");
+  scene.has_loop = false;
+  EXPECT_EQ(read_glb(scene_model(scene, 1000)).json["scenes"][0]["extras"]["has_loop"], false);
 }
 
 TEST(SceneModel, ASmallerModelTellsHowManyTrianglesTheSceneHas) {

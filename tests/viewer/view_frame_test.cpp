@@ -35,6 +35,9 @@ devices::HapticState some_state() {
   state.hands[0].force_W = {0.0, 0.0, 2.0};
   state.contact_count = 1;
   state.contacts[0] = {0, {0.0F, 0.0F, -0.05F}, Eigen::Vector3f::UnitZ()};
+  state.patch_count = 1;
+  state.patches_left_out = 2;
+  state.patches[0] = {0, 4, {0.25F, 0.0F, -0.05F}, Eigen::Vector3f::UnitZ(), 0.125F};
   return state;
 }
 
@@ -53,9 +56,11 @@ Frame read_frame(const std::string& bytes) {
   return frame;
 }
 
-constexpr std::size_t kHead = 8;
+constexpr std::size_t kHead = 10;
 constexpr std::size_t kPart = 16;
-constexpr std::size_t kHand = 17;
+constexpr std::size_t kHand = 19;
+constexpr std::size_t kContact = 7;
+constexpr std::size_t kPatch = 9;
 
 TEST(ViewFrame, HasTheNewestStateAboutTheOriginOfTheScene) {
   FrameMaker maker(scene_far_away());
@@ -66,9 +71,9 @@ TEST(ViewFrame, HasTheNewestStateAboutTheOriginOfTheScene) {
   EXPECT_FALSE(maker.has_news());
   EXPECT_EQ(frame.time, 2.5);
   EXPECT_EQ(frame.sequence, 5.0);
-  ASSERT_EQ(frame.numbers.size(), kHead + kPart + kHand + 7);
+  ASSERT_EQ(frame.numbers.size(), kHead + kPart + kHand + kContact + kPatch);
   const std::vector<float> head(frame.numbers.begin(), frame.numbers.begin() + kHead);
-  EXPECT_EQ(head, (std::vector<float>{0, 3, 0, 0, 0, 1, 1, 1}));
+  EXPECT_EQ(head, (std::vector<float>{0, 3, 0, 0, 0, 1, 1, 1, 1, 2}));
   EXPECT_EQ(frame.numbers[kHead], 0.5F);       // ghost, x
   EXPECT_EQ(frame.numbers[kHead + 3], 1.0F);   // ghost, w
   EXPECT_EQ(frame.numbers[kHead + 7], 0.25F);  // visible part, x
@@ -79,6 +84,8 @@ TEST(ViewFrame, HasTheNewestStateAboutTheOriginOfTheScene) {
   const std::size_t contact = hand + kHand;
   EXPECT_EQ(frame.numbers[contact + 3], -0.05F);
   EXPECT_EQ(frame.numbers[contact + 6], 1.0F);
+  const std::vector<float> patch(frame.numbers.end() - kPatch, frame.numbers.end());
+  EXPECT_EQ(patch, (std::vector<float>{0, 4, 0.25F, 0, -0.05F, 0, 0, 1, 0.125F}));
 }
 
 TEST(ViewFrame, ShowsTheWorstSinceTheLastFrame) {
@@ -100,19 +107,46 @@ TEST(ViewFrame, ShowsTheWorstSinceTheLastFrame) {
 
 TEST(ViewFrame, HasThePosesOfAHandsLinks) {
   ViewScene scene = scene_far_away();
-  scene.hands = {{.device = 1, .model = std::make_shared<const grasping::HandModel>(grasping::make_hand())}};
+  scene.hands = {{.model = std::make_shared<const grasping::HandModel>(grasping::make_hand())}};
   FrameMaker maker(scene);
   devices::HapticState state = some_state();
   state.hands[0].visible.activity = devices::HandActivity::kHolding;
   state.hands[0].visible.grasp = devices::GraspKind::kPower;
+  state.hands[0].visible.form = devices::GraspForm::kGravity;
+  state.hands[0].visible.touching = (1 << 23) + 1;
   state.hands[0].visible.X_WH = Eigen::Translation3d(1000.0, 0.0, 0.125);
   maker.add(state);
   const Frame frame = read_frame(maker.make());
   const std::size_t hand = kHead + kPart;
   EXPECT_EQ(frame.numbers[hand + 14], 3.0F);  // power
-  ASSERT_EQ(frame.numbers[hand + 16], static_cast<float>(grasping::kHandLinks));
-  EXPECT_EQ(frame.numbers[hand + 17 + 2], 0.125F);  // the root, z
-  EXPECT_EQ(frame.numbers.size(), hand + kHand + 7 * grasping::kHandLinks + 7);
+  EXPECT_EQ(frame.numbers[hand + 15], 6.0F);  // gravity
+  EXPECT_EQ(frame.numbers[hand + 16], 8388609.0F);
+  ASSERT_EQ(frame.numbers[hand + 18], static_cast<float>(grasping::kHandLinks));
+  EXPECT_EQ(frame.numbers[hand + 19 + 2], 0.125F);  // the root, z
+  EXPECT_EQ(frame.numbers.size(), hand + kHand + 7 * grasping::kHandLinks + kContact + kPatch);
+}
+
+TEST(ViewFrame, AHandThatWaitsOrIsLostWithNothingIsNotShown) {
+  const auto is_shown = [](devices::HandActivity activity, std::int32_t part) {
+    devices::HapticHandState hand;
+    hand.visible.activity = activity;
+    hand.part = part;
+    return is_present(hand);
+  };
+  using Activity = devices::HandActivity;
+  EXPECT_FALSE(is_shown(Activity::kNone, 0));
+  EXPECT_FALSE(is_shown(Activity::kWaiting, -1)) << "where it is has not been told: it would stand at the origin";
+  EXPECT_FALSE(is_shown(Activity::kLost, -1));
+  EXPECT_TRUE(is_shown(Activity::kLost, 0)) << "it stays with its part";
+  EXPECT_TRUE(is_shown(Activity::kFree, -1));
+  EXPECT_TRUE(is_shown(Activity::kHolding, 0));
+  ViewScene scene = scene_far_away();
+  scene.hands = {{.model = std::make_shared<const grasping::HandModel>(grasping::make_hand())}};
+  FrameMaker maker(scene);
+  devices::HapticState state = some_state();
+  state.hands[0].visible.activity = Activity::kWaiting;
+  maker.add(state);
+  EXPECT_EQ(read_frame(maker.make()).numbers.size(), kHead + kPart + kHand + kContact + kPatch);
 }
 
 TEST(ViewFrame, TellsAViewerWhatItHasMissed) {

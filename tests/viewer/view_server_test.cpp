@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -103,6 +104,39 @@ TEST(ViewServer, WhoComesLaterSeesTheLastFrameAtOnce) {
   PageViewer viewer(server.port());
   EXPECT_EQ(viewer.next().first, 3.0);
   EXPECT_TRUE(server.has_had_client());
+}
+
+TEST(ViewServer, ServesSoManyAtOnceAndNoMore) {
+  constexpr std::size_t kMost = 128;
+  const ViewServer server(small_scene());
+  std::vector<std::unique_ptr<Browser>> browsers;
+  for (std::size_t i = 0; i < kMost; ++i) {
+    browsers.push_back(std::make_unique<Browser>(server.port()));
+    ASSERT_EQ(browsers.back()->ask(http::verb::get, "/nothing").result(), http::status::not_found) << i;
+  }
+  const auto is_served = [&] {
+    try {
+      return Browser(server.port()).ask(http::verb::get, "/nothing").result() == http::status::not_found;
+    } catch (const boost::system::system_error&) {
+      return false;  // hung up
+    }
+  };
+  EXPECT_FALSE(is_served());
+  EXPECT_EQ(browsers.front()->ask(http::verb::get, "/nothing").result(), http::status::not_found);
+  browsers.clear();
+  while (!is_served()) {  // as soon as the server has seen that they are gone
+  }
+}
+
+TEST(ViewServer, SoManyPagesMayLookOnAndNoMore) {
+  constexpr std::size_t kMost = 64;
+  ViewServer server(small_scene());
+  server.push(state_of(1));
+  std::vector<std::unique_ptr<PageViewer>> viewers;
+  for (std::size_t i = 0; i < kMost; ++i)
+    viewers.push_back(std::make_unique<PageViewer>(server.port()));
+  EXPECT_THROW(PageViewer(server.port()), boost::system::system_error);
+  EXPECT_EQ(viewers.back()->next().first, 1.0);
 }
 
 TEST(ViewServer, SaysThatAPortIsTaken) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <span>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <meshoptimizer.h>
@@ -150,14 +152,36 @@ bool is_sharp(const geometry::TriangleMesh& mesh, const geometry::MeshTopology& 
   return -normal(apexes[0]).dot(normal(apexes[1])) < kCosCrease;
 }
 
+/// The numbers of the longest sharp edges, at most `most`, in their order in the mesh.
+std::vector<std::size_t> sharp_edges(const geometry::TriangleMesh& mesh, const geometry::MeshTopology& topology,
+                                     std::size_t most) {
+  std::vector<std::size_t> sharp;
+  for (std::size_t e = 0; e < topology.edges().size(); ++e) {
+    if (is_sharp(mesh, topology, e)) sharp.push_back(e);
+  }
+  if (sharp.size() <= most) return sharp;
+  const auto length = [&](std::size_t e) {
+    const auto& [from, to] = topology.edges()[e].vertices;
+    return (mesh.vertices[static_cast<std::size_t>(from)] - mesh.vertices[static_cast<std::size_t>(to)]).squaredNorm();
+  };
+  const auto end = sharp.begin() + static_cast<std::ptrdiff_t>(most);
+  std::nth_element(sharp.begin(), end, sharp.end(),
+                   [&](std::size_t a, std::size_t b) { return std::pair(-length(a), a) < std::pair(-length(b), b); });
+  sharp.erase(end, sharp.end());
+  std::sort(sharp.begin(), sharp.end());
+  return sharp;
+}
+
 std::vector<std::array<std::uint16_t, 4>> edges_of(const geometry::TriangleMesh& mesh,
-                                                   const std::vector<std::array<std::uint16_t, 4>>& positions) {
+                                                   const std::vector<std::array<std::uint16_t, 4>>& positions,
+                                                   std::size_t most_triangles) {
   constexpr std::size_t kMostTriangles = 1'000'000;
   std::vector<std::array<std::uint16_t, 4>> ends;
   if (mesh.triangles.size() > kMostTriangles) return ends;
+  // A line takes a graphics card about as long as a triangle: a small model has few of both.
+  const bool is_small = mesh.triangles.size() > most_triangles;
   const geometry::MeshTopology topology(mesh);
-  for (std::size_t e = 0; e < topology.edges().size(); ++e) {
-    if (!is_sharp(mesh, topology, e)) continue;
+  for (const std::size_t e : sharp_edges(mesh, topology, is_small ? 24 + most_triangles / 4 : SIZE_MAX)) {
     for (const std::int32_t vertex : topology.edges()[e].vertices)
       ends.push_back(positions[static_cast<std::size_t>(vertex)]);
   }
@@ -186,7 +210,7 @@ DisplayMesh display_mesh(const geometry::TriangleMesh& mesh, std::size_t most_tr
     for (int axis = 0; axis < 3; ++axis)
       vertices.push_back(static_cast<float>(place[axis]));
   }
-  result.edges = edges_of(mesh, positions);
+  result.edges = edges_of(mesh, positions, most_triangles);
   result.indices = indices_of(mesh);
   if (result.triangles() > most_triangles) result.indices = simplified(result.indices, vertices, most_triangles);
   NormalMaker(mesh, result).run(positions);

@@ -136,10 +136,13 @@ function inspect(page) {
     info: page.info,
     triangles: page.stage.coarse?.triangles ?? 0,
     wholeTriangles: page.stage.whole?.triangles ?? 0,
+    showsWhole: page.stage.whole?.group.visible ?? false,
     parts: [...(page.stage.coarse?.parts ?? [])].map(([number, node]) => ({ number, ...poseOf(node) })),
     ghosts: [...(page.stage.ghostOf ?? [])].map(([number, node]) => ({ number, ...poseOf(node) })),
     segments: (page.stage.coarse?.segments ?? []).map(({ node, hand, link }) => ({ hand, link, ...poseOf(node) })),
     contacts: page.stage.contacts.filter((marker) => marker.visible).map((marker) => marker.position.toArray()),
+    patches: page.stage.patches.filter((disc) => disc.visible)
+      .map((disc) => ({ p: disc.position.toArray(), radius: disc.scale.x })),
     forces: page.stage.forces.map(({ force }) => force.visible),
     drawCalls: page.stage.renderer.info.render.calls,
   });

@@ -1,19 +1,18 @@
 // The three-dimensional view.
 
 import {
-  ArrowHelper, Box3, Color, DirectionalLight, GridHelper, Group, HemisphereLight,
+  ArrowHelper, Box3, CircleGeometry, Color, DirectionalLight, GridHelper, Group, HemisphereLight,
   LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Plane, Quaternion,
   Raycaster, Scene, Sphere, SphereGeometry, Vector2, Vector3, WebGLRenderer, DoubleSide,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { cssColor, onSchemeChange } from './colors.js';
+import { Detail } from './detail.js';
 import { copyOf } from './model.js';
-import { length } from './frame.js';
+import { length, pictureOf } from './frame.js';
 
 const MOST_CONTACTS = 24;
-const HEAVY_TRIANGLES = 2000000; // not drawn whole while things move
-const STILL_MS = 400;
-const SLOW_MS = 60; // between two pictures: then less is drawn while things move
+const MOST_PATCHES = 8;
 
 export const VIEWS = {
   front: [0, -1, 0], back: [0, 1, 0], left: [-1, 0, 0], right: [1, 0, 0], top: [0, -1e-3, 1], corner: [0.8, -1, 0.6],
@@ -38,7 +37,7 @@ export class Stage {
     this.bounds = new Sphere(new Vector3(), 1);
     this.box = new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1)); // until there is a scene
     this.shown = { ghosts: true, contacts: true, forces: true, edges: true, through: false };
-    this.lastMotion = 0;
+    this.detail = new Detail();
     this.isDirty = true;
     this.materials = this.makeMaterials();
     this.addLights();
@@ -56,6 +55,8 @@ export class Stage {
       fixed: solid(), held: solid(), loose: solid(), moving: solid(), skin: solid(), ghost,
       edge: new LineBasicMaterial({ transparent: true, opacity: 0.55 }),
       contact: new MeshBasicMaterial(),
+      // Over the faces that touch there.
+      patch: new MeshBasicMaterial({ side: DoubleSide, transparent: true, opacity: 0.35, depthWrite: false, depthTest: false }),
     };
   }
 
@@ -80,6 +81,12 @@ export class Stage {
       this.scene.add(marker);
       return marker;
     });
+    this.patches = Array.from({ length: MOST_PATCHES }, () => {
+      const disc = new Mesh(new CircleGeometry(1, 48), this.materials.patch);
+      disc.visible = false;
+      this.scene.add(disc);
+      return disc;
+    });
     this.forces = []; // by hand: { force, torque }
     this.scene.add(this.ghosts);
   }
@@ -87,6 +94,7 @@ export class Stage {
   recolor() {
     for (const name of ['fixed', 'held', 'loose', 'moving', 'skin', 'edge', 'contact'])
       this.materials[name].color = new Color(cssColor(name));
+    this.materials.patch.color = new Color(cssColor('contact'));
     this.materials.ghost.color = new Color(cssColor('held'));
     this.scene.background = new Color(cssColor('stage'));
     for (const marker of this.contacts) marker.arrow.setColor(new Color(cssColor('contact')));
@@ -132,9 +140,10 @@ export class Stage {
   setWholeModel(model) {
     this.paint(model);
     this.whole = model;
-    this.isHeavy = model.triangles > HEAVY_TRIANGLES;
+    this.detail.reset(model.triangles);
     this.scene.add(model.group);
-    this.touched();
+    if (this.frame) this.show(this.frame);
+    this.isDirty = true;
   }
 
   paint(model) {
@@ -225,8 +234,12 @@ export class Stage {
     }
     this.showGhosts(frame, held);
     this.showContacts(frame);
+    this.showPatches(frame);
     this.showForces(frame);
-    this.touched();
+    // Frames come while nothing moves, too.
+    const picture = pictureOf(frame);
+    if (picture !== this.picture) this.touched();
+    this.picture = picture;
   }
 
   showGhosts(frame, held) {
@@ -248,6 +261,19 @@ export class Stage {
       marker.children[0].scale.setScalar(0.008 * size);
       marker.arrow.setDirection(new Vector3(...contact.n).normalize());
       marker.arrow.setLength(0.09 * size, 0.03 * size, 0.015 * size);
+    });
+  }
+
+  // A disc in the plane of the contacts, as far as they reach; that of a single contact is small.
+  showPatches(frame) {
+    this.patches.forEach((disc, i) => {
+      const patch = frame.patches[i];
+      disc.visible = this.shown.contacts && patch !== undefined && frame.parts[patch.part] !== undefined;
+      if (!disc.visible) return;
+      const { p, q } = frame.parts[patch.part].visible;
+      disc.position.set(...patch.p).applyQuaternion(new Quaternion(...q)).add(new Vector3(...p));
+      disc.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...patch.n).normalize());
+      disc.scale.setScalar(Math.max(patch.extent, 0.012 * this.bounds.radius));
     });
   }
 
@@ -375,29 +401,38 @@ export class Stage {
   }
 
   touched() {
-    this.lastMotion = performance.now();
+    this.detail.moved();
     this.isDirty = true;
   }
 
-  // Draws if something has changed. A model that takes long is drawn whole once nothing has moved for a moment.
+  // Draws if something has changed.
   render() {
-    const now = performance.now();
-    const isStill = now - this.lastMotion > STILL_MS;
-    const showsWhole = this.whole !== undefined && (isStill || !this.isHeavy);
+    const showsWhole = this.whole !== undefined && this.detail.showsWhole(performance.now());
     if (this.coarse && showsWhole === this.coarse.group.visible) this.isDirty = true;
     if (!this.isDirty) return;
     if (this.coarse) this.coarse.group.visible = !showsWhole;
     if (this.whole) this.whole.group.visible = showsWhole;
     this.isDirty = false;
-    this.renderer.render(this.scene, this.camera);
-    this.judgeSpeed(showsWhole && !isStill, now);
+    if (showsWhole) this.drawWhole();
+    else this.draw();
+    this.detail.drew(performance.now());
   }
 
-  // Three slow pictures in a row of the whole model make it heavy.
-  judgeSpeed(isWhole, now) {
-    const isSlow = isWhole && this.lastWhole !== undefined && now - this.lastWhole > SLOW_MS && now - this.lastWhole < 1000;
-    this.slowPictures = isSlow ? (this.slowPictures ?? 0) + 1 : 0;
-    this.lastWhole = isWhole ? now : undefined;
-    if (this.slowPictures >= 3) this.isHeavy = true;
+  draw() {
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  drawWhole() {
+    this.waitForPicture();
+    const start = performance.now();
+    this.draw();
+    this.waitForPicture();
+    this.detail.drewWhole(performance.now() - start);
+  }
+
+  // The graphics card draws on its own time, unless somebody wants to know a pixel.
+  waitForPicture() {
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
 }

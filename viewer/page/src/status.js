@@ -1,16 +1,17 @@
 // The frame that is shown, in words.
 
-import { ACTIVITIES, GRASPS, PART_STATES, lag, length, reasonsOf } from './frame.js';
+import { ACTIVITIES, PART_STATES, graspReason, lag, length, reasonsOf } from './frame.js';
 
 function number(value, digits, unit) {
   const text = value.toFixed(digits);
   return `${Number(text) === 0 ? (0).toFixed(digits) : text} ${unit}`; // no -0.00
 }
 
-function rowsOfHand(hand, name, parts) {
-  const holds = parts[hand.part] ?? 'nothing';
+function rowsOfHand(hand, name, info) {
+  const holds = info.parts[hand.part] ?? 'nothing';
   const rows = [[name, `holds ${holds}`]];
-  if (hand.activity > 0) rows.push(['hand', `${ACTIVITIES[hand.activity]}${hand.grasp > 0 ? `, ${GRASPS[hand.grasp]} grasp` : ''}`]);
+  if (hand.activity > 0) rows.push(['hand', ACTIVITIES[hand.activity]]);
+  if (hand.grasp > 0) rows.push(['grasp', graspReason(hand, info.grasp_words)]);
   rows.push(['force', number(length(hand.force), 2, 'N')], ['torque', number(length(hand.torque), 3, 'Nm')]);
   if (hand.links.length > 0) rows.push(['finger torque', number(hand.jointTorque, 3, 'Nm')]);
   const reasons = [...new Set([...reasonsOf(hand.reasons), ...reasonsOf(hand.gloveReasons)])];
@@ -24,17 +25,26 @@ function rowsOfPart(part, name) {
 }
 
 export function rowsOf(frame, info, isLive) {
+  const patches = frame.patches.length + frame.patchesLeftOut;
   const missed = isLive ? [['frames missed', `${frame.missed}`]] : [];
   return [
-    ...frame.hands.map((hand, h) => rowsOfHand(hand, `glove ${info.hands[h]?.device ?? h + 1}`, info.parts)),
+    ...frame.hands.map((hand, h) => rowsOfHand(hand, info.hands[h]?.name ?? `hand ${h}`, info)),
     ...frame.parts.map((part, p) => rowsOfPart(part, info.parts[p] ?? `part ${p}`)),
-    [
+    ...(patches > 0 ? [[['patches of contacts', `${patches}${frame.patchesLeftOut > 0 ? `, ${frame.patchesLeftOut} not shown` : ''}`]]] : []),
+    ...(info.has_loop ? [[
       ['loop', frame.late ? 'contacts are late' : 'on time'],
       ['age of contacts', number(frame.age, 1, 'ms')],
       ['lateness of ticks', number(frame.lateness, 0, 'µs')],
       ...missed,
-    ],
+    ]] : []),
   ];
+}
+
+// The patches of a part, the one with the greatest force first.
+function rowsOfPatches(part, frame) {
+  return frame.patches.filter((patch) => patch.part === part).map(({ contacts, extent }) => [
+    'patch', `${contacts} ${contacts === 1 ? 'contact' : 'contacts'}, ${number(1e3 * extent, 1, 'mm')} from the centre at most`,
+  ]);
 }
 
 // Fills a definition list; only what has changed is touched, so that screen readers and selections stay calm.
@@ -58,7 +68,7 @@ export function rowsOfObject(node, frame, info) {
   if (triangles) rows.push(['triangles', triangles.toLocaleString('en')]);
   const place = node.position.toArray().map((x, i) => 1e3 * (x + info.origin_W_m[i]));
   rows.push(['position', `${place.map((x) => x.toFixed(1)).join(', ')} mm`]);
-  if (frame && part !== undefined && frame.parts[part]) rows.push(...rowsOfPart(frame.parts[part], 'state'));
-  if (frame && hand !== undefined && frame.hands[hand]) rows.push(...rowsOfHand(frame.hands[hand], 'hand', info.parts));
+  if (frame && part !== undefined && frame.parts[part]) rows.push(...rowsOfPart(frame.parts[part], 'state'), ...rowsOfPatches(part, frame));
+  if (frame && hand !== undefined && frame.hands[hand]) rows.push(...rowsOfHand(frame.hands[hand], 'hand', info));
   return rows;
 }

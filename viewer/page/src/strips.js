@@ -43,7 +43,7 @@ export class Strips {
   }
 
   namesOf(strip) {
-    if (strip.perHand) return this.info.hands.map((hand) => `glove ${hand.device}`);
+    if (strip.perHand) return this.info.hands.map((hand) => hand.name);
     if (strip.perPart) return this.info.parts;
     return strip.names;
   }

@@ -57,6 +57,12 @@ test('a part stands where the recording of the run says', async () => {
   const touching = shown.filter(({ frame }) => frame.parts[0].contacts > 0 && frame.hands[0].peak > 0.5);
   assert.ok(touching.length > 0);
   assert.ok(touching.some(({ forces, contacts }) => forces[0] && contacts.length > 0), 'arrows of force and contacts');
+  const patched = touching.filter(({ frame }) => frame.patches.length > 0);
+  assert.ok(patched.length > 0, 'patches');
+  for (const { frame, patches } of patched) {
+    assert.equal(patches.length, frame.patches.length);
+    assert.equal(frame.patches.reduce((sum, patch) => sum + patch.contacts, 0), frame.parts[0].contacts);
+  }
   // The server has ended, so that the browser tells of attempts to connect.
   assert.deepEqual(page.faults.filter((fault) => !/WebSocket|ERR_CONNECTION/.test(fault)), []);
   await screenshot(page, 'demo');
@@ -72,11 +78,22 @@ test('a hand closes round the part and holds it', async () => {
   }, () => program.output);
   assert.equal(state.frame.hands[0].part, 0);
   assert.ok(state.frame.hands[0].grasp > 0);
+  assert.match(await page.locator('#status').textContent(), /(precision|power|push)[^:]*: the .* touch/);
   const shown = state.segments.filter((segment) => segment.visible);
   assert.ok(shown.length >= 17, `${shown.length} segments`);
   // All near the part that they hold.
   for (const { p } of shown) assert.ok(Math.hypot(...p.map((x, i) => x - state.parts[0].p[i])) < 0.25);
   await screenshot(page, 'hand');
+  await program.stop();
+  await page.context().close();
+});
+
+test('a hidden page goes on listening', async () => {
+  const program = new Program(['demo', '--seconds', '60', '--view', '0']);
+  const page = await open(browser, await program.url());
+  await page.evaluate(() => { window.requestAnimationFrame = () => 0; }); // a browser draws no hidden page
+  const { frames } = await inspect(page);
+  await eventually(async () => (await inspect(page)).frames > frames + 3);
   await program.stop();
   await page.context().close();
 });

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, rmSync, statSync } from 'node:fs';
+import { mkdtempSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -71,7 +71,28 @@ test('a report of a hand shows the hand', async () => {
   const file = join(folder, 'index.html');
   assert.ok(statSync(file).size <= 5e6, `${statSync(file).size} bytes`);
   const page = await open(browser, `file://${file}`);
-  await eventually(async () => (await inspect(page)).segments.some((segment) => segment.visible));
+  await page.evaluate(() => { // before the first answer of the simulation, nothing is known of the hand
+    const { timeline } = window.glissade.page;
+    timeline.seek(timeline.first + 3);
+  });
+  await eventually(async () => (await inspect(page)).segments.filter((segment) => segment.visible).length >= 17);
+  await screenshot(page, 'report_hand');
+  await page.context().close();
+});
+
+test('a report of a run without a loop does not speak of one', async () => {
+  const scene = join(folder, 'scene.yaml');
+  const way = join(folder, 'way.csv');
+  writeFileSync(scene, 'objects:\n  - {name: box, movable: true, shape: {type: box}}\n' +
+    '  - {name: plate, shape: {type: plate}, pose: {position_m: [0, 0, -0.06]}}\n');
+  writeFileSync(way, 't_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n1,0,0,-0.02,1,0,0,0\n');
+  execFileSync(PROGRAM, ['slide', scene, '--part', 'box', '--trajectory', way, '--report', folder]);
+  const page = await open(browser, `file://${join(folder, 'index.html')}`);
+  await eventually(async () => (await inspect(page)).frame);
+  const status = await page.locator('#status').textContent();
+  assert.match(status, /^handholds box/);
+  assert.doesNotMatch(status, /glove|loop|tick/);
+  await screenshot(page, 'report_slide');
   await page.context().close();
 });
 
