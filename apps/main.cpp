@@ -10,7 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <glissade/apps/command.h>
+#include <glissade/apps/commands/command.h>
 #include <glissade/apps/standard_streams.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/usage.h>

@@ -14,7 +14,7 @@
 #include <glissade/apps/latency/machine_load.h>
 #include <glissade/apps/latency/shared_stamps.h>
 #include <glissade/apps/latency/udp_ping_pong.h>
-#include <glissade/apps/lcm_option.h>
+#include <glissade/apps/run/lcm_option.h>
 #include <glissade/devices/haptic_state_publisher.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/geometry/mesh_generators.h>

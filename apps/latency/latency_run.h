@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <glissade/apps/latency/latency_stages.h>
-#include <glissade/apps/session_recorder.h>
+#include <glissade/apps/run/session_recorder.h>
 #include <glissade/realtime/latency_histogram.h>
 #include <glissade/viewer/view_scene.h>
 

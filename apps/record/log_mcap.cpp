@@ -8,13 +8,13 @@
 #include <system_error>
 #include <utility>
 
-#include <glissade/apps/force_reason.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/record/log_mcap.h>
 #include <glissade/apps/record/mcap_schemas.h>
 #include <glissade/apps/record/mcap_writer.h>
 #include <glissade/apps/record/recorded_scene.h>
 #include <glissade/apps/record/recorded_session.h>
+#include <glissade/apps/run/force_reason.h>
 #include <glissade/devices/event_log.h>
 #include <glissade/grasping/grasp_analysis.h>
 #include <glissade/haptics/recording.h>

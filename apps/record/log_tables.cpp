@@ -6,9 +6,9 @@
 
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/files/trajectory_file.h>
-#include <glissade/apps/force_reason.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/record/log_tables.h>
+#include <glissade/apps/run/force_reason.h>
 #include <glissade/devices/event_log.h>
 #include <glissade/haptics/recording.h>
 

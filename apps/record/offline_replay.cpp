@@ -7,7 +7,7 @@
 #include <glissade/apps/record/offline_replay.h>
 #include <glissade/apps/record/recorded_scene.h>
 #include <glissade/apps/record/recorded_session.h>
-#include <glissade/apps/session_start.h>
+#include <glissade/apps/scene/session_start.h>
 #include <glissade/haptics/offline_run.h>
 #include <glissade/realtime/clock.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/devices/haptic_state.h>
 #include <glissade/grasping/hand_model.h>
 

@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include <glissade/apps/embedded_scene.h>
 #include <glissade/apps/record/recorded_scene.h>
-#include <glissade/apps/record/scene_hash.h>
+#include <glissade/apps/scene/embedded_scene.h>
+#include <glissade/apps/scene/scene_hash.h>
 #include <glissade/apps/view/session_view.h>
 
 namespace glissade::apps {

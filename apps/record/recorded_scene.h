@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/record/recorded_session.h>
+#include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/viewer/view_scene.h>
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <glissade/apps/sliding_option.h>
+#include <glissade/apps/scene/sliding_option.h>
 #include <glissade/devices/event_log.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/grasping/hand_model.h>

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include <glissade/apps/record/replay_audiences.h>
+#include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/say.h>
-#include <glissade/apps/stop_signal.h>
 #include <glissade/apps/view/session_view.h>
 
 namespace glissade::apps {

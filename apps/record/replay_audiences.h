@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <glissade/apps/record/offline_replay.h>
-#include <glissade/apps/session.h>
+#include <glissade/apps/run/session.h>
 #include <glissade/viewer/view_server.h>
 
 namespace glissade::apps {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include <glissade/apps/grasp_outcome.h>
-#include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/report/html_report.h>
+#include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/view/grasp_outcome.h>
 #include <glissade/apps/view/replay_maker.h>
 #include <glissade/grasping/grasp_simulation.h>
 #include <glissade/grasping/hand_model.h>

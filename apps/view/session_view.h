@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/report/html_report.h>
-#include <glissade/apps/session.h>
+#include <glissade/apps/run/session.h>
+#include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/viewer/view_scene.h>
 

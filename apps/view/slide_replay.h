@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cstdint>
 
-#include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/view/replay_maker.h>
 #include <glissade/haptics/sliding_simulation.h>
 

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include <glissade/apps/embedded_scene.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/files/trajectory_file.h>
-#include <glissade/apps/haptic_scene.h>
+#include <glissade/apps/scene/embedded_scene.h>
+#include <glissade/apps/scene/haptic_scene.h>
 
 namespace glissade::bench {
 namespace {

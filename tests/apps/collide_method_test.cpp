@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/apps/collide_method.h>
+#include <glissade/apps/commands/collide_method.h>
 
 #include "expect_bad_input.h"
 

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/apps/embedded_scene.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/files/trajectory_file.h>
+#include <glissade/apps/scene/embedded_scene.h>
 
 namespace glissade::apps {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/apps/force_reason.h>
+#include <glissade/apps/run/force_reason.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/haptics/multi_part_sliding.h>

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/apps/glove_watch.h>
+#include <glissade/apps/run/glove_watch.h>
 #include <glissade/devices/simulated_glove.h>
 
 namespace glissade::apps {

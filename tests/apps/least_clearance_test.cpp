@@ -10,10 +10,10 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/apps/clearance_curve.h>
+#include <glissade/apps/commands/clearance_curve.h>
+#include <glissade/apps/commands/least_clearance.h>
 #include <glissade/apps/files/scene_file.h>
-#include <glissade/apps/haptic_scene.h>
-#include <glissade/apps/least_clearance.h>
+#include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/collision/dop_query.h>
 #include <glissade/haptics/sliding.h>
 

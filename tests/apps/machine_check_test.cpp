@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <glissade/apps/machine_check.h>
+#include <glissade/apps/run/machine_check.h>
 
 #include "glissade_program.h"
 #include "temporary_folder.h"

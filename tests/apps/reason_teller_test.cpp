@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/apps/reason_teller.h>
+#include <glissade/apps/run/reason_teller.h>
 
 namespace glissade::apps {
 namespace {

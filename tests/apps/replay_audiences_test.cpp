@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <glissade/apps/files/scene_file.h>
-#include <glissade/apps/haptic_scene.h>
 #include <glissade/apps/record/replay_audiences.h>
-#include <glissade/apps/stop_signal.h>
+#include <glissade/apps/run/stop_signal.h>
+#include <glissade/apps/scene/haptic_scene.h>
 
 #include "page_client.h"
 

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/apps/run_status.h>
-#include <glissade/apps/run_watch.h>
+#include <glissade/apps/run/run_status.h>
+#include <glissade/apps/run/run_watch.h>
 
 namespace glissade::apps {
 namespace {

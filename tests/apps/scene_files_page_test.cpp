@@ -19,7 +19,7 @@
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/latency/latency_output.h>
 #include <glissade/apps/record/mcap_schemas.h>
-#include <glissade/apps/session.h>
+#include <glissade/apps/run/session.h>
 #include <glissade/apps/text.h>
 #include <glissade/devices/event_log.h>
 #include <glissade/geometry/pose_trajectory.h>

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <glissade/apps/session.h>
+#include <glissade/apps/run/session.h>
 
 #include "temporary_folder.h"
 

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/apps/size_warnings.h>
+#include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/text.h>
 
 #include "glissade_program.h"

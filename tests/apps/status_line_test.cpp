@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <glissade/apps/status_line.h>
+#include <glissade/apps/run/status_line.h>
 
 #include "temporary_folder.h"
 

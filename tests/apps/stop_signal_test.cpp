@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/apps/stop_signal.h>
+#include <glissade/apps/run/stop_signal.h>
 
 namespace glissade::apps {
 namespace {

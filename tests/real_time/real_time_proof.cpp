@@ -21,8 +21,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <glissade/apps/run_watch.h>
-#include <glissade/apps/session_sink.h>
+#include <glissade/apps/run/run_watch.h>
+#include <glissade/apps/run/session_sink.h>
 #include <glissade/devices/simulated_glove_service.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/realtime/periodic_thread.h>

@@ -1,0 +1,54 @@
+#pragma once
+
+/// The clearance of a part over a run, for a plot.
+
+#include <chrono>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/apps/report/plot.h>
+#include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/collision/query_types.h>
+
+namespace glissade::apps {
+
+/// The distance between the features of the first part of a scene and those of all other objects, as of
+/// `LeastClearance`, at about 500 moments of a run. Not thread-safe.
+class ClearanceCurve {
+ public:
+  /// Clearances from here on are left out: the curve has gaps there.
+  static constexpr double kFarthest_m = 0.02;
+
+  /// For a run of so many poses. The scene must outlive this object.
+  ClearanceCurve(const HapticScene& scene, std::int64_t poses);
+
+  /// Takes the next pose of the part and the poses of the objects that move on their own, in their order in the scene.
+  void note(std::chrono::nanoseconds time, const Eigen::Isometry3d& X_WV,
+            std::span<const Eigen::Isometry3d> moving_X_WB);
+
+  /// Micrometres over seconds.
+  PlotSeries take(std::string name);
+
+ private:
+  struct Body {
+    const haptics::ContactBody* body_B;
+    Eigen::Isometry3d X_WB;
+    collision::CoherentWorkspace workspace{};
+  };
+
+  double distance_to(Body& body, const Eigen::Isometry3d& X_WV, double limit);
+
+  const haptics::SlidingPart& part_V_;
+  std::vector<Body> bodies_;  // obstacles, then objects that move on their own
+  std::size_t first_moving_;
+  std::int64_t every_;  // poses
+  std::int64_t noted_ = 0;
+  std::vector<collision::ClosePair> close_;
+  PlotSeries series_;
+};
+
+}  // namespace glissade::apps

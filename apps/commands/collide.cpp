@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/commands/collide_method.h>
+#include <glissade/apps/commands/command.h>
+#include <glissade/apps/commands/load_or_build_tree.h>
+#include <glissade/apps/commands/size_warnings.h>
+#include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/poses_file.h>
+#include <glissade/apps/open_files.h>
+#include <glissade/apps/progress.h>
+#include <glissade/apps/text.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr const char* kCollideDescription =
+    "Test two meshes for collision at many poses, and count the colliding pairs of triangles";
+
+constexpr const char* kCollideFooter =
+    "Poses: columns x_m,y_m,z_m,qw,qx,qy,qz. Each row is the pose of mesh B in the frame of mesh A: a position in\n"
+    "metres and a unit quaternion, w first, whose length may deviate from 1 by up to 1e-3.\n"
+    "\n"
+    "Output: one row per pose with the columns pose (counted from 0), colliding (0 or 1) and, with --pairs, pairs.\n"
+    "Touching counts as colliding. With --tolerance-m T, so does any distance of at most T.\n"
+    "\n"
+    "--cache stores the DOP-trees (bounding-volume hierarchies) in the files A.dop-tree and B.dop-tree. A later run\n"
+    "reads these files, which saves most of the time to build the trees. If a file is damaged, or does not fit the\n"
+    "content of its mesh, the file is written anew, and a line on standard error says so. If a file cannot be\n"
+    "written, a line on standard error says so, and the command goes on.\n"
+    "\n"
+    "Examples, with the files of 'glissade example':\n"
+    "  glissade collide panel.obj motor.obj --poses poses.csv\n"
+    "  glissade collide panel.obj motor.obj --poses poses.csv --pairs --tolerance-m 0.001 --out near.csv\n"
+    "  glissade collide panel.obj motor.obj --poses poses.csv --cache";
+
+struct CollideOptions {
+  std::string mesh_A;
+  std::string mesh_B;
+  std::string poses;
+  std::string method = collide_method_names().front();
+  std::string out = "-";
+  bool cache = false;
+  std::vector<double> scales;  // none, one for both, or one for each
+  CollideQuestion question;
+};
+
+std::shared_ptr<const geometry::TriangleMesh> load(const std::string& path, double scale) {
+  std::shared_ptr<const geometry::TriangleMesh> mesh = open_mesh(path, scale);
+  const double size = size_of(*mesh);
+  if (is_doubtful(size)) warn(path + ": is " + told_size(size, scale, "--scale "));
+  return mesh;
+}
+
+/// Whether any pose brings the meshes as near as ten times the size of the larger one.
+bool any_is_near(const geometry::TriangleMesh& mesh_A, const geometry::TriangleMesh& mesh_B,
+                 const std::vector<Eigen::Isometry3d>& poses_AB) {
+  const auto box_of = [](const geometry::TriangleMesh& mesh) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : mesh.vertices)
+      box.extend(vertex);
+    return box;
+  };
+  const Eigen::AlignedBox3d a = box_of(mesh_A);
+  const Eigen::AlignedBox3d b = box_of(mesh_B);
+  constexpr double kFar = 10.0;  // sizes
+  const double near = kFar * std::max(a.diagonal().norm(), b.diagonal().norm());
+  return std::any_of(poses_AB.begin(), poses_AB.end(),
+                     [&](const Eigen::Isometry3d& X_AB) { return (X_AB * b.center() - a.center()).norm() <= near; });
+}
+
+void check(const CollideQuestion& question) {
+  if (!std::isfinite(question.tolerance) || question.tolerance < 0.0) {
+    throw std::invalid_argument("--tolerance-m: must be a distance of at least 0, not " +
+                                format_number(question.tolerance));
+  }
+}
+
+int run(const CollideOptions& options) {
+  check(options.question);
+  const std::vector<Eigen::Isometry3d> poses_AB = read_poses(options.poses);
+  const TreeFiles beside = options.cache ? TreeFiles{options.mesh_A, options.mesh_B} : TreeFiles{};
+  const bool has_scales = !options.scales.empty();
+  const auto mesh_A = load(options.mesh_A, has_scales ? options.scales.front() : 1.0);
+  const auto mesh_B = load(options.mesh_B, has_scales ? options.scales.back() : 1.0);
+  if (!any_is_near(*mesh_A, *mesh_B, poses_AB)) {
+    warn(options.poses + ": no pose brings the meshes, " + rounded_text(size_of(*mesh_A)) + " m and " +
+         rounded_text(size_of(*mesh_B)) + " m across, near each other: are poses and meshes in metres?");
+  }
+  const CollideMethod method = make_collide_method(options.method, mesh_A, mesh_B, options.question, beside);
+
+  std::vector<std::string> columns{"pose", "colliding"};
+  if (options.question.count_pairs) columns.emplace_back("pairs");
+  CsvWriter out(options.out, columns);
+  ProgressBar progress("poses", static_cast<std::int64_t>(poses_AB.size()));
+  for (std::size_t i = 0; i < poses_AB.size(); ++i) {
+    const CollideAnswer answer = method(poses_AB[i]);
+    out.add(static_cast<std::int64_t>(i)).add(std::int64_t{answer.colliding});
+    if (options.question.count_pairs) out.add(answer.pairs);
+    out.end_row();
+    progress.update(static_cast<std::int64_t>(i) + 1);
+  }
+  out.close();
+  return 0;
+}
+
+}  // namespace
+
+void add_collide_command(CLI::App& app, Command& chosen) {
+  const auto options = std::make_shared<CollideOptions>();
+  CLI::App* command = app.add_subcommand("collide", kCollideDescription);
+  command->footer(kCollideFooter);
+  command->add_option("A", options->mesh_A, "Mesh file: OBJ, STL, PLY or glTF, in metres or with --scale")->required();
+  command->add_option("B", options->mesh_B, "Second mesh file")->required();
+  command->add_option("--poses", options->poses, "CSV file of the poses of B in the frame of A, see below")->required();
+  command
+      ->add_option("--scale", options->scales,
+                   "Metres per unit of the meshes: 0.001 for millimetres; or two, of A and of B")
+      ->expected(1, 2)
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--pairs", options->question.count_pairs, "Count the colliding pairs of triangles");
+  command->add_option("--tolerance-m", options->question.tolerance, "Distance in metres up to which triangles collide")
+      ->capture_default_str();
+  command->add_option("--method", options->method, "Search with DOP-trees, or test all pairs of triangles as a check")
+      ->check(CLI::IsMember(collide_method_names()))
+      ->capture_default_str();
+  command->add_option("--out", options->out, "CSV file for the output, - for standard output")->capture_default_str();
+  command->add_flag("--cache", options->cache, kCacheHelp);
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,166 @@
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/commands/command.h>
+#include <glissade/apps/commands/size_warnings.h>
+#include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/files/trajectory_file.h>
+#include <glissade/apps/report/html_report.h>
+#include <glissade/apps/run/lcm_option.h>
+#include <glissade/apps/run/status_line.h>
+#include <glissade/apps/run/stop_signal.h>
+#include <glissade/apps/scene/embedded_scene.h>
+#include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/session/haptic_session.h>
+#include <glissade/apps/text.h>
+#include <glissade/apps/view/session_view.h>
+#include <glissade/devices/simulated_glove_service.h>
+#include <glissade/realtime/periodic_thread.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr const char* kDemoDescription =
+    "Run the whole system without hardware: a simulated glove carries a part to its seat";
+
+constexpr const char* kDemoFooter =
+    "Without --scene, the glove carries a window motor into a car door: through the access hole of the inner panel,\n"
+    "past the side-impact tube and back against the panel. With --fingers, it reaches for a motor on a bench, grasps\n"
+    "it with its fingers, carries it to its seat on a door module, lets go and withdraws.\n"
+    "\n"
+    "The hand follows a script, which is scaled in time to --seconds, and yields to the forces that it receives. In\n"
+    "real time, glove and server communicate over LCM, 1000 times a second. If the script of --scene has columns for\n"
+    "the joints, the hand takes hold of movable objects with its fingers; otherwise it holds the first one rigidly.\n"
+    "Other movable objects lie where they are, and objects with 'moves: FILE' follow their own scripts. With\n"
+    "--offline, everything runs in one thread on a simulated clock, with the same result every time.\n"
+    "\n"
+    "After the run, brute force checks every visible pose, i.e. every pose at which parts and hands with fingers were\n"
+    "shown. If a pose collides, the exit code is 1.\n"
+    "Keys of --json: docs/file_formats.md in the sources.\n"
+    "\n"
+    "Examples:\n"
+    "  glissade demo --seconds 4\n"
+    "  glissade demo --fingers --seconds 6 --report report\n"
+    "  glissade demo --offline --seconds 2 --json\n"
+    "  glissade demo --seconds 3 --record demo.lcmlog";
+
+struct DemoOptions {
+  double seconds = 10.0;
+  std::string scene;
+  bool fingers = false;
+  bool offline = false;
+  bool json = false;
+  bool verbose = false;
+  std::string lcm_url = "memq://";
+  std::string report;
+  std::string record;
+  std::optional<std::uint16_t> view_port;
+  SlidingChoice choice;
+};
+
+std::int64_t checked_ticks(double seconds) {
+  if (!(seconds >= 0.01 && seconds <= 3600.0)) {
+    throw std::invalid_argument("--seconds: must lie between 0.01 and 3600, not " + format_number(seconds));
+  }
+  return std::llround(seconds * 1000.0);
+}
+
+struct Demo {
+  HapticScene scene;
+  HandScript script;
+};
+
+Demo demo_of(const std::string& path, bool fingers) {
+  const Demonstration demonstration = fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor;
+  const Scene scene = read_or_embedded_scene(path, demonstration);
+  if (!scene.script_path && !path.empty()) {
+    throw std::invalid_argument(path + ": the scene has no script for the hand to follow");
+  }
+  HapticScene haptic_scene = make_haptic_scene(scene, movable_objects(scene));
+  for (const std::string& sentence : doubtful_sizes(scene, haptic_scene))
+    warn(sentence);
+  return {std::move(haptic_scene),
+          path.empty() ? parse_hand_script(embedded_scene_script(demonstration), embedded_script_name(demonstration))
+                       : read_hand_script(*scene.script_path)};
+}
+
+RecordSettings record_of(const DemoOptions& options) {
+  return {.log = options.record, .scene_file = options.scene};
+}
+
+Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_t ticks, const DemoOptions& options) {
+  realtime::lock_memory();
+  const StopSignal stop_signal;
+  const auto bus = connect_to_lcm(options.lcm_url);
+  realtime::SteadyClock clock;
+  devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script.X_WH, script.with_grip({})), clock);
+  StatusLine line;
+  SessionHand hand;
+  if (!script.fingers.empty()) hand = {.part = std::nullopt, .fingers = grasping::HandShape{}};
+  return run_session(demo.scene, bus,
+                     {.hands = {hand},
+                      .choice = options.choice,
+                      .seconds = 1e-3 * static_cast<double>(ticks),
+                      .period = haptics::kTickPeriod,
+                      .record = record_of(options),
+                      .view_port = options.view_port,
+                      .waits_for_page = true},
+                     &StopSignal::requested, [&](const RunNews& news) {
+                       for (const std::string& sentence : news.sentences)
+                         line.say("glissade demo: " + sentence);
+                       line.show(news.status);
+                     });
+}
+
+int run(const DemoOptions& options) {
+  const std::int64_t ticks = checked_ticks(options.seconds);
+  const Demo demo = demo_of(options.scene, options.fingers);
+  const HandScript script = demo.script.time_scaled(std::chrono::milliseconds(ticks));
+  if (!options.report.empty()) prepare_report_folder(options.report);
+  const Session session = options.offline
+                              ? run_session_offline(demo.scene, script, ticks, options.choice, record_of(options))
+                              : run_in_real_time(demo, script, ticks, options);
+  conclude(session, demo.scene,
+           "glissade demo: " + demo.scene.parts.front().name + (options.offline ? ", offline" : ""), options.json,
+           options.verbose, options.report);
+  return 0;
+}
+
+}  // namespace
+
+void add_demo_command(CLI::App& app, Command& chosen) {
+  const auto options = std::make_shared<DemoOptions>();
+  CLI::App* command = app.add_subcommand("demo", kDemoDescription);
+  command->footer(std::string(kDemoFooter) + kSlidingChoiceHelp + kSceneFileHelp);
+  command->add_option("--seconds", options->seconds, "Duration of the script in seconds")->capture_default_str();
+  command->add_option("--scene", options->scene, "Scene file (YAML) with a movable object and a script");
+  command
+      ->add_flag("--fingers", options->fingers, "Without --scene: the hand grasps a motor with its fingers, see above")
+      ->excludes("--scene");
+  add_sliding_options(*command, options->choice);
+  CLI::Option* offline =
+      command->add_flag("--offline", options->offline, "Run deterministically, on a simulated clock, in one thread");
+  command->add_flag("--json", options->json, "Print the summary as JSON");
+  command->add_flag("--verbose", options->verbose, kVerboseHelp);
+  command->add_option("--lcm", options->lcm_url, "LCM address that glove and haptic server share")
+      ->capture_default_str()
+      ->excludes(offline);
+  command->add_option("--record", options->record, "File for a recording, which 'glissade replay' repeats to the bit");
+  add_view_option(*command, options->view_port)->excludes(offline);
+  command
+      ->add_option("--report", options->report,
+                   "Folder for a page, index.html, with the summary and plots of force, lag (distance from the visible "
+                   "part to the pose that the hand asks for) and states")
+      ->take_last();
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace glissade::apps

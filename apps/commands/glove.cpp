@@ -1,0 +1,184 @@
+#include <chrono>
+#include <cstdint>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/commands/command.h>
+#include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/trajectory_file.h>
+#include <glissade/apps/run/glove_watch.h>
+#include <glissade/apps/run/lcm_option.h>
+#include <glissade/apps/run/machine_check.h>
+#include <glissade/apps/run/status_line.h>
+#include <glissade/apps/run/stop_signal.h>
+#include <glissade/apps/scene/embedded_scene.h>
+#include <glissade/apps/text.h>
+#include <glissade/devices/simulated_glove_service.h>
+#include <glissade/realtime/periodic_thread.h>
+#include <glissade/realtime/spsc_ring.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr const char* kGloveDescription = "Simulate a force-feedback glove in a process of its own";
+
+constexpr const char* kGloveFooter =
+    "Script: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is a time and the pose X_WH of the hand root, the frame\n"
+    "whose pose the glove reports; times increase. A ninth column, grip, may say from each row on whether the hand is\n"
+    "closed (1) or open (0): a hand that opens lets go, one that closes takes the nearest part. Instead, 22 columns "
+    "may\n"
+    "have the angles to which the wearer moves the fingers, thumb_roll_rad to wrist_abduction_rad, for a server that\n"
+    "lets fingers grasp ('glissade run --fingers'). Without --script, the hand follows the script of the car door\n"
+    "demonstration; with --fingers, that of the door module. The hand waits at the first pose until a haptic server "
+    "('glissade run') sends a command, and\n"
+    "yields to the forces that it receives. The process ends at the end of the script, or with Ctrl-C. When the force\n"
+    "fades, the reason goes to standard error.\n"
+    "Columns of --record: docs/file_formats.md in the sources.\n"
+    "\n"
+    "Examples, with the files of 'glissade example' and a server:\n"
+    "  glissade run square_peg.yaml --seconds 4 & glissade glove --script square_peg_script.csv\n"
+    "  glissade run square_peg.yaml --seconds 4 & glissade glove --script square_peg_script.csv --record hand.csv";
+
+struct GloveOptions {
+  std::string side = "right";
+  LcmAddress lcm;
+  std::string script;
+  bool fingers = false;
+  std::int64_t device = devices::kDefaultDevice;
+  std::string record;
+  double frozen_ms = 0.0;
+};
+
+/// The record of the glove's periods, from its thread to a file.
+class GloveRecord {
+ public:
+  explicit GloveRecord(const std::string& path)
+      : ring_(kRing),
+        csv_(path, {"t_s", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz", "fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm",
+                    "tz_Nm", "age_s", "reason"}) {}
+
+  /// In the thread of the glove.
+  void push(const devices::GloveState& state, const devices::SafeCommand& command) { ring_.push({state, command}); }
+
+  /// Writes what has been pushed since the last call.
+  void write() {
+    Period period;
+    while (ring_.pop(period))
+      write(period);
+  }
+
+  void close() {
+    write();
+    csv_.close();
+    if (ring_.dropped() > 0) std::cerr << "glissade glove: " << ring_.dropped() << " periods are not recorded\n";
+  }
+
+ private:
+  struct Period {
+    devices::GloveState state;
+    devices::SafeCommand command;
+  };
+  static constexpr std::size_t kRing = 4096;  // four seconds
+
+  void write(const Period& period) {
+    const auto seconds = [](std::chrono::nanoseconds time) { return std::chrono::duration<double>(time).count(); };
+    const devices::SafeCommand& command = period.command;
+    csv_.add(seconds(period.state.time)).add(period.state.X_WH);
+    csv_.add(command.values().f_H_W).add(command.values().t_H_W);
+    if (command.values().sequence > 0) {
+      csv_.add(seconds(command.age())).add(to_text(command.reasons(), command.age()));
+    } else {
+      csv_.add("").add("");  // no server has sent a command: there is no age, and no force to reduce
+    }
+    csv_.end_row();
+  }
+
+  realtime::SpscRing<Period> ring_;
+  CsvWriter csv_;
+};
+
+int run(const GloveOptions& options) {
+  if (!(options.frozen_ms >= 0.0 && options.frozen_ms <= 1e6)) {
+    throw std::invalid_argument("--frozen-ms: must lie between 0 and 1e6, not " + format_number(options.frozen_ms));
+  }
+  const bool has_locked_memory = realtime::lock_memory();
+  const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
+  const Demonstration demonstration = options.fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor;
+  const HandScript script = options.script.empty() ? parse_hand_script(embedded_scene_script(demonstration),
+                                                                       embedded_script_name(demonstration))
+                                                   : read_hand_script(options.script);
+  const std::chrono::nanoseconds duration = script.X_WH.duration();
+  const StopSignal stop_signal;
+  realtime::SteadyClock clock;
+  std::optional<GloveRecord> record;
+  if (!options.record.empty()) record.emplace(options.record);
+  GloveWatch watch;
+  devices::SimulatedGloveParameters parameters = script.with_grip({});
+  parameters.frozen = std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double, std::milli>(options.frozen_ms));
+  const devices::HandSide side = options.side == "left" ? devices::HandSide::kLeft : devices::HandSide::kRight;
+  devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script.X_WH, parameters), clock,
+                                       {.device = options.device, .side = side},
+                                       [&](const devices::GloveState& state, const devices::SafeCommand& command) {
+                                         if (record) record->push(state, command);
+                                         // The main thread may be held up by a reader of the output.
+                                         const bool goes_on = !StopSignal::requested();
+                                         const bool has_server = command.values().sequence > 0;
+                                         if (has_server && goes_on) watch.note(state.time, command);
+                                         return goes_on;
+                                       });
+
+  StatusLine line;
+  constexpr bool kNeedsFifo = false;  // a simulated hand may be late
+  const std::string missing = missing_rights(!kNeedsFifo, has_locked_memory);
+  if (!missing.empty()) line.say("glissade glove: " + missing);
+  line.say("glissade glove: the " + options.side + " hand waits for a server at " + options.lcm.url);
+  for (int i = 0; glove.script_time() < duration && !StopSignal::requested(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (record) record->write();
+    for (const std::string& event : watch.events())
+      line.say("glissade glove: " + event);
+    constexpr int kStatusTurns = 5;
+    if (i % kStatusTurns == 0) line.show(watch.status(glove.script_time(), duration));
+  }
+  line.show({});
+  glove.stop();
+  if (record) record->close();
+  const devices::LinkStatistics link = glove.link_statistics();
+  std::cout << "glissade glove: " << glove.script_time() / std::chrono::milliseconds(1) << " ms of the script, "
+            << link.accepted << " commands (" << link.lost << " lost, " << link.rejected()
+            << " refused), greatest force " << fixed_text(glove.greatest_force(), 2) << " N\n";
+  return 0;
+}
+
+}  // namespace
+
+void add_glove_command(CLI::App& app, Command& chosen) {
+  const auto options = std::make_shared<GloveOptions>();
+  CLI::App* command = app.add_subcommand("glove", kGloveDescription);
+  command->footer(kGloveFooter);
+  command->add_option("--side", options->side, "Hand that wears the glove")
+      ->check(CLI::IsMember({"left", "right"}))
+      ->capture_default_str();
+  add_device_option(*command, options->device);
+  add_lcm_options(*command, options->lcm);
+  command->add_option("--script", options->script, "Trajectory of the hand root (CSV), see below");
+  command->add_flag("--fingers", options->fingers, "Without --script: the hand of 'glissade demo --fingers'")
+      ->excludes("--script");
+  command
+      ->add_option("--frozen-ms", options->frozen_ms,
+                   "A pose that repeats to the bit for longer is an error of the tracker, and lets the force fade; "
+                   "0: not checked")
+      ->capture_default_str();
+  command->add_option("--record", options->record, "File for the pose of the hand and the force of every period (CSV)");
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace glissade::apps

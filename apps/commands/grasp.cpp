@@ -1,0 +1,267 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/commands/command.h>
+#include <glissade/apps/commands/size_warnings.h>
+#include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/hand_trajectory_file.h>
+#include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/files/trajectory_file.h>
+#include <glissade/apps/open_files.h>
+#include <glissade/apps/progress.h>
+#include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/scene/sliding_option.h>
+#include <glissade/apps/text.h>
+#include <glissade/apps/view/grasp_outcome.h>
+#include <glissade/apps/view/grasp_report.h>
+#include <glissade/grasping/grasp_simulation.h>
+#include <glissade/haptics/coupling.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr std::chrono::milliseconds kTick{1};
+
+constexpr const char* kGraspDescription =
+    "Let hands grasp and move the objects of a scene, offline and deterministically";
+
+constexpr const char* kGraspFooter =
+    "Hand trajectory: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz, the pose of the hand root (the end of the forearm at the\n"
+    "wrist), then 22 angles, thumb_roll_rad to wrist_abduction_rad, in the order of a CyberGlove. Several files are\n"
+    "several hands. The visible hand follows as far as objects allow: it never goes in, and closes tight round them.\n"
+    "A hand grasps a movable object when its contacts say so; no gesture is needed. The object then moves with the\n"
+    "palm, slides along what it touches, and stays where the hand opens. A touch without a grasp pushes it.\n"
+    "\n"
+    "Hand: a YAML file with the keys side (left or right), length_m and breadth_m; by default a right hand of 0.183 m\n"
+    "and 0.084 m. One file is for all hands.\n"
+    "\n"
+    "Output: one row per millisecond and hand with the visible posture, the segments that touch, what kind of grasp\n"
+    "they make (none, push, precision, power) and of which object, and the pose of this object. --objects writes one\n"
+    "row per millisecond and movable object with its pose and the wrench on the hands. If both go to files, the\n"
+    "standard output says how long each hand held something, and how far each part came.\n"
+    "All columns: docs/file_formats.md in the sources.\n"
+    "\n"
+    "Examples, with the files of 'glissade example':\n"
+    "  glissade grasp ball_and_tray.yaml --hand-trajectory ball_and_tray_hand.csv --out hand.csv\n"
+    "  glissade grasp ball_and_tray.yaml --hand-trajectory ball_and_tray_hand.csv --friction 0.3 --objects moved.csv\n"
+    "  glissade grasp ball_and_tray.yaml --hand-trajectory ball_and_tray_hand.csv --out hand.csv --report grasp";
+
+struct GraspOptions {
+  std::string scene;
+  std::vector<std::string> trajectories;
+  std::vector<std::string> hands;
+  SlidingChoice sliding;
+  std::string out = "-";
+  std::string objects;
+  std::string report;
+};
+
+std::vector<std::string> hand_columns() {
+  std::vector<std::string> columns{"t_s", "hand", "state", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};
+  for (const std::string& column : joint_columns())
+    columns.push_back(column);
+  for (const char* column : {"touching", "grasp", "form", "object", "ox_m", "oy_m", "oz_m", "oqw", "oqx", "oqy", "oqz"})
+    columns.emplace_back(column);
+  return columns;
+}
+
+std::vector<std::string> object_columns() {
+  return {"t_s", "object", "x_m",  "y_m",  "z_m",  "qw",    "qx",    "qy",
+          "qz",  "state",  "fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm"};
+}
+
+std::vector<std::shared_ptr<const grasping::HandModel>> make_hands(const GraspOptions& options) {
+  const std::size_t count = options.trajectories.size();
+  if (options.hands.size() > 1 && options.hands.size() != count) {
+    throw std::invalid_argument("--hand: " + std::to_string(options.hands.size()) + " files for " +
+                                std::to_string(count) + " hands; give one for all, or one for each");
+  }
+  std::vector<std::shared_ptr<const grasping::HandModel>> hands;
+  for (std::size_t h = 0; h < count; ++h) {
+    if (options.hands.empty()) {
+      hands.push_back(h == 0 ? std::make_shared<const grasping::HandModel>(grasping::make_hand()) : hands.front());
+      continue;
+    }
+    const std::string& file = options.hands[std::min(h, options.hands.size() - 1)];
+    try {
+      hands.push_back(std::make_shared<const grasping::HandModel>(grasping::make_hand(read_hand_shape(file))));
+    } catch (const std::invalid_argument& error) {
+      const std::string message = error.what();
+      throw std::invalid_argument(message.starts_with(file) ? message : file + ": " + message);
+    }
+  }
+  return hands;
+}
+
+/// The rows of one run.
+class GraspTables {
+ public:
+  GraspTables(const HapticScene& scene, const grasping::GraspSimulation& simulation,
+              const std::vector<std::shared_ptr<const grasping::HandModel>>& hands, const GraspOptions& options)
+      : scene_(scene), simulation_(simulation), hands_(hands), hand_rows_(options.out, hand_columns()) {
+    if (!options.objects.empty()) object_rows_ = std::make_unique<CsvWriter>(options.objects, object_columns());
+  }
+
+  void write(double time_s) {
+    for (std::size_t h = 0; h < simulation_.hand_count(); ++h)
+      write_hand(time_s, h);
+    if (object_rows_ == nullptr) return;
+    for (std::size_t p = 0; p < simulation_.part_count(); ++p)
+      write_object(time_s, p);
+  }
+
+  void close() {
+    hand_rows_.close();
+    if (object_rows_) object_rows_->close();
+  }
+
+ private:
+  void write_hand(double time_s, std::size_t h) {
+    const grasping::Posture& posture = simulation_.posture(h);
+    const grasping::Grasp& grasp = simulation_.grasp(h);
+    hand_rows_.add(time_s)
+        .add(static_cast<std::int64_t>(h))
+        .add(devices::name_of(simulation_.activity(h)))
+        .add(posture.X_WR);
+    for (const double value : posture.values)
+      hand_rows_.add(value);
+    hand_rows_.add(touching_names(h)).add(name_of(grasp.type)).add(name_of(grasp.form));
+    Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+    if (grasp.object < 0) {
+      hand_rows_.add("");
+    } else {
+      const auto body = static_cast<std::size_t>(grasp.object);
+      hand_rows_.add(scene_.body_names[body]);
+      X_WO = body < scene_.obstacles.size() ? scene_.obstacles[body].X_WO
+                                            : simulation_.parts().result(body - scene_.obstacles.size()).X_WV;
+    }
+    hand_rows_.add(X_WO).end_row();
+  }
+
+  /// Segments that touch, such as "palm index-outer".
+  std::string touching_names(std::size_t h) const {
+    std::string names;
+    const grasping::Clasp& clasp = simulation_.clasp(h);
+    for (std::size_t link = 0; link < clasp.touching().size(); ++link) {
+      if (clasp.touching()[link] == 0) continue;
+      names += (names.empty() ? "" : " ") + hands_[h]->chain.links()[link].name;
+    }
+    return names;
+  }
+
+  void write_object(double time_s, std::size_t p) {
+    const haptics::MultiPartSliding& parts = simulation_.parts();
+    const haptics::SlidingResult& result = parts.result(p);
+    const haptics::Wrench wrench =
+        haptics::about_point(haptics::spring_wrench(parts.stiffness(p), parts.error(p)),
+                             result.X_WT * parts.part(p).p_Vref(), result.X_WV.translation());
+    object_rows_->add(time_s).add(scene_.body_names[scene_.obstacles.size() + p]).add(result.X_WV);
+    object_rows_->add(haptics::name_of(result.state));
+    // Adding zero turns a negative zero into the plain one.
+    for (int i = 0; i < 3; ++i)
+      object_rows_->add(wrench.f[i] + 0.0);
+    for (int i = 0; i < 3; ++i)
+      object_rows_->add(wrench.t[i] + 0.0);
+    object_rows_->end_row();
+  }
+
+  const HapticScene& scene_;
+  const grasping::GraspSimulation& simulation_;
+  const std::vector<std::shared_ptr<const grasping::HandModel>>& hands_;
+  CsvWriter hand_rows_;
+  std::unique_ptr<CsvWriter> object_rows_;
+};
+
+/// Whether two names are those of one file, perhaps one that is still to be written. "-" is the standard output.
+bool are_one_file(const std::string& one, const std::string& other) {
+  if (one == other) return true;
+  if (one.empty() || other.empty() || one == "-" || other == "-") return false;
+  return std::filesystem::weakly_canonical(one) == std::filesystem::weakly_canonical(other);
+}
+
+int run(const GraspOptions& options) {
+  if (are_one_file(options.out, options.objects)) {
+    throw std::invalid_argument("--objects: " + in_quotes(options.objects) + " is already the file of --out");
+  }
+  if (!options.report.empty()) prepare_report_folder(options.report);
+  std::vector<HandTrajectory> trajectories;
+  for (const std::string& file : options.trajectories)
+    check_duration(trajectories.emplace_back(read_hand_trajectory(file)).duration(), file);
+  const std::vector<std::shared_ptr<const grasping::HandModel>> hands = make_hands(options);
+  const Scene scene_file = open_scene(options.scene);
+  const HapticScene scene = make_haptic_scene(scene_file, movable_objects(scene_file));
+  for (const std::string& sentence : doubtful_sizes(scene_file, scene))
+    warn(sentence);
+  for (const std::string& name : scene.body_names)
+    check_name_fits_csv(scene, name);
+  grasping::GraspRules rules;
+  rules.sliding = with_choice({}, options.sliding);
+  grasping::GraspSimulation simulation(scene.obstacles, held_parts(scene, metaphor_of(options.sliding)), hands, rules);
+
+  std::chrono::nanoseconds first = trajectories.front().first_time();
+  std::chrono::nanoseconds last = trajectories.front().last_time();
+  for (const HandTrajectory& trajectory : trajectories) {
+    first = std::min(first, trajectory.first_time());
+    last = std::max(last, trajectory.last_time());
+  }
+  const std::int64_t ticks = (last - first) / kTick;
+  GraspTables tables(scene, simulation, hands, options);
+  GraspOutcome outcome(scene, simulation);
+  std::optional<GraspReport> report;
+  if (!options.report.empty()) report.emplace(scene, simulation, hands);
+  ProgressBar progress("grasping", ticks + 1);
+  std::vector<std::optional<grasping::Posture>> targets(hands.size());
+  for (std::int64_t tick = 0; tick <= ticks; ++tick) {
+    const std::chrono::nanoseconds time = first + tick * kTick;
+    for (std::size_t h = 0; h < hands.size(); ++h)
+      targets[h] = trajectories[h].posture_at(time);
+    simulation.advance(targets, tick == 0 ? 0.0 : 1.0);
+    tables.write(std::chrono::duration<double>(time).count());
+    outcome.add();
+    if (report) report->add(time);
+    progress.update(tick + 1);
+  }
+  tables.close();
+  if (report) write_html_report(report->finish(outcome), options.report);
+  if (options.out != "-" && options.objects != "-") {
+    for (const auto& [name, value] : outcome.rows())
+      std::cout << std::left << std::setw(16) << name << "  " << value << '\n';
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_grasp_command(CLI::App& app, Command& chosen) {
+  const auto options = std::make_shared<GraspOptions>();
+  CLI::App* command = app.add_subcommand("grasp", kGraspDescription);
+  command->footer(std::string(kGraspFooter) + kSlidingChoiceHelp + kSceneFileHelp);
+  command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
+  command
+      ->add_option("--hand-trajectory", options->trajectories,
+                   "Trajectory of a hand (CSV), see below; one for each hand")
+      ->required();
+  command->add_option("--hand", options->hands, "Whose hand (YAML), see below");
+  add_sliding_options(*command, options->sliding);
+  command->add_option("--out", options->out, "CSV file for the hands (-: standard output)")->capture_default_str();
+  command->add_option("--objects", options->objects, "CSV file for the movable objects, see below");
+  command
+      ->add_option("--report", options->report,
+                   "Folder for a page, index.html, with hands and objects in three dimensions, and plots")
+      ->take_last();
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace glissade::apps

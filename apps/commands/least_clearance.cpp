@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glissade/apps/commands/least_clearance.h>
+#include <glissade/collision/dop_query.h>
+#include <glissade/geometry/displacement.h>
+#include <glissade/geometry/triangle_pair.h>
+
+namespace glissade::apps {
+namespace {
+
+// Poses wait for others with contacts, which may make it needless to know how far apart distant bodies are.
+constexpr std::size_t kMostNoted = 8192;
+
+// A list of pairs serves for so many steps, unless they grow.
+constexpr double kStepsAhead = 16.0;
+constexpr double kLeastAhead_m = 30e-6;
+constexpr double kShareAhead = 0.005;  // of the distance of the search
+constexpr double kFarAhead = 0.05;     // in radii of the part: how much farther than the nearest a body is looked for
+
+// Below this distance, the direction between the closest points of two triangles is not sharp.
+constexpr double kSharp_m = 1e-9;
+
+geometry::TrianglePoints points(const geometry::TriangleMesh& mesh, std::int32_t triangle) {
+  return {mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)};
+}
+
+/// How far a point of the part has moved at most between two poses, metres.
+double motion_of(const haptics::SlidingPart& part, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
+  return geometry::motion_bound(geometry::displacement_between(from, to, part.p_Vref()), part.radius());
+}
+
+}  // namespace
+
+LeastClearance::LeastClearance(const HapticScene& scene)
+    : part_V_(*scene.parts.front().part_V), moving_(scene.moving), first_moving_(scene.obstacles.size()) {
+  for (const haptics::Obstacle& obstacle : scene.obstacles)
+    bodies_.push_back({.body_B = obstacle.body.get(), .X_WB = obstacle.X_WO});
+  for (const haptics::ScriptedPart& moving : moving_)
+    bodies_.push_back({.body_B = moving.part_B.get(), .X_WB = Eigen::Isometry3d::Identity()});
+}
+
+void LeastClearance::note(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB,
+                          std::span<const haptics::Contact> contacts) {
+  try_contacts(X_WV, moving_X_WB, contacts);
+  X_WV_noted_.push_back(X_WV);
+  X_WB_noted_.insert(X_WB_noted_.end(), moving_X_WB.begin(), moving_X_WB.end());
+  if (X_WV_noted_.size() == kMostNoted) look_at_noted();
+}
+
+void LeastClearance::finish() {
+  look_at_noted();
+}
+
+void LeastClearance::try_contacts(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB,
+                                  std::span<const haptics::Contact> contacts) {
+  const auto nearest =
+      std::min_element(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
+  if (nearest == contacts.end() || nearest->kind == haptics::ContactKind::kOverlap || nearest->gap >= least_) return;
+  // The part has a number too, between those of obstacles and moving objects.
+  const auto number = static_cast<std::size_t>(nearest->obstacle);
+  const bool moves = number > first_moving_;
+  const Body& body = bodies_[moves ? number - 1 : number];
+  const Eigen::Isometry3d& X_WB = moves ? moving_X_WB[number - 1 - first_moving_] : body.X_WB;
+  Pair pair{{nearest->obstacle_triangle, nearest->part_triangle}, Eigen::Vector3d::Zero(), 0.0};
+  take(distance_of(body, X_WB.inverse(Eigen::Isometry) * X_WV, pair),
+       looked_at_ + static_cast<std::int64_t>(X_WV_noted_.size()));
+}
+
+void LeastClearance::look_at_noted() {
+  for (std::size_t i = 0; i < X_WV_noted_.size(); ++i) {
+    move_to(X_WV_noted_[i], std::span(X_WB_noted_).subspan(i * moving_.size(), moving_.size()));
+    for (Body& body : bodies_) {
+      if (body.meets_at - body.clock < least_) look_at(body);
+    }
+    ++looked_at_;
+  }
+  X_WV_noted_.clear();
+  X_WB_noted_.clear();
+}
+
+void LeastClearance::move_to(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB) {
+  const bool is_first = looked_at_ == 0;
+  const double part_moved = is_first ? 0.0 : motion_of(part_V_, X_WV_, X_WV);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    Body& body = bodies_[b];
+    body.step = part_moved;
+    if (b >= first_moving_) {
+      const std::size_t i = b - first_moving_;
+      if (!is_first) body.step += motion_of(*moving_[i].part_B, body.X_WB, moving_X_WB[i]);
+      body.X_WB = moving_X_WB[i];
+    }
+    body.clock += body.step;
+  }
+  X_WV_ = X_WV;
+}
+
+void LeastClearance::look_at(Body& body) {
+  body.X_BV = body.X_WB.inverse(Eigen::Isometry) * X_WV_;
+  if (body.searched + body.distance - body.clock < least_) search(body);
+  look_at_pairs(body);
+}
+
+void LeastClearance::search(Body& body) {
+  const collision::DopTree& tree = body.body_B->tree;
+  const double ahead = std::max(kStepsAhead * body.step, kLeastAhead_m);
+  const bool was_far = body.pairs.empty();
+  body.searched = body.clock;
+  body.pairs.clear();
+  double nearest = least_;
+  if (was_far) {
+    ++work_.searches;
+    body.distance =
+        collision::distance(tree, part_V_.tree, body.X_BV, body.workspace, least_ + kFarAhead * part_V_.radius())
+            .distance;
+    if (body.distance > least_ + ahead) return;
+    nearest = std::min(least_, body.distance);
+  }
+  body.distance = nearest + std::max(ahead, kShareAhead * nearest);
+  find_close(body);
+  for (const collision::ClosePair& close : close_) {
+    Pair& pair = body.pairs.emplace_back(Pair{close.triangles, Eigen::Vector3d::Zero(), 0.0});
+    if (close.distance <= kSharp_m) continue;
+    const geometry::TrianglePoints a = points(tree.mesh(), close.triangles.triangle_A);
+    pair.n_B = (close.p_B - close.p_A) / close.distance;
+    pair.offset = std::max({pair.n_B.dot(a[0]), pair.n_B.dot(a[1]), pair.n_B.dot(a[2])});
+  }
+  body.pair_meets_at.assign(body.pairs.size(), -1.0);
+  if (nearest == 0.0) take(0.0, looked_at_);  // triangles may intersect where no features are near
+}
+
+void LeastClearance::find_close(Body& body) {
+  ++work_.searches;
+  collision::pairs_within(body.body_B->tree, part_V_.tree, body.X_BV, body.distance, body.workspace, close_,
+                          {.of_A = &body.body_B->features, .of_B = &part_V_.features});
+}
+
+void LeastClearance::look_at_pairs(Body& body) {
+  body.meets_at = body.searched + body.distance;
+  for (std::size_t i = 0; i < body.pairs.size(); ++i) {
+    double& meets_at = body.pair_meets_at[i];
+    if (meets_at - body.clock < least_) {
+      double distance = gap_along(body, body.pairs[i]);
+      if (distance < least_) {
+        distance = distance_of(body, body.X_BV, body.pairs[i]);
+        take(distance, looked_at_);
+      }
+      meets_at = body.clock + distance;
+    }
+    body.meets_at = std::min(body.meets_at, meets_at);
+  }
+}
+
+/// A lower bound of the distance: how far apart the triangles are along the direction in which they were before.
+double LeastClearance::gap_along(const Body& body, const Pair& pair) {
+  ++work_.directions;
+  const Eigen::Vector3d n_V = body.X_BV.linear().transpose() * pair.n_B;
+  const geometry::TriangleMesh& mesh = part_V_.tree.mesh();
+  const std::int32_t triangle = pair.triangles.triangle_B;
+  const double nearest = std::min(
+      {n_V.dot(mesh.corner(triangle, 0)), n_V.dot(mesh.corner(triangle, 1)), n_V.dot(mesh.corner(triangle, 2))});
+  return nearest + pair.n_B.dot(body.X_BV.translation()) - pair.offset;
+}
+
+double LeastClearance::distance_of(const Body& body, const Eigen::Isometry3d& X_BV, Pair& pair) {
+  ++work_.triangle_distances;
+  const geometry::TrianglePoints a = points(body.body_B->tree.mesh(), pair.triangles.triangle_A);
+  geometry::TrianglePoints b = points(part_V_.tree.mesh(), pair.triangles.triangle_B);
+  for (Eigen::Vector3d& point : b)
+    point = X_BV * point;
+  const geometry::TriangleDistance closest = geometry::triangle_distance(a, b);
+  pair.n_B.setZero();
+  pair.offset = 0.0;
+  if (closest.distance > kSharp_m) {
+    pair.n_B = (closest.p_b - closest.p_a) / closest.distance;
+    pair.offset = std::max({pair.n_B.dot(a[0]), pair.n_B.dot(a[1]), pair.n_B.dot(a[2])});
+  }
+  return closest.distance;
+}
+
+void LeastClearance::take(double distance, std::int64_t pose) {
+  if (!(distance < least_)) return;
+  least_ = distance;
+  least_at_ = pose;
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,100 @@
+#pragma once
+
+/// The least distance, over all poses of a run, between a part and the other objects of its scene. Neighboring poses
+/// share their work: no search is made as long as the part cannot have come nearer than the least distance so far.
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/collision/query_types.h>
+#include <glissade/haptics/sliding_result.h>
+
+namespace glissade::apps {
+
+/// The work of a `LeastClearance`.
+struct ClearanceWork {
+  std::int64_t searches = 0;            ///< searches of two whole trees
+  std::int64_t directions = 0;          ///< pairs of triangles tested along the direction that separated them before
+  std::int64_t triangle_distances = 0;  ///< pairs of triangles whose distance was computed
+};
+
+/// Not thread-safe. The distance is that of the features (`geometry::MeshTopology`) of the meshes, so a vertex that is
+/// inside a flat face or a straight rim up to rounding does not count for itself.
+///
+/// Each body keeps the pairs of triangles that were near the part in its last search. While the part moves relative to
+/// the body, a clock adds up how far any point has moved at most. A pair that was d metres apart is still apart by d
+/// less the time since on this clock, and the same holds for all pairs that the search left out.
+class LeastClearance {
+ public:
+  /// For the first part of the scene, which must outlive this object.
+  explicit LeastClearance(const HapticScene& scene);
+
+  /// Takes the next pose of the part and the poses of the objects that move on their own, in their order in the scene.
+  /// `contacts`, at this pose or near it, save work: their triangles are near. Cost: mostly that of the pairs of
+  /// triangles that come as near as the least distance so far.
+  void note(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB,
+            std::span<const haptics::Contact> contacts);
+
+  /// To be called after the last pose, before the results are read.
+  void finish();
+
+  /// Metres, up to rounding. Infinite without a pose.
+  double least() const { return least_; }
+  /// Number of a pose with the least distance, from 0.
+  std::int64_t least_at() const { return least_at_; }
+
+  const ClearanceWork& work() const { return work_; }
+
+ private:
+  /// A pair of triangles that came near the part. The plane n_B · x = `offset` has the triangle of the body behind it.
+  struct Pair {
+    collision::TrianglePair triangles;  ///< of the body and the part
+    Eigen::Vector3d n_B;                ///< unit, from the body to the part; zero if no direction is known
+    double offset;                      ///< metres
+  };
+  struct Body {
+    const haptics::ContactBody* body_B;
+    Eigen::Isometry3d X_WB;
+    Eigen::Isometry3d X_BV = Eigen::Isometry3d::Identity();
+    collision::CoherentWorkspace workspace{};
+    double clock = 0.0;      ///< metres
+    double step = 0.0;       ///< metres: how far the clock went on for the present pose
+    double searched = 0.0;   ///< clock at the last search
+    double distance = -1.0;  ///< metres: the last search listed all nearer pairs
+    double meets_at = -1.0;  ///< no triangle touches the part before this clock
+    std::vector<Pair> pairs{};
+    std::vector<double> pair_meets_at{};  ///< the same for each pair
+  };
+
+  void try_contacts(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB,
+                    std::span<const haptics::Contact> contacts);
+  void look_at_noted();
+  void move_to(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB);
+  void look_at(Body& body);
+  void search(Body& body);
+  void find_close(Body& body);
+  void look_at_pairs(Body& body);
+  double gap_along(const Body& body, const Pair& pair);
+  double distance_of(const Body& body, const Eigen::Isometry3d& X_BV, Pair& pair);
+  void take(double distance, std::int64_t pose);
+
+  const haptics::SlidingPart& part_V_;
+  std::vector<haptics::ScriptedPart> moving_;
+  std::vector<Body> bodies_;  // obstacles, then objects that move on their own
+  std::size_t first_moving_;
+  std::vector<Eigen::Isometry3d> X_WV_noted_;
+  std::vector<Eigen::Isometry3d> X_WB_noted_;  // those of one pose after those of another
+  Eigen::Isometry3d X_WV_ = Eigen::Isometry3d::Identity();
+  std::int64_t looked_at_ = 0;  // poses
+  double least_ = std::numeric_limits<double>::infinity();
+  std::int64_t least_at_ = 0;
+  std::vector<collision::ClosePair> close_;
+  ClearanceWork work_;
+};
+
+}  // namespace glissade::apps

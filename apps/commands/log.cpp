@@ -1,0 +1,95 @@
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/commands/command.h>
+#include <glissade/apps/record/log_mcap.h>
+#include <glissade/apps/record/log_tables.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr const char* kTablesFooter =
+    "LOG is what 'glissade record', 'glissade demo --record', a flight recorder or lcm-logger wrote. The tables are\n"
+    "  ticks.csv   when each tick of the haptic loop started, and how long it took\n"
+    "  parts.csv   ghost and visible pose of each part, with its state\n"
+    "  hands.csv   force on each hand, and why it is reduced\n"
+    "  gloves.csv  pose, velocity and joint angles that each glove measured\n"
+    "A table of which the log has nothing is left out. All columns: docs/file_formats.md in the sources.\n"
+    "If the log is damaged, the tables hold everything before the damage, and the exit code is 1.\n"
+    "\n"
+    "Examples:\n"
+    "  glissade demo --seconds 3 --record demo.lcmlog && glissade log to-csv demo.lcmlog tables\n"
+    "  glissade demo --offline --seconds 2 --record offline.lcmlog && glissade log to-csv offline.lcmlog offline";
+
+constexpr const char* kMcapFooter =
+    "FILE can be opened with Foxglove and PlotJuggler. Its topics are\n"
+    "  /tf      poses of visible parts (part_0, ...), ghosts (ghost_0, ...) and hands (hand_0, ...) in the world\n"
+    "  /scene   the meshes of the scene, with at most about 100,000 triangles\n"
+    "  /part_0  state, contacts, position and lag of each part\n"
+    "  /hand_0  force, torque, energy of each hand, and why its force is reduced\n"
+    "  /loop    when each tick of the haptic loop started, and how long it took\n"
+    "A log that does not begin with the beginning of a run, such as one of a flight recorder, has no /scene. All\n"
+    "values: docs/file_formats.md in the sources. If the log is damaged, the file holds everything before the damage,\n"
+    "and the exit code is 1.\n"
+    "\n"
+    "Examples:\n"
+    "  glissade demo --offline --seconds 4 --record offline.lcmlog && glissade log to-mcap offline.lcmlog "
+    "offline.mcap\n"
+    "  glissade demo --seconds 3 --record demo.lcmlog && glissade log to-mcap demo.lcmlog demo.mcap";
+
+struct LogOptions {
+  std::string log;
+  std::string folder;
+  std::string file;
+  std::string scene;
+};
+
+int write_tables(const LogOptions& options) {
+  std::string damage;
+  const std::vector<LogTable> tables = write_log_tables(options.log, options.folder, damage);
+  for (const LogTable& table : tables)
+    std::cout << table.file << ": " << table.rows << (table.rows == 1 ? " row\n" : " rows\n");
+  if (!damage.empty()) throw std::runtime_error(damage);
+  if (tables.empty()) throw std::invalid_argument(options.log + ": has no channel from which a table can be made");
+  return 0;
+}
+
+int write_mcap(const LogOptions& options) {
+  std::string damage;
+  const std::vector<McapTopic> topics = write_log_mcap(options.log, options.file, options.scene, damage);
+  for (const McapTopic& topic : topics)
+    std::cout << topic.topic << ": " << topic.messages << (topic.messages == 1 ? " message\n" : " messages\n");
+  if (!damage.empty()) throw std::runtime_error(damage);
+  if (topics.empty()) throw std::invalid_argument(options.log + ": has no tick of a haptic loop");
+  return 0;
+}
+
+}  // namespace
+
+void add_log_command(CLI::App& app, Command& chosen) {
+  const auto options = std::make_shared<LogOptions>();
+  CLI::App* command = app.add_subcommand("log", "Make other files of event logs");
+  command->require_subcommand(1);
+  command->footer(kTablesFooter);
+  CLI::App* tables = command->add_subcommand("to-csv", "Write tables (CSV) of an event log of LCM");
+  tables->footer(kTablesFooter);
+  tables->add_option("LOG", options->log, "Event log of LCM")->required();
+  tables->add_option("FOLDER", options->folder, "Folder for the tables; made if there is none")->required();
+  tables->callback([options, &chosen] { chosen = [options] { return write_tables(*options); }; });
+
+  CLI::App* mcap =
+      command->add_subcommand("to-mcap", "Write an event log of LCM as MCAP, for Foxglove and PlotJuggler");
+  mcap->footer(kMcapFooter);
+  mcap->add_option("LOG", options->log, "Event log of LCM")->required();
+  mcap->add_option("FILE", options->file, "File to write")->required();
+  mcap->add_option("--scene", options->scene, "Scene file, in place of the recorded name");
+  mcap->callback([options, &chosen] { chosen = [options] { return write_mcap(*options); }; });
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,30 @@
+#pragma once
+
+/// Warnings of sizes that are probably an error in units: CAD systems write millimetres, and this program reads metres.
+
+#include <string>
+#include <vector>
+
+#include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/geometry/triangle_mesh.h>
+
+namespace glissade::apps {
+
+/// The largest side of the bounding box, metres.
+double size_of(const geometry::TriangleMesh& mesh);
+
+/// "60 m across", and if this is more than things have that fit in a hand or a car, what may be wrong, for an option or
+/// a key: "60 m across: millimetres? --scale 0.001". `scale` is the present one.
+std::string told_size(double size_m, double scale, const std::string& option);
+/// Whether `told_size` doubts this size.
+bool is_doubtful(double size_m);
+
+/// One sentence for each mesh file whose size is doubtful, and for each part that is thousands of times as large as all
+/// obstacles together with the cure. `file` is what `scene` was made of.
+std::vector<std::string> doubtful_sizes(const Scene& file, const HapticScene& scene);
+
+/// Writes a warning as one line to standard error.
+void warn(const std::string& sentence);
+
+}  // namespace glissade::apps

@@ -1,0 +1,306 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/commands/command.h>
+#include <glissade/apps/commands/size_warnings.h>
+#include <glissade/apps/commands/slide_check.h>
+#include <glissade/apps/commands/slide_tables.h>
+#include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/files/trajectory_file.h>
+#include <glissade/apps/open_files.h>
+#include <glissade/apps/progress.h>
+#include <glissade/apps/report/html_report.h>
+#include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/scene/sliding_option.h>
+#include <glissade/apps/text.h>
+#include <glissade/apps/usage.h>
+#include <glissade/apps/view/slide_replay.h>
+#include <glissade/haptics/sliding.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr const char* kSlideDescription =
+    "Move a part through a scene along a trajectory, offline and deterministically";
+
+constexpr int kGoalNotReached = 3;
+
+constexpr const char* kSlideFooter =
+    "Trajectory: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is a time and the pose X_WG of the ghost, i.e. the\n"
+    "pose that the part would have if nothing were in the way; times increase. Between rows, translation is linear\n"
+    "and rotation follows the shorter arc at constant speed. The part starts at the first row, where it must not\n"
+    "collide (but see --depenetrate).\n"
+    "\n"
+    "Output: one row per millisecond with the time, the poses of the ghost and of the visible part (where the part is\n"
+    "shown, never inside an obstacle), the wrench on the hand about the part's origin in world axes, the number of\n"
+    "contacts with a force, and the state of the part. If no table goes to the standard output, a line there says\n"
+    "whether the part reached its goal, and with which force.\n"
+    "\n"
+    "Methods:\n"
+    "  projection          the default: projects the wanted motion on the motions that the contacts allow, and takes\n"
+    "                      a step only with a proof that the part touches nothing on the way\n"
+    "  paper               the method of the paper 'Natural Interaction in Virtual Environments', for comparison:\n"
+    "                      bisection to the contact, classification of the contact, a new direction of motion; each\n"
+    "                      row has one more column, which lists the states that the state machine went through\n"
+    "\n"
+    "Contacts: --contacts writes one row per touching contact and millisecond. A row has the number of the contact,\n"
+    "which stays the same as long as the contact lasts; the triangle and the feature (face, edge or vertex of the\n"
+    "mesh) of part and obstacle; the contact point on each; the normal from obstacle to part; gap, force along the\n"
+    "normal, age and friction. --patches writes one row per patch and millisecond. A patch unites the contacts with\n"
+    "one obstacle that lie in one plane. A row has the number of these contacts, the centre and the sum of the forces\n"
+    "on the part, and the extent of the patch.\n"
+    "\n"
+    "Moving objects: an object of the scene with 'moves: FILE' (at most three objects) follows the trajectory in this\n"
+    "file, whose times refer to the same clock as --trajectory. Before the first row and after the last row of its\n"
+    "file, the object stands still. The object pushes the part out of its way, waits where the part cannot move out\n"
+    "of the way, and must touch nothing at the start. --moving writes one row per object and millisecond.\n"
+    "\n"
+    "Assembly check, for several trajectories or with --summary or --report: one row per trajectory. A row says\n"
+    "whether the part reached the goal of the scene (if the scene has no goal: the last row of the trajectory), and\n"
+    "how far from the goal the part ended; the greatest force and torque on the hand; the smallest clearance and its\n"
+    "time; how long contacts exerted a force. If the part or a moving object touches another object at the start of\n"
+    "a trajectory, this trajectory has a line on standard error instead of a row, and the exit code is 1. With\n"
+    "--require-goal, the exit code is 3 if a trajectory does not bring the part to the goal.\n"
+    "\n"
+    "All columns: docs/file_formats.md in the sources.\n"
+    "\n"
+    "Examples, with the files of 'glissade example':\n"
+    "  glissade slide square_peg.yaml --part peg --trajectory square_peg_script.csv --out motion.csv --summary -\n"
+    "  glissade slide square_peg.yaml --part peg --trajectory square_peg_*.csv --summary ways.csv --report ways";
+
+struct SlideOptions {
+  std::string scene;
+  std::string part;
+  std::vector<std::string> trajectories;
+  SlidingChoice sliding;
+  std::string method = "projection";
+  SlideTableFiles tables;
+  std::string summary;
+  std::string report;
+  bool requires_goal = false;
+  double goal_tolerance_m = SlideCheckOptions{}.goal_tolerance_m;
+  double goal_tolerance_deg = SlideCheckOptions{}.goal_tolerance_deg;
+
+  bool is_check() const { return trajectories.size() > 1 || !summary.empty() || !report.empty(); }
+};
+
+haptics::SlidingMethod parse_method(const std::string& name) {
+  const auto method = haptics::sliding_method_from_name(name);
+  if (method) return *method;
+  throw std::invalid_argument("--method: '" + name + "' is unknown; known are " + joined(haptics::kSlidingMethodNames));
+}
+
+geometry::PoseTrajectory read(const std::string& file) {
+  geometry::PoseTrajectory trajectory = read_trajectory(file);
+  check_duration(trajectory.duration(), file);
+  return trajectory;
+}
+
+/// Leads the part along the only trajectory, and writes its tables meanwhile, and its replay if there is one.
+SlideCheck slide(const HapticScene& scene, const SlideCheckOptions& check_options, const SlideOptions& options,
+                 SlideReplay* replay) {
+  const std::string& file = options.trajectories.front();
+  const geometry::PoseTrajectory trajectory = read(file);
+  SlideTables tables(options.tables, scene, check_options.method);
+  const std::int64_t ticks = trajectory.duration() / std::chrono::milliseconds(1);
+  ProgressBar progress("sliding", ticks + 1);
+  std::int64_t done = 0;
+  SlideCheck check = check_slide(scene, trajectory, file, check_options,
+                                 [&](std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding) {
+                                   tables.write(time, sliding);
+                                   if (replay != nullptr) replay->add(time, sliding);
+                                   progress.update(++done);
+                                 });
+  tables.close();
+  return check;
+}
+
+/// Checks all trajectories, each on the next free processor.
+std::vector<SlideCheck> check_all(const HapticScene& scene, const std::vector<std::string>& files,
+                                  const SlideCheckOptions& options) {
+  std::vector<geometry::PoseTrajectory> trajectories;
+  for (const std::string& file : files)
+    trajectories.push_back(read(file));
+  std::vector<SlideCheck> checks(files.size());
+  std::atomic<std::size_t> next = 0;
+  std::atomic<std::int64_t> done = 0;
+  const auto work = [&](const auto& report_progress) {
+    for (std::size_t i = next++; i < files.size(); i = next++) {
+      checks[i] = check_slide(scene, trajectories[i], files[i], options);
+      report_progress(++done);
+    }
+  };
+  std::vector<std::jthread> helpers;
+  while (helpers.size() + 1 < std::min<std::size_t>(std::thread::hardware_concurrency(), files.size()))
+    helpers.emplace_back([&] { work([](std::int64_t) {}); });
+  ProgressBar progress("checking", static_cast<std::int64_t>(files.size()));
+  work([&](std::int64_t count) { progress.update(count); });
+  helpers.clear();
+  return checks;
+}
+
+/// Whether a table goes to the standard output.
+bool has_table_on_standard_output(const SlideOptions& options) {
+  const SlideTableFiles& tables = options.tables;
+  if (options.is_check() && options.summary.empty()) return true;
+  return tables.motion == "-" || tables.contacts.contacts == "-" || tables.contacts.patches == "-" ||
+         tables.moving == "-" || options.summary == "-";
+}
+
+/// Writes what the checks found, and returns the exit code.
+int conclude(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& check_options,
+             const SlideOptions& options, std::optional<SlideReplay> replay) {
+  if (options.is_check() && (!options.summary.empty() || options.report.empty())) {
+    write_checks(checks, options.summary.empty() ? "-" : options.summary);
+  }
+  if (!options.report.empty()) {
+    Report report = report_of(scene, checks, check_options);
+    if (replay && !checks.front().problem) report.replay = replay->finish();
+    write_html_report(report, options.report);
+  }
+  int exit_code = 0;
+  const double size_m = size_of(scene.parts.front().part_V->tree.mesh());
+  for (const SlideCheck& one : checks) {
+    constexpr double kFar = 2.0;  // sizes of the part
+    if (!one.problem && one.far_m > kFar * size_m) {
+      warn(one.trajectory + ": the part, " + rounded_text(size_m) + " m across, stays more than " +
+           rounded_text(one.far_m) + " m away from everything: are the trajectory and all poses in metres?");
+    }
+    if (one.problem) {
+      std::cerr << "glissade: " << one.trajectory << ": " << *one.problem << '\n';
+      exit_code = 1;
+      continue;
+    }
+    if (!has_table_on_standard_output(options)) std::cout << one.trajectory << ": " << verdict(one) << '\n';
+    if (options.requires_goal && !one.goal_reached) {
+      std::cerr << "glissade: " << one.trajectory << ": the goal is not reached: the part ends "
+                << rounded_text(1e3 * one.goal_distance_m) << " mm and " << rounded_text(one.goal_angle_deg)
+                << " degrees from it\n";
+      if (exit_code == 0) exit_code = kGoalNotReached;
+    }
+  }
+  return exit_code;
+}
+
+haptics::SlidingOptions sliding_options(const SlideOptions& options) {
+  return {.metaphor = metaphor_of(options.sliding), .rules = with_choice({}, options.sliding)};
+}
+
+/// Two tables must not share a file, and one trajectory alone has tables of its motion.
+void check_files(const SlideOptions& options) {
+  const SlideTableFiles& tables = options.tables;
+  const std::vector<std::pair<std::string, std::string>> files{{"--out", tables.motion},
+                                                               {"--contacts", tables.contacts.contacts},
+                                                               {"--patches", tables.contacts.patches},
+                                                               {"--moving", tables.moving},
+                                                               {"--summary", options.summary}};
+  const auto name_of = [](const std::string& file) {
+    return file.empty() || file == "-" ? file : weakly_canonical(std::filesystem::absolute(file)).string();
+  };
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (files[i].second.empty()) continue;
+    if (options.trajectories.size() > 1 && files[i].first != "--summary") {
+      throw std::invalid_argument(files[i].first +
+                                  ": applies to one trajectory; several write to --summary and --report");
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (name_of(files[i].second) != name_of(files[j].second)) continue;
+      throw std::invalid_argument(files[i].first + ": " + in_quotes(files[i].second) + " is already the file of " +
+                                  files[j].first);
+    }
+  }
+}
+
+int run(SlideOptions options) {
+  SlideCheckOptions check_options{sliding_options(options), parse_method(options.method), options.goal_tolerance_m,
+                                  options.goal_tolerance_deg};
+  check_options.needs_summary = options.is_check();
+  check_options.needs_curve = !options.report.empty();
+  if (check_options.method == haptics::SlidingMethod::kPaper && options.sliding.has_rules()) {
+    throw std::invalid_argument("--method: paper does not support --friction, --spiral-search and --depenetrate");
+  }
+  if (!options.is_check() && options.tables.motion.empty()) options.tables.motion = "-";
+  check_files(options);
+  for (const std::string& file : options.trajectories) {
+    if (options.is_check() && file.find_first_of(",\"\n\r") != std::string::npos) {
+      throw std::invalid_argument("--trajectory: " + in_quotes(file) + " has a comma, quote or line break in its name");
+    }
+  }
+  const Scene file = open_scene(options.scene);
+  const HapticScene scene = make_haptic_scene(file, {options.part});
+  if (check_options.method == haptics::SlidingMethod::kPaper && !scene.moving.empty()) {
+    throw std::invalid_argument("--method: paper does not support objects that move on their own, such as " +
+                                scene.moving.front().name);
+  }
+  if (!file.find(options.part).movable) {
+    throw std::invalid_argument("--part: the object " + in_quotes(options.part) + " in " + scene.source +
+                                " is not movable; a part needs 'movable: true'");
+  }
+  if (!options.tables.moving.empty() && scene.moving.empty()) {
+    throw std::invalid_argument("--moving: no object moves on its own in " + scene.source);
+  }
+  if (options.tables.contacts.any() || !options.tables.moving.empty()) check_names_fit_csv(scene);
+  if (!options.report.empty()) prepare_report_folder(options.report);
+  for (const std::string& sentence : doubtful_sizes(file, scene))
+    warn(sentence);
+  if (options.trajectories.size() > 1)
+    return conclude(scene, check_all(scene, options.trajectories, check_options), check_options, options, {});
+  std::optional<SlideReplay> replay;
+  if (!options.report.empty()) replay.emplace(scene);
+  const SlideCheck check = slide(scene, check_options, options, replay ? &*replay : nullptr);
+  return conclude(scene, {check}, check_options, options, std::move(replay));
+}
+
+}  // namespace
+
+void add_slide_command(CLI::App& app, Command& chosen) {
+  const auto options = std::make_shared<SlideOptions>();
+  CLI::App* command = app.add_subcommand("slide", kSlideDescription);
+  command->footer(std::string(kSlideFooter) + kSlidingChoiceHelp + kSceneFileHelp);
+  command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
+  command->add_option("--part", options->part, "Name of the object in the hand")->required();
+  command
+      ->add_option("--trajectory", options->trajectories,
+                   "Trajectory of the ghost (CSV), see below; several for an assembly check")
+      ->required();
+  add_sliding_options(*command, options->sliding);
+  command->add_option("--method", options->method, "Sliding method, see below")->capture_default_str();
+  command->add_option("--out", options->tables.motion,
+                      "CSV file for the motion (default: standard output, but none with --summary or --report)");
+  command->add_option("--contacts", options->tables.contacts.contacts, "CSV file for the contacts, see below");
+  command->add_option("--patches", options->tables.contacts.patches, "CSV file for patches of contacts, see below");
+  command->add_option("--moving", options->tables.moving, "CSV file for the moving objects, see below");
+  command->add_option("--summary", options->summary, "CSV file for the assembly check, - for standard output");
+  command->add_option(
+      "--report", options->report,
+      "Folder for the assembly check as an HTML page, index.html; of one trajectory also in three dimensions");
+  command->add_flag("--require-goal", options->requires_goal,
+                    "Exit with code 3 if a trajectory does not bring the part to the goal");
+  command
+      ->add_option("--goal-tolerance-m", options->goal_tolerance_m,
+                   "Greatest distance from the goal at which the goal counts as reached")
+      ->capture_default_str()
+      ->check(not_negative());
+  command
+      ->add_option("--goal-tolerance-deg", options->goal_tolerance_deg,
+                   "Greatest angle from the goal at which the goal counts as reached")
+      ->capture_default_str()
+      ->check(not_negative());
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <glissade/apps/commands/clearance_curve.h>
+#include <glissade/apps/commands/least_clearance.h>
+#include <glissade/apps/commands/slide_check.h>
+#include <glissade/apps/commands/start_overlap.h>
+#include <glissade/apps/files/csv.h>
+#include <glissade/apps/text.h>
+
+namespace glissade::apps {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::size_t kPlottedChecks = 6;
+
+double seconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+void note_goal(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WGoal, const SlideCheckOptions& options,
+               SlideCheck& check) {
+  check.goal_distance_m = (X_WV.translation() - X_WGoal.translation()).norm();
+  check.goal_angle_deg =
+      Eigen::AngleAxisd(X_WGoal.linear().transpose() * X_WV.linear()).angle() * 180.0 / std::numbers::pi;
+  check.goal_reached =
+      check.goal_distance_m <= options.goal_tolerance_m && check.goal_angle_deg <= options.goal_tolerance_deg;
+}
+
+/// How deep the part is in others at the first row, and what can be done about it.
+std::string advice(const HapticScene& scene, const geometry::PoseTrajectory& trajectory,
+                   const SlideCheckOptions& options) {
+  std::vector<Eigen::Isometry3d> moving_X_WB;
+  for (const haptics::ScriptedPart& part : scene.moving)
+    moving_X_WB.push_back(part.script_X_WB.pose_at(trajectory.first_time()));
+  const std::string overlaps = overlaps_at(scene, trajectory.pose_at(trajectory.first_time()), moving_X_WB);
+  if (overlaps.empty()) return "";
+  const bool may_depenetrate = options.method == haptics::SlidingMethod::kProjection &&
+                               options.sliding.rules.overlap != haptics::OverlapRule::kDepenetrate;
+  return ": " + overlaps +
+         (may_depenetrate ? "; begin elsewhere, or let --depenetrate push the part out of obstacles" : "");
+}
+
+/// The distance of the part's bounding sphere from those of all other objects, metres; negative if they intersect.
+double between_spheres(const HapticScene& scene, const haptics::SlidingSimulation& sliding) {
+  const collision::DopTree& part = scene.parts.front().part_V->tree;
+  const Eigen::Vector3d center_W = sliding.result().X_WV * part.center();
+  double least = std::numeric_limits<double>::infinity();
+  const auto look_at = [&](const collision::DopTree& tree, const Eigen::Isometry3d& X_WB) {
+    least = std::min(least, (X_WB * tree.center() - center_W).norm() - tree.radius() - part.radius());
+  };
+  for (const haptics::Obstacle& obstacle : scene.obstacles)
+    look_at(obstacle.body->tree, obstacle.X_WO);
+  for (std::size_t i = 0; i < scene.moving.size(); ++i)
+    look_at(scene.moving[i].part_B->tree, sliding.scripted_X_WB()[i]);
+  return least;
+}
+
+/// The simulation from the first row of the trajectory on. Throws std::invalid_argument, with one sentence, when a body
+/// is not free there.
+std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& scene,
+                                                          const geometry::PoseTrajectory& trajectory,
+                                                          const SlideCheckOptions& options) {
+  std::vector<haptics::ScriptedPart> moving = scene.moving;
+  for (haptics::ScriptedPart& part : moving)
+    part.start = trajectory.first_time();
+  try {
+    return haptics::make_sliding(options.method, scene.obstacles, scene.parts.front().part_V,
+                                 trajectory.pose_at(trajectory.first_time()), options.sliding, moving);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string(error.what()) + ", at the time of the first row" +
+                                advice(scene, trajectory, options));
+  }
+}
+
+/// Advances to a tick of the trajectory, a millisecond, and returns its time.
+std::chrono::nanoseconds slide_to(std::int64_t tick, const geometry::PoseTrajectory& trajectory,
+                                  haptics::SlidingSimulation& sliding) {
+  const std::chrono::nanoseconds time = trajectory.first_time() + tick * milliseconds(1);
+  // The first row shows the start: no time has passed yet.
+  sliding.advance(trajectory.pose_at(time), tick == 0 ? 0.0 : 1.0);
+  return time;
+}
+
+}  // namespace
+
+SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory& trajectory, const std::string& name,
+                       const SlideCheckOptions& options, const SlideWatch& watch) {
+  SlideCheck check;
+  check.trajectory = name;
+  check.force.name = name;
+  check.duration_s = seconds(trajectory.duration());
+  check.far_m = std::numeric_limits<double>::infinity();
+  std::unique_ptr<haptics::SlidingSimulation> sliding;
+  try {
+    sliding = start_sliding(scene, trajectory, options);
+  } catch (const std::invalid_argument& error) {
+    check.problem = error.what();
+    return check;
+  }
+  LeastClearance clearance(scene);
+  std::int64_t contact_ticks = 0;
+  const std::int64_t ticks = trajectory.duration() / milliseconds(1);
+  ClearanceCurve curve(scene, ticks + 1);
+  for (std::int64_t i = 0; i <= ticks; ++i) {
+    const std::chrono::nanoseconds now = slide_to(i, trajectory, *sliding);
+    const std::chrono::nanoseconds time = now - trajectory.first_time();
+    const haptics::Wrench wrench = haptics::spring_wrench(sliding->stiffness(), sliding->error());
+    check.force_max_N = std::max(check.force_max_N, wrench.f.norm());
+    check.torque_max_Nm = std::max(check.torque_max_Nm, wrench.t.norm());
+    contact_ticks += sliding->result().pushing > 0 ? 1 : 0;
+    if (options.needs_summary) {
+      check.force.x.push_back(seconds(time));
+      check.force.y.push_back(wrench.f.norm());
+      clearance.note(sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
+    }
+    if (options.needs_curve) curve.note(time, sliding->result().X_WV, sliding->scripted_X_WB());
+    check.far_m = std::min(check.far_m, between_spheres(scene, *sliding));
+    if (watch) watch(now, *sliding);
+  }
+  check.contact_s = seconds(contact_ticks * milliseconds(1));
+  clearance.finish();
+  check.clearance = curve.take(name);
+  check.clearance_min_m = clearance.least();
+  check.clearance_min_at_s = seconds(clearance.least_at() * milliseconds(1));
+  note_goal(sliding->result().X_WV, scene.X_WGoal.value_or(trajectory.pose_at(trajectory.last_time())), options, check);
+  return check;
+}
+
+std::string verdict(const SlideCheck& check) {
+  if (check.problem) return *check.problem;
+  const std::string clearance = std::isfinite(check.clearance_min_m)
+                                    ? "; least clearance " + fixed_text(1e6 * check.clearance_min_m, 1) + " um at " +
+                                          fixed_text(check.clearance_min_at_s, 3) + " s"
+                                    : "";
+  return std::string(check.goal_reached ? "goal reached, " : "goal not reached, ") +
+         fixed_text(1e3 * check.goal_distance_m, 3) + " mm and " + fixed_text(check.goal_angle_deg, 2) +
+         " degrees from it; at most " + fixed_text(check.force_max_N, 2) + " N and " +
+         fixed_text(check.torque_max_Nm, 3) + " Nm" + clearance + "; " + fixed_text(check.contact_s, 3) + " of " +
+         fixed_text(check.duration_s, 3) + " s in contact";
+}
+
+void write_checks(const std::vector<SlideCheck>& checks, const std::string& path) {
+  CsvWriter out(path, {"trajectory", "goal_reached", "goal_distance_m", "goal_angle_deg", "force_max_N",
+                       "torque_max_Nm", "clearance_min_m", "clearance_min_at_s", "duration_s", "contact_s"});
+  for (const SlideCheck& check : checks) {
+    if (check.problem) continue;
+    out.add(check.trajectory).add(std::int64_t{check.goal_reached});
+    for (const double value : {check.goal_distance_m, check.goal_angle_deg, check.force_max_N, check.torque_max_Nm,
+                               check.clearance_min_m, check.clearance_min_at_s, check.duration_s, check.contact_s}) {
+      out.add(value);
+    }
+    out.end_row();
+  }
+  out.close();
+}
+
+Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& options) {
+  Report report;
+  report.title = "Assembly check of " + scene.parts.front().name;
+  const auto reached = std::count_if(checks.begin(), checks.end(),
+                                     [](const SlideCheck& check) { return !check.problem && check.goal_reached; });
+  report.summary.emplace_back("scene", scene.source);
+  report.summary.emplace_back("metaphor", std::string(haptics::name_of(options.sliding.metaphor)));
+  report.summary.emplace_back("method", std::string(haptics::name_of(options.method)));
+  report.summary.emplace_back("goal reached", std::to_string(reached) + " of " + std::to_string(checks.size()));
+  for (const SlideCheck& check : checks)
+    report.summary.emplace_back(check.trajectory, verdict(check));
+
+  std::vector<const SlideCheck*> by_force;
+  for (const SlideCheck& check : checks) {
+    if (!check.problem) by_force.push_back(&check);
+  }
+  std::stable_sort(by_force.begin(), by_force.end(),
+                   [](const SlideCheck* a, const SlideCheck* b) { return a->force_max_N > b->force_max_N; });
+  if (by_force.size() > kPlottedChecks) by_force.resize(kPlottedChecks);
+  Plot plot{"Force on the hand, where it was greatest", kTimeLabel, "force [N]", {}};
+  for (const SlideCheck* check : by_force)
+    plot.series.push_back(check->force);
+  if (plot.series.empty()) return report;
+  report.plots.push_back(std::move(plot));
+  Plot clearance{"Clearance of the visible part, up to 20 mm", kTimeLabel, "clearance [um]", {}};
+  for (const SlideCheck* check : by_force)
+    clearance.series.push_back(check->clearance);
+  report.plots.push_back(std::move(clearance));
+  return report;
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,65 @@
+#pragma once
+
+/// The assembly check of a trajectory: whether the part reaches its goal, and with which forces and clearance.
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glissade/apps/report/html_report.h>
+#include <glissade/apps/report/plot.h>
+#include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/geometry/pose_trajectory.h>
+#include <glissade/haptics/coupling.h>
+#include <glissade/haptics/sliding.h>
+
+namespace glissade::apps {
+
+struct SlideCheckOptions {
+  haptics::SlidingOptions sliding{};
+  haptics::SlidingMethod method = haptics::SlidingMethod::kProjection;
+  double goal_tolerance_m = 0.3e-3;
+  double goal_tolerance_deg = 0.5;
+  bool needs_summary = true;  ///< otherwise clearance and force over time are left out
+  bool needs_curve = false;   ///< of the clearance
+};
+
+struct SlideCheck {
+  std::string trajectory;              ///< the file's name
+  std::optional<std::string> problem;  ///< one sentence: why the check was impossible; then all else is meaningless
+  bool goal_reached = false;
+  double goal_distance_m = 0.0;  ///< of the part's origin, at the end
+  double goal_angle_deg = 0.0;
+  double force_max_N = 0.0;
+  double torque_max_Nm = 0.0;    ///< about the part's reference point
+  double clearance_min_m = 0.0;  ///< of the visible part; infinite if left out
+  double clearance_min_at_s = 0.0;
+  double duration_s = 0.0;
+  double contact_s = 0.0;  ///< time during which contacts pushed
+  PlotSeries force;        ///< newtons over seconds
+  PlotSeries clearance;    ///< as of `ClearanceCurve`; empty if left out
+  double far_m = 0.0;      ///< a lower bound of the least clearance, from bounding spheres
+};
+
+/// Called after each millisecond, first for the start, with the time on the clock of the trajectory.
+using SlideWatch = std::function<void(std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding)>;
+
+/// Moves the part along the trajectory in steps of a millisecond, offline. The part starts at the pose of the first
+/// row, objects that move on their own at their poses of that time. The goal is that of the scene, by default the last
+/// row of the trajectory. A start that is not free is reported as `problem`, without a call of `watch`. Checks of one
+/// scene may run in several threads at once.
+SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory& trajectory, const std::string& name,
+                       const SlideCheckOptions& options, const SlideWatch& watch = {});
+
+/// The outcome in one sentence.
+std::string verdict(const SlideCheck& check);
+
+/// Writes one row per check, in their order; `path` as for `CsvWriter`.
+void write_checks(const std::vector<SlideCheck>& checks, const std::string& path);
+
+/// The page of all checks.
+Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& options);
+
+}  // namespace glissade::apps

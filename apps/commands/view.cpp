@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/commands/command.h>
+#include <glissade/apps/files/hand_trajectory_file.h>
+#include <glissade/apps/run/lcm_option.h>
+#include <glissade/apps/run/status_line.h>
+#include <glissade/apps/run/stop_signal.h>
+#include <glissade/apps/scene/embedded_scene.h>
+#include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/text.h>
+#include <glissade/apps/view/session_view.h>
+#include <glissade/devices/event_log.h>
+#include <glissade/viewer/view_server.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr const char* kViewDescription = "Show a running scene in a browser, from what a haptic server publishes";
+
+constexpr const char* kViewFooter =
+    "Listens to HAPTIC_STATE, which 'glissade run', 'record' and 'demo' publish at their LCM address, and serves a "
+    "page\n"
+    "on this machine. SCENE must be the scene of the server; without it, that of 'glissade demo' is shown. Nothing is\n"
+    "sent to the server, so that looking on disturbs no hand. 'run', 'demo' and 'replay' show themselves with --view.\n"
+    "\n"
+    "Examples, with the files of 'glissade example'; a demonstration publishes:\n"
+    "  glissade demo --seconds 20 --lcm 'udpm://239.255.76.67:7667?ttl=0' & glissade view --seconds 20\n"
+    "  glissade view car_door.yaml --seconds 20 --port 8500 --lcm 'udpm://239.255.76.67:7667?ttl=0'";
+
+struct ViewOptions {
+  std::string scene;
+  LcmAddress lcm;
+  std::uint16_t port = kViewPort;
+  double seconds = 0.0;
+  std::vector<std::int64_t> devices{devices::kDefaultDevice};
+  bool fingers = false;
+  std::string hand_file;
+};
+
+/// What has come from the server so far.
+struct Received {
+  std::atomic<std::int64_t> states{0};
+  std::atomic<std::int32_t> part_count{-1};
+  std::atomic<bool> has_unreadable{false};
+};
+
+int view(const ViewOptions& options) {
+  const Scene file =
+      read_or_embedded_scene(options.scene, options.fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor);
+  std::shared_ptr<const grasping::HandModel> model;
+  if (options.fingers) {
+    const grasping::HandShape shape =
+        options.hand_file.empty() ? grasping::HandShape{} : read_hand_shape(options.hand_file);
+    model = std::make_shared<const grasping::HandModel>(grasping::make_hand(shape));
+  }
+  viewer::ViewScene scene{.title = file.source, .objects = shown_objects(file, movable_objects(file))};
+  const auto parts = static_cast<std::int32_t>(std::count_if(
+      scene.objects.begin(), scene.objects.end(), [](const viewer::ViewObject& object) { return object.part; }));
+  for (const std::int64_t device : options.devices)
+    scene.hands.push_back({"glove " + std::to_string(device), model});
+  const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
+  const StopSignal stop_signal;
+  viewer::ViewServer server(std::move(scene), options.port);
+  Received received;
+  const auto subscription = bus->subscribe("HAPTIC_STATE", [&](std::span<const std::uint8_t> bytes) {
+    const auto state = devices::haptic_state_of({.channel = "HAPTIC_STATE", .message = {bytes.begin(), bytes.end()}});
+    if (!state) {
+      received.has_unreadable = true;
+      return;
+    }
+    received.part_count = state->part_count;
+    ++received.states;
+    server.push(*state);
+  });
+  StatusLine line;
+  line.say("glissade view: " + server.url() + " shows what a server at " + options.lcm.url + " publishes; Ctrl-C ends");
+  bool has_warned = false;
+  const auto start = std::chrono::steady_clock::now();
+  const auto is_over = [&] {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    return StopSignal::requested() || (options.seconds > 0.0 && passed.count() > options.seconds);
+  };
+  while (!is_over()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    const std::int32_t count = received.part_count;
+    if (!has_warned && (received.has_unreadable || (count >= 0 && count != parts))) {
+      has_warned = true;
+      line.say(received.has_unreadable
+                   ? "glissade view: states of the server cannot be read: another version of glissade sends them"
+                   : "glissade view: the server moves " + std::to_string(count) + " parts, " + file.source + " has " +
+                         std::to_string(parts) + ": is it the server's scene?");
+    }
+    line.show(received.states == 0 ? "waiting for a server" : std::to_string(received.states) + " states");
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app, Command& chosen) {
+  const auto options = std::make_shared<ViewOptions>();
+  CLI::App* command = app.add_subcommand("view", kViewDescription);
+  command->footer(kViewFooter);
+  command->add_option("SCENE", options->scene, "Scene file (YAML) of the server");
+  add_lcm_options(*command, options->lcm);
+  command
+      ->add_option_function<std::string>(
+          "--port", [options](const std::string& text) { options->port = parse_port("--port", text); },
+          "Port on 127.0.0.1 for the page; 0: any that is free")
+      ->type_name("PORT")
+      ->default_str(std::to_string(kViewPort));
+  command->add_option("--seconds", options->seconds, "Duration in seconds; 0: until Ctrl-C")
+      ->check(CLI::Range(0.0, 86400.0))
+      ->capture_default_str();
+  command->add_option("--device", options->devices, "Numbers of the server's gloves, in its order")
+      ->check(glove_number())
+      ->capture_default_str();
+  CLI::Option* fingers = command->add_flag("--fingers", options->fingers, "The server runs with --fingers: show hands");
+  command->add_option("--hand", options->hand_file, "Whose hands (YAML), as for 'glissade run'")->needs(fingers);
+  command->callback([options, &chosen] { chosen = [options] { return view(*options); }; });
+}
+
+}  // namespace glissade::apps

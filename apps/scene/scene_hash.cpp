@@ -1,0 +1,56 @@
+#include <chrono>
+
+#include <glissade/apps/hash.h>
+#include <glissade/apps/scene/scene_hash.h>
+
+namespace glissade::apps {
+
+namespace {
+
+void add(Hash& hash, const geometry::TriangleMesh& mesh) {
+  hash.add(std::uint64_t{mesh.vertices.size()});
+  for (const Eigen::Vector3d& vertex : mesh.vertices)
+    hash.add(vertex);
+  hash.add(std::uint64_t{mesh.triangles.size()});
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::int32_t vertex : triangle)
+      hash.add(static_cast<std::uint64_t>(vertex));
+  }
+}
+
+void add(Hash& hash, const haptics::SlidingPart& part) {
+  add(hash, part.tree.mesh());
+  hash.add(part.p_Vref());
+}
+
+void add(Hash& hash, const geometry::PoseTrajectory& script) {
+  constexpr int kPoses = 1000;
+  for (int i = 0; i <= kPoses; ++i) {
+    const std::chrono::nanoseconds time = script.first_time() + script.duration() / kPoses * i;
+    hash.add(static_cast<std::uint64_t>(time.count()));
+    hash.add(script.pose_at(time));
+  }
+}
+
+}  // namespace
+
+std::uint64_t scene_hash(const HapticScene& scene) {
+  Hash hash;
+  for (const ScenePart& part : scene.parts) {
+    add(hash, *part.part_V);
+    hash.add(part.X_WV_start);
+  }
+  for (const haptics::Obstacle& obstacle : scene.obstacles) {
+    add(hash, obstacle.body->tree.mesh());
+    hash.add(obstacle.X_WO);
+    hash.add(obstacle.margin.value_or(-1.0));
+  }
+  for (const haptics::ScriptedPart& part : scene.moving) {
+    add(hash, *part.part_B);
+    add(hash, part.script_X_WB);
+    hash.add(part.grip_N_per_m);
+  }
+  return hash.value();
+}
+
+}  // namespace glissade::apps

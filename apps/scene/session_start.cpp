@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <tuple>
+
+#include <glissade/apps/scene/session_start.h>
+#include <glissade/grasping/grasp_simulation.h>
+#include <glissade/haptics/multi_part_sliding.h>
+
+namespace glissade::apps {
+
+namespace {
+
+void soften(haptics::HeldPart& part, const devices::DeviceDescriptor& device, std::chrono::nanoseconds period) {
+  const haptics::CouplingStiffness wanted = part.stiffness.value_or(haptics::default_stiffness(part.part_V->radius()));
+  part.stiffness = coupling_for(device, wanted, period).stiffness;
+}
+
+/// Hands of one shape share their model.
+std::vector<std::shared_ptr<const grasping::HandModel>> models_of(const std::vector<Grip>& grips) {
+  std::map<std::tuple<double, double, devices::HandSide>, std::shared_ptr<const grasping::HandModel>> known;
+  std::vector<std::shared_ptr<const grasping::HandModel>> models;
+  for (const Grip& grip : grips) {
+    const grasping::HandShape& shape = *grip.fingers;
+    auto& model = known[{shape.length_m, shape.breadth_m, shape.side}];
+    if (!model) model = std::make_shared<const grasping::HandModel>(grasping::make_hand(shape));
+    models.push_back(model);
+  }
+  return models;
+}
+
+}  // namespace
+
+StartedSimulation start_simulation(const HapticScene& scene, const std::vector<Grip>& grips,
+                                   const SlidingChoice& choice, const haptics::SlidingRules& rules,
+                                   std::chrono::nanoseconds period) {
+  std::vector<haptics::HeldPart> parts = held_parts(scene, metaphor_of(choice));
+  const bool has_fingers = std::any_of(grips.begin(), grips.end(), [](const Grip& grip) { return grip.fingers; });
+  for (const Grip& grip : grips) {
+    if (grip.fingers.has_value() != has_fingers) throw std::invalid_argument("either all hands have fingers, or none");
+    if (grip.part) soften(parts[*grip.part], grip.device, period);
+    for (std::size_t p = 0; has_fingers && p < scene.parts.size(); ++p)
+      soften(parts[p], grip.device, period);
+  }
+  StartedSimulation started;
+  started.fingers.resize(grips.size());
+  started.models.resize(grips.size());
+  try {
+    if (!has_fingers) {
+      started.simulation =
+          std::make_unique<haptics::MultiPartSliding>(scene.obstacles, parts, with_choice(rules, choice));
+      return started;
+    }
+    started.models = models_of(grips);
+    for (std::size_t h = 0; h < grips.size(); ++h)
+      started.fingers[h] = grasping::finger_hand(*started.models[h]);
+    started.simulation = std::make_unique<grasping::GraspSimulation>(
+        scene.obstacles, parts, started.models, grasping::GraspRules{.sliding = with_choice(rules, choice)});
+    return started;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(scene.source + ": " + error.what());
+  }
+}
+
+}  // namespace glissade::apps

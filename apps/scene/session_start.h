@@ -1,0 +1,42 @@
+#pragma once
+
+/// The simulation of a run, as the commands that run, record and repeat start it.
+
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/scene/sliding_option.h>
+#include <glissade/devices/glove_device.h>
+#include <glissade/grasping/hand_model.h>
+#include <glissade/haptics/haptic_kernel.h>
+#include <glissade/haptics/loop_simulation.h>
+#include <glissade/haptics/sliding_rules.h>
+
+namespace glissade::apps {
+
+/// A device, and what its hand takes.
+struct Grip {
+  devices::DeviceDescriptor device;
+  std::optional<std::size_t> part{};             ///< number of the part; not of a hand with fingers
+  std::optional<grasping::HandShape> fingers{};  ///< of a hand that takes hold with its fingers
+};
+
+/// A simulation, and its hands as the haptic loop takes them, one for each grip.
+struct StartedSimulation {
+  std::unique_ptr<haptics::LoopSimulation> simulation;
+  std::vector<std::optional<haptics::FingerHand>> fingers;
+  std::vector<std::shared_ptr<const grasping::HandModel>> models;  ///< null without fingers
+};
+
+/// Starts the simulation. A part has its default stiffness, lowered to the limits of the devices that may hold it: with
+/// fingers, of all of them. All hands have fingers, or none. Throws std::invalid_argument, naming the scene, for a part
+/// that starts inside an obstacle.
+StartedSimulation start_simulation(const HapticScene& scene, const std::vector<Grip>& grips,
+                                   const SlidingChoice& choice, const haptics::SlidingRules& rules,
+                                   std::chrono::nanoseconds period = haptics::kTickPeriod);
+
+}  // namespace glissade::apps

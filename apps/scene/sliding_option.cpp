@@ -1,0 +1,44 @@
+#include <stdexcept>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/did_you_mean.h>
+#include <glissade/apps/scene/sliding_option.h>
+#include <glissade/apps/text.h>
+#include <glissade/apps/usage.h>
+
+namespace glissade::apps {
+
+void add_sliding_options(CLI::App& command, SlidingChoice& choice) {
+  command.add_option("--metaphor", choice.metaphor, "Metaphor, the rule by which the hand moves the part, see below")
+      ->capture_default_str();
+  command.add_option("--friction", choice.friction, "Coefficient of Coulomb friction; or two, sliding and at rest")
+      ->expected(1, 2)
+      ->check(not_negative());
+  command.add_flag("--spiral-search", choice.spiral_search, "Search in a spiral when the part is stuck, see below");
+  command.add_flag("--depenetrate", choice.depenetrate,
+                   "Push a part out of obstacles that overlap it at the start, see below");
+}
+
+haptics::Metaphor metaphor_of(const SlidingChoice& choice) {
+  const auto metaphor = haptics::metaphor_from_name(choice.metaphor);
+  if (metaphor) return *metaphor;
+  throw std::invalid_argument(
+      "--metaphor: " + in_quotes(choice.metaphor) + " is unknown" +
+      did_you_mean(choice.metaphor, {haptics::kMetaphorNames.begin(), haptics::kMetaphorNames.end()}) + "; known are " +
+      joined(haptics::kMetaphorNames));
+}
+
+haptics::SlidingRules with_choice(haptics::SlidingRules rules, const SlidingChoice& choice) {
+  rules.friction.sliding = choice.friction.empty() ? 0.0 : choice.friction.front();
+  rules.friction.at_rest = choice.friction.empty() ? 0.0 : choice.friction.back();
+  if (rules.friction.at_rest < rules.friction.sliding) {
+    throw std::invalid_argument(
+        "--friction: the second coefficient, at rest, must not be less than the first, sliding");
+  }
+  rules.spiral_search = choice.spiral_search;
+  if (choice.depenetrate) rules.overlap = haptics::OverlapRule::kDepenetrate;
+  return rules;
+}
+
+}  // namespace glissade::apps

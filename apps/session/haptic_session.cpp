@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <thread>
+
+#include <glissade/apps/progress.h>
+#include <glissade/apps/record/dump_signal.h>
+#include <glissade/apps/run/machine_check.h>
+#include <glissade/apps/run/run_watch.h>
+#include <glissade/apps/run/session_sink.h>
+#include <glissade/apps/scene/scene_hash.h>
+#include <glissade/apps/scene/session_start.h>
+#include <glissade/apps/session/haptic_session.h>
+#include <glissade/apps/text.h>
+#include <glissade/apps/view/session_view.h>
+#include <glissade/devices/simulated_glove.h>
+#include <glissade/haptics/haptic_server.h>
+#include <glissade/haptics/offline_run.h>
+#include <glissade/realtime/clock.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr int kFifoPriority = 80;
+/// What is kept of a run without an end.
+constexpr std::chrono::minutes kKept{1};
+
+/// The session of an offline run.
+RecordedSession offline_session(const HapticScene& scene, const Grip& grip, const SlidingChoice& choice,
+                                const RecordSettings& record) {
+  // There is no link, so the number of its session is made up.
+  const devices::GloveInfo glove{.device = devices::kDefaultDevice, .session = 1, .descriptor = grip.device};
+  return {.scene_file = recorded_path(record.scene_file),
+          .scene_hash = scene_hash(scene),
+          .choice = choice,
+          .hands = {{glove, grip.part, grip.fingers}}};
+}
+
+/// The session of a run in real time, for which all gloves have been heard.
+RecordedSession real_time_session(const HapticScene& scene, const std::vector<devices::GloveInfo>& gloves,
+                                  const std::vector<Grip>& grips, const RunSettings& settings,
+                                  std::chrono::nanoseconds period) {
+  RecordedSession session{.scene_file = recorded_path(settings.record.scene_file),
+                          .scene_hash = scene_hash(scene),
+                          .rules = haptics::real_time_rules(),
+                          .choice = settings.choice,
+                          .period = period};
+  for (std::size_t h = 0; h < gloves.size(); ++h)
+    session.hands.push_back({gloves[h], grips[h].part, grips[h].fingers});
+  return session;
+}
+
+Session finished(std::int64_t ticks, std::chrono::nanoseconds period, const HapticScene& scene,
+                 const StartedSimulation& started, std::vector<std::int64_t> devices,
+                 std::shared_ptr<const SessionRecorder> samples, std::optional<RealTimeFigures> real_time) {
+  const haptics::MultiPartSliding& sliding = started.simulation->parts();
+  const haptics::SearchStatistics& work = sliding.search_statistics();
+  return {ticks,
+          period,
+          std::ssize(scene.body_names),
+          work.searches,
+          work.reports,
+          sliding.call_statistics(),
+          std::move(devices),
+          started.models,
+          std::move(samples),
+          std::move(real_time)};
+}
+
+/// The period of a device, within the bounds of the haptic loop.
+std::chrono::nanoseconds period_of(const devices::DeviceDescriptor& device) {
+  const std::chrono::nanoseconds period(std::llround(1e9 / device.update_rate));
+  return std::clamp<std::chrono::nanoseconds>(period, haptics::kShortestTickPeriod, haptics::kLongestTickPeriod);
+}
+
+void check_spin(std::chrono::nanoseconds spin, std::chrono::nanoseconds period) {
+  if (spin <= period / 2) return;
+  const auto text_us = [](std::chrono::nanoseconds time) {
+    return format_number(1e-3 * static_cast<double>(time.count()));
+  };
+  throw std::invalid_argument("--spin-us: must be at most half of the haptic loop's period, " + text_us(period / 2) +
+                              ", not " + text_us(spin));
+}
+
+/// The announcements of all gloves of a run; fewer if it is stopped before.
+std::vector<devices::GloveInfo> wait_for_gloves(const std::shared_ptr<devices::LcmBus>& bus,
+                                                const std::vector<SessionHand>& hands,
+                                                const std::function<bool()>& should_stop,
+                                                const std::function<void(const RunNews&)>& watch) {
+  std::vector<devices::GloveInfo> infos;
+  while (infos.size() < hands.size() && !should_stop()) {
+    const std::int64_t device = hands[infos.size()].device;
+    watch({.awaited_device = device});
+    if (auto info = devices::find_glove(bus, device, std::chrono::milliseconds(100))) infos.push_back(std::move(*info));
+  }
+  return infos;
+}
+
+RunWatch watch_of(const HapticScene& scene, const RunSettings& settings) {
+  std::vector<std::string> part_names;
+  for (const ScenePart& part : scene.parts)
+    part_names.push_back(part.name);
+  std::vector<RunWatch::Hand> hands;
+  for (const SessionHand& hand : settings.hands)
+    hands.push_back({hand.device, hand.part});
+  return {std::move(part_names), hands, settings.seconds};
+}
+
+/// Shows the run to browsers, and waits for the first one if that is wanted.
+std::unique_ptr<viewer::ViewServer> view_of(const HapticScene& scene, const RunSettings& settings,
+                                            const StartedSimulation& started, const std::function<bool()>& should_stop,
+                                            const std::function<void(const RunNews&)>& watch) {
+  if (!settings.view_port) return nullptr;
+  std::vector<std::int64_t> devices;
+  for (const SessionHand& hand : settings.hands)
+    devices.push_back(hand.device);
+  auto server = std::make_unique<viewer::ViewServer>(view_scene_of(scene, glove_names(devices), started.models),
+                                                     *settings.view_port);
+  watch({.sentences = {"open " + server->url() + (settings.waits_for_page ? " in a browser: then it starts" : "")}});
+  while (settings.waits_for_page && !server->has_had_client() && !should_stop())
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  return server;
+}
+
+}  // namespace
+
+Session run_session_offline(const HapticScene& scene, const HandScript& script, std::int64_t ticks,
+                            const SlidingChoice& choice, const RecordSettings& record) {
+  devices::SimulatedGlove glove(script.X_WH, script.with_grip({}));
+  Grip grip{.device = glove.descriptor()};
+  if (script.fingers.empty()) {
+    grip.part = 0;
+  } else {
+    grip.fingers.emplace();
+  }
+  StartedSimulation started = start_simulation(scene, {grip}, choice, {});
+  const haptics::MultiPartSliding& sliding = started.simulation->parts();
+  const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks), sliding.part_count(), 1);
+  std::optional<haptics::LogRecorder> log;
+  if (!record.log.empty()) log.emplace(record.log, head_of(offline_session(scene, grip, choice, record)));
+  ProgressBar progress("offline", ticks);
+  haptics::run_offline({{&glove, grip.part, started.fingers.front()}}, *started.simulation, ticks,
+                       [&](const devices::HapticState& sample) {
+                         recorder->record(sample);
+                         progress.update(recorder->total());
+                       },
+                       {.observer = log ? &*log : nullptr});
+  if (log) log->close();
+  Session session =
+      finished(ticks, haptics::kTickPeriod, scene, started, {devices::kDefaultDevice}, recorder, std::nullopt);
+  session.recording = record.log;
+  return session;
+}
+
+Session run_session(const HapticScene& scene, const std::shared_ptr<devices::LcmBus>& bus, const RunSettings& settings,
+                    const std::function<bool()>& should_stop, const std::function<void(const RunNews&)>& watch) {
+  start_simulation(scene, {}, settings.choice, {});  // errors come before waiting
+  validate(settings.record);
+  if (settings.period) check_spin(settings.spin, *settings.period);
+  const std::vector<devices::GloveInfo> infos = wait_for_gloves(bus, settings.hands, should_stop, watch);
+  std::vector<Grip> grips;
+  std::chrono::nanoseconds fastest = haptics::kLongestTickPeriod;
+  for (std::size_t h = 0; h < settings.hands.size(); ++h) {
+    // Without a glove, the session below ends at once.
+    Grip& grip = grips.emplace_back();
+    grip = {h < infos.size() ? infos[h].descriptor : devices::simulated_glove_descriptor(), settings.hands[h].part,
+            settings.hands[h].fingers};
+    if (grip.fingers && h < infos.size() && infos[h].side != devices::HandSide::kUnknown)
+      grip.fingers->side = infos[h].side;
+    fastest = std::min(fastest, period_of(grips.back().device));
+  }
+  const std::chrono::nanoseconds period = settings.period.value_or(fastest);
+  check_spin(settings.spin, period);
+  if (period > fastest)
+    watch({.sentences = {"a glove is faster than the haptic loop: its force may fade (--rate-hz)"}});
+  const std::int64_t ticks = std::llround(settings.seconds / std::chrono::duration<double>(period).count());
+  StartedSimulation started = start_simulation(scene, grips, settings.choice, haptics::real_time_rules(), period);
+  const haptics::MultiPartSliding& sliding = started.simulation->parts();
+  const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks > 0 ? ticks : kKept / period),
+                                                          sliding.part_count(), settings.hands.size());
+  RunWatch run_watch = watch_of(scene, settings);
+  const std::unique_ptr<viewer::ViewServer> view = view_of(scene, settings, started, should_stop, watch);
+  SessionSink sink(bus, recorder, run_watch, view.get());
+  std::vector<std::unique_ptr<devices::LcmGlove>> gloves;
+  std::vector<haptics::HandOfServer> hands;
+  std::vector<std::int64_t> numbers;
+  for (std::size_t h = 0; h < settings.hands.size(); ++h) {
+    const std::int64_t device = settings.hands[h].device;
+    gloves.push_back(std::make_unique<devices::LcmGlove>(
+        bus, grips[h].device,
+        devices::LcmGloveOptions{.device = device, .glove_session = h < infos.size() ? infos[h].session : 0}));
+    hands.push_back({gloves.back().get(), grips[h].part, started.fingers[h]});
+    numbers.push_back(device);
+  }
+  // A run that ends before all gloves have been heard leaves an older file alone.
+  const bool has_all = infos.size() == settings.hands.size();
+  RunRecorders recorders(has_all ? settings.record : RecordSettings{},
+                         real_time_session(scene, infos, grips, settings, period));
+  realtime::SteadyClock clock;
+  haptics::HapticServer server(hands, *started.simulation, clock,
+                               [&sink](const devices::HapticState& sample) { sink.receive(sample); },
+                               {.period = period,
+                                .ticks = ticks,
+                                .fifo_priority = kFifoPriority,
+                                .spin = settings.spin,
+                                .observer = recorders.observer()});
+  realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = kFifoPriority},
+                                      [](const realtime::PeriodicTick&) { return true; });
+  const std::string missing = missing_rights(server.scheduling().is_fifo, server.scheduling().has_locked_memory);
+  if (!missing.empty()) watch({.sentences = {missing}});
+  while (!server.is_done() && !server.has_failed() && !should_stop()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    RunWatch::News news = run_watch.news(server.late_ticks());
+    for (std::string& sentence : recorders.write_flight(DumpSignal::take()))
+      news.events.push_back(std::move(sentence));
+    watch({.ticks = server.ticks(), .sentences = std::move(news.events), .status = std::move(news.status)});
+  }
+  server.stop();
+  watch({.ticks = server.ticks(), .sentences = run_watch.news(server.late_ticks()).events});
+  watch({.ticks = server.ticks(), .sentences = recorders.finish(server.has_failed())});
+  bare_timer.stop();
+  if (server.has_failed()) throw std::runtime_error("the simulation failed: " + server.failure());
+  Session session = finished(server.ticks(), period, scene, started, numbers, recorder,
+                             RealTimeFigures{server.statistics(), bare_timer.statistics()});
+  if (has_all) session.recording = settings.record.log;
+  session.is_recording_whole = recorders.is_whole();
+  return session;
+}
+
+}  // namespace glissade::apps

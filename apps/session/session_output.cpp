@@ -1,0 +1,365 @@
+// The output of a session: text, JSON, and a page.
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <iostream>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include <glissade/apps/report/html_report.h>
+#include <glissade/apps/run/session.h>
+#include <glissade/apps/view/session_view.h>
+
+namespace glissade::apps {
+
+namespace {
+
+template <typename... Values>
+std::string formatted(const char* format, Values... values) {
+  std::array<char, 200> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), format, values...);
+  return buffer.data();
+}
+
+double microseconds(std::chrono::nanoseconds duration) {
+  return 1e-3 * static_cast<double>(duration.count());
+}
+
+std::string hash_text(std::uint64_t hash) {
+  return formatted("%016llx", static_cast<unsigned long long>(hash));
+}
+
+using Rows = std::vector<std::pair<std::string, std::string>>;
+
+std::string p50_p99_max(const realtime::LatencyHistogram& histogram) {
+  return formatted("%.1f / %.1f / %.1f us", microseconds(histogram.quantile(0.5)),
+                   microseconds(histogram.quantile(0.99)), microseconds(histogram.max()));
+}
+
+std::string p50_p99(const realtime::LatencyHistogram& histogram) {
+  return formatted("%.1f / %.1f us", microseconds(histogram.quantile(0.5)), microseconds(histogram.quantile(0.99)));
+}
+
+void add_real_time_rows(const RealTimeFigures& figures, Rows& rows) {
+  const realtime::PeriodicStatistics& loop = figures.server.haptic;
+  rows.emplace_back("late ticks", formatted("%llu of %llu", static_cast<unsigned long long>(loop.late_ticks),
+                                            static_cast<unsigned long long>(loop.ticks)));
+  rows.emplace_back("tick time p50 / p99", p50_p99(loop.duration));
+  rows.emplace_back("lateness p50 / p99 / max", p50_p99_max(loop.lateness));
+  rows.emplace_back("the same of a bare timer", p50_p99_max(figures.bare_timer.lateness));
+  rows.emplace_back("simulation step p50 / p99", p50_p99(figures.server.simulation));
+  rows.emplace_back("age of contacts p50 / p99", p50_p99(figures.server.contact_set_age));
+  rows.emplace_back("page faults of haptic loop", std::to_string(figures.server.page_faults));
+  rows.emplace_back("scheduling",
+                    figures.server.scheduling.is_fifo ? "real-time (SCHED_FIFO)" : "ordinary (SCHED_FIFO was refused)");
+  rows.emplace_back("memory", figures.server.scheduling.has_locked_memory ? "locked" : "not locked");
+}
+
+std::string stage_text(const collision::StageReport& stage, std::int64_t frames) {
+  const auto each = [&](auto sum) { return static_cast<double>(sum) / static_cast<double>(frames); };
+  return formatted("%.1f in, %.1f out, %.1f us", each(stage.in), each(stage.out), each(microseconds(stage.time)));
+}
+
+// Cost of the searches for contacts, one frame of the collision pipeline each.
+void add_collision_rows(const Session& session, Rows& rows) {
+  const std::int64_t frames = session.collision_frames;
+  if (frames == 0) return;
+  const collision::FrameReport& sum = session.collision;
+  rows.emplace_back("collision frames", formatted("%lld, %.1f us each", static_cast<long long>(frames),
+                                                  microseconds(sum.total) / static_cast<double>(frames)));
+  rows.emplace_back("  moved objects", stage_text(sum.queue, frames));
+  rows.emplace_back("  neighboring pairs", stage_text(sum.neighbor_finding, frames));
+  rows.emplace_back("  pairs at hull planes", stage_text(sum.separating_planes, frames));
+  rows.emplace_back("  pairs at DOP-trees", stage_text(sum.exact, frames));
+  rows.emplace_back("  pairs that met or parted", stage_text(sum.result, frames));
+}
+
+std::string name_of_state(std::size_t number) {
+  return std::string(devices::name_of(devices::part_state_from_number(static_cast<std::int32_t>(number))));
+}
+
+std::string states_text(const PartSummary& part, std::int64_t samples) {
+  std::string text;
+  for (std::size_t i = 0; i < part.state_ticks.size(); ++i) {
+    if (part.state_ticks[i] == 0) continue;
+    const double share = static_cast<double>(part.state_ticks[i]) / static_cast<double>(samples);
+    text += formatted("%s %.1f %%, ", name_of_state(i).c_str(), 100.0 * share);
+  }
+  return text + formatted("%lld changes", static_cast<long long>(part.state_changes));
+}
+
+double tick_seconds(const Session& session) {
+  return std::chrono::duration<double>(session.period).count();
+}
+
+std::string limits_text(const HandSummary& hand, double tick_s) {
+  std::string text;
+  for (std::size_t i = 0; i < hand.limited_ticks.size(); ++i) {
+    if (hand.limited_ticks[i] == 0) continue;
+    text += formatted("%s%s %.3f s", text.empty() ? "" : ", ", std::string(devices::kLimitReasons[i].name).c_str(),
+                      tick_s * static_cast<double>(hand.limited_ticks[i]));
+  }
+  return text.empty() ? "none" : text;
+}
+
+std::string name_of_hand(const Session& session, std::size_t hand) {
+  return "hand of glove " + std::to_string(session.devices[hand]);
+}
+
+void add_part_rows(const PartSummary& part, const SessionSummary& summary, Rows& rows) {
+  rows.emplace_back("part " + part.name,
+                    formatted("%lld of %lld poses collide, by brute force",
+                              static_cast<long long>(part.colliding_poses), static_cast<long long>(summary.samples)));
+  rows.emplace_back("  time in contact",
+                    formatted("%.1f %%, up to %d contacts", 100.0 * part.contact_fraction, part.contacts_max));
+  rows.emplace_back("  states", states_text(part, summary.samples));
+}
+
+void add_hand_rows(const HandSummary& hand, const std::string& name, const SessionSummary& summary, double tick_s,
+                   Rows& rows) {
+  rows.emplace_back(name, formatted("greatest force %.2f N, greatest step of it %.2f N in a tick", hand.force_max_N,
+                                    hand.force_step_max_N));
+  rows.emplace_back("  time with reduced force", limits_text(hand, tick_s));
+  rows.emplace_back("  grasps", formatted("%lld, held for %.3f s", static_cast<long long>(hand.grasps),
+                                          tick_s * static_cast<double>(hand.holding_ticks)));
+  if (!hand.has_fingers) return;
+  rows.emplace_back("  fingers", formatted("greatest torque %.2f Nm; %lld of %lld postures collide, by brute force",
+                                           hand.joint_torque_max_Nm, static_cast<long long>(hand.colliding_postures),
+                                           static_cast<long long>(summary.samples)));
+}
+
+Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose) {
+  if (summary.samples == 0) return {{"ticks", "0: the run ended before the first state of a glove"}};
+  Rows rows;
+  if (summary.goal_reached) {
+    rows.emplace_back("goal reached", formatted("%s, %.3f mm from it", *summary.goal_reached ? "yes" : "no",
+                                                1e3 * summary.goal_distance_m));
+  }
+  for (const PartSummary& part : summary.parts)
+    add_part_rows(part, summary, rows);
+  for (std::size_t h = 0; h < summary.hands.size(); ++h)
+    add_hand_rows(summary.hands[h], name_of_hand(session, h), summary, tick_seconds(session), rows);
+  rows.emplace_back("objects", std::to_string(session.objects));
+  rows.emplace_back("ticks", std::to_string(summary.ticks));
+  if (session.calls.ended_early > 0) {
+    rows.emplace_back("calls ended early", formatted("%lld of %lld: their work was used up",
+                                                     static_cast<long long>(session.calls.ended_early),
+                                                     static_cast<long long>(session.calls.calls)));
+  }
+  if (session.real_time) add_real_time_rows(*session.real_time, rows);
+  if (!verbose) return rows;
+  add_collision_rows(session, rows);
+  rows.emplace_back("hash", hash_text(summary.hash));
+  return rows;
+}
+
+double seconds_of_tick(const SessionRecorder& samples, std::size_t i) {
+  return std::chrono::duration<double>(samples.tick(i).time - samples.tick(0).time).count();
+}
+
+/// `value` of the number of a kept tick.
+template <typename Value>
+PlotSeries series_of(const SessionRecorder& samples, const std::string& name, const Value& value) {
+  PlotSeries series{name, {}, {}};
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    series.x.push_back(seconds_of_tick(samples, i));
+    series.y.push_back(value(i));
+  }
+  return series;
+}
+
+StripChart chart_of_states(const SessionSummary& summary, const SessionRecorder& samples) {
+  StripChart chart{"States of the parts", {}, {}};
+  for (std::size_t state = 0; state < static_cast<std::size_t>(devices::kPartStates); ++state)
+    chart.words.push_back(name_of_state(state));
+  for (std::size_t p = 0; p < samples.parts(); ++p) {
+    Strip& strip = chart.strips.emplace_back(Strip{summary.parts[p].name, {}});
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      strip.add(seconds_of_tick(samples, i), static_cast<std::size_t>(samples.part(i, p).state));
+    strip.end_at(seconds_of_tick(samples, samples.size() - 1));
+  }
+  return chart;
+}
+
+Plot plot_of_force(const SessionRecorder& samples, std::size_t hand, const std::string& name) {
+  const auto force = [&, hand](std::size_t i) -> const Eigen::Vector3d& { return samples.hand(i, hand).force_W; };
+  return {"Force on the " + name,
+          kTimeLabel,
+          "force [N]",
+          {series_of(samples, "magnitude", [&](std::size_t i) { return force(i).norm(); }),
+           series_of(samples, "x", [&](std::size_t i) { return force(i).x(); }),
+           series_of(samples, "y", [&](std::size_t i) { return force(i).y(); }),
+           series_of(samples, "z", [&](std::size_t i) { return force(i).z(); })}};
+}
+
+std::vector<Plot> plots_of(const SessionSummary& summary, const Session& session) {
+  const SessionRecorder& samples = *session.samples;
+  std::vector<Plot> plots;
+  for (std::size_t h = 0; h < samples.hands(); ++h)
+    plots.push_back(plot_of_force(samples, h, name_of_hand(session, h)));
+  Plot lag{"Lag of the visible parts behind their ghosts", kTimeLabel, "lag [mm]", {}};
+  Plot contacts{"Contacts that push", kTimeLabel, "contacts", {}, true};
+  for (std::size_t p = 0; p < samples.parts(); ++p) {
+    const std::string& name = summary.parts[p].name;
+    lag.series.push_back(series_of(samples, name, [&](std::size_t i) {
+      const devices::HapticPartState& part = samples.part(i, p);
+      return 1e3 * (part.X_WG.translation() - part.X_WV.translation()).norm();
+    }));
+    contacts.series.push_back(
+        series_of(samples, name, [&](std::size_t i) { return static_cast<double>(samples.part(i, p).contact_count); }));
+  }
+  plots.push_back(std::move(lag));
+  plots.push_back(std::move(contacts));
+  plots.push_back({"Age of the contact set", kTimeLabel, "age [ms]", {series_of(samples, "age", [&](std::size_t i) {
+                     return 1e-6 * static_cast<double>(samples.tick(i).contact_set_age.count());
+                   })}});
+  return plots;
+}
+
+nlohmann::json to_json(const PartSummary& part, double tick_s) {
+  nlohmann::json states;
+  for (std::size_t i = 0; i < part.state_ticks.size(); ++i)
+    states[name_of_state(i)] = tick_s * static_cast<double>(part.state_ticks[i]);
+  return {{"name", part.name},
+          {"colliding_poses", part.colliding_poses},
+          {"contact_fraction", part.contact_fraction},
+          {"contacts_max", part.contacts_max},
+          {"state_s", states},
+          {"state_changes", part.state_changes}};
+}
+
+nlohmann::json to_json(const HandSummary& hand, double tick_s) {
+  nlohmann::json limits;
+  for (std::size_t i = 0; i < hand.limited_ticks.size(); ++i)
+    limits[std::string(devices::kLimitReasons[i].name)] = tick_s * static_cast<double>(hand.limited_ticks[i]);
+  return {{"device", hand.device},
+          {"grasps", hand.grasps},
+          {"holding_s", tick_s * static_cast<double>(hand.holding_ticks)},
+          {"has_fingers", hand.has_fingers},
+          {"colliding_postures", hand.colliding_postures},
+          {"joint_torque_max_Nm", hand.joint_torque_max_Nm},
+          {"force_max_N", hand.force_max_N},
+          {"force_step_max_N", hand.force_step_max_N},
+          {"limited_s", limits},
+          {"lagging_s", tick_s * static_cast<double>(hand.lagging_ticks)},
+          {"unsolved_s", tick_s * static_cast<double>(hand.unsolved_ticks)}};
+}
+
+}  // namespace
+
+nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
+  const auto stage = [&](const collision::StageReport& sum) {
+    const auto each = [&](auto value) -> nlohmann::json {
+      if (session.collision_frames == 0) return nullptr;
+      return static_cast<double>(value) / static_cast<double>(session.collision_frames);
+    };
+    return nlohmann::json{{"in", each(sum.in)}, {"out", each(sum.out)}, {"us", each(microseconds(sum.time))}};
+  };
+  const double tick_s = tick_seconds(session);
+  nlohmann::json parts = nlohmann::json::array();
+  for (const PartSummary& part : summary.parts)
+    parts.push_back(to_json(part, tick_s));
+  nlohmann::json hands = nlohmann::json::array();
+  for (const HandSummary& hand : summary.hands)
+    hands.push_back(to_json(hand, tick_s));
+  nlohmann::json json = {{"ticks", summary.ticks},
+                         {"objects", session.objects},
+                         {"calls", session.calls.calls},
+                         {"calls_ended_early", session.calls.ended_early},
+                         {"collision_frames", session.collision_frames},
+                         {"collision_stages",
+                          {{"queue", stage(session.collision.queue)},
+                           {"neighbor_finding", stage(session.collision.neighbor_finding)},
+                           {"separating_planes", stage(session.collision.separating_planes)},
+                           {"exact", stage(session.collision.exact)},
+                           {"result", stage(session.collision.result)}}},
+                         {"late_ticks", 0},
+                         {"colliding_poses", summary.colliding_poses()},
+                         {"parts", parts},
+                         {"hands", hands},
+                         {"checked_poses", summary.samples},
+                         {"goal_reached", nullptr},
+                         {"goal_distance_m", nullptr},
+                         {"tick_us_p50", nullptr},
+                         {"tick_us_p99", nullptr},
+                         {"lateness_us_p50", nullptr},
+                         {"lateness_us_p99", nullptr},
+                         {"lateness_us_max", nullptr},
+                         {"bare_lateness_us_p50", nullptr},
+                         {"bare_lateness_us_p99", nullptr},
+                         {"bare_lateness_us_max", nullptr},
+                         {"page_faults", nullptr},
+                         {"has_fifo_scheduling", nullptr},
+                         {"has_locked_memory", nullptr},
+                         {"simulation_us_p50", nullptr},
+                         {"simulation_us_p99", nullptr},
+                         {"contact_set_age_us_p50", nullptr},
+                         {"contact_set_age_us_p99", nullptr},
+                         {"hash", hash_text(summary.hash)}};
+  if (summary.goal_reached) {
+    json["goal_reached"] = *summary.goal_reached;
+    json["goal_distance_m"] = summary.goal_distance_m;
+  }
+  if (session.real_time) {
+    const haptics::HapticServerStatistics& server = session.real_time->server;
+    json["late_ticks"] = server.haptic.late_ticks;
+    json["page_faults"] = server.page_faults;
+    json["has_fifo_scheduling"] = server.scheduling.is_fifo;
+    json["has_locked_memory"] = server.scheduling.has_locked_memory;
+    json["tick_us_p50"] = microseconds(server.haptic.duration.quantile(0.5));
+    json["tick_us_p99"] = microseconds(server.haptic.duration.quantile(0.99));
+    for (const auto& [name, lateness] : {std::pair("lateness_us", &server.haptic.lateness),
+                                         std::pair("bare_lateness_us", &session.real_time->bare_timer.lateness)}) {
+      json[std::string(name) + "_p50"] = microseconds(lateness->quantile(0.5));
+      json[std::string(name) + "_p99"] = microseconds(lateness->quantile(0.99));
+      json[std::string(name) + "_max"] = microseconds(lateness->max());
+    }
+    json["simulation_us_p50"] = microseconds(server.simulation.quantile(0.5));
+    json["simulation_us_p99"] = microseconds(server.simulation.quantile(0.99));
+    json["contact_set_age_us_p50"] = microseconds(server.contact_set_age.quantile(0.5));
+    json["contact_set_age_us_p99"] = microseconds(server.contact_set_age.quantile(0.99));
+  }
+  return json;
+}
+
+std::string to_text(const SessionSummary& summary, const Session& session, bool verbose) {
+  std::string text;
+  for (const auto& [name, value] : rows_of(summary, session, verbose))
+    text += formatted("  %-28s %s\n", name.c_str(), value.c_str());
+  return text;
+}
+
+std::string write_session_report(const SessionSummary& summary, const Session& session, const std::string& title,
+                                 const std::string& folder, const HapticScene& scene) {
+  Report report{title, rows_of(summary, session, false), plots_of(summary, session)};
+  if (summary.samples > 0) {
+    report.strips.push_back(chart_of_states(summary, *session.samples));
+    report.replay = replay_of(session, scene);
+  }
+  return write_html_report(report, folder);
+}
+
+void conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json, bool verbose,
+              const std::string& report_folder) {
+  const SessionSummary summary = summarize(session, scene);
+  if (as_json) {
+    std::cout << to_json(summary, session).dump(2) << '\n';
+  } else {
+    std::cout << title << '\n' << to_text(summary, session, verbose);
+  }
+  if (!report_folder.empty()) {
+    const std::string page = write_session_report(summary, session, title, report_folder, scene);
+    if (!as_json) std::cout << "  report                       " << page << '\n';
+  }
+  if (!session.recording.empty() && !as_json)
+    std::cout << "  recording                    " << session.recording << '\n';
+  std::cout.flush();
+  if (summary.colliding_poses() > 0) {
+    throw std::runtime_error(std::to_string(summary.colliding_poses()) + " visible poses collide");
+  }
+  if (!session.is_recording_whole) throw std::runtime_error(session.recording + ": the recording is not whole");
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,52 @@
+#include <glissade/apps/text.h>
+#include <glissade/apps/view/grasp_outcome.h>
+
+namespace glissade::apps {
+
+namespace {
+
+std::string seconds_text(std::int64_t milliseconds) {
+  return fixed_text(1e-3 * static_cast<double>(milliseconds), 3) + " s";
+}
+
+}  // namespace
+
+GraspOutcome::GraspOutcome(const HapticScene& scene, const grasping::GraspSimulation& simulation)
+    : scene_(scene), simulation_(simulation), hands_(simulation.hand_count()) {}
+
+void GraspOutcome::add() {
+  ++ticks_;
+  for (std::size_t h = 0; h < hands_.size(); ++h) {
+    Hand& hand = hands_[h];
+    const auto held = simulation_.held_part(h);
+    const std::int32_t part = held ? static_cast<std::int32_t>(*held) : -1;
+    hand.grasps += part >= 0 && part != hand.part ? 1 : 0;
+    hand.holding_ms += part >= 0 ? 1 : 0;
+    hand.waiting_ms += simulation_.activity(h) == devices::HandActivity::kWaiting ? 1 : 0;
+    hand.part = part;
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> GraspOutcome::rows() const {
+  std::vector<std::pair<std::string, std::string>> rows{{"duration", seconds_text(ticks_)}};
+  for (std::size_t h = 0; h < hands_.size(); ++h) {
+    const Hand& hand = hands_[h];
+    std::string text = hand.grasps == 0 ? "holds nothing"
+                       : hand.grasps == 1
+                           ? "1 grasp, holds for " + seconds_text(hand.holding_ms)
+                           : std::to_string(hand.grasps) + " grasps, holds for " + seconds_text(hand.holding_ms);
+    // Nothing else tells that a trajectory begins inside an object: the hand then neither touches nor moves.
+    if (hand.waiting_ms > 0)
+      text += "; waits for " + seconds_text(hand.waiting_ms) + ": its target is inside an object";
+    rows.emplace_back("hand " + std::to_string(h), text);
+  }
+  for (std::size_t p = 0; p < scene_.parts.size(); ++p) {
+    const Eigen::Vector3d way =
+        simulation_.parts().result(p).X_WV.translation() - scene_.parts[p].X_WV_start.translation();
+    rows.emplace_back(scene_.body_names[scene_.obstacles.size() + p],
+                      "ends " + fixed_text(1e3 * way.norm(), 1) + " mm from where it started");
+  }
+  return rows;
+}
+
+}  // namespace glissade::apps
