@@ -36,8 +36,10 @@ GraspReport::GraspReport(const HapticScene& scene, const grasping::GraspSimulati
     touching_.push_back({name_of_hand(h), {}, {}});
     kinds_.strips.push_back({name_of_hand(h), {}});
   }
-  for (std::size_t p = 0; p < simulation.part_count(); ++p)
+  for (std::size_t p = 0; p < simulation.part_count(); ++p) {
     lags_.push_back({scene.body_names[scene.obstacles.size() + p], {}, {}});
+    patches_.emplace_back(simulation.parts().part(p).radius());
+  }
 }
 
 void GraspReport::add(std::chrono::nanoseconds time) {
@@ -54,7 +56,7 @@ void GraspReport::add(std::chrono::nanoseconds time) {
   };
   for (std::size_t p = 0; p < simulation_.part_count(); ++p) {
     const haptics::SlidingResult& result = simulation_.parts().result(p);
-    show_part(result, p, state);
+    show_part(result, p, patches_[p], state);
     note(lags_[p], 1e3 * (result.X_WG.translation() - result.X_WV.translation()).norm());
   }
   for (std::size_t h = 0; h < simulation_.hand_count(); ++h) {

@@ -31,7 +31,8 @@ class GraspReport {
   const HapticScene& scene_;
   const grasping::GraspSimulation& simulation_;
   ReplayMaker replay_;
-  haptics::ContactSet answers_;  // about the hands
+  haptics::ContactSet answers_;                   // about the hands
+  std::vector<haptics::ContactPatches> patches_;  // by part
   std::int64_t ticks_ = 0;
   StripChart kinds_{"Kind of grasp", {}, {}};
   std::vector<PlotSeries> touching_;  // by hand: segments

@@ -1,4 +1,5 @@
 #include <utility>
+#include <vector>
 
 #include <glissade/apps/view/replay_maker.h>
 #include <glissade/viewer/scene_model.h>
@@ -34,16 +35,29 @@ Replay ReplayMaker::finish() {
   return std::move(replay_);
 }
 
-void show_part(const haptics::SlidingResult& result, std::size_t part, devices::HapticState& state) {
+void show_part(const haptics::SlidingResult& result, std::size_t part, haptics::ContactPatches& patches,
+               devices::HapticState& state) {
   state.parts[part] = {.X_WG = result.X_WG,
                        .X_WV = result.X_WV,
                        .state = haptics::part_state_of(result.state),
                        .contact_count = result.pushing};
   const Eigen::Isometry3d X_VW = result.X_WV_of_contacts.inverse(Eigen::Isometry);
+  std::vector<haptics::TrackedContact> pushing;
   for (const haptics::Contact& contact : result.contacts) {
-    if (!(contact.force > 0.0) || static_cast<std::size_t>(state.contact_count) == state.contacts.size()) continue;
+    if (!(contact.force > 0.0)) continue;
+    pushing.push_back({.id = std::ssize(pushing) + 1, .contact = contact});
+    if (static_cast<std::size_t>(state.contact_count) == state.contacts.size()) continue;
     state.contacts[static_cast<std::size_t>(state.contact_count++)] = {
         static_cast<std::int32_t>(part), (X_VW * contact.p_W).cast<float>(), contact.n_W.cast<float>()};
+  }
+  for (const haptics::ContactPatch& patch : patches.merge(pushing)) {
+    if (static_cast<std::size_t>(state.patch_count) == state.patches.size()) {
+      ++state.patches_left_out;
+      continue;
+    }
+    state.patches[static_cast<std::size_t>(state.patch_count++)] = {
+        static_cast<std::int32_t>(part), patch.count, (X_VW * patch.p_W).cast<float>(), patch.n_W.cast<float>(),
+        static_cast<float>(patch.extent)};
   }
 }
 

@@ -9,6 +9,7 @@
 #include <glissade/apps/report/html_report.h>
 #include <glissade/devices/haptic_state.h>
 #include <glissade/haptics/sliding_result.h>
+#include <glissade/haptics/tracked_contacts.h>
 #include <glissade/viewer/view_frame.h>
 #include <glissade/viewer/view_scene.h>
 
@@ -31,7 +32,9 @@ class ReplayMaker {
   std::int64_t frame_ = 0;  // the number of the one that is being made
 };
 
-/// Writes a part of a simulation that runs by itself into a state, with the contacts that push on it.
-void show_part(const haptics::SlidingResult& result, std::size_t part, devices::HapticState& state);
+/// Writes a part of a simulation that runs by itself into a state, with the contacts that push on it, and their
+/// patches.
+void show_part(const haptics::SlidingResult& result, std::size_t part, haptics::ContactPatches& patches,
+               devices::HapticState& state);
 
 }  // namespace glissade::apps

@@ -16,14 +16,15 @@ viewer::ViewScene slide_view_of(const HapticScene& scene) {
 
 }  // namespace
 
-SlideReplay::SlideReplay(const HapticScene& scene) : maker_(slide_view_of(scene)) {}
+SlideReplay::SlideReplay(const HapticScene& scene)
+    : maker_(slide_view_of(scene)), patches_(scene.parts.front().part_V->radius()) {}
 
 void SlideReplay::add(std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding) {
   devices::HapticState state;
   state.sequence = ++ticks_;
   state.time = time;
   const haptics::SlidingResult& result = sliding.result();
-  show_part(result, 0, state);
+  show_part(result, 0, patches_, state);
   for (const Eigen::Isometry3d& X_WB : sliding.scripted_X_WB()) {
     devices::HapticPartState& moving = state.parts[static_cast<std::size_t>(state.part_count++)];
     moving.X_WG = moving.X_WV = X_WB;

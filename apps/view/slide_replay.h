@@ -21,6 +21,7 @@ class SlideReplay {
 
  private:
   ReplayMaker maker_;
+  haptics::ContactPatches patches_;
   std::int64_t ticks_ = 0;
 };
 

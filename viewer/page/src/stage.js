@@ -56,7 +56,7 @@ export class Stage {
       edge: new LineBasicMaterial({ transparent: true, opacity: 0.55 }),
       contact: new MeshBasicMaterial(),
       // Over the faces that touch there.
-      patch: new MeshBasicMaterial({ side: DoubleSide, transparent: true, opacity: 0.35, depthWrite: false, depthTest: false }),
+      patch: new MeshBasicMaterial({ side: DoubleSide, transparent: true, opacity: 0.22, depthWrite: false, depthTest: false }),
     };
   }
 
