@@ -25,7 +25,7 @@ GapsAlong gaps_of(const Eigen::Vector3d& n, const TrianglesAtMoment& moment) {
   return {part_bottom - top, bottom - part_top};
 }
 
-Eigen::Vector3d normal_of(const geometry::TrianglePoints& triangle) {
+Eigen::Vector3d normal_of_triangle(const geometry::TrianglePoints& triangle) {
   return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
 }
 
@@ -76,8 +76,8 @@ Separation lasting_separation(const TrianglesAtMoment& begin, const TrianglesAtM
   LastingSeparation search(begin, end, gap);
   const Eigen::Vector3d motion =
       (centre_of(end.part) - centre_of(begin.part) - centre_of(end.obstacle) + centre_of(begin.obstacle)).normalized();
-  const Eigen::Vector3d of_obstacle = normal_of(begin.obstacle);
-  Eigen::Vector3d of_part = normal_of(begin.part);
+  const Eigen::Vector3d of_obstacle = normal_of_triangle(begin.obstacle);
+  Eigen::Vector3d of_part = normal_of_triangle(begin.part);
   if (of_part.dot(of_obstacle) < 0.0) of_part = -of_part;
   const Eigen::Vector3d between = of_obstacle + of_part;
   for (const Eigen::Vector3d& n : {between, of_obstacle, of_part}) {

@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t kCallsAhead = 4;
 
 /// Work of the gap of a pair along a known direction, in the unit of `collision::WorkMeter`.
-constexpr std::int64_t kWorkOfPlane = 2;
+constexpr std::int64_t kWorkOfGap = 2;
 
 float round_down(double value) {
   const auto rounded = static_cast<float>(value);
@@ -217,8 +217,7 @@ CandidatePairs::GapsOfBlocks CandidatePairs::gaps_at_search(const std::vector<Pl
 
 /// Visits the runs of blocks that may have gaps up to `reach`, by their beginnings and ends.
 template <typename Visit>
-void CandidatePairs::visit_near_blocks(const PlanesOfBodies& planes, const std::vector<double>& gaps, double reach,
-                                       const Visit& visit) const {
+void CandidatePairs::visit_near_blocks(const std::vector<double>& gaps, double reach, const Visit& visit) const {
   const auto is_near = [&](double gap) { return gap - clock_ <= reach; };
   auto first = std::find_if(gaps.begin(), gaps.end(), is_near);
   while (first != gaps.end()) {
@@ -226,7 +225,6 @@ void CandidatePairs::visit_near_blocks(const PlanesOfBodies& planes, const std::
     visit(static_cast<std::size_t>(first - gaps.begin()), static_cast<std::size_t>(end - gaps.begin()));
     first = std::find_if(end, gaps.end(), is_near);
   }
-  GLISSADE_ASSERT(gaps.size() == planes.block_count());
 }
 
 void CandidatePairs::in_reach(double reach, std::vector<PairInReach>& pairs) {
@@ -238,7 +236,7 @@ void CandidatePairs::in_reach(double reach, std::vector<PairInReach>& pairs) {
                       scene_.bodies()[static_cast<std::size_t>(planes.bodies().part)].X_WB);
     const std::span<const std::uint32_t> numbers = planes.numbers();
     std::vector<double>& of_blocks = gaps_of_pairs_[i];
-    visit_near_blocks(planes, of_blocks, reach, [&](std::size_t first, std::size_t end) {
+    visit_near_blocks(of_blocks, reach, [&](std::size_t first, std::size_t end) {
       planes.find_gaps(X_OV.linear(), X_OV.translation(), first, end, gaps_at_begin_);
       for (std::size_t block = first; block < end; ++block) {
         double least = std::numeric_limits<double>::infinity();
@@ -291,10 +289,10 @@ void CandidatePairs::unproved_within(double reach, PathCertificate& certificate,
     const std::span<const std::uint32_t> numbers = planes.numbers();
     const PathOfBodies path = certificate.path_of(planes.bodies());
     std::vector<double>& of_blocks = gaps_to_certify_[i];
-    visit_near_blocks(planes, of_blocks, path.far, [&](std::size_t first, std::size_t end) {
+    visit_near_blocks(of_blocks, path.far, [&](std::size_t first, std::size_t end) {
       planes.find_gaps(path.X_OV_begin.linear(), path.X_OV_begin.translation(), first, end, gaps_at_begin_);
       planes.find_gaps(path.X_OV_end.linear(), path.X_OV_end.translation(), first, end, gaps_at_end_);
-      budget.spend(2 * kWorkOfPlane * static_cast<std::int64_t>(kPlanesAtOnce * (end - first)));
+      budget.spend(2 * kWorkOfGap * static_cast<std::int64_t>(kPlanesAtOnce * (end - first)));
       for (std::size_t block = first; block < end; ++block) {
         double least = std::numeric_limits<double>::infinity();
         const std::size_t last = std::min(numbers.size(), kPlanesAtOnce * (block + 1));

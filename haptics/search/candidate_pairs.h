@@ -177,8 +177,7 @@ class CandidatePairs {
   template <typename Pair>
   GapsOfBlocks gaps_at_search(const std::vector<PlanesOfBodies>& planes, const std::vector<Pair>& pairs) const;
   template <typename Visit>
-  void visit_near_blocks(const PlanesOfBodies& planes, const std::vector<double>& gaps, double reach,
-                         const Visit& visit) const;
+  void visit_near_blocks(const std::vector<double>& gaps, double reach, const Visit& visit) const;
   GapsOfBlocks gaps_of_pairs_;
   GapsOfBlocks gaps_to_certify_;
   std::vector<float> gaps_at_begin_;

@@ -12,7 +12,7 @@ namespace {
 // Work of a candidate pair and of the contacts of one that may have some, in the unit of `collision::WorkMeter`: rough.
 // Steps take 0.4 ns a unit.
 constexpr std::int64_t kWorkOfCandidate = 2;
-constexpr std::int64_t kWorkOfPlane = 2;
+constexpr std::int64_t kWorkOfWay = 2;
 constexpr std::int64_t kWorkOfContacts = 300;
 
 /// In margins: the gap up to which all contacts are found at once. Those at rims depend on each other up to two
@@ -48,7 +48,7 @@ void ContactRows::find(double reach, double reach_ahead, WorkBudget& budget) {
 }
 
 bool ContactRows::find_violated(const Displacements& displacements, WorkBudget& budget) {
-  budget.spend(kWorkOfPlane * static_cast<std::int64_t>(pairs_.left_count()));
+  budget.spend(kWorkOfWay * static_cast<std::int64_t>(pairs_.left_count()));
   pairs_.find_too_near(displacements, reach_);
   while (true) {
     pairs_.take_too_near(kViolatedAtOnce);

@@ -26,7 +26,7 @@ struct LinearMotion {
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
 };
 
-LinearMotion motion_of(const SimulatedParts& shared, std::int32_t body, const Displacements& displacements) {
+LinearMotion linear_motion_of(const SimulatedParts& shared, std::int32_t body, const Displacements& displacements) {
   const std::int32_t leader = shared.scene.leader(body);
   if (leader == ContactScene::kStands) return {};
   const geometry::Displacement& d = displacements[static_cast<std::size_t>(leader)];
@@ -117,8 +117,8 @@ void PairsInReach::find_too_near(const Displacements& displacements, double reac
 PairsInReach::Way PairsInReach::way_of(const BodyPair& bodies, const Displacements& displacements) const {
   const Eigen::Isometry3d& X_WO = shared_.scene.bodies()[static_cast<std::size_t>(bodies.obstacle)].X_WB;
   const Eigen::Isometry3d& X_WV = shared_.scene.bodies()[static_cast<std::size_t>(bodies.part)].X_WB;
-  const LinearMotion of_part = motion_of(shared_, bodies.part, displacements);
-  const LinearMotion of_obstacle = motion_of(shared_, bodies.obstacle, displacements);
+  const LinearMotion of_part = linear_motion_of(shared_, bodies.part, displacements);
+  const LinearMotion of_obstacle = linear_motion_of(shared_, bodies.obstacle, displacements);
   const Eigen::Matrix3d A_W = Eigen::Matrix3d::Identity() + of_part.A - of_obstacle.A;
   const Eigen::Vector3d t_W = of_part.t - of_obstacle.t;
   const Eigen::Matrix3d R_OW = X_WO.linear().transpose();

@@ -26,17 +26,18 @@ namespace {
 using Eigen::Vector3d;
 using test_support::RandomNumbers;
 
-constexpr double kReach = 0.3e-3;   // metres
-constexpr double kPlay = 0.05e-3;   // metres, of a ball in its socket
-constexpr double kRadius = 0.02;    // metres
-constexpr double kRounding = 1e-9;  // metres
+constexpr double kReachOfRows = 0.3e-3;   // metres
+constexpr double kPlayOfBall = 0.05e-3;   // metres, of a ball in its socket
+constexpr double kBallRadius = 0.02;      // metres
+constexpr double kRoundingOfRows = 1e-9;  // metres
 
 /// A finely cut ball somewhere in a socket that it nearly fills.
 SimulatedParts close_fit(RandomNumbers& random) {
-  const Eigen::Isometry3d X_WV = test_support::pose(random.uniform(0.0, 0.3) * kPlay * random.direction(),
+  const Eigen::Isometry3d X_WV = test_support::pose(random.uniform(0.0, 0.3) * kPlayOfBall * random.direction(),
                                                     test_support::turn(random.uniform(0.0, 3.0), random.direction()));
-  return {{test_support::obstacle_of(geometry::make_sphere(kRadius + kPlay, 4000))},
-          {{.part_V = test_support::part_of(geometry::make_sphere(kRadius - 0.3 * kPlay, 4000)), .X_WV_start = X_WV}},
+  return {{test_support::obstacle_of(geometry::make_sphere(kBallRadius + kPlayOfBall, 4000))},
+          {{.part_V = test_support::part_of(geometry::make_sphere(kBallRadius - 0.3 * kPlayOfBall, 4000)),
+            .X_WV_start = X_WV}},
           {},
           {}};
 }
@@ -44,9 +45,10 @@ SimulatedParts close_fit(RandomNumbers& random) {
 /// All contacts within reach, from all candidates.
 std::vector<Contact> all_contacts(const SimulatedParts& shared) {
   std::vector<CandidatePair> pairs;
-  shared.candidates.within(kReach, pairs);
+  shared.candidates.within(kReachOfRows, pairs);
   std::vector<Contact> contacts;
-  find_contacts(shared.scene.bodies(), shared.scene.obstacles().size(), pairs, kReach, shared.largest_margin, contacts);
+  find_contacts(shared.scene.bodies(), shared.scene.obstacles().size(), pairs, kReachOfRows, shared.largest_margin,
+                contacts);
   return contacts;
 }
 
@@ -70,7 +72,7 @@ double distance_after(const SimulatedParts& shared, const Contact& contact, cons
 
 using Features = std::array<std::int32_t, 3>;
 
-Features features_of(const Contact& contact) {
+Features identity_of(const Contact& contact) {
   return {static_cast<std::int32_t>(contact.kind), contact.part_feature, contact.obstacle_feature};
 }
 
@@ -86,13 +88,14 @@ TEST(ContactRows, AreMissingOnlyWhereTheStepLeavesTheTrianglesAMarginApart) {
   for (int trial = 0; trial < test_support::affordable(kTrials); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     SimulatedParts shared = close_fit(random);
-    shared.candidates.look(kReach, 0.0, {});
+    shared.candidates.look(kReachOfRows, 0.0, {});
     const HeldPartState& part = shared.states[0];
     Displacements wanted{};
-    wanted[0] = {random.uniform(0.0, 4.0) * kPlay * random.direction(), random.uniform(0.0, 2e-3) * random.direction()};
+    wanted[0] = {random.uniform(0.0, 4.0) * kPlayOfBall * random.direction(),
+                 random.uniform(0.0, 2e-3) * random.direction()};
     ContactRows rows(shared);
     WorkBudget unlimited;
-    rows.find(kReach, kReach, unlimited);
+    rows.find(kReachOfRows, kReachOfRows, unlimited);
     ProjectionSolver solver;
     Displacements step{};
     do {
@@ -107,16 +110,17 @@ TEST(ContactRows, AreMissingOnlyWhereTheStepLeavesTheTrianglesAMarginApart) {
       of_all.push_back(row);
       const double missing = row.bound - row.velocity(shared.of_parts(step));
       worst = std::max(worst, missing);
-      if (missing <= kRounding) continue;
-      ASSERT_GE(distance_after(shared, contact, step[0]), part.margin - kRounding) << "at a gap of " << contact.gap;
+      if (missing <= kRoundingOfRows) continue;
+      ASSERT_GE(distance_after(shared, contact, step[0]), part.margin - kRoundingOfRows)
+          << "at a gap of " << contact.gap;
     }
     all += of_all.size();
     const CoupledProjection reference = solver.project(shared.of_parts(wanted), {&part.stiffness, 1}, of_all);
     pushed += reference.active_count > 0 ? 1 : 0;
-    if (worst > kRounding) continue;
+    if (worst > kRoundingOfRows) continue;
     ++optimal;
-    EXPECT_LT((reference.displacements[0].v - step[0].v).norm(), kRounding);
-    EXPECT_LT((reference.displacements[0].w - step[0].w).norm(), kRounding / kRadius);
+    EXPECT_LT((reference.displacements[0].v - step[0].v).norm(), kRoundingOfRows);
+    EXPECT_LT((reference.displacements[0].w - step[0].w).norm(), kRoundingOfRows / kBallRadius);
   }
   EXPECT_GT(pushed, test_support::affordable(kTrials) / 2);
   EXPECT_GT(10 * optimal, 9 * test_support::affordable(kTrials)) << "nearly always no row is violated at all";
@@ -130,31 +134,31 @@ TEST(ContactRows, HaveAllContactsWithinTheDistanceThatTheyTell) {
   for (int trial = 0; trial < test_support::affordable(20); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     SimulatedParts shared = close_fit(random);
-    shared.candidates.look(kReach, 0.0, {});
+    shared.candidates.look(kReachOfRows, 0.0, {});
     ContactRows rows(shared);
     WorkBudget unlimited;
-    rows.find(0.5 * kReach, kReach, unlimited);
+    rows.find(0.5 * kReachOfRows, kReachOfRows, unlimited);
     const double complete_with_rows = rows.complete();
     const std::size_t with_rows = rows.rows().size();
     const double complete = rows.find_ahead(unlimited);
     EXPECT_GE(complete, complete_with_rows);
-    EXPECT_LE(complete, kReach);
+    EXPECT_LE(complete, kReachOfRows);
     EXPECT_GT(complete, 3.0 * shared.largest_margin) << "contacts that touch";
     std::set<Features> known;
     std::size_t place = 0;
     std::set<Features> known_with_rows;
     for (const Contact& contact : rows.all_contacts()) {
-      EXPECT_TRUE(known.insert(features_of(contact)).second) << "twice";
-      if (place++ < with_rows) known_with_rows.insert(features_of(contact));
+      EXPECT_TRUE(known.insert(identity_of(contact)).second) << "twice";
+      if (place++ < with_rows) known_with_rows.insert(identity_of(contact));
     }
     std::size_t expected = 0;
     for (const Contact& contact : all_contacts(shared)) {
       if (contact.gap < complete_with_rows) {
-        EXPECT_TRUE(known_with_rows.contains(features_of(contact))) << contact.gap;
+        EXPECT_TRUE(known_with_rows.contains(identity_of(contact))) << contact.gap;
       }
       if (contact.gap >= complete) continue;
       ++expected;
-      EXPECT_TRUE(known.contains(features_of(contact))) << contact.gap;
+      EXPECT_TRUE(known.contains(identity_of(contact))) << contact.gap;
     }
     EXPECT_GT(expected, 10U);
   }

@@ -16,11 +16,11 @@ namespace {
 using Eigen::Vector3d;
 using test_support::RandomNumbers;
 
-geometry::TrianglePoints random_triangle(const Vector3d& place, RandomNumbers& random) {
+geometry::TrianglePoints triangle_near(const Vector3d& place, RandomNumbers& random) {
   return {place + random.point(1e-3), place + random.point(1e-3), place + random.point(1e-3)};
 }
 
-geometry::TrianglePoints moved(geometry::TrianglePoints triangle, const Vector3d& by) {
+geometry::TrianglePoints shifted(geometry::TrianglePoints triangle, const Vector3d& by) {
   for (Vector3d& x : triangle)
     x += by;
   return triangle;
@@ -34,11 +34,11 @@ TEST(LastingSeparation, IsAsWideAsItSaysAndNoWiderThanTheTrianglesAreApart) {
   int certified = 0;
   for (int trial = 0; trial < test_support::affordable(5000); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
-    const geometry::TrianglePoints obstacle = random_triangle(Vector3d::Zero(), random);
-    const geometry::TrianglePoints part = random_triangle(2e-3 * random.direction(), random);
+    const geometry::TrianglePoints obstacle = triangle_near(Vector3d::Zero(), random);
+    const geometry::TrianglePoints part = triangle_near(2e-3 * random.direction(), random);
     const TrianglesAtMoment begin{obstacle, part};
-    const TrianglesAtMoment end{moved(obstacle, random.power_of_ten(-6.0, -4.0) * random.direction()),
-                                moved(part, random.power_of_ten(-6.0, -3.0) * random.direction())};
+    const TrianglesAtMoment end{shifted(obstacle, random.power_of_ten(-6.0, -4.0) * random.direction()),
+                                shifted(part, random.power_of_ten(-6.0, -3.0) * random.direction())};
     const double gap = 1e-6;
     const Separation separation = lasting_separation(begin, end, gap);
     const double at_begin = geometry::triangle_distance(begin.obstacle, begin.part).distance;
@@ -62,7 +62,7 @@ TEST(LastingSeparation, OfATriangleThatSlidesOverAPlaneIsTheNormal) {
   const geometry::TrianglePoints plane{Vector3d(0.0, -1.0, 0.0), Vector3d(2.0, 0.0, 0.0), Vector3d(0.0, 1.0, 0.0)};
   const geometry::TrianglePoints part{Vector3d(-1.0, -0.5, 0.01), Vector3d(-0.1, 0.0, 0.01), Vector3d(-1.0, 0.5, 0.01)};
   const TrianglesAtMoment begin{plane, part};
-  const Separation separation = lasting_separation(begin, {plane, moved(part, {0.09, 0.0, 0.0})}, 1e-3);
+  const Separation separation = lasting_separation(begin, {plane, shifted(part, {0.09, 0.0, 0.0})}, 1e-3);
   EXPECT_NEAR(separation.n.z(), 1.0, 1e-12);
   EXPECT_NEAR(separation.begin, 0.01, 1e-12);
   EXPECT_NEAR(separation.end, 0.01, 1e-12);

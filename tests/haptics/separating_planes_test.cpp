@@ -27,8 +27,8 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using test_support::RandomNumbers;
 
-constexpr double kSize = 0.02;      // metres, of the bodies
-constexpr double kRounding = 1e-6;  // of the size
+constexpr double kSizeOfBodies = 0.02;    // metres, of the bodies
+constexpr double kRoundingOfSize = 1e-6;  // of the size
 
 /// The height of the part's triangle over the obstacle's along n_O, in double precision.
 double height_over(std::span<const PlacedBody> bodies, const TrianglesOfBodies& pair, const Isometry3d& X_OV,
@@ -81,13 +81,13 @@ TEST(SeparatingPlanes, TellLowerBoundsOfDistancesWhereverThePartGoes) {
   int told = 0;
   for (int trial = 0; trial < test_support::affordable(40); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
-    const auto scene = test_support::random_contact_scene(kSize, 1e-4, 2e-4, random);
+    const auto scene = test_support::random_contact_scene(kSizeOfBodies, 1e-4, 2e-4, random);
     RandomPlanes known(*scene, random);
     if (known.pairs.empty()) continue;
     const std::size_t mover = scene->movers().size() - 1;
     const SlidingPart& part = *scene->movers()[mover];
     for (int step = 0; step < 4; ++step) {
-      const geometry::Displacement d{0.3 * kSize * random.direction(), 0.3 * random.direction()};
+      const geometry::Displacement d{0.3 * kSizeOfBodies * random.direction(), 0.3 * random.direction()};
       scene->place(mover, geometry::displaced(scene->bodies()[scene->body_of_mover(mover)].X_WB, part.p_Vref(), d));
       const Isometry3d X_OV = relative_pose_of(*scene, known.bodies_of_pairs);
       const std::size_t turned = static_cast<std::size_t>(random.integer(0, static_cast<int>(known.pairs.size()) - 1));
@@ -105,7 +105,7 @@ TEST(SeparatingPlanes, TellLowerBoundsOfDistancesWhereverThePartGoes) {
         ASSERT_LE(gap, test_support::distance_of(scene->bodies(), known.pairs[i]));
         const double height = height_over(scene->bodies(), known.pairs[i], X_OV, known.directions_O[i]);
         ASSERT_LE(gap, height);
-        ASSERT_GE(gap, height - 20.0 * kRounding * kSize);
+        ASSERT_GE(gap, height - 20.0 * kRoundingOfSize * kSizeOfBodies);
         told += gap > 0.0 ? 1 : 0;
       }
     }
@@ -120,7 +120,7 @@ TEST(SeparatingPlanes, TellTheSameBitsWithEveryInstructionSet) {
   std::size_t pairs = 0;
   for (int trial = 0; trial < 20; ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
-    const auto scene = test_support::random_contact_scene(kSize, 1e-4, 2e-4, random);
+    const auto scene = test_support::random_contact_scene(kSizeOfBodies, 1e-4, 2e-4, random);
     const RandomPlanes known(*scene, random);
     pairs += known.pairs.size();
     const Isometry3d X_OV = relative_pose_of(*scene, known.bodies_of_pairs);
