@@ -40,9 +40,10 @@ void CandidatePairs::Search::collect(const std::vector<Pair>& pairs, double reac
 }
 
 CandidatePairs::CandidatePairs(const ContactScene& scene, double greatest_radius, bool runs_ahead,
-                               std::int64_t work_of_call)
+                               std::int64_t work_of_call, bool has_planes)
     : scene_(scene),
       work_of_call_(work_of_call),
+      has_planes_(has_planes),
       work_left_(work_of_call),
       thread_(runs_ahead || work_of_call != kUnlimitedWork
                   ? std::make_unique<SearchThread>(work_ahead(runs_ahead, work_of_call))
@@ -109,6 +110,7 @@ void CandidatePairs::ask(Search& search, double reach, double ahead, std::span<c
   for (const PlacedBody& mover : scene_.bodies().subspan(scene_.obstacles().size()))
     search.request.X_WB.push_back(mover.X_WB);
   search.request.radius = reach + ahead;
+  search.request.has_planes = has_planes_;
   search.request.ignored.assign(ignored.begin(), ignored.end());
   search.half = 0.5 * ahead;
   search.motions.assign(scene_.bodies().size(), {});

@@ -37,9 +37,9 @@ class CandidatePairs {
  public:
   /// The scene must outlive this object. In `look`, reach + ahead must not exceed `greatest_radius` (metres). With a
   /// limit of work, searches have a thread of their own in any case. If `runs_ahead` is false, that thread never works
-  /// at the same time as the caller's.
+  /// at the same time as the caller's. Without planes, only `within` a reach tells of pairs.
   CandidatePairs(const ContactScene& scene, double greatest_radius, bool runs_ahead = false,
-                 std::int64_t work_of_call = kUnlimitedWork);
+                 std::int64_t work_of_call = kUnlimitedWork, bool has_planes = true);
   CandidatePairs(const CandidatePairs&) = delete;
   CandidatePairs& operator=(const CandidatePairs&) = delete;
   ~CandidatePairs();
@@ -150,6 +150,7 @@ class CandidatePairs {
 
   const ContactScene& scene_;
   std::int64_t work_of_call_;
+  bool has_planes_;
   std::int64_t work_left_;                // of this call
   std::int64_t allowed_ = 0;              // work that the thread's search may have done by now
   bool is_with_thread_ = false;           // a search, whether it is still of use or not

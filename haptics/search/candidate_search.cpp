@@ -105,6 +105,7 @@ void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
   set.report = near.report;
   collect_pairs(near, set.pairs);
   find_pairs_to_certify(scene_, bodies_, request.radius, request.ignored, workspace_, set.to_certify);
+  if (!request.has_planes) return;
   find_planes(set.pairs, bodies_, set.planes_of_pairs);
   find_planes(set.to_certify, bodies_, set.planes, set.box_pairs);
 }

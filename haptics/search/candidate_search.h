@@ -45,6 +45,7 @@ struct CandidateRequest {
   std::vector<Eigen::Isometry3d> X_WB;  ///< one for each mover
   double radius = 0.0;                  ///< metres
   std::vector<BodyPair> ignored;        ///< in ascending order
+  bool has_planes = true;               ///< the answer has them
 };
 
 /// The answer: all pairs within the radius, nearest first.
