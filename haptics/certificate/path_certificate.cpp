@@ -41,6 +41,7 @@ Heights heights_of(const ContactBody& body, const Eigen::Isometry3d& X_WB, std::
 
 void PathCertificate::begin_step(std::span<const geometry::Displacement> displacements) {
   bodies_.begin_step(displacements);
+  keeps_directions_ = true;
   rounding_ = certain_distance();
   obstacle_ = {};
   part_ = {};
@@ -56,6 +57,7 @@ PathOfBodies PathCertificate::path_of(const BodyPair& bodies) {
 void PathCertificate::begin(const BodiesMotion& motion, std::size_t first_mover,
                             std::span<const PairToCertify> to_certify) {
   bodies_.begin_step(motion, first_mover);
+  keeps_directions_ = false;
   rounding_ = certain_distance();
   obstacle_ = {};
   part_ = {};
@@ -202,10 +204,12 @@ Eigen::Vector3d PathCertificate::prove_triangles(std::int32_t triangle_O, std::i
     return {bodies_.triangle_W(obstacle_.number, triangle_O, moment),
             bodies_.triangle_W(part_.number, triangle_V, moment)};
   };
-  const Separation separation = lasting_separation(at(0), at(MovingBodies::kMoments), needed_ + rounding_);
-  if (separation.least() >= needed_ + rounding_) {
-    budget.spend(kWorkOfTriangles);
-    return separation.n;
+  if (keeps_directions_) {
+    const Separation separation = lasting_separation(at(0), at(MovingBodies::kMoments), needed_ + rounding_);
+    if (separation.least() >= needed_ + rounding_) {
+      budget.spend(kWorkOfTriangles);
+      return separation.n;
+    }
   }
   TriangleCertificate certificate(bodies_, pair, min_clearance_, rounding_);
   Eigen::Vector3d n_start = Eigen::Vector3d::Zero();

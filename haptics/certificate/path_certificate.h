@@ -107,6 +107,7 @@ class PathCertificate {
 
   const ContactScene& scene_;
   MovingBodies bodies_;
+  bool keeps_directions_ = false;        // of the step: those that serve for the next steps too are worth a search
   double rounding_ = 0.0;                // metres: smaller distances are not certain
   std::span<const PairToCertify> rest_;  // pairs that have not been begun
   std::vector<OpenItems> open_;          // of the pair at hand, the last one next
