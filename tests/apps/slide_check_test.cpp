@@ -120,7 +120,8 @@ TEST_F(AssemblyCheck, WritesAPage) {
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
   EXPECT_EQ(result.standard_output, "") << "the page is the answer";
   const std::string page = read_text_file(folder.path("page/index.html"));
-  for (const char* part : {"Assembly check of box", "1 of 2", "above.csv", "not reached, 10.0", "force [N]", "clearance [um]"})
+  for (const char* part :
+       {"Assembly check of box", "1 of 2", "above.csv", "not reached, 10.0", "force [N]", "clearance [um]"})
     EXPECT_THAT(page, testing::HasSubstr(part));
 }
 

@@ -79,7 +79,7 @@ TEST(SeparatingPlanes, TellLowerBoundsOfDistancesWhereverThePartGoes) {
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);
   int told = 0;
-  for (int trial = 0; trial < test_support::affordable(40); ++trial) {
+  for (int trial = 0; trial < 40; ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     const auto scene = test_support::random_contact_scene(kSizeOfBodies, 1e-4, 2e-4, random);
     RandomPlanes known(*scene, random);
@@ -110,7 +110,7 @@ TEST(SeparatingPlanes, TellLowerBoundsOfDistancesWhereverThePartGoes) {
       }
     }
   }
-  EXPECT_GT(told, test_support::affordable(500));
+  EXPECT_GT(told, 500);
 }
 
 TEST(SeparatingPlanes, TellTheSameBitsWithEveryInstructionSet) {
