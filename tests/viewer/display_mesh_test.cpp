@@ -97,7 +97,8 @@ TEST(DisplayMesh, OfASmallerMeshTheLongestEdgesAreDrawn) {
   geometry::TriangleMesh mesh = geometry::make_plate({0.1, 0.1}, 2);
   for (int i = 0; i < 2000; ++i) {
     const auto first = static_cast<std::int32_t>(mesh.vertices.size());
-    const Eigen::Vector3d place(0.002 * (i % 50 - 25), 0.002 * (i / 50 - 20), 0.01);
+    const int row = i / 50;
+    const Eigen::Vector3d place(0.002 * (i % 50 - 25), 0.002 * (row - 20), 0.01);
     for (const Eigen::Vector3d& corner :
          {Eigen::Vector3d::Zero().eval(), Eigen::Vector3d(1e-3, 0.0, 0.0), Eigen::Vector3d(0.0, 1e-3, 0.0)})
       mesh.vertices.push_back(place + corner);
