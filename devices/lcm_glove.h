@@ -9,8 +9,11 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include <glissade/devices/glove_device.h>
@@ -27,10 +30,24 @@ class LinkMonitor;
 /// The number of a device, unless another is given.
 inline constexpr std::int64_t kDefaultDevice = 1;
 
-/// Waits for the announcement of a glove on the channel GLOVE_INFO, which `LcmGloveHost` sends five times a second. No
-/// value if none came within `timeout`. Throws std::invalid_argument when the bus is null or cannot receive. Blocks.
-std::optional<GloveInfo> find_glove(const std::shared_ptr<LcmBus>& bus, std::int64_t device,
-                                    std::chrono::milliseconds timeout);
+/// Hears the announcements on the channel GLOVE_INFO, which each `LcmGloveHost` sends five times a second, from its
+/// construction on. Any thread.
+class GloveSearch {
+ public:
+  /// Throws std::invalid_argument when the bus is null or cannot receive.
+  explicit GloveSearch(std::shared_ptr<LcmBus> bus);
+
+  /// The newest announcement of the glove with this number. Waits for the first one; no value if none came within
+  /// `timeout`.
+  std::optional<GloveInfo> wait_for(std::int64_t device, std::chrono::milliseconds timeout);
+
+ private:
+  std::shared_ptr<LcmBus> bus_;
+  std::mutex mutex_;
+  std::condition_variable has_come_;
+  std::map<std::int64_t, GloveInfo> found_;
+  std::unique_ptr<LcmBus::Subscription> subscription_;
+};
 
 struct LcmGloveOptions {
   std::int64_t device = kDefaultDevice;  ///< number of the glove; states of all others are rejected

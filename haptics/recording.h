@@ -130,7 +130,7 @@ struct RecordingHead {
 };
 
 /// The events of a recording: HAPTIC_TICK and CONTACT_SET, with all that a replay needs, and for other programs of LCM
-/// HAPTIC_STATE, GLOVE_STATE for each new state and GLOVE_INFO once a second. There are no GLOVE_COMMAND, so that
+/// HAPTIC_STATE, GLOVE_STATE for each new state and GLOVE_INFO five times a second. There are no GLOVE_COMMAND, so that
 /// `lcm-logplayer` leads no glove. Events have the times of the loop's clock. Not thread-safe.
 class RecordedEvents {
  public:

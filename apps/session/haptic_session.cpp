@@ -89,11 +89,12 @@ std::vector<devices::GloveInfo> wait_for_gloves(const std::shared_ptr<devices::L
                                                 const std::vector<SessionHand>& hands,
                                                 const std::function<bool()>& should_stop,
                                                 const std::function<void(const RunNews&)>& watch) {
+  devices::GloveSearch search(bus);  // one for all: an announcement is heard whenever it comes
   std::vector<devices::GloveInfo> infos;
   while (infos.size() < hands.size() && !should_stop()) {
     const std::int64_t device = hands[infos.size()].device;
     watch({.awaited_device = device});
-    if (auto info = devices::find_glove(bus, device, std::chrono::milliseconds(100))) infos.push_back(std::move(*info));
+    if (auto info = search.wait_for(device, std::chrono::milliseconds(100))) infos.push_back(std::move(*info));
   }
   return infos;
 }

@@ -12,7 +12,7 @@ std::vector<devices::LogEvent> RecordedEvents::of(const TickRecord& record) {
 }
 
 std::vector<devices::LogEvent> RecordedEvents::others_of(const TickRecord& record) {
-  constexpr std::chrono::seconds kAnnouncementPeriod(1);
+  constexpr std::chrono::milliseconds kAnnouncementPeriod(200);  // as LcmGloveHost does
   std::vector<devices::LogEvent> events;
   const auto hand_count = static_cast<std::size_t>(record.hand_count);
   if (record.sequence > 0) events.push_back(devices::to_event(record.time, record.state));

@@ -58,6 +58,7 @@ TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
   descriptor.joint_damping = 0.03;
   descriptor.frozen = milliseconds(50);
   LcmGloveHost host(bus, descriptor, {.device = 3, .side = HandSide::kLeft});
+  GloveSearch search(bus);
   std::atomic<bool> should_end{false};
   std::thread driver([&] {
     while (!should_end) {
@@ -65,8 +66,8 @@ TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
       std::this_thread::sleep_for(milliseconds(1));
     }
   });
-  EXPECT_FALSE(find_glove(bus, 4, milliseconds(300)).has_value());
-  const std::optional<GloveInfo> found = find_glove(bus, 3, std::chrono::seconds(10));
+  EXPECT_FALSE(search.wait_for(4, milliseconds(300)).has_value());
+  const std::optional<GloveInfo> found = search.wait_for(3, std::chrono::seconds(10));
   should_end = true;
   driver.join();
   ASSERT_TRUE(found.has_value());
@@ -77,6 +78,15 @@ TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
   EXPECT_EQ(found->descriptor.frozen, milliseconds(50));
   EXPECT_EQ(found->descriptor.joint_upper, descriptor.joint_upper);
   EXPECT_EQ(found->descriptor.update_rate, 1000.0);
+}
+
+TEST(GloveInfo, IsHeardBetweenTwoCallsOfASearch) {
+  const auto bus = std::make_shared<LcmBus>("memq://");
+  LcmGloveHost host(bus, simulated_glove_descriptor(), {.device = 3});
+  GloveSearch search(bus);
+  host.publish({});  // an announcement; the next one is due 200 ms later
+  EXPECT_FALSE(search.wait_for(4, milliseconds(100)).has_value());
+  EXPECT_TRUE(search.wait_for(3, milliseconds(0)).has_value());
 }
 
 /// Both ends on one bus. The server answers each state that it reads by `wanted`; both ends have their envelope.
