@@ -177,10 +177,17 @@ TEST_F(RecordingProcesses, LcmLoggerRecordsARun) {
 }
 
 TEST_F(RecordingProcesses, LcmLogplayerPlaysARecording) {
-  const ProgramResult demo =
-      test_support::glissade({"demo", "--offline", "--seconds", "1", "--scene", scene, "--record", log("run.lcmlog")});
+  // The player waits for nobody: the hand does, until the server has started and holds the box.
+  folder.write("hand.csv",
+               "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n"
+               "0,0,0,0.03,1,0,0,0\n"
+               "1.5,0,0,0.03,1,0,0,0\n"
+               "1.7,0,0,0.01,1,0,0,0\n"
+               "2.3,0.05,0,0.01,1,0,0,0\n");
+  const ProgramResult demo = test_support::glissade(
+      {"demo", "--offline", "--seconds", "2.5", "--scene", scene, "--record", log("run.lcmlog")});
   ASSERT_EQ(demo.exit_code, 0) << demo.standard_error;
-  Process server({GLISSADE_PROGRAM, "run", scene, "--lcm", kUrl, "--seconds", "0.7", "--json"});
+  Process server({GLISSADE_PROGRAM, "run", scene, "--lcm", kUrl, "--json"});
   ASSERT_TRUE(says_at_last(server, "waiting for a glove"));
   Process player({"lcm-logplayer", "--lcm-url", kUrl, log("run.lcmlog")});
   EXPECT_EQ(player.wait().exit_code, 0);
