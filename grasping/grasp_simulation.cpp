@@ -159,7 +159,8 @@ class GraspSimulation::Life {
       answer.visible.grasp = kind_of(hand.grasp().type);
       answer.visible.form = hand.grasp().form;
       answer.visible.touching = hand.grasp().segments.bits();
-      tell_visible(hand.clasp().chain(), hand.clasp().posture(), hand.clasp().contacts(), X_WL_, answer);
+      tell_visible(hand.clasp().chain(), hand.clasp().posture(), hand.contacts(),
+                   static_cast<std::int32_t>(parts_.obstacle_count()), X_WL_, answer);
       set.hands[h] = answer;
     }
   }

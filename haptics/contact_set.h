@@ -94,8 +94,11 @@ struct FingerLimits {
 /// A contact of a segment of a hand with fingers. Where its joints turn by d (rad, one for each joint), the gap grows
 /// by rates · d, to first order.
 struct FingerRow {
-  devices::JointValues rates{};  ///< m/rad
-  double gap = 0.0;              ///< metres at the visible hand, less the margin; at least 0
+  devices::JointValues rates{};                   ///< m/rad
+  double gap = 0.0;                               ///< metres at the visible hand, less the margin; at least 0
+  std::int32_t part = -1;                         ///< number of the part that the segment touches; −1: something else
+  Eigen::Vector3d n_W = Eigen::Vector3d::Zero();  ///< unit, from there to the segment
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< metres: the point of the segment
 };
 
 /// Maximum number of rows of one hand in a contact set. The set omits the contacts that are the least deep.

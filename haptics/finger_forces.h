@@ -42,6 +42,8 @@ class FingerForces {
 
   /// Nm/rad, at present.
   double stiffness() const noexcept { return stiffness_; }
+  /// Nm, of the device.
+  double max_torque() const noexcept { return device_.max_joint_torque; }
 
   /// The torques (Nm, positive toward larger angles) for a glove with these joint angles (rad). They are full where the
   /// answer is up to kFullForce old, and zero from kForceless on. Zero for angles that are not finite. Cost: O(rows ·

@@ -10,6 +10,7 @@
 
 #include "loop/contact_force.h"
 #include "loop/contact_projection.h"
+#include "loop/finger_load.h"
 #include "loop/holds.h"
 
 namespace glissade::haptics {
@@ -58,9 +59,18 @@ bool is_usable_row(const ContactRow& row) {
 }
 
 bool is_usable_hand(const HandAnswer& hand) {
-  const auto has_numbers = [](const FingerRow& row) { return are_finite(row.rates) && std::isfinite(row.gap); };
+  const auto has_numbers = [](const FingerRow& row) {
+    return are_finite(row.rates) && std::isfinite(row.gap) && is_usable(row.n_W) && is_usable(row.p_W);
+  };
   return is_usable(hand.visible.X_WH.matrix()) && are_finite(hand.visible.angles) &&
          std::all_of(hand.rows().begin(), hand.rows().end(), has_numbers);
+}
+
+std::vector<std::size_t> joints_of(const std::vector<WristJoint>& wrist) {
+  std::vector<std::size_t> joints;
+  for (const WristJoint& joint : wrist)
+    joints.push_back(joint.angle);
+  return joints;
 }
 
 void check_wrist(const FingerHand& hand) {
@@ -75,6 +85,7 @@ void check_wrist(const FingerHand& hand) {
 struct Fingers {
   FingerHand hand;
   FingerForces forces;
+  FingerLoad load;
   devices::JointValues angles{};  // of the wrist, as the ghost has them
   bool is_found = false;          // the angles are those of a state
   std::int64_t decision = 0;      // of the simulation, that the hand has followed
@@ -95,6 +106,19 @@ struct Fingers {
       X_WP = X_WP * joint.X_PJ * Eigen::AngleAxisd(angles[j], joint.axis_J);
     }
     is_found = true;
+  }
+
+  /// Of the springs at the joints, and of the load of the part that the hand holds.
+  devices::JointValues torques(const devices::GloveState& state, const HandAnswer& answer, std::chrono::nanoseconds age,
+                               std::optional<std::size_t> held, const Wrench& on_hand, const Eigen::Vector3d& p_Wref,
+                               const KernelPart& part, double dt) noexcept {
+    const std::int32_t number = held ? static_cast<std::int32_t>(*held) : -1;
+    devices::JointValues sum = forces.update(state.joint_angles, answer, age);
+    const devices::JointValues& of_load =
+        load.update(answer, number, on_hand, p_Wref, part.radius, state.joint_angles, dt);
+    for (std::size_t j = 0; j < sum.size(); ++j)
+      sum[j] = std::clamp(sum[j] + of_load[j], -forces.max_torque(), forces.max_torque());
+    return sum;
   }
 
   /// A hand whose states stay away for a moment is where it was last.
@@ -187,7 +211,9 @@ HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<Kern
     std::optional<Fingers> fingers;
     if (hand.fingers) check_wrist(*hand.fingers);
     if (hand.fingers)
-      fingers.emplace(Fingers{.hand = *hand.fingers, .forces = {hand.fingers->limits, hand.device, period}});
+      fingers.emplace(Fingers{.hand = *hand.fingers,
+                              .forces = {hand.fingers->limits, hand.device, period},
+                              .load = {hand.device, joints_of(hand.fingers->wrist)}});
     hands_.push_back(
         std::make_unique<Hand>(Hand{.couplings = couplings,
                                     .present = couplings.front(),
@@ -413,7 +439,10 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
     command.f_H_W = on_hand.f;
     command.t_H_W = on_hand.t;
   }
-  if (hand.fingers) command.joint_torques = hand.fingers->forces.update(state.joint_angles, set.hands[number], age);
+  if (hand.fingers) {
+    const Wrench load{tick.contacts.f + tick.pull.f, tick.contacts.t + tick.pull.t};
+    command.joint_torques = hand.fingers->torques(state, set.hands[number], age, tick.part, load, p_Wref, part, dt);
+  }
   tick.command = hand.envelope.limit(command, state, now);
   hand.is_fading = tick.command.reasons().is_fading();
   return tick;

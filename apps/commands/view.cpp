@@ -35,8 +35,8 @@ constexpr const char* kViewFooter =
     "sent to the server, so that looking on disturbs no hand. 'run', 'demo' and 'replay' show themselves with --view.\n"
     "\n"
     "Examples, with the files of 'glissade example'; a demonstration publishes:\n"
-    "  glissade demo --seconds 20 --lcm 'udpm://239.255.76.67:7667?ttl=0' & glissade view --seconds 20\n"
-    "  glissade view car_door.yaml --seconds 20 --port 8500 --lcm 'udpm://239.255.76.67:7667?ttl=0'";
+    "  glissade demo --seconds 10 --lcm 'udpm://239.255.76.67:7667?ttl=0' & glissade view --seconds 10\n"
+    "  glissade view car_door.yaml --seconds 10 --port 8500 --lcm 'udpm://239.255.76.67:7667?ttl=0'";
 
 struct ViewOptions {
   std::string scene;

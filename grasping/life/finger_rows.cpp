@@ -9,8 +9,11 @@ namespace glissade::grasping {
 namespace {
 
 haptics::FingerRow row_of(const KinematicChain& chain, const LinkContact& touch,
-                          std::span<const Eigen::Isometry3d> X_WL) {
+                          std::span<const Eigen::Isometry3d> X_WL, std::int32_t first_part) {
   haptics::FingerRow row;
+  row.part = std::max(-1, touch.contact.obstacle - first_part);
+  row.n_W = touch.contact.n_W;
+  row.p_W = touch.contact.p_W;
   row.gap = std::max(0.0, touch.contact.gap - touch.contact.margin);
   const std::span<const ChainLink> links = chain.links();
   for (std::optional<std::size_t> l = touch.link; l; l = links[*l].parent) {
@@ -26,7 +29,7 @@ haptics::FingerRow row_of(const KinematicChain& chain, const LinkContact& touch,
 }  // namespace
 
 void tell_visible(const KinematicChain& chain, const Posture& visible, std::span<const LinkContact> contacts,
-                  std::vector<Eigen::Isometry3d>& X_WL, haptics::HandAnswer& answer) {
+                  std::int32_t first_part, std::vector<Eigen::Isometry3d>& X_WL, haptics::HandAnswer& answer) {
   answer.visible.X_WH = visible.X_WR;
   std::copy(visible.values.begin(), visible.values.end(), answer.visible.angles.begin());
   std::array<LinkContact, haptics::kMaxFingerRows> deepest;
@@ -36,7 +39,7 @@ void tell_visible(const KinematicChain& chain, const Posture& visible, std::span
   chain.poses(visible.X_WR, visible.values, X_WL);
   answer.row_count = static_cast<std::int32_t>(end - deepest.begin());
   for (std::size_t i = 0; i < static_cast<std::size_t>(answer.row_count); ++i)
-    answer.row_array[i] = row_of(chain, deepest[i], X_WL);
+    answer.row_array[i] = row_of(chain, deepest[i], X_WL, first_part);
 }
 
 }  // namespace glissade::grasping

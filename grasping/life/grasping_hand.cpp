@@ -72,11 +72,11 @@ void GraspingHand::aim(const std::optional<Posture>& target, double milliseconds
 void GraspingHand::take(std::size_t part, const Eigen::Isometry3d& X_WV) {
   const Posture& posture = clasp_.posture();
   part_ = part;
+  held_.begin(clasp_.contacts());
   X_PV_ = (posture.X_WR * palm(posture.values)).inverse(Eigen::Isometry) * X_WV;
 }
 
 void GraspingHand::let_go() {
-  held_.clear();
   left_ = part_;
   since_left_ms_ = 0.0;
   part_.reset();
@@ -105,6 +105,11 @@ void GraspingHand::advance() {
   clasp_.advance(posture_);
 }
 
+std::span<const LinkContact> GraspingHand::contacts() const {
+  const bool goes_on = part_ && !is_lost() && clasp_.state() == ClaspState::kClasping;
+  return goes_on ? held_.contacts() : clasp_.contacts();
+}
+
 void GraspingHand::analyze(double milliseconds, const Eigen::Vector3d& up_W, const Eigen::Isometry3d& X_WV) {
   constexpr double kAtOnce_ms = 1e6;
   since_left_ms_ += milliseconds;
@@ -120,10 +125,10 @@ void GraspingHand::analyze(double milliseconds, const Eigen::Vector3d& up_W, con
   const Posture& posture = clasp_.posture();
   model_->chain.poses(posture.X_WR, posture.values, X_WL_);
   model_->chain.poses(posture_.X_WR, posture_.values, X_WL_target_);
-  const std::vector<LinkContact>& contacts = held_.update(clasp_.contacts(), body, X_WV, X_WL_, X_WL_target_);
+  held_.update(clasp_.contacts(), body, X_WV, X_WL_, X_WL_target_);
   for (const std::size_t link : held_.left())
     analysis_.forget(link);
-  analysis_.update(contacts, milliseconds, up_W, body);
+  analysis_.update(held_.contacts(), milliseconds, up_W, body);
 }
 
 }  // namespace glissade::grasping

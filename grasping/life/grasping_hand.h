@@ -53,6 +53,8 @@ class GraspingHand {
   void advance();
   /// Whether the contacts of this moment hold the body: before the analysis says so, they must last.
   bool closes_round(std::int32_t body) const { return now_.grasp().holds() && now_.grasp().object == body; }
+  /// The contacts of the clasp. Those with a held part go on while the segment is only just off it.
+  std::span<const LinkContact> contacts() const;
   /// Looks at the contacts. The held part, if there is one, is at X_WV.
   void analyze(double milliseconds, const Eigen::Vector3d& up_W, const Eigen::Isometry3d& X_WV);
 

@@ -4,14 +4,13 @@
 
 namespace glissade::grasping {
 
-void HeldContacts::clear() {
+void HeldContacts::begin(const std::vector<LinkContact>& contacts) {
   std::fill(last_.begin(), last_.end(), std::nullopt);
+  contacts_ = contacts;
 }
 
-const std::vector<LinkContact>& HeldContacts::update(const std::vector<LinkContact>& contacts, std::int32_t body,
-                                                     const Eigen::Isometry3d& X_WV,
-                                                     std::span<const Eigen::Isometry3d> X_WL,
-                                                     std::span<const Eigen::Isometry3d> X_WL_target) {
+void HeldContacts::update(const std::vector<LinkContact>& contacts, std::int32_t body, const Eigen::Isometry3d& X_WV,
+                          std::span<const Eigen::Isometry3d> X_WL, std::span<const Eigen::Isometry3d> X_WL_target) {
   contacts_ = contacts;
   left_.clear();
   const Eigen::Isometry3d X_VW = X_WV.inverse(Eigen::Isometry);
@@ -37,12 +36,14 @@ const std::vector<LinkContact>& HeldContacts::update(const std::vector<LinkConta
       left_.push_back(link);
       last.reset();
     } else if (away < kNear_m) {
-      last->touch.contact.n_W = X_WV.linear() * last->n_V;
+      haptics::Contact& contact = last->touch.contact;
+      contact.n_W = X_WV.linear() * last->n_V;
+      contact.p_W = X_WL[link] * last->p_L;
+      contact.gap = contact.margin + std::max(0.0, away);
       last->touch.depth = std::max(0.0, -away);
       contacts_.push_back(last->touch);
     }
   }
-  return contacts_;
 }
 
 }  // namespace glissade::grasping

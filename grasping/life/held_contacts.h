@@ -21,12 +21,14 @@ class HeldContacts {
   /// For a hand with so many links.
   explicit HeldContacts(std::size_t links) : last_(links) {}
 
-  void clear();
-  /// The contacts of this moment, and those that go on. `body` is the number of the held part, which is at X_WV; X_WL
-  /// and X_WL_target are the poses of the visible links and of their targets.
-  const std::vector<LinkContact>& update(const std::vector<LinkContact>& contacts, std::int32_t body,
-                                         const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> X_WL,
-                                         std::span<const Eigen::Isometry3d> X_WL_target);
+  /// Forgets all, and takes the contacts of a hand that begins to hold a part.
+  void begin(const std::vector<LinkContact>& contacts);
+  /// Takes the contacts of this moment, and finds those that go on. `body` is the number of the held part, which is at
+  /// X_WV; X_WL and X_WL_target are the poses of the visible links and of their targets.
+  void update(const std::vector<LinkContact>& contacts, std::int32_t body, const Eigen::Isometry3d& X_WV,
+              std::span<const Eigen::Isometry3d> X_WL, std::span<const Eigen::Isometry3d> X_WL_target);
+  /// The contacts of this moment, and those that go on: their gap is how far the target is from the part.
+  std::span<const LinkContact> contacts() const { return contacts_; }
   /// The links whose targets have left the part by more than noise does since the last call.
   std::span<const std::size_t> left() const { return left_; }
 

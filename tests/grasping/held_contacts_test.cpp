@@ -22,7 +22,8 @@ class HeldPart : public ::testing::Test {
  protected:
   /// The links that touch after the target has gone this far.
   std::vector<LinkContact> touching_at(double x, double z, const std::vector<LinkContact>& contacts = {}) {
-    return held_.update(contacts, kHeldBody, at(0.0), std::array{at(0.0)}, std::array{at(x, 0.0, z)});
+    held_.update(contacts, kHeldBody, at(0.0), std::array{at(0.0)}, std::array{at(x, 0.0, z)});
+    return {held_.contacts().begin(), held_.contacts().end()};
   }
   static std::vector<LinkContact> touch() {
     LinkContact touch{};
@@ -41,6 +42,7 @@ TEST_F(HeldPart, IsTouchedOnByALinkThatHasHardlyLeftIt) {
   const std::vector<LinkContact> contacts = touching_at(0.0, 1e-3);
   ASSERT_EQ(contacts.size(), 1U);
   EXPECT_EQ(contacts[0].depth, 0.0);
+  EXPECT_NEAR(contacts[0].contact.gap, 1e-3, 1e-12) << "the load of the part fades with it";
   EXPECT_TRUE(held_.left().empty());
 }
 

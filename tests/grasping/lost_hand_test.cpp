@@ -68,7 +68,7 @@ TEST(LostHand, ThatTheCartMovesIntoSomethingGivesNoTorqueUntilItIsFree) {
     hand.clasp.advance(target);
     JointValues angles{};
     std::copy(target.values.begin(), target.values.end(), angles.begin());
-    tell_visible(hand.clasp.chain(), hand.clasp.posture(), hand.clasp.contacts(), X_WL, answer);
+    tell_visible(hand.clasp.chain(), hand.clasp.posture(), hand.clasp.contacts(), 0, X_WL, answer);
     return forces.update(angles, answer);
   };
   torques_at(open_hand());

@@ -192,5 +192,37 @@ TEST(FingerHand, NeedsAWristOfJointsThatTheGloveHas) {
   test_support::expect_bad_input([&] { HapticKernel({{Vector3d::Zero(), 0.05, {1000.0, 2.0}}}, {hand}); }, {"wrist"});
 }
 
+// A wall below the part, and a finger below it that holds it: the wall presses the part upwards, away from the finger,
+// and onto another finger above.
+TEST_F(FingerHandInKernel, AFingerFeelsTheLoadOfThePartThatItHolds) {
+  decide(0);
+  tick();
+  set_.parts[0].hold = tick_.ghosts.parts[0].hold;
+  set_.row_count = 1;
+  set_.row_array[0] = {{{Vector3d::UnitZ(), Vector3d::Zero(), 0.0}}};  // it may not sink
+  set_.row_array[0].pushes = true;
+  set_.hands[0].row_count = 2;
+  for (std::size_t joint = 0; joint < 2; ++joint) {
+    FingerRow& row = set_.hands[0].row_array[joint];
+    const double side = joint == 0 ? 1.0 : -1.0;
+    row = {};
+    row.rates[joint] = -0.05;
+    row.part = 0;
+    row.n_W = side * Vector3d::UnitZ();
+    row.p_W = set_.parts[0].X_WV.translation() + side * 0.05 * Vector3d::UnitZ();
+  }
+  state_.X_WH.translation().z() -= 2e-3;
+  for (int ms = 0; ms < 400; ++ms)
+    tick();
+  const devices::GloveCommand& pressed = tick_.hands[0].command.values();
+  EXPECT_GT(pressed.f_H_W.z(), 1.0);
+  EXPECT_NEAR(pressed.joint_torques[0], -0.05 * pressed.f_H_W.z(), 0.1 * 0.05 * pressed.f_H_W.z());
+  EXPECT_EQ(pressed.joint_torques[1], 0.0);
+  decide(-1);
+  for (int ms = 0; ms < 200; ++ms)
+    tick();
+  EXPECT_EQ(tick_.hands[0].command.values().joint_torques, JointValues{}) << "it has let go";
+}
+
 }  // namespace
 }  // namespace glissade::haptics
