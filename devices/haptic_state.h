@@ -51,11 +51,17 @@ inline constexpr std::size_t kHapticPatches = 8;
 /// What a hand with fingers does. Messages carry its number.
 enum class HandActivity : std::int32_t {
   kNone = 0,     ///< not reported: the hand has no fingers in the simulation, and holds by its grip
-  kLost = 1,     ///< its tracker does not see it
+  kLost = 1,     ///< its tracker does not see it, and it holds nothing
   kWaiting = 2,  ///< it has been inside an object since the start or since it was found, and waits until it is free
   kFree = 3,     ///< it holds nothing, though it may touch
-  kHolding = 4,  ///< a part moves with it
+  kHolding = 4,  ///< a part moves with it, also while its tracker does not see it
 };
+
+/// Whether a hand with fingers stands somewhere among the objects. One that waits or is lost is in nobody's way, and
+/// where it was last or never was.
+constexpr bool is_present(HandActivity activity) noexcept {
+  return activity == HandActivity::kFree || activity == HandActivity::kHolding;
+}
 
 /// Number of activities; their values run from 0 to kHandActivities − 1.
 inline constexpr std::int32_t kHandActivities = 5;

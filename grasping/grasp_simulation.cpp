@@ -53,9 +53,9 @@ devices::GraspKind kind_of(GraspType type) {
 }
 
 devices::HandActivity activity_of(const GraspingHand& hand) {
+  if (hand.part()) return devices::HandActivity::kHolding;
   if (hand.is_lost()) return devices::HandActivity::kLost;
-  if (hand.clasp().state() == ClaspState::kWaiting) return devices::HandActivity::kWaiting;
-  return hand.part() ? devices::HandActivity::kHolding : devices::HandActivity::kFree;
+  return hand.is_present() ? devices::HandActivity::kFree : devices::HandActivity::kWaiting;
 }
 
 }  // namespace
@@ -83,7 +83,6 @@ class GraspSimulation::Life {
         parts_(fixed, parts, rules.sliding, chains_of(hands_, rules.clasp.margin)),
         X_WG_(parts.size(), Eigen::Isometry3d::Identity()),
         pushes_(parts.size()),
-        is_present_(hands.size(), 0),
         answers_(hands.size()) {
     if (hands.size() > haptics::kMaxHands)
       throw std::invalid_argument("at most " + std::to_string(haptics::kMaxHands) + " hands can grasp, not " +
@@ -134,8 +133,9 @@ class GraspSimulation::Life {
     for (std::size_t p = 0; p < X_WG_.size(); ++p)
       X_WG_[p] = ghosts.parts[p].is_held ? ghosts.parts[p].X_WG : yielding(p);
     move(milliseconds);
-    for (std::size_t h = 0; h < hands_.size(); ++h)
-      decide(h);
+    for (std::size_t h = 0; h < hands_.size(); ++h) {
+      if (!hands_[h].is_lost()) decide(h, grasped_part(hands_[h]));
+    }
     for (std::size_t p = 0; p < X_WG_.size(); ++p) {
       if (!ghosts.parts[p].is_held) note_push(p);  // another hand, without fingers, may hold it
     }
@@ -238,15 +238,15 @@ class GraspSimulation::Life {
   void move_hand(std::size_t h) {
     GraspingHand& hand = hands_[h];
     hand.advance();
-    if (hand.clasp().state() != ClaspState::kClasping) return;
-    parts_.place_riders(h, hand.segments());
-    if (std::exchange(is_present_[h], char{1}) == 0 && hand.part()) parts_.attach(h, *hand.part());
+    if (hand.is_present()) parts_.place_riders(h, hand.segments());
   }
 
-  /// A hand that is lost and holds nothing is nowhere.
+  /// A hand that is lost and holds nothing is nowhere. What was decided about it is withdrawn: the haptic thread, which
+  /// may not have followed yet, would take hold with a hand that touches nothing.
   void vanish(std::size_t h) {
-    hands_[h].clasp().lose_track();
-    if (std::exchange(is_present_[h], char{0}) != 0) parts_.remove_riders(h);
+    if (hands_[h].is_present()) parts_.remove_riders(h);
+    hands_[h].vanish();
+    decide(h, std::nullopt);
   }
 
   /// The part that the grasp of a hand holds.
@@ -265,27 +265,27 @@ class GraspSimulation::Life {
     return hand.is_lost() ? hand.part() : grasped_part(hand);
   }
 
-  /// Returns whether the hand holds something else than before.
+  /// Returns whether the hand holds something else than before. One that is nowhere takes hold of nothing: where it
+  /// was last, the part may be no more. The haptic thread learns it from the withdrawn decision.
   bool hold(std::size_t h, std::optional<std::size_t> part) {
     GraspingHand& hand = hands_[h];
+    if (!hand.is_present()) part.reset();
     if (part == hand.part()) return false;
     if (hand.part()) {
       hand.let_go();
-      if (is_present_[h] != 0) parts_.detach(h);
+      parts_.detach(h);
     }
     if (part) {
       hand.take(*part, parts_.result(*part).X_WV);
-      if (is_present_[h] != 0) parts_.attach(h, *part);
+      parts_.attach(h, *part);
     } else if (hand.is_lost()) {
       vanish(h);
     }
     return true;
   }
 
-  /// Decides for the haptic thread; nothing new about a hand that is lost.
-  void decide(std::size_t h) {
-    if (hands_[h].is_lost()) return;
-    const std::optional<std::size_t> part = grasped_part(hands_[h]);
+  /// Decides for the haptic thread.
+  void decide(std::size_t h, std::optional<std::size_t> part) {
     const std::int32_t number = part ? static_cast<std::int32_t>(*part) : -1;
     haptics::HandAnswer& answer = answers_[h];
     if (number == answer.part) return;
@@ -333,7 +333,6 @@ class GraspSimulation::Life {
   std::vector<Eigen::Isometry3d> X_WG_;       // of each part
   std::vector<haptics::Metaphor> metaphors_;  // of each part
   std::vector<Push> pushes_;                  // of each part
-  std::vector<char> is_present_;              // by hand: among the riders
   double waited_ms_ = 0.0;                    // since the hands moved
   // In the haptic loop:
   std::vector<haptics::HandAnswer> answers_;  // for each hand

@@ -54,20 +54,6 @@ double greatest(const devices::JointValues& torques) {
 
 }  // namespace
 
-bool is_present(const devices::HapticHandState& hand) noexcept {
-  switch (hand.visible.activity) {
-    case devices::HandActivity::kFree:
-    case devices::HandActivity::kHolding:
-      return true;
-    case devices::HandActivity::kLost:
-      return hand.part >= 0;
-    case devices::HandActivity::kNone:
-    case devices::HandActivity::kWaiting:
-      break;
-  }
-  return false;
-}
-
 FrameMaker::FrameMaker(const ViewScene& scene) : X_OW_(Eigen::Translation3d(-scene.p_WO())) {
   for (const ViewHand& hand : scene.hands)
     models_.push_back(hand.model);
@@ -124,7 +110,7 @@ std::string FrameMaker::make() {
     frame.add(static_cast<std::int32_t>(hand.visible.form));
     frame.add(hand.visible.touching);  // below 2^24, so that single precision has it exactly
     frame.add(greatest(hand.joint_torques));
-    const bool is_shown = h < models_.size() && models_[h] && is_present(hand);
+    const bool is_shown = h < models_.size() && models_[h] && devices::is_present(hand.visible.activity);
     if (!is_shown) {
       frame.add(0);
       continue;

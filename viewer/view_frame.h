@@ -16,10 +16,6 @@
 
 namespace glissade::viewer {
 
-/// Whether the hand has fingers that stand somewhere among the objects. One that waits, or is lost with empty hands, is
-/// in nobody's way, and where it was last or never was.
-bool is_present(const devices::HapticHandState& hand) noexcept;
-
 /// Makes frames of the states of ticks. A frame shows the newest state, and the greatest force, age, lateness and
 /// duration since the last frame. Not thread-safe; allocates.
 ///

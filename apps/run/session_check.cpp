@@ -6,16 +6,6 @@
 
 namespace glissade::apps {
 
-namespace {
-
-bool is_in_the_way(const devices::HapticHandState& hand) {
-  const devices::HandActivity activity = hand.visible.activity;
-  return activity == devices::HandActivity::kFree || activity == devices::HandActivity::kHolding ||
-         (activity == devices::HandActivity::kLost && hand.part >= 0);
-}
-
-}  // namespace
-
 SessionCheck::SessionCheck(const SessionRecorder& samples, const HapticScene& scene)
     : samples_(samples), obstacles_(scene.placed_obstacles) {
   for (const ScenePart& part : scene.parts)
@@ -46,7 +36,7 @@ std::int64_t SessionCheck::colliding_ticks_of_hand(std::size_t hand, const grasp
   std::vector<Eigen::Isometry3d> X_WL(samples_.size() * links);
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const devices::VisibleHand& visible = samples_.hand(i, hand).visible;
-    counts[i] = is_in_the_way(samples_.hand(i, hand)) ? 1 : 0;
+    counts[i] = devices::is_present(visible.activity) ? 1 : 0;
     if (counts[i] != 0) model.chain.poses(visible.X_WH, visible.angles, std::span(X_WL).subspan(i * links, links));
   }
   std::vector<char> collides(samples_.size(), 0);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include <glissade/base/assert.h>
 #include <glissade/geometry/rigid_pose.h>
 
 #include "clasp/chain_step.h"
@@ -69,7 +70,15 @@ void GraspingHand::aim(const std::optional<Posture>& target, double milliseconds
   values[kWristAbductionValue] = wrist[1];
 }
 
+void GraspingHand::vanish() {
+  GLISSADE_ASSERT(!part_);
+  clasp_.lose_track();
+  analysis_.clear();
+  now_.clear();
+}
+
 void GraspingHand::take(std::size_t part, const Eigen::Isometry3d& X_WV) {
+  GLISSADE_ASSERT(is_present());
   const Posture& posture = clasp_.posture();
   part_ = part;
   held_.begin(clasp_.contacts());

@@ -39,8 +39,12 @@ class GraspingHand {
   /// hand that holds a part follow it smoothly.
   void aim(const std::optional<Posture>& target, double milliseconds);
   bool is_lost() const { return !target_; }
+  /// Whether the hand is somewhere: not before it has begun, nor after `vanish` until it begins anew.
+  bool is_present() const { return clasp_.state() == ClaspState::kClasping; }
+  /// A hand that is lost and holds nothing is nowhere, and grasps nothing.
+  void vanish();
 
-  /// Takes hold of the part at X_WV.
+  /// Takes hold of the part at X_WV; only a hand that is present can.
   void take(std::size_t part, const Eigen::Isometry3d& X_WV);
   void let_go();
   /// Whether the hand let go of this part only a moment ago.

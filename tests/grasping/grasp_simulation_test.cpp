@@ -13,6 +13,7 @@
 #include <glissade/reference/grid_check.h>
 
 #include "clasped_hand.h"
+#include "hand/hand_links.h"
 #include "poses.h"
 
 namespace glissade::grasping {
@@ -205,8 +206,8 @@ TEST(GraspSimulation, PressesOnNothingWhileTheHandIsLost) {
     ASSERT_GE(scene.force(), last - slowest) << "it fades, and does not jump, after " << ms;
     last = scene.force();
   }
-  EXPECT_EQ(scene.simulation.activity(0), HandActivity::kLost);
-  EXPECT_EQ(scene.simulation.held_part(0), 0U) << "nothing is dropped";
+  EXPECT_EQ(scene.simulation.activity(0), HandActivity::kHolding) << "nothing is dropped";
+  EXPECT_EQ(scene.simulation.held_part(0), 0U);
   EXPECT_TRUE(scene.simulation.clasp(0).contacts().empty()) << "no finger feels anything";
   EXPECT_LT(scene.force(), 1e-9);
   EXPECT_LT((scene.X_WV().translation() - X_WV.translation()).norm(), 1e-3);
@@ -272,6 +273,43 @@ TEST(GraspSimulation, DecidesNothingNewInTheLoopAboutAHandThatIsLost) {
     scene.simulation.advance(ghosts_of(at(0.0, 0.0, 0.1), false, ms % 2 == 0 ? 0 : -1), 1.0);
     scene.simulation.tell_hands(set);
     EXPECT_EQ(set.hands[0].decision, 0) << ms;
+  }
+}
+
+/// The loop's ghosts of a hand that closed round the ball, and of the ball, which the loop holds if `part` is 0.
+haptics::Ghosts ghosts_of(const Posture& hand, bool is_tracked, std::int32_t part, const Isometry3d& X_WG) {
+  haptics::Ghosts ghosts = ghosts_of(hand.X_WR, is_tracked, part);
+  std::copy(hand.values.begin(), hand.values.end(), ghosts.hands[0].angles.begin());
+  ghosts.parts[0].X_WG = X_WG;
+  ghosts.parts[0].is_held = part >= 0;
+  return ghosts;
+}
+
+// The haptic thread follows a decision when it trusts the glove again. By then the simulation may have lost the hand,
+// which then begins where its palm is away from the ball, with fingers that would be inside if they held it.
+TEST(GraspSimulation, AHandThatHasBeenLostTakesNoHoldInTheLoop) {
+  HandAndBall scene;
+  haptics::ContactSet set;
+  const auto advance = [&](const haptics::Ghosts& ghosts) {
+    scene.simulation.advance(ghosts, 1.0);
+    scene.simulation.tell_hands(set);
+    ASSERT_FALSE(is_present(scene.simulation.activity(0)) && scene.collides());
+  };
+  for (int ms = 0; ms < 400 && set.hands[0].part < 0; ++ms)
+    advance(ghosts_of(bent_hand(1.2 * std::min(1.0, ms / 150.0)), true, -1, scene.X_WV()));
+  ASSERT_EQ(set.hands[0].part, 0);
+  Posture closed = bent_hand(1.2);
+  advance(ghosts_of(closed, false, -1, scene.X_WV()));
+  EXPECT_EQ(set.hands[0].part, -1) << "the decision is withdrawn";
+  EXPECT_EQ(set.hands[0].decision, 2);
+  const Isometry3d X_WV = scene.X_WV();
+  closed.values[kWristFlexionValue] = -1.0;
+  hand_chain()->clamp(closed.values);
+  for (int ms = 0; ms < 3; ++ms) {
+    advance(ghosts_of(closed, ms > 0, ms < 2 ? 0 : -1, at(0.0, 0.0, -1e-3 * ms) * X_WV));
+    EXPECT_FALSE(scene.simulation.held_part(0)) << ms;
+    EXPECT_EQ(scene.simulation.activity(0), ms > 0 ? HandActivity::kFree : HandActivity::kLost) << ms;
+    EXPECT_EQ(set.hands[0].decision, 2) << ms;
   }
 }
 

@@ -127,19 +127,12 @@ TEST(ViewFrame, HasThePosesOfAHandsLinks) {
 }
 
 TEST(ViewFrame, AHandThatWaitsOrIsLostWithNothingIsNotShown) {
-  const auto is_shown = [](devices::HandActivity activity, std::int32_t part) {
-    devices::HapticHandState hand;
-    hand.visible.activity = activity;
-    hand.part = part;
-    return is_present(hand);
-  };
   using Activity = devices::HandActivity;
-  EXPECT_FALSE(is_shown(Activity::kNone, 0));
-  EXPECT_FALSE(is_shown(Activity::kWaiting, -1)) << "where it is has not been told: it would stand at the origin";
-  EXPECT_FALSE(is_shown(Activity::kLost, -1));
-  EXPECT_TRUE(is_shown(Activity::kLost, 0)) << "it stays with its part";
-  EXPECT_TRUE(is_shown(Activity::kFree, -1));
-  EXPECT_TRUE(is_shown(Activity::kHolding, 0));
+  EXPECT_FALSE(is_present(Activity::kNone));
+  EXPECT_FALSE(is_present(Activity::kWaiting)) << "where it is has not been told: it would stand at the origin";
+  EXPECT_FALSE(is_present(Activity::kLost));
+  EXPECT_TRUE(is_present(Activity::kFree));
+  EXPECT_TRUE(is_present(Activity::kHolding));
   ViewScene scene = scene_far_away();
   scene.hands = {{.model = std::make_shared<const grasping::HandModel>(grasping::make_hand())}};
   FrameMaker maker(scene);
