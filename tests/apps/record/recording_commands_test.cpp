@@ -85,6 +85,15 @@ TEST_F(RecordingInRealTime, IsRepeatedToTheBit) {
   EXPECT_GE(outcome(result)["ticks"], 500);
 }
 
+TEST_F(RecordingCommands, AReplayTellsWhereItsReportIs) {
+  const test_support::ProgramResult result =
+      test_support::glissade({"replay", log_, "--report", folder_.path("report")});
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  const std::string page = folder_.path("report/index.html");
+  EXPECT_THAT(result.standard_output, HasSubstr("report: " + page + "\n"));
+  EXPECT_THAT(read_text_file(page), HasSubstr("report-frames"));
+}
+
 TEST_F(RecordingCommands, ASceneThatHasChangedIsRefused) {
   const std::string text = read_text_file(scene_);
   const std::string moved =
