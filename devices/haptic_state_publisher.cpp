@@ -3,7 +3,7 @@
 #include <glissade/devices/haptic_state_publisher.h>
 
 #include "lcm/checked_bus.h"
-#include "lcm/glove_messages.h"
+#include "lcm/haptic_state_message.h"
 
 namespace glissade::devices {
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -150,7 +151,7 @@ class GraspTables {
     hand_rows_.add(X_WO).end_row();
   }
 
-  /// Segments that touch, such as "palm index-outer".
+  /// Segments that touch, such as "palm index_distal".
   std::string touching_names(std::size_t h) const {
     std::string names;
     const grasping::Clasp& clasp = simulation_.clasp(h);
@@ -234,9 +235,10 @@ int run(const GraspOptions& options) {
     progress.update(tick + 1);
   }
   tables.close();
-  if (report) write_html_report(report->finish(outcome), options.report);
+  std::vector<std::pair<std::string, std::string>> rows = outcome.rows();
+  if (report) rows.emplace_back("report", write_html_report(report->finish(outcome), options.report));
   if (options.out != "-" && options.objects != "-") {
-    for (const auto& [name, value] : outcome.rows())
+    for (const auto& [name, value] : rows)
       std::cout << std::left << std::setw(16) << name << "  " << value << '\n';
   }
   return 0;

@@ -58,8 +58,8 @@ double seconds_of(std::chrono::nanoseconds time) {
   return std::chrono::duration<double>(time).count();
 }
 
-/// Repeats the run for its audience, if there is one.
-ReplayOutcome repeat_for_audience(const ReplayOptions& options) {
+/// Repeats the run for its audience, if there is one. `page` becomes the path of the report, if there is one.
+ReplayOutcome repeat_for_audience(const ReplayOptions& options, std::string& page) {
   if (options.view_port) {
     const StopSignal stop_signal;
     ReplayView view(*options.view_port);
@@ -69,12 +69,13 @@ ReplayOutcome repeat_for_audience(const ReplayOptions& options) {
   prepare_report_folder(options.report);
   ReplayReport report("glissade replay: " + options.log);
   ReplayOutcome outcome = replay_offline(options.log, options.scene, &report);
-  report.write(options.report);
+  page = report.write(options.report);
   return outcome;
 }
 
 int repeat(const ReplayOptions& options) {
-  const ReplayOutcome outcome = repeat_for_audience(options);
+  std::string page;
+  const ReplayOutcome outcome = repeat_for_audience(options, page);
   const double speed = seconds_of(outcome.recorded) / seconds_of(outcome.elapsed);
   if (options.json) {
     const nlohmann::json json{{"ticks", outcome.ticks},
@@ -90,6 +91,7 @@ int repeat(const ReplayOptions& options) {
     std::cout << "glissade replay: " << outcome.ticks << " ticks and " << outcome.contact_sets << " contact sets of "
               << fixed_text(seconds_of(outcome.recorded), 3) << " s are the same to the bit, " << fixed_text(speed, 1)
               << " times as fast as then\n";
+    if (!page.empty()) std::cout << "report: " << page << '\n';
   }
   if (!outcome.difference.empty()) throw std::runtime_error(options.log + ": " + outcome.difference);
   if (!outcome.damage.empty()) throw std::runtime_error(outcome.damage);

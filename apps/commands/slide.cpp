@@ -156,7 +156,7 @@ std::vector<SlideCheck> check_all(const HapticScene& scene, const std::vector<st
 /// Whether a table goes to the standard output.
 bool has_table_on_standard_output(const SlideOptions& options) {
   const SlideTableFiles& tables = options.tables;
-  if (options.is_check() && options.summary.empty()) return true;
+  if (options.is_check() && options.summary.empty() && options.report.empty()) return true;
   return tables.motion == "-" || tables.contacts.contacts == "-" || tables.contacts.patches == "-" ||
          tables.moving == "-" || options.summary == "-";
 }
@@ -167,10 +167,11 @@ int conclude(const HapticScene& scene, const std::vector<SlideCheck>& checks, co
   if (options.is_check() && (!options.summary.empty() || options.report.empty())) {
     write_checks(checks, options.summary.empty() ? "-" : options.summary);
   }
+  std::string page;
   if (!options.report.empty()) {
     Report report = report_of(scene, checks, check_options);
     if (replay && !checks.front().problem) report.replay = replay->finish();
-    write_html_report(report, options.report);
+    page = write_html_report(report, options.report);
   }
   int exit_code = 0;
   const double size_m = size_of(scene.parts.front().part_V->tree.mesh());
@@ -193,6 +194,7 @@ int conclude(const HapticScene& scene, const std::vector<SlideCheck>& checks, co
       if (exit_code == 0) exit_code = kGoalNotReached;
     }
   }
+  if (!page.empty() && !has_table_on_standard_output(options)) std::cout << "report: " << page << '\n';
   return exit_code;
 }
 

@@ -3,6 +3,8 @@
 #include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/files/trajectory_file.h>
@@ -10,6 +12,8 @@
 #include <glissade/apps/record/log_tables.h>
 #include <glissade/apps/run/force_reason.h>
 #include <glissade/devices/event_log.h>
+#include <glissade/grasping/grasp_analysis.h>
+#include <glissade/grasping/hand_model.h>
 #include <glissade/haptics/recording.h>
 
 namespace glissade::apps {
@@ -69,8 +73,37 @@ Columns hand_columns() {
     columns.push_back(column);
   for (const std::string_view joint : devices::kGloveJointNames)
     columns.push_back(std::string(joint) + "_Nm");
+  columns.insert(columns.end(), {"form", "touching"});
   return columns;
 }
+
+/// Names of segments, as `glissade grasp` has them.
+class SegmentNames {
+ public:
+  /// Of those that touch, separated by spaces.
+  std::string of(const grasping::TouchingSegments& touching) const {
+    std::string names;
+    for (const auto& [segment, name] : names_) {
+      if (touching.has(segment)) names += (names.empty() ? "" : " ") + name;
+    }
+    return names;
+  }
+
+ private:
+  static std::vector<std::pair<grasping::SegmentMeaning, std::string>> all() {
+    const grasping::HandModel hand = grasping::make_hand();
+    std::vector<std::pair<grasping::SegmentMeaning, std::string>> names;
+    grasping::TouchingSegments named;  // the palm has several links, and the name of the first
+    for (std::size_t l = 0; l < hand.meaning.size(); ++l) {
+      if (hand.meaning[l].segment == grasping::HandSegment::kNone || named.has(hand.meaning[l])) continue;
+      named.add(hand.meaning[l]);
+      names.emplace_back(hand.meaning[l], hand.chain.links()[l].name);
+    }
+    return names;
+  }
+
+  std::vector<std::pair<grasping::SegmentMeaning, std::string>> names_ = all();
+};
 
 class Tables {
  public:
@@ -142,7 +175,9 @@ class Tables {
         row.add(angle);
       for (const double torque : hand.joint_torques)
         row.add(torque);
-      row.end_row();
+      row.add(devices::name_of(hand.visible.form))
+          .add(segment_names_.of(grasping::TouchingSegments::from_bits(hand.visible.touching)))
+          .end_row();
     }
   }
 
@@ -156,6 +191,7 @@ class Tables {
     row.end_row();
   }
 
+  SegmentNames segment_names_;
   Table ticks_;
   Table parts_;
   Table hands_;

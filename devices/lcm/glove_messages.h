@@ -1,13 +1,13 @@
 #pragma once
 
-/// Conversion between our types and bytes on the wire. Every received message is checked here before it is used.
+/// Conversion between what gloves send and get, and bytes on the wire. Every received message is checked here before it
+/// is used.
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <glissade/devices/glove_device.h>
-#include <glissade/devices/haptic_state.h>
 
 #include "lcm/link_monitor.h"
 
@@ -16,7 +16,6 @@ namespace glissade::devices {
 inline constexpr const char* kGloveInfoChannel = "GLOVE_INFO";
 inline constexpr const char* kGloveStateChannel = "GLOVE_STATE";
 inline constexpr const char* kGloveCommandChannel = "GLOVE_COMMAND";
-inline constexpr const char* kHapticStateChannel = "HAPTIC_STATE";
 
 /// What the message of a state says of the link.
 struct StateHeader {
@@ -37,15 +36,11 @@ struct CommandHeader {
 std::vector<std::uint8_t> encode(const GloveInfo& info);
 std::vector<std::uint8_t> encode(const StateHeader& header, const GloveState& state);
 std::vector<std::uint8_t> encode(const CommandHeader& header, const GloveCommand& command);
-std::vector<std::uint8_t> encode(const HapticState& state);
 
 /// Decodes and checks a message. With any result other than kNone, the output is unchanged. Never throws, for any
 /// bytes. kOutOfRange: also for a descriptor that `validate` refuses.
 MessageError decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexcept;
 MessageError decode(std::span<const std::uint8_t> bytes, StateHeader& header, GloveState& state) noexcept;
 MessageError decode(std::span<const std::uint8_t> bytes, CommandHeader& header, GloveCommand& command) noexcept;
-/// A part state that this program does not know becomes `PartState::kUnknown`. This is no error: a viewer may be older
-/// than the simulation.
-MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noexcept;
 
 }  // namespace glissade::devices

@@ -1,6 +1,7 @@
 #include <glissade/devices/event_log.h>
 
 #include "lcm/glove_messages.h"
+#include "lcm/haptic_state_message.h"
 
 namespace glissade::devices {
 

@@ -11,7 +11,7 @@
 #include <glissade/lcmtypes/haptic_patch_t.hpp>
 #include <glissade/lcmtypes/haptic_state_t.hpp>
 
-#include "lcm/glove_messages.h"
+#include "lcm/haptic_state_message.h"
 
 namespace glissade::devices {
 namespace {

@@ -17,6 +17,7 @@
 
 #include "glove_link_fixture.h"
 #include "lcm/glove_messages.h"
+#include "lcm/haptic_state_message.h"
 #include "safe_command.h"
 
 namespace glissade::devices {

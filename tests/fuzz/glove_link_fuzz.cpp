@@ -16,6 +16,7 @@
 
 #include "fuzz_target.h"
 #include "lcm/glove_messages.h"
+#include "lcm/haptic_state_message.h"
 #include "lcm/lcm_packet.h"
 #include "lcm/link_monitor.h"
 

@@ -118,7 +118,9 @@ TEST_F(AssemblyCheck, AGoalThatIsRequiredHasAnExitCodeOfItsOwn) {
 TEST_F(AssemblyCheck, WritesAPage) {
   const ProgramResult result = check({above, below}, {"--report", folder.path("page")});
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
-  EXPECT_EQ(result.standard_output, "") << "the page is the answer";
+  EXPECT_THAT(result.standard_output, testing::HasSubstr("above.csv: goal reached"));
+  EXPECT_THAT(result.standard_output, testing::HasSubstr("below.csv: goal not reached, 10.0"));
+  EXPECT_THAT(result.standard_output, testing::EndsWith("report: " + folder.path("page") + "/index.html\n"));
   const std::string page = read_text_file(folder.path("page/index.html"));
   for (const char* part :
        {"Assembly check of box", "1 of 2", "above.csv", "not reached, 10.0", "force [N]", "clearance [um]"})

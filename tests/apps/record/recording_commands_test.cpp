@@ -85,6 +85,15 @@ TEST_F(RecordingInRealTime, IsRepeatedToTheBit) {
   EXPECT_GE(outcome(result)["ticks"], 500);
 }
 
+TEST_F(RecordingCommands, AReplayTellsWhereItsReportIs) {
+  const test_support::ProgramResult result =
+      test_support::glissade({"replay", log_, "--report", folder_.path("report")});
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  const std::string page = folder_.path("report/index.html");
+  EXPECT_THAT(result.standard_output, HasSubstr("report: " + page + "\n"));
+  EXPECT_THAT(read_text_file(page), HasSubstr("report-frames"));
+}
+
 TEST_F(RecordingCommands, ASceneThatHasChangedIsRefused) {
   const std::string text = read_text_file(scene_);
   const std::string moved =
@@ -135,6 +144,28 @@ TEST_F(RecordingCommands, TablesTellOfEveryTick) {
   EXPECT_EQ(rows("parts.csv").back().at("state"), "sliding");
   EXPECT_GT(parse_number(rows("hands.csv").back().at("fz_N")), 0.5) << "the plate pushes the hand up";
   EXPECT_LT(parse_number(rows("parts.csv").back().at("gz_m")), parse_number(rows("parts.csv").back().at("vz_m")));
+}
+
+TEST_F(RecordingCommands, TheTableOfHandsNamesFormAndSegmentsOfAGrasp) {
+  const std::string log = folder_.path("grasp.lcmlog");
+  devices::HapticState state;
+  state.hand_count = 2;
+  state.hands[0].visible.form = devices::GraspForm::kTipPinch;
+  // The outer segments of thumb and index: 2^(4 f + 3), where f is 1 and 2.
+  state.hands[0].visible.touching = (1 << 7) + (1 << 11);
+  state.hands[1].visible.touching = 1 + (1 << 22);  // the palm, and the middle segment of the little finger
+  devices::EventLogWriter writer(log);
+  writer.write(devices::to_event(std::chrono::seconds(1), state));
+  writer.close();
+  const test_support::ProgramResult result = test_support::glissade({"log", "to-csv", log, folder_.path("tables")});
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  const std::vector<test_support::CsvRow> rows =
+      test_support::rows_of(read_text_file(folder_.path("tables/hands.csv")));
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].at("form"), "tip-pinch");
+  EXPECT_EQ(rows[0].at("touching"), "thumb_distal index_distal");
+  EXPECT_EQ(rows[1].at("form"), "");
+  EXPECT_EQ(rows[1].at("touching"), "palm little_middle");
 }
 
 TEST_F(RecordingCommands, TablesOfADamagedLogHoldWhatComesBefore) {

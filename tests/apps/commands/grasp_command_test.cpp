@@ -119,6 +119,7 @@ TEST_F(GraspCommand, CarriesTheBallToTheTrayAndLeavesItThere) {
   ASSERT_EQ(run.exit_code, 0) << run.standard_error;
   EXPECT_NE(run.standard_output.find("1 grasp, holds for 3."), std::string::npos) << run.standard_output;
   EXPECT_EQ(run.standard_output.find("waits"), std::string::npos);
+  EXPECT_NE(run.standard_output.find(folder.path("report/index.html") + "\n"), std::string::npos);
   const std::vector<CsvRow> postures = rows_of(read_text_file(hands));
   const std::vector<CsvRow> moved = rows_of(read_text_file(objects));
   expect_ball_carried_to_tray(postures, moved.back());
