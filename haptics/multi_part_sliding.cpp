@@ -147,7 +147,7 @@ class MultiPartSliding::Cycle {
       if (radius_.look(shared_, ignored_)) starts_.restore_min_clearances();
       waits_for_search_ = !shared_.candidates.covers(radius_.reach_ahead());
       if (waits_for_search_) return Progress::kUsedUp;
-      step_finder_.look(radius_.reach(), budget);
+      step_finder_.look(radius_.reach(), radius_.reach_ahead(), budget);
     }
     const std::optional<Step> step = step_finder_.find(budget);
     if (!step) return Progress::kUsedUp;
@@ -157,11 +157,8 @@ class MultiPartSliding::Cycle {
                                          [](bool arrives) { return arrives; });
     const bool is_done =
         cycles_ == shared_.rules.max_cycles || all_arrived || step->length < kNotWorthIt * shared_.largest_margin;
-    double reach = radius_.reach();
-    if ((is_done || budget.is_used_up()) && radius_.reach_ahead() > radius_.reach()) {
-      reach = radius_.reach_ahead();
-      step_finder_.rows().find_ahead(reach, budget);
-    }
+    double reach = step_finder_.rows().complete();
+    if (is_done || budget.is_used_up()) reach = step_finder_.rows().find_ahead(budget);
     move(*step);
     radius_.note(*step);
     for (std::size_t p = 0; p < shared_.count(); ++p) {

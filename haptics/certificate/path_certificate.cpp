@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "certificate/lasting_separation.h"
 #include "certificate/leaf_in_world.h"
 
 namespace glissade::haptics {
@@ -37,25 +39,37 @@ Heights heights_of(const ContactBody& body, const Eigen::Isometry3d& X_WB, std::
 
 }  // namespace
 
-void PathCertificate::begin(std::span<const geometry::Displacement> displacements,
-                            std::span<const PairToCertify> to_certify) {
+void PathCertificate::begin_step(std::span<const geometry::Displacement> displacements) {
   bodies_.begin_step(displacements);
-  begin(to_certify);
+  keeps_directions_ = true;
+  rounding_ = certain_distance();
+  obstacle_ = {};
+  part_ = {};
+}
+
+PathOfBodies PathCertificate::path_of(const BodyPair& bodies) {
+  select(bodies);
+  // The bound of the error between both ends is for directions fixed to the world. An obstacle that moves may turn.
+  return {relative_pose(*obstacle_.X_WB[0], *part_.X_WB[0]), relative_pose(*obstacle_.X_WB[1], *part_.X_WB[1]),
+          obstacle_moves_ ? std::numeric_limits<double>::infinity() : needed_, far_};
 }
 
 void PathCertificate::begin(const BodiesMotion& motion, std::size_t first_mover,
                             std::span<const PairToCertify> to_certify) {
   bodies_.begin_step(motion, first_mover);
+  keeps_directions_ = false;
+  rounding_ = certain_distance();
+  obstacle_ = {};
+  part_ = {};
   begin(to_certify);
 }
 
 void PathCertificate::begin(std::span<const PairToCertify> to_certify) {
-  rounding_ = certain_distance();
-  obstacle_ = {};
-  part_ = {};
   rest_ = to_certify;
+  place_ = 0;
   open_.clear();
   failures_.clear();
+  separated_.clear();
 }
 
 bool PathCertificate::go_on(WorkBudget& budget) {
@@ -68,6 +82,7 @@ bool PathCertificate::go_on(WorkBudget& budget) {
       const PairToCertify& pair_to_certify = rest_.front();
       rest_ = rest_.subspan(1);
       prove(pair_to_certify, budget);
+      ++place_;
     }
     if (budget.is_used_up()) break;
   }
@@ -78,8 +93,10 @@ void PathCertificate::prove(const PairToCertify& pair_to_certify, WorkBudget& bu
   if (pair_to_certify.bodies != BodyPair{obstacle_.number, part_.number}) select(pair_to_certify.bodies);
   if (!moves_) return;
   if (pair_to_certify.item_O.kind == TreeItem::Kind::kTriangle) {
-    prove_triangles(static_cast<std::int32_t>(pair_to_certify.item_O.number),
-                    static_cast<std::int32_t>(pair_to_certify.item_V.number), pair_to_certify.n_W, budget);
+    const Eigen::Vector3d n_W =
+        prove_triangles(static_cast<std::int32_t>(pair_to_certify.item_O.number),
+                        static_cast<std::int32_t>(pair_to_certify.item_V.number), pair_to_certify.n_W, budget);
+    if (!n_W.isZero(0.0)) separated_.push_back({place_, n_W});
     return;
   }
   budget.spend(kWorkOfBoxes);
@@ -176,18 +193,30 @@ void PathCertificate::prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_V, W
   }
 }
 
-void PathCertificate::prove_triangles(std::int32_t triangle_O, std::int32_t triangle_V, const Eigen::Vector3d& n_hint,
-                                      WorkBudget& budget) {
+Eigen::Vector3d PathCertificate::prove_triangles(std::int32_t triangle_O, std::int32_t triangle_V,
+                                                 const Eigen::Vector3d& n_hint, WorkBudget& budget) {
   if (separates(n_hint, triangle_O, triangle_V)) {
     budget.spend(kWorkOfKnownDirection);
-    return;
+    return Eigen::Vector3d::Zero();
   }
   const TrianglesOfBodies pair{{obstacle_.number, part_.number}, triangle_O, triangle_V};
+  const auto at = [&](int moment) -> TrianglesAtMoment {
+    return {bodies_.triangle_W(obstacle_.number, triangle_O, moment),
+            bodies_.triangle_W(part_.number, triangle_V, moment)};
+  };
+  if (keeps_directions_) {
+    const Separation separation = lasting_separation(at(0), at(MovingBodies::kMoments), needed_ + rounding_);
+    if (separation.least() >= needed_ + rounding_) {
+      budget.spend(kWorkOfTriangles);
+      return separation.n;
+    }
+  }
   TriangleCertificate certificate(bodies_, pair, min_clearance_, rounding_);
-  Eigen::Vector3d n_start;
+  Eigen::Vector3d n_start = Eigen::Vector3d::Zero();
   const bool is_certified = certificate.prove(n_hint, n_start);
   budget.spend(kWorkOfTriangles + kWorkOfStretch * certificate.stretches());
   if (!is_certified) failures_.push_back({pair, n_start});
+  return n_start;
 }
 
 }  // namespace glissade::haptics

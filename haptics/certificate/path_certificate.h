@@ -21,6 +21,7 @@
 
 #include "certificate/moving_bodies.h"
 #include "certificate/pairs_to_certify.h"
+#include "certificate/separating_planes.h"
 #include "certificate/triangle_certificate.h"
 #include "work/work_budget.h"
 
@@ -31,16 +32,34 @@ struct UncertifiedPair : TrianglesOfBodies {
   Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part
 };
 
+/// A triangle pair that a direction separated on the whole path, or at least at its start.
+struct SeparatedPair {
+  std::size_t place;    ///< among the pairs to certify
+  Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part
+};
+
+/// Two bodies at both ends of a step.
+struct PathOfBodies {
+  Eigen::Isometry3d X_OV_begin;  ///< the part in the frame of the obstacle
+  Eigen::Isometry3d X_OV_end;
+  double needed;  ///< metres: a pair that a direction fixed to the obstacle separates so far at both ends is certified
+  double far;     ///< metres: a pair that is farther apart at the beginning is certified
+};
+
 /// Not thread-safe.
 class PathCertificate {
  public:
   /// The scene must outlive this object.
   explicit PathCertificate(const ContactScene& scene) : scene_(scene), bodies_(scene) {}
 
-  /// Begins the certificate of all of `to_certify` for a step in which all parts move at once, each from its present
-  /// pose along its displacement; `displacements` has one entry for each part. `to_certify` and the poses must stay as
-  /// they are until `go_on` returns true.
-  void begin(std::span<const geometry::Displacement> displacements, std::span<const PairToCertify> to_certify);
+  /// Begins a step in which all parts move at once, each from its present pose along its displacement; `displacements`
+  /// has one entry for each part.
+  void begin_step(std::span<const geometry::Displacement> displacements);
+  /// The ends of this step for two bodies.
+  PathOfBodies path_of(const BodyPair& bodies);
+  /// Begins the certificate of all of `to_certify` for this step. `to_certify` and the poses must stay as they are
+  /// until `go_on` returns true.
+  void begin(std::span<const PairToCertify> to_certify);
   /// The same for the parts from `first_mover` on, which follow `motion`.
   void begin(const BodiesMotion& motion, std::size_t first_mover, std::span<const PairToCertify> to_certify);
   /// Goes on until all pairs have been looked at or the budget is used up, at least with one pair of boxes, leaves or
@@ -48,6 +67,8 @@ class PathCertificate {
   bool go_on(WorkBudget& budget);
   /// The triangle pairs that could not be certified so far.
   const std::vector<UncertifiedPair>& failures() const { return failures_; }
+  /// Triangle pairs among those to certify that needed another direction than theirs, with the one that was found.
+  std::span<const SeparatedPair> separated() const { return separated_; }
 
   /// Smallest distance (metres) that is certain in spite of rounding, for the present poses of the bodies.
   double certain_distance() const { return bodies_.certain_distance(); }
@@ -71,7 +92,6 @@ class PathCertificate {
     MovingItem item_V;
   };
 
-  void begin(std::span<const PairToCertify> to_certify);
   void select(const BodyPair& bodies);
   MovingBody moving(std::int32_t body);
   static MovingItem moving(const TreeItem& item, const MovingBody& body);
@@ -80,16 +100,20 @@ class PathCertificate {
   bool are_apart(const MovingItem& item_O, const MovingItem& item_V) const;
   bool separates(const Eigen::Vector3d& n_W, const MovingItem& item_O, const MovingItem& item_V) const;
   bool separates(const Eigen::Vector3d& n_W, std::int32_t triangle_O, std::int32_t triangle_V) const;
-  void prove_triangles(std::int32_t triangle_O, std::int32_t triangle_V, const Eigen::Vector3d& n_hint,
-                       WorkBudget& budget);
+  /// Returns the direction that was found if `n_hint` does not suffice; zero if there is none or it does.
+  Eigen::Vector3d prove_triangles(std::int32_t triangle_O, std::int32_t triangle_V, const Eigen::Vector3d& n_hint,
+                                  WorkBudget& budget);
   void prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_V, WorkBudget& budget);
 
   const ContactScene& scene_;
   MovingBodies bodies_;
+  bool keeps_directions_ = false;        // of the step: those that serve for the next steps too are worth a search
   double rounding_ = 0.0;                // metres: smaller distances are not certain
   std::span<const PairToCertify> rest_;  // pairs that have not been begun
   std::vector<OpenItems> open_;          // of the pair at hand, the last one next
+  std::size_t place_ = 0;                // of the pair at hand among those to certify
   std::vector<UncertifiedPair> failures_;
+  std::vector<SeparatedPair> separated_;
 
   // Of the pair of bodies at hand:
   MovingBody obstacle_;

@@ -57,9 +57,11 @@ bool TriangleCertificate::prove(const Eigen::Vector3d& n_hint, Eigen::Vector3d& 
   const Stretch whole{start, end, needed(0, MovingBodies::kMoments)};
   // The direction that separated a pair some steps ago mostly still does. On flush faces that slide over each other,
   // the closest points of neighboring triangles lie askew; a face normal separates those pairs.
+  n_start = n_hint;
   if (separates(n_hint, whole)) return true;
   for (const Eigen::Vector3d& normal : {face_normal(start.obstacle), face_normal(start.part)}) {
     const Eigen::Vector3d n = normal.dot(start.part[0] - start.obstacle[0]) < 0.0 ? (-normal).eval() : normal;
+    n_start = n;
     if (separates(n, whole)) return true;
   }
 

@@ -25,8 +25,8 @@ class TriangleCertificate {
   TriangleCertificate(MovingBodies& bodies, const TrianglesOfBodies& pair, double min_clearance, double rounding)
       : bodies_(bodies), pair_(pair), min_clearance_(min_clearance), rounding_(rounding) {}
 
-  /// Whether the pair is certified; the direction `n_hint` is tried first. If it is not, `n_start` is the unit
-  /// direction, from the obstacle to the part, that separates the pair at the start of the step.
+  /// Whether the pair is certified; the direction `n_hint` is tried first. `n_start` is the unit direction, from the
+  /// obstacle to the part, that separates the pair on the whole path, or else at the start of the step.
   bool prove(const Eigen::Vector3d& n_hint, Eigen::Vector3d& n_start);
 
   /// Number of stretches that `prove` had to look at with the distances of the triangles: a measure of its work.

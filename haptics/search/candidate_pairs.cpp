@@ -15,6 +15,14 @@ namespace {
 /// A search that takes more calls than this is too large: a thread that went on with it would be late for the next.
 constexpr std::int64_t kCallsAhead = 4;
 
+/// Work of the gap of a pair along a known direction, in the unit of `collision::WorkMeter`.
+constexpr std::int64_t kWorkOfGap = 2;
+
+float round_down(double value) {
+  const auto rounded = static_cast<float>(value);
+  return static_cast<double>(rounded) <= value ? rounded : std::nextafter(rounded, -1e30F);
+}
+
 std::int64_t work_ahead(bool runs_ahead, std::int64_t work_of_call) {
   if (!runs_ahead) return 0;
   return work_of_call > kUnlimitedWork / kCallsAhead ? kUnlimitedWork : kCallsAhead * work_of_call;
@@ -32,9 +40,10 @@ void CandidatePairs::Search::collect(const std::vector<Pair>& pairs, double reac
 }
 
 CandidatePairs::CandidatePairs(const ContactScene& scene, double greatest_radius, bool runs_ahead,
-                               std::int64_t work_of_call)
+                               std::int64_t work_of_call, bool has_planes)
     : scene_(scene),
       work_of_call_(work_of_call),
+      has_planes_(has_planes),
       work_left_(work_of_call),
       thread_(runs_ahead || work_of_call != kUnlimitedWork
                   ? std::make_unique<SearchThread>(work_ahead(runs_ahead, work_of_call))
@@ -87,6 +96,8 @@ bool CandidatePairs::take_next(double reach, double ahead, std::span<const BodyP
   known_.assign(now_.set.pairs.size(), {});
   motions_of_clock_.assign(scene_.bodies().size(), {});
   place_clock();
+  gaps_of_pairs_ = gaps_at_search(now_.set.planes_of_pairs, now_.set.pairs);
+  gaps_to_certify_ = gaps_at_search(now_.set.planes, now_.set.to_certify);
   calls_served_ = std::exchange(calls_, 0);
   ++statistics_.searches;
   statistics_.reports += now_.set.report;
@@ -99,6 +110,7 @@ void CandidatePairs::ask(Search& search, double reach, double ahead, std::span<c
   for (const PlacedBody& mover : scene_.bodies().subspan(scene_.obstacles().size()))
     search.request.X_WB.push_back(mover.X_WB);
   search.request.radius = reach + ahead;
+  search.request.has_planes = has_planes_;
   search.request.ignored.assign(ignored.begin(), ignored.end());
   search.half = 0.5 * ahead;
   search.motions.assign(scene_.bodies().size(), {});
@@ -192,21 +204,65 @@ void CandidatePairs::place_clock() {
     X_WB_of_clock_.push_back(mover.X_WB);
 }
 
-void CandidatePairs::with_contacts(double reach, std::vector<CandidatePair>& pairs, std::vector<std::uint32_t>& numbers,
-                                   std::vector<KnownFeatures>& known) const {
-  pairs.clear();
-  numbers.clear();
-  known.clear();
-  for (std::size_t i = 0; i < now_.set.pairs.size(); ++i) {
-    if (gaps_[i] > reach + clock_) continue;
-    const CandidatePair& pair = now_.set.pairs[i];
-    if (pair.distance > reach + now_.drift) return;  // as are all that follow
-    if (now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
-    pairs.push_back(pair);
-    numbers.push_back(static_cast<std::uint32_t>(i));
-    const bool is_known = known_[i].left_out > reach + clock_;
-    known.push_back(is_known ? KnownFeatures{known_[i].features, known_[i].left_out - clock_} : KnownFeatures{});
+/// The pairs of a block are in the order of the search, the nearest first.
+template <typename Pair>
+CandidatePairs::GapsOfBlocks CandidatePairs::gaps_at_search(const std::vector<PlanesOfBodies>& planes,
+                                                            const std::vector<Pair>& pairs) const {
+  GapsOfBlocks gaps;
+  for (const PlanesOfBodies& of_bodies : planes) {
+    std::vector<double>& of_blocks = gaps.emplace_back();
+    for (std::size_t slot = 0; slot < of_bodies.numbers().size(); slot += kPlanesAtOnce)
+      of_blocks.push_back(pairs[of_bodies.numbers()[slot]].distance - now_.drift);
   }
+  return gaps;
+}
+
+/// Visits the runs of blocks that may have gaps up to `reach`, by their beginnings and ends.
+template <typename Visit>
+void CandidatePairs::visit_near_blocks(const std::vector<double>& gaps, double reach, const Visit& visit) const {
+  const auto is_near = [&](double gap) { return gap - clock_ <= reach; };
+  auto first = std::find_if(gaps.begin(), gaps.end(), is_near);
+  while (first != gaps.end()) {
+    const auto end = std::find_if_not(first, gaps.end(), is_near);
+    visit(static_cast<std::size_t>(first - gaps.begin()), static_cast<std::size_t>(end - gaps.begin()));
+    first = std::find_if(end, gaps.end(), is_near);
+  }
+}
+
+void CandidatePairs::in_reach(double reach, std::vector<PairInReach>& pairs) {
+  pairs.clear();
+  for (std::uint32_t i = 0; i < now_.set.planes_of_pairs.size(); ++i) {
+    const PlanesOfBodies& planes = now_.set.planes_of_pairs[i];
+    const Eigen::Isometry3d X_OV =
+        relative_pose(scene_.bodies()[static_cast<std::size_t>(planes.bodies().obstacle)].X_WB,
+                      scene_.bodies()[static_cast<std::size_t>(planes.bodies().part)].X_WB);
+    const std::span<const std::uint32_t> numbers = planes.numbers();
+    std::vector<double>& of_blocks = gaps_of_pairs_[i];
+    visit_near_blocks(of_blocks, reach, [&](std::size_t first, std::size_t end) {
+      planes.find_gaps(X_OV.linear(), X_OV.translation(), first, end, gaps_at_begin_);
+      for (std::size_t block = first; block < end; ++block) {
+        double least = std::numeric_limits<double>::infinity();
+        const std::size_t last = std::min(numbers.size(), kPlanesAtOnce * (block + 1));
+        for (std::size_t slot = kPlanesAtOnce * block; slot < last; ++slot) {
+          const std::uint32_t number = numbers[slot];
+          const double gap = std::max(static_cast<double>(gaps_at_begin_[slot]), gaps_[number] - clock_);
+          least = std::min(least, gap);
+          if (gap > reach) continue;
+          const CandidatePair& pair = now_.set.pairs[number];
+          if (now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
+          pairs.push_back({number, i, static_cast<std::uint32_t>(slot), round_down(gap)});
+        }
+        of_blocks[block] = std::max(of_blocks[block], least + clock_);
+      }
+    });
+  }
+  if (now_.set.planes_of_pairs.size() < 2) return;
+  std::sort(pairs.begin(), pairs.end(), [](const PairInReach& a, const PairInReach& b) { return a.number < b.number; });
+}
+
+KnownFeatures CandidatePairs::known_features(std::uint32_t number, double reach) const {
+  const KnownFeatures& known = known_[number];
+  return known.left_out > reach + clock_ ? KnownFeatures{known.features, known.left_out - clock_} : KnownFeatures{};
 }
 
 void CandidatePairs::note_gaps(std::span<const std::uint32_t> numbers, std::span<const GapsOfPair> gaps) {
@@ -215,6 +271,57 @@ void CandidatePairs::note_gaps(std::span<const std::uint32_t> numbers, std::span
     double& gap = gaps_[numbers[i]];
     gap = std::max(gap, gaps[i].least + clock_);
     if (gaps[i].left_out > 0.0) known_[numbers[i]] = {gaps[i].features, gaps[i].left_out + clock_};
+  }
+}
+
+void CandidatePairs::unproved_within(double reach, PathCertificate& certificate, std::vector<PairToCertify>& to_certify,
+                                     WorkBudget& budget) {
+  to_certify.clear();
+  places_.clear();
+  const std::vector<PairToCertify>& pairs = now_.set.to_certify;
+  for (const std::uint32_t number : now_.set.box_pairs) {
+    const PairToCertify& pair = pairs[number];
+    if (pair.distance > reach + now_.drift) break;  // as are all that follow
+    if (now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
+    to_certify.push_back(pair);
+    places_.push_back({nullptr, 0, number});
+  }
+  for (std::size_t i = 0; i < now_.set.planes.size(); ++i) {
+    PlanesOfBodies& planes = now_.set.planes[i];
+    const std::span<const std::uint32_t> numbers = planes.numbers();
+    const PathOfBodies path = certificate.path_of(planes.bodies());
+    std::vector<double>& of_blocks = gaps_to_certify_[i];
+    visit_near_blocks(of_blocks, path.far, [&](std::size_t first, std::size_t end) {
+      planes.find_gaps(path.X_OV_begin.linear(), path.X_OV_begin.translation(), first, end, gaps_at_begin_);
+      planes.find_gaps(path.X_OV_end.linear(), path.X_OV_end.translation(), first, end, gaps_at_end_);
+      budget.spend(2 * kWorkOfGap * static_cast<std::int64_t>(kPlanesAtOnce * (end - first)));
+      for (std::size_t block = first; block < end; ++block) {
+        double least = std::numeric_limits<double>::infinity();
+        const std::size_t last = std::min(numbers.size(), kPlanesAtOnce * (block + 1));
+        for (std::size_t slot = kPlanesAtOnce * block; slot < last; ++slot) {
+          const auto at_begin = static_cast<double>(gaps_at_begin_[slot]);
+          least = std::min(least, at_begin);
+          if (at_begin > path.far) continue;
+          if (at_begin >= path.needed && static_cast<double>(gaps_at_end_[slot]) >= path.needed) continue;
+          const PairToCertify& pair = pairs[numbers[slot]];
+          if (now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
+          to_certify.push_back(pair);
+          places_.push_back({&planes, slot, numbers[slot]});
+        }
+        of_blocks[block] = std::max(of_blocks[block], least + clock_);
+      }
+    });
+  }
+}
+
+void CandidatePairs::note_planes(std::span<const SeparatedPair> separated) {
+  for (const SeparatedPair& pair : separated) {
+    const PlaceOfPair& place = places_[pair.place];
+    if (place.planes == nullptr) continue;
+    const PairToCertify& known = now_.set.to_certify[place.number];
+    const PlacedBody& obstacle = scene_.bodies()[static_cast<std::size_t>(known.bodies.obstacle)];
+    place.planes->turn(place.slot, *obstacle.body, static_cast<std::int32_t>(known.item_O.number),
+                       obstacle.X_WB.linear().transpose() * pair.n_W);
   }
 }
 

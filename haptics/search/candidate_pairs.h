@@ -15,20 +15,31 @@
 
 #include <glissade/haptics/sliding_simulation.h>
 
+#include "certificate/path_certificate.h"
 #include "scene/contact_scene.h"
 #include "search/candidate_search.h"
 #include "search/search_thread.h"
+#include "work/work_budget.h"
 
 namespace glissade::haptics {
+
+/// A candidate pair by its number, with the place of its plane: among those of its bodies, which have a place among
+/// all.
+struct PairInReach {
+  std::uint32_t number;
+  std::uint32_t planes;
+  std::uint32_t slot;
+  float gap;  ///< metres: no contact of the pair has a smaller one
+};
 
 /// Not thread-safe.
 class CandidatePairs {
  public:
   /// The scene must outlive this object. In `look`, reach + ahead must not exceed `greatest_radius` (metres). With a
   /// limit of work, searches have a thread of their own in any case. If `runs_ahead` is false, that thread never works
-  /// at the same time as the caller's.
+  /// at the same time as the caller's. Without planes, only `within` a reach tells of pairs.
   CandidatePairs(const ContactScene& scene, double greatest_radius, bool runs_ahead = false,
-                 std::int64_t work_of_call = kUnlimitedWork);
+                 std::int64_t work_of_call = kUnlimitedWork, bool has_planes = true);
   CandidatePairs(const CandidatePairs&) = delete;
   CandidatePairs& operator=(const CandidatePairs&) = delete;
   ~CandidatePairs();
@@ -67,10 +78,21 @@ class CandidatePairs {
     now_.collect(now_.set.to_certify, reach, to_certify);
   }
 
-  /// The candidates that may have contacts within `reach` (metres) at the present poses, as far as `note_gaps` told, in
-  /// the same order, their numbers, and what is known within `reach` of their features.
-  void with_contacts(double reach, std::vector<CandidatePair>& pairs, std::vector<std::uint32_t>& numbers,
-                     std::vector<KnownFeatures>& known) const;
+  /// The same for the step that `certificate` is about, without the pairs that a known plane keeps apart on the whole
+  /// path: only those within `reach` are certain to be there. Spends the work of looking at the planes.
+  void unproved_within(double reach, PathCertificate& certificate, std::vector<PairToCertify>& to_certify,
+                       WorkBudget& budget);
+  /// Takes over the directions that `certificate` found for these pairs.
+  void note_planes(std::span<const SeparatedPair> separated);
+
+  /// Replaces `pairs` by those candidates that may have contacts within `reach` (metres) at the present poses, as far
+  /// as their planes and `note_gaps` tell, in the same order.
+  void in_reach(double reach, std::vector<PairInReach>& pairs);
+  const CandidatePair& pair(std::uint32_t number) const { return now_.set.pairs[number]; }
+  /// What is known of the features of a pair within `reach` (metres).
+  KnownFeatures known_features(std::uint32_t number, double reach) const;
+  /// The planes of the candidates, which may be turned.
+  std::vector<PlanesOfBodies>& planes_of_pairs() { return now_.set.planes_of_pairs; }
   /// Notes for the pairs with these numbers that their contacts have at least these gaps (metres) at the present poses.
   void note_gaps(std::span<const std::uint32_t> numbers, std::span<const GapsOfPair> gaps);
 
@@ -128,6 +150,7 @@ class CandidatePairs {
 
   const ContactScene& scene_;
   std::int64_t work_of_call_;
+  bool has_planes_;
   std::int64_t work_left_;                // of this call
   std::int64_t allowed_ = 0;              // work that the thread's search may have done by now
   bool is_with_thread_ = false;           // a search, whether it is still of use or not
@@ -143,6 +166,23 @@ class CandidatePairs {
   std::vector<Eigen::Isometry3d> X_WB_of_clock_;  // of each mover
   std::vector<Motion> motions_of_clock_;
   std::int64_t work_ = 0;
+  /// A pair in the list of the last call of `unproved_within`, among all pairs to certify.
+  struct PlaceOfPair {
+    PlanesOfBodies* planes;  // null: it has none
+    std::size_t slot;
+    std::uint32_t number;
+  };
+  std::vector<PlaceOfPair> places_;
+  /// For the planes of each two bodies: of each block, the least gap (metres), minus the clock as above.
+  using GapsOfBlocks = std::vector<std::vector<double>>;
+  template <typename Pair>
+  GapsOfBlocks gaps_at_search(const std::vector<PlanesOfBodies>& planes, const std::vector<Pair>& pairs) const;
+  template <typename Visit>
+  void visit_near_blocks(const std::vector<double>& gaps, double reach, const Visit& visit) const;
+  GapsOfBlocks gaps_of_pairs_;
+  GapsOfBlocks gaps_to_certify_;
+  std::vector<float> gaps_at_begin_;
+  std::vector<float> gaps_at_end_;
   int calls_ = 0;  // since the search that found the candidates
   int calls_served_ = 0;
   SearchStatistics statistics_;

@@ -20,6 +20,40 @@ Eigen::Vector3d direction_of(const collision::ClosePair& pair) {
   return (pair.p_B - pair.p_A).normalized();
 }
 
+PlanesOfBodies& planes_of(const BodyPair& pair, std::span<const PlacedBody> bodies,
+                          std::vector<PlanesOfBodies>& planes) {
+  const auto known =
+      std::find_if(planes.begin(), planes.end(), [&](const PlanesOfBodies& some) { return some.bodies() == pair; });
+  return known != planes.end() ? *known : planes.emplace_back(pair, bodies);
+}
+
+void find_planes(std::span<const CandidatePair> pairs, std::span<const PlacedBody> bodies,
+                 std::vector<PlanesOfBodies>& planes) {
+  planes.clear();
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const CandidatePair& pair = pairs[i];
+    planes_of(pair.bodies, bodies, planes)
+        .add(static_cast<std::uint32_t>(i), pair.obstacle_triangle, pair.part_triangle, pair.n_W, bodies);
+  }
+}
+
+/// The planes of pairs of triangles, each pair with its place among `pairs` as its number; the places of the others.
+void find_planes(std::span<const PairToCertify> pairs, std::span<const PlacedBody> bodies,
+                 std::vector<PlanesOfBodies>& planes, std::vector<std::uint32_t>& others) {
+  planes.clear();
+  others.clear();
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const PairToCertify& pair = pairs[i];
+    if (pair.item_O.kind != TreeItem::Kind::kTriangle) {
+      others.push_back(static_cast<std::uint32_t>(i));
+      continue;
+    }
+    planes_of(pair.bodies, bodies, planes)
+        .add(static_cast<std::uint32_t>(i), static_cast<std::int32_t>(pair.item_O.number),
+             static_cast<std::int32_t>(pair.item_V.number), pair.n_W, bodies);
+  }
+}
+
 template <typename Body>
 collision::ObjectDescription description(const std::shared_ptr<const Body>& body, const Eigen::Isometry3d& X_WB,
                                          int group) {
@@ -71,6 +105,9 @@ void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
   set.report = near.report;
   collect_pairs(near, set.pairs);
   find_pairs_to_certify(scene_, bodies_, request.radius, request.ignored, workspace_, set.to_certify);
+  if (!request.has_planes) return;
+  find_planes(set.pairs, bodies_, set.planes_of_pairs);
+  find_planes(set.to_certify, bodies_, set.planes, set.box_pairs);
 }
 
 void CandidateSearch::ignore(const std::vector<BodyPair>& bodies) {

@@ -13,6 +13,7 @@
 #include <glissade/collision/collision_pipeline.h>
 
 #include "certificate/pairs_to_certify.h"
+#include "certificate/separating_planes.h"
 #include "scene/contact_scene.h"
 #include "search/feature_pairs.h"
 
@@ -44,13 +45,18 @@ struct CandidateRequest {
   std::vector<Eigen::Isometry3d> X_WB;  ///< one for each mover
   double radius = 0.0;                  ///< metres
   std::vector<BodyPair> ignored;        ///< in ascending order
+  bool has_planes = true;               ///< the answer has them
 };
 
 /// The answer: all pairs within the radius, nearest first.
 struct CandidateSet {
-  std::vector<CandidatePair> pairs;       ///< for contacts
-  std::vector<PairToCertify> to_certify;  ///< for path certificates
-  collision::FrameReport report;          ///< the work of finding `pairs` alone
+  std::vector<CandidatePair> pairs;             ///< for contacts
+  std::vector<PlanesOfBodies> planes_of_pairs;  ///< the planes of `pairs`, by their places
+  std::vector<PairToCertify> to_certify;        ///< for path certificates
+  std::vector<std::uint32_t> box_pairs;         ///< places in `to_certify` of pairs that are not triangles, ascending
+  /// The planes of the pairs to certify that are triangles, by their places in `to_certify`.
+  std::vector<PlanesOfBodies> planes;
+  collision::FrameReport report;  ///< the work of finding `pairs` alone
 };
 
 /// Not thread-safe. Reads neither poses nor minimum clearances of the scene, so these may change during a search.

@@ -33,7 +33,7 @@ double fraction_with_lag(const geometry::Displacement& previous, const geometry:
 }  // namespace
 
 std::array<double, kMaxParts> allowed_fractions(const SimulatedParts& shared, const Displacements& d,
-                                                std::span<const CoupledRow> rows, double reach) {
+                                                const ContactRows& rows, double reach) {
   std::array<double, kMaxParts> fractions{};
   const double share = (reach - shared.largest_margin) / static_cast<double>(shared.count());
   for (std::size_t p = 0; p < shared.count(); ++p) {
@@ -46,10 +46,10 @@ std::array<double, kMaxParts> allowed_fractions(const SimulatedParts& shared, co
     }
     const double angle = d[p].w.norm();
     const double largest_angle = std::sqrt(part.margin / part.lever);
-    if (!rows.empty() && angle * fractions[p] > largest_angle) fractions[p] = largest_angle / angle;
+    if (rows.is_anything_near() && angle * fractions[p] > largest_angle) fractions[p] = largest_angle / angle;
   }
   for (std::size_t pass = 1; pass < shared.count(); ++pass) {
-    for (const CoupledRow& row : rows) {
+    for (const CoupledRow& row : rows.rows()) {
       if (row.other < 0) continue;
       double& a = fractions[static_cast<std::size_t>(row.part)];
       double& b = fractions[static_cast<std::size_t>(row.other)];

@@ -3,16 +3,15 @@
 /// The fraction of its projected displacement that each part may take in a step.
 
 #include <array>
-#include <span>
 
+#include "sliding/contact_rows.h"
 #include "sliding/simulated_parts.h"
-#include "solver/projection.h"
 
 namespace glissade::haptics {
 
 /// The fractions that the reach (metres), the slew and the linearisation of rotations allow. Two parts with a common
 /// row get the same fraction, because the row holds for both displacements together.
 std::array<double, kMaxParts> allowed_fractions(const SimulatedParts& shared, const Displacements& d,
-                                                std::span<const CoupledRow> rows, double reach);
+                                                const ContactRows& rows, double reach);
 
 }  // namespace glissade::haptics

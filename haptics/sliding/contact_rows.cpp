@@ -11,11 +11,20 @@ namespace {
 
 // Work of a candidate pair and of the contacts of one that may have some, in the unit of `collision::WorkMeter`: rough.
 // Steps take 0.4 ns a unit.
-constexpr std::int64_t kWorkOfCandidate = 8;
+constexpr std::int64_t kWorkOfCandidate = 2;
+constexpr std::int64_t kWorkOfWay = 2;
 constexpr std::int64_t kWorkOfContacts = 300;
 
-/// In margins: contacts at rims are left out up to this gap. Beyond it, contacts do not depend on each other.
-constexpr double kReachOfRims = 2.0;
+/// In margins: the gap up to which all contacts are found at once. Those at rims depend on each other up to two
+/// margins, by a difference of a tenth.
+constexpr double kReachOfRims = 2.2;
+/// In margins: the gap up to which all contacts are found at the end. Up to three margins, a contact that touched keeps
+/// its number.
+constexpr double kReachOfTouching = 3.2;
+/// Numbers of pairs that are looked at together.
+constexpr std::size_t kNearestAtOnce = 64;
+constexpr std::size_t kViolatedAtOnce = 64;
+constexpr std::size_t kNearestAhead = 256;
 
 /// The pair as the other body sees it.
 UncertifiedPair swapped(const UncertifiedPair& pair) {
@@ -24,54 +33,83 @@ UncertifiedPair swapped(const UncertifiedPair& pair) {
 
 }  // namespace
 
-void ContactRows::find(double reach, WorkBudget& budget) {
+void ContactRows::find(double reach, double reach_ahead, WorkBudget& budget) {
   reach_ = reach;
+  reach_ahead_ = reach_ahead;
+  looked_at_.clear();
+  contacts_.clear();
+  is_of_failure_.clear();
   contacts_ahead_.clear();
-  shared_.candidates.with_contacts(reach, pairs_, numbers_, known_);
-  find_among_pairs(reach, contacts_, budget);
-  gaps_beyond_.assign(shared_.candidates.pair_count(), 0.0);
-  for (std::size_t i = 0; i < numbers_.size(); ++i)
-    gaps_beyond_[numbers_[i]] = gaps_[i].beyond;
   rows_.clear();
-  for (const Contact& contact : contacts_) {
+  pairs_.look(reach_ahead);
+  budget.spend(kWorkOfCandidate * static_cast<std::int64_t>(shared_.candidates.pair_count()));
+  complete_ = pairs_.take_nearest(kReachOfRims * shared_.largest_margin, kNearestAtOnce, reach);
+  find_contacts_of_taken(budget);
+}
+
+bool ContactRows::find_violated(const Displacements& displacements, WorkBudget& budget) {
+  budget.spend(kWorkOfWay * static_cast<std::int64_t>(pairs_.left_count()));
+  pairs_.find_too_near(displacements, reach_);
+  while (true) {
+    pairs_.take_too_near(kViolatedAtOnce);
+    if (pairs_.taken().empty()) return false;
+    const std::size_t known = rows_.size();
+    find_contacts_of_taken(budget);
+    const auto of_parts = shared_.of_parts(displacements);
+    if (std::any_of(rows_.begin() + static_cast<std::ptrdiff_t>(known), rows_.end(),
+                    [&](const CoupledRow& row) { return row.velocity(of_parts) < row.bound; })) {
+      return true;
+    }
+  }
+}
+
+/// Finds the contacts within reach of the pairs that were taken, with their rows.
+void ContactRows::find_contacts_of_taken(WorkBudget& budget) {
+  find_contacts_of(pairs_.taken(), pairs_.numbers(), reach_, budget);
+  for (std::size_t i = 0; i < gaps_.size(); ++i)
+    looked_at_.push_back({pairs_.numbers()[i], gaps_[i].beyond});
+  for (const Contact& contact : found_) {
     // A contact closer than its margin demands part of it back.
     const double missing = contact.margin - contact.gap;
-    const double bound = missing > 0.0 ? 0.7 * missing : missing;
-    add(contact.obstacle, static_cast<std::size_t>(contact.part), contact.n_W, contact.p_W, bound);
+    add(contact, missing > 0.0 ? 0.7 * missing : missing);
   }
 }
 
-/// Most pairs have no more contacts than those that are found already.
-void ContactRows::find_ahead(double reach_ahead, WorkBudget& budget) {
-  shared_.candidates.with_contacts(reach_ahead, pairs_, numbers_, known_);
-  if (reach_ >= kReachOfRims * shared_.largest_margin) leave_out_complete(reach_ahead);
-  find_among_pairs(reach_ahead, contacts_ahead_, budget);
-  std::erase_if(contacts_ahead_, [this](const Contact& contact) { return contact.gap <= reach_; });
-}
-
-/// Leaves out the pairs all of whose contacts within `reach_ahead` are found.
-void ContactRows::leave_out_complete(double reach_ahead) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (gaps_beyond_[numbers_[i]] > reach_ahead) continue;
-    pairs_[kept] = pairs_[i];
-    known_[kept] = known_[i];
-    numbers_[kept++] = numbers_[i];
+double ContactRows::find_ahead(WorkBudget& budget) {
+  if (reach_ahead_ > reach_) find_beyond(budget);
+  const double complete = pairs_.take_nearest(kReachOfTouching * shared_.largest_margin, kNearestAhead, reach_ahead_);
+  if (!pairs_.taken().empty()) {
+    find_contacts_of(pairs_.taken(), pairs_.numbers(), reach_ahead_, budget);
+    contacts_ahead_.insert(contacts_ahead_.end(), found_.begin(), found_.end());
   }
-  pairs_.resize(kept);
-  numbers_.resize(kept);
-  known_.resize(kept);
+  return complete;
 }
 
-/// Finds the contacts of `pairs_`.
-void ContactRows::find_among_pairs(double reach, std::vector<Contact>& contacts, WorkBudget& budget) {
+/// Finds the contacts ahead of pairs whose contacts within reach are known. Most have no more.
+void ContactRows::find_beyond(WorkBudget& budget) {
+  std::erase_if(looked_at_, [&](const LookedAt& pair) { return pair.beyond > reach_ahead_; });
+  candidates_.clear();
+  numbers_.clear();
+  for (const LookedAt& pair : looked_at_) {
+    candidates_.push_back(shared_.candidates.pair(pair.number));
+    numbers_.push_back(pair.number);
+  }
+  find_contacts_of(candidates_, numbers_, reach_ahead_, budget);
+  for (const Contact& contact : found_) {
+    if (contact.gap > reach_) contacts_ahead_.push_back(contact);
+  }
+}
+
+void ContactRows::find_contacts_of(std::span<const CandidatePair> pairs, std::span<const std::uint32_t> numbers,
+                                   double reach, WorkBudget& budget) {
   const ContactScene& scene = shared_.scene;
-  budget.spend(kWorkOfCandidate * static_cast<std::int64_t>(shared_.candidates.pair_count()) +
-               kWorkOfContacts * std::ssize(pairs_));
-  find_contacts(scene.bodies(), scene.obstacles().size(), pairs_, reach, shared_.largest_margin, contacts, &gaps_,
-                known_);
-  shared_.candidates.note_gaps(numbers_, gaps_);
-  for (Contact& contact : contacts) {
+  budget.spend(kWorkOfContacts * std::ssize(pairs));
+  known_.clear();
+  for (const std::uint32_t number : numbers)
+    known_.push_back(shared_.candidates.known_features(number, reach));
+  find_contacts(scene.bodies(), scene.obstacles().size(), pairs, reach, shared_.largest_margin, found_, &gaps_, known_);
+  shared_.candidates.note_gaps(numbers, gaps_);
+  for (Contact& contact : found_) {
     const auto body = static_cast<std::int32_t>(scene.body_of_mover(static_cast<std::size_t>(contact.part)));
     contact.margin = scene.margin(contact.obstacle, body);
     // A rider that stands is an obstacle of the parts, though its number is higher.
@@ -84,26 +122,43 @@ void ContactRows::find_among_pairs(double reach, std::vector<Contact>& contacts,
 }
 
 std::vector<Contact>& ContactRows::all_contacts() {
+  keep_contacts([&](std::size_t row) { return !is_of_failure_[row] || contacts_[row].force > 0.0; });
   contacts_.insert(contacts_.end(), contacts_ahead_.begin(), contacts_ahead_.end());
   contacts_ahead_.clear();
   return contacts_;
 }
 
 void ContactRows::keep_contacts_only() {
-  rows_.resize(contacts_.size());
-  failure_contacts_.clear();
+  keep_contacts([&](std::size_t row) { return !is_of_failure_[row]; });
 }
 
-void ContactRows::add(std::int32_t obstacle, std::size_t part, const Eigen::Vector3d& n_W, const Eigen::Vector3d& p_W,
-                      double bound) {
+/// Drops all other rows and their contacts.
+void ContactRows::keep_contacts(const std::function<bool(std::size_t row)>& is_kept) {
+  if (std::find(is_of_failure_.begin(), is_of_failure_.end(), true) == is_of_failure_.end()) return;
+  std::size_t kept = 0;
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    if (!is_kept(row)) continue;
+    rows_[kept] = rows_[row];
+    contacts_[kept] = contacts_[row];
+    is_of_failure_[kept++] = is_of_failure_[row];
+  }
+  rows_.resize(kept);
+  contacts_.erase(contacts_.begin() + static_cast<std::ptrdiff_t>(kept), contacts_.end());
+  is_of_failure_.resize(kept);
+}
+
+void ContactRows::add(const Contact& contact, double bound, bool is_of_failure) {
   const std::vector<HeldPartState>& states = shared_.states;
+  const Eigen::Vector3d& p_W = contact.p_W;
+  contacts_.push_back(contact);
+  is_of_failure_.push_back(is_of_failure);
   CoupledRow& row = rows_.emplace_back();
-  row.n = n_W;
-  row.r = p_W - states[part].p_Wref();
+  row.n = contact.n_W;
+  row.part = contact.part;
+  row.r = p_W - states[static_cast<std::size_t>(row.part)].p_Wref();
   row.bound = bound;
-  row.part = static_cast<std::int32_t>(part);
-  bool is_held_by_any = states[part].is_held();
-  row.other = shared_.scene.leader(obstacle);
+  bool is_held_by_any = states[static_cast<std::size_t>(row.part)].is_held();
+  row.other = shared_.scene.leader(contact.obstacle);
   if (row.other != ContactScene::kStands) {
     const auto other = static_cast<std::size_t>(row.other);
     row.r_other = p_W - states[other].p_Wref();
@@ -127,13 +182,17 @@ void ContactRows::add_failures(std::span<const UncertifiedPair> failures) {
       top = std::max(top, pair.n_W.dot(y_W));
     for (const Eigen::Vector3d& x_W : part.triangle_W(pair.part_triangle)) {
       const double gap = pair.n_W.dot(x_W) - top;
-      add(pair.bodies.obstacle, static_cast<std::size_t>(number), pair.n_W, x_W, std::min(0.0, margin - gap));
-      Contact& contact =
-          failure_contacts_.emplace_back(Contact{ContactKind::kVertexFace, pair.part_triangle, pair.bodies.obstacle,
-                                                 pair.obstacle_triangle, pair.n_W, x_W, gap});
+      Contact contact{ContactKind::kVertexFace,
+                      pair.part_triangle,
+                      pair.bodies.obstacle,
+                      pair.obstacle_triangle,
+                      pair.n_W,
+                      x_W,
+                      gap};
       contact.part = number;
       contact.rider = scene.rider(pair.bodies.part);
       contact.margin = margin;
+      add(contact, std::min(0.0, margin - gap), true);
     }
   }
 }
@@ -144,11 +203,9 @@ void ContactRows::allow_standing_still() {
 }
 
 void ContactRows::take_forces(std::span<const RowForce> forces) {
-  const std::size_t found = contacts_.size();
   pushed_.clear();
   for (const RowForce& force : forces) {
-    const auto row = static_cast<std::size_t>(force.row);
-    Contact& contact = row < found ? contacts_[row] : contacts_.emplace_back(failure_contacts_[row - found]);
+    Contact& contact = contacts_[static_cast<std::size_t>(force.row)];
     contact.force = force.normal;
     contact.friction_W = force.across_W;
     if (shared_.rules.friction.is_on()) pushed_.push_back(contact);
@@ -158,7 +215,7 @@ void ContactRows::take_forces(std::span<const RowForce> forces) {
 void ContactRows::recall_forces(std::vector<RowForce>& forces) const {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Contact& contact = contacts_[i];
-    if (rows_[i].bound == -kUnbounded) continue;  // two released parts
+    if (is_of_failure_[i] || rows_[i].bound == -kUnbounded) continue;  // two released parts
     for (const Contact& before : pushed_) {
       if (before.part != contact.part || before.rider != contact.rider || before.obstacle != contact.obstacle ||
           before.kind != contact.kind || before.part_feature != contact.part_feature ||

@@ -4,12 +4,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "certificate/path_certificate.h"
 #include "contact/contact_search.h"
 #include "search/candidate_pairs.h"
+#include "sliding/pairs_in_reach.h"
 #include "sliding/simulated_parts.h"
 #include "solver/friction.h"
 #include "solver/projection.h"
@@ -21,13 +23,21 @@ namespace glissade::haptics {
 class ContactRows {
  public:
   /// `shared` must outlive this object.
-  explicit ContactRows(SimulatedParts& shared) : shared_(shared) {}
+  explicit ContactRows(SimulatedParts& shared) : shared_(shared), pairs_(shared) {}
 
-  /// Finds the contacts within `reach` (metres) at the present poses, and one row for each. Replaces all contacts and
-  /// rows.
-  void find(double reach, WorkBudget& budget);
-  /// Finds also those within `reach_ahead`, at the same poses. They get no row.
-  void find_ahead(double reach_ahead, WorkBudget& budget);
+  /// Looks for contacts within `reach` (metres) at the present poses, or within `reach_ahead` later, and finds the
+  /// nearest, with a row for each of those within `reach`. Replaces all contacts and rows.
+  void find(double reach, double reach_ahead, WorkBudget& budget);
+  /// Finds contacts within `reach` that displacements of the parts would bring nearer than their margin, and their
+  /// rows. Returns false if there is no such row: those that are still missing are not needed.
+  bool find_violated(const Displacements& displacements, WorkBudget& budget);
+  /// Finds more of the nearest contacts within `reach_ahead`, at the same poses. They get no row. Returns the distance
+  /// (metres) within which all contacts have been found.
+  double find_ahead(WorkBudget& budget);
+  /// The distance (metres) within which all contacts have a row.
+  double complete() const { return complete_; }
+  /// Whether there may be anything within `reach`.
+  bool is_anything_near() const { return !contacts_.empty() || pairs_.left_count() > 0; }
   /// Drops the rows of failed certificates.
   void keep_contacts_only();
   /// Adds rows for failed certificates: each keeps the part's triangle on its side of the plane that separated the
@@ -51,23 +61,35 @@ class ContactRows {
   void forget_forces() { pushed_.clear(); }
 
  private:
-  void leave_out_complete(double reach_ahead);
-  void find_among_pairs(double reach, std::vector<Contact>& contacts, WorkBudget& budget);
-  void add(std::int32_t obstacle, std::size_t part, const Eigen::Vector3d& n_W, const Eigen::Vector3d& p_W,
-           double bound);
+  void find_contacts_of_taken(WorkBudget& budget);
+  void find_contacts_of(std::span<const CandidatePair> pairs, std::span<const std::uint32_t> numbers, double reach,
+                        WorkBudget& budget);
+  void find_beyond(WorkBudget& budget);
+  void keep_contacts(const std::function<bool(std::size_t row)>& is_kept);
+  void add(const Contact& contact, double bound, bool is_of_failure = false);
+
+  /// A pair that was looked at.
+  struct LookedAt {
+    std::uint32_t number;
+    double beyond;  // metres: no contact beyond the reach has a smaller gap
+  };
 
   SimulatedParts& shared_;
-  double reach_ = 0.0;
-  std::vector<CandidatePair> pairs_;       // that may have contacts within reach
-  std::vector<std::uint32_t> numbers_;     // of them among the candidates
-  std::vector<KnownFeatures> known_;       // of them
-  std::vector<GapsOfPair> gaps_;           // of them
-  std::vector<double> gaps_beyond_;        // metres, by candidate: of contacts beyond the reach; 0: not known
-  std::vector<Contact> contacts_;          // one for each of the first rows
-  std::vector<Contact> contacts_ahead_;    // beyond the reach
-  std::vector<CoupledRow> rows_;           // of contacts, then of failed certificates
-  std::vector<Contact> failure_contacts_;  // one for each row of a failed certificate
-  std::vector<Contact> pushed_;            // the contacts that pushed in the last step; with friction only
+  double reach_ = 0.0;        // metres
+  double reach_ahead_ = 0.0;  // metres
+  double complete_ = 0.0;     // metres
+  PairsInReach pairs_;
+  std::vector<LookedAt> looked_at_;
+  std::vector<CandidatePair> candidates_;  // that a search for contacts is about
+  std::vector<std::uint32_t> numbers_;
+  std::vector<KnownFeatures> known_;
+  std::vector<GapsOfPair> gaps_;
+  std::vector<Contact> found_;           // of the last search for contacts
+  std::vector<Contact> contacts_;        // one for each row
+  std::vector<bool> is_of_failure_;      // of each row: it comes from a failed certificate
+  std::vector<Contact> contacts_ahead_;  // without a row
+  std::vector<CoupledRow> rows_;
+  std::vector<Contact> pushed_;  // the contacts that pushed in the last step; with friction only
 };
 
 }  // namespace glissade::haptics

@@ -26,9 +26,9 @@ constexpr CouplingStiffness kImmovable{kUnbounded, kUnbounded};
 StepFinder::StepFinder(SimulatedParts& shared)
     : shared_(shared), rows_(shared), certificate_(shared.scene), grips_(shared.count()) {}
 
-void StepFinder::look(double reach, WorkBudget& budget) {
+void StepFinder::look(double reach, double reach_ahead, WorkBudget& budget) {
   reach_ = reach;
-  rows_.find(reach, budget);
+  rows_.find(reach, reach_ahead, budget);
 }
 
 std::optional<Step> StepFinder::find(WorkBudget& budget) {
@@ -68,26 +68,29 @@ void StepFinder::begin_trial(WorkBudget& budget) {
 
 /// Begins the certificate of the largest step that the rows allow.
 void StepFinder::try_projection(WorkBudget& budget) {
-  budget.spend(kWorkOfProjection + kWorkOfRow * std::ssize(rows_.rows()));
-  if (!project(damped_)) {
-    step_ = {.clipped = true};
-    end_trial(budget);
-    return;
-  }
-  ++projections_;
-  const std::array<double, kMaxParts> fractions = allowed_fractions(shared_, projected_, rows_.rows(), reach_);
   Displacements shortened;
-  step_ = {};
-  for (std::size_t p = 0; p < shared_.count(); ++p) {
-    shortened[p] = projected_[p].scaled(fractions[p]);
-    step_.arrives[p] = fractions[p] == 1.0;
-    step_.clipped = step_.clipped || fractions[p] < 1.0;
-  }
-  begin_certificate(shortened);
+  do {
+    budget.spend(kWorkOfProjection + kWorkOfRow * std::ssize(rows_.rows()));
+    if (!project(damped_)) {
+      step_ = {.clipped = true};
+      end_trial(budget);
+      return;
+    }
+    const std::array<double, kMaxParts> fractions = allowed_fractions(shared_, projected_, rows_, reach_);
+    step_ = {};
+    for (std::size_t p = 0; p < shared_.count(); ++p) {
+      shortened[p] = projected_[p].scaled(fractions[p]);
+      step_.arrives[p] = fractions[p] == 1.0;
+      step_.clipped = step_.clipped || fractions[p] < 1.0;
+    }
+  } while (rows_.find_violated(shortened, budget));
+  ++projections_;
+  begin_certificate(shortened, budget);
 }
 
 /// Takes the step at hand, or begins the certificate of another one.
 void StepFinder::conclude(bool is_certified, WorkBudget& budget) {
+  shared_.candidates.note_planes(certificate_.separated());
   if (stage_ == Stage::kProjecting) {
     if (projections_ == 1) {
       first_ = step_;
@@ -110,7 +113,7 @@ void StepFinder::conclude(bool is_certified, WorkBudget& budget) {
     note_arrivals();
     end_trial(budget);
   } else if (halvings_ < kHalvings + static_cast<int>(shared_.count())) {
-    try_half();
+    try_half(budget);
   } else {
     step_ = {.clipped = true};
     end_trial(budget);
@@ -118,7 +121,7 @@ void StepFinder::conclude(bool is_certified, WorkBudget& budget) {
 }
 
 /// Shortens the parts whose pairs fail; the others go on.
-void StepFinder::try_half() {
+void StepFinder::try_half(WorkBudget& budget) {
   stage_ = Stage::kHalving;
   const std::array<bool, kMaxParts> fails = parts_that_fail();
   Displacements shortened = step_.displacements;
@@ -129,7 +132,7 @@ void StepFinder::try_half() {
   }
   step_.clipped = true;
   ++halvings_;
-  begin_certificate(shortened);
+  begin_certificate(shortened, budget);
 }
 
 /// A part on which a contact pushes, or whose target is damped, does not arrive.
@@ -189,7 +192,7 @@ std::array<bool, kMaxParts> StepFinder::parts_that_fail() const {
 }
 
 /// Sets the displacements of the step, and begins their certificate.
-void StepFinder::begin_certificate(const Displacements& displacements) {
+void StepFinder::begin_certificate(const Displacements& displacements, WorkBudget& budget) {
   step_.displacements = displacements;
   step_.length = 0.0;
   for (std::size_t p = 0; p < shared_.count(); ++p) {
@@ -200,9 +203,10 @@ void StepFinder::begin_certificate(const Displacements& displacements) {
   const double concerned =
       step_.length + kMinClearanceOfMargin * shared_.largest_margin + certificate_.certain_distance();
   is_covered_ = shared_.candidates.covers(concerned);
+  certificate_.begin_step(shared_.of_parts(displacements));
   to_certify_.clear();
-  if (is_covered_) shared_.candidates.within(concerned, to_certify_);
-  certificate_.begin(shared_.of_parts(displacements), to_certify_);
+  if (is_covered_) shared_.candidates.unproved_within(concerned, certificate_, to_certify_, budget);
+  certificate_.begin(to_certify_);
 }
 
 /// Projects on all rows. Returns false if the solver finds no solution; then the parts stand still.

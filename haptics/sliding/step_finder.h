@@ -26,8 +26,9 @@ class StepFinder {
   /// `shared` must outlive this object.
   explicit StepFinder(SimulatedParts& shared);
 
-  /// Finds the contacts within `reach` (metres), whose rows constrain the steps from then on.
-  void look(double reach, WorkBudget& budget);
+  /// From then on, the contacts within `reach` (metres) constrain the steps. Those within `reach_ahead` may be asked
+  /// for later.
+  void look(double reach, double reach_ahead, WorkBudget& budget);
 
   /// A certified step that gains no energy, towards the poses at which the parts aim; a step of zero if there is none.
   /// Nothing if the budget was used up before: then the next call goes on, for which parts and candidates must be as
@@ -51,14 +52,14 @@ class StepFinder {
   void begin_trial(WorkBudget& budget);
   void try_projection(WorkBudget& budget);
   void conclude(bool is_certified, WorkBudget& budget);
-  void try_half();
+  void try_half(WorkBudget& budget);
   void end_trial(WorkBudget& budget);
   void note_arrivals();
   bool gains_energy();
   bool project(const Displacements& wanted);
   void solve_friction(const Displacements& wanted);
   bool slipped(const CoupledRow& row) const;
-  void begin_certificate(const Displacements& displacements);
+  void begin_certificate(const Displacements& displacements, WorkBudget& budget);
   std::array<bool, kMaxParts> parts_that_fail() const;
 
   SimulatedParts& shared_;

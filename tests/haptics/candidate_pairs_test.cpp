@@ -148,12 +148,18 @@ TEST(CandidatePairs, HaveTheSameContactsWhereGapsAreNoted) {
       std::vector<Contact> of_all;
       const std::vector<CandidatePair> pairs = pairs_within(candidates, reach);
       find_contacts(scene->bodies(), first_part, pairs, reach, kMargin, of_all);
+      std::vector<PairInReach> in_reach;
       std::vector<CandidatePair> some;
       std::vector<std::uint32_t> numbers;
       std::vector<KnownFeatures> known;
       std::vector<GapsOfPair> gaps;
       std::vector<Contact> of_some;
-      candidates.with_contacts(reach, some, numbers, known);
+      candidates.in_reach(reach, in_reach);
+      for (const PairInReach& pair : in_reach) {
+        some.push_back(candidates.pair(pair.number));
+        numbers.push_back(pair.number);
+        known.push_back(candidates.known_features(pair.number, reach));
+      }
       find_contacts(scene->bodies(), first_part, some, reach, kMargin, of_some, &gaps, known);
       candidates.note_gaps(numbers, gaps);
       ASSERT_EQ(numbers_of(of_some), numbers_of(of_all));

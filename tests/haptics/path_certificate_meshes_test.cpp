@@ -19,6 +19,7 @@
 #include "near_bodies.h"
 #include "poses.h"
 #include "sanitizers.h"
+#include "search/candidate_pairs.h"
 
 namespace glissade::haptics {
 namespace {
@@ -40,15 +41,19 @@ Proof prove(const ContactScene& scene, const std::vector<geometry::Displacement>
   double radius = kMinClearanceOfMargin * kGreatestMargin_m;
   for (std::size_t p = 0; p < displacements.size(); ++p)
     radius += geometry::motion_bound(displacements[p], scene.movers()[p]->radius());
-  collision::QueryWorkspace workspace;
+  CandidatePairs candidates(scene, radius);
+  candidates.look(radius, 0.0, {});
   std::vector<PairToCertify> to_certify;
-  find_pairs_to_certify(scene, scene.bodies(), radius, {}, workspace, to_certify);
+  candidates.within(radius, to_certify);
   const auto boxes = std::count_if(to_certify.begin(), to_certify.end(), [](const PairToCertify& pair_to_certify) {
     return pair_to_certify.item_O.kind != TreeItem::Kind::kTriangle;
   });
   PathCertificate certificate(scene);
-  certificate.begin(displacements, to_certify);
   WorkBudget unlimited;
+  certificate.begin_step(displacements);
+  std::vector<PairToCertify> unproved;
+  candidates.unproved_within(radius, certificate, unproved, unlimited);
+  certificate.begin(unproved);
   EXPECT_TRUE(certificate.go_on(unlimited));
   const std::vector<UncertifiedPair>& failures = certificate.failures();
   return {failures.empty(), to_certify.size(), static_cast<std::size_t>(boxes), failures};

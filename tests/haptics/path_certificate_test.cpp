@@ -34,10 +34,11 @@ bool prove(const std::vector<Obstacle>& obstacles, const std::vector<std::shared
   CandidatePairs candidates(scene, kProofReach);
   candidates.look(kProofReach, 0.0, {});
   std::vector<PairToCertify> to_certify;
-  candidates.within(kProofReach, to_certify);
   PathCertificate certificate(scene);
-  certificate.begin(displacements, to_certify);
   WorkBudget unlimited;
+  certificate.begin_step(displacements);
+  candidates.unproved_within(kProofReach, certificate, to_certify, unlimited);
+  certificate.begin(to_certify);
   EXPECT_TRUE(certificate.go_on(unlimited));
   return certificate.failures().empty();
 }

@@ -129,7 +129,8 @@ TEST(WorkBudget, ACertificateGoesOnWhereItStopped) {
   const std::vector<geometry::Displacement> down{{Vector3d(0.0, 0.0, -0.5e-3), Vector3d(0.01, 0.0, 0.0)}};
   const auto failures_with = [&](std::int64_t work) {
     PathCertificate certificate(scene);
-    certificate.begin(down, to_certify);
+    certificate.begin_step(down);
+    certificate.begin(to_certify);
     for (WorkBudget budget{work}; !certificate.go_on(budget); budget = {work}) {
     }
     std::vector<std::int32_t> failures;

@@ -1,0 +1,67 @@
+// Compiled once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "certificate/plane_kernel.cpp"
+#include "certificate/plane_kernel.h"
+
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+// Without fused multiply-add and with the same order of operations, so that every rounding is the same.
+HWY_BEFORE_NAMESPACE();
+namespace glissade::haptics::HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using PlaneTag = hn::CappedTag<float, kPlanesAtOnce>;
+using PlaneFloats = hn::Vec<PlaneTag>;
+
+HWY_INLINE PlaneFloats sum_of_products(PlaneFloats a0, PlaneFloats b0, PlaneFloats a1, PlaneFloats b1, PlaneFloats a2,
+                                       PlaneFloats b2) {
+  return hn::Add(hn::Add(hn::Mul(a0, b0), hn::Mul(a1, b1)), hn::Mul(a2, b2));
+}
+
+}  // namespace
+
+void find_plane_gaps(std::span<const PlaneBlock> blocks, const PlaneMap& map, float slack, float* gaps) {
+  const PlaneTag d;
+  const auto entry = [&](std::size_t row, std::size_t column) HWY_ATTR { return hn::Set(d, map.A[row][column]); };
+  const auto along = [&](std::size_t axis) HWY_ATTR { return hn::Set(d, map.t[axis]); };
+  for (const PlaneBlock& block : blocks) {
+    for (std::size_t first = 0; first < kPlanesAtOnce; first += hn::Lanes(d)) {
+      const auto load = [&](const NumbersOfPlanes& from) HWY_ATTR { return hn::Load(d, from.data() + first); };
+      const PlaneFloats n0 = load(block.n[0]);
+      const PlaneFloats n1 = load(block.n[1]);
+      const PlaneFloats n2 = load(block.n[2]);
+      // The direction is turned instead of the corners: there is only one.
+      const PlaneFloats m0 = sum_of_products(n0, entry(0, 0), n1, entry(1, 0), n2, entry(2, 0));
+      const PlaneFloats m1 = sum_of_products(n0, entry(0, 1), n1, entry(1, 1), n2, entry(2, 1));
+      const PlaneFloats m2 = sum_of_products(n0, entry(0, 2), n1, entry(1, 2), n2, entry(2, 2));
+      const auto height = [&](std::size_t corner) HWY_ATTR {
+        return sum_of_products(m0, load(block.x[corner][0]), m1, load(block.x[corner][1]), m2,
+                               load(block.x[corner][2]));
+      };
+      const PlaneFloats least = hn::Min(height(0), hn::Min(height(1), height(2)));
+      const PlaneFloats origin = hn::Sub(sum_of_products(n0, along(0), n1, along(1), n2, along(2)), load(block.top));
+      hn::StoreU(hn::Sub(hn::Add(least, origin), hn::Set(d, slack)), d, gaps + first);
+    }
+    gaps += kPlanesAtOnce;
+  }
+}
+
+}  // namespace glissade::haptics::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace glissade::haptics {
+namespace {
+
+HWY_EXPORT(find_plane_gaps);
+
+}  // namespace
+
+void find_plane_gaps(std::span<const PlaneBlock> blocks, const PlaneMap& map, float slack, float* gaps) {
+  HWY_DYNAMIC_DISPATCH(find_plane_gaps)(blocks, map, slack, gaps);
+}
+
+}  // namespace glissade::haptics
+#endif

@@ -1,0 +1,75 @@
+#pragma once
+
+/// The candidate pairs that a step may bring into contact, taken as they are needed: the nearest first, then those that
+/// a step would bring too near. The planes of the others prove that they are not needed.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "search/candidate_pairs.h"
+#include "sliding/simulated_parts.h"
+
+namespace glissade::haptics {
+
+/// Not thread-safe.
+class PairsInReach {
+ public:
+  /// `shared` must outlive this object.
+  explicit PairsInReach(SimulatedParts& shared) : shared_(shared) {}
+
+  /// Begins anew: of all pairs that may be within `reach` (metres) at the present poses, none has been taken.
+  void look(double reach);
+
+  /// Takes all pairs within `reach` that may be nearer than `gap` (metres), and more, up to `count` in all, the nearest
+  /// first. Returns the distance (metres) within which all pairs have been taken then.
+  double take_nearest(double gap, std::size_t count, double reach);
+  /// Finds the pairs within `reach` whose planes do not prove that displacements of the parts, to first order, leave
+  /// them a margin apart.
+  void find_too_near(const Displacements& displacements, double reach);
+  /// Takes up to `most` of these, those first that come nearest; in the next call the next ones. Where a pair has
+  /// another plane that keeps it apart, it gets this one instead.
+  void take_too_near(std::size_t most);
+
+  /// Those that the last call took, in the order of the candidates, and what is known of them within `reach` metres.
+  std::span<const CandidatePair> taken() const { return pairs_; }
+  std::span<const std::uint32_t> numbers() const { return numbers_; }
+  /// Number of pairs that have not been taken, or more.
+  std::size_t left_count() const { return left_.size(); }
+
+ private:
+  /// How the part of two bodies goes, to first order, in the frame of the obstacle.
+  struct Way {
+    Eigen::Matrix3d A;  ///< x in the part's frame comes to A x + t
+    Eigen::Vector3d t;
+    Eigen::Isometry3d X_OV;  ///< at the beginning
+    double margin;
+  };
+
+  struct TooNear {
+    float gap_at_end;     ///< metres
+    std::uint32_t place;  ///< in `left_`
+  };
+
+  Way way_of(const BodyPair& bodies, const Displacements& displacements) const;
+  bool turn_plane(const PairInReach& pair, const Way& way);
+  void forget_taken();
+  void begin_taking();
+  void take(const PairInReach& pair);
+
+  SimulatedParts& shared_;
+  std::vector<PairInReach> left_;  // in the order of the candidates; those that were taken have no gap any more
+  std::vector<CandidatePair> pairs_;
+  std::vector<std::uint32_t> numbers_;
+  std::vector<float> gaps_;
+  // Of the pairs of bodies that have planes:
+  std::vector<Way> ways_;
+  std::vector<std::vector<float>> gaps_at_end_;
+  std::vector<std::vector<bool>> known_blocks_;  // those whose gaps at the end are there
+  std::vector<std::uint32_t> watched_;           // places in `left_`
+  std::vector<TooNear> too_near_;
+  std::size_t next_ = 0;  // of `too_near_`
+};
+
+}  // namespace glissade::haptics
