@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "certificate/lasting_separation.h"
 #include "certificate/leaf_in_world.h"
@@ -47,11 +46,11 @@ void PathCertificate::begin_step(std::span<const geometry::Displacement> displac
   part_ = {};
 }
 
-PathOfBodies PathCertificate::path_of(const BodyPair& bodies) {
+std::optional<PathOfBodies> PathCertificate::path_of(const BodyPair& bodies) {
   select(bodies);
-  // The bound of the error between both ends is for directions fixed to the world. An obstacle that moves may turn.
-  return {relative_pose(*obstacle_.X_WB[0], *part_.X_WB[0]), relative_pose(*obstacle_.X_WB[1], *part_.X_WB[1]),
-          obstacle_moves_ ? std::numeric_limits<double>::infinity() : needed_, far_};
+  if (obstacle_moves_) return std::nullopt;
+  return PathOfBodies{relative_pose(*obstacle_.X_WB[0], *part_.X_WB[0]),
+                      relative_pose(*obstacle_.X_WB[1], *part_.X_WB[1]), needed_, far_};
 }
 
 void PathCertificate::begin(const BodiesMotion& motion, std::size_t first_mover,
@@ -204,7 +203,7 @@ Eigen::Vector3d PathCertificate::prove_triangles(std::int32_t triangle_O, std::i
     return {bodies_.triangle_W(obstacle_.number, triangle_O, moment),
             bodies_.triangle_W(part_.number, triangle_V, moment)};
   };
-  if (keeps_directions_) {
+  if (keeps_directions_ && !obstacle_moves_) {
     const Separation separation = lasting_separation(at(0), at(MovingBodies::kMoments), needed_ + rounding_);
     if (separation.least() >= needed_ + rounding_) {
       budget.spend(kWorkOfTriangles);

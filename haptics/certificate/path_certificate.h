@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -55,8 +56,9 @@ class PathCertificate {
   /// Begins a step in which all parts move at once, each from its present pose along its displacement; `displacements`
   /// has one entry for each part.
   void begin_step(std::span<const geometry::Displacement> displacements);
-  /// The ends of this step for two bodies.
-  PathOfBodies path_of(const BodyPair& bodies);
+  /// The ends of this step for two bodies; none if the obstacle moves, too: the bound of the error between both ends is
+  /// for directions fixed to the world, and those fixed to the obstacle may turn.
+  std::optional<PathOfBodies> path_of(const BodyPair& bodies);
   /// Begins the certificate of all of `to_certify` for this step. `to_certify` and the poses must stay as they are
   /// until `go_on` returns true.
   void begin(std::span<const PairToCertify> to_certify);

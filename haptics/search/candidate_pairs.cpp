@@ -279,17 +279,25 @@ void CandidatePairs::unproved_within(double reach, PathCertificate& certificate,
   to_certify.clear();
   places_.clear();
   const std::vector<PairToCertify>& pairs = now_.set.to_certify;
-  for (const std::uint32_t number : now_.set.box_pairs) {
-    const PairToCertify& pair = pairs[number];
-    if (pair.distance > reach + now_.drift) break;  // as are all that follow
-    if (now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
-    to_certify.push_back(pair);
-    places_.push_back({nullptr, 0, number});
-  }
+  const auto add_without_planes = [&](std::span<const std::uint32_t> numbers) {
+    for (const std::uint32_t number : numbers) {
+      const PairToCertify& pair = pairs[number];
+      if (pair.distance > reach + now_.drift) return;  // as are all that follow
+      if (now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
+      to_certify.push_back(pair);
+      places_.push_back({nullptr, 0, number});
+    }
+  };
+  add_without_planes(now_.set.box_pairs);
   for (std::size_t i = 0; i < now_.set.planes.size(); ++i) {
     PlanesOfBodies& planes = now_.set.planes[i];
     const std::span<const std::uint32_t> numbers = planes.numbers();
-    const PathOfBodies path = certificate.path_of(planes.bodies());
+    const std::optional<PathOfBodies> known_path = certificate.path_of(planes.bodies());
+    if (!known_path) {
+      add_without_planes(numbers);
+      continue;
+    }
+    const PathOfBodies& path = *known_path;
     std::vector<double>& of_blocks = gaps_to_certify_[i];
     visit_near_blocks(of_blocks, path.far, [&](std::size_t first, std::size_t end) {
       planes.find_gaps(path.X_OV_begin.linear(), path.X_OV_begin.translation(), first, end, gaps_at_begin_);
