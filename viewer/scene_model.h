@@ -12,6 +12,9 @@
 
 namespace glissade::viewer {
 
+/// Of the model that a page draws first, and while things move if its machine is slow.
+inline constexpr std::size_t kFirstTriangles = 12'000;
+
 /// The scene at its start, with at most about `most_triangles` triangles, shared among the objects by their size. glTF
 /// 2.0 with KHR_mesh_quantization; coordinates are those of W less `ViewScene::p_WO()`, in metres. The extras of the
 /// scene have `title`, `origin_W_m`, `parts` (names), `hands` and `triangles`, the number in the whole scene. Those of

@@ -28,8 +28,7 @@ using asio::ip::tcp;
 
 namespace {
 
-constexpr std::size_t kFirstTriangles = 40'000;  // of the model that a page loads first
-constexpr std::size_t kRingStates = 1024;        // a second of the usual loop
+constexpr std::size_t kRingStates = 1024;  // a second of the usual loop
 constexpr std::size_t kMostConnections = 128;
 constexpr std::chrono::milliseconds kAcceptPause{100};
 constexpr std::chrono::microseconds kFramePeriod{16'667};

@@ -55,6 +55,10 @@ td { font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
 .line { fill: none; stroke: currentColor; stroke-width: 1.4; stroke-linejoin: round; }
 .c0 { color: var(--c0); } .c1 { color: var(--c1); } .c2 { color: var(--c2); }
 .c3 { color: var(--c3); } .c4 { color: var(--c4); } .c5 { color: var(--c5); }
+@media (max-width: 760px) {
+  .paper section { overflow-x: auto; }
+  .paper svg { min-width: 760px; }
+}
 @media print { .paper section { break-inside: avoid; } }
 )";
 
@@ -123,8 +127,9 @@ std::string page_with_replay(const std::string& title, const std::string& summar
   fill_in(page, "<h1 id=\"title\">Glissade</h1>", "<h1 id=\"title\">" + title + "</h1>");
   fill_in(page, "<!--summary-->", paper(summary));
   fill_in(page, "<!--plots-->", paper(plots));
-  fill_in(page, "<!--data-->",
-          data_element("report-model", replay.model) + data_element("report-frames", replay.frames));
+  std::string data = data_element("report-model", replay.model) + data_element("report-frames", replay.frames);
+  if (!replay.whole_model.empty()) data += data_element("report-whole-model", replay.whole_model);
+  fill_in(page, "<!--data-->", data);
   return page;
 }
 

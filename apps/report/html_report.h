@@ -17,6 +17,7 @@ namespace glissade::apps {
 struct Replay {
   std::string model;
   std::string frames;
+  std::string whole_model{};  ///< of more triangles, for pictures at rest; empty: `model` has all of the scene
 };
 
 /// The content of the page, from top to bottom.

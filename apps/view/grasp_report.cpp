@@ -57,7 +57,9 @@ void GraspReport::add(std::chrono::nanoseconds time) {
   for (std::size_t p = 0; p < simulation_.part_count(); ++p) {
     const haptics::SlidingResult& result = simulation_.parts().result(p);
     show_part(result, p, patches_[p], state);
-    note(lags_[p], 1e3 * (result.X_WG.translation() - result.X_WV.translation()).norm());
+    constexpr double kRounding = 1e-9;  // mm; an axis of less would tell of nothing else
+    const double lag = 1e3 * (result.X_WG.translation() - result.X_WV.translation()).norm();
+    note(lags_[p], lag > kRounding ? lag : 0.0);
   }
   for (std::size_t h = 0; h < simulation_.hand_count(); ++h) {
     const auto part = simulation_.held_part(h);

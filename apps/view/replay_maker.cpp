@@ -8,13 +8,18 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr std::size_t kMostTriangles = 60'000;
+constexpr std::size_t kMostTriangles = 140'000;
 constexpr std::chrono::nanoseconds kFramePeriod{16'667'000};
 
 }  // namespace
 
 ReplayMaker::ReplayMaker(const viewer::ViewScene& scene)
-    : maker_(scene), replay_{viewer::scene_model(scene, kMostTriangles), {}} {}
+    : maker_(scene), replay_{viewer::scene_model(scene, viewer::kFirstTriangles), {}} {
+  std::size_t triangles = 0;
+  for (const viewer::ViewObject& object : scene.objects)
+    triangles += object.mesh->triangles.size();
+  if (triangles > viewer::kFirstTriangles) replay_.whole_model = viewer::scene_model(scene, kMostTriangles);
+}
 
 void ReplayMaker::add(const devices::HapticState& state) {
   if (!first_) {

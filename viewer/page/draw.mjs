@@ -11,25 +11,26 @@ const FRAME_MS = 100;
 
 const browser = await launch();
 
-async function openReport(width, height, zoom) {
+async function openReport({ width, height, view, zoom, seesThrough }) {
   const page = await open(browser, `file://${resolve(report)}`, { viewport: { width: 1280, height: 900 }, colorScheme: 'light' });
-  await page.evaluate(([w, h]) => {
+  await page.evaluate(([w, h, through]) => {
     const view = document.getElementById('view');
     view.style.cssText = `position: fixed; inset: 0 auto auto 0; width: ${w}px; height: ${h}px; z-index: 1; border: 0; border-radius: 0`;
     for (const id of ['legend', 'scale', 'object']) document.getElementById(id).style.display = 'none';
-    document.getElementById('show-through').click();
-  }, [width, height]);
+    if (through) document.getElementById('show-through').click();
+  }, [width, height, seesThrough]);
   await page.waitForTimeout(300);
   // The middle of the part's way is the middle of the picture.
-  await page.evaluate((factor) => {
+  await page.evaluate(([direction, factor]) => {
     const { stage, timeline } = window.glissade.page;
-    stage.fit('corner');
+    stage.camera.position.copy(stage.eye.controls.target).add(stage.camera.position.clone().fromArray(direction));
+    stage.fit();
     const [first, last] = [timeline.frames[0], timeline.frames.at(-1)].map((frame) => frame.parts[0].visible.p);
-    const move = stage.controls.target.clone().fromArray(first.map((x, i) => (x + last[i]) / 2)).sub(stage.controls.target);
-    stage.controls.target.add(move);
+    const move = stage.eye.controls.target.clone().fromArray(first.map((x, i) => (x + last[i]) / 2)).sub(stage.eye.controls.target);
+    stage.eye.controls.target.add(move);
     stage.camera.position.add(move);
-    stage.zoom(factor);
-  }, zoom);
+    stage.eye.zoom(factor);
+  }, [view, zoom]);
   return page;
 }
 
@@ -39,34 +40,39 @@ async function goTo(page, seconds) {
     timeline.seek(timeline.first + t);
   }, seconds);
   const chosen = await page.evaluate(() => window.glissade.page.timeline.frame.sequence);
-  await eventually(async () => (await inspect(page)).frame?.sequence === chosen);
-  await page.waitForTimeout(60);
+  await eventually(async () => {
+    const { frame, isFine } = await inspect(page);
+    return frame?.sequence === chosen && isFine;
+  });
 }
 
 if (png !== '-') {
   const [file, seconds] = png.split('=');
-  const page = await openReport(1000, 560, 0.75);
+  const page = await openReport({ width: 1000, height: 560, view: [-0.6, 1, 0.4], zoom: 0.74, seesThrough: true });
   await goTo(page, Number(seconds));
   await page.locator('#view').screenshot({ path: file });
 }
 
 if (gif !== '-') {
   const [width, height] = [480, 300];
-  const page = await openReport(width, height, 0.6);
+  const page = await openReport({ width, height, view: [0.5, -1, 0.7], zoom: 0.55, seesThrough: false });
   const duration = await page.evaluate(() => window.glissade.page.timeline.last - window.glissade.page.timeline.first);
-  const encoder = GIFEncoder();
-  let palette;
+  const frames = [];
   for (let t = 0; t <= duration; t += (2 * FRAME_MS) / 1000) {
     await goTo(page, t);
     const pixels = await page.evaluate(([w, h]) => {
       const copy = new OffscreenCanvas(w, h).getContext('2d');
+      copy.imageSmoothingQuality = 'high';
       copy.drawImage(document.getElementById('canvas'), 0, 0, w, h);
       return [...copy.getImageData(0, 0, w, h).data];
     }, [width, height]);
-    const data = Uint8ClampedArray.from(pixels);
-    palette ??= quantize(data, 64);
-    encoder.writeFrame(applyPalette(data, palette), width, height, { palette, delay: FRAME_MS });
+    frames.push(Uint8ClampedArray.from(pixels));
   }
+  // A colour that only comes later, as that of a held part does, belongs to the palette as well.
+  const some = frames.filter((_, i) => i % 6 === 0);
+  const palette = quantize(new Uint8ClampedArray(Buffer.concat(some)), 128);
+  const encoder = GIFEncoder();
+  for (const data of frames) encoder.writeFrame(applyPalette(data, palette), width, height, { palette, delay: FRAME_MS });
   encoder.finish();
   await writeFile(gif, encoder.bytes());
 }

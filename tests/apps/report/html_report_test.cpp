@@ -53,6 +53,9 @@ TEST(HtmlReport, WithAReplayHoldsItsDataAndStillNeedsNoNetwork) {
   const std::string html = html_report(report);
   EXPECT_THAT(html, HasSubstr("id=\"report-model\">Z2xURg==<"));  // base64 of glTF
   EXPECT_THAT(html, HasSubstr("id=\"report-frames\">AQID<"));
+  EXPECT_THAT(html, Not(HasSubstr("id=\"report-whole-model\"")));
+  report.replay->whole_model = "glTF";
+  EXPECT_THAT(html_report(report), HasSubstr("id=\"report-whole-model\">Z2xURg==<"));
   EXPECT_THAT(html, HasSubstr("<h1 id=\"title\">Motor &lt;into&gt; door</h1>"));
   EXPECT_THAT(html, HasSubstr("<td>12.5 N</td>"));
   EXPECT_THAT(html, HasSubstr("<canvas"));

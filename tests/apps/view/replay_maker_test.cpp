@@ -50,6 +50,14 @@ TEST(ReplayMaker, MakesSixtyFramesASecondUpToTheLastTick) {
     EXPECT_NEAR(times[i] - times[i - 1], 1.0 / 60.0, 1.1e-3);
 }
 
+TEST(ReplayMaker, HasASmallModelOfALargeSceneBesideTheWhole) {
+  viewer::ViewScene scene = scene_of_a_box();
+  EXPECT_TRUE(ReplayMaker(scene).finish().whole_model.empty()) << "the first one is whole";
+  scene.objects.front().mesh = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.1, 100'000));
+  const Replay large = ReplayMaker(scene).finish();
+  EXPECT_LT(large.model.size(), large.whole_model.size() / 3);
+}
+
 TEST(ReplayMaker, ShowsThePushingContactsOfAPartInItsFrame) {
   haptics::SlidingResult result;
   result.X_WV = result.X_WV_of_contacts = Eigen::Translation3d(1.0, 2.0, 3.0);

@@ -1,6 +1,6 @@
 // Buttons and keys.
 
-import { VIEWS } from './stage.js';
+import { VIEWS } from './eye.js';
 
 const TURN = Math.PI / 24;
 
@@ -78,12 +78,12 @@ export class Controls {
       a: () => this.byId('show-forces').click(),
       e: () => this.byId('show-edges').click(),
       x: () => this.byId('show-through').click(),
-      '+': () => stage.zoom(1 / 1.15),
-      '-': () => stage.zoom(1.15),
-      ArrowLeft: () => stage.orbit(-TURN, 0),
-      ArrowRight: () => stage.orbit(TURN, 0),
-      ArrowUp: () => stage.orbit(0, TURN),
-      ArrowDown: () => stage.orbit(0, -TURN),
+      '+': () => stage.eye.zoom(1 / 1.15),
+      '-': () => stage.eye.zoom(1.15),
+      ArrowLeft: () => stage.eye.orbit(-TURN, 0),
+      ArrowRight: () => stage.eye.orbit(TURN, 0),
+      ArrowUp: () => stage.eye.orbit(0, TURN),
+      ArrowDown: () => stage.eye.orbit(0, -TURN),
     };
     Object.keys(VIEWS).forEach((name, i) => { keys[`${i + 1}`] = () => stage.fit(name); });
     document.addEventListener('keydown', (event) => {

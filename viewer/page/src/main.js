@@ -71,10 +71,11 @@ function say(text) {
 
 async function showReport() {
   document.body.classList.add('report');
-  const { model, frames } = reportData();
+  const { model, wholeModel, frames } = reportData();
   const page = new Page(new Timeline(frames));
   page.plots = new LinkedPlots(page.timeline);
   page.setModel(await parseModel(model));
+  if (wholeModel) page.stage.setWholeModel(await parseModel(wholeModel));
   return page;
 }
 
@@ -136,6 +137,7 @@ function inspect(page) {
     info: page.info,
     triangles: page.stage.coarse?.triangles ?? 0,
     wholeTriangles: page.stage.whole?.triangles ?? 0,
+    isFine: page.stage.isFine,
     showsWhole: page.stage.whole?.group.visible ?? false,
     parts: [...(page.stage.coarse?.parts ?? [])].map(([number, node]) => ({ number, ...poseOf(node) })),
     ghosts: [...(page.stage.ghostOf ?? [])].map(([number, node]) => ({ number, ...poseOf(node) })),

@@ -12,7 +12,12 @@ export function isReport() {
 }
 
 export function reportData() {
-  return { model: bytesOf('report-model'), frames: decodeFrames(bytesOf('report-frames')) };
+  const hasWhole = document.getElementById('report-whole-model') !== null;
+  return {
+    model: bytesOf('report-model'),
+    wholeModel: hasWhole ? bytesOf('report-whole-model') : undefined,
+    frames: decodeFrames(bytesOf('report-frames')),
+  };
 }
 
 // A click on a plot over time goes to that moment, and a line shows the moment in all plots. A plot says in data-from,

@@ -1,22 +1,19 @@
 // The three-dimensional view.
 
 import {
-  ArrowHelper, Box3, CircleGeometry, Color, DirectionalLight, GridHelper, Group, HemisphereLight,
-  LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Plane, Quaternion,
+  Box3, CircleGeometry, Color, DirectionalLight, GridHelper, Group, HemisphereLight,
+  LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, Plane, Quaternion,
   Raycaster, Scene, Sphere, SphereGeometry, Vector2, Vector3, WebGLRenderer, DoubleSide,
 } from 'three';
-import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { Arrow } from './arrow.js';
 import { cssColor, onSchemeChange } from './colors.js';
 import { Detail } from './detail.js';
+import { Eye } from './eye.js';
 import { copyOf } from './model.js';
 import { length, pictureOf } from './frame.js';
 
 const MOST_CONTACTS = 24;
 const MOST_PATCHES = 8;
-
-export const VIEWS = {
-  front: [0, -1, 0], back: [0, 1, 0], left: [-1, 0, 0], right: [1, 0, 0], top: [0, -1e-3, 1], corner: [0.8, -1, 0.6],
-};
 
 function setPose(object, pose) {
   object.position.set(...pose.p);
@@ -26,13 +23,10 @@ function setPose(object, pose) {
 export class Stage {
   constructor(canvas) {
     this.canvas = canvas;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    this.renderer = new WebGLRenderer({ canvas, preserveDrawingBuffer: true });
     this.scene = new Scene();
-    this.camera = new PerspectiveCamera(40, 1, 0.001, 100);
-    this.camera.up.set(0, 0, 1);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.enableDamping = false;
-    this.controls.addEventListener('change', () => this.touched());
+    this.eye = new Eye(canvas, () => this.touched());
+    this.camera = this.eye.camera;
     this.plane = new Plane(new Vector3(-1, 0, 0), 0);
     this.bounds = new Sphere(new Vector3(), 1);
     this.box = new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1)); // until there is a scene
@@ -40,6 +34,7 @@ export class Stage {
     this.detail = new Detail();
     this.isDirty = true;
     this.materials = this.makeMaterials();
+    this.setFine(true);
     this.addLights();
     this.addMarkers();
     onSchemeChange(() => this.recolor());
@@ -49,11 +44,14 @@ export class Stage {
   }
 
   makeMaterials() {
-    const solid = () => new MeshLambertMaterial({ side: DoubleSide });
+    // A little further away than it is, so that edges lie on top.
+    const solid = () => new MeshLambertMaterial({
+      side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+    });
     const ghost = new MeshLambertMaterial({ side: DoubleSide, transparent: true, opacity: 0.28, depthWrite: false });
     return {
       fixed: solid(), held: solid(), loose: solid(), moving: solid(), skin: solid(), ghost,
-      edge: new LineBasicMaterial({ transparent: true, opacity: 0.55 }),
+      edge: new LineBasicMaterial({ transparent: true }),
       contact: new MeshBasicMaterial(),
       // Over the faces that touch there.
       patch: new MeshBasicMaterial({ side: DoubleSide, transparent: true, opacity: 0.22, depthWrite: false, depthTest: false }),
@@ -75,7 +73,7 @@ export class Stage {
     this.contacts = Array.from({ length: MOST_CONTACTS }, () => {
       const marker = new Group();
       marker.add(new Mesh(new SphereGeometry(1, 12, 8), this.materials.contact));
-      marker.arrow = new ArrowHelper(new Vector3(0, 0, 1), new Vector3(), 1);
+      marker.arrow = new Arrow(this.materials.contact);
       marker.add(marker.arrow);
       marker.visible = false;
       this.scene.add(marker);
@@ -97,10 +95,9 @@ export class Stage {
     this.materials.patch.color = new Color(cssColor('contact'));
     this.materials.ghost.color = new Color(cssColor('held'));
     this.scene.background = new Color(cssColor('stage'));
-    for (const marker of this.contacts) marker.arrow.setColor(new Color(cssColor('contact')));
     for (const { force, torque } of this.forces) {
-      force.setColor(new Color(cssColor('force')));
-      torque.setColor(new Color(cssColor('torque')));
+      force.material.color = new Color(cssColor('force'));
+      torque.material.color = new Color(cssColor('torque'));
     }
     if (this.grid) this.addGrid();
     this.isDirty = true;
@@ -109,10 +106,17 @@ export class Stage {
   resize() {
     const { clientWidth, clientHeight } = this.canvas.parentElement;
     if (clientWidth === 0 || clientHeight === 0) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
-    this.camera.updateProjectionMatrix();
+    this.isDirty = true;
+  }
+
+  // A fine picture has more pixels than the screen, which smooths all edges. Lines are a pixel wide: of a fine one, they
+  // are thinner.
+  setFine(isFine) {
+    this.isFine = isFine;
+    this.renderer.setPixelRatio(isFine ? Math.min(2 * devicePixelRatio, 3) : Math.min(devicePixelRatio, 2));
+    this.materials.edge.opacity = isFine ? 0.9 : 0.55;
     this.isDirty = true;
   }
 
@@ -185,15 +189,11 @@ export class Stage {
   addForces(hands) {
     for (const { force, torque } of this.forces) this.scene.remove(force, torque);
     const arrow = (name) => {
-      const helper = new ArrowHelper(new Vector3(0, 0, 1), new Vector3(), 1, new Color(cssColor(name)));
-      helper.visible = false;
-      // Seen through everything: what the hand feels must not hide in the part.
-      for (const mesh of [helper.line, helper.cone]) {
-        mesh.material.depthTest = false;
-        mesh.renderOrder = 10;
-      }
-      this.scene.add(helper);
-      return helper;
+      const made = new Arrow(new MeshBasicMaterial({ color: new Color(cssColor(name)) }));
+      made.visible = false;
+      made.showThrough(); // what the hand feels must not hide in the part
+      this.scene.add(made);
+      return made;
     };
     this.forces = Array.from({ length: hands }, () => ({ force: arrow('force'), torque: arrow('torque') }));
   }
@@ -259,8 +259,7 @@ export class Stage {
       const { p, q } = frame.parts[contact.part].visible;
       marker.position.set(...contact.p).applyQuaternion(new Quaternion(...q)).add(new Vector3(...p));
       marker.children[0].scale.setScalar(0.008 * size);
-      marker.arrow.setDirection(new Vector3(...contact.n).normalize());
-      marker.arrow.setLength(0.09 * size, 0.03 * size, 0.015 * size);
+      marker.arrow.point(new Vector3(...contact.n).normalize(), 0.09 * size, 0.03 * size);
     });
   }
 
@@ -299,8 +298,7 @@ export class Stage {
     if (!arrow.visible) return;
     const reach = size * metresPerUnit;
     arrow.position.set(...at);
-    arrow.setDirection(new Vector3(...vector).normalize());
-    arrow.setLength(reach, Math.min(0.3 * reach, 0.06 * this.bounds.radius), Math.min(0.15 * reach, 0.03 * this.bounds.radius));
+    arrow.point(new Vector3(...vector).normalize(), reach, Math.min(0.3 * reach, 0.06 * this.bounds.radius));
   }
 
   setShown(what, isShown) {
@@ -337,55 +335,7 @@ export class Stage {
 
   // The whole scene, or the focus: an object that was picked.
   fit(view) {
-    const box = this.focus ? new Box3().expandByObject(this.focus) : this.box;
-    const bounds = box.getBoundingSphere(new Sphere());
-    const direction = new Vector3(...(VIEWS[view] ?? this.camera.position.clone().sub(this.controls.target).toArray()));
-    direction.normalize();
-    const distance = this.distanceToFit(direction, box);
-    this.controls.target.copy(bounds.center);
-    this.camera.position.copy(bounds.center).addScaledVector(direction, distance);
-    this.camera.near = this.bounds.radius / 500;
-    this.camera.far = 20 * (distance + this.bounds.radius);
-    this.camera.updateProjectionMatrix();
-    this.controls.update();
-    this.touched();
-  }
-
-  // From where, seen along `direction`, the corners of the box just fit into the picture.
-  distanceToFit(direction, box) {
-    const right = new Vector3().crossVectors(this.camera.up, direction).normalize();
-    const up = new Vector3().crossVectors(direction, right);
-    const tanY = Math.tan(0.5 * this.camera.fov * (Math.PI / 180)) / 1.08;
-    const tanX = tanY * this.camera.aspect;
-    const center = box.getCenter(new Vector3());
-    let distance = 0.02 * this.bounds.radius;
-    for (let i = 0; i < 8; ++i) {
-      const corner = new Vector3(...[0, 1, 2].map((axis) => ((i >> axis) & 1 ? box.max : box.min).getComponent(axis)));
-      corner.sub(center);
-      const near = corner.dot(direction);
-      distance = Math.max(distance, near + Math.abs(corner.dot(right)) / tanX, near + Math.abs(corner.dot(up)) / tanY);
-    }
-    return distance;
-  }
-
-  // By keyboard: angles in radians about the target, or a factor of the distance.
-  orbit(azimuth, elevation) {
-    const offset = this.camera.position.clone().sub(this.controls.target);
-    offset.applyAxisAngle(this.camera.up, azimuth);
-    const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
-    const turned = offset.clone().applyAxisAngle(side, -elevation);
-    const angle = turned.angleTo(this.camera.up);
-    if (angle > 0.02 && angle < Math.PI - 0.02) offset.copy(turned);
-    this.camera.position.copy(this.controls.target).add(offset);
-    this.controls.update();
-    this.touched();
-  }
-
-  zoom(factor) {
-    const offset = this.camera.position.clone().sub(this.controls.target).multiplyScalar(factor);
-    this.camera.position.copy(this.controls.target).add(offset);
-    this.controls.update();
-    this.touched();
+    this.eye.fit(view, this.focus ? new Box3().expandByObject(this.focus) : this.box, this.bounds.radius);
   }
 
   // The object at a point of the canvas, in its pixels.
@@ -407,27 +357,34 @@ export class Stage {
 
   // Draws if something has changed.
   render() {
-    const showsWhole = this.whole !== undefined && this.detail.showsWhole(performance.now());
-    if (this.coarse && showsWhole === this.coarse.group.visible) this.isDirty = true;
+    const isFine = this.detail.isFine(performance.now());
+    if (isFine !== this.isFine) this.setFine(isFine);
     if (!this.isDirty) return;
-    if (this.coarse) this.coarse.group.visible = !showsWhole;
-    if (this.whole) this.whole.group.visible = showsWhole;
     this.isDirty = false;
-    if (showsWhole) this.drawWhole();
-    else this.draw();
+    if (this.whole) {
+      this.whole.group.visible = isFine;
+      this.coarse.group.visible = !isFine;
+    }
+    if (isFine) this.detail.drewFine(this.timed());
+    else if (this.detail.isJudged()) this.draw();
+    else this.detail.drewQuick(this.timed());
     this.detail.drew(performance.now());
   }
 
   draw() {
+    const nodes = [...this.ghosts.children, ...this.forces.flatMap(({ force, torque }) => [force, torque])];
+    if (this.coarse) nodes.push(...this.coarse.objects, ...this.coarse.segments.map(({ node }) => node));
+    this.eye.setDepths(nodes.filter((node) => node.visible), this.grid, this.bounds);
     this.renderer.render(this.scene, this.camera);
   }
 
-  drawWhole() {
+  // Draws; returns how long that took, in milliseconds.
+  timed() {
     this.waitForPicture();
     const start = performance.now();
     this.draw();
     this.waitForPicture();
-    this.detail.drewWhole(performance.now() - start);
+    return performance.now() - start;
   }
 
   // The graphics card draws on its own time, unless somebody wants to know a pixel.

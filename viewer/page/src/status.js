@@ -12,8 +12,10 @@ function rowsOfHand(hand, name, info) {
   const rows = [[name, `holds ${holds}`]];
   if (hand.activity > 0) rows.push(['hand', ACTIVITIES[hand.activity]]);
   if (hand.grasp > 0) rows.push(['grasp', graspReason(hand, info.grasp_words)]);
+  const hasFingers = hand.links.length > 0;
+  if (hasFingers && !info.has_loop) return rows; // no device feels what they do
   rows.push(['force', number(length(hand.force), 2, 'N')], ['torque', number(length(hand.torque), 3, 'Nm')]);
-  if (hand.links.length > 0) rows.push(['finger torque', number(hand.jointTorque, 3, 'Nm')]);
+  if (hasFingers) rows.push(['finger torque', number(hand.jointTorque, 3, 'Nm')]);
   const reasons = [...new Set([...reasonsOf(hand.reasons), ...reasonsOf(hand.gloveReasons)])];
   if (hand.unsolved) reasons.push('contacts have no solution');
   if (reasons.length > 0) rows.push(['force is reduced', reasons.join(', ')]);
@@ -30,7 +32,7 @@ export function rowsOf(frame, info, isLive) {
   return [
     ...frame.hands.map((hand, h) => rowsOfHand(hand, info.hands[h]?.name ?? `hand ${h}`, info)),
     ...frame.parts.map((part, p) => rowsOfPart(part, info.parts[p] ?? `part ${p}`)),
-    ...(patches > 0 ? [[['patches of contacts', `${patches}${frame.patchesLeftOut > 0 ? `, ${frame.patchesLeftOut} not shown` : ''}`]]] : []),
+    ...(patches > 0 ? [[['patches', `${patches}${frame.patchesLeftOut > 0 ? `, ${frame.patchesLeftOut} not shown` : ''}`]]] : []),
     ...(info.has_loop ? [[
       ['loop', frame.late ? 'contacts are late' : 'on time'],
       ['age of contacts', number(frame.age, 1, 'ms')],

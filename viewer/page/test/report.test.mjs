@@ -66,6 +66,16 @@ test('the replay of a report is linked with its plots', async () => {
   await page.context().close();
 });
 
+test('the plots of a report can be read on a narrow screen', async () => {
+  const page = await open(browser, `file://${join(folder, 'index.html')}`, { viewport: { width: 390, height: 844 } });
+  const letters = await page.locator('svg[data-from]').evaluateAll((all) => all.map(
+    (svg) => (parseFloat(getComputedStyle(svg).fontSize) * svg.getBoundingClientRect().width) / svg.viewBox.baseVal.width));
+  assert.ok(letters.length >= 3);
+  for (const size of letters) assert.ok(size >= 9, `letters of ${size} pixels`);
+  assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390, 'the page itself does not scroll sideways');
+  await page.context().close();
+});
+
 test('a report of a hand shows the hand', async () => {
   execFileSync(PROGRAM, ['demo', '--fingers', '--offline', '--seconds', '6', '--report', folder]);
   const file = join(folder, 'index.html');
@@ -94,6 +104,17 @@ test('a report of a run without a loop does not speak of one', async () => {
   assert.doesNotMatch(status, /glove|loop|tick/);
   await screenshot(page, 'report_slide');
   await page.context().close();
+
+  execFileSync(PROGRAM, ['example', folder]);
+  const file = (name) => join(folder, name);
+  execFileSync(PROGRAM, ['grasp', file('ball_and_tray.yaml'), '--hand-trajectory', file('ball_and_tray_hand.csv'),
+    '--out', file('hand.csv'), '--report', folder]);
+  const grasp = await open(browser, `file://${join(folder, 'index.html')}`);
+  await grasp.evaluate(() => window.glissade.page.timeline.seek(window.glissade.page.timeline.first + 3));
+  await eventually(async () => /precision/.test(await grasp.locator('#status').textContent()));
+  assert.doesNotMatch(await grasp.locator('#status').textContent(), /glove|loop|tick|force|torque/);
+  await screenshot(grasp, 'report_grasp');
+  await grasp.context().close();
 });
 
 test('a recorded run is shown again, in a browser and in a report', async () => {
