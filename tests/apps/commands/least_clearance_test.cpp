@@ -224,16 +224,17 @@ TEST(ClearanceCurve, OfAPartWithContactsIsThatWithoutThem) {
       "  - {name: part, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n"
       "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n"
       "  - {name: wall, shape: {type: box}, pose: {position_m: [0.060008, 0, 0.06]}}\n");
-  haptics::Contact contact{};
-  contact.obstacle = 0;
+  haptics::Contact contact;
+  contact.obstacle = contact.obstacle_triangle = contact.part_triangle = 0;
+  contact.n_W = Eigen::Vector3d::UnitZ();
+  contact.p_W = Eigen::Vector3d::Zero();
   ClearanceCurve with(scene, 100);
   ClearanceCurve without(scene, 100);
   for (int i = 0; i < 100; ++i) {
     // Sinks to the plate, and moves away from the wall, which is nearer at first.
     const Eigen::Isometry3d X_WV = pose({-0.2e-6 * i, 0.0, 0.01 + 30e-6 - 0.29e-6 * i});
     contact.gap = X_WV.translation().z() - 0.01;
-    const haptics::Contact contacts[] = {contact};
-    with.note(std::chrono::milliseconds(i), X_WV, {}, contacts);
+    with.note(std::chrono::milliseconds(i), X_WV, {}, std::vector{contact});
     without.note(std::chrono::milliseconds(i), X_WV, {}, {});
   }
   const PlotSeries faster = with.take("way");
