@@ -224,7 +224,8 @@ TEST(ClearanceCurve, OfAPartWithContactsIsThatWithoutThem) {
       "  - {name: part, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n"
       "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n"
       "  - {name: wall, shape: {type: box}, pose: {position_m: [0.060008, 0, 0.06]}}\n");
-  haptics::Contact contact;
+  haptics::Contact contact{};
+  contact.kind = haptics::ContactKind::kFaceVertex;
   contact.obstacle = contact.obstacle_triangle = contact.part_triangle = 0;
   contact.n_W = Eigen::Vector3d::UnitZ();
   contact.p_W = Eigen::Vector3d::Zero();
