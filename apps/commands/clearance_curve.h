@@ -13,6 +13,7 @@
 #include <glissade/apps/report/plot.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/collision/query_types.h>
+#include <glissade/haptics/sliding_result.h>
 
 namespace glissade::apps {
 
@@ -27,8 +28,9 @@ class ClearanceCurve {
   ClearanceCurve(const HapticScene& scene, std::int64_t poses);
 
   /// Takes the next pose of the part and the poses of the objects that move on their own, in their order in the scene.
+  /// `contacts`, at this pose or near it, save work: nothing farther away than their triangles is searched.
   void note(std::chrono::nanoseconds time, const Eigen::Isometry3d& X_WV,
-            std::span<const Eigen::Isometry3d> moving_X_WB);
+            std::span<const Eigen::Isometry3d> moving_X_WB, std::span<const haptics::Contact> contacts);
 
   /// Micrometres over seconds.
   PlotSeries take(std::string name);
@@ -40,6 +42,7 @@ class ClearanceCurve {
     collision::CoherentWorkspace workspace{};
   };
 
+  double distance_at(const haptics::Contact& contact, const Eigen::Isometry3d& X_WV) const;
   double distance_to(Body& body, const Eigen::Isometry3d& X_WV, double limit);
 
   const haptics::SlidingPart& part_V_;

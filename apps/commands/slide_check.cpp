@@ -121,7 +121,8 @@ SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory&
       check.force.y.push_back(wrench.f.norm());
       clearance.note(sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
     }
-    if (options.needs_curve) curve.note(time, sliding->result().X_WV, sliding->scripted_X_WB());
+    if (options.needs_curve)
+      curve.note(time, sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
     check.far_m = std::min(check.far_m, between_spheres(scene, *sliding));
     if (watch) watch(now, *sliding);
   }

@@ -204,7 +204,7 @@ TEST(ClearanceCurve, IsTheGapOfABoxAboveAPlate) {
       "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n");
   ClearanceCurve curve(scene, 1501);
   for (int i = 0; i <= 1500; ++i)
-    curve.note(std::chrono::milliseconds(i), pose({0.0, 0.0, 0.01 + 20e-6 * i}), {});
+    curve.note(std::chrono::milliseconds(i), pose({0.0, 0.0, 0.01 + 20e-6 * i}), {}, {});
   const PlotSeries series = curve.take("way");
   ASSERT_EQ(series.x.size(), 501u) << "one of three";
   for (std::size_t i = 0; i < series.x.size(); ++i) {
@@ -217,6 +217,34 @@ TEST(ClearanceCurve, IsTheGapOfABoxAboveAPlate) {
       EXPECT_TRUE(std::isnan(series.y[i])) << i;
     }
   }
+}
+
+TEST(ClearanceCurve, OfAPartWithContactsIsThatWithoutThem) {
+  const HapticScene scene = scene_of(
+      "  - {name: part, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n"
+      "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n"
+      "  - {name: wall, shape: {type: box}, pose: {position_m: [0.060008, 0, 0.06]}}\n");
+  haptics::Contact contact{};
+  contact.kind = haptics::ContactKind::kFaceVertex;
+  contact.obstacle = contact.obstacle_triangle = contact.part_triangle = 0;
+  contact.n_W = Eigen::Vector3d::UnitZ();
+  contact.p_W = Eigen::Vector3d::Zero();
+  ClearanceCurve with(scene, 100);
+  ClearanceCurve without(scene, 100);
+  for (int i = 0; i < 100; ++i) {
+    // Sinks to the plate, and moves away from the wall, which is nearer at first.
+    const Eigen::Isometry3d X_WV = pose({-0.2e-6 * i, 0.0, 0.01 + 30e-6 - 0.29e-6 * i});
+    contact.gap = X_WV.translation().z() - 0.01;
+    with.note(std::chrono::milliseconds(i), X_WV, {}, std::vector{contact});
+    without.note(std::chrono::milliseconds(i), X_WV, {}, {});
+  }
+  const PlotSeries faster = with.take("way");
+  const PlotSeries slower = without.take("way");
+  ASSERT_EQ(faster.y.size(), slower.y.size());
+  for (std::size_t i = 0; i < faster.y.size(); ++i)
+    EXPECT_NEAR(faster.y[i], slower.y[i], 1e-6) << i;
+  EXPECT_NEAR(faster.y.front(), 8.0, 1e-3) << "the wall";
+  EXPECT_NEAR(faster.y.back(), 30.0 - 0.29 * 99, 1e-3) << "the plate";
 }
 
 }  // namespace
