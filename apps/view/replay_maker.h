@@ -15,8 +15,8 @@
 
 namespace glissade::apps {
 
-/// The scene with at most about 140,000 triangles, which take 3.5 MB of a page, and at most 60 frames a second: a minute
-/// with a hand takes 4 MB. A frame has the greatest force and the worst timing since the frame before.
+/// The scene with at most about 140,000 triangles, which take 3.5 MB of a page, and at most 60 frames a second: a
+/// minute with a hand takes 4 MB. A frame has the greatest force and the worst timing since the frame before.
 class ReplayMaker {
  public:
   explicit ReplayMaker(const viewer::ViewScene& scene);
