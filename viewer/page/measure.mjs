@@ -1,20 +1,23 @@
-// What ten pages that look on cost the haptic loop: node measure.mjs [RUNS]. Runs of 'glissade demo' with and without them
-// take turns; prints the median duration of ticks of each run, and the ratio of the medians.
+// What ten pages that look on cost the haptic loop: node measure.mjs [RUNS]. Runs of 'glissade demo' without a server of
+// pages, with one at which nobody looks, and with ten pages take turns. Prints the median duration of ticks of each run,
+// and the ratios of the medians.
 
 import { launch, Program } from './test/harness.mjs';
 
 const runs = Number(process.argv[2] ?? 5);
 const browser = await launch();
 
-async function tick_us(viewers) {
-  const program = new Program(['demo', '--seconds', '8', '--json', ...(viewers > 0 ? ['--view', '0'] : [])]);
+async function tick_us(has_server, viewers) {
+  const program = new Program(['demo', '--seconds', '8', '--json', ...(has_server ? ['--view', '0'] : [])]);
   const page = await browser.newPage();
-  if (viewers > 0) {
+  if (has_server) {
     await page.goto(`${await program.url()}nothing`); // a page of the server that draws nothing
     await page.evaluate((count) => {
-      for (let i = 0; i < count; ++i) {
+      const first = new WebSocket(`ws://${location.host}/live`); // the demonstration begins with it; it does not read on
+      if (count === 0) first.onmessage = () => first.close();
+      for (let i = 1; i < count; ++i) {
         const socket = new WebSocket(`ws://${location.host}/live`);
-        if (i > 0) socket.onmessage = () => socket.send('shown'); // the first one does not read on
+        socket.onmessage = () => socket.send('shown');
       }
     }, viewers);
   }
@@ -28,12 +31,16 @@ function median(values) {
 }
 
 const without = [];
+const alone = [];
 const looking = [];
 for (let i = 0; i < runs; ++i) {
-  without.push(await tick_us(0));
-  looking.push(await tick_us(10));
+  without.push(await tick_us(false, 0));
+  alone.push(await tick_us(true, 0));
+  looking.push(await tick_us(true, 10));
 }
-console.log(`tick p50 without viewers: ${without.join(', ')} us`);
+console.log(`tick p50 without a server: ${without.join(', ')} us`);
+console.log(`with one, without viewers: ${alone.join(', ')} us`);
 console.log(`with ten viewers: ${looking.join(', ')} us`);
-console.log(`ratio of medians: ${(median(looking) / median(without)).toFixed(3)}`);
+console.log(`ten viewers to none: ${(median(looking) / median(alone)).toFixed(3)}`);
+console.log(`ten viewers to no server: ${(median(looking) / median(without)).toFixed(3)}`);
 await browser.close();
