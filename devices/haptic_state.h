@@ -58,7 +58,7 @@ enum class HandActivity : std::int32_t {
 };
 
 /// Whether a hand with fingers stands somewhere among the objects. One that waits or is lost is in nobody's way, and
-/// where it was last or never was.
+/// its posture has no meaning.
 constexpr bool is_present(HandActivity activity) noexcept {
   return activity == HandActivity::kFree || activity == HandActivity::kHolding;
 }

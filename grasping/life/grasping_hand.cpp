@@ -115,7 +115,7 @@ void GraspingHand::advance() {
 }
 
 std::span<const LinkContact> GraspingHand::contacts() const {
-  const bool goes_on = part_ && !is_lost() && clasp_.state() == ClaspState::kClasping;
+  const bool goes_on = part_ && !is_lost() && is_present();
   return goes_on ? held_.contacts() : clasp_.contacts();
 }
 
@@ -123,8 +123,8 @@ void GraspingHand::analyze(double milliseconds, const Eigen::Vector3d& up_W, con
   constexpr double kAtOnce_ms = 1e6;
   since_left_ms_ += milliseconds;
   now_.clear();
-  if (clasp_.state() != ClaspState::kClasping) analysis_.clear();
-  if (is_lost() || clasp_.state() != ClaspState::kClasping) return;
+  if (!is_present()) analysis_.clear();
+  if (is_lost() || !is_present()) return;
   if (!part_) {
     analysis_.update(clasp_.contacts(), milliseconds, up_W);
     now_.update(clasp_.contacts(), kAtOnce_ms, up_W);

@@ -22,9 +22,9 @@ namespace glissade::haptics {
 ///
 /// The torques follow the load within 30 ms, and are exactly zero after that where there is no load or no contact.
 /// They may open a finger, but not take it off the part: they fade as the glove's segment leaves, and are zero 1.2 mm
-/// off. At most half of the device's largest torque. They do not depend on posture alone, so their energy is counted:
-/// what they give to the fingers at most is what they have taken from them, 20 mJ at the start, and 1 mW; they fade
-/// before that is used up.
+/// off. At most half of the device's largest torque. They do not depend on posture alone, so their energy is counted.
+/// The account begins with 20 mJ. It grows by what the fingers put in, and by 1 mW, to 40 mJ at most, and pays for what
+/// the torques give. The torques fade before it is empty.
 ///
 /// Real-time safe: bounded work, no allocation. Not thread-safe.
 class FingerLoad {

@@ -20,7 +20,7 @@ NearMover::NearMover(std::vector<Obstacle> bodies, std::int32_t first_body,
                      const std::shared_ptr<const SlidingPart>& mover, double margin)
     : first_body_(first_body),
       scene_(std::move(bodies), {mover}, 1, std::array{margin}, std::array{ContactScene::kChain}),
-      candidates_(scene_, kGreatestRadiusOfMover_m, false, kUnlimitedWork, false) {}
+      candidates_(scene_, kGreatestRadiusOfMover_m, /*runs_ahead=*/false, kUnlimitedWork, /*has_planes=*/false) {}
 
 void NearMover::place_bodies(const Eigen::Isometry3d& X_WS) {
   X_WS_ = X_WS;
