@@ -265,8 +265,8 @@ class GraspSimulation::Life {
     return hand.is_lost() ? hand.part() : grasped_part(hand);
   }
 
-  /// Returns whether the hand holds something else than before. A hand that is nowhere takes hold of nothing. The haptic
-  /// thread learns it from the withdrawn decision.
+  /// Returns whether the hand holds something else than before. A hand that is nowhere takes hold of nothing. The
+  /// haptic thread learns it from the withdrawn decision.
   bool hold(std::size_t h, std::optional<std::size_t> part) {
     GraspingHand& hand = hands_[h];
     if (!hand.is_present()) part.reset();
