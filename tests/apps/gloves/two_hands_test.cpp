@@ -1,6 +1,7 @@
 /// Two gloves whose fingers grasp, and a server, each a process of its own over UDP multicast, in a network namespace.
 /// One hand takes a ball, both hold it, the other carries it to a wall, slides it along there and leaves it. All is
-/// checked from the recording of the run, by code that shares nothing with the simulation.
+/// checked from the recording of the run, by code that shares nothing with the simulation. What depends on the delay of
+/// the link to the last degree is checked in an offline run.
 
 #include <algorithm>
 #include <array>
@@ -24,7 +25,6 @@
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/grasping/hand_model.h>
-#include <glissade/haptics/finger_forces.h>
 #include <glissade/haptics/recording.h>
 #include <glissade/reference/grid_check.h>
 
@@ -219,20 +219,6 @@ class TwoHands : public testing::Test {
     const HapticState& state = at_time(seconds).state;
     return {state.hands[0].part, state.hands[1].part};
   }
-  /// The first tick from `begin_s` to `end_s` before which the glove's fingers rested for a tenth of a second. Where
-  /// the computer stalls, their forces fade, and they go deeper for a while.
-  static std::optional<std::size_t> tick_of_rest(double begin_s, double end_s, std::size_t glove) {
-    std::size_t moved = static_cast<std::size_t>(1e3 * begin_s);
-    for (std::size_t i = moved; i < std::min(static_cast<std::size_t>(1e3 * end_s), recorded.size()); ++i) {
-      for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
-        const double turned =
-            recorded[i].gloves[glove].joint_angles[joint] - recorded[moved].gloves[glove].joint_angles[joint];
-        if (std::abs(turned) > 0.05 * kDegree) moved = i;
-      }
-      if (i - moved == 100) return i;
-    }
-    return std::nullopt;
-  }
   static Vector3d ball_at(double seconds) { return at_time(seconds).state.parts[0].X_WV.translation(); }
 
   static inline std::unique_ptr<test_support::TemporaryFolder> folder;
@@ -262,26 +248,48 @@ TEST_F(TwoHands, ShowNothingThatPenetrates) {
     ASSERT_FALSE(bodies.collide(recorded[i].state)) << "after " << i << " ms";
 }
 
-TEST_F(TwoHands, StopTheFingersAtTheSurface) {
-  VisibleBodies bodies;
-  const std::optional<std::size_t> at_rest = tick_of_rest(1.2, 2.5, 0);
-  ASSERT_TRUE(at_rest.has_value());
-  const RecordedTick& tick = recorded[*at_rest];
+/// How far the joint of a glove that feels a torque is from the stop of the visible finger, in rad; of all joints the
+/// greatest.
+double beyond_the_stop(const RecordedTick& tick) {
   const devices::HapticHandState& hand = tick.state.hands[0];
-  // A slow link makes the springs weaker.
-  const double stiffness =
-      haptics::finger_stiffness(devices::simulated_glove_descriptor(), haptics::kTickPeriod, tick.gloves[0].link_delay);
+  double greatest = 0.0;
+  for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
+    if (hand.joint_torques[joint] != 0.0)
+      greatest = std::max(greatest, std::abs(tick.gloves[0].joint_angles[joint] - hand.visible.angles[joint]));
+  }
+  return greatest;
+}
+
+// The wearer wants to close them by 30° and more beyond that. A slow link makes the springs weaker, and where the
+// computer stalls, the forces fade: so half of the time is enough.
+TEST_F(TwoHands, StopTheFingersOfTheGlove) {
+  std::vector<double> beyond;
+  for (std::size_t i = 1200; i < 2500; ++i)
+    beyond.push_back(beyond_the_stop(recorded[i]));
+  std::nth_element(beyond.begin(), beyond.begin() + 650, beyond.end());
+  EXPECT_GT(beyond[650], 0.0);
+  EXPECT_LE(beyond[650], 4.0 * kDegree);
+}
+
+TEST(OneHand, StopsItsFingersAtTheSurface) {
+  const test_support::TemporaryFolder folder;
+  const std::string log = folder.path("run.lcmlog");
+  std::vector<Pause> pauses = first_hand();
+  pauses.resize(4);  // it holds the ball
+  folder.write("hand.csv", csv_of(pauses));
+  const std::string scene = folder.write("scene.yaml", std::string(kScene) + "script: hand.csv\n");
+  const ProgramResult run =
+      test_support::glissade({"demo", "--offline", "--scene", scene, "--seconds", "3", "--record", log});
+  ASSERT_EQ(run.exit_code, 0) << run.standard_error;
+  const RecordedTick at_rest = read_ticks(log).back();
+  const devices::HapticHandState& hand = at_rest.state.hands[0];
+  EXPECT_LE(beyond_the_stop(at_rest), kDegree);
+  VisibleBodies bodies;
   int stopped = 0;
   for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
-    const double torque = hand.joint_torques[joint];
-    if (torque == 0.0) continue;
-    EXPECT_NEAR(tick.gloves[0].joint_angles[joint], hand.visible.angles[joint],
-                std::max(kDegree, 1.25 * std::abs(torque) / stiffness))
-        << devices::kGloveJointNames[joint] << " with " << torque << " Nm, " << stiffness << " Nm/rad, after "
-        << *at_rest << " ms";
     devices::VisibleHand deeper = hand.visible;
-    deeper.angles[joint] -= std::copysign(kDegree, torque);
-    stopped += bodies.collides(deeper, tick.state.parts[0].X_WV) ? 1 : 0;
+    deeper.angles[joint] -= std::copysign(kDegree, hand.joint_torques[joint]);
+    if (hand.joint_torques[joint] != 0.0 && bodies.collides(deeper, at_rest.state.parts[0].X_WV)) ++stopped;
   }
   EXPECT_GE(stopped, 3) << "joints that a degree more would bring into the ball";
 }
