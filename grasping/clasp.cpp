@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 
@@ -30,6 +31,7 @@ constexpr double kStepOfReach = 0.8;
 constexpr int kRetries = 4;  // with the contacts that a proof has missed
 constexpr int kHalvings = 6;
 constexpr double kSame = 0.01;
+constexpr std::int64_t kWorkOfInterpolation = 5000;  // rough, as all work
 
 std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const KinematicChain& chain,
                                                                    std::span<const std::size_t> links) {
@@ -79,6 +81,8 @@ class Clasp::Iteration {
     posture_.values.resize(chain_->values().size());
     chain_->clamp(posture_.values);
     if (rules.most_steps < 1) throw std::invalid_argument("a call of the clasp needs at least one step");
+    if (rules.work_budget && *rules.work_budget < 1)
+      throw std::invalid_argument("the work budget of a clasp must be positive");
     if (rules.touching > kSmallestReach_m) throw std::invalid_argument("a link that touches is at most 0.2 mm away");
     reach_.assign(movers_.size(), 0.0);
     next_reach_.assign(movers_.size(), kGreatestReach_m);
@@ -133,13 +137,17 @@ class Clasp::Iteration {
     if (!take(target)) return;
     if (state_ != ClaspState::kClasping && !begin()) return;
     short_steps_ = 0;
-    while (steps_ < rules_.most_steps && short_steps_ < kShortSteps && take_step())
+    begin_ = work();
+    while (steps_ < rules_.most_steps && short_steps_ < kShortSteps && !is_worked_off() && take_step())
       way_[static_cast<std::size_t>(steps_++)] = posture_;
     note_touching();
     is_carried_ = false;
   }
 
  private:
+  std::int64_t work() const { return bodies_.work() + interpolations_ * kWorkOfInterpolation; }
+  bool is_worked_off() const { return rules_.work_budget && work() - begin_ >= *rules_.work_budget; }
+
   /// Checks and keeps the target.
   bool take(const Posture& target) {
     const std::optional<Eigen::Isometry3d> X_WR = geometry::rigid_pose(target.X_WR);
@@ -281,6 +289,7 @@ class Clasp::Iteration {
   }
 
   void find_shares() {
+    ++interpolations_;
     const std::vector<double>& shares = interpolation_.find(rows_, kBracket_m);
     step_.root = wanted_.root.scaled(shares[0]);
     step_.values = wanted_.values;
@@ -349,6 +358,8 @@ class Clasp::Iteration {
   std::vector<double> reach_;       // metres, of each mover: how far this step looks
   std::vector<double> next_reach_;  // metres: that the last steps of the mover suggest
   std::vector<double> limit_;       // metres: that the pairs found allow
+  std::int64_t interpolations_ = 0;
+  std::int64_t begin_ = 0;  // of the call: the work before it
   int steps_ = 0;
   int short_steps_ = 0;
   std::vector<Posture> way_;

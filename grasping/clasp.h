@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,9 @@ struct ClaspRules {
   double touching = 0.1e-3;
   /// The steps of one call; each has a proof. More of them follow a fast hand more closely.
   int most_steps = 8;
+  /// Work after which a call takes no further step, in the unit of `haptics::SlidingRules::work_budget`: the next call
+  /// goes on from there. A step is never divided. Positive; none: no limit.
+  std::optional<std::int64_t> work_budget{};
 };
 
 /// A link near an object.

@@ -16,6 +16,11 @@ namespace glissade::grasping {
 namespace {
 
 constexpr double kUnitTolerance = 1e-6;
+ClaspRules rules_of_hands(const GraspRules& rules) {
+  ClaspRules of_hands = rules.clasp;
+  if (!of_hands.work_budget) of_hands.work_budget = work_of_hand(rules.sliding);
+  return of_hands;
+}
 
 std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const std::vector<haptics::HeldPart>& parts) {
   std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies;
@@ -79,7 +84,7 @@ class GraspSimulation::Life {
   Life(const std::vector<haptics::Obstacle>& fixed, const std::vector<haptics::HeldPart>& parts,
        const std::vector<std::shared_ptr<const HandModel>>& hands, const GraspRules& rules)
       : up_W_(rules.up_W),
-        hands_(hands_of(hands, fixed, parts, rules.clasp)),
+        hands_(hands_of(hands, fixed, parts, rules_of_hands(rules))),
         parts_(fixed, parts, rules.sliding, chains_of(hands_, rules.clasp.margin)),
         X_WG_(parts.size(), Eigen::Isometry3d::Identity()),
         pushes_(parts.size()),

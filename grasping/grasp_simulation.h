@@ -4,6 +4,7 @@
 /// contact for the parts that hands hold.
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,8 +24,14 @@
 
 namespace glissade::grasping {
 
+/// The work that a hand may do in a call, beside sliding contact with these rules: a sixteenth of its budget.
+constexpr std::optional<std::int64_t> work_of_hand(const haptics::SlidingRules& rules) {
+  if (!rules.work_budget) return std::nullopt;
+  return *rules.work_budget < 16 ? 1 : *rules.work_budget / 16;
+}
+
 struct GraspRules {
-  ClaspRules clasp{};
+  ClaspRules clasp{};  ///< without a budget of work: `work_of_hand(sliding)`
   haptics::SlidingRules sliding{};
   Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();  ///< of unit length, against gravity
 };

@@ -15,6 +15,9 @@
 namespace glissade::haptics {
 namespace {
 
+/// Work of the contacts of a pair: rough.
+constexpr std::int64_t kWorkOfContacts = 100;
+
 std::vector<std::shared_ptr<const SlidingPart>> joined(std::vector<std::shared_ptr<const SlidingPart>> objects,
                                                        const std::vector<std::shared_ptr<const SlidingPart>>& movers) {
   if (movers.empty()) throw std::invalid_argument("there must be a body that moves");
@@ -82,6 +85,13 @@ class CertifiedBodies::State {
 
   std::size_t pair_count(std::size_t mover) const { return searches_.empty() ? 0 : searches_[mover]->pair_count(); }
 
+  std::int64_t work() const {
+    std::int64_t work = work_;
+    for (const auto& search : searches_)
+      work += search->work();
+    return work;
+  }
+
   void find_contacts(std::vector<Contact>& contacts) {
     contacts.clear();
     const std::size_t first = scene_.body_of_mover(first_mover_);
@@ -90,6 +100,7 @@ class CertifiedBodies::State {
       pairs_.clear();
       searches_[m]->add_within(reach, body_of_mover(m), pairs_);
       if (pairs_.empty()) continue;
+      work_ += kWorkOfContacts * std::ssize(pairs_);
       haptics::find_contacts(scene_.bodies(), first, pairs_, reach, margin_, contacts_of_mover_);
       contacts.insert(contacts.end(), contacts_of_mover_.begin(), contacts_of_mover_.end());
     }
@@ -108,6 +119,7 @@ class CertifiedBodies::State {
     certificate_.begin(motion, first_mover_, to_certify_);
     WorkBudget unlimited;
     certificate_.go_on(unlimited);
+    work_ += kUnlimitedWork - unlimited.left;
     for (const UncertifiedPair& failure : certificate_.failures())
       failures.push_back(contact_of(failure));
     return failures.empty();
@@ -160,6 +172,7 @@ class CertifiedBodies::State {
   std::vector<std::unique_ptr<MoverSearch>> searches_;  // of each mover
   ContactScene scene_;
   PathCertificate certificate_;
+  std::int64_t work_ = 0;  // of contacts and certificates
   std::vector<CandidatePair> pairs_;
   std::vector<Contact> contacts_of_mover_;
   std::vector<PairToCertify> to_certify_;
@@ -212,6 +225,10 @@ void CertifiedBodies::look(std::span<const double> reach) {
 std::size_t CertifiedBodies::pair_count(std::size_t mover) const {
   GLISSADE_ASSERT(mover < mover_count());
   return state_->pair_count(mover);
+}
+
+std::int64_t CertifiedBodies::work() const {
+  return state_->work();
 }
 
 void CertifiedBodies::find_contacts(std::vector<Contact>& contacts) {

@@ -47,8 +47,10 @@ class CertifiedBodies {
   /// until the mover has used this up, so movers that hardly move cost nothing. Throws std::invalid_argument for a pose
   /// that is not rigid.
   void look(std::span<const double> reach);
-  /// Work of the calls below: the pairs of triangles and boxes that the last search of a mover has found.
+  /// The pairs of triangles and boxes that the last search of a mover has found: the calls below look at all of them.
   std::size_t pair_count(std::size_t mover) const;
+  /// Work of all calls so far, in the unit of `SlidingRules::work_budget`: rough.
+  std::int64_t work() const;
 
   /// Replaces `contacts` by those within the reach of the last `look`, at the present poses. `Contact::part` is the
   /// number of the mover, `Contact::obstacle` that of the other body; normals point to the mover. Gaps are positive.

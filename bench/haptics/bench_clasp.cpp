@@ -43,7 +43,8 @@ geometry::TriangleMesh ball() {
 
 Clasp clasp_of(geometry::TriangleMesh mesh, const Eigen::Isometry3d& X_WB) {
   auto shared = std::make_shared<const geometry::TriangleMesh>(std::move(mesh));
-  Clasp clasp(hand_chain(), {}, {std::make_shared<const haptics::SlidingPart>(std::move(shared))});
+  const grasping::ClaspRules rules{.work_budget = grasping::work_of_hand(haptics::real_time_rules())};
+  Clasp clasp(hand_chain(), {}, {std::make_shared<const haptics::SlidingPart>(std::move(shared))}, rules);
   clasp.place_object(0, X_WB);
   return clasp;
 }

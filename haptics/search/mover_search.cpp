@@ -13,6 +13,9 @@ constexpr double kGreatestRadiusOfMover_m = 0.1;
 // near.
 constexpr double kAheadOfMover = 1.5;
 constexpr double kRadiusOfNothing_m = 1e-3;
+// Work of a search, and of each pair that it finds: rough.
+constexpr std::int64_t kWorkOfSearch = 1000;
+constexpr std::int64_t kWorkOfPair = 300;
 
 }  // namespace
 
@@ -42,7 +45,8 @@ bool NearMover::look(double reach) {
   if (reach * kAheadOfMover > kGreatestRadiusOfMover_m) return false;
   const double radius = std::max(kAheadOfMover * reach, candidates_.size() == 0 ? kRadiusOfNothing_m : 0.0);
   candidates_.begin_call();
-  candidates_.look(reach, radius - reach, {});
+  const bool is_new = candidates_.look(reach, radius - reach, {});
+  if (is_new) work_ += kWorkOfSearch + kWorkOfPair * static_cast<std::int64_t>(candidates_.size());
   return true;
 }
 
@@ -94,6 +98,13 @@ std::size_t MoverSearch::pair_count() const {
   for (const auto& near : of_objects_)
     count += near->pair_count();
   return count;
+}
+
+std::int64_t MoverSearch::work() const {
+  std::int64_t work = of_fixed_ ? of_fixed_->work() : 0;
+  for (const auto& near : of_objects_)
+    work += near->work();
+  return work;
 }
 
 }  // namespace glissade::haptics

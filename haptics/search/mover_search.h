@@ -31,6 +31,8 @@ class NearMover {
   /// Finds all pairs within `reach` (metres). Returns false where this is too far.
   bool look(double reach);
   std::size_t pair_count() const { return candidates_.size(); }
+  /// Work of all searches so far, in the unit of `SlidingRules::work_budget`.
+  std::int64_t work() const { return work_; }
 
   /// Appends the pairs within `reach` that the last search knows, with the mover as the body `number`.
   template <typename Pair>
@@ -45,6 +47,7 @@ class NearMover {
   ContactScene scene_;
   CandidatePairs candidates_;
   bool has_moved_ = false;
+  std::int64_t work_ = 0;
   std::vector<CandidatePair> pairs_;
   std::vector<PairToCertify> to_certify_;
 };
@@ -61,6 +64,7 @@ class MoverSearch {
   /// As those of `NearMover`.
   bool look(double reach);
   std::size_t pair_count() const;
+  std::int64_t work() const;
   template <typename Pair>
   void add_within(double reach, std::int32_t number, std::vector<Pair>& all) {
     if (of_fixed_) of_fixed_->add_within(reach, number, all);

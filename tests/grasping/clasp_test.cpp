@@ -82,6 +82,22 @@ TEST(Clasp, TouchesAnObstacleWithAWideMarginToo) {
     EXPECT_GE(touch.contact.gap, 0.9 * kMargin_m);
 }
 
+TEST(Clasp, GoesOnInTheNextCallsWhereTheBudgetOfWorkIsUsedUp) {
+  const auto ball = std::make_shared<const haptics::SlidingPart>(
+      std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.035, 2000)));
+  Clasp clasp(hand_chain(), {}, {ball}, {.work_budget = 1});
+  clasp.place_object(0, at(0.095, 0.0, -0.056));
+  clasp.advance(open_hand());
+  const Posture fist = bent_hand(1.2);
+  clasp.advance(fist);
+  EXPECT_EQ(clasp.way().size(), 1U) << "no call is without a step";
+  for (int i = 0; i < 300; ++i) {
+    clasp.advance(fist);
+    ASSERT_LE(clasp.way().size(), 1U);
+  }
+  EXPECT_GE(std::count(clasp.touching().begin(), clasp.touching().end(), 1), 4);
+}
+
 TEST(Clasp, LeavesNoFlexValueThatAloneCouldComeNearer) {
   ClaspedHand hand = hand_at_ball();
   hand.clasp.advance(open_hand());
