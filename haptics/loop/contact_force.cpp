@@ -32,7 +32,8 @@ double force_share(std::chrono::nanoseconds age) noexcept {
 const Wrench& ContactForce::update(const PartContacts& contacts, std::chrono::nanoseconds age, double ghost_motion,
                                    double dt) noexcept {
   const Wrench all = limited(contacts.wrench, max_force_, radius_);
-  share_ = std::min(force_share(age) * contacts.known, share_ + dt / kReturn_s);
+  const double share_of_age = force_share(age);
+  share_ = std::min(share_of_age * contacts.known, share_ + dt / kReturn_s);
   const Wrench wanted = scaled(all, share_);
 
   constexpr double kSlew_m_per_s = kSlew_m / 1e-3;
@@ -48,7 +49,7 @@ const Wrench& ContactForce::update(const PartContacts& contacts, std::chrono::na
     const Wrench step = scaled(change, longest / size);
     wrench_ = {wrench_.f + step.f, wrench_.t + step.t};
   }
-  wrench_ = limited(wrench_, share_ * max_force_, radius_);
+  wrench_ = limited(wrench_, share_of_age * max_force_, radius_);
   withheld_ = share_ < 1.0 ? Wrench{all.f - wrench_.f, all.t - wrench_.t} : Wrench{};
   return wrench_;
 }

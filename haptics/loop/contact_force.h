@@ -19,9 +19,9 @@ double force_share(std::chrono::nanoseconds age) noexcept;
 inline constexpr std::chrono::milliseconds kLongestFall{75};
 
 /// From one tick to the next the wrench moves on the straight line to its new value. Two sums of normal forces have
-/// only sums of normal forces between them. The share of an old set falls with its age and returns within 200 ms; it
-/// also bounds the force, so that at kForceless there is none. Real-time safe: bounded work, no allocation. Not
-/// thread-safe.
+/// only sums of normal forces between them. The share of an old set falls with its age, and bounds the force, so that
+/// at kForceless there is none; what newer sets demand returns within 200 ms. Real-time safe: bounded work, no
+/// allocation. Not thread-safe.
 class ContactForce {
  public:
   /// For the hand's coupling to a part of this radius (metres). The force, and that at the radius which has the torque,
@@ -43,7 +43,8 @@ class ContactForce {
   /// The wrench on the hand, `dt` (seconds) after the last call, for contacts from a set of this age. Exactly zero
   /// where no contact of the set is in the way; after a contact that vanished, within kLongestFall. Changes by at most
   /// k_t times kSlew_m a millisecond and twice the ghost's own motion (`ghost_motion`, metres since the last call), or
-  /// falls by the largest force within kLongestFall. The torque counts by its force at the radius.
+  /// falls by the largest force within kLongestFall, or as fast as the share of an old set. The torque counts by its
+  /// force at the radius.
   const Wrench& update(const PartContacts& contacts, std::chrono::nanoseconds age, double ghost_motion,
                        double dt) noexcept;
 

@@ -87,6 +87,24 @@ TEST(ContactForce, FollowsANewContactNoFasterThanTheSlew) {
   EXPECT_NEAR(force, 2.0, 1e-9);
 }
 
+// The simulation may learn at any moment that a face ends before the ghost.
+TEST(ContactForce, FallsWithinItsTimeWhereAContactIsSuddenlyNotKnownAnyMore) {
+  OneHandForce contacts = at_origin();
+  const Isometry3d X_WG = at(0.05, 0.0, -15e-3);
+  ContactSet beside = floor_below(1e-3);
+  beside.row_array[0].pushes = true;
+  double force = settle(contacts, beside, X_WG).f.z();
+  EXPECT_NEAR(force, 14.0, 1e-9);
+  beside.row_array[0].range = 44e-3;
+  const double fall = kMaxForce * kTick_s / std::chrono::duration<double>(kLongestFall).count();
+  for (int i = 0; i < 75; ++i) {
+    const double next = contacts.update(beside, nanoseconds(0), X_WG, kTick_s).f.z();
+    EXPECT_LE(force - next, fall * (1.0 + 1e-9)) << i;
+    force = next;
+  }
+  EXPECT_NEAR(force, 0.5 * 14.0, 1e-9);
+}
+
 /// With the ghost deep behind the floor, far beyond what the device can give.
 TEST(ContactForce, OfAHaltedSimulationIsZeroAtTheSameAgeHoweverDeepAndSoft) {
   for (const double stiffness : {300.0, 1000.0, 4000.0}) {
