@@ -73,7 +73,9 @@ std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
 /// maximum, the axis of the wrench therefore moves. The power limit scales both alike.
 ///
 /// Force and torques fade within seven periods and return within 200 ms. A rate of the descriptor below `max_force` in
-/// seven periods makes both slower. Not thread-safe. Real-time safe: no allocation, no lock, no system call.
+/// seven periods makes both slower. Force and torque are never greater than this rate takes away within 15 periods:
+/// the hand could draw energy from a greater one while it falls. Not thread-safe. Real-time safe: no allocation, no
+/// lock, no system call.
 class SafetyEnvelope {
  public:
   /// Ages up to `patience_periods` periods are normal. A period is that of the device or, if longer, that of the
@@ -94,6 +96,7 @@ class SafetyEnvelope {
   /// Emergency stop: from now on the force fades to zero and stays there.
   void stop() noexcept { is_stopped_ = true; }
 
+  /// With force and torque as the rates lower them.
   const DeviceDescriptor& descriptor() const noexcept { return descriptor_; }
 
   /// The smallest age of a command in the last half second or longer: at the glove's end, the delay of the whole round
@@ -147,7 +150,7 @@ class SafetyEnvelope {
   double refill_;                     // J, for the return from interruptions and in calm contacts
   double stirred_ = 0.0;              // J, that went to and fro in about the last half second
   double energy_scale_ = 1.0;
-  std::chrono::nanoseconds free_until_{0};           // up to then the force returns, and its work is not counted
+  std::chrono::nanoseconds free_until_{0};           // up to then the force returns, and the refill serves its work
   Eigen::Vector3d f_sum_ = Eigen::Vector3d::Zero();  // of the commands since the newest state
   Eigen::Vector3d t_sum_ = Eigen::Vector3d::Zero();
   int summed_ = 0;

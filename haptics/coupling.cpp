@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <glissade/devices/glove_device.h>
@@ -15,6 +14,12 @@ double lag_of(const devices::DeviceDescriptor& device, std::chrono::nanoseconds 
               std::chrono::nanoseconds delay) noexcept {
   const double seconds = std::max(std::chrono::duration<double>(period).count(), 1.0 / device.update_rate);
   return 0.5 * seconds + std::chrono::duration<double>(device.delay + delay).count();
+}
+
+/// The damping of a device. If the descriptor does not tell it (0), the device is taken to have just as much as its
+/// largest stiffness needs to be passive without a link.
+double damping_of(const devices::DeviceDescriptor& device, double told, double max_stiffness) noexcept {
+  return told > 0.0 ? told : max_stiffness * lag_of(device, std::chrono::nanoseconds(0), std::chrono::nanoseconds(0));
 }
 
 }  // namespace
@@ -38,11 +43,9 @@ void validate(const CouplingStiffness& stiffness, const std::string& part_name) 
 
 CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                                     std::chrono::nanoseconds delay) noexcept {
-  constexpr double kUnknown = std::numeric_limits<double>::infinity();
   const double lag = lag_of(device, period, delay);
-  CouplingStiffness limit{kUnknown, kUnknown};
-  if (device.damping > 0.0) limit.translational = device.damping / lag;
-  if (device.rotational_damping > 0.0) limit.rotational = device.rotational_damping / lag;
+  CouplingStiffness limit{damping_of(device, device.damping, device.max_stiffness) / lag,
+                          damping_of(device, device.rotational_damping, device.max_rotational_stiffness) / lag};
   if (device.friction > 0.0 && device.resolution > 0.0) {
     limit.translational = std::min(limit.translational, 2.0 * device.friction / device.resolution);
   }
@@ -64,15 +67,16 @@ Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const C
   const CouplingStiffness passive = passive_stiffness(device, period, delay);
   const double lag = lag_of(device, period, delay);
   const auto damping = [lag](double stiffness, double of_device) {
-    const double usual = kDampingTime_s * stiffness;
-    return of_device > 0.0 ? std::clamp(of_device - stiffness * lag, 0.0, usual) : usual;
+    return std::clamp(of_device - stiffness * lag, 0.0, kDampingTime_s * stiffness);
   };
   Coupling coupling;
   coupling.stiffness.translational = std::min({wanted.translational, device.max_stiffness, passive.translational});
   coupling.stiffness.rotational = std::min({wanted.rotational, device.max_rotational_stiffness, passive.rotational});
   coupling.damping.translational =
-      std::min(damping(coupling.stiffness.translational, device.damping), device.max_damping);
-  coupling.damping.rotational = damping(coupling.stiffness.rotational, device.rotational_damping);
+      std::min(damping(coupling.stiffness.translational, damping_of(device, device.damping, device.max_stiffness)),
+               device.max_damping);
+  coupling.damping.rotational = damping(coupling.stiffness.rotational,
+                                        damping_of(device, device.rotational_damping, device.max_rotational_stiffness));
   return coupling;
 }
 

@@ -60,9 +60,10 @@ CouplingStiffness default_stiffness(double radius);
 
 /// The greatest stiffness with which a spring on the device is passive, i.e. never gives back more energy than the hand
 /// put in: b / (T/2 + t_d), with the device's damping b, the period T of the loop and the delay t_d from measurement to
-/// force; against translation also at most twice the Coulomb friction by the resolution. Infinite where the descriptor
-/// does not tell the damping. Sources: Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997; Abbott
-/// and Okamura, Effects of position quantization and sampling rate on virtual-wall passivity, 2005.
+/// force; against translation also at most twice the Coulomb friction by the resolution. A damping that the descriptor
+/// does not tell is taken as the least with which the maker's largest stiffness is passive without a link. Sources:
+/// Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997; Abbott and Okamura, Effects of position
+/// quantization and sampling rate on virtual-wall passivity, 2005.
 CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                                     std::chrono::nanoseconds delay) noexcept;
 

@@ -29,9 +29,10 @@ double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::na
                         std::chrono::nanoseconds link_delay) noexcept {
   const auto seconds = [](std::chrono::nanoseconds time) { return std::chrono::duration<double>(time).count(); };
   const double wanted = device.max_joint_torque / kFullTorque_rad;
-  if (device.joint_damping <= 0.0) return wanted;
+  const double lag_without_link = 0.5 / device.update_rate + seconds(device.delay);
+  const double damping = device.joint_damping > 0.0 ? device.joint_damping : wanted * lag_without_link;
   const double lag = 0.5 * std::max(seconds(period), 1.0 / device.update_rate) + seconds(device.delay + link_delay);
-  return std::min(wanted, device.joint_damping / lag);
+  return std::min(wanted, damping / lag);
 }
 
 FingerForces::FingerForces(const FingerLimits& limits, const devices::DeviceDescriptor& device,

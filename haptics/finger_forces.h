@@ -14,7 +14,8 @@ namespace glissade::haptics {
 /// that a finger which the wearer presses with less stops within this angle. Where that is more than the glove can
 /// render passively, i.e. without ever giving back more energy than the finger put in, it is b / (T/2 + t_d), with the
 /// joint's damping b, the period T of the loop, at least that of the device, and the delay t_d of device and link
-/// (`passive_stiffness`). A glove that does not tell its `joint_damping` has no such limit. Real-time safe.
+/// (`passive_stiffness`). A glove that does not tell its `joint_damping` is taken to have just as
+/// much as the full stiffness needs without a link. Real-time safe.
 double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                         std::chrono::nanoseconds link_delay) noexcept;
 

@@ -19,11 +19,15 @@ constexpr double kScaleFall_s = 0.03;
 constexpr double kScaleRise_s = 0.3;
 constexpr double kReserve_J = 0.005;     // not given away, because the rates come after this limit
 constexpr double kRecovery_W = 0.1;      // without a force, up to the energy at the start
-constexpr double kEnergyPeriods = 10.0;  // longer than a fade
+constexpr double kEnergyPeriods = 10.0;  // longer than a fade at the usual rates
 constexpr nanoseconds kReturnIsFree = std::chrono::milliseconds(500);
 constexpr double kStir_s = 0.5;
 constexpr double kMostStirred_J = 0.01;  // from which a contact is not calm
 constexpr double kCalmRefill_W = 0.1;
+
+double time_to_zero(const Eigen::Vector3d& vector, double rate) noexcept {
+  return vector.isZero(0.0) ? 0.0 : vector.norm() / rate;
+}
 
 /// The rotation from A to B as a vector, small angles only.
 Eigen::Vector3d turn_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept {
@@ -87,8 +91,10 @@ void SafetyEnvelope::limit_energy(Forces& forces, double dt, LimitReasons& reaso
   const double target = kLeastScale + (1.0 - kLeastScale) * left * left * (3.0 - 2.0 * left);
   energy_scale_ += std::clamp(target - energy_scale_, -dt / kScaleFall_s, dt / kScaleRise_s);
   double scale = energy_scale_;
-  const double work =
-      kEnergyPeriods * in_seconds(period_) * scale * (forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH));
+  // A device whose rates are low goes on giving while its force falls.
+  const double ahead_s = std::max(
+      {kEnergyPeriods * in_seconds(period_), time_to_zero(last_.f, force_rate_), time_to_zero(last_.t, torque_rate_)});
+  const double work = ahead_s * scale * (forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH));
   const double available = std::max(0.0, energy_ - kReserve_J);
   if (work > available) scale *= available / work;
   if (scale >= 1.0) return;

@@ -125,6 +125,15 @@ TEST_F(Envelope, LimitsTheMeanForce) {
   EXPECT_TRUE(safe.reasons().mean_limited);
 }
 
+// `passivity_test` has the reason: what cannot fall soon would go on giving energy.
+TEST(SafetyEnvelope, ADeviceWhoseForceFallsSlowlyGetsLessOfIt) {
+  DeviceDescriptor device = kDevice;
+  device.max_force_rate = 500.0;
+  EXPECT_DOUBLE_EQ(SafetyEnvelope(device).descriptor().max_force, 500.0 * 15.0 / device.update_rate);
+  device.max_force_rate = 0.0;
+  EXPECT_EQ(SafetyEnvelope(device).descriptor().max_force, kDevice.max_force);
+}
+
 TEST(SafetyEnvelope, RefusesADescriptorThatIsNotValid) {
   DeviceDescriptor broken = kDevice;
   broken.max_force = std::numeric_limits<double>::quiet_NaN();

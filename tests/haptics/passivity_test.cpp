@@ -38,10 +38,15 @@ TEST(PassiveStiffness, ACoarseMeasurementNeedsFriction) {
   EXPECT_EQ(passive_stiffness(device, milliseconds(1), nanoseconds(0)).translational, 1000.0);
 }
 
-TEST(PassiveStiffness, ADeviceOfUnknownDampingHasTheLimitsOfItsMakerOnly) {
+// As if it had the least damping with which its 4000 N/m are passive at 1 kHz: 2 N s/m.
+TEST(PassiveStiffness, ADeviceThatDoesNotTellItsDampingIsSoftBehindALinkToo) {
   devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
   device.damping = 0.0;
-  EXPECT_EQ(coupling_for(device, {1e5, 1.0}, milliseconds(1), milliseconds(50)).stiffness.translational, 4000.0);
+  const auto stiffness = [&](milliseconds delay) {
+    return coupling_for(device, {1e5, 1.0}, milliseconds(1), delay).stiffness.translational;
+  };
+  EXPECT_DOUBLE_EQ(stiffness(milliseconds(0)), 4000.0);
+  EXPECT_DOUBLE_EQ(stiffness(milliseconds(50)), 2.0 / 50.5e-3);
 }
 
 /// A wearer, as stiff and damped as a relaxed arm, wants to be 20 mm deep in the wall. Returns the greatest change of
@@ -67,6 +72,15 @@ TEST(DelayedWall, IsFeltAsSoftAndNeverAsOscillation) {
     const double limit = wall.kernel().present_coupling(0).stiffness.translational;
     EXPECT_NEAR(wall.force() / -wall.z(), limit, 0.02 * limit) << one_way.count() << " ms";
     EXPECT_NEAR(limit, std::min(1000.0, 2.0 / (0.5e-3 + 2e-3 * static_cast<double>(one_way.count()))), 0.02 * limit);
+  }
+}
+
+TEST(DelayedWall, OfADeviceThatDoesNotTellItsDampingIsNoOscillationEither) {
+  devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
+  const double untold = std::exchange(device.damping, 0.0);
+  for (const milliseconds one_way : {milliseconds(0), milliseconds(5), milliseconds(25)}) {
+    DelayedWall wall(device, 0.8, 1000.0, one_way, untold + 20.0);
+    EXPECT_LT(unrest(wall), 0.05) << one_way.count() << " ms";
   }
 }
 

@@ -10,6 +10,7 @@
 #include <deque>
 #include <memory>
 #include <random>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -142,7 +143,8 @@ struct WallEnergies {
   double given_J = 0.0;  ///< greatest work of the wall on the hand since the start, from its true motion
 };
 
-/// Three seconds in which a hand pushes and pulls at random on a wall with a random device, stiffness and delay.
+/// Three seconds in which a hand pushes and pulls at random on a wall with a random device, stiffness and delay. Some
+/// devices do not tell their damping, and some change their force slowly.
 inline WallEnergies random_wall(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -152,7 +154,9 @@ inline WallEnergies random_wall(std::uint64_t seed) {
   const double stiffness = std::pow(10.0, 1.5 + 2.5 * uniform(random));
   double one_way_ms = 25.0 * uniform(random);
   one_way_ms *= uniform(random);
-  DelayedWall wall(device, mass, stiffness, std::chrono::milliseconds(static_cast<int>(one_way_ms)));
+  if (uniform(random) < 0.3) device.max_force_rate = std::pow(10.0, 2.0 + 1.5 * uniform(random));
+  const double untold = uniform(random) < 0.2 ? std::exchange(device.damping, 0.0) : 0.0;
+  DelayedWall wall(device, mass, stiffness, std::chrono::milliseconds(static_cast<int>(one_way_ms)), untold);
   WallEnergies energies;
   double push = 0.0;
   double work = 0.0;
