@@ -136,6 +136,12 @@ struct HapticHandState {
   JointValues joint_torques{};              ///< Nm, as its device got them
 };
 
+/// J that force and torque may still give to the hand: by the envelope of the glove, if its states tell of one, because
+/// it acts on what the hand really gets; otherwise by that of the server.
+inline double energy_left(const HapticHandState& hand) noexcept {
+  return hand.command_age > std::chrono::nanoseconds(0) ? hand.glove_energy : hand.energy;
+}
+
 /// A contact that pushes, on a part that hands lead.
 struct HapticContact {
   std::int32_t part = 0;

@@ -104,7 +104,7 @@ std::string FrameMaker::make() {
     frame.add(hand.are_contacts_unsolved ? 1 : 0);
     frame.add(devices::to_bits(hand.reasons));
     frame.add(devices::to_bits(hand.glove_reasons));
-    frame.add(hand.energy);
+    frame.add(devices::energy_left(hand));
     frame.add(static_cast<std::int32_t>(hand.visible.activity));
     frame.add(static_cast<std::int32_t>(hand.visible.grasp));
     frame.add(static_cast<std::int32_t>(hand.visible.form));

@@ -123,21 +123,23 @@ Json part_schema() {
 }
 
 Json hand_schema() {
-  return object("glissade.Hand",
-                {{"tick", integer("number of the tick")},
-                 {"part", integer("number of the part that it holds; -1: none")},
-                 {"force_N", vector("force on the hand, in world axes")},
-                 {"torque_Nm", vector("torque on the hand about the origin of the part, in world axes")},
-                 {"contact_share", number("share of the contacts' force that is exerted")},
-                 {"state_age_s", number("time since the measurement of the glove's state")},
-                 {"command_age_s", number("age of the command at the glove")},
-                 {"energy_J", number("energy that the passivity observer has counted")},
-                 {"reason", words("why there is no force or less; empty if there is no reason")},
-                 {"activity", words("what a hand with fingers does")},
-                 {"grasp", words("kind of the grasp")},
-                 {"grasp_reason", words("kind and form of the grasp, and the segments that touch")},
-                 {"angles_rad", joints("_rad", "of the visible hand")},
-                 {"torques_Nm", joints("_Nm", "as the device got it")}});
+  return object(
+      "glissade.Hand",
+      {{"tick", integer("number of the tick")},
+       {"part", integer("number of the part that it holds; -1: none")},
+       {"force_N", vector("force on the hand, in world axes")},
+       {"torque_Nm", vector("torque on the hand about the origin of the part, in world axes")},
+       {"contact_share", number("share of the contacts' force that is exerted")},
+       {"state_age_s", number("time since the measurement of the glove's state")},
+       {"command_age_s", number("age of the command at the glove")},
+       {"energy_J",
+        number("energy left to the hand, by the passivity observer that acts: the glove's, if it tells of one")},
+       {"reason", words("why there is no force or less; empty if there is no reason")},
+       {"activity", words("what a hand with fingers does")},
+       {"grasp", words("kind of the grasp")},
+       {"grasp_reason", words("kind and form of the grasp, and the segments that touch")},
+       {"angles_rad", joints("_rad", "of the visible hand")},
+       {"torques_Nm", joints("_Nm", "as the device got it")}});
 }
 
 }  // namespace glissade::apps
