@@ -13,18 +13,14 @@ std::string hand_text(const devices::HapticState& state, std::size_t number, std
   const devices::HapticHandState& hand = state.hands[number];
   const double force = hand.force_W.norm();
   const std::string reason = to_text(force_reason(state, number));
-  std::string text = "glove " + std::to_string(glove) + " holds ";
+  std::string text = "glove " + std::to_string(glove) + ": ";
+  if (force != 0.0 || (hand.part >= 0 && reason.empty())) text += fixed_text(force, 1) + " N, ";
   if (hand.part < 0) {
-    text += "nothing";
+    text += "holds nothing";
   } else {
     text += one_line(part_names[static_cast<std::size_t>(hand.part)]);
-  }
-  if (force == 0.0 && !reason.empty()) return text + ": " + reason;
-  if (hand.part >= 0) {
     const devices::PartState part = state.parts[static_cast<std::size_t>(hand.part)].state;
-    text += ": ";
-    if (part != devices::PartState::kUnknown) text += std::string(name_of(part)) + ", ";
-    text += fixed_text(force, 1) + " N";
+    if (part != devices::PartState::kUnknown) text += " " + std::string(name_of(part));
   }
   return reason.empty() ? text : text + ", " + reason;
 }
@@ -32,15 +28,16 @@ std::string hand_text(const devices::HapticState& state, std::size_t number, std
 }  // namespace
 
 std::string to_text(const RunStatus& status, const std::vector<std::string>& part_names) {
+  // The figures of the loop first: a narrow terminal cuts off what comes last.
   std::string text = fixed_text(status.passed_s, 1);
-  if (status.duration_s > 0.0) text += " of " + fixed_text(status.duration_s, 1);
-  text += " s";
-  for (std::size_t h = 0; h < status.gloves.size(); ++h)
-    text += "  " + hand_text(status.state, h, status.gloves[h], part_names);
-  text += "  ";
+  if (status.duration_s > 0.0) text += "/" + fixed_text(status.duration_s, 1);
+  text += " s  ";
   if (status.rate_hz) text += fixed_text(*status.rate_hz, 0) + " Hz, ";
   const double age_ms = std::chrono::duration<double, std::milli>(status.state.contact_set_age).count();
-  return text + std::to_string(status.late_ticks) + " late ticks, contacts " + fixed_text(age_ms, 1) + " ms old";
+  text += std::to_string(status.late_ticks) + " late, contacts " + fixed_text(age_ms, 1) + " ms old";
+  for (std::size_t h = 0; h < status.gloves.size(); ++h)
+    text += "  " + hand_text(status.state, h, status.gloves[h], part_names);
+  return text;
 }
 
 }  // namespace glissade::apps

@@ -21,7 +21,7 @@ struct RunStatus {
   std::vector<std::int64_t> gloves;  ///< the number of each hand's glove
 };
 
-/// Such as "12.3 s  glove 1 holds motor: sliding, 3.4 N  1000 Hz, 0 late ticks, contacts 1.2 ms old". The names are
+/// Such as "12.3 s  1000 Hz, 0 late, contacts 1.2 ms old  glove 1: 3.4 N, motor sliding". The names are
 /// those of the parts.
 std::string to_text(const RunStatus& status, const std::vector<std::string>& part_names);
 

@@ -106,8 +106,7 @@ TEST_F(Watch, ShowsTheRunInALine) {
   state_.contact_set_age = std::chrono::microseconds(1234);
   run(milliseconds(1301));
   EXPECT_EQ(status_,
-            "1.3 of 12.0 s  glove 1 holds motor: sliding, 5.0 N  glove 2 holds nothing  1000 Hz, 7 late ticks, "
-            "contacts 1.2 ms old");
+            "1.3/12.0 s  1000 Hz, 7 late, contacts 1.2 ms old  glove 1: 5.0 N, motor sliding  glove 2: holds nothing");
 }
 
 TEST_F(Watch, ARateIsThatOfTheLastTicks) {
@@ -125,9 +124,10 @@ TEST(RunStatus, SaysWhyThereIsNoForce) {
   hand.reasons.is_state_old = true;
   hand.state_age = milliseconds(14);
   EXPECT_EQ(to_text(status, {"motor"}),
-            "3.0 s  glove 5 holds motor: no force: the glove's state is 14 ms old  0 late ticks, contacts 0.0 ms old");
+            "3.0 s  0 late, contacts 0.0 ms old  glove 5: motor, no force: the glove's state is 14 ms old");
   hand.force_W.x() = 1.0;
-  EXPECT_THAT(to_text(status, {"motor"}), HasSubstr("motor: 1.0 N, no force: the glove's state")) << "it still fades";
+  EXPECT_THAT(to_text(status, {"motor"}), HasSubstr("glove 5: 1.0 N, motor, no force: the glove's state"))
+      << "it still fades";
 }
 
 }  // namespace
