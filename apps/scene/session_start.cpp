@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <map>
 #include <stdexcept>
+#include <string>
 #include <tuple>
 
 #include <glissade/apps/scene/session_start.h>
+#include <glissade/apps/text.h>
 #include <glissade/grasping/grasp_simulation.h>
 #include <glissade/haptics/multi_part_sliding.h>
 
@@ -31,6 +33,21 @@ std::vector<std::shared_ptr<const grasping::HandModel>> models_of(const std::vec
 
 }  // namespace
 
+std::vector<std::string> softer_devices(const std::vector<Grip>& grips, std::chrono::nanoseconds period) {
+  std::vector<std::string> sentences;
+  const haptics::CouplingStiffness usual = haptics::default_stiffness(1.0);
+  for (const Grip& grip : grips) {
+    const double stiffness = coupling_for(grip.device, usual, period).stiffness.translational;
+    if (stiffness >= usual.translational) continue;
+    const bool is_stated = stiffness == grip.device.max_stiffness;
+    sentences.push_back(
+        "device " + in_quotes(grip.device.name) + ": contacts have " + format_number(stiffness) + " N/m instead of " +
+        format_number(usual.translational) + ": " +
+        (is_stated ? "its largest stiffness" : "the largest that is passive with its damping, delay and update rate"));
+  }
+  return sentences;
+}
+
 StartedSimulation start_simulation(const HapticScene& scene, const std::vector<Grip>& grips,
                                    const SlidingChoice& choice, const haptics::SlidingRules& rules,
                                    std::chrono::nanoseconds period) {
@@ -38,8 +55,7 @@ StartedSimulation start_simulation(const HapticScene& scene, const std::vector<G
   const bool has_fingers = std::any_of(grips.begin(), grips.end(), [](const Grip& grip) { return grip.fingers; });
   for (const Grip& grip : grips) {
     if (grip.fingers.has_value() != has_fingers) throw std::invalid_argument("either all hands have fingers, or none");
-    if (grip.part) soften(parts[*grip.part], grip.device, period);
-    for (std::size_t p = 0; has_fingers && p < scene.parts.size(); ++p)
+    for (std::size_t p = 0; p < scene.parts.size(); ++p)
       soften(parts[p], grip.device, period);
   }
   StartedSimulation started;

@@ -32,8 +32,11 @@ struct StartedSimulation {
   std::vector<std::shared_ptr<const grasping::HandModel>> models;  ///< null without fingers
 };
 
-/// Starts the simulation. A part has its default stiffness, lowered to the limits of the devices that may hold it: with
-/// fingers, of all of them. All hands have fingers, or none. Throws std::invalid_argument, naming the scene, for a part
+/// A sentence for each device, one for each grip, with which contacts are softer than usual, with the reason.
+std::vector<std::string> softer_devices(const std::vector<Grip>& grips, std::chrono::nanoseconds period);
+
+/// Starts the simulation. A part has its default stiffness, lowered to the limits of all devices: each may come to hold
+/// it. All hands have fingers, or none. Throws std::invalid_argument, naming the scene, for a part
 /// that starts inside an obstacle.
 StartedSimulation start_simulation(const HapticScene& scene, const std::vector<Grip>& grips,
                                    const SlidingChoice& choice, const haptics::SlidingRules& rules,

@@ -178,6 +178,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
     watch({.sentences = {"a glove is faster than the haptic loop: its force may fade (--rate-hz)"}});
   const std::int64_t ticks = std::llround(settings.seconds / std::chrono::duration<double>(period).count());
   StartedSimulation started = start_simulation(scene, grips, settings.choice, haptics::real_time_rules(), period);
+  watch({.sentences = softer_devices(grips, period)});
   const haptics::MultiPartSliding& sliding = started.simulation->parts();
   const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks > 0 ? ticks : kKept / period),
                                                           sliding.part_count(), settings.hands.size());
