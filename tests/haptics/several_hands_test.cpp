@@ -53,11 +53,11 @@ class SeveralHands : public ::testing::Test {
   using Events = std::function<void(std::int64_t tick, HoldRequests& hands)>;
 
   std::vector<HapticState> run(const std::vector<HandOffline>& hands, MultiPartSliding& sliding, std::int64_t ticks,
-                               const Events& events = {}) {
+                               const Events& events = {}, const std::vector<Obstacle>& obstacles = {}) {
     std::vector<HapticState> states;
     run_offline(hands, sliding, ticks,
                 [&](const HapticState& state) {
-                  expect_apart(state, sliding);
+                  expect_apart(state, sliding, obstacles);
                   if (!states.empty()) expect_no_jump(states.back(), state);
                   states.push_back(state);
                 },
@@ -66,8 +66,14 @@ class SeveralHands : public ::testing::Test {
   }
 
  private:
-  static void expect_apart(const HapticState& state, const MultiPartSliding& sliding) {
+  static void expect_apart(const HapticState& state, const MultiPartSliding& sliding,
+                           const std::vector<Obstacle>& obstacles) {
     for (std::size_t a = 0; a < sliding.part_count(); ++a) {
+      for (const Obstacle& obstacle : obstacles) {
+        ASSERT_FALSE(reference::brute_force_intersects(obstacle.body->tree.mesh(), sliding.part(a).tree.mesh(),
+                                                       obstacle.X_WO.inverse() * state.parts[a].X_WV))
+            << obstacle.name << ", tick " << state.sequence;
+      }
       for (std::size_t b = 0; b < a; ++b) {
         ASSERT_FALSE(reference::brute_force_intersects(sliding.part(a).tree.mesh(), sliding.part(b).tree.mesh(),
                                                        state.parts[a].X_WV.inverse() * state.parts[b].X_WV))
@@ -371,8 +377,10 @@ TEST_F(SeveralHands, MayGraspAndReleaseAtAnyMoment) {
   const geometry::PoseTrajectory lift({{milliseconds(0), at(0.0, 0.0, -0.12)},
                                        {milliseconds(3000), at(0.0, 0.0, -0.07)},
                                        {milliseconds(6000), at(0.0, 0.0, -0.12)}});
+  const std::vector<Obstacle> obstacles{
+      wall(0.09), test_support::obstacle_of(geometry::make_box({0.02, 0.3, 0.02}, 12), at(-0.1, 0.0, 0.0))};
   MultiPartSliding sliding(
-      {wall(0.09), test_support::obstacle_of(geometry::make_box({0.02, 0.3, 0.02}, 12), at(-0.1, 0.0, 0.0))},
+      obstacles,
       {cube_at(-0.03),
        cube_at(0.03),
        {.part_V = cube(kEdge), .X_WV_start = at(0.0, 0.07, 0.0), .metaphor = Metaphor::kIncremental},
@@ -385,8 +393,9 @@ TEST_F(SeveralHands, MayGraspAndReleaseAtAnyMoment) {
   std::array<std::int64_t, 2> free_since{0, 0};
   std::array<std::vector<std::pair<std::int64_t, std::optional<std::size_t>>>, 2> expected;
   int grasps = 0;
-  const auto states =
-      run({{&first, 0}, {&second, std::nullopt}}, sliding, 1000 * seconds, [&](std::int64_t tick, auto& hands) {
+  const auto states = run(
+      {{&first, 0}, {&second, std::nullopt}}, sliding, 1000 * seconds,
+      [&](std::int64_t tick, auto& hands) {
         while (random() % 60 == 0) {  // sometimes several in one tick
           const std::size_t hand = random() % 2;
           if (random() % 3 == 0) {
@@ -402,7 +411,8 @@ TEST_F(SeveralHands, MayGraspAndReleaseAtAnyMoment) {
         }
         for (std::size_t hand = 0; hand < 2; ++hand)
           expected[hand].emplace_back(free_since[hand], held[hand]);
-      });
+      },
+      obstacles);
   EXPECT_GT(grasps, 5 * seconds);
   double greatest = 0.0;
   for (std::size_t i = 0; i < states.size(); ++i) {

@@ -25,6 +25,7 @@
 #include <glissade/apps/run/session_sink.h>
 #include <glissade/devices/simulated_glove_service.h>
 #include <glissade/haptics/haptic_server.h>
+#include <glissade/haptics/recording.h>
 #include <glissade/realtime/periodic_thread.h>
 #include <glissade/viewer/view_server.h>
 
@@ -152,9 +153,11 @@ haptics::HapticServerStatistics run_server(Witness& witness, const std::shared_p
   devices::SimulatedGloveService remote(bus, proof_hand(0, kLonger), clock);
   devices::LcmGlove link(bus, devices::simulated_glove_descriptor());
   ProofGlove device(proof_hand(1, kLonger), kPeriod, [&witness] { witness.note_command(); });
+  haptics::FlightRecorder flight({});
+  haptics::BackgroundObserver recorders({&flight});
   haptics::HapticServer server({{&link, 0}, {&device, 1}}, parts, clock,
                                [&witness](const devices::HapticState& sample) { witness.see(sample); },
-                               {.period = kPeriod, .ticks = ticks});
+                               {.period = kPeriod, .ticks = ticks, .observer = &recorders});
   for (int i = 0; !server.is_done() && !server.has_failed(); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     if (i % 20 == 10) server.release(1);
