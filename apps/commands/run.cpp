@@ -72,6 +72,7 @@ constexpr const char* kRecordFooter =
     "  glissade demo --seconds 3 --record demo.lcmlog";
 
 struct RunOptions {
+  std::string command = "glissade run";
   std::string scene;
   LcmAddress lcm;
   std::vector<std::int64_t> devices{devices::kDefaultDevice};
@@ -149,24 +150,25 @@ std::string held_text(const RunSettings& settings, const HapticScene& scene) {
 /// Says each thing once, after the set-up of the session has succeeded.
 class Announcer {
  public:
-  Announcer(const RunSettings& settings, const HapticScene& scene, const devices::LcmBus& bus, const std::string& url)
-      : settings_(settings), scene_(scene), bus_(bus), url_(url) {}
+  Announcer(const RunOptions& options, const RunSettings& settings, const HapticScene& scene,
+            const devices::LcmBus& bus)
+      : settings_(settings), scene_(scene), bus_(bus), url_(options.lcm.url), prefix_(options.command + ": ") {}
 
   void tell(const RunNews& news) {
     if (news.awaited_device && news.awaited_device != told_to_await_) {
       told_to_await_ = news.awaited_device;
       const bool is_only = settings_.hands.size() == 1;
-      line_.say("glissade run: waiting for " + (is_only ? "a glove" : "glove " + std::to_string(*news.awaited_device)) +
+      line_.say(prefix_ + "waiting for " + (is_only ? "a glove" : "glove " + std::to_string(*news.awaited_device)) +
                 " at " + url_);
     }
     if (news.ticks == 0 && bus_.refused_packets() > 0 && !std::exchange(said_that_it_refuses_, true)) {
-      line_.say("glissade run: packets are refused: they come from elsewhere, or were made with another key");
+      line_.say(prefix_ + "packets are refused: they come from elsewhere, or were made with another key");
     }
     if (news.ticks > 0 && !std::exchange(said_that_it_holds_, true)) {
-      line_.say("glissade run: " + held_text(settings_, scene_));
+      line_.say(prefix_ + held_text(settings_, scene_));
     }
     for (const std::string& sentence : news.sentences)
-      line_.say("glissade run: " + sentence);
+      line_.say(prefix_ + sentence);
     line_.show(news.status);
   }
 
@@ -175,6 +177,7 @@ class Announcer {
   const HapticScene& scene_;
   const devices::LcmBus& bus_;
   std::string url_;
+  std::string prefix_;
   std::optional<std::int64_t> told_to_await_;
   StatusLine line_;
   bool said_that_it_refuses_ = false;
@@ -209,10 +212,10 @@ int run(const RunOptions& options) {
   if (!options.report.empty()) prepare_report_folder(options.report);
   const StopSignal stop_signal;
   const DumpSignal dump_signal;
-  Announcer announcer(settings, scene, *bus, options.lcm.url);
+  Announcer announcer(options, settings, scene, *bus);
   const Session session =
       run_session(scene, bus, settings, &StopSignal::requested, [&](const RunNews& news) { announcer.tell(news); });
-  conclude(session, scene, "glissade run: " + scene.part_names(), options.json, options.verbose, options.report);
+  conclude(session, scene, options.command + ": " + scene.part_names(), options.json, options.verbose, options.report);
   return 0;
 }
 
@@ -268,6 +271,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
 void add_record_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("record", kRecordDescription);
+  options->command = "glissade record";
   command->footer(std::string(kRecordFooter) + kSlidingChoiceHelp + kSceneFileHelp);
   command->add_option("LOG", options->record.log, "File for the recording; an existing one is replaced")->required();
   add_options(*command, *options);

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -9,6 +10,7 @@
 #include <unistd.h>
 
 #include <glissade/apps/report/html_report.h>
+#include <glissade/apps/text.h>
 #include <glissade/viewer/page.h>
 
 namespace glissade::apps {
@@ -155,6 +157,12 @@ std::string html_report(const Report& report) {
 }
 
 void prepare_report_folder(const std::string& folder) {
+  const std::filesystem::path path(folder);
+  if (path.extension() == ".html" && !std::filesystem::is_directory(path)) {
+    throw std::invalid_argument("--report: " + in_quotes(folder) +
+                                " would be a folder, with the report as index.html in it; " + "name it " +
+                                in_quotes(path.stem().string()));
+  }
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw std::invalid_argument(folder + ": cannot make this folder: " + error.message());

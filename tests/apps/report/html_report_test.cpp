@@ -104,6 +104,12 @@ TEST(HtmlReport, IsWrittenIntoAFolderThatNeedNotExist) {
   EXPECT_EQ(written.str(), html_report(small_report()));
 }
 
+TEST(HtmlReport, AFolderIsNotNamedAsAPage) {
+  const test_support::TemporaryFolder folder;
+  test_support::expect_bad_input([&] { write_html_report(small_report(), folder.path("x.html")); },
+                                 {"x.html", "a folder", "name it 'x'"});
+}
+
 TEST(HtmlReport, AFolderThatCannotBeMadeIsNamed) {
   const test_support::TemporaryFolder folder;
   const std::string file = folder.write("file", "");
