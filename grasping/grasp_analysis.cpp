@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include <glissade/grasping/grasp_analysis.h>
@@ -114,46 +115,78 @@ const Grasp& GraspAnalysis::update(std::span<const LinkContact> contacts, double
     if (grasp_.holds()) return grasp_;
   }
   Grasp firmest;
-  for (const Touch& touch : touches_) {
-    if (!touch.counts || touch.object == firmest.object) continue;
-    const Grasp grasp = analyze(touch.object, up_W);
-    const bool is_firmer =
-        grasp.type > firmest.type || (grasp.type == firmest.type && grasp.segments.count() > firmest.segments.count());
-    if (is_firmer) firmest = grasp;
+  for (const TouchesOfLink& touches : touches_) {
+    for (const Touch& touch : touches) {
+      if (!touch.counts || touch.object == firmest.object) continue;
+      const Grasp grasp = analyze(touch.object, up_W);
+      if (is_firmer(grasp, firmest)) firmest = grasp;
+    }
   }
   grasp_ = firmest;
   return grasp_;
 }
 
+bool GraspAnalysis::is_firmer(const Grasp& grasp, const Grasp& other) const {
+  const auto rank = [&](const Grasp& one) {
+    return std::tuple(one.holds() && one.object >= first_part_, one.type, one.segments.count());
+  };
+  return rank(grasp) > rank(other);
+}
+
 void GraspAnalysis::clear() {
-  touches_.fill({});
+  touches_ = {};
   grasp_ = {};
+}
+
+void GraspAnalysis::forget(std::size_t link, std::int32_t object) {
+  for (Touch& touch : touches_[link]) {
+    if (touch.object == object) touch = {};
+  }
 }
 
 void GraspAnalysis::follow(std::span<const LinkContact> contacts, double milliseconds) {
   const double share = 1.0 - std::exp(-milliseconds / kFilter_ms);
-  std::array<Eigen::Vector3d, kHandLinks> sums;
-  sums.fill(Eigen::Vector3d::Zero());
+  std::array<std::array<Eigen::Vector3d, kBodiesOfLink>, kHandLinks> sums;
+  for (auto& sums_of_link : sums)
+    sums_of_link.fill(Eigen::Vector3d::Zero());
   for (const LinkContact& contact : contacts) {
-    Touch& touch = touches_[contact.link];
-    if (touch.object < 0) touch.object = contact.contact.obstacle;
-    if (touch.object == contact.contact.obstacle) sums[contact.link] += contact.contact.n_W;
+    TouchesOfLink& touches = touches_[contact.link];
+    const std::int32_t object = contact.contact.obstacle;
+    auto place =
+        std::find_if(touches.begin(), touches.end(), [&](const Touch& touch) { return touch.object == object; });
+    if (place == touches.end())
+      place = std::find_if(touches.begin(), touches.end(), [](const Touch& touch) { return touch.object < 0; });
+    if (place == touches.end()) continue;  // until the link has left one of the others
+    place->object = object;
+    sums[contact.link][static_cast<std::size_t>(place - touches.begin())] += contact.contact.n_W;
   }
   for (std::size_t link = 0; link < kHandLinks; ++link) {
-    Touch& touch = touches_[link];
-    const bool touches_now = !sums[link].isZero(1e-12);
-    touch.level += share * ((touches_now ? 1.0 : 0.0) - touch.level);
-    if (touch.level >= kCounts) touch.counts = true;
-    if (!touches_now && touch.level < kCountsNoMore) touch = {};
-    if (touches_now) touch.n_W = ((1.0 - share) * touch.n_W + share * sums[link].normalized()).normalized();
+    for (std::size_t i = 0; i < kBodiesOfLink; ++i)
+      touches_[link][i].follow(sums[link][i], share);
   }
+}
+
+void GraspAnalysis::Touch::follow(const Eigen::Vector3d& sum_W, double share) {
+  const bool touches_now = !sum_W.isZero(1e-12);
+  level += share * ((touches_now ? 1.0 : 0.0) - level);
+  if (level >= kCounts) counts = true;
+  if (!touches_now && level < kCountsNoMore) *this = {};
+  if (touches_now) n_W = ((1.0 - share) * n_W + share * sum_W.normalized()).normalized();
+}
+
+const GraspAnalysis::Touch* GraspAnalysis::touch(std::size_t link, std::int32_t object) const {
+  for (const Touch& touch : touches_[link]) {
+    if (touch.counts && touch.object == object) return &touch;
+  }
+  return nullptr;
 }
 
 Grasp GraspAnalysis::analyze(std::int32_t object, const Eigen::Vector3d& up_W) const {
   Grasp grasp;
   grasp.object = object;
   for (std::size_t link = 0; link < kHandLinks; ++link) {
-    if (touches(link, object) && meaning_[link].segment != HandSegment::kNone) grasp.segments.add(meaning_[link]);
+    if (touch(link, object) != nullptr && meaning_[link].segment != HandSegment::kNone)
+      grasp.segments.add(meaning_[link]);
   }
   grasp.type = type_of(grasp.segments);
   grasp.form = form_of(grasp, up_W);
@@ -173,8 +206,9 @@ bool GraspAnalysis::carries(const Grasp& grasp, const Eigen::Vector3d& up_W) con
   const double least = had(GraspForm::kGravity, grasp.object) ? -kFromBelow : kFromBelow;
   int carrying = 0;
   for (std::size_t link = 0; link < kHandLinks; ++link) {
-    if (!touches(link, grasp.object)) continue;
-    const double from_below = -touches_[link].n_W.dot(up_W);
+    const Touch* const contact = touch(link, grasp.object);
+    if (contact == nullptr) continue;
+    const double from_below = -contact->n_W.dot(up_W);
     if (from_below < least) return false;
     carrying += from_below > kFromBelow ? 1 : 0;
   }
@@ -208,7 +242,8 @@ bool GraspAnalysis::are_opposed(const Grasp& grasp) const {
   std::array<Eigen::Vector3d, 6> sums;
   sums.fill(Eigen::Vector3d::Zero());
   for (std::size_t link = 0; link < kHandLinks; ++link) {
-    if (touches(link, grasp.object)) sums[static_cast<std::size_t>(meaning_[link].finger)] += touches_[link].n_W;
+    if (const Touch* const contact = touch(link, grasp.object))
+      sums[static_cast<std::size_t>(meaning_[link].finger)] += contact->n_W;
   }
   const auto has = [&](Finger finger) { return grasp.segments.has(finger); };
   if (has(Finger::kNone) || has(Finger::kThumb)) return false;
@@ -221,8 +256,8 @@ bool GraspAnalysis::are_opposed(const Grasp& grasp) const {
 
 std::optional<Eigen::Vector3d> GraspAnalysis::normal(std::int32_t object, const SegmentMeaning& segment) const {
   for (std::size_t link = 0; link < kHandLinks; ++link) {
-    if (touches(link, object) && meaning_[link].finger == segment.finger && meaning_[link].segment == segment.segment)
-      return touches_[link].n_W;
+    if (meaning_[link].finger != segment.finger || meaning_[link].segment != segment.segment) continue;
+    if (const Touch* const contact = touch(link, object)) return contact->n_W;
   }
   return std::nullopt;
 }

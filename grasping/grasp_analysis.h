@@ -78,11 +78,14 @@ std::string words_of(const SegmentMeaning& segment);
 
 /// Follows the grasp over time. A segment counts as touching once it has touched in most of the last 40 ms or so, and
 /// until it has hardly touched for 70 ms, so that the noise of sensors makes no grasp flicker. No grasp lasts longer
-/// than that without its contacts. If several bodies are touched, the body counts whose grasp is the firmest: power,
-/// precision, push. Real-time safe after construction. Not thread-safe.
+/// than that without its contacts. A segment may touch several bodies, each for itself. Of these bodies the one counts
+/// whose grasp is the firmest: power, precision, push; but one that moves, and that a grasp holds, comes before what is
+/// fixed. Real-time safe after construction. Not thread-safe.
 class GraspAnalysis {
  public:
-  explicit GraspAnalysis(const HandModel& hand) : meaning_(hand.meaning) {}
+  /// The first bodies, `fixed_bodies` of them, never move.
+  explicit GraspAnalysis(const HandModel& hand, std::size_t fixed_bodies = 0)
+      : meaning_(hand.meaning), first_part_(static_cast<std::int32_t>(fixed_bodies)) {}
 
   /// The grasp after `milliseconds` with these contacts. `up_W` is a unit vector against gravity. As long as the hand
   /// holds the body with the number `held`, no other body counts.
@@ -90,8 +93,8 @@ class GraspAnalysis {
                       const Eigen::Vector3d& up_W = Eigen::Vector3d::UnitZ(), std::int32_t held = -1);
   const Grasp& grasp() const { return grasp_; }
 
-  /// The link, by its number in the chain, touches nothing any more, at once: it has plainly left the body.
-  void forget(std::size_t link) { touches_[link] = {}; }
+  /// The link, by its number in the chain, touches the body no more, at once: it has plainly left it.
+  void forget(std::size_t link, std::int32_t object);
 
   /// Forgets all contacts, as after a loss of tracking.
   void clear();
@@ -103,12 +106,18 @@ class GraspAnalysis {
     bool counts = false;
     double level = 0.0;                             // how much of the last milliseconds it touched, 0 to 1
     Eigen::Vector3d n_W = Eigen::Vector3d::Zero();  // unit, from the object to the segment, the mean of them
+
+    /// The sum of the normals of this moment is zero if the segment does not touch.
+    void follow(const Eigen::Vector3d& sum_W, double share);
   };
 
+  static constexpr std::size_t kBodiesOfLink = 3;  // a fingertip may be at an object, at its table and at a wall
+  using TouchesOfLink = std::array<Touch, kBodiesOfLink>;
+
   void follow(std::span<const LinkContact> contacts, double milliseconds);
-  bool touches(std::size_t link, std::int32_t object) const {
-    return touches_[link].counts && touches_[link].object == object;
-  }
+  /// The link's contact with this body; null: none that counts.
+  const Touch* touch(std::size_t link, std::int32_t object) const;
+  bool is_firmer(const Grasp& grasp, const Grasp& other) const;
   Grasp analyze(std::int32_t object, const Eigen::Vector3d& up_W) const;
   GraspForm form_of(const Grasp& grasp, const Eigen::Vector3d& up_W) const;
   GraspForm precision_form(const Grasp& grasp) const;
@@ -119,7 +128,8 @@ class GraspAnalysis {
   std::optional<Eigen::Vector3d> normal(std::int32_t object, const SegmentMeaning& segment) const;
 
   std::array<SegmentMeaning, kHandLinks> meaning_;
-  std::array<Touch, kHandLinks> touches_{};  // by link
+  std::int32_t first_part_;  // bodies from this number on may move
+  std::array<TouchesOfLink, kHandLinks> touches_{};
   Grasp grasp_;
 };
 

@@ -31,8 +31,8 @@ GraspingHand::GraspingHand(std::shared_ptr<const HandModel> model, const std::ve
       links_(links_that_touch(model_->chain)),
       first_part_(static_cast<std::int32_t>(fixed.size())),
       clasp_(chain_of(model_), fixed, std::move(parts), rules),
-      analysis_(*model_),
-      now_(*model_),
+      analysis_(*model_, fixed.size()),
+      now_(*model_, fixed.size()),
       held_(model_->chain.links().size()),
       X_WL_(model_->chain.links().size()),
       X_WL_target_(model_->chain.links().size()),
@@ -136,7 +136,7 @@ void GraspingHand::analyze(double milliseconds, const Eigen::Vector3d& up_W, con
   model_->chain.poses(posture_.X_WR, posture_.values, X_WL_target_);
   held_.update(clasp_.contacts(), body, X_WV, X_WL_, X_WL_target_);
   for (const std::size_t link : held_.left())
-    analysis_.forget(link);
+    analysis_.forget(link, body);
   analysis_.update(held_.contacts(), milliseconds, up_W, body);
 }
 

@@ -133,6 +133,54 @@ TEST(GraspAnalysis, SegmentsOnDifferentBodiesMakeNoGrasp) {
   EXPECT_EQ(grasp.object, 1) << "most segments touch it";
 }
 
+TEST(GraspAnalysis, AFingertipOnTheTableGraspsAPartThatItTouchesToo) {
+  constexpr std::int32_t kTable = 0;
+  constexpr std::int32_t kPart = 1;
+  GraspAnalysis analysis(*test_support::hand_model(), 1);
+  const LinkContact index_on_table = touch(outer(Finger::kIndex), Vector3d::UnitZ(), kTable);
+  std::vector<LinkContact> contacts{touch(outer(Finger::kThumb), -Vector3d::UnitX(), kTable), index_on_table};
+  for (int ms = 0; ms < 100; ++ms)
+    EXPECT_NE(analysis.update(contacts, 1.0).object, kPart);
+  contacts = {index_on_table, touch(outer(Finger::kThumb), -Vector3d::UnitX(), kPart),
+              touch(outer(Finger::kIndex), Vector3d::UnitX(), kPart), index_on_table};
+  for (int ms = 0; ms < 25; ++ms)
+    analysis.update(contacts, 1.0);
+  EXPECT_EQ(analysis.grasp().form, GraspForm::kTipPinch) << "while the thumb counts as touching the table still";
+  EXPECT_EQ(analysis.grasp().object, kPart) << reason_of(analysis.grasp());
+  for (const LinkContact& contact : contacts)
+    analysis.forget(contact.link, kPart);
+  contacts = {index_on_table};
+  EXPECT_EQ(analysis.update(contacts, 1.0).object, kTable) << "what left the part may be at the table still";
+}
+
+TEST(GraspAnalysis, AGraspThatHoldsAPartComesBeforeAFirmerOneOfWhatIsFixed) {
+  std::vector<LinkContact> contacts{
+      touch(kPalm, Vector3d::UnitX(), 0), touch(middle(Finger::kRing), Vector3d::UnitX(), 0),
+      touch(outer(Finger::kThumb), -Vector3d::UnitX(), 1), touch(outer(Finger::kIndex), Vector3d::UnitX(), 1)};
+  constexpr double kLong_ms = 100.0;
+  EXPECT_EQ(GraspAnalysis(*test_support::hand_model(), 1).update(contacts, kLong_ms).object, 1);
+  EXPECT_EQ(GraspAnalysis(*test_support::hand_model(), 2).update(contacts, kLong_ms).object, 0) << "both are fixed";
+  EXPECT_EQ(GraspAnalysis(*test_support::hand_model()).update(contacts, kLong_ms).object, 0) << "both may move";
+  contacts.pop_back();
+  EXPECT_EQ(GraspAnalysis(*test_support::hand_model(), 1).update(contacts, kLong_ms).object, 0)
+      << "a push holds nothing";
+}
+
+TEST(GraspAnalysis, ASegmentTouchesThreeBodiesAtOnceAndAFourthAfterOneOfThem) {
+  GraspAnalysis analysis(*test_support::hand_model());
+  std::vector<LinkContact> contacts;
+  for (const std::int32_t body : {0, 1, 2, 3})
+    contacts.push_back(touch(outer(Finger::kIndex), Vector3d::UnitX(), body));
+  const LinkContact thumb = touch(outer(Finger::kThumb), -Vector3d::UnitX(), 3);
+  contacts.push_back(thumb);
+  constexpr double kLong_ms = 100.0;
+  EXPECT_EQ(analysis.update(contacts, kLong_ms).type, GraspType::kPush);
+  contacts.erase(contacts.begin());
+  analysis.update(contacts, kLong_ms);
+  EXPECT_EQ(analysis.update(contacts, kLong_ms).type, GraspType::kPrecision);
+  EXPECT_EQ(analysis.grasp().object, 3);
+}
+
 TEST(GraspAnalysis, AContactThatIsMissingForAMomentMakesNoGraspFlicker) {
   GraspAnalysis analysis(*test_support::hand_model());
   const std::vector<LinkContact> whole{touch(outer(Finger::kThumb)), touch(outer(Finger::kIndex))};

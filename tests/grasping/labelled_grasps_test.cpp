@@ -19,6 +19,9 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/geometry/mesh_generators.h>
+
+#include "poses.h"
 #include "sanitizers.h"
 
 namespace glissade::grasping {
@@ -100,6 +103,38 @@ TEST(LabelledGrasps, OfLoosePartsTakeHoldWheneverTheLabelHolds) {
     std::cout << std::setw(24) << kind << std::setw(5) << row.count << std::setw(5) << row.wanted << std::setw(5)
               << row.held << std::setw(5) << row.as_labelled << "\n";
   EXPECT_GE(as_labelled, 0.95 * count);
+}
+
+// The fingertips come down beside the coin until the table stops them, and close along the table.
+TEST(LabelledGrasps, ACoinIsPickedUpFromATable) {
+  const auto coin = std::find_if(labelled_grasps().begin(), labelled_grasps().end(), [](const LabelledGrasp& one) {
+    return one.name == "flat coin between thumb and index";
+  });
+  ASSERT_NE(coin, labelled_grasps().end());
+  LabelledGrasp grasp = *coin;
+  grasp.start.X_WR.translation().z() += 0.03;
+  grasp.close.X_WR.translation().z() -= 0.004;
+  for (std::size_t v = 0; v < grasp.start.values.size(); ++v) {  // thumb and index come down first
+    const FlexValue& value = test_support::hand_chain()->values()[v];
+    const bool bends = value.name.ends_with("_mcp") || value.name.ends_with("_pip") || value.name.ends_with("_dip");
+    if (!bends || value.name.starts_with("thumb") || value.name.starts_with("index")) continue;
+    grasp.start.values[v] = value.upper;
+    grasp.close.values[v] = value.upper;
+  }
+  constexpr double kTop_m = -0.0605;  // touches the coin nearly
+  const auto table = std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.6, 0.6, 0.02}, 400));
+  LooseGraspTrial trial(grasp, {{std::make_shared<const haptics::ContactBody>(table),
+                                 test_support::at(0.1, 0.0, kTop_m - 0.01), "table"}});
+  EXPECT_TRUE(trial.close()) << reason_of(trial.grasp());
+  EXPECT_EQ(trial.grasp().form, GraspForm::kTipPinch) << reason_of(trial.grasp());
+  const double z = trial.simulation().parts().result(0).X_WV.translation().z();
+  for (int ms = 1; ms <= 300; ++ms) {
+    Posture lifted = grasp.close;
+    lifted.X_WR.translation().z() += 0.2e-3 * ms;
+    trial.advance(lifted);
+  }
+  EXPECT_TRUE(trial.holds());
+  EXPECT_GT(trial.simulation().parts().result(0).X_WV.translation().z(), z + 0.04);
 }
 
 // Milliseconds from the last moment in which the contacts by themselves made a grasp.
