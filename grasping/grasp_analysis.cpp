@@ -200,19 +200,19 @@ GraspForm GraspAnalysis::form_of(const Grasp& grasp, const Eigen::Vector3d& up_W
   return GraspForm::kNone;
 }
 
-/// Whether two contacts at least carry the object, and all others do as well. What is being carried may be touched from
-/// the side.
+/// Whether two fingers at least, or the palm and a finger, carry the object, and all other contacts do as well: from
+/// one finger alone it would fall. What is being carried may be touched from the side.
 bool GraspAnalysis::carries(const Grasp& grasp, const Eigen::Vector3d& up_W) const {
   const double least = had(GraspForm::kGravity, grasp.object) ? -kFromBelow : kFromBelow;
-  int carrying = 0;
+  std::array<bool, 6> carries{};  // by finger, the palm first
   for (std::size_t link = 0; link < kHandLinks; ++link) {
     const Touch* const contact = touch(link, grasp.object);
     if (contact == nullptr) continue;
     const double from_below = -contact->n_W.dot(up_W);
     if (from_below < least) return false;
-    carrying += from_below > kFromBelow ? 1 : 0;
+    if (from_below > kFromBelow) carries[static_cast<std::size_t>(meaning_[link].finger)] = true;
   }
-  return carrying >= 2;
+  return std::count(carries.begin(), carries.end(), true) >= 2;
 }
 
 GraspForm GraspAnalysis::precision_form(const Grasp& grasp) const {

@@ -55,9 +55,15 @@ struct Opening {
   std::optional<double> contact;  ///< the recorded hand, which no clasp holds back, first collides with the handle
   std::optional<double> turn;     ///< the handle has turned
   std::optional<double> grasp;    ///< the analysis first tells a grasp that holds
-  std::optional<double> grasp_at_turn;  ///< the first moment from the turn to 150 ms later at which it tells one
-  Grasp kind;                           ///< there
+  std::optional<double>
+      grasp_at_turn;  ///< the first moment from the turn to 150 ms later at which the hand is round it
+  Grasp kind;         ///< there
 };
+
+/// A door handle neither hangs between two fingers nor lies on them.
+bool is_round_handle(const Grasp& grasp) {
+  return grasp.type == GraspType::kPrecision || grasp.type == GraspType::kPower;
+}
 
 /// Follows a recording until 150 ms after the handle's turn, a millisecond a call. All is seen from the handle, which
 /// stands still in the clasp while the hand moves round it.
@@ -78,7 +84,7 @@ Opening follow(const std::vector<AdroitRow>& rows, const Vector3d& p_WDoor) {
       if (!opening.contact && hand.collides(target)) opening.contact = row.t_s;
       if (!opening.turn && row.latch > kTurned_rad) opening.turn = row.t_s;
       if (!opening.grasp && grasp.holds()) opening.grasp = row.t_s;
-      if (opening.turn && !opening.grasp_at_turn && grasp.holds()) {
+      if (opening.turn && !opening.grasp_at_turn && is_round_handle(grasp)) {
         opening.grasp_at_turn = row.t_s;
         opening.kind = grasp;
       }
@@ -131,9 +137,9 @@ TEST(DoorHandle, IsGraspedByAHandMadeInCodeAndNotBeforeItTouches) {
   EXPECT_TRUE(opening.kind.segments.has(Finger::kThumb)) << reason_of(opening.kind);
 }
 
-// Demonstrations 0 and 3 hold nothing by the rules of the paper: all segments of the recorded hand that are within 3 mm
-// of the handle at its turn, and 150 ms later, belong to the four fingers. They push the lever down, without thumb or
-// palm.
+// Demonstrations 0, 3 and 4 hold nothing by the rules of the paper. In 0 and 3, all segments of the recorded hand that
+// are within 3 mm of the handle at its turn, and 150 ms later, belong to the four fingers: they push the lever down,
+// without thumb or palm. In 4 the thumb alone presses at the turn; thumb and little finger grasp 0.2 s after it.
 TEST(DoorHandle, IsGraspedInTheRecordings) {
   const char* const folder = std::getenv("GLISSADE_ADROIT_DEMOS");
   if (folder == nullptr) GTEST_SKIP() << "GLISSADE_ADROIT_DEMOS is not set";
@@ -149,7 +155,7 @@ TEST(DoorHandle, IsGraspedInTheRecordings) {
               << text(opening.grasp) << ", at the turn " << text(opening.grasp_at_turn) << "  "
               << reason_of(opening.kind) << "\n";
   }
-  EXPECT_GE(in_time, 13) << "of " << kDoors.size();
+  EXPECT_GE(in_time, 12) << "of " << kDoors.size();
 }
 
 }  // namespace

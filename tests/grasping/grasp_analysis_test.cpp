@@ -123,6 +123,10 @@ TEST(GraspAnalysis, SegmentsBelowAnObjectCarryIt) {
   EXPECT_EQ(grasp_of({touch(kPalm, down), touch(inner(Finger::kMiddle), down)}).form, GraspForm::kGravity);
   EXPECT_EQ(grasp_of({touch(kPalm, down)}).form, GraspForm::kNone) << "one contact does not carry";
   EXPECT_EQ(grasp_of({touch(kPalm, down), touch(middle(Finger::kMiddle), -down)}).form, GraspForm::kNone);
+  EXPECT_EQ(grasp_of({touch(outer(Finger::kIndex), down), touch(outer(Finger::kRing), down)}).form,
+            GraspForm::kGravity);
+  EXPECT_EQ(grasp_of({touch(outer(Finger::kThumb), down), touch(middle(Finger::kThumb), down)}).form, GraspForm::kNone)
+      << "one finger does not carry";
 }
 
 TEST(GraspAnalysis, SegmentsOnDifferentBodiesMakeNoGrasp) {
