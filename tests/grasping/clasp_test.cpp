@@ -14,6 +14,7 @@
 #include <glissade/haptics/sliding_rules.h>
 
 #include "clasped_hand.h"
+#include "mesh_oracle.h"
 #include "poses.h"
 
 namespace glissade::grasping {
@@ -23,16 +24,48 @@ using test_support::at;
 using test_support::bent_hand;
 using test_support::ClaspedHand;
 using test_support::hand_chain;
+using test_support::MeshOracle;
 using test_support::open_hand;
 
 /// A ball in front of the palm.
+const Eigen::Isometry3d kAtPalm = at(0.095, 0.0, -0.056);
+geometry::TriangleMesh ball() {
+  return geometry::make_sphere(0.035, 2000);
+}
 ClaspedHand hand_at_ball() {
-  return {geometry::make_sphere(0.035, 2000), at(0.095, 0.0, -0.056)};
+  return {ball(), kAtPalm};
 }
 
 void close(Clasp& clasp, double angle, int calls) {
   for (int i = 1; i <= calls; ++i)
     clasp.advance(bent_hand(angle * std::min(1.0, 2.0 * i / calls)));
+}
+
+/// Measures triangle by triangle, without trees: where a flex value stops short of its target, one of the links that it
+/// moves is within 0.1 mm of the object at the palm. Returns how many flex values do.
+int expect_tight(const Posture& posture, const Posture& target, const geometry::TriangleMesh& object) {
+  constexpr double kTight_m = 0.1e-3;
+  geometry::TriangleMesh object_W = object;
+  for (Eigen::Vector3d& vertex : object_W.vertices)
+    vertex = kAtPalm * vertex;
+  const KinematicChain& chain = *hand_chain();
+  std::vector<Eigen::Isometry3d> X_WL(chain.links().size());
+  chain.poses(posture.X_WR, posture.values, X_WL);
+  std::vector<bool> is_near(X_WL.size());
+  for (std::size_t link = 0; link < X_WL.size(); ++link) {
+    const auto& mesh = chain.links()[link].mesh;
+    is_near[link] = mesh != nullptr && !MeshOracle(object_W, *mesh).pairs_within(X_WL[link], kTight_m).empty();
+  }
+  int stopped = 0;
+  for (std::size_t v = 0; v < target.values.size(); ++v) {
+    if (posture.values[v] == target.values[v]) continue;
+    ++stopped;
+    bool is_at_object = false;
+    for (std::size_t link = 0; link < X_WL.size(); ++link)
+      is_at_object = is_at_object || (is_near[link] && chain.moves(v, link));
+    EXPECT_TRUE(is_at_object) << "nothing stops " << chain.values()[v].name;
+  }
+  return stopped;
 }
 
 TEST(Clasp, FollowsATargetThatTouchesNothing) {
@@ -60,14 +93,7 @@ TEST(Clasp, ClosesTightRoundABallAndStaysOutside) {
   }
   const auto count = std::count(hand.clasp.touching().begin(), hand.clasp.touching().end(), 1);
   EXPECT_GE(count, 4) << "segments that touch";
-  for (std::size_t link = 0; link < hand.clasp.touching().size(); ++link) {
-    if (hand.clasp.touching()[link] == 0) continue;
-    double gap = std::numeric_limits<double>::infinity();
-    for (const LinkContact& contact : hand.clasp.contacts()) {
-      if (contact.link == link) gap = std::min(gap, contact.contact.gap);
-    }
-    EXPECT_LE(gap, 0.1e-3) << hand_chain()->links()[link].name;
-  }
+  EXPECT_GE(expect_tight(hand.clasp.posture(), bent_hand(1.2), ball()), 8) << "flex values that something stops";
 }
 
 TEST(Clasp, TouchesAnObstacleWithAWideMarginToo) {
