@@ -25,6 +25,7 @@ NearerPosture::NearerPosture(const grasping::KinematicChain& chain, const geomet
 std::optional<std::size_t> NearerPosture::find(const grasping::Posture& posture, const grasping::Posture& target,
                                                double margin, double farther) const {
   constexpr int kPlaces = 8;
+  const std::vector<double> near = clearances(posture, margin);
   for (std::size_t v = 0; v < posture.values.size(); ++v) {
     const double left = target.values[v] - posture.values[v];
     const double speed_here = speed(posture, v);
@@ -34,7 +35,7 @@ std::optional<std::size_t> NearerPosture::find(const grasping::Posture& posture,
     for (int place = 1; is_way_free && place <= kPlaces; ++place) {
       grasping::Posture nearer = posture;
       nearer.values[v] += turn * place / kPlaces;
-      is_way_free = is_free(nearer, v, margin);
+      is_way_free = is_free(nearer, v, near);
     }
     if (is_way_free) return v;
   }
@@ -56,11 +57,25 @@ double NearerPosture::speed(const grasping::Posture& posture, std::size_t value)
   return farthest / kTurn;
 }
 
-bool NearerPosture::is_free(const grasping::Posture& posture, std::size_t value, double margin) const {
+std::vector<double> NearerPosture::clearances(const grasping::Posture& posture, double margin) const {
+  constexpr double kRounding_m = 1e-9;
+  const std::vector<Eigen::Isometry3d> X_WL = link_poses(chain_, posture);
+  std::vector<double> clearances(X_WL.size(), margin);
+  for (std::size_t link = 0; link < X_WL.size(); ++link) {
+    if (!distances_[link]) continue;
+    for (const collision::ClosePair& pair : distances_[link]->pairs_within(X_WL[link], margin))
+      clearances[link] = std::min(clearances[link], pair.distance);
+    clearances[link] += kRounding_m;
+  }
+  return clearances;
+}
+
+bool NearerPosture::is_free(const grasping::Posture& posture, std::size_t value,
+                            std::span<const double> clearances) const {
   const std::vector<Eigen::Isometry3d> X_WL = link_poses(chain_, posture);
   for (std::size_t link = 0; link < X_WL.size(); ++link) {
     if (!distances_[link] || !chain_.moves(value, link)) continue;
-    if (!distances_[link]->pairs_within(X_WL[link], margin).empty()) return false;
+    if (!distances_[link]->pairs_within(X_WL[link], clearances[link]).empty()) return false;
   }
   return true;
 }
