@@ -47,6 +47,9 @@ struct LinkContact {
   double depth = 0.0;        ///< metres, to first order: how far beyond the contact the target of the link lies
 };
 
+/// Surfaces stop a link, not what they enclose, because meshes may be open: a chain that lies wholly within a closed
+/// object counts as free and cannot leave it, and so does one of whose links an object lies wholly within.
+///
 /// Deterministic. Not thread-safe.
 class Clasp {
  public:

@@ -210,6 +210,35 @@ TEST(Clasp, WaitsWhenAnObjectIsPlacedInsideTheHand) {
   EXPECT_EQ(hand.clasp.state(), ClaspState::kWaiting);
 }
 
+// Open meshes have no inside, so only surfaces count.
+TEST(Clasp, AHandWithinASolidCountsAsFreeAndStaysWithin) {
+  ClaspedHand hand(geometry::make_box({1.0, 1.0, 1.0}, 1000), Eigen::Isometry3d::Identity());
+  hand.clasp.advance(open_hand());
+  EXPECT_EQ(hand.clasp.state(), ClaspState::kClasping);
+  Posture beyond = open_hand();
+  beyond.X_WR = at(0.0, 0.0, 2.0);
+  for (int i = 0; i < 500; ++i)
+    hand.clasp.advance(beyond);
+  EXPECT_GT(hand.clasp.posture().X_WR.translation().z(), 0.4);
+  EXPECT_LT(hand.clasp.posture().X_WR.translation().z(), 0.5);
+  EXPECT_FALSE(hand.clasp.contacts().empty());
+}
+
+TEST(Clasp, APeaWithinThePalmCountsAsFreeAndHoldsThePalm) {
+  ClaspedHand hand(geometry::make_sphere(0.006, 500), at(0.045, 0.01, 0.0));
+  hand.clasp.advance(open_hand());
+  EXPECT_EQ(hand.clasp.state(), ClaspState::kClasping);
+  Posture away = open_hand();
+  away.X_WR = at(0.0, 0.0, 0.2);
+  for (int i = 0; i < 500; ++i) {
+    const Posture last = hand.clasp.posture();
+    hand.clasp.advance(away);
+    ASSERT_FALSE(hand.way_collides(last, 4)) << i;
+  }
+  EXPECT_LT(hand.clasp.posture().X_WR.translation().z(), 0.05) << "the palm has slid along the pea within it";
+  EXPECT_FALSE(hand.clasp.contacts().empty());
+}
+
 TEST(Clasp, IgnoresATargetThatIsNotFinite) {
   ClaspedHand hand = hand_at_ball();
   hand.clasp.advance(open_hand());
