@@ -87,7 +87,8 @@ class Clasp {
   /// Nothing touches any more, until the next call of `advance`: nobody knows where the hand wants to go.
   void forget_contacts();
 
-  /// Moves the chain with the user's cart, whatever is in the way: the clasp waits until a target is free.
+  /// Moves the chain with the user's cart, whatever is in the way: the clasp waits until a target is free. A posture
+  /// that is not finite is ignored.
   void move_cart(const Posture& target);
 
   ClaspState state() const;

@@ -126,6 +126,14 @@ class GraspSimulation::Life {
     note_pushes();
   }
 
+  void move_cart(std::size_t h, const Posture& posture) {
+    GLISSADE_ASSERT(h < hands_.size());
+    const std::optional<std::size_t> held = hands_[h].part();
+    if (hold(h, std::nullopt)) settle(*held);
+    vanish(h);
+    hands_[h].clasp().move_cart(posture);
+  }
+
   void advance(const haptics::Ghosts& ghosts, double milliseconds) {
     for (std::size_t h = 0; h < hands_.size(); ++h) {
       const haptics::GhostOfHand& ghost = ghosts.hands[h];
@@ -355,6 +363,10 @@ GraspSimulation::~GraspSimulation() = default;
 
 void GraspSimulation::advance(std::span<const std::optional<Posture>> targets, double milliseconds) {
   life_->advance(targets, milliseconds);
+}
+
+void GraspSimulation::move_cart(std::size_t hand, const Posture& posture) {
+  life_->move_cart(hand, posture);
 }
 
 std::size_t GraspSimulation::hand_count() const {

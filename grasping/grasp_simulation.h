@@ -67,6 +67,10 @@ class GraspSimulation final : public haptics::LoopSimulation {
   /// since the last call.
   void advance(std::span<const std::optional<Posture>> targets, double milliseconds = 1.0);
 
+  /// The user's cart carries the hand to this posture, whatever is in the way. The hand lets go of what it holds, and
+  /// waits until a target is free. Not in the haptic loop, which has no cart.
+  void move_cart(std::size_t hand, const Posture& posture);
+
   std::size_t hand_count() const;
   std::size_t part_count() const;
 

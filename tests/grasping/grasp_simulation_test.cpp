@@ -327,6 +327,45 @@ TEST(GraspSimulation, AHandThatIsFoundAgainInsideAnObjectWaitsUntilItIsFree) {
   EXPECT_LT((scene.simulation.posture(0).X_WR.translation() - Vector3d(0.0, 0.0, 0.2)).norm(), 1e-9);
 }
 
+TEST(GraspSimulation, AHandThatTheCartCarriesLetsGoAndBeginsWhereItIsFree) {
+  HandAndBall scene;
+  close_round_ball(scene);
+  ASSERT_EQ(scene.simulation.held_part(0), 0U);
+  const Isometry3d X_WV = scene.X_WV();
+  const Posture in_wall = moved(bent_hand(1.2), 0.17, 0.0, 0.0);
+  scene.simulation.move_cart(0, in_wall);
+  EXPECT_FALSE(scene.simulation.held_part(0));
+  for (int ms = 0; ms < 10; ++ms) {
+    scene.advance(in_wall);
+    ASSERT_EQ(scene.simulation.activity(0), HandActivity::kWaiting);
+    ASSERT_EQ(scene.simulation.grasp(0).type, GraspType::kNone);
+    ASSERT_TRUE(scene.simulation.clasp(0).contacts().empty());
+    ASSERT_TRUE(scene.simulation.posture(0).X_WR.isApprox(in_wall.X_WR)) << "it is where the cart is";
+  }
+  const Posture beyond = moved(bent_hand(1.2), 0.5, 0.0, 0.0);
+  scene.advance(beyond);
+  EXPECT_EQ(scene.simulation.activity(0), HandActivity::kFree) << "the wall is behind it";
+  EXPECT_TRUE(scene.simulation.posture(0).X_WR.isApprox(beyond.X_WR));
+  EXPECT_LT((scene.X_WV().translation() - X_WV.translation()).norm(), 1e-6) << "the ball stays";
+}
+
+TEST(GraspSimulation, AHandThatTheCartCarriesIsInNobodysWay) {
+  HandAndBall scene(2, 0.6);
+  close_round_ball(scene);
+  ASSERT_EQ(scene.simulation.held_part(0), 0U);
+  scene.target(1) = moved(open_hand(), 0.0, 0.0, 0.1);
+  scene.advance();
+  EXPECT_EQ(scene.simulation.activity(1), HandActivity::kFree) << "above the ball, where it would stop it";
+  scene.simulation.move_cart(1, moved(open_hand(), 0.0, 0.0, -0.056));
+  for (int ms = 1; ms <= 300; ++ms) {
+    scene.target(0) = moved(bent_hand(1.2), 0.0, 0.0, 0.5e-3 * ms);
+    scene.target(1) = moved(open_hand(), 0.0, 0.0, 0.5e-3 * ms - 0.056);  // within the ball: it waits
+    scene.advance();
+  }
+  EXPECT_EQ(scene.simulation.activity(1), HandActivity::kWaiting);
+  EXPECT_GT(scene.X_WV().translation().z(), 0.05);
+}
+
 TEST(GraspSimulation, TwoHandsHoldOnePartAndPassItOn) {
   HandAndBall scene(2, 0.6);
   Posture below = open_hand();
