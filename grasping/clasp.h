@@ -93,8 +93,9 @@ class Clasp {
 
   ClaspState state() const;
   const Posture& posture() const;
-  /// Whether a link touches, by its number in the chain. The link itself must be stopped by an object: that links below
-  /// it are does not count.
+  /// Whether a link touches, by its number in the chain: it must itself be at an object, with a target that lies
+  /// deeper. That links beyond it touch does not count. Which joint was stopped first does not matter, other than in
+  /// the paper.
   std::span<const char> touching() const;
   /// The contacts of all links that touch.
   const std::vector<LinkContact>& contacts() const;
