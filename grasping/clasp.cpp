@@ -12,6 +12,7 @@
 #include "clasp/chain_step.h"
 #include "clasp/closing_rows.h"
 #include "clasp/interpolation.h"
+#include "clasp/sight.h"
 #include "clasp/slide_past.h"
 
 namespace glissade::grasping {
@@ -24,11 +25,7 @@ constexpr double kBracket_m = 1e-6;
 constexpr double kShort_m = 5e-6;
 constexpr int kShortSteps = 2;
 constexpr double kDeeper_m = 5e-6;  // a target that is so much deeper lies deeper
-constexpr double kSmallestReach_m = 0.2e-3;
-constexpr double kGreatestReach_m = 2.5e-3;
-constexpr std::size_t kAffordablePairs = 100;  // of a link: where a search finds more, the next ones look less far
-constexpr double kStepOfReach = 0.8;
-constexpr int kRetries = 4;  // with the contacts that a proof has missed
+constexpr int kRetries = 4;         // with the contacts that a proof has missed
 constexpr int kHalvings = 6;
 constexpr double kSame = 0.01;
 constexpr std::int64_t kWorkOfInterpolation = 5000;  // rough, as all work
@@ -67,7 +64,7 @@ class Clasp::Iteration {
       : chain_(std::move(chain)),
         rules_(rules),
         movers_(links_that_touch(checked(chain_))),
-        smallest_reach_(std::max(kSmallestReach_m, greatest_margin(fixed, rules.margin) + rules.touching)),
+        sight_(movers_.size(), greatest_margin(fixed, rules.margin) + rules.touching),
         link_bodies_(bodies_of(*chain_, movers_)),
         bodies_(std::move(fixed), std::move(objects), link_bodies_, rules.margin),
         motion_(*chain_, movers_),
@@ -83,10 +80,7 @@ class Clasp::Iteration {
     if (rules.most_steps < 1) throw std::invalid_argument("a call of the clasp needs at least one step");
     if (rules.work_budget && *rules.work_budget < 1)
       throw std::invalid_argument("the work budget of a clasp must be positive");
-    if (rules.touching > kSmallestReach_m) throw std::invalid_argument("a link that touches is at most 0.2 mm away");
-    reach_.assign(movers_.size(), 0.0);
-    next_reach_.assign(movers_.size(), kGreatestReach_m);
-    limit_.assign(movers_.size(), 1e-3);
+    if (rules.touching > Sight::kLeast_m) throw std::invalid_argument("a link that touches is at most 0.2 mm away");
     way_.assign(static_cast<std::size_t>(rules.most_steps), posture_);
   }
 
@@ -191,11 +185,9 @@ class Clasp::Iteration {
     step_between(posture_, target_, wanted_);
     motion_.set(posture_, wanted_);
     if (motion_.longest() == 0.0) return false;
-    choose_reach();
-    bodies_.look(reach_);
-    for (std::size_t m = 0; m < movers_.size(); ++m)
-      limit_[m] = std::clamp(bodies_.pair_count(m) > kAffordablePairs ? 0.5 * reach_[m] : 1.25 * limit_[m],
-                             smallest_reach_, kGreatestReach_m);
+    sight_.choose(motion_, rules_.margin);
+    bodies_.look(sight_.reach());
+    sight_.note_found(bodies_);
     bodies_.find_contacts(found_);
     is_found_here_ = true;
     rows_.set(posture_, wanted_, found_, movers_);
@@ -206,33 +198,8 @@ class Clasp::Iteration {
       ++short_steps_;
       return true;
     }
-    note_taken(goes_on);
+    sight_.note_taken(goes_on ? &motion_ : nullptr);
     return goes_on;
-  }
-
-  /// A clasped hand wants far more than it can do: the steps that a link takes say how far to look.
-  void choose_reach() {
-    for (std::size_t m = 0; m < movers_.size(); ++m) {
-      const double wanted = 1.5 * motion_.length(m) + 2.0 * rules_.margin;
-      reach_[m] = std::clamp(wanted, smallest_reach_, std::min(next_reach_[m], limit_[m]));
-    }
-  }
-
-  void note_taken(bool goes_on) {
-    for (std::size_t m = 0; m < movers_.size(); ++m) {
-      const double taken = goes_on ? motion_.length(m) : 0.0;
-      const bool is_clipped = taken > 0.9 * kStepOfReach * reach_[m];
-      next_reach_[m] = std::clamp(is_clipped ? 2.0 * reach_[m] : std::max(0.5 * reach_[m], 2.0 * taken),
-                                  smallest_reach_, kGreatestReach_m);
-    }
-  }
-
-  /// The share of the step at hand on which no link goes beyond what it has seen.
-  double share_in_sight() const {
-    double share = 1.0;
-    for (std::size_t m = 0; m < movers_.size(); ++m)
-      share = std::min(share, kStepOfReach * reach_[m] / std::max(motion_.length(m), kBracket_m));
-    return share;
   }
 
   /// Finds, certifies and takes a step: by the interpolation, or by a slide of the whole chain. Returns whether it was
@@ -243,7 +210,7 @@ class Clasp::Iteration {
       slides ? find_slide() : find_shares();
       motion_.set(posture_, step_);
       if (motion_.longest() < kBracket_m) return false;
-      if (const double share = share_in_sight(); share < 1.0) scale(step_, share);
+      if (const double share = sight_.share_of(motion_); share < 1.0) scale(step_, share);
       motion_.set(posture_, step_);
       if (std::abs(motion_.longest() - last) < kSame * last) break;  // the proof has missed no contact
       last = motion_.longest();
@@ -310,19 +277,13 @@ class Clasp::Iteration {
     return true;
   }
 
-  static void scale(ChainStep& step, double factor) {
-    step.root = step.root.scaled(factor);
-    for (double& value : step.values)
-      value *= factor;
-  }
-
   /// A link touches if it is near an object and its target lies deeper; if it is carried, also if it stays.
   void note_touching() {
     std::fill(touching_.begin(), touching_.end(), char{0});
     link_contacts_.clear();
     if (!is_found_here_) {
-      std::fill(reach_.begin(), reach_.end(), smallest_reach_);
-      bodies_.look(reach_);
+      sight_.choose_least();
+      bodies_.look(sight_.reach());
       bodies_.find_contacts(found_);
     }
     chain_->poses(target_.X_WR, target_.values, X_WL_target_);
@@ -340,7 +301,7 @@ class Clasp::Iteration {
   std::shared_ptr<const KinematicChain> chain_;
   ClaspRules rules_;
   std::vector<std::size_t> movers_;  // links with meshes
-  double smallest_reach_;            // metres: all contacts that count are within it
+  Sight sight_;
   std::vector<std::shared_ptr<const haptics::SlidingPart>> link_bodies_;  // of the movers
   haptics::CertifiedBodies bodies_;
   ChainMotion motion_;
@@ -353,11 +314,8 @@ class Clasp::Iteration {
   Posture next_;
   ChainStep wanted_;
   ChainStep step_;
-  bool slides_ = false;             // the root did not arrive
-  bool is_in_doubt_ = false;        // in this step, a proof has failed
-  std::vector<double> reach_;       // metres, of each mover: how far this step looks
-  std::vector<double> next_reach_;  // metres: that the last steps of the mover suggest
-  std::vector<double> limit_;       // metres: that the pairs found allow
+  bool slides_ = false;       // the root did not arrive
+  bool is_in_doubt_ = false;  // in this step, a proof has failed
   std::int64_t interpolations_ = 0;
   std::int64_t begin_ = 0;  // of the call: the work before it
   int steps_ = 0;

@@ -7,10 +7,10 @@
 #include <glissade/base/assert.h>
 #include <glissade/grasping/grasp_simulation.h>
 
-#include "hand/hand_links.h"
 #include "life/finger_rows.h"
 #include "life/grasping_hand.h"
 #include "life/push.h"
+#include "life/told_hand.h"
 
 namespace glissade::grasping {
 namespace {
@@ -48,36 +48,7 @@ std::vector<haptics::RiderChain> chains_of(const std::vector<GraspingHand>& hand
   return chains;
 }
 
-devices::GraspKind kind_of(GraspType type) {
-  const auto has_number = [](GraspType a, devices::GraspKind b) { return static_cast<int>(a) == static_cast<int>(b); };
-  static_assert(has_number(GraspType::kNone, devices::GraspKind::kNone) &&
-                has_number(GraspType::kPush, devices::GraspKind::kPush) &&
-                has_number(GraspType::kPrecision, devices::GraspKind::kPrecision) &&
-                has_number(GraspType::kPower, devices::GraspKind::kPower));
-  return static_cast<devices::GraspKind>(type);
-}
-
-devices::HandActivity activity_of(const GraspingHand& hand) {
-  if (hand.part()) return devices::HandActivity::kHolding;
-  if (hand.is_lost()) return devices::HandActivity::kLost;
-  return hand.is_present() ? devices::HandActivity::kFree : devices::HandActivity::kWaiting;
-}
-
 }  // namespace
-
-haptics::FingerHand finger_hand(const HandModel& hand) {
-  haptics::FingerHand result;
-  const std::span<const FlexValue> values = hand.chain.values();
-  for (std::size_t v = 0; v < values.size(); ++v) {
-    result.limits.lower[v] = values[v].lower;
-    result.limits.upper[v] = values[v].upper;
-  }
-  for (const std::size_t l : {kWrist, kPalmLink}) {
-    const ChainLink& link = hand.chain.links()[l];
-    result.wrist.push_back({link.terms.front().value, link.X_PJ, link.axis_J});
-  }
-  return result;
-}
 
 class GraspSimulation::Life {
  public:
@@ -168,10 +139,7 @@ class GraspSimulation::Life {
     for (std::size_t h = 0; h < hands_.size(); ++h) {
       const GraspingHand& hand = hands_[h];
       haptics::HandAnswer& answer = answers_[h];
-      answer.visible.activity = activity_of(hand);
-      answer.visible.grasp = kind_of(hand.grasp().type);
-      answer.visible.form = hand.grasp().form;
-      answer.visible.touching = hand.grasp().segments.bits();
+      tell_grasp(hand, answer.visible);
       tell_visible(hand.clasp().chain(), hand.clasp().posture(), hand.contacts(),
                    static_cast<std::int32_t>(parts_.obstacle_count()), X_WL_, answer);
       set.hands[h] = answer;

@@ -5,6 +5,12 @@
 
 namespace glissade::grasping {
 
+void scale(ChainStep& step, double factor) {
+  step.root = step.root.scaled(factor);
+  for (double& value : step.values)
+    value *= factor;
+}
+
 void step_between(const Posture& from, const Posture& to, ChainStep& step) {
   step.root = geometry::displacement_between(from.X_WR, to.X_WR, Eigen::Vector3d::Zero());
   step.values.resize(from.values.size());

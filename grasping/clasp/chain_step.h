@@ -18,6 +18,7 @@ struct ChainStep {
   std::vector<double> values;   ///< rad, one for each flex value
 };
 
+void scale(ChainStep& step, double factor);
 /// The step that leads from one posture to another.
 void step_between(const Posture& from, const Posture& to, ChainStep& step);
 /// The posture after the share t of a step.
