@@ -166,13 +166,13 @@ std::optional<int> release_delay_ms(const LabelledGrasp& labelled, int opening_m
 }
 
 /// How fast a hand opens, and how late it lets go at most.
-struct Opening {
+struct ReleaseCase {
   int opening_ms;
   int median_ms;
   int worst_ms;
 };
 
-class Release : public testing::TestWithParam<Opening> {};
+class Release : public testing::TestWithParam<ReleaseCase> {};
 
 TEST_P(Release, FollowsTheLastContact) {
   const std::vector<LabelledGrasp> grasps = held_grasps();
@@ -196,11 +196,9 @@ TEST_P(Release, FollowsTheLastContact) {
   EXPECT_LE(delays.back(), GetParam().worst_ms);
 }
 
-INSTANTIATE_TEST_SUITE_P(Hands, Release,
-                         testing::Values(Opening{100, 30, 120}, Opening{200, 50, 150}, Opening{400, 80, 220}),
-                         [](const auto& opening) {
-                           return "OpenIn" + std::to_string(opening.param.opening_ms) + "ms";
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Hands, Release, testing::Values(ReleaseCase{100, 30, 120}, ReleaseCase{200, 50, 150}, ReleaseCase{400, 80, 220}),
+    [](const auto& opening) { return "OpenIn" + std::to_string(opening.param.opening_ms) + "ms"; });
 
 /// A glove and a tracker that are not quite sure, with normally distributed errors.
 class NoisySensors {
