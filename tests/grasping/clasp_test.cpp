@@ -43,7 +43,7 @@ void close(Clasp& clasp, double angle, int calls) {
 
 /// Measures triangle by triangle, without trees: where a flex value stops short of its target, one of the links that it
 /// moves is within 0.1 mm of the object at the palm. Returns how many flex values do.
-int expect_tight(const Posture& posture, const Posture& target, const geometry::TriangleMesh& object) {
+int expect_stopped_at_object(const Posture& posture, const Posture& target, const geometry::TriangleMesh& object) {
   constexpr double kTight_m = 0.1e-3;
   geometry::TriangleMesh object_W = object;
   for (Eigen::Vector3d& vertex : object_W.vertices)
@@ -93,7 +93,8 @@ TEST(Clasp, ClosesTightRoundABallAndStaysOutside) {
   }
   const auto count = std::count(hand.clasp.touching().begin(), hand.clasp.touching().end(), 1);
   EXPECT_GE(count, 4) << "segments that touch";
-  EXPECT_GE(expect_tight(hand.clasp.posture(), bent_hand(1.2), ball()), 8) << "flex values that something stops";
+  EXPECT_GE(expect_stopped_at_object(hand.clasp.posture(), bent_hand(1.2), ball()), 8)
+      << "flex values that something stops";
 }
 
 TEST(Clasp, TouchesAnObstacleWithAWideMarginToo) {
