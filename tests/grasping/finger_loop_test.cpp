@@ -259,7 +259,7 @@ TEST(FingerLoop, IsRepeatedFromItsRecordingToTheBit) {
 }
 
 // Hands stand still while the parts are within a step; so they must come to move all the same, and the steps to an end.
-// The hand itself has work enough to follow: with a sixteenth of this budget its fingers lag so far that it lets go.
+// The hand itself has work enough: with a sixteenth of this budget it closes so slowly that it pushes the ball away.
 TEST(FingerLoop, CarriesWithSoLittleWorkThatCallsEndEarly) {
   const BallAndWall scene;
   GraspSimulation simulation = scene.simulation(1, {.work_budget = 50'000}, {.work_budget = 200'000});
