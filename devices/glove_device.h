@@ -165,7 +165,8 @@ struct DeviceDescriptor {
   double max_damping = 0.0;               ///< largest translational damping rendered without shaking
   double max_joint_torque = 0.0;          ///< largest torque of each joint
   /// The device itself, without forces and without a hand. The stiffness that it can render passively follows from
-  /// these numbers (`passive_stiffness`, `finger_stiffness`), and does not depend on its mass. 0: not known.
+  /// these numbers (`passive_stiffness`, `finger_stiffness`); the mass does not matter. 0: not known. A device
+  /// that has hardly any damping tells a small number.
   double damping = 0.0;               ///< viscous friction against translation
   double rotational_damping = 0.0;    ///< viscous friction against rotation
   double joint_damping = 0.0;         ///< viscous friction of each finger joint

@@ -122,8 +122,8 @@ struct HapticHandState {
   /// it holds nothing.
   Eigen::Vector3d force_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque_V_W = Eigen::Vector3d::Zero();
-  /// The share of the contacts' force that is exerted: less than 1 where they are old, or where the hand has left them
-  /// and the part lags behind, and while the force returns from there.
+  /// The share of the contacts' force that may be exerted, which the force follows within 75 ms: less than 1 where they
+  /// are old, or where the hand has left them and the part lags behind, and while the force returns from there.
   double contact_share = 1.0;
   bool are_contacts_unsolved = false;       ///< the contacts had no solution, so their force went towards zero
   LimitReasons reasons;                     ///< why the device got less than the contacts demand

@@ -11,7 +11,7 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr double kFadePeriods = 7.0;
-constexpr double kLongestFallPeriods = 15.0;  // passivity_test: from 20 on, a falling force gives more than is there
+constexpr double kLongestFallPeriods = 15.0;  // at 1 kHz, a force that falls in 20 gives more energy than is there
 constexpr double kReturn_s = 0.2;
 constexpr double kMeanTime_s = 10.0;
 constexpr double kSoftMean = 0.9;  // share of the largest mean from which the force is reduced
@@ -53,7 +53,7 @@ SafetyEnvelope::SafetyEnvelope(const DeviceDescriptor& descriptor, double patien
   patience_ = rounded(patience_periods * std::chrono::duration<double>(period_));
   force_rate_ = rate_or_default(descriptor_.max_force_rate, descriptor_.max_force, descriptor_);
   torque_rate_ = rate_or_default(descriptor_.max_torque_rate, descriptor_.max_torque, descriptor_);
-  const double longest_fall_s = kLongestFallPeriods / descriptor_.update_rate;
+  const double longest_fall_s = kLongestFallPeriods * in_seconds(period_);
   descriptor_.max_force = std::min(descriptor_.max_force, force_rate_ * longest_fall_s);
   descriptor_.max_torque = std::min(descriptor_.max_torque, torque_rate_ * longest_fall_s);
   joint_torque_rate_ = rate_or_default(descriptor_.max_joint_torque_rate, descriptor_.max_joint_torque, descriptor_);

@@ -150,7 +150,7 @@ class SafetyEnvelope {
   double refill_;                     // J, for the return from interruptions and in calm contacts
   double stirred_ = 0.0;              // J, that went to and fro in about the last half second
   double energy_scale_ = 1.0;
-  std::chrono::nanoseconds free_until_{0};           // up to then the force returns, and the refill serves its work
+  std::chrono::nanoseconds free_until_{0};           // up to then the force returns, and the refill pays for its work
   Eigen::Vector3d f_sum_ = Eigen::Vector3d::Zero();  // of the commands since the newest state
   Eigen::Vector3d t_sum_ = Eigen::Vector3d::Zero();
   int summed_ = 0;

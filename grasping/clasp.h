@@ -48,7 +48,7 @@ struct LinkContact {
 };
 
 /// Surfaces stop a link, not what they enclose, because meshes may be open: a chain that lies wholly within a closed
-/// object counts as free and cannot leave it, and so does one of whose links an object lies wholly within.
+/// object counts as free and cannot leave it, and so does a chain that has an object wholly within one of its links.
 ///
 /// Deterministic. Not thread-safe.
 class Clasp {

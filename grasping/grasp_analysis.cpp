@@ -204,15 +204,15 @@ GraspForm GraspAnalysis::form_of(const Grasp& grasp, const Eigen::Vector3d& up_W
 /// one finger alone it would fall. What is being carried may be touched from the side.
 bool GraspAnalysis::carries(const Grasp& grasp, const Eigen::Vector3d& up_W) const {
   const double least = had(GraspForm::kGravity, grasp.object) ? -kFromBelow : kFromBelow;
-  std::array<bool, 6> carries{};  // by finger, the palm first
+  std::array<bool, 6> carrying{};  // by finger, the palm first
   for (std::size_t link = 0; link < kHandLinks; ++link) {
     const Touch* const contact = touch(link, grasp.object);
     if (contact == nullptr) continue;
     const double from_below = -contact->n_W.dot(up_W);
     if (from_below < least) return false;
-    if (from_below > kFromBelow) carries[static_cast<std::size_t>(meaning_[link].finger)] = true;
+    if (from_below > kFromBelow) carrying[static_cast<std::size_t>(meaning_[link].finger)] = true;
   }
-  return std::count(carries.begin(), carries.end(), true) >= 2;
+  return std::count(carrying.begin(), carrying.end(), true) >= 2;
 }
 
 GraspForm GraspAnalysis::precision_form(const Grasp& grasp) const {

@@ -79,9 +79,9 @@ std::string words_of(const SegmentMeaning& segment);
 /// Follows the grasp over time. A segment counts as touching once it has touched in most of the last 40 ms or so, and
 /// until it has hardly touched for 70 ms, so that the noise of sensors makes no grasp flicker. No grasp lasts longer
 /// than that without contacts in `update`; of a hand that holds a part, `GraspSimulation` gives some of them while
-/// noise may have taken them away. A segment may touch several bodies, each for itself. Of these bodies the one counts
-/// whose grasp is the firmest: power, precision, push; but one that moves, and that a grasp holds, comes before what is
-/// fixed. Real-time safe after construction. Not thread-safe.
+/// noise may have taken them away. A segment may touch up to three bodies, each for itself. Of these bodies the one
+/// counts whose grasp is the firmest: power, precision, push. A grasp that holds a part, also one that moves on its
+/// own, comes before any of a fixed body. Real-time safe after construction. Not thread-safe.
 class GraspAnalysis {
  public:
   /// The first bodies, `fixed_bodies` of them, never move.

@@ -68,7 +68,8 @@ class GraspSimulation final : public haptics::LoopSimulation {
   void advance(std::span<const std::optional<Posture>> targets, double milliseconds = 1.0);
 
   /// The user's cart carries the hand to this posture, whatever is in the way. The hand lets go of what it holds, and
-  /// waits until a target is free. Not in the haptic loop, which has no cart.
+  /// waits until a target is free. Its posture stays as it was if this one is not finite or has other values than the
+  /// hand. Not in the haptic loop, which has no cart.
   void move_cart(std::size_t hand, const Posture& posture);
 
   std::size_t hand_count() const;

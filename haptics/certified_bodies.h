@@ -49,7 +49,8 @@ class CertifiedBodies {
   void look(std::span<const double> reach);
   /// The pairs of triangles and boxes that the last search of a mover has found: the calls below look at all of them.
   std::size_t pair_count(std::size_t mover) const;
-  /// Work of all calls so far, in the unit of `SlidingRules::work_budget`: rough.
+  /// Work of all calls of `look`, `find_contacts` and `certify` so far, in the unit of `SlidingRules::work_budget`:
+  /// rough.
   std::int64_t work() const;
 
   /// Replaces `contacts` by those within the reach of the last `look`, at the present poses. `Contact::part` is the

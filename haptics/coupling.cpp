@@ -16,10 +16,11 @@ double lag_of(const devices::DeviceDescriptor& device, std::chrono::nanoseconds 
   return 0.5 * seconds + std::chrono::duration<double>(device.delay + delay).count();
 }
 
-/// The damping of a device. If the descriptor does not tell it (0), the device is taken to have just as much as its
-/// largest stiffness needs to be passive without a link.
-double damping_of(const devices::DeviceDescriptor& device, double told, double max_stiffness) noexcept {
-  return told > 0.0 ? told : max_stiffness * lag_of(device, std::chrono::nanoseconds(0), std::chrono::nanoseconds(0));
+/// The largest stiffness that is passive with the damping `told` at this lag (seconds). If the descriptor does not tell
+/// it (0), the device is taken to have just as much as its largest stiffness needs to be passive without a link.
+double passive_limit(const devices::DeviceDescriptor& device, double told, double max_stiffness, double lag) noexcept {
+  if (told > 0.0) return told / lag;
+  return max_stiffness * (lag_of(device, std::chrono::nanoseconds(0), std::chrono::nanoseconds(0)) / lag);
 }
 
 }  // namespace
@@ -44,8 +45,8 @@ void validate(const CouplingStiffness& stiffness, const std::string& part_name) 
 CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                                     std::chrono::nanoseconds delay) noexcept {
   const double lag = lag_of(device, period, delay);
-  CouplingStiffness limit{damping_of(device, device.damping, device.max_stiffness) / lag,
-                          damping_of(device, device.rotational_damping, device.max_rotational_stiffness) / lag};
+  CouplingStiffness limit{passive_limit(device, device.damping, device.max_stiffness, lag),
+                          passive_limit(device, device.rotational_damping, device.max_rotational_stiffness, lag)};
   if (device.friction > 0.0 && device.resolution > 0.0) {
     limit.translational = std::min(limit.translational, 2.0 * device.friction / device.resolution);
   }
@@ -66,17 +67,18 @@ Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const C
   constexpr double kDampingTime_s = 5e-3;
   const CouplingStiffness passive = passive_stiffness(device, period, delay);
   const double lag = lag_of(device, period, delay);
-  const auto damping = [lag](double stiffness, double of_device) {
-    return std::clamp(of_device - stiffness * lag, 0.0, kDampingTime_s * stiffness);
+  // What the device's own damping leaves.
+  const auto damping = [lag](double stiffness, double limit) {
+    return std::clamp((limit - stiffness) * lag, 0.0, kDampingTime_s * stiffness);
   };
   Coupling coupling;
   coupling.stiffness.translational = std::min({wanted.translational, device.max_stiffness, passive.translational});
   coupling.stiffness.rotational = std::min({wanted.rotational, device.max_rotational_stiffness, passive.rotational});
-  coupling.damping.translational =
-      std::min(damping(coupling.stiffness.translational, damping_of(device, device.damping, device.max_stiffness)),
-               device.max_damping);
-  coupling.damping.rotational = damping(coupling.stiffness.rotational,
-                                        damping_of(device, device.rotational_damping, device.max_rotational_stiffness));
+  const double limit = passive_limit(device, device.damping, device.max_stiffness, lag);
+  const double rotational_limit =
+      passive_limit(device, device.rotational_damping, device.max_rotational_stiffness, lag);
+  coupling.damping.translational = std::min(damping(coupling.stiffness.translational, limit), device.max_damping);
+  coupling.damping.rotational = damping(coupling.stiffness.rotational, rotational_limit);
   return coupling;
 }
 

@@ -109,7 +109,7 @@ class BackgroundObserver final : public LoopObserver {
   void after_tick(const TickRecord& record) noexcept override { ticks_.push(record); }
   void after_answer(const AnswerRecord& record) noexcept override { answers_.push(record); }
 
-  /// Records lost because the thread did not keep up for 2,048 ticks or longer. Any thread.
+  /// Records lost because the thread did not keep up for 1,000 ticks or longer. Any thread.
   std::uint64_t dropped() const noexcept { return ticks_.dropped() + answers_.dropped(); }
 
  private:

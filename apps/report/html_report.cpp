@@ -157,13 +157,13 @@ std::string html_report(const Report& report) {
 }
 
 void prepare_report_folder(const std::string& folder) {
-  const std::filesystem::path path(folder);
-  if (path.extension() == ".html" && !std::filesystem::is_directory(path)) {
-    throw std::invalid_argument("--report: " + in_quotes(folder) +
-                                " would be a folder, with the report as index.html in it; " + "name it " +
-                                in_quotes(path.stem().string()));
-  }
   std::error_code error;
+  std::filesystem::path path(folder);
+  if (path.extension() == ".html" && !std::filesystem::is_directory(path, error)) {
+    throw std::invalid_argument("--report: " + in_quotes(folder) +
+                                " would be a folder, with the report as index.html in it; name it " +
+                                in_quotes(path.replace_extension().string()));
+  }
   std::filesystem::create_directories(folder, error);
   if (error) throw std::invalid_argument(folder + ": cannot make this folder: " + error.message());
   if (access(folder.c_str(), W_OK | X_OK) != 0) {

@@ -33,8 +33,8 @@ struct Report {
 std::string html_report(const Report& report);
 
 /// Creates `folder` if necessary. Call it before a run, so that no run ends without a place for its report.
-/// Throws std::invalid_argument, naming the folder, when it cannot be created or is not writable, or is new and named
-/// as a page (.html).
+/// Throws std::invalid_argument, naming the folder, when it cannot be created or is not writable, or is no folder and
+/// is named as a page (.html).
 void prepare_report_folder(const std::string& folder);
 
 /// Writes the page to `folder`/index.html, creates the folder if necessary, and returns that path.

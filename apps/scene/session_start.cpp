@@ -38,12 +38,16 @@ std::vector<std::string> softer_devices(const std::vector<Grip>& grips, std::chr
   const haptics::CouplingStiffness usual = haptics::default_stiffness(1.0);
   for (const Grip& grip : grips) {
     const double stiffness = coupling_for(grip.device, usual, period).stiffness.translational;
-    if (stiffness >= usual.translational) continue;
-    const bool is_stated = stiffness == grip.device.max_stiffness;
-    sentences.push_back(
-        "device " + in_quotes(grip.device.name) + ": contacts have " + format_number(stiffness) + " N/m instead of " +
-        format_number(usual.translational) + ": " +
-        (is_stated ? "its largest stiffness" : "the largest that is passive with its damping, delay and update rate"));
+    constexpr double kNearly = 1.0 - 1e-3;
+    if (stiffness >= kNearly * usual.translational) continue;
+    const std::string reason =
+        stiffness >= kNearly * grip.device.max_stiffness
+            ? "its largest stiffness"
+            : "the largest that is passive with the damping, friction, resolution and delay that it tells";
+    const std::string sentence = "device " + in_quotes(grip.device.name) + ": contacts have " +
+                                 rounded_text(stiffness) + " N/m instead of " + rounded_text(usual.translational) +
+                                 ": " + reason;
+    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
   }
   return sentences;
 }

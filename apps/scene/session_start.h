@@ -32,7 +32,8 @@ struct StartedSimulation {
   std::vector<std::shared_ptr<const grasping::HandModel>> models;  ///< null without fingers
 };
 
-/// A sentence for each device, one for each grip, with which contacts are softer than usual, with the reason.
+/// The devices among these with which contacts are softer than usual, each in a sentence with the reason. The delay of
+/// a link does not count.
 std::vector<std::string> softer_devices(const std::vector<Grip>& grips, std::chrono::nanoseconds period);
 
 /// Starts the simulation. A part has its default stiffness, lowered to the limits of all devices: each may come to hold

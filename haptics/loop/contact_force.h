@@ -48,8 +48,8 @@ class ContactForce {
   const Wrench& update(const PartContacts& contacts, std::chrono::nanoseconds age, double ghost_motion,
                        double dt) noexcept;
 
-  /// The share of its force that the set exerted in the last call: less than 1 where it is old, or where its contacts
-  /// are not known any more, and for 200 ms after that.
+  /// The share of its force that the set may exert, which the force follows within kLongestFall: less than 1 where it
+  /// is old, or where its contacts are not known any more, and for 200 ms after that.
   double share() const noexcept { return share_; }
   /// What the contacts would exert more if they were new and known; zero while `share` is 1.
   const Wrench& withheld() const noexcept { return withheld_; }

@@ -232,5 +232,14 @@ TEST(HapticState, WhatCannotBeIsRefusedAndChangesNothing) {
   EXPECT_EQ(received.sequence, 0);
 }
 
+TEST(EnergyLeft, IsThatOfTheEnvelopeWhichActsOnTheHand) {
+  HapticHandState hand;
+  hand.energy = 0.1;
+  hand.glove_energy = 0.02;
+  EXPECT_EQ(energy_left(hand), 0.1) << "a glove without an envelope of its own";
+  hand.command_age = std::chrono::milliseconds(1);
+  EXPECT_EQ(energy_left(hand), 0.02);
+}
+
 }  // namespace
 }  // namespace glissade::devices

@@ -177,17 +177,19 @@ class Release : public testing::TestWithParam<ReleaseCase> {};
 TEST_P(Release, FollowsTheLastContact) {
   const std::vector<LabelledGrasp> grasps = held_grasps();
   std::vector<int> delays;
+  int kept = 0;
   std::string slowest;
   for (std::size_t i = 0; i < grasps.size(); i += kStride) {
     const std::optional<int> delay = release_delay_ms(grasps[i], GetParam().opening_ms);
     if (!delay) {
       std::cout << "kept: " << grasps[i].name << "\n";
+      ++kept;
       continue;
     }
     if (std::all_of(delays.begin(), delays.end(), [&](int other) { return other < *delay; })) slowest = grasps[i].name;
     delays.push_back(*delay);
   }
-  ASSERT_FALSE(delays.empty());
+  EXPECT_LE(kept, 1) << "only the hammer, which hangs in the hooked fingers";
   std::sort(delays.begin(), delays.end());
   const int median = delays[delays.size() / 2];
   std::cout << "opens in " << GetParam().opening_ms << " ms, " << delays.size() << " let go: median " << median

@@ -340,6 +340,7 @@ TEST(TwoGloves, PassShareAndPushPartsAndLoseNothing) {
       test_support::glissade({"record", log, scene, "--lcm", kUrl, "--device", "1", "2", "--hold", "1=part0",
                               "2=", "--friction", "0.2", "--seconds", std::to_string(seconds), "--json"});
   ASSERT_EQ(server.exit_code, 0) << end_of(server.standard_error);
+  EXPECT_NE(server.standard_error.find("glissade record: "), std::string::npos) << end_of(server.standard_error);
   const nlohmann::json summary = nlohmann::json::parse(server.standard_output);
   EXPECT_EQ(summary["colliding_poses"], 0);
   EXPECT_EQ(summary["ticks"], 1000 * seconds);

@@ -107,7 +107,7 @@ TEST(HtmlReport, IsWrittenIntoAFolderThatNeedNotExist) {
 TEST(HtmlReport, AFolderIsNotNamedAsAPage) {
   const test_support::TemporaryFolder folder;
   test_support::expect_bad_input([&] { write_html_report(small_report(), folder.path("x.html")); },
-                                 {"x.html", "a folder", "name it 'x'"});
+                                 {"x.html", "a folder", "name it '", "/x'"});
 }
 
 TEST(HtmlReport, AFolderThatCannotBeMadeIsNamed) {
