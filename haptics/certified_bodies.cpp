@@ -16,7 +16,7 @@ namespace glissade::haptics {
 namespace {
 
 /// Work of the contacts of a pair: rough.
-constexpr std::int64_t kWorkOfContacts = 100;
+constexpr std::int64_t kWorkOfMoverContacts = 100;
 
 std::vector<std::shared_ptr<const SlidingPart>> joined(std::vector<std::shared_ptr<const SlidingPart>> objects,
                                                        const std::vector<std::shared_ptr<const SlidingPart>>& movers) {
@@ -100,7 +100,7 @@ class CertifiedBodies::State {
       pairs_.clear();
       searches_[m]->add_within(reach, body_of_mover(m), pairs_);
       if (pairs_.empty()) continue;
-      work_ += kWorkOfContacts * std::ssize(pairs_);
+      work_ += kWorkOfMoverContacts * std::ssize(pairs_);
       haptics::find_contacts(scene_.bodies(), first, pairs_, reach, margin_, contacts_of_mover_);
       contacts.insert(contacts.end(), contacts_of_mover_.begin(), contacts_of_mover_.end());
     }

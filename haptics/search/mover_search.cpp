@@ -14,8 +14,8 @@ constexpr double kGreatestRadiusOfMover_m = 0.1;
 constexpr double kAheadOfMover = 1.5;
 constexpr double kRadiusOfNothing_m = 1e-3;
 // Work of a search, and of each pair that it finds: rough.
-constexpr std::int64_t kWorkOfSearch = 1000;
-constexpr std::int64_t kWorkOfPair = 300;
+constexpr std::int64_t kWorkOfMoverSearch = 1000;
+constexpr std::int64_t kWorkOfMoverPair = 300;
 
 }  // namespace
 
@@ -46,7 +46,7 @@ bool NearMover::look(double reach) {
   const double radius = std::max(kAheadOfMover * reach, candidates_.size() == 0 ? kRadiusOfNothing_m : 0.0);
   candidates_.begin_call();
   const bool is_new = candidates_.look(reach, radius - reach, {});
-  if (is_new) work_ += kWorkOfSearch + kWorkOfPair * static_cast<std::int64_t>(candidates_.size());
+  if (is_new) work_ += kWorkOfMoverSearch + kWorkOfMoverPair * static_cast<std::int64_t>(candidates_.size());
   return true;
 }
 
