@@ -87,6 +87,20 @@ TEST(OfflineRun, LeadsOneOfSeveralPartsOntoAnother) {
   EXPECT_EQ(parts.result(0).X_WV.translation().z(), 0.021) << "nothing holds it";
 }
 
+TEST(OfflineRun, PressesThePartOnThePlateByEveryMetaphorWithoutAJump) {
+  for (const Metaphor metaphor : {Metaphor::kForceFeedback, Metaphor::kRubberBand, Metaphor::kRubberBandSpring}) {
+    SCOPED_TRACE(name_of(metaphor));
+    MultiPartSliding sliding(
+        {{plate()}},
+        {{.part_V = box(), .X_WV_start = at_height(0.03), .metaphor = metaphor, .stiffness = kHandStiffness}});
+    const std::vector<HapticState> samples = press_down(sliding);
+    EXPECT_NEAR(samples.back().hands[0].force_W.z(), force_at_rest(), 0.01 * force_at_rest());
+    EXPECT_NEAR(samples.back().parts[0].X_WV.translation().z(), 0.02, 20e-6);
+    for (std::size_t i = 1; i < samples.size(); ++i)
+      ASSERT_LE((samples[i].hands[0].force_W - samples[i - 1].hands[0].force_W).norm(), 1.0) << i << " ms";
+  }
+}
+
 TEST(OfflineRun, ShowsThePartWhereItIsFromTheFirstTickOn) {
   EXPECT_TRUE(press_on_plate().front().parts[0].X_WV.isApprox(Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.03))));
 }
