@@ -44,6 +44,7 @@ using Eigen::Vector3d;
 using test_support::at;
 using test_support::Process;
 using test_support::ProgramResult;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
@@ -213,31 +214,32 @@ class TwoHands : public testing::Test {
   static void TearDownTestSuite() { folder.reset(); }
 
   static std::string log() { return folder->path("run.lcmlog"); }
-  static const RecordedTick& at_time(double seconds) {
-    return recorded[std::min(static_cast<std::size_t>(std::llround(1e3 * seconds)), recorded.size() - 1)];
-  }
-  static std::pair<std::int32_t, std::int32_t> held_at(double seconds) {
-    const HapticState& state = at_time(seconds).state;
-    return {state.hands[0].part, state.hands[1].part};
-  }
-  static Vector3d ball_at(double seconds) { return at_time(seconds).state.parts[0].X_WV.translation(); }
+  static Vector3d ball_of(const RecordedTick& tick) { return tick.state.parts[0].X_WV.translation(); }
 
   static inline std::unique_ptr<test_support::TemporaryFolder> folder;
   static inline ProgramResult server;
   static inline std::vector<RecordedTick> recorded;
 };
 
+// Whenever that is: on a busy computer, gloves and server begin one after the other.
 TEST_F(TwoHands, TakeHoldShareCarryAndLeave) {
-  EXPECT_EQ(held_at(0.4), std::pair(-1, -1));
-  EXPECT_EQ(held_at(1.5), std::pair(0, -1)) << server.standard_error;
-  EXPECT_EQ(held_at(2.8), std::pair(0, 0)) << server.standard_error;
-  EXPECT_EQ(held_at(3.9), std::pair(-1, 0)) << server.standard_error;
-  EXPECT_EQ(held_at(6.8), std::pair(-1, 0));
-  EXPECT_EQ(held_at(8.4), std::pair(-1, -1));
-  EXPECT_GT(ball_at(5.6).x(), ball_at(3.9).x() + 0.08) << "carried to the wall";
-  EXPECT_GT(ball_at(6.2).y(), ball_at(5.6).y() + 0.03) << "along it";
-  EXPECT_LT(ball_at(6.8).x(), ball_at(5.6).x() - 0.02) << "and back";
-  EXPECT_TRUE(ball_at(8.0).isApprox(ball_at(8.4), 1e-12)) << "it stays where it was left";
+  using Held = std::pair<std::int32_t, std::int32_t>;
+  std::vector<Held> holds;
+  std::vector<Vector3d> carried;  // by the second hand alone
+  for (const RecordedTick& tick : recorded) {
+    const Held now{tick.state.hands[0].part, tick.state.hands[1].part};
+    if (holds.empty() || holds.back() != now) holds.push_back(now);
+    if (now == Held(-1, 0)) carried.push_back(ball_of(tick));
+  }
+  EXPECT_THAT(holds, ElementsAre(Held(-1, -1), Held(0, -1), Held(0, 0), Held(-1, 0), Held(-1, -1)))
+      << server.standard_error;
+  ASSERT_FALSE(carried.empty());
+  const auto farthest = std::max_element(carried.begin(), carried.end(),
+                                         [](const Vector3d& a, const Vector3d& b) { return a.x() < b.x(); });
+  EXPECT_GT(farthest->x(), carried.front().x() + 0.08) << "carried to the wall";
+  EXPECT_GT(carried.back().y(), carried.front().y() + 0.03) << "along it";
+  EXPECT_LT(carried.back().x(), farthest->x() - 0.02) << "and back";
+  EXPECT_EQ(ball_of(recorded.back()), ball_of(*(recorded.end() - 100))) << "it stays where it was left";
   const nlohmann::json summary = nlohmann::json::parse(server.standard_output);
   EXPECT_EQ(summary["colliding_poses"], 0);
   EXPECT_EQ(summary["hands"][0]["has_fingers"], true);
