@@ -16,6 +16,7 @@ namespace glissade::grasping {
 namespace {
 
 constexpr double kUnitTolerance = 1e-6;
+
 ClaspRules rules_of_hands(const GraspRules& rules) {
   ClaspRules of_hands = rules.clasp;
   if (!of_hands.work_budget) of_hands.work_budget = work_of_hand(rules.sliding);

@@ -5,25 +5,9 @@
 #include <glissade/devices/glove_device.h>
 #include <glissade/haptics/coupling.h>
 
+#include "loop/passive_limit.h"
+
 namespace glissade::haptics {
-
-namespace {
-
-/// Seconds by which the force lags behind the motion: half a period, because it is held that long, and all delays.
-double lag_of(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
-              std::chrono::nanoseconds delay) noexcept {
-  const double seconds = std::max(std::chrono::duration<double>(period).count(), 1.0 / device.update_rate);
-  return 0.5 * seconds + std::chrono::duration<double>(device.delay + delay).count();
-}
-
-/// The largest stiffness that is passive with the damping `told` at this lag (seconds). If the descriptor does not tell
-/// it (0), the device is taken to have just as much as its largest stiffness needs to be passive without a link.
-double passive_limit(const devices::DeviceDescriptor& device, double told, double max_stiffness, double lag) noexcept {
-  if (told > 0.0) return told / lag;
-  return max_stiffness * (lag_of(device, std::chrono::nanoseconds(0), std::chrono::nanoseconds(0)) / lag);
-}
-
-}  // namespace
 
 void validate_tick_period(std::chrono::nanoseconds period) {
   if (kShortestTickPeriod <= period && period <= kLongestTickPeriod) return;

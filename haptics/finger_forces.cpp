@@ -7,6 +7,7 @@
 #include <glissade/haptics/finger_forces.h>
 
 #include "loop/contact_force.h"
+#include "loop/passive_limit.h"
 
 namespace glissade::haptics {
 
@@ -27,12 +28,8 @@ FingerLimits checked_limits(const FingerLimits& limits) {
 
 double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                         std::chrono::nanoseconds link_delay) noexcept {
-  const auto seconds = [](std::chrono::nanoseconds time) { return std::chrono::duration<double>(time).count(); };
   const double wanted = device.max_joint_torque / kFullTorque_rad;
-  const double lag_without_link = 0.5 / device.update_rate + seconds(device.delay);
-  const double damping = device.joint_damping > 0.0 ? device.joint_damping : wanted * lag_without_link;
-  const double lag = 0.5 * std::max(seconds(period), 1.0 / device.update_rate) + seconds(device.delay + link_delay);
-  return std::min(wanted, damping / lag);
+  return std::min(wanted, passive_limit(device, device.joint_damping, wanted, lag_of(device, period, link_delay)));
 }
 
 FingerForces::FingerForces(const FingerLimits& limits, const devices::DeviceDescriptor& device,
