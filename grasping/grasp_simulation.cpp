@@ -127,8 +127,8 @@ class GraspSimulation::Life {
   }
 
   void take_part(std::size_t p, const Eigen::Isometry3d& X_WG) {
-    pushes_[p].clear();
-    parts_.grasp(p, X_WG);
+    end_push(p);
+    parts_.grasp(p, X_WG, grip(p));
   }
 
   void leave_part(std::size_t p) {
@@ -185,7 +185,7 @@ class GraspSimulation::Life {
   /// The mean of what the hands that hold a part want of it; none while none of them has a target.
   std::optional<Eigen::Isometry3d> wish(std::size_t part) {
     const Eigen::Isometry3d& X_WV = parts_.result(part).X_WV;
-    const Eigen::Vector3d& p_Vref = parts_.part(part).p_Vref();
+    const Eigen::Vector3d& p_Vref = parts_.p_Vref(part);
     geometry::Displacement sum;
     int count = 0;
     for (GraspingHand& hand : hands_) {
@@ -207,7 +207,7 @@ class GraspSimulation::Life {
     const haptics::SlidingPart& part = parts_.part(p);
     const bool repeats_motion = metaphors_[p] == haptics::Metaphor::kIncremental;
     const Eigen::Isometry3d& X_WG_from = repeats_motion ? parts_.result(p).X_WG : X_WV;
-    return geometry::displaced(X_WG_from, part.p_Vref(), pushes_[p].displacement(part.radius()));
+    return geometry::displaced(X_WG_from, parts_.p_Vref(p), pushes_[p].displacement(part.radius()));
   }
 
   void carry_hand(std::size_t h) {
@@ -278,13 +278,36 @@ class GraspSimulation::Life {
   /// After another hand has taken hold of a part or let go of it, or is lost or found again. The part approaches its
   /// new ghost slowly: its own pose while nobody knows where it should go.
   void settle(std::size_t p) {
-    pushes_[p].clear();
     if (!is_held(p)) {
-      parts_.release(p);
+      leave_part(p);
     } else {
       X_WG_[p] = wish(p).value_or(parts_.result(p).X_WV);
-      parts_.grasp(p, X_WG_[p]);
+      take_part(p, X_WG_[p]);
     }
+  }
+
+  /// A part that a hand pushes is held by nobody.
+  void end_push(std::size_t p) {
+    if (!pushes_[p].is_empty()) parts_.release(p);
+    pushes_[p].clear();
+  }
+
+  /// The compliance point of a part that hands take: the middle of where they touch it, unless the scene says another.
+  Eigen::Vector3d grip(std::size_t p) const {
+    const haptics::SlidingPart& part = parts_.part(p);
+    const auto body = static_cast<std::int32_t>(parts_.obstacle_count() + p);
+    Eigen::Vector3d sum_W = Eigen::Vector3d::Zero();
+    int count = 0;
+    for (std::size_t h = 0; h < hands_.size(); ++h) {
+      if (hands_[h].part() != p && answers_[h].part != static_cast<std::int32_t>(p)) continue;
+      for (const LinkContact& touch : hands_[h].clasp().contacts()) {
+        if (touch.contact.obstacle != body) continue;
+        sum_W += touch.contact.q_W();
+        ++count;
+      }
+    }
+    if (count == 0 || part.has_chosen_point()) return part.p_Vref();
+    return parts_.result(p).X_WV.inverse(Eigen::Isometry) * (sum_W / count);
   }
 
   void note_pushes() {

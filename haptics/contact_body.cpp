@@ -32,10 +32,10 @@ ContactBody::ContactBody(const std::shared_ptr<const geometry::TriangleMesh>& me
 ContactBody::~ContactBody() = default;
 
 SlidingPart::SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh)
-    : ContactBody(mesh), p_Vref_(tree.center()), radius_(tree.radius()) {}
+    : ContactBody(mesh), p_Vref_(tree.center()), has_chosen_point_(false), radius_(tree.radius()) {}
 
 SlidingPart::SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh, const Eigen::Vector3d& p_Vref)
-    : ContactBody(mesh), p_Vref_(p_Vref), radius_(0.0) {
+    : ContactBody(mesh), p_Vref_(p_Vref), has_chosen_point_(true), radius_(0.0) {
   constexpr double kFarthest = 10.0;  // in units of the part's own radius
   if (!((p_Vref - tree.center()).norm() <= kFarthest * tree.radius())) {
     throw std::invalid_argument("the compliance point lies too far from the part");

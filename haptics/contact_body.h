@@ -42,7 +42,8 @@ struct ContactBody {
 /// A part that a hand or a script moves, in its own frame V. A displacement of the part is the translation of a
 /// reference point and a rotation about that point; the coupling, the virtual spring between hand and part, acts at the
 /// same point, the compliance point. A force at this point turns the part little, so a peg that is coupled at its tip
-/// finds its hole, where one that is coupled at its middle tips and jams.
+/// finds its hole, where one that is coupled at its middle tips and jams. A hand with fingers is coupled where it grips
+/// the part (`MultiPartSliding::grasp`), unless the point was chosen here.
 class SlidingPart : public ContactBody {
  public:
   /// The compliance point is the centre of the bounding box: no point of the part is much farther from it than half of
@@ -54,11 +55,13 @@ class SlidingPart : public ContactBody {
   SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh, const Eigen::Vector3d& p_Vref);
 
   const Eigen::Vector3d& p_Vref() const { return p_Vref_; }
+  bool has_chosen_point() const { return has_chosen_point_; }
   /// ρ: the largest distance of a vertex from the reference point, metres.
   double radius() const { return radius_; }
 
  private:
   Eigen::Vector3d p_Vref_;
+  bool has_chosen_point_;
   double radius_;
 };
 

@@ -50,7 +50,8 @@ bool is_usable(const Eigen::MatrixBase<Numbers>& numbers) {
 
 bool is_usable_part(const PartAnswer& part) {
   const auto is_pose = [](const Eigen::Isometry3d& X) { return is_usable(X.matrix()); };
-  return is_pose(part.X_WV) && is_pose(part.X_WV_of_rows) && is_pose(part.X_WG) && is_pose(part.X_GT);
+  return is_usable(part.p_Vref) && is_pose(part.X_WV) && is_pose(part.X_WV_of_rows) && is_pose(part.X_WG) &&
+         is_pose(part.X_GT);
 }
 
 bool is_usable_row(const ContactRow& row) {
@@ -154,6 +155,7 @@ struct HapticKernel::Hand {
   bool is_fading = false;                            // in the last tick
   std::optional<std::size_t> given;                  // the part for its first grip
   std::optional<std::size_t> last_part;              // that it held in the last tick
+  Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  // the reference point in the last tick
   Eigen::Vector3d p_Wref = Eigen::Vector3d::Zero();  // about which the contacts' wrench was in the last tick
   std::optional<std::int64_t> grip;                  // that the hand has followed
   std::int64_t told_grip = 0;                        // of the last states, so many in a row
@@ -196,9 +198,6 @@ HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<Kern
     : parts_(std::move(parts)), period_(period) {
   check_count(hands.size(), kMaxHands, "hands");
   check_count(parts_.size(), kMaxParts, "parts");
-  std::vector<Eigen::Vector3d> p_Vref;
-  for (const KernelPart& part : parts_)
-    p_Vref.push_back(part.p_Vref);
   std::vector<std::array<CouplingStiffness, kMaxParts>> stiffness;
   for (const KernelHand& hand : hands) {
     std::array<Coupling, kMaxParts> couplings{};
@@ -221,8 +220,8 @@ HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<Kern
                                     .envelope = devices::SafetyEnvelope(hand.device, kPatiencePeriods, period),
                                     .fingers = std::move(fingers)}));
   }
-  contacts_ = std::make_unique<ContactProjection>(p_Vref);
-  holds_ = std::make_unique<Holds>(std::move(p_Vref), std::move(stiffness));
+  contacts_ = std::make_unique<ContactProjection>(parts_.size());
+  holds_ = std::make_unique<Holds>(parts_.size(), std::move(stiffness));
   for (std::size_t h = 0; h < hands.size(); ++h) {
     if (!hands[h].part) continue;
     if (hands[h].fingers)
@@ -387,13 +386,15 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   const double softness = hand.soften(coupling, period_, state.link_delay, dt);
   const bool is_finite = has_pose(state);
   const Eigen::Vector3d p_WH = is_finite ? Eigen::Vector3d(state.X_WH.translation()) : hand.p_Wref;
-  const Eigen::Vector3d p_Wref = tick.part ? Eigen::Vector3d(holds_->ghost_of_hand(number) * part.p_Vref) : p_WH;
-  if (tick.part != hand.last_part) {
+  const Eigen::Vector3d& p_Vref = set.parts[p].p_Vref;
+  const Eigen::Vector3d p_Wref = tick.part ? Eigen::Vector3d(holds_->ghost_of_hand(number) * p_Vref) : p_WH;
+  if (tick.part != hand.last_part || p_Vref != hand.p_Vref) {
     hand.contacts.move_reference(hand.p_Wref, p_Wref);
     hand.owed = 0.0;
     hand.solved = {};
   }
   hand.last_part = tick.part;
+  hand.p_Vref = p_Vref;
   hand.p_Wref = p_Wref;
 
   PartContacts contacts;

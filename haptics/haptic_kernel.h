@@ -27,8 +27,8 @@ class Holds;
 
 /// What the kernel knows of a part.
 struct KernelPart {
-  Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< the compliance point: `SlidingPart::p_Vref`
-  double radius = 0.0;                               ///< metres
+  Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< the part's own compliance point: `SlidingPart::p_Vref`
+  double radius = 0.0;                               ///< metres, about it: `SlidingPart::radius`
   CouplingStiffness stiffness{};                     ///< of the simulation
   bool is_scripted = false;                          ///< no hand can hold it
 };
@@ -119,8 +119,6 @@ class HapticKernel {
 
   /// Emergency stop: the force of all hands fades to zero and stays there.
   void stop() noexcept;
-
-  const std::vector<KernelPart>& parts() const noexcept { return parts_; }
 
   /// The coupling without delay of the link. Both numbers must be below those of hands and parts.
   const Coupling& coupling(std::size_t hand, std::size_t part) const;

@@ -39,15 +39,20 @@ class MultiPartSliding::Cycle {
     return shared_.states[number];
   }
 
-  void grasp(std::size_t number, const Eigen::Isometry3d& X_WG) {
+  void grasp(std::size_t number, const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref) {
     step_finder_.give_up();  // the answer under way goes on with another cycle
-    if (part(number).grasp(X_WG)) step_finder_.rows().forget_forces();
+    if (part(number).rests_when_taken()) {
+      refer_to(number, p_Vref);
+      step_finder_.rows().forget_forces();
+    }
+    part(number).grasp(X_WG);
   }
 
   void release(std::size_t number) {
     step_finder_.give_up();  // the answer under way goes on with another cycle
     part(number).result.X_WG = part(number).result.X_WV;
     part(number).rest(SlidingState::kReleased);
+    refer_to(number, part(number).part_V->p_Vref());
     step_finder_.rows().forget_forces();
   }
 
@@ -179,10 +184,17 @@ class MultiPartSliding::Cycle {
     std::inplace_merge(ignored_.begin(), ignored_.begin() + sorted, ignored_.end());
   }
 
+  /// From now on, displacements of the part are about this point.
+  void refer_to(std::size_t number, const Eigen::Vector3d& p_Vref) {
+    part(number).p_Vref = p_Vref;
+    shared_.scene.set_p_Vref(number, p_Vref);
+    measure_levers();
+  }
+
   void measure_levers() {
     for (std::size_t p = 0; p < shared_.count(); ++p) {
       HeldPartState& part = shared_.states[p];
-      part.lever = std::max(part.part_V->radius(), shared_.riders.lever(static_cast<std::int32_t>(p)));
+      part.lever = std::max(shared_.scene.lever(p), shared_.riders.lever(static_cast<std::int32_t>(p)));
     }
   }
 
@@ -197,7 +209,7 @@ class MultiPartSliding::Cycle {
       if (step.arrives[p]) {
         part.result.X_WV = part.X_WS;
       } else if (step.lengths[p] > 0.0) {
-        part.result.X_WV = geometry::displaced(part.result.X_WV, part.p_Vref(), step.displacements[p]);
+        part.result.X_WV = geometry::displaced(part.result.X_WV, part.p_Vref, step.displacements[p]);
       }
       part.moved += step.lengths[p];
       if (step.lengths[p] == 0.0 && !step.arrives[p]) continue;
@@ -243,8 +255,12 @@ MultiPartSliding& MultiPartSliding::operator=(MultiPartSliding&&) noexcept = def
 MultiPartSliding::~MultiPartSliding() = default;
 
 void MultiPartSliding::grasp(std::size_t part, const Eigen::Isometry3d& X_WG) {
-  GLISSADE_ASSERT(!is_scripted(part));
-  if (const std::optional<Eigen::Isometry3d> rigid = geometry::rigid_pose(X_WG)) cycle_->grasp(part, *rigid);
+  grasp(part, X_WG, this->part(part).p_Vref());
+}
+
+void MultiPartSliding::grasp(std::size_t part, const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref) {
+  GLISSADE_ASSERT(!is_scripted(part) && p_Vref.allFinite());
+  if (const std::optional<Eigen::Isometry3d> rigid = geometry::rigid_pose(X_WG)) cycle_->grasp(part, *rigid, p_Vref);
 }
 
 void MultiPartSliding::release(std::size_t part) {
@@ -299,6 +315,10 @@ const SlidingResult& MultiPartSliding::result(std::size_t part) const {
 
 const SlidingPart& MultiPartSliding::part(std::size_t part) const {
   return *cycle_->part(part).part_V;
+}
+
+const Eigen::Vector3d& MultiPartSliding::p_Vref(std::size_t part) const {
+  return cycle_->part(part).p_Vref;
 }
 
 const CouplingStiffness& MultiPartSliding::stiffness(std::size_t part) const {

@@ -55,6 +55,9 @@ class MultiPartSliding final : public LoopSimulation {
   /// part nor force jumps.
   /// `part` must not be scripted.
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG);
+  /// The same, and the compliance point is `p_Vref` (metres, finite) instead of the part's own, until the part is
+  /// released or taken anew. A part already held by force feedback keeps its point.
+  void grasp(std::size_t part, const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref);
   void release(std::size_t part);
 
   /// Places the riders of a chain, one rigid pose X_WB for each. The caller must know that they are free on the way
@@ -92,6 +95,9 @@ class MultiPartSliding final : public LoopSimulation {
   // Result and properties of the part with the number `part`, which must be below `part_count`.
   const SlidingResult& result(std::size_t part) const;
   const SlidingPart& part(std::size_t part) const;
+  /// The compliance point of the present hold, about which all displacements of the part are; the part's own while
+  /// nobody holds it.
+  const Eigen::Vector3d& p_Vref(std::size_t part) const;
   const CouplingStiffness& stiffness(std::size_t part) const;
   /// The gap (metres) at which contacts with obstacles that have no margin of their own stop the part.
   double margin(std::size_t part) const;

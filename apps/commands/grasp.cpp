@@ -165,9 +165,8 @@ class GraspTables {
   void write_object(double time_s, std::size_t p) {
     const haptics::MultiPartSliding& parts = simulation_.parts();
     const haptics::SlidingResult& result = parts.result(p);
-    const haptics::Wrench wrench =
-        haptics::about_point(haptics::spring_wrench(parts.stiffness(p), parts.error(p)),
-                             result.X_WT * parts.part(p).p_Vref(), result.X_WV.translation());
+    const haptics::Wrench wrench = haptics::about_point(haptics::spring_wrench(parts.stiffness(p), parts.error(p)),
+                                                        result.X_WT * parts.p_Vref(p), result.X_WV.translation());
     object_rows_->add(time_s).add(scene_.body_names[scene_.obstacles.size() + p]).add(result.X_WV);
     object_rows_->add(haptics::name_of(result.state));
     // Adding zero turns a negative zero into the plain one.

@@ -21,6 +21,7 @@ void add(Hash& hash, const geometry::TriangleMesh& mesh) {
 void add(Hash& hash, const haptics::SlidingPart& part) {
   add(hash, part.tree.mesh());
   hash.add(part.p_Vref());
+  hash.add(std::uint64_t{part.has_chosen_point()});
 }
 
 void add(Hash& hash, const geometry::PoseTrajectory& script) {

@@ -21,8 +21,10 @@ Answerer::Answerer(LoopSimulation& simulation)
 ContactSet Answerer::at_start() const {
   ContactSet set;
   set.part_count = static_cast<std::int32_t>(sliding_.part_count());
-  for (std::size_t p = 0; p < sliding_.part_count(); ++p)
+  for (std::size_t p = 0; p < sliding_.part_count(); ++p) {
+    set.parts[p].p_Vref = sliding_.p_Vref(p);
     set.parts[p].X_WV = sliding_.result(p).X_WV;
+  }
   simulation_.tell_hands(set);
   return set;
 }

@@ -26,9 +26,8 @@ double across(const CoupledRow& row, std::span<const geometry::Displacement> d) 
 
 }  // namespace
 
-ContactProjection::ContactProjection(std::vector<Eigen::Vector3d> p_Vref)
-    : p_Vref_(std::move(p_Vref)), solver_(p_Vref_.size() * p_Vref_.size() * kMaxContactRows) {
-  const std::size_t most = p_Vref_.size() * kMaxContactRows;
+ContactProjection::ContactProjection(std::size_t parts) : part_count_(parts), solver_(parts * parts * kMaxContactRows) {
+  const std::size_t most = parts * kMaxContactRows;
   rows_.reserve(most);
   in_island_.reserve(most);
   numbers_.reserve(most);
@@ -36,7 +35,7 @@ ContactProjection::ContactProjection(std::vector<Eigen::Vector3d> p_Vref)
 
 void ContactProjection::update(const ContactSet& set, std::chrono::nanoseconds age, std::span<const LedPart> parts,
                                double dt) noexcept {
-  for (std::size_t p = 0; p < p_Vref_.size(); ++p) {
+  for (std::size_t p = 0; p < part_count_; ++p) {
     contacts_[p] = {};
     island_[p] = p;
     acts_[p] = parts[p].acts;
@@ -50,16 +49,16 @@ void ContactProjection::update(const ContactSet& set, std::chrono::nanoseconds a
       continue;
     }
     const PartAnswer& answer = set.parts[p];
-    wanted_[p] = geometry::displacement_between(answer.X_WV_of_rows, parts[p].X_WG * parts[p].X_GT, p_Vref_[p]);
-    moved_[p] = geometry::displacement_between(answer.X_WG, parts[p].X_WG, p_Vref_[p]);
+    wanted_[p] = geometry::displacement_between(answer.X_WV_of_rows, parts[p].X_WG * parts[p].X_GT, answer.p_Vref);
+    moved_[p] = geometry::displacement_between(answer.X_WG, parts[p].X_WG, answer.p_Vref);
   }
   take_rows(set, age, dt);
-  for (std::size_t p = 0; p < p_Vref_.size(); ++p) {
+  for (std::size_t p = 0; p < part_count_; ++p) {
     if (!acts_[p] || island_[p] != p) continue;
     choose_island(p);
     solve_island(set, parts, dt);
   }
-  for (std::size_t p = 0; p < p_Vref_.size(); ++p) {
+  for (std::size_t p = 0; p < part_count_; ++p) {
     if (pushes_[p] > 0.0) contacts_[p].known = known_pushes_[p] / pushes_[p];
   }
 }
@@ -87,7 +86,7 @@ void ContactProjection::take_rows(const ContactSet& set, std::chrono::nanosecond
 /// The island whose lowest part is `first`. A part that does not act stands still, and belongs to no island.
 void ContactProjection::choose_island(std::size_t first) noexcept {
   std::int32_t count = 0;
-  for (std::size_t p = 0; p < p_Vref_.size(); ++p)
+  for (std::size_t p = 0; p < part_count_; ++p)
     local_[p] = acts_[p] && island_[p] == first ? count++ : -1;
   in_island_.clear();
   numbers_.clear();
@@ -110,7 +109,7 @@ void ContactProjection::solve_island(const ContactSet& set, std::span<const LedP
   std::array<geometry::Displacement, kMaxParts> wanted;
   std::array<CouplingStiffness, kMaxParts> stiffness{};
   std::size_t count = 0;
-  for (std::size_t p = 0; p < p_Vref_.size(); ++p) {
+  for (std::size_t p = 0; p < part_count_; ++p) {
     if (local_[p] < 0) continue;
     wanted[count] = wanted_[p];
     stiffness[count] = parts[p].stiffness;
@@ -123,11 +122,12 @@ void ContactProjection::solve_island(const ContactSet& set, std::span<const LedP
         solver_.project({wanted.data(), count}, {stiffness.data(), count}, {in_island_.data(), in_island_.size()});
   }
   const bool is_unsolved = projection.status != ProjectionStatus::kSolved;
-  for (std::size_t p = 0; p < p_Vref_.size(); ++p) {
+  for (std::size_t p = 0; p < part_count_; ++p) {
     if (local_[p] < 0) continue;
     contacts_[p].is_unsolved = is_unsolved;
     const geometry::Displacement& d = projection.displacements[static_cast<std::size_t>(local_[p])];
-    if (!is_unsolved) move_to(p, geometry::displaced(set.parts[p].X_WV_of_rows, p_Vref_[p], d), dt);
+    const PartAnswer& answer = set.parts[p];
+    if (!is_unsolved) move_to(p, geometry::displaced(answer.X_WV_of_rows, answer.p_Vref, d), answer.p_Vref, dt);
   }
   if (is_unsolved) return;
   for (int i = 0; i < projection.active_count; ++i) {
@@ -137,10 +137,11 @@ void ContactProjection::solve_island(const ContactSet& set, std::span<const LedP
 }
 
 /// Notes the way since the last call. A way that no hand can make is none: the part was taken elsewhere.
-void ContactProjection::move_to(std::size_t part, const Eigen::Isometry3d& X_WP, double dt) noexcept {
+void ContactProjection::move_to(std::size_t part, const Eigen::Isometry3d& X_WP, const Eigen::Vector3d& p_Vref,
+                                double dt) noexcept {
   constexpr double kFastest = 10.0;  // m/s
   if (X_WP_[part]) {
-    const geometry::Displacement way = geometry::displacement_between(*X_WP_[part], X_WP, p_Vref_[part]);
+    const geometry::Displacement way = geometry::displacement_between(*X_WP_[part], X_WP, p_Vref);
     if (way.v.norm() <= kFastest * dt) way_[part] = way;
   }
   X_WP_[part] = X_WP;

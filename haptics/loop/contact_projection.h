@@ -47,8 +47,7 @@ struct PartContacts {
 /// Real-time safe: bounded work, no allocation after construction. Not thread-safe.
 class ContactProjection {
  public:
-  /// For parts with these reference points, each in the part's frame.
-  explicit ContactProjection(std::vector<Eigen::Vector3d> p_Vref);
+  explicit ContactProjection(std::size_t parts);
 
   /// `parts` has one entry for each part. `age` is the time since the ghost poses that the set answers, `dt` (seconds)
   /// that since the last call.
@@ -61,7 +60,7 @@ class ContactProjection {
   void take_rows(const ContactSet& set, std::chrono::nanoseconds age, double dt) noexcept;
   void choose_island(std::size_t first) noexcept;
   void solve_island(const ContactSet& set, std::span<const LedPart> parts, double dt) noexcept;
-  void move_to(std::size_t part, const Eigen::Isometry3d& X_WP, double dt) noexcept;
+  void move_to(std::size_t part, const Eigen::Isometry3d& X_WP, const Eigen::Vector3d& p_Vref, double dt) noexcept;
   void add_push(std::size_t row_number, double push, const CoupledProjection& projection) noexcept;
 
   struct ActiveRow {
@@ -70,7 +69,7 @@ class ContactProjection {
     const ContactRow* in_set;
   };
 
-  std::vector<Eigen::Vector3d> p_Vref_;
+  std::size_t part_count_;
   ProjectionSolver solver_;
   std::vector<ActiveRow> rows_;                  // in range
   std::array<std::size_t, kMaxParts> island_{};  // of each part: the lowest number of a part in it

@@ -13,6 +13,7 @@ class SetMaker {
   void add(std::size_t p) {
     const SlidingResult& result = sliding_.result(p);
     PartAnswer& part = set_.parts[p] = {};
+    part.p_Vref = sliding_.p_Vref(p);
     part.X_WV = result.X_WV;
     part.X_WV_of_rows = result.X_WV_of_contacts;
     part.X_WG = result.X_WG;
@@ -70,9 +71,7 @@ class SetMaker {
     }
   }
 
-  Eigen::Vector3d p_Wref(std::size_t p) const {
-    return sliding_.result(p).X_WV_of_contacts * sliding_.part(p).p_Vref();
-  }
+  Eigen::Vector3d p_Wref(std::size_t p) const { return sliding_.result(p).X_WV_of_contacts * sliding_.p_Vref(p); }
 
   const MultiPartSliding& sliding_;
   ContactSet& set_;

@@ -39,12 +39,12 @@ devices::HapticHandState hand_after(const HandTick& tick, const ContactSet& set,
 }
 
 /// The contacts move with the visible part.
-void add_contacts(std::span<const KernelPart> parts, const ContactSet& set, devices::HapticState& sample) noexcept {
+void add_contacts(const ContactSet& set, devices::HapticState& sample) noexcept {
   for (const ContactRow& row : set.rows()) {
     if (!row.pushes) continue;
     if (static_cast<std::size_t>(sample.contact_count) == sample.contacts.size()) return;
     const auto part = static_cast<std::size_t>(row.part);
-    const Eigen::Vector3d p_V = parts[part].p_Vref + set.parts[part].X_WV_of_rows.linear().transpose() * row.r;
+    const Eigen::Vector3d p_V = set.parts[part].p_Vref + set.parts[part].X_WV_of_rows.linear().transpose() * row.r;
     sample.contacts[static_cast<std::size_t>(sample.contact_count++)] = {row.part, p_V.cast<float>(),
                                                                          row.n.cast<float>()};
   }
@@ -52,7 +52,7 @@ void add_contacts(std::span<const KernelPart> parts, const ContactSet& set, devi
 
 }  // namespace
 
-devices::HapticState make_sample(const TickRecord& record, std::span<const KernelPart> parts, const ContactSet& set,
+devices::HapticState make_sample(const TickRecord& record, const ContactSet& set,
                                  std::span<const devices::GloveState* const> states) noexcept {
   static_assert(kMaxParts == devices::kHapticParts && kMaxHands == devices::kHapticHands);
   const HapticTick& tick = record.tick;
@@ -70,7 +70,7 @@ devices::HapticState make_sample(const TickRecord& record, std::span<const Kerne
   for (std::size_t h = 0; h < states.size(); ++h) {
     if (states[h] != nullptr) sample.hands[h] = hand_after(tick.hands[h], set, set.hands[h].visible, *states[h]);
   }
-  add_contacts(parts, set, sample);
+  add_contacts(set, sample);
   sample.patch_count = set.patch_count;
   sample.patches_left_out = set.patches_left_out;
   // What an older set left behind the last one does not count.

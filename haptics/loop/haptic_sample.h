@@ -14,10 +14,9 @@ namespace glissade::haptics {
 /// A contact set older than this is late: the simulation takes longer than a few ticks for an answer.
 inline constexpr std::chrono::milliseconds kLateContactSet{5};
 
-/// The state for viewers and recorders after a tick. `parts` are those of the kernel, `states` those of the hands, as
-/// for the kernel. The wrench of a hand is the one sent to its device, moved to the origin of the visible part that it
-/// holds. Real-time safe.
-devices::HapticState make_sample(const TickRecord& record, std::span<const KernelPart> parts, const ContactSet& set,
+/// The state for viewers and recorders after a tick. `states` are those of the hands, as for the kernel. The wrench of
+/// a hand is the one sent to its device, moved to the origin of the visible part that it holds. Real-time safe.
+devices::HapticState make_sample(const TickRecord& record, const ContactSet& set,
                                  std::span<const devices::GloveState* const> states) noexcept;
 
 }  // namespace glissade::haptics

@@ -13,12 +13,8 @@ constexpr double kLeave_s = 0.05;
 
 }  // namespace
 
-Holds::Holds(std::vector<Eigen::Vector3d> p_Vref, std::vector<std::array<CouplingStiffness, kMaxParts>> stiffness)
-    : p_Vref_(std::move(p_Vref)),
-      stiffness_(std::move(stiffness)),
-      hands_(stiffness_.size()),
-      parts_(p_Vref_.size()),
-      led_(p_Vref_.size()) {}
+Holds::Holds(std::size_t parts, std::vector<std::array<CouplingStiffness, kMaxParts>> stiffness)
+    : stiffness_(std::move(stiffness)), hands_(stiffness_.size()), parts_(parts), led_(parts) {}
 
 std::size_t Holds::holders_of(std::size_t part) const noexcept {
   return static_cast<std::size_t>(
@@ -56,8 +52,10 @@ void Holds::take(Hand& hand, std::size_t number, const Eigen::Isometry3d& X_WH, 
 }
 
 void Holds::update(std::span<const HandPose> poses, const ContactSet& set, double dt) noexcept {
-  for (Part& part : parts_)
-    part.X_WG_before = part.ghost.X_WG;
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    parts_[p].X_WG_before = parts_[p].ghost.X_WG;
+    parts_[p].p_Vref = set.parts[p].p_Vref;
+  }
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     Hand& hand = hands_[h];
     if (!hand.wanted || poses[h].X_WH == nullptr) continue;
@@ -106,7 +104,7 @@ void Holds::weigh(Hand& hand, const HandPose& pose, double dt) noexcept {
 
 /// Finds the ghost of a part that is held, and what each hand has of it.
 void Holds::combine(std::size_t number) noexcept {
-  const Eigen::Vector3d& p_Vref = p_Vref_[number];
+  const Eigen::Vector3d& p_Vref = parts_[number].p_Vref;
   LedPart& led = led_[number];
   const Hand* first = nullptr;
   CouplingStiffness sum{0.0, 0.0};
@@ -180,7 +178,7 @@ Wrench Holds::on_hand(std::size_t hand, const Wrench& contacts) const {
 geometry::Displacement Holds::ghost_way(std::size_t number) const {
   const Part& part = parts_[number];
   if (part.is_set_anew) return {};
-  return geometry::displacement_between(part.X_WG_before, part.ghost.X_WG, p_Vref_[number]);
+  return geometry::displacement_between(part.X_WG_before, part.ghost.X_WG, part.p_Vref);
 }
 
 double Holds::ghost_motion(std::size_t number, double radius) const {

@@ -35,8 +35,8 @@ struct HandPose {
 /// Real-time safe. Not thread-safe.
 class Holds {
  public:
-  /// For parts with these reference points, and the stiffness with which each hand holds each part.
-  Holds(std::vector<Eigen::Vector3d> p_Vref, std::vector<std::array<CouplingStiffness, kMaxParts>> stiffness);
+  /// For so many parts, and the stiffness with which each hand holds each part.
+  Holds(std::size_t parts, std::vector<std::array<CouplingStiffness, kMaxParts>> stiffness);
 
   /// In the next call of `update` in which the hand has a pose, it takes hold of the part, and lets go of any other.
   void grasp(std::size_t hand, std::size_t part) noexcept { hands_[hand].wanted = part; }
@@ -47,7 +47,8 @@ class Holds {
     hands_[hand].lets_go = true;
   }
 
-  /// The tick for these hands, `dt` (seconds) after the last. The visible parts are those of the newest set.
+  /// The tick for these hands, `dt` (seconds) after the last. The visible parts and their reference points are those of
+  /// the newest set.
   void update(std::span<const HandPose> hands, const ContactSet& set, double dt) noexcept;
 
   /// The part that the hand holds.
@@ -84,6 +85,7 @@ class Holds {
   };
   struct Part {
     GhostOfPart ghost;
+    Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();
     Eigen::Isometry3d X_WG_before = Eigen::Isometry3d::Identity();
     std::int64_t hold_told = 0;                  // at the end of the last tick
     bool is_set_anew = false;                    // in the last tick
@@ -99,7 +101,6 @@ class Holds {
   void combine(std::size_t part) noexcept;
   void aim(std::size_t part, const ContactSet& set) noexcept;
 
-  std::vector<Eigen::Vector3d> p_Vref_;
   std::vector<std::array<CouplingStiffness, kMaxParts>> stiffness_;
   std::vector<Hand> hands_;
   std::vector<Part> parts_;

@@ -26,7 +26,7 @@ void run_tick(HapticKernel& kernel, TickRecord& record, const ContactSet& set) n
   record.set_sequence = set.sequence;
   record.part_count = set.part_count;
   record.tick = kernel.tick(states, set, record.time);
-  if (record.sequence > 0) record.state = make_sample(record, kernel.parts(), set, states);
+  if (record.sequence > 0) record.state = make_sample(record, set, states);
 }
 
 }  // namespace glissade::haptics

@@ -31,6 +31,7 @@ bool are_plausible(const Ghosts& ghosts) {
 
 part_answer_t message_of(const PartAnswer& answer) {
   part_answer_t message;
+  put(answer.p_Vref.data(), message.p_Vref_m);
   message.X_WV = pose_message(answer.X_WV);
   message.X_WV_of_rows = pose_message(answer.X_WV_of_rows);
   message.X_WG = pose_message(answer.X_WG);

@@ -31,8 +31,10 @@ ContactScene::ContactScene(std::vector<Obstacle> obstacles, std::vector<std::sha
       groups_(obstacles_.size(), kStill),
       leaders_(obstacles_.size() + movers_.size(), kStands) {
   groups_.insert(groups_.end(), groups.begin(), groups.end());
-  for (std::size_t part = 0; part < first_rider; ++part)
+  for (std::size_t part = 0; part < first_rider; ++part) {
     leaders_[body_of_mover(part)] = static_cast<std::int32_t>(part);
+    p_Vref_.push_back(movers_[part]->p_Vref());
+  }
   if (obstacles_.size() + movers_.size() < 2) throw std::invalid_argument("there is nothing that the part could touch");
   for (Obstacle& obstacle : obstacles_) {
     if (obstacle.body == nullptr) throw std::invalid_argument(obstacle.name + " needs a body, not a null pointer");
@@ -60,15 +62,15 @@ ContactScene::ContactScene(std::vector<Obstacle> obstacles, std::vector<std::sha
 
 Eigen::Vector3d ContactScene::p_Bref(std::size_t mover) const {
   const std::int32_t part = leaders_[body_of_mover(mover)];
-  if (mover < first_rider_ || part == kStands) return movers_[mover]->p_Vref();
+  if (mover < first_rider_) return p_Vref_[mover];
+  if (part == kStands) return movers_[mover]->p_Vref();
   const auto leader = static_cast<std::size_t>(part);
   const Eigen::Isometry3d& X_WB = bodies_[body_of_mover(mover)].X_WB;
-  return X_WB.inverse(Eigen::Isometry) * (bodies_[body_of_mover(leader)].X_WB * movers_[leader]->p_Vref());
+  return X_WB.inverse(Eigen::Isometry) * (bodies_[body_of_mover(leader)].X_WB * p_Vref_[leader]);
 }
 
 double ContactScene::lever(std::size_t mover) const {
-  const double radius = movers_[mover]->radius();
-  return mover < first_rider_ ? radius : (p_Bref(mover) - movers_[mover]->p_Vref()).norm() + radius;
+  return (p_Bref(mover) - movers_[mover]->p_Vref()).norm() + movers_[mover]->radius();
 }
 
 }  // namespace glissade::haptics

@@ -129,6 +129,12 @@ class ContactScene {
         std::min(kMinClearanceOfMargin * margin(obstacle, part_body), 0.95 * distance);
   }
 
+  /// The reference point of a part: at first `SlidingPart::p_Vref`.
+  const Eigen::Vector3d& p_Vref(std::size_t part) const { return p_Vref_[part]; }
+  void set_p_Vref(std::size_t part, const Eigen::Vector3d& p_Vref) {
+    GLISSADE_ASSERT(part < first_rider_);
+    p_Vref_[part] = p_Vref;
+  }
   /// The reference point of the part with which a mover moves, in the mover's own frame B; that of the mover itself if
   /// it stands.
   Eigen::Vector3d p_Bref(std::size_t mover) const;
@@ -151,6 +157,7 @@ class ContactScene {
   std::vector<Obstacle> obstacles_;
   std::vector<std::shared_ptr<const SlidingPart>> movers_;
   std::size_t first_rider_;
+  std::vector<Eigen::Vector3d> p_Vref_;  // of each part
   std::vector<PlacedBody> bodies_;
   std::vector<int> groups_;             // of each body
   std::vector<std::int32_t> leaders_;   // of each body

@@ -17,7 +17,7 @@ void add_overlaps(const SimulatedParts& shared, const Overlaps& overlaps, std::v
     contact.obstacle = way.bodies.obstacle;
     contact.n_W = way.n_W;
     const HeldPartState& part = shared.states[static_cast<std::size_t>(contact.part)];
-    contact.p_W = part.result.X_WV_of_contacts * part.p_Vref();
+    contact.p_W = part.result.X_WV_of_contacts * part.p_Vref;
     contact.gap = -way.depth;
     contact.margin = shared.scene.margin(way.bodies.obstacle, way.bodies.part);
   }

@@ -9,7 +9,7 @@
 namespace glissade::haptics {
 
 geometry::Displacement HeldPartState::lag() const {
-  return geometry::displacement_between(result.X_WV, result.X_WT, p_Vref());
+  return geometry::displacement_between(result.X_WV, result.X_WT, p_Vref);
 }
 
 void HeldPartState::rest(SlidingState state) {
@@ -25,12 +25,10 @@ void HeldPartState::rest(SlidingState state) {
   result.cycles = 0;
 }
 
-bool HeldPartState::grasp(const Eigen::Isometry3d& X_WG) {
+void HeldPartState::grasp(const Eigen::Isometry3d& X_WG) {
   result.X_WG = X_WG;
-  const bool rests = !is_held() || metaphor != Metaphor::kForceFeedback;
-  if (rests) rest(SlidingState::kFree);
-  if (metaphor == Metaphor::kForceFeedback) offset = geometry::displacement_between(X_WG, result.X_WT, p_Vref());
-  return rests;
+  if (rests_when_taken()) rest(SlidingState::kFree);
+  if (metaphor == Metaphor::kForceFeedback) offset = geometry::displacement_between(X_WG, result.X_WT, p_Vref);
 }
 
 void HeldPartState::begin_tick() {
@@ -42,23 +40,23 @@ void HeldPartState::begin_tick() {
 
 void HeldPartState::follow(const Eigen::Isometry3d& X_WG, double milliseconds) {
   result.X_WG = X_WG;
-  ghost_motion = geometry::motion_bound(geometry::displacement_between(X_WG_previous, X_WG, p_Vref()), lever);
+  ghost_motion = geometry::motion_bound(geometry::displacement_between(X_WG_previous, X_WG, p_Vref), lever);
   const double left = offset.v.norm() + part_V->radius() * offset.w.norm();
   closing = std::min(left, kClosing_m * milliseconds);
   offset = closing < left ? offset.scaled(1.0 - closing / left) : geometry::Displacement{};
-  result.X_WT = wanted_pose(metaphor, result.X_WV, X_WG_previous, X_WG, p_Vref());
-  if (!offset.is_zero()) result.X_WT = geometry::displaced(X_WG, p_Vref(), offset);
+  result.X_WT = wanted_pose(metaphor, result.X_WV, X_WG_previous, X_WG, p_Vref);
+  if (!offset.is_zero()) result.X_WT = geometry::displaced(X_WG, p_Vref, offset);
   aim();
 }
 
 void HeldPartState::turn_target() {
   if (metaphor != Metaphor::kRubberBand) return;
-  result.X_WT = wanted_pose(metaphor, result.X_WV, X_WG_previous, result.X_WG, p_Vref());
+  result.X_WT = wanted_pose(metaphor, result.X_WV, X_WG_previous, result.X_WG, p_Vref);
   aim();
 }
 
 void HeldPartState::aim() {
-  X_WS = may_search ? spiral_search.aim(result.X_WT, p_Vref()) : result.X_WT;
+  X_WS = may_search ? spiral_search.aim(result.X_WT, p_Vref) : result.X_WT;
 }
 
 void HeldPartState::end_cycle(int number, double reach) {

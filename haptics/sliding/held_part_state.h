@@ -20,6 +20,7 @@ namespace glissade::haptics {
 /// Not thread-safe.
 struct HeldPartState {
   std::shared_ptr<const SlidingPart> part_V;
+  Eigen::Vector3d p_Vref;  // the reference point: the compliance point of the hold
   Metaphor metaphor;
   CouplingStiffness stiffness;
   double margin;  // metres
@@ -43,16 +44,16 @@ struct HeldPartState {
 
   bool is_scripted() const { return script.has_value(); }
   bool is_held() const { return result.state != SlidingState::kReleased; }
-  const Eigen::Vector3d& p_Vref() const { return part_V->p_Vref(); }
-  Eigen::Vector3d p_Wref() const { return result.X_WV * p_Vref(); }
+  Eigen::Vector3d p_Wref() const { return result.X_WV * p_Vref; }
   /// From the part to its target.
   geometry::Displacement lag() const;
 
   /// Leaves the part where it is: its target is its own pose, so nothing pushes it.
   void rest(SlidingState state);
-  /// The hand takes hold, with the ghost at the rigid pose X_WG. Returns whether the part rests; a part already held by
-  /// force feedback keeps its lag.
-  bool grasp(const Eigen::Isometry3d& X_WG);
+  /// Whether the part rests when a hand takes hold; one already held by force feedback keeps its lag.
+  bool rests_when_taken() const { return !is_held() || metaphor != Metaphor::kForceFeedback; }
+  /// The hand takes hold, with the ghost at the rigid pose X_WG.
+  void grasp(const Eigen::Isometry3d& X_WG);
 
   /// Begins a call.
   void begin_tick();

@@ -71,6 +71,7 @@ ContactScene make_scene(std::vector<Obstacle> obstacles, const std::vector<HeldP
 
 HeldPartState state_at_start(const HeldPart& held, const Eigen::Isometry3d& X_WV, const SlidingRules& rules) {
   HeldPartState state{.part_V = held.part_V,
+                      .p_Vref = held.part_V->p_Vref(),
                       .metaphor = held.metaphor,
                       .stiffness = held.stiffness.value_or(default_stiffness(held.part_V->radius())),
                       .margin = rules.margin.value_or(default_margin(*held.part_V)),

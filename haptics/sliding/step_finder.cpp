@@ -46,7 +46,7 @@ void StepFinder::begin(WorkBudget& budget) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
     grips_[p] = parts[p].is_held() ? parts[p].stiffness : kImmovable;
     if (!parts[p].is_held()) continue;
-    wanted_[p] = geometry::displacement_between(parts[p].result.X_WV, parts[p].X_WS, parts[p].p_Vref());
+    wanted_[p] = geometry::displacement_between(parts[p].result.X_WV, parts[p].X_WS, parts[p].p_Vref);
   }
   // A step that gains more energy than this has passed a bend of the contact that the linear rows do not describe. It
   // is repeated with damping.
@@ -171,7 +171,7 @@ bool StepFinder::gains_energy() {
   for (std::size_t p = 0; p < parts.size(); ++p) {
     all_arrive = all_arrive && step_.arrives[p];
     if (!parts[p].is_held()) continue;
-    const Eigen::Vector3d& p_Vref = parts[p].p_Vref();
+    const Eigen::Vector3d& p_Vref = parts[p].p_Vref;
     remaining[p] = geometry::displacement_between(
         geometry::displaced(parts[p].result.X_WV, p_Vref, step_.displacements[p]), parts[p].X_WS, p_Vref);
   }
@@ -253,7 +253,7 @@ bool StepFinder::slipped(const CoupledRow& row) const {
     const double angle = Eigen::Quaterniond(X_from.linear()).angularDistance(Eigen::Quaterniond(X_to.linear()));
     still = std::min(still, kNotWorthIt * part.margin);
     curved += 0.5 * angle * angle * r.norm();
-    const Eigen::Vector3d p_V = part.p_Vref() + part.result.X_WV.linear().transpose() * r;
+    const Eigen::Vector3d p_V = part.p_Vref + part.result.X_WV.linear().transpose() * r;
     return X_to.translation() - X_from.translation() + (X_to.linear() - X_from.linear()) * p_V;
   };
   Eigen::Vector3d slip = motion_of(row.part, row.r);

@@ -57,6 +57,43 @@ TEST(GraspSimulation, PullsAtNothingWhenItTakesHold) {
   }
 }
 
+/// The mean of the points of the ball that the hand touches, in the frame of the ball.
+Vector3d middle_of_contacts(const GraspSimulation& simulation) {
+  Vector3d sum = Vector3d::Zero();
+  for (const LinkContact& touch : simulation.clasp(0).contacts())
+    sum += touch.contact.q_W();
+  const auto count = static_cast<double>(simulation.clasp(0).contacts().size());
+  return simulation.parts().result(0).X_WV.inverse(Eigen::Isometry) * (sum / count);
+}
+
+TEST(GraspSimulation, CouplesAHeldPartWhereTheHandGripsIt) {
+  HandAndBall scene;
+  const Vector3d own = scene.simulation.parts().part(0).p_Vref();
+  for (int ms = 0; ms < 400 && !scene.simulation.held_part(0); ++ms)
+    scene.advance(bent_hand(1.2 * std::min(1.0, ms / 150.0)));
+  ASSERT_TRUE(scene.simulation.held_part(0));
+  const Vector3d grip = scene.simulation.parts().p_Vref(0);
+  EXPECT_LT((grip - middle_of_contacts(scene.simulation)).norm(), 1e-12);
+  EXPECT_GT((grip - own).norm(), 1e-3) << "more fingers touch it on one side";
+  for (int ms = 0; ms < 200; ++ms)
+    scene.advance(bent_hand(1.2 * std::max(0.0, 1.0 - ms / 100.0)));
+  EXPECT_FALSE(scene.simulation.held_part(0));
+  EXPECT_EQ(scene.simulation.parts().p_Vref(0), own);
+}
+
+TEST(GraspSimulation, CouplesAHeldPartWhereTheSceneSays) {
+  const auto ball = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(kBallRadius_m, 2000));
+  const Vector3d chosen(0.0, 0.0, 0.03);
+  GraspSimulation simulation(
+      {},
+      {{.part_V = std::make_shared<const haptics::SlidingPart>(ball, chosen), .X_WV_start = at(0.095, 0.0, -0.056)}},
+      {test_support::hand_model()});
+  for (int ms = 0; ms < 400 && !simulation.held_part(0); ++ms)
+    simulation.advance(std::vector<std::optional<Posture>>{bent_hand(1.2 * std::min(1.0, ms / 150.0))});
+  ASSERT_TRUE(simulation.held_part(0));
+  EXPECT_EQ(simulation.parts().p_Vref(0), chosen);
+}
+
 TEST(GraspSimulation, CarriesAHeldPartRigidlyWithThePalm) {
   HandAndBall scene;
   close_round_ball(scene);

@@ -10,12 +10,16 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/geometry/displacement.h>
 #include <glissade/geometry/mesh_generators.h>
+#include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/haptics/sliding.h>
+#include <glissade/reference/grid_check.h>
 
 #include "held_part.h"
 #include "poses.h"
 #include "sanitizers.h"
+#include "scene/scene_access.h"
 
 namespace glissade::haptics {
 namespace {
@@ -43,6 +47,61 @@ double turn_at_the_wall(const std::shared_ptr<const SlidingPart>& part_V) {
 TEST(CompliancePoint, APushAtTheTipDoesNotTurnThePart) {
   EXPECT_LT(turn_at_the_wall(std::make_shared<SlidingPart>(rod(), Vector3d(0.0, 0.0, -0.1))), 1e-3);
   EXPECT_GT(turn_at_the_wall(std::make_shared<SlidingPart>(rod())), 1e-2) << "a push at the middle tips it";
+}
+
+TEST(CompliancePoint, IsThatOfTheHoldUntilTheHandLetsGo) {
+  const Obstacle wall = test_support::obstacle_of(geometry::make_box({0.1, 0.4, 0.02}, 12), at(0.1, 0.0, -0.1));
+  const auto part_V = std::make_shared<SlidingPart>(rod());
+  MultiPartSliding sliding({wall}, {{part_V, at(0.03)}});
+  const Vector3d tip(0.0, 0.0, -0.1);
+  const auto turn_of_push = [&] {
+    for (int i = 1; i <= 2000; ++i)
+      sliding.advance(std::vector{at(0.03 + 0.015 * std::min(1.0, i / 100.0))});
+    EXPECT_GT(sliding.result(0).pushing, 0);
+    return Eigen::AngleAxisd(sliding.result(0).X_WV.linear()).angle();
+  };
+  sliding.release(0);
+  sliding.grasp(0, at(0.03), tip);
+  EXPECT_EQ(sliding.p_Vref(0), tip);
+  EXPECT_GE(scene_of(sliding).lever(0), 0.2) << "the other end is so far from it: no proof may think it nearer";
+  EXPECT_LT(turn_of_push(), 1e-3);
+  sliding.grasp(0, at(0.045), Vector3d::Zero());
+  EXPECT_EQ(sliding.p_Vref(0), tip) << "a part that is held already keeps its lag, so its point, too";
+  sliding.release(0);
+  EXPECT_EQ(sliding.p_Vref(0), part_V->p_Vref());
+  sliding.grasp(0, at(0.03));
+  EXPECT_GT(turn_of_push(), 1e-2) << "a push at the middle tips it";
+}
+
+// A point far from the part makes small rotations large motions: the proof of the way has to know that.
+TEST(CompliancePoint, OfAHoldKeepsThePartOutOfWallsWhereverItIs) {
+  const auto mesh = rod();
+  const auto wall = std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.4, 0.4}, 12));
+  const reference::GridCheck check({{wall, at(0.07)}});
+  MultiPartSliding sliding({{std::make_shared<ContactBody>(wall), at(0.07)}}, {{std::make_shared<SlidingPart>(mesh)}},
+                           {.max_cycles = 1});  // so a call goes along one way
+  constexpr std::uint64_t kSeed = 11;
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto vector = [&] { return Vector3d(uniform(random), uniform(random), uniform(random)); };
+  bool touches = false;
+  for (int hold = 0; hold < 100; ++hold) {
+    sliding.release(0);
+    sliding.grasp(0, sliding.result(0).X_WV, 0.5 * vector());
+    const Isometry3d X_WG_end = at(0.05 + 0.03 * uniform(random)) * geometry::rotation_by(vector());
+    const geometry::Displacement way = geometry::displacement_between(sliding.result(0).X_WG, X_WG_end, {});
+    const Isometry3d X_WG_start = sliding.result(0).X_WG;
+    for (int i = 1; i <= 200; ++i) {
+      const Isometry3d X_WV = sliding.result(0).X_WV;
+      sliding.advance(std::vector{geometry::displaced(X_WG_start, {}, way.scaled(i / 200.0))});
+      touches = touches || sliding.result(0).pushing > 0;
+      ASSERT_FALSE(check.collides(*mesh, sliding.result(0).X_WV)) << "seed " << kSeed << ", hold " << hold << ", " << i;
+      const geometry::Displacement step =
+          geometry::displacement_between(X_WV, sliding.result(0).X_WV, sliding.p_Vref(0));
+      ASSERT_FALSE(check.collides(*mesh, geometry::displaced(X_WV, sliding.p_Vref(0), step.scaled(0.5))));
+    }
+  }
+  EXPECT_TRUE(touches) << sliding.result(0).X_WV.matrix() << '\n' << sliding.result(0).X_WG.matrix();
 }
 
 TEST(CompliancePoint, TheRadiusIsTheDistanceOfTheFarthestVertex) {

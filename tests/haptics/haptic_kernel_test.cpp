@@ -35,6 +35,17 @@ TEST_F(Kernel, PushesBackWithTheStiffnessTimesTheDepth) {
   EXPECT_TRUE(last.command.values().t_H_W.isZero(1e-9));
 }
 
+TEST_F(Kernel, TheForceStaysWhereItIsWhenTheReferencePointMoves) {
+  tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
+  settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
+  ContactSet set = floor_below(0.0);
+  set.parts[0].p_Vref = Vector3d(0.05, 0.0, 0.0);
+  set.row_array[0].r = Vector3d(-0.05, 0.0, 0.0);  // the same contact
+  const Wrench contacts = tick(hand_at({0.0, 0.0, 0.498}), set).contacts;
+  EXPECT_NEAR(contacts.f.z(), 2.0, 0.3);
+  EXPECT_NEAR(contacts.t.y(), 0.1, 0.02) << "2 N at -0.05 m from the point";
+}
+
 TEST_F(Kernel, AHandBesideThePartFeelsTheTorqueOfItsLever) {
   tick(hand_at({0.2, 0.0, 0.5}), floor_below(0.0));
   const HandTick last = settle(hand_at({0.2, 0.0, 0.498}), floor_below(0.0));

@@ -17,11 +17,11 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
 /// The sample of a tick without hands.
-devices::HapticState sample_of(const ContactSet& set, std::span<const KernelPart> parts = {}) {
+devices::HapticState sample_of(const ContactSet& set) {
   TickRecord record;
   record.sequence = 1;
   record.time = milliseconds(1);
-  return make_sample(record, parts, set, {});
+  return make_sample(record, set, {});
 }
 
 TEST(HapticSample, EveryStateOfTheSlidingHasItsName) {
@@ -49,15 +49,15 @@ TEST(HapticSample, TellsHowLateTheTickWasAndHowLongTheOneBefore) {
   record.deadline = milliseconds(5);
   record.time = milliseconds(5) + microseconds(30);
   record.last_duration = microseconds(4);
-  const devices::HapticState sample = make_sample(record, {}, {}, {});
+  const devices::HapticState sample = make_sample(record, {}, {});
   EXPECT_EQ(sample.lateness, microseconds(30));
   EXPECT_EQ(sample.last_duration, microseconds(4));
 }
 
 TEST(HapticSample, ContactsThatPushStandInTheFrameOfTheirPart) {
-  const std::vector<KernelPart> parts{{}, {.p_Vref = Eigen::Vector3d(0.0, 0.0, 0.5)}};
   ContactSet set;
   set.part_count = 2;
+  set.parts[1].p_Vref = Eigen::Vector3d(0.0, 0.0, 0.5);
   set.parts[1].X_WV_of_rows =
       Eigen::Translation3d(7.0, 8.0, 9.0) * Eigen::AngleAxisd(std::numbers::pi / 2.0, Eigen::Vector3d::UnitZ());
   set.row_count = 2;
@@ -67,7 +67,7 @@ TEST(HapticSample, ContactsThatPushStandInTheFrameOfTheirPart) {
   row.pushes = true;
   row.n = Eigen::Vector3d::UnitX();
   row.r = Eigen::Vector3d(0.0, 0.25, 0.0);  // the quarter turn makes it x in V
-  const devices::HapticState sample = sample_of(set, parts);
+  const devices::HapticState sample = sample_of(set);
   ASSERT_EQ(sample.contact_count, 1);
   EXPECT_EQ(sample.contacts[0].part, 1);
   EXPECT_TRUE(sample.contacts[0].p_V.isApprox(Eigen::Vector3f(0.25F, 0.0F, 0.5F), 1e-6F));
@@ -75,12 +75,11 @@ TEST(HapticSample, ContactsThatPushStandInTheFrameOfTheirPart) {
 }
 
 TEST(HapticSample, ContactsBeyondTheRoomAreLeftOut) {
-  const std::vector<KernelPart> parts(1);
   ContactSet set;
   set.row_count = static_cast<std::int32_t>(devices::kHapticContacts) + 5;
   for (ContactRow& row : set.row_array)
     row.pushes = true;
-  EXPECT_EQ(static_cast<std::size_t>(sample_of(set, parts).contact_count), devices::kHapticContacts);
+  EXPECT_EQ(static_cast<std::size_t>(sample_of(set).contact_count), devices::kHapticContacts);
 }
 
 TEST(HapticSample, HasThePatchesOfTheSet) {

@@ -36,6 +36,7 @@ class BrokenSet : public Kernel {
             {"visible pose", [=](ContactSet& set) { set.parts[0].X_WV.translation().x() = nan; }},
             {"pose of the rows", [=](ContactSet& set) { set.parts[0].X_WV_of_rows.linear()(1, 2) = nan; }},
             {"ghost", [=](ContactSet& set) { set.parts[0].X_WG.translation().z() = infinity; }},
+            {"reference point", [=](ContactSet& set) { set.parts[0].p_Vref.x() = nan; }},
             {"target", [=](ContactSet& set) { set.parts[0].X_GT.translation().z() = nan; }}};
   }
 

@@ -23,7 +23,7 @@ class OneHandForce {
       : p_Vref_(p_Vref),
         radius_(radius),
         stiffness_(stiffness),
-        projection_({p_Vref}),
+        projection_(1),
         force_(radius, stiffness, max_force),
         X_WG_(X_WV_start) {}
 
