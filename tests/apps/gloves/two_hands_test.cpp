@@ -4,15 +4,11 @@
 /// the link to the last degree is checked in an offline run.
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdlib>
 #include <memory>
 #include <numbers>
-#include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,14 +17,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <glissade/devices/event_log.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
-#include <glissade/grasping/hand_model.h>
 #include <glissade/haptics/finger_forces.h>
-#include <glissade/haptics/recording.h>
 #include <glissade/reference/grid_check.h>
 
+#include "finger_hands.h"
 #include "glissade_program.h"
 #include "poses.h"
 #include "temporary_folder.h"
@@ -36,18 +30,21 @@
 namespace glissade::apps {
 namespace {
 
-using devices::HapticState;
 using devices::JointValues;
 using devices::kGloveJoints;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using test_support::at;
-using test_support::Process;
+using test_support::HandPause;
 using test_support::ProgramResult;
+using test_support::read_ticks;
+using test_support::RecordedTick;
+using test_support::script_text;
+using test_support::ThumbShape;
+using test_support::VisibleBodies;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSeconds = 8.6;
 
@@ -66,46 +63,10 @@ constexpr const char* kScene = R"(objects:
     movable: true
 )";
 
-/// A time of a script: where the hand root is, and how far the fingers are closed, from 0 to 1.
-struct Pause {
-  double time_s;
-  Isometry3d X_WH;
-  double closed;
-};
-
-/// Thumb and fingers from the open hand to one that is closed in a ball of this size.
-JointValues fingers(double closed) {
-  const auto between = [closed](double open_deg, double closed_deg) {
-    return kDegree * (open_deg + closed * (closed_deg - open_deg));
-  };
-  JointValues angles{between(20, 60), between(-10, 45), between(-15, 40), between(35, 20)};
-  for (const std::size_t first : {4U, 7U, 11U, 15U}) {
-    angles[first] = between(-15, 55);
-    angles[first + 1] = between(0, 75);
-    angles[first + 2] = between(-5, 55);
-  }
-  return angles;
-}
-
-std::string csv_of(const std::vector<Pause>& pauses) {
-  std::ostringstream text;
-  text.precision(12);
-  text << "t_s,x_m,y_m,z_m,qw,qx,qy,qz";
-  for (const std::string_view name : devices::kGloveJointNames)
-    text << ',' << name << "_rad";
-  for (const Pause& pause : pauses) {
-    const Eigen::Quaterniond q(pause.X_WH.linear());
-    const Vector3d p = pause.X_WH.translation();
-    text << '\n' << pause.time_s << ',' << p.x() << ',' << p.y() << ',' << p.z();
-    text << ',' << q.w() << ',' << q.x() << ',' << q.y() << ',' << q.z();
-    for (const double angle : fingers(pause.closed))
-      text << ',' << angle;
-  }
-  return text.str() + '\n';
-}
+constexpr ThumbShape kThumb{{20, -10, -15, 35}, {60, 45, 40, 20}};
 
 /// Takes the ball in its palm, and opens again when the other hand has it.
-std::vector<Pause> first_hand() {
+std::vector<HandPause> first_hand() {
   const Isometry3d here = Isometry3d::Identity();
   const Isometry3d above = at(0.0, 0.0, 0.2);
   return {{0.0, here, 0.0}, {0.5, here, 0.0}, {0.8, here, 1.0},  {3.0, here, 1.0},
@@ -113,7 +74,7 @@ std::vector<Pause> first_hand() {
 }
 
 /// Comes from below, upside down, to the ball in the other hand; carries it to the wall, along there, and back.
-std::vector<Pause> second_hand() {
+std::vector<HandPause> second_hand() {
   const Isometry3d here = Eigen::Translation3d(kBallPlace) * Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitX()) *
                           Eigen::Translation3d(-kBallPlace);
   const auto from_there = [&](double x, double y, double z) { return at(x, y, z) * here; };
@@ -135,58 +96,10 @@ std::vector<Pause> second_hand() {
           {8.5, from_there(0.05, 0.05, -0.25), 0.0}};
 }
 
-/// The visible bodies of a tick, and whether any two of them collide that must not.
-class VisibleBodies {
- public:
-  bool collide(const HapticState& state) {
-    const Isometry3d& X_WV = state.parts[0].X_WV;
-    if (wall_check_.collides(*ball_, X_WV)) return true;
-    return std::any_of(state.hands.begin(), state.hands.begin() + state.hand_count,
-                       [&](const devices::HapticHandState& hand) { return collides(hand.visible, X_WV); });
-  }
-
-  bool collides(const devices::VisibleHand& hand, const Isometry3d& X_WV) {
-    if (hand.activity != devices::HandActivity::kFree && hand.activity != devices::HandActivity::kHolding) return false;
-    model_.chain.poses(hand.X_WH, hand.angles, X_WL_);
-    for (std::size_t link = 0; link < X_WL_.size(); ++link) {
-      const auto& mesh = model_.chain.links()[link].mesh;
-      if (mesh == nullptr) continue;
-      if (wall_check_.collides(*mesh, X_WL_[link]) || ball_check_.collides(*mesh, X_WV.inverse() * X_WL_[link]))
-        return true;
-    }
-    return false;
-  }
-
- private:
-  std::shared_ptr<const geometry::TriangleMesh> ball_ =
-      std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(kBallRadius_m, 2000));
-  reference::GridCheck ball_check_{{{ball_}}};
-  reference::GridCheck wall_check_{
-      {{std::make_shared<const geometry::TriangleMesh>(geometry::make_box(kWallEdges_m, 2000)), kWallPlace}}};
-  grasping::HandModel model_ = grasping::make_hand();
-  std::vector<Isometry3d> X_WL_ = std::vector<Isometry3d>(grasping::kHandLinks);
-};
-
-/// A tick, and what the gloves had told.
-struct RecordedTick {
-  HapticState state;
-  std::array<devices::GloveState, 2> gloves;
-  std::chrono::nanoseconds time{0};
-};
-
-std::vector<RecordedTick> read_ticks(const std::string& path) {
-  std::vector<RecordedTick> ticks;
-  std::optional<haptics::TickRecord> newest;
-  devices::EventLogReader log(path);
-  while (const auto event = log.next()) {
-    if (event->channel == "HAPTIC_TICK") {
-      newest = haptics::consumed_by_tick(*event);
-    } else if (const auto state = devices::haptic_state_of(*event); state && newest) {
-      ticks.push_back({*state, {newest->states[0], newest->states[1]}, newest->time});
-    }
-  }
-  EXPECT_EQ(log.damage(), "");
-  return ticks;
+VisibleBodies visible_bodies() {
+  const auto ball = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(kBallRadius_m, 2000));
+  const auto wall = std::make_shared<const geometry::TriangleMesh>(geometry::make_box(kWallEdges_m, 2000));
+  return {ball, {{wall, kWallPlace}}};
 }
 
 class TwoHands : public testing::Test {
@@ -194,20 +107,8 @@ class TwoHands : public testing::Test {
   static void SetUpTestSuite() {
     ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
     folder = std::make_unique<test_support::TemporaryFolder>();
-    const std::string scene = folder->write("scene.yaml", kScene);
-    std::array<std::unique_ptr<Process>, 2> gloves;
-    for (std::size_t h = 0; h < gloves.size(); ++h) {
-      const std::string number = std::to_string(h + 1);
-      gloves[h] = std::make_unique<Process>(std::vector<std::string>{
-          GLISSADE_PROGRAM, "glove", "--lcm", kUrl, "--device", number, "--script",
-          folder->write("hand_" + number + ".csv", csv_of(h == 0 ? first_hand() : second_hand()))});
-    }
-    server = test_support::glissade({"record", log(), scene, "--lcm", kUrl, "--device", "1", "2", "--fingers",
-                                     "--seconds", std::to_string(kSeconds), "--json"});
-    for (const std::unique_ptr<Process>& glove : gloves) {
-      glove->signal(SIGINT);
-      EXPECT_EQ(glove->wait().exit_code, 0);
-    }
+    server = test_support::record_two_hands(
+        *folder, kScene, {script_text(first_hand(), kThumb), script_text(second_hand(), kThumb)}, kSeconds, log());
     ASSERT_EQ(server.exit_code, 0) << server.standard_error;
     recorded = read_ticks(log());
   }
@@ -223,15 +124,13 @@ class TwoHands : public testing::Test {
 
 // Whenever that is: on a busy computer, gloves and server begin one after the other.
 TEST_F(TwoHands, TakeHoldShareCarryAndLeave) {
-  using Held = std::pair<std::int32_t, std::int32_t>;
-  std::vector<Held> holds;
+  using Held = test_support::HeldByHands;
   std::vector<Vector3d> carried;  // by the second hand alone
   for (const RecordedTick& tick : recorded) {
-    const Held now{tick.state.hands[0].part, tick.state.hands[1].part};
-    if (holds.empty() || holds.back() != now) holds.push_back(now);
-    if (now == Held(-1, 0)) carried.push_back(ball_of(tick));
+    if (tick.state.hands[0].part == -1 && tick.state.hands[1].part == 0) carried.push_back(ball_of(tick));
   }
-  EXPECT_THAT(holds, ElementsAre(Held(-1, -1), Held(0, -1), Held(0, 0), Held(-1, 0), Held(-1, -1)))
+  EXPECT_THAT(test_support::holds_of(recorded),
+              ElementsAre(Held(-1, -1), Held(0, -1), Held(0, 0), Held(-1, 0), Held(-1, -1)))
       << server.standard_error;
   ASSERT_FALSE(carried.empty());
   const auto farthest = std::max_element(carried.begin(), carried.end(),
@@ -246,7 +145,7 @@ TEST_F(TwoHands, TakeHoldShareCarryAndLeave) {
 }
 
 TEST_F(TwoHands, ShowNothingThatPenetrates) {
-  VisibleBodies bodies;
+  VisibleBodies bodies = visible_bodies();
   for (std::size_t i = 0; i < recorded.size(); i += 5)
     ASSERT_FALSE(bodies.collide(recorded[i].state)) << "after " << i << " ms";
 }
@@ -286,9 +185,9 @@ TEST_F(TwoHands, StopTheFingersOfTheGlove) {
 TEST(OneHand, StopsItsFingersAtTheSurface) {
   const test_support::TemporaryFolder folder;
   const std::string log = folder.path("run.lcmlog");
-  std::vector<Pause> pauses = first_hand();
+  std::vector<HandPause> pauses = first_hand();
   pauses.resize(4);  // it holds the ball
-  folder.write("hand.csv", csv_of(pauses));
+  folder.write("hand.csv", script_text(pauses, kThumb));
   const std::string scene = folder.write("scene.yaml", std::string(kScene) + "script: hand.csv\n");
   const ProgramResult run =
       test_support::glissade({"demo", "--offline", "--scene", scene, "--seconds", "3", "--record", log});
@@ -296,7 +195,7 @@ TEST(OneHand, StopsItsFingersAtTheSurface) {
   const RecordedTick at_rest = read_ticks(log).back();
   const devices::HapticHandState& hand = at_rest.state.hands[0];
   EXPECT_LE(beyond_the_stop(at_rest), kDegree);
-  VisibleBodies bodies;
+  VisibleBodies bodies = visible_bodies();
   int stopped = 0;
   for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
     devices::VisibleHand deeper = hand.visible;
@@ -307,27 +206,7 @@ TEST(OneHand, StopsItsFingersAtTheSurface) {
 }
 
 TEST_F(TwoHands, FeelNothingThatJumpsAndNothingThatLasts) {
-  const devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
-  constexpr double kRise_s = 7e-3;  // from zero to the maximum
-  double greatest_N = 0.0;
-  for (std::size_t i = 1; i < recorded.size(); ++i) {
-    // The envelope counts at most two periods for a step.
-    const double dt =
-        std::clamp(std::chrono::duration<double>(recorded[i].time - recorded[i - 1].time).count(), 0.0, 2e-3) + 1e-9;
-    for (std::size_t h = 0; h < 2; ++h) {
-      const devices::HapticHandState& now = recorded[i].state.hands[h];
-      const devices::HapticHandState& before = recorded[i - 1].state.hands[h];
-      ASSERT_LE((now.force_W - before.force_W).norm(), device.max_force / kRise_s * dt) << i;
-      ASSERT_LE(now.force_W.norm(), device.max_force * (1.0 + 1e-9)) << i;
-      greatest_N = std::max(greatest_N, now.force_W.norm());
-      for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
-        const double torque = now.joint_torques[joint];
-        ASSERT_LE(std::abs(torque - before.joint_torques[joint]), device.max_joint_torque / kRise_s * dt) << i;
-        ASSERT_LE(std::abs(torque), device.max_joint_torque) << i;
-      }
-    }
-  }
-  EXPECT_GT(greatest_N, 2.0) << "the wall";
+  EXPECT_GT(test_support::expect_nothing_that_jumps(recorded), 2.0) << "the wall";
   for (std::size_t i = static_cast<std::size_t>(8.3e3); i < recorded.size(); ++i) {
     for (std::size_t h = 0; h < 2; ++h) {
       ASSERT_TRUE(recorded[i].state.hands[h].force_W.isZero(0.0)) << i;
