@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/command.h>
+#include <glissade/apps/commands/fingertip_forces.h>
 #include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
@@ -49,9 +50,10 @@ constexpr const char* kGraspFooter =
     "and 0.084 m. One file is for all hands.\n"
     "\n"
     "Output: one row per millisecond and hand with the visible posture, the segments that touch, what kind of grasp\n"
-    "they make (none, push, precision, power) and of which object, and the pose of this object. --objects writes one\n"
-    "row per millisecond and movable object with its pose and the wrench on the hands. If both go to files, the\n"
-    "standard output says how long each hand held something, and how far each part came.\n"
+    "they make (none, push, precision, power) and of which object, the pose of this object, and how hard the tips of\n"
+    "the fingers press. --objects writes one row per millisecond and movable object with its pose and the wrench on\n"
+    "the hands. If both go to files, the standard output says how long each hand held something, and how far each\n"
+    "part came.\n"
     "All columns: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples, with the files of 'glissade example':\n"
@@ -73,7 +75,8 @@ std::vector<std::string> hand_columns() {
   std::vector<std::string> columns{"t_s", "hand", "state", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};
   for (const std::string& column : joint_columns())
     columns.push_back(column);
-  for (const char* column : {"touching", "grasp", "form", "object", "ox_m", "oy_m", "oz_m", "oqw", "oqx", "oqy", "oqz"})
+  for (const char* column : {"touching", "grasp", "form", "object", "ox_m", "oy_m", "oz_m", "oqw", "oqx", "oqy", "oqz",
+                             "thumb_tip_N", "index_tip_N", "middle_tip_N", "ring_tip_N", "little_tip_N"})
     columns.emplace_back(column);
   return columns;
 }
@@ -112,12 +115,15 @@ class GraspTables {
   GraspTables(const HapticScene& scene, const grasping::GraspSimulation& simulation,
               const std::vector<std::shared_ptr<const grasping::HandModel>>& hands, const GraspOptions& options)
       : scene_(scene), simulation_(simulation), hands_(hands), hand_rows_(options.out, hand_columns()) {
+    for (const std::shared_ptr<const grasping::HandModel>& hand : hands)
+      fingertips_.emplace_back(*hand);
     if (!options.objects.empty()) object_rows_ = std::make_unique<CsvWriter>(options.objects, object_columns());
   }
 
-  void write(double time_s) {
+  void write(double time_s, const std::vector<std::optional<grasping::Posture>>& targets) {
+    simulation_.tell_hands(*answers_);
     for (std::size_t h = 0; h < simulation_.hand_count(); ++h)
-      write_hand(time_s, h);
+      write_hand(time_s, h, *targets[h]);
     if (object_rows_ == nullptr) return;
     for (std::size_t p = 0; p < simulation_.part_count(); ++p)
       write_object(time_s, p);
@@ -129,7 +135,7 @@ class GraspTables {
   }
 
  private:
-  void write_hand(double time_s, std::size_t h) {
+  void write_hand(double time_s, std::size_t h, const grasping::Posture& target) {
     const grasping::Posture& posture = simulation_.posture(h);
     const grasping::Grasp& grasp = simulation_.grasp(h);
     hand_rows_.add(time_s)
@@ -148,7 +154,12 @@ class GraspTables {
       X_WO = body < scene_.obstacles.size() ? scene_.obstacles[body].X_WO
                                             : simulation_.parts().result(body - scene_.obstacles.size()).X_WV;
     }
-    hand_rows_.add(X_WO).end_row();
+    hand_rows_.add(X_WO);
+    devices::JointValues angles;
+    std::copy(target.values.begin(), target.values.end(), angles.begin());
+    for (const double force : fingertips_[h].update(angles, answers_->hands[h]))
+      hand_rows_.add(force);
+    hand_rows_.end_row();
   }
 
   /// Segments that touch, such as "palm index_distal".
@@ -180,6 +191,8 @@ class GraspTables {
   const HapticScene& scene_;
   const grasping::GraspSimulation& simulation_;
   const std::vector<std::shared_ptr<const grasping::HandModel>>& hands_;
+  std::vector<FingertipForces> fingertips_;
+  std::unique_ptr<haptics::ContactSet> answers_ = std::make_unique<haptics::ContactSet>();  // large
   CsvWriter hand_rows_;
   std::unique_ptr<CsvWriter> object_rows_;
 };
@@ -228,7 +241,7 @@ int run(const GraspOptions& options) {
     for (std::size_t h = 0; h < hands.size(); ++h)
       targets[h] = trajectories[h].posture_at(time);
     simulation.advance(targets, tick == 0 ? 0.0 : 1.0);
-    tables.write(std::chrono::duration<double>(time).count());
+    tables.write(std::chrono::duration<double>(time).count(), targets);
     outcome.add();
     if (report) report->add(time);
     progress.update(tick + 1);

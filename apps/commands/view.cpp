@@ -20,6 +20,7 @@
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/session_view.h>
 #include <glissade/devices/event_log.h>
+#include <glissade/devices/lcm_glove.h>
 #include <glissade/viewer/view_server.h>
 
 namespace glissade::apps {

@@ -77,6 +77,21 @@ std::vector<double> values_of(const CsvRow& row, const grasping::HandModel& hand
   return values;
 }
 
+/// Only a segment that touches presses, and tips that hold the ball do.
+void expect_tips_press_where_they_touch(const std::vector<CsvRow>& postures) {
+  double greatest = 0.0;
+  for (const CsvRow& row : postures) {
+    for (const std::string finger : {"thumb", "index", "middle", "ring", "little"}) {
+      const double force = number(row, finger + "_tip_N");
+      const bool touches = row.at("touching").find(finger + "_distal") != std::string::npos;
+      ASSERT_GE(force, 0.0);
+      ASSERT_TRUE(force == 0.0 || touches || row.at("state") == "holding") << finger << ", " << row.at("t_s") << " s";
+      greatest = std::max(greatest, force);
+    }
+  }
+  EXPECT_GT(greatest, 1.0);
+}
+
 void expect_thumb_before_palm(const std::vector<CsvRow>& postures) {
   const grasping::HandModel hand = grasping::make_hand();
   std::vector<Isometry3d> X_RL(hand.chain.links().size());
@@ -124,6 +139,7 @@ TEST_F(GraspCommand, CarriesTheBallToTheTrayAndLeavesItThere) {
   const std::vector<CsvRow> moved = rows_of(read_text_file(objects));
   expect_ball_carried_to_tray(postures, moved.back());
   expect_thumb_before_palm(postures);
+  expect_tips_press_where_they_touch(postures);
   expect_nothing_goes_into_anything(postures, moved);
   const std::string page = read_text_file(folder.path("report/index.html"));
   for (const char* part : {"1 grasp, holds for", "report-frames", "Kind of grasp", "ball"})
