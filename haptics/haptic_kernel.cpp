@@ -4,14 +4,14 @@
 #include <utility>
 
 #include <glissade/base/assert.h>
-#include <glissade/haptics/finger_forces.h>
 #include <glissade/haptics/haptic_kernel.h>
 #include <glissade/haptics/multi_part_sliding.h>
 
 #include "loop/contact_force.h"
 #include "loop/contact_projection.h"
-#include "loop/finger_load.h"
+#include "loop/fingers_of_hand.h"
 #include "loop/holds.h"
+#include "loop/usable_set.h"
 
 namespace glissade::haptics {
 
@@ -36,103 +36,6 @@ double share_of(const Eigen::Vector3d& exerted, const Eigen::Vector3d& wanted) {
 bool has_pose(const devices::GloveState& state) {
   return state.X_WH.matrix().allFinite() && state.v_WH.allFinite() && state.w_WH.allFinite();
 }
-
-bool are_finite(const devices::JointValues& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-}
-
-/// Finite, and so small that no product of two of them overflows. No scene and no hand comes near the bound.
-template <typename Numbers>
-bool is_usable(const Eigen::MatrixBase<Numbers>& numbers) {
-  constexpr double kGreatest = 1e12;
-  return (numbers.array().abs() < kGreatest).all();
-}
-
-bool is_usable_part(const PartAnswer& part) {
-  const auto is_pose = [](const Eigen::Isometry3d& X) { return is_usable(X.matrix()); };
-  return is_usable(part.p_Vref) && is_pose(part.X_WV) && is_pose(part.X_WV_of_rows) && is_pose(part.X_WG) &&
-         is_pose(part.X_GT);
-}
-
-bool is_usable_row(const ContactRow& row) {
-  return is_usable(row.n) && is_usable(row.r) && is_usable(row.r_other) && is_usable(row.friction_ratio_W) &&
-         is_usable(Eigen::Vector2d(row.bound, row.approach)) && !std::isnan(row.range);
-}
-
-bool is_usable_hand(const HandAnswer& hand) {
-  const auto has_numbers = [](const FingerRow& row) {
-    return are_finite(row.rates) && std::isfinite(row.gap) && is_usable(row.n_W) && is_usable(row.p_W);
-  };
-  return is_usable(hand.visible.X_WH.matrix()) && are_finite(hand.visible.angles) &&
-         std::all_of(hand.rows().begin(), hand.rows().end(), has_numbers);
-}
-
-std::vector<std::size_t> joints_of(const std::vector<WristJoint>& wrist) {
-  std::vector<std::size_t> joints;
-  for (const WristJoint& joint : wrist)
-    joints.push_back(joint.angle);
-  return joints;
-}
-
-void check_wrist(const FingerHand& hand) {
-  for (const WristJoint& joint : hand.wrist) {
-    const bool is_axis = std::abs(joint.axis_J.norm() - 1.0) < 1e-6;  // false for NaN
-    if (joint.angle < devices::kGloveJoints && is_axis && is_usable(joint.X_PJ.matrix())) continue;
-    throw std::invalid_argument("a joint of the wrist needs a joint of the glove, a pose, and an axis of unit length");
-  }
-}
-
-/// Fingers of a hand that has them.
-struct Fingers {
-  FingerHand hand;
-  FingerForces forces;
-  FingerLoad load;
-  devices::JointValues angles{};  // of the wrist, as the ghost has them
-  bool is_found = false;          // the angles are those of a state
-  std::int64_t decision = 0;      // of the simulation, that the hand has followed
-  GhostOfHand ghost;
-  double unseen_s = 0.0;                                   // since the last state that could be trusted
-  Eigen::Isometry3d X_WP = Eigen::Isometry3d::Identity();  // the palm
-
-  /// The joints of the wrist turn no faster than a hand can, whatever their sensors say.
-  void move_palm(const devices::GloveState& state, double dt) noexcept {
-    constexpr double kFastest_rad_per_s = 30.0;
-    X_WP = state.X_WH;
-    for (const WristJoint& joint : hand.wrist) {
-      const std::size_t j = joint.angle;
-      const double wanted = std::clamp(state.joint_angles[j], hand.limits.lower[j], hand.limits.upper[j]);
-      const double step = is_found ? std::clamp(wanted - angles[j], -kFastest_rad_per_s * dt, kFastest_rad_per_s * dt)
-                                   : wanted - angles[j];
-      angles[j] += step;
-      X_WP = X_WP * joint.X_PJ * Eigen::AngleAxisd(angles[j], joint.axis_J);
-    }
-    is_found = true;
-  }
-
-  /// Of the springs at the joints, and of the load of the part that the hand holds.
-  devices::JointValues torques(const devices::GloveState& state, const HandAnswer& answer, std::chrono::nanoseconds age,
-                               std::optional<std::size_t> held, const Wrench& on_hand, const Eigen::Vector3d& p_Wref,
-                               const KernelPart& part, double dt) noexcept {
-    const std::int32_t number = held ? static_cast<std::int32_t>(*held) : -1;
-    devices::JointValues sum = forces.update(state.joint_angles, answer, age);
-    const devices::JointValues& of_load =
-        load.update(answer, number, on_hand, p_Wref, part.radius, state.joint_angles, dt);
-    for (std::size_t j = 0; j < sum.size(); ++j)
-      sum[j] = std::clamp(sum[j] + of_load[j], -forces.max_torque(), forces.max_torque());
-    return sum;
-  }
-
-  /// A hand whose states stay away for a moment is where it was last.
-  void note(const devices::GloveState* seen, std::optional<std::size_t> part, double dt) noexcept {
-    constexpr double kPatience_s = 0.1;
-    unseen_s = seen != nullptr ? 0.0 : unseen_s + dt;
-    ghost.part = part ? static_cast<std::int32_t>(*part) : -1;
-    ghost.is_tracked = is_found && unseen_s < kPatience_s;
-    if (seen == nullptr) return;
-    ghost.X_WH = seen->X_WH;
-    ghost.angles = seen->joint_angles;
-  }
-};
 
 }  // namespace
 
@@ -165,7 +68,7 @@ struct HapticKernel::Hand {
   double supply = 0.0;  // J, of the commands
   double owed = 0.0;    // J: work of the hand against force that was withheld, as far as it has not been lifted again
   Wrench solved;        // of the contacts when they last had a solution
-  std::optional<Fingers> fingers;
+  std::optional<FingersOfHand> fingers;
 
   /// A hand that sinks while the force of its contacts is withheld is lifted when it returns, as if it had sunk against
   /// the force. From the work against the withheld and the exerted force in this tick, the energy to lift it with.
@@ -187,7 +90,7 @@ struct HapticKernel::Hand {
     const auto delay =
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(link_delay_s));
     present = coupling_within_limits(envelope.descriptor(), coupling.stiffness, period, delay);
-    if (fingers) fingers->forces.set_link_delay(delay);
+    if (fingers) fingers->set_link_delay(delay);
     return std::min(present.stiffness.translational / coupling.stiffness.translational,
                     present.stiffness.rotational / coupling.stiffness.rotational);
   }
@@ -207,12 +110,8 @@ HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<Kern
       of_hand[p] = couplings[p].stiffness;
     }
     ContactForce contacts(parts_.front().radius, couplings.front().stiffness, kHeadroom * hand.device.max_force);
-    std::optional<Fingers> fingers;
-    if (hand.fingers) check_wrist(*hand.fingers);
-    if (hand.fingers)
-      fingers.emplace(Fingers{.hand = *hand.fingers,
-                              .forces = {hand.fingers->limits, hand.device, period},
-                              .load = {hand.device, joints_of(hand.fingers->wrist)}});
+    std::optional<FingersOfHand> fingers;
+    if (hand.fingers) fingers.emplace(*hand.fingers, hand.device, period);
     hands_.push_back(
         std::make_unique<Hand>(Hand{.couplings = couplings,
                                     .present = couplings.front(),
@@ -270,10 +169,7 @@ const Coupling& HapticKernel::present_coupling(std::size_t hand) const {
 const ContactSet& HapticKernel::usable(const ContactSet& set) noexcept {
   const std::span<const PartAnswer> parts{set.parts.data(), parts_.size()};
   const std::span<const HandAnswer> hands{set.hands.data(), hands_.size()};
-  const bool is_whole = std::all_of(parts.begin(), parts.end(), is_usable_part) &&
-                        std::all_of(set.rows().begin(), set.rows().end(), is_usable_row) &&
-                        std::all_of(hands.begin(), hands.end(), is_usable_hand);
-  if (!is_whole) return last_poses_;
+  if (!is_usable(parts, set.rows(), hands)) return last_poses_;
   std::copy(parts.begin(), parts.end(), last_poses_.parts.begin());
   for (std::size_t h = 0; h < hands.size(); ++h) {
     HandAnswer& last = last_poses_.hands[h];
@@ -295,12 +191,12 @@ HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states
     // Judged before the pose can move anything that another hand feels.
     Hand& hand = *hands_[h];
     const bool is_trusted = hand.envelope.trusts(*states[h], now) && has_pose(*states[h]) &&
-                            !(hand.fingers && !are_finite(states[h]->joint_angles));
+                            !(hand.fingers && !FingersOfHand::have_angles(*states[h]));
     poses[h].is_fading = hand.is_fading || !is_trusted;
     if (!is_trusted) continue;
     if (hand.fingers) {
       hand.fingers->move_palm(*states[h], dt);
-      poses[h].X_WH = &hand.fingers->X_WP;
+      poses[h].X_WH = &hand.fingers->X_WP();
       follow_decision(h, set.hands[h]);
     } else {
       poses[h].X_WH = &states[h]->X_WH;
@@ -320,16 +216,14 @@ HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states
     if (!hands_[h]->fingers) continue;
     const bool is_seen = poses[h].X_WH != nullptr && !tick.hands[h].command.reasons().is_state_old;
     hands_[h]->fingers->note(is_seen ? states[h] : nullptr, tick.hands[h].part, dt);
-    tick.ghosts.hands[h] = hands_[h]->fingers->ghost;
+    tick.ghosts.hands[h] = hands_[h]->fingers->ghost();
   }
   return tick;
 }
 
 /// What the contacts say counts, and no grip.
 void HapticKernel::follow_decision(std::size_t number, const HandAnswer& answer) noexcept {
-  Fingers& fingers = *hands_[number]->fingers;
-  if (answer.decision == fingers.decision) return;
-  fingers.decision = answer.decision;
+  if (!hands_[number]->fingers->is_new(answer.decision)) return;
   const auto part = static_cast<std::size_t>(answer.part);
   if (answer.part >= 0 && part < parts_.size() && !parts_[part].is_scripted) {
     holds_->grasp(number, part);
@@ -442,7 +336,8 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   }
   if (hand.fingers) {
     const Wrench load{tick.contacts.f + tick.pull.f, tick.contacts.t + tick.pull.t};
-    command.joint_torques = hand.fingers->torques(state, set.hands[number], age, tick.part, load, p_Wref, part, dt);
+    command.joint_torques =
+        hand.fingers->torques(state, set.hands[number], age, tick.part, load, p_Wref, part.radius, dt);
   }
   tick.command = hand.envelope.limit(command, state, now);
   hand.is_fading = tick.command.reasons().is_fading();

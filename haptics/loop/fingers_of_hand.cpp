@@ -1,0 +1,79 @@
+#include "loop/fingers_of_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace glissade::haptics {
+namespace {
+
+const FingerHand& checked_wrist(const FingerHand& hand) {
+  for (const WristJoint& joint : hand.wrist) {
+    const bool is_axis = std::abs(joint.axis_J.norm() - 1.0) < 1e-6;  // false for NaN
+    if (joint.angle < devices::kGloveJoints && is_axis && joint.X_PJ.matrix().allFinite()) continue;
+    throw std::invalid_argument("a joint of the wrist needs a joint of the glove, a pose, and an axis of unit length");
+  }
+  return hand;
+}
+
+std::vector<std::size_t> joints_of_wrist(const FingerHand& hand) {
+  std::vector<std::size_t> joints;
+  for (const WristJoint& joint : hand.wrist)
+    joints.push_back(joint.angle);
+  return joints;
+}
+
+}  // namespace
+
+FingersOfHand::FingersOfHand(const FingerHand& hand, const devices::DeviceDescriptor& device,
+                             std::chrono::nanoseconds period)
+    : hand_(checked_wrist(hand)), forces_(hand.limits, device, period), load_(device, joints_of_wrist(hand)) {}
+
+bool FingersOfHand::have_angles(const devices::GloveState& state) noexcept {
+  return std::all_of(state.joint_angles.begin(), state.joint_angles.end(),
+                     [](double angle) { return std::isfinite(angle); });
+}
+
+void FingersOfHand::move_palm(const devices::GloveState& state, double dt) noexcept {
+  constexpr double kFastest_rad_per_s = 30.0;
+  X_WP_ = state.X_WH;
+  for (const WristJoint& joint : hand_.wrist) {
+    const std::size_t j = joint.angle;
+    const double wanted = std::clamp(state.joint_angles[j], hand_.limits.lower[j], hand_.limits.upper[j]);
+    const double step = is_found_ ? std::clamp(wanted - angles_[j], -kFastest_rad_per_s * dt, kFastest_rad_per_s * dt)
+                                  : wanted - angles_[j];
+    angles_[j] += step;
+    X_WP_ = X_WP_ * joint.X_PJ * Eigen::AngleAxisd(angles_[j], joint.axis_J);
+  }
+  is_found_ = true;
+}
+
+bool FingersOfHand::is_new(std::int64_t decision) noexcept {
+  return std::exchange(decision_, decision) != decision;
+}
+
+devices::JointValues FingersOfHand::torques(const devices::GloveState& state, const HandAnswer& answer,
+                                            std::chrono::nanoseconds age, std::optional<std::size_t> held,
+                                            const Wrench& on_hand, const Eigen::Vector3d& p_Wref, double radius,
+                                            double dt) noexcept {
+  const std::int32_t number = held ? static_cast<std::int32_t>(*held) : -1;
+  devices::JointValues sum = forces_.update(state.joint_angles, answer, age);
+  const devices::JointValues& of_load = load_.update(answer, number, on_hand, p_Wref, radius, state.joint_angles, dt);
+  for (std::size_t j = 0; j < sum.size(); ++j)
+    sum[j] = std::clamp(sum[j] + of_load[j], -forces_.max_torque(), forces_.max_torque());
+  return sum;
+}
+
+void FingersOfHand::note(const devices::GloveState* seen, std::optional<std::size_t> part, double dt) noexcept {
+  constexpr double kPatience_s = 0.1;
+  unseen_s_ = seen != nullptr ? 0.0 : unseen_s_ + dt;
+  ghost_.part = part ? static_cast<std::int32_t>(*part) : -1;
+  ghost_.is_tracked = is_found_ && unseen_s_ < kPatience_s;
+  if (seen == nullptr) return;
+  ghost_.X_WH = seen->X_WH;
+  ghost_.angles = seen->joint_angles;
+}
+
+}  // namespace glissade::haptics
