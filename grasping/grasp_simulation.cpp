@@ -128,7 +128,8 @@ class GraspSimulation::Life {
 
   void take_part(std::size_t p, const Eigen::Isometry3d& X_WG) {
     end_push(p);
-    parts_.grasp(p, X_WG, grip(p));
+    const auto number = static_cast<std::int32_t>(p);
+    parts_.grasp(p, X_WG, grip(p, [&](std::size_t h) { return answers_[h].part == number; }));
   }
 
   void leave_part(std::size_t p) {
@@ -282,7 +283,8 @@ class GraspSimulation::Life {
       leave_part(p);
     } else {
       X_WG_[p] = wish(p).value_or(parts_.result(p).X_WV);
-      take_part(p, X_WG_[p]);
+      end_push(p);
+      parts_.grasp(p, X_WG_[p], grip(p, [&](std::size_t h) { return hands_[h].part() == p; }));
     }
   }
 
@@ -292,21 +294,23 @@ class GraspSimulation::Life {
     pushes_[p].clear();
   }
 
-  /// The compliance point of a part that hands take: the middle of where they touch it, unless the scene says another.
-  Eigen::Vector3d grip(std::size_t p) const {
-    const haptics::SlidingPart& part = parts_.part(p);
+  /// The compliance point of a part that hands take: the middle of where those that hold it touch it, unless the scene
+  /// says another; where it is, if they do not touch it.
+  template <typename Holds>
+  Eigen::Vector3d grip(std::size_t p, const Holds& holds) const {
+    if (parts_.part(p).has_chosen_point()) return parts_.part(p).p_Vref();
     const auto body = static_cast<std::int32_t>(parts_.obstacle_count() + p);
     Eigen::Vector3d sum_W = Eigen::Vector3d::Zero();
     int count = 0;
     for (std::size_t h = 0; h < hands_.size(); ++h) {
-      if (hands_[h].part() != p && answers_[h].part != static_cast<std::int32_t>(p)) continue;
-      for (const LinkContact& touch : hands_[h].clasp().contacts()) {
+      if (!holds(h)) continue;
+      for (const LinkContact& touch : hands_[h].contacts()) {
         if (touch.contact.obstacle != body) continue;
         sum_W += touch.contact.q_W();
         ++count;
       }
     }
-    if (count == 0 || part.has_chosen_point()) return part.p_Vref();
+    if (count == 0) return parts_.p_Vref(p);
     return parts_.result(p).X_WV.inverse(Eigen::Isometry) * (sum_W / count);
   }
 

@@ -36,8 +36,7 @@ SlidingPart::SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& me
 
 SlidingPart::SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh, const Eigen::Vector3d& p_Vref)
     : ContactBody(mesh), p_Vref_(p_Vref), has_chosen_point_(true), radius_(0.0) {
-  constexpr double kFarthest = 10.0;  // in units of the part's own radius
-  if (!((p_Vref - tree.center()).norm() <= kFarthest * tree.radius())) {
+  if (!((p_Vref - tree.center()).norm() <= kFarthestPoint * tree.radius())) {
     throw std::invalid_argument("the compliance point lies too far from the part");
   }
   for (const Eigen::Vector3d& vertex : tree.mesh().vertices)

@@ -39,11 +39,14 @@ struct ContactBody {
   std::unique_ptr<const ObbTree> obbs_;  // for path certificates
 };
 
+/// In radii of a part: how far a compliance point may be from the centre of its bounding box.
+inline constexpr double kFarthestPoint = 10.0;
+
 /// A part that a hand or a script moves, in its own frame V. A displacement of the part is the translation of a
 /// reference point and a rotation about that point; the coupling, the virtual spring between hand and part, acts at the
 /// same point, the compliance point. A force at this point turns the part little, so a peg that is coupled at its tip
-/// finds its hole, where one that is coupled at its middle tips and jams. A hand with fingers is coupled where it grips
-/// the part (`MultiPartSliding::grasp`), unless the point was chosen here.
+/// finds its hole, where one that is coupled at its middle tips and jams. Hands with fingers are coupled where they
+/// grip the part (`MultiPartSliding::grasp`), unless the point was chosen here.
 class SlidingPart : public ContactBody {
  public:
   /// The compliance point is the centre of the bounding box: no point of the part is much farther from it than half of
@@ -51,7 +54,7 @@ class SlidingPart : public ContactBody {
   explicit SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh);
 
   /// The compliance point is `p_Vref` (metres). Throws std::invalid_argument also for a point that is not finite, or
-  /// farther from the centre of the bounding box than ten times the farthest vertex.
+  /// farther from the centre of the bounding box than kFarthestPoint times the farthest vertex.
   SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh, const Eigen::Vector3d& p_Vref);
 
   const Eigen::Vector3d& p_Vref() const { return p_Vref_; }

@@ -281,6 +281,7 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   const bool is_finite = has_pose(state);
   const Eigen::Vector3d p_WH = is_finite ? Eigen::Vector3d(state.X_WH.translation()) : hand.p_Wref;
   const Eigen::Vector3d& p_Vref = set.parts[p].p_Vref;
+  const double lever = part.radius + (p_Vref - part.p_Vref).norm();  // no point of the part is farther from p_Vref
   const Eigen::Vector3d p_Wref = tick.part ? Eigen::Vector3d(holds_->ghost_of_hand(number) * p_Vref) : p_WH;
   if (tick.part != hand.last_part || p_Vref != hand.p_Vref) {
     hand.contacts.move_reference(hand.p_Wref, p_Wref);
@@ -294,10 +295,10 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   PartContacts contacts;
   double motion = 0.0;
   if (tick.part) {
-    hand.contacts.hold(part.radius, coupling.stiffness);
+    hand.contacts.hold(lever, coupling.stiffness);
     contacts = contacts_->of_part(p);
     contacts.wrench = holds_->on_hand(number, contacts.wrench);
-    motion = holds_->ghost_motion(p, part.radius);
+    motion = holds_->ghost_motion(p, lever);
     tick.pull = scaled(holds_->pull_on(number), softness);
     const double pull = tick.pull.f.norm();
     const double most = kHeadroom * hand.envelope.descriptor().max_force;
@@ -336,8 +337,7 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   }
   if (hand.fingers) {
     const Wrench load{tick.contacts.f + tick.pull.f, tick.contacts.t + tick.pull.t};
-    command.joint_torques =
-        hand.fingers->torques(state, set.hands[number], age, tick.part, load, p_Wref, part.radius, dt);
+    command.joint_torques = hand.fingers->torques(state, set.hands[number], age, tick.part, load, p_Wref, lever, dt);
   }
   tick.command = hand.envelope.limit(command, state, now);
   hand.is_fading = tick.command.reasons().is_fading();

@@ -41,18 +41,16 @@ class MultiPartSliding::Cycle {
 
   void grasp(std::size_t number, const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref) {
     step_finder_.give_up();  // the answer under way goes on with another cycle
-    if (part(number).rests_when_taken()) {
-      refer_to(number, p_Vref);
-      step_finder_.rows().forget_forces();
-    }
-    part(number).grasp(X_WG);
+    if (part(number).grasp(X_WG, p_Vref)) step_finder_.rows().forget_forces();
+    tell_reference(number);
   }
 
   void release(std::size_t number) {
     step_finder_.give_up();  // the answer under way goes on with another cycle
     part(number).result.X_WG = part(number).result.X_WV;
     part(number).rest(SlidingState::kReleased);
-    refer_to(number, part(number).part_V->p_Vref());
+    part(number).p_Vref = part(number).part_V->p_Vref();
+    tell_reference(number);
     step_finder_.rows().forget_forces();
   }
 
@@ -184,10 +182,8 @@ class MultiPartSliding::Cycle {
     std::inplace_merge(ignored_.begin(), ignored_.begin() + sorted, ignored_.end());
   }
 
-  /// From now on, displacements of the part are about this point.
-  void refer_to(std::size_t number, const Eigen::Vector3d& p_Vref) {
-    part(number).p_Vref = p_Vref;
-    shared_.scene.set_p_Vref(number, p_Vref);
+  void tell_reference(std::size_t number) {
+    shared_.scene.set_p_Vref(number, part(number).p_Vref);
     measure_levers();
   }
 
@@ -259,7 +255,8 @@ void MultiPartSliding::grasp(std::size_t part, const Eigen::Isometry3d& X_WG) {
 }
 
 void MultiPartSliding::grasp(std::size_t part, const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref) {
-  GLISSADE_ASSERT(!is_scripted(part) && p_Vref.allFinite());
+  GLISSADE_ASSERT(!is_scripted(part));
+  GLISSADE_ASSERT((p_Vref - this->part(part).p_Vref()).norm() <= kFarthestPoint * this->part(part).radius());
   if (const std::optional<Eigen::Isometry3d> rigid = geometry::rigid_pose(X_WG)) cycle_->grasp(part, *rigid, p_Vref);
 }
 

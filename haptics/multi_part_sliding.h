@@ -55,8 +55,9 @@ class MultiPartSliding final : public LoopSimulation {
   /// part nor force jumps.
   /// `part` must not be scripted.
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG);
-  /// The same, and the compliance point is `p_Vref` (metres, finite) instead of the part's own, until the part is
-  /// released or taken anew. A part already held by force feedback keeps its point.
+  /// The same, and the compliance point is `p_Vref` (metres) instead of the part's own, until the part is released or
+  /// taken anew; no farther from it than kFarthestPoint radii. A part already held by force feedback keeps the wrench
+  /// of its coupling, so its target moves if the point does.
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref);
   void release(std::size_t part);
 

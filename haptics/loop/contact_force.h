@@ -24,8 +24,8 @@ inline constexpr std::chrono::milliseconds kLongestFall{75};
 /// allocation. Not thread-safe.
 class ContactForce {
  public:
-  /// For the hand's coupling to a part of this radius (metres). The force, and that at the radius which has the torque,
-  /// never exceeds `max_force` (N), that of the device.
+  /// For the hand's coupling to a part, no point of which is farther from the reference point than `radius` (metres).
+  /// The force, and that at the radius which has the torque, never exceeds `max_force` (N), that of the device.
   ContactForce(double radius, const CouplingStiffness& stiffness, double max_force)
       : radius_(radius), stiffness_(stiffness), max_force_(max_force) {}
 

@@ -34,8 +34,8 @@ class FingerLoad {
   FingerLoad(const devices::DeviceDescriptor& device, std::span<const std::size_t> moves_part);
 
   /// The torques (Nm, positive toward larger angles) `dt` (seconds) after the last call. The load is the wrench on the
-  /// hand about the world point `p_Wref`; the part has the number `part` and this radius (metres) about that point; −1:
-  /// the hand holds none. `angles` are those of the glove (rad).
+  /// hand about the world point `p_Wref`; the part has the number `part`, and no point of it is farther from there than
+  /// `radius` (metres); −1: the hand holds none. `angles` are those of the glove (rad).
   const devices::JointValues& update(const HandAnswer& hand, std::int32_t part, const Wrench& load,
                                      const Eigen::Vector3d& p_Wref, double radius, const devices::JointValues& angles,
                                      double dt) noexcept;

@@ -37,7 +37,7 @@ class FingersOfHand {
 
   void set_link_delay(std::chrono::nanoseconds delay) noexcept { forces_.set_link_delay(delay); }
   /// Torques (Nm) of the springs at the joints, and of the load `on_hand` (about the world point `p_Wref`) of the part
-  /// with the number `held` and the radius `radius` (metres).
+  /// with the number `held`, no point of which is farther from there than `radius` (metres).
   devices::JointValues torques(const devices::GloveState& state, const HandAnswer& answer, std::chrono::nanoseconds age,
                                std::optional<std::size_t> held, const Wrench& on_hand, const Eigen::Vector3d& p_Wref,
                                double radius, double dt) noexcept;

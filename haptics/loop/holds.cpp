@@ -27,15 +27,25 @@ void Holds::let_go(Hand& hand) noexcept {
   Part& part = parts_[number];
   hand.part.reset();
   hand.pull = {};
+  if (holders_of(number) > 0) {
+    keep_target(number);
+    return;
+  }
   ++part.ghost.hold;
   part.X_WT_kept.reset();
   part.X_GT_kept.reset();
-  if (holders_of(number) > 0) {
-    if (led_[number].acts) part.X_WT_kept = led_[number].X_WG * led_[number].X_GT;
-  } else {
-    part.ghost.is_held = false;
-    part.ghost.release = part.ghost.hold;
-  }
+  part.ghost.is_held = false;
+  part.ghost.release = part.ghost.hold;
+}
+
+/// The hands that hold the part have changed: its target stays until the simulation has answered.
+void Holds::keep_target(std::size_t number) noexcept {
+  Part& part = parts_[number];
+  const LedPart& led = led_[number];
+  ++part.ghost.hold;
+  part.X_WT_kept.reset();
+  part.X_GT_kept.reset();
+  if (led.acts) part.X_WT_kept = led.X_WG * led.X_GT;
 }
 
 void Holds::take(Hand& hand, std::size_t number, const Eigen::Isometry3d& X_WH, const ContactSet& set) noexcept {
@@ -46,7 +56,10 @@ void Holds::take(Hand& hand, std::size_t number, const Eigen::Isometry3d& X_WH, 
   hand.part = number;
   hand.weight = is_first ? 1.0 : 0.0;
   hand.is_lost = false;
-  if (!is_first) return;
+  if (!is_first) {
+    keep_target(number);
+    return;
+  }
   ++part.ghost.hold;
   part.ghost.is_held = true;
 }

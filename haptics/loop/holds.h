@@ -29,8 +29,8 @@ struct HandPose {
 /// Several hands may hold one part: then the ghost is at the mean of the hands' ghosts, weighted by their stiffness,
 /// and the spring of each hand acts. The contacts' force is shared in proportion to the stiffness, and each hand feels
 /// the pull of the others. A hand that joins counts more and more within 200 ms. One whose pose is old counts less and
-/// less within 50 ms; when it comes back, it takes hold anew. If a hand lets go, the part keeps its target, and the
-/// simulation lets the target approach the new ghost slowly.
+/// less within 50 ms; when it comes back, it takes hold anew. If a hand joins or lets go, the part keeps its target,
+/// and the simulation lets the target approach the new ghost slowly.
 ///
 /// Real-time safe. Not thread-safe.
 class Holds {
@@ -97,6 +97,7 @@ class Holds {
   std::size_t holders_of(std::size_t part) const noexcept;
   void take(Hand& hand, std::size_t part, const Eigen::Isometry3d& X_WH, const ContactSet& set) noexcept;
   void let_go(Hand& hand) noexcept;
+  void keep_target(std::size_t part) noexcept;
   void weigh(Hand& hand, const HandPose& pose, double dt) noexcept;
   void combine(std::size_t part) noexcept;
   void aim(std::size_t part, const ContactSet& set) noexcept;

@@ -25,10 +25,32 @@ void HeldPartState::rest(SlidingState state) {
   result.cycles = 0;
 }
 
-void HeldPartState::grasp(const Eigen::Isometry3d& X_WG) {
+bool HeldPartState::grasp(const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref_of_hold) {
   result.X_WG = X_WG;
-  if (rests_when_taken()) rest(SlidingState::kFree);
+  const bool rests = !is_held() || metaphor != Metaphor::kForceFeedback;
+  if (rests) {
+    p_Vref = p_Vref_of_hold;
+    rest(SlidingState::kFree);
+  } else {
+    move_reference(p_Vref_of_hold);
+  }
   if (metaphor == Metaphor::kForceFeedback) offset = geometry::displacement_between(X_WG, result.X_WT, p_Vref);
+  return rests;
+}
+
+/// The lag about the new point is that which exerts the same wrench, so contacts hold the part where it is. Where that
+/// would turn the part's target too far to say in which direction, the wrench is smaller.
+void HeldPartState::move_reference(const Eigen::Vector3d& p_Vref_to) {
+  constexpr double kMostTurn_rad = 1.0;
+  if (p_Vref_to == p_Vref) return;
+  const Wrench wrench = about_point(spring_wrench(stiffness, lag()), p_Wref(), result.X_WV * p_Vref_to);
+  const geometry::Displacement lag_there{-wrench.f / stiffness.translational, -wrench.t / stiffness.rotational};
+  const double turn = lag_there.w.norm();
+  p_Vref = p_Vref_to;
+  result.X_WT = geometry::displaced(result.X_WV, p_Vref,
+                                    turn > kMostTurn_rad ? lag_there.scaled(kMostTurn_rad / turn) : lag_there);
+  previous_lag = lag();
+  aim();
 }
 
 void HeldPartState::begin_tick() {

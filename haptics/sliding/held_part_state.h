@@ -50,10 +50,9 @@ struct HeldPartState {
 
   /// Leaves the part where it is: its target is its own pose, so nothing pushes it.
   void rest(SlidingState state);
-  /// Whether the part rests when a hand takes hold; one already held by force feedback keeps its lag.
-  bool rests_when_taken() const { return !is_held() || metaphor != Metaphor::kForceFeedback; }
-  /// The hand takes hold, with the ghost at the rigid pose X_WG.
-  void grasp(const Eigen::Isometry3d& X_WG);
+  /// A hand takes hold, with the ghost at the rigid pose X_WG and the reference point at `p_Vref_of_hold`. Returns
+  /// whether the part rests; one already held by force feedback keeps the wrench on it.
+  bool grasp(const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref_of_hold);
 
   /// Begins a call.
   void begin_tick();
@@ -67,6 +66,7 @@ struct HeldPartState {
   void end_tick(double milliseconds);
 
  private:
+  void move_reference(const Eigen::Vector3d& p_Vref_to);
   void aim();
   SlidingState classify() const;
 };
