@@ -1,46 +1,81 @@
-// What ten pages that look on cost the haptic loop: node measure.mjs [RUNS]. Runs of 'glissade demo' without a server of
-// pages, with one at which nobody looks, and with ten pages take turns. Prints the median duration of ticks of each run,
-// and the ratios of the medians.
+// What ten viewers cost the haptic loop: node measure.mjs [RUNS]. Runs of 'glissade demo' without a server of pages, with
+// one at which nobody looks, and with ten viewers take turns. Prints the median duration of ticks of each run and how many
+// processors were busy meanwhile, and the ratios of the medians. On a machine that is busy with other programs, the ticks
+// are slow in all runs, and the ratios say little.
+//
+// The viewers do what a page does with the network and nothing else, for a browser that draws takes far more processor
+// time than the server. One of them never reads.
 
-import { launch, Program } from './test/harness.mjs';
+import http from 'node:http';
+import os from 'node:os';
+import { Program } from './test/harness.mjs';
 
 const runs = Number(process.argv[2] ?? 5);
-const browser = await launch();
+const SHOWN = Buffer.from([0x81, 0x81, 0, 0, 0, 0, 's'.charCodeAt(0)]); // a message of one masked letter
 
-async function tick_us(has_server, viewers) {
-  const program = new Program(['demo', '--seconds', '8', '--json', ...(has_server ? ['--view', '0'] : [])]);
-  const page = await browser.newPage();
-  if (has_server) {
-    await page.goto(`${await program.url()}nothing`); // a page of the server that draws nothing
-    await page.evaluate((count) => {
-      const first = new WebSocket(`ws://${location.host}/live`); // the demonstration begins with it; it does not read on
-      if (count === 0) first.onmessage = () => first.close();
-      for (let i = 1; i < count; ++i) {
-        const socket = new WebSocket(`ws://${location.host}/live`);
-        socket.onmessage = () => socket.send('shown');
-      }
-    }, viewers);
-  }
-  await program.exited;
-  await page.close();
-  return JSON.parse(program.output.slice(program.output.indexOf('\n{') + 1)).tick_us_p50;
+// Calls `onSocket` with a WebSocket as a bare connection.
+function connect(url, onSocket) {
+  const headers = {
+    Connection: 'Upgrade', Upgrade: 'websocket', 'Sec-WebSocket-Version': 13,
+    'Sec-WebSocket-Key': Buffer.alloc(16).toString('base64'),
+  };
+  const request = http.request(`${url}live`, { headers });
+  for (const event of ['error', 'close']) request.on(event, () => {}); // the server ends first
+  request.on('upgrade', (_, socket, head) => {
+    socket.on('error', () => {});
+    onSocket(socket);
+    if (head.length > 0) socket.unshift(head);
+  });
+  request.end();
 }
 
-function median(values) {
-  return values.toSorted((a, b) => a - b)[Math.floor(values.length / 2)];
+// Acknowledges each frame as soon as it is there. Its length is in the second byte, or the third and fourth.
+function read(socket) {
+  let missing = 0;
+  socket.on('data', (data) => {
+    for (let rest = data; rest.length > 0;) {
+      if (missing === 0) missing = rest[1] === 126 ? 4 + rest.readUInt16BE(2) : 2 + rest[1];
+      const taken = Math.min(missing, rest.length);
+      missing -= taken;
+      rest = rest.subarray(taken);
+      if (missing === 0) socket.write(SHOWN);
+    }
+  });
+}
+
+function busyMs() {
+  return os.cpus().reduce((sum, { times }) => sum + times.user + times.nice + times.sys + times.irq, 0);
+}
+
+async function measured(hasServer, viewers) {
+  const start = { time: performance.now(), busy: busyMs() };
+  const program = new Program(['demo', '--seconds', '8', '--json', ...(hasServer ? ['--view', '0'] : [])]);
+  if (hasServer) {
+    const url = await program.url();
+    connect(url, (socket) => (viewers === 0 ? socket.destroy() : socket.pause())); // the demonstration begins with it
+    for (let i = 1; i < viewers; ++i) connect(url, read);
+  }
+  await program.exited;
+  const busy = (busyMs() - start.busy) / (performance.now() - start.time);
+  return { busy, tick_us: JSON.parse(program.output.slice(program.output.indexOf('\n{') + 1)).tick_us_p50 };
+}
+
+function median(results) {
+  return results.map(({ tick_us }) => tick_us).toSorted((a, b) => a - b)[Math.floor(results.length / 2)];
 }
 
 const without = [];
 const alone = [];
 const looking = [];
 for (let i = 0; i < runs; ++i) {
-  without.push(await tick_us(false, 0));
-  alone.push(await tick_us(true, 0));
-  looking.push(await tick_us(true, 10));
+  without.push(await measured(false, 0));
+  alone.push(await measured(true, 0));
+  looking.push(await measured(true, 10));
 }
-console.log(`tick p50 without a server: ${without.join(', ')} us`);
-console.log(`with one, without viewers: ${alone.join(', ')} us`);
-console.log(`with ten viewers: ${looking.join(', ')} us`);
+const rows = [['without a server', without], ['with one, without viewers', alone], ['with ten viewers', looking]];
+for (const [name, results] of rows) {
+  const texts = results.map(({ tick_us, busy }) => `${tick_us.toFixed(1)} us (${busy.toFixed(1)} busy)`);
+  console.log(`tick p50 ${name}: ${texts.join(', ')}`);
+}
 console.log(`ten viewers to none: ${(median(looking) / median(alone)).toFixed(3)}`);
 console.log(`ten viewers to no server: ${(median(looking) / median(without)).toFixed(3)}`);
-await browser.close();
