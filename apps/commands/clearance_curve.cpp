@@ -30,51 +30,65 @@ void ClearanceCurve::note(std::chrono::nanoseconds time, const Eigen::Isometry3d
   for (std::size_t b = first_moving_; b < bodies_.size(); ++b)
     bodies_[b].X_WB = moving_X_WB[b - first_moving_];
   double least = kFarthest_m;
-  const auto nearest =
+  const auto limit_by = [&](const Pair& pair) { least = std::min(least, distance_of(pair, X_WV)); };
+  const auto contact =
       std::min_element(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
-  if (nearest != contacts.end() && nearest->kind != haptics::ContactKind::kOverlap)
-    least = std::min(least, distance_at(*nearest, X_WV));
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    least = std::min(least, distance_to(bodies_[b], X_WV, least));
-  }
+  if (contact != contacts.end() && contact->kind != haptics::ContactKind::kOverlap) limit_by(pair_of(*contact));
+  // What was nearest is still near, and the lower the limit, the sooner a search ends.
+  if (nearest_) limit_by(*nearest_);
+  const std::size_t first = nearest_ ? nearest_->body : 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    least = distance_to((first + i) % bodies_.size(), X_WV, least);
   series_.x.push_back(std::chrono::duration<double>(time).count());
   series_.y.push_back(least < kFarthest_m ? 1e6 * least : std::numeric_limits<double>::quiet_NaN());
 }
 
-/// The distance of the triangles of a contact.
-double ClearanceCurve::distance_at(const haptics::Contact& contact, const Eigen::Isometry3d& X_WV) const {
+ClearanceCurve::Pair ClearanceCurve::pair_of(const haptics::Contact& contact) const {
   // The part has a number too, between those of obstacles and moving objects.
   const auto number = static_cast<std::size_t>(contact.obstacle);
-  const Body& body = bodies_[number > first_moving_ ? number - 1 : number];
+  return {number > first_moving_ ? number - 1 : number, {contact.obstacle_triangle, contact.part_triangle}};
+}
+
+double ClearanceCurve::distance_of(const Pair& pair, const Eigen::Isometry3d& X_WV) const {
+  const Body& body = bodies_[pair.body];
   const Eigen::Isometry3d X_BV = body.X_WB.inverse(Eigen::Isometry) * X_WV;
   const auto points = [](const geometry::TriangleMesh& mesh, std::int32_t triangle) -> geometry::TrianglePoints {
     return {mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)};
   };
-  const geometry::TrianglePoints of_body = points(body.body_B->tree.mesh(), contact.obstacle_triangle);
-  geometry::TrianglePoints of_part = points(part_V_.tree.mesh(), contact.part_triangle);
+  const geometry::TrianglePoints of_body = points(body.body_B->tree.mesh(), pair.triangles.triangle_A);
+  geometry::TrianglePoints of_part = points(part_V_.tree.mesh(), pair.triangles.triangle_B);
   for (Eigen::Vector3d& point : of_part)
     point = X_BV * point;
   return geometry::triangle_distance(of_body, of_part).distance;
 }
 
-/// The distance if it is less than `limit`, or else `limit`.
-double ClearanceCurve::distance_to(Body& body, const Eigen::Isometry3d& X_WV, double limit) {
+/// The distance of a body if it is less than `limit`, or else `limit`.
+double ClearanceCurve::distance_to(std::size_t b, const Eigen::Isometry3d& X_WV, double limit) {
+  const Body& body = bodies_[b];
   const collision::DopTree& tree = body.body_B->tree;
   const Eigen::Isometry3d X_BV = body.X_WB.inverse(Eigen::Isometry) * X_WV;
-  // Close to each other, a list of the few pairs within the limit is found sooner than a distance.
-  constexpr double kClose_m = 50e-6;
-  const double of_all =
-      limit > kClose_m ? collision::distance(tree, part_V_.tree, X_BV, body.workspace, limit).distance : limit;
+  // A list of the few pairs just within the limit is found sooner than a distance, most of all between parallel faces,
+  // of which thousands of triangles are nearly as near as the nearest.
+  constexpr double kFew_m = 50e-6;
+  double of_all = limit;
+  if (limit > kFew_m) {
+    const double nearer = limit - kFew_m;
+    const double found = collision::distance(tree, part_V_.tree, X_BV, workspace_, nearer).distance;
+    if (found < nearer) of_all = found;
+  }
   // Nearly always, the features are as near as the triangles. They are not where the part may overlap the body.
   constexpr double kRounding_m = 1e-9;
   constexpr double kFirst_m = 1e-5;
   for (double within = of_all + kRounding_m;; within = std::max(2.0 * within, kFirst_m)) {
     within = std::min(within, limit);
-    collision::pairs_within(tree, part_V_.tree, X_BV, within, body.workspace, close_,
+    collision::pairs_within(tree, part_V_.tree, X_BV, within, workspace_, close_,
                             {.of_A = &body.body_B->features, .of_B = &part_V_.features});
     double least = limit;
-    for (const collision::ClosePair& pair : close_)
-      least = std::min(least, pair.distance);
+    for (const collision::ClosePair& pair : close_) {
+      if (!(pair.distance < least)) continue;
+      least = pair.distance;
+      nearest_ = Pair{b, pair.triangles};
+    }
     if (!close_.empty() || within >= limit) return least;
   }
 }

@@ -3,7 +3,9 @@
 /// The clearance of a part over a run, for a plot.
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,17 +41,24 @@ class ClearanceCurve {
   struct Body {
     const haptics::ContactBody* body_B;
     Eigen::Isometry3d X_WB;
-    collision::CoherentWorkspace workspace{};
   };
 
-  double distance_at(const haptics::Contact& contact, const Eigen::Isometry3d& X_WV) const;
-  double distance_to(Body& body, const Eigen::Isometry3d& X_WV, double limit);
+  struct Pair {
+    std::size_t body;
+    collision::TrianglePair triangles;  ///< of the body and the part
+  };
+
+  Pair pair_of(const haptics::Contact& contact) const;
+  double distance_of(const Pair& pair, const Eigen::Isometry3d& X_WV) const;
+  double distance_to(std::size_t b, const Eigen::Isometry3d& X_WV, double limit);
 
   const haptics::SlidingPart& part_V_;
   std::vector<Body> bodies_;  // obstacles, then objects that move on their own
   std::size_t first_moving_;
   std::int64_t every_;  // poses
   std::int64_t noted_ = 0;
+  std::optional<Pair> nearest_;  // at the last moment
+  collision::QueryWorkspace workspace_;
   std::vector<collision::ClosePair> close_;
   PlotSeries series_;
 };

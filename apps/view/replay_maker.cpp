@@ -11,33 +11,40 @@ namespace {
 constexpr std::size_t kMostTriangles = 140'000;
 constexpr std::chrono::nanoseconds kFramePeriod{16'667'000};
 
-}  // namespace
-
-ReplayMaker::ReplayMaker(const viewer::ViewScene& scene)
-    : maker_(scene), replay_{viewer::scene_model(scene, viewer::kFirstTriangles), {}} {
+/// A replay without frames.
+Replay models_of(const viewer::ViewScene& scene) {
+  Replay replay{viewer::scene_model(scene, viewer::kFirstTriangles), {}};
   std::size_t triangles = 0;
   for (const viewer::ViewObject& object : scene.objects)
     triangles += object.mesh->triangles.size();
-  if (triangles > viewer::kFirstTriangles) replay_.whole_model = viewer::scene_model(scene, kMostTriangles);
+  if (triangles > viewer::kFirstTriangles) replay.whole_model = viewer::scene_model(scene, kMostTriangles);
+  return replay;
 }
+
+}  // namespace
+
+ReplayMaker::ReplayMaker(const viewer::ViewScene& scene)
+    : maker_(scene), models_(std::async(std::launch::async, [scene] { return models_of(scene); })) {}
 
 void ReplayMaker::add(const devices::HapticState& state) {
   if (!first_) {
     // The start is a frame of its own, so that the page counts its time from the first state, as plots do.
     first_ = state.time;
     maker_.add(state);
-    viewer::append_frame(replay_.frames, maker_.make());
+    viewer::append_frame(frames_, maker_.make());
     return;
   }
   const std::int64_t frame = (state.time - *first_) / kFramePeriod;
-  if (frame != frame_ && maker_.has_news()) viewer::append_frame(replay_.frames, maker_.make());
+  if (frame != frame_ && maker_.has_news()) viewer::append_frame(frames_, maker_.make());
   frame_ = frame;
   maker_.add(state);
 }
 
 Replay ReplayMaker::finish() {
-  if (maker_.has_news()) viewer::append_frame(replay_.frames, maker_.make());
-  return std::move(replay_);
+  if (maker_.has_news()) viewer::append_frame(frames_, maker_.make());
+  Replay replay = models_.get();
+  replay.frames = std::move(frames_);
+  return replay;
 }
 
 void show_part(const haptics::SlidingResult& result, std::size_t part, haptics::ContactPatches& patches,

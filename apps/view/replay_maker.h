@@ -4,7 +4,9 @@
 
 #include <chrono>
 #include <cstdint>
+#include <future>
 #include <optional>
+#include <string>
 
 #include <glissade/apps/report/html_report.h>
 #include <glissade/devices/haptic_state.h>
@@ -23,11 +25,13 @@ class ReplayMaker {
 
   /// States in the order of their times.
   void add(const devices::HapticState& state);
+  /// Once, at the end.
   Replay finish();
 
  private:
   viewer::FrameMaker maker_;
-  Replay replay_;
+  std::future<Replay> models_;  // made meanwhile, in a thread
+  std::string frames_;
   std::optional<std::chrono::nanoseconds> first_;
   std::int64_t frame_ = 0;  // the number of the one that is being made
 };

@@ -219,6 +219,47 @@ TEST(ClearanceCurve, IsTheGapOfABoxAboveAPlate) {
   }
 }
 
+TEST(ClearanceCurve, IsThatOfAFullSearchAtEveryMoment) {
+  HapticScene scene = scene_of(kThings);
+  scene.moving.push_back({std::make_shared<const haptics::SlidingPart>(
+                              std::make_shared<const geometry::TriangleMesh>(scene.parts.front().part_V->tree.mesh())),
+                          geometry::PoseTrajectory({{std::chrono::nanoseconds(0), Isometry3d::Identity()}})});
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    test_support::RandomNumbers random(seed);
+    constexpr int kPoses = 100;
+    ClearanceCurve curve(scene, kPoses);
+    std::vector<Isometry3d> X_WV;
+    std::vector<Isometry3d> X_WM;
+    // From one body to another, so that the nearest one changes, and with leaps between neighboring poses.
+    Eigen::Quaterniond q(random.rotation());
+    for (int i = 0; i < kPoses; ++i) {
+      const double turn = 0.1 * i;
+      const Vector3d p =
+          Vector3d(0.06 + 0.06 * std::cos(turn), 0.08 + 0.08 * std::sin(turn), 0.0) + random.point(0.003);
+      q = Eigen::Quaterniond(Eigen::AngleAxisd(random.uniform(0.0, 0.2), random.direction())) * q;
+      X_WV.push_back(pose(p, q.normalized()));
+      X_WM.push_back(pose({-0.1 + 0.001 * i, -0.05, 0.02}));
+      curve.note(std::chrono::milliseconds(i), X_WV.back(), std::span(&X_WM.back(), 1), {});
+    }
+    const PlotSeries series = curve.take("way");
+    ASSERT_EQ(series.y.size(), X_WV.size());
+    int near = 0;
+    for (std::size_t i = 0; i < X_WV.size(); ++i) {
+      const double least = std::isnan(series.y[i]) ? ClearanceCurve::kFarthest_m : 1e-6 * series.y[i];
+      const std::span<const Isometry3d> moving(&X_WM[i], 1);
+      if (least < ClearanceCurve::kFarthest_m) {
+        ++near;
+        EXPECT_TRUE(is_within(least + 1e-12, scene, X_WV[i], moving)) << i;
+      }
+      if (least > 0.0) {
+        EXPECT_FALSE(is_within(least - 1e-12, scene, X_WV[i], moving)) << i;
+      }
+    }
+    EXPECT_GT(near, 10);
+  }
+}
+
 TEST(ClearanceCurve, OfAPartWithContactsIsThatWithoutThem) {
   const HapticScene scene = scene_of(
       "  - {name: part, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n"
