@@ -19,14 +19,13 @@ function connect(url, onSocket) {
     Connection: 'Upgrade', Upgrade: 'websocket', 'Sec-WebSocket-Version': 13,
     'Sec-WebSocket-Key': Buffer.alloc(16).toString('base64'),
   };
-  const request = http.request(`${url}live`, { headers });
-  for (const event of ['error', 'close']) request.on(event, () => {}); // the server ends first
-  request.on('upgrade', (_, socket, head) => {
-    socket.on('error', () => {});
-    onSocket(socket);
-    if (head.length > 0) socket.unshift(head);
-  });
-  request.end();
+  http.request(`${url}live`, { headers })
+    .on('upgrade', (_, socket, head) => {
+      socket.on('error', () => {}); // the server ends first
+      onSocket(socket);
+      if (head.length > 0) socket.unshift(head);
+    })
+    .end();
 }
 
 // Acknowledges each frame as soon as it is there. Its length is in the second byte, or the third and fourth.
