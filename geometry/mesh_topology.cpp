@@ -24,6 +24,25 @@ struct HalfEdge {
   std::int32_t side;
 };
 
+/// By vertices, then by triangle. Few sides begin at a vertex, so that they are sorted there.
+std::vector<HalfEdge> sorted(const std::vector<HalfEdge>& half_edges, std::size_t vertex_count) {
+  std::vector<std::size_t> end(vertex_count + 1, 0);  // by vertex, of those before it; at last with its own
+  for (const HalfEdge& h : half_edges)
+    ++end[static_cast<std::size_t>(h.vertices[0]) + 1];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<HalfEdge> result(half_edges.size());
+  for (const HalfEdge& h : half_edges)
+    result[end[static_cast<std::size_t>(h.vertices[0])]++] = h;
+  std::size_t first = 0;
+  for (std::size_t v = 0; v < vertex_count; first = end[v++]) {
+    std::sort(result.begin() + static_cast<std::ptrdiff_t>(first), result.begin() + static_cast<std::ptrdiff_t>(end[v]),
+              [](const HalfEdge& a, const HalfEdge& b) {
+                return a.vertices[1] != b.vertices[1] ? a.vertices[1] < b.vertices[1] : a.triangle < b.triangle;
+              });
+  }
+  return result;
+}
+
 bool continues_flat(const TriangleMesh& mesh, const std::array<std::int32_t, 2>& edge, std::int32_t apex_1,
                     std::int32_t apex_2) {
   const auto point = [&](std::int32_t v) -> const Eigen::Vector3d& {
@@ -75,9 +94,7 @@ void MeshTopology::collect_edges(const TriangleMesh& mesh) {
       if (owner < 0) owner = t;
     }
   }
-  std::sort(half_edges.begin(), half_edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return a.vertices != b.vertices ? a.vertices < b.vertices : a.triangle < b.triangle;
-  });
+  half_edges = sorted(half_edges, mesh.vertices.size());
 
   apexes_.start.push_back(0);
   for (auto first = half_edges.begin(); first != half_edges.end();) {

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <numbers>
 #include <vector>
 
@@ -143,6 +146,28 @@ TEST(MeshTopology, EveryEdgeAndVertexHasOneOwnerAmongItsTriangles) {
     EXPECT_NE(std::find(owner.begin(), owner.end(), v), owner.end());
   }
   EXPECT_EQ(topology.edges_of(static_cast<std::int32_t>(mesh.triangles.size()) - 1)[0], -1);
+}
+
+TEST(MeshTopology, HasEachEdgeOnceInAscendingOrderAndItsTrianglesTooInTheirs) {
+  TriangleMesh mesh = make_torus(0.1, 0.03, 400);
+  mesh.triangles.push_back({7, 7, 9});  // no edge of a degenerate triangle counts
+  std::reverse(mesh.triangles.begin() + 5, mesh.triangles.begin() + 90);
+  std::map<std::array<std::int32_t, 2>, std::vector<std::int32_t>> apexes;
+  for (const Triangle& triangle : mesh.triangles) {
+    if (triangle[0] == triangle[1]) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [least, most] = std::minmax(triangle[i], triangle[(i + 1) % 3]);
+      apexes[{least, most}].push_back(triangle[(i + 2) % 3]);
+    }
+  }
+  const MeshTopology topology(mesh);
+  ASSERT_EQ(topology.edges().size(), apexes.size());
+  std::int32_t e = 0;
+  for (const auto& [vertices, opposite] : apexes) {
+    EXPECT_EQ(topology.edges()[static_cast<std::size_t>(e)].vertices, vertices);
+    const auto found = topology.apexes_of(e++);
+    EXPECT_EQ(std::vector<std::int32_t>(found.begin(), found.end()), opposite);
+  }
 }
 
 /// A flat fan between an apex and a row of vertices.
