@@ -11,6 +11,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 
+#include <glissade/realtime/periodic_thread.h>
 #include <glissade/realtime/spsc_ring.h>
 #include <glissade/viewer/page.h>
 #include <glissade/viewer/scene_model.h>
@@ -71,6 +72,7 @@ class ViewServer::Service {
  private:
   /// What a page makes fail ends its own connection; what else fails ends the viewing, never the run.
   void serve() noexcept {
+    realtime::name_this_thread("viewer");
     try {
       io_.run();
     } catch (const std::exception&) {
@@ -120,6 +122,7 @@ class ViewServer::Service {
 
   /// A scene without one, because it is too large, stays as it was loaded first.
   void make_whole_model() noexcept {
+    realtime::name_this_thread("viewer-model");
     try {
       auto model = std::make_shared<const std::string>(scene_model(scene_, std::numeric_limits<std::size_t>::max()));
       asio::post(io_, [this, model = std::move(model)] { answers_.whole_model = model; });

@@ -1,13 +1,16 @@
 // What ten viewers cost the haptic loop: node measure.mjs [RUNS]. Runs of 'glissade demo' without a server of pages, with
-// one at which nobody looks, and with ten viewers take turns. Prints the median duration of ticks of each run and how many
-// processors were busy meanwhile, and the ratios of the medians. On a machine that is busy with other programs, the ticks
-// are slow in all runs, and the ratios say little.
+// one at which nobody looks, and with ten viewers take turns. Prints of each run the median duration of ticks and how many
+// processors were busy meanwhile; how much time of a processor the server's thread took, and how often it woke up; and the
+// ratios of the medians. On a machine that is busy with other programs, the ticks of all runs are slow, and the ratios
+// say little.
 //
-// The viewers do what a page does with the network and nothing else, for a browser that draws takes far more processor
-// time than the server. One of them never reads.
+// The viewers do what a page does with the network and nothing else, because a browser that draws takes far more
+// processor time than the server. One of them never reads.
 
+import { readdirSync, readFileSync } from 'node:fs';
 import http from 'node:http';
 import os from 'node:os';
+import { setTimeout as wait } from 'node:timers/promises';
 import { Program } from './test/harness.mjs';
 
 const runs = Number(process.argv[2] ?? 5);
@@ -46,6 +49,25 @@ function busyMs() {
   return os.cpus().reduce((sum, { times }) => sum + times.user + times.nice + times.sys + times.irq, 0);
 }
 
+// What the server's thread has done so far.
+function workOfServer(pid) {
+  const folder = `/proc/${pid}/task`;
+  const thread = readdirSync(folder).find((id) => readFileSync(`${folder}/${id}/comm`, 'utf8') === 'viewer\n');
+  const [ns, , wakeUps] = readFileSync(`${folder}/${thread}/schedstat`, 'utf8').split(' ').map(Number);
+  return { ms: ns / 1e6, wakeUps };
+}
+
+// The same of a second, after the start.
+async function workInASecond(pid) {
+  const seconds = 4;
+  await wait(2000);
+  const before = workOfServer(pid);
+  await wait(1000 * seconds);
+  const after = workOfServer(pid);
+  return `, server ${((after.ms - before.ms) / seconds).toFixed(1)} ms/s, ` +
+    `${Math.round((after.wakeUps - before.wakeUps) / seconds)} wake-ups/s`;
+}
+
 async function measured(hasServer, viewers) {
   const start = { time: performance.now(), busy: busyMs() };
   const program = new Program(['demo', '--seconds', '8', '--json', ...(hasServer ? ['--view', '0'] : [])]);
@@ -54,9 +76,10 @@ async function measured(hasServer, viewers) {
     connect(url, (socket) => (viewers === 0 ? socket.destroy() : socket.pause())); // the demonstration begins with it
     for (let i = 1; i < viewers; ++i) connect(url, read);
   }
+  const work = hasServer ? await workInASecond(program.child.pid) : '';
   await program.exited;
   const busy = (busyMs() - start.busy) / (performance.now() - start.time);
-  return { busy, tick_us: JSON.parse(program.output.slice(program.output.indexOf('\n{') + 1)).tick_us_p50 };
+  return { busy, work, tick_us: JSON.parse(program.output.slice(program.output.indexOf('\n{') + 1)).tick_us_p50 };
 }
 
 function median(results) {
@@ -73,8 +96,8 @@ for (let i = 0; i < runs; ++i) {
 }
 const rows = [['without a server', without], ['with one, without viewers', alone], ['with ten viewers', looking]];
 for (const [name, results] of rows) {
-  const texts = results.map(({ tick_us, busy }) => `${tick_us.toFixed(1)} us (${busy.toFixed(1)} busy)`);
-  console.log(`tick p50 ${name}: ${texts.join(', ')}`);
+  console.log(`tick p50 ${name}:`);
+  for (const { tick_us, busy, work } of results) console.log(`  ${tick_us.toFixed(1)} us (${busy.toFixed(1)} busy${work})`);
 }
 console.log(`ten viewers to none: ${(median(looking) / median(alone)).toFixed(3)}`);
 console.log(`ten viewers to no server: ${(median(looking) / median(without)).toFixed(3)}`);
