@@ -1,7 +1,8 @@
 // How soon a large scene is there, and how fluid it turns, in a browser that draws with the processor:
 // node measure_large.mjs [TRIANGLES]. Two scenes of so many triangles, 5 million without the argument: one ball, and 25
-// balls of different sizes. Prints the seconds from the start of 'glissade view' until it serves, those from the request
-// of the page to the first picture, the pictures per second while the camera turns, and when the whole model was drawn.
+// balls of different sizes. Prints the seconds from the start of 'glissade view' until it serves and those from the request
+// of the page to the first picture, and the pictures per second while the camera turns: at first, while the whole model is
+// made and loaded, and once it is there.
 
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -61,12 +62,11 @@ async function measure(name, balls, browser, folder) {
     resolve();
   })));
   const first = seconds(asked);
-  const quick = await turn(page);
+  const loading = await turn(page);
   await eventually(async () => (await inspect(page)).showsWhole, () => program.output);
-  const whole = seconds(asked);
   const turning = await turn(page);
-  console.log(`${name}: serves after ${served.toFixed(1)} s; first picture ${first.toFixed(1)} s after the page was asked for, ` +
-    `all of it after ${whole.toFixed(1)} s; ${quick.toFixed(0)} pictures a second while turning before that, ${turning.toFixed(0)} after it`);
+  console.log(`${name}: serves after ${served.toFixed(1)} s; first picture ${first.toFixed(1)} s after the page was asked for; ` +
+    `${loading.toFixed(0)} pictures a second while turning at first, ${turning.toFixed(0)} later`);
   await page.context().close();
   await program.stop();
 }
