@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string_view>
 
 #include <glissade/devices/glove_device.h>
 #include <glissade/grasping/hand_model.h>
@@ -14,11 +15,11 @@ namespace glissade::apps {
 
 /// Thumb, index, middle, ring and little finger.
 inline constexpr std::size_t kFingers = 5;
+inline constexpr std::array<std::string_view, kFingers> kFingerNames{"thumb", "index", "middle", "ring", "little"};
 
-/// The forces that a simulated glove would have to balance if it held the wearer's fingers at their targets. Its
-/// springs
-/// (`haptics::FingerForces`) give the torques of the joints; the forces of the contacts are those, none of which pulls,
-/// whose torques come nearest to them.
+/// For a wearer of a simulated glove whose fingers are at their targets. The glove's springs (`haptics::FingerForces`)
+/// give the torques of the joints. The forces of the contacts are those, none of which pulls, whose torques come
+/// nearest to them. The load of a held part is not in them.
 class FingertipForces {
  public:
   explicit FingertipForces(const grasping::HandModel& hand);

@@ -157,9 +157,19 @@ class GraspTables {
     hand_rows_.add(X_WO);
     devices::JointValues angles;
     std::copy(target.values.begin(), target.values.end(), angles.begin());
-    for (const double force : fingertips_[h].update(angles, answers_->hands[h]))
-      hand_rows_.add(force);
+    const std::array<double, kFingers> forces = fingertips_[h].update(angles, answers_->hands[h]);
+    for (std::size_t finger = 0; finger < kFingers; ++finger)
+      hand_rows_.add(touches(h, std::string(kFingerNames[finger]) + "_distal") ? forces[finger] : 0.0);
     hand_rows_.end_row();
+  }
+
+  bool touches(std::size_t h, const std::string& segment) const {
+    const std::span<const char> touching = simulation_.clasp(h).touching();
+    const std::span<const grasping::ChainLink> links = hands_[h]->chain.links();
+    for (std::size_t link = 0; link < touching.size(); ++link) {
+      if (touching[link] != 0 && links[link].name == segment) return true;
+    }
+    return false;
   }
 
   /// Segments that touch, such as "palm index_distal".

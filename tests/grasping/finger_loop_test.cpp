@@ -151,6 +151,46 @@ TEST(FingerLoop, TakesHoldByTouchCarriesAndLetsGo) {
   EXPECT_EQ(ball_at(2500), ball_at(3190)) << "it stays where it was left";
 }
 
+/// Looks at the point at which the coupling of the ball acts.
+class GripWatch final : public haptics::LoopObserver {
+ public:
+  explicit GripWatch(const GraspSimulation& simulation) : simulation_(simulation) {}
+
+  void after_tick(const haptics::TickRecord& /*record*/) noexcept override {}
+  void after_answer(const haptics::AnswerRecord& record) noexcept override {
+    const haptics::PartAnswer& ball = record.set.parts[0];
+    const bool takes_hold = record.ghosts.parts[0].is_held && ball.hold != last_hold_;
+    last_hold_ = ball.hold;
+    if (!takes_hold) return;
+    ++holds;
+    Vector3d sum = Vector3d::Zero();
+    for (const LinkContact& touch : simulation_.clasp(0).contacts())
+      sum += touch.contact.q_W();
+    const auto count = static_cast<double>(simulation_.clasp(0).contacts().size());
+    from_own = std::max(from_own, ball.p_Vref.norm());
+    from_grip = std::max(from_grip, (ball.X_WV * ball.p_Vref - sum / count).norm());
+  }
+
+  int holds = 0;
+  double from_own = 0.0;   // metres; the ball's own point is its middle
+  double from_grip = 0.0;  // from the middle of the contacts just after it was taken
+
+ private:
+  const GraspSimulation& simulation_;
+  std::int64_t last_hold_ = 0;
+};
+
+TEST(FingerLoop, CouplesTheBallWhereItIsGripped) {
+  const BallAndWall scene;
+  GraspSimulation simulation = scene.simulation(1);
+  std::vector<devices::SimulatedGlove> gloves{carrier()};
+  GripWatch watch(simulation);
+  run(simulation, gloves, 650, &watch);
+  EXPECT_EQ(watch.holds, 1);
+  EXPECT_GT(watch.from_own, 1e-3);
+  EXPECT_LT(watch.from_grip, 1e-3);
+}
+
 TEST(FingerLoop, ShowsNothingThatPenetrates) {
   const BallAndWall scene;
   for (std::size_t i = 0; i < carry().size(); i += 4)

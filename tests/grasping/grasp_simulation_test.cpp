@@ -57,12 +57,16 @@ TEST(GraspSimulation, PullsAtNothingWhenItTakesHold) {
   }
 }
 
-/// The mean of the points of the ball that the hand touches, in the frame of the ball.
-Vector3d middle_of_contacts(const GraspSimulation& simulation) {
+/// The mean of the points of the ball that these hands touch, in the frame of the ball.
+Vector3d middle_of_contacts(const GraspSimulation& simulation, const std::vector<std::size_t>& hands) {
   Vector3d sum = Vector3d::Zero();
-  for (const LinkContact& touch : simulation.clasp(0).contacts())
-    sum += touch.contact.q_W();
-  const auto count = static_cast<double>(simulation.clasp(0).contacts().size());
+  double count = 0.0;
+  for (const std::size_t h : hands) {
+    for (const LinkContact& touch : simulation.clasp(h).contacts()) {
+      sum += touch.contact.q_W();
+      count += 1.0;
+    }
+  }
   return simulation.parts().result(0).X_WV.inverse(Eigen::Isometry) * (sum / count);
 }
 
@@ -73,7 +77,7 @@ TEST(GraspSimulation, CouplesAHeldPartWhereTheHandGripsIt) {
     scene.advance(bent_hand(1.2 * std::min(1.0, ms / 150.0)));
   ASSERT_TRUE(scene.simulation.held_part(0));
   const Vector3d grip = scene.simulation.parts().p_Vref(0);
-  EXPECT_LT((grip - middle_of_contacts(scene.simulation)).norm(), 1e-12);
+  EXPECT_LT((grip - middle_of_contacts(scene.simulation, {0})).norm(), 1e-12);
   EXPECT_GT((grip - own).norm(), 1e-3) << "more fingers touch it on one side";
   for (int ms = 0; ms < 200; ++ms)
     scene.advance(bent_hand(1.2 * std::max(0.0, 1.0 - ms / 100.0)));
@@ -348,14 +352,25 @@ TEST(GraspSimulation, TwoHandsHoldOnePartAndPassItOn) {
     scene.target(1) = moved(below, 0.0, 0.0, -0.15 + 0.5e-3 * ms);
     scene.advance();
   }
+  const Vector3d first_grip = scene.simulation.parts().p_Vref(0);
   for (int ms = 0; ms <= 300; ++ms) {
+    const bool held_before = scene.simulation.held_part(1).has_value();
     scene.target(1) = second(1.2 * std::min(1.0, ms / 200.0));
     scene.advance();
+    if (held_before || !scene.simulation.held_part(1)) continue;
+    EXPECT_LT((scene.simulation.parts().p_Vref(0) - middle_of_contacts(scene.simulation, {0, 1})).norm(), 2e-3)
+        << "the coupling of both acts between them";
   }
   EXPECT_EQ(scene.simulation.held_part(1), 0U) << reason_of(scene.simulation.grasp(1));
+  EXPECT_GT((scene.simulation.parts().p_Vref(0) - first_grip).norm(), 5e-3);
   for (int ms = 0; ms <= 300; ++ms) {
+    const bool held_before = scene.simulation.held_part(0).has_value();
     scene.target(0) = bent_hand(0.9 * std::max(0.0, 1.0 - ms / 150.0));
     scene.advance();
+    if (!held_before || scene.simulation.held_part(0)) continue;
+    const Vector3d grip = scene.simulation.parts().p_Vref(0);
+    EXPECT_LT((grip - middle_of_contacts(scene.simulation, {1})).norm(), 0.5 * (grip - first_grip).norm())
+        << "the part is the second hand's now";
   }
   EXPECT_FALSE(scene.simulation.held_part(0));
   EXPECT_EQ(scene.simulation.held_part(1), 0U);

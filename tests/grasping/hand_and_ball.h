@@ -86,12 +86,13 @@ class HandAndBall {
 
   struct State {
     Eigen::Isometry3d X_WV;
+    Eigen::Vector3d p_Vref;
     std::vector<Posture> hands;  ///< those that are nowhere are without values
     std::vector<bool> holds;
   };
 
   State state() const {
-    State state{X_WV(), std::vector<Posture>(simulation.hand_count()), {}};
+    State state{X_WV(), simulation.parts().p_Vref(0), std::vector<Posture>(simulation.hand_count()), {}};
     for (std::size_t h = 0; h < state.hands.size(); ++h) {
       state.holds.push_back(simulation.held_part(h).has_value());
       if (is_present(simulation.activity(h))) state.hands[h] = simulation.posture(h);
@@ -114,10 +115,10 @@ class HandAndBall {
   /// The same on the ways of the last call. First the ball moves, with the hands that hold it, among the hands that do
   /// not; then the hands move.
   bool has_collided_since(const State& before) const {
-    const geometry::Displacement d = geometry::displacement_between(before.X_WV, X_WV(), before.X_WV.translation());
+    const geometry::Displacement d = geometry::displacement_between(before.X_WV, X_WV(), before.p_Vref);
     for (int place = 1; place <= kPlaces; ++place) {
       const Eigen::Isometry3d X_WB =
-          geometry::displaced(before.X_WV, before.X_WV.translation(), d.scaled(static_cast<double>(place) / kPlaces));
+          geometry::displaced(before.X_WV, before.p_Vref, d.scaled(static_cast<double>(place) / kPlaces));
       if (wall_check_.collides(*ball_, X_WB)) return true;
       for (std::size_t h = 0; h < before.hands.size(); ++h) {
         if (!before.hands[h].values.empty() && hand_collides(carried(h, before, X_WB), X_WB)) return true;

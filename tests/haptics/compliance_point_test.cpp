@@ -12,6 +12,7 @@
 
 #include <glissade/geometry/displacement.h>
 #include <glissade/geometry/mesh_generators.h>
+#include <glissade/haptics/coupling.h>
 #include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/haptics/sliding.h>
 #include <glissade/reference/grid_check.h>
@@ -65,12 +66,34 @@ TEST(CompliancePoint, IsThatOfTheHoldUntilTheHandLetsGo) {
   EXPECT_EQ(sliding.p_Vref(0), tip);
   EXPECT_GE(scene_of(sliding).lever(0), 0.2) << "the other end is so far from it: no proof may think it nearer";
   EXPECT_LT(turn_of_push(), 1e-3);
-  sliding.grasp(0, at(0.045), Vector3d::Zero());
-  EXPECT_EQ(sliding.p_Vref(0), tip) << "a part that is held already keeps its lag, so its point, too";
   sliding.release(0);
   EXPECT_EQ(sliding.p_Vref(0), part_V->p_Vref());
   sliding.grasp(0, at(0.03));
   EXPECT_GT(turn_of_push(), 1e-2) << "a push at the middle tips it";
+}
+
+/// The wrench of the coupling on the part about the world's origin.
+Wrench coupling_of(const MultiPartSliding& sliding) {
+  const Wrench about_reference = spring_wrench(sliding.stiffness(0), sliding.error(0));
+  return about_point(about_reference, sliding.result(0).X_WV * sliding.p_Vref(0), Vector3d::Zero());
+}
+
+TEST(CompliancePoint, MovesWithoutAChangeOfTheWrench) {
+  const Obstacle wall = test_support::obstacle_of(geometry::make_box({0.1, 0.4, 0.02}, 12), at(0.1, 0.0, -0.1));
+  MultiPartSliding sliding({wall}, {{std::make_shared<SlidingPart>(rod()), at(0.03)}});
+  sliding.release(0);
+  sliding.grasp(0, at(0.03));
+  for (int i = 1; i <= 2000; ++i)
+    sliding.advance(std::vector{at(0.03 + 0.015 * std::min(1.0, i / 100.0))});
+  const Wrench before = coupling_of(sliding);
+  const Isometry3d X_WV = sliding.result(0).X_WV;
+  ASSERT_GT(before.f.norm(), 1.0);
+  sliding.grasp(0, at(0.045), Vector3d(0.0, 0.0, 0.08));  // another hand joins
+  const Wrench after = coupling_of(sliding);
+  EXPECT_LT((after.f - before.f).norm(), 1e-9);
+  EXPECT_LT((after.t - before.t).norm(), 1e-9);
+  sliding.advance(std::vector{at(0.045)});
+  EXPECT_LT((sliding.result(0).X_WV.translation() - X_WV.translation()).norm(), 0.2e-3) << "contacts hold it there";
 }
 
 // A point far from the part makes small rotations large motions: the proof of the way has to know that.

@@ -2,8 +2,11 @@
 /// UDP multicast, as in `two_hands_test`.
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -15,6 +18,7 @@
 #include <glissade/geometry/mesh_generators.h>
 
 #include "finger_hands.h"
+#include "glissade_program.h"
 #include "poses.h"
 #include "temporary_folder.h"
 
@@ -99,16 +103,25 @@ class TwoHandsSeat : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
-    const test_support::TemporaryFolder folder;
-    const std::string log = folder.path("run.lcmlog");
-    server = test_support::record_two_hands(folder, scene(), {script(kGrip_m), script(-kGrip_m)}, kSeconds, log);
+    folder = std::make_unique<test_support::TemporaryFolder>();
+    server = test_support::record_two_hands(*folder, scene(), {script(kGrip_m), script(-kGrip_m)}, kSeconds, log());
     ASSERT_EQ(server.exit_code, 0) << server.standard_error;
-    recorded = test_support::read_ticks(log);
+    recorded = test_support::read_ticks(log());
     ASSERT_FALSE(recorded.empty());
   }
+  static void TearDownTestSuite() { folder.reset(); }
+
+  static std::string log() { return folder->path("run.lcmlog"); }
 
   static Vector3d bar_of(const RecordedTick& tick) { return tick.state.parts[0].X_WV.translation(); }
 
+  static bool both_hold(const RecordedTick& tick) {
+    return tick.state.hands[0].part == 0 && tick.state.hands[1].part == 0;
+  }
+  /// The bar is between the sides of the forks.
+  static bool is_seated(const RecordedTick& tick) { return bar_of(tick).z() < kSeat.z() + 0.01; }
+
+  static inline std::unique_ptr<test_support::TemporaryFolder> folder;
   static inline test_support::ProgramResult server;
   static inline std::vector<RecordedTick> recorded;
 };
@@ -120,9 +133,9 @@ TEST_F(TwoHandsSeat, ABarInItsForks) {
   double highest = bar_of(recorded.front()).z();
   bool slides = false;
   for (const RecordedTick& tick : recorded) {
-    if (tick.state.hands[0].part != 0 || tick.state.hands[1].part != 0) continue;
+    if (!both_hold(tick)) continue;
     highest = std::max(highest, bar_of(tick).z());
-    slides = slides || tick.state.parts[0].state == devices::PartState::kSliding;
+    slides = slides || (is_seated(tick) && tick.state.parts[0].state == devices::PartState::kSliding);
   }
   EXPECT_GT(highest, kBarPlace.z() + 0.02) << "lifted by both";
   EXPECT_TRUE(slides);
@@ -142,11 +155,30 @@ TEST_F(TwoHandsSeat, NothingPenetrates) {
 }
 
 TEST_F(TwoHandsSeat, FeelsTheForksAndNothingAfterwards) {
-  EXPECT_GT(test_support::expect_nothing_that_jumps(recorded), 1.0);
-  for (const devices::HapticHandState& hand : recorded.back().state.hands) {
-    EXPECT_TRUE(hand.force_W.isZero(0.0));
-    EXPECT_EQ(hand.joint_torques, JointValues{});
+  test_support::expect_nothing_that_jumps(recorded);
+  std::array<double, 2> greatest_N{};
+  std::optional<std::chrono::nanoseconds> left;  // both have opened, and are away from the bar
+  for (const RecordedTick& tick : recorded) {
+    for (std::size_t h = 0; h < 2; ++h) {
+      const devices::HapticHandState& hand = tick.state.hands[h];
+      if (both_hold(tick) && is_seated(tick)) greatest_N[h] = std::max(greatest_N[h], hand.force_W.norm());
+      if (!left || tick.time < *left + std::chrono::milliseconds(100)) continue;
+      ASSERT_TRUE(hand.force_W.isZero(0.0));
+      ASSERT_EQ(hand.joint_torques, JointValues{});
+    }
+    const bool are_above = std::all_of(tick.gloves.begin(), tick.gloves.end(), [](const devices::GloveState& glove) {
+      return glove.X_WH.translation().z() > 0.0;
+    });
+    if (!left && is_seated(tick) && are_above) left = tick.time;
   }
+  EXPECT_GT(greatest_N[0], 1.0);
+  EXPECT_GT(greatest_N[1], 1.0);
+  ASSERT_TRUE(left);
+}
+
+TEST_F(TwoHandsSeat, IsRepeatedToTheBit) {
+  const test_support::ProgramResult replay = test_support::glissade({"replay", log()});
+  EXPECT_EQ(replay.exit_code, 0) << replay.standard_error;
 }
 
 }  // namespace
