@@ -3,12 +3,30 @@
 /// What the fingers in a glove feel: at each joint a spring that holds it where an object stops the visible hand.
 
 #include <chrono>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Geometry>
 
 #include <glissade/devices/glove_device.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
 
 namespace glissade::haptics {
+
+/// A hinge between the hand root and the palm: frames P, the one before, and J, which turns by the angle about
+/// `axis_J`.
+struct WristJoint {
+  std::size_t angle = 0;  ///< number of the glove's joint
+  Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d axis_J = Eigen::Vector3d::UnitX();  ///< of unit length
+};
+
+/// A hand with fingers in the simulation, as far as the kernel knows it.
+struct FingerHand {
+  FingerLimits limits;
+  std::vector<WristJoint> wrist{};  ///< from the hand root on; a part in the hand moves with the frame of the last one
+};
 
 /// The stiffness (Nm/rad) of the spring at each joint of a glove. It reaches `max_joint_torque` 0.8 degrees deep, so
 /// that a finger which the wearer presses with less stops within this angle. Where that is more than the glove can

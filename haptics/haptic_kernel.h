@@ -18,6 +18,7 @@
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
+#include <glissade/haptics/finger_forces.h>
 
 namespace glissade::haptics {
 
@@ -35,20 +36,6 @@ struct KernelPart {
 
 /// The parts of a simulation.
 std::vector<KernelPart> kernel_parts(const MultiPartSliding& sliding);
-
-/// A hinge between the hand root and the palm: frames P, the one before, and J, which turns by the angle about
-/// `axis_J`.
-struct WristJoint {
-  std::size_t angle = 0;  ///< number of the glove's joint
-  Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d axis_J = Eigen::Vector3d::UnitX();  ///< of unit length
-};
-
-/// A hand with fingers in the simulation, as far as the kernel knows it.
-struct FingerHand {
-  FingerLimits limits;
-  std::vector<WristJoint> wrist{};  ///< from the hand root on; a part in the hand moves with the frame of the last one
-};
 
 /// A hand in a device.
 struct KernelHand {

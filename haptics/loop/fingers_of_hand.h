@@ -12,7 +12,6 @@
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/finger_forces.h>
-#include <glissade/haptics/haptic_kernel.h>
 
 #include "loop/finger_load.h"
 
