@@ -25,10 +25,10 @@
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/scene/sliding_option.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/view/coupling_wrench.h>
 #include <glissade/apps/view/grasp_outcome.h>
 #include <glissade/apps/view/grasp_report.h>
 #include <glissade/grasping/grasp_simulation.h>
-#include <glissade/haptics/coupling.h>
 
 namespace glissade::apps {
 
@@ -186,8 +186,7 @@ class GraspTables {
   void write_object(double time_s, std::size_t p) {
     const haptics::MultiPartSliding& parts = simulation_.parts();
     const haptics::SlidingResult& result = parts.result(p);
-    const haptics::Wrench wrench = haptics::about_point(haptics::spring_wrench(parts.stiffness(p), parts.error(p)),
-                                                        result.X_WT * parts.p_Vref(p), result.X_WV.translation());
+    const haptics::Wrench wrench = wrench_about_origin(parts, p);
     object_rows_->add(time_s).add(scene_.body_names[scene_.obstacles.size() + p]).add(result.X_WV);
     object_rows_->add(haptics::name_of(result.state));
     // Adding zero turns a negative zero into the plain one.

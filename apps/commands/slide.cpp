@@ -170,7 +170,7 @@ int conclude(const HapticScene& scene, const std::vector<SlideCheck>& checks, co
   std::string page;
   if (!options.report.empty()) {
     Report report = report_of(scene, checks, check_options);
-    if (replay && !checks.front().problem) report.replay = replay->finish();
+    if (replay && !checks.front().problem) replay->finish(report);
     page = write_html_report(report, options.report);
   }
   int exit_code = 0;

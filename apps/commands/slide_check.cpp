@@ -182,11 +182,14 @@ Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks
   std::stable_sort(by_force.begin(), by_force.end(),
                    [](const SlideCheck* a, const SlideCheck* b) { return a->force_max_N > b->force_max_N; });
   if (by_force.size() > kPlottedChecks) by_force.resize(kPlottedChecks);
-  Plot plot{"Force on the hand, where it was greatest", kTimeLabel, "force [N]", {}};
-  for (const SlideCheck* check : by_force)
-    plot.series.push_back(check->force);
-  if (plot.series.empty()) return report;
-  report.plots.push_back(std::move(plot));
+  if (by_force.empty()) return report;
+  // The page of a single trajectory has the force by its axes.
+  if (checks.size() > 1) {
+    Plot plot{"Force on the hand, where it was greatest", kTimeLabel, "force [N]", {}};
+    for (const SlideCheck* check : by_force)
+      plot.series.push_back(check->force);
+    report.plots.push_back(std::move(plot));
+  }
   Plot clearance{"Clearance of the visible part, up to 20 mm", kTimeLabel, "clearance [um]", {}};
   for (const SlideCheck* check : by_force)
     clearance.series.push_back(check->clearance);

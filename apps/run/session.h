@@ -92,8 +92,8 @@ SessionSummary summarize(const Session& session, const HapticScene& scene);
 nlohmann::json to_json(const SessionSummary& summary, const Session& session);
 /// The summary as lines of text; with the stages of the search for contacts and the hash, if it is `verbose`.
 std::string to_text(const SessionSummary& summary, const Session& session, bool verbose);
-/// An HTML page with the summary, the run in three dimensions, and the plots of force, lag and states in `folder`;
-/// returns its path.
+/// An HTML page with the summary, the run in three dimensions, and plots of wrenches, lag, contacts, their age and
+/// states in `folder`; returns its path.
 std::string write_session_report(const SessionSummary& summary, const Session& session, const std::string& title,
                                  const std::string& folder, const HapticScene& scene);
 

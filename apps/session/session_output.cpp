@@ -9,7 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include <glissade/apps/report/html_report.h>
+#include <glissade/apps/report/vector_curve.h>
 #include <glissade/apps/run/session.h>
+#include <glissade/apps/view/part_curves.h>
 #include <glissade/apps/view/session_view.h>
 
 namespace glissade::apps {
@@ -159,63 +161,31 @@ double seconds_of_tick(const SessionRecorder& samples, std::size_t i) {
   return std::chrono::duration<double>(samples.tick(i).time - samples.tick(0).time).count();
 }
 
-/// `value` of the number of a kept tick.
-template <typename Value>
-PlotSeries series_of(const SessionRecorder& samples, const std::string& name, const Value& value) {
-  PlotSeries series{name, {}, {}};
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    series.x.push_back(seconds_of_tick(samples, i));
-    series.y.push_back(value(i));
-  }
-  return series;
-}
-
-StripChart chart_of_states(const SessionSummary& summary, const SessionRecorder& samples) {
-  StripChart chart{"States of the parts", {}, {}};
-  for (std::size_t state = 0; state < static_cast<std::size_t>(devices::kPartStates); ++state)
-    chart.words.push_back(name_of_state(state));
-  for (std::size_t p = 0; p < samples.parts(); ++p) {
-    Strip& strip = chart.strips.emplace_back(Strip{summary.parts[p].name, {}});
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      strip.add(seconds_of_tick(samples, i), static_cast<std::size_t>(samples.part(i, p).state));
-    strip.end_at(seconds_of_tick(samples, samples.size() - 1));
-  }
-  return chart;
-}
-
-Plot plot_of_force(const SessionRecorder& samples, std::size_t hand, const std::string& name) {
-  const auto force = [&, hand](std::size_t i) -> const Eigen::Vector3d& { return samples.hand(i, hand).force_W; };
-  return {"Force on the " + name,
-          kTimeLabel,
-          "force [N]",
-          {series_of(samples, "magnitude", [&](std::size_t i) { return force(i).norm(); }),
-           series_of(samples, "x", [&](std::size_t i) { return force(i).x(); }),
-           series_of(samples, "y", [&](std::size_t i) { return force(i).y(); }),
-           series_of(samples, "z", [&](std::size_t i) { return force(i).z(); })}};
-}
-
-std::vector<Plot> plots_of(const SessionSummary& summary, const Session& session) {
+void add_plots(const SessionSummary& summary, const Session& session, Report& report) {
   const SessionRecorder& samples = *session.samples;
-  std::vector<Plot> plots;
-  for (std::size_t h = 0; h < samples.hands(); ++h)
-    plots.push_back(plot_of_force(samples, h, name_of_hand(session, h)));
-  Plot lag{"Lag of the visible parts behind their ghosts", kTimeLabel, "lag [mm]", {}};
-  Plot contacts{"Contacts that push", kTimeLabel, "contacts", {}, true};
-  for (std::size_t p = 0; p < samples.parts(); ++p) {
-    const std::string& name = summary.parts[p].name;
-    lag.series.push_back(series_of(samples, name, [&](std::size_t i) {
-      const devices::HapticPartState& part = samples.part(i, p);
-      return 1e3 * (part.X_WG.translation() - part.X_WV.translation()).norm();
-    }));
-    contacts.series.push_back(
-        series_of(samples, name, [&](std::size_t i) { return static_cast<double>(samples.part(i, p).contact_count); }));
+  for (std::size_t h = 0; h < samples.hands(); ++h) {
+    VectorCurve force;
+    VectorCurve torque;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      force.add(seconds_of_tick(samples, i), samples.hand(i, h).force_W);
+      torque.add(seconds_of_tick(samples, i), samples.hand(i, h).torque_V_W);
+    }
+    report.plots.push_back(force.take("Force on the " + name_of_hand(session, h), "force [N]"));
+    report.plots.push_back(torque.take("Torque on the " + name_of_hand(session, h), "torque [Nm]"));
   }
-  plots.push_back(std::move(lag));
-  plots.push_back(std::move(contacts));
-  plots.push_back({"Age of the contact set", kTimeLabel, "age [ms]", {series_of(samples, "age", [&](std::size_t i) {
-                     return 1e-6 * static_cast<double>(samples.tick(i).contact_set_age.count());
-                   })}});
-  return plots;
+  std::vector<std::string> names;
+  for (const PartSummary& part : summary.parts)
+    names.push_back(part.name);
+  PartCurves parts(names);
+  PlotSeries age{"age", {}, {}};
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (std::size_t p = 0; p < samples.parts(); ++p)
+      parts.add(seconds_of_tick(samples, i), p, samples.part(i, p));
+    age.x.push_back(seconds_of_tick(samples, i));
+    age.y.push_back(1e-6 * static_cast<double>(samples.tick(i).contact_set_age.count()));
+  }
+  parts.finish(report);
+  report.plots.push_back({"Age of the contact set", kTimeLabel, "age [ms]", {std::move(age)}});
 }
 
 nlohmann::json to_json(const PartSummary& part, double tick_s) {
@@ -333,9 +303,9 @@ std::string to_text(const SessionSummary& summary, const Session& session, bool 
 
 std::string write_session_report(const SessionSummary& summary, const Session& session, const std::string& title,
                                  const std::string& folder, const HapticScene& scene) {
-  Report report{title, rows_of(summary, session, false), plots_of(summary, session)};
+  Report report{title, rows_of(summary, session, false), {}};
   if (summary.samples > 0) {
-    report.strips.push_back(chart_of_states(summary, *session.samples));
+    add_plots(summary, session, report);
     report.replay = replay_of(session, scene);
   }
   return write_html_report(report, folder);

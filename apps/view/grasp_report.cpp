@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <iterator>
 #include <utility>
 
 #include <glissade/apps/text.h>
+#include <glissade/apps/view/coupling_wrench.h>
 #include <glissade/apps/view/grasp_report.h>
 #include <glissade/apps/view/session_view.h>
 
@@ -25,11 +27,20 @@ viewer::ViewScene grasp_view_of(const HapticScene& scene,
   return view;
 }
 
+std::vector<std::string> names_of_parts(const HapticScene& scene) {
+  return {scene.body_names.begin() + std::ssize(scene.obstacles), scene.body_names.end()};
+}
+
 }  // namespace
 
 GraspReport::GraspReport(const HapticScene& scene, const grasping::GraspSimulation& simulation,
                          const std::vector<std::shared_ptr<const grasping::HandModel>>& hands)
-    : scene_(scene), simulation_(simulation), replay_(grasp_view_of(scene, hands)) {
+    : scene_(scene),
+      simulation_(simulation),
+      replay_(grasp_view_of(scene, hands)),
+      forces_(scene.parts.size()),
+      torques_(scene.parts.size()),
+      parts_(names_of_parts(scene)) {
   for (std::int32_t kind = 0; kind < devices::kGraspKinds; ++kind)
     kinds_.words.emplace_back(devices::name_of(static_cast<devices::GraspKind>(kind)));
   for (std::size_t h = 0; h < hands.size(); ++h) {
@@ -37,7 +48,6 @@ GraspReport::GraspReport(const HapticScene& scene, const grasping::GraspSimulati
     kinds_.strips.push_back({name_of_hand(h), {}});
   }
   for (std::size_t p = 0; p < simulation.part_count(); ++p) {
-    lags_.push_back({scene.body_names[scene.obstacles.size() + p], {}, {}});
     patches_.emplace_back(simulation.parts().part(p).radius());
   }
 }
@@ -57,9 +67,11 @@ void GraspReport::add(std::chrono::nanoseconds time) {
   for (std::size_t p = 0; p < simulation_.part_count(); ++p) {
     const haptics::SlidingResult& result = simulation_.parts().result(p);
     show_part(result, p, patches_[p], state);
-    constexpr double kRounding = 1e-9;  // mm; an axis of less would tell of nothing else
-    const double lag = 1e3 * (result.X_WG.translation() - result.X_WV.translation()).norm();
-    note(lags_[p], lag > kRounding ? lag : 0.0);
+    parts_.add(time_s, p, state.parts[p]);
+    if (p >= scene_.parts.size()) continue;  // moves on its own
+    const haptics::Wrench wrench = wrench_about_origin(simulation_.parts(), p);
+    forces_[p].add(time_s, wrench.f);
+    torques_[p].add(time_s, wrench.t);
   }
   for (std::size_t h = 0; h < simulation_.hand_count(); ++h) {
     const auto part = simulation_.held_part(h);
@@ -83,7 +95,12 @@ Report GraspReport::finish(const GraspOutcome& outcome) {
                           .series = std::move(touching_),
                           .counts = true});
   report.strips.push_back(std::move(kinds_));
-  report.plots.push_back({"Lag of the visible parts behind their ghosts", kTimeLabel, "lag [mm]", std::move(lags_)});
+  for (std::size_t p = 0; p < scene_.parts.size(); ++p) {
+    const std::string of_part = " of " + scene_.parts[p].name + " on the hands";
+    report.plots.push_back(forces_[p].take("Force" + of_part, "force [N]"));
+    report.plots.push_back(torques_[p].take("Torque" + of_part + ", about its origin", "torque [Nm]"));
+  }
+  parts_.finish(report);
   report.replay = replay_.finish();
   return report;
 }

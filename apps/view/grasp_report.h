@@ -10,8 +10,10 @@
 #include <vector>
 
 #include <glissade/apps/report/html_report.h>
+#include <glissade/apps/report/vector_curve.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/view/grasp_outcome.h>
+#include <glissade/apps/view/part_curves.h>
 #include <glissade/apps/view/replay_maker.h>
 #include <glissade/grasping/grasp_simulation.h>
 #include <glissade/grasping/hand_model.h>
@@ -36,7 +38,9 @@ class GraspReport {
   std::int64_t ticks_ = 0;
   StripChart kinds_{"Kind of grasp", {}, {}};
   std::vector<PlotSeries> touching_;  // by hand: segments
-  std::vector<PlotSeries> lags_;      // by part, mm
+  std::vector<VectorCurve> forces_;   // by part
+  std::vector<VectorCurve> torques_;
+  PartCurves parts_;
 };
 
 }  // namespace glissade::apps

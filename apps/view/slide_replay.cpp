@@ -1,8 +1,8 @@
 #include <cstdint>
 
+#include <glissade/apps/view/coupling_wrench.h>
 #include <glissade/apps/view/session_view.h>
 #include <glissade/apps/view/slide_replay.h>
-#include <glissade/haptics/coupling.h>
 
 namespace glissade::apps {
 
@@ -17,28 +17,34 @@ viewer::ViewScene slide_view_of(const HapticScene& scene) {
 }  // namespace
 
 SlideReplay::SlideReplay(const HapticScene& scene)
-    : maker_(slide_view_of(scene)), patches_(scene.parts.front().part_V->radius()) {}
+    : maker_(slide_view_of(scene)), part_({scene.parts.front().name}), patches_(scene.parts.front().part_V->radius()) {}
 
 void SlideReplay::add(std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding) {
   devices::HapticState state;
   state.sequence = ++ticks_;
   state.time = time;
-  const haptics::SlidingResult& result = sliding.result();
-  show_part(result, 0, patches_, state);
+  show_part(sliding.result(), 0, patches_, state);
   for (const Eigen::Isometry3d& X_WB : sliding.scripted_X_WB()) {
     devices::HapticPartState& moving = state.parts[static_cast<std::size_t>(state.part_count++)];
     moving.X_WG = moving.X_WV = X_WB;
   }
-  const haptics::Wrench wrench = haptics::about_point(haptics::spring_wrench(sliding.stiffness(), sliding.error()),
-                                                      result.X_WT * sliding.part().p_Vref(), result.X_WV.translation());
+  const haptics::Wrench wrench = wrench_about_origin(sliding);
   state.hands[0].part = 0;
   state.hands[0].force_W = wrench.f;
   state.hands[0].torque_V_W = wrench.t;
   maker_.add(state);
+  const double time_s = 1e-3 * static_cast<double>(ticks_ - 1);
+  force_.add(time_s, wrench.f);
+  torque_.add(time_s, wrench.t);
+  part_.add(time_s, 0, state.parts[0]);
 }
 
-Replay SlideReplay::finish() {
-  return maker_.finish();
+void SlideReplay::finish(Report& report) {
+  report.plots.insert(report.plots.begin(),
+                      {force_.take("Force on the hand", "force [N]"),
+                       torque_.take("Torque on the hand about the origin of the part", "torque [Nm]")});
+  part_.finish(report);
+  report.replay = maker_.finish();
 }
 
 }  // namespace glissade::apps

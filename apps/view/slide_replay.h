@@ -1,11 +1,14 @@
 #pragma once
 
-/// The replay of a report of `glissade slide`.
+/// A report of `glissade slide` on one trajectory: its replay, and its plots over time.
 
 #include <chrono>
 #include <cstdint>
 
+#include <glissade/apps/report/html_report.h>
+#include <glissade/apps/report/vector_curve.h>
 #include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/view/part_curves.h>
 #include <glissade/apps/view/replay_maker.h>
 #include <glissade/haptics/sliding_simulation.h>
 
@@ -17,10 +20,14 @@ class SlideReplay {
   explicit SlideReplay(const HapticScene& scene);
 
   void add(std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding);
-  Replay finish();
+  /// Adds the replay, and plots of wrench, lag, contacts and states. Once, at the end.
+  void finish(Report& report);
 
  private:
   ReplayMaker maker_;
+  VectorCurve force_;
+  VectorCurve torque_;
+  PartCurves part_;
   haptics::ContactPatches patches_;
   std::int64_t ticks_ = 0;
 };

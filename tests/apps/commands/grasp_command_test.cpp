@@ -142,7 +142,10 @@ TEST_F(GraspCommand, CarriesTheBallToTheTrayAndLeavesItThere) {
   expect_tips_press_where_they_touch(postures);
   expect_nothing_goes_into_anything(postures, moved);
   const std::string page = read_text_file(folder.path("report/index.html"));
-  for (const char* part : {"1 grasp, holds for", "report-frames", "Kind of grasp", "ball"})
+  for (const char* part :
+       {"1 grasp, holds for", "report-frames", "Kind of grasp", "<h2>Force of ball on the hands</h2>",
+        "<h2>Torque of ball on the hands, about its origin</h2>", "<h2>Contacts that push</h2>",
+        "<h2>States of the parts</h2>", "<span>released</span>"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
 }
 

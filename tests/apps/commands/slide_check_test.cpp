@@ -127,6 +127,17 @@ TEST_F(AssemblyCheck, WritesAPage) {
     EXPECT_THAT(page, testing::HasSubstr(part));
 }
 
+TEST_F(AssemblyCheck, ThePageOfOneTrajectoryShowsWhatPushesWhen) {
+  ASSERT_EQ(check({below}, {"--report", folder.path("page")}).exit_code, 0);
+  const std::string page = read_text_file(folder.path("page/index.html"));
+  for (const char* title : {"Force on the hand", "Torque on the hand about the origin of the part",
+                            "Lag of the visible parts behind their ghosts", "Contacts that push",
+                            "Clearance of the visible part, up to 20 mm", "States of the parts"})
+    EXPECT_THAT(page, testing::HasSubstr("<h2>" + std::string(title) + "</h2>"));
+  for (const char* state : {"free", "sliding"})
+    EXPECT_THAT(page, testing::HasSubstr("<span>" + std::string(state) + "</span>"));
+}
+
 TEST_F(AssemblyCheck, OneRunWritesEverything) {
   const auto file = [&](const std::string& name) { return folder.path(name); };
   const ProgramResult all =

@@ -1,0 +1,16 @@
+#pragma once
+
+/// What the coupling of a part exerts on the hands that hold it, about the origin of the visible part, in world axes.
+
+#include <cstddef>
+
+#include <glissade/haptics/coupling.h>
+#include <glissade/haptics/multi_part_sliding.h>
+#include <glissade/haptics/sliding_simulation.h>
+
+namespace glissade::apps {
+
+haptics::Wrench wrench_about_origin(const haptics::SlidingSimulation& sliding);
+haptics::Wrench wrench_about_origin(const haptics::MultiPartSliding& parts, std::size_t part);
+
+}  // namespace glissade::apps

@@ -1,0 +1,30 @@
+#pragma once
+
+/// What the parts of a run do over time, for the plots of a report.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <glissade/apps/report/html_report.h>
+#include <glissade/devices/haptic_state.h>
+
+namespace glissade::apps {
+
+class PartCurves {
+ public:
+  /// For parts of these names.
+  explicit PartCurves(const std::vector<std::string>& names);
+
+  /// The state of the part with this number. Its times ascend from call to call.
+  void add(double time_s, std::size_t part, const devices::HapticPartState& state);
+  /// Adds plots of lag and contacts, and the states as strips. Once, at the end.
+  void finish(Report& report);
+
+ private:
+  std::vector<PlotSeries> lags_;  // mm
+  std::vector<PlotSeries> contacts_;
+  StripChart states_{"States of the parts", {}, {}};
+};
+
+}  // namespace glissade::apps
