@@ -24,6 +24,7 @@
 #include <glissade/apps/progress.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/scene/sliding_option.h>
+#include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/coupling_wrench.h>
 #include <glissade/apps/view/grasp_outcome.h>
@@ -213,6 +214,17 @@ bool are_one_file(const std::string& one, const std::string& other) {
   return std::filesystem::weakly_canonical(one) == std::filesystem::weakly_canonical(other);
 }
 
+grasping::GraspSimulation start(const HapticScene& scene,
+                                const std::vector<std::shared_ptr<const grasping::HandModel>>& hands,
+                                const grasping::GraspRules& rules, const SlidingChoice& choice) {
+  const std::vector<haptics::HeldPart> parts = held_parts(scene, metaphor_of(choice));
+  try {
+    return {scene.obstacles, parts, hands, rules};
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(scene.source + ": " + error.what() + overlap_advice(scene, !choice.depenetrate));
+  }
+}
+
 int run(const GraspOptions& options) {
   if (are_one_file(options.out, options.objects)) {
     throw std::invalid_argument("--objects: " + in_quotes(options.objects) + " is already the file of --out");
@@ -230,7 +242,7 @@ int run(const GraspOptions& options) {
     check_name_fits_csv(scene, name);
   grasping::GraspRules rules;
   rules.sliding = with_choice({}, options.sliding);
-  grasping::GraspSimulation simulation(scene.obstacles, held_parts(scene, metaphor_of(options.sliding)), hands, rules);
+  grasping::GraspSimulation simulation = start(scene, hands, rules, options.sliding);
 
   std::chrono::nanoseconds first = trajectories.front().first_time();
   std::chrono::nanoseconds last = trajectories.front().last_time();

@@ -4,14 +4,15 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
 #include <glissade/apps/commands/clearance_curve.h>
 #include <glissade/apps/commands/least_clearance.h>
 #include <glissade/apps/commands/slide_check.h>
-#include <glissade/apps/commands/start_overlap.h>
 #include <glissade/apps/files/csv.h>
+#include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {
@@ -40,12 +41,10 @@ std::string advice(const HapticScene& scene, const geometry::PoseTrajectory& tra
   std::vector<Eigen::Isometry3d> moving_X_WB;
   for (const haptics::ScriptedPart& part : scene.moving)
     moving_X_WB.push_back(part.script_X_WB.pose_at(trajectory.first_time()));
-  const std::string overlaps = overlaps_at(scene, trajectory.pose_at(trajectory.first_time()), moving_X_WB);
-  if (overlaps.empty()) return "";
+  const Eigen::Isometry3d X_WV = trajectory.pose_at(trajectory.first_time());
   const bool may_depenetrate = options.method == haptics::SlidingMethod::kProjection &&
                                options.sliding.rules.overlap != haptics::OverlapRule::kDepenetrate;
-  return ": " + overlaps +
-         (may_depenetrate ? "; begin elsewhere, or let --depenetrate push the part out of obstacles" : "");
+  return overlap_advice(scene, std::span(&X_WV, 1), moving_X_WB, may_depenetrate);
 }
 
 /// The distance of the part's bounding sphere from those of all other objects, metres; negative if they intersect.

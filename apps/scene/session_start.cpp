@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include <glissade/apps/scene/session_start.h>
+#include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
 #include <glissade/grasping/grasp_simulation.h>
 #include <glissade/haptics/multi_part_sliding.h>
@@ -62,23 +63,23 @@ StartedSimulation start_simulation(const HapticScene& scene, const std::vector<G
     for (std::size_t p = 0; p < scene.parts.size(); ++p)
       soften(parts[p], grip.device, period);
   }
+  const haptics::SlidingRules chosen = with_choice(rules, choice);
   StartedSimulation started;
   started.fingers.resize(grips.size());
   started.models.resize(grips.size());
   try {
     if (!has_fingers) {
-      started.simulation =
-          std::make_unique<haptics::MultiPartSliding>(scene.obstacles, parts, with_choice(rules, choice));
+      started.simulation = std::make_unique<haptics::MultiPartSliding>(scene.obstacles, parts, chosen);
       return started;
     }
     started.models = models_of(grips);
     for (std::size_t h = 0; h < grips.size(); ++h)
       started.fingers[h] = grasping::finger_hand(*started.models[h]);
-    started.simulation = std::make_unique<grasping::GraspSimulation>(
-        scene.obstacles, parts, started.models, grasping::GraspRules{.sliding = with_choice(rules, choice)});
+    started.simulation = std::make_unique<grasping::GraspSimulation>(scene.obstacles, parts, started.models,
+                                                                     grasping::GraspRules{.sliding = chosen});
     return started;
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(scene.source + ": " + error.what());
+    throw std::invalid_argument(scene.source + ": " + error.what() + overlap_advice(scene, !choice.depenetrate));
   }
 }
 

@@ -38,7 +38,7 @@ std::vector<std::string> softer_devices(const std::vector<Grip>& grips, std::chr
 
 /// Starts the simulation. A part has its default stiffness, lowered to the limits of all devices: each may come to hold
 /// it. All hands have fingers, or none. Throws std::invalid_argument, naming the scene, for a part
-/// that starts inside an obstacle.
+/// that starts inside another object, with how deep it is and what can be done.
 StartedSimulation start_simulation(const HapticScene& scene, const std::vector<Grip>& grips,
                                    const SlidingChoice& choice, const haptics::SlidingRules& rules,
                                    std::chrono::nanoseconds period = haptics::kTickPeriod);

@@ -187,7 +187,8 @@ TEST_F(Demo, APartThatStartsInsideAnObstacleIsNamed) {
                                           "  - {name: plate, shape: {type: plate}}\n"
                                           "  - {name: box, movable: true, shape: {type: box}}\n"
                                           "script: hand.csv\n");
-  expect_refused({"demo", "--offline", "--scene", stuck}, {"stuck.yaml", "'box'", "collides"});
+  expect_refused({"demo", "--offline", "--scene", stuck},
+                 {"stuck.yaml", "'box' collides", " mm deep in 'plate'; begin elsewhere, or let --depenetrate"});
   expect_refused({"demo", "--scene", stuck}, {"stuck.yaml", "'box'", "collides"});
 }
 

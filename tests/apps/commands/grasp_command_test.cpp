@@ -188,6 +188,16 @@ TEST_F(GraspCommand, NamesWhatIsWrong) {
                  {"--hand: 2 files for 1 hands"});
   expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--out", hands, "--objects", hands},
                  {"--objects", "--out"});
+  const std::string stuck =
+      folder.write("stuck.yaml",
+                   "objects:\n"
+                   "- {name: cube, movable: true, shape: {type: box, size_x_m: 0.1, size_y_m: 0.1,"
+                   " size_z_m: 0.1}}\n"
+                   "- {name: twin, movable: true, shape: {type: box, size_x_m: 0.1, size_y_m: 0.1,"
+                   " size_z_m: 0.1}, pose: {position_m: [0.09, 0, 0]}}\n"
+                   "- {name: floor, shape: {type: plate}, pose: {position_m: [0, 0, -1]}}\n");
+  expect_refused({"grasp", stuck, "--hand-trajectory", kHand},
+                 {"stuck.yaml", "'twin' collides", ": 10 mm deep in 'cube'\n"});
   const std::filesystem::path path = hands;
   expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--out", hands, "--objects",
                   (path.parent_path() / "." / path.filename()).string()},

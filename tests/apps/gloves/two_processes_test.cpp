@@ -175,7 +175,8 @@ TEST(TwoProcesses, AServerThatCannotStartSaysNothingOfWaiting) {
                                          "objects:\n"
                                          "  - {name: plate, shape: {type: plate}}\n"
                                          "  - {name: box, movable: true, shape: {type: box}}\n");
-  test_support::expect_refused({"run", scene, "--lcm", kUrl}, {"stuck.yaml", "'box'", "collides"});
+  test_support::expect_refused({"run", scene, "--lcm", kUrl},
+                               {"stuck.yaml", "'box' collides", "mm deep in 'plate'", "--depenetrate"});
 }
 
 }  // namespace
