@@ -10,14 +10,14 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr std::int64_t kMoments = 500;
+constexpr std::int64_t kMoments = 500;  // at most
 
 }  // namespace
 
 ClearanceCurve::ClearanceCurve(const HapticScene& scene, std::int64_t poses)
     : part_V_(*scene.parts.front().part_V),
       first_moving_(scene.obstacles.size()),
-      every_(std::max<std::int64_t>(1, poses / kMoments)) {
+      every_(std::max<std::int64_t>(1, (poses + kMoments - 1) / kMoments)) {
   for (const haptics::Obstacle& obstacle : scene.obstacles)
     bodies_.push_back({.body_B = obstacle.body.get(), .X_WB = obstacle.X_WO});
   for (const haptics::ScriptedPart& moving : scene.moving)

@@ -20,7 +20,7 @@
 namespace glissade::apps {
 
 /// The distance between the features of the first part of a scene and those of all other objects, as of
-/// `LeastClearance`, at about 500 moments of a run. Not thread-safe.
+/// `LeastClearance`, at 250 to 500 moments of a run, or at all poses of a shorter one. Not thread-safe.
 class ClearanceCurve {
  public:
   /// Clearances from here on are left out: the curve has gaps there.

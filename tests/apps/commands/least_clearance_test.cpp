@@ -202,11 +202,11 @@ TEST(ClearanceCurve, IsTheGapOfABoxAboveAPlate) {
   const HapticScene scene = scene_of(
       "  - {name: part, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n"
       "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n");
-  ClearanceCurve curve(scene, 1501);
-  for (int i = 0; i <= 1500; ++i)
+  ClearanceCurve curve(scene, 1500);
+  for (int i = 0; i < 1500; ++i)
     curve.note(std::chrono::milliseconds(i), pose({0.0, 0.0, 0.01 + 20e-6 * i}), {}, {});
   const PlotSeries series = curve.take("way");
-  ASSERT_EQ(series.x.size(), 501u) << "one of three";
+  ASSERT_EQ(series.x.size(), 500u) << "one of three";
   for (std::size_t i = 0; i < series.x.size(); ++i) {
     const double gap_um = 20e3 * series.x[i];
     EXPECT_NEAR(series.x[i], 3e-3 * static_cast<double>(i), 1e-9);
@@ -217,6 +217,21 @@ TEST(ClearanceCurve, IsTheGapOfABoxAboveAPlate) {
       EXPECT_TRUE(std::isnan(series.y[i])) << i;
     }
   }
+}
+
+TEST(ClearanceCurve, IsSearchedAtMost500Times) {
+  const HapticScene scene = scene_of(kBoxOnFloor);
+  const auto searches = [&](int poses) {
+    ClearanceCurve curve(scene, poses);
+    for (int i = 0; i < poses; ++i)
+      curve.note(std::chrono::milliseconds(i), pose({0.0, 0.0, 0.03}), {}, {});
+    return curve.take("way").x.size();
+  };
+  EXPECT_EQ(searches(1), 1u);
+  EXPECT_EQ(searches(500), 500u);
+  EXPECT_EQ(searches(501), 251u);
+  EXPECT_EQ(searches(999), 500u);
+  EXPECT_EQ(searches(1001), 334u);
 }
 
 TEST(ClearanceCurve, IsThatOfAFullSearchAtEveryMoment) {
