@@ -54,8 +54,9 @@ constexpr const char* kRunFooter =
     "Examples, with the files of 'glissade example' and a simulated glove:\n"
     "  glissade glove --script square_peg_script.csv & glissade run square_peg.yaml --seconds 4\n"
     "  glissade glove --fingers & glissade run door_module.yaml --fingers --seconds 9\n"
-    "Two gloves, of which the second holds another part:\n"
-    "  glissade run SCENE --device 1 2 --hold 1=motor 2=bracket";
+    "Two gloves, one of which holds nothing:\n"
+    "  glissade glove --script square_peg_script.csv & glissade glove --device 2 & glissade run square_peg.yaml "
+    "--device 1 2 --hold 2= --seconds 4";
 
 constexpr const char* kRecordDescription = "Run the haptic server and record all of it, for 'glissade replay'";
 

@@ -29,10 +29,7 @@ inline std::vector<std::string> examples_of(const std::string& command) {
   bool has_begun = false;
   for (std::string line; std::getline(help, line);) {
     has_begun = has_begun || line.starts_with("Examples");
-    // A word in capitals stands for a file of the user.
-    if (has_begun && line.starts_with("  glissade ") && line.find("SCENE") == std::string::npos) {
-      examples.push_back(line.substr(2));
-    }
+    if (has_begun && line.starts_with("  glissade ")) examples.push_back(line.substr(2));
   }
   return examples;
 }
@@ -50,7 +47,7 @@ inline ProgramResult run_example(const std::string& example, const TemporaryFold
   const std::string bin = std::filesystem::path(GLISSADE_PROGRAM).parent_path().string();
   const std::string brief = std::regex_replace(example, std::regex("--seconds [0-9.]+"), "--seconds 0.3");
   const std::string command = "cd '" + folder.path("") + "' && PATH='" + bin + "':\"$PATH\" && { " + brief +
-                              "; }; status=$?; kill $! 2> /dev/null; exit $status";
+                              "; }; status=$?; kill $(jobs -p) 2> /dev/null; exit $status";
   return Process({"/bin/sh", "-c", command}).wait();
 }
 
