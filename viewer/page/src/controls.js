@@ -3,6 +3,15 @@
 import { VIEWS } from './eye.js';
 
 const TURN = Math.PI / 24;
+const PRESS = [' ', 'Enter'];
+const ARROWS = ['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown'];
+
+// Whether the element does something by itself when the key is pressed.
+function takesKey(element, key) {
+  if (element.closest('select')) return true; // letters choose of it
+  if (element.closest('input[type="range"]')) return ARROWS.includes(key);
+  return element.closest('button, input, summary, a') !== null && PRESS.includes(key);
+}
 
 export class Controls {
   constructor(stage, timeline, onPick) {
@@ -13,7 +22,7 @@ export class Controls {
     this.addViewButtons();
     this.addSection();
     this.addPicking(onPick);
-    this.addKeys();
+    this.addKeys(onPick);
   }
 
   addTimeButtons() {
@@ -65,13 +74,16 @@ export class Controls {
     });
   }
 
-  addKeys() {
+  addKeys(onPick) {
     const { stage, timeline } = this;
     const keys = {
       ' ': () => this.playOrPause(),
       ',': () => timeline.step(-1),
       '.': () => timeline.step(1),
       l: () => this.byId('live').click(),
+      n: () => onPick(stage.neighborOfFocus(1)),
+      p: () => onPick(stage.neighborOfFocus(-1)),
+      Escape: () => onPick(undefined),
       f: () => stage.fit(),
       g: () => this.byId('show-ghosts').click(),
       c: () => this.byId('show-contacts').click(),
@@ -87,9 +99,8 @@ export class Controls {
     };
     Object.keys(VIEWS).forEach((name, i) => { keys[`${i + 1}`] = () => stage.fit(name); });
     document.addEventListener('keydown', (event) => {
-      // Inputs and buttons keep their own keys.
-      const isInput = event.target.closest?.('input, select, button, summary, a');
-      if (isInput || event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return;
+      if (event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return;
+      if (takesKey(event.target, event.key)) return;
       event.preventDefault();
       keys[event.key]();
     });

@@ -350,6 +350,14 @@ export class Stage {
     return hit?.object.userData.owner;
   }
 
+  // The object that comes `step` places after the focus in the list of all that can be picked, which is a ring.
+  neighborOfFocus(step) {
+    const nodes = this.coarse?.group.children.filter((node) => node.visible) ?? [];
+    const place = nodes.indexOf(this.focus);
+    const start = place < 0 && step < 0 ? 0 : place; // without a focus, the first one or the last one
+    return nodes.at((start + step) % nodes.length);
+  }
+
   touched() {
     this.detail.moved();
     this.isDirty = true;

@@ -39,6 +39,66 @@ for (const { name, options } of [
   });
 }
 
+// N and P go through all that a click can pick, F goes near, and Escape leaves it.
+async function picksByKey(page) {
+  const names = await page.evaluate(() => window.glissade.page.stage.coarse.group.children
+    .filter((node) => node.visible).map((node) => node.userData.name));
+  assert.ok(names.length > 5, `${names}`);
+  const tellsOf = async (key, name) => {
+    await page.keyboard.press(key);
+    await eventually(async () => (await page.locator('#picked dt').first().textContent()) === name, () => `${key}: ${name}`);
+    assert.equal(await page.locator('#object').isVisible(), true);
+  };
+  const distance = () => page.evaluate(() => {
+    const { camera, controls } = window.glissade.page.stage.eye;
+    return camera.position.distanceTo(controls.target);
+  });
+  await page.keyboard.press('f');
+  const ofScene = await distance();
+  await tellsOf('n', names[0]);
+  await tellsOf('n', names[1]);
+  await tellsOf('p', names[0]);
+  await tellsOf('p', names.at(-1));
+  await page.keyboard.press('f');
+  assert.ok((await distance()) < 0.5 * ofScene, 'a segment of a hand is small');
+  await tellsOf('n', names[0]);
+  await page.keyboard.press('Escape');
+  await eventually(async () => page.locator('#object').isHidden());
+  await tellsOf('p', names.at(-1));
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('f');
+  assert.ok(Math.abs((await distance()) - ofScene) < 1e-3 * ofScene, 'the whole scene again');
+}
+
+test('a control keeps only the keys that it needs', async () => {
+  const page = await open(browser, url);
+  await eventually(async () => (await inspect(page)).frame);
+  const isShown = (what) => page.locator(`#show-${what}`).isChecked();
+  const isLive = async () => (await inspect(page)).isLive;
+  await page.locator('#view-front').click();
+  await page.keyboard.press('e');
+  assert.equal(await isShown('edges'), false, 'after a click on a button');
+  await page.keyboard.press(' ');
+  assert.equal(await isLive(), true, 'space presses the button that has the focus');
+  await page.locator('#show-ghosts').click();
+  await page.keyboard.press('c');
+  assert.equal(await isShown('contacts'), false, 'after a click on a checkbox');
+  await page.keyboard.press(' ');
+  assert.deepEqual([await isShown('ghosts'), await isLive()], [true, true]);
+  await page.locator('#section-axis').focus();
+  await page.keyboard.press('g');
+  assert.equal(await isShown('ghosts'), true, 'a letter chooses of the list');
+  await page.locator('#time').focus();
+  const camera = () => page.evaluate(() => window.glissade.page.stage.camera.position.toArray());
+  const place = await camera();
+  await page.keyboard.press('ArrowLeft');
+  assert.deepEqual(await camera(), place, 'an arrow moves the slider');
+  await eventually(async () => !(await isLive()));
+  await page.keyboard.press('l');
+  await eventually(isLive);
+  await page.context().close();
+});
+
 test('everything works by keyboard alone', async () => {
   const page = await open(browser, url);
   await eventually(async () => (await inspect(page)).frames > 5);
@@ -60,6 +120,7 @@ test('everything works by keyboard alone', async () => {
   await eventually(async () => (await inspect(page)).isLive);
   await page.keyboard.press('g');
   assert.equal(await page.locator('#show-ghosts').isChecked(), false);
+  await picksByKey(page);
   // Every control can be reached, and shows that it is.
   const reached = new Set();
   for (let i = 0; i < 40; ++i) {
