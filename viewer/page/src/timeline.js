@@ -41,11 +41,13 @@ export class Timeline {
     this.changed();
   }
 
-  // Another run may follow.
+  // Another run may follow, and nothing is left to look back at.
   clear() {
     this.frames = [];
     this.index = -1;
     this.playTime = undefined;
+    this.isLive = true;
+    this.isPlaying = false;
   }
 
   // Leaves frames before `time` out, but not those from the shown one on.

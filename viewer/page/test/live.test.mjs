@@ -129,14 +129,18 @@ test('a server that starts again is found again', async () => {
   const url = await first.url();
   const page = await open(browser, url);
   await eventually(async () => (await inspect(page)).frame?.sequence > 500);
+  await page.keyboard.press(' '); // looks at the past
+  await eventually(async () => !(await inspect(page)).isLive);
   await first.stop();
   await eventually(async () => !(await inspect(page)).isConnected);
   assert.match(await page.locator('#state').textContent(), /no connection/);
   const second = new Program(['demo', '--seconds', '20', '--view', new URL(url).port]);
   await eventually(async () => {
     const state = await inspect(page);
-    return state.isConnected && state.frames > 1 && state.frame.sequence < 2000;
+    return state.isConnected && state.isLive && state.frames > 1 && state.frame.sequence < 2000;
   }, () => second.output);
+  const { frame } = await inspect(page);
+  await eventually(async () => (await inspect(page)).frame.sequence > frame.sequence);
   await second.stop();
   await page.context().close();
 });

@@ -16,6 +16,19 @@ test('a live page keeps the last minute', () => {
   assert.equal(timeline.frame.sequence, 60 * 90 - 1);
 });
 
+for (const leave of ['pause', 'play']) {
+  test(`a server that was started again is shown live, also to who looks back: ${leave}`, () => {
+    const timeline = new Timeline();
+    push(timeline, 10);
+    timeline.seek(2);
+    timeline[leave]();
+    push(timeline, 1);
+    assert.deepEqual([timeline.isLive, timeline.isPlaying], [true, false]);
+    assert.equal(timeline.frames.length, 60);
+    assert.equal(timeline.frame.sequence, 59);
+  });
+}
+
 test('a moment that is looked at stays for five minutes of frames, and then goes', () => {
   const timeline = new Timeline();
   push(timeline, 10);
