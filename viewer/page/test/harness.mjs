@@ -1,5 +1,6 @@
 // Starts the program and a browser for the tests. GLISSADE_PROGRAM is the program; GLISSADE_CHROMIUM the browser.
 
+import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { mkdirSync } from 'node:fs';
 import { chromium } from 'playwright-core';
@@ -49,18 +50,34 @@ export function launch() {
   });
 }
 
-// A page, with what it asked for and what went wrong in it.
+// What a browser says of a server that has ended.
+const LOST = /^(WebSocket connection to .* failed|Failed to load resource: net::ERR_CONNECTION_(REFUSED|RESET|CLOSED) )/;
+
+// A page, with what it asked for and what went wrong in it. `close` checks both.
 export async function open(browser, url, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, ...options });
   const page = await context.newPage();
   page.faults = [];
   page.requests = [];
-  page.on('console', (message) => { if (message.type() === 'error') page.faults.push(message.text()); });
+  page.home = url;
+  page.on('console', (message) => {
+    if (message.type() === 'error') page.faults.push(`${message.text()} (${message.location().url})`);
+  });
   page.on('pageerror', (error) => page.faults.push(error.message));
   page.on('request', (request) => page.requests.push(request.url()));
+  page.on('websocket', (socket) => page.requests.push(socket.url()));
   await page.goto(url);
   await eventually(async () => (await inspect(page))?.triangles > 0, () => page.faults.join('\n'));
   return page;
+}
+
+// Closes the page. Nothing went wrong in it, and it asked nothing of any other machine, of any other server of this one,
+// or, opened from disk, of any other file. Where its server has ended meanwhile, the browser tells of that.
+export async function close(page, { hasLostServer = false } = {}) {
+  await page.context().close();
+  assert.deepEqual(page.faults.filter((fault) => !hasLostServer || !LOST.test(fault)), []);
+  const own = [page.home, page.home.replace(/^http/, 'ws'), 'data:'];
+  assert.deepEqual(page.requests.filter((request) => !own.some((start) => request.startsWith(start))), []);
 }
 
 export function inspect(page) {

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { eventually, inspect, launch, open, Program, screenshot } from './harness.mjs';
+import { close, eventually, inspect, launch, open, Program, screenshot } from './harness.mjs';
 
 let browser;
 let program;
@@ -34,8 +34,7 @@ for (const { name, options } of [
     assert.deepEqual(beyond, []);
     const canvas = await page.locator('#canvas').boundingBox();
     assert.ok(canvas.width > 0.6 * Math.min(width, 900) && canvas.height > 240);
-    assert.deepEqual(page.faults, []);
-    await page.context().close();
+    await close(page);
   });
 }
 
@@ -96,7 +95,7 @@ test('a control keeps only the keys that it needs', async () => {
   await eventually(async () => !(await isLive()));
   await page.keyboard.press('l');
   await eventually(isLive);
-  await page.context().close();
+  await close(page);
 });
 
 test('everything works by keyboard alone', async () => {
@@ -137,7 +136,7 @@ test('everything works by keyboard alone', async () => {
     assert.ok(reached.has(id), `${id} is not reached by the Tab key: ${[...reached]}`);
   await page.locator('#section-axis').selectOption('0');
   assert.equal(await page.evaluate(() => window.glissade.page.stage.renderer.clippingPlanes.length), 1);
-  await page.context().close();
+  await close(page);
 });
 
 test('an object that is picked tells of itself', async () => {
@@ -153,5 +152,5 @@ test('an object that is picked tells of itself', async () => {
   await page.mouse.click(canvas.x + ((at[0] + 1) / 2) * canvas.width, canvas.y + ((1 - at[1]) / 2) * canvas.height);
   await eventually(async () => page.locator('#object').isVisible());
   assert.match(await page.locator('#picked').textContent(), /triangles/);
-  await page.context().close();
+  await close(page);
 });
