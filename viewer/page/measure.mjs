@@ -8,42 +8,12 @@
 // processor time than the server. One of them never reads.
 
 import { readdirSync, readFileSync } from 'node:fs';
-import http from 'node:http';
 import os from 'node:os';
 import { setTimeout as wait } from 'node:timers/promises';
-import { Program } from './test/harness.mjs';
+import { connect, Program, readFrames } from './test/harness.mjs';
 
 const runs = Number(process.argv[2] ?? 5);
 const SHOWN = Buffer.from([0x81, 0x81, 0, 0, 0, 0, 's'.charCodeAt(0)]); // a message of one masked letter
-
-// Calls `onSocket` with a WebSocket as a bare connection.
-function connect(url, onSocket) {
-  const headers = {
-    Connection: 'Upgrade', Upgrade: 'websocket', 'Sec-WebSocket-Version': 13,
-    'Sec-WebSocket-Key': Buffer.alloc(16).toString('base64'),
-  };
-  http.request(`${url}live`, { headers })
-    .on('upgrade', (_, socket, head) => {
-      socket.on('error', () => {}); // the server ends first
-      onSocket(socket);
-      if (head.length > 0) socket.unshift(head);
-    })
-    .end();
-}
-
-// Acknowledges each frame as soon as it is there. Its length is in the second byte, or the third and fourth.
-function read(socket) {
-  let missing = 0;
-  socket.on('data', (data) => {
-    for (let rest = data; rest.length > 0;) {
-      if (missing === 0) missing = rest[1] === 126 ? 4 + rest.readUInt16BE(2) : 2 + rest[1];
-      const taken = Math.min(missing, rest.length);
-      missing -= taken;
-      rest = rest.subarray(taken);
-      if (missing === 0) socket.write(SHOWN);
-    }
-  });
-}
 
 function busyMs() {
   return os.cpus().reduce((sum, { times }) => sum + times.user + times.nice + times.sys + times.irq, 0);
@@ -73,8 +43,12 @@ async function measured(hasServer, viewers) {
   const program = new Program(['demo', '--seconds', '8', '--json', ...(hasServer ? ['--view', '0'] : [])]);
   if (hasServer) {
     const url = await program.url();
-    connect(url, (socket) => (viewers === 0 ? socket.destroy() : socket.pause())); // the demonstration begins with it
-    for (let i = 1; i < viewers; ++i) connect(url, read);
+    const first = await connect(url); // the demonstration begins with it
+    if (viewers === 0) first.destroy();
+    for (let i = 1; i < viewers; ++i) {
+      const socket = await connect(url);
+      readFrames(socket, () => socket.write(SHOWN));
+    }
   }
   const work = hasServer ? await workInASecond(program.child.pid) : '';
   await program.exited;

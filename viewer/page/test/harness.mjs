@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { mkdirSync } from 'node:fs';
+import http from 'node:http';
 import { chromium } from 'playwright-core';
 
 const PROGRAM = process.env.GLISSADE_PROGRAM ?? new URL('../../../build/release/apps/glissade', import.meta.url).pathname;
@@ -38,6 +39,40 @@ export async function eventually(test, explain = () => '') {
     await new Promise((resolve) => setTimeout(resolve, 20));
   }
   throw new Error(`this did not happen: ${test}\n${explain()}`);
+}
+
+// A WebSocket for frames, as a bare connection that does not read.
+export function connect(url) {
+  const headers = {
+    Connection: 'Upgrade', Upgrade: 'websocket', 'Sec-WebSocket-Version': 13,
+    'Sec-WebSocket-Key': Buffer.alloc(16).toString('base64'),
+  };
+  return new Promise((resolve, reject) => {
+    http.request(`${url}live`, { headers })
+      .on('upgrade', (_, socket, head) => {
+        socket.on('error', () => {}); // the server ends first
+        socket.pause();
+        if (head.length > 0) socket.unshift(head);
+        resolve(socket);
+      })
+      .on('error', reject)
+      .end();
+  });
+}
+
+// Lets such a connection read: `onFrame()` after each frame. Its length is in the second byte, or the third and fourth.
+export function readFrames(socket, onFrame) {
+  let missing = 0;
+  socket.on('data', (data) => {
+    for (let rest = data; rest.length > 0;) {
+      if (missing === 0) missing = rest[1] === 126 ? 4 + rest.readUInt16BE(2) : 2 + rest[1];
+      const taken = Math.min(missing, rest.length);
+      missing -= taken;
+      rest = rest.subarray(taken);
+      if (missing === 0) onFrame();
+    }
+  });
+  socket.resume();
 }
 
 export function launch() {
