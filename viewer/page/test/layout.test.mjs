@@ -38,6 +38,20 @@ for (const { name, options } of [
   });
 }
 
+test('nothing moves by itself for who wants less motion', async () => {
+  const durations = async (reducedMotion) => {
+    const page = await open(browser, url, { reducedMotion });
+    const all = await page.evaluate(() => [...document.querySelectorAll('*')].flatMap((element) => {
+      const { transitionDuration, animationDuration, scrollBehavior } = getComputedStyle(element);
+      return [transitionDuration, animationDuration, scrollBehavior];
+    }));
+    await close(page);
+    return [...new Set(all)].sort();
+  };
+  assert.deepEqual(await durations('reduce'), ['0s', 'auto']);
+  assert.deepEqual(await durations('no-preference'), ['0.12s', '0s', 'auto']);
+});
+
 // N and P go through all that a click can pick, F goes near, and Escape leaves it.
 async function picksByKey(page) {
   const names = await page.evaluate(() => window.glissade.page.stage.coarse.group.children
