@@ -9,7 +9,7 @@ let program;
 let url;
 before(async () => {
   browser = await launch();
-  program = new Program(['demo', '--fingers', '--seconds', '120', '--view', '0']);
+  program = new Program(['demo', '--fingers', '--seconds', '600', '--view', '0']);
   url = await program.url();
 });
 after(async () => {

@@ -10,7 +10,7 @@ before(async () => { browser = await launch(); });
 after(() => browser.close());
 
 test('a hand closes round the part and holds it', async () => {
-  const program = new Program(['demo', '--fingers', '--seconds', '12', '--view', '0']);
+  const program = new Program(['demo', '--fingers', '--seconds', '30', '--view', '0']);
   const page = await open(browser, await program.url());
   const state = await eventually(async () => {
     const now = await inspect(page);
@@ -86,7 +86,7 @@ test('a server that starts again is found again', async () => {
 });
 
 test('nothing is asked of any other machine, and other sites are refused', async () => {
-  const program = new Program(['demo', '--seconds', '10', '--view', '0']);
+  const program = new Program(['demo', '--seconds', '60', '--view', '0']);
   const url = await program.url();
   const page = await open(browser, url);
   await eventually(async () => (await inspect(page)).frame);

@@ -108,7 +108,7 @@ function boxOf(points) {
 
 test('fixed objects and the segments of a hand stand where an export of the recording has them', async () => {
   const log = join(folder, 'hand.lcmlog');
-  const program = new Program(['demo', '--fingers', '--seconds', '20', '--view', '0', '--record', log]);
+  const program = new Program(['demo', '--fingers', '--seconds', '40', '--view', '0', '--record', log]);
   const page = await open(browser, await program.url());
   await eventually(async () => (await inspect(page)).wholeTriangles > 0, () => program.output);
   const [FREE, HOLDING] = [3, 4];
