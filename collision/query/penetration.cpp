@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -15,6 +16,7 @@ constexpr std::size_t kTriedPairs = 16;                               // of tria
 constexpr std::array<double, 4> kTriedShares{0.995, 0.5, 0.25, 0.1};  // of the best length
 constexpr double kLeastGain = 0.99;        // a nearby direction must shorten the way to this share
 constexpr double kLengthPrecision = 1e-3;  // relative to a length
+constexpr double kShortest = 1e-12;        // of the radii: bodies that only touch are apart after any way
 constexpr double kFirstTilt = 0.4;         // radians
 constexpr double kLastTilt = 0.005;
 constexpr int kTriedNearby = 6;
@@ -41,6 +43,7 @@ class WayOut {
         X_AB_(X_AB),
         workspace_(workspace),
         clearance_(clearance),
+        shortest_(kShortest * (tree_A.radius() + tree_B.radius())),
         between_(X_AB * tree_B.center() - tree_A.center()) {}
 
   Vector3d find() {
@@ -74,7 +77,7 @@ class WayOut {
   // which they are not.
   double shortened(const Vector3d& n, double free) {
     double inside = 0.0;
-    while (free - inside > kLengthPrecision * free) {
+    while (free - inside > std::max(kLengthPrecision * free, shortest_)) {
       const double middle = 0.5 * (inside + free);
       (is_free(middle * n) ? free : inside) = middle;
     }
@@ -82,7 +85,7 @@ class WayOut {
   }
 
   bool improves(const Vector3d& n, double length) {
-    if (!is_free(length * n)) return false;
+    if (length_ <= shortest_ || !is_free(length * n)) return false;
     n_ = n;
     length_ = shortened(n, length);
     return true;
@@ -126,6 +129,7 @@ class WayOut {
   const Eigen::Isometry3d& X_AB_;
   QueryWorkspace& workspace_;
   double clearance_;
+  double shortest_;   ///< a way that counts as none: metres
   Vector3d between_;  ///< from the centre of tree A to that of tree B
   Vector3d n_;        ///< the best direction so far
   double length_ = 0.0;

@@ -40,6 +40,16 @@ TEST(WayOut, IsNoneForMeshesThatAreApart) {
   EXPECT_NEAR(depth_of(box, box, at(1.1), 0.3), 0.2, 2e-3) << "but not by that clearance";
 }
 
+TEST(WayOut, OfMeshesThatOnlyTouchIsAsGoodAsNone) {
+  const DopTree box = tree_of(geometry::make_box({1.0, 1.0, 1.0}, 48));
+  EXPECT_LE(depth_of(box, box, at(1.0)), 1e-9);
+  const auto corner = [](double size) {
+    return tree_of({{Vector3d::Zero(), size * Vector3d::UnitX(), size * Vector3d::UnitY(), size * Vector3d::UnitZ()},
+                    {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}});
+  };
+  EXPECT_LE(depth_of(corner(60.0), corner(0.06), Isometry3d::Identity()), 0.06) << "three of its faces lie in those";
+}
+
 TEST(WayOut, OfABoxIsThroughTheNearestFace) {
   const DopTree box = tree_of(geometry::make_box({1.0, 1.0, 1.0}, 48));
   for (const auto& [offset, depth] : {std::pair{Vector3d(0.9, 0.3, -0.2), 0.1},
