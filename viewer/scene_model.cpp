@@ -35,12 +35,10 @@ Kind kind_of(const ViewObject& object) {
 /// How many triangles the mesh of each object may keep.
 class Shares {
  public:
-  Shares(const ViewScene& scene, std::size_t most_triangles) {
-    for (const ViewObject& object : scene.objects)
-      triangles_ += object.mesh->triangles.size();
-    share_ =
-        std::min(1.0, static_cast<double>(most_triangles) / static_cast<double>(std::max<std::size_t>(triangles_, 1)));
-  }
+  Shares(const ViewScene& scene, std::size_t most_triangles)
+      : triangles_(scene.triangles()),
+        share_(std::min(
+            1.0, static_cast<double>(most_triangles) / static_cast<double>(std::max<std::size_t>(triangles_, 1)))) {}
 
   std::size_t of(const geometry::TriangleMesh& mesh) const {
     constexpr double kLeast = 24.0;  // triangles of a simplified object
@@ -49,8 +47,8 @@ class Shares {
   std::size_t in_scene() const { return triangles_; }
 
  private:
-  std::size_t triangles_ = 0;
-  double share_ = 1.0;  // of the triangles to keep
+  std::size_t triangles_;
+  double share_;  // of the triangles to keep
 };
 
 geometry::TriangleMesh simplified(const geometry::TriangleMesh& mesh, std::size_t most_triangles) {

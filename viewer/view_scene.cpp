@@ -14,4 +14,11 @@ Eigen::Vector3d ViewScene::p_WO() const {
   return bounds_W.isEmpty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(bounds_W.center());
 }
 
+std::size_t ViewScene::triangles() const {
+  std::size_t count = 0;
+  for (const ViewObject& object : objects)
+    count += object.mesh->triangles.size();
+  return count;
+}
+
 }  // namespace glissade::viewer

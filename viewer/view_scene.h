@@ -42,6 +42,8 @@ struct ViewScene {
   /// The origin O of everything that a viewer gets: the one chosen, or else the middle of the objects at their start.
   /// Numbers in single precision are precise about that, wherever the scene is.
   Eigen::Vector3d p_WO() const;
+  /// The number of triangles of all objects.
+  std::size_t triangles() const;
 };
 
 }  // namespace glissade::viewer

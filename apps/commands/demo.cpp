@@ -156,9 +156,10 @@ void add_demo_command(CLI::App& app, Command& chosen) {
   command->add_option("--record", options->record, "File for a recording, which 'glissade replay' repeats to the bit");
   add_view_option(*command, options->view_port)->excludes(offline);
   command
-      ->add_option("--report", options->report,
-                   "Folder for a page, index.html, with the summary and plots of force, lag (distance from the visible "
-                   "part to the pose that the hand asks for) and states")
+      ->add_option(
+          "--report", options->report,
+          "Folder for a page, index.html, with the summary, the run in three dimensions, and plots of force, torque, "
+          "lag (distance from the visible part to the pose that the hand asks for), contacts and states")
       ->take_last();
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -80,8 +80,10 @@ void add_latency_command(CLI::App& app, Command& chosen) {
   command->add_option("--seconds", options->seconds, "Duration of all measurements together, in seconds")
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print the figures as JSON");
-  command->add_option("--report", options->report,
-                      "Folder for a page, index.html, with the figures and a histogram of each stage");
+  command->add_option(
+      "--report", options->report,
+      "Folder for a page, index.html, with the figures, a histogram of each stage, and up to a second of "
+      "the run in three dimensions");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

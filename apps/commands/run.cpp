@@ -254,9 +254,11 @@ void add_options(CLI::App& command_line, RunOptions& options) {
   add_view_option(command_line, options.view_port);
   command_line.add_flag("--json", options.json, "Print the summary as JSON");
   command_line.add_flag("--verbose", options.verbose, kVerboseHelp);
-  command_line.add_option("--report", options.report,
-                          "Folder for a page, index.html, with the summary and plots of force, lag (distance from the "
-                          "visible part to the pose that the hand asks for) and states");
+  command_line.add_option(
+      "--report", options.report,
+      "Folder for a page, index.html, with the summary, the run in three dimensions, and plots of force, "
+      "torque, lag (distance from the visible part to the pose that the hand asks for), contacts "
+      "and states");
 }
 
 }  // namespace

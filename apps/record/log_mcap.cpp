@@ -15,6 +15,7 @@
 #include <glissade/apps/record/recorded_scene.h>
 #include <glissade/apps/record/recorded_session.h>
 #include <glissade/apps/run/force_reason.h>
+#include <glissade/apps/view/session_view.h>
 #include <glissade/devices/event_log.h>
 #include <glissade/grasping/grasp_analysis.h>
 #include <glissade/haptics/recording.h>
@@ -189,6 +190,7 @@ class McapLog {
 
   void add(const devices::HapticState& state) {
     if (scene_) {
+      say_if_simplified(*scene_, kMostTriangles, path_);
       write("/scene", &scene_update_schema, state.time, scene_update(*scene_, state.time));
       scene_.reset();
     }

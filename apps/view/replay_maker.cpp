@@ -2,6 +2,7 @@
 #include <vector>
 
 #include <glissade/apps/view/replay_maker.h>
+#include <glissade/apps/view/session_view.h>
 #include <glissade/viewer/scene_model.h>
 
 namespace glissade::apps {
@@ -14,17 +15,16 @@ constexpr std::chrono::nanoseconds kFramePeriod{16'667'000};
 /// A replay without frames.
 Replay models_of(const viewer::ViewScene& scene) {
   Replay replay{viewer::scene_model(scene, viewer::kFirstTriangles), {}};
-  std::size_t triangles = 0;
-  for (const viewer::ViewObject& object : scene.objects)
-    triangles += object.mesh->triangles.size();
-  if (triangles > viewer::kFirstTriangles) replay.whole_model = viewer::scene_model(scene, kMostTriangles);
+  if (scene.triangles() > viewer::kFirstTriangles) replay.whole_model = viewer::scene_model(scene, kMostTriangles);
   return replay;
 }
 
 }  // namespace
 
 ReplayMaker::ReplayMaker(const viewer::ViewScene& scene)
-    : maker_(scene), models_(std::async(std::launch::async, [scene] { return models_of(scene); })) {}
+    : maker_(scene), models_(std::async(std::launch::async, [scene] { return models_of(scene); })) {
+  say_if_simplified(scene, kMostTriangles, "the report");
+}
 
 void ReplayMaker::add(const devices::HapticState& state) {
   if (!first_) {

@@ -21,6 +21,7 @@ namespace glissade::apps {
 /// minute with a hand takes 4 MB. A frame has the greatest force and the worst timing since the frame before.
 class ReplayMaker {
  public:
+  /// Says so if the scene has more triangles.
   explicit ReplayMaker(const viewer::ViewScene& scene);
 
   /// States in the order of their times.

@@ -184,9 +184,24 @@ TEST_F(RecordingCommands, McapHasEveryTickAndTheScene) {
   EXPECT_EQ(result.standard_output,
             "/hand_0: 500 messages\n/loop: 500 messages\n/part_0: 500 messages\n/scene: 1 message\n"
             "/tf: 500 messages\n");
+  EXPECT_EQ(result.standard_error, "");
   expect_refused({"log", "to-mcap", log_, log_}, {"run.lcmlog", "is the log itself"});
   expect_refused({"log", "to-mcap", log_, folder_.path("no/run.mcap")}, {"no/run.mcap", "cannot be created"});
   expect_refused({"log", "to-mcap", scene_, mcap}, {"scene.yaml", "is no LCM event log"});
+}
+
+TEST_F(RecordingCommands, McapOfALargeSceneIsSimplifiedAndSaysSo) {
+  std::string large = read_text_file(scene_);
+  large.replace(large.find("triangles: 200"), 14, "triangles: 120000");
+  const std::string scene = folder_.write("large.yaml", large);
+  const test_support::ProgramResult run =
+      test_support::glissade({"demo", "--offline", "--seconds", "0.02", "--scene", scene, "--record", log_});
+  ASSERT_EQ(run.exit_code, 0) << run.standard_error;
+  const std::string mcap = folder_.path("large.mcap");
+  const test_support::ProgramResult result = test_support::glissade({"log", "to-mcap", log_, mcap});
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  EXPECT_THAT(result.standard_error, HasSubstr("large.yaml has 12"));
+  EXPECT_THAT(result.standard_error, HasSubstr(" triangles: " + mcap + " shows it with about 100000\n"));
 }
 
 TEST_F(RecordingCommands, McapOfADamagedLogHoldsWhatComesBefore) {

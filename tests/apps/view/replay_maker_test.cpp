@@ -50,6 +50,21 @@ TEST(ReplayMaker, MakesSixtyFramesASecondUpToTheLastTick) {
     EXPECT_NEAR(times[i] - times[i - 1], 1.0 / 60.0, 1.1e-3);
 }
 
+TEST(ReplayMaker, SaysThatItSimplifiesALargeScene) {
+  viewer::ViewScene scene = scene_of_a_box();
+  scene.title = "large.yaml";
+  const auto said = [&](std::int64_t triangles) {
+    scene.objects.back().mesh = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.1, triangles));
+    testing::internal::CaptureStderr();
+    ReplayMaker(scene).finish();
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(130'000), "");
+  const std::string large = said(150'000);
+  EXPECT_EQ(large, "glissade: large.yaml has " + std::to_string(scene.triangles()) +
+                       " triangles: the report shows it with about 140000\n");
+}
+
 TEST(ReplayMaker, HasASmallModelOfALargeSceneBesideTheWhole) {
   viewer::ViewScene scene = scene_of_a_box();
   EXPECT_TRUE(ReplayMaker(scene).finish().whole_model.empty()) << "the first one is whole";
