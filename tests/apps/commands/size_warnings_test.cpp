@@ -74,6 +74,29 @@ TEST_F(WrongUnits, SlideWarnsOfAMeshInMillimetres) {
   EXPECT_EQ(slide("mesh: small.obj", "shape: {type: plate, size_x_m: 60, size_y_m: 60}", "0.1").standard_error, "");
 }
 
+TEST_F(WrongUnits, RunDemoAndGraspWarnToo) {
+  const std::string scene = folder.write("scene.yaml",
+                                         "objects:\n"
+                                         "- {name: part, movable: true, mesh: small.obj}\n"
+                                         "- {name: block, mesh: large.obj, pose: {position_m: [0, 0, 1]}}\n"
+                                         "script: hand.csv\n");
+  folder.write("hand.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n1,0,0,0,1,0,0,0\n");
+  const std::string warning = "warning: " + scene + ": object 'block' is 60 m across: millimetres? scale: 0.001\n";
+  EXPECT_THAT(glissade({"demo", "--offline", "--seconds", "0.01", "--scene", scene}).standard_error,
+              HasSubstr(warning));
+  const std::string all = read_text_file(GLISSADE_SCENES "/ball_and_tray_hand.csv");
+  const std::string start = folder.write("start.csv", all.substr(0, all.find('\n', all.find("\n0,") + 1) + 1));
+  const ProgramResult grasp = glissade({"grasp", scene, "--hand-trajectory", start});
+  EXPECT_EQ(grasp.exit_code, 0) << grasp.standard_error;
+  EXPECT_THAT(grasp.standard_error, HasSubstr(warning));
+  // A server that ends at once, because its part is in the way.
+  folder.write("scene.yaml",
+               "objects:\n"
+               "- {name: part, movable: true, mesh: small.obj}\n"
+               "- {name: block, mesh: large.obj}\n");
+  EXPECT_THAT(glissade({"run", scene, "--lcm", "udpm://239.255.76.67:7667?ttl=0"}).standard_error, HasSubstr(warning));
+}
+
 TEST_F(WrongUnits, SlideWarnsOfAPartThousandsOfTimesAsLargeAsAllElse) {
   const std::string dust = "shape: {type: sphere, radius_m: 5.0e-6}";
   const ProgramResult result = slide("shape: {type: box, size_x_m: 0.1, size_y_m: 0.1, size_z_m: 0.1}", dust, "0.06");

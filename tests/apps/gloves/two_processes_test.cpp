@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <future>
+#include <iterator>
 #include <string>
 #include <thread>
 
@@ -62,6 +63,26 @@ TEST(TwoProcesses, AGloveInOneProcessCarriesThePartInTheOtherToItsSeat) {
   EXPECT_GT(summary["hands"][0]["force_max_N"], 1.0);
   EXPECT_NE(hand.standard_output.find(" 0 refused)"), std::string::npos) << hand.standard_output;
   EXPECT_EQ(hand.standard_output.find("greatest force 0 N"), std::string::npos) << hand.standard_output;
+}
+
+TEST(TwoProcesses, AServerThatABrowserMayWatchWritesAReportToo) {
+  ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
+  const test_support::TemporaryFolder folder;
+  const std::string scene = folder.write("scene.yaml",
+                                         "objects:\n"
+                                         "  - {name: plate, shape: {type: plate}}\n"
+                                         "  - {name: box, movable: true, shape: {type: box}, pose: {position_m: [0, 0, "
+                                         "1]}}\n");
+  const test_support::Process glove({GLISSADE_PROGRAM, "glove", "--lcm", kUrl});
+  const test_support::ProgramResult server = test_support::glissade(
+      {"run", scene, "--lcm", kUrl, "--seconds", "0.3", "--view", "0", "--report", folder.path("report")});
+  ASSERT_EQ(server.exit_code, 0) << server.standard_error;
+  EXPECT_NE(server.standard_error.find("http://127.0.0.1:"), std::string::npos) << server.standard_error;
+  EXPECT_NE(server.standard_output.find(folder.path("report/index.html")), std::string::npos) << server.standard_output;
+  std::ifstream page(folder.path("report/index.html"));
+  const std::string html{std::istreambuf_iterator<char>(page), {}};
+  for (const char* part : {"report-frames", "<h2>Force on the hand of glove 1</h2>"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
 }
 
 /// A hand that goes straight to another place in half a second and stays.
