@@ -15,7 +15,7 @@
 #include <glissade/apps/record/recorded_scene.h>
 #include <glissade/apps/record/recorded_session.h>
 #include <glissade/apps/run/force_reason.h>
-#include <glissade/apps/view/session_view.h>
+#include <glissade/apps/view/say_if_simplified.h>
 #include <glissade/devices/event_log.h>
 #include <glissade/grasping/grasp_analysis.h>
 #include <glissade/haptics/recording.h>

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include <glissade/apps/view/replay_maker.h>
-#include <glissade/apps/view/session_view.h>
+#include <glissade/apps/view/say_if_simplified.h>
 #include <glissade/viewer/scene_model.h>
 
 namespace glissade::apps {

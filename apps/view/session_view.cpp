@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <glissade/apps/say.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/replay_maker.h>
 #include <glissade/apps/view/session_view.h>
@@ -30,12 +29,6 @@ viewer::ViewScene view_scene_of(const HapticScene& scene, const std::vector<std:
   for (std::size_t h = 0; h < hands.size(); ++h)
     view.hands.push_back({hands[h], h < models.size() ? models[h] : nullptr});
   return view;
-}
-
-void say_if_simplified(const viewer::ViewScene& scene, std::size_t most_triangles, const std::string& file) {
-  if (scene.triangles() <= most_triangles) return;
-  say("glissade: " + one_line(scene.title) + " has " + std::to_string(scene.triangles()) + " triangles: " + file +
-      " shows it with about " + std::to_string(most_triangles));
 }
 
 Replay replay_of(const Session& session, const HapticScene& scene) {

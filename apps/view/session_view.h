@@ -2,7 +2,6 @@
 
 /// The scene of a run as viewers show it, and the option --view.
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -33,9 +32,6 @@ std::vector<std::string> glove_names(const std::vector<std::int64_t>& devices);
 /// A scene with hands of these names; the model of a hand without fingers is null.
 viewer::ViewScene view_scene_of(const HapticScene& scene, const std::vector<std::string>& hands,
                                 const std::vector<std::shared_ptr<const grasping::HandModel>>& models);
-
-/// Says in a line on standard error that a file shows the scene with at most about so many triangles, if it has more.
-void say_if_simplified(const viewer::ViewScene& scene, std::size_t most_triangles, const std::string& file);
 
 /// The port of the text of an option. Throws CLI::ValidationError, naming the option and what is allowed.
 std::uint16_t parse_port(const std::string& option, const std::string& text);
