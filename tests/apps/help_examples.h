@@ -47,8 +47,8 @@ inline ProgramResult run_example(const std::string& example, const TemporaryFold
   const std::string bin = std::filesystem::path(GLISSADE_PROGRAM).parent_path().string();
   const std::string brief = std::regex_replace(example, std::regex("--seconds [0-9.]+"), "--seconds 0.3");
   const std::string command = "cd '" + folder.path("") + "' && PATH='" + bin + "':\"$PATH\" && { " + brief +
-                              "; }; status=$?; kill $(jobs -p) 2> /dev/null; exit $status";
-  return Process({"/bin/sh", "-c", command}).wait();
+                              "; }; status=$?; kill $(jobs -p) 2> /dev/null; wait; exit $status";
+  return Process({"/bin/bash", "-c", command}).wait();  // sh knows no jobs in $()
 }
 
 }  // namespace glissade::test_support
