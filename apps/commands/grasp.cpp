@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -6,6 +7,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -145,7 +147,11 @@ class GraspTables {
         .add(posture.X_WR);
     for (const double value : posture.values)
       hand_rows_.add(value);
-    hand_rows_.add(touching_names(h)).add(name_of(grasp.type)).add(name_of(grasp.form));
+    const std::vector<std::string> touching = touching_segments(h);
+    std::string names;  // such as "palm index_distal"
+    for (const std::string& name : touching)
+      names += (names.empty() ? "" : " ") + name;
+    hand_rows_.add(names).add(name_of(grasp.type)).add(name_of(grasp.form));
     Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
     if (grasp.object < 0) {
       hand_rows_.add("");
@@ -159,27 +165,20 @@ class GraspTables {
     devices::JointValues angles;
     std::copy(target.values.begin(), target.values.end(), angles.begin());
     const std::array<double, kFingers> forces = fingertips_[h].update(angles, answers_->hands[h]);
-    for (std::size_t finger = 0; finger < kFingers; ++finger)
-      hand_rows_.add(touches(h, std::string(kFingerNames[finger]) + "_distal") ? forces[finger] : 0.0);
+    for (std::size_t finger = 0; finger < kFingers; ++finger) {
+      const std::string tip = std::string(kFingerNames[finger]) + "_distal";
+      const bool touches = std::find(touching.begin(), touching.end(), tip) != touching.end();
+      hand_rows_.add(touches ? forces[finger] : 0.0);
+    }
     hand_rows_.end_row();
   }
 
-  bool touches(std::size_t h, const std::string& segment) const {
+  /// The names of the segments that touch.
+  std::vector<std::string> touching_segments(std::size_t h) const {
     const std::span<const char> touching = simulation_.clasp(h).touching();
-    const std::span<const grasping::ChainLink> links = hands_[h]->chain.links();
+    std::vector<std::string> names;
     for (std::size_t link = 0; link < touching.size(); ++link) {
-      if (touching[link] != 0 && links[link].name == segment) return true;
-    }
-    return false;
-  }
-
-  /// Segments that touch, such as "palm index_distal".
-  std::string touching_names(std::size_t h) const {
-    std::string names;
-    const grasping::Clasp& clasp = simulation_.clasp(h);
-    for (std::size_t link = 0; link < clasp.touching().size(); ++link) {
-      if (clasp.touching()[link] == 0) continue;
-      names += (names.empty() ? "" : " ") + hands_[h]->chain.links()[link].name;
+      if (touching[link] != 0) names.push_back(hands_[h]->chain.links()[link].name);
     }
     return names;
   }
