@@ -108,15 +108,19 @@ AdroitRow between(const AdroitRow& from, const AdroitRow& to, double t) {
   return row;
 }
 
-grasping::HandPose hand_of(const grasping::HandModel& hand, const AdroitRow& row) {
-  const Isometry3d X_WForearm = forearm(row);
-  grasping::HandPose pose = grasping::from_adroit(hand, row.joints, X_WForearm);
-  // The recorded palm hangs on the wrist by both its joints, 34 mm apart; only their angles matter here.
-  const Eigen::Matrix3d R_WPalm =
-      (X_WForearm * turned(row.joints[0], Vector3d::UnitY()) * turned(row.joints[1], Vector3d::UnitX())).linear();
+Isometry3d adroit_palm(const AdroitRow& row) {
+  // The palm hangs on the wrist by both its joints, 34 mm apart; only their angles matter here.
+  Isometry3d X_WPalm =
+      forearm(row) * turned(row.joints[0], Vector3d::UnitY()) * turned(row.joints[1], Vector3d::UnitX());
   const Vector3d p_Palm_Grasp(0.007, -0.05, 0.07);
+  X_WPalm.translation() = row.p_WGrasp - X_WPalm.linear() * p_Palm_Grasp;
+  return X_WPalm;
+}
+
+grasping::HandPose human_hand_of(const grasping::HandModel& hand, const AdroitRow& row) {
+  grasping::HandPose pose = grasping::from_adroit(hand, row.joints, forearm(row));
   const Vector3d p_Palm_Knuckle(0.011, 0.0, 0.099);
-  const Vector3d knuckle_W = row.p_WGrasp + R_WPalm * (p_Palm_Knuckle - p_Palm_Grasp);
+  const Vector3d knuckle_W = adroit_palm(row) * p_Palm_Knuckle;
   std::vector<Isometry3d> X_WL(hand.chain.links().size());
   hand.chain.poses(pose.X_WR, pose.values, X_WL);
   std::size_t middle = 0;

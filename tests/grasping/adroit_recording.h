@@ -31,9 +31,12 @@ void write_adroit_recording(const std::string& path, const std::vector<AdroitRow
 /// Between two rows, linearly.
 AdroitRow between(const AdroitRow& from, const AdroitRow& to, double t);
 
-/// The hand of a row, with the knuckle of the middle finger where the recorded one has it: there, both hands are built
-/// alike, while the recorded palm is longer.
-grasping::HandPose hand_of(const grasping::HandModel& hand, const AdroitRow& row);
+/// The pose of the recorded palm: z points to the fingers, x to the thumb's side, y out of the back of the hand.
+Eigen::Isometry3d adroit_palm(const AdroitRow& row);
+
+/// A human hand with the angles of a row, and with the knuckle of the middle finger where the recorded one has it:
+/// there, both hands are built alike, while the recorded palm is longer.
+grasping::HandPose human_hand_of(const grasping::HandModel& hand, const AdroitRow& row);
 
 /// The latch with its lever, in the frame of its axis: a bar 40 mm thick along x, 150 mm before the axis.
 geometry::TriangleMesh adroit_handle();

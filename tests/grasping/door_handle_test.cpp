@@ -1,4 +1,5 @@
 /// Hands that open a door: the clasp follows the recorded hand, and the analysis tells when it has grasped the handle.
+/// Once the hand is the recorded one with its own bones, once a human hand with the same angles.
 ///
 /// GLISSADE_ADROIT_DEMOS: a folder with recordings demo_00.csv ... of the demonstrations for door-v0 in
 /// github.com/aravindr93/hand_dapg. Without it only a recording made in code is read.
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +20,7 @@
 #include <glissade/grasping/grasp_analysis.h>
 #include <glissade/reference/grid_check.h>
 
+#include "adroit_hand.h"
 #include "adroit_recording.h"
 #include "clasped_hand.h"
 #include "temporary_folder.h"
@@ -50,6 +53,29 @@ const std::array<Vector3d, 15> kDoors{{{-0.14957, 0.24360, 0.38125},
 constexpr double kTurned_rad = 0.02;
 constexpr double kAfterTurning_s = 0.15;
 
+/// The simulation in which the recordings were made tells a contact from this distance on. A recorded finger has been
+/// stopped by it, so it stands at the surface; the clasp takes for a contact only what wants to come nearer.
+constexpr double kContactMargin_m = 0.0005;
+
+/// A hand that follows the recordings.
+struct Follower {
+  std::shared_ptr<const HandModel> clasping;
+  std::shared_ptr<const HandModel> recorded;  ///< the same without the margin of contacts
+  Posture (*posture)(const AdroitRow& row);
+};
+
+Follower adroit_follower() {
+  return {test_support::make_adroit_hand(kContactMargin_m), test_support::make_adroit_hand(0.0),
+          test_support::adroit_posture};
+}
+
+Follower human_follower() {
+  return {hand_model(), hand_model(), [](const AdroitRow& row) {
+            const HandPose pose = test_support::human_hand_of(*hand_model(), row);
+            return Posture{pose.X_WR, {pose.values.begin(), pose.values.end()}};
+          }};
+}
+
 /// What happened in a recording, in seconds; none: never.
 struct Opening {
   std::optional<double> contact;  ///< the recorded hand, which no clasp holds back, first collides with the handle
@@ -67,21 +93,24 @@ bool is_round_handle(const Grasp& grasp) {
 
 /// Follows a recording until 150 ms after the handle's turn, a millisecond a call. All is seen from the handle, which
 /// stands still in the clasp while the hand moves round it.
-Opening follow(const std::vector<AdroitRow>& rows, const Vector3d& p_WDoor) {
+Opening follow(const Follower& follower, const std::vector<AdroitRow>& rows, const Vector3d& p_WDoor) {
   const geometry::TriangleMesh handle = test_support::adroit_handle();
-  ClaspedHand hand(handle, Eigen::Isometry3d::Identity());
-  GraspAnalysis analysis(*hand_model());
+  const auto chain = [](const std::shared_ptr<const HandModel>& hand) {
+    return std::shared_ptr<const KinematicChain>(hand, &hand->chain);
+  };
+  ClaspedHand hand(chain(follower.clasping), handle, Eigen::Isometry3d::Identity());
+  const ClaspedHand recorded(chain(follower.recorded), handle, Eigen::Isometry3d::Identity());
+  GraspAnalysis analysis(*follower.clasping);
   Opening opening;
   for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
     for (int part = 0; part < 10; ++part) {
       const AdroitRow row = test_support::between(rows[i], rows[i + 1], 0.1 * part);
-      const HandPose pose = test_support::hand_of(*hand_model(), row);
-      const Posture target{test_support::handle_pose(p_WDoor, row.latch).inverse(Eigen::Isometry) * pose.X_WR,
-                           {pose.values.begin(), pose.values.end()}};
+      Posture target = follower.posture(row);
+      target.X_WR = test_support::handle_pose(p_WDoor, row.latch).inverse(Eigen::Isometry) * target.X_WR;
       hand.clasp.advance(target);
       const Grasp& grasp = analysis.update(hand.clasp.contacts(), 1.0);
       EXPECT_FALSE(hand.clasp.state() == ClaspState::kClasping && part == 0 && hand.collides(hand.clasp.posture()));
-      if (!opening.contact && hand.collides(target)) opening.contact = row.t_s;
+      if (!opening.contact && recorded.collides(target)) opening.contact = row.t_s;
       if (!opening.turn && row.latch > kTurned_rad) opening.turn = row.t_s;
       if (!opening.grasp && grasp.holds()) opening.grasp = row.t_s;
       if (opening.turn && !opening.grasp_at_turn && is_round_handle(grasp)) {
@@ -126,28 +155,37 @@ std::vector<AdroitRow> made_recording(const Vector3d& p_WDoor) {
   return rows;
 }
 
-TEST(DoorHandle, IsGraspedByAHandMadeInCodeAndNotBeforeItTouches) {
+class DoorHandle : public testing::TestWithParam<Follower (*)()> {};
+
+std::string follower_name(const testing::TestParamInfo<Follower (*)()>& info) {
+  return info.param == adroit_follower ? "RecordedHand" : "HumanHand";
+}
+
+INSTANTIATE_TEST_SUITE_P(Hands, DoorHandle, testing::Values(adroit_follower, human_follower), follower_name);
+
+TEST_P(DoorHandle, IsGraspedByAHandMadeInCodeAndNotBeforeItTouches) {
   const Vector3d p_WDoor(-0.2, 0.3, 0.3);
   const test_support::TemporaryFolder folder;
   test_support::write_adroit_recording(folder.path("made.csv"), made_recording(p_WDoor));
-  const Opening opening = follow(test_support::read_adroit_recording(folder.path("made.csv")), p_WDoor);
+  const Opening opening = follow(GetParam()(), test_support::read_adroit_recording(folder.path("made.csv")), p_WDoor);
   ASSERT_TRUE(opening.contact && opening.turn && opening.grasp);
   EXPECT_TRUE(is_found_in_time(opening));
   EXPECT_FALSE(is_before_contact(opening));
   EXPECT_TRUE(opening.kind.segments.has(Finger::kThumb)) << reason_of(opening.kind);
 }
 
-// Demonstrations 0, 3 and 4 hold nothing by the rules of the paper. In 0 and 3, all segments of the recorded hand that
-// are within 3 mm of the handle at its turn, and 150 ms later, belong to the four fingers: they push the lever down,
-// without thumb or palm. In 4 the thumb alone presses at the turn; thumb and little finger grasp 0.2 s after it.
-TEST(DoorHandle, IsGraspedInTheRecordings) {
+// In recordings 0 and 3 only segments of the four fingers are at the handle, at its turn and 150 ms later: they push
+// the lever down, without thumb or palm, by the rules of the paper. In recording 4 they hold it with the thumb; the
+// human hand's fingers are up to two millimetres away there, so it finds this grasp or not.
+TEST_P(DoorHandle, IsGraspedInTheRecordings) {
   const char* const folder = std::getenv("GLISSADE_ADROIT_DEMOS");
   if (folder == nullptr) GTEST_SKIP() << "GLISSADE_ADROIT_DEMOS is not set";
+  const Follower follower = GetParam()();
   int in_time = 0;
   for (std::size_t i = 0; i < kDoors.size(); ++i) {
     const std::string name = std::string("demo_") + (i < 10 ? "0" : "") + std::to_string(i) + ".csv";
-    const Opening opening =
-        follow(test_support::read_adroit_recording((std::filesystem::path(folder) / name).string()), kDoors[i]);
+    const Opening opening = follow(
+        follower, test_support::read_adroit_recording((std::filesystem::path(folder) / name).string()), kDoors[i]);
     EXPECT_FALSE(is_before_contact(opening)) << name;
     in_time += is_found_in_time(opening) ? 1 : 0;
     const auto text = [](const std::optional<double>& t) { return t ? std::to_string(*t) : std::string("never"); };
@@ -155,7 +193,7 @@ TEST(DoorHandle, IsGraspedInTheRecordings) {
               << text(opening.grasp) << ", at the turn " << text(opening.grasp_at_turn) << "  "
               << reason_of(opening.kind) << "\n";
   }
-  EXPECT_GE(in_time, 12) << "of " << kDoors.size();
+  EXPECT_GE(in_time, GetParam() == adroit_follower ? 13 : 12) << "of " << kDoors.size();
 }
 
 }  // namespace
