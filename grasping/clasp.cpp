@@ -220,6 +220,10 @@ class Clasp::Iteration {
       for (const haptics::Contact& failure : failures_)
         rows_.add(failure, movers_[static_cast<std::size_t>(failure.part)]);
     }
+    return go_on_by_halves();
+  }
+
+  bool go_on_by_halves() {
     for (int halving = 0; halving < kHalvings; ++halving) {
       scale(step_, 0.5);
       motion_.set(posture_, step_);
@@ -250,9 +254,20 @@ class Clasp::Iteration {
       motion_.set(posture_, wanted_);
       if (motion_.longest() < kBracket_m) continue;
       rows_.set(posture_, wanted_, found_, movers_);
-      if (go(false)) return true;
+      if (go(false) || go_a_little()) return true;
     }
     return false;
+  }
+
+  /// A short step that the contacts in sight allow. The contacts that a proof has missed may forbid it: as a row, a
+  /// contact with less than its margin left allows no closing at all, although a proof has room for a little.
+  bool go_a_little() {
+    rows_.set(posture_, wanted_, found_, movers_);
+    find_shares();
+    motion_.set(posture_, step_);
+    if (motion_.longest() < kBracket_m) return false;
+    scale(step_, std::min(1.0, 2.0 * kShort_m / motion_.longest()));
+    return go_on_by_halves();
   }
 
   void find_shares() {

@@ -161,7 +161,7 @@ TEST(ClaspTortureOfLastSteps, NoFlexValueStopsTooEarly) {
   if (test_support::kSanitized) GTEST_SKIP() << "takes long; the other torture runs through the same code";
   const auto& objects = shapes::household_objects();
   for (const LastSteps& motion : {LastSteps{"screwdriver", 20035}, LastSteps{"jar_lid", 14059}, LastSteps{"book", 2011},
-                                  LastSteps{"wine_glass", 21027}}) {
+                                  LastSteps{"wine_glass", 21027}, LastSteps{"door_handle", 10014}}) {
     const auto object =
         std::find_if(objects.begin(), objects.end(), [&](const auto& one) { return one.name == motion.object; });
     ASSERT_NE(object, objects.end());
