@@ -72,7 +72,7 @@ std::string one_line(std::string_view text) {
   return result;
 }
 
-std::string read_text_file(const std::string& path, std::uintmax_t max_bytes) {
+std::ifstream open_text_file(const std::string& path, std::uintmax_t max_bytes) {
   if (path.empty()) throw std::invalid_argument("the name of a file is empty");
   // A folder opens like a file and fails only later, with a less helpful reason. A pipe or a device may never end.
   std::error_code ignored;
@@ -88,7 +88,13 @@ std::string read_text_file(const std::string& path, std::uintmax_t max_bytes) {
     throw std::invalid_argument(path + ": has " + std::to_string(size) + " bytes; at most " +
                                 std::to_string(max_bytes) + " are read");
   }
-  std::string text(size, '\0');
+  return file;
+}
+
+std::string read_text_file(const std::string& path, std::uintmax_t max_bytes) {
+  std::ifstream file = open_text_file(path, max_bytes);
+  std::error_code ignored;
+  std::string text(std::filesystem::file_size(path, ignored), '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (file.bad()) throw std::invalid_argument(path + ": cannot be read");
   text.resize(static_cast<std::size_t>(file.gcount()));

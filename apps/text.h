@@ -3,6 +3,7 @@
 /// Text helpers shared by the file readers and the error messages.
 
 #include <cstdint>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,8 +43,11 @@ std::string joined(const Texts& texts) {
 /// Longer than any trajectory of a day.
 inline constexpr std::uintmax_t kLargestTextFile = std::uintmax_t{1} << 34U;
 
-/// The file's bytes. Throws std::invalid_argument, naming the file, when it is missing, not a regular file, longer than
-/// `max_bytes` or cannot be read.
+/// The file, open for reading. Throws std::invalid_argument, naming the file, when it is missing, not a regular file,
+/// longer than `max_bytes` or cannot be opened.
+std::ifstream open_text_file(const std::string& path, std::uintmax_t max_bytes = kLargestTextFile);
+
+/// The file's bytes. Throws as `open_text_file`, and when it cannot be read.
 std::string read_text_file(const std::string& path, std::uintmax_t max_bytes = kLargestTextFile);
 
 }  // namespace glissade::apps

@@ -18,8 +18,8 @@
 #include <glissade/apps/commands/slide_check.h>
 #include <glissade/apps/commands/slide_tables.h>
 #include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/followed_trajectory.h>
 #include <glissade/apps/files/scene_file.h>
-#include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/report/html_report.h>
@@ -104,17 +104,11 @@ haptics::SlidingMethod parse_method(const std::string& name) {
   throw std::invalid_argument("--method: '" + name + "' is unknown; known are " + joined(haptics::kSlidingMethodNames));
 }
 
-geometry::PoseTrajectory read(const std::string& file) {
-  geometry::PoseTrajectory trajectory = read_trajectory(file);
-  check_duration(trajectory.duration(), file);
-  return trajectory;
-}
-
 /// Leads the part along the only trajectory, and writes its tables meanwhile, and its replay if there is one.
 SlideCheck slide(const HapticScene& scene, const SlideCheckOptions& check_options, const SlideOptions& options,
                  SlideReplay* replay) {
   const std::string& file = options.trajectories.front();
-  const geometry::PoseTrajectory trajectory = read(file);
+  FollowedTrajectory trajectory(file);
   SlideTables tables(options.tables, scene, check_options.method);
   const std::int64_t ticks = trajectory.duration() / std::chrono::milliseconds(1);
   ProgressBar progress("sliding", ticks + 1);
@@ -132,9 +126,9 @@ SlideCheck slide(const HapticScene& scene, const SlideCheckOptions& check_option
 /// Checks all trajectories, each on the next free processor.
 std::vector<SlideCheck> check_all(const HapticScene& scene, const std::vector<std::string>& files,
                                   const SlideCheckOptions& options) {
-  std::vector<geometry::PoseTrajectory> trajectories;
+  std::vector<FollowedTrajectory> trajectories;
   for (const std::string& file : files)
-    trajectories.push_back(read(file));
+    trajectories.emplace_back(file);
   std::vector<SlideCheck> checks(files.size());
   std::atomic<std::size_t> next = 0;
   std::atomic<std::int64_t> done = 0;

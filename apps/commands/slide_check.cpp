@@ -36,12 +36,11 @@ void note_goal(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WGoal, 
 }
 
 /// How deep the part is in others at the first row, and what can be done about it.
-std::string advice(const HapticScene& scene, const geometry::PoseTrajectory& trajectory,
-                   const SlideCheckOptions& options) {
+std::string advice(const HapticScene& scene, const FollowedTrajectory& trajectory, const SlideCheckOptions& options) {
   std::vector<Eigen::Isometry3d> moving_X_WB;
   for (const haptics::ScriptedPart& part : scene.moving)
     moving_X_WB.push_back(part.script_X_WB.pose_at(trajectory.first_time()));
-  const Eigen::Isometry3d X_WV = trajectory.pose_at(trajectory.first_time());
+  const Eigen::Isometry3d& X_WV = trajectory.first_pose();
   const bool may_depenetrate = options.method == haptics::SlidingMethod::kProjection &&
                                options.sliding.rules.overlap != haptics::OverlapRule::kDepenetrate;
   return overlap_advice(scene, std::span(&X_WV, 1), moving_X_WB, may_depenetrate);
@@ -65,14 +64,14 @@ double between_spheres(const HapticScene& scene, const haptics::SlidingSimulatio
 /// The simulation from the first row of the trajectory on. Throws std::invalid_argument, with one sentence, when a body
 /// is not free there.
 std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& scene,
-                                                          const geometry::PoseTrajectory& trajectory,
+                                                          const FollowedTrajectory& trajectory,
                                                           const SlideCheckOptions& options) {
   std::vector<haptics::ScriptedPart> moving = scene.moving;
   for (haptics::ScriptedPart& part : moving)
     part.start = trajectory.first_time();
   try {
-    return haptics::make_sliding(options.method, scene.obstacles, scene.parts.front().part_V,
-                                 trajectory.pose_at(trajectory.first_time()), options.sliding, moving);
+    return haptics::make_sliding(options.method, scene.obstacles, scene.parts.front().part_V, trajectory.first_pose(),
+                                 options.sliding, moving);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(std::string(error.what()) + ", at the time of the first row" +
                                 advice(scene, trajectory, options));
@@ -80,7 +79,7 @@ std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& sce
 }
 
 /// Advances to a tick of the trajectory, a millisecond, and returns its time.
-std::chrono::nanoseconds slide_to(std::int64_t tick, const geometry::PoseTrajectory& trajectory,
+std::chrono::nanoseconds slide_to(std::int64_t tick, FollowedTrajectory& trajectory,
                                   haptics::SlidingSimulation& sliding) {
   const std::chrono::nanoseconds time = trajectory.first_time() + tick * milliseconds(1);
   // The first row shows the start: no time has passed yet.
@@ -90,7 +89,7 @@ std::chrono::nanoseconds slide_to(std::int64_t tick, const geometry::PoseTraject
 
 }  // namespace
 
-SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory& trajectory, const std::string& name,
+SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory, const std::string& name,
                        const SlideCheckOptions& options, const SlideWatch& watch) {
   SlideCheck check;
   check.trajectory = name;
@@ -116,12 +115,13 @@ SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory&
     check.torque_max_Nm = std::max(check.torque_max_Nm, wrench.t.norm());
     contact_ticks += sliding->result().pushing > 0 ? 1 : 0;
     if (options.needs_summary) {
-      check.force.x.push_back(seconds(time));
-      check.force.y.push_back(wrench.f.norm());
       clearance.note(sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
     }
-    if (options.needs_curve)
+    if (options.needs_curve) {
+      check.force.x.push_back(seconds(time));
+      check.force.y.push_back(wrench.f.norm());
       curve.note(time, sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
+    }
     check.far_m = std::min(check.far_m, between_spheres(scene, *sliding));
     if (watch) watch(now, *sliding);
   }
@@ -130,7 +130,7 @@ SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory&
   check.clearance = curve.take(name);
   check.clearance_min_m = clearance.least();
   check.clearance_min_at_s = seconds(clearance.least_at() * milliseconds(1));
-  note_goal(sliding->result().X_WV, scene.X_WGoal.value_or(trajectory.pose_at(trajectory.last_time())), options, check);
+  note_goal(sliding->result().X_WV, scene.X_WGoal.value_or(trajectory.last_pose()), options, check);
   return check;
 }
 

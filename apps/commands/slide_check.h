@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include <glissade/apps/files/followed_trajectory.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/report/plot.h>
 #include <glissade/apps/scene/haptic_scene.h>
-#include <glissade/geometry/pose_trajectory.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 
@@ -22,8 +22,8 @@ struct SlideCheckOptions {
   haptics::SlidingMethod method = haptics::SlidingMethod::kProjection;
   double goal_tolerance_m = 0.3e-3;
   double goal_tolerance_deg = 0.5;
-  bool needs_summary = true;  ///< otherwise clearance and force over time are left out
-  bool needs_curve = false;   ///< of the clearance
+  bool needs_summary = true;  ///< otherwise the least clearance is left out
+  bool needs_curve = false;   ///< of clearance and force over time
 };
 
 struct SlideCheck {
@@ -49,8 +49,8 @@ using SlideWatch = std::function<void(std::chrono::nanoseconds time, const hapti
 /// Moves the part along the trajectory in steps of a millisecond, offline. The part starts at the pose of the first
 /// row, objects that move on their own at their poses of that time. The goal is that of the scene, by default the last
 /// row of the trajectory. A start that is not free is reported as `problem`, without a call of `watch`. Checks of one
-/// scene may run in several threads at once.
-SlideCheck check_slide(const HapticScene& scene, const geometry::PoseTrajectory& trajectory, const std::string& name,
+/// scene may run in several threads at once. Memory does not grow with the trajectory, but for the curves.
+SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory, const std::string& name,
                        const SlideCheckOptions& options, const SlideWatch& watch = {});
 
 /// The outcome in one sentence.

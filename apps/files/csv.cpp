@@ -3,6 +3,7 @@
 #include <iostream>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/text.h>
@@ -24,6 +25,17 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
+/// Replaces `line` by the next line, without its line break, LF or CR LF.
+bool read_line(std::istream& file, std::string& line) {
+  if (!std::getline(file, line)) return false;
+  if (line.ends_with('\r')) line.pop_back();
+  return true;
+}
+
+[[noreturn]] void throw_no_rows(const std::string& source) {
+  throw std::invalid_argument(at_line(source, 1) + ": the header is not followed by any row");
+}
+
 std::vector<std::string_view> fields_of(std::string_view line) {
   std::vector<std::string_view> fields;
   for (std::size_t comma = line.find(','); comma != std::string_view::npos; comma = line.find(',')) {
@@ -43,15 +55,14 @@ void check_header(std::string_view line, const std::string& source, const std::v
   throw std::invalid_argument(at_line(source, 1) + ": the header row must be " + expected + ", not " + in_quotes(line));
 }
 
-std::vector<double> parse_row(std::string_view line, const std::string& where,
-                              const std::vector<std::string>& columns) {
+void parse_row(std::string_view line, const std::string& where, const std::vector<std::string>& columns,
+               std::vector<double>& values) {
   const std::vector<std::string_view> fields = fields_of(line);
   if (fields.size() != columns.size()) {
     throw std::invalid_argument(where + ": the row must have " + std::to_string(columns.size()) + " columns, not " +
                                 std::to_string(line.empty() ? 0 : fields.size()));
   }
-  std::vector<double> values;
-  values.reserve(fields.size());
+  values.clear();
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const std::optional<double> value = parse_number(fields[i]);
     if (!value) {
@@ -60,7 +71,6 @@ std::vector<double> parse_row(std::string_view line, const std::string& where,
     }
     values.push_back(*value);
   }
-  return values;
 }
 
 }  // namespace
@@ -78,10 +88,32 @@ CsvTable parse_csv(std::string_view text, const std::string& source, const std::
   check_header(take_line(text), source, columns);
   CsvTable table{source, {}};
   while (!text.empty()) {
-    table.rows.push_back(parse_row(take_line(text), table.where(table.rows.size()), columns));
+    const std::string where = table.where(table.rows.size());
+    parse_row(take_line(text), where, columns, table.rows.emplace_back());
   }
-  if (table.rows.empty()) throw std::invalid_argument(at_line(source, 1) + ": the header is not followed by any row");
+  if (table.rows.empty()) throw_no_rows(source);
   return table;
+}
+
+CsvReader::CsvReader(const std::string& path, std::vector<std::string> columns)
+    : path_(path), columns_(std::move(columns)), file_(open_text_file(path)) {
+  if (!read_line(file_, line_)) throw std::invalid_argument(path + ": the file is empty");
+  check_header(line_, path_, columns_);
+  if (file_.peek() == std::ifstream::traits_type::eof()) throw_no_rows(path_);
+}
+
+bool CsvReader::next() {
+  if (!read_line(file_, line_)) {
+    if (file_.bad()) throw std::invalid_argument(path_ + ": cannot be read");
+    return false;
+  }
+  ++line_number_;
+  parse_row(line_, where(), columns_, row_);
+  return true;
+}
+
+std::string CsvReader::where() const {
+  return at_line(path_, line_number_);
 }
 
 CsvWriter::CsvWriter(const std::string& path, const std::vector<std::string>& columns)

@@ -31,6 +31,28 @@ CsvTable read_csv(const std::string& path, const std::vector<std::string>& colum
 /// The same for a text in memory; `source` replaces the file's name in messages.
 CsvTable parse_csv(std::string_view text, const std::string& source, const std::vector<std::string>& columns);
 
+/// Reads a CSV file row by row, so that memory does not grow with it. The rules and errors are those of `read_csv`.
+class CsvReader {
+ public:
+  /// Opens the file and reads its header row.
+  CsvReader(const std::string& path, std::vector<std::string> columns);
+
+  /// Reads the next row; false at the end of the file.
+  bool next();
+  /// The row read last, a value for each column.
+  const std::vector<double>& row() const { return row_; }
+  /// Its place as "file:line".
+  std::string where() const;
+
+ private:
+  std::string path_;
+  std::vector<std::string> columns_;
+  std::ifstream file_;
+  std::string line_;
+  std::size_t line_number_ = 1;
+  std::vector<double> row_;
+};
+
 /// Writes a CSV file row by row; numbers read back as exactly the values written. Not thread-safe.
 class CsvWriter {
  public:

@@ -18,7 +18,7 @@ const std::vector<std::string>& pose_columns();
 /// Throws std::invalid_argument, naming file, line and value: see `read_csv` and `checked_pose`.
 std::vector<Eigen::Isometry3d> read_poses(const std::string& path);
 
-/// The pose in row `row` of `table`, whose `pose_columns()` begin at `first_column`. Throws like `checked_pose`.
-Eigen::Isometry3d pose_from_row(const CsvTable& table, std::size_t row, std::size_t first_column);
+/// The pose in a row whose `pose_columns()` begin at `first_column`. Throws like `checked_pose`.
+Eigen::Isometry3d pose_from_row(const std::vector<double>& row, std::size_t first_column, const std::string& where);
 
 }  // namespace glissade::apps

@@ -36,21 +36,22 @@ std::vector<std::string> joint_columns() {
   return columns;
 }
 
-std::chrono::nanoseconds time_of(const CsvTable& table, std::size_t row) {
-  return time_of(table.rows[row][0], table.where(row));
+geometry::TimedPose timed_pose(const std::vector<double>& row, const std::string& where,
+                               std::optional<std::chrono::nanoseconds> before) {
+  const std::chrono::nanoseconds time = time_of(row[0], where);
+  if (before && time <= *before) {
+    throw std::invalid_argument(where + ": column t_s: the time " + format_number(row[0]) + " does not rise above " +
+                                format_number(std::chrono::duration<double>(*before).count()) + " of the row before");
+  }
+  return {time, pose_from_row(row, 1, where)};
 }
 
 geometry::PoseTrajectory trajectory_from(const CsvTable& table) {
   std::vector<geometry::TimedPose> rows;
   rows.reserve(table.rows.size());
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const std::chrono::nanoseconds time = time_of(table, row);
-    if (!rows.empty() && time <= rows.back().time) {
-      throw std::invalid_argument(table.where(row) + ": column t_s: the time " + format_number(table.rows[row][0]) +
-                                  " does not rise above " + format_number(table.rows[row - 1][0]) +
-                                  " of the row before");
-    }
-    rows.push_back({time, pose_from_row(table, row, 1)});
+    const auto before = rows.empty() ? std::nullopt : std::optional(rows.back().time);
+    rows.push_back(timed_pose(table.rows[row], table.where(row), before));
   }
   return geometry::PoseTrajectory(rows);
 }
@@ -59,7 +60,7 @@ std::vector<devices::TimedAngles> fingers_from(const CsvTable& table) {
   const auto first = static_cast<std::ptrdiff_t>(trajectory_columns().size());
   std::vector<devices::TimedAngles> fingers(table.rows.size());
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    fingers[row].time = time_of(table, row);
+    fingers[row].time = time_of(table.rows[row][0], table.where(row));
     std::copy_n(table.rows[row].begin() + first, fingers[row].angles.size(), fingers[row].angles.begin());
   }
   return fingers;
@@ -108,7 +109,7 @@ HandScript parse_hand_script(std::string_view text, const std::string& source) {
     if (row == 0) {
       script.starts_closed = grip == 1.0;
     } else if (grip != table.rows[row - 1].back()) {
-      script.grip_changes.push_back(time_of(table, row));
+      script.grip_changes.push_back(time_of(table.rows[row][0], table.where(row)));
     }
   }
   return script;

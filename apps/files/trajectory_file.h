@@ -4,6 +4,7 @@
 /// the angles of its joints.
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,9 +21,12 @@ std::vector<std::string> trajectory_columns();
 /// The columns of a hand's joints: `devices::kGloveJointNames` with the ending `_rad`.
 std::vector<std::string> joint_columns();
 
-/// The time of a row, and the trajectory of all rows, of a table whose first columns are those of a trajectory. Throw
-/// as `read_trajectory`.
-std::chrono::nanoseconds time_of(const CsvTable& table, std::size_t row);
+/// A row whose first columns are those of a trajectory, `where` it stands in its file, and the time of the row before,
+/// if there is one. Throws as `read_trajectory`.
+geometry::TimedPose timed_pose(const std::vector<double>& row, const std::string& where,
+                               std::optional<std::chrono::nanoseconds> before);
+
+/// The trajectory of all rows of a table whose first columns are those of a trajectory. Throws as `read_trajectory`.
 geometry::PoseTrajectory trajectory_from(const CsvTable& table);
 /// The joint angles of all rows, from the columns after those of a trajectory.
 std::vector<devices::TimedAngles> fingers_from(const CsvTable& table);
