@@ -12,6 +12,7 @@
 #include <glissade/apps/commands/least_clearance.h>
 #include <glissade/apps/commands/slide_check.h>
 #include <glissade/apps/files/csv.h>
+#include <glissade/apps/report/growing_curve.h>
 #include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
 
@@ -93,7 +94,6 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
                        const SlideCheckOptions& options, const SlideWatch& watch) {
   SlideCheck check;
   check.trajectory = name;
-  check.force.name = name;
   check.duration_s = seconds(trajectory.duration());
   check.far_m = std::numeric_limits<double>::infinity();
   std::unique_ptr<haptics::SlidingSimulation> sliding;
@@ -107,6 +107,7 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
   std::int64_t contact_ticks = 0;
   const std::int64_t ticks = trajectory.duration() / milliseconds(1);
   ClearanceCurve curve(scene, ticks + 1);
+  GrowingCurve force(name);
   for (std::int64_t i = 0; i <= ticks; ++i) {
     const std::chrono::nanoseconds now = slide_to(i, trajectory, *sliding);
     const std::chrono::nanoseconds time = now - trajectory.first_time();
@@ -118,8 +119,7 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
       clearance.note(sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
     }
     if (options.needs_curve) {
-      check.force.x.push_back(seconds(time));
-      check.force.y.push_back(wrench.f.norm());
+      force.add(seconds(time), wrench.f.norm());
       curve.note(time, sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
     }
     check.far_m = std::min(check.far_m, between_spheres(scene, *sliding));
@@ -127,6 +127,7 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
   }
   check.contact_s = seconds(contact_ticks * milliseconds(1));
   clearance.finish();
+  check.force = force.series();
   check.clearance = curve.take(name);
   check.clearance_min_m = clearance.least();
   check.clearance_min_at_s = seconds(clearance.least_at() * milliseconds(1));

@@ -49,7 +49,7 @@ using SlideWatch = std::function<void(std::chrono::nanoseconds time, const hapti
 /// Moves the part along the trajectory in steps of a millisecond, offline. The part starts at the pose of the first
 /// row, objects that move on their own at their poses of that time. The goal is that of the scene, by default the last
 /// row of the trajectory. A start that is not free is reported as `problem`, without a call of `watch`. Checks of one
-/// scene may run in several threads at once. Memory does not grow with the trajectory, but for the curves.
+/// scene may run in several threads at once. Memory hardly grows with the trajectory.
 SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory, const std::string& name,
                        const SlideCheckOptions& options, const SlideWatch& watch = {});
 

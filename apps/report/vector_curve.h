@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <glissade/apps/report/growing_curve.h>
 #include <glissade/apps/report/plot.h>
 
 namespace glissade::apps {
@@ -15,11 +16,12 @@ class VectorCurve {
  public:
   /// Times ascend from call to call.
   void add(double time_s, const Eigen::Vector3d& value);
-  /// Its magnitude and its components, one line each. Once, at the end.
-  Plot take(std::string title, std::string label);
+  /// Its magnitude and its components, one line each.
+  Plot plot(std::string title, std::string label) const;
 
  private:
-  std::array<PlotSeries, 4> series_{{{"magnitude", {}, {}}, {"x", {}, {}}, {"y", {}, {}}, {"z", {}, {}}}};
+  std::array<GrowingCurve, 4> curves_{GrowingCurve("magnitude"), GrowingCurve("x"), GrowingCurve("y"),
+                                      GrowingCurve("z")};
 };
 
 }  // namespace glissade::apps

@@ -170,8 +170,8 @@ void add_plots(const SessionSummary& summary, const Session& session, Report& re
       force.add(seconds_of_tick(samples, i), samples.hand(i, h).force_W);
       torque.add(seconds_of_tick(samples, i), samples.hand(i, h).torque_V_W);
     }
-    report.plots.push_back(force.take("Force on the " + name_of_hand(session, h), "force [N]"));
-    report.plots.push_back(torque.take("Torque on the " + name_of_hand(session, h), "torque [Nm]"));
+    report.plots.push_back(force.plot("Force on the " + name_of_hand(session, h), "force [N]"));
+    report.plots.push_back(torque.plot("Torque on the " + name_of_hand(session, h), "torque [Nm]"));
   }
   std::vector<std::string> names;
   for (const PartSummary& part : summary.parts)

@@ -44,7 +44,7 @@ GraspReport::GraspReport(const HapticScene& scene, const grasping::GraspSimulati
   for (std::int32_t kind = 0; kind < devices::kGraspKinds; ++kind)
     kinds_.words.emplace_back(devices::name_of(static_cast<devices::GraspKind>(kind)));
   for (std::size_t h = 0; h < hands.size(); ++h) {
-    touching_.push_back({name_of_hand(h), {}, {}});
+    touching_.emplace_back(name_of_hand(h));
     kinds_.strips.push_back({name_of_hand(h), {}});
   }
   for (std::size_t p = 0; p < simulation.part_count(); ++p) {
@@ -60,10 +60,6 @@ void GraspReport::add(std::chrono::nanoseconds time) {
   state.hand_count = static_cast<std::int32_t>(simulation_.hand_count());
   simulation_.tell_hands(answers_);
   const double time_s = 1e-3 * static_cast<double>(ticks_ - 1);
-  const auto note = [&](PlotSeries& series, double value) {
-    series.x.push_back(time_s);
-    series.y.push_back(value);
-  };
   for (std::size_t p = 0; p < simulation_.part_count(); ++p) {
     const haptics::SlidingResult& result = simulation_.parts().result(p);
     show_part(result, p, patches_[p], state);
@@ -79,8 +75,8 @@ void GraspReport::add(std::chrono::nanoseconds time) {
     hand.part = part ? static_cast<std::int32_t>(*part) : -1;
     hand.visible = answers_.hands[h].visible;
     const auto& touching = simulation_.clasp(h).touching();
-    note(touching_[h], static_cast<double>(touching.size() -
-                                           static_cast<std::size_t>(std::count(touching.begin(), touching.end(), 0))));
+    touching_[h].add(time_s, static_cast<double>(std::count_if(touching.begin(), touching.end(),
+                                                               [](char touches) { return touches != 0; })));
     kinds_.strips[h].add(time_s, static_cast<std::size_t>(hand.visible.grasp));
     kinds_.strips[h].end_at(time_s);
   }
@@ -89,16 +85,15 @@ void GraspReport::add(std::chrono::nanoseconds time) {
 
 Report GraspReport::finish(const GraspOutcome& outcome) {
   Report report{"glissade grasp: " + scene_.source, outcome.rows(), {}};
-  report.plots.push_back({.title = "Segments that touch",
-                          .x_label = kTimeLabel,
-                          .y_label = "segments",
-                          .series = std::move(touching_),
-                          .counts = true});
+  Plot touching{.title = "Segments that touch", .x_label = kTimeLabel, .y_label = "segments", .counts = true};
+  for (const GrowingCurve& curve : touching_)
+    touching.series.push_back(curve.series());
+  report.plots.push_back(std::move(touching));
   report.strips.push_back(std::move(kinds_));
   for (std::size_t p = 0; p < scene_.parts.size(); ++p) {
     const std::string of_part = " of " + scene_.parts[p].name + " on the hands";
-    report.plots.push_back(forces_[p].take("Force" + of_part, "force [N]"));
-    report.plots.push_back(torques_[p].take("Torque" + of_part + ", about its origin", "torque [Nm]"));
+    report.plots.push_back(forces_[p].plot("Force" + of_part, "force [N]"));
+    report.plots.push_back(torques_[p].plot("Torque" + of_part + ", about its origin", "torque [Nm]"));
   }
   parts_.finish(report);
   report.replay = replay_.finish();

@@ -37,8 +37,8 @@ class GraspReport {
   std::vector<haptics::ContactPatches> patches_;  // by part
   std::int64_t ticks_ = 0;
   StripChart kinds_{"Kind of grasp", {}, {}};
-  std::vector<PlotSeries> touching_;  // by hand: segments
-  std::vector<VectorCurve> forces_;   // by part
+  std::vector<GrowingCurve> touching_;  // by hand: segments
+  std::vector<VectorCurve> forces_;     // by part
   std::vector<VectorCurve> torques_;
   PartCurves parts_;
 };

@@ -9,8 +9,8 @@ PartCurves::PartCurves(const std::vector<std::string>& names) {
   for (std::int32_t state = 0; state < devices::kPartStates; ++state)
     states_.words.emplace_back(devices::name_of(devices::part_state_from_number(state)));
   for (const std::string& name : names) {
-    lags_.push_back({name, {}, {}});
-    contacts_.push_back({name, {}, {}});
+    lags_.emplace_back(name);
+    contacts_.emplace_back(name);
     states_.strips.push_back({name, {}});
   }
 }
@@ -18,21 +18,21 @@ PartCurves::PartCurves(const std::vector<std::string>& names) {
 void PartCurves::add(double time_s, std::size_t part, const devices::HapticPartState& state) {
   constexpr double kRounding = 1e-9;  // mm; an axis of less would tell of nothing else
   const double lag = 1e3 * (state.X_WG.translation() - state.X_WV.translation()).norm();
-  lags_[part].x.push_back(time_s);
-  lags_[part].y.push_back(lag > kRounding ? lag : 0.0);
-  contacts_[part].x.push_back(time_s);
-  contacts_[part].y.push_back(state.contact_count);
+  lags_[part].add(time_s, lag > kRounding ? lag : 0.0);
+  contacts_[part].add(time_s, state.contact_count);
   states_.strips[part].add(time_s, static_cast<std::size_t>(state.state));
   states_.strips[part].end_at(time_s);
 }
 
 void PartCurves::finish(Report& report) {
-  report.plots.push_back({"Lag of the visible parts behind their ghosts", kTimeLabel, "lag [mm]", std::move(lags_)});
-  report.plots.push_back({.title = "Contacts that push",
-                          .x_label = kTimeLabel,
-                          .y_label = "contacts",
-                          .series = std::move(contacts_),
-                          .counts = true});
+  Plot lags{"Lag of the visible parts behind their ghosts", kTimeLabel, "lag [mm]", {}};
+  Plot contacts{.title = "Contacts that push", .x_label = kTimeLabel, .y_label = "contacts", .counts = true};
+  for (std::size_t part = 0; part < lags_.size(); ++part) {
+    lags.series.push_back(lags_[part].series());
+    contacts.series.push_back(contacts_[part].series());
+  }
+  report.plots.push_back(std::move(lags));
+  report.plots.push_back(std::move(contacts));
   report.strips.push_back(std::move(states_));
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <glissade/apps/report/growing_curve.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/devices/haptic_state.h>
 
@@ -22,8 +23,8 @@ class PartCurves {
   void finish(Report& report);
 
  private:
-  std::vector<PlotSeries> lags_;  // mm
-  std::vector<PlotSeries> contacts_;
+  std::vector<GrowingCurve> lags_;  // mm
+  std::vector<GrowingCurve> contacts_;
   StripChart states_{"States of the parts", {}, {}};
 };
 

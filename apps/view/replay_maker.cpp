@@ -10,7 +10,7 @@ namespace glissade::apps {
 namespace {
 
 constexpr std::size_t kMostTriangles = 140'000;
-constexpr std::chrono::nanoseconds kFramePeriod{16'667'000};
+constexpr std::size_t kMostFrameBytes = 1'000'000;
 
 /// A replay without frames.
 Replay models_of(const viewer::ViewScene& scene) {
@@ -31,20 +31,40 @@ void ReplayMaker::add(const devices::HapticState& state) {
     // The start is a frame of its own, so that the page counts its time from the first state, as plots do.
     first_ = state.time;
     maker_.add(state);
-    viewer::append_frame(frames_, maker_.make());
+    end_frame();
     return;
   }
-  const std::int64_t frame = (state.time - *first_) / kFramePeriod;
-  if (frame != frame_ && maker_.has_news()) viewer::append_frame(frames_, maker_.make());
-  frame_ = frame;
+  if ((state.time - *first_) / period_ != frame_ && maker_.has_news()) {
+    end_frame();
+    if (bytes_ > kMostFrameBytes) leave_out_half();
+  }
+  frame_ = (state.time - *first_) / period_;
   maker_.add(state);
 }
 
 Replay ReplayMaker::finish() {
-  if (maker_.has_news()) viewer::append_frame(frames_, maker_.make());
+  if (maker_.has_news()) end_frame();
   Replay replay = models_.get();
-  replay.frames = std::move(frames_);
+  for (const std::string& frame : frames_)
+    viewer::append_frame(replay.frames, frame);
   return replay;
+}
+
+void ReplayMaker::end_frame() {
+  frames_.push_back(maker_.make());
+  bytes_ += frames_.back().size();
+}
+
+void ReplayMaker::leave_out_half() {
+  period_ *= 2;
+  bytes_ = 0;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < frames_.size(); i += 2) {
+    bytes_ += frames_[i].size();
+    if (kept != i) frames_[kept] = std::move(frames_[i]);
+    ++kept;
+  }
+  frames_.resize(kept);
 }
 
 void show_part(const haptics::SlidingResult& result, std::size_t part, haptics::ContactPatches& patches,

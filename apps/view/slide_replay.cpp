@@ -41,8 +41,8 @@ void SlideReplay::add(std::chrono::nanoseconds time, const haptics::SlidingSimul
 
 void SlideReplay::finish(Report& report) {
   report.plots.insert(report.plots.begin(),
-                      {force_.take("Force on the hand", "force [N]"),
-                       torque_.take("Torque on the hand about the origin of the part", "torque [Nm]")});
+                      {force_.plot("Force on the hand", "force [N]"),
+                       torque_.plot("Torque on the hand about the origin of the part", "torque [Nm]")});
   part_.finish(report);
   report.replay = maker_.finish();
 }

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <glissade/apps/report/growing_curve.h>
 #include <glissade/apps/report/plot.h>
 #include <glissade/apps/report/plot_axis.h>
 #include <glissade/apps/report/svg_plot.h>
@@ -37,6 +38,43 @@ TEST(Decimation, KeepsPeaksEndsAndOrder) {
   EXPECT_EQ(few.x.front(), 0.0);
   EXPECT_EQ(few.x.back(), 9999.0);
   EXPECT_TRUE(std::is_sorted(few.x.begin(), few.x.end()));
+}
+
+TEST(GrowingCurve, HasEveryPointOfAShortRun) {
+  GrowingCurve curve("wave");
+  const PlotSeries points = wave(4000);
+  for (std::size_t i = 0; i < points.x.size(); ++i)
+    curve.add(points.x[i], points.y[i]);
+  EXPECT_EQ(curve.series().x, points.x);
+  EXPECT_EQ(curve.series().y, points.y);
+  EXPECT_TRUE(GrowingCurve("nothing").series().x.empty());
+}
+
+TEST(GrowingCurve, KeepsPeaksEndsAndOrderOfALongRunInBoundedMemory) {
+  PlotSeries points = wave(1'000'001);
+  points.y[123'456] = 7.0;
+  points.y[876'543] = -9.0;
+  points.y.back() = 0.5;
+  GrowingCurve curve("wave");
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    curve.add(points.x[i], points.y[i]);
+    if (i % 1000 == 0) most = std::max(most, curve.series().x.size());
+  }
+  EXPECT_LE(most, 10'000U);
+  const PlotSeries few = curve.series();
+  EXPECT_GT(few.x.size(), 4000U) << "finer than a page draws it";
+  EXPECT_EQ(few.x.front(), 0.0);
+  EXPECT_EQ(few.x.back(), 1e6);
+  EXPECT_EQ(few.y.back(), 0.5);
+  EXPECT_TRUE(std::is_sorted(few.x.begin(), few.x.end()));
+  for (const std::size_t peak : {std::size_t{123'456}, std::size_t{876'543}}) {
+    const auto at = std::find(few.x.begin(), few.x.end(), points.x[peak]);
+    ASSERT_NE(at, few.x.end());
+    EXPECT_EQ(few.y[static_cast<std::size_t>(at - few.x.begin())], points.y[peak]);
+  }
+  for (std::size_t i = 0; i < few.x.size(); ++i)
+    ASSERT_EQ(few.y[i], points.y[static_cast<std::size_t>(few.x[i])]) << "points of the line itself";
 }
 
 TEST(Decimation, LeavesShortLinesAlone) {

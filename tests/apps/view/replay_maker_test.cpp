@@ -50,6 +50,27 @@ TEST(ReplayMaker, MakesSixtyFramesASecondUpToTheLastTick) {
     EXPECT_NEAR(times[i] - times[i - 1], 1.0 / 60.0, 1.1e-3);
 }
 
+TEST(ReplayMaker, MakesFewerFramesASecondOfALongRun) {
+  ReplayMaker maker(scene_of_a_box());
+  constexpr int kSeconds = 600;
+  for (int i = 0; i <= 1000 * kSeconds; i += 5) {
+    devices::HapticState state;
+    state.sequence = i + 1;
+    state.time = milliseconds(i);
+    maker.add(state);
+  }
+  const std::string frames = maker.finish().frames;
+  EXPECT_LT(frames.size(), 1'100'000U);
+  EXPECT_GT(frames.size(), 400'000U);
+  const std::vector<double> times = times_of(frames);
+  EXPECT_EQ(times.front(), 0.0);
+  EXPECT_EQ(times.back(), kSeconds);
+  const double period = (times[2] - times[1]);
+  EXPECT_GT(period, 1.5 / 60.0);
+  for (std::size_t i = 2; i + 1 < times.size(); ++i)
+    ASSERT_NEAR(times[i] - times[i - 1], period, 0.03) << "evenly over the whole run";
+}
+
 TEST(ReplayMaker, SaysThatItSimplifiesALargeScene) {
   viewer::ViewScene scene = scene_of_a_box();
   scene.title = "large.yaml";
