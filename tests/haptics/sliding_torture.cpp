@@ -1,8 +1,8 @@
-// Torture test of sliding contact: random scenes of soups, sheets, slivers and needles from 1 mm to 5 m, and random
-// hands up to 5 m/s that jump, press, turn and let go. Every visible pose, and every known path between two of them, is
-// checked by code independent of the simulation. The printed hash depends only on the seed, the number of scenes and
-// the milliseconds. With --again all scenes run a second time on another number of threads, each with a search thread
-// of its own, and the hash must be the same.
+// Torture test of sliding contact: random scenes of soups, sheets, slivers and needles from 1 mm to 5 m, or of machine
+// elements that fit each other, and random hands up to 5 m/s that jump, press, turn and let go. Every visible pose, and
+// every known path between two of them, is checked by code independent of the simulation. The printed hash depends only
+// on the seed, the number of scenes and the milliseconds. With --again all scenes run a second time on another number
+// of threads, each with a search thread of its own, and the hash must be the same.
 
 #include <algorithm>
 #include <atomic>
@@ -33,6 +33,7 @@ struct Arguments {
   std::int64_t only_scene = -1;
   bool again = false;
   bool off_centre = false;
+  bool fits = false;
   bool quiet = false;
   std::string csv;
 };
@@ -54,7 +55,8 @@ class Stopwatch {
 // An exception is a fault of the scene.
 TortureCounts run_one(const Arguments& arguments, std::int64_t index, const Threads& threads) {
   try {
-    return run_torture_scene(arguments.seed, index, arguments.milliseconds, threads.has_search, arguments.off_centre);
+    return run_torture_scene(arguments.seed, index, arguments.milliseconds,
+                             {threads.has_search, arguments.off_centre, arguments.fits});
   } catch (const std::exception& error) {
     TortureCounts counts;
     counts.fault_count = 1;
@@ -220,6 +222,8 @@ int main(int argc, char** argv) {
                "Run all scenes again on another number of threads, with search threads, and compare the hashes");
   app.add_flag("--off-centre", arguments.off_centre,
                "Couple each part at a random point, up to two radii from its centre, instead of at its centre");
+  app.add_flag("--fits", arguments.fits,
+               "Machine elements that fit each other with little play: nuts, gears, pegs, sleeves, balls in sockets");
   app.add_flag("--quiet", arguments.quiet, "No progress");
   app.add_option("--csv", arguments.csv,
                  "Write the figures of the first run, and the hash of the second, to this file: figure,value,unit");

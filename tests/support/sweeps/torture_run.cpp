@@ -15,6 +15,7 @@
 
 #include "random_numbers.h"
 #include "solver/projection.h"
+#include "sweeps/fit_scene.h"
 #include "sweeps/torture_scene.h"
 #include "swept_check.h"
 
@@ -78,14 +79,20 @@ TortureScene off_centre(TortureScene scene, RandomNumbers random) {
   return scene;
 }
 
+TortureScene random_scene(const TortureOptions& options, RandomNumbers& random) {
+  TortureScene scene = options.has_fits ? random_fit_scene(random) : random_torture_scene(random);
+  return options.is_off_centre ? off_centre(std::move(scene), random) : scene;
+}
+
 class TortureRun {
  public:
-  TortureRun(std::uint64_t seed, std::int64_t index, bool has_search_thread, bool is_off_centre)
+  TortureRun(std::uint64_t seed, std::int64_t index, const TortureOptions& options)
       : random_(seed * 1'000'003 + static_cast<std::uint64_t>(index)),
-        label_("--seed " + std::to_string(seed) + " --only-scene " + std::to_string(index)),
-        scene_(is_off_centre ? off_centre(random_torture_scene(random_), random_) : random_torture_scene(random_)),
+        label_("--seed " + std::to_string(seed) + " --only-scene " + std::to_string(index) +
+               (options.is_off_centre ? " --off-centre" : "") + (options.has_fits ? " --fits" : "")),
+        scene_(random_scene(options, random_)),
         metaphor_(static_cast<Metaphor>(index % std::ssize(kMetaphorNames))),
-        options_(random_options(metaphor_, *scene_.part_V, has_search_thread, random_)),
+        options_(random_options(metaphor_, *scene_.part_V, options.has_search_thread, random_)),
         sliding_(scene_.obstacles, scene_.part_V, scene_.X_WV_start, options_),
         hand_(scene_, random_),
         grid_(placed()),
@@ -331,9 +338,9 @@ void TortureCounts::add(const TortureCounts& later) {
   faults.insert(faults.end(), later.faults.begin(), later.faults.end());
 }
 
-TortureCounts run_torture_scene(std::uint64_t seed, std::int64_t index, int milliseconds, bool has_search_thread,
-                                bool is_off_centre) {
-  return TortureRun(seed, index, has_search_thread, is_off_centre).run(milliseconds);
+TortureCounts run_torture_scene(std::uint64_t seed, std::int64_t index, int milliseconds,
+                                const TortureOptions& options) {
+  return TortureRun(seed, index, options).run(milliseconds);
 }
 
 }  // namespace glissade::test_support

@@ -39,10 +39,15 @@ struct TortureCounts {
   void add(const TortureCounts& later);
 };
 
+struct TortureOptions {
+  bool has_search_thread = false;  ///< the simulation searches in a thread of its own
+  bool is_off_centre = false;      ///< the compliance point of the part lies up to two radii from its centre
+  bool has_fits = false;           ///< scenes of machine elements that fit each other (`fit_scene.h`)
+};
+
 /// Runs scene `index` of a seed for `milliseconds` ticks. The result does not depend on time, machine or thread, nor on
-/// `has_search_thread`, which lets the simulation search in a thread of its own. With `is_off_centre`, the compliance
-/// point of the part lies elsewhere, up to two radii from its centre.
+/// `has_search_thread`.
 TortureCounts run_torture_scene(std::uint64_t seed, std::int64_t index, int milliseconds,
-                                bool has_search_thread = false, bool is_off_centre = false);
+                                const TortureOptions& options = {});
 
 }  // namespace glissade::test_support
