@@ -19,6 +19,7 @@ void HeldPartState::rest(SlidingState state) {
   offset = {};
   closing = 0.0;
   spiral_search = SpiralSearch(part_V->radius());
+  rest_watch = RestWatch(lever);
   result.state = state;
   result.contacts.clear();
   result.pushing = 0;
@@ -89,7 +90,8 @@ void HeldPartState::end_cycle(int number, double reach) {
 
 void HeldPartState::end_tick(double milliseconds) {
   previous_lag = lag();
-  if (may_search) spiral_search.observe(previous_lag, moved, result.pushing > 0, milliseconds);
+  rest_watch.observe(result.X_WV, X_WS, p_Vref, moved > kNotWorthIt * margin, milliseconds);
+  if (may_search) spiral_search.observe(result.X_WT, p_Vref, previous_lag, moved, result.pushing > 0, milliseconds);
 }
 
 SlidingState HeldPartState::classify() const {

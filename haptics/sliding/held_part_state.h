@@ -13,6 +13,7 @@
 #include <glissade/haptics/sliding_result.h>
 #include <glissade/haptics/sliding_rules.h>
 
+#include "sliding/rest_watch.h"
 #include "sliding/spiral_search.h"
 
 namespace glissade::haptics {
@@ -28,6 +29,7 @@ struct HeldPartState {
   std::optional<PartScript> script;
   bool may_search;  // in a spiral
   SpiralSearch spiral_search;
+  RestWatch rest_watch;
 
   SlidingResult result{};
   Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();           // where steps aim, mostly X_WT

@@ -10,7 +10,7 @@ constexpr double kLeastLag_m = 0.1e-3;
 constexpr double kStill_m = 0.5e-6;  // in a call
 constexpr double kPatience_ms = 100.0;
 constexpr double kLongestSearch_ms = 2000.0;
-constexpr double kWantedElsewhere_m = 0.3e-3;
+constexpr double kElsewhere_m = 1e-3;  // so much a hand may go on pressing
 
 constexpr double kOffset_m = 1.6e-3;
 constexpr double kTilt = 1.4 * std::numbers::pi / 180.0;
@@ -18,33 +18,28 @@ constexpr double kTurns_per_ms = 0.01;
 
 }  // namespace
 
-void SpiralSearch::observe(const geometry::Displacement& error, double moved, bool is_held, double milliseconds) {
-  const bool is_wanted_elsewhere = is_held && geometry::motion_bound(error, radius_) > kLeastLag_m;
-  if (!is_wanted_elsewhere) {
-    is_searching_ = false;
-    has_given_up_ = false;
+void SpiralSearch::observe(const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& p_Vref,
+                           const geometry::Displacement& error, double moved, bool is_held, double milliseconds) {
+  const bool is_stuck = is_held && geometry::motion_bound(error, radius_) > kLeastLag_m;
+  if (has_begun_ && is_elsewhere(X_WT, p_Vref)) {
+    is_searching_ = has_begun_ = false;
     still_ms_ = 0.0;
-    return;
-  }
-  if (has_given_up_) {
-    const geometry::Displacement change{error.v - stuck_.v, error.w - stuck_.w};
-    has_given_up_ = geometry::motion_bound(change, radius_) < kWantedElsewhere_m;
-    return;
   }
   if (is_searching_) {
     searched_ms_ += milliseconds;
-    if (searched_ms_ < kLongestSearch_ms) return;
-    is_searching_ = false;
-    has_given_up_ = true;
-    stuck_ = error;
-    still_ms_ = 0.0;
+    is_searching_ = is_stuck && searched_ms_ < kLongestSearch_ms;
     return;
   }
-  still_ms_ = moved < kStill_m ? still_ms_ + milliseconds : 0.0;
-  if (still_ms_ < kPatience_ms) return;
-  is_searching_ = true;
+  still_ms_ = is_stuck && moved < kStill_m ? still_ms_ + milliseconds : 0.0;
+  if (has_begun_ || still_ms_ < kPatience_ms) return;
+  is_searching_ = has_begun_ = true;
   searched_ms_ = 0.0;
   stuck_ = error;
+  X_WT_ = X_WT;
+}
+
+bool SpiralSearch::is_elsewhere(const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& p_Vref) const {
+  return geometry::motion_bound(geometry::displacement_between(X_WT_, X_WT, p_Vref), radius_) > kElsewhere_m;
 }
 
 Eigen::Isometry3d SpiralSearch::aim(const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& p_Vref) const {

@@ -10,15 +10,17 @@
 namespace glissade::haptics {
 
 /// The spiral search of one part. It cannot distinguish a part that is stuck from one that is simply pressed against
-/// something, so it gives up after two seconds, until the target moves elsewhere. Deterministic. Not thread-safe.
+/// something, or has found its hole. So it searches once, for two seconds or until nothing holds the part any more; and
+/// again only when the target has moved by a millimetre, which ends a search, too. Deterministic. Not thread-safe.
 class SpiralSearch {
  public:
   /// For a part of the given radius (metres).
   explicit SpiralSearch(double radius) : radius_(radius) {}
 
-  /// Notes the outcome of a call of `advance` over `milliseconds`: the displacement `error` from the part to its
-  /// target, the metres that the part `moved`, and whether contacts held it.
-  void observe(const geometry::Displacement& error, double moved, bool is_held, double milliseconds);
+  /// Notes the outcome of a call of `advance` over `milliseconds`: the target, the displacement `error` from the part
+  /// to it, the metres that the part `moved`, and whether contacts held it.
+  void observe(const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& p_Vref, const geometry::Displacement& error,
+               double moved, bool is_held, double milliseconds);
 
   bool is_searching() const { return is_searching_; }
 
@@ -28,12 +30,15 @@ class SpiralSearch {
   Eigen::Isometry3d aim(const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& p_Vref) const;
 
  private:
+  bool is_elsewhere(const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& p_Vref) const;
+
   double radius_;
   bool is_searching_ = false;
-  bool has_given_up_ = false;
+  bool has_begun_ = false;  // a search for the target X_WT_
   double still_ms_ = 0.0;
   double searched_ms_ = 0.0;
-  geometry::Displacement stuck_;  // the error when the part got stuck, or when the search gave up
+  geometry::Displacement stuck_;                            // the error when the part got stuck
+  Eigen::Isometry3d X_WT_ = Eigen::Isometry3d::Identity();  // its target then
 };
 
 }  // namespace glissade::haptics

@@ -49,8 +49,17 @@ void StepFinder::begin(WorkBudget& budget) {
     wanted_[p] = geometry::displacement_between(parts[p].result.X_WV, parts[p].X_WS, parts[p].p_Vref);
   }
   // A step that gains more energy than this has passed a bend of the contact that the linear rows do not describe. It
-  // is repeated with damping.
-  most_energy_ = energy(parts, wanted_) + energy_allowance(parts, wanted_, shared_.largest_margin);
+  // is repeated with damping. So is a step of a part that finds no rest if it gains any, or the part would go in a
+  // circle of steps that give it margin back and steps that take it.
+  bool all_stay = true;
+  bool is_restless = false;
+  for (const HeldPartState& part : parts) {
+    if (!part.is_held()) continue;
+    all_stay = all_stay && part.rest_watch.stays();
+    is_restless = is_restless || part.rest_watch.is_restless();
+  }
+  most_energy_ = energy(parts, wanted_);
+  if (!all_stay || !is_restless) most_energy_ += energy_allowance(parts, wanted_, shared_.largest_margin);
   trial_ = 0;
   begin_trial(budget);
 }

@@ -1,0 +1,30 @@
+#include "sliding/rest_watch.h"
+
+namespace glissade::haptics {
+namespace {
+
+constexpr double kTargetStands_m = 10e-6;
+constexpr double kPartStays_m = 0.1e-3;
+constexpr double kPatience_ms = 200.0;
+
+}  // namespace
+
+void RestWatch::observe(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& p_Vref,
+                        bool moved, double milliseconds) {
+  const auto between = [&](const Eigen::Isometry3d& X_from, const Eigen::Isometry3d& X_to) {
+    return geometry::motion_bound(geometry::displacement_between(X_from, X_to, p_Vref), lever_);
+  };
+  if (between(X_WT_, X_WT) > kTargetStands_m || between(X_WV_, X_WV) > kPartStays_m) {
+    X_WV_ = X_WV;
+    X_WT_ = X_WT;
+    here_ms_ = 0.0;
+    stays_ = false;
+    is_restless_ = false;
+    return;
+  }
+  here_ms_ += milliseconds;
+  stays_ = here_ms_ > kPatience_ms;
+  is_restless_ = is_restless_ || (moved && stays_);
+}
+
+}  // namespace glissade::haptics
