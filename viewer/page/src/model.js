@@ -1,7 +1,28 @@
 // The scene as three.js objects, from the GLB of viewer/scene_model.h.
 
-import { Group, Mesh } from 'three';
+import { Box3, Group, Mesh, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+
+// Touching bodies are micrometres apart, fewer than the grid of a large mesh has: what moves is drawn so much smaller, in
+// metres, that nothing seems to be inside of anything.
+const INSET = 30e-6;
+
+function inset(node) {
+  for (const child of node.children) {
+    const box = new Box3();
+    child.traverse(({ geometry }) => {
+      if (!geometry) return;
+      geometry.computeBoundingBox();
+      box.union(geometry.boundingBox);
+    });
+    if (box.isEmpty()) continue;
+    const size = box.getSize(new Vector3()).multiply(child.scale);
+    const factor = new Vector3(...size.toArray().map((length) => Math.max(0.98, 1 - (2 * INSET) / Math.max(length, 1e-9))));
+    const centre = box.getCenter(new Vector3()).multiply(child.scale);
+    child.position.add(centre.clone().sub(centre.multiply(factor)));
+    child.scale.multiply(factor);
+  }
+}
 
 // One version of the scene, coarse or whole.
 export class Model {
@@ -17,6 +38,7 @@ export class Model {
       if (kind === 'segment') this.segments.push({ node, hand, link });
       else this.objects.push(node);
       if (part !== undefined) this.parts.set(part, node);
+      if (kind !== 'fixed') inset(node);
       node.traverse((child) => {
         if (!(child instanceof Mesh)) return;
         child.userData.owner = node;

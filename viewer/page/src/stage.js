@@ -44,14 +44,18 @@ export class Stage {
   }
 
   makeMaterials() {
-    // A little further away than it is, so that edges lie on top.
-    const solid = () => new MeshLambertMaterial({
-      side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
-    });
+    const solid = () => new MeshLambertMaterial({ side: DoubleSide });
+    const edge = new LineBasicMaterial({ transparent: true });
+    // A little nearer than they are, so that edges lie on top. Faces stay where they are: an offset of faces grows with
+    // their slope, which is not the same for all triangles of a plane, and bodies that touch are micrometres apart.
+    edge.onBeforeCompile = (shader) => {
+      shader.vertexShader = shader.vertexShader.replace(
+        '#include <project_vertex>', '#include <project_vertex>\n\tgl_Position.z -= 1e-4 * gl_Position.w;');
+    };
     const ghost = new MeshLambertMaterial({ side: DoubleSide, transparent: true, opacity: 0.28, depthWrite: false });
     return {
       fixed: solid(), held: solid(), loose: solid(), moving: solid(), skin: solid(), ghost,
-      edge: new LineBasicMaterial({ transparent: true }),
+      edge,
       contact: new MeshBasicMaterial(),
       // Over the faces that touch there.
       patch: new MeshBasicMaterial({ side: DoubleSide, transparent: true, opacity: 0.22, depthWrite: false, depthTest: false }),

@@ -64,6 +64,31 @@ test('the replay of a report is linked with its plots', async () => {
   await close(page);
 });
 
+// In its seat the motor touches a sheet without thickness from behind, with gaps of a few micrometres.
+test('nothing that touches seems to be inside of what it touches', async () => {
+  const page = await open(browser, `file://${join(folder, 'index.html')}`);
+  for (const id of ['show-ghosts', 'show-contacts', 'show-forces', 'show-edges']) await page.locator(`#${id}`).click();
+  await page.evaluate(() => {
+    const { timeline } = window.glissade.page;
+    timeline.seek(timeline.last);
+  });
+  const last = await page.evaluate(() => window.glissade.page.timeline.frame.sequence);
+  await eventually(async () => {
+    const { frame, isFine } = await inspect(page);
+    return frame.sequence === last && isFine;
+  });
+  const blue = await page.evaluate(() => {
+    const gl = window.glissade.page.stage.renderer.getContext();
+    const pixels = new Uint8Array(4 * gl.drawingBufferWidth * gl.drawingBufferHeight);
+    gl.readPixels(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    let count = 0;
+    for (let i = 0; i < pixels.length; i += 4) count += pixels[i + 2] > pixels[i] + 40 ? 1 : 0;
+    return count / (pixels.length / 4);
+  });
+  assert.ok(blue < 1e-4, `${blue} of the picture: only screws are to be seen, through their holes`);
+  await close(page);
+});
+
 test('the plots of a report can be read on a narrow screen', async () => {
   const page = await open(browser, `file://${join(folder, 'index.html')}`, { viewport: { width: 390, height: 844 } });
   const letters = await page.locator('svg[data-from]').evaluateAll((all) => all.map(
