@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/command.h>
+#include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/files/obj_file.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/open_files.h>
@@ -61,6 +62,8 @@ std::chrono::nanoseconds time_of(double at_s) {
 
 viewer::ViewScene scene_at(std::optional<std::chrono::nanoseconds> time, const std::string& scene_file) {
   const Scene file = open_scene(scene_file);
+  for (const std::string& sentence : doubtful_meshes(file))
+    warn(sentence);
   viewer::ViewScene scene{.title = file.source};
   for (const SceneObject& object : file.objects) {
     viewer::ViewObject& shown = scene.objects.emplace_back(viewer::ViewObject{object.name, object.mesh, object.X_WB});

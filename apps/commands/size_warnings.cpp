@@ -9,9 +9,14 @@
 namespace glissade::apps {
 namespace {
 
-constexpr double kDoubtful_m = 10.0;    // no thing for a hand, and no car
-constexpr double kDoubtfulRatio = 1e3;  // of a part to what it meets: that of metres to millimetres
+constexpr double kDoubtful_m = 10.0;     // no car
+constexpr double kDoubtfulPart_m = 2.0;  // no thing for a hand
+constexpr double kDoubtfulRatio = 1e3;   // of a part to what it meets: that of metres to millimetres
 constexpr double kMillimetre = 1e-3;
+
+std::string in_millimetres(double scale, const std::string& option) {
+  return ": millimetres? " + option + rounded_text(kMillimetre * scale);
+}
 
 }  // namespace
 
@@ -28,19 +33,25 @@ bool is_doubtful(double size_m) {
 
 std::string told_size(double size_m, double scale, const std::string& option) {
   const std::string text = rounded_text(size_m) + " m across";
-  return is_doubtful(size_m) ? text + ": millimetres? " + option + rounded_text(kMillimetre * scale) : text;
+  return is_doubtful(size_m) ? text + in_millimetres(scale, option) : text;
+}
+
+std::vector<std::string> doubtful_meshes(const Scene& file) {
+  std::vector<std::string> sentences;
+  for (const SceneObject& object : file.objects) {
+    const double size = size_of(*object.mesh);
+    if (!object.file_scale || size <= (object.movable ? kDoubtfulPart_m : kDoubtful_m)) continue;
+    sentences.push_back(file.source + ": object " + in_quotes(object.name) + " is " + rounded_text(size) + " m across" +
+                        in_millimetres(*object.file_scale, "scale: "));
+  }
+  return sentences;
 }
 
 std::vector<std::string> doubtful_sizes(const Scene& file, const HapticScene& scene) {
-  std::vector<std::string> sentences;
+  std::vector<std::string> sentences = doubtful_meshes(file);
   double largest_obstacle = 0.0;
   for (const SceneObject& object : file.objects) {
-    const double size = size_of(*object.mesh);
-    if (object.file_scale && is_doubtful(size)) {
-      sentences.push_back(file.source + ": object " + in_quotes(object.name) + " is " +
-                          told_size(size, *object.file_scale, "scale: "));
-    }
-    if (!scene.part_number(object.name)) largest_obstacle = std::max(largest_obstacle, size);
+    if (!scene.part_number(object.name)) largest_obstacle = std::max(largest_obstacle, size_of(*object.mesh));
   }
   for (const ScenePart& part : scene.parts) {
     const double size = size_of(part.part_V->tree.mesh());

@@ -14,14 +14,17 @@ namespace glissade::apps {
 /// The largest side of the bounding box, metres.
 double size_of(const geometry::TriangleMesh& mesh);
 
-/// "60 m across", and if this is more than things have that fit in a hand or a car, what may be wrong, for an option or
-/// a key: "60 m across: millimetres? --scale 0.001". `scale` is the present one.
+/// "60 m across", and if this is more than a car has, what may be wrong, for an option or a key: "60 m across:
+/// millimetres? --scale 0.001". `scale` is the present one.
 std::string told_size(double size_m, double scale, const std::string& option);
 /// Whether `told_size` doubts this size.
 bool is_doubtful(double size_m);
 
-/// One sentence for each mesh file whose size is doubtful, and for each part that is thousands of times as large as all
-/// obstacles together with the cure. `file` is what `scene` was made of.
+/// One sentence for each mesh file that is larger than a car, or, of a movable object, than what hands hold.
+std::vector<std::string> doubtful_meshes(const Scene& file);
+
+/// The same, and a sentence for each part that is thousands of times as large as all obstacles. `file` is what `scene`
+/// was made of.
 std::vector<std::string> doubtful_sizes(const Scene& file, const HapticScene& scene);
 
 /// Writes a warning as one line to standard error.

@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/command.h>
+#include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
 #include <glissade/apps/run/lcm_option.h>
 #include <glissade/apps/run/status_line.h>
@@ -59,6 +60,8 @@ struct Received {
 int view(const ViewOptions& options) {
   const Scene file =
       read_or_embedded_scene(options.scene, options.fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor);
+  for (const std::string& sentence : doubtful_meshes(file))
+    warn(sentence);
   std::shared_ptr<const grasping::HandModel> model;
   if (options.fingers) {
     const grasping::HandShape shape =

@@ -18,6 +18,7 @@ namespace {
 using test_support::glissade;
 using test_support::ProgramResult;
 using testing::HasSubstr;
+using testing::Not;
 
 class WrongUnits : public testing::Test {
  protected:
@@ -95,6 +96,22 @@ TEST_F(WrongUnits, RunDemoAndGraspWarnToo) {
                "- {name: part, movable: true, mesh: small.obj}\n"
                "- {name: block, mesh: large.obj}\n");
   EXPECT_THAT(glissade({"run", scene, "--lcm", "udpm://239.255.76.67:7667?ttl=0"}).standard_error, HasSubstr(warning));
+}
+
+TEST_F(WrongUnits, ViewAndExportWarnOfMeshesToo) {
+  const std::string scene = folder.write("scene.yaml", "objects: [{name: block, mesh: large.obj}]\n");
+  const std::string warning = "warning: " + scene + ": object 'block' is 60 m across: millimetres? scale: 0.001\n";
+  EXPECT_THAT(glissade({"export", scene, "--out", folder.path("all.obj")}).standard_error, HasSubstr(warning));
+  EXPECT_THAT(glissade({"view", scene, "--port", "0", "--seconds", "0.1", "--lcm", "memq://"}).standard_error,
+              HasSubstr(warning));
+}
+
+TEST_F(WrongUnits, AScrewInMillimetresIsNoPartForAHand) {
+  mesh("screw.obj", "8");
+  const std::string warning = "object 'part' is 8 m across: millimetres? scale: 0.001\n";
+  EXPECT_THAT(slide("mesh: screw.obj", "mesh: screw.obj", "-20").standard_error, HasSubstr(warning));
+  EXPECT_THAT(slide("mesh: screw.obj", "mesh: screw.obj", "-20").standard_error, Not(HasSubstr("'block'")))
+      << "a car has obstacles of this size";
 }
 
 TEST_F(WrongUnits, SlideWarnsOfAPartThousandsOfTimesAsLargeAsAllElse) {
