@@ -253,7 +253,7 @@ int run(const GraspOptions& options) {
   GraspTables tables(scene, simulation, hands, options);
   GraspOutcome outcome(scene, simulation);
   std::optional<GraspReport> report;
-  if (!options.report.empty()) report.emplace(scene, simulation, hands);
+  if (!options.report.empty()) report.emplace(scene, simulation, hands, ticks + 1);
   ProgressBar progress("grasping", ticks + 1);
   std::vector<std::optional<grasping::Posture>> targets(hands.size());
   for (std::int64_t tick = 0; tick <= ticks; ++tick) {

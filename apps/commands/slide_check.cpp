@@ -8,13 +8,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include <glissade/apps/commands/clearance_curve.h>
 #include <glissade/apps/commands/least_clearance.h>
 #include <glissade/apps/commands/slide_check.h>
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/report/growing_curve.h>
 #include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/view/clearance_curve.h>
 
 namespace glissade::apps {
 namespace {
@@ -190,7 +190,7 @@ Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks
       plot.series.push_back(check->force);
     report.plots.push_back(std::move(plot));
   }
-  Plot clearance{"Clearance of the visible part, up to 20 mm", kTimeLabel, "clearance [um]", {}};
+  Plot clearance = clearance_plot();
   for (const SlideCheck* check : by_force)
     clearance.series.push_back(check->clearance);
   report.plots.push_back(std::move(clearance));

@@ -11,6 +11,7 @@
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/report/vector_curve.h>
 #include <glissade/apps/run/session.h>
+#include <glissade/apps/view/clearance_curve.h>
 #include <glissade/apps/view/part_curves.h>
 #include <glissade/apps/view/session_view.h>
 
@@ -188,6 +189,24 @@ void add_plots(const SessionSummary& summary, const Session& session, Report& re
   report.plots.push_back({"Age of the contact set", kTimeLabel, "age [ms]", {std::move(age)}});
 }
 
+/// The clearance of each part that hands can hold, by its poses.
+void add_clearance(const HapticScene& scene, const SessionRecorder& samples, Report& report) {
+  Plot plot = clearance_plot();
+  for (std::size_t part = 0; part < scene.parts.size(); ++part) {
+    ClearanceCurve curve(scene, static_cast<std::int64_t>(samples.size()), part);
+    std::vector<Eigen::Isometry3d> others_X_WB;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      others_X_WB.clear();
+      for (std::size_t p = 0; p < samples.parts(); ++p) {
+        if (p != part) others_X_WB.push_back(samples.part(i, p).X_WV);
+      }
+      curve.note(samples.tick(i).time - samples.tick(0).time, samples.part(i, part).X_WV, others_X_WB);
+    }
+    plot.series.push_back(curve.take(scene.parts[part].name));
+  }
+  report.plots.push_back(std::move(plot));
+}
+
 nlohmann::json to_json(const PartSummary& part, double tick_s) {
   nlohmann::json states;
   for (std::size_t i = 0; i < part.state_ticks.size(); ++i)
@@ -306,6 +325,7 @@ std::string write_session_report(const SessionSummary& summary, const Session& s
   Report report{title, rows_of(summary, session, false), {}};
   if (summary.samples > 0) {
     add_plots(summary, session, report);
+    add_clearance(scene, *session.samples, report);
     report.replay = replay_of(session, scene);
   }
   return write_html_report(report, folder);

@@ -34,7 +34,7 @@ std::vector<std::string> names_of_parts(const HapticScene& scene) {
 }  // namespace
 
 GraspReport::GraspReport(const HapticScene& scene, const grasping::GraspSimulation& simulation,
-                         const std::vector<std::shared_ptr<const grasping::HandModel>>& hands)
+                         const std::vector<std::shared_ptr<const grasping::HandModel>>& hands, std::int64_t ticks)
     : scene_(scene),
       simulation_(simulation),
       replay_(grasp_view_of(scene, hands)),
@@ -50,6 +50,8 @@ GraspReport::GraspReport(const HapticScene& scene, const grasping::GraspSimulati
   for (std::size_t p = 0; p < simulation.part_count(); ++p) {
     patches_.emplace_back(simulation.parts().part(p).radius());
   }
+  for (std::size_t p = 0; p < scene.parts.size(); ++p)
+    clearances_.emplace_back(scene, ticks, p);
 }
 
 void GraspReport::add(std::chrono::nanoseconds time) {
@@ -68,6 +70,11 @@ void GraspReport::add(std::chrono::nanoseconds time) {
     const haptics::Wrench wrench = wrench_about_origin(simulation_.parts(), p);
     forces_[p].add(time_s, wrench.f);
     torques_[p].add(time_s, wrench.t);
+    others_X_WB_.clear();
+    for (std::size_t other = 0; other < simulation_.part_count(); ++other) {
+      if (other != p) others_X_WB_.push_back(simulation_.parts().result(other).X_WV);
+    }
+    clearances_[p].note(std::chrono::milliseconds(ticks_ - 1), result.X_WV, others_X_WB_);
   }
   for (std::size_t h = 0; h < simulation_.hand_count(); ++h) {
     const auto part = simulation_.held_part(h);
@@ -96,6 +103,10 @@ Report GraspReport::finish(const GraspOutcome& outcome) {
     report.plots.push_back(torques_[p].plot("Torque" + of_part + ", about its origin", "torque [Nm]"));
   }
   parts_.finish(report);
+  Plot clearance = clearance_plot();
+  for (std::size_t p = 0; p < clearances_.size(); ++p)
+    clearance.series.push_back(clearances_[p].take(scene_.parts[p].name));
+  report.plots.push_back(std::move(clearance));
   report.replay = replay_.finish();
   return report;
 }

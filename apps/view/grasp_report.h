@@ -12,6 +12,7 @@
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/report/vector_curve.h>
 #include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/view/clearance_curve.h>
 #include <glissade/apps/view/grasp_outcome.h>
 #include <glissade/apps/view/part_curves.h>
 #include <glissade/apps/view/replay_maker.h>
@@ -23,8 +24,9 @@ namespace glissade::apps {
 /// Looks at a simulation, which must outlive it, millisecond by millisecond.
 class GraspReport {
  public:
+  /// For a run of so many milliseconds.
   GraspReport(const HapticScene& scene, const grasping::GraspSimulation& simulation,
-              const std::vector<std::shared_ptr<const grasping::HandModel>>& hands);
+              const std::vector<std::shared_ptr<const grasping::HandModel>>& hands, std::int64_t ticks);
 
   void add(std::chrono::nanoseconds time);
   Report finish(const GraspOutcome& outcome);
@@ -41,6 +43,8 @@ class GraspReport {
   std::vector<VectorCurve> forces_;     // by part
   std::vector<VectorCurve> torques_;
   PartCurves parts_;
+  std::vector<ClearanceCurve> clearances_;  // by part
+  std::vector<Eigen::Isometry3d> others_X_WB_;
 };
 
 }  // namespace glissade::apps

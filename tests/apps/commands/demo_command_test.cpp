@@ -79,8 +79,9 @@ TEST_F(Demo, InRealTimeGloveAndServerMeetOverLcmAndReachTheSameSeat) {
   std::ifstream page(files().path("report") + "/index.html");
   std::stringstream html;
   html << page.rdbuf();
-  for (const char* text : {"<h2>Force on the hand of glove 1</h2>", "<h2>Torque on the hand of glove 1</h2>",
-                           "<h2>States of the parts</h2>", "<span>sliding</span>"})
+  for (const char* text :
+       {"<h2>Force on the hand of glove 1</h2>", "<h2>Torque on the hand of glove 1</h2>",
+        "Clearance of the visible parts, up to 20 mm", "<h2>States of the parts</h2>", "<span>sliding</span>"})
     EXPECT_NE(html.str().find(text), std::string::npos) << text;
   // Nothing is fetched from anywhere.
   for (const char* reference : {"<script src", "src=\"http", "href=\"http", "url(http", "@import"}) {

@@ -10,10 +10,10 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/apps/commands/clearance_curve.h>
 #include <glissade/apps/commands/least_clearance.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/view/clearance_curve.h>
 #include <glissade/collision/dop_query.h>
 #include <glissade/haptics/sliding.h>
 
@@ -29,8 +29,8 @@ Isometry3d pose(const Vector3d& p, const Eigen::Quaterniond& q = Eigen::Quaterni
   return Eigen::Translation3d(p) * q;
 }
 
-HapticScene scene_of(const std::string& objects) {
-  return make_haptic_scene(parse_scene("objects:\n" + objects, "scene", "."), {"part"});
+HapticScene scene_of(const std::string& objects, const std::vector<std::string>& parts = {"part"}) {
+  return make_haptic_scene(parse_scene("objects:\n" + objects, "scene", "."), parts);
 }
 
 /// Whether the part is within `distance` of any other object, by a search of its own.
@@ -216,6 +216,27 @@ TEST(ClearanceCurve, IsTheGapOfABoxAboveAPlate) {
     if (gap_um > 20e3 + 1.0) {
       EXPECT_TRUE(std::isnan(series.y[i])) << i;
     }
+  }
+}
+
+TEST(ClearanceCurve, IsThatOfEachPartAmongTheOthers) {
+  const std::string box = ", movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n";
+  const HapticScene scene = scene_of("  - {name: left" + box + "  - {name: right" + box +
+                                         "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n",
+                                     {"left", "right"});
+  ClearanceCurve left(scene, 10, 0);
+  ClearanceCurve right(scene, 10, 1);
+  for (int i = 0; i < 10; ++i) {
+    const Isometry3d X_WLeft = pose({0.0, 0.0, 0.01 + 3e-3});
+    const Isometry3d X_WRight = pose({0.02 + 1e-3 * i, 0.0, 0.01 + 5e-3});
+    left.note(std::chrono::milliseconds(i), X_WLeft, std::span(&X_WRight, 1));
+    right.note(std::chrono::milliseconds(i), X_WRight, std::span(&X_WLeft, 1));
+  }
+  const PlotSeries of_left = left.take("left");
+  const PlotSeries of_right = right.take("right");
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_NEAR(of_left.y[i], std::min(1e3 * static_cast<double>(i), 3e3), 1e-6) << "the right box, then the plate";
+    EXPECT_NEAR(of_right.y[i], std::min(1e3 * static_cast<double>(i), 5e3), 1e-6) << "the left box, then the plate";
   }
 }
 

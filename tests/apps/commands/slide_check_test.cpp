@@ -132,7 +132,7 @@ TEST_F(AssemblyCheck, ThePageOfOneTrajectoryShowsWhatPushesWhen) {
   const std::string page = read_text_file(folder.path("page/index.html"));
   for (const char* title : {"Force on the hand", "Torque on the hand about the origin of the part",
                             "Lag of the visible parts behind their ghosts", "Contacts that push",
-                            "Clearance of the visible part, up to 20 mm", "States of the parts"})
+                            "Clearance of the visible parts, up to 20 mm", "States of the parts"})
     EXPECT_THAT(page, testing::HasSubstr("<h2>" + std::string(title) + "</h2>"));
   for (const char* state : {"free", "sliding"})
     EXPECT_THAT(page, testing::HasSubstr("<span>" + std::string(state) + "</span>"));

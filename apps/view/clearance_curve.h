@@ -19,20 +19,21 @@
 
 namespace glissade::apps {
 
-/// The distance between the features of the first part of a scene and those of all other objects, as of
-/// `LeastClearance`, at 250 to 500 moments of a run, or at all poses of a shorter one. Not thread-safe.
+/// The distance between the features of a part of a scene and those of all other objects, as of `LeastClearance`, at
+/// 250 to 500 moments of a run, or at all poses of a shorter one. Not thread-safe.
 class ClearanceCurve {
  public:
   /// Clearances from here on are left out: the curve has gaps there.
   static constexpr double kFarthest_m = 0.02;
 
-  /// For a run of so many poses. The scene must outlive this object.
-  ClearanceCurve(const HapticScene& scene, std::int64_t poses);
+  /// For the part with this number in a run of so many poses. The scene must outlive this object.
+  ClearanceCurve(const HapticScene& scene, std::int64_t poses, std::size_t part = 0);
 
-  /// Takes the next pose of the part and the poses of the objects that move on their own, in their order in the scene.
-  /// `contacts`, at this pose or near it, save work: nothing farther away than their triangles is searched.
+  /// Takes the next pose of the part, and the poses of the other parts and of the objects that move on their own, in
+  /// their order in the scene. `contacts`, at this pose or near it, save work: nothing farther away than their
+  /// triangles is searched.
   void note(std::chrono::nanoseconds time, const Eigen::Isometry3d& X_WV,
-            std::span<const Eigen::Isometry3d> moving_X_WB, std::span<const haptics::Contact> contacts);
+            std::span<const Eigen::Isometry3d> moving_X_WB, std::span<const haptics::Contact> contacts = {});
 
   /// Micrometres over seconds.
   PlotSeries take(std::string name);
@@ -53,14 +54,18 @@ class ClearanceCurve {
   double distance_to(std::size_t b, const Eigen::Isometry3d& X_WV, double limit);
 
   const haptics::SlidingPart& part_V_;
-  std::vector<Body> bodies_;  // obstacles, then objects that move on their own
+  std::vector<Body> bodies_;  // obstacles, other parts, objects that move on their own
   std::size_t first_moving_;
-  std::int64_t every_;  // poses
+  std::size_t own_number_;  // among the bodies of contacts
+  std::int64_t every_;      // poses
   std::int64_t noted_ = 0;
   std::optional<Pair> nearest_;  // at the last moment
   collision::QueryWorkspace workspace_;
   std::vector<collision::ClosePair> close_;
   PlotSeries series_;
 };
+
+/// A plot without curves, for some of these.
+Plot clearance_plot();
 
 }  // namespace glissade::apps

@@ -2,7 +2,7 @@
 #include <limits>
 #include <utility>
 
-#include <glissade/apps/commands/clearance_curve.h>
+#include <glissade/apps/view/clearance_curve.h>
 #include <glissade/collision/dop_query.h>
 #include <glissade/geometry/triangle_pair.h>
 
@@ -14,12 +14,17 @@ constexpr std::int64_t kMoments = 500;  // at most
 
 }  // namespace
 
-ClearanceCurve::ClearanceCurve(const HapticScene& scene, std::int64_t poses)
-    : part_V_(*scene.parts.front().part_V),
+ClearanceCurve::ClearanceCurve(const HapticScene& scene, std::int64_t poses, std::size_t part)
+    : part_V_(*scene.parts[part].part_V),
       first_moving_(scene.obstacles.size()),
+      own_number_(scene.obstacles.size() + part),
       every_(std::max<std::int64_t>(1, (poses + kMoments - 1) / kMoments)) {
   for (const haptics::Obstacle& obstacle : scene.obstacles)
     bodies_.push_back({.body_B = obstacle.body.get(), .X_WB = obstacle.X_WO});
+  for (std::size_t other = 0; other < scene.parts.size(); ++other) {
+    if (other != part)
+      bodies_.push_back({.body_B = scene.parts[other].part_V.get(), .X_WB = Eigen::Isometry3d::Identity()});
+  }
   for (const haptics::ScriptedPart& moving : scene.moving)
     bodies_.push_back({.body_B = moving.part_B.get(), .X_WB = Eigen::Isometry3d::Identity()});
 }
@@ -44,9 +49,9 @@ void ClearanceCurve::note(std::chrono::nanoseconds time, const Eigen::Isometry3d
 }
 
 ClearanceCurve::Pair ClearanceCurve::pair_of(const haptics::Contact& contact) const {
-  // The part has a number too, between those of obstacles and moving objects.
+  // The part has a number too.
   const auto number = static_cast<std::size_t>(contact.obstacle);
-  return {number > first_moving_ ? number - 1 : number, {contact.obstacle_triangle, contact.part_triangle}};
+  return {number > own_number_ ? number - 1 : number, {contact.obstacle_triangle, contact.part_triangle}};
 }
 
 double ClearanceCurve::distance_of(const Pair& pair, const Eigen::Isometry3d& X_WV) const {
@@ -91,6 +96,10 @@ double ClearanceCurve::distance_to(std::size_t b, const Eigen::Isometry3d& X_WV,
     }
     if (!close_.empty() || within >= limit) return least;
   }
+}
+
+Plot clearance_plot() {
+  return {"Clearance of the visible parts, up to 20 mm", kTimeLabel, "clearance [um]", {}};
 }
 
 PlotSeries ClearanceCurve::take(std::string name) {
