@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <glissade/apps/progress.h>
+#include <glissade/apps/text.h>
 
 namespace glissade::apps {
 
@@ -16,15 +17,21 @@ constexpr int kBarWidth = 40;
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::string label, std::int64_t total)
+ProgressBar::ProgressBar(std::string label, std::int64_t total, AmountText amount)
     : label_(std::move(label)),
       total_(total),
+      amount_(std::move(amount)),
       on_terminal_(isatty(STDERR_FILENO) == 1),
       next_draw_(std::chrono::steady_clock::now() + kQuietTime) {}
 
 ProgressBar::~ProgressBar() {
+  erase();
+}
+
+void ProgressBar::erase() {
   // Carriage return, then "erase to the end of the line".
   if (drawn_) std::cerr << "\r\033[K" << std::flush;
+  drawn_ = false;
 }
 
 void ProgressBar::update(std::int64_t done) {
@@ -33,7 +40,9 @@ void ProgressBar::update(std::int64_t done) {
 }
 
 void ProgressBar::draw(std::int64_t done) {
-  std::cerr << '\r' << progress_line(label_, done, total_, kBarWidth) << std::flush;
+  std::cerr << '\r' << progress_line(label_, done, total_, kBarWidth);
+  if (amount_) std::cerr << ", " << amount_(done, total_);
+  std::cerr << std::flush;
   drawn_ = true;
   next_draw_ = std::chrono::steady_clock::now() + kRedrawPeriod;
 }
@@ -44,6 +53,11 @@ std::string progress_line(const std::string& label, std::int64_t done, std::int6
   const std::string percent = std::to_string(within * 100 / total);
   return label + " [" + std::string(filled, '#') + std::string(static_cast<std::size_t>(width) - filled, ' ') + "] " +
          std::string(3 - percent.size(), ' ') + percent + " %";
+}
+
+std::string simulated_time(std::int64_t done_ms, std::int64_t total_ms) {
+  const auto seconds = [](std::int64_t ms) { return fixed_text(1e-3 * static_cast<double>(ms), 3); };
+  return seconds(std::min(done_ms, total_ms)) + " of " + seconds(total_ms) + " s simulated";
 }
 
 }  // namespace glissade::apps

@@ -4,16 +4,20 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace glissade::apps {
+
+/// The amount of work that is done, in words, such as "1.20 of 6.00 s".
+using AmountText = std::function<std::string(std::int64_t done, std::int64_t total)>;
 
 /// Shows the progress of counted work on standard error, if that is a terminal and once the work has taken a second.
 /// The destructor erases it. Not thread-safe; may block on the terminal.
 class ProgressBar {
  public:
-  /// `total` > 0 is the amount of work.
-  ProgressBar(std::string label, std::int64_t total);
+  /// `total` > 0 is the amount of work. `amount`, if there is one, follows the bar.
+  ProgressBar(std::string label, std::int64_t total, AmountText amount = {});
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -21,12 +25,15 @@ class ProgressBar {
   /// Reports that `done` of `total` is done. Draws at most 10 times a second, so it is cheap enough for loops whose
   /// steps take microseconds.
   void update(std::int64_t done);
+  /// Takes the bar away, so that something else can be written; the next update may draw it again.
+  void erase();
 
  private:
   void draw(std::int64_t done);
 
   std::string label_;
   std::int64_t total_;
+  AmountText amount_;
   bool on_terminal_;
   bool drawn_ = false;
   std::chrono::steady_clock::time_point next_draw_;
@@ -34,5 +41,8 @@ class ProgressBar {
 
 /// The line shown: the label, a bar of `width` cells and the percentage.
 std::string progress_line(const std::string& label, std::int64_t done, std::int64_t total, int width);
+
+/// The amount of a simulation whose work is counted in milliseconds.
+std::string simulated_time(std::int64_t done_ms, std::int64_t total_ms);
 
 }  // namespace glissade::apps

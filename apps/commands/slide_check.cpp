@@ -10,7 +10,6 @@
 
 #include <glissade/apps/commands/least_clearance.h>
 #include <glissade/apps/commands/slide_check.h>
-#include <glissade/apps/files/csv.h>
 #include <glissade/apps/report/growing_curve.h>
 #include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
@@ -146,21 +145,6 @@ std::string verdict(const SlideCheck& check) {
          " degrees from it; at most " + fixed_text(check.force_max_N, 2) + " N and " +
          fixed_text(check.torque_max_Nm, 3) + " Nm" + clearance + "; " + fixed_text(check.contact_s, 3) + " of " +
          fixed_text(check.duration_s, 3) + " s in contact";
-}
-
-void write_checks(const std::vector<SlideCheck>& checks, const std::string& path) {
-  CsvWriter out(path, {"trajectory", "goal_reached", "goal_distance_m", "goal_angle_deg", "force_max_N",
-                       "torque_max_Nm", "clearance_min_m", "clearance_min_at_s", "duration_s", "contact_s"});
-  for (const SlideCheck& check : checks) {
-    if (check.problem) continue;
-    out.add(check.trajectory).add(std::int64_t{check.goal_reached});
-    for (const double value : {check.goal_distance_m, check.goal_angle_deg, check.force_max_N, check.torque_max_Nm,
-                               check.clearance_min_m, check.clearance_min_at_s, check.duration_s, check.contact_s}) {
-      out.add(value);
-    }
-    out.end_row();
-  }
-  out.close();
 }
 
 Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& options) {

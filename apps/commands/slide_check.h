@@ -56,9 +56,6 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
 /// The outcome in one sentence.
 std::string verdict(const SlideCheck& check);
 
-/// Writes one row per check, in their order; `path` as for `CsvWriter`.
-void write_checks(const std::vector<SlideCheck>& checks, const std::string& path);
-
 /// The page of all checks; that of a single one lacks what `SlideReplay` adds.
 Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& options);
 

@@ -74,7 +74,7 @@ class CsvWriter {
   void end_row();
 
   /// Flushes. Throws std::runtime_error when not everything could be written, for example on a full disk. Call it at
-  /// the end: the destructor reports no failure.
+  /// the end: the destructor reports no failure. More rows may follow it, where a reader should not wait for the end.
   void close();
 
  private:

@@ -15,5 +15,10 @@ TEST(ProgressLine, NeverLeavesItsBar) {
   EXPECT_EQ(progress_line("poses", 900, 200, 4), "poses [####] 100 %");
 }
 
+TEST(ProgressLine, TellsTheSimulatedTime) {
+  EXPECT_EQ(simulated_time(1234, 6000), "1.234 of 6.000 s simulated");
+  EXPECT_EQ(simulated_time(7000, 6000), "6.000 of 6.000 s simulated");
+}
+
 }  // namespace
 }  // namespace glissade::apps

@@ -1,7 +1,10 @@
 /// `glissade slide` as an assembly check: a stack of trajectories in, one row for each out, and a page.
 
+#include <chrono>
+#include <filesystem>
 #include <map>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -136,6 +139,29 @@ TEST_F(AssemblyCheck, ThePageOfOneTrajectoryShowsWhatPushesWhen) {
     EXPECT_THAT(page, testing::HasSubstr("<h2>" + std::string(title) + "</h2>"));
   for (const char* state : {"free", "sliding"})
     EXPECT_THAT(page, testing::HasSubstr("<span>" + std::string(state) + "</span>"));
+}
+
+TEST_F(AssemblyCheck, TellsWhereItStandsBeforeItEnds) {
+  // Hours of motion, which nobody waits for.
+  const std::string endless = trajectory("endless.csv", "0,0,0,0.03,1,0,0,0\n86400,0.01,0,0.03,1,0,0,0\n");
+  const std::string summary = folder.path("summary.csv");
+  const std::string command = std::string(GLISSADE_PROGRAM) + " slide " + scene + " --part box --trajectory " + above +
+                              " " + endless + " --summary " + summary;
+  // `script` gives it a terminal; the test reads what appears there.
+  const test_support::Process program({"/bin/sh", "-c", "exec script -qefc '" + command + "' /dev/null >&2"});
+  const std::string bar = " of 86400.2";  // seconds of both together, of which the second has not ended
+  std::string rows;
+  std::string terminal;
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (std::chrono::steady_clock::now() < deadline &&
+         (terminal.find(bar) == std::string::npos || rows.find("above.csv") == std::string::npos)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    terminal = program.standard_error();
+    rows = std::filesystem::exists(summary) ? read_text_file(summary) : "";
+  }
+  EXPECT_THAT(terminal, testing::HasSubstr(bar));
+  EXPECT_EQ(checks_of(rows).size(), 1u) << rows;
+  EXPECT_EQ(checks_of(rows).count("above.csv"), 1u) << rows;
 }
 
 TEST_F(AssemblyCheck, OneRunWritesEverything) {
