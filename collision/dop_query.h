@@ -69,13 +69,15 @@ struct Penetration {
 ///
 /// Because of this query, the depth is a guaranteed upper bound of the shortest translation that separates the two
 /// surfaces. A shorter
-/// translation may exist: the search tries directions all around, the normals of intersecting triangles, and then
-/// directions ever closer to the best direction so far, down to a few thousandths of a radian from it. For convex
+/// translation may exist: the search tries directions all around, the normals of intersecting triangles, the axes of
+/// both frames and the diagonals between them, and then directions ever closer to the best direction so far, down to a
+/// few thousandths of a radian from it. Along axes and diagonals it finds the nearest free place, however small, such
+/// as the middle of a hole; along the others it may miss small ones. For convex
 /// bodies the depth is within a few per cent of the least depth. Meshes are surfaces without an inside: a body that
 /// lies inside a closed surface without touching it is apart from the surface, and the shortest way out of a shell may
 /// lead inward. Only the translated pose is tested: on the way to this pose, B may meet A or other objects.
 ///
-/// Deterministic. Cost: a few hundred queries. Throws as the queries do.
+/// Deterministic. Cost: a few hundred queries, seldom more than a thousand. Throws as the queries do.
 Penetration find_way_out(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                          QueryWorkspace& workspace, double clearance = 0.0);
 

@@ -22,7 +22,7 @@ Overlaps overlaps_of(std::size_t part, const HapticScene& scene, std::span<const
     const Eigen::Isometry3d X_BV = X_WB.inverse(Eigen::Isometry) * X_WV[part];
     const double depth = collision::find_way_out(tree, scene.parts[part].part_V->tree, X_BV, workspace).depth();
     if (depth == 0.0) return;
-    overlaps.text += (overlaps.text.empty() ? "" : ", ") + rounded_text(1e3 * depth) + " mm deep in " + name;
+    overlaps.text += (overlaps.text.empty() ? "at most " : ", ") + rounded_text(1e3 * depth) + " mm deep in " + name;
   };
   for (const haptics::Obstacle& obstacle : scene.obstacles)
     look_at(obstacle.body->tree, obstacle.X_WO, obstacle.name);

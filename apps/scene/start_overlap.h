@@ -12,7 +12,7 @@
 namespace glissade::apps {
 
 /// The first part of the scene that overlaps other objects: each of them with the length of a translation that leads
-/// out of it, and advice, to follow the message, such as ": 10 mm deep in 'floor', 2.5 mm deep in 'wall'; begin
+/// out of it, and advice, to follow the message, such as ": at most 10 mm deep in 'floor', 2.5 mm deep in 'wall'; begin
 /// elsewhere, or let --depenetrate push the part out of obstacles". Empty if none overlaps. One pose for each part and
 /// for each object that moves on its own. Cost: some hundred collision queries for each other object.
 std::string overlap_advice(const HapticScene& scene, std::span<const Eigen::Isometry3d> X_WV,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -20,6 +21,8 @@ constexpr double kShortest = 1e-12;        // of the radii: bodies that only tou
 constexpr double kFirstTilt = 0.4;         // radians
 constexpr double kLastTilt = 0.005;
 constexpr int kTriedNearby = 6;
+constexpr int kSweepSteps = 32;
+constexpr double kBeyond = 1e-9;  // of the radii: a sweep goes so far beyond the place where triangles only touch
 
 // Directions spread evenly over the sphere: a spiral from pole to pole with turns by the golden angle.
 Vector3d spiral_direction(int i) {
@@ -32,6 +35,42 @@ Vector3d spiral_direction(int i) {
 Vector3d triangle_normal(const geometry::TriangleMesh& mesh, std::int32_t triangle) {
   const Vector3d& a = mesh.corner(triangle, 0);
   return (mesh.corner(triangle, 1) - a).cross(mesh.corner(triangle, 2) - a).normalized();
+}
+
+using Corners = std::array<Vector3d, 3>;
+
+Corners corners_of(const geometry::TriangleMesh& mesh, std::int32_t triangle, const Eigen::Isometry3d& X) {
+  return {X * mesh.corner(triangle, 0), X * mesh.corner(triangle, 1), X * mesh.corner(triangle, 2)};
+}
+
+// How far b must move along n until a direction separates it by more than the clearance from a, behind it.
+double exit_length(const Corners& a, const Corners& b, const Vector3d& n, double clearance) {
+  const auto edge = [](const Corners& triangle, std::size_t i) -> Vector3d {
+    return triangle[(i + 1) % 3] - triangle[i];
+  };
+  double exit = std::numeric_limits<double>::infinity();
+  const auto try_axis = [&](Vector3d axis) {
+    const double norm = axis.norm();
+    if (norm == 0.0) return;
+    axis /= axis.dot(n) < 0.0 ? -norm : norm;
+    const double speed = axis.dot(n);
+    if (speed <= 0.0) return;
+    const auto along = [&](const Vector3d& p) { return axis.dot(p); };
+    const double last_a = std::max({along(a[0]), along(a[1]), along(a[2])});
+    const double first_b = std::min({along(b[0]), along(b[1]), along(b[2])});
+    exit = std::min(exit, (last_a + clearance - first_b) / speed);
+  };
+  const Vector3d normal_a = edge(a, 0).cross(edge(a, 1));
+  const Vector3d normal_b = edge(b, 0).cross(edge(b, 1));
+  try_axis(normal_a);
+  try_axis(normal_b);
+  for (std::size_t i = 0; i < 3; ++i) {
+    try_axis(normal_a.cross(edge(a, i)));
+    try_axis(normal_b.cross(edge(b, i)));
+    for (std::size_t j = 0; j < 3; ++j)
+      try_axis(edge(a, i).cross(edge(b, j)));
+  }
+  return exit;
 }
 
 class WayOut {
@@ -54,6 +93,9 @@ class WayOut {
     for (int i = 0; i < kTriedDirections; ++i)
       look_along(spiral_direction(i));
     look_along_normals();
+    for (const Eigen::Matrix3d& axes_A :
+         {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), Eigen::Matrix3d(X_AB_.linear())})
+      sweep_along(axes_A);
     look_nearby();
     return length_ * n_;
   }
@@ -98,15 +140,46 @@ class WayOut {
   }
 
   void look_along_normals() {
-    std::vector<TrianglePair> pairs;
-    intersecting_pairs(tree_A_, tree_B_, X_AB_, workspace_, pairs, clearance_);
-    const std::size_t step = std::max<std::size_t>(1, pairs.size() / kTriedPairs);
-    for (std::size_t i = 0; i < pairs.size(); i += step) {
-      const Vector3d n_A = triangle_normal(tree_A_.mesh(), pairs[i].triangle_A);
-      const Vector3d n_B = X_AB_.linear() * triangle_normal(tree_B_.mesh(), pairs[i].triangle_B);
+    intersecting_pairs(tree_A_, tree_B_, X_AB_, workspace_, pairs_, clearance_);
+    const std::size_t step = std::max<std::size_t>(1, pairs_.size() / kTriedPairs);
+    for (std::size_t i = 0; i < pairs_.size(); i += step) {
+      const Vector3d n_A = triangle_normal(tree_A_.mesh(), pairs_[i].triangle_A);
+      const Vector3d n_B = X_AB_.linear() * triangle_normal(tree_B_.mesh(), pairs_[i].triangle_B);
       for (const Vector3d& n : {n_A, Vector3d(-n_A), n_B, Vector3d(-n_B)})
         look_along(n);
     }
+  }
+
+  // The axes and the diagonals between two of them: there, machined parts have free places that are small, such as the
+  // middle of a hole.
+  void sweep_along(const Eigen::Matrix3d& axes_A) {
+    for (int x = -1; x <= 1; ++x) {
+      for (int y = -1; y <= 1; ++y) {
+        for (int z = -1; z <= 1; ++z) {
+          const int axes = std::abs(x) + std::abs(y) + std::abs(z);
+          if (axes == 1 || axes == 2) sweep(axes_A * Vector3d(x, y, z).normalized());
+        }
+      }
+    }
+  }
+
+  // Finds the first free place along n: each step goes as far as the triangles that intersect now certainly do.
+  void sweep(const Vector3d& n) {
+    double length = 0.0;
+    for (int i = 0; i < kSweepSteps; ++i) {
+      Eigen::Isometry3d X = X_AB_;
+      X.translation() += length * n;
+      intersecting_pairs(tree_A_, tree_B_, X, workspace_, pairs_, clearance_);
+      if (pairs_.empty()) break;
+      double exit = 0.0;
+      for (const TrianglePair& pair : pairs_) {
+        exit = std::max(exit, exit_length(corners_of(tree_A_.mesh(), pair.triangle_A, Eigen::Isometry3d::Identity()),
+                                          corners_of(tree_B_.mesh(), pair.triangle_B, X), n, clearance_));
+      }
+      length += exit + kBeyond * (tree_A_.radius() + tree_B_.radius());
+      if (length >= kLeastGain * length_) return;
+    }
+    improves(n, length);
   }
 
   // Tries directions around the best one, in rings of decreasing radius.
@@ -133,6 +206,7 @@ class WayOut {
   Vector3d between_;  ///< from the centre of tree A to that of tree B
   Vector3d n_;        ///< the best direction so far
   double length_ = 0.0;
+  std::vector<TrianglePair> pairs_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -91,6 +92,20 @@ TEST(WayOut, OfASheetThatABallIsStuckInIsToTheNearerSide) {
 TEST(WayOut, IsFoundForConcentricObjects) {
   const DopTree box = tree_of(geometry::make_box({1.0, 2.0, 3.0}, 48));
   EXPECT_NEAR(depth_of(box, box, Isometry3d::Identity()), 1.0, 0.02);
+}
+
+TEST(WayOut, OfAPegBesideTheMiddleOfItsHoleIsToTheMiddle) {
+  // The walls of a square hole of 2 × 2, 40 high, and a block in it that fits with 0.02 on each side. It is 0.6 too far
+  // to one side, and 20 deep: to leave the hole is long, and along all other directions the free place is small.
+  const DopTree hole = tree_of(geometry::make_box({2.0, 2.0, 40.0}, 48));
+  const DopTree block = tree_of(geometry::make_box({1.96, 1.96, 30.0}, 48));
+  EXPECT_NEAR(depth_of(hole, block, at(0.6, 0.0, 0.0)), 0.58, 1e-3);
+  EXPECT_NEAR(depth_of(hole, block, at(0.6, -0.6, 0.0)), std::sqrt(2.0) * 0.58, 1e-3);
+  geometry::TriangleMesh mesh = hole.mesh();
+  const Isometry3d turned(test_support::turn(0.7, {1.0, 2.0, 3.0}));
+  for (Vector3d& vertex : mesh.vertices)
+    vertex = turned * vertex;
+  EXPECT_NEAR(depth_of(tree_of(std::move(mesh)), block, turned * at(0.6)), 0.58, 1e-3) << "along the block's axes";
 }
 
 TEST(WayOut, IsTheSameOnASecondCall) {

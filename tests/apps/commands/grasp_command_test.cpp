@@ -197,7 +197,7 @@ TEST_F(GraspCommand, NamesWhatIsWrong) {
                    " size_z_m: 0.1}, pose: {position_m: [0.09, 0, 0]}}\n"
                    "- {name: floor, shape: {type: plate}, pose: {position_m: [0, 0, -1]}}\n");
   expect_refused({"grasp", stuck, "--hand-trajectory", kHand},
-                 {"stuck.yaml", "'twin' collides", ": 10 mm deep in 'cube'\n"});
+                 {"stuck.yaml", "'twin' collides", ": at most 10 mm deep in 'cube'\n"});
   const std::filesystem::path path = hands;
   expect_refused({"grasp", kScene, "--hand-trajectory", kHand, "--out", hands, "--objects",
                   (path.parent_path() / "." / path.filename()).string()},
