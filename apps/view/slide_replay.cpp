@@ -39,10 +39,10 @@ void SlideReplay::add(std::chrono::nanoseconds time, const haptics::SlidingSimul
   part_.add(time_s, 0, state.parts[0]);
 }
 
-void SlideReplay::finish(Report& report) {
+void SlideReplay::finish(Report& report, const std::string& of) {
   report.plots.insert(report.plots.begin(),
-                      {force_.plot("Force on the hand", "force [N]"),
-                       torque_.plot("Torque on the hand about the origin of the part", "torque [Nm]")});
+                      {force_.plot("Force on the hand" + of, "force [N]"),
+                       torque_.plot("Torque on the hand about the origin of the part" + of, "torque [Nm]")});
   part_.finish(report);
   report.replay = maker_.finish();
 }

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/report/vector_curve.h>
@@ -20,8 +21,9 @@ class SlideReplay {
   explicit SlideReplay(const HapticScene& scene);
 
   void add(std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding);
-  /// Adds the replay, and plots of wrench, lag, contacts and states. Once, at the end.
-  void finish(Report& report);
+  /// Adds the replay, and plots of wrench, lag, contacts and states; `of` ends the titles of those of the wrench. Once,
+  /// at the end.
+  void finish(Report& report, const std::string& of = {});
 
  private:
   ReplayMaker maker_;

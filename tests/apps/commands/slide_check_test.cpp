@@ -130,6 +130,16 @@ TEST_F(AssemblyCheck, WritesAPage) {
     EXPECT_THAT(page, testing::HasSubstr(part));
 }
 
+TEST_F(AssemblyCheck, ThePageOfSeveralShowsTheFirstThatMissesTheGoal) {
+  ASSERT_EQ(check({above, below, above}, {"--report", folder.path("page")}).exit_code, 0);
+  const std::string page = read_text_file(folder.path("page/index.html"));
+  EXPECT_THAT(page, testing::HasSubstr("<h2>Force on the hand, " + below + "</h2>"));
+  EXPECT_THAT(page, testing::HasSubstr("report-frames"));
+  ASSERT_EQ(check({above, above}, {"--report", folder.path("page")}).exit_code, 0);
+  EXPECT_THAT(read_text_file(folder.path("page/index.html")),
+              testing::HasSubstr("<h2>Force on the hand, " + above + "</h2>"));
+}
+
 TEST_F(AssemblyCheck, ThePageOfOneTrajectoryShowsWhatPushesWhen) {
   ASSERT_EQ(check({below}, {"--report", folder.path("page")}).exit_code, 0);
   const std::string page = read_text_file(folder.path("page/index.html"));
