@@ -15,6 +15,7 @@
 
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/safety_envelope.h>
+#include <glissade/geometry/displacement.h>
 
 namespace glissade::devices {
 
@@ -109,10 +110,13 @@ struct VisibleHand {
 struct HapticPartState {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< of a part that no hand holds: X_WV
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< the reference point, at which the hands' spring acts
   PartState state = PartState::kUnknown;
   std::int32_t contact_count = 0;  ///< contacts that push
 
   bool is_in_contact() const noexcept { return contact_count > 0; }
+  /// From the visible part to its ghost, of the reference point: metres, and a rotation vector.
+  geometry::Displacement lag() const { return geometry::displacement_between(X_WV, X_WG, p_Vref); }
 };
 
 /// A hand after one haptic tick.

@@ -91,6 +91,9 @@ std::string FrameMaker::make() {
     const devices::HapticPartState& part = newest_.parts[p];
     frame.add(X_OW_ * part.X_WG);
     frame.add(X_OW_ * part.X_WV);
+    const geometry::Displacement lag = part.lag();
+    frame.add(lag.v.norm());
+    frame.add(lag.w.norm());
     frame.add(static_cast<std::int32_t>(part.state));
     frame.add(part.contact_count);
   }

@@ -23,7 +23,8 @@ namespace glissade::viewer {
 /// numbers in single precision. First ten: 1 if the contact set was late or else 0; its greatest age in ms; the
 /// greatest lateness of a tick and the greatest duration of one in µs; the number of frames that this viewer has
 /// missed; the numbers of parts, hands, contacts and patches, and of patches left out. For each part: the poses of
-/// ghost G and visible part V, each as x, y, z in metres and w, x, y, z, relative to `ViewScene::p_WO()`; its state;
+/// ghost G and visible part V, each as x, y, z in metres and w, x, y, z, relative to `ViewScene::p_WO()`; how far its
+/// reference point lags in metres, and its angle in radians; its state;
 /// the number of contacts that push. For each hand: the number of the part that it holds or −1; force in N; torque in
 /// Nm; the greatest force; the share of the contacts' force; 1 if they were unsolved or else 0; the reasons of the
 /// server and those of the glove, as bits; the energy in J; activity; grasp, its form, and the segments that touch as

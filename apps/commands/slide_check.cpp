@@ -14,6 +14,7 @@
 #include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/clearance_curve.h>
+#include <glissade/apps/view/coupling_wrench.h>
 
 namespace glissade::apps {
 namespace {
@@ -110,7 +111,7 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
   for (std::int64_t i = 0; i <= ticks; ++i) {
     const std::chrono::nanoseconds now = slide_to(i, trajectory, *sliding);
     const std::chrono::nanoseconds time = now - trajectory.first_time();
-    const haptics::Wrench wrench = haptics::spring_wrench(sliding->stiffness(), sliding->error());
+    const haptics::Wrench wrench = wrench_about_origin(*sliding);
     check.force_max_N = std::max(check.force_max_N, wrench.f.norm());
     check.torque_max_Nm = std::max(check.torque_max_Nm, wrench.t.norm());
     contact_ticks += sliding->result().pushing > 0 ? 1 : 0;
@@ -143,8 +144,8 @@ std::string verdict(const SlideCheck& check) {
   return std::string(check.goal_reached ? "goal reached, " : "goal not reached, ") +
          fixed_text(1e3 * check.goal_distance_m, 3) + " mm and " + fixed_text(check.goal_angle_deg, 2) +
          " degrees from it; at most " + fixed_text(check.force_max_N, 2) + " N and " +
-         fixed_text(check.torque_max_Nm, 3) + " Nm" + clearance + "; " + fixed_text(check.contact_s, 3) + " of " +
-         fixed_text(check.duration_s, 3) + " s in contact";
+         fixed_text(check.torque_max_Nm, 3) + " Nm about the part's origin" + clearance + "; " +
+         fixed_text(check.contact_s, 3) + " of " + fixed_text(check.duration_s, 3) + " s in contact";
 }
 
 Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& options) {

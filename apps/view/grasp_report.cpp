@@ -64,7 +64,7 @@ void GraspReport::add(std::chrono::nanoseconds time) {
   const double time_s = 1e-3 * static_cast<double>(ticks_ - 1);
   for (std::size_t p = 0; p < simulation_.part_count(); ++p) {
     const haptics::SlidingResult& result = simulation_.parts().result(p);
-    show_part(result, p, patches_[p], state);
+    show_part(result, simulation_.parts().p_Vref(p), p, patches_[p], state);
     parts_.add(time_s, p, state.parts[p]);
     if (p >= scene_.parts.size()) continue;  // moves on its own
     const haptics::Wrench wrench = wrench_about_origin(simulation_.parts(), p);

@@ -23,7 +23,8 @@ class PartCurves {
   void finish(Report& report);
 
  private:
-  std::vector<GrowingCurve> lags_;  // mm
+  std::vector<GrowingCurve> lags_mm_;
+  std::vector<GrowingCurve> lags_deg_;
   std::vector<GrowingCurve> contacts_;
   StripChart states_{"States of the parts", {}, {}};
 };

@@ -67,10 +67,11 @@ void ReplayMaker::leave_out_half() {
   frames_.resize(kept);
 }
 
-void show_part(const haptics::SlidingResult& result, std::size_t part, haptics::ContactPatches& patches,
-               devices::HapticState& state) {
+void show_part(const haptics::SlidingResult& result, const Eigen::Vector3d& p_Vref, std::size_t part,
+               haptics::ContactPatches& patches, devices::HapticState& state) {
   state.parts[part] = {.X_WG = result.X_WG,
                        .X_WV = result.X_WV,
+                       .p_Vref = p_Vref,
                        .state = haptics::part_state_of(result.state),
                        .contact_count = result.pushing};
   const Eigen::Isometry3d X_VW = result.X_WV_of_contacts.inverse(Eigen::Isometry);

@@ -47,8 +47,8 @@ class ReplayMaker {
 };
 
 /// Writes a part of a simulation that runs by itself into a state, with the contacts that push on it, and their
-/// patches.
-void show_part(const haptics::SlidingResult& result, std::size_t part, haptics::ContactPatches& patches,
-               devices::HapticState& state);
+/// patches. `p_Vref` is the part's reference point.
+void show_part(const haptics::SlidingResult& result, const Eigen::Vector3d& p_Vref, std::size_t part,
+               haptics::ContactPatches& patches, devices::HapticState& state);
 
 }  // namespace glissade::apps

@@ -23,7 +23,7 @@ void SlideReplay::add(std::chrono::nanoseconds time, const haptics::SlidingSimul
   devices::HapticState state;
   state.sequence = ++ticks_;
   state.time = time;
-  show_part(sliding.result(), 0, patches_, state);
+  show_part(sliding.result(), sliding.part().p_Vref(), 0, patches_, state);
   for (const Eigen::Isometry3d& X_WB : sliding.scripted_X_WB()) {
     devices::HapticPartState& moving = state.parts[static_cast<std::size_t>(state.part_count++)];
     moving.X_WG = moving.X_WV = X_WB;

@@ -38,6 +38,7 @@ MessageError check(const haptic_state_t& message) noexcept {
     fields.unit_quaternion(part.orientation_WG_wxyz);
     fields.magnitude(part.position_WV_m, kLargestPosition);
     fields.unit_quaternion(part.orientation_WV_wxyz);
+    fields.magnitude(part.p_Vref_m, kLargestPosition);
     fields.not_negative(part.contact_count);
   }
   for (const haptic_hand_t& hand : message.hands) {
@@ -74,6 +75,7 @@ haptic_part_t message_of(const HapticPartState& part) {
   put(Eigen::Matrix3d(part.X_WG.linear()), message.orientation_WG_wxyz);
   put(Eigen::Vector3d(part.X_WV.translation()), message.position_WV_m);
   put(Eigen::Matrix3d(part.X_WV.linear()), message.orientation_WV_wxyz);
+  put(part.p_Vref, message.p_Vref_m);
   message.part_state = static_cast<std::int32_t>(part.state);
   message.contact_count = part.contact_count;
   return message;
@@ -82,6 +84,7 @@ haptic_part_t message_of(const HapticPartState& part) {
 HapticPartState part_of(const haptic_part_t& message) noexcept {
   return {.X_WG = pose_of(message.position_WG_m, message.orientation_WG_wxyz),
           .X_WV = pose_of(message.position_WV_m, message.orientation_WV_wxyz),
+          .p_Vref = Eigen::Vector3d(message.p_Vref_m),
           .state = part_state_from_number(message.part_state),
           .contact_count = message.contact_count};
 }

@@ -10,6 +10,7 @@ devices::HapticPartState part_after(const GhostOfPart& ghost, const PartAnswer& 
   devices::HapticPartState part;
   part.X_WG = ghost.X_WG;
   part.X_WV = answer.X_WV;
+  part.p_Vref = answer.p_Vref;
   if (is_answered) part.state = part_state_of(answer.state);
   part.contact_count = answer.pushing;
   return part;

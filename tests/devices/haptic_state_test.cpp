@@ -36,6 +36,7 @@ HapticState some_state() {
   HapticPartState& part = state.parts[2];
   part.X_WG = Eigen::Translation3d(1.0, 2.0, 3.0) * Eigen::AngleAxisd(0.5, Vector3d::UnitX());
   part.X_WV = Eigen::Translation3d(4.0, 5.0, 6.0) * Eigen::AngleAxisd(0.6, Vector3d::UnitY());
+  part.p_Vref = Vector3d(0.25, -0.5, 0.75);
   part.state = PartState::kCatchingUp;
   part.contact_count = 3;
   HapticHandState& hand = state.hands[1];
@@ -100,6 +101,7 @@ TEST(HapticState, ArrivesAsItWasSent) {
   const HapticPartState& part = received.parts[2];
   EXPECT_TRUE(part.X_WG.isApprox(sent.parts[2].X_WG));
   EXPECT_TRUE(part.X_WV.isApprox(sent.parts[2].X_WV));
+  EXPECT_EQ(part.p_Vref, sent.parts[2].p_Vref);
   EXPECT_EQ(part.state, PartState::kCatchingUp);
   EXPECT_EQ(part.contact_count, 3);
   EXPECT_EQ(received.hands[0].part, -1);

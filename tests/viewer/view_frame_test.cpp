@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -57,7 +58,7 @@ Frame read_frame(const std::string& bytes) {
 }
 
 constexpr std::size_t kHead = 10;
-constexpr std::size_t kPart = 16;
+constexpr std::size_t kPart = 18;
 constexpr std::size_t kHand = 19;
 constexpr std::size_t kContact = 7;
 constexpr std::size_t kPatch = 9;
@@ -74,10 +75,11 @@ TEST(ViewFrame, HasTheNewestStateAboutTheOriginOfTheScene) {
   ASSERT_EQ(frame.numbers.size(), kHead + kPart + kHand + kContact + kPatch);
   const std::vector<float> head(frame.numbers.begin(), frame.numbers.begin() + kHead);
   EXPECT_EQ(head, (std::vector<float>{0, 3, 0, 0, 0, 1, 1, 1, 1, 2}));
-  EXPECT_EQ(frame.numbers[kHead], 0.5F);       // ghost, x
-  EXPECT_EQ(frame.numbers[kHead + 3], 1.0F);   // ghost, w
-  EXPECT_EQ(frame.numbers[kHead + 7], 0.25F);  // visible part, x
-  EXPECT_EQ(frame.numbers[kHead + 14], 3.0F);  // sliding
+  EXPECT_EQ(frame.numbers[kHead], 0.5F);        // ghost, x
+  EXPECT_EQ(frame.numbers[kHead + 3], 1.0F);    // ghost, w
+  EXPECT_EQ(frame.numbers[kHead + 7], 0.25F);   // visible part, x
+  EXPECT_EQ(frame.numbers[kHead + 14], 0.25F);  // lag, metres
+  EXPECT_EQ(frame.numbers[kHead + 16], 3.0F);   // sliding
   const std::size_t hand = kHead + kPart;
   EXPECT_EQ(frame.numbers[hand + 3], 2.0F);  // force, z
   EXPECT_EQ(frame.numbers[hand + 7], 2.0F);  // the greatest
@@ -86,6 +88,18 @@ TEST(ViewFrame, HasTheNewestStateAboutTheOriginOfTheScene) {
   EXPECT_EQ(frame.numbers[contact + 6], 1.0F);
   const std::vector<float> patch(frame.numbers.end() - kPatch, frame.numbers.end());
   EXPECT_EQ(patch, (std::vector<float>{0, 4, 0.25F, 0, -0.05F, 0, 0, 1, 0.125F}));
+}
+
+TEST(ViewFrame, TellsTheLagOfTheReferencePointAndItsAngle) {
+  // A lever, held by a point 0.5 m from its origin, whose ghost has turned by a right angle about the origin.
+  devices::HapticState state = some_state();
+  state.parts[0].p_Vref = {0.5, 0.0, 0.0};
+  state.parts[0].X_WG = state.parts[0].X_WV * Eigen::AngleAxisd(std::numbers::pi / 2.0, Eigen::Vector3d::UnitZ());
+  FrameMaker maker(scene_far_away());
+  maker.add(state);
+  const Frame frame = read_frame(maker.make());
+  EXPECT_FLOAT_EQ(frame.numbers[kHead + 14], 0.5F * std::numbers::sqrt2_v<float>);
+  EXPECT_FLOAT_EQ(frame.numbers[kHead + 15], std::numbers::pi_v<float> / 2.0F);
 }
 
 TEST(ViewFrame, ShowsTheWorstSinceTheLastFrame) {

@@ -1,6 +1,8 @@
 /// `glissade slide` as an assembly check: a stack of trajectories in, one row for each out, and a page.
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -143,9 +145,10 @@ TEST_F(AssemblyCheck, ThePageOfSeveralShowsTheFirstThatMissesTheGoal) {
 TEST_F(AssemblyCheck, ThePageOfOneTrajectoryShowsWhatPushesWhen) {
   ASSERT_EQ(check({below}, {"--report", folder.path("page")}).exit_code, 0);
   const std::string page = read_text_file(folder.path("page/index.html"));
-  for (const char* title : {"Force on the hand", "Torque on the hand about the origin of the part",
-                            "Lag of the visible parts behind their ghosts", "Contacts that push",
-                            "Clearance of the visible parts, up to 20 mm", "States of the parts"})
+  for (const char* title :
+       {"Force on the hand", "Torque on the hand about the origin of the part",
+        "Lag of the visible parts behind their ghosts", "Angle between the visible parts and their ghosts",
+        "Contacts that push", "Clearance of the visible parts, up to 20 mm", "States of the parts"})
     EXPECT_THAT(page, testing::HasSubstr("<h2>" + std::string(title) + "</h2>"));
   for (const char* state : {"free", "sliding"})
     EXPECT_THAT(page, testing::HasSubstr("<span>" + std::string(state) + "</span>"));
@@ -172,6 +175,27 @@ TEST_F(AssemblyCheck, TellsWhereItStandsBeforeItEnds) {
   EXPECT_THAT(terminal, testing::HasSubstr(bar));
   EXPECT_EQ(checks_of(rows).size(), 1u) << rows;
   EXPECT_EQ(checks_of(rows).count("above.csv"), 1u) << rows;
+}
+
+TEST_F(AssemblyCheck, ForceAndTorqueAreThoseOfTheTableOfTheMotion) {
+  // Held by a corner, so that the torque depends on the point that it is about.
+  const std::string by_corner = folder.write("corner.yaml",
+                                             "objects:\n"
+                                             "  - {name: box, movable: true, compliance_point_m: [0.05, 0.03, 0.02], "
+                                             "shape: {type: box, size_x_m: 0.1, size_y_m: "
+                                             "0.06, size_z_m: 0.04}}\n"
+                                             "  - {name: floor, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n");
+  const std::string motion = folder.path("out.csv");
+  const ProgramResult result = test_support::glissade(
+      {"slide", by_corner, "--part", "box", "--trajectory", below, "--summary", "-", "--out", motion});
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  double torque_Nm = 0.0;
+  for (const test_support::CsvRow& row : test_support::rows_of(read_text_file(motion))) {
+    torque_Nm = std::max(
+        torque_Nm, std::hypot(std::stod(row.at("tx_Nm")), std::stod(row.at("ty_Nm")), std::stod(row.at("tz_Nm"))));
+  }
+  EXPECT_GT(torque_Nm, 0.1);
+  EXPECT_NEAR(checks_of(result.standard_output)["below.csv"]["torque_max_Nm"], torque_Nm, 1e-9);
 }
 
 TEST_F(AssemblyCheck, OneRunWritesEverything) {

@@ -107,9 +107,10 @@ TEST(ReplayMaker, ShowsThePushingContactsOfAPartInItsFrame) {
   result.contacts[1].force = 2.0;
   devices::HapticState state;
   haptics::ContactPatches patches(0.1);
-  show_part(result, 1, patches, state);
+  show_part(result, {0.5, 0.0, 0.0}, 1, patches, state);
   EXPECT_EQ(state.parts[1].state, devices::PartState::kResting);
   EXPECT_EQ(state.parts[1].X_WG.translation().z(), 2.9);
+  EXPECT_EQ(state.parts[1].p_Vref.x(), 0.5);
   ASSERT_EQ(state.contact_count, 1);
   EXPECT_EQ(state.contacts[0].part, 1);
   EXPECT_TRUE(state.contacts[0].p_V.isApprox(Eigen::Vector3f(0.25F, 0.0F, 0.0F)));

@@ -55,7 +55,14 @@ class Reader {
 }
 
 function part(reader) {
-  return { ghost: reader.pose(), visible: reader.pose(), state: reader.number(), contacts: reader.number() };
+  return {
+    ghost: reader.pose(),
+    visible: reader.pose(),
+    lag: 1e3 * reader.number(), // mm, of the reference point
+    angle: reader.number() * 180 / Math.PI,
+    state: reader.number(),
+    contacts: reader.number(),
+  };
 }
 
 function hand(reader) {
@@ -125,9 +132,4 @@ export function pictureOf(frame) {
 
 export function length(v) {
   return Math.hypot(...v);
-}
-
-// Distance in mm from the visible part to its ghost.
-export function lag(part) {
-  return 1e3 * Math.hypot(...part.ghost.p.map((x, i) => x - part.visible.p[i]));
 }

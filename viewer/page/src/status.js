@@ -1,6 +1,6 @@
 // The frame that is shown, in words.
 
-import { ACTIVITIES, PART_STATES, graspReason, lag, length, reasonsOf } from './frame.js';
+import { ACTIVITIES, PART_STATES, graspReason, length, reasonsOf } from './frame.js';
 
 function number(value, digits, unit) {
   const text = value.toFixed(digits);
@@ -23,7 +23,11 @@ function rowsOfHand(hand, name, info) {
 }
 
 function rowsOfPart(part, name) {
-  return [[name, PART_STATES[part.state] ?? 'unknown'], ['lag', number(lag(part), 2, 'mm')], ['contacts', `${part.contacts}`]];
+  return [
+    [name, PART_STATES[part.state] ?? 'unknown'],
+    ['lag', `${number(part.lag, 2, 'mm')}, ${number(part.angle, 1, '°')}`],
+    ['contacts', `${part.contacts}`],
+  ];
 }
 
 export function rowsOf(frame, info, isLive) {

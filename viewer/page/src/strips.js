@@ -2,7 +2,6 @@
 
 import uPlot from 'uplot';
 import { cssColor, onSchemeChange, SERIES } from './colors.js';
-import { lag } from './frame.js';
 
 const MOST_POINTS = 3600;
 const PERIOD_MS = 100; // of drawing
@@ -10,7 +9,8 @@ const PERIOD_MS = 100; // of drawing
 // What is plotted: a title with its unit, and the values of a frame, by hand, by part or for the loop.
 const STRIPS = [
   { title: 'Force [N]', perHand: (hand) => hand.peak },
-  { title: 'Lag [mm]', perPart: lag },
+  { title: 'Lag [mm]', perPart: (part) => part.lag },
+  { title: 'Angle of the lag [°]', perPart: (part) => part.angle },
   { title: 'Contacts', least: 1, perPart: (part) => part.contacts },
   { title: 'Duration and lateness of ticks [µs]', names: ['duration', 'lateness'], values: (f) => [f.duration, f.lateness] },
   { title: 'Age of contacts [ms]', names: ['age'], values: (f) => [f.age] },
