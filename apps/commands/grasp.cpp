@@ -251,7 +251,7 @@ int run(const GraspOptions& options) {
   }
   const std::int64_t ticks = (last - first) / kTick;
   GraspTables tables(scene, simulation, hands, options);
-  GraspOutcome outcome(scene, simulation);
+  GraspOutcome outcome(scene, simulation, hands);
   std::optional<GraspReport> report;
   if (!options.report.empty()) report.emplace(scene, simulation, hands, ticks + 1);
   ProgressBar progress("grasping", ticks + 1);
@@ -261,12 +261,18 @@ int run(const GraspOptions& options) {
     for (std::size_t h = 0; h < hands.size(); ++h)
       targets[h] = trajectories[h].posture_at(time);
     simulation.advance(targets, tick == 0 ? 0.0 : 1.0);
-    tables.write(std::chrono::duration<double>(time).count(), targets);
-    outcome.add();
+    const double time_s = std::chrono::duration<double>(time).count();
+    tables.write(time_s, targets);
+    outcome.add(time_s, targets);
     if (report) report->add(time);
     progress.update(tick + 1);
   }
   tables.close();
+  for (std::size_t h = 0; h < hands.size(); ++h) {
+    if (const std::string waiting = outcome.waiting(h); !waiting.empty()) {
+      warn(options.trajectories[h] + ": the hand " + waiting);
+    }
+  }
   std::vector<std::pair<std::string, std::string>> rows = outcome.rows();
   if (report) rows.emplace_back("report", write_html_report(report->finish(outcome), options.report));
   if (options.out != "-" && options.objects != "-") {

@@ -1,5 +1,8 @@
+#include <utility>
+
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/grasp_outcome.h>
+#include <glissade/apps/view/waiting_hand.h>
 
 namespace glissade::apps {
 
@@ -11,10 +14,11 @@ std::string seconds_text(std::int64_t milliseconds) {
 
 }  // namespace
 
-GraspOutcome::GraspOutcome(const HapticScene& scene, const grasping::GraspSimulation& simulation)
-    : scene_(scene), simulation_(simulation), hands_(simulation.hand_count()) {}
+GraspOutcome::GraspOutcome(const HapticScene& scene, const grasping::GraspSimulation& simulation,
+                           std::vector<std::shared_ptr<const grasping::HandModel>> hands)
+    : scene_(scene), simulation_(simulation), models_(std::move(hands)), hands_(simulation.hand_count()) {}
 
-void GraspOutcome::add() {
+void GraspOutcome::add(double time_s, const std::vector<std::optional<grasping::Posture>>& targets) {
   ++ticks_;
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     Hand& hand = hands_[h];
@@ -22,7 +26,12 @@ void GraspOutcome::add() {
     const std::int32_t part = held ? static_cast<std::int32_t>(*held) : -1;
     hand.grasps += part >= 0 && part != hand.part ? 1 : 0;
     hand.holding_ms += part >= 0 ? 1 : 0;
-    hand.waiting_ms += simulation_.activity(h) == devices::HandActivity::kWaiting ? 1 : 0;
+    if (simulation_.activity(h) == devices::HandActivity::kWaiting && targets[h]) {
+      if (hand.waiting_ms++ == 0) {
+        hand.waits_first = "first at " + fixed_text(time_s, 3) + " s: its target is inside an object, there " +
+                           nearest_object(scene_, simulation_, *models_[h], *targets[h]);
+      }
+    }
     hand.part = part;
   }
 }
@@ -36,8 +45,7 @@ std::vector<std::pair<std::string, std::string>> GraspOutcome::rows() const {
                            ? "1 grasp, holds for " + seconds_text(hand.holding_ms)
                            : std::to_string(hand.grasps) + " grasps, holds for " + seconds_text(hand.holding_ms);
     // Nothing else tells that a trajectory begins inside an object: the hand then neither touches nor moves.
-    if (hand.waiting_ms > 0)
-      text += "; waits for " + seconds_text(hand.waiting_ms) + ": its target is inside an object";
+    if (hand.waiting_ms > 0) text += "; " + waiting(h);
     rows.emplace_back("hand " + std::to_string(h), text);
   }
   for (std::size_t p = 0; p < scene_.parts.size(); ++p) {
@@ -47,6 +55,11 @@ std::vector<std::pair<std::string, std::string>> GraspOutcome::rows() const {
                       "ends " + fixed_text(1e3 * way.norm(), 1) + " mm from where it started");
   }
   return rows;
+}
+
+std::string GraspOutcome::waiting(std::size_t hand) const {
+  const Hand& waiting = hands_[hand];
+  return waiting.waiting_ms == 0 ? "" : "waits for " + seconds_text(waiting.waiting_ms) + ", " + waiting.waits_first;
 }
 
 }  // namespace glissade::apps

@@ -156,6 +156,9 @@ TEST_F(GraspCommand, TellsThatAHandWaits) {
                                           " pose: {position_m: [0, 0, 0.2]}}\n");
   const ProgramResult waits = glissade({"grasp", inside, "--hand-trajectory", first_seconds(), "--out", hands});
   EXPECT_NE(waits.standard_output.find("waits for 0."), std::string::npos) << waits.standard_output;
+  EXPECT_THAT(waits.standard_error,
+              testing::ContainsRegex("the hand waits for 0\\..* s, first at 0\\.000 s: its target "
+                                     "is inside an object, there [a-z_]+ in 'wall'\n"));
 }
 
 TEST_F(GraspCommand, TellsNothingAmongTheRowsOfATable) {
