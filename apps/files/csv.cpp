@@ -46,13 +46,26 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   return fields;
 }
 
+/// The mark that some spreadsheets put before a text in UTF-8.
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
 void check_header(std::string_view line, const std::string& source, const std::vector<std::string>& columns) {
+  if (line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
   const std::vector<std::string_view> names = fields_of(line);
   if (std::equal(names.begin(), names.end(), columns.begin(), columns.end())) return;
   std::string expected;
   for (const std::string& column : columns)
     expected += (expected.empty() ? "" : ",") + column;
   throw std::invalid_argument(at_line(source, 1) + ": the header row must be " + expected + ", not " + in_quotes(line));
+}
+
+/// Whether spaces are all that is wrong with a number.
+bool is_spaced(std::string_view field) {
+  const std::size_t first = field.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return false;
+  const std::size_t last = field.find_last_not_of(" \t");
+  const std::string_view number = field.substr(first, last - first + 1);
+  return number.size() < field.size() && parse_number(number).has_value();
 }
 
 void parse_row(std::string_view line, const std::string& where, const std::vector<std::string>& columns,
@@ -67,7 +80,7 @@ void parse_row(std::string_view line, const std::string& where, const std::vecto
     const std::optional<double> value = parse_number(fields[i]);
     if (!value) {
       throw std::invalid_argument(where + ": column " + columns[i] + ": " + in_quotes(fields[i]) +
-                                  " is not a finite number");
+                                  " is not a finite number" + (is_spaced(fields[i]) ? "; leave out the spaces" : ""));
     }
     values.push_back(*value);
   }

@@ -1,4 +1,5 @@
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,32 @@ TEST(Csv, TheHeaderMustBeExact) {
   expect_bad_input([] { parse_table("t_s,y_m\n1,2\n"); }, {"table.csv:1:", "t_s,x_m", "'t_s,y_m'"});
   expect_bad_input([] { parse_table("t_s,x_m,y_m\n1,2,3\n"); }, {"table.csv:1:", "t_s,x_m,y_m"});
   expect_bad_input([] { parse_table("1,2\n3,4\n"); }, {"table.csv:1:", "'1,2'"});
+}
+
+TEST(Csv, AByteOrderMarkBeforeTheHeaderIsSkipped) {
+  const std::string marked = "\xef\xbb\xbft_s,x_m\n1,2\n";
+  EXPECT_EQ(parse_table(marked).rows.size(), 1u);
+  const TemporaryFolder folder;
+  CsvReader reader(folder.write("marked.csv", marked), kColumns);
+  EXPECT_TRUE(reader.next());
+  expect_bad_input(
+      [] {
+        parse_table(
+            "t_s,x_m\n\xef\xbb\xbf"
+            "1,2\n");
+      },
+      {"table.csv:2:"});
+}
+
+TEST(Csv, SpacesAroundANumberAreNamed) {
+  expect_bad_input([] { parse_table("t_s,x_m\n1, 2\n"); }, {"' 2' is not a finite number; leave out the spaces"});
+  expect_bad_input([] { parse_table("t_s,x_m\n1,2 \n"); }, {"'2 '", "spaces"});
+  try {
+    parse_table("t_s,x_m\n1, left\n");
+    ADD_FAILURE();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::EndsWith("is not a finite number")) << "the spaces are not what is wrong";
+  }
 }
 
 TEST(Csv, AWrongNumberOfColumnsNamesTheLine) {
