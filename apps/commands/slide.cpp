@@ -135,7 +135,8 @@ bool has_table_on_standard_output(const SlideOptions& options) {
 /// Tells what the checks found, each as soon as it is there.
 class Teller {
  public:
-  Teller(const HapticScene& scene, const SlideOptions& options) : scene_(scene), options_(options) {
+  Teller(const HapticScene& scene, const SlideCheckOptions& check_options, const SlideOptions& options)
+      : scene_(scene), check_options_(check_options), options_(options) {
     if (!options.is_check() || (options.summary.empty() && !options.report.empty())) return;
     summary_.emplace(options.summary.empty() ? "-" : options.summary);
   }
@@ -154,12 +155,13 @@ class Teller {
            rounded_text(check.far_m) + " m away from everything: are the trajectory and all poses in metres?");
     }
     if (!has_table_on_standard_output(options_)) {
-      std::cout << check.trajectory << ": " << verdict(check) << std::endl;
+      std::cout << check.trajectory << ": " << verdict(check, check_options_) << std::endl;
     }
     if (options_.requires_goal && !check.goal_reached) {
-      std::cerr << "glissade: " << check.trajectory << ": the goal is not reached: the part ends "
-                << rounded_text(1e3 * check.goal_distance_m) << " mm and " << rounded_text(check.goal_angle_deg)
-                << " degrees from it\n";
+      std::cerr << "glissade: " << check.trajectory << ": the " << name_of_goal(check)
+                << " is not reached: the part ends " << rounded_text(1e3 * check.goal_distance_m) << " mm and "
+                << rounded_text(check.goal_angle_deg) << " degrees from it; allowed are "
+                << goal_tolerance(check_options_) << '\n';
       if (exit_code_ == 0) exit_code_ = kGoalNotReached;
     }
   }
@@ -168,6 +170,7 @@ class Teller {
 
  private:
   const HapticScene& scene_;
+  const SlideCheckOptions& check_options_;
   const SlideOptions& options_;
   std::optional<SlideSummary> summary_;
   int exit_code_ = 0;
@@ -279,7 +282,7 @@ int run(SlideOptions options) {
   std::vector<FollowedTrajectory> trajectories;
   for (const std::string& path : options.trajectories)
     trajectories.emplace_back(path);
-  Teller teller(scene, options);
+  Teller teller(scene, check_options, options);
   std::vector<SlideCheck> checks;
   std::optional<SlideReplay> replay;
   if (trajectories.size() > 1) {

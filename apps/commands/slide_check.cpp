@@ -94,6 +94,7 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
                        const SlideCheckOptions& options, const SlideWatch& watch) {
   SlideCheck check;
   check.trajectory = name;
+  check.has_goal = scene.X_WGoal.has_value();
   check.duration_s = seconds(trajectory.duration());
   check.far_m = std::numeric_limits<double>::infinity();
   std::unique_ptr<haptics::SlidingSimulation> sliding;
@@ -135,17 +136,27 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
   return check;
 }
 
-std::string verdict(const SlideCheck& check) {
+std::string name_of_goal(const SlideCheck& check) {
+  return check.has_goal ? "goal" : "end of the trajectory";
+}
+
+std::string goal_tolerance(const SlideCheckOptions& options) {
+  return rounded_text(1e3 * options.goal_tolerance_m) + " mm and " + rounded_text(options.goal_tolerance_deg) +
+         " degrees";
+}
+
+std::string verdict(const SlideCheck& check, const SlideCheckOptions& options) {
   if (check.problem) return *check.problem;
   const std::string clearance = std::isfinite(check.clearance_min_m)
                                     ? "; least clearance " + fixed_text(1e6 * check.clearance_min_m, 1) + " um at " +
                                           fixed_text(check.clearance_min_at_s, 3) + " s"
                                     : "";
-  return std::string(check.goal_reached ? "goal reached, " : "goal not reached, ") +
+  return name_of_goal(check) + (check.goal_reached ? " reached, " : " not reached, ") +
          fixed_text(1e3 * check.goal_distance_m, 3) + " mm and " + fixed_text(check.goal_angle_deg, 2) +
-         " degrees from it; at most " + fixed_text(check.force_max_N, 2) + " N and " +
-         fixed_text(check.torque_max_Nm, 3) + " Nm about the part's origin" + clearance + "; " +
-         fixed_text(check.contact_s, 3) + " of " + fixed_text(check.duration_s, 3) + " s in contact";
+         " degrees from it" + (check.goal_reached ? "" : " (allowed: " + goal_tolerance(options) + ")") + "; at most " +
+         fixed_text(check.force_max_N, 2) + " N and " + fixed_text(check.torque_max_Nm, 3) +
+         " Nm about the part's origin" + clearance + "; " + fixed_text(check.contact_s, 3) + " of " +
+         fixed_text(check.duration_s, 3) + " s in contact";
 }
 
 Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& options) {
@@ -156,9 +167,10 @@ Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks
   report.summary.emplace_back("scene", scene.source);
   report.summary.emplace_back("metaphor", std::string(haptics::name_of(options.sliding.metaphor)));
   report.summary.emplace_back("method", std::string(haptics::name_of(options.method)));
-  report.summary.emplace_back("goal reached", std::to_string(reached) + " of " + std::to_string(checks.size()));
+  report.summary.emplace_back(scene.X_WGoal ? "goal reached" : "end of the trajectory reached",
+                              std::to_string(reached) + " of " + std::to_string(checks.size()));
   for (const SlideCheck& check : checks)
-    report.summary.emplace_back(check.trajectory, verdict(check));
+    report.summary.emplace_back(check.trajectory, verdict(check, options));
 
   std::vector<const SlideCheck*> by_force;
   for (const SlideCheck& check : checks) {

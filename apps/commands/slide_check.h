@@ -29,6 +29,7 @@ struct SlideCheckOptions {
 struct SlideCheck {
   std::string trajectory;              ///< the file's name
   std::optional<std::string> problem;  ///< one sentence: why the check was impossible; then all else is meaningless
+  bool has_goal = false;               ///< of the scene; otherwise the goal is the end of the trajectory
   bool goal_reached = false;
   double goal_distance_m = 0.0;  ///< of the part's origin, at the end
   double goal_angle_deg = 0.0;
@@ -54,7 +55,12 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
                        const SlideCheckOptions& options, const SlideWatch& watch = {});
 
 /// The outcome in one sentence.
-std::string verdict(const SlideCheck& check);
+std::string verdict(const SlideCheck& check, const SlideCheckOptions& options);
+
+/// What the part should reach: "goal", or "end of the trajectory".
+std::string name_of_goal(const SlideCheck& check);
+/// How near it must come, such as "0.3 mm and 0.5 degrees".
+std::string goal_tolerance(const SlideCheckOptions& options);
 
 /// The page of all checks; that of a single one lacks what `SlideReplay` adds.
 Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& options);

@@ -112,7 +112,9 @@ TEST_F(AssemblyCheck, AGoalThatIsRequiredHasAnExitCodeOfItsOwn) {
   EXPECT_EQ(check({above}, {"--require-goal"}).exit_code, 0);
   const ProgramResult missed = check({above, below}, {"--require-goal"});
   EXPECT_EQ(missed.exit_code, 3);
-  EXPECT_THAT(missed.standard_error, testing::HasSubstr("below.csv: the goal is not reached: the part ends 10 mm"));
+  EXPECT_THAT(missed.standard_error, testing::HasSubstr("below.csv: the end of the trajectory is not reached: the "
+                                                        "part ends 10 mm"));
+  EXPECT_THAT(missed.standard_error, testing::HasSubstr("allowed are 0.3 mm and 0.5 degrees\n"));
   EXPECT_EQ(checks_of(missed.standard_output).size(), 2U) << "the answer is there all the same";
   EXPECT_EQ(check({below}, {"--require-goal"}).exit_code, 3) << "also for the motion alone";
 
@@ -123,8 +125,14 @@ TEST_F(AssemblyCheck, AGoalThatIsRequiredHasAnExitCodeOfItsOwn) {
 TEST_F(AssemblyCheck, WritesAPage) {
   const ProgramResult result = check({above, below}, {"--report", folder.path("page")});
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
-  EXPECT_THAT(result.standard_output, testing::HasSubstr("above.csv: goal reached"));
-  EXPECT_THAT(result.standard_output, testing::HasSubstr("below.csv: goal not reached, 10.0"));
+  EXPECT_THAT(result.standard_output, testing::HasSubstr("above.csv: end of the trajectory reached"));
+  EXPECT_THAT(result.standard_output, testing::HasSubstr("below.csv: end of the trajectory not reached, 10.0"));
+  EXPECT_THAT(result.standard_output, testing::HasSubstr(" degrees from it (allowed: 0.3 mm and 0.5 degrees); "));
+  const std::string with_goal = folder.write("goal.yaml", read_text_file(scene) + "goal: {position_m: [0, 0, 0]}\n");
+  EXPECT_THAT(test_support::glissade(
+                  {"slide", with_goal, "--part", "box", "--trajectory", above, "--report", folder.path("with_goal")})
+                  .standard_output,
+              testing::HasSubstr("above.csv: goal not reached, "));
   EXPECT_THAT(result.standard_output, testing::EndsWith("report: " + folder.path("page") + "/index.html\n"));
   const std::string page = read_text_file(folder.path("page/index.html"));
   for (const char* part :
@@ -204,7 +212,8 @@ TEST_F(AssemblyCheck, OneRunWritesEverything) {
       check({below}, {"--out", file("out.csv"), "--contacts", file("contacts.csv"), "--patches", file("patches.csv"),
                       "--summary", file("summary.csv"), "--report", file("page")});
   ASSERT_EQ(all.exit_code, 0) << all.standard_error;
-  EXPECT_THAT(all.standard_output, testing::HasSubstr("below.csv: goal not reached, 10.0")) << "no table is in its way";
+  EXPECT_THAT(all.standard_output, testing::HasSubstr("below.csv: end of the trajectory not reached, 10.0"))
+      << "no table is in its way";
   EXPECT_THAT(read_text_file(file("page/index.html")), testing::HasSubstr("Assembly check of box"));
   // Each is what a run for it alone writes.
   EXPECT_EQ(read_text_file(file("out.csv")), check({below}).standard_output);

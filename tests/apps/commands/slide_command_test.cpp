@@ -248,8 +248,9 @@ TEST_F(Slide, TellsTheOutcomeWhereNoTableGoes) {
   const std::string hand = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n");
   const ProgramResult result = test_support::glissade(
       {"slide", scene({floor}), "--part", "box", "--trajectory", hand, "--out", folder.path("motion.csv")});
-  EXPECT_EQ(result.standard_output, hand + ": goal reached, 0.000 mm and 0.00 degrees from it; at most 0.00 N and " +
-                                        "0.000 Nm about the part's origin; 0.000 of 0.010 s in contact\n");
+  EXPECT_EQ(result.standard_output,
+            hand + ": end of the trajectory reached, 0.000 mm and 0.00 degrees from it; at most 0.00 N and " +
+                "0.000 Nm about the part's origin; 0.000 of 0.010 s in contact\n");
 }
 
 TEST_F(Slide, RefusesRulesThatCannotBe) {
