@@ -101,7 +101,11 @@ std::string write_session_report(const SessionSummary& summary, const Session& s
 inline constexpr const char* kVerboseHelp =
     "Add the stages of the search for contacts and the hash of the run to the summary";
 
-/// Prints the summary as text or JSON, and writes the report unless `report_folder` is empty. Throws std::runtime_error
+/// If most calls of the simulation ended early in a run in real time: a sentence that it did not keep up. Else empty.
+std::string real_time_warning(const Session& session);
+
+/// Prints the summary as text or JSON, warns if the simulation did not keep up with real time, and writes the report
+/// unless `report_folder` is empty. Throws std::runtime_error
 /// when a visible pose collides, or when the recording is not whole.
 void conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json, bool verbose,
               const std::string& report_folder);

@@ -11,6 +11,7 @@
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/report/vector_curve.h>
 #include <glissade/apps/run/session.h>
+#include <glissade/apps/say.h>
 #include <glissade/apps/view/clearance_curve.h>
 #include <glissade/apps/view/part_curves.h>
 #include <glissade/apps/view/session_view.h>
@@ -331,6 +332,15 @@ std::string write_session_report(const SessionSummary& summary, const Session& s
   return write_html_report(report, folder);
 }
 
+std::string real_time_warning(const Session& session) {
+  const haptics::CallStatistics& calls = session.calls;
+  if (!session.real_time || 2 * calls.ended_early <= calls.calls) return "";
+  return formatted(
+      "the simulation did not keep up with real time: %lld of its %lld calls ended early, so the visible "
+      "parts lagged behind the hands",
+      static_cast<long long>(calls.ended_early), static_cast<long long>(calls.calls));
+}
+
 void conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json, bool verbose,
               const std::string& report_folder) {
   const SessionSummary summary = summarize(session, scene);
@@ -339,6 +349,7 @@ void conclude(const Session& session, const HapticScene& scene, const std::strin
   } else {
     std::cout << title << '\n' << to_text(summary, session, verbose);
   }
+  if (const std::string warning = real_time_warning(session); !warning.empty()) say("glissade: warning: " + warning);
   if (!report_folder.empty()) {
     const std::string page = write_session_report(summary, session, title, report_folder, scene);
     if (!as_json) std::cout << "  report                       " << page << '\n';

@@ -73,6 +73,17 @@ TEST(SessionText, LeavesTheStagesOfTheSearchToWhoeverAsks) {
   }
 }
 
+TEST(SessionText, WarnsIfMostCallsEndedEarlyInRealTime) {
+  Session session = session_of(10);
+  session.calls.calls = 10;
+  session.calls.ended_early = 5;
+  EXPECT_EQ(real_time_warning(session), "");
+  session.calls.ended_early = 6;
+  EXPECT_THAT(real_time_warning(session), HasSubstr("did not keep up with real time: 6 of its 10 calls ended early"));
+  session.real_time.reset();
+  EXPECT_EQ(real_time_warning(session), "") << "an offline run has all the time that it needs";
+}
+
 TEST(SessionText, BeginsWithWhetherTheGoalWasReached) {
   const Session session = session_of(10);
   SessionSummary summary = summary_of(session);
