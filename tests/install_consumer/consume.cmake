@@ -20,6 +20,20 @@ foreach(project collision_only everything)
 endforeach()
 configure(questions)
 
+# The project of README.md, as it stands there, and the examples.
+set(readme ${work}/readme_project)
+file(READ ${SOURCE_DIR}/../../README.md text)
+string(REGEX MATCH "```cmake\n([^`]+)```" block "${text}")
+file(CONFIGURE OUTPUT ${readme}/CMakeLists.txt CONTENT "${CMAKE_MATCH_1}" @ONLY)
+file(COPY_FILE ${SOURCE_DIR}/../../examples/01_first_contact.cpp ${readme}/main.cpp)
+run(${CMAKE_COMMAND} -S ${readme} -B ${work}/readme -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${work}/prefix)
+run(${CMAKE_COMMAND} --build ${work}/readme)
+run(${work}/readme/my_program)
+run(${CMAKE_COMMAND} -S ${SOURCE_DIR}/../../examples -B ${work}/examples -G ${GENERATOR}
+  -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${work}/prefix)
+run(${CMAKE_COMMAND} --build ${work}/examples)
+run(${CMAKE_CTEST_COMMAND} --test-dir ${work}/examples)
+
 # An unknown component, required: CMake ends with the sentence, which it breaks into lines.
 execute_process(COMMAND ${CMAKE_COMMAND} -DREQUIRED_COMPONENT=telepathy ${work}/questions
   RESULT_VARIABLE result ERROR_VARIABLE error OUTPUT_QUIET)
