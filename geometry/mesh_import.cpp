@@ -2,9 +2,11 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <glissade/geometry/mesh_import.h>
 #include <glissade/geometry/triangle_mesh.h>
@@ -42,6 +44,22 @@ std::int64_t drop_degenerate(TriangleMesh& mesh) {
   return static_cast<std::int64_t>(before - mesh.triangles.size());
 }
 
+// Triangles without area count as well, but for those with equal corners, which join nothing.
+bool has_two_triangles_at_every_edge(const TriangleMesh& mesh) {
+  std::vector<std::array<std::int32_t, 2>> edges;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    if (a == b || b == c || c == a) continue;
+    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}})
+      edges.push_back({std::min(from, to), std::max(from, to)});
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0; i < edges.size(); i += 2) {
+    if (i + 1 == edges.size() || edges[i] != edges[i + 1]) return false;
+    if (i + 2 < edges.size() && edges[i] == edges[i + 2]) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 ImportedMesh import_mesh(const std::filesystem::path& path, double scale) {
@@ -61,8 +79,12 @@ ImportedMesh import_mesh(const std::filesystem::path& path, double scale) {
   ImportedMesh result;
   result.polygons_triangulated = soup.polygons_triangulated;
   result.mesh = weld(soup.mesh);
+  const TriangleMesh whole = result.mesh;
   result.degenerate_triangles = drop_degenerate(result.mesh);
-  if (result.degenerate_triangles > 0) result.mesh = weld(result.mesh);  // drops the vertices that only they used
+  if (result.degenerate_triangles > 0) {
+    result.closed_by_degenerate = has_two_triangles_at_every_edge(whole);
+    result.mesh = weld(result.mesh);  // drops the vertices that only they used
+  }
   if (result.mesh.triangles.empty()) {
     reject(path, "None of its " + std::to_string(result.degenerate_triangles) + " triangles has an area");
   }

@@ -13,6 +13,7 @@ namespace glissade::geometry {
 struct ImportedMesh {
   TriangleMesh mesh;                       ///< welded; no triangle is degenerate
   std::int64_t degenerate_triangles = 0;   ///< triangles without area, left out of `mesh`
+  bool closed_by_degenerate = false;       ///< with those triangles, exactly two would meet at every edge
   std::int64_t polygons_triangulated = 0;  ///< faces of more than three corners in the file
 };
 

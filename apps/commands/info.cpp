@@ -45,6 +45,7 @@ struct InfoOptions {
 struct Info {
   geometry::MeshReport report;  ///< of the imported mesh, without degenerate triangles
   std::int64_t degenerate_triangles;
+  bool closed_by_degenerate;  ///< only they are missing for a watertight mesh
   std::int64_t polygons_triangulated;
   std::int64_t tree_nodes;
   int tree_depth;
@@ -57,6 +58,7 @@ Info gather(const InfoOptions& options) {
   const collision::DopTree tree = load_or_build_tree(mesh, options.cache ? options.mesh : "");
   return {geometry::report(*mesh),
           imported.degenerate_triangles,
+          imported.closed_by_degenerate,
           imported.polygons_triangulated,
           static_cast<std::int64_t>(tree.node_count()),
           tree.depth(),
@@ -115,7 +117,9 @@ void print_text(const Info& info, double scale) {
   row("non-manifold edges", report.nonmanifold_edges);
   row("inconsistent edges", report.inconsistent_edges);
   row("components", report.components);
-  row("watertight", report.is_watertight ? "yes" : "no");
+  row("watertight", report.is_watertight        ? "yes"
+                    : info.closed_by_degenerate ? "no: open only where triangles without area are left out"
+                                                : "no");
   row("area", report.area, " m^2");
   row("size", told_size(report.bounds.sizes().maxCoeff(), scale, "--scale "));
   row("bounds from", spaced(report.bounds.min(), report.bounds), " m");

@@ -68,6 +68,18 @@ TEST_F(Cli, InfoTellsTheTrianglesAndTheTree) {
   EXPECT_THAT(glissade({"info", mesh}).standard_output, HasSubstr("watertight"));
 }
 
+TEST_F(Cli, InfoTellsIfAMeshIsOpenOnlyWithoutItsFlatTriangles) {
+  // A tetrahedron with a T-joint: vertex 5 lies on the edge of vertices 1 and 2, and the triangle 1 2 5 closes the gap.
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.5 0 0\n";
+  const std::string closed = "f 1 3 5\nf 5 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 1 5 2\n";
+  const std::string sentence = "no: open only where triangles without area are left out\n";
+  EXPECT_THAT(glissade({"info", folder.write("joint.obj", corners + closed)}).standard_output, HasSubstr(sentence));
+  const std::string open = closed.substr(0, closed.find("f 1 4 3")) + "f 1 5 2\n";
+  EXPECT_THAT(glissade({"info", folder.write("open.obj", corners + open)}).standard_output,
+              testing::Not(HasSubstr(sentence)));
+  EXPECT_THAT(glissade({"info", mesh}).standard_output, HasSubstr("yes\n"));
+}
+
 TEST_F(Cli, CollideAnswersForEveryPose) {
   for (const std::string method : {"dop-tree", "brute-force"}) {
     const ProgramResult result = glissade({"collide", mesh, mesh, "--poses", poses, "--method", method});
