@@ -18,6 +18,7 @@
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/scene/embedded_scene.h>
 #include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/scene/parts_inside.h>
 #include <glissade/apps/session/haptic_session.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/session_view.h>
@@ -87,6 +88,8 @@ Demo demo_of(const std::string& path, bool fingers) {
   HapticScene haptic_scene = make_haptic_scene(scene, movable_objects(scene));
   for (const std::string& sentence : doubtful_sizes(scene, haptic_scene))
     warn(sentence);
+  for (const std::string& sentence : parts_inside(haptic_scene))
+    warn(haptic_scene.source + ": " + sentence);
   return {std::move(haptic_scene),
           path.empty() ? parse_hand_script(embedded_scene_script(demonstration), embedded_script_name(demonstration))
                        : read_hand_script(*scene.script_path)};

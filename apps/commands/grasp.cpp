@@ -25,6 +25,7 @@
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/scene/parts_inside.h>
 #include <glissade/apps/scene/sliding_option.h>
 #include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
@@ -237,6 +238,8 @@ int run(const GraspOptions& options) {
   const HapticScene scene = make_haptic_scene(scene_file, movable_objects(scene_file));
   for (const std::string& sentence : doubtful_sizes(scene_file, scene))
     warn(sentence);
+  for (const std::string& sentence : parts_inside(scene))
+    warn(scene.source + ": " + sentence);
   for (const std::string& name : scene.body_names)
     check_name_fits_csv(scene, name);
   grasping::GraspRules rules;

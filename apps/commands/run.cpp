@@ -22,6 +22,7 @@
 #include <glissade/apps/run/status_line.h>
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/scene/parts_inside.h>
 #include <glissade/apps/session/haptic_session.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/session_view.h>
@@ -201,6 +202,8 @@ int run(const RunOptions& options) {
   const HapticScene scene = make_haptic_scene(file, movable_objects(file));
   for (const std::string& sentence : doubtful_sizes(file, scene))
     warn(sentence);
+  for (const std::string& sentence : parts_inside(scene))
+    warn(scene.source + ": " + sentence);
   RunSettings settings{.hands = hands_of(options, scene),
                        .choice = options.choice,
                        .seconds = options.seconds,

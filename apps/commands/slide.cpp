@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -23,6 +24,7 @@
 #include <glissade/apps/progress.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/scene/parts_inside.h>
 #include <glissade/apps/scene/sliding_option.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/usage.h>
@@ -280,8 +282,11 @@ int run(SlideOptions options) {
   for (const std::string& sentence : doubtful_sizes(file, scene))
     warn(sentence);
   std::vector<FollowedTrajectory> trajectories;
-  for (const std::string& path : options.trajectories)
+  for (const std::string& path : options.trajectories) {
     trajectories.emplace_back(path);
+    for (const std::string& sentence : parts_inside(scene, std::span(&trajectories.back().first_pose(), 1)))
+      warn(path + ": " + sentence);
+  }
   Teller teller(scene, check_options, options);
   std::vector<SlideCheck> checks;
   std::optional<SlideReplay> replay;

@@ -232,6 +232,24 @@ TEST_F(Slide, APartThatStartsInsideIsDepenetratedOnRequest) {
   EXPECT_NEAR(rows.back().at("vz_m"), 0.02, 1e-5) << "half of the box above the floor";
 }
 
+TEST_F(Slide, WarnsOfAPartInsideAClosedSolid) {
+  const std::string hand = trajectory("0,0,0,0,1,0,0,0\n0.01,0,0,0,1,0,0,0\n");
+  const auto warnings = [&](const std::string& around) {
+    const std::string file = folder.write(
+        "around.yaml",
+        "objects:\n- {name: around, " + around +
+            "}\n- {name: box, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n");
+    return test_support::glissade({"slide", file, "--part", "box", "--trajectory", hand}).standard_error;
+  };
+  EXPECT_EQ(
+      warnings("shape: {type: box}"),
+      "glissade: warning: " + hand + ": part 'box' starts inside the closed surface of 'around', and cannot get out\n");
+  EXPECT_EQ(warnings("shape: {type: box}, pose: {position_m: [0.08, 0, 0]}"), "") << "beside it";
+  EXPECT_EQ(warnings("shape: {type: tube}"), "") << "it can get out";
+  EXPECT_EQ(warnings("shape: {type: torus}"), "") << "in its hole";
+  EXPECT_EQ(warnings("shape: {type: box, size_x_m: 0.01}").find("warning"), std::string::npos) << "it collides";
+}
+
 TEST_F(Slide, FrictionHoldsThePartBack) {
   // Pressed by 2 N, drawn by 1 N.
   const std::string hand = trajectory("0,0,0,0.021,1,0,0,0\n0.1,0,0,0.018,1,0,0,0\n0.2,0.001,0,0.018,1,0,0,0\n");
