@@ -2,6 +2,7 @@
 #include <set>
 #include <utility>
 
+#include <glissade/apps/files/input_files.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/say.h>
 #include <glissade/apps/text.h>
@@ -21,6 +22,7 @@ void say_what_is_left_out(const std::string& mesh, std::int64_t triangles) {
 }  // namespace
 
 std::shared_ptr<const geometry::TriangleMesh> open_mesh(const std::string& path, double scale) {
+  note_input(path);
   geometry::ImportedMesh imported = geometry::import_mesh(path, scale);
   say_what_is_left_out(path, imported.degenerate_triangles);
   return std::make_shared<const geometry::TriangleMesh>(std::move(imported.mesh));

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include <glissade/apps/files/input_files.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {
@@ -88,6 +89,7 @@ std::ifstream open_text_file(const std::string& path, std::uintmax_t max_bytes) 
     throw std::invalid_argument(path + ": has " + std::to_string(size) + " bytes; at most " +
                                 std::to_string(max_bytes) + " are read");
   }
+  note_input(path);
   return file;
 }
 

@@ -15,6 +15,7 @@
 
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/size_warnings.h>
+#include <glissade/apps/files/input_files.h>
 #include <glissade/apps/files/obj_file.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/open_files.h>
@@ -79,6 +80,7 @@ std::string bytes_of(viewer::ViewScene scene, const std::string& ending) {
 }
 
 void write_file(const std::string& path, const std::string& bytes) {
+  refuse_input(path);
   std::ofstream file(path, std::ios::binary);
   if (!file) throw std::invalid_argument(path + ": cannot be created: " + std::generic_category().message(errno));
   file << bytes;

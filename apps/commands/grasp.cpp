@@ -277,7 +277,11 @@ int run(const GraspOptions& options) {
     }
   }
   std::vector<std::pair<std::string, std::string>> rows = outcome.rows();
-  if (report) rows.emplace_back("report", write_html_report(report->finish(outcome), options.report));
+  if (report) {
+    Report page = report->finish(outcome);
+    page.summary.emplace_back("rules", words_of(rules.sliding));
+    rows.emplace_back("report", write_html_report(page, options.report));
+  }
   if (options.out != "-" && options.objects != "-") {
     for (const auto& [name, value] : rows)
       std::cout << std::left << std::setw(16) << name << "  " << value << '\n';

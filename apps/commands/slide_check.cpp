@@ -11,6 +11,7 @@
 #include <glissade/apps/commands/least_clearance.h>
 #include <glissade/apps/commands/slide_check.h>
 #include <glissade/apps/report/growing_curve.h>
+#include <glissade/apps/scene/sliding_option.h>
 #include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/clearance_curve.h>
@@ -167,6 +168,7 @@ Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks
   report.summary.emplace_back("scene", scene.source);
   report.summary.emplace_back("metaphor", std::string(haptics::name_of(options.sliding.metaphor)));
   report.summary.emplace_back("method", std::string(haptics::name_of(options.method)));
+  report.summary.emplace_back("rules", words_of(options.sliding.rules));
   report.summary.emplace_back(scene.X_WGoal ? "goal reached" : "end of the trajectory reached",
                               std::to_string(reached) + " of " + std::to_string(checks.size()));
   for (const SlideCheck& check : checks)

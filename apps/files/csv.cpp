@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/input_files.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {
@@ -132,6 +133,7 @@ std::string CsvReader::where() const {
 CsvWriter::CsvWriter(const std::string& path, const std::vector<std::string>& columns)
     : path_(path), columns_(columns.size()), out_(&std::cout) {
   if (path != "-") {
+    refuse_input(path);
     file_.open(path, std::ios::binary);
     if (!file_) throw std::invalid_argument(path + ": cannot be written: " + std::generic_category().message(errno));
     out_ = &file_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <glissade/apps/did_you_mean.h>
+#include <glissade/apps/files/input_files.h>
 #include <glissade/apps/files/pose_rules.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/files/trajectory_file.h>
@@ -148,6 +149,7 @@ class SceneReader {
     Geometry& geometry = files_[{path, scale}];
     if (geometry.mesh) return geometry;
     try {
+      note_input(path);
       geometry::ImportedMesh imported = geometry::import_mesh(path, scale);
       geometry = {std::make_shared<const geometry::TriangleMesh>(std::move(imported.mesh)),
                   imported.degenerate_triangles};

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include <glissade/apps/files/input_files.h>
 #include <glissade/apps/record/run_recorders.h>
 
 namespace glissade::apps {
@@ -10,6 +11,7 @@ namespace glissade::apps {
 void validate(const RecordSettings& settings) {
   for (const std::string& path : {settings.log, settings.flight}) {
     if (path.empty()) continue;
+    refuse_input(path);
     const bool is_new = !std::filesystem::exists(path);
     if (!std::ofstream(path, std::ios::app)) throw std::invalid_argument(path + ": cannot be created");
     if (is_new) std::filesystem::remove(path);

@@ -41,4 +41,13 @@ haptics::SlidingRules with_choice(haptics::SlidingRules rules, const SlidingChoi
   return rules;
 }
 
+std::string words_of(const haptics::SlidingRules& rules) {
+  const haptics::Friction& friction = rules.friction;
+  std::string words = friction.is_on() ? "friction " + format_number(friction.sliding) : "no friction";
+  if (friction.at_rest != friction.sliding) words += ", at rest " + format_number(friction.at_rest);
+  if (rules.spiral_search) words += "; spiral search";
+  if (rules.overlap == haptics::OverlapRule::kDepenetrate) words += "; depenetrate";
+  return words;
+}
+
 }  // namespace glissade::apps

@@ -45,5 +45,7 @@ void add_sliding_options(CLI::App& command, SlidingChoice& choice);
 haptics::Metaphor metaphor_of(const SlidingChoice& choice);
 /// `rules` with the choice of the user. Throws std::invalid_argument, naming the option.
 haptics::SlidingRules with_choice(haptics::SlidingRules rules, const SlidingChoice& choice);
+/// What a page says of rules that a user may choose: "friction 0.2, at rest 0.3; spiral search", or "no friction".
+std::string words_of(const haptics::SlidingRules& rules);
 
 }  // namespace glissade::apps

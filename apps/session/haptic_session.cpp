@@ -137,6 +137,7 @@ Session run_session_offline(const HapticScene& scene, const HandScript& script, 
     grip.fingers.emplace();
   }
   StartedSimulation started = start_simulation(scene, {grip}, choice, {});
+  validate(record);
   const haptics::MultiPartSliding& sliding = started.simulation->parts();
   const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks), sliding.part_count(), 1);
   std::optional<haptics::LogRecorder> log;

@@ -116,6 +116,38 @@ TEST_F(HostileInput, HugeFilesAreNotReadToSeeThatTheyAreNoMeshes) {
   }
 }
 
+TEST_F(HostileInput, NoOutputTakesThePlaceOfAnInput) {
+  const std::string poses = folder.write("poses.csv", "x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,1,0,0,0\n");
+  const std::string hand = folder.write("fingers.csv", read_text_file(GLISSADE_SCENES "/ball_and_tray_hand.csv"));
+  const std::string tray = GLISSADE_SCENES "/ball_and_tray.yaml";
+  const std::string script = folder.write("script.csv", read_text_file(trajectory));
+  const std::string led = folder.write(
+      "led.yaml",
+      "objects:\n"
+      "  - {name: ball, movable: true, shape: {type: sphere, radius_m: 0.02}, pose: {position_m: [0, 0, 0.1]}}\n"
+      "  - {name: floor, shape: {type: plate}}\n"
+      "script: script.csv\n");
+  const std::string link = folder.path("link.csv");
+  std::filesystem::create_symlink(trajectory, link);
+  const std::vector<std::pair<std::string, std::vector<std::string>>> runs{
+      {trajectory, slide({"--out", trajectory})},
+      {trajectory, slide({"--out", link})},
+      {trajectory, slide({"--summary", trajectory})},
+      {scene, slide({"--contacts", scene})},
+      {poses, {"collide", mesh, mesh, "--poses", poses, "--out", poses}},
+      {led, {"demo", "--scene", led, "--offline", "--record", led}},
+      {hand, {"grasp", tray, "--hand-trajectory", hand, "--out", hand}},
+      {script, {"glove", "--script", script, "--record", script}}};
+  for (const auto& [input, arguments] : runs) {
+    SCOPED_TRACE(arguments.front() + " over " + input);
+    const std::string before = read_text_file(input);
+    const ProgramResult result = glissade(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.standard_error;
+    EXPECT_THAT(result.standard_error, HasSubstr(": is an input, which would be overwritten\n"));
+    EXPECT_EQ(read_text_file(input), before);
+  }
+}
+
 TEST_F(HostileInput, ACacheReplacesFilesOnly) {
   const std::string cache = mesh + ".dop-tree";
   const std::string other = folder.write("precious", "of somebody else");

@@ -140,6 +140,18 @@ TEST_F(AssemblyCheck, WritesAPage) {
     EXPECT_THAT(page, testing::HasSubstr(part));
 }
 
+TEST_F(AssemblyCheck, ThePageNamesTheRules) {
+  const auto page = [&](const std::vector<std::string>& rules) {
+    std::vector<std::string> arguments{"--report", folder.path("page")};
+    arguments.insert(arguments.end(), rules.begin(), rules.end());
+    EXPECT_EQ(check({below}, arguments).exit_code, 0);
+    return read_text_file(folder.path("page/index.html"));
+  };
+  EXPECT_THAT(page({}), testing::HasSubstr("<td>no friction</td>"));
+  EXPECT_THAT(page({"--friction", "0.2", "0.3", "--spiral-search", "--depenetrate"}),
+              testing::HasSubstr("<td>friction 0.2, at rest 0.3; spiral search; depenetrate</td>"));
+}
+
 TEST_F(AssemblyCheck, ThePageOfSeveralShowsTheFirstThatMissesTheGoal) {
   ASSERT_EQ(check({above, below, above}, {"--report", folder.path("page")}).exit_code, 0);
   const std::string page = read_text_file(folder.path("page/index.html"));
