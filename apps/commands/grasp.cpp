@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -225,6 +227,32 @@ grasping::GraspSimulation start(const HapticScene& scene,
   }
 }
 
+/// Warns of angles beyond those of any joint, and of a root that never comes near an object.
+void warn_of_units(const std::string& file, const HandTrajectory& trajectory, const Scene& scene) {
+  constexpr double kNoJoint_rad = 2.0 * std::numbers::pi;
+  constexpr double kFar_m = 2.0;
+  constexpr int kMoments = 200;
+  if (trajectory.greatest_angle() > kNoJoint_rad) {
+    warn(file + ": angles of joints up to " + rounded_text(trajectory.greatest_angle()) + " rad: degrees?");
+  }
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kMoments; ++i) {
+    const Eigen::Vector3d p_WR =
+        trajectory.posture_at(trajectory.first_time() + i * trajectory.duration() / kMoments).X_WR.translation();
+    for (const SceneObject& object : scene.objects) {
+      if (object.motion) return;  // it may come to the hand
+      Eigen::AlignedBox3d box;
+      for (const Eigen::Vector3d& vertex : object.mesh->vertices)
+        box.extend(vertex);
+      nearest_m = std::min(nearest_m, box.exteriorDistance(object.X_WB.inverse(Eigen::Isometry) * p_WR));
+    }
+  }
+  if (nearest_m > kFar_m) {
+    warn(file + ": the hand stays more than " + rounded_text(nearest_m) +
+         " m away from everything: are its poses and those of the objects in metres?");
+  }
+}
+
 int run(const GraspOptions& options) {
   if (are_one_file(options.out, options.objects)) {
     throw std::invalid_argument("--objects: " + in_quotes(options.objects) + " is already the file of --out");
@@ -238,6 +266,8 @@ int run(const GraspOptions& options) {
   const HapticScene scene = make_haptic_scene(scene_file, movable_objects(scene_file));
   for (const std::string& sentence : doubtful_sizes(scene_file, scene))
     warn(sentence);
+  for (std::size_t i = 0; i < trajectories.size(); ++i)
+    warn_of_units(options.trajectories[i], trajectories[i], scene_file);
   for (const std::string& sentence : parts_inside(scene))
     warn(scene.source + ": " + sentence);
   for (const std::string& name : scene.body_names)

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include <glissade/apps/files/csv.h>
@@ -12,6 +14,15 @@ namespace glissade::apps {
 grasping::Posture HandTrajectory::posture_at(std::chrono::nanoseconds time) const {
   const devices::JointValues values = devices::angles_at(values_, time);
   return {X_WR_.pose_at(time), {values.begin(), values.end()}};
+}
+
+double HandTrajectory::greatest_angle() const {
+  double greatest = 0.0;
+  for (const devices::TimedAngles& row : values_) {
+    for (const double angle : row.angles)
+      greatest = std::max(greatest, std::abs(angle));
+  }
+  return greatest;
 }
 
 HandTrajectory read_hand_trajectory(const std::string& path) {

@@ -27,6 +27,8 @@ class HandTrajectory {
   std::chrono::nanoseconds last_time() const { return values_.back().time; }
   std::chrono::nanoseconds duration() const { return last_time() - first_time(); }
   grasping::Posture posture_at(std::chrono::nanoseconds time) const;
+  /// Of all rows, in either direction, rad.
+  double greatest_angle() const;
 
  private:
   geometry::PoseTrajectory X_WR_;

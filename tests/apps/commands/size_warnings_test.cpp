@@ -8,6 +8,7 @@
 
 #include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/text.h>
+#include <glissade/devices/glove_device.h>
 
 #include "glissade_program.h"
 #include "temporary_folder.h"
@@ -96,6 +97,22 @@ TEST_F(WrongUnits, RunDemoAndGraspWarnToo) {
                "- {name: part, movable: true, mesh: small.obj}\n"
                "- {name: block, mesh: large.obj}\n");
   EXPECT_THAT(glissade({"run", scene, "--lcm", "udpm://239.255.76.67:7667?ttl=0"}).standard_error, HasSubstr(warning));
+}
+
+TEST_F(WrongUnits, GraspWarnsOfDegreesAndOfAHandFarAway) {
+  const std::string scene = GLISSADE_SCENES "/ball_and_tray.yaml";
+  const std::string all = read_text_file(GLISSADE_SCENES "/ball_and_tray_hand.csv");
+  const std::string header = all.substr(0, all.find('\n') + 1);
+  const auto warning = [&](const std::string& x, const std::string& angle) {
+    std::string row = "," + x + ",0,0.5,1,0,0,0";
+    for (int joint = 0; joint < devices::kGloveJoints; ++joint)
+      row += "," + angle;
+    const std::string hand = folder.write("fingers.csv", header + "0" + row + "\n0.01" + row + "\n");
+    return glissade({"grasp", scene, "--hand-trajectory", hand}).standard_error;
+  };
+  EXPECT_EQ(warning("0.3", "0.1"), "");
+  EXPECT_THAT(warning("0.3", "60"), HasSubstr("fingers.csv: angles of joints up to 60 rad: degrees?\n"));
+  EXPECT_THAT(warning("300", "0.1"), HasSubstr("fingers.csv: the hand stays more than 300 m away from everything"));
 }
 
 TEST_F(WrongUnits, ViewAndExportWarnOfMeshesToo) {
