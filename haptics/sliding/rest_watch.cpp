@@ -5,7 +5,7 @@ namespace {
 
 constexpr double kTargetStands_m = 10e-6;
 constexpr double kPartStays_m = 0.1e-3;
-constexpr double kPatience_ms = 200.0;
+constexpr double kUntilRestless_ms = 200.0;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void RestWatch::observe(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& 
     return;
   }
   here_ms_ += milliseconds;
-  stays_ = here_ms_ > kPatience_ms;
+  stays_ = here_ms_ > kUntilRestless_ms;
   is_restless_ = is_restless_ || (moved && stays_);
 }
 
