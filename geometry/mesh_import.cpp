@@ -44,7 +44,7 @@ std::int64_t drop_degenerate(TriangleMesh& mesh) {
   return static_cast<std::int64_t>(before - mesh.triangles.size());
 }
 
-// Triangles without area count as well, but for those with equal corners, which join nothing.
+// Triangles without area count, too. Those with two equal corners do not: they have no edges to join.
 bool has_two_triangles_at_every_edge(const TriangleMesh& mesh) {
   std::vector<std::array<std::int32_t, 2>> edges;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -79,10 +79,9 @@ ImportedMesh import_mesh(const std::filesystem::path& path, double scale) {
   ImportedMesh result;
   result.polygons_triangulated = soup.polygons_triangulated;
   result.mesh = weld(soup.mesh);
-  const TriangleMesh whole = result.mesh;
   result.degenerate_triangles = drop_degenerate(result.mesh);
   if (result.degenerate_triangles > 0) {
-    result.closed_by_degenerate = has_two_triangles_at_every_edge(whole);
+    result.closed_by_degenerate = has_two_triangles_at_every_edge(weld(soup.mesh));
     result.mesh = weld(result.mesh);  // drops the vertices that only they used
   }
   if (result.mesh.triangles.empty()) {

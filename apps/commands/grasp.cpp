@@ -236,15 +236,15 @@ void warn_of_units(const std::string& file, const HandTrajectory& trajectory, co
     warn(file + ": angles of joints up to " + rounded_text(trajectory.greatest_angle()) + " rad: degrees?");
   }
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= kMoments; ++i) {
-    const Eigen::Vector3d p_WR =
-        trajectory.posture_at(trajectory.first_time() + i * trajectory.duration() / kMoments).X_WR.translation();
-    for (const SceneObject& object : scene.objects) {
-      if (object.motion) return;  // it may come to the hand
-      Eigen::AlignedBox3d box;
-      for (const Eigen::Vector3d& vertex : object.mesh->vertices)
-        box.extend(vertex);
-      nearest_m = std::min(nearest_m, box.exteriorDistance(object.X_WB.inverse(Eigen::Isometry) * p_WR));
+  for (const SceneObject& object : scene.objects) {
+    if (object.motion) return;  // it may come to the hand
+    Eigen::AlignedBox3d box_B;
+    for (const Eigen::Vector3d& vertex : object.mesh->vertices)
+      box_B.extend(vertex);
+    const Eigen::Isometry3d X_BW = object.X_WB.inverse(Eigen::Isometry);
+    for (int i = 0; i <= kMoments; ++i) {
+      const std::chrono::nanoseconds time = trajectory.first_time() + i * trajectory.duration() / kMoments;
+      nearest_m = std::min(nearest_m, box_B.exteriorDistance(X_BW * trajectory.posture_at(time).X_WR.translation()));
     }
   }
   if (nearest_m > kFar_m) {

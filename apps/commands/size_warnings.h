@@ -20,7 +20,7 @@ std::string told_size(double size_m, double scale, const std::string& option);
 /// Whether `told_size` doubts this size.
 bool is_doubtful(double size_m);
 
-/// One sentence for each mesh file that is larger than a car, or, of a movable object, than what hands hold.
+/// One sentence for each doubtful mesh file: one larger than a car, or a movable one larger than what hands hold.
 std::vector<std::string> doubtful_meshes(const Scene& file);
 
 /// The same, and a sentence for each part that is thousands of times as large as all obstacles. `file` is what `scene`

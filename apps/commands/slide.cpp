@@ -178,8 +178,8 @@ class Teller {
   int exit_code_ = 0;
 };
 
-/// Which of several trajectories a page shows in three dimensions: the first that misses its goal, or else the one with
-/// the greatest force. None if none could be checked.
+/// The trajectory that a page of several shows in three dimensions. It is the first that misses the goal. If all reach
+/// it, it is the one with the greatest force. None if none could be checked.
 std::optional<std::size_t> most_telling(const std::vector<SlideCheck>& checks) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < checks.size(); ++i) {

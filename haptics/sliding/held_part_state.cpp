@@ -19,7 +19,7 @@ void HeldPartState::rest(SlidingState state) {
   offset = {};
   closing = 0.0;
   spiral_search = SpiralSearch(part_V->radius());
-  rest_watch = RestWatch(lever);
+  rest_watch = {};
   result.state = state;
   result.contacts.clear();
   result.pushing = 0;
@@ -90,7 +90,7 @@ void HeldPartState::end_cycle(int number, double reach) {
 
 void HeldPartState::end_tick(double milliseconds) {
   previous_lag = lag();
-  rest_watch.observe(result.X_WV, X_WS, p_Vref, moved > kNotWorthIt * margin, milliseconds);
+  rest_watch.observe(result.X_WV, X_WS, p_Vref, lever, moved > kNotWorthIt * margin, milliseconds);
   if (may_search) spiral_search.observe(result.X_WT, p_Vref, previous_lag, moved, result.pushing > 0, milliseconds);
 }
 

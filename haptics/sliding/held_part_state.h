@@ -29,7 +29,7 @@ struct HeldPartState {
   std::optional<PartScript> script;
   bool may_search;  // in a spiral
   SpiralSearch spiral_search;
-  RestWatch rest_watch;
+  RestWatch rest_watch{};
 
   SlidingResult result{};
   Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();           // where steps aim, mostly X_WT

@@ -10,9 +10,9 @@ constexpr double kUntilRestless_ms = 200.0;
 }  // namespace
 
 void RestWatch::observe(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& p_Vref,
-                        bool moved, double milliseconds) {
+                        double lever, bool moved, double milliseconds) {
   const auto between = [&](const Eigen::Isometry3d& X_from, const Eigen::Isometry3d& X_to) {
-    return geometry::motion_bound(geometry::displacement_between(X_from, X_to, p_Vref), lever_);
+    return geometry::motion_bound(geometry::displacement_between(X_from, X_to, p_Vref), lever);
   };
   if (between(X_WT_, X_WT) > kTargetStands_m || between(X_WV_, X_WV) > kPartStays_m) {
     X_WV_ = X_WV;

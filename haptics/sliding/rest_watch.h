@@ -12,13 +12,10 @@ namespace glissade::haptics {
 /// Deterministic. Not thread-safe.
 class RestWatch {
  public:
-  /// For a part all of whose points are within `lever` metres of its reference point p_Vref.
-  explicit RestWatch(double lever) : lever_(lever) {}
-
   /// Notes a call of `advance` over `milliseconds`: the poses of the part and its target after it, and whether the part
-  /// moved in it, if only to and fro.
-  void observe(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& p_Vref, bool moved,
-               double milliseconds);
+  /// moved in it, if only to and fro. All its points are within `lever` metres of its reference point p_Vref.
+  void observe(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& p_Vref,
+               double lever, bool moved, double milliseconds);
 
   /// Whether neither the target nor the part has got anywhere for 0.2 s.
   bool stays() const { return stays_; }
@@ -26,7 +23,6 @@ class RestWatch {
   bool is_restless() const { return is_restless_; }
 
  private:
-  double lever_;
   Eigen::Isometry3d X_WV_ = Eigen::Isometry3d::Identity();  // since `here_ms_`
   Eigen::Isometry3d X_WT_ = Eigen::Isometry3d::Identity();
   double here_ms_ = 0.0;

@@ -78,8 +78,7 @@ HeldPartState state_at_start(const HeldPart& held, const Eigen::Isometry3d& X_WV
                       .lever = held.part_V->radius(),
                       .script = held.script,
                       .may_search = rules.spiral_search && !held.script,
-                      .spiral_search = SpiralSearch(held.part_V->radius()),
-                      .rest_watch = RestWatch(held.part_V->radius())};
+                      .spiral_search = SpiralSearch(held.part_V->radius())};
   state.result.X_WG = X_WV;
   state.result.X_WT = X_WV;
   state.result.X_WV = X_WV;

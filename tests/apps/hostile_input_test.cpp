@@ -127,6 +127,7 @@ TEST_F(HostileInput, NoOutputTakesThePlaceOfAnInput) {
       "  - {name: ball, movable: true, shape: {type: sphere, radius_m: 0.02}, pose: {position_m: [0, 0, 0.1]}}\n"
       "  - {name: floor, shape: {type: plate}}\n"
       "script: script.csv\n");
+  const std::string meshed = folder.write("meshed.yaml", "objects: [{name: a, mesh: a.obj}]\n");
   const std::string link = folder.path("link.csv");
   std::filesystem::create_symlink(trajectory, link);
   const std::vector<std::pair<std::string, std::vector<std::string>>> runs{
@@ -135,6 +136,7 @@ TEST_F(HostileInput, NoOutputTakesThePlaceOfAnInput) {
       {trajectory, slide({"--summary", trajectory})},
       {scene, slide({"--contacts", scene})},
       {poses, {"collide", mesh, mesh, "--poses", poses, "--out", poses}},
+      {mesh, {"export", meshed, "--out", mesh}},
       {led, {"demo", "--scene", led, "--offline", "--record", led}},
       {hand, {"grasp", tray, "--hand-trajectory", hand, "--out", hand}},
       {script, {"glove", "--script", script, "--record", script}}};

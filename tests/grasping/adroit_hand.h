@@ -11,9 +11,9 @@
 
 namespace glissade::test_support {
 
-/// The joints but those of the wrist, in the order of `kAdroitJointNames`, without limits. The root is the palm, of two
-/// boxes, as `adroit_palm` has it. The segments of thumb and fingers are capsules. Bones and radii are those of the
-/// task; everything is `margin_m` thicker on all sides.
+/// Has all joints of `kAdroitJointNames` in their order, except those of the wrist, and no limits. The root is the
+/// palm, whose pose `adroit_palm` gives; it consists of two boxes. The segments of thumb and fingers are capsules.
+/// Bones and radii are those of the task; everything is `margin_m` thicker on all sides.
 std::shared_ptr<const grasping::HandModel> make_adroit_hand(double margin_m);
 
 /// Its palm and joints in a row.

@@ -62,17 +62,17 @@ TEST(RestWatch, APartRestsWhereItsContactsWouldLeadItInACircle) {
 
 TEST(RestWatch, NoticesToAndFroOnlyWhereNothingGetsAnywhere) {
   const auto restless = [](double part_m, double target_m) {
-    RestWatch watch(0.05);
+    RestWatch watch;
     for (int ms = 0; ms < 1000; ++ms)
-      watch.observe(at(part_m * ms), at(target_m * ms), Vector3d::Zero(), true, 1.0);
+      watch.observe(at(part_m * ms), at(target_m * ms), Vector3d::Zero(), 0.05, true, 1.0);
     return watch.is_restless();
   };
   EXPECT_TRUE(restless(0.0, 0.0));
   EXPECT_FALSE(restless(1e-6, 0.0)) << "creeps";
   EXPECT_FALSE(restless(0.0, 1e-6)) << "is led elsewhere";
-  RestWatch still(0.05);
+  RestWatch still;
   for (int ms = 0; ms < 1000; ++ms)
-    still.observe(at(0.0), at(0.0), Vector3d::Zero(), false, 1.0);
+    still.observe(at(0.0), at(0.0), Vector3d::Zero(), 0.05, false, 1.0);
   EXPECT_TRUE(still.stays());
   EXPECT_FALSE(still.is_restless());
 }
