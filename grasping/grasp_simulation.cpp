@@ -23,25 +23,6 @@ ClaspRules rules_of_hands(const GraspRules& rules) {
   return of_hands;
 }
 
-std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const std::vector<haptics::HeldPart>& parts) {
-  std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies;
-  for (const haptics::HeldPart& part : parts)
-    bodies.push_back(part.part_V);
-  return bodies;
-}
-
-std::vector<GraspingHand> hands_of(const std::vector<std::shared_ptr<const HandModel>>& models,
-                                   const std::vector<haptics::Obstacle>& fixed,
-                                   const std::vector<haptics::HeldPart>& parts, const ClaspRules& rules) {
-  std::vector<GraspingHand> hands;
-  hands.reserve(models.size());
-  for (const auto& model : models) {
-    if (model == nullptr) throw std::invalid_argument("a hand needs a model, not a null pointer");
-    hands.emplace_back(model, fixed, bodies_of(parts), rules);
-  }
-  return hands;
-}
-
 std::vector<haptics::RiderChain> chains_of(const std::vector<GraspingHand>& hands, double margin) {
   std::vector<haptics::RiderChain> chains;
   for (const GraspingHand& hand : hands)
@@ -56,7 +37,7 @@ class GraspSimulation::Life {
   Life(const std::vector<haptics::Obstacle>& fixed, const std::vector<haptics::HeldPart>& parts,
        const std::vector<std::shared_ptr<const HandModel>>& hands, const GraspRules& rules)
       : up_W_(rules.up_W),
-        hands_(hands_of(hands, fixed, parts, rules_of_hands(rules))),
+        hands_(make_hands(hands, fixed, parts, rules_of_hands(rules))),
         parts_(fixed, parts, rules.sliding, chains_of(hands_, rules.clasp.margin)),
         X_WG_(parts.size(), Eigen::Isometry3d::Identity()),
         pushes_(parts.size()),

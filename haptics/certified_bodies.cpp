@@ -28,6 +28,12 @@ std::vector<std::shared_ptr<const SlidingPart>> joined(std::vector<std::shared_p
   return objects;
 }
 
+double greatest(const std::vector<Obstacle>& fixed, double margin) {
+  for (const Obstacle& obstacle : fixed)
+    margin = std::max(margin, obstacle.margin.value_or(margin));
+  return margin;
+}
+
 std::vector<int> groups(std::size_t objects, std::size_t movers) {
   std::vector<int> result(objects, ContactScene::kStill);
   result.resize(objects + movers, ContactScene::kChain);
@@ -41,6 +47,7 @@ class CertifiedBodies::State {
   State(std::vector<Obstacle> fixed, std::vector<std::shared_ptr<const SlidingPart>> objects,
         const std::vector<std::shared_ptr<const SlidingPart>>& movers, double margin)
       : margin_(margin),
+        greatest_margin_(greatest(fixed, margin)),
         first_mover_(objects.size()),
         searches_(searches(fixed, objects, movers, margin)),
         scene_(std::move(fixed), joined(std::move(objects), movers), first_mover_ + movers.size(),
@@ -49,6 +56,7 @@ class CertifiedBodies::State {
 
   const ContactScene& scene() const { return scene_; }
   double margin() const { return margin_; }
+  double greatest_margin() const { return greatest_margin_; }
   std::size_t first_mover() const { return first_mover_; }
 
   void place_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
@@ -108,15 +116,17 @@ class CertifiedBodies::State {
       contact.margin = scene_.margin(contact.obstacle, body_of_mover(static_cast<std::size_t>(contact.part)));
   }
 
-  bool certify(const BodiesMotion& motion, std::vector<Contact>& failures) {
+  /// `most_taken` as in `PathCertificate::begin`.
+  bool certify(const BodiesMotion& motion, std::optional<double> most_taken, std::vector<Contact>& failures) {
     failures.clear();
     to_certify_.clear();
+    const double clearance = most_taken ? greatest_margin_ - *most_taken : kMinClearanceOfMargin * margin_;
     for (std::size_t m = 0; m < searches_.size(); ++m) {
-      const double concerned = motion.length(m) + kMinClearanceOfMargin * margin_ + certificate_.certain_distance();
+      const double concerned = motion.length(m) + clearance + certificate_.certain_distance();
       if (!searches_[m]->look(concerned)) return false;
       searches_[m]->add_within(concerned, body_of_mover(m), to_certify_);
     }
-    certificate_.begin(motion, first_mover_, to_certify_);
+    certificate_.begin(motion, first_mover_, to_certify_, most_taken);
     WorkBudget unlimited;
     certificate_.go_on(unlimited);
     work_ += kUnlimitedWork - unlimited.left;
@@ -168,6 +178,7 @@ class CertifiedBodies::State {
   }
 
   double margin_;
+  double greatest_margin_;                              // of all bodies
   std::size_t first_mover_;                             // among the parts of the scene
   std::vector<std::unique_ptr<MoverSearch>> searches_;  // of each mover
   ContactScene scene_;
@@ -203,6 +214,10 @@ double CertifiedBodies::margin() const {
   return state_->margin();
 }
 
+double CertifiedBodies::greatest_margin() const {
+  return state_->greatest_margin();
+}
+
 void CertifiedBodies::place_object(std::size_t object, const Eigen::Isometry3d& X_WB) {
   GLISSADE_ASSERT(object < object_count());
   state_->place_object(object, X_WB);
@@ -236,7 +251,12 @@ void CertifiedBodies::find_contacts(std::vector<Contact>& contacts) {
 }
 
 bool CertifiedBodies::certify(const BodiesMotion& motion, std::vector<Contact>& failures) {
-  return state_->certify(motion, failures);
+  return state_->certify(motion, std::nullopt, failures);
+}
+
+bool CertifiedBodies::certify_taking(double most_taken, const BodiesMotion& motion, std::vector<Contact>& failures) {
+  GLISSADE_ASSERT(most_taken < margin());
+  return state_->certify(motion, most_taken, failures);
 }
 
 }  // namespace glissade::haptics

@@ -34,6 +34,8 @@ class CertifiedBodies {
   std::size_t object_count() const;
   std::size_t mover_count() const;
   double margin() const;
+  /// The greatest of this margin and those that obstacles have of their own.
+  double greatest_margin() const;
 
   /// Places an object, or all movers, at rigid poses. Nothing is proved of the way there. The pose of mover i is entry
   /// numbers[i] of X_WM.
@@ -61,6 +63,8 @@ class CertifiedBodies {
   /// the last `look` cost another search. `failures` are the contacts in the way, at the present poses; without any,
   /// the motion is too long. Does not move anything.
   bool certify(const BodiesMotion& motion, std::vector<Contact>& failures);
+  /// The same, with another limit: the motion takes at most so much (metres, less than `margin()`) of every margin.
+  bool certify_taking(double most_taken, const BodiesMotion& motion, std::vector<Contact>& failures);
 
  private:
   class State;

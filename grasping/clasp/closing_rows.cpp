@@ -7,6 +7,7 @@ namespace glissade::grasping {
 void ClosingRows::set(const Posture& posture, const ChainStep& wanted, std::span<const haptics::Contact> contacts,
                       std::span<const std::size_t> movers) {
   planes_.clear();
+  gaps_.clear();
   rates_.clear();
   p_WR_ = posture.X_WR.translation();
   root_ = wanted.root;
@@ -19,6 +20,7 @@ void ClosingRows::set(const Posture& posture, const ChainStep& wanted, std::span
 void ClosingRows::add(const haptics::Contact& contact, std::size_t link) {
   const Eigen::Vector3d r_W = contact.p_W - p_WR_;
   planes_.push_back({contact.n_W, r_W, std::max(0.0, contact.gap - contact.margin)});
+  gaps_.push_back({link, contact.gap - contact.margin});
   const std::size_t first = rates_.size();
   rates_.resize(first + columns_, 0.0);
   rates_[first] = contact.n_W.dot(root_.v + root_.w.cross(r_W));
@@ -30,6 +32,14 @@ void ClosingRows::add(const haptics::Contact& contact, std::size_t link) {
     for (const JointTerm& term : links[*l].terms)
       rates_[first + 1 + term.value] += term.factor * wanted_[term.value] * per_rad;
   }
+}
+
+void ClosingRows::share_shortfalls() {
+  std::fill(shortfalls_.begin(), shortfalls_.end(), 0.0);
+  for (const LinkGap& gap : gaps_)
+    shortfalls_[gap.link] = std::max(shortfalls_[gap.link], -gap.beyond_margin);
+  for (std::size_t row = 0; row < gaps_.size(); ++row)
+    planes_[row].room = std::max(0.0, gaps_[row].beyond_margin + shortfalls_[gaps_[row].link]);
 }
 
 void ClosingRows::bar(std::size_t link) {

@@ -21,13 +21,18 @@ namespace glissade::grasping {
 class ClosingRows {
  public:
   explicit ClosingRows(const KinematicChain& chain)
-      : chain_(chain), columns_(1 + chain.values().size()), X_WL_(chain.links().size()) {}
+      : chain_(chain),
+        columns_(1 + chain.values().size()),
+        X_WL_(chain.links().size()),
+        shortfalls_(chain.links().size()) {}
 
   /// Computes all rows anew. `contacts` number the links by `movers`.
   void set(const Posture& posture, const ChainStep& wanted, std::span<const haptics::Contact> contacts,
            std::span<const std::size_t> movers);
   /// Adds a row to them.
   void add(const haptics::Contact& contact, std::size_t link);
+  /// Lets every contact of a link come as near, for its margin, as the nearest one of this link is already.
+  void share_shortfalls();
   /// Adds a row that no mover of this link may close, whichever way it moves the link.
   void bar(std::size_t link);
 
@@ -41,6 +46,12 @@ class ClosingRows {
   std::span<const ContactPlane> planes() const { return planes_; }
 
  private:
+  /// A contact of a link: how much more than its margin the gap is, metres.
+  struct LinkGap {
+    std::size_t link;
+    double beyond_margin;
+  };
+
   const KinematicChain& chain_;
   std::size_t columns_;
   Eigen::Vector3d p_WR_ = Eigen::Vector3d::Zero();
@@ -48,6 +59,8 @@ class ClosingRows {
   std::vector<double> wanted_;  // of each flex value
   std::vector<Eigen::Isometry3d> X_WL_;
   std::vector<ContactPlane> planes_;
+  std::vector<LinkGap> gaps_;       // of the planes
+  std::vector<double> shortfalls_;  // of the links, metres
   std::vector<double> rates_;
 };
 

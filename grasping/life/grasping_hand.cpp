@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include <glissade/base/assert.h>
@@ -138,6 +139,21 @@ void GraspingHand::analyze(double milliseconds, const Eigen::Vector3d& up_W, con
   for (const std::size_t link : held_.left())
     analysis_.forget(link, body);
   analysis_.update(held_.contacts(), milliseconds, up_W, body);
+}
+
+std::vector<GraspingHand> make_hands(const std::vector<std::shared_ptr<const HandModel>>& models,
+                                     const std::vector<haptics::Obstacle>& fixed,
+                                     const std::vector<haptics::HeldPart>& parts, const ClaspRules& rules) {
+  std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies;
+  for (const haptics::HeldPart& part : parts)
+    bodies.push_back(part.part_V);
+  std::vector<GraspingHand> hands;
+  hands.reserve(models.size());
+  for (const auto& model : models) {
+    if (model == nullptr) throw std::invalid_argument("a hand needs a model, not a null pointer");
+    hands.emplace_back(model, fixed, bodies, rules);
+  }
+  return hands;
 }
 
 }  // namespace glissade::grasping

@@ -15,6 +15,7 @@
 #include <glissade/grasping/grasp_analysis.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/haptics/contact_body.h>
+#include <glissade/haptics/sliding_rules.h>
 
 #include "life/held_contacts.h"
 #include "life/steady_fingers.h"
@@ -86,5 +87,10 @@ class GraspingHand {
   std::vector<Eigen::Isometry3d> X_WL_target_;
   std::vector<Eigen::Isometry3d> X_WB_;
 };
+
+/// A hand for each model, among these bodies. Throws std::invalid_argument for a null model, and as `Clasp` does.
+std::vector<GraspingHand> make_hands(const std::vector<std::shared_ptr<const HandModel>>& models,
+                                     const std::vector<haptics::Obstacle>& fixed,
+                                     const std::vector<haptics::HeldPart>& parts, const ClaspRules& rules);
 
 }  // namespace glissade::grasping

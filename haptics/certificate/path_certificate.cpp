@@ -42,6 +42,7 @@ void PathCertificate::begin_step(std::span<const geometry::Displacement> displac
   bodies_.begin_step(displacements);
   keeps_directions_ = true;
   rounding_ = certain_distance();
+  most_taken_.reset();
   obstacle_ = {};
   part_ = {};
 }
@@ -54,10 +55,11 @@ std::optional<PathOfBodies> PathCertificate::path_of(const BodyPair& bodies) {
 }
 
 void PathCertificate::begin(const BodiesMotion& motion, std::size_t first_mover,
-                            std::span<const PairToCertify> to_certify) {
+                            std::span<const PairToCertify> to_certify, std::optional<double> most_taken) {
   bodies_.begin_step(motion, first_mover);
   keeps_directions_ = false;
   rounding_ = certain_distance();
+  most_taken_ = most_taken;
   obstacle_ = {};
   part_ = {};
   begin(to_certify);
@@ -109,7 +111,8 @@ void PathCertificate::select(const BodyPair& bodies) {
   part_ = moving(bodies.part);
   obstacle_moves_ = bodies_.moves(bodies.obstacle);
   moves_ = obstacle_moves_ || bodies_.moves(bodies.part);
-  min_clearance_ = scene_.min_clearance(bodies.obstacle, bodies.part);
+  min_clearance_ = most_taken_ ? scene_.margin(bodies.obstacle, bodies.part) - *most_taken_
+                               : scene_.min_clearance(bodies.obstacle, bodies.part);
   far_ = bodies_.motion(bodies.obstacle) + bodies_.motion(bodies.part) + min_clearance_ + rounding_;
   needed_ = min_clearance_ + rounding_ + bodies_.curvature(bodies.obstacle, 0, MovingBodies::kMoments) +
             bodies_.curvature(bodies.part, 0, MovingBodies::kMoments);

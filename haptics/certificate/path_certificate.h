@@ -62,8 +62,10 @@ class PathCertificate {
   /// Begins the certificate of all of `to_certify` for this step. `to_certify` and the poses must stay as they are
   /// until `go_on` returns true.
   void begin(std::span<const PairToCertify> to_certify);
-  /// The same for the parts from `first_mover` on, which follow `motion`.
-  void begin(const BodiesMotion& motion, std::size_t first_mover, std::span<const PairToCertify> to_certify);
+  /// The same for the parts from `first_mover` on, which follow `motion`. They may take so much (metres) of every
+  /// margin; none: all but the minimum clearance of the scene.
+  void begin(const BodiesMotion& motion, std::size_t first_mover, std::span<const PairToCertify> to_certify,
+             std::optional<double> most_taken);
   /// Goes on until all pairs have been looked at or the budget is used up, at least with one pair of boxes, leaves or
   /// triangles. Returns whether all have been.
   bool go_on(WorkBudget& budget);
@@ -111,6 +113,7 @@ class PathCertificate {
   MovingBodies bodies_;
   bool keeps_directions_ = false;        // of the step: those that serve for the next steps too are worth a search
   double rounding_ = 0.0;                // metres: smaller distances are not certain
+  std::optional<double> most_taken_;     // metres of the margins
   std::span<const PairToCertify> rest_;  // pairs that have not been begun
   std::vector<OpenItems> open_;          // of the pair at hand, the last one next
   std::size_t place_ = 0;                // of the pair at hand among those to certify

@@ -49,14 +49,15 @@ struct Torture {
   int places = 0;     ///< looked at on the way
   int colliding = 0;  ///< postures that collide, or have collided on the way to them
   int resting = 0;    ///< postures at rest, in which every flex value was tried
+  int restless = 0;   ///< motions after which the hand found no rest
   int too_early = 0;  ///< of these, with a flex value that stopped before it had to
   std::string first_failure;
 };
 
 std::ostream& operator<<(std::ostream& out, const Torture& t) {
   return out << t.postures << " postures (" << t.touching << " touching) and " << t.places << " places between, "
-             << t.colliding << " collide; " << t.resting << " postures at rest, in " << t.too_early
-             << " a flex value stopped too early" << t.first_failure;
+             << t.colliding << " collide; " << t.resting << " postures at rest, " << t.restless
+             << " hands without rest; in " << t.too_early << " a flex value stopped too early" << t.first_failure;
 }
 
 /// Lets hands with consecutive seeds move about one object.
@@ -66,9 +67,9 @@ class Torturer {
       : object_(object), hand_(object, Eigen::Isometry3d::Identity()), nearer_(*hand_chain(), object) {}
 
   /// Until there are `least` postures, one that touches, and one at rest. At the end of each motion the target rests
-  /// until the hand rests too, and every flex value is tried. Most hands find rest within 0.4 s, but not all.
+  /// until the hand rests too, and every flex value is tried.
   const Torture& run(std::uint64_t seed, int least) {
-    constexpr int kMostHands = 20;  // that do not rest
+    constexpr int kMostHands = 20;  // that wait because they are inside something
     for (int hands = 0; torture_.postures < least || torture_.touching == 0 || torture_.resting == 0; ++hands) {
       if (torture_.postures >= least && hands >= kMostHands) break;
       move(seed++);
@@ -83,16 +84,23 @@ class Torturer {
 
  private:
   void move(std::uint64_t seed) {
-    constexpr int kLongestRest_ms = 400;
+    constexpr int kLongestRest_ms = 3000;
+    // A hand may try another flex value in each call.
+    const int still_ms = static_cast<int>(hand_chain()->values().size());
     const auto motion = static_cast<WildMotion>(seed % test_support::kWildMotions);
     name_ = "seed " + std::to_string(seed);
     const WildHand wild(seed, motion, object_);
     hand_.clasp.move_cart(wild.at_ms(0));
+    int still = 0;
     for (int ms = 0; ms < WildHand::kMs + kLongestRest_ms; ++ms) {
       advance(wild.at_ms(std::min(ms, WildHand::kMs)), ms);
-      const bool rests = hand_.clasp.state() == ClaspState::kClasping && hand_.clasp.way().empty();
-      if (ms >= WildHand::kMs && rests) return try_values(wild.at_ms(WildHand::kMs));
+      if (ms < WildHand::kMs) continue;
+      if (hand_.clasp.state() != ClaspState::kClasping) return;
+      still = hand_.clasp.way().empty() ? still + 1 : 0;
+      if (still == still_ms) return try_values(wild.at_ms(WildHand::kMs));
     }
+    ++torture_.restless;
+    note("no rest");
   }
 
   void advance(const Posture& target, int ms) {
@@ -114,9 +122,13 @@ class Torturer {
 
   void try_values(Posture target) {
     constexpr double kFarther_m = 10e-6;
+    constexpr double kGrazingMargin_m = 8e-6;
+    constexpr double kGrazing_m = 0.2e-3;
     ++torture_.resting;
     hand_chain()->clamp(target.values);
-    const auto early = nearer_.find(hand_.clasp.posture(), target, ClaspRules{}.margin, kFarther_m);
+    auto early = nearer_.find(hand_.clasp.posture(), target, ClaspRules{}.margin, kFarther_m);
+    // A way that only grazes its contacts may take of their margins.
+    if (!early) early = nearer_.find(hand_.clasp.posture(), target, kGrazingMargin_m, kGrazing_m);
     if (!early) return;
     ++torture_.too_early;
     note(hand_chain()->values()[*early].name + " too early");
@@ -144,6 +156,7 @@ TEST_P(ClaspTorture, NothingCollidesAndNoFlexValueStopsTooEarly) {
   std::cout << object.name << ", seed " << seed << ": " << result << "\n";
   EXPECT_EQ(result.colliding, 0) << result;
   EXPECT_GT(result.resting, 0) << result;
+  EXPECT_EQ(result.restless, 0) << result;
   EXPECT_EQ(result.too_early, 0) << result;
 }
 
@@ -151,7 +164,8 @@ INSTANTIATE_TEST_SUITE_P(Objects, ClaspTorture, testing::Range(std::size_t{0}, s
                          [](const auto& object) { return shapes::household_objects()[object.param].name; });
 
 /// A motion after which a flex value was as near to its target as a step of 5 µm could bring it, but not as near as
-/// several short ones; or as a step together with others, but not as one alone.
+/// several short ones; or as a step together with others, but not as one alone; or where its contacts are nearer than
+/// their margin already. Or after which a slide of the palm, found roughly, led to and fro for ever (the plate).
 struct LastSteps {
   std::string object;
   std::uint64_t seed;
@@ -160,8 +174,9 @@ struct LastSteps {
 TEST(ClaspTortureOfLastSteps, NoFlexValueStopsTooEarly) {
   if (test_support::kSanitized) GTEST_SKIP() << "takes long; the other torture runs through the same code";
   const auto& objects = shapes::household_objects();
-  for (const LastSteps& motion : {LastSteps{"screwdriver", 20035}, LastSteps{"jar_lid", 14059}, LastSteps{"book", 2011},
-                                  LastSteps{"wine_glass", 21027}, LastSteps{"door_handle", 10014}}) {
+  for (const LastSteps& motion :
+       {LastSteps{"screwdriver", 20035}, LastSteps{"jar_lid", 14059}, LastSteps{"book", 2011},
+        LastSteps{"wine_glass", 21027}, LastSteps{"door_handle", 10014}, LastSteps{"dinner_plate", 508525}}) {
     const auto object =
         std::find_if(objects.begin(), objects.end(), [&](const auto& one) { return one.name == motion.object; });
     ASSERT_NE(object, objects.end());
