@@ -70,7 +70,7 @@ if (gif !== '-') {
   }
   // A colour that only comes later, as that of a held part does, belongs to the palette as well.
   const some = frames.filter((_, i) => i % 6 === 0);
-  const palette = quantize(new Uint8ClampedArray(Buffer.concat(some)), 128);
+  const palette = quantize(Uint8Array.from(some.flatMap((frame) => [...frame])), 128);
   const encoder = GIFEncoder();
   for (const data of frames) encoder.writeFrame(applyPalette(data, palette), width, height, { palette, delay: FRAME_MS });
   encoder.finish();

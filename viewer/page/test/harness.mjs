@@ -8,7 +8,7 @@ import { chromium } from 'playwright-core';
 
 const PROGRAM = process.env.GLISSADE_PROGRAM ?? new URL('../../../build/release/apps/glissade', import.meta.url).pathname;
 const BROWSER = process.env.GLISSADE_CHROMIUM ?? '/usr/bin/chromium';
-const SHOTS = process.env.GLISSADE_SCREENSHOTS ?? new URL('../../../build/screenshots/', import.meta.url).pathname;
+export const SHOTS = process.env.GLISSADE_SCREENSHOTS ?? new URL('../../../build/screenshots/', import.meta.url).pathname;
 const PATIENCE_MS = 60000;
 
 export class Program {
