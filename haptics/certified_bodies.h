@@ -63,7 +63,7 @@ class CertifiedBodies {
   /// the last `look` cost another search. `failures` are the contacts in the way, at the present poses; without any,
   /// the motion is too long. Does not move anything.
   bool certify(const BodiesMotion& motion, std::vector<Contact>& failures);
-  /// The same, with another limit: the motion takes at most so much (metres, less than `margin()`) of every margin.
+  /// The same, and whether the motion also takes at most so much (metres, less than `margin()`) of every margin.
   bool certify_taking(double most_taken, const BodiesMotion& motion, std::vector<Contact>& failures);
 
  private:

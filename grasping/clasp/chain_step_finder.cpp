@@ -19,9 +19,8 @@ constexpr int kShortSteps = 2;
 // A way so long that takes no more than what is spared of the margins grazes its contacts; a shorter one may lead into
 // them.
 constexpr double kGrazing_m = 0.1e-3;
-// Of the margin: a step of one value alone may take some more than others, which would leave no room for its proof.
-constexpr double kTakenAlone = 0.75;
-static_assert(kTakenAlone > 1.0 - haptics::kMinClearanceOfMargin);
+// Of the margin of the hand: a step of one value alone takes no more of a wider margin either.
+constexpr double kTakenAlone = 1.0 - haptics::kMinClearanceOfMargin;
 constexpr int kRetries = 4;  // with the contacts that a proof has missed
 constexpr int kHalvings = 6;
 constexpr double kSame = 0.01;

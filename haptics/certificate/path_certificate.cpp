@@ -111,8 +111,9 @@ void PathCertificate::select(const BodyPair& bodies) {
   part_ = moving(bodies.part);
   obstacle_moves_ = bodies_.moves(bodies.obstacle);
   moves_ = obstacle_moves_ || bodies_.moves(bodies.part);
-  min_clearance_ = most_taken_ ? scene_.margin(bodies.obstacle, bodies.part) - *most_taken_
-                               : scene_.min_clearance(bodies.obstacle, bodies.part);
+  min_clearance_ = scene_.min_clearance(bodies.obstacle, bodies.part);
+  if (most_taken_)
+    min_clearance_ = std::max(min_clearance_, scene_.margin(bodies.obstacle, bodies.part) - *most_taken_);
   far_ = bodies_.motion(bodies.obstacle) + bodies_.motion(bodies.part) + min_clearance_ + rounding_;
   needed_ = min_clearance_ + rounding_ + bodies_.curvature(bodies.obstacle, 0, MovingBodies::kMoments) +
             bodies_.curvature(bodies.part, 0, MovingBodies::kMoments);

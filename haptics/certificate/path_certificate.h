@@ -62,8 +62,8 @@ class PathCertificate {
   /// Begins the certificate of all of `to_certify` for this step. `to_certify` and the poses must stay as they are
   /// until `go_on` returns true.
   void begin(std::span<const PairToCertify> to_certify);
-  /// The same for the parts from `first_mover` on, which follow `motion`. They may take so much (metres) of every
-  /// margin; none: all but the minimum clearance of the scene.
+  /// The same for the parts from `first_mover` on, which follow `motion`. They also take at most so much (metres)
+  /// of every margin, if this is given.
   void begin(const BodiesMotion& motion, std::size_t first_mover, std::span<const PairToCertify> to_certify,
              std::optional<double> most_taken);
   /// Goes on until all pairs have been looked at or the budget is used up, at least with one pair of boxes, leaves or

@@ -109,6 +109,18 @@ TEST(Clasp, TouchesAnObstacleWithAWideMarginToo) {
     EXPECT_GE(touch.contact.gap, 0.9 * kMargin_m);
 }
 
+// A hand at rest may take more of margins than one that moves, but an obstacle with a small margin of its own stops it.
+TEST(Clasp, GoesIntoNoObstacleWithASmallMargin) {
+  ClaspedHand check = hand_at_ball();
+  const auto body =
+      std::make_shared<const haptics::ContactBody>(std::make_shared<const geometry::TriangleMesh>(ball()));
+  Clasp clasp(hand_chain(), {{body, kAtPalm, "the ball", 2e-6}}, {});
+  clasp.advance(open_hand());
+  close(clasp, 1.2, 400);
+  EXPECT_FALSE(clasp.contacts().empty());
+  EXPECT_FALSE(check.collides(clasp.posture()));
+}
+
 TEST(Clasp, GoesOnInTheNextCallsWhereTheBudgetOfWorkIsUsedUp) {
   const auto ball = std::make_shared<const haptics::SlidingPart>(
       std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.035, 2000)));

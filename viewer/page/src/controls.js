@@ -99,10 +99,11 @@ export class Controls {
     };
     Object.keys(VIEWS).forEach((name, i) => { keys[`${i + 1}`] = () => stage.fit(name); });
     document.addEventListener('keydown', (event) => {
-      if (event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return;
-      if (takesKey(event.target, event.key)) return;
+      const key = event.key.length === 1 ? event.key.toLowerCase() : event.key; // with Caps Lock, letters are upper-case
+      if (event.ctrlKey || event.metaKey || event.altKey || !keys[key]) return;
+      if (takesKey(event.target, key)) return;
       event.preventDefault();
-      keys[event.key]();
+      keys[key]();
     });
   }
 

@@ -2,11 +2,11 @@
 
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
-import { mkdirSync } from 'node:fs';
+import { mkdirSync, readFileSync } from 'node:fs';
 import http from 'node:http';
 import { chromium } from 'playwright-core';
 
-const PROGRAM = process.env.GLISSADE_PROGRAM ?? new URL('../../../build/release/apps/glissade', import.meta.url).pathname;
+export const PROGRAM = process.env.GLISSADE_PROGRAM ?? new URL('../../../build/release/apps/glissade', import.meta.url).pathname;
 const BROWSER = process.env.GLISSADE_CHROMIUM ?? '/usr/bin/chromium';
 export const SHOTS = process.env.GLISSADE_SCREENSHOTS ?? new URL('../../../build/screenshots/', import.meta.url).pathname;
 const PATIENCE_MS = 60000;
@@ -127,4 +127,10 @@ export async function screenshot(page, name) {
 // Positions in metres, and angles of unit quaternions, that differ by less than a tenth of a millimetre or milliradian.
 export function isNear(a, b, tolerance = 1e-4) {
   return a.length === b.length && a.every((x, i) => Math.abs(x - b[i]) < tolerance);
+}
+
+// The rows of a table of CSV, each by the names of the columns.
+export function rowsOf(csv) {
+  const [head, ...lines] = readFileSync(csv, 'utf8').trim().split('\n').map((line) => line.split(','));
+  return lines.map((line) => Object.fromEntries(line.map((cell, i) => [head[i], cell])));
 }

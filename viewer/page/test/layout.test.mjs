@@ -133,6 +133,8 @@ test('everything works by keyboard alone', async () => {
   await eventually(async () => (await inspect(page)).isLive);
   await page.keyboard.press('g');
   assert.equal(await page.locator('#show-ghosts').isChecked(), false);
+  await page.keyboard.press('G'); // with Caps Lock
+  assert.equal(await page.locator('#show-ghosts').isChecked(), true);
   await picksByKey(page);
   // Every control can be reached, and shows that it is.
   const reached = new Set();

@@ -7,8 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
-
-const PROGRAM = process.env.GLISSADE_PROGRAM ?? new URL('../../../build/release/apps/glissade', import.meta.url).pathname;
+import { PROGRAM, rowsOf } from './harness.mjs';
 
 let folder;
 let door;
@@ -19,11 +18,6 @@ before(() => {
   hand = recorded('hand', '--fingers');
 });
 after(() => rmSync(folder, { recursive: true }));
-
-function rowsOf(csv) {
-  const [head, ...lines] = readFileSync(csv, 'utf8').trim().split('\n').map((line) => line.split(','));
-  return lines.map((line) => Object.fromEntries(line.map((cell, i) => [head[i], cell])));
-}
 
 // Records a demonstration of two seconds; returns its log as MCAP and as tables.
 function recorded(name, ...options) {

@@ -6,9 +6,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { close, eventually, inspect, isNear, launch, open, Program, screenshot } from './harness.mjs';
-
-const PROGRAM = process.env.GLISSADE_PROGRAM ?? new URL('../../../build/release/apps/glissade', import.meta.url).pathname;
+import { close, eventually, inspect, isNear, launch, open, Program, PROGRAM, rowsOf, screenshot } from './harness.mjs';
 
 let browser;
 let folder;
@@ -20,11 +18,6 @@ after(async () => {
   await browser.close();
   rmSync(folder, { recursive: true });
 });
-
-function rowsOf(csv) {
-  const [head, ...lines] = readFileSync(csv, 'utf8').trim().split('\n').map((line) => line.split(','));
-  return lines.map((line) => Object.fromEntries(line.map((cell, i) => [head[i], cell])));
-}
 
 test('a part stands where the recording of the run says', async () => {
   const log = join(folder, 'demo.lcmlog');
