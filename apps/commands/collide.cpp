@@ -57,7 +57,7 @@ struct CollideOptions {
 std::shared_ptr<const geometry::TriangleMesh> load(const std::string& path, double scale) {
   std::shared_ptr<const geometry::TriangleMesh> mesh = open_mesh(path, scale);
   const double size = size_of(*mesh);
-  if (is_doubtful(size)) warn(path + ": is " + told_size(size, scale, "--scale "));
+  if (is_doubtful(size, scale)) warn(path + ": is " + told_size(size, scale, "--scale "));
   return mesh;
 }
 

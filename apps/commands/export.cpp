@@ -63,7 +63,7 @@ std::chrono::nanoseconds time_of(double at_s) {
 
 viewer::ViewScene scene_at(std::optional<std::chrono::nanoseconds> time, const std::string& scene_file) {
   const Scene file = open_scene(scene_file);
-  for (const std::string& sentence : doubtful_meshes(file))
+  for (const std::string& sentence : doubtful_objects(file))
     warn(sentence);
   viewer::ViewScene scene{.title = file.source};
   for (const SceneObject& object : file.objects) {

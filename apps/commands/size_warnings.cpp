@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <iostream>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -9,13 +10,58 @@
 namespace glissade::apps {
 namespace {
 
-constexpr double kDoubtful_m = 10.0;     // no car
-constexpr double kDoubtfulPart_m = 2.0;  // no thing for a hand
-constexpr double kDoubtfulRatio = 1e3;   // of a part to what it meets: that of metres to millimetres
+constexpr double kDoubtful_m = 10.0;        // no car
+constexpr double kDoubtfulPart_m = 2.0;     // no thing for a hand
+constexpr double kDoubtfulScaled_m = 1e-3;  // a scale was applied twice, or the file was in metres
+constexpr double kDoubtfulRatio = 1e3;      // of a part and what it meets: that of metres and millimetres
 constexpr double kMillimetre = 1e-3;
+
+bool is_too_small(double size_m, double scale) {
+  return scale != 1.0 && size_m < kDoubtfulScaled_m;
+}
+
+std::string across(double size_m) {
+  return rounded_text(size_m) + " m across";
+}
 
 std::string in_millimetres(double scale, const std::string& option) {
   return ": millimetres? " + option + rounded_text(kMillimetre * scale);
+}
+
+std::string in_metres(double scale, const std::string& option) {
+  return ": in metres already? " + option + rounded_text(scale / kMillimetre);
+}
+
+/// What is doubtful in the size of an object alone; empty if nothing is.
+std::string doubt_of(const SceneObject& object) {
+  const double size = size_of(*object.mesh);
+  const bool is_too_large = size > (object.movable ? kDoubtfulPart_m : kDoubtful_m);
+  if (object.file_scale && is_too_large) return across(size) + in_millimetres(*object.file_scale, "scale: ");
+  if (object.file_scale && is_too_small(size, *object.file_scale)) {
+    return across(size) + in_metres(*object.file_scale, "scale: ");
+  }
+  // A large shape that stays where it is, such as a floor, is meant to be large.
+  if (!object.file_scale && object.movable && is_too_large) {
+    return across(size) + ", too large for a hand: is its shape in metres?";
+  }
+  return "";
+}
+
+/// The sizes of the smallest and the largest object that is no part.
+struct SizesAround {
+  double smallest_m = std::numeric_limits<double>::infinity();
+  double largest_m = 0.0;
+};
+
+SizesAround sizes_around(const Scene& file, const HapticScene& scene) {
+  SizesAround sizes;
+  for (const SceneObject& object : file.objects) {
+    if (scene.part_number(object.name)) continue;
+    const double size = size_of(*object.mesh);
+    sizes.smallest_m = std::min(sizes.smallest_m, size);
+    sizes.largest_m = std::max(sizes.largest_m, size);
+  }
+  return sizes;
 }
 
 }  // namespace
@@ -27,38 +73,37 @@ double size_of(const geometry::TriangleMesh& mesh) {
   return box.sizes().maxCoeff();
 }
 
-bool is_doubtful(double size_m) {
-  return size_m > kDoubtful_m;
+bool is_doubtful(double size_m, double scale) {
+  return size_m > kDoubtful_m || is_too_small(size_m, scale);
 }
 
 std::string told_size(double size_m, double scale, const std::string& option) {
-  const std::string text = rounded_text(size_m) + " m across";
-  return is_doubtful(size_m) ? text + in_millimetres(scale, option) : text;
+  if (!is_doubtful(size_m, scale)) return across(size_m);
+  return across(size_m) + (size_m > kDoubtful_m ? in_millimetres(scale, option) : in_metres(scale, option));
 }
 
-std::vector<std::string> doubtful_meshes(const Scene& file) {
+std::vector<std::string> doubtful_objects(const Scene& file) {
   std::vector<std::string> sentences;
   for (const SceneObject& object : file.objects) {
-    const double size = size_of(*object.mesh);
-    if (!object.file_scale || size <= (object.movable ? kDoubtfulPart_m : kDoubtful_m)) continue;
-    sentences.push_back(file.source + ": object " + in_quotes(object.name) + " is " + rounded_text(size) + " m across" +
-                        in_millimetres(*object.file_scale, "scale: "));
+    const std::string doubt = doubt_of(object);
+    if (!doubt.empty()) sentences.push_back(file.source + ": object " + in_quotes(object.name) + " is " + doubt);
   }
   return sentences;
 }
 
 std::vector<std::string> doubtful_sizes(const Scene& file, const HapticScene& scene) {
-  std::vector<std::string> sentences = doubtful_meshes(file);
-  double largest_obstacle = 0.0;
-  for (const SceneObject& object : file.objects) {
-    if (!scene.part_number(object.name)) largest_obstacle = std::max(largest_obstacle, size_of(*object.mesh));
-  }
+  std::vector<std::string> sentences = doubtful_objects(file);
+  const SizesAround around = sizes_around(file, scene);
+  if (around.largest_m == 0.0) return sentences;
   for (const ScenePart& part : scene.parts) {
+    if (!doubt_of(file.find(part.name)).empty()) continue;  // one warning is enough
     const double size = size_of(part.part_V->tree.mesh());
-    if (largest_obstacle == 0.0 || size <= kDoubtfulRatio * largest_obstacle) continue;
-    sentences.push_back(file.source + ": object " + in_quotes(part.name) + " is " + rounded_text(size) +
-                        " m across, and everything around it at most " + rounded_text(largest_obstacle) +
-                        " m: one of both has the wrong 'scale'");
+    std::string others;
+    if (size > kDoubtfulRatio * around.largest_m) others = "at most " + rounded_text(around.largest_m);
+    if (kDoubtfulRatio * size < around.smallest_m) others = "at least " + rounded_text(around.smallest_m);
+    if (others.empty()) continue;
+    sentences.push_back(file.source + ": object " + in_quotes(part.name) + " is " + across(size) +
+                        ", and everything around it " + others + " m: one of both has the wrong 'scale'");
   }
   return sentences;
 }

@@ -14,17 +14,18 @@ namespace glissade::apps {
 /// The largest side of the bounding box, metres.
 double size_of(const geometry::TriangleMesh& mesh);
 
-/// "60 m across", and if this is more than a car has, what may be wrong, for an option or a key: "60 m across:
-/// millimetres? --scale 0.001". `scale` is the present one.
+/// "60 m across", and what may be wrong for an option or a key, if the size is doubtful: "60 m across: millimetres?
+/// --scale 0.001". `scale` is the present one.
 std::string told_size(double size_m, double scale, const std::string& option);
-/// Whether `told_size` doubts this size.
-bool is_doubtful(double size_m);
+/// Whether `told_size` doubts this size: more than a car has, or less than a millimetre though a scale was given.
+bool is_doubtful(double size_m, double scale);
 
-/// One sentence for each doubtful mesh file: one larger than a car, or a movable one larger than what hands hold.
-std::vector<std::string> doubtful_meshes(const Scene& file);
+/// One sentence for each doubtful object: a mesh file larger than a car, or scaled to less than a millimetre; a movable
+/// object larger than what hands hold.
+std::vector<std::string> doubtful_objects(const Scene& file);
 
-/// The same, and a sentence for each part that is thousands of times as large as all obstacles. `file` is what `scene`
-/// was made of.
+/// The same, and a sentence for each part that is thousands of times as large as all obstacles, or as small. `file` is
+/// what `scene` was made of.
 std::vector<std::string> doubtful_sizes(const Scene& file, const HapticScene& scene);
 
 /// Writes a warning as one line to standard error.

@@ -60,7 +60,7 @@ struct Received {
 int view(const ViewOptions& options) {
   const Scene file =
       read_or_embedded_scene(options.scene, options.fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor);
-  for (const std::string& sentence : doubtful_meshes(file))
+  for (const std::string& sentence : doubtful_objects(file))
     warn(sentence);
   std::shared_ptr<const grasping::HandModel> model;
   if (options.fingers) {

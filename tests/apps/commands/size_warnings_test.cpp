@@ -138,6 +138,39 @@ TEST_F(WrongUnits, SlideWarnsOfAPartThousandsOfTimesAsLargeAsAllElse) {
               HasSubstr("object 'part' is 0.1 m across, and everything around it at most 1e-05 m"));
 }
 
+TEST_F(WrongUnits, SlideWarnsOfAPartThousandsOfTimesAsSmallAsAllElse) {
+  const std::string speck = "shape: {type: sphere, radius_m: 5.0e-5}";
+  const std::string box = "shape: {type: box, size_x_m: 0.6, size_y_m: 0.6, size_z_m: 0.6}";
+  EXPECT_THAT(slide(speck, box, "0.4").standard_error,
+              HasSubstr("object 'part' is 0.0001 m across, and everything around it at least 0.6 m"));
+  // A crumb in a large room may lie near small things.
+  EXPECT_EQ(slide(speck, box + "}\n- {name: bead, shape: {type: sphere, radius_m: 0.01}", "0.4001").standard_error, "");
+}
+
+TEST_F(WrongUnits, EveryCommandWarnsOfAScaleThatWasAppliedTwice) {
+  const std::string tiny = " is 6e-05 m across: in metres already? ";
+  const ProgramResult slid = slide("mesh: small.obj, scale: 0.001", "mesh: small.obj", "-0.1");
+  EXPECT_THAT(slid.standard_error, HasSubstr("object 'part'" + tiny + "scale: 1\n"));
+  EXPECT_THAT(slid.standard_error, Not(HasSubstr("everything around it"))) << "one warning is enough";
+  EXPECT_THAT(slide("mesh: small.obj", "mesh: small.obj, scale: 0.001", "-0.1").standard_error,
+              HasSubstr("object 'block'" + tiny + "scale: 1\n"));
+  EXPECT_THAT(glissade({"info", small, "--scale", "0.001"}).standard_output,
+              HasSubstr(" 6e-05 m across: in metres already? --scale 1\n"));
+  const std::string poses = folder.write("poses.csv", "x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,1,0,0,0\n");
+  EXPECT_THAT(glissade({"collide", small, small, "--poses", poses, "--scale", "0.001", "1"}).standard_error,
+              HasSubstr(small + ":" + tiny + "--scale 1\n"));
+  // Without a scale, a small mesh is meant to be small.
+  mesh("crumb.obj", "0.0006");
+  EXPECT_EQ(slide("mesh: crumb.obj", "mesh: small.obj", "-0.001").standard_error, "");
+}
+
+TEST_F(WrongUnits, AMovableShapeOfEightMetresIsNoPartForAHand) {
+  const std::string large_part = "shape: {type: box, size_x_m: 8, size_y_m: 0.1, size_z_m: 0.1}";
+  const std::string result = slide(large_part, large_part, "-0.2").standard_error;
+  EXPECT_THAT(result, HasSubstr("object 'part' is 8 m across, too large for a hand: is its shape in metres?\n"));
+  EXPECT_THAT(result, Not(HasSubstr("'block'"))) << "a large shape that stays is meant to be large";
+}
+
 TEST_F(WrongUnits, SlideWarnsOfAPartThatNeverComesNearAnything) {
   const std::string box = "shape: {type: box, size_x_m: 0.1, size_y_m: 0.1, size_z_m: 0.1}";
   const ProgramResult result = slide(box, box, "30");
@@ -152,6 +185,11 @@ TEST(ToldSize, ProposesTheScaleThatMakesMetresOfMillimetres) {
   EXPECT_EQ(told_size(0.06, 1.0, "--scale "), "0.06 m across");
   EXPECT_EQ(told_size(60.0, 1.0, "--scale "), "60 m across: millimetres? --scale 0.001");
   EXPECT_EQ(told_size(1500.0, 25.4, "scale: "), "1500 m across: millimetres? scale: 0.0254");
+}
+
+TEST(ToldSize, ProposesTheScaleOfAFileThatIsInMetresAlready) {
+  EXPECT_EQ(told_size(2e-4, 1.0, "--scale "), "0.0002 m across");
+  EXPECT_EQ(told_size(2e-4, 0.001, "--scale "), "0.0002 m across: in metres already? --scale 1");
 }
 
 }  // namespace
