@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/command.h>
-#include <glissade/apps/commands/size_warnings.h>
+#include <glissade/apps/commands/scene_warnings.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/report/html_report.h>
@@ -18,7 +18,6 @@
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/scene/embedded_scene.h>
 #include <glissade/apps/scene/haptic_scene.h>
-#include <glissade/apps/scene/parts_inside.h>
 #include <glissade/apps/session/haptic_session.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/session_view.h>
@@ -86,10 +85,7 @@ Demo demo_of(const std::string& path, bool fingers) {
     throw std::invalid_argument(path + ": the scene has no script for the hand to follow");
   }
   HapticScene haptic_scene = make_haptic_scene(scene, movable_objects(scene));
-  for (const std::string& sentence : doubtful_sizes(scene, haptic_scene))
-    warn(sentence);
-  for (const std::string& sentence : parts_inside(haptic_scene))
-    warn(haptic_scene.source + ": " + sentence);
+  warn_of_scene(scene, haptic_scene);
   return {std::move(haptic_scene),
           path.empty() ? parse_hand_script(embedded_scene_script(demonstration), embedded_script_name(demonstration))
                        : read_hand_script(*scene.script_path)};

@@ -19,6 +19,7 @@
 
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/fingertip_forces.h>
+#include <glissade/apps/commands/scene_warnings.h>
 #include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
@@ -27,7 +28,6 @@
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/scene/haptic_scene.h>
-#include <glissade/apps/scene/parts_inside.h>
 #include <glissade/apps/scene/sliding_option.h>
 #include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
@@ -264,12 +264,9 @@ int run(const GraspOptions& options) {
   const std::vector<std::shared_ptr<const grasping::HandModel>> hands = make_hands(options);
   const Scene scene_file = open_scene(options.scene);
   const HapticScene scene = make_haptic_scene(scene_file, movable_objects(scene_file));
-  for (const std::string& sentence : doubtful_sizes(scene_file, scene))
-    warn(sentence);
+  warn_of_scene(scene_file, scene);
   for (std::size_t i = 0; i < trajectories.size(); ++i)
     warn_of_units(options.trajectories[i], trajectories[i], scene_file);
-  for (const std::string& sentence : parts_inside(scene))
-    warn(scene.source + ": " + sentence);
   for (const std::string& name : scene.body_names)
     check_name_fits_csv(scene, name);
   grasping::GraspRules rules;

@@ -12,7 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/command.h>
-#include <glissade/apps/commands/size_warnings.h>
+#include <glissade/apps/commands/scene_warnings.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/open_files.h>
@@ -22,7 +22,6 @@
 #include <glissade/apps/run/status_line.h>
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/scene/haptic_scene.h>
-#include <glissade/apps/scene/parts_inside.h>
 #include <glissade/apps/session/haptic_session.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/session_view.h>
@@ -200,10 +199,7 @@ int run(const RunOptions& options) {
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   const Scene file = open_scene(options.scene);
   const HapticScene scene = make_haptic_scene(file, movable_objects(file));
-  for (const std::string& sentence : doubtful_sizes(file, scene))
-    warn(sentence);
-  for (const std::string& sentence : parts_inside(scene))
-    warn(scene.source + ": " + sentence);
+  warn_of_scene(file, scene);
   RunSettings settings{.hands = hands_of(options, scene),
                        .choice = options.choice,
                        .seconds = options.seconds,
