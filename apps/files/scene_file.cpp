@@ -14,6 +14,7 @@
 #include <glissade/apps/text.h>
 #include <glissade/geometry/mesh_import.h>
 #include <glissade/geometry/triangle_mesh.h>
+#include <glissade/haptics/contact_body.h>
 #include <glissade/haptics/sliding_rules.h>
 #include <glissade/shapes/shape_catalog.h>
 
@@ -93,10 +94,26 @@ class SceneReader {
       }
     }
     if (const YAML::Node point = node["compliance_point_m"]) {
-      object.compliance_point_B = Eigen::Vector3d(yaml_.numbers(point, "compliance_point_m", 3));
+      object.compliance_point_B = read_compliance_point(point, *object.mesh);
     }
     if (node["gives_way"]) object.giving_way = read_giving_way(node["gives_way"], *object.mesh);
     return object;
+  }
+
+  /// The limit is that of `haptics::SlidingPart`, but the message names key and line.
+  Eigen::Vector3d read_compliance_point(const YAML::Node& node, const geometry::TriangleMesh& mesh) const {
+    const Eigen::Vector3d point = yaml_.numbers(node, "compliance_point_m", 3);
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : mesh.vertices)
+      box.extend(vertex);
+    double radius = 0.0;
+    for (const Eigen::Vector3d& vertex : mesh.vertices)
+      radius = std::max(radius, (vertex - box.center()).norm());
+    const double farthest = haptics::kFarthestPoint * radius;
+    const double distance = (point - box.center()).norm();
+    if (distance <= farthest) return point;
+    yaml_.fail(node, "compliance_point_m: must lie within " + rounded_text(farthest) +
+                         " m of the centre of the object's bounding box, not " + rounded_text(distance) + " m from it");
   }
 
   SceneMotion read_motion(const YAML::Node& object) const {

@@ -185,6 +185,14 @@ TEST(SceneFile, AScaleIsForMeshesAndMustLeaveOneThatCanBeQueried) {
   expect_bad_input([] { parse_object("    scale: 2\n"); }, {"scene.yaml:4:", "scale", "for meshes"});
 }
 
+TEST(SceneFile, ACompliancePointTooFarFromItsObjectNamesTheKeyAndTheLimit) {
+  const std::string ball = "objects:\n  - name: ball\n    shape: {type: sphere, radius_m: 0.027}\n";
+  // The sphere is a mesh with vertices on its axes, so that the farthest vertex is at its radius.
+  expect_bad_input([&] { parse_text(ball + "    compliance_point_m: [0, 0, 27]\n"); },
+                   {"scene.yaml:4: compliance_point_m: must lie within 0.27 m of the centre", "not 27 m from it"});
+  EXPECT_TRUE(parse_text(ball + "    compliance_point_m: [0, 0, 0.26]\n").objects[0].compliance_point_B);
+}
+
 TEST(SceneFile, QuaternionsFollowTheRuleForPoses) {
   expect_bad_input([] { parse_object("    pose: {orientation_wxyz: [0, 0, 0, 0]}\n"); },
                    {"scene.yaml:4:", "orientation_wxyz", "is zero"});
