@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/csv_columns.h>
 #include <glissade/apps/files/input_files.h>
 #include <glissade/apps/text.h>
 
@@ -57,7 +58,9 @@ void check_header(std::string_view line, const std::string& source, const std::v
   std::string expected;
   for (const std::string& column : columns)
     expected += (expected.empty() ? "" : ",") + column;
-  throw std::invalid_argument(at_line(source, 1) + ": the header row must be " + expected + ", not " + in_quotes(line));
+  const std::string table = told_table(line);
+  throw std::invalid_argument(at_line(source, 1) + ": the header row must be " + expected + ", not " + in_quotes(line) +
+                              (table.empty() ? "" : "; this is " + table));
 }
 
 /// Whether spaces are all that is wrong with a number.

@@ -26,10 +26,7 @@ double HandTrajectory::greatest_angle() const {
 }
 
 HandTrajectory read_hand_trajectory(const std::string& path) {
-  std::vector<std::string> columns = trajectory_columns();
-  for (const std::string& column : joint_columns())
-    columns.push_back(column);
-  const CsvTable table = read_csv(path, columns);
+  const CsvTable table = read_csv(path, hand_trajectory_columns());
   return {trajectory_from(table), fingers_from(table)};
 }
 

@@ -3,11 +3,6 @@
 
 namespace glissade::apps {
 
-const std::vector<std::string>& pose_columns() {
-  static const std::vector<std::string> columns{"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};
-  return columns;
-}
-
 std::vector<Eigen::Isometry3d> read_poses(const std::string& path) {
   const CsvTable table = read_csv(path, pose_columns());
   std::vector<Eigen::Isometry3d> poses;

@@ -8,11 +8,9 @@
 #include <Eigen/Geometry>
 
 #include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/csv_columns.h>
 
 namespace glissade::apps {
-
-/// The columns of a pose: position in metres, unit quaternion.
-const std::vector<std::string>& pose_columns();
 
 /// The poses X_AB of a file, in its order.
 /// Throws std::invalid_argument, naming file, line and value: see `read_csv` and `checked_pose`.

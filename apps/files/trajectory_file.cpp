@@ -23,19 +23,6 @@ std::chrono::nanoseconds time_of(double t_s, const std::string& where) {
 
 }  // namespace
 
-std::vector<std::string> trajectory_columns() {
-  std::vector<std::string> columns{"t_s"};
-  columns.insert(columns.end(), pose_columns().begin(), pose_columns().end());
-  return columns;
-}
-
-std::vector<std::string> joint_columns() {
-  std::vector<std::string> columns;
-  for (const std::string_view name : devices::kGloveJointNames)
-    columns.push_back(std::string(name) + "_rad");
-  return columns;
-}
-
 geometry::TimedPose timed_pose(const std::vector<double>& row, const std::string& where,
                                std::optional<std::chrono::nanoseconds> before) {
   const std::chrono::nanoseconds time = time_of(row[0], where);
@@ -88,15 +75,13 @@ devices::SimulatedGloveParameters HandScript::with_grip(devices::SimulatedGloveP
 }
 
 HandScript parse_hand_script(std::string_view text, const std::string& source) {
-  std::vector<std::string> columns = trajectory_columns();
   const std::string_view header = text.substr(0, text.find_first_of("\r\n"));
-  const std::vector<std::string> joints = joint_columns();
-  if (header.find("," + joints.front()) != std::string_view::npos) {
-    columns.insert(columns.end(), joints.begin(), joints.end());
-    const CsvTable table = parse_csv(text, source, columns);
+  if (header.find("," + joint_columns().front()) != std::string_view::npos) {
+    const CsvTable table = parse_csv(text, source, hand_trajectory_columns());
     return {.X_WH = trajectory_from(table), .fingers = fingers_from(table)};
   }
   if (!header.ends_with(",grip")) return {.X_WH = parse_trajectory(text, source)};
+  std::vector<std::string> columns = trajectory_columns();
   columns.emplace_back("grip");
   const CsvTable table = parse_csv(text, source, columns);
   HandScript script{.X_WH = trajectory_from(table)};

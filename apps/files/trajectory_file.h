@@ -10,16 +10,11 @@
 #include <vector>
 
 #include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/csv_columns.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/pose_trajectory.h>
 
 namespace glissade::apps {
-
-/// The columns of a trajectory.
-std::vector<std::string> trajectory_columns();
-
-/// The columns of a hand's joints: `devices::kGloveJointNames` with the ending `_rad`.
-std::vector<std::string> joint_columns();
 
 /// A row whose first columns are those of a trajectory, `where` it stands in its file, and the time of the row before,
 /// if there is one. Throws as `read_trajectory`.

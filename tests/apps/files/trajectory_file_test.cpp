@@ -1,5 +1,6 @@
 #include <chrono>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +13,13 @@ namespace {
 
 using std::chrono::milliseconds;
 using test_support::expect_bad_input;
+
+std::string joined_by_commas(const std::vector<std::string>& columns) {
+  std::string text;
+  for (const std::string& column : columns)
+    text += (text.empty() ? "" : ",") + column;
+  return text;
+}
 
 geometry::PoseTrajectory parse_rows(const std::string& rows) {
   return parse_trajectory("t_s,x_m,y_m,z_m,qw,qx,qy,qz\n" + rows, "path.csv");
@@ -43,6 +51,28 @@ TEST(TrajectoryFile, PosesFollowTheRuleForPoses) {
 TEST(TrajectoryFile, APosesFileIsNotATrajectory) {
   expect_bad_input([] { parse_trajectory("x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,1,0,0,0\n", "path.csv"); },
                    {"path.csv:1:", "t_s,x_m"});
+}
+
+/// A row of zeros below these columns.
+std::string table_of(const std::vector<std::string>& columns) {
+  std::string zeros = "0";
+  for (std::size_t i = 1; i < columns.size(); ++i)
+    zeros += ",0";
+  return joined_by_commas(columns) + "\n" + zeros + "\n";
+}
+
+TEST(TrajectoryFile, ATableForAnotherCommandNamesThisCommand) {
+  const auto expect_told = [](const std::vector<std::string>& wanted, const std::vector<std::string>& given,
+                              const std::string& command) {
+    expect_bad_input([&] { parse_csv(table_of(given), "table.csv", wanted); },
+                     {"table.csv:1: the header row must be " + joined_by_commas(wanted), "this is", command});
+  };
+  std::vector<std::string> script = trajectory_columns();
+  script.emplace_back("grip");
+  expect_told(trajectory_columns(), hand_trajectory_columns(), "'glissade grasp --hand-trajectory'");
+  expect_told(hand_trajectory_columns(), trajectory_columns(), "'glissade slide --trajectory'");
+  expect_told(trajectory_columns(), pose_columns(), "'glissade collide --poses'");
+  expect_told(trajectory_columns(), script, "'glissade glove --script'");
 }
 
 HandScript parse_hand(const std::string& rows) {
