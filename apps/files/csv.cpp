@@ -34,6 +34,19 @@ bool read_line(std::istream& file, std::string& line) {
   return true;
 }
 
+constexpr const char* kBlanks = " \t\r\n";
+
+bool is_blank(std::string_view line) {
+  return line.find_first_not_of(kBlanks) == std::string_view::npos;
+}
+
+/// Editors and spreadsheets leave blank lines at the end of a file.
+std::string_view without_blank_end(std::string_view text) {
+  const std::size_t last = text.find_last_not_of(kBlanks);
+  if (last == std::string_view::npos) return {};
+  return text.substr(0, text.find('\n', last));
+}
+
 [[noreturn]] void throw_no_rows(const std::string& source) {
   throw std::invalid_argument(at_line(source, 1) + ": the header is not followed by any row");
 }
@@ -59,7 +72,10 @@ void check_header(std::string_view line, const std::string& source, const std::v
   for (const std::string& column : columns)
     expected += (expected.empty() ? "" : ",") + column;
   const std::string table = told_table(line);
+  std::string without_spaces(line);
+  std::erase(without_spaces, ' ');
   throw std::invalid_argument(at_line(source, 1) + ": the header row must be " + expected + ", not " + in_quotes(line) +
+                              (without_spaces == expected ? "; leave out the spaces" : "") +
                               (table.empty() ? "" : "; this is " + table));
 }
 
@@ -103,6 +119,7 @@ CsvTable read_csv(const std::string& path, const std::vector<std::string>& colum
 CsvTable parse_csv(std::string_view text, const std::string& source, const std::vector<std::string>& columns) {
   if (text.empty()) throw std::invalid_argument(source + ": the file is empty");
   check_header(take_line(text), source, columns);
+  text = without_blank_end(text);
   CsvTable table{source, {}};
   while (!text.empty()) {
     const std::string where = table.where(table.rows.size());
@@ -120,12 +137,21 @@ CsvReader::CsvReader(const std::string& path, std::vector<std::string> columns)
 }
 
 bool CsvReader::next() {
-  if (!read_line(file_, line_)) {
+  if (!read_line(file_, line_) || (is_blank(line_) && only_blanks_follow())) {
     if (file_.bad()) throw std::invalid_argument(path_ + ": cannot be read");
+    if (line_number_ == 1) throw_no_rows(path_);
     return false;
   }
   ++line_number_;
   parse_row(line_, where(), columns_, row_);
+  return true;
+}
+
+bool CsvReader::only_blanks_follow() {
+  std::string line;
+  while (read_line(file_, line)) {
+    if (!is_blank(line)) return false;  // the blank line before it is an error, so this one is not needed
+  }
   return true;
 }
 

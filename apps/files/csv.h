@@ -22,7 +22,7 @@ struct CsvTable {
   std::string where(std::size_t row) const;
 };
 
-/// Reads a file whose header row is exactly `columns`.
+/// Reads a file whose header row is exactly `columns`. Blank lines at the end are skipped.
 ///
 /// Throws std::invalid_argument, naming file, line, column and value, for a file that is missing, a folder or not
 /// readable, for another header, no rows or a wrong number of columns, and for a value that is not a finite number.
@@ -45,6 +45,8 @@ class CsvReader {
   std::string where() const;
 
  private:
+  bool only_blanks_follow();
+
   std::string path_;
   std::vector<std::string> columns_;
   std::ifstream file_;

@@ -55,6 +55,30 @@ TEST(Csv, AByteOrderMarkBeforeTheHeaderIsSkipped) {
       {"table.csv:2:"});
 }
 
+TEST(Csv, BlankLinesAtTheEndAreSkipped) {
+  const TemporaryFolder folder;
+  for (const std::string end : {"", "\n", "\n\n", "\r\n\r\n", "\n  \n\t"}) {
+    const std::string text = "t_s,x_m\n1,2\n3,4" + end;
+    EXPECT_EQ(parse_table(text).rows.size(), 2U) << text;
+    CsvReader reader(folder.write("table.csv", text), kColumns);
+    EXPECT_TRUE(reader.next());
+    EXPECT_TRUE(reader.next());
+    EXPECT_FALSE(reader.next());
+    EXPECT_EQ(reader.row().front(), 3.0);
+  }
+}
+
+TEST(Csv, ABlankLineBetweenRowsIsAnError) {
+  const TemporaryFolder folder;
+  CsvReader reader(folder.write("table.csv", "t_s,x_m\n1,2\n\n3,4\n"), kColumns);
+  EXPECT_TRUE(reader.next());
+  expect_bad_input([&] { reader.next(); }, {"table.csv:3:", "2 columns, not 0"});
+}
+
+TEST(Csv, SpacesInTheHeaderAreNamed) {
+  expect_bad_input([] { parse_table("t_s, x_m\n1,2\n"); }, {"not 't_s, x_m'; leave out the spaces"});
+}
+
 TEST(Csv, SpacesAroundANumberAreNamed) {
   expect_bad_input([] { parse_table("t_s,x_m\n1, 2\n"); }, {"' 2' is not a finite number; leave out the spaces"});
   expect_bad_input([] { parse_table("t_s,x_m\n1,2 \n"); }, {"'2 '", "spaces"});
@@ -88,6 +112,10 @@ TEST(Csv, ABinaryFileIsToldOnOneShortLine) {
 TEST(Csv, ATableWithoutRowsIsAnError) {
   expect_bad_input([] { parse_table(""); }, {"table.csv: the file is empty"});
   expect_bad_input([] { parse_table("t_s,x_m\n"); }, {"table.csv:1:", "not followed by any row"});
+  expect_bad_input([] { parse_table("t_s,x_m\n\n"); }, {"table.csv:1:", "not followed by any row"});
+  const TemporaryFolder folder;
+  CsvReader reader(folder.write("table.csv", "t_s,x_m\n\n"), kColumns);
+  expect_bad_input([&] { reader.next(); }, {"table.csv:1:", "not followed by any row"});
 }
 
 TEST(Csv, FilesThatCannotBeReadAreNamed) {
