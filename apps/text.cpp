@@ -78,6 +78,9 @@ std::ifstream open_text_file(const std::string& path, std::uintmax_t max_bytes) 
   // A folder opens like a file and fails only later, with a less helpful reason. A pipe or a device may never end.
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    throw std::invalid_argument(path + ": there is no such file");
+  }
   if (std::filesystem::is_directory(status)) throw std::invalid_argument(path + ": is a folder, not a file");
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     throw std::invalid_argument(path + ": is not a regular file");

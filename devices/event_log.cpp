@@ -66,6 +66,7 @@ EventLogReader::EventLogReader(const std::string& path) : path_(path), buffer_(k
   file_.rdbuf()->pubsetbuf(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
   file_.open(path, std::ios::binary);
   std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw std::invalid_argument(path + ": there is no such file");
   if (std::filesystem::is_directory(path, error)) throw std::invalid_argument(path + ": is a folder, not an event log");
   if (!file_) throw std::invalid_argument(path + ": cannot be read");
   size_ = static_cast<std::int64_t>(std::filesystem::file_size(path, error));

@@ -14,7 +14,10 @@ namespace glissade::devices {
 LcmKey read_lcm_key(const std::string& path) {
   const auto refuse = [&path](const std::string& reason) { throw std::invalid_argument(path + ": " + reason); };
   struct stat status {};
-  if (stat(path.c_str(), &status) != 0) refuse(std::string("the key cannot be read: ") + std::strerror(errno));
+  if (stat(path.c_str(), &status) != 0) {
+    if (errno == ENOENT) refuse("there is no such file");
+    refuse(std::string("the key cannot be read: ") + std::strerror(errno));
+  }
   if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
     refuse("others may read or change the key; only its owner should (chmod 600)");
   }

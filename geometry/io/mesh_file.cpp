@@ -12,7 +12,7 @@ MeshFile::MeshFile(const std::filesystem::path& path) : path_(path) {
   if (path.empty()) throw std::invalid_argument("The name of the mesh file is empty.");
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) reject(path, "There is no such file");
+  if (!std::filesystem::exists(status)) throw std::invalid_argument(path.string() + ": there is no such file");
   if (std::filesystem::is_directory(status)) reject(path, "This is a folder, not a file");
   if (!std::filesystem::is_regular_file(status)) reject(path, "This is not a regular file");
   size_ = std::filesystem::file_size(path, error);

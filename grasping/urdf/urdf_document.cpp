@@ -29,7 +29,7 @@ class Errors : public console_bridge::OutputHandler {
 };
 
 std::string text_of(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) throw std::invalid_argument(path.string() + ": there is no such file.");
+  if (!std::filesystem::is_regular_file(path)) throw std::invalid_argument(path.string() + ": there is no such file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::invalid_argument(path.string() + ": the file cannot be read.");
   return {std::istreambuf_iterator<char>(file), {}};

@@ -76,7 +76,7 @@ TEST(LcmKey, FilesThatAreNoneAreRefusedByName) {
     test_support::expect_bad_input([&] { read_lcm_key(key_file(folder, text, std::filesystem::perms::owner_all)); },
                                    {"key", "64 hexadecimal digits"});
   }
-  test_support::expect_bad_input([&] { read_lcm_key(folder.path("nowhere")); }, {"nowhere", "cannot be read"});
+  test_support::expect_bad_input([&] { read_lcm_key(folder.path("nowhere")); }, {"nowhere: there is no such file"});
   test_support::expect_bad_input(
       [&] {
         read_lcm_key(key_file(folder, digits, std::filesystem::perms::owner_all | std::filesystem::perms::others_read));

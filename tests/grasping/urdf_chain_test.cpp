@@ -222,7 +222,7 @@ TEST_F(BadUrdf, NamesFilesThatAreNoUrdf) {
   expect_error("", {"no valid URDF"});
   expect_error("<robot name='r'><link", {"no valid URDF"});
   expect_error("<html/>", {"no valid URDF"});
-  expect_bad_input([&] { read_urdf(folder.path("none.urdf")); }, {"none.urdf", "no such file"});
+  expect_bad_input([&] { read_urdf(folder.path("none.urdf")); }, {"none.urdf: there is no such file"});
   expect_bad_input([&] { read_urdf(folder.path("")); }, {"no such file"});
 }
 

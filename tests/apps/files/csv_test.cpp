@@ -120,7 +120,7 @@ TEST(Csv, ATableWithoutRowsIsAnError) {
 
 TEST(Csv, FilesThatCannotBeReadAreNamed) {
   const TemporaryFolder folder;
-  expect_bad_input([&] { read_csv(folder.path("none.csv"), kColumns); }, {"none.csv: No such file"});
+  expect_bad_input([&] { read_csv(folder.path("none.csv"), kColumns); }, {"none.csv: there is no such file"});
   expect_bad_input([&] { read_csv(folder.path(""), kColumns); }, {folder.path("") + ": is a folder"});
 }
 

@@ -57,7 +57,7 @@ TEST_F(FollowedFile, IsCheckedToItsEndBeforeItIsFollowed) {
   expect_bad_input([&] { FollowedTrajectory{file(kRows + "2,0,0,0,1,0,0\n")}; }, {"path.csv:7:", "columns"});
   expect_bad_input([&] { FollowedTrajectory{file(kRows + "90000,0,0,0,1,0,0,0\n")}; }, {"path.csv", "a day"});
   expect_bad_input([&] { FollowedTrajectory{file("")}; }, {"path.csv:1:", "any row"});
-  expect_bad_input([&] { FollowedTrajectory{folder_.path("none.csv")}; }, {"none.csv", "No such file"});
+  expect_bad_input([&] { FollowedTrajectory{folder_.path("none.csv")}; }, {"none.csv: there is no such file"});
 }
 
 TEST_F(FollowedFile, ThatBecomesShorterIsAnError) {

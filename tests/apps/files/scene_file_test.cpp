@@ -222,7 +222,7 @@ TEST(SceneFile, AFileThatCannotBeReadIsNamed) {
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   expect_bad_input([&] { read_scene(pipe); }, {"pipe.yaml: is not a regular file"});
   expect_bad_input([] { read_scene(""); }, {"name", "empty"});
-  expect_bad_input([&] { read_scene(folder.path("none.yaml")); }, {"none.yaml: No such file"});
+  expect_bad_input([&] { read_scene(folder.path("none.yaml")); }, {"none.yaml: there is no such file"});
   expect_bad_input([&] { read_scene(folder.path("")); }, {"is a folder"});
 }
 

@@ -121,7 +121,7 @@ TEST_F(RecordingCommands, AFlippedBitIsFoundOut) {
 
 TEST_F(RecordingCommands, AForeignFileIsRefused) {
   expect_refused({"replay", scene_}, {"scene.yaml", "is no LCM event log"});
-  expect_refused({"replay", folder_.path("nothing.lcmlog")}, {"nothing.lcmlog", "cannot be read"});
+  expect_refused({"replay", folder_.path("nothing.lcmlog")}, {"nothing.lcmlog: there is no such file"});
   expect_refused({"log", "to-csv", scene_, folder_.path("tables")}, {"scene.yaml", "is no LCM event log"});
   const std::string log = folder_.path("other.lcmlog");
   devices::EventLogWriter writer(log);
