@@ -34,6 +34,7 @@ constexpr std::size_t kMostConnections = 128;
 constexpr std::chrono::milliseconds kAcceptPause{100};
 constexpr std::chrono::microseconds kFramePeriod{16'667};
 constexpr std::size_t kMostClients = 64;
+constexpr std::chrono::milliseconds kLongestGoodbye{300};  // a page that reads answers in a few
 
 tcp::acceptor listening(asio::io_context& io, std::uint16_t port) {
   try {
@@ -54,6 +55,7 @@ class ViewServer::Service {
         acceptor_(listening(io_, port)),
         timer_(io_),
         pause_(io_),
+        goodbye_(io_),
         port_(acceptor_.local_endpoint().port()) {
     answers_.page = page();
     answers_.first_model = std::make_shared<const std::string>(scene_model(scene_, kFirstTriangles));
@@ -63,7 +65,9 @@ class ViewServer::Service {
     making_ = std::jthread([this] { make_whole_model(); });
   }
 
-  ~Service() { io_.stop(); }
+  ~Service() {
+    asio::post(io_, [this] { end(); });
+  }
 
   std::uint16_t port() const noexcept { return port_; }
   bool has_had_client() const noexcept { return has_had_client_.load(std::memory_order_relaxed); }
@@ -120,6 +124,21 @@ class ViewServer::Service {
     });
   }
 
+  /// Without a goodbye, pages would take the end for a failure.
+  void end() {
+    beast::error_code ignored;
+    acceptor_.close(ignored);  // or a page might come back too soon
+    goodbye_.expires_after(kLongestGoodbye);
+    goodbye_.async_wait([this](beast::error_code) { io_.stop(); });
+    const auto open_clients = std::make_shared<std::size_t>(clients_.size() + 1);
+    const auto count_down = [this, open_clients] {
+      if (--*open_clients == 0) io_.stop();
+    };
+    for (const std::shared_ptr<LiveClient>& client : clients_)
+      client->end(count_down);
+    count_down();  // there may be none
+  }
+
   /// A scene without one, because it is too large, stays as it was loaded first.
   void make_whole_model() noexcept {
     realtime::name_this_thread("viewer-model");
@@ -137,6 +156,7 @@ class ViewServer::Service {
   tcp::acceptor acceptor_;
   asio::steady_timer timer_;
   asio::steady_timer pause_;
+  asio::steady_timer goodbye_;
   std::uint16_t port_;
   Answers answers_;
   std::vector<std::shared_ptr<LiveClient>> clients_;

@@ -21,7 +21,7 @@ class ViewServer {
   explicit ViewServer(ViewScene scene, std::uint16_t port = 0);
   ViewServer(const ViewServer&) = delete;
   ViewServer& operator=(const ViewServer&) = delete;
-  /// Ends all connections.
+  /// Ends all connections. Pages are told that this is no failure, which takes at most 0.3 s.
   ~ViewServer();
 
   std::uint16_t port() const noexcept;

@@ -63,6 +63,14 @@ class PageViewer {
     std::memcpy(&missed, bytes + 32, sizeof missed);
     return {sequence, missed};
   }
+  /// Reads until the server ends the connection; whether it said that this is no failure.
+  bool is_told_of_the_end() {
+    boost::beast::error_code error;
+    for (boost::beast::flat_buffer buffer; !error; buffer.clear())
+      socket_.read(buffer, error);
+    return error == boost::beast::websocket::error::closed &&
+           socket_.reason().code == boost::beast::websocket::close_code::normal;
+  }
   void acknowledge() { socket_.write(boost::asio::buffer("shown", 5)); }
 
  private:

@@ -154,5 +154,23 @@ TEST(ViewServer, EndsWhileViewersAreThere) {
   EXPECT_THROW(viewer.next(), boost::system::system_error);
 }
 
+TEST(ViewServer, TellsPagesThatItsEndIsNoFailure) {
+  auto server = std::make_unique<ViewServer>(small_scene());
+  server->push(state_of(1));
+  PageViewer viewer(server->port());
+  viewer.next();
+  std::jthread ending([&] { server.reset(); });
+  EXPECT_TRUE(viewer.is_told_of_the_end());
+}
+
+TEST(ViewServer, WaitsForNoPageThatDoesNotAnswer) {
+  auto server = std::make_unique<ViewServer>(small_scene());
+  server->push(state_of(1));
+  PageViewer deaf(server->port());
+  while (!server->has_had_client()) {
+  }
+  server.reset();  // comes back
+}
+
 }  // namespace
 }  // namespace glissade::viewer

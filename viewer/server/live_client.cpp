@@ -48,6 +48,19 @@ void LiveClient::offer(const std::string& frame) {
   });
 }
 
+void LiveClient::end(std::function<void()> on_end) {
+  if (!is_open_ || has_ended_) {
+    on_end();
+    return;
+  }
+  is_open_ = false;
+  socket_.async_close(websocket::close_code::normal,
+                      [self = shared_from_this(), on_end = std::move(on_end)](beast::error_code) {
+                        self->has_ended_ = true;
+                        on_end();
+                      });
+}
+
 void LiveClient::wait_for_message() {
   socket_.async_read(received_, [self = shared_from_this()](beast::error_code error, std::size_t) {
     if (error) {

@@ -26,6 +26,10 @@ class LiveClient : public std::enable_shared_from_this<LiveClient> {
   /// Sends the frame, or counts it as missed if the last one has not been acknowledged.
   void offer(const std::string& frame);
 
+  /// Tells the page that the run has ended, and sends nothing more. `on_end` is called when the page has answered, or
+  /// at once if it does not listen.
+  void end(std::function<void()> on_end);
+
   bool has_ended() const noexcept { return has_ended_; }
 
  private:

@@ -5,20 +5,23 @@ import { decodeFrame } from './frame.js';
 const FIRST_WAIT_MS = 250;
 const LONGEST_WAIT_MS = 2000;
 const HIDDEN_MS = 500;
+const NORMAL_END = 1000; // code of a WebSocket that the server has closed on purpose
 
 export class Connection {
-  // Before it connects, `prepare()` loads what the frames need. Then `onFrame(frame)` and `onState(isConnected)`. Each
-  // frame is acknowledged once the page has shown it, so that a slow page gets fewer of them instead of late ones.
+  // Before it connects, `prepare()` loads what the frames need. Then `onFrame(frame)` and `onState(state)`, which is
+  // 'connected', 'ended' by the server, or 'lost'. Each frame is acknowledged once the page has shown it, so that a slow
+  // page gets fewer of them instead of late ones.
   constructor(prepare, onFrame, onState) {
     this.prepare = prepare;
     this.onFrame = onFrame;
     this.onState = onState;
     this.wait = FIRST_WAIT_MS;
+    this.hasEnded = false;
     this.connect();
   }
 
   connectLater() {
-    this.onState(false);
+    this.onState(this.hasEnded ? 'ended' : 'lost');
     setTimeout(() => this.connect(), this.wait);
     this.wait = Math.min(2 * this.wait, LONGEST_WAIT_MS);
   }
@@ -34,7 +37,8 @@ export class Connection {
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => {
       this.wait = FIRST_WAIT_MS;
-      this.onState(true);
+      this.hasEnded = false;
+      this.onState('connected');
     };
     socket.onmessage = (event) => {
       this.onFrame(decodeFrame(event.data));
@@ -46,6 +50,9 @@ export class Connection {
       requestAnimationFrame(acknowledge);
       setTimeout(acknowledge, HIDDEN_MS); // a hidden page draws nothing, but goes on listening
     };
-    socket.onclose = () => this.connectLater();
+    socket.onclose = (event) => {
+      this.hasEnded = this.hasEnded || event.code === NORMAL_END;
+      this.connectLater();
+    };
   }
 }

@@ -97,6 +97,12 @@ async function loadWhole(page) {
   }
 }
 
+const STATES = {
+  connected: 'connected',
+  ended: 'ended: waits for the next run',
+  lost: 'no connection: tries again',
+};
+
 function showLive() {
   const page = new Page(new Timeline());
   page.strips = new Strips(byId('strips'), page.timeline);
@@ -106,17 +112,19 @@ function showLive() {
     const model = await load('model.glb');
     page.timeline.clear();
     page.setModel(model);
-    loadWhole(page).catch((error) => say(`the whole scene could not be loaded: ${error.message}`));
+    loadWhole(page).catch((error) => {
+      if (page.isConnected) say(`the whole scene could not be loaded: ${error.message}`);
+    });
   };
   const onFrame = (frame) => {
     newest = performance.now();
     page.timeline.push(frame);
   };
-  const onState = (isConnected) => {
-    page.isConnected = isConnected;
+  const onState = (state) => {
+    page.isConnected = state === 'connected';
     newest = performance.now();
-    say(isConnected ? 'connected' : 'no connection: tries again');
-    document.body.classList.toggle('lost', !isConnected);
+    say(STATES[state]);
+    document.body.classList.toggle('lost', state === 'lost');
   };
   new Connection(prepare, onFrame, onState);
   setInterval(() => {

@@ -60,16 +60,20 @@ export function connect(url) {
   });
 }
 
-// Lets such a connection read: `onFrame()` after each frame. Its length is in the second byte, or the third and fourth.
+const CLOSING = 0x8; // the kind of the frame with which a server says goodbye
+
+// Lets such a connection read: `onFrame()` after each frame but the last one, which closes. Its length is in the second byte, or the third and fourth.
 export function readFrames(socket, onFrame) {
   let missing = 0;
+  let isClosing = false;
   socket.on('data', (data) => {
     for (let rest = data; rest.length > 0;) {
+      if (missing === 0) isClosing = (rest[0] & 0xf) === CLOSING;
       if (missing === 0) missing = rest[1] === 126 ? 4 + rest.readUInt16BE(2) : 2 + rest[1];
       const taken = Math.min(missing, rest.length);
       missing -= taken;
       rest = rest.subarray(taken);
-      if (missing === 0) onFrame();
+      if (missing === 0 && !isClosing) onFrame();
     }
   });
   socket.resume();

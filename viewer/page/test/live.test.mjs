@@ -73,7 +73,8 @@ test('a server that starts again is found again', async () => {
   await eventually(async () => !(await inspect(page)).isLive);
   await first.stop();
   await eventually(async () => !(await inspect(page)).isConnected);
-  assert.match(await page.locator('#state').textContent(), /no connection/);
+  assert.equal(await page.locator('#state').textContent(), 'ended: waits for the next run');
+  assert.equal(await page.locator('body.lost').count(), 0); // the end is no failure
   const second = new Program(['demo', '--seconds', '20', '--view', new URL(url).port]);
   await eventually(async () => {
     const state = await inspect(page);
@@ -83,6 +84,17 @@ test('a server that starts again is found again', async () => {
   await eventually(async () => (await inspect(page)).frame.sequence > frame.sequence);
   await close(page, { hasLostServer: true }); // that was the first one
   await second.stop();
+});
+
+test('a server that fails is told from one that has ended', async () => {
+  const program = new Program(['demo', '--seconds', '60', '--view', '0']);
+  const page = await open(browser, await program.url());
+  await eventually(async () => (await inspect(page)).frame);
+  program.child.kill('SIGKILL');
+  await eventually(async () => !(await inspect(page)).isConnected);
+  assert.match(await page.locator('#state').textContent(), /no connection/);
+  assert.equal(await page.locator('body.lost').count(), 1);
+  await close(page, { hasLostServer: true });
 });
 
 test('nothing is asked of any other machine, and other sites are refused', async () => {
