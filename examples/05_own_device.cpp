@@ -1,5 +1,6 @@
 // A part from an STL file, a world of twenty objects, and a force-feedback device of one's own on the haptic server.
 
+#include <exception>
 #include <iomanip>
 #include <iostream>
 
@@ -40,8 +41,11 @@ class MyGlove final : public devices::GloveDevice {
   double greatest_ = 0.0;
 };
 
-int main(int argc, char** argv) {
-  if (argc < 2) return 2;  // own_device PART.stl, in millimetres
+int main(int argc, char** argv) try {
+  if (argc != 2) {
+    std::cerr << "usage: own_device PART.stl, in millimetres\n";
+    return 2;
+  }
   const auto mesh = std::make_shared<geometry::TriangleMesh>(geometry::import_mesh(argv[1], 1e-3).mesh);
   const auto part_V = std::make_shared<haptics::SlidingPart>(mesh);
   const auto block = std::make_shared<haptics::ContactBody>(
@@ -78,4 +82,7 @@ int main(int argc, char** argv) {
     clock.sleep_until(clock.now() + std::chrono::milliseconds(10));
   server.stop();
   std::cout << "my glove pushes back with up to " << glove.greatest() << " N\n";
+} catch (const std::exception& error) {
+  std::cerr << "own_device: " << error.what() << '\n';
+  return 1;
 }
