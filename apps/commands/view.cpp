@@ -1,7 +1,7 @@
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -20,6 +20,7 @@
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/session_view.h>
+#include <glissade/apps/view/viewed_parts.h>
 #include <glissade/devices/event_log.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/viewer/view_server.h>
@@ -53,9 +54,17 @@ struct ViewOptions {
 /// What has come from the server so far.
 struct Received {
   std::atomic<std::int64_t> states{0};
-  std::atomic<std::int32_t> part_count{-1};
   std::atomic<bool> has_unreadable{false};
+  std::mutex mutex;
+  std::string doubt;  // why it has another scene
 };
+
+/// What is wrong with the states of the server; empty if nothing is.
+std::string doubt_of(Received& received) {
+  if (received.has_unreadable) return "states of the server cannot be read: another version of glissade sends them";
+  const std::lock_guard lock(received.mutex);
+  return received.doubt;
+}
 
 int view(const ViewOptions& options) {
   const Scene file =
@@ -69,8 +78,7 @@ int view(const ViewOptions& options) {
     model = std::make_shared<const grasping::HandModel>(grasping::make_hand(shape));
   }
   viewer::ViewScene scene{.title = file.source, .objects = shown_objects(file, movable_objects(file))};
-  const auto parts = static_cast<std::int32_t>(std::count_if(
-      scene.objects.begin(), scene.objects.end(), [](const viewer::ViewObject& object) { return object.part; }));
+  const ViewedParts parts(file);
   for (const std::int64_t device : options.devices)
     scene.hands.push_back({"glove " + std::to_string(device), model});
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
@@ -83,7 +91,10 @@ int view(const ViewOptions& options) {
       received.has_unreadable = true;
       return;
     }
-    received.part_count = state->part_count;
+    if (std::string doubt = parts.doubt(*state); !doubt.empty()) {
+      const std::lock_guard lock(received.mutex);
+      received.doubt = std::move(doubt);
+    }
     ++received.states;
     server.push(*state);
   });
@@ -97,13 +108,9 @@ int view(const ViewOptions& options) {
   };
   while (!is_over()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    const std::int32_t count = received.part_count;
-    if (!has_warned && (received.has_unreadable || (count >= 0 && count != parts))) {
+    if (const std::string doubt = doubt_of(received); !has_warned && !doubt.empty()) {
       has_warned = true;
-      line.say(received.has_unreadable
-                   ? "glissade view: states of the server cannot be read: another version of glissade sends them"
-                   : "glissade view: the server moves " + std::to_string(count) + " parts, " + file.source + " has " +
-                         std::to_string(parts) + ": is it the server's scene?");
+      line.say("glissade view: " + doubt);
     }
     line.show(received.states == 0 ? "waiting for a server" : std::to_string(received.states) + " states");
   }

@@ -46,7 +46,9 @@ TEST(ViewInAnotherProcess, ShowsTheTicksOfTheServer) {
   }
   EXPECT_EQ(demo.wait().exit_code, 0);
   view.signal(SIGINT);
-  EXPECT_EQ(view.wait().exit_code, 0);
+  const test_support::ProgramResult result = view.wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.standard_error.find("is it the server's scene?"), std::string::npos) << result.standard_error;
 }
 
 TEST(ViewInAnotherProcess, SaysWhenTheServerHasAnotherScene) {
@@ -63,6 +65,19 @@ TEST(ViewInAnotherProcess, SaysWhenTheServerHasAnotherScene) {
   EXPECT_EQ(demo.wait().exit_code, 0);
   view.signal(SIGINT);
   EXPECT_NE(view.wait().standard_error.find("the server moves 1 parts, " + scene + " has 2"), std::string::npos);
+}
+
+TEST(ViewInAnotherProcess, SaysWhenTheServerHasAnotherPart) {
+  ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
+  const test_support::TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "scene.yaml", "objects: [{name: one, movable: true, shape: {type: box}, compliance_point_m: [0, 0, 0.03]}]\n");
+  test_support::Process view({GLISSADE_PROGRAM, "view", scene, "--lcm", kViewUrl, "--port", "0"});
+  port_of(view);
+  test_support::Process demo({GLISSADE_PROGRAM, "demo", "--lcm", kViewUrl, "--seconds", "1"});
+  EXPECT_EQ(demo.wait().exit_code, 0);
+  view.signal(SIGINT);
+  EXPECT_NE(view.wait().standard_error.find("is it the server's scene?"), std::string::npos);
 }
 
 }  // namespace
