@@ -35,7 +35,7 @@ ReplayOutcome replay_offline(const std::string& log_path, const std::string& sce
     std::vector<std::int64_t> devices;
     for (const RecordedHand& hand : session.hands)
       devices.push_back(hand.glove.device);
-    audience->begin(scene, session.period, devices, started.models);
+    audience->begin(scene, session.choice, session.period, devices, started.models);
   }
   haptics::Replay replay(*started.simulation, hands, session.period, head_of(session));
 

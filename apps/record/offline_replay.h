@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/scene/sliding_option.h>
 #include <glissade/devices/haptic_state.h>
 #include <glissade/grasping/hand_model.h>
 
@@ -31,9 +32,9 @@ class ReplayAudience {
  public:
   virtual ~ReplayAudience() = default;
 
-  /// Before the first tick: the scene, the period of ticks, and each hand's glove and model, which is null without
-  /// fingers.
-  virtual void begin(const HapticScene& scene, std::chrono::nanoseconds period,
+  /// Before the first tick: the scene, the rules that the user chose, the period of ticks, and each hand's glove and
+  /// model, which is null without fingers.
+  virtual void begin(const HapticScene& scene, const SlidingChoice& choice, std::chrono::nanoseconds period,
                      const std::vector<std::int64_t>& devices,
                      const std::vector<std::shared_ptr<const grasping::HandModel>>& models) = 0;
   /// The recorded state of a tick. The replay ends if the answer is false.

@@ -9,7 +9,7 @@
 
 namespace glissade::apps {
 
-void ReplayView::begin(const HapticScene& scene, std::chrono::nanoseconds /*period*/,
+void ReplayView::begin(const HapticScene& scene, const SlidingChoice& /*choice*/, std::chrono::nanoseconds /*period*/,
                        const std::vector<std::int64_t>& devices,
                        const std::vector<std::shared_ptr<const grasping::HandModel>>& models) {
   server_ = std::make_unique<viewer::ViewServer>(view_scene_of(scene, glove_names(devices), models), port_);
@@ -32,12 +32,13 @@ bool ReplayView::take(const devices::HapticState& state) {
   return !StopSignal::requested();
 }
 
-void ReplayReport::begin(const HapticScene& scene, std::chrono::nanoseconds period,
+void ReplayReport::begin(const HapticScene& scene, const SlidingChoice& choice, std::chrono::nanoseconds period,
                          const std::vector<std::int64_t>& devices,
                          const std::vector<std::shared_ptr<const grasping::HandModel>>& models) {
   const auto minute = static_cast<std::size_t>(std::chrono::minutes(1) / period);
   scene_ = scene;
   samples_ = std::make_shared<SessionRecorder>(minute, scene.parts.size() + scene.moving.size(), devices.size());
+  session_.choice = choice;
   session_.period = period;
   session_.objects = std::ssize(scene.body_names);
   session_.devices = devices;

@@ -20,7 +20,8 @@ class ReplayView final : public ReplayAudience {
  public:
   explicit ReplayView(std::uint16_t port) : port_(port) {}
 
-  void begin(const HapticScene& scene, std::chrono::nanoseconds period, const std::vector<std::int64_t>& devices,
+  void begin(const HapticScene& scene, const SlidingChoice& choice, std::chrono::nanoseconds period,
+             const std::vector<std::int64_t>& devices,
              const std::vector<std::shared_ptr<const grasping::HandModel>>& models) override;
   bool take(const devices::HapticState& state) override;
 
@@ -36,7 +37,8 @@ class ReplayReport final : public ReplayAudience {
  public:
   explicit ReplayReport(std::string title) : title_(std::move(title)) {}
 
-  void begin(const HapticScene& scene, std::chrono::nanoseconds period, const std::vector<std::int64_t>& devices,
+  void begin(const HapticScene& scene, const SlidingChoice& choice, std::chrono::nanoseconds period,
+             const std::vector<std::int64_t>& devices,
              const std::vector<std::shared_ptr<const grasping::HandModel>>& models) override;
   bool take(const devices::HapticState& state) override;
 

@@ -15,6 +15,7 @@
 
 #include <glissade/apps/run/session_recorder.h>
 #include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/scene/sliding_option.h>
 #include <glissade/collision/frame_result.h>
 #include <glissade/devices/haptic_state.h>
 #include <glissade/devices/safety_envelope.h>
@@ -45,6 +46,7 @@ struct Session {
   std::optional<RealTimeFigures> real_time;  ///< none for an offline run
   std::string recording;                     ///< file; empty if none was wanted
   bool is_recording_whole = true;            ///< false if parts of it are missing
+  SlidingChoice choice{};                    ///< of the user
 };
 
 /// The figures of a part over the kept ticks.
@@ -92,8 +94,8 @@ SessionSummary summarize(const Session& session, const HapticScene& scene);
 nlohmann::json to_json(const SessionSummary& summary, const Session& session);
 /// The summary as lines of text; with the stages of the search for contacts and the hash, if it is `verbose`.
 std::string to_text(const SessionSummary& summary, const Session& session, bool verbose);
-/// An HTML page with the summary, the run in three dimensions, and plots of wrenches, lag, contacts, their age and
-/// states in `folder`; returns its path.
+/// An HTML page with the rules, the summary, the run in three dimensions, and plots of wrenches, lag, contacts, their
+/// age and states in `folder`; returns its path.
 std::string write_session_report(const SessionSummary& summary, const Session& session, const std::string& title,
                                  const std::string& folder, const HapticScene& scene);
 

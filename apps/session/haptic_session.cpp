@@ -153,6 +153,7 @@ Session run_session_offline(const HapticScene& scene, const HandScript& script, 
   Session session =
       finished(ticks, haptics::kTickPeriod, scene, started, {devices::kDefaultDevice}, recorder, std::nullopt);
   session.recording = record.log;
+  session.choice = choice;
   return session;
 }
 
@@ -229,6 +230,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
                              RealTimeFigures{server.statistics(), bare_timer.statistics()});
   if (has_all) session.recording = settings.record.log;
   session.is_recording_whole = recorders.is_whole();
+  session.choice = settings.choice;
   return session;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iostream>
 #include <stdexcept>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -157,6 +158,12 @@ Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose
   add_collision_rows(session, rows);
   rows.emplace_back("hash", hash_text(summary.hash));
   return rows;
+}
+
+Rows rule_rows(const Session& session, const HapticScene& scene) {
+  return {{"scene", scene.source},
+          {"metaphor", session.choice.metaphor},
+          {"rules", words_of(with_choice({}, session.choice))}};
 }
 
 double seconds_of_tick(const SessionRecorder& samples, std::size_t i) {
@@ -323,7 +330,9 @@ std::string to_text(const SessionSummary& summary, const Session& session, bool 
 
 std::string write_session_report(const SessionSummary& summary, const Session& session, const std::string& title,
                                  const std::string& folder, const HapticScene& scene) {
-  Report report{title, rows_of(summary, session, false), {}};
+  Report report{title, rule_rows(session, scene), {}};
+  for (auto& row : rows_of(summary, session, false))
+    report.summary.push_back(std::move(row));
   if (summary.samples > 0) {
     add_plots(summary, session, report);
     add_clearance(scene, *session.samples, report);

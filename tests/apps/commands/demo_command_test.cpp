@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <glissade/apps/text.h>
+
 #include "glissade_program.h"
 #include "pressing_scene.h"
 #include "sanitizers.h"
@@ -62,6 +64,14 @@ TEST_F(Demo, OfflineGivesTheSameHashTwiceAndReachesTheSeatThroughContact) {
   EXPECT_TRUE(first["lateness_us_p50"].is_null());
 }
 
+TEST_F(Demo, ThePageNamesTheRules) {
+  run({"--scene", scene, "--offline", "--seconds", "0.02", "--metaphor", "incremental", "--friction", "0.2", "--report",
+       files().path("rules")});
+  const std::string page = read_text_file(files().path("rules/index.html"));
+  EXPECT_NE(page.find("<td>incremental</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td>friction 0.2</td>"), std::string::npos);
+}
+
 TEST_F(Demo, InRealTimeGloveAndServerMeetOverLcmAndReachTheSameSeat) {
   const nlohmann::json summary = run({"--scene", scene, "--seconds", "1.2", "--report", files().path("report")});
   EXPECT_EQ(summary["ticks"], 1200);
@@ -79,9 +89,9 @@ TEST_F(Demo, InRealTimeGloveAndServerMeetOverLcmAndReachTheSameSeat) {
   std::ifstream page(files().path("report") + "/index.html");
   std::stringstream html;
   html << page.rdbuf();
-  for (const char* text :
-       {"<h2>Force on the hand of glove 1</h2>", "<h2>Torque on the hand of glove 1</h2>",
-        "Clearance of the visible parts, up to 20 mm", "<h2>States of the parts</h2>", "<span>sliding</span>"})
+  for (const char* text : {"<h2>Force on the hand of glove 1</h2>", "<h2>Torque on the hand of glove 1</h2>",
+                           "Clearance of the visible parts, up to 20 mm", "<h2>States of the parts</h2>",
+                           "<span>sliding</span>", "<td>force-feedback</td>", "<td>no friction</td>"})
     EXPECT_NE(html.str().find(text), std::string::npos) << text;
   // Nothing is fetched from anywhere.
   for (const char* reference : {"<script src", "src=\"http", "href=\"http", "url(http", "@import"}) {

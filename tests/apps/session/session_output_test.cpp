@@ -101,6 +101,19 @@ TEST(SessionText, ARunWithoutASearchHasNoMeans) {
   EXPECT_EQ(json["calls_ended_early"], 0);
 }
 
+TEST(SessionReport, NamesSceneMetaphorAndRules) {
+  test_support::TemporaryFolder folder;
+  Session session = session_of(0);
+  session.choice = {.metaphor = "incremental", .friction = {0.2, 0.3}, .spiral_search = true};
+  HapticScene scene;
+  scene.source = "bench.yaml";
+  const std::string page = write_session_report(summary_of(session), session, "run", folder.path("report"), scene);
+  std::ostringstream text;
+  text << std::ifstream(page).rdbuf();
+  for (const char* cell : {"bench.yaml", "incremental", "friction 0.2, at rest 0.3; spiral search"})
+    EXPECT_THAT(text.str(), HasSubstr("<td>" + std::string(cell) + "</td>"));
+}
+
 TEST(SessionReport, OfARunThatNeverBeganIsAPage) {
   test_support::TemporaryFolder folder;
   const Session session = session_of(0);
