@@ -36,6 +36,7 @@ inline constexpr const char* kSlidingChoiceHelp =
     "Rules:\n"
     "  --spiral-search     A part that stands still for 0.1 s away from its target is aimed beside the target, in a\n"
     "                      spiral that grows to 1.6 mm in two seconds, as a hand searches for a hole.\n"
+    "                      With --friction, press lightly: the spiral pulls with 1.6 N at most.\n"
     "  --depenetrate       An obstacle that overlaps the part at the start does not block the part; the part moves\n"
     "                      out of the obstacle at 0.2 m/s at most.";
 
