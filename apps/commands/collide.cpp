@@ -14,6 +14,7 @@
 #include <glissade/apps/commands/load_or_build_tree.h>
 #include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/mesh_bounds.h>
 #include <glissade/apps/files/poses_file.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
@@ -64,14 +65,8 @@ std::shared_ptr<const geometry::TriangleMesh> load(const std::string& path, doub
 /// Whether any pose brings the meshes as near as ten times the size of the larger one.
 bool any_is_near(const geometry::TriangleMesh& mesh_A, const geometry::TriangleMesh& mesh_B,
                  const std::vector<Eigen::Isometry3d>& poses_AB) {
-  const auto box_of = [](const geometry::TriangleMesh& mesh) {
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& vertex : mesh.vertices)
-      box.extend(vertex);
-    return box;
-  };
-  const Eigen::AlignedBox3d a = box_of(mesh_A);
-  const Eigen::AlignedBox3d b = box_of(mesh_B);
+  const Eigen::AlignedBox3d a = bounds_of(mesh_A);
+  const Eigen::AlignedBox3d b = bounds_of(mesh_B);
   constexpr double kFar = 10.0;  // sizes
   const double near = kFar * std::max(a.diagonal().norm(), b.diagonal().norm());
   return std::any_of(poses_AB.begin(), poses_AB.end(),

@@ -23,6 +23,7 @@
 #include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
+#include <glissade/apps/files/mesh_bounds.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/open_files.h>
@@ -238,9 +239,7 @@ void warn_of_units(const std::string& file, const HandTrajectory& trajectory, co
   double nearest_m = std::numeric_limits<double>::infinity();
   for (const SceneObject& object : scene.objects) {
     if (object.motion) return;  // it may come to the hand
-    Eigen::AlignedBox3d box_B;
-    for (const Eigen::Vector3d& vertex : object.mesh->vertices)
-      box_B.extend(vertex);
+    const Eigen::AlignedBox3d box_B = bounds_of(*object.mesh);
     const Eigen::Isometry3d X_BW = object.X_WB.inverse(Eigen::Isometry);
     for (int i = 0; i <= kMoments; ++i) {
       const std::chrono::nanoseconds time = trajectory.first_time() + i * trajectory.duration() / kMoments;

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <glissade/apps/commands/size_warnings.h>
+#include <glissade/apps/files/mesh_bounds.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {
@@ -67,10 +68,7 @@ SizesAround sizes_around(const Scene& file, const HapticScene& scene) {
 }  // namespace
 
 double size_of(const geometry::TriangleMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& vertex : mesh.vertices)
-    box.extend(vertex);
-  return box.sizes().maxCoeff();
+  return bounds_of(mesh).sizes().maxCoeff();
 }
 
 bool is_doubtful(double size_m, double scale) {

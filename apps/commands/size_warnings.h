@@ -20,8 +20,8 @@ std::string told_size(double size_m, double scale, const std::string& option);
 /// Whether `told_size` doubts this size: more than a car has, or less than a millimetre though a scale was given.
 bool is_doubtful(double size_m, double scale);
 
-/// One sentence for each doubtful object: a mesh file larger than a car, or scaled to less than a millimetre; a movable
-/// object larger than what hands hold.
+/// One sentence for each doubtful object. A mesh file is doubtful if it is larger than a car, or is scaled to less than
+/// a millimetre. A movable object is doubtful if no hand could hold it, because it is larger than 2 m.
 std::vector<std::string> doubtful_objects(const Scene& file);
 
 /// The same, and a sentence for each part that is thousands of times as large as all obstacles, or as small. `file` is

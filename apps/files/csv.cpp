@@ -68,9 +68,7 @@ void check_header(std::string_view line, const std::string& source, const std::v
   if (line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
   const std::vector<std::string_view> names = fields_of(line);
   if (std::equal(names.begin(), names.end(), columns.begin(), columns.end())) return;
-  std::string expected;
-  for (const std::string& column : columns)
-    expected += (expected.empty() ? "" : ",") + column;
+  const std::string expected = header_of(columns);
   const std::string table = told_table(line);
   std::string without_spaces(line);
   std::erase(without_spaces, ' ');

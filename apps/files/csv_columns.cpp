@@ -2,7 +2,6 @@
 #include <glissade/devices/glove_device.h>
 
 namespace glissade::apps {
-namespace {
 
 std::string header_of(const std::vector<std::string>& columns) {
   std::string header;
@@ -10,8 +9,6 @@ std::string header_of(const std::vector<std::string>& columns) {
     header += (header.empty() ? "" : ",") + column;
   return header;
 }
-
-}  // namespace
 
 const std::vector<std::string>& pose_columns() {
   static const std::vector<std::string> columns{"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};

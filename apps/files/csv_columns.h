@@ -8,6 +8,9 @@
 
 namespace glissade::apps {
 
+/// The header row of a table.
+std::string header_of(const std::vector<std::string>& columns);
+
 /// The columns of a pose: position in metres, unit quaternion.
 const std::vector<std::string>& pose_columns();
 

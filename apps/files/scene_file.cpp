@@ -7,6 +7,7 @@
 
 #include <glissade/apps/did_you_mean.h>
 #include <glissade/apps/files/input_files.h>
+#include <glissade/apps/files/mesh_bounds.h>
 #include <glissade/apps/files/pose_rules.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/files/trajectory_file.h>
@@ -103,14 +104,12 @@ class SceneReader {
   /// The limit is that of `haptics::SlidingPart`, but the message names key and line.
   Eigen::Vector3d read_compliance_point(const YAML::Node& node, const geometry::TriangleMesh& mesh) const {
     const Eigen::Vector3d point = yaml_.numbers(node, "compliance_point_m", 3);
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& vertex : mesh.vertices)
-      box.extend(vertex);
+    const Eigen::Vector3d center = bounds_of(mesh).center();
     double radius = 0.0;
     for (const Eigen::Vector3d& vertex : mesh.vertices)
-      radius = std::max(radius, (vertex - box.center()).norm());
+      radius = std::max(radius, (vertex - center).norm());
     const double farthest = haptics::kFarthestPoint * radius;
-    const double distance = (point - box.center()).norm();
+    const double distance = (point - center).norm();
     if (distance <= farthest) return point;
     yaml_.fail(node, "compliance_point_m: must lie within " + rounded_text(farthest) +
                          " m of the centre of the object's bounding box, not " + rounded_text(distance) + " m from it");

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/apps/files/mesh_bounds.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/viewed_parts.h>
@@ -11,11 +12,7 @@ namespace glissade::apps {
 namespace {
 
 Eigen::Vector3d compliance_point(const SceneObject& object) {
-  if (object.compliance_point_B) return *object.compliance_point_B;
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& vertex : object.mesh->vertices)
-    box.extend(vertex);
-  return box.center();
+  return object.compliance_point_B.value_or(bounds_of(*object.mesh).center());
 }
 
 bool has_fingers(const devices::HapticState& state) {

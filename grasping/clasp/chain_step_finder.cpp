@@ -16,8 +16,8 @@ constexpr double kBracket_m = 1e-6;
 // Steps so short do not tell how far to look. In a call there are so many, then the next call goes on.
 constexpr double kShort_m = 5e-6;
 constexpr int kShortSteps = 2;
-// A way so long that takes no more than what is spared of the margins grazes its contacts; a shorter one may lead into
-// them.
+// A way of one flex value grazes its contacts if it keeps the least clearance over this length. A shorter way may lead
+// into them.
 constexpr double kGrazing_m = 0.1e-3;
 // Of the margin of the hand: a step of one value alone takes no more of a wider margin either.
 constexpr double kTakenAlone = 1.0 - haptics::kMinClearanceOfMargin;
@@ -113,7 +113,7 @@ bool ChainStepFinder::find_alone(const Posture& from, const Posture& target, Pos
   return false;
 }
 
-/// A way of the wanted value that takes no more than what margins can spare, as long as it can be proven.
+/// The longest way of the wanted value that grazes its contacts.
 bool ChainStepFinder::graze() {
   step_ = wanted_;
   scale(step_, sight_.share_of(motion_));

@@ -12,10 +12,12 @@
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/grasping/clasp.h>
 #include <glissade/haptics/sliding_rules.h>
+#include <glissade/shapes/household_objects.h>
 
 #include "clasped_hand.h"
 #include "mesh_oracle.h"
 #include "poses.h"
+#include "wild_hand.h"
 
 namespace glissade::grasping {
 namespace {
@@ -26,6 +28,7 @@ using test_support::ClaspedHand;
 using test_support::hand_chain;
 using test_support::MeshOracle;
 using test_support::open_hand;
+using test_support::WildHand;
 
 /// A ball in front of the palm.
 const Eigen::Isometry3d kAtPalm = at(0.095, 0.0, -0.056);
@@ -111,14 +114,18 @@ TEST(Clasp, TouchesAnObstacleWithAWideMarginToo) {
 
 // A hand at rest may take more of margins than one that moves, but an obstacle with a small margin of its own stops it.
 TEST(Clasp, GoesIntoNoObstacleWithASmallMargin) {
-  ClaspedHand check = hand_at_ball();
-  const auto body =
-      std::make_shared<const haptics::ContactBody>(std::make_shared<const geometry::TriangleMesh>(ball()));
-  Clasp clasp(hand_chain(), {{body, kAtPalm, "the ball", 2e-6}}, {});
-  clasp.advance(open_hand());
-  close(clasp, 1.2, 400);
+  const geometry::TriangleMesh mesh = shapes::household_objects()[0].make(8e-3);
+  ClaspedHand check(mesh, Eigen::Isometry3d::Identity());
+  const auto body = std::make_shared<const haptics::ContactBody>(std::make_shared<const geometry::TriangleMesh>(mesh));
+  Clasp clasp(hand_chain(), {{body, Eigen::Isometry3d::Identity(), "the ball", 2e-6}}, {});
+  const WildHand wild(700000, test_support::WildMotion::kRandom, mesh);
+  clasp.move_cart(wild.at_ms(0));
+  for (int ms = 0; ms < WildHand::kMs + 400; ++ms) {
+    clasp.advance(wild.at_ms(std::min(ms, WildHand::kMs)));
+    for (const Posture& posture : clasp.way())
+      ASSERT_FALSE(check.collides(posture)) << ms << " ms";
+  }
   EXPECT_FALSE(clasp.contacts().empty());
-  EXPECT_FALSE(check.collides(clasp.posture()));
 }
 
 TEST(Clasp, GoesOnInTheNextCallsWhereTheBudgetOfWorkIsUsedUp) {
