@@ -17,6 +17,8 @@ namespace glissade::grasping {
 namespace {
 
 constexpr double kDeeper_m = 5e-6;  // a target that is so much deeper lies deeper
+// While the hand moves, one flex value tries to go on alone in so many calls.
+constexpr int kCallsOfOne = 8;
 
 std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const KinematicChain& chain,
                                                                    std::span<const std::size_t> links) {
@@ -112,13 +114,19 @@ class Clasp::Iteration {
     while (steps_ < rules_.most_steps && !finder_.is_slow() && !is_worked_off() &&
            finder_.find(posture_, target_, next_))
       go();
-    if (steps_ == 0 && finder_.find_alone(posture_, target_, next_)) go();
+    if (is_turn_of_one_value() && finder_.find_alone(posture_, target_, next_)) go();
     note_touching();
     is_carried_ = false;
   }
 
  private:
   bool is_worked_off() const { return rules_.work_budget && finder_.work() - begin_ >= *rules_.work_budget; }
+
+  /// Where the hand stands still. A target that trembles lets it never stand still, so in some other calls too.
+  bool is_turn_of_one_value() {
+    if (steps_ == 0) return true;
+    return ++calls_with_steps_ % kCallsOfOne == 0 && steps_ < rules_.most_steps && !is_worked_off();
+  }
 
   void go() {
     std::swap(posture_, next_);
@@ -192,6 +200,7 @@ class Clasp::Iteration {
   Posture next_;
   std::int64_t begin_ = 0;  // of the call: the work before it
   int steps_ = 0;
+  int calls_with_steps_ = 0;
   std::vector<Posture> way_;
   std::vector<Eigen::Isometry3d> X_WL_;
   std::vector<Eigen::Isometry3d> X_WL_target_;

@@ -113,15 +113,19 @@ bool ChainStepFinder::find_alone(const Posture& from, const Posture& target, Pos
   return false;
 }
 
-/// The longest way of the wanted value that grazes its contacts.
+/// The longest way of the wanted value that grazes its contacts, found by halves.
 bool ChainStepFinder::graze() {
   step_ = wanted_;
   scale(step_, sight_.share_of(motion_));
-  for (motion_.set(from_, step_); motion_.longest() >= kGrazing_m; motion_.set(from_, step_)) {
-    if (prove()) return true;
-    scale(step_, 0.5);
+  motion_.set(from_, step_);
+  if (motion_.longest() < kGrazing_m) return false;
+  while (!prove()) {
+    const double share = kGrazing_m / motion_.longest();
+    if (share > 1.0 - kSame) return false;  // this was the shortest way
+    scale(step_, std::max(0.5, share));
+    motion_.set(from_, step_);
   }
-  return false;
+  return true;
 }
 
 /// A step on which every contact of a link may come as near, for its margin, as the nearest one of that link is now.

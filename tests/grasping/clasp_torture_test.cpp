@@ -10,7 +10,9 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <numbers>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,7 @@
 
 #include "clasped_hand.h"
 #include "nearer_posture.h"
+#include "random_numbers.h"
 #include "sanitizers.h"
 #include "wild_hand.h"
 
@@ -31,6 +34,7 @@ using geometry::TriangleMesh;
 using test_support::ClaspedHand;
 using test_support::hand_chain;
 using test_support::NearerPosture;
+using test_support::RandomNumbers;
 using test_support::WildHand;
 using test_support::WildMotion;
 
@@ -82,15 +86,41 @@ class Torturer {
     return torture_;
   }
 
+  /// A hand whose target trembles by 0.1° when its motion has ended, and never rests. Values that wait before contacts
+  /// which they only graze must get past them nevertheless.
+  const Torture& run_trembling(std::uint64_t seed) {
+    constexpr int kTrembling_ms = 1000;
+    constexpr double kTremble = 0.1 * std::numbers::pi / 180.0;
+    constexpr double kFartherThanTremble_m = 1e-3;
+    const WildHand wild = begin(seed);
+    for (int ms = 0; ms < WildHand::kMs; ++ms)
+      hand_.clasp.advance(wild.at_ms(ms));
+    RandomNumbers random(seed);
+    const Posture target = wild.at_ms(WildHand::kMs);
+    for (int ms = 0; ms < kTrembling_ms; ++ms) {
+      Posture trembling = target;
+      for (double& value : trembling.values)
+        value += random.uniform(-kTremble, kTremble);
+      hand_.clasp.advance(trembling);
+    }
+    if (hand_.clasp.state() == ClaspState::kClasping) try_grazing(target, kFartherThanTremble_m);
+    return torture_;
+  }
+
  private:
+  WildHand begin(std::uint64_t seed) {
+    const auto motion = static_cast<WildMotion>(seed % test_support::kWildMotions);
+    name_ = "seed " + std::to_string(seed);
+    WildHand wild(seed, motion, object_);
+    hand_.clasp.move_cart(wild.at_ms(0));
+    return wild;
+  }
+
   void move(std::uint64_t seed) {
     constexpr int kLongestRest_ms = 3000;
     // A hand may try another flex value in each call.
     const int still_ms = static_cast<int>(hand_chain()->values().size());
-    const auto motion = static_cast<WildMotion>(seed % test_support::kWildMotions);
-    name_ = "seed " + std::to_string(seed);
-    const WildHand wild(seed, motion, object_);
-    hand_.clasp.move_cart(wild.at_ms(0));
+    const WildHand wild = begin(seed);
     int still = 0;
     for (int ms = 0; ms < WildHand::kMs + kLongestRest_ms; ++ms) {
       advance(wild.at_ms(std::min(ms, WildHand::kMs)), ms);
@@ -120,18 +150,23 @@ class Torturer {
     note("a collision at " + std::to_string(ms) + " ms");
   }
 
-  void try_values(Posture target) {
+  void try_values(const Posture& target) {
     constexpr double kFarther_m = 10e-6;
-    constexpr double kGrazingMargin_m = 8e-6;
     constexpr double kGrazing_m = 0.2e-3;
+    if (!try_value(target, ClaspRules{}.margin, kFarther_m)) try_grazing(target, kGrazing_m);
     ++torture_.resting;
+  }
+
+  /// A way that only grazes its contacts may take of their margins.
+  void try_grazing(const Posture& target, double farther) { try_value(target, 8e-6, farther); }
+
+  bool try_value(Posture target, double margin, double farther) {
     hand_chain()->clamp(target.values);
-    auto early = nearer_.find(hand_.clasp.posture(), target, ClaspRules{}.margin, kFarther_m);
-    // A way that only grazes its contacts may take of their margins.
-    if (!early) early = nearer_.find(hand_.clasp.posture(), target, kGrazingMargin_m, kGrazing_m);
-    if (!early) return;
+    const auto early = nearer_.find(hand_.clasp.posture(), target, margin, farther);
+    if (!early) return false;
     ++torture_.too_early;
     note(hand_chain()->values()[*early].name + " too early");
+    return true;
   }
 
   void note(const std::string& what) {
@@ -171,17 +206,31 @@ struct LastSteps {
   std::uint64_t seed;
 };
 
+const shapes::HouseholdObject& household_object(const std::string& name) {
+  const auto& objects = shapes::household_objects();
+  const auto object = std::find_if(objects.begin(), objects.end(), [&](const auto& one) { return one.name == name; });
+  if (object == objects.end()) throw std::invalid_argument("no household object " + name);
+  return *object;
+}
+
 TEST(ClaspTortureOfLastSteps, NoFlexValueStopsTooEarly) {
   if (test_support::kSanitized) GTEST_SKIP() << "takes long; the other torture runs through the same code";
-  const auto& objects = shapes::household_objects();
   for (const LastSteps& motion :
        {LastSteps{"screwdriver", 20035}, LastSteps{"jar_lid", 14059}, LastSteps{"book", 2011},
         LastSteps{"wine_glass", 21027}, LastSteps{"door_handle", 10014}, LastSteps{"dinner_plate", 508525}}) {
-    const auto object =
-        std::find_if(objects.begin(), objects.end(), [&](const auto& one) { return one.name == motion.object; });
-    ASSERT_NE(object, objects.end());
-    const Torture result = Torturer(object->make(kObjectEdge_m)).run_one(motion.seed);
+    const Torture result = Torturer(household_object(motion.object).make(kObjectEdge_m)).run_one(motion.seed);
     EXPECT_EQ(result.resting, 1) << motion.object;
+    EXPECT_EQ(result.too_early, 0) << motion.object << ": " << result;
+  }
+}
+
+/// Hands of which a flex value waited before contacts that it only grazes, as long as only hands that stand still tried
+/// to get past them.
+TEST(ClaspTortureOfTremblingTargets, NoFlexValueWaitsForEver) {
+  if (test_support::kSanitized) GTEST_SKIP() << "takes long; the other torture runs through the same code";
+  for (const LastSteps& motion : {LastSteps{"book", 1402}, LastSteps{"coin", 4911}, LastSteps{"hammer", 9115},
+                                  LastSteps{"jar_lid", 9801}, LastSteps{"pen", 12606}}) {
+    const Torture result = Torturer(household_object(motion.object).make(kObjectEdge_m)).run_trembling(motion.seed);
     EXPECT_EQ(result.too_early, 0) << motion.object << ": " << result;
   }
 }
