@@ -15,6 +15,9 @@ namespace {
 /// A search that takes more calls than this is too large: a thread that went on with it would be late for the next.
 constexpr std::int64_t kCallsAhead = 4;
 
+/// Of the look-ahead. Earlier, searches are more; later, a thread of its own has less time for one.
+constexpr double kAskAt = 0.75;
+
 /// Work of the gap of a pair along a known direction, in the unit of `collision::WorkMeter`.
 constexpr std::int64_t kWorkOfGap = 2;
 
@@ -77,7 +80,7 @@ bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> 
     }
     is_other = true;
   }
-  if (!next_.is_there && now_.drift > now_.half) ask(next_, reach, ahead, ignored);
+  if (!next_.is_there && now_.drift > now_.ask_at) ask(next_, reach, ahead, ignored);
   return is_other;
 }
 
@@ -112,7 +115,7 @@ void CandidatePairs::ask(Search& search, double reach, double ahead, std::span<c
   search.request.radius = reach + ahead;
   search.request.has_planes = has_planes_;
   search.request.ignored.assign(ignored.begin(), ignored.end());
-  search.half = 0.5 * ahead;
+  search.ask_at = kAskAt * ahead;
   search.motions.assign(scene_.bodies().size(), {});
   search.drift = 0.0;
   search.is_there = true;

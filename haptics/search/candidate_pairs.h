@@ -1,9 +1,9 @@
 #pragma once
 
 /// Pairs that the parts may reach soon, kept over several steps: one search serves until the motion of the parts has
-/// used up its look-ahead. The next search is requested ahead of need, when half of the look-ahead is used up, and its
-/// answer is taken when all of it is. Both moments depend on the motion alone; therefore a thread of its own may run
-/// the search meanwhile without changing a bit.
+/// used up its look-ahead. The next search is requested ahead of need, when three quarters of the look-ahead are used
+/// up, and its answer is taken when all of it is. Both moments depend on the motion alone; therefore a thread of its
+/// own may run the search meanwhile without changing a bit.
 ///
 /// The work of searching in one call of the simulation can be limited. A search then goes on over several calls, and
 /// its answer can be taken in the first call up to which so much work was allowed, however early it was done.
@@ -121,7 +121,7 @@ class CandidatePairs {
     CandidateRequest request;
     CandidateSet set;
     std::vector<Motion> motions;  // of each body
-    double half = 0.0;            // metres of drift at which the next search is requested
+    double ask_at = 0.0;          // metres of drift at which the next search is requested
     double drift = 0.0;           // metres: bound of how much nearer two bodies have come
     bool is_there = false;        // requested; a thread may still be working on it
 
