@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::chrono::seconds kQuietTime{1};
 constexpr std::chrono::milliseconds kRedrawPeriod{100};
+constexpr std::chrono::seconds kLinePeriod{30};  // without a terminal
 constexpr int kBarWidth = 40;
 
 }  // namespace
@@ -22,7 +23,7 @@ ProgressBar::ProgressBar(std::string label, std::int64_t total, AmountText amoun
       total_(total),
       amount_(std::move(amount)),
       on_terminal_(isatty(STDERR_FILENO) == 1),
-      next_draw_(std::chrono::steady_clock::now() + kQuietTime) {}
+      next_draw_(std::chrono::steady_clock::now() + (on_terminal_ ? kQuietTime : kLinePeriod)) {}
 
 ProgressBar::~ProgressBar() {
   erase();
@@ -35,8 +36,19 @@ void ProgressBar::erase() {
 }
 
 void ProgressBar::update(std::int64_t done) {
-  if (!on_terminal_ || std::chrono::steady_clock::now() < next_draw_) return;
-  draw(done);
+  if (std::chrono::steady_clock::now() < next_draw_) return;
+  if (on_terminal_) {
+    draw(done);
+  } else {
+    tell(done);
+  }
+}
+
+void ProgressBar::tell(std::int64_t done) {
+  std::cerr << "glissade: " << label_ << ": " << std::clamp<std::int64_t>(done, 0, total_) * 100 / total_ << " %";
+  if (amount_) std::cerr << ", " << amount_(done, total_);
+  std::cerr << std::endl;
+  next_draw_ = std::chrono::steady_clock::now() + kLinePeriod;
 }
 
 void ProgressBar::draw(std::int64_t done) {

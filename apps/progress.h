@@ -12,8 +12,8 @@ namespace glissade::apps {
 /// The amount of work that is done, in words, such as "1.20 of 6.00 s".
 using AmountText = std::function<std::string(std::int64_t done, std::int64_t total)>;
 
-/// Shows the progress of counted work on standard error, if that is a terminal and once the work has taken a second.
-/// The destructor erases it. Not thread-safe; may block on the terminal.
+/// Shows the progress of counted work on standard error. On a terminal, as a bar, once the work has taken a second; the
+/// destructor erases it. Elsewhere, as a line every half minute. Not thread-safe; may block on standard error.
 class ProgressBar {
  public:
   /// `total` > 0 is the amount of work. `amount`, if there is one, follows the bar.
@@ -30,6 +30,7 @@ class ProgressBar {
 
  private:
   void draw(std::int64_t done);
+  void tell(std::int64_t done);
 
   std::string label_;
   std::int64_t total_;

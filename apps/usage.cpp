@@ -88,4 +88,12 @@ CLI::Validator not_negative() {
           "NONNEGATIVE"};
 }
 
+CLI::Validator positive() {
+  return {[](const std::string& text) {
+            const std::optional<double> number = parse_number(text);
+            return !number || *number > 0.0 ? std::string() : "must be above 0, not " + text;
+          },
+          "POSITIVE"};
+}
+
 }  // namespace glissade::apps

@@ -23,5 +23,7 @@ void check_numbers(const CLI::App& app);
 
 /// A check of an option that takes a number: it is not negative.
 CLI::Validator not_negative();
+/// The same: it is above 0.
+CLI::Validator positive();
 
 }  // namespace glissade::apps

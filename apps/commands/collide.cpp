@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -19,20 +21,24 @@
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/usage.h>
 
 namespace glissade::apps {
 
 namespace {
 
 constexpr const char* kCollideDescription =
-    "Test two meshes for collision at many poses, and count the colliding pairs of triangles";
+    "Test two meshes for collision, as they stand or at many poses; measure their distance";
 
 constexpr const char* kCollideFooter =
     "Poses: columns x_m,y_m,z_m,qw,qx,qy,qz. Each row is the pose of mesh B in the frame of mesh A: a position in\n"
-    "metres and a unit quaternion, w first, whose length may deviate from 1 by up to 1e-3.\n"
+    "metres and a unit quaternion, w first, whose length may deviate from 1 by up to 1e-3. Without --poses, both\n"
+    "meshes stand where their files have them.\n"
     "\n"
     "Output: one row per pose with the columns pose (counted from 0), colliding (0 or 1) and, with --pairs, pairs.\n"
-    "Touching counts as colliding. With --tolerance-m T, so does any distance of at most T.\n"
+    "Touching counts as colliding. With --tolerance-m T, so does any distance of at most T. With --distance, further\n"
+    "columns have the exact distance, the nearest points in the frame of A, and their triangles; these are empty\n"
+    "where the meshes intersect.\n"
     "\n"
     "--cache stores the DOP-trees (bounding-volume hierarchies) in the files A.dop-tree and B.dop-tree. A later run\n"
     "reads these files, which saves most of the time to build the trees. If a file is damaged, or does not fit the\n"
@@ -40,14 +46,18 @@ constexpr const char* kCollideFooter =
     "written, a line on standard error says so, and the command goes on.\n"
     "\n"
     "Examples, with the files of 'glissade example':\n"
+    "  glissade collide panel.obj motor.obj --distance\n"
     "  glissade collide panel.obj motor.obj --poses poses.csv\n"
     "  glissade collide panel.obj motor.obj --poses poses.csv --pairs --tolerance-m 0.001 --out near.csv\n"
     "  glissade collide panel.obj motor.obj --poses poses.csv --cache";
 
+constexpr std::array<const char*, 9> kDistanceColumns{"distance_m", "ax_m", "ay_m",       "az_m",      "bx_m",
+                                                      "by_m",       "bz_m", "triangle_a", "triangle_b"};
+
 struct CollideOptions {
   std::string mesh_A;
   std::string mesh_B;
-  std::string poses;
+  std::optional<std::string> poses;
   std::string method = collide_method_names().front();
   std::string out = "-";
   bool cache = false;
@@ -60,6 +70,18 @@ std::shared_ptr<const geometry::TriangleMesh> load(const std::string& path, doub
   const double size = size_of(*mesh);
   if (is_doubtful(size, scale)) warn(path + ": is " + told_size(size, scale, "--scale "));
   return mesh;
+}
+
+void add(const collision::MeshDistance& measured, CsvWriter& out) {
+  out.add(measured.distance);
+  if (measured.nearest) {
+    const collision::ClosePair& nearest = *measured.nearest;
+    out.add(nearest.p_A).add(nearest.p_B);
+    out.add(std::int64_t{nearest.triangles.triangle_A}).add(std::int64_t{nearest.triangles.triangle_B});
+  } else {
+    for (std::size_t i = 1; i < kDistanceColumns.size(); ++i)
+      out.add("");
+  }
 }
 
 /// Whether any pose brings the meshes as near as ten times the size of the larger one.
@@ -82,25 +104,31 @@ void check(const CollideQuestion& question) {
 
 int run(const CollideOptions& options) {
   check(options.question);
-  const std::vector<Eigen::Isometry3d> poses_AB = read_poses(options.poses);
+  const std::vector<Eigen::Isometry3d> poses_AB =
+      options.poses ? read_poses(*options.poses) : std::vector{Eigen::Isometry3d::Identity()};
   const TreeFiles beside = options.cache ? TreeFiles{options.mesh_A, options.mesh_B} : TreeFiles{};
   const bool has_scales = !options.scales.empty();
   const auto mesh_A = load(options.mesh_A, has_scales ? options.scales.front() : 1.0);
   const auto mesh_B = load(options.mesh_B, has_scales ? options.scales.back() : 1.0);
   if (!any_is_near(*mesh_A, *mesh_B, poses_AB)) {
-    warn(options.poses + ": no pose brings the meshes, " + rounded_text(size_of(*mesh_A)) + " m and " +
-         rounded_text(size_of(*mesh_B)) + " m across, near each other: are poses and meshes in metres?");
+    const std::string meshes =
+        "the meshes, " + rounded_text(size_of(*mesh_A)) + " m and " + rounded_text(size_of(*mesh_B)) + " m across, ";
+    warn(options.poses
+             ? *options.poses + ": no pose brings " + meshes + "near each other: are poses and meshes in metres?"
+             : meshes + "stand far from each other: are both in metres?");
   }
   const CollideMethod method = make_collide_method(options.method, mesh_A, mesh_B, options.question, beside);
 
   std::vector<std::string> columns{"pose", "colliding"};
   if (options.question.count_pairs) columns.emplace_back("pairs");
+  if (options.question.measure) columns.insert(columns.end(), kDistanceColumns.begin(), kDistanceColumns.end());
   CsvWriter out(options.out, columns);
   ProgressBar progress("poses", static_cast<std::int64_t>(poses_AB.size()));
   for (std::size_t i = 0; i < poses_AB.size(); ++i) {
     const CollideAnswer answer = method(poses_AB[i]);
     out.add(static_cast<std::int64_t>(i)).add(std::int64_t{answer.colliding});
     if (options.question.count_pairs) out.add(answer.pairs);
+    if (options.question.measure) add(answer.distance, out);
     out.end_row();
     progress.update(static_cast<std::int64_t>(i) + 1);
   }
@@ -116,13 +144,14 @@ void add_collide_command(CLI::App& app, Command& chosen) {
   command->footer(kCollideFooter);
   command->add_option("A", options->mesh_A, "Mesh file: OBJ, STL, PLY or glTF, in metres or with --scale")->required();
   command->add_option("B", options->mesh_B, "Second mesh file")->required();
-  command->add_option("--poses", options->poses, "CSV file of the poses of B in the frame of A, see below")->required();
+  command->add_option("--poses", options->poses, "CSV file of the poses of B in the frame of A, see below");
   command
       ->add_option("--scale", options->scales,
                    "Metres per unit of the meshes: 0.001 for millimetres; or two, of A and of B")
       ->expected(1, 2)
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command->add_flag("--pairs", options->question.count_pairs, "Count the colliding pairs of triangles");
+  command->add_flag("--distance", options->question.measure, "Measure the distance, and tell the nearest points");
   command->add_option("--tolerance-m", options->question.tolerance, "Distance in metres up to which triangles collide")
       ->capture_default_str();
   command->add_option("--method", options->method, "Search with DOP-trees, or test all pairs of triangles as a check")

@@ -1,3 +1,4 @@
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -31,6 +32,13 @@ class TreeMethod {
         question_(question) {}
 
   CollideAnswer operator()(const Eigen::Isometry3d& X_AB) {
+    CollideAnswer answer = collides(X_AB);
+    if (question_.measure) answer.distance = distance(*tree_A_, *tree_B_, X_AB, *workspace_);
+    return answer;
+  }
+
+ private:
+  CollideAnswer collides(const Eigen::Isometry3d& X_AB) {
     if (question_.tolerance > 0.0) {
       pairs_within(*tree_A_, *tree_B_, X_AB, question_.tolerance, *workspace_, close_pairs_);
       return {!close_pairs_.empty(), static_cast<std::int64_t>(close_pairs_.size())};
@@ -40,7 +48,6 @@ class TreeMethod {
     return {!pairs_.empty(), static_cast<std::int64_t>(pairs_.size())};
   }
 
- private:
   std::shared_ptr<const DopTree> tree_A_;
   std::shared_ptr<const DopTree> tree_B_;
   CollideQuestion question_;
@@ -50,14 +57,19 @@ class TreeMethod {
   std::vector<collision::ClosePair> close_pairs_;
 };
 
+struct NumberedTriangle {
+  std::int32_t number;  ///< in its mesh
+  TrianglePoints points;
+};
+
 /// The triangles of `mesh` that have an area, with their corners p at X * p.
-std::vector<geometry::TrianglePoints> triangles_of(const geometry::TriangleMesh& mesh, const Eigen::Isometry3d& X) {
-  std::vector<geometry::TrianglePoints> triangles;
+std::vector<NumberedTriangle> triangles_of(const TriangleMesh& mesh, const Eigen::Isometry3d& X) {
+  std::vector<NumberedTriangle> triangles;
   triangles.reserve(mesh.triangles.size());
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh.triangles.size()); ++i) {
     // Degeneracy is decided before the pose is applied, as in the trees.
     if (geometry::is_degenerate({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)})) continue;
-    triangles.push_back({X * mesh.corner(i, 0), X * mesh.corner(i, 1), X * mesh.corner(i, 2)});
+    triangles.push_back({i, {X * mesh.corner(i, 0), X * mesh.corner(i, 1), X * mesh.corner(i, 2)}});
   }
   return triangles;
 }
@@ -70,24 +82,45 @@ class BruteForceMethod {
       : mesh_A_(std::move(mesh_A)), mesh_B_(std::move(mesh_B)), question_(question) {}
 
   CollideAnswer operator()(const Eigen::Isometry3d& X_AB) const {
+    CollideAnswer answer = collides(X_AB);
+    if (question_.measure) answer.distance = distance(X_AB);
+    return answer;
+  }
+
+ private:
+  CollideAnswer collides(const Eigen::Isometry3d& X_AB) const {
     if (question_.tolerance > 0.0) return within_tolerance(X_AB);
     if (!question_.count_pairs) return {reference::brute_force_intersects(*mesh_A_, *mesh_B_, X_AB), 0};
     const auto pairs = static_cast<std::int64_t>(reference::brute_force_pairs(*mesh_A_, *mesh_B_, X_AB).size());
     return {pairs > 0, pairs};
   }
 
- private:
   CollideAnswer within_tolerance(const Eigen::Isometry3d& X_AB) const {
-    const std::vector<geometry::TrianglePoints> triangles_A = triangles_of(*mesh_A_, Eigen::Isometry3d::Identity());
+    const std::vector<NumberedTriangle> triangles_A = triangles_of(*mesh_A_, Eigen::Isometry3d::Identity());
     std::int64_t pairs = 0;
-    for (const geometry::TrianglePoints& b : triangles_of(*mesh_B_, X_AB)) {
-      for (const geometry::TrianglePoints& a : triangles_A) {
-        if (geometry::triangle_distance(a, b).distance > question_.tolerance) continue;
+    for (const NumberedTriangle& b : triangles_of(*mesh_B_, X_AB)) {
+      for (const NumberedTriangle& a : triangles_A) {
+        if (geometry::triangle_distance(a.points, b.points).distance > question_.tolerance) continue;
         if (!question_.count_pairs) return {true, 0};
         ++pairs;
       }
     }
     return {pairs > 0, pairs};
+  }
+
+  collision::MeshDistance distance(const Eigen::Isometry3d& X_AB) const {
+    collision::MeshDistance least{.distance = std::numeric_limits<double>::infinity(), .nearest = {}};
+    const std::vector<NumberedTriangle> triangles_B = triangles_of(*mesh_B_, X_AB);
+    for (const NumberedTriangle& a : triangles_of(*mesh_A_, Eigen::Isometry3d::Identity())) {
+      for (const NumberedTriangle& b : triangles_B) {
+        const geometry::TriangleDistance d = geometry::triangle_distance(a.points, b.points);
+        if (d.distance == 0.0) return {.distance = 0.0, .nearest = {}};
+        if (d.distance >= least.distance) continue;
+        least.distance = d.distance;
+        least.nearest = {{a.number, b.number}, d.distance, d.p_a, d.p_b};
+      }
+    }
+    return least;
   }
 
   std::shared_ptr<const geometry::TriangleMesh> mesh_A_;

@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/collision/query_types.h>
 #include <glissade/geometry/triangle_mesh.h>
 
 namespace glissade::apps {
@@ -18,12 +19,14 @@ namespace glissade::apps {
 struct CollideQuestion {
   double tolerance = 0.0;    ///< metres, ≥ 0: triangles at most this far apart collide
   bool count_pairs = false;  ///< without it, the first pair ends the search at a pose
+  bool measure = false;      ///< the distance too
 };
 
 /// The answer at one pose.
 struct CollideAnswer {
   bool colliding;
-  std::int64_t pairs;  ///< pairs of triangles within the tolerance; meaningless without `count_pairs`
+  std::int64_t pairs;                  ///< pairs of triangles within the tolerance; meaningless without `count_pairs`
+  collision::MeshDistance distance{};  ///< meaningless without `measure`
 };
 
 /// Mesh files beside which the trees are kept (`load_or_build_tree.h`); with empty paths, trees are not kept.

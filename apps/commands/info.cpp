@@ -15,6 +15,7 @@
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/load_or_build_tree.h>
 #include <glissade/apps/commands/size_warnings.h>
+#include <glissade/apps/usage.h>
 #include <glissade/collision/dop_tree.h>
 #include <glissade/geometry/mesh_import.h>
 #include <glissade/geometry/mesh_topology.h>
@@ -148,7 +149,7 @@ void add_info_command(CLI::App& app, Command& chosen) {
   command->add_option("MESH", options->mesh, "Mesh file: OBJ, STL, PLY or glTF, in metres or with --scale")->required();
   command->add_option("--scale", options->scale, "Metres per unit of the mesh: 0.001 for millimetres")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command->add_flag("--json", options->json, "Print one JSON object instead of a table");
   command->add_flag("--cache", options->cache, kCacheHelp);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });

@@ -160,7 +160,7 @@ class Announcer {
       told_to_await_ = news.awaited_device;
       const bool is_only = settings_.hands.size() == 1;
       line_.say(prefix_ + "waiting for " + (is_only ? "a glove" : "glove " + std::to_string(*news.awaited_device)) +
-                " at " + url_);
+                " at " + url_ + (settings_.view_port ? "; the page of --view is there then" : ""));
     }
     if (news.ticks == 0 && bus_.refused_packets() > 0 && !std::exchange(said_that_it_refuses_, true)) {
       line_.say(prefix_ + "packets are refused: they come from elsewhere, or were made with another key");

@@ -35,13 +35,14 @@ std::vector<TimedSentence> ReasonTeller::news() {
     tell_present(now, sentences);  // it may have begun too soon after it was told last
     return sentences;
   }
-  const bool is_limited = present_.reason.cause != ForceReason::Cause::kNone;
-  if (is_limited && now - present_.time >= kLastingLimit) tell_present(now, sentences);
   if (told_fade_ && now - back_since_ >= kBackForGood) {
     told_fade_.reset();
     const double lost_s = std::chrono::duration<double>(back_since_ - lost_since_).count();
-    sentences.push_back({back_since_, "the force returns after " + fixed_text(lost_s, 2) + " s"});
+    sentences.push_back({back_since_, "the force returns after " + fixed_text(lost_s, lost_s < 0.01 ? 3 : 2) + " s"});
   }
+  // Sentences are told in the order of their times.
+  const bool is_limited = present_.reason.cause != ForceReason::Cause::kNone && !told_fade_;
+  if (is_limited && now - present_.time >= kLastingLimit) tell_present(now, sentences);
   return sentences;
 }
 

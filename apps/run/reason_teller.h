@@ -22,7 +22,7 @@ struct TimedSentence {
 
 /// Each sentence has the time at which its reason began. A reason that comes and goes is told once in five seconds, and
 /// the return of the force, with the time for which it was away, once it has lasted half a second. A limit is told when
-/// it lasts a tenth of a second.
+/// it lasts a tenth of a second, after the return of the force before it.
 class ReasonTeller {
  public:
   /// In every tick, with times that rise. One thread. Wait-free, no allocation.

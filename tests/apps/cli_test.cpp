@@ -96,6 +96,23 @@ TEST_F(Cli, CollideCountsPairsWithinTheTolerance) {
   EXPECT_THAT(result.standard_output, HasSubstr("\n1,1,9\n"));
 }
 
+TEST_F(Cli, CollideMeasuresDistances) {
+  for (const std::string method : {"dop-tree", "brute-force"}) {
+    const ProgramResult result = glissade({"collide", mesh, mesh, "--poses", poses, "--distance", "--method", method});
+    const std::string columns = "pose,colliding,distance_m,ax_m,ay_m,az_m,bx_m,by_m,bz_m,triangle_a,triangle_b\n";
+    EXPECT_THAT(result.standard_output, testing::StartsWith(columns + "0,1,0,,,,,,,,\n1,0,1,1,0,0,2,0,0,")) << method;
+    EXPECT_EQ(result.exit_code, 0);
+  }
+}
+
+TEST_F(Cli, CollideWithoutPosesTakesTheMeshesAsTheyStand) {
+  const std::string other = folder.write("b.obj", "v 1.5 0 0\nv 1.5 1 0\nv 1.5 0 1\nf 1 2 3\n");
+  const ProgramResult result = glissade({"collide", mesh, other, "--distance"});
+  EXPECT_EQ(result.standard_error, "");
+  EXPECT_THAT(result.standard_output, HasSubstr("\n0,0,0.5,1,0,0,1.5,0,0,"));
+  EXPECT_EQ(glissade({"collide", mesh, mesh}).standard_output, "pose,colliding\n0,1\n");
+}
+
 TEST_F(Cli, CollideWritesTheSameToAFile) {
   const std::string out = folder.path("out.csv");
   const ProgramResult result = glissade({"collide", mesh, mesh, "--poses", poses, "--out", out});
@@ -183,7 +200,8 @@ TEST_F(Cli, WrongUsageIsRefused) {
   expect_refused({"info"}, {"MESH"});
   expect_refused({"info", mesh, "--frobnicate"}, {"--frobnicate"});
   expect_refused({"info", mesh, "surplus"}, {"surplus"});
-  expect_refused({"collide", mesh, mesh}, {"--poses"});
+  expect_refused({"collide", mesh}, {"B"});
+  expect_refused({"collide", mesh, mesh, "--scale", "0"}, {"--scale", "must be above 0, not 0\n"});
   expect_refused({"collide", mesh, mesh, "--poses", poses, "--method", "guess"}, {"--method", "guess", "dop-tree"});
   for (const std::string bad : {"wide", "-1", "nan", "inf"}) {
     expect_refused({"collide", mesh, mesh, "--poses", poses, "--tolerance-m", bad}, {"--tolerance-m", bad});

@@ -112,8 +112,17 @@ TEST_F(Teller, ALimitIsToldOnceWhenItLasts) {
 TEST_F(Teller, TheForceIsBackAlsoAtALimit) {
   run(milliseconds(100), without_switch());
   run(milliseconds(700), at_the_limit());
-  EXPECT_THAT(told_, ElementsAre(HasSubstr("1 no force"), HasSubstr("101 reduced force"),
-                                 "101 the force returns after 0.10 s"));
+  EXPECT_THAT(told_, ElementsAre(HasSubstr("1 no force"), "101 the force returns after 0.10 s",
+                                 HasSubstr("101 reduced force")));
+}
+
+TEST_F(Teller, TellsInTheOrderOfTime) {
+  run(milliseconds(100), {});
+  run(milliseconds(3), without_switch());
+  run(milliseconds(97), {});
+  run(milliseconds(1000), at_the_limit());
+  EXPECT_THAT(told_, ElementsAre(HasSubstr("101 no force"), "104 the force returns after 0.003 s",
+                                 HasSubstr("201 reduced force")));
 }
 
 TEST_F(Teller, WhatFindsNoRoomIsNotForgotten) {

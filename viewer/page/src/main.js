@@ -1,3 +1,4 @@
+import './language.js';
 import { Connection } from './connection.js';
 import { Controls } from './controls.js';
 import { parseModel } from './model.js';

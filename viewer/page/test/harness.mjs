@@ -93,8 +93,13 @@ export function launch() {
 const LOST = /^(WebSocket connection to .* failed|Failed to load resource: net::ERR_CONNECTION_(REFUSED|RESET|CLOSED) )/;
 
 // A page, with what it asked for and what went wrong in it. `close` checks both.
-export async function open(browser, url, options = {}) {
+export async function open(browser, url, { language, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, ...options });
+  if (language) {
+    await context.addInitScript((name) => {
+      Object.defineProperty(Navigator.prototype, 'language', { configurable: true, get: () => name });
+    }, language);
+  }
   const page = await context.newPage();
   page.faults = [];
   page.requests = [];

@@ -99,6 +99,12 @@ test('the plots of a report can be read on a narrow screen', async () => {
   await close(page);
 });
 
+test('a report opens in a browser whose language Intl refuses', async () => {
+  const page = await open(browser, `file://${join(folder, 'index.html')}`, { language: 'en-US@posix' });
+  assert.ok((await page.locator('svg[data-from]').count()) >= 3);
+  await close(page);
+});
+
 test('a report of a hand shows the hand', async () => {
   execFileSync(PROGRAM, ['demo', '--fingers', '--offline', '--seconds', '6', '--report', folder]);
   const file = join(folder, 'index.html');
