@@ -56,6 +56,7 @@ class Clasp::Iteration {
         touching_(chain_->links().size(), 0) {
     posture_.values.resize(chain_->values().size());
     chain_->clamp(posture_.values);
+    target_ = posture_;
     if (rules.most_steps < 1) throw std::invalid_argument("a call of the clasp needs at least one step");
     if (rules.work_budget && *rules.work_budget < 1)
       throw std::invalid_argument("the work budget of a clasp must be positive");
@@ -67,6 +68,7 @@ class Clasp::Iteration {
   const std::vector<std::shared_ptr<const haptics::SlidingPart>>& bodies() const { return link_bodies_; }
   ClaspState state() const { return state_; }
   const Posture& posture() const { return posture_; }
+  const Posture& target() const { return target_; }
   std::span<const char> touching() const { return touching_; }
   const std::vector<LinkContact>& contacts() const { return link_contacts_; }
   std::span<const Posture> way() const { return {way_.data(), static_cast<std::size_t>(steps_)}; }
@@ -259,6 +261,10 @@ ClaspState Clasp::state() const {
 
 const Posture& Clasp::posture() const {
   return iteration_->posture();
+}
+
+const Posture& Clasp::target() const {
+  return iteration_->target();
 }
 
 std::span<const char> Clasp::touching() const {

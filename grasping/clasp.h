@@ -94,6 +94,8 @@ class Clasp {
 
   ClaspState state() const;
   const Posture& posture() const;
+  /// The last target, within the limits of the chain.
+  const Posture& target() const;
   /// Whether a link touches, by its number in the chain: it must itself be at an object, with a target that lies
   /// deeper. That links beyond it touch does not count. Which joint was stopped first does not matter, other than in
   /// the paper.

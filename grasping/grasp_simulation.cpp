@@ -123,8 +123,7 @@ class GraspSimulation::Life {
       const GraspingHand& hand = hands_[h];
       haptics::HandAnswer& answer = answers_[h];
       tell_grasp(hand, answer.visible);
-      tell_visible(hand.clasp().chain(), hand.clasp().posture(), hand.contacts(),
-                   static_cast<std::int32_t>(parts_.obstacle_count()), X_WL_, answer);
+      rows_.tell(hand.clasp(), hand.contacts(), static_cast<std::int32_t>(parts_.obstacle_count()), answer);
       set.hands[h] = answer;
     }
   }
@@ -326,7 +325,7 @@ class GraspSimulation::Life {
   double waited_ms_ = 0.0;                    // since the hands moved
   // In the haptic loop:
   std::vector<haptics::HandAnswer> answers_;  // for each hand
-  std::vector<Eigen::Isometry3d> X_WL_;       // scratch memory
+  FingerRows rows_;
 };
 
 GraspSimulation::GraspSimulation(const std::vector<haptics::Obstacle>& fixed,

@@ -102,7 +102,9 @@ struct FingerRow {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< metres: the point of the segment
 };
 
-/// Maximum number of rows of one hand in a contact set. The set omits the contacts that are the least deep.
+/// Maximum number of rows of one hand in a contact set. On a finely tessellated object a hand may have more contacts.
+/// The set then has the contact that pushes each joint back the farthest, so that no torque depends on those it omits,
+/// the deepest contact of each segment with each object, and the deepest of the others.
 inline constexpr std::size_t kMaxFingerRows = 32;
 
 /// The simulation's answer for one hand with fingers: the visible hand, and what it is to hold.

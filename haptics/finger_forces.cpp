@@ -55,7 +55,7 @@ const devices::JointValues& FingerForces::update(const devices::JointValues& ang
     lags_[j] = std::clamp(angles[j], limits_.lower[j], limits_.upper[j]) - hand.visible.angles[j];
   depths_.fill(0.0);
   for (const FingerRow& row : hand.rows())
-    press(row);
+    deepen(row, lags_, depths_);
   const double share = force_share(age);
   for (std::size_t j = 0; j < angles.size(); ++j) {
     const bool is_absent = device_.joint_lower[j] == 0.0 && device_.joint_upper[j] == 0.0;
@@ -65,17 +65,16 @@ const devices::JointValues& FingerForces::update(const devices::JointValues& ang
   return torques_;
 }
 
-/// How far each joint would have to go back, alone, to leave the contact; but never farther than to the visible hand.
-void FingerForces::press(const FingerRow& row) noexcept {
+void deepen(const FingerRow& row, const devices::JointValues& lags, devices::JointValues& depths) noexcept {
   double depth = -row.gap;
-  for (std::size_t j = 0; j < lags_.size(); ++j)
-    depth -= row.rates[j] * lags_[j];
+  for (std::size_t j = 0; j < lags.size(); ++j)
+    depth -= row.rates[j] * lags[j];
   if (depth <= 0.0) return;
-  for (std::size_t j = 0; j < lags_.size(); ++j) {
-    const double arm = lags_[j] > 0.0 ? -row.rates[j] : row.rates[j];  // positive where the lag closes the gap
+  for (std::size_t j = 0; j < lags.size(); ++j) {
+    const double arm = lags[j] > 0.0 ? -row.rates[j] : row.rates[j];  // positive where the lag closes the gap
     if (arm <= 0.0) continue;
-    const double back = std::min(std::abs(lags_[j]), depth / arm);
-    depths_[j] = std::max(depths_[j], std::min(1.0, arm / kShortArm_m) * back);
+    const double back = std::min(std::abs(lags[j]), depth / arm);
+    depths[j] = std::max(depths[j], std::min(1.0, arm / kShortArm_m) * back);
   }
 }
 

@@ -37,6 +37,10 @@ struct FingerHand {
 double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                         std::chrono::nanoseconds link_delay) noexcept;
 
+/// How far (rad) each joint would have to go back, alone, to leave a contact, but never farther than to the visible
+/// hand: raises `depths` to it. `lags`, rad, are from the visible hand to the glove. Real-time safe.
+void deepen(const FingerRow& row, const devices::JointValues& lags, devices::JointValues& depths) noexcept;
+
 /// Torques for the joints of a glove whose hand clasps something. A joint is pushed back by the spring if its own
 /// motion, from the visible hand's posture to the glove's, goes deeper into a contact: as far as this motion is to
 /// blame for the depth of that contact. All other joints get exactly zero; so do all while nothing touches.
@@ -71,8 +75,6 @@ class FingerForces {
                                      std::chrono::nanoseconds age = std::chrono::nanoseconds(0)) noexcept;
 
  private:
-  void press(const FingerRow& row) noexcept;
-
   FingerLimits limits_;
   devices::DeviceDescriptor device_;
   std::chrono::nanoseconds period_;

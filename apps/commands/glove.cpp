@@ -152,9 +152,10 @@ int run(const GloveOptions& options) {
   glove.stop();
   if (record) record->close();
   const devices::LinkStatistics link = glove.link_statistics();
+  const std::uint64_t refused = link.rejected() - link.other_receiver;  // those for other gloves are no fault
   std::cout << "glissade glove: " << glove.script_time() / std::chrono::milliseconds(1) << " ms of the script, "
-            << link.accepted << " commands (" << link.lost << " lost, " << link.rejected()
-            << " refused), greatest force " << fixed_text(glove.greatest_force(), 2) << " N\n";
+            << link.accepted << " commands (" << link.lost << " lost, " << refused << " refused), greatest force "
+            << fixed_text(glove.greatest_force(), 2) << " N\n";
   return 0;
 }
 

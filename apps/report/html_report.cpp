@@ -58,8 +58,8 @@ td { font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
 .c0 { color: var(--c0); } .c1 { color: var(--c1); } .c2 { color: var(--c2); }
 .c3 { color: var(--c3); } .c4 { color: var(--c4); } .c5 { color: var(--c5); }
 @media (max-width: 760px) {
-  .paper section { overflow-x: auto; }
-  .paper svg { min-width: 760px; }
+  .paper section { overflow-x: scroll; }
+  .paper svg { min-width: 580px; }
 }
 @media print { .paper section { break-inside: avoid; } }
 )";

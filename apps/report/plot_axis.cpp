@@ -23,7 +23,8 @@ std::string label_of(double value, double step, double largest) {
   std::array<char, 32> buffer{};
   const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
   if (decimals > 6 || largest >= 1e7) {
-    const int digits = static_cast<int>(std::floor(std::log10(std::max(largest, step) / step) + 1e-9));
+    const auto exponent = [](double x) { return static_cast<int>(std::floor(std::log10(x) + 1e-9)); };
+    const int digits = exponent(std::max(largest, step)) - exponent(step);
     std::snprintf(buffer.data(), buffer.size(), "%.*e", std::clamp(digits, 0, 16), value);
   } else {
     std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, value);
@@ -49,12 +50,13 @@ AxisTicks axis_ticks(double low, double high, int most, double least_step) {
 }
 
 AxisRange rounded_range(double low, double high, int most, double least_step) {
-  // A flat line is drawn in the middle; variation below the resolution of the numbers is flat.
-  const double smallest_extent = 1e-9 * std::max(std::abs(low), std::abs(high));
-  if (high - low <= smallest_extent) {
-    const double room = low == 0.0 ? 1.0 : 0.5 * std::abs(low);
-    low -= room;
-    high += room;
+  // A flat line is drawn in the middle. Variation below the resolution of the numbers is flat, and so is what is
+  // nothing to a hand: a millionth of a newton, a millimetre or a degree.
+  constexpr double kNothing = 1e-6;
+  const double largest = std::max(std::abs(low), std::abs(high));
+  if (high - low <= std::max(1e-9 * largest, kNothing)) {
+    low = largest <= kNothing ? -1.0 : low - 0.5 * std::abs(low);
+    high = largest <= kNothing ? 1.0 : high + 0.5 * std::abs(high);
   }
   const double step = std::max(nice_step(high - low, most), least_step);
   return {std::floor(low / step + 1e-9) * step, std::ceil(high / step - 1e-9) * step};

@@ -103,7 +103,8 @@ std::string write_session_report(const SessionSummary& summary, const Session& s
 inline constexpr const char* kVerboseHelp =
     "Add the stages of the search for contacts and the hash of the run to the summary";
 
-/// If most calls of the simulation ended early in a run in real time: a sentence that it did not keep up. Else empty.
+/// If most calls of the simulation ended early in a run in real time, or its answers were old: a sentence that it did
+/// not keep up. Else empty.
 std::string real_time_warning(const Session& session);
 
 /// Prints the summary as text or JSON, warns if the simulation did not keep up with real time, and writes the report

@@ -342,12 +342,23 @@ std::string write_session_report(const SessionSummary& summary, const Session& s
 }
 
 std::string real_time_warning(const Session& session) {
+  if (!session.real_time) return "";
+  constexpr double kOld_ms = 50.0;
   const haptics::CallStatistics& calls = session.calls;
-  if (!session.real_time || 2 * calls.ended_early <= calls.calls) return "";
-  return formatted(
-      "the simulation did not keep up with real time: %lld of its %lld calls ended early, so the visible "
-      "parts lagged behind the hands",
-      static_cast<long long>(calls.ended_early), static_cast<long long>(calls.calls));
+  if (2 * calls.ended_early > calls.calls) {
+    return formatted(
+        "the simulation did not keep up with real time: %lld of its %lld calls ended early, so the visible "
+        "parts lagged behind the hands",
+        static_cast<long long>(calls.ended_early), static_cast<long long>(calls.calls));
+  }
+  const double age_ms = 1e-3 * microseconds(session.real_time->server.contact_set_age.quantile(0.99));
+  if (age_ms > kOld_ms) {
+    return formatted(
+        "the machine did not keep up with real time: one contact set in a hundred was more than %.0f ms old, so what "
+        "was visible lagged behind the gloves",
+        age_ms);
+  }
+  return "";
 }
 
 void conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json, bool verbose,

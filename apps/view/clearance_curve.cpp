@@ -99,7 +99,7 @@ double ClearanceCurve::distance_to(std::size_t b, const Eigen::Isometry3d& X_WV,
 }
 
 Plot clearance_plot() {
-  return {"Clearance of the visible parts, up to 20 mm", kTimeLabel, "clearance [um]", {}};
+  return {"Clearance of the visible parts, up to 2 mm", kTimeLabel, "clearance [um]", {}};
 }
 
 PlotSeries ClearanceCurve::take(std::string name) {

@@ -24,7 +24,7 @@ namespace glissade::apps {
 class ClearanceCurve {
  public:
   /// Clearances from here on are left out: the curve has gaps there.
-  static constexpr double kFarthest_m = 0.02;
+  static constexpr double kFarthest_m = 0.002;
 
   /// For the part with this number in a run of so many poses. The scene must outlive this object.
   ClearanceCurve(const HapticScene& scene, std::int64_t poses, std::size_t part = 0);

@@ -2,6 +2,7 @@
 
 /// What the haptic thread gets to know of a clasp.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,10 +15,31 @@
 
 namespace glissade::grasping {
 
-/// Writes the posture and the contacts of a visible hand into `answer`: of each contact its row of the Jacobian, the
-/// deepest contacts first. The parts are the bodies from `first_part` on. `X_WL` is working memory; pass the same
-/// vector to each call. The chain has at most as many flex values as a glove has joints.
-void tell_visible(const KinematicChain& chain, const Posture& visible, std::span<const LinkContact> contacts,
-                  std::int32_t first_part, std::vector<Eigen::Isometry3d>& X_WL, haptics::HandAnswer& answer);
+/// Not thread-safe.
+class FingerRows {
+ public:
+  /// Writes the posture and the contacts of a visible hand into `answer`: of each contact its row of the Jacobian. Of
+  /// more than `haptics::kMaxFingerRows` contacts, it chooses as documented there. The parts are the bodies from
+  /// `first_part` on. The chain has at most as many flex values as a glove has joints.
+  void tell(const Clasp& clasp, std::span<const LinkContact> contacts, std::int32_t first_part,
+            haptics::HandAnswer& answer);
+
+ private:
+  enum class Priority : std::uint8_t {
+    kStrongest,  ///< pushes a joint back the farthest
+    kOfSegment,  ///< the deepest of a segment with an object
+    kOther
+  };
+
+  void choose(const Clasp& clasp, std::span<const LinkContact> contacts);
+  void choose_strongest(const Clasp& clasp);
+  void choose_of_each_segment(std::span<const LinkContact> contacts);
+
+  std::vector<Eigen::Isometry3d> X_WL_;
+  std::vector<haptics::FingerRow> rows_;  // of all contacts
+  std::vector<std::size_t> by_depth_;     // their numbers, the deepest first
+  std::vector<std::size_t> chosen_;
+  std::vector<Priority> priorities_;
+};
 
 }  // namespace glissade::grasping

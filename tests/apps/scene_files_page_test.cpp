@@ -302,7 +302,7 @@ TEST_F(ScenePages, TheTablesHaveExactlyTheColumnsOfPosesAndTrajectories) {
 }
 
 TEST_F(ScenePages, TheTablesHaveExactlyTheColumnsOfCollide) {
-  run("collide bracket.obj bracket.obj --poses poses.csv --pairs --out pairs.csv");
+  run("collide bracket.obj bracket.obj --poses poses.csv --pairs --distance --out pairs.csv");
   EXPECT_EQ(formats.names_below("## Output of collide"), header_of("pairs.csv"));
 }
 

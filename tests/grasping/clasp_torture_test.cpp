@@ -103,7 +103,9 @@ class Torturer {
         value += random.uniform(-kTremble, kTremble);
       hand_.clasp.advance(trembling);
     }
-    if (hand_.clasp.state() == ClaspState::kClasping) try_grazing(target, kFartherThanTremble_m);
+    if (hand_.clasp.state() != ClaspState::kClasping || hand_.clasp.contacts().empty()) return torture_;
+    ++torture_.touching;
+    try_grazing(target, kFartherThanTremble_m);
     return torture_;
   }
 
@@ -231,6 +233,7 @@ TEST(ClaspTortureOfTremblingTargets, NoFlexValueWaitsForEver) {
   for (const LastSteps& motion : {LastSteps{"book", 1402}, LastSteps{"coin", 4911}, LastSteps{"hammer", 9115},
                                   LastSteps{"jar_lid", 9801}, LastSteps{"pen", 12606}}) {
     const Torture result = Torturer(household_object(motion.object).make(kObjectEdge_m)).run_trembling(motion.seed);
+    EXPECT_EQ(result.touching, 1) << motion.object;
     EXPECT_EQ(result.too_early, 0) << motion.object << ": " << result;
   }
 }

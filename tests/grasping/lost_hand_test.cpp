@@ -62,13 +62,13 @@ TEST(LostHand, ThatStartsInsideGivesNoTorqueUntilItIsFree) {
 TEST(LostHand, ThatTheCartMovesIntoSomethingGivesNoTorqueUntilItIsFree) {
   haptics::FingerForces forces(finger_hand(*hand_model()).limits, devices::simulated_glove_descriptor());
   haptics::HandAnswer answer;
-  std::vector<Eigen::Isometry3d> X_WL;
+  FingerRows rows;
   ClaspedHand hand(geometry::make_sphere(kBall_m, 2000), before_the_palm());
   const auto torques_at = [&](const Posture& target) {
     hand.clasp.advance(target);
     JointValues angles{};
     std::copy(target.values.begin(), target.values.end(), angles.begin());
-    tell_visible(hand.clasp.chain(), hand.clasp.posture(), hand.clasp.contacts(), 0, X_WL, answer);
+    rows.tell(hand.clasp, hand.clasp.contacts(), 0, answer);
     return forces.update(angles, answer);
   };
   torques_at(open_hand());

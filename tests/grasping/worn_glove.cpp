@@ -6,8 +6,6 @@
 
 #include <glissade/grasping/grasp_simulation.h>
 
-#include "life/finger_rows.h"
-
 namespace glissade::test_support {
 namespace {
 
@@ -61,7 +59,7 @@ void WornGlove::step() {
   const devices::GloveState told = is_seen ? glove_.state() : unseen(glove_.state());
   if (silent_for_ == kPatience_ms) hand.clasp.lose_track();
   hand.clasp.advance({told.X_WH, {told.joint_angles.begin(), told.joint_angles.end()}});
-  tell_visible(hand.clasp.chain(), hand.clasp.posture(), hand.clasp.contacts(), 0, X_WL_, answer_);
+  rows_.tell(hand.clasp, hand.clasp.contacts(), 0, answer_);
   wanted_ = forces_.update(told.joint_angles, answer_);
   devices::GloveCommand command{.sequence = told.sequence, .state_sequence = told.sequence, .state_time = told.time};
   command.joint_torques = wanted_;

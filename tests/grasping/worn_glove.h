@@ -11,6 +11,7 @@
 #include <glissade/haptics/finger_forces.h>
 
 #include "clasped_hand.h"
+#include "life/finger_rows.h"
 
 namespace glissade::test_support {
 
@@ -44,7 +45,7 @@ class WornGlove {
   devices::SafeCommand command_;
   devices::JointValues wanted_{};
   haptics::HandAnswer answer_;
-  std::vector<Eigen::Isometry3d> X_WL_;
+  grasping::FingerRows rows_;
   double energy_ = 0.0;
   int lost_for_ = 0;
   int silent_for_ = 0;  // ms without a target

@@ -261,7 +261,7 @@ class CubeOverPlate : public ::testing::TestWithParam<bool> {
   CandidatePairs candidates_{scene_, kGreatest, GetParam()};
 };
 
-// Asked for at half of the way that a search looks ahead, it looks from there: so it serves half a way longer.
+// Asked for at three quarters of the way that a search looks ahead, it looks from there.
 TEST_P(CubeOverPlate, TakesTheSearchThatWasAskedForAheadOfNeed) {
   move(0.0);
   EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
@@ -274,13 +274,13 @@ TEST_P(CubeOverPlate, TakesTheSearchThatWasAskedForAheadOfNeed) {
   ASSERT_GE(taken.size(), 4U);
   EXPECT_NEAR(taken[0], 11, 1) << "the first has been used up";
   for (std::size_t i = 1; i < taken.size(); ++i)
-    EXPECT_NEAR(taken[i] - taken[i - 1], 5, 1) << "each later one was asked for half a way before";
+    EXPECT_NEAR(taken[i] - taken[i - 1], 7.5, 1.0) << "each later one was asked for a quarter of a way before";
 }
 
 TEST_P(CubeOverPlate, AJumpBeyondWhatWasAskedForIsSearchedAfresh) {
   move(0.0);
   candidates_.look(kReach, kAhead, {});
-  move(0.6 * kAhead);
+  move(0.8 * kAhead);
   EXPECT_FALSE(candidates_.look(kReach, kAhead, {})) << "and asks for the next one";
   move(3.5 * kAhead);
   EXPECT_FALSE(candidates_.covers(kReach));
@@ -291,11 +291,11 @@ TEST_P(CubeOverPlate, AJumpBeyondWhatWasAskedForIsSearchedAfresh) {
 }
 
 TEST_P(CubeOverPlate, IsToldOfThePosesAtWhichItWasAskedFor) {
-  move(5e-3 - 1.3 * kAhead);
+  move(5e-3 - 1.5 * kAhead);
   candidates_.look(kReach, kAhead, {});
-  move(0.6 * kAhead);
+  move(0.8 * kAhead);
   candidates_.look(kReach, kAhead, {});  // asks for the next one, 0.7 of it above the plate
-  move(0.5 * kAhead);
+  move(0.3 * kAhead);
   EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
   const std::vector<PairToCertify> to_certify = pairs_to_certify_within(candidates_, 0.5 * kAhead);
   ASSERT_FALSE(to_certify.empty());

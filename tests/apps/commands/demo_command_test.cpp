@@ -90,7 +90,7 @@ TEST_F(Demo, InRealTimeGloveAndServerMeetOverLcmAndReachTheSameSeat) {
   std::stringstream html;
   html << page.rdbuf();
   for (const char* text : {"<h2>Force on the hand of glove 1</h2>", "<h2>Torque on the hand of glove 1</h2>",
-                           "Clearance of the visible parts, up to 20 mm", "<h2>States of the parts</h2>",
+                           "Clearance of the visible parts, up to 2 mm", "<h2>States of the parts</h2>",
                            "<span>sliding</span>", "<td>force-feedback</td>", "<td>no friction</td>"})
     EXPECT_NE(html.str().find(text), std::string::npos) << text;
   // Nothing is fetched from anywhere.

@@ -145,7 +145,7 @@ TEST_F(GraspCommand, CarriesTheBallToTheTrayAndLeavesItThere) {
   for (const char* part :
        {"1 grasp, holds for", "report-frames", "Kind of grasp", "<h2>Force of ball on the hands</h2>",
         "<h2>Torque of ball on the hands, about its origin</h2>", "<h2>Contacts that push</h2>",
-        "Clearance of the visible parts, up to 20 mm", "<h2>States of the parts</h2>", "<span>released</span>"})
+        "Clearance of the visible parts, up to 2 mm", "<h2>States of the parts</h2>", "<span>released</span>"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
 }
 

@@ -204,16 +204,16 @@ TEST(ClearanceCurve, IsTheGapOfABoxAboveAPlate) {
       "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n");
   ClearanceCurve curve(scene, 1500);
   for (int i = 0; i < 1500; ++i)
-    curve.note(std::chrono::milliseconds(i), pose({0.0, 0.0, 0.01 + 20e-6 * i}), {}, {});
+    curve.note(std::chrono::milliseconds(i), pose({0.0, 0.0, 0.01 + 2e-6 * i}), {}, {});
   const PlotSeries series = curve.take("way");
   ASSERT_EQ(series.x.size(), 500u) << "one of three";
   for (std::size_t i = 0; i < series.x.size(); ++i) {
-    const double gap_um = 20e3 * series.x[i];
+    const double gap_um = 2e3 * series.x[i];
     EXPECT_NEAR(series.x[i], 3e-3 * static_cast<double>(i), 1e-9);
-    if (gap_um < 20e3 - 1.0) {
+    if (gap_um < 2e3 - 1.0) {
       EXPECT_NEAR(series.y[i], gap_um, 1e-6) << i;
     }
-    if (gap_um > 20e3 + 1.0) {
+    if (gap_um > 2e3 + 1.0) {
       EXPECT_TRUE(std::isnan(series.y[i])) << i;
     }
   }
@@ -227,16 +227,16 @@ TEST(ClearanceCurve, IsThatOfEachPartAmongTheOthers) {
   ClearanceCurve left(scene, 10, 0);
   ClearanceCurve right(scene, 10, 1);
   for (int i = 0; i < 10; ++i) {
-    const Isometry3d X_WLeft = pose({0.0, 0.0, 0.01 + 3e-3});
-    const Isometry3d X_WRight = pose({0.02 + 1e-3 * i, 0.0, 0.01 + 5e-3});
+    const Isometry3d X_WLeft = pose({0.0, 0.0, 0.01 + 0.3e-3});
+    const Isometry3d X_WRight = pose({0.02 + 0.1e-3 * i, 0.0, 0.01 + 0.5e-3});
     left.note(std::chrono::milliseconds(i), X_WLeft, std::span(&X_WRight, 1));
     right.note(std::chrono::milliseconds(i), X_WRight, std::span(&X_WLeft, 1));
   }
   const PlotSeries of_left = left.take("left");
   const PlotSeries of_right = right.take("right");
   for (std::size_t i = 0; i < 10; ++i) {
-    EXPECT_NEAR(of_left.y[i], std::min(1e3 * static_cast<double>(i), 3e3), 1e-6) << "the right box, then the plate";
-    EXPECT_NEAR(of_right.y[i], std::min(1e3 * static_cast<double>(i), 5e3), 1e-6) << "the left box, then the plate";
+    EXPECT_NEAR(of_left.y[i], std::min(100.0 * static_cast<double>(i), 300.0), 1e-6) << "the right box, then the plate";
+    EXPECT_NEAR(of_right.y[i], std::min(100.0 * static_cast<double>(i), 500.0), 1e-6) << "the left box, then the plate";
   }
 }
 

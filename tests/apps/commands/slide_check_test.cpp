@@ -168,7 +168,7 @@ TEST_F(AssemblyCheck, ThePageOfOneTrajectoryShowsWhatPushesWhen) {
   for (const char* title :
        {"Force on the hand", "Torque on the hand about the origin of the part",
         "Lag of the visible parts behind their ghosts", "Angle between the visible parts and their ghosts",
-        "Contacts that push", "Clearance of the visible parts, up to 20 mm", "States of the parts"})
+        "Contacts that push", "Clearance of the visible parts, up to 2 mm", "States of the parts"})
     EXPECT_THAT(page, testing::HasSubstr("<h2>" + std::string(title) + "</h2>"));
   for (const char* state : {"free", "sliding"})
     EXPECT_THAT(page, testing::HasSubstr("<span>" + std::string(state) + "</span>"));

@@ -94,6 +94,7 @@ TEST(AxisTicks, AreRoundNumbersWithEvenLabels) {
   EXPECT_THAT(axis_ticks(-0.3, 0.35, 4).labels, ElementsAre("-0.2", "0.0", "0.2"));
   EXPECT_THAT(axis_ticks(0.0, 0.05, 6).labels, ElementsAre("0.00", "0.01", "0.02", "0.03", "0.04", "0.05"));
   EXPECT_THAT(axis_ticks(0.0, 4e-8, 4).labels, ElementsAre("0e+00", "1e-08", "2e-08", "3e-08", "4e-08"));
+  EXPECT_THAT(axis_ticks(0.0, 1.5e-7, 4).labels, ElementsAre("0.0e+00", "5.0e-08", "1.0e-07", "1.5e-07"));
 }
 
 TEST(AxisTicks, AFlatLineGetsRoomOnBothSides) {
@@ -102,6 +103,12 @@ TEST(AxisTicks, AFlatLineGetsRoomOnBothSides) {
     EXPECT_LT(range.low, value);
     EXPECT_GT(range.high, value);
   }
+}
+
+TEST(AxisTicks, NoiseOfRoundingIsFlat) {
+  const AxisRange range = rounded_range(-1e-7, 1.5e-7, 6);
+  EXPECT_EQ(range.low, -1.0);
+  EXPECT_EQ(range.high, 1.0);
 }
 
 TEST(AxisTicks, TheRangeHoldsTheDataAndEndsAtTicks) {

@@ -84,6 +84,14 @@ TEST(SessionText, WarnsIfMostCallsEndedEarlyInRealTime) {
   EXPECT_EQ(real_time_warning(session), "") << "an offline run has all the time that it needs";
 }
 
+TEST(SessionText, WarnsIfAnswersWereOldInRealTime) {
+  Session session = session_of(10);
+  session.real_time->server.contact_set_age.record(std::chrono::milliseconds(49));
+  EXPECT_EQ(real_time_warning(session), "");
+  session.real_time->server.contact_set_age.record(std::chrono::milliseconds(104));
+  EXPECT_THAT(real_time_warning(session), HasSubstr("one contact set in a hundred was more than 10"));
+}
+
 TEST(SessionText, BeginsWithWhetherTheGoalWasReached) {
   const Session session = session_of(10);
   SessionSummary summary = summary_of(session);
