@@ -1,8 +1,7 @@
 #include <bit>
-#include <limits>
+#include <vector>
 
 #include <glissade/collision/dual_tree_traversal.h>
-#include <glissade/geometry/triangle_pair.h>
 
 #include "query/dop_traversal.h"
 #include "query/pair_visitors.h"
@@ -12,11 +11,11 @@
 namespace glissade::collision {
 namespace {
 
-/// Passes the pairs of a traversal on to the visitor.
+/// Asks the visitor which pairs of children to open, and collects the pairs of triangles.
 class NearPairs final : public PlacedVisitor {
  public:
-  NearPairs(const PlacedTrees& placed, double distance, DualTreeVisitor& visitor)
-      : PlacedVisitor(placed), distance_(distance), visitor_(visitor) {}
+  NearPairs(const PlacedTrees& placed, double distance, DualTreeVisitor& visitor, std::vector<ClosePair>& pairs)
+      : PlacedVisitor(placed), visitor_(visitor), collector_(placed, distance, pairs) {}
 
   PairMask to_open(const NodePair& nodes, PairMask near) override {
     for (PairMask rest = near; rest != 0; rest &= rest - 1) {
@@ -29,19 +28,19 @@ class NearPairs final : public PlacedVisitor {
     return near;
   }
   PairOutcome visit(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) override {
-    const TrianglePair triangles = placed_.triangles(leaf_M, leaf_N, pair);
-    const geometry::TriangleDistance closest =
-        geometry::triangle_distance(placed_.points_A(triangles), placed_.points_B(triangles));
-    if (closest.distance <= distance_) visitor_.visit({triangles, closest.distance, closest.p_a, closest.p_b});
-    return {false, closest.distance};
+    return collector_.visit(leaf_M, leaf_N, pair);
+  }
+  bool visit_each(std::uint32_t leaf_M, std::uint32_t leaf_N, PairMask pairs) override {
+    return collector_.visit_each(leaf_M, leaf_N, pairs);
   }
   PairOutcome found(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) override {
-    return visit(leaf_M, leaf_N, pair);
+    return collector_.found(leaf_M, leaf_N, pair);
   }
+  void finish() { collector_.finish(); }
 
  private:
-  double distance_;
   DualTreeVisitor& visitor_;
+  PairCollector<ClosePair> collector_;
 };
 
 }  // namespace
@@ -53,8 +52,12 @@ void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Is
   memory.counters = {};
   if (placed.frame.spheres_apart(distance)) return;
   DopVisit step(placed.base(), placed.other(), placed.frame, distance, memory.alignment, {}, memory.meter);
-  NearPairs pairs(placed, distance, visitor);
+  memory.close_pairs.clear();
+  NearPairs pairs(placed, distance, visitor, memory.close_pairs);
   visit_every(step, memory, pairs);
+  pairs.finish();
+  for (const ClosePair& pair : memory.close_pairs)
+    visitor.visit(pair);
 }
 
 }  // namespace glissade::collision

@@ -20,7 +20,7 @@ struct TreeChild {
   int child;
 };
 
-/// Receives the pairs of children and of triangles in the order of the traversal.
+/// Receives the pairs of children in the order of the traversal, and then the pairs of triangles.
 class DualTreeVisitor {
  public:
   /// Whether the visitor accepts two children. Called only for children whose bounding volumes may be within the
@@ -34,7 +34,8 @@ class DualTreeVisitor {
 };
 
 /// Passes to the visitor all triangle pairs at most `distance` (metres, ≥ 0) apart, except the triangle pairs below
-/// accepted pairs of children. Deterministic. Allocates nothing once the workspace has grown. Throws as the queries of
+/// accepted pairs of children. Deterministic: the order of the triangle pairs is that of the traversal. Allocates
+/// nothing once the workspace has grown. The visitor must not query with the workspace. Throws as the queries of
 /// `dop_query.h` do.
 void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                    QueryWorkspace& workspace, DualTreeVisitor& visitor);

@@ -35,6 +35,7 @@ struct QueryMemory {
   std::vector<OpenPair> stack;
   std::vector<PromisingPair> promising;
   std::vector<DistanceFront::Entry> expired;
+  std::vector<ClosePair> close_pairs;
   std::vector<std::uint64_t> places;  ///< sort keys of triangle pairs
   hwy::Sorter sort_places;
   QueryCounters counters;
