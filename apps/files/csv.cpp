@@ -190,6 +190,7 @@ CsvWriter& CsvWriter::add(const Eigen::Isometry3d& X) {
 }
 
 CsvWriter& CsvWriter::add(std::string_view text) {
+  assert(text.find_first_of(",\"\n") == std::string_view::npos);
   if (values_in_row_ > 0) *out_ << ',';
   *out_ << text;
   ++values_in_row_;

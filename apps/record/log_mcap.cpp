@@ -143,7 +143,7 @@ Json hand_message(const devices::HapticState& state, std::size_t number) {
                {"state_age_s", in_seconds(hand.state_age)},
                {"command_age_s", in_seconds(hand.command_age)},
                {"energy_J", devices::energy_left(hand)},
-               {"reason", to_text(force_reason(state, number))},
+               {"reason", to_text(recorded_reason(state, number))},
                {"activity", devices::name_of(hand.visible.activity)},
                {"grasp", devices::name_of(hand.visible.grasp)}};
   if (hand.visible.activity == devices::HandActivity::kNone) return message;

@@ -169,7 +169,7 @@ class Tables {
           .add(seconds(hand.state_age))
           .add(seconds(hand.command_age))
           .add(devices::energy_left(hand))
-          .add(to_text(force_reason(state, static_cast<std::size_t>(h))));
+          .add(to_text(recorded_reason(state, static_cast<std::size_t>(h))));
       row.add(devices::name_of(hand.visible.activity)).add(devices::name_of(hand.visible.grasp)).add(hand.visible.X_WH);
       for (const double angle : hand.visible.angles)
         row.add(angle);

@@ -36,6 +36,16 @@ ForceReason force_reason(const devices::HapticState& state, std::size_t number) 
   return {Cause::kLimitAtGlove, limits_to_tell(hand.glove_reasons), hand.command_age};
 }
 
+ForceReason recorded_reason(const devices::HapticState& state, std::size_t number) noexcept {
+  using Cause = ForceReason::Cause;
+  const ForceReason told = force_reason(state, number);
+  const devices::HapticHandState& hand = state.hands[number];
+  if (told.cause != Cause::kNone) return told;
+  if (hand.reasons.any()) return {Cause::kLimit, hand.reasons, hand.state_age};
+  if (hand.glove_reasons.any()) return {Cause::kLimitAtGlove, hand.glove_reasons, hand.command_age};
+  return {};
+}
+
 ForceReason force_reason(const devices::SafeCommand& command) noexcept {
   using Cause = ForceReason::Cause;
   const devices::LimitReasons& reasons = command.reasons();
@@ -56,14 +66,14 @@ std::string to_text(const ForceReason& reason) {
       return "reduced force: the simulation's contacts are " +
              std::to_string(reason.age / std::chrono::milliseconds(1)) + " ms old";
     case Cause::kGlove:
-      if (reason.reasons.is_stopped) return "no force: the glove has ended, or was stopped for good";
-      return "at the glove, " + devices::to_text(reason.reasons, reason.age);
+      if (reason.reasons.is_stopped) return "no force: the glove has ended or was stopped for good";
+      return "at the glove: " + devices::to_text(reason.reasons, reason.age);
     case Cause::kLimitAtGlove:
-      return "at the glove, " + devices::to_text(reason.reasons, reason.age);
+      return "at the glove: " + devices::to_text(reason.reasons, reason.age);
     case Cause::kUnsolved:
       return "reduced force: no pose of the part satisfies all contacts";
     case Cause::kLagging:
-      return "reduced force: the part lags behind the hand, or has just caught up";
+      return "reduced force: the part lags behind the hand or has just caught up";
   }
   return {};
 }

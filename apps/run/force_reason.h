@@ -30,10 +30,14 @@ struct ForceReason {
 
 /// At a server, after a tick, for the hand with this number. Real-time safe.
 ForceReason force_reason(const devices::HapticState& state, std::size_t hand) noexcept;
+/// The same for records, which also have the limits that are not worth a sentence while a run goes on: a soft return
+/// and the rate. Real-time safe.
+ForceReason recorded_reason(const devices::HapticState& state, std::size_t hand) noexcept;
 /// At a glove. Real-time safe.
 ForceReason force_reason(const devices::SafeCommand& command) noexcept;
 
-/// The reason in plain words, such as "no force: the glove's state is 14 ms old"; empty without a reason.
+/// The reason in plain words, such as "no force: the glove's state is 14 ms old", without a comma, so that a CSV file
+/// can hold it; empty without a reason.
 std::string to_text(const ForceReason& reason);
 
 }  // namespace glissade::apps

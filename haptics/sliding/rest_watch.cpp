@@ -14,7 +14,10 @@ void RestWatch::observe(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& 
   const auto between = [&](const Eigen::Isometry3d& X_from, const Eigen::Isometry3d& X_to) {
     return geometry::motion_bound(geometry::displacement_between(X_from, X_to, p_Vref), lever);
   };
-  if (between(X_WT_, X_WT) > kTargetStands_m || between(X_WV_, X_WV) > kPartStays_m) {
+  // Where a restless part finds its way to a better place, it might come back from there if it were not restless any
+  // more.
+  const bool gets_somewhere = !is_restless_ && between(X_WV_, X_WV) > kPartStays_m;
+  if (between(X_WT_, X_WT) > kTargetStands_m || gets_somewhere) {
     X_WV_ = X_WV;
     X_WT_ = X_WT;
     here_ms_ = 0.0;

@@ -17,9 +17,9 @@ class RestWatch {
   void observe(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& p_Vref,
                double lever, bool moved, double milliseconds);
 
-  /// Whether neither the target nor the part has got anywhere for 0.2 s.
+  /// Whether neither the target nor the part has got anywhere for 0.2 s; a restless part may.
   bool stays() const { return stays_; }
-  /// Whether the part goes to and fro all the same. Then this lasts until one of them gets somewhere.
+  /// Whether the part goes to and fro all the same. Then this lasts until the target gets somewhere.
   bool is_restless() const { return is_restless_; }
 
  private:

@@ -77,6 +77,19 @@ TEST(RestWatch, NoticesToAndFroOnlyWhereNothingGetsAnywhere) {
   EXPECT_FALSE(still.is_restless());
 }
 
+// Else it would come back from there, again and again.
+TEST(RestWatch, ARestlessPartThatFindsABetterPlaceStaysRestlessUntilItsTargetMoves) {
+  RestWatch watch;
+  for (int ms = 0; ms < 300; ++ms)
+    watch.observe(at(0.0), at(0.01), Vector3d::Zero(), 0.05, true, 1.0);
+  for (int ms = 0; ms < 10; ++ms)
+    watch.observe(at(1e-3 * ms), at(0.01), Vector3d::Zero(), 0.05, true, 1.0);
+  EXPECT_TRUE(watch.is_restless());
+  EXPECT_TRUE(watch.stays());
+  watch.observe(at(0.01), at(0.0101), Vector3d::Zero(), 0.05, true, 1.0);
+  EXPECT_FALSE(watch.is_restless());
+}
+
 TEST(SpiralSearch, EndsAndLeavesThePegInTheHoleThatItHasFound) {
   PegOverHole peg(4e-3, 4.1e-3, 9e-3, true);
   const auto depth = [&] { return -peg.advance(1.2e-3, 2e-3).X_WV.translation().z(); };

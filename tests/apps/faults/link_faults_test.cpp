@@ -96,7 +96,7 @@ TEST_F(LinkFaults, ADelayTakesTheForceAwayAndTheServerIsTold) {
   wait(milliseconds(2500));  // longer than it takes the server to believe in another clock
   const GloveRecord record = this->record();
   expect_no_force(record);
-  EXPECT_THAT(hand().end_server(), HasSubstr("at the glove, no force: the command answers a state that is"));
+  EXPECT_THAT(hand().end_server(), HasSubstr("at the glove: no force: the command answers a state that is"));
 }
 
 // That it comes to rest is told by passivity_test, where no process waits for a processor.

@@ -1,6 +1,7 @@
 #include <memory>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <glissade/apps/run/force_reason.h>
@@ -34,7 +35,7 @@ TEST(ForceReason, IsTheMostSerious) {
   devices::HapticHandState& hand = state.hands[0];
   hand.glove_reasons.energy_limited = true;
   EXPECT_EQ(to_text(force_reason(state, 0)),
-            "at the glove, reduced force: it has given back all energy that the hand put in");
+            "at the glove: reduced force: it has given back all energy that the hand put in");
   hand.reasons.force_limited = true;
   EXPECT_EQ(to_text(force_reason(state, 0)), "reduced force: it is at the device's limit");
   EXPECT_FALSE(force_reason(state, 0).is_fading());
@@ -44,7 +45,7 @@ TEST(ForceReason, IsTheMostSerious) {
   EXPECT_EQ(force_reason(state, 0).cause, Cause::kUnsolved);
   hand.glove_reasons.is_command_old = true;
   hand.command_age = milliseconds(30);
-  EXPECT_EQ(to_text(force_reason(state, 0)), "at the glove, no force: the command answers a state that is 30 ms old");
+  EXPECT_EQ(to_text(force_reason(state, 0)), "at the glove: no force: the command answers a state that is 30 ms old");
   state.contact_set_age = milliseconds(25);
   EXPECT_EQ(to_text(force_reason(state, 0)), "reduced force: the simulation's contacts are 25 ms old");
   hand.reasons.is_state_old = true;
@@ -56,7 +57,7 @@ TEST(ForceReason, IsTheMostSerious) {
 TEST(ForceReason, AGloveThatHasEndedIsNoEmergency) {
   devices::HapticState state = holding();
   state.hands[0].glove_reasons.is_stopped = true;
-  EXPECT_EQ(to_text(force_reason(state, 0)), "no force: the glove has ended, or was stopped for good");
+  EXPECT_EQ(to_text(force_reason(state, 0)), "no force: the glove has ended or was stopped for good");
 }
 
 TEST(ForceReason, ASoftReturnAndARateAreNotWorthASentence) {
@@ -65,6 +66,29 @@ TEST(ForceReason, ASoftReturnAndARateAreNotWorthASentence) {
   state.hands[0].reasons.rate_limited = true;
   state.hands[0].glove_reasons = state.hands[0].reasons;
   EXPECT_EQ(force_reason(state, 0).cause, Cause::kNone);
+}
+
+TEST(ForceReason, OfARecordHasASoftReturnAndTheRate) {
+  devices::HapticState state = holding();
+  EXPECT_EQ(to_text(recorded_reason(state, 0)), "");
+  state.hands[0].glove_reasons.rate_limited = true;
+  EXPECT_EQ(to_text(recorded_reason(state, 0)),
+            "at the glove: reduced force: it changes as fast as the device's limit allows");
+  state.hands[0].reasons.is_returning = true;
+  EXPECT_EQ(to_text(recorded_reason(state, 0)), "reduced force: it returns softly");
+  state.hands[0].reasons.is_state_old = true;
+  EXPECT_THAT(to_text(recorded_reason(state, 0)), testing::StartsWith("no force: the glove's state is "));
+}
+
+// A CSV file holds the texts as they are.
+TEST(ForceReason, HasNoCommaInItsText) {
+  for (std::size_t cause = 0; cause <= static_cast<std::size_t>(Cause::kLimitAtGlove); ++cause) {
+    for (const devices::NamedReason& reason : devices::kLimitReasons) {
+      ForceReason told{.cause = static_cast<Cause>(cause)};
+      told.reasons.*reason.flag = true;
+      EXPECT_EQ(to_text(told).find_first_of(",\"\n"), std::string::npos) << to_text(told);
+    }
+  }
 }
 
 TEST(ForceReason, DiffersInKindButNotForAnAge) {
