@@ -149,7 +149,7 @@ std::string goal_tolerance(const SlideCheckOptions& options) {
 std::string verdict(const SlideCheck& check, const SlideCheckOptions& options) {
   if (check.problem) return *check.problem;
   const std::string clearance = std::isfinite(check.clearance_min_m)
-                                    ? "; least clearance " + fixed_text(1e6 * check.clearance_min_m, 1) + " um at " +
+                                    ? "; least clearance " + rounded_text(1e3 * check.clearance_min_m) + " mm at " +
                                           fixed_text(check.clearance_min_at_s, 3) + " s"
                                     : "";
   return name_of_goal(check) + (check.goal_reached ? " reached, " : " not reached, ") +
