@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -17,7 +18,7 @@ namespace glissade::grasping {
 namespace {
 
 constexpr double kDeeper_m = 5e-6;  // a target that is so much deeper lies deeper
-// While the hand moves, one flex value tries to go on alone in so many calls.
+// While the hand moves or rests, one flex value tries to go on alone in so many calls.
 constexpr int kCallsOfOne = 8;
 
 std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const KinematicChain& chain,
@@ -116,7 +117,11 @@ class Clasp::Iteration {
     while (steps_ < rules_.most_steps && !finder_.is_slow() && !is_worked_off() &&
            finder_.find(posture_, target_, next_))
       go();
-    if (is_turn_of_one_value() && finder_.find_alone(posture_, target_, next_)) go();
+    quiet_calls_ = steps_ == 0 ? quiet_calls_ + 1 : 0;
+    if (is_turn_of_one_value() && finder_.find_alone(posture_, target_, next_)) {
+      go();
+      quiet_calls_ = 0;
+    }
     note_touching();
     is_carried_ = false;
   }
@@ -124,10 +129,11 @@ class Clasp::Iteration {
  private:
   bool is_worked_off() const { return rules_.work_budget && finder_.work() - begin_ >= *rules_.work_budget; }
 
-  /// Where the hand stands still. A target that trembles lets it never stand still, so in some other calls too.
+  /// Where the hand stands still, until each value has tried in vain. Then, as things may change, and while the hand
+  /// moves, because a target that trembles lets it never stand still, in some calls.
   bool is_turn_of_one_value() {
-    if (steps_ == 0) return true;
-    return ++calls_with_steps_ % kCallsOfOne == 0 && steps_ < rules_.most_steps && !is_worked_off();
+    if (quiet_calls_ > 0 && quiet_calls_ <= std::ssize(posture_.values)) return true;
+    return ++other_calls_ % kCallsOfOne == 0 && steps_ < rules_.most_steps && !is_worked_off();
   }
 
   void go() {
@@ -202,7 +208,8 @@ class Clasp::Iteration {
   Posture next_;
   std::int64_t begin_ = 0;  // of the call: the work before it
   int steps_ = 0;
-  int calls_with_steps_ = 0;
+  std::ptrdiff_t quiet_calls_ = 0;  // without a step, one after another
+  int other_calls_ = 0;
   std::vector<Posture> way_;
   std::vector<Eigen::Isometry3d> X_WL_;
   std::vector<Eigen::Isometry3d> X_WL_target_;
