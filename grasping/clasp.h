@@ -36,8 +36,8 @@ struct ClaspRules {
   /// The steps of one call; each has a proof. More of them follow a fast hand more closely.
   int most_steps = 8;
   /// Work after which a call takes no further step, in the unit of `haptics::SlidingRules::work_budget`: the next call
-  /// goes on from there. A step is never divided, and where there was none, one flex value may still try to go on alone.
-  /// Positive; none: no limit.
+  /// goes on from there. A step is never divided, and where there was none, one flex value may still try to go on
+  /// alone. Positive; none: no limit.
   std::optional<std::int64_t> work_budget{};
 };
 

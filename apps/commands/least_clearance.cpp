@@ -12,11 +12,16 @@ namespace {
 // Poses wait for others with contacts, which may make it needless to know how far apart distant bodies are.
 constexpr std::size_t kMostNoted = 8192;
 
-// A list of pairs serves for so many steps, unless they grow.
+// A list of pairs serves for so many steps, unless they grow; for fewer than these, it is not worth its search.
 constexpr double kStepsAhead = 16.0;
+constexpr double kWorthAList = 4.0;
 constexpr double kLeastAhead_m = 30e-6;
-constexpr double kShareAhead = 0.005;  // of the distance of the search
-constexpr double kFarAhead = 0.05;     // in radii of the part: how much farther than the nearest a body is looked for
+// In radii of the part: how much farther than the nearest a body is looked for; how much farther than the nearest pair
+// others are listed at most; and how far beside it, where two faces are parallel. Without these bounds, a list might
+// hold all pairs of the two meshes.
+constexpr double kFarAhead = 0.05;
+constexpr double kMostAhead = 0.1;
+constexpr double kMostBeside = 0.02;
 
 // Below this distance, the direction between the closest points of two triangles is not sharp.
 constexpr double kSharp_m = 1e-9;
@@ -30,10 +35,19 @@ double motion_of(const haptics::SlidingPart& part, const Eigen::Isometry3d& from
   return geometry::motion_bound(geometry::displacement_between(from, to, part.p_Vref()), part.radius());
 }
 
+/// How much farther than the nearest pair, `nearest` metres away, others may be listed.
+double most_ahead(const haptics::SlidingPart& part, double nearest) {
+  const double beside = kMostBeside * part.radius();
+  return std::min(kMostAhead * part.radius(), beside * beside / (2.0 * nearest));
+}
+
 }  // namespace
 
 LeastClearance::LeastClearance(const HapticScene& scene)
-    : part_V_(*scene.parts.front().part_V), moving_(scene.moving), first_moving_(scene.obstacles.size()) {
+    : part_V_(*scene.parts.front().part_V),
+      moving_(scene.moving),
+      first_moving_(scene.obstacles.size()),
+      least_(kFarthest * part_V_.radius()) {
   for (const haptics::Obstacle& obstacle : scene.obstacles)
     bodies_.push_back({.body_B = obstacle.body.get(), .X_WB = obstacle.X_WO});
   for (const haptics::ScriptedPart& moving : moving_)
@@ -103,10 +117,12 @@ void LeastClearance::look_at(Body& body) {
 
 void LeastClearance::search(Body& body) {
   const collision::DopTree& tree = body.body_B->tree;
+  const auto is_fast = [&](double nearest) { return kWorthAList * body.step > most_ahead(part_V_, nearest); };
+  const bool was_far = body.pairs.empty() || is_fast(least_);
   const double ahead = std::max(kStepsAhead * body.step, kLeastAhead_m);
-  const bool was_far = body.pairs.empty();
   body.searched = body.clock;
   body.pairs.clear();
+  body.pair_meets_at.clear();
   double nearest = least_;
   if (was_far) {
     ++work_.searches;
@@ -115,9 +131,11 @@ void LeastClearance::search(Body& body) {
             .distance;
     if (body.distance > least_ + ahead) return;
     nearest = std::min(least_, body.distance);
+    if (is_fast(nearest)) return take(body.distance, looked_at_);
   }
-  body.distance = nearest + std::max(ahead, kShareAhead * nearest);
+  body.distance = nearest + std::min(ahead, most_ahead(part_V_, nearest));
   find_close(body);
+  work_.listed += std::ssize(close_);
   for (const collision::ClosePair& close : close_) {
     Pair& pair = body.pairs.emplace_back(Pair{close.triangles, Eigen::Vector3d::Zero(), 0.0});
     if (close.distance <= kSharp_m) continue;
@@ -182,6 +200,7 @@ void LeastClearance::take(double distance, std::int64_t pose) {
   if (!(distance < least_)) return;
   least_ = distance;
   least_at_ = pose;
+  is_near_ = true;
 }
 
 }  // namespace glissade::apps

@@ -19,6 +19,7 @@ namespace glissade::apps {
 /// The work of a `LeastClearance`.
 struct ClearanceWork {
   std::int64_t searches = 0;            ///< searches of two whole trees
+  std::int64_t listed = 0;              ///< pairs of triangles that the searches listed
   std::int64_t directions = 0;          ///< pairs of triangles tested along the direction that separated them before
   std::int64_t triangle_distances = 0;  ///< pairs of triangles whose distance was computed
 };
@@ -31,6 +32,10 @@ struct ClearanceWork {
 /// less the time since on this clock, and the same holds for all pairs that the search left out.
 class LeastClearance {
  public:
+  /// In radii of the part. Clearances from here on are not looked for: they would take long where almost all pairs of
+  /// triangles are as near as the nearest.
+  static constexpr double kFarthest = 10.0;
+
   /// For the first part of the scene, which must outlive this object.
   explicit LeastClearance(const HapticScene& scene);
 
@@ -43,8 +48,8 @@ class LeastClearance {
   /// To be called after the last pose, before the results are read.
   void finish();
 
-  /// Metres, up to rounding. Infinite without a pose.
-  double least() const { return least_; }
+  /// Metres, up to rounding. Infinite if nothing was nearer than ten times the radius of the part.
+  double least() const { return is_near_ ? least_ : std::numeric_limits<double>::infinity(); }
   /// Number of a pose with the least distance, from 0.
   std::int64_t least_at() const { return least_at_; }
 
@@ -91,8 +96,9 @@ class LeastClearance {
   std::vector<Eigen::Isometry3d> X_WB_noted_;  // those of one pose after those of another
   Eigen::Isometry3d X_WV_ = Eigen::Isometry3d::Identity();
   std::int64_t looked_at_ = 0;  // poses
-  double least_ = std::numeric_limits<double>::infinity();
+  double least_;                // metres; what is no nearer does not matter
   std::int64_t least_at_ = 0;
+  bool is_near_ = false;  // something was nearer
   std::vector<collision::ClosePair> close_;
   ClearanceWork work_;
 };

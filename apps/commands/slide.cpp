@@ -162,7 +162,7 @@ class Teller {
     if (options_.requires_goal && !check.goal_reached) {
       std::cerr << "glissade: " << check.trajectory << ": the " << name_of_goal(check)
                 << " is not reached: the part ends " << rounded_text(1e3 * check.goal_distance_m) << " mm and "
-                << rounded_text(check.goal_angle_deg) << " degrees from it; allowed are "
+                << fixed_text(check.goal_angle_deg, 2) << " degrees from it; allowed are "
                 << goal_tolerance(check_options_) << '\n';
       if (exit_code_ == 0) exit_code_ = kGoalNotReached;
     }

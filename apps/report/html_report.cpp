@@ -59,7 +59,7 @@ td { font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
 .c3 { color: var(--c3); } .c4 { color: var(--c4); } .c5 { color: var(--c5); }
 @media (max-width: 760px) {
   .paper section { overflow-x: scroll; }
-  .paper svg { min-width: 580px; }
+  .paper svg { min-width: 690px; }
 }
 @media print { .paper section { break-inside: avoid; } }
 )";

@@ -333,6 +333,13 @@ std::string write_session_report(const SessionSummary& summary, const Session& s
   Report report{title, rule_rows(session, scene), {}};
   for (auto& row : rows_of(summary, session, false))
     report.summary.push_back(std::move(row));
+  const std::int64_t kept = static_cast<std::int64_t>(session.samples->size());
+  if (session.samples->total() > kept) {
+    const double tick_s = std::chrono::duration<double>(session.period).count();
+    report.summary.emplace_back("shown below",
+                                formatted("the last %.1f s of %.1f s", tick_s * static_cast<double>(kept),
+                                          tick_s * static_cast<double>(session.samples->total())));
+  }
   if (summary.samples > 0) {
     add_plots(summary, session, report);
     add_clearance(scene, *session.samples, report);

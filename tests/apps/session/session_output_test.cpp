@@ -122,6 +122,17 @@ TEST(SessionReport, NamesSceneMetaphorAndRules) {
     EXPECT_THAT(text.str(), HasSubstr("<td>" + std::string(cell) + "</td>"));
 }
 
+TEST(SessionReport, SaysIfItShowsTheEndOfTheRunOnly) {
+  test_support::TemporaryFolder folder;
+  const Session session = session_of(300);
+  SessionSummary summary = summary_of(session);
+  summary.samples = 0;  // nothing to plot
+  const std::string page = write_session_report(summary, session, "run", folder.path("report"), HapticScene{});
+  std::ostringstream text;
+  text << std::ifstream(page).rdbuf();
+  EXPECT_THAT(text.str(), HasSubstr("<td>the last 0.1 s of 0.3 s</td>"));
+}
+
 TEST(SessionReport, OfARunThatNeverBeganIsAPage) {
   test_support::TemporaryFolder folder;
   const Session session = session_of(0);

@@ -159,5 +159,10 @@ function inspect(page) {
   });
 }
 
-const page = isReport() ? await showReport() : showLive();
-window.glissade = { inspect: inspect(page), page };
+try {
+  const page = isReport() ? await showReport() : showLive();
+  window.glissade = { inspect: inspect(page), page };
+} catch (error) {
+  byId('wait').textContent = `The scene cannot be shown: ${error.message}`;
+  say('no picture');
+}

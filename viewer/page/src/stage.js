@@ -203,7 +203,10 @@ export class Stage {
   }
 
   addGrid() {
-    if (this.grid) this.scene.remove(this.grid);
+    if (this.grid) {
+      this.scene.remove(this.grid);
+      this.grid.dispose();
+    }
     const step = 10 ** Math.round(Math.log10(this.bounds.radius / 3));
     const count = 2 * Math.ceil((1.6 * this.bounds.radius) / step);
     const color = new Color(cssColor('grid'));

@@ -105,6 +105,16 @@ test('a report opens in a browser whose language Intl refuses', async () => {
   await close(page);
 });
 
+test('a browser without WebGL is told why there is no scene', async () => {
+  const context = await browser.newContext();
+  await context.addInitScript(() => { HTMLCanvasElement.prototype.getContext = () => null; });
+  const page = await context.newPage();
+  await page.goto(`file://${join(folder, 'index.html')}`);
+  await eventually(async () => /^The scene cannot be shown: ./.test(await page.locator('#wait').textContent()));
+  assert.ok(await page.locator('svg[data-from]').first().isVisible());
+  await context.close();
+});
+
 test('a report of a hand shows the hand', async () => {
   execFileSync(PROGRAM, ['demo', '--fingers', '--offline', '--seconds', '6', '--report', folder]);
   const file = join(folder, 'index.html');
