@@ -23,6 +23,10 @@ export class Arrow extends Group {
     this.head.position.y = length;
   }
 
+  get length() { return this.head.position.y; }
+
+  direction() { return UP.clone().applyQuaternion(this.quaternion); }
+
   // Seen through everything.
   showThrough() {
     this.material.depthTest = false;

@@ -137,6 +137,7 @@ function showLive() {
 
 // For tests and the curious: what is shown, in world axes about the scene's origin.
 function inspect(page) {
+  const shownBy = (arrow) => (arrow.visible ? arrow.direction().multiplyScalar(arrow.length).toArray() : undefined);
   const poseOf = (node) => ({ p: node.position.toArray(), q: node.quaternion.toArray(), visible: node.visible });
   return () => ({
     isConnected: page.isConnected ?? false,
@@ -151,10 +152,13 @@ function inspect(page) {
     parts: [...(page.stage.coarse?.parts ?? [])].map(([number, node]) => ({ number, ...poseOf(node) })),
     ghosts: [...(page.stage.ghostOf ?? [])].map(([number, node]) => ({ number, ...poseOf(node) })),
     segments: (page.stage.coarse?.segments ?? []).map(({ node, hand, link }) => ({ hand, link, ...poseOf(node) })),
-    contacts: page.stage.contacts.filter((marker) => marker.visible).map((marker) => marker.position.toArray()),
+    contacts: page.stage.contacts.filter((marker) => marker.visible)
+      .map((marker) => ({ p: marker.position.toArray(), n: marker.arrow.direction().toArray() })),
     patches: page.stage.patches.filter((disc) => disc.visible)
       .map((disc) => ({ p: disc.position.toArray(), radius: disc.scale.x })),
-    forces: page.stage.forces.map(({ force }) => force.visible),
+    forces: page.stage.forces.map(({ force, torque }) => ({ force: shownBy(force), torque: shownBy(torque) })),
+    metresPerNewton: page.stage.metresPerNewton,
+    metresPerNewtonMetre: page.stage.metresPerNewtonMetre,
     drawCalls: page.stage.renderer.info.render.calls,
   });
 }

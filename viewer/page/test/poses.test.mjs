@@ -19,6 +19,34 @@ after(async () => {
   rmSync(folder, { recursive: true });
 });
 
+// The arrows of the hand show the force and torque of the recording, to scale. The arrow of a single contact shows where
+// to it pushes the part: so does the force.
+function checkArrows(states, rows) {
+  const hands = new Map(rows.map((row) => [Number(row.tick), row]));
+  let contactsSeen = 0;
+  let torques = 0;
+  for (const { frame, forces, contacts, metresPerNewton, metresPerNewtonMetre } of states) {
+    const row = hands.get(frame.sequence);
+    const of = (names) => names.split(' ').map((name) => Number(row[name]));
+    const scaled = (vector, scale) => vector.map((x) => x * scale);
+    if (!forces[0].force) {
+      assert.ok(Math.hypot(...of('fx_N fy_N fz_N')) < 1.1e-3, `tick ${frame.sequence}: a force without an arrow`);
+      continue;
+    }
+    assert.ok(isNear(forces[0].force, scaled(of('fx_N fy_N fz_N'), metresPerNewton), 1e-4), `tick ${frame.sequence}`);
+    if (forces[0].torque) {
+      ++torques;
+      assert.ok(isNear(forces[0].torque, scaled(of('tx_Nm ty_Nm tz_Nm'), metresPerNewtonMetre), 1e-4));
+    }
+    const force = forces[0].force;
+    contactsSeen += contacts.length;
+    for (const { n } of contacts) assert.ok(Math.abs(Math.hypot(...n) - 1) < 1e-6);
+    const pushes = contacts.map(({ n }) => n.reduce((sum, x, i) => sum + x * force[i], 0));
+    if (contacts.length === 1) assert.ok(pushes[0] > 0, `tick ${frame.sequence}: the contact pushes the hand away`);
+  }
+  assert.ok(contactsSeen > 0 && torques > 0, `${contactsSeen} contacts, ${torques} torques`);
+}
+
 test('a part stands where the recording of the run says', async () => {
   const log = join(folder, 'demo.lcmlog');
   const program = new Program(['demo', '--seconds', '8', '--view', '0', '--record', log]);
@@ -49,7 +77,7 @@ test('a part stands where the recording of the run says', async () => {
   assert.ok(moved > 0.1, `the part moves by ${moved} m`);
   const touching = shown.filter(({ frame }) => frame.parts[0].contacts > 0 && frame.hands[0].peak > 0.5);
   assert.ok(touching.length > 0);
-  assert.ok(touching.some(({ forces, contacts }) => forces[0] && contacts.length > 0), 'arrows of force and contacts');
+  checkArrows(touching, rowsOf(join(folder, 'hands.csv')));
   const patched = touching.filter(({ frame }) => frame.patches.length > 0);
   assert.ok(patched.length > 0, 'patches');
   for (const { frame, patches } of patched) {
