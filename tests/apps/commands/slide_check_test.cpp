@@ -114,7 +114,8 @@ TEST_F(AssemblyCheck, AGoalThatIsRequiredHasAnExitCodeOfItsOwn) {
   EXPECT_EQ(missed.exit_code, 3);
   EXPECT_THAT(missed.standard_error, testing::HasSubstr("below.csv: the end of the trajectory is not reached: the "
                                                         "part ends 10 mm"));
-  EXPECT_THAT(missed.standard_error, testing::HasSubstr("allowed are 0.3 mm and 0.5 degrees\n"));
+  EXPECT_THAT(missed.standard_error,
+              testing::HasSubstr(" mm and 0.00 degrees from it; allowed are 0.3 mm and 0.5 degrees\n"));
   EXPECT_EQ(checks_of(missed.standard_output).size(), 2U) << "the answer is there all the same";
   EXPECT_EQ(check({below}, {"--require-goal"}).exit_code, 3) << "also for the motion alone";
 
