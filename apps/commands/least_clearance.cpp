@@ -47,7 +47,7 @@ LeastClearance::LeastClearance(const HapticScene& scene)
     : part_V_(*scene.parts.front().part_V),
       moving_(scene.moving),
       first_moving_(scene.obstacles.size()),
-      least_(kFarthest * part_V_.radius()) {
+      least_(farthest()) {
   for (const haptics::Obstacle& obstacle : scene.obstacles)
     bodies_.push_back({.body_B = obstacle.body.get(), .X_WB = obstacle.X_WO});
   for (const haptics::ScriptedPart& moving : moving_)
@@ -200,7 +200,6 @@ void LeastClearance::take(double distance, std::int64_t pose) {
   if (!(distance < least_)) return;
   least_ = distance;
   least_at_ = pose;
-  is_near_ = true;
 }
 
 }  // namespace glissade::apps

@@ -49,7 +49,7 @@ class LeastClearance {
   void finish();
 
   /// Metres, up to rounding. Infinite if nothing was nearer than ten times the radius of the part.
-  double least() const { return is_near_ ? least_ : std::numeric_limits<double>::infinity(); }
+  double least() const { return least_ < farthest() ? least_ : std::numeric_limits<double>::infinity(); }
   /// Number of a pose with the least distance, from 0.
   std::int64_t least_at() const { return least_at_; }
 
@@ -76,6 +76,7 @@ class LeastClearance {
     std::vector<double> pair_meets_at{};  ///< the same for each pair
   };
 
+  double farthest() const { return kFarthest * part_V_.radius(); }
   void try_contacts(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB,
                     std::span<const haptics::Contact> contacts);
   void look_at_noted();
@@ -98,7 +99,6 @@ class LeastClearance {
   std::int64_t looked_at_ = 0;  // poses
   double least_;                // metres; what is no nearer does not matter
   std::int64_t least_at_ = 0;
-  bool is_near_ = false;  // something was nearer
   std::vector<collision::ClosePair> close_;
   ClearanceWork work_;
 };

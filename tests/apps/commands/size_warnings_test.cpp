@@ -64,6 +64,8 @@ TEST_F(WrongUnits, CollideWarnsAndTakesAScaleForEach) {
   const std::string far = folder.write("far.csv", "x_m,y_m,z_m,qw,qx,qy,qz\n50,0,0,1,0,0,0\n70,0,0,1,0,0,0\n");
   EXPECT_THAT(glissade({"collide", small, small, "--poses", far}).standard_error,
               HasSubstr("warning: " + far + ": no pose brings the meshes, 0.06 m and 0.06 m across, near"));
+  const std::string far_mesh = folder.write("far.obj", "v 50 0 0\nv 50.05 0 0\nv 50 0.05 0\nf 1 2 3\n");
+  EXPECT_THAT(glissade({"collide", small, far_mesh}).standard_error, HasSubstr("m across, stand far from each other"));
 }
 
 TEST_F(WrongUnits, SlideWarnsOfAMeshInMillimetres) {
