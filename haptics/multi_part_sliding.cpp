@@ -159,17 +159,25 @@ class MultiPartSliding::Cycle {
     const bool all_arrived = std::all_of(step->arrives.begin(), step->arrives.begin() + std::ssize(shared_.states),
                                          [](bool arrives) { return arrives; });
     const bool is_done =
-        cycles_ == shared_.rules.max_cycles || all_arrived || step->length < kNotWorthIt * shared_.largest_margin;
+        cycles_ == shared_.rules.max_cycles || all_arrived || next_length(*step) < kNotWorthIt * shared_.largest_margin;
     double reach = step_finder_.rows().complete();
     if (is_done || budget.is_used_up()) reach = step_finder_.rows().find_ahead(budget);
     move(*step);
     radius_.note(*step);
+    length_before_ = step->length;
     for (std::size_t p = 0; p < shared_.count(); ++p) {
       HeldPartState& part = shared_.states[p];
       if (part.is_held() && starts_.overlaps().way_out_of(p) == nullptr) part.turn_target();
     }
     report(reach);
     return is_done ? Progress::kDone : Progress::kNextCycle;
+  }
+
+  /// About how long the step after this one would be, metres. Steps on the same contacts shrink by a constant factor at
+  /// the least, as those of Newton's method do. A step that was cut short tells nothing.
+  double next_length(const Step& step) const {
+    if (cycles_ == 1 || step.clipped || !(step.length < length_before_)) return step.length;
+    return step.length * (step.length / length_before_);
   }
 
   /// The pairs of bodies that no search looks at: those that overlap, and those that keep their distance.
@@ -238,6 +246,7 @@ class MultiPartSliding::Cycle {
   bool waits_for_search_ = false;
   double milliseconds_ = 0.0;
   int cycles_ = 0;
+  double length_before_ = 0.0;  // metres: of the step before
   std::int64_t begun_call_ = 0;
   std::int64_t answered_call_ = 0;  // whose ghosts the poses answer
 };

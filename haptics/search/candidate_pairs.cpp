@@ -18,6 +18,11 @@ constexpr std::int64_t kCallsAhead = 4;
 /// Of the look-ahead. Earlier, searches are more; later, a thread of its own has less time for one.
 constexpr double kAskAt = 0.75;
 
+/// Of the look-ahead: how far ahead of the parts' present poses a search is made. Less than kAskAt, or the next search
+/// would be requested at once; the rest is for parts that turn back.
+constexpr double kForward = 0.6;
+static_assert(kForward < kAskAt);
+
 /// Work of the gap of a pair along a known direction, in the unit of `collision::WorkMeter`.
 constexpr std::int64_t kWorkOfGap = 2;
 
@@ -99,6 +104,7 @@ bool CandidatePairs::take_next(double reach, double ahead, std::span<const BodyP
   known_.assign(now_.set.pairs.size(), {});
   motions_of_clock_.assign(scene_.bodies().size(), {});
   place_clock();
+  X_WB_taken_ = X_WB_of_clock_;
   gaps_of_pairs_ = gaps_at_search(now_.set.planes_of_pairs, now_.set.pairs);
   gaps_to_certify_ = gaps_at_search(now_.set.planes, now_.set.to_certify);
   calls_served_ = std::exchange(calls_, 0);
@@ -109,21 +115,37 @@ bool CandidatePairs::take_next(double reach, double ahead, std::span<const BodyP
 
 void CandidatePairs::ask(Search& search, double reach, double ahead, std::span<const BodyPair> ignored) {
   GLISSADE_ASSERT(!is_with_thread_);
-  search.request.X_WB.clear();
-  for (const PlacedBody& mover : scene_.bodies().subspan(scene_.obstacles().size()))
-    search.request.X_WB.push_back(mover.X_WB);
+  place_ahead(kForward * ahead, search.request.X_WB);
   search.request.radius = reach + ahead;
   search.request.has_planes = has_planes_;
   search.request.ignored.assign(ignored.begin(), ignored.end());
   search.ask_at = kAskAt * ahead;
   search.motions.assign(scene_.bodies().size(), {});
-  search.drift = 0.0;
   search.is_there = true;
+  follow(search);
   if (!thread_) return;
   is_with_thread_ = true;
   allowed_ = work_of_call_ == kUnlimitedWork ? kUnlimitedWork : std::exchange(work_left_, 0);
   thread_->begin(search_, search.request, search.set);
   if (thread_->work_ahead() == 0) thread_->wait_for_work(allowed_);
+}
+
+/// Sets the poses at which the movers will be after `way` more metres, if they go on as since the last answer was
+/// taken, but after no longer a way than that.
+void CandidatePairs::place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB) {
+  X_WB.clear();
+  for (const PlacedBody& mover : scene_.bodies().subspan(scene_.obstacles().size()))
+    X_WB.push_back(mover.X_WB);
+  if (!has_planes_ || X_WB_taken_.empty()) return;
+  motions_ahead_.assign(scene_.bodies().size(), {});
+  const double gone = approach_since(X_WB_taken_, motions_ahead_);
+  if (!(gone > 0.0) || !std::isfinite(gone)) return;
+  const double share = std::min(1.0, way / gone);
+  for (std::size_t mover = 0; mover < X_WB.size(); ++mover) {
+    const Eigen::Vector3d& p_Bref = scene_.movers()[mover]->p_Vref();
+    const geometry::Displacement d = geometry::displacement_between(X_WB_taken_[mover], X_WB[mover], p_Bref);
+    if (!d.is_zero()) X_WB[mover] = geometry::displaced(X_WB[mover], p_Bref, d.scaled(share));
+  }
 }
 
 /// Whether the thread, if there is one, is done with its search, within the work that is allowed.
@@ -344,6 +366,7 @@ void CandidatePairs::clear() {
 void CandidatePairs::forget() {
   now_.is_there = false;
   next_.is_there = false;
+  X_WB_taken_.clear();
 }
 
 template void CandidatePairs::Search::collect(const std::vector<CandidatePair>&, double,

@@ -5,6 +5,9 @@
 /// up, and its answer is taken when all of it is. Both moments depend on the motion alone; therefore a thread of its
 /// own may run the search meanwhile without changing a bit.
 ///
+/// Parts mostly go on as they went. So a search is made at poses that the parts will reach halfway through the time
+/// that it serves: it then serves for nearly twice the way.
+///
 /// The work of searching in one call of the simulation can be limited. A search then goes on over several calls, and
 /// its answer can be taken in the first call up to which so much work was allowed, however early it was done.
 
@@ -37,7 +40,8 @@ class CandidatePairs {
  public:
   /// The scene must outlive this object. In `look`, reach + ahead must not exceed `greatest_radius` (metres). With a
   /// limit of work, searches have a thread of their own in any case. If `runs_ahead` is false, that thread never works
-  /// at the same time as the caller's. Without planes, only `within` a reach tells of pairs.
+  /// at the same time as the caller's. Without planes, only `within` a reach tells of pairs, and
+  /// searches are made at the present poses.
   CandidatePairs(const ContactScene& scene, double greatest_radius, bool runs_ahead = false,
                  std::int64_t work_of_call = kUnlimitedWork, bool has_planes = true);
   CandidatePairs(const CandidatePairs&) = delete;
@@ -141,6 +145,7 @@ class CandidatePairs {
 
   bool take_next(double reach, double ahead, std::span<const BodyPair> ignored);
   void ask(Search& search, double reach, double ahead, std::span<const BodyPair> ignored);
+  void place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB);
   bool is_settled();
   double approach_since(std::span<const Eigen::Isometry3d> X_WB, std::vector<Motion>& motions) const;
   void follow(Search& search) const;
@@ -165,6 +170,8 @@ class CandidatePairs {
   std::vector<KnownFeatures> known_;              // the gaps are so, too, minus the clock
   std::vector<Eigen::Isometry3d> X_WB_of_clock_;  // of each mover
   std::vector<Motion> motions_of_clock_;
+  std::vector<Eigen::Isometry3d> X_WB_taken_;  // of each mover, when the candidates were taken
+  std::vector<Motion> motions_ahead_;          // scratch memory
   std::int64_t work_ = 0;
   /// A pair in the list of the last call of `unproved_within`, among all pairs to certify.
   struct PlaceOfPair {

@@ -20,7 +20,10 @@ constexpr int kMostCallsOfSearch = 4;  // over which the work of a search is spr
 }  // namespace
 
 SearchRadius::SearchRadius()
-    : limit_(kLargestReach_m), limit_ahead_(kLargestReach_m), limit_of_search_(kLargestReach_m) {}
+    : limit_(kLargestReach_m),
+      limit_ahead_(kLargestReach_m),
+      limit_of_search_(kLargestReach_m),
+      limit_of_look_(kLargestReach_m) {}
 
 void SearchRadius::choose(const SimulatedParts& shared, double depenetration, double milliseconds) {
   const double ghosts = shared.ghost_motion();
@@ -40,16 +43,18 @@ void SearchRadius::choose(const SimulatedParts& shared, double depenetration, do
 
 /// Finely tessellated surfaces that lie close together have very many pairs. A part that falls behind would look
 /// farther with every search and so fall behind more; the limit on the reach ends that. Contacts ahead are a help that
-/// must not make the answers late: their limit comes first.
+/// must not make the answers late: their limit comes first. The look-ahead is limited only so that no search takes too
+/// many calls: half of it makes a search little cheaper, but there are twice as many.
 bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignored) {
   const double ahead =
-      std::min(std::clamp(kTicksAhead * shared.ghost_motion(), kLeastLookAhead_m, kMostLookAhead_m), limit_of_search_);
+      std::min(std::clamp(kTicksAhead * shared.ghost_motion(), kLeastLookAhead_m, kMostLookAhead_m), limit_of_look_);
   const bool is_other = shared.candidates.look(reach_ahead_, ahead, ignored);
   if (!shared.candidates.covers(reach_ahead_) && shared.candidates.is_too_large() &&
-      limit_of_search_ > kSmallestLimitOfSearch_m) {
+      std::max(limit_of_search_, limit_of_look_) > kSmallestLimitOfSearch_m) {
     shared.candidates.cancel();
-    limit_of_search_ =
-        std::max(0.25 * std::min(limit_of_search_, std::max(reach_ahead_, ahead)), kSmallestLimitOfSearch_m);
+    const double farther = std::max(reach_ahead_, ahead);
+    for (double* limit : {&limit_of_search_, &limit_of_look_})
+      *limit = std::max(0.25 * std::min(*limit, farther), kSmallestLimitOfSearch_m);
   }
   if (!is_other) return false;
   const auto adapted = [&](double limit, bool is_affordable, double smallest) {
@@ -58,8 +63,10 @@ bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignore
   limit_ = adapted(limit_, shared.candidates.size() <= shared.rules.affordable_pairs, kSmallestReachLimit_m);
   limit_ahead_ = adapted(limit_ahead_, shared.candidates.size() <= kAffordablePairsAhead, kSmallestLimitAhead_m);
   const std::int64_t calls = std::clamp(shared.candidates.calls_served(), 1, kMostCallsOfSearch);
-  const bool is_affordable = shared.candidates.work() / calls <= shared.affordable_search;
-  limit_of_search_ = adapted(limit_of_search_, is_affordable, kSmallestLimitOfSearch_m);
+  const std::int64_t work = shared.candidates.work();
+  limit_of_search_ = adapted(limit_of_search_, work / calls <= shared.affordable_search, kSmallestLimitOfSearch_m);
+  limit_of_look_ =
+      adapted(limit_of_look_, work / kMostCallsOfSearch <= shared.affordable_search, kSmallestLimitOfSearch_m);
   return true;
 }
 

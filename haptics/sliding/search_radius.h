@@ -37,7 +37,9 @@ class SearchRadius {
   // Metres; they adapt to the number of pairs that searches find.
   double limit_;
   double limit_ahead_;
-  double limit_of_search_;  // metres of reach and look-ahead each; adapts to the work of searches
+  // Metres of the reach, and of the look-ahead; they adapt to the work of searches.
+  double limit_of_search_;
+  double limit_of_look_;
 };
 
 }  // namespace glissade::haptics

@@ -9,7 +9,7 @@
 namespace glissade::haptics {
 
 inline constexpr double kLargestReach_m = 3e-3;
-inline constexpr double kMostLookAhead_m = 0.75e-3;
+inline constexpr double kMostLookAhead_m = 0.375e-3;
 inline constexpr double kNotWorthIt = 0.05;  ///< of the margin: a shorter step counts as none
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 

@@ -76,7 +76,7 @@ TEST(WorkBudget, WithoutOneNoCallEndsEarly) {
 TEST(WorkBudget, ThePartGetsToTheSamePlaceInMoreCalls) {
   Sliding unlimited = ball_on_block(std::nullopt);
   lead_to_goal(unlimited, 1000);
-  for (const std::int64_t budget : {5'000, 50'000}) {
+  for (const std::int64_t budget : {5'000, 15'000}) {
     SCOPED_TRACE(budget);
     Sliding sliding = ball_on_block(budget);
     EXPECT_GT(lead_to_goal(sliding, test_support::kSanitized ? 4000 : 20'000), 50);
@@ -85,9 +85,9 @@ TEST(WorkBudget, ThePartGetsToTheSamePlaceInMoreCalls) {
 }
 
 TEST(WorkBudget, ACallDoesNoMoreThanItsWorkAndOnePiece) {
-  constexpr std::int64_t kBudget = 10'000;
+  constexpr std::int64_t kBudget = 3'000;
   // A projection on the contacts of a ball on a plane, or the proof of two leaves: the greatest piece here.
-  constexpr std::int64_t kPiece = 20'000;
+  constexpr std::int64_t kPiece = 8'000;
   Sliding sliding = ball_on_block(kBudget);
   lead_to_goal(sliding, 2000);
   EXPECT_GT(sliding.call_statistics().ended_early, 100);
