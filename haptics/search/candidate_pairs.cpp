@@ -15,13 +15,15 @@ namespace {
 /// A search that takes more calls than this is too large: a thread that went on with it would be late for the next.
 constexpr std::int64_t kCallsAhead = 4;
 
-/// Of the look-ahead. Earlier, searches are more; later, a thread of its own has less time for one.
-constexpr double kAskAt = 0.75;
-
-/// Of the look-ahead: how far ahead of the parts' present poses a search is made. Less than kAskAt, or the next search
-/// would be requested at once; the rest is for parts that turn back.
+// Shares of the look-ahead:
+/// The drift at which the next search is requested. Earlier, more of them are in vain; later, a thread has less time.
+constexpr double kAskAt = 0.4;
+/// The way away from the poses of a search after which a part is leaving them.
+constexpr double kLeaving = 0.1;
+/// How far ahead of the parts a search is made when its answer is taken. The rest is for parts that turn back.
 constexpr double kForward = 0.6;
-static_assert(kForward < kAskAt);
+/// Of the way since the last answer: parts are expected to go on as on that way for so long at most.
+constexpr double kMostForward = 1.5;
 
 /// Work of the gap of a pair along a known direction, in the unit of `collision::WorkMeter`.
 constexpr std::int64_t kWorkOfGap = 2;
@@ -85,7 +87,8 @@ bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> 
     }
     is_other = true;
   }
-  if (!next_.is_there && now_.drift > now_.ask_at) ask(next_, reach, ahead, ignored);
+  if (!next_.is_there && now_.is_being_left())
+    ask(next_, reach, ahead, now_.ahead - now_.drift + kForward * ahead, ignored);
   return is_other;
 }
 
@@ -93,7 +96,7 @@ bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> 
 bool CandidatePairs::take_next(double reach, double ahead, std::span<const BodyPair> ignored) {
   if (!next_.covers(reach)) {
     if (!is_settled()) return false;  // it is of no use any more
-    ask(next_, reach, ahead, ignored);
+    ask(next_, reach, ahead, kForward * ahead, ignored);
   }
   if (!is_settled()) return false;
   if (!thread_) search_.find(next_.request, next_.set);  // only now, when its answer is certainly needed
@@ -113,13 +116,15 @@ bool CandidatePairs::take_next(double reach, double ahead, std::span<const BodyP
   return true;
 }
 
-void CandidatePairs::ask(Search& search, double reach, double ahead, std::span<const BodyPair> ignored) {
+void CandidatePairs::ask(Search& search, double reach, double ahead, double forward,
+                         std::span<const BodyPair> ignored) {
   GLISSADE_ASSERT(!is_with_thread_);
-  place_ahead(kForward * ahead, search.request.X_WB);
+  place_ahead(forward, search.request.X_WB);
   search.request.radius = reach + ahead;
   search.request.has_planes = has_planes_;
   search.request.ignored.assign(ignored.begin(), ignored.end());
-  search.ask_at = kAskAt * ahead;
+  search.ahead = ahead;
+  search.least_drift = std::numeric_limits<double>::infinity();
   search.motions.assign(scene_.bodies().size(), {});
   search.is_there = true;
   follow(search);
@@ -140,7 +145,7 @@ void CandidatePairs::place_ahead(double way, std::vector<Eigen::Isometry3d>& X_W
   motions_ahead_.assign(scene_.bodies().size(), {});
   const double gone = approach_since(X_WB_taken_, motions_ahead_);
   if (!(gone > 0.0) || !std::isfinite(gone)) return;
-  const double share = std::min(1.0, way / gone);
+  const double share = std::min(kMostForward, way / gone);
   for (std::size_t mover = 0; mover < X_WB.size(); ++mover) {
     const Eigen::Vector3d& p_Bref = scene_.movers()[mover]->p_Vref();
     const geometry::Displacement d = geometry::displacement_between(X_WB_taken_[mover], X_WB[mover], p_Bref);
@@ -182,7 +187,13 @@ void CandidatePairs::moved() {
 }
 
 void CandidatePairs::follow(Search& search) const {
-  if (search.is_there) search.drift = approach_since(search.request.X_WB, search.motions);
+  if (!search.is_there) return;
+  search.drift = approach_since(search.request.X_WB, search.motions);
+  search.least_drift = std::min(search.least_drift, search.drift);
+}
+
+bool CandidatePairs::Search::is_being_left() const {
+  return drift > kAskAt * ahead && drift > least_drift + kLeaving * ahead;
 }
 
 /// Bound (metres) of how much nearer two bodies have come since the movers were at X_WB; infinite for a pose that is

@@ -1,8 +1,8 @@
 #pragma once
 
 /// Pairs that the parts may reach soon, kept over several steps: one search serves until the motion of the parts has
-/// used up its look-ahead. The next search is requested ahead of need, when three quarters of the look-ahead are used
-/// up, and its answer is taken when all of it is. Both moments depend on the motion alone; therefore a thread of its
+/// used up its look-ahead. The next search is requested ahead of need, and its answer is taken when all of the
+/// look-ahead is used up. Both moments depend on the motion alone; therefore a thread of its
 /// own may run the search meanwhile without changing a bit.
 ///
 /// Parts mostly go on as they went. So a search is made at poses that the parts will reach halfway through the time
@@ -125,11 +125,14 @@ class CandidatePairs {
     CandidateRequest request;
     CandidateSet set;
     std::vector<Motion> motions;  // of each body
-    double ask_at = 0.0;          // metres of drift at which the next search is requested
+    double ahead = 0.0;           // metres: the look-ahead
     double drift = 0.0;           // metres: bound of how much nearer two bodies have come
+    double least_drift = 0.0;     // metres: so far
     bool is_there = false;        // requested; a thread may still be working on it
 
     bool covers(double reach) const { return is_there && reach + drift <= request.radius; }
+    /// Whether it is time for the next search.
+    bool is_being_left() const;
     /// Lower bound (metres) of the present distance of two triangles or boxes that the unit vector n_W separated by
     /// `distance`. If n_W is zero, that direction is unknown.
     double still_apart(const BodyPair& bodies, double distance, const Eigen::Vector3d& n_W) const {
@@ -144,7 +147,7 @@ class CandidatePairs {
   };
 
   bool take_next(double reach, double ahead, std::span<const BodyPair> ignored);
-  void ask(Search& search, double reach, double ahead, std::span<const BodyPair> ignored);
+  void ask(Search& search, double reach, double ahead, double forward, std::span<const BodyPair> ignored);
   void place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB);
   bool is_settled();
   double approach_since(std::span<const Eigen::Isometry3d> X_WB, std::vector<Motion>& motions) const;
