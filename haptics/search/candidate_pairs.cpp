@@ -23,7 +23,7 @@ constexpr double kLeaving = 0.1;
 /// How far ahead of the parts a search is made when its answer is taken. The rest is for parts that turn back.
 constexpr double kForward = 0.6;
 /// Of the way since the last answer: parts are expected to go on as on that way for so long at most.
-constexpr double kMostForward = 1.5;
+constexpr double kMostForward = 3.0;
 
 /// Work of the gap of a pair along a known direction, in the unit of `collision::WorkMeter`.
 constexpr std::int64_t kWorkOfGap = 2;
