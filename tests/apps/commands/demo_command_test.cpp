@@ -120,6 +120,16 @@ TEST_F(Demo, TheSquarePegDropsIntoItsHole) {
   EXPECT_EQ(summary["colliding_poses"], 0);
 }
 
+TEST_F(Demo, TheNutIsWoundOnItsBoltAndOffAgain) {
+  if (test_support::kSanitized) GTEST_SKIP() << "takes minutes; other scenes run through the same code";
+  const std::string nut = std::string(GLISSADE_DOCS) + "/../examples/scenes/nut_on_bolt.yaml";
+  const nlohmann::json summary = run({"--offline", "--seconds", "45", "--scene", nut});
+  EXPECT_EQ(summary["colliding_poses"], 0);
+  EXPECT_EQ(summary["goal_reached"], true) << "off the bolt";
+  EXPECT_GT(summary["parts"][0]["contact_fraction"], 0.7) << "pressed against one flank and then against the other";
+  EXPECT_LE(summary["hands"][0]["force_step_max_N"], 20.0 / 7.0) << "the slew of the device";
+}
+
 TEST_F(Demo, FingersGraspTheMotorSeatItAndLetGo) {
   if (test_support::kSanitized) GTEST_SKIP() << "takes minutes; the tests of the loop run through the same code";
   const nlohmann::json summary = run({"--fingers", "--offline"});
