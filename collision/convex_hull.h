@@ -157,7 +157,8 @@ struct HullMemory {
   std::int8_t simplex_count = 0;
   std::int8_t planes_to_leave = 0;  ///< number of new planes to keep as found, without an attempt to widen their gap
   bool has_plane = false;
-  bool met = false;  ///< the last answer was that the hulls may meet
+  bool by_centers = false;  ///< after a large movement the line between the centres was enough
+  bool met = false;         ///< the last answer was that the hulls may meet
 
   std::int32_t loops = 0;  ///< learning steps and rounds of GJK in the last query
 };

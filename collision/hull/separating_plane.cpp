@@ -20,6 +20,9 @@ constexpr double kWideningTurn = 0.12;  // radians, about
 constexpr double kGoodGap = 0.7;        // as a fraction of the distance of two corners
 constexpr std::int8_t kPlanesToLeave = 15;
 
+// Radians: about. A plane between the centres that has turned by less will serve the next time too.
+constexpr double kSmallTurn = 0.02;
+
 // As a fraction of the radii: if hulls reach farther beyond the old plane, it has turned by some degrees, and the last
 // simplex of GJK is of no use.
 constexpr double kLargeMovement = 1e-3;
@@ -41,6 +44,47 @@ constexpr double kLargeMovement = 1e-3;
 class PlaneSearch {
  public:
   explicit PlaneSearch(HullPair& hulls) : hulls_(hulls), memory_(hulls.memory()), n_guess_(memory_.n_A) {}
+
+  // Tests the bounding spheres.
+  bool spheres_are_apart() {
+    const ConvexHull& hull_A = hulls_.hull_A();
+    const ConvexHull& hull_B = hulls_.hull_B();
+    const Vector3d between = between_centers();
+    const double square = between.squaredNorm();
+    const double radii = hull_A.radius() + hull_B.radius() + hulls_.margin();
+    memory_.by_centers = false;
+    if (!(square > radii * radii)) return false;
+    // B is larger if R is not exactly a rotation: |R x| is at most 1 + |R' R - 1| / 2 times |x|.
+    const Eigen::Matrix3d difference = hulls_.R_AB().transpose() * hulls_.R_AB() - Eigen::Matrix3d::Identity();
+    const double distance = std::sqrt(square);
+    const double gap = distance - radii - 0.5 * difference.lpNorm<1>() * hull_B.radius();
+    if (!(gap > 0.0)) return false;
+    memory_.by_centers = true;
+    memory_.gap = gap;
+    memory_.n_gap_A = between / distance;
+    return true;
+  }
+
+  // Tests the plane across the line between the centres.
+  bool plane_between_centers_separates() {
+    memory_.by_centers = false;
+    const Vector3d between = between_centers();
+    const double distance = between.norm();
+    if (!(distance > 0.0)) return false;
+    const Vector3d n = between / distance;
+    const double gap = n.dot(hulls_.extreme(n));
+    if (!(gap > hulls_.margin())) return false;
+    memory_.by_centers = !memory_.has_plane || (n - memory_.n_A).squaredNorm() > kSmallTurn * kSmallTurn;
+    hulls_.remember_plane(n, gap);
+    return true;
+  }
+
+  // What is plainly apart is so along the line between the centres. It is where searches after a large movement begin,
+  // and the next query too, as long as large movements go on.
+  bool centers_separate() { return spheres_are_apart() || plane_between_centers_separates(); }
+
+  // Whether the last plane has turned by some degrees, as far as the tests of it have told.
+  bool has_moved_far() const { return moved_far_; }
 
   // Tests the plane fixed to A, then the plane fixed to B. Only the other hull has to be examined.
   bool old_plane_separates() {
@@ -70,7 +114,7 @@ class PlaneSearch {
   // The remembered normal, or the direction between the centres.
   Vector3d first_normal() const {
     if (memory_.has_plane) return memory_.n_A;
-    const Vector3d between = hulls_.R_AB() * hulls_.hull_B().center() + hulls_.p_AB() - hulls_.hull_A().center();
+    const Vector3d between = between_centers();
     const double length = between.norm();
     return length > 0.0 ? Vector3d(between / length) : Vector3d::UnitX();
   }
@@ -138,6 +182,10 @@ class PlaneSearch {
   }
 
  private:
+  Vector3d between_centers() const {
+    return hulls_.R_AB() * hulls_.hull_B().center() + hulls_.p_AB() - hulls_.hull_A().center();
+  }
+
   HullPair& hulls_;
   HullMemory& memory_;
   Vector3d n_guess_;  ///< estimate of the normal, if there is a plane in memory
@@ -156,8 +204,11 @@ bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Isome
     apart = search.old_plane_separates() || search.learn(kPerceptronLoops);
   } else if (memory.met) {
     apart = !old_corners_meet(hulls) && gjk_separates(hulls, memory.n_A);
+  } else if (memory.by_centers || !memory.has_plane) {
+    apart = search.centers_separate() || search.old_plane_separates() || search.gjk_after_movement();
   } else {
-    apart = search.old_plane_separates() || search.gjk_after_movement();
+    apart = search.old_plane_separates() || (search.has_moved_far() && search.centers_separate()) ||
+            search.gjk_after_movement();
   }
   // A new plane has only the gap at which it was found; widening may enlarge it.
   if (apart && test == HullTest::kExact && memory.loops > 0) search.widen();

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -99,6 +100,41 @@ TEST_F(SeparatingPlanes, MissNoContactWhenThePoseIsNotQuiteARotation) {
   ASSERT_TRUE(hulls_apart(box, box, X_AB, memory));
   X_AB.linear() *= 1.0 + 1e-8;
   EXPECT_FALSE(hulls_apart(box, box, X_AB, memory));
+}
+
+// The same for what bounding spheres know.
+TEST_F(SeparatingPlanes, MissNoContactOfBallsWhenThePoseIsNotQuiteARotation) {
+  std::vector<Vector3d> points;  // with one at the pole, where the other ball comes
+  for (const Vector3d& x : ConvexHull(geometry::make_sphere(1.0, 2000)).vertices())
+    points.insert(points.end(), {x, -x});
+  for (const Vector3d& pole : {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()})
+    points.insert(points.end(), {pole, -pole});
+  const ConvexHull ball(points);
+  HullMemory memory;
+  Isometry3d X_AB(Eigen::Translation3d(0.0, 0.0, 2.0 + 1e-9));
+  ASSERT_TRUE(hulls_apart(ball, ball, X_AB, memory));
+  ASSERT_EQ(memory.loops, 0) << "the spheres are enough";
+  EXPECT_LE(memory.gap, 1e-9);
+  X_AB.linear() *= 1.0 + 1e-8;
+  EXPECT_FALSE(hulls_apart(ball, ball, X_AB, memory));
+}
+
+// Balls and boxes at one per cent of distance, which turn by five degrees a step.
+TEST_F(SeparatingPlanes, NeedNoSearchForWhatIsPlainlyApart) {
+  for (const auto& [hull, reach] : {std::pair{ConvexHull(geometry::make_sphere(1.0, 20000)), 1.0},
+                                    std::pair{ConvexHull(geometry::make_sphere(1.0, 100)), 1.0},
+                                    std::pair{ConvexHull(geometry::make_box({1.0, 1.0, 1.0}, 12)), std::sqrt(0.75)}}) {
+    HullMemory memory;
+    for (int step = 0; step < 72; ++step) {
+      const double angle = 5.0 * step * std::numbers::pi / 180.0;
+      const Isometry3d X_AB = Eigen::Translation3d(2.02 * reach * Vector3d(std::cos(angle), std::sin(angle), 0.0)) *
+                              Eigen::AngleAxisd(2.0 * angle, Vector3d::UnitX());
+      ASSERT_TRUE(hulls_apart(hull, hull, X_AB, memory));
+      ASSERT_EQ(memory.loops, 0) << "step " << step << " of " << hull.vertices().size() << " corners";
+      ASSERT_LE(memory.gap, HullOracle(hull.vertices(), hull.vertices(), X_AB).distance());
+      ASSERT_GT(memory.gap, 0.0);
+    }
+  }
 }
 
 TEST_F(SeparatingPlanes, HoldForManyStepsOnceFound) {
