@@ -107,7 +107,7 @@ TEST_F(SeparatingPlanes, MissNoContactOfBallsWhenThePoseIsNotQuiteARotation) {
   std::vector<Vector3d> points;  // with one at the pole, where the other ball comes
   for (const Vector3d& x : ConvexHull(geometry::make_sphere(1.0, 2000)).vertices())
     points.insert(points.end(), {x, -x});
-  for (const Vector3d& pole : {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()})
+  for (const Vector3d& pole : {Vector3d(Vector3d::UnitX()), Vector3d(Vector3d::UnitY()), Vector3d(Vector3d::UnitZ())})
     points.insert(points.end(), {pole, -pole});
   const ConvexHull ball(points);
   HullMemory memory;
