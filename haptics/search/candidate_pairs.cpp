@@ -20,6 +20,8 @@ constexpr std::int64_t kCallsAhead = 4;
 constexpr double kAskAt = 0.4;
 /// The way away from the poses of a search after which a part is leaving them.
 constexpr double kLeaving = 0.1;
+/// The same before its answer is taken: the part has turned back, and the search is of no use.
+constexpr double kTurnedBack = 0.4;
 /// How far ahead of the parts a search is made when its answer is taken. The rest is for parts that turn back.
 constexpr double kForward = 0.6;
 /// Of the way since the last answer: parts are expected to go on as on that way for so long at most.
@@ -77,15 +79,13 @@ void CandidatePairs::begin_call() {
 }
 
 bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> ignored) {
-  bool is_other = false;
-  if (!now_.covers(reach)) {
-    try {
-      if (!take_next(reach, ahead, ignored)) return false;
-    } catch (...) {
-      forget();
-      throw;
-    }
-    is_other = true;
+  const bool is_other = !now_.covers(reach);
+  try {
+    if (is_other && !take_next(reach, ahead, ignored)) return false;
+    if (next_.is_there && next_.is_in_vain() && is_settled()) next_.is_there = false;
+  } catch (...) {
+    forget();
+    throw;
   }
   if (!next_.is_there && now_.is_being_left())
     ask(next_, reach, ahead, now_.ahead - now_.drift + kForward * ahead, ignored);
@@ -194,6 +194,10 @@ void CandidatePairs::follow(Search& search) const {
 
 bool CandidatePairs::Search::is_being_left() const {
   return drift > kAskAt * ahead && drift > least_drift + kLeaving * ahead;
+}
+
+bool CandidatePairs::Search::is_in_vain() const {
+  return drift > least_drift + kTurnedBack * ahead;
 }
 
 /// Bound (metres) of how much nearer two bodies have come since the movers were at X_WB; infinite for a pose that is

@@ -133,6 +133,8 @@ class CandidatePairs {
     bool covers(double reach) const { return is_there && reach + drift <= request.radius; }
     /// Whether it is time for the next search.
     bool is_being_left() const;
+    /// Whether the parts go away from the poses of a search whose answer has not been taken.
+    bool is_in_vain() const;
     /// Lower bound (metres) of the present distance of two triangles or boxes that the unit vector n_W separated by
     /// `distance`. If n_W is zero, that direction is unknown.
     double still_apart(const BodyPair& bodies, double distance, const Eigen::Vector3d& n_W) const {
