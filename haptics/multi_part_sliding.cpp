@@ -92,6 +92,9 @@ class MultiPartSliding::Cycle {
   /// In units of `StepFinder::certain_distance`: bodies closer than this count as overlapping at the start.
   static constexpr double kTouching = 4.0;
 
+  /// In margins: longer steps are always followed by another one.
+  static constexpr double kShort = 0.5;
+
   enum class Progress { kNextCycle, kDone, kUsedUp };
 
   /// Begins to answer these ghosts. Returns whether there is anything to do.
@@ -164,7 +167,7 @@ class MultiPartSliding::Cycle {
     if (is_done || budget.is_used_up()) reach = step_finder_.rows().find_ahead(budget);
     move(*step);
     radius_.note(*step);
-    length_before_ = step->length;
+    lengths_before_ = step->lengths;
     for (std::size_t p = 0; p < shared_.count(); ++p) {
       HeldPartState& part = shared_.states[p];
       if (part.is_held() && starts_.overlaps().way_out_of(p) == nullptr) part.turn_target();
@@ -174,10 +177,15 @@ class MultiPartSliding::Cycle {
   }
 
   /// About how long the step after this one would be, metres. Steps on the same contacts shrink by a constant factor at
-  /// the least, as those of Newton's method do. A step that was cut short tells nothing.
+  /// the least, as those of Newton's method do. Other steps tell nothing, nor do long ones, which may meet others.
   double next_length(const Step& step) const {
-    if (cycles_ == 1 || step.clipped || !(step.length < length_before_)) return step.length;
-    return step.length * (step.length / length_before_);
+    if (cycles_ == 1 || !step.is_plain || step.length > kShort * shared_.largest_margin) return step.length;
+    double next = 0.0;
+    for (std::size_t p = 0; p < shared_.count(); ++p) {
+      const double shrinks = step.lengths[p] < lengths_before_[p] ? step.lengths[p] / lengths_before_[p] : 1.0;
+      next += shrinks * step.lengths[p];
+    }
+    return next;
   }
 
   /// The pairs of bodies that no search looks at: those that overlap, and those that keep their distance.
@@ -246,7 +254,7 @@ class MultiPartSliding::Cycle {
   bool waits_for_search_ = false;
   double milliseconds_ = 0.0;
   int cycles_ = 0;
-  double length_before_ = 0.0;  // metres: of the step before
+  std::array<double, kMaxParts> lengths_before_{};  // metres: of the step before
   std::int64_t begun_call_ = 0;
   std::int64_t answered_call_ = 0;  // whose ghosts the poses answer
 };

@@ -100,7 +100,7 @@ struct SlidingRules {
   /// not less than 0.2 mm, and steps are shorter. Answers then come sooner, and a fast part falls behind. At least 1.
   std::size_t affordable_pairs = 30'000;
   /// Work of one call: searches may take so much, and cycles as much again. Where searches take more than half of it
-  /// on average, the next ones look less far. The unit is about a nanosecond of an ordinary processor, but it counts
+  /// on average, the reach becomes shorter. The unit is about a nanosecond of an ordinary processor, but it counts
   /// pairs and proofs, so no bit depends on the speed of the machine or its instruction set. A call ends when the work
   /// is used up, or one indivisible piece later: a projection on the contacts, or the proof of a pair of boxes or
   /// leaves. At least 2; none: no limit. With a limit, searches have a thread even without `has_search_thread`, which

@@ -20,6 +20,10 @@ constexpr double kWideningTurn = 0.12;  // radians, about
 constexpr double kGoodGap = 0.7;        // as a fraction of the distance of two corners
 constexpr std::int8_t kPlanesToLeave = 15;
 
+// As a fraction of the radii: the least gap of bounding spheres that is an answer. A smaller one says little about
+// hulls that are no balls, and would have to be looked at again soon.
+constexpr double kGoodGapOfSpheres = 0.005;
+
 // Radians: about. A plane between the centres that has turned by less will serve the next time too.
 constexpr double kSmallTurn = 0.02;
 
@@ -43,7 +47,8 @@ constexpr double kLargeMovement = 1e-3;
 // The search for a separating plane: the old one, if it still separates, or a new one.
 class PlaneSearch {
  public:
-  explicit PlaneSearch(HullPair& hulls) : hulls_(hulls), memory_(hulls.memory()), n_guess_(memory_.n_A) {}
+  explicit PlaneSearch(HullPair& hulls)
+      : hulls_(hulls), memory_(hulls.memory()), n_guess_(memory_.n_A), was_by_centers_(memory_.by_centers) {}
 
   // Tests the bounding spheres.
   bool spheres_are_apart() {
@@ -58,7 +63,7 @@ class PlaneSearch {
     const Eigen::Matrix3d difference = hulls_.R_AB().transpose() * hulls_.R_AB() - Eigen::Matrix3d::Identity();
     const double distance = std::sqrt(square);
     const double gap = distance - radii - 0.5 * difference.lpNorm<1>() * hull_B.radius();
-    if (!(gap > 0.0)) return false;
+    if (!(gap > kGoodGapOfSpheres * radii)) return false;
     memory_.by_centers = true;
     memory_.gap = gap;
     memory_.n_gap_A = between / distance;
@@ -76,8 +81,12 @@ class PlaneSearch {
     if (!(gap > hulls_.margin())) return false;
     memory_.by_centers = !memory_.has_plane || (n - memory_.n_A).squaredNorm() > kSmallTurn * kSmallTurn;
     hulls_.remember_plane(n, gap);
+    has_new_plane_ = !(was_by_centers_ && memory_.by_centers);  // while large movements go on, no plane will last
     return true;
   }
+
+  // Whether a plane was found, which may be widened.
+  bool has_new_plane() const { return has_new_plane_ || memory_.loops > 0; }
 
   // What is plainly apart is so along the line between the centres. It is where searches after a large movement begin,
   // and the next query too, as long as large movements go on.
@@ -190,6 +199,8 @@ class PlaneSearch {
   HullMemory& memory_;
   Vector3d n_guess_;  ///< estimate of the normal, if there is a plane in memory
   bool moved_far_ = false;
+  bool was_by_centers_;
+  bool has_new_plane_ = false;
 };
 
 }  // namespace
@@ -211,7 +222,7 @@ bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Isome
             search.gjk_after_movement();
   }
   // A new plane has only the gap at which it was found; widening may enlarge it.
-  if (apart && test == HullTest::kExact && memory.loops > 0) search.widen();
+  if (apart && test == HullTest::kExact && search.has_new_plane()) search.widen();
   memory.met = !apart;
   return apart;
 }

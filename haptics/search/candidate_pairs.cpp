@@ -8,6 +8,7 @@
 
 #include <glissade/base/assert.h>
 #include <glissade/geometry/displacement.h>
+#include <glissade/geometry/rigid_pose.h>
 
 namespace glissade::haptics {
 namespace {
@@ -24,7 +25,7 @@ constexpr double kLeaving = 0.1;
 constexpr double kTurnedBack = 0.4;
 /// How far ahead of the parts a search is made when its answer is taken. The rest is for parts that turn back.
 constexpr double kForward = 0.6;
-/// Of the way since the last answer: parts are expected to go on as on that way for so long at most.
+/// Of the way since the parts were nearest to the poses of a search: they are expected to go on so for as long at most.
 constexpr double kMostForward = 3.0;
 
 /// Work of the gap of a pair along a known direction, in the unit of `collision::WorkMeter`.
@@ -87,8 +88,9 @@ bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> 
     forget();
     throw;
   }
-  if (!next_.is_there && now_.is_being_left())
-    ask(next_, reach, ahead, now_.ahead - now_.drift + kForward * ahead, ignored);
+  // Without planes nobody works ahead of need, and an earlier request would only be of earlier poses.
+  if (has_planes_ && !next_.is_there && now_.is_being_left())
+    ask(next_, reach, ahead, now_.request.radius - reach - now_.drift + kForward * ahead, ignored);
   return is_other;
 }
 
@@ -107,7 +109,6 @@ bool CandidatePairs::take_next(double reach, double ahead, std::span<const BodyP
   known_.assign(now_.set.pairs.size(), {});
   motions_of_clock_.assign(scene_.bodies().size(), {});
   place_clock();
-  X_WB_taken_ = X_WB_of_clock_;
   gaps_of_pairs_ = gaps_at_search(now_.set.planes_of_pairs, now_.set.pairs);
   gaps_to_certify_ = gaps_at_search(now_.set.planes, now_.set.to_certify);
   calls_served_ = std::exchange(calls_, 0);
@@ -135,20 +136,23 @@ void CandidatePairs::ask(Search& search, double reach, double ahead, double forw
   if (thread_->work_ahead() == 0) thread_->wait_for_work(allowed_);
 }
 
-/// Sets the poses at which the movers will be after `way` more metres, if they go on as since the last answer was
-/// taken, but after no longer a way than that.
+/// Sets the poses at which the movers will be after `way` more metres, if they go on as since they were nearest to the
+/// poses of the last search.
 void CandidatePairs::place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB) {
   X_WB.clear();
   for (const PlacedBody& mover : scene_.bodies().subspan(scene_.obstacles().size()))
     X_WB.push_back(mover.X_WB);
-  if (!has_planes_ || X_WB_taken_.empty()) return;
+  if (!has_planes_ || !now_.is_there || !(way > 0.0)) return;
+  const std::vector<Eigen::Isometry3d>& X_WB_before = now_.X_WB_nearest;
   motions_ahead_.assign(scene_.bodies().size(), {});
-  const double gone = approach_since(X_WB_taken_, motions_ahead_);
+  const double gone = approach_since(X_WB_before, motions_ahead_);
   if (!(gone > 0.0) || !std::isfinite(gone)) return;
+  // The search refuses a pose that is not rigid. Going on from it would make it rigid.
+  if (!std::all_of(X_WB.begin(), X_WB.end(), [](const auto& X) { return geometry::rigid_pose(X).has_value(); })) return;
   const double share = std::min(kMostForward, way / gone);
   for (std::size_t mover = 0; mover < X_WB.size(); ++mover) {
     const Eigen::Vector3d& p_Bref = scene_.movers()[mover]->p_Vref();
-    const geometry::Displacement d = geometry::displacement_between(X_WB_taken_[mover], X_WB[mover], p_Bref);
+    const geometry::Displacement d = geometry::displacement_between(X_WB_before[mover], X_WB[mover], p_Bref);
     if (!d.is_zero()) X_WB[mover] = geometry::displaced(X_WB[mover], p_Bref, d.scaled(share));
   }
 }
@@ -189,7 +193,11 @@ void CandidatePairs::moved() {
 void CandidatePairs::follow(Search& search) const {
   if (!search.is_there) return;
   search.drift = approach_since(search.request.X_WB, search.motions);
-  search.least_drift = std::min(search.least_drift, search.drift);
+  if (!(search.drift < search.least_drift)) return;
+  search.least_drift = search.drift;
+  search.X_WB_nearest.clear();
+  for (const PlacedBody& mover : scene_.bodies().subspan(scene_.obstacles().size()))
+    search.X_WB_nearest.push_back(mover.X_WB);
 }
 
 bool CandidatePairs::Search::is_being_left() const {
@@ -381,7 +389,6 @@ void CandidatePairs::clear() {
 void CandidatePairs::forget() {
   now_.is_there = false;
   next_.is_there = false;
-  X_WB_taken_.clear();
 }
 
 template void CandidatePairs::Search::collect(const std::vector<CandidatePair>&, double,

@@ -5,8 +5,8 @@
 /// look-ahead is used up. Both moments depend on the motion alone; therefore a thread of its
 /// own may run the search meanwhile without changing a bit.
 ///
-/// Parts mostly go on as they went. So a search is made at poses that the parts will reach halfway through the time
-/// that it serves: it then serves for nearly twice the way.
+/// Parts mostly go on as they went. So a search is made at poses that the parts will reach some time after its answer
+/// is taken: it serves on the way there and beyond.
 ///
 /// The work of searching in one call of the simulation can be limited. A search then goes on over several calls, and
 /// its answer can be taken in the first call up to which so much work was allowed, however early it was done.
@@ -41,7 +41,7 @@ class CandidatePairs {
   /// The scene must outlive this object. In `look`, reach + ahead must not exceed `greatest_radius` (metres). With a
   /// limit of work, searches have a thread of their own in any case. If `runs_ahead` is false, that thread never works
   /// at the same time as the caller's. Without planes, only `within` a reach tells of pairs, and
-  /// searches are made at the present poses.
+  /// searches are made when they are needed, at the present poses.
   CandidatePairs(const ContactScene& scene, double greatest_radius, bool runs_ahead = false,
                  std::int64_t work_of_call = kUnlimitedWork, bool has_planes = true);
   CandidatePairs(const CandidatePairs&) = delete;
@@ -124,11 +124,12 @@ class CandidatePairs {
   struct Search {
     CandidateRequest request;
     CandidateSet set;
-    std::vector<Motion> motions;  // of each body
-    double ahead = 0.0;           // metres: the look-ahead
-    double drift = 0.0;           // metres: bound of how much nearer two bodies have come
-    double least_drift = 0.0;     // metres: so far
-    bool is_there = false;        // requested; a thread may still be working on it
+    std::vector<Motion> motions;                  // of each body
+    double ahead = 0.0;                           // metres: the look-ahead
+    double drift = 0.0;                           // metres: bound of how much nearer two bodies have come
+    double least_drift = 0.0;                     // metres: so far
+    std::vector<Eigen::Isometry3d> X_WB_nearest;  // of each mover, when the drift was least
+    bool is_there = false;                        // requested; a thread may still be working on it
 
     bool covers(double reach) const { return is_there && reach + drift <= request.radius; }
     /// Whether it is time for the next search.
@@ -175,8 +176,7 @@ class CandidatePairs {
   std::vector<KnownFeatures> known_;              // the gaps are so, too, minus the clock
   std::vector<Eigen::Isometry3d> X_WB_of_clock_;  // of each mover
   std::vector<Motion> motions_of_clock_;
-  std::vector<Eigen::Isometry3d> X_WB_taken_;  // of each mover, when the candidates were taken
-  std::vector<Motion> motions_ahead_;          // scratch memory
+  std::vector<Motion> motions_ahead_;  // scratch memory
   std::int64_t work_ = 0;
   /// A pair in the list of the last call of `unproved_within`, among all pairs to certify.
   struct PlaceOfPair {

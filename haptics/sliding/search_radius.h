@@ -38,7 +38,7 @@ class SearchRadius {
   double limit_;
   double limit_ahead_;
   // Metres of the reach, and of the look-ahead; they adapt to the work of searches.
-  double limit_of_search_;
+  double limit_by_work_;
   double limit_of_look_;
 };
 

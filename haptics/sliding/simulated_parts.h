@@ -50,6 +50,7 @@ struct Step {
   std::array<bool, kMaxParts> arrives{};    ///< nothing shortened or turned the displacement
   double length = 0.0;                      ///< the sum of the lengths: two bodies come nearer by at most this
   bool clipped = false;                     ///< shortened by the reach, the slew or a missing certificate
+  bool is_plain = false;                    ///< neither clipped nor damped, by the rows of contacts alone
 };
 
 }  // namespace glissade::haptics

@@ -158,6 +158,7 @@ void StepFinder::note_arrivals() {
 /// Takes the step, or begins again with more damping.
 void StepFinder::end_trial(WorkBudget& budget) {
   if (!gains_energy()) {
+    step_.is_plain = !step_.clipped && damping_ == 0.0 && projections_ == 1;
     damping_ = damping_ < 0.1 ? 0.0 : 0.25 * damping_;
     stage_ = Stage::kDone;
     return;
