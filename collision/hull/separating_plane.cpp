@@ -25,7 +25,7 @@ constexpr std::int8_t kPlanesToLeave = 15;
 constexpr double kGoodGapOfSpheres = 0.005;
 
 // Radians: about. A plane between the centres that has turned by less will serve the next time too.
-constexpr double kSmallTurn = 0.02;
+constexpr double kTurnThatLasts = 0.02;
 
 // As a fraction of the radii: if hulls reach farther beyond the old plane, it has turned by some degrees, and the last
 // simplex of GJK is of no use.
@@ -79,7 +79,7 @@ class PlaneSearch {
     const Vector3d n = between / distance;
     const double gap = n.dot(hulls_.extreme(n));
     if (!(gap > hulls_.margin())) return false;
-    memory_.by_centers = !memory_.has_plane || (n - memory_.n_A).squaredNorm() > kSmallTurn * kSmallTurn;
+    memory_.by_centers = !memory_.has_plane || (n - memory_.n_A).squaredNorm() > kTurnThatLasts * kTurnThatLasts;
     hulls_.remember_plane(n, gap);
     has_new_plane_ = !(was_by_centers_ && memory_.by_centers);  // while large movements go on, no plane will last
     return true;
