@@ -104,8 +104,9 @@ TEST_F(SeparatingPlanes, MissNoContactWhenThePoseIsNotQuiteARotation) {
 
 // The same for what bounding spheres know.
 TEST_F(SeparatingPlanes, MissNoContactOfBallsWhenThePoseIsNotQuiteARotation) {
+  const ConvexHull sphere(geometry::make_sphere(1.0, 2000));
   std::vector<Vector3d> points;  // with one at the pole, where the other ball comes
-  for (const Vector3d& x : ConvexHull(geometry::make_sphere(1.0, 2000)).vertices())
+  for (const Vector3d& x : sphere.vertices())
     points.insert(points.end(), {x, -x});
   for (const Vector3d& pole : {Vector3d(Vector3d::UnitX()), Vector3d(Vector3d::UnitY()), Vector3d(Vector3d::UnitZ())})
     points.insert(points.end(), {pole, -pole});
