@@ -136,12 +136,17 @@ void CandidatePairs::ask(Search& search, double reach, double ahead, double forw
   if (thread_->work_ahead() == 0) thread_->wait_for_work(allowed_);
 }
 
-/// Sets the poses at which the movers will be after `way` more metres, if they go on as since they were nearest to the
-/// poses of the last search.
-void CandidatePairs::place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB) {
+/// Copies the present poses of the movers.
+void CandidatePairs::copy_poses(std::vector<Eigen::Isometry3d>& X_WB) const {
   X_WB.clear();
   for (const PlacedBody& mover : scene_.bodies().subspan(scene_.obstacles().size()))
     X_WB.push_back(mover.X_WB);
+}
+
+/// Sets the poses at which the movers will be after `way` more metres, if they go on as since they were nearest to the
+/// poses of the last search.
+void CandidatePairs::place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB) {
+  copy_poses(X_WB);
   if (!has_planes_ || !now_.is_there || !(way > 0.0)) return;
   const std::vector<Eigen::Isometry3d>& X_WB_before = now_.X_WB_nearest;
   motions_ahead_.assign(scene_.bodies().size(), {});
@@ -195,9 +200,7 @@ void CandidatePairs::follow(Search& search) const {
   search.drift = approach_since(search.request.X_WB, search.motions);
   if (!(search.drift < search.least_drift)) return;
   search.least_drift = search.drift;
-  search.X_WB_nearest.clear();
-  for (const PlacedBody& mover : scene_.bodies().subspan(scene_.obstacles().size()))
-    search.X_WB_nearest.push_back(mover.X_WB);
+  copy_poses(search.X_WB_nearest);
 }
 
 bool CandidatePairs::Search::is_being_left() const {
@@ -247,9 +250,7 @@ void CandidatePairs::advance_clock() {
 
 /// From now on, motions count from the present poses.
 void CandidatePairs::place_clock() {
-  X_WB_of_clock_.clear();
-  for (const PlacedBody& mover : scene_.bodies().subspan(scene_.obstacles().size()))
-    X_WB_of_clock_.push_back(mover.X_WB);
+  copy_poses(X_WB_of_clock_);
 }
 
 /// The pairs of a block are in the order of the search, the nearest first.

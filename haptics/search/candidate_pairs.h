@@ -2,8 +2,8 @@
 
 /// Pairs that the parts may reach soon, kept over several steps: one search serves until the motion of the parts has
 /// used up its look-ahead. The next search is requested ahead of need, and its answer is taken when all of the
-/// look-ahead is used up. Both moments depend on the motion alone; therefore a thread of its
-/// own may run the search meanwhile without changing a bit.
+/// look-ahead is used up. Both moments depend on the motion alone; therefore a thread of its own may run the search
+/// meanwhile without changing a bit.
 ///
 /// Parts mostly go on as they went. So a search is made at poses that the parts will reach some time after its answer
 /// is taken: it serves on the way there and beyond.
@@ -40,8 +40,8 @@ class CandidatePairs {
  public:
   /// The scene must outlive this object. In `look`, reach + ahead must not exceed `greatest_radius` (metres). With a
   /// limit of work, searches have a thread of their own in any case. If `runs_ahead` is false, that thread never works
-  /// at the same time as the caller's. Without planes, only `within` a reach tells of pairs, and
-  /// searches are made when they are needed, at the present poses.
+  /// at the same time as the caller's. Without planes, only `within` a reach tells of pairs,
+  /// and searches are made when they are needed, at the present poses.
   CandidatePairs(const ContactScene& scene, double greatest_radius, bool runs_ahead = false,
                  std::int64_t work_of_call = kUnlimitedWork, bool has_planes = true);
   CandidatePairs(const CandidatePairs&) = delete;
@@ -151,6 +151,7 @@ class CandidatePairs {
 
   bool take_next(double reach, double ahead, std::span<const BodyPair> ignored);
   void ask(Search& search, double reach, double ahead, double forward, std::span<const BodyPair> ignored);
+  void copy_poses(std::vector<Eigen::Isometry3d>& X_WB) const;
   void place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB);
   bool is_settled();
   double approach_since(std::span<const Eigen::Isometry3d> X_WB, std::vector<Motion>& motions) const;
