@@ -84,7 +84,7 @@ void MeshTopology::collect_edges(const TriangleMesh& mesh) {
   triangle_edges_.assign(mesh.triangles.size(), {-1, -1, -1});
   vertex_owner_.assign(mesh.vertices.size(), -1);
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.triangles.size()); ++t) {
-    if (is_degenerate({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)})) continue;
+    if (is_degenerate(mesh.corners(t))) continue;
     const Triangle& triangle = mesh.triangles[static_cast<std::size_t>(t)];
     for (std::int32_t side = 0; side < 3; ++side) {
       const std::int32_t u = triangle[static_cast<std::size_t>(side)];

@@ -30,6 +30,10 @@ struct TriangleMesh {
     return vertices[static_cast<std::size_t>(
         triangles[static_cast<std::size_t>(triangle)][static_cast<std::size_t>(corner)])];
   }
+  /// All three.
+  std::array<Eigen::Vector3d, 3> corners(std::int32_t triangle) const {
+    return {corner(triangle, 0), corner(triangle, 1), corner(triangle, 2)};
+  }
 };
 
 /// All triangles of `meshes` as one mesh, in the order of the meshes. Vertices are copied, not welded: the input meshes

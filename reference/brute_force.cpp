@@ -28,7 +28,7 @@ std::vector<BoxedTriangle> boxed_triangles(const geometry::TriangleMesh& mesh, c
   triangles.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto index = static_cast<std::int32_t>(i);
-    if (geometry::is_degenerate({mesh.corner(index, 0), mesh.corner(index, 1), mesh.corner(index, 2)})) continue;
+    if (geometry::is_degenerate(mesh.corners(index))) continue;
     const auto corner_A = [&](std::size_t corner) -> const Eigen::Vector3d& {
       return vertices_A[static_cast<std::size_t>(mesh.triangles[i][corner])];
     };

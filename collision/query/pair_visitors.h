@@ -11,7 +11,6 @@
 #include <glissade/collision/query_types.h>
 #include <glissade/geometry/triangle_pair.h>
 
-#include "kernels/distance_kernel.h"
 #include "query/placed_trees.h"
 #include "query/triangle_visitor.h"
 
@@ -88,7 +87,7 @@ class PairCollector final : public PlacedVisitor {
 
   double tolerance_;
   std::vector<Pair>& pairs_;
-  std::array<TrianglePair, kPairsToMeasure> waiting_;  // to be measured at once
+  std::array<TrianglePair, geometry::kPairsToMeasure> waiting_;  // to be measured at once
   std::size_t waiting_count_ = 0;
 };
 
@@ -118,7 +117,7 @@ template <>
 inline bool PairCollector<ClosePair>::visit_each(std::uint32_t leaf_M, std::uint32_t leaf_N, PairMask pairs) {
   for (; pairs != 0; pairs &= pairs - 1) {
     waiting_[waiting_count_++] = placed_.triangles(leaf_M, leaf_N, std::countr_zero(pairs));
-    if (waiting_count_ == kPairsToMeasure) measure_waiting();
+    if (waiting_count_ == geometry::kPairsToMeasure) measure_waiting();
   }
   return false;
 }

@@ -38,7 +38,7 @@ struct PlacedTrees {
   }
   geometry::TrianglePoints points_A(const TrianglePair& pair) const {
     const geometry::TriangleMesh& mesh = tree_A.mesh();
-    return {mesh.corner(pair.triangle_A, 0), mesh.corner(pair.triangle_A, 1), mesh.corner(pair.triangle_A, 2)};
+    return mesh.corners(pair.triangle_A);
   }
   geometry::TrianglePoints points_B(const TrianglePair& pair) const {
     const geometry::TriangleMesh& mesh = tree_B.mesh();

@@ -1,34 +1,57 @@
 #pragma once
 
-/// A direction that separates two triangles for as long as possible while they slide past each other.
+/// Directions that separate triangles for as long as possible while they slide past each other.
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
 
 #include <Eigen/Core>
 
 #include <glissade/geometry/triangle_pair.h>
 
-namespace glissade::haptics {
+#include "certificate/separation_kernel.h"
 
-/// Both triangles at one moment of a path.
-struct TrianglesAtMoment {
-  geometry::TrianglePoints obstacle;
-  geometry::TrianglePoints part;
-};
+namespace glissade::haptics {
 
 /// A direction, from the obstacle to the part, and how far it separates two triangles at both ends of a path; metres.
 struct Separation {
-  Eigen::Vector3d n;
+  Eigen::Vector3d n_O;  ///< in the axes of the obstacle; unit, or zero where none is known
   double begin;
   double end;
 
   double least() const { return std::min(begin, end); }
 };
 
-/// Of a few directions the one that would keep the triangles apart by `gap` metres for the most paths like this one, or
-/// else one that separates them by as much as any at both ends. The directions are the normals of both triangles, one
-/// between both, these again but across the motion, and that of the closest points. The last one separates the most,
-/// but where triangles slide towards each other it serves for a short way only. n is zero where all fail.
-Separation lasting_separation(const TrianglesAtMoment& begin, const TrianglesAtMoment& end, double gap);
+/// The separations of pairs of triangles of two bodies, found for up to eight pairs at once. Not thread-safe.
+class LastingSeparations {
+ public:
+  /// Begins with no pair. The corners of the part go from `begin` to `end` in the frame of the obstacle, which stays.
+  void start(const CornerMap& begin, const CornerMap& end, double gap);
+
+  std::size_t count() const { return count_; }
+  bool is_full() const { return count_ == geometry::kPairsToMeasure; }
+  /// Adds a pair: a triangle of the obstacle and one of the part, each in its own frame. There must be room.
+  void add(const geometry::TrianglePoints& obstacle_O, const geometry::TrianglePoints& part_V);
+
+  /// For each pair added since the last call, in order: of a few directions the one that would keep the triangles apart
+  /// by `gap` (metres) for the most paths like this one, or else one that separates them by as much as any at both
+  /// ends. The directions are the normals of both triangles, one between both, and those of the closest points, all
+  /// these also across the motion. Those of the closest points separate the most, but where triangles slide towards
+  /// each other they serve for a short way only. Valid until the next call.
+  std::span<const Separation> find();
+
+ private:
+  bool all_pairs_last(double paths) const;
+
+  CornerMap begin_{};
+  CornerMap end_{};
+  double gap_ = 0.0;
+  std::size_t count_ = 0;
+  geometry::TrianglesToMeasure triangles_{};
+  PairsOnPath on_path_;
+  std::array<Separation, geometry::kPairsToMeasure> found_;
+};
 
 }  // namespace glissade::haptics

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "certificate/lasting_separation.h"
 #include "certificate/leaf_in_world.h"
 
 namespace glissade::haptics {
@@ -17,6 +17,9 @@ constexpr std::int64_t kWorkOfLeaves = 300;
 constexpr std::int64_t kWorkOfKnownDirection = 60;
 constexpr std::int64_t kWorkOfTriangles = 150;
 constexpr std::int64_t kWorkOfStretch = 1000;
+
+/// The place of a pair that is not itself among those to certify.
+constexpr std::size_t kNoPlace = std::numeric_limits<std::size_t>::max();
 
 /// An interval of heights along a direction, metres.
 struct Heights {
@@ -87,17 +90,20 @@ bool PathCertificate::go_on(WorkBudget& budget) {
     }
     if (budget.is_used_up()) break;
   }
+  prove_waiting(budget);
   return open_.empty() && rest_.empty();
 }
 
 void PathCertificate::prove(const PairToCertify& pair_to_certify, WorkBudget& budget) {
-  if (pair_to_certify.bodies != BodyPair{obstacle_.number, part_.number}) select(pair_to_certify.bodies);
+  if (pair_to_certify.bodies != BodyPair{obstacle_.number, part_.number}) {
+    prove_waiting(budget);
+    select(pair_to_certify.bodies);
+  }
   if (!moves_) return;
   if (pair_to_certify.item_O.kind == TreeItem::Kind::kTriangle) {
-    const Eigen::Vector3d n_W =
-        prove_triangles(static_cast<std::int32_t>(pair_to_certify.item_O.number),
-                        static_cast<std::int32_t>(pair_to_certify.item_V.number), pair_to_certify.n_W, budget);
-    if (!n_W.isZero(0.0)) separated_.push_back({place_, n_W});
+    prove(Triangles{static_cast<std::int32_t>(pair_to_certify.item_O.number),
+                    static_cast<std::int32_t>(pair_to_certify.item_V.number), pair_to_certify.n_W, place_},
+          budget);
     return;
   }
   budget.spend(kWorkOfBoxes);
@@ -117,6 +123,12 @@ void PathCertificate::select(const BodyPair& bodies) {
   far_ = bodies_.motion(bodies.obstacle) + bodies_.motion(bodies.part) + min_clearance_ + rounding_;
   needed_ = min_clearance_ + rounding_ + bodies_.curvature(bodies.obstacle, 0, MovingBodies::kMoments) +
             bodies_.curvature(bodies.part, 0, MovingBodies::kMoments);
+  if (!seeks_lasting_directions()) return;
+  const auto map = [&](std::size_t end) -> CornerMap {
+    const Eigen::Isometry3d X_OV = relative_pose(*obstacle_.X_WB[end], *part_.X_WB[end]);
+    return {X_OV.linear(), X_OV.translation()};
+  };
+  separations_.start(map(0), map(1), needed_ + rounding_);
 }
 
 PathCertificate::MovingBody PathCertificate::moving(std::int32_t body) {
@@ -190,36 +202,52 @@ void PathCertificate::prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_V, W
   for (int o = 0; o < placed_O.count; ++o) {
     for (int p = 0; p < placed_V.count; ++p) {
       if (!placed_O.may_be_near(o, placed_V, p, far_)) continue;
-      prove_triangles(placed_O.triangles[static_cast<std::size_t>(o)], placed_V.triangles[static_cast<std::size_t>(p)],
-                      Eigen::Vector3d::Zero(), budget);
+      prove(Triangles{placed_O.triangles[static_cast<std::size_t>(o)], placed_V.triangles[static_cast<std::size_t>(p)],
+                      Eigen::Vector3d::Zero(), kNoPlace},
+            budget);
     }
   }
 }
 
-Eigen::Vector3d PathCertificate::prove_triangles(std::int32_t triangle_O, std::int32_t triangle_V,
-                                                 const Eigen::Vector3d& n_hint, WorkBudget& budget) {
-  if (separates(n_hint, triangle_O, triangle_V)) {
+void PathCertificate::prove(const Triangles& triangles, WorkBudget& budget) {
+  if (seeks_lasting_directions()) {
+    budget.spend(kWorkOfTriangles);
+    separations_.add(obstacle_.body->tree.mesh().corners(triangles.of_obstacle),
+                     part_.body->tree.mesh().corners(triangles.of_part));
+    waiting_[separations_.count() - 1] = triangles;
+    if (separations_.is_full()) prove_waiting(budget);
+  } else if (separates(triangles.n_hint, triangles.of_obstacle, triangles.of_part)) {
     budget.spend(kWorkOfKnownDirection);
-    return Eigen::Vector3d::Zero();
+  } else {
+    certify(triangles, budget);
   }
-  const TrianglesOfBodies pair{{obstacle_.number, part_.number}, triangle_O, triangle_V};
-  const auto at = [&](int moment) -> TrianglesAtMoment {
-    return {bodies_.triangle_W(obstacle_.number, triangle_O, moment),
-            bodies_.triangle_W(part_.number, triangle_V, moment)};
-  };
-  if (keeps_directions_ && !obstacle_moves_) {
-    const Separation separation = lasting_separation(at(0), at(MovingBodies::kMoments), needed_ + rounding_);
+}
+
+/// Certifies the triangles that wait for vector code.
+void PathCertificate::prove_waiting(WorkBudget& budget) {
+  std::size_t i = 0;
+  for (const Separation& separation : separations_.find()) {
+    const Triangles& triangles = waiting_[i++];
     if (separation.least() >= needed_ + rounding_) {
-      budget.spend(kWorkOfTriangles);
-      return separation.n;
+      note_direction(triangles, obstacle_.X_WB[0]->linear() * separation.n_O);
+    } else {
+      certify(triangles, budget);
     }
   }
+}
+
+void PathCertificate::certify(const Triangles& triangles, WorkBudget& budget) {
+  const TrianglesOfBodies pair{{obstacle_.number, part_.number}, triangles.of_obstacle, triangles.of_part};
   TriangleCertificate certificate(bodies_, pair, min_clearance_, rounding_);
   Eigen::Vector3d n_start = Eigen::Vector3d::Zero();
-  const bool is_certified = certificate.prove(n_hint, n_start);
+  const bool is_certified = certificate.prove(triangles.n_hint, n_start);
   budget.spend(kWorkOfTriangles + kWorkOfStretch * certificate.stretches());
   if (!is_certified) failures_.push_back({pair, n_start});
-  return n_start;
+  if (!n_start.isZero(0.0)) note_direction(triangles, n_start);
+}
+
+void PathCertificate::note_direction(const Triangles& triangles, const Eigen::Vector3d& n_W) {
+  if (triangles.place != kNoPlace) separated_.push_back({triangles.place, n_W});
 }
 
 }  // namespace glissade::haptics

@@ -20,6 +20,7 @@
 
 #include <glissade/geometry/displacement.h>
 
+#include "certificate/lasting_separation.h"
 #include "certificate/moving_bodies.h"
 #include "certificate/pairs_to_certify.h"
 #include "certificate/separating_planes.h"
@@ -96,7 +97,17 @@ class PathCertificate {
     MovingItem item_V;
   };
 
+  /// A triangle of each of the bodies at hand.
+  struct Triangles {
+    std::int32_t of_obstacle;
+    std::int32_t of_part;
+    Eigen::Vector3d n_hint;  ///< in world axes; zero if none is known
+    std::size_t place;       ///< among the pairs to certify, if it is itself one of these
+  };
+
   void select(const BodyPair& bodies);
+  /// Whether directions are sought that serve for the next steps too. They are fixed to the obstacle.
+  bool seeks_lasting_directions() const { return keeps_directions_ && !obstacle_moves_; }
   MovingBody moving(std::int32_t body);
   static MovingItem moving(const TreeItem& item, const MovingBody& body);
   void prove(const PairToCertify& pair_to_certify, WorkBudget& budget);
@@ -104,9 +115,10 @@ class PathCertificate {
   bool are_apart(const MovingItem& item_O, const MovingItem& item_V) const;
   bool separates(const Eigen::Vector3d& n_W, const MovingItem& item_O, const MovingItem& item_V) const;
   bool separates(const Eigen::Vector3d& n_W, std::int32_t triangle_O, std::int32_t triangle_V) const;
-  /// Returns the direction that was found if `n_hint` does not suffice; zero if there is none or it does.
-  Eigen::Vector3d prove_triangles(std::int32_t triangle_O, std::int32_t triangle_V, const Eigen::Vector3d& n_hint,
-                                  WorkBudget& budget);
+  void prove(const Triangles& triangles, WorkBudget& budget);
+  void prove_waiting(WorkBudget& budget);
+  void certify(const Triangles& triangles, WorkBudget& budget);
+  void note_direction(const Triangles& triangles, const Eigen::Vector3d& n_W);
   void prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_V, WorkBudget& budget);
 
   const ContactScene& scene_;
@@ -128,6 +140,8 @@ class PathCertificate {
   double min_clearance_ = 0.0;
   double far_ = 0.0;     // metres: items farther apart keep the minimum clearance in any case
   double needed_ = 0.0;  // metres of gap at both ends that keep the minimum clearance in between
+  LastingSeparations separations_;
+  std::array<Triangles, geometry::kPairsToMeasure> waiting_;  // those of `separations_`
 };
 
 }  // namespace glissade::haptics

@@ -4,8 +4,6 @@
 #include <array>
 #include <limits>
 
-#include "certificate/lasting_separation.h"
-
 namespace glissade::haptics {
 namespace {
 
@@ -71,11 +69,27 @@ void PairsInReach::forget_taken() {
 
 void PairsInReach::take_too_near(std::size_t most) {
   begin_taking();
-  for (; next_ < too_near_.size() && pairs_.size() < most; ++next_) {
-    PairInReach& pair = left_[too_near_[next_].place];
-    if (turn_plane(pair, ways_[pair.planes])) continue;
-    take(pair);
-    pair.gap = kTaken;
+  while (next_ < too_near_.size() && pairs_.size() < most) {
+    const std::uint32_t planes = left_[too_near_[next_].place].planes;
+    const Way& way = ways_[planes];
+    separations_.start(way.begin, way.end, kLasting * way.margin);
+    for (std::size_t i = next_; i < too_near_.size() && !separations_.is_full(); ++i) {
+      const PairInReach& pair = left_[too_near_[i].place];
+      if (pair.planes != planes) break;
+      add_separation(pair);
+    }
+    for (const Separation& separation : separations_.find()) {
+      PairInReach& pair = left_[too_near_[next_].place];
+      if (separation.least() >= way.margin) {
+        turn_plane(pair, separation.n_O);
+      } else if (pairs_.size() < most) {
+        take(pair);
+        pair.gap = kTaken;
+      } else {
+        return;
+      }
+      ++next_;
+    }
   }
 }
 
@@ -104,7 +118,8 @@ void PairsInReach::find_too_near(const Displacements& displacements, double reac
     std::vector<bool>& is_known = known_blocks_[pair.planes];
     is_known.resize(planes[pair.planes].block_count());
     const Way& way = ways_[pair.planes];
-    if (!is_known[block]) planes[pair.planes].find_gaps(way.A, way.t, block, block + 1, gaps_at_end_[pair.planes]);
+    if (!is_known[block])
+      planes[pair.planes].find_gaps(way.end.A, way.end.t, block, block + 1, gaps_at_end_[pair.planes]);
     is_known[block] = true;
     const float at_end = gaps_at_end_[pair.planes][pair.slot];
     if (static_cast<double>(at_end) < way.margin) too_near_.push_back({at_end, place});
@@ -122,29 +137,26 @@ PairsInReach::Way PairsInReach::way_of(const BodyPair& bodies, const Displacemen
   const Eigen::Matrix3d A_W = Eigen::Matrix3d::Identity() + of_part.A - of_obstacle.A;
   const Eigen::Vector3d t_W = of_part.t - of_obstacle.t;
   const Eigen::Matrix3d R_OW = X_WO.linear().transpose();
-  return {R_OW * A_W * X_WV.linear(), R_OW * (A_W * X_WV.translation() + t_W - X_WO.translation()),
-          relative_pose(X_WO, X_WV), shared_.scene.margin(bodies.obstacle, bodies.part)};
+  const Eigen::Isometry3d X_OV = relative_pose(X_WO, X_WV);
+  return {{X_OV.linear(), X_OV.translation()},
+          {R_OW * A_W * X_WV.linear(), R_OW * (A_W * X_WV.translation() + t_W - X_WO.translation())},
+          shared_.scene.margin(bodies.obstacle, bodies.part)};
 }
 
-/// Gives a pair a plane that keeps it a margin apart on the way. Returns false if there is none.
-bool PairsInReach::turn_plane(const PairInReach& pair, const Way& way) {
+void PairsInReach::add_separation(const PairInReach& pair) {
   const CandidatePair& candidate = shared_.candidates.pair(pair.number);
-  const ContactBody& obstacle = *shared_.scene.bodies()[static_cast<std::size_t>(candidate.bodies.obstacle)].body;
-  const ContactBody& part = *shared_.scene.bodies()[static_cast<std::size_t>(candidate.bodies.part)].body;
-  TrianglesAtMoment begin;
-  TrianglesAtMoment end;
-  for (std::size_t c = 0; c < 3; ++c) {
-    begin.obstacle[c] = obstacle.tree.mesh().corner(candidate.obstacle_triangle, static_cast<int>(c));
-    const Eigen::Vector3d& x = part.tree.mesh().corner(candidate.part_triangle, static_cast<int>(c));
-    begin.part[c] = way.X_OV * x;
-    end.part[c] = way.A * x + way.t;
-  }
-  end.obstacle = begin.obstacle;
-  const Separation separation = lasting_separation(begin, end, kLasting * way.margin);
-  if (!(separation.least() >= way.margin)) return false;
-  shared_.candidates.planes_of_pairs()[pair.planes].turn(pair.slot, obstacle, candidate.obstacle_triangle,
-                                                         separation.n);
-  return true;
+  separations_.add(body(candidate.bodies.obstacle).tree.mesh().corners(candidate.obstacle_triangle),
+                   body(candidate.bodies.part).tree.mesh().corners(candidate.part_triangle));
+}
+
+void PairsInReach::turn_plane(const PairInReach& pair, const Eigen::Vector3d& n_O) {
+  const CandidatePair& candidate = shared_.candidates.pair(pair.number);
+  shared_.candidates.planes_of_pairs()[pair.planes].turn(pair.slot, body(candidate.bodies.obstacle),
+                                                         candidate.obstacle_triangle, n_O);
+}
+
+const ContactBody& PairsInReach::body(std::int32_t number) const {
+  return *shared_.scene.bodies()[static_cast<std::size_t>(number)].body;
 }
 
 void PairsInReach::begin_taking() {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "certificate/lasting_separation.h"
 #include "search/candidate_pairs.h"
 #include "sliding/simulated_parts.h"
 
@@ -39,11 +40,10 @@ class PairsInReach {
   std::size_t left_count() const { return left_.size(); }
 
  private:
-  /// How the part of two bodies goes, to first order, in the frame of the obstacle.
+  /// Where the corners of the part of two bodies are, to first order, in the frame of the obstacle.
   struct Way {
-    Eigen::Matrix3d A;  ///< x in the part's frame comes to A x + t
-    Eigen::Vector3d t;
-    Eigen::Isometry3d X_OV;  ///< at the beginning
+    CornerMap begin;
+    CornerMap end;
     double margin;
   };
 
@@ -53,7 +53,9 @@ class PairsInReach {
   };
 
   Way way_of(const BodyPair& bodies, const Displacements& displacements) const;
-  bool turn_plane(const PairInReach& pair, const Way& way);
+  void add_separation(const PairInReach& pair);
+  void turn_plane(const PairInReach& pair, const Eigen::Vector3d& n_O);
+  const ContactBody& body(std::int32_t number) const;
   void forget_taken();
   void begin_taking();
   void take(const PairInReach& pair);
@@ -65,6 +67,7 @@ class PairsInReach {
   std::vector<float> gaps_;
   // Of the pairs of bodies that have planes:
   std::vector<Way> ways_;
+  LastingSeparations separations_;
   std::vector<std::vector<float>> gaps_at_end_;
   std::vector<std::vector<bool>> known_blocks_;  // those whose gaps at the end are there
   std::vector<std::uint32_t> watched_;           // places in `left_`

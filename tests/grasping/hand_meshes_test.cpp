@@ -52,7 +52,7 @@ TEST(HandMeshes, AreClosedAndFaceOutward) {
 }
 
 geometry::TrianglePoints points_of(const TriangleMesh& mesh, std::int32_t triangle) {
-  return {mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)};
+  return mesh.corners(triangle);
 }
 
 bool share_a_vertex(const geometry::Triangle& a, const geometry::Triangle& b) {

@@ -1,12 +1,18 @@
-// The direction in which two triangles stay apart: what is told of it is true, and it lasts where they slide.
+// The directions in which triangles stay apart: what is told of them is true, they last where the triangles slide, and
+// every instruction set finds the same.
 
 #include "certificate/lasting_separation.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include <glissade/geometry/displacement.h>
+
+#include "every_instruction_set.h"
 #include "random_numbers.h"
 #include "sanitizers.h"
 
@@ -14,59 +20,129 @@ namespace glissade::haptics {
 namespace {
 
 using Eigen::Vector3d;
+using geometry::TrianglePoints;
 using test_support::RandomNumbers;
 
-geometry::TrianglePoints triangle_near(const Vector3d& place, RandomNumbers& random) {
+constexpr double kGap = 1e-6;  // metres
+
+TrianglePoints triangle_near(const Vector3d& place, RandomNumbers& random) {
   return {place + random.point(1e-3), place + random.point(1e-3), place + random.point(1e-3)};
 }
 
-geometry::TrianglePoints shifted(geometry::TrianglePoints triangle, const Vector3d& by) {
-  for (Vector3d& x : triangle)
-    x += by;
-  return triangle;
+TrianglePoints mapped(const CornerMap& map, const TrianglePoints& triangle) {
+  return {map.A * triangle[0] + map.t, map.A * triangle[1] + map.t, map.A * triangle[2] + map.t};
 }
 
-TEST(LastingSeparation, IsAsWideAsItSaysAndNoWiderThanTheTrianglesAreApart) {
+CornerMap random_pose(RandomNumbers& random, double translation) {
+  const double angle = random.power_of_ten(-3.0, -1.0);
+  return {Eigen::AngleAxisd(angle, random.direction()).toRotationMatrix(), translation * random.direction()};
+}
+
+/// A few pairs of triangles, in the frames of their bodies, and a path of the part.
+struct PairsOfTrial {
+  explicit PairsOfTrial(RandomNumbers& random)
+      : begin(random_pose(random, 1e-4)), end(random_pose(random, random.power_of_ten(-6.0, -3.0))) {
+    for (int i = random.integer(1, geometry::kPairsToMeasure); i > 0; --i) {
+      obstacle.push_back(triangle_near(Vector3d::Zero(), random));
+      part.push_back(triangle_near(2e-3 * random.direction(), random));
+    }
+  }
+
+  std::vector<Separation> separations() const {
+    LastingSeparations separations;
+    separations.start(begin, end, kGap);
+    for (std::size_t i = 0; i < part.size(); ++i)
+      separations.add(obstacle[i], part[i]);
+    const std::span<const Separation> found = separations.find();
+    return {found.begin(), found.end()};
+  }
+
+  CornerMap begin;
+  CornerMap end;
+  std::vector<TrianglePoints> obstacle;
+  std::vector<TrianglePoints> part;
+};
+
+class LastingSeparation : public test_support::EveryInstructionSet {};
+
+TEST_P(LastingSeparation, IsAsWideAsItSaysAndNoWiderThanTheTrianglesAreApart) {
   constexpr std::uint64_t kSeed = 93;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);
   int apart = 0;
   int certified = 0;
-  for (int trial = 0; trial < test_support::affordable(5000); ++trial) {
-    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
-    const geometry::TrianglePoints obstacle = triangle_near(Vector3d::Zero(), random);
-    const geometry::TrianglePoints part = triangle_near(2e-3 * random.direction(), random);
-    const TrianglesAtMoment begin{obstacle, part};
-    const TrianglesAtMoment end{shifted(obstacle, random.power_of_ten(-6.0, -4.0) * random.direction()),
-                                shifted(part, random.power_of_ten(-6.0, -3.0) * random.direction())};
-    const double gap = 1e-6;
-    const Separation separation = lasting_separation(begin, end, gap);
-    const double at_begin = geometry::triangle_distance(begin.obstacle, begin.part).distance;
-    const double at_end = geometry::triangle_distance(end.obstacle, end.part).distance;
-    if (at_begin > gap && at_end > gap) ++apart;
-    if (!(separation.least() >= gap)) continue;
-    ++certified;
-    ASSERT_NEAR(separation.n.norm(), 1.0, 1e-12);
-    ASSERT_LE(separation.begin, at_begin + 1e-15);
-    ASSERT_LE(separation.end, at_end + 1e-15);
-    for (const Vector3d& x : begin.part) {
-      for (const Vector3d& y : begin.obstacle)
-        ASSERT_GE(separation.n.dot(x - y), separation.begin - 1e-15) << "from the obstacle to the part";
+  for (int trial = 0; trial < test_support::affordable(1000); ++trial) {
+    const PairsOfTrial pairs(random);
+    const std::vector<Separation> separations = pairs.separations();
+    ASSERT_EQ(separations.size(), pairs.part.size());
+    for (std::size_t i = 0; i < separations.size(); ++i) {
+      SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", pair " +
+                   std::to_string(i));
+      const TrianglePoints part_at_begin = mapped(pairs.begin, pairs.part[i]);
+      const double at_begin = geometry::triangle_distance(pairs.obstacle[i], part_at_begin).distance;
+      const double at_end = geometry::triangle_distance(pairs.obstacle[i], mapped(pairs.end, pairs.part[i])).distance;
+      if (at_begin > kGap && at_end > kGap) ++apart;
+      const Separation& separation = separations[i];
+      if (!(separation.least() >= kGap)) continue;
+      ++certified;
+      ASSERT_NEAR(separation.n_O.norm(), 1.0, 1e-12);
+      ASSERT_LE(separation.begin, at_begin + 1e-15);
+      ASSERT_LE(separation.end, at_end + 1e-15);
+      for (const Vector3d& x : part_at_begin) {
+        for (const Vector3d& y : pairs.obstacle[i])
+          ASSERT_GE(separation.n_O.dot(x - y), separation.begin - 1e-15) << "from the obstacle to the part";
+      }
     }
   }
   EXPECT_GT(certified, apart / 2);
 }
 
 // The closest points lie ahead, along the way of the triangle: a direction through them fails on the next step.
-TEST(LastingSeparation, OfATriangleThatSlidesOverAPlaneIsTheNormal) {
-  const geometry::TrianglePoints plane{Vector3d(0.0, -1.0, 0.0), Vector3d(2.0, 0.0, 0.0), Vector3d(0.0, 1.0, 0.0)};
-  const geometry::TrianglePoints part{Vector3d(-1.0, -0.5, 0.01), Vector3d(-0.1, 0.0, 0.01), Vector3d(-1.0, 0.5, 0.01)};
-  const TrianglesAtMoment begin{plane, part};
-  const Separation separation = lasting_separation(begin, {plane, shifted(part, {0.09, 0.0, 0.0})}, 1e-3);
-  EXPECT_NEAR(separation.n.z(), 1.0, 1e-12);
+TEST_P(LastingSeparation, OfATriangleThatSlidesOverAPlaneIsTheNormal) {
+  LastingSeparations separations;
+  const CornerMap begin{Eigen::Matrix3d::Identity(), Vector3d::Zero()};
+  separations.start(begin, {begin.A, Vector3d(0.09, 0.0, 0.0)}, 1e-3);
+  separations.add({Vector3d(0.0, -1.0, 0.0), Vector3d(2.0, 0.0, 0.0), Vector3d(0.0, 1.0, 0.0)},
+                  {Vector3d(-1.0, -0.5, 0.01), Vector3d(-0.1, 0.0, 0.01), Vector3d(-1.0, 0.5, 0.01)});
+  const Separation separation = separations.find().front();
+  EXPECT_NEAR(separation.n_O.z(), 1.0, 1e-12);
   EXPECT_NEAR(separation.begin, 0.01, 1e-12);
   EXPECT_NEAR(separation.end, 0.01, 1e-12);
 }
+
+// Two edges that cross: neither normal separates the triangles, only the direction from edge to edge.
+TEST_P(LastingSeparation, OfCrossingEdgesIsThatOfTheClosestPoints) {
+  LastingSeparations separations;
+  const CornerMap begin{Eigen::Matrix3d::Identity(), Vector3d::Zero()};
+  separations.start(begin, {begin.A, Vector3d(0.0, 0.0, 0.001)}, 1e-3);
+  separations.add({Vector3d(-1.0, 0.0, 0.0), Vector3d(1.0, 0.0, 0.0), Vector3d(0.0, 0.1, -1.0)},
+                  {Vector3d(0.0, -1.0, 0.01), Vector3d(0.0, 1.0, 0.01), Vector3d(0.1, 0.0, 1.0)});
+  const Separation separation = separations.find().front();
+  EXPECT_NEAR(separation.n_O.z(), 1.0, 1e-12);
+  EXPECT_NEAR(separation.begin, 0.01, 1e-12);
+  EXPECT_NEAR(separation.end, 0.011, 1e-12);
+}
+
+TEST_P(LastingSeparation, IsThatOfPlainCodeToTheBit) {
+  constexpr std::uint64_t kSeed = 94;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  RandomNumbers random(kSeed);
+  for (int trial = 0; trial < test_support::affordable(500); ++trial) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
+    const PairsOfTrial pairs(random);
+    const std::vector<Separation> found = pairs.separations();
+    collision::use_instruction_set(collision::InstructionSet::kScalar);
+    const std::vector<Separation> expected = pairs.separations();
+    collision::use_instruction_set(GetParam());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      ASSERT_EQ(found[i].n_O, expected[i].n_O);
+      ASSERT_EQ(found[i].begin, expected[i].begin);
+      ASSERT_EQ(found[i].end, expected[i].end);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(InstructionSets, LastingSeparation, LastingSeparation::all(), LastingSeparation::name);
 
 }  // namespace
 }  // namespace glissade::haptics

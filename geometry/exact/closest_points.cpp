@@ -1,17 +1,17 @@
 // Compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/distance_kernel.cpp"
-#include "kernels/distance_kernel.h"
-
+#define HWY_TARGET_INCLUDE "exact/closest_points.cpp"
 #include <limits>
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-// Every operation is that of geometry/exact/triangle_distance.cpp, in the same order and without fused multiply-add, so
+#include <glissade/geometry/triangle_pair.h>
+
+// Every operation is that of triangle_distance.cpp, in the same order and without fused multiply-add, so
 // that every rounding is the same. There are the reasons too.
 HWY_BEFORE_NAMESPACE();
-namespace glissade::collision::HWY_NAMESPACE {
+namespace glissade::geometry::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -60,7 +60,7 @@ struct Face {
   V squared_normal;
 };
 
-HWY_INLINE Face load(const std::array<VectorsOfPairs, 3>& corners, std::size_t first) {
+HWY_INLINE Face load(const TrianglesOfPairs& corners, std::size_t first) {
   const Tag d;
   Face face;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -124,6 +124,7 @@ class Measurement {
 
   HWY_INLINE void store(ClosestPoints& closest, std::size_t first) const {
     hn::Store(squared_distance_, Tag(), closest.squared_distance.data() + first);
+    hn::Store(hn::IfThenElseZero(are_apart(), hn::Set(Tag(), 1.0)), Tag(), closest.is_apart.data() + first);
     store(p_a_, closest.p_a, first);
     store(p_b_, closest.p_b, first);
   }
@@ -133,6 +134,22 @@ class Measurement {
     hn::Store(from.x, Tag(), to[0].data() + first);
     hn::Store(from.y, Tag(), to[1].data() + first);
     hn::Store(from.z, Tag(), to[2].data() + first);
+  }
+
+  // Whether the direction from point to point separates the triangles. The points may be any: only the differences of
+  // corners and points, and products with the direction, are rounded, by less than the uncertainty.
+  HWY_INLINE Mask are_apart() const {
+    const Tag d;
+    const Vector3 n = minus(p_b_, p_a_);
+    V highest = hn::Zero(d);
+    V lowest = hn::Zero(d);
+    for (std::size_t c = 0; c < 3; ++c) {
+      highest = hn::Max(highest, dot(n, minus(a_.corners[c], p_a_)));
+      lowest = hn::Min(lowest, dot(n, minus(b_.corners[c], p_b_)));
+    }
+    const V between = dot(n, n);
+    return hn::And(hn::Gt(between, hn::Mul(hn::Set(d, 4.0), uncertainty_)),
+                   hn::Lt(hn::Sub(highest, lowest), hn::Mul(hn::Set(d, 0.5), between)));
   }
 
   HWY_INLINE void try_edges(std::size_t i, std::size_t j) {
@@ -202,11 +219,11 @@ void find_closest_points(const TrianglesToMeasure& triangles, ClosestPoints& clo
   }
 }
 
-}  // namespace glissade::collision::HWY_NAMESPACE
+}  // namespace glissade::geometry::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace glissade::collision {
+namespace glissade::geometry {
 namespace {
 
 HWY_EXPORT(find_closest_points);
@@ -217,5 +234,5 @@ void find_closest_points(const TrianglesToMeasure& triangles, ClosestPoints& clo
   HWY_DYNAMIC_DISPATCH(find_closest_points)(triangles, closest);
 }
 
-}  // namespace glissade::collision
+}  // namespace glissade::geometry
 #endif

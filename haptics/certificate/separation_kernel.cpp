@@ -1,0 +1,256 @@
+// Compiled once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "certificate/separation_kernel.cpp"
+#include "certificate/separation_kernel.h"
+
+#include <limits>
+
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+// Without fused multiply-add and with the same order of operations, so that every rounding is the same.
+HWY_BEFORE_NAMESPACE();
+namespace glissade::haptics::HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using geometry::TrianglesOfPairs;
+using geometry::VectorsOfPairs;
+
+using PairTag = hn::CappedTag<double, geometry::kPairsToMeasure>;
+using PairNumbers = hn::Vec<PairTag>;
+
+/// Triangles that come nearer by less than this fraction of the gap on a path hardly come nearer.
+constexpr double kAlmostStill = 0.05;
+
+struct PairVectors {
+  PairNumbers x;
+  PairNumbers y;
+  PairNumbers z;
+};
+
+HWY_INLINE PairVectors plus(const PairVectors& a, const PairVectors& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE PairVectors minus(const PairVectors& a, const PairVectors& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE PairVectors times(PairNumbers s, const PairVectors& a) {
+  return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)};
+}
+HWY_INLINE PairVectors cross(const PairVectors& a, const PairVectors& b) {
+  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
+HWY_INLINE PairNumbers dot(const PairVectors& a, const PairVectors& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_INLINE PairVectors turned_if(hn::Mask<PairTag> is_turned, const PairVectors& a) {
+  return {hn::IfThenElse(is_turned, hn::Neg(a.x), a.x), hn::IfThenElse(is_turned, hn::Neg(a.y), a.y),
+          hn::IfThenElse(is_turned, hn::Neg(a.z), a.z)};
+}
+/// Zero stays zero.
+HWY_INLINE PairVectors normalized(const PairVectors& a) {
+  const PairTag d;
+  const PairNumbers length = hn::Sqrt(dot(a, a));
+  const auto has_length = hn::Gt(length, hn::Zero(d));
+  return times(hn::IfThenElseZero(has_length, hn::Div(hn::Set(d, 1.0), length)), a);
+}
+
+HWY_INLINE PairVectors load(const VectorsOfPairs& from, std::size_t first) {
+  const PairTag d;
+  return {hn::Load(d, from[0].data() + first), hn::Load(d, from[1].data() + first),
+          hn::Load(d, from[2].data() + first)};
+}
+HWY_INLINE void store(const PairVectors& from, VectorsOfPairs& to, std::size_t first) {
+  const PairTag d;
+  hn::Store(from.x, d, to[0].data() + first);
+  hn::Store(from.y, d, to[1].data() + first);
+  hn::Store(from.z, d, to[2].data() + first);
+}
+
+struct PairTriangles {
+  PairVectors corner[3];
+};
+struct TrianglesThen {
+  PairTriangles obstacle;
+  PairTriangles part;
+};
+
+HWY_INLINE PairTriangles load(const TrianglesOfPairs& from, std::size_t first) {
+  return {{load(from[0], first), load(from[1], first), load(from[2], first)}};
+}
+HWY_INLINE void store(const PairTriangles& from, TrianglesOfPairs& to, std::size_t first) {
+  for (std::size_t c = 0; c < 3; ++c)
+    store(from.corner[c], to[c], first);
+}
+HWY_INLINE PairVectors sum_of_corners(const PairTriangles& t) {
+  return plus(plus(t.corner[0], t.corner[1]), t.corner[2]);
+}
+HWY_INLINE PairVectors normal_of(const PairTriangles& t) {
+  return normalized(cross(minus(t.corner[1], t.corner[0]), minus(t.corner[2], t.corner[0])));
+}
+
+HWY_INLINE PairTriangles mapped(const CornerMap& map, const PairTriangles& t) {
+  const PairTag d;
+  PairTriangles to;
+  const auto row = [&](Eigen::Index r, const PairVectors& x) HWY_ATTR {
+    const PairVectors of_row{hn::Set(d, map.A(r, 0)), hn::Set(d, map.A(r, 1)), hn::Set(d, map.A(r, 2))};
+    return hn::Add(dot(of_row, x), hn::Set(d, map.t[r]));
+  };
+  for (std::size_t c = 0; c < 3; ++c)
+    to.corner[c] = {row(0, t.corner[c]), row(1, t.corner[c]), row(2, t.corner[c])};
+  return to;
+}
+
+/// Keeps the best of the directions that it is shown, for as many pairs as fit into a vector.
+class Separator {
+ public:
+  HWY_INLINE Separator(const TrianglesThen& begin, const TrianglesThen& end, const PairVectors& motion, double gap)
+      : begin_(begin), end_(end), motion_(motion), gap_(hn::Set(PairTag(), gap)) {
+    const PairTag d;
+    n_ = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    gap_at_begin_ = hn::Zero(d);
+    gap_at_end_ = hn::Set(d, -std::numeric_limits<double>::infinity());
+    paths_ = gap_at_end_;
+  }
+
+  /// Goes on where another one ended.
+  HWY_INLINE void resume(const PairsOnPath& pairs, std::size_t first) {
+    const PairTag d;
+    n_ = load(pairs.n, first);
+    gap_at_begin_ = hn::Load(d, pairs.gap_at_begin.data() + first);
+    gap_at_end_ = hn::Load(d, pairs.gap_at_end.data() + first);
+    paths_ = hn::Load(d, pairs.paths.data() + first);
+  }
+
+  HWY_INLINE void look(const PairVectors& n) {
+    look_along(normalized(minus(n, times(dot(n, motion_), motion_))));
+    look_along(normalized(n));
+  }
+
+  HWY_INLINE void store_to(PairsOnPath& pairs, std::size_t first) const {
+    const PairTag d;
+    store(n_, pairs.n, first);
+    hn::Store(gap_at_begin_, d, pairs.gap_at_begin.data() + first);
+    hn::Store(gap_at_end_, d, pairs.gap_at_end.data() + first);
+    hn::Store(paths_, d, pairs.paths.data() + first);
+  }
+
+ private:
+  /// Along a direction and its opposite.
+  struct Gaps {
+    PairNumbers along;
+    PairNumbers opposite;
+  };
+
+  HWY_INLINE static Gaps gaps_of(const PairVectors& n, const TrianglesThen& then) {
+    PairNumbers bottom[2];
+    PairNumbers top[2];
+    const PairTriangles* const triangles[2] = {&then.obstacle, &then.part};
+    for (std::size_t t = 0; t < 2; ++t) {
+      const PairNumbers h0 = dot(n, triangles[t]->corner[0]);
+      const PairNumbers h1 = dot(n, triangles[t]->corner[1]);
+      const PairNumbers h2 = dot(n, triangles[t]->corner[2]);
+      bottom[t] = hn::Min(h0, hn::Min(h1, h2));
+      top[t] = hn::Max(h0, hn::Max(h1, h2));
+    }
+    return {hn::Sub(bottom[1], top[0]), hn::Sub(bottom[0], top[1])};
+  }
+
+  HWY_INLINE void look_along(const PairVectors& n) {
+    const PairTag d;
+    const Gaps at_begin = gaps_of(n, begin_);
+    const Gaps at_end = gaps_of(n, end_);
+    const auto is_opposite = hn::Lt(at_begin.along, at_begin.opposite);
+    const PairNumbers begin = hn::IfThenElse(is_opposite, at_begin.opposite, at_begin.along);
+    const PairNumbers end = hn::IfThenElse(is_opposite, at_end.opposite, at_end.along);
+    const PairNumbers more = hn::Sub(hn::Min(begin, end), gap_);
+    const PairNumbers nearer = hn::Max(hn::Sub(begin, end), hn::Mul(hn::Set(d, kAlmostStill), gap_));
+    const PairNumbers paths = hn::IfThenElse(hn::Lt(more, hn::Zero(d)), more, hn::Div(more, nearer));
+    const auto is_better = hn::Gt(paths, paths_);
+    const PairVectors turned = turned_if(is_opposite, n);
+    n_ = {hn::IfThenElse(is_better, turned.x, n_.x), hn::IfThenElse(is_better, turned.y, n_.y),
+          hn::IfThenElse(is_better, turned.z, n_.z)};
+    gap_at_begin_ = hn::IfThenElse(is_better, begin, gap_at_begin_);
+    gap_at_end_ = hn::IfThenElse(is_better, end, gap_at_end_);
+    paths_ = hn::IfThenElse(is_better, paths, paths_);
+  }
+
+  const TrianglesThen& begin_;
+  const TrianglesThen& end_;
+  const PairVectors& motion_;
+  PairNumbers gap_;
+  PairVectors n_;
+  PairNumbers gap_at_begin_;
+  PairNumbers gap_at_end_;
+  PairNumbers paths_;
+};
+
+HWY_INLINE void separate_some_by_normals(const geometry::TrianglesToMeasure& triangles, const CornerMap& map_at_begin,
+                                         const CornerMap& map_at_end, double gap, std::size_t first,
+                                         PairsOnPath& pairs) {
+  const PairTag d;
+  const PairTriangles part = load(triangles.b, first);
+  const PairTriangles obstacle = load(triangles.a, first);
+  const TrianglesThen begin{obstacle, mapped(map_at_begin, part)};
+  const TrianglesThen end{obstacle, mapped(map_at_end, part)};
+  const PairVectors motion = normalized(minus(sum_of_corners(end.part), sum_of_corners(begin.part)));
+  const PairVectors of_obstacle = normal_of(obstacle);
+  PairVectors of_part = normal_of(begin.part);
+  of_part = turned_if(hn::Lt(dot(of_part, of_obstacle), hn::Zero(d)), of_part);
+  Separator separator(begin, end, motion, gap);
+  separator.look(plus(of_obstacle, of_part));
+  separator.look(of_obstacle);
+  separator.look(of_part);
+  store(obstacle, pairs.begin.a, first);
+  store(begin.part, pairs.begin.b, first);
+  store(obstacle, pairs.end.a, first);
+  store(end.part, pairs.end.b, first);
+  store(motion, pairs.motion, first);
+  separator.store_to(pairs, first);
+}
+
+}  // namespace
+
+void separate_by_normals(const geometry::TrianglesToMeasure& triangles, const CornerMap& begin, const CornerMap& end,
+                         double gap, PairsOnPath& pairs) {
+  for (std::size_t first = 0; first < geometry::kPairsToMeasure; first += hn::Lanes(PairTag()))
+    separate_some_by_normals(triangles, begin, end, gap, first, pairs);
+}
+
+void separate_by_points(const geometry::ClosestPoints& points, double gap, PairsOnPath& pairs) {
+  for (std::size_t first = 0; first < geometry::kPairsToMeasure; first += hn::Lanes(PairTag())) {
+    const TrianglesThen begin{load(pairs.begin.a, first), load(pairs.begin.b, first)};
+    const TrianglesThen end{load(pairs.end.a, first), load(pairs.end.b, first)};
+    const PairVectors motion = load(pairs.motion, first);
+    Separator separator(begin, end, motion, gap);
+    separator.resume(pairs, first);
+    separator.look(minus(load(points.p_b, first), load(points.p_a, first)));
+    separator.store_to(pairs, first);
+  }
+}
+
+}  // namespace glissade::haptics::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace glissade::haptics {
+namespace {
+
+HWY_EXPORT(separate_by_normals);
+HWY_EXPORT(separate_by_points);
+
+}  // namespace
+
+void separate_by_normals(const geometry::TrianglesToMeasure& triangles, const CornerMap& begin, const CornerMap& end,
+                         double gap, PairsOnPath& pairs) {
+  HWY_DYNAMIC_DISPATCH(separate_by_normals)(triangles, begin, end, gap, pairs);
+}
+
+void separate_by_points(const geometry::ClosestPoints& points, double gap, PairsOnPath& pairs) {
+  HWY_DYNAMIC_DISPATCH(separate_by_points)(points, gap, pairs);
+}
+
+}  // namespace glissade::haptics
+#endif

@@ -1,0 +1,41 @@
+#pragma once
+
+/// The vector code of lasting separations: directions that separate eight pairs of triangles at both ends of a path.
+/// The same bits with every instruction set.
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include <glissade/geometry/triangle_pair.h>
+
+namespace glissade::haptics {
+
+using NumbersOfPairs = std::array<double, geometry::kPairsToMeasure>;
+
+/// Maps the coordinates x of a part's corners to those of the obstacle's frame: A x + t.
+struct CornerMap {
+  Eigen::Matrix3d A;
+  Eigen::Vector3d t;  ///< metres
+};
+
+/// Eight pairs on a path, in the frame of the obstacle, which stays; and the best direction found for each.
+struct alignas(64) PairsOnPath {
+  geometry::TrianglesToMeasure begin;  ///< the obstacle's triangles, and the part's
+  geometry::TrianglesToMeasure end;
+  geometry::VectorsOfPairs motion;  ///< of the part's centre: a unit vector, or zero
+  geometry::VectorsOfPairs n;       ///< unit, from the obstacle to the part; zero if none was found
+  NumbersOfPairs gap_at_begin;      ///< metres, along n
+  NumbersOfPairs gap_at_end;
+  NumbersOfPairs paths;  ///< how many such paths n serves for; negative if it does not for this one
+};
+
+/// Sets all of `pairs` for triangles of the obstacle, and of the part in its own frame. n is the best of the normals of
+/// both triangles, the one between, and these across the motion.
+void separate_by_normals(const geometry::TrianglesToMeasure& triangles, const CornerMap& begin, const CornerMap& end,
+                         double gap, PairsOnPath& pairs);
+
+/// Also tries the directions from one point to the other, and these across the motion.
+void separate_by_points(const geometry::ClosestPoints& points, double gap, PairsOnPath& pairs);
+
+}  // namespace glissade::haptics
