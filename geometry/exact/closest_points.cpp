@@ -15,6 +15,8 @@ namespace glissade::geometry::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
+constexpr int kCorrections = 2;
+
 using Tag = hn::CappedTag<double, kPairsToMeasure>;
 using V = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
@@ -176,14 +178,16 @@ class Measurement {
   HWY_INLINE static Vector3 gap_to_face(const Vector3& point, const Face& face, Mask& inside) {
     const Tag d;
     const Vector3 offset = minus(face.corners[0], point);
-    V first_u;
-    V first_v;
-    face_coordinates(face, negative(offset), first_u, first_v);
     V u;
     V v;
-    face_coordinates(face, negative(gap_at(offset, face, first_u, first_v)), u, v);
-    u = hn::Add(first_u, u);
-    v = hn::Add(first_v, v);
+    face_coordinates(face, negative(offset), u, v);
+    for (int i = 0; i < kCorrections; ++i) {
+      V more_u;
+      V more_v;
+      face_coordinates(face, negative(gap_at(offset, face, u, v)), more_u, more_v);
+      u = hn::Add(u, more_u);
+      v = hn::Add(v, more_v);
+    }
     inside = hn::And(hn::And(hn::Ge(u, hn::Zero(d)), hn::Ge(v, hn::Zero(d))), hn::Le(hn::Add(u, v), hn::Set(d, 1.0)));
     return gap_at(offset, face, u, v);
   }

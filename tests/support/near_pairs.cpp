@@ -102,7 +102,8 @@ std::vector<NearPair> NearPairs::within(const Isometry3d& X_AB, double limit) co
       double distance = 0.0;
       if (!box_a.intersects(box_b) || !cgal_intersect(a, b)) {
         if (rough_distance(a, b) > reach) continue;
-        distance = quad_distance(a, b);
+        // They are apart, even where quadruple precision loses the gap.
+        distance = std::max(quad_distance(a, b), std::numeric_limits<double>::min());
       }
       const double doubt = 1e-12 * distance + 128.0 * kRounding * extent_of(a, b);
       result.push_back({{i, triangles_B_[j]}, distance, doubt});
