@@ -166,11 +166,9 @@ class DistanceSearch {
     std::array<int, kWidth * kWidth> order;
     std::size_t count = 0;
     const PairMask pairs = step_.pairs_of(nodes);
-    PairMask near = 0;
-    for (PairMask rest = pairs; rest != 0; rest &= rest - 1) {
+    PairMask near = pairs & below_threshold(bounds.bound);
+    for (PairMask rest = near; rest != 0; rest &= rest - 1) {
       const int pair = std::countr_zero(rest);
-      if (!(bound_of(bounds, pair) < threshold_)) continue;
-      near |= 1U << pair;
       std::size_t place = count++;  // in ascending order of the bounds
       for (; place > 0 && bound_of(bounds, order[place - 1]) > bound_of(bounds, pair); --place)
         order[place] = order[place - 1];
@@ -214,8 +212,9 @@ class DistanceSearch {
         compare(leaf_M, leaf_N, std::countr_zero(rest));
     } else {
       step_.along(direction_, leaves_);
-      PairMask near = below_threshold(present);
-      if (near != 0) near = below_threshold(step_.edges(leaves_, near));
+      PairMask near = present & below_threshold(leaves_.gaps.gap);
+      if (near != 0) near = step_.edges(leaves_, near);
+      near &= below_threshold(leaves_.gaps.gap);
       while (near != 0) {
         const int nearest = nearest_of(near);
         near &= ~(1U << nearest);
@@ -223,7 +222,7 @@ class DistanceSearch {
         leaves_.gaps.gap[static_cast<std::size_t>(nearest)] = gap_of_compared();
         if (!is_nearer) continue;
         step_.along(direction_, leaves_);
-        near = below_threshold(near);
+        near &= below_threshold(leaves_.gaps.gap);
       }
     }
     if (present != 0) add_entry({leaf_M, leaf_N, kAllPairs}, true, gap_of(nearest_of(present)));
@@ -246,11 +245,11 @@ class DistanceSearch {
 
   float gap_of(int pair) const { return leaves_.gaps.gap[static_cast<std::size_t>(pair)]; }
 
-  PairMask below_threshold(PairMask pairs) const {
+  // Without branches: which bounds are below can hardly be foreseen.
+  PairMask below_threshold(const std::array<float, kWidth * kWidth>& bounds) const {
     PairMask below = 0;
-    for (PairMask rest = pairs; rest != 0; rest &= rest - 1) {
-      if (gap_of(std::countr_zero(rest)) < threshold_) below |= rest & -rest;
-    }
+    for (std::size_t i = 0; i < bounds.size(); ++i)
+      below |= static_cast<PairMask>(bounds[i] < threshold_) << i;
     return below;
   }
 

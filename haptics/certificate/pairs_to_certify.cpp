@@ -111,8 +111,6 @@ void find_pairs_to_certify(const ContactScene& scene, std::span<const PlacedBody
       collision::traverse_near(search.tree_O(), search.tree_V(), search.X_OV(), radius, workspace, search);
     }
   }
-  std::stable_sort(to_certify.begin(), to_certify.end(),
-                   [](const PairToCertify& a, const PairToCertify& b) { return a.distance < b.distance; });
 }
 
 }  // namespace glissade::haptics

@@ -37,9 +37,9 @@ struct PairToCertify {
   Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part; zero where triangles touched
 };
 
-/// Replaces `to_certify` by the pairs within `radius` (metres) of each other at the poses of `bodies`, nearest first,
-/// except pairs of `ignored` bodies, in ascending order. `bodies` has the bodies of the scene in their order; the scene
-/// itself supplies margins only.
+/// Replaces `to_certify` by the pairs within `radius` (metres) of each other at the poses of `bodies`, except
+/// pairs of `ignored` bodies, which are in ascending order. `bodies` has the bodies of the scene in their order; the
+/// scene itself supplies margins only.
 void find_pairs_to_certify(const ContactScene& scene, std::span<const PlacedBody> bodies, double radius,
                            std::span<const BodyPair> ignored, collision::QueryWorkspace& workspace,
                            std::vector<PairToCertify>& to_certify);

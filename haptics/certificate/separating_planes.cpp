@@ -19,7 +19,11 @@ constexpr double kSlackOfGap = 32.0 / (1 << 24);
 
 }  // namespace
 
-PlanesOfBodies::PlanesOfBodies(const BodyPair& pair, std::span<const PlacedBody> bodies) : pair_(pair) {
+void PlanesOfBodies::start(const BodyPair& pair, std::span<const PlacedBody> bodies) {
+  pair_ = pair;
+  farthest_ = 0.0;
+  numbers_.clear();
+  blocks_.clear();
   const PlacedBody& obstacle = bodies[static_cast<std::size_t>(pair.obstacle)];
   const PlacedBody& part = bodies[static_cast<std::size_t>(pair.part)];
   c_V_ = part.body->tree.center();

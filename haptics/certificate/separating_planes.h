@@ -18,8 +18,9 @@ namespace glissade::haptics {
 /// The planes of the pairs of two bodies. Not thread-safe.
 class PlanesOfBodies {
  public:
-  /// `bodies` are at the poses near which gaps will be asked for: the error of a gap grows with the way from there.
-  PlanesOfBodies(const BodyPair& pair, std::span<const PlacedBody> bodies);
+  /// Begins anew, with no pair. `bodies` are at the poses near which gaps will be asked for: the error of a gap grows
+  /// with the way from there.
+  void start(const BodyPair& pair, std::span<const PlacedBody> bodies);
 
   const BodyPair& bodies() const { return pair_; }
   /// Adds a pair with a number that its owner gives it. Where n_W is zero, the direction is unknown, and so is the gap.
@@ -41,10 +42,11 @@ class PlanesOfBodies {
   void turn(std::size_t slot, const ContactBody& obstacle, std::int32_t obstacle_triangle, const Eigen::Vector3d& n_O);
 
  private:
-  BodyPair pair_;
-  Eigen::Vector3d c_V_;  // corners of the part are relative to this point, heights to this one of the obstacle
-  Eigen::Vector3d o_O_;
-  double radius_;          // metres: of the part about c_V
+  BodyPair pair_{};
+  // Corners of the part are relative to this point, heights to this one of the obstacle.
+  Eigen::Vector3d c_V_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d o_O_ = Eigen::Vector3d::Zero();
+  double radius_ = 0.0;    // metres: of the part about c_V
   double farthest_ = 0.0;  // metres: of a corner of the obstacle from o_O
   std::vector<std::uint32_t> numbers_;
   std::vector<PlaneBlock> blocks_;

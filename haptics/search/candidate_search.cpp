@@ -20,39 +20,33 @@ Eigen::Vector3d direction_of(const collision::ClosePair& pair) {
   return (pair.p_B - pair.p_A).normalized();
 }
 
-PlanesOfBodies& planes_of(const BodyPair& pair, std::span<const PlacedBody> bodies,
-                          std::vector<PlanesOfBodies>& planes) {
-  const auto known =
-      std::find_if(planes.begin(), planes.end(), [&](const PlanesOfBodies& some) { return some.bodies() == pair; });
-  return known != planes.end() ? *known : planes.emplace_back(pair, bodies);
-}
+/// Planes of pairs of bodies. The memory of the last search serves again.
+class PlanesOfSearch {
+ public:
+  PlanesOfSearch(std::span<const PlacedBody> bodies, std::vector<PlanesOfBodies>& planes)
+      : bodies_(bodies), planes_(planes) {}
 
-void find_planes(std::span<const CandidatePair> pairs, std::span<const PlacedBody> bodies,
-                 std::vector<PlanesOfBodies>& planes) {
-  planes.clear();
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const CandidatePair& pair = pairs[i];
-    planes_of(pair.bodies, bodies, planes)
-        .add(static_cast<std::uint32_t>(i), pair.obstacle_triangle, pair.part_triangle, pair.n_W, bodies);
+  /// Adds a pair with its place as the number.
+  void add(std::uint32_t place, const TrianglesOfBodies& pair, const Eigen::Vector3d& n_W) {
+    planes_of(pair.bodies).add(place, pair.obstacle_triangle, pair.part_triangle, n_W, bodies_);
   }
-}
+  void finish() { planes_.erase(planes_.begin() + static_cast<std::ptrdiff_t>(used_), planes_.end()); }
 
-/// The planes of pairs of triangles, each pair with its place among `pairs` as its number; the places of the others.
-void find_planes(std::span<const PairToCertify> pairs, std::span<const PlacedBody> bodies,
-                 std::vector<PlanesOfBodies>& planes, std::vector<std::uint32_t>& others) {
-  planes.clear();
-  others.clear();
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const PairToCertify& pair = pairs[i];
-    if (pair.item_O.kind != TreeItem::Kind::kTriangle) {
-      others.push_back(static_cast<std::uint32_t>(i));
-      continue;
-    }
-    planes_of(pair.bodies, bodies, planes)
-        .add(static_cast<std::uint32_t>(i), static_cast<std::int32_t>(pair.item_O.number),
-             static_cast<std::int32_t>(pair.item_V.number), pair.n_W, bodies);
+ private:
+  PlanesOfBodies& planes_of(const BodyPair& pair) {
+    const std::span<PlanesOfBodies> used = std::span(planes_).first(used_);
+    const auto known =
+        std::find_if(used.begin(), used.end(), [&](const PlanesOfBodies& some) { return some.bodies() == pair; });
+    if (known != used.end()) return *known;
+    if (used_ == planes_.size()) planes_.emplace_back();
+    planes_[used_].start(pair, bodies_);
+    return planes_[used_++];
   }
-}
+
+  std::span<const PlacedBody> bodies_;
+  std::vector<PlanesOfBodies>& planes_;
+  std::size_t used_ = 0;
+};
 
 template <typename Body>
 collision::ObjectDescription description(const std::shared_ptr<const Body>& body, const Eigen::Isometry3d& X_WB,
@@ -105,9 +99,29 @@ void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
   set.report = near.report;
   collect_pairs(near, set.pairs);
   find_pairs_to_certify(scene_, bodies_, request.radius, request.ignored, workspace_, set.to_certify);
-  if (!request.has_planes) return;
-  find_planes(set.pairs, bodies_, set.planes_of_pairs);
-  find_planes(set.to_certify, bodies_, set.planes, set.box_pairs);
+  nearest_first_.sort(set.pairs, unsorted_pairs_);
+  nearest_first_.sort(set.to_certify, unsorted_to_certify_);
+  if (request.has_planes) find_planes(set);
+}
+
+void CandidateSearch::find_planes(CandidateSet& set) const {
+  PlanesOfSearch of_pairs(bodies_, set.planes_of_pairs);
+  for (std::uint32_t place = 0; place < set.pairs.size(); ++place)
+    of_pairs.add(place, set.pairs[place], set.pairs[place].n_W);
+  of_pairs.finish();
+  PlanesOfSearch to_certify(bodies_, set.planes);
+  set.box_pairs.clear();
+  for (std::uint32_t place = 0; place < set.to_certify.size(); ++place) {
+    const PairToCertify& pair = set.to_certify[place];
+    if (pair.item_O.kind == TreeItem::Kind::kTriangle) {
+      const TrianglesOfBodies triangles{pair.bodies, static_cast<std::int32_t>(pair.item_O.number),
+                                        static_cast<std::int32_t>(pair.item_V.number)};
+      to_certify.add(place, triangles, pair.n_W);
+    } else {
+      set.box_pairs.push_back(place);
+    }
+  }
+  to_certify.finish();
 }
 
 void CandidateSearch::ignore(const std::vector<BodyPair>& bodies) {
@@ -135,8 +149,6 @@ void CandidateSearch::collect_pairs(const collision::FrameResult& near, std::vec
                        obstacle.X_WB.linear() * direction_of(pair)});
     }
   }
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const CandidatePair& a, const CandidatePair& b) { return a.distance < b.distance; });
 }
 
 }  // namespace glissade::haptics

@@ -16,6 +16,7 @@
 #include "certificate/separating_planes.h"
 #include "scene/contact_scene.h"
 #include "search/feature_pairs.h"
+#include "search/nearest_first.h"
 
 namespace glissade::haptics {
 
@@ -76,6 +77,7 @@ class CandidateSearch {
  private:
   void ignore(const std::vector<BodyPair>& bodies);
   void collect_pairs(const collision::FrameResult& near, std::vector<CandidatePair>& pairs) const;
+  void find_planes(CandidateSet& set) const;
 
   const ContactScene& scene_;
   collision::WorkMeter* meter_;
@@ -87,6 +89,9 @@ class CandidateSearch {
   std::optional<collision::World> world_;
   std::optional<collision::CollisionPipeline> pipeline_;  // of the world
   collision::QueryWorkspace workspace_;
+  NearestFirst nearest_first_;
+  std::vector<CandidatePair> unsorted_pairs_;       // scratch memory
+  std::vector<PairToCertify> unsorted_to_certify_;  // the same
 };
 
 }  // namespace glissade::haptics

@@ -82,15 +82,13 @@ TEST_F(PairsToCertify, HoldsEveryPairOfTrianglesWithinTheRadiusOnce) {
   EXPECT_GT(triangles, 50U);
 }
 
-TEST_F(PairsToCertify, TellsLowerBoundsOfDistancesInAscendingOrder) {
+TEST_F(PairsToCertify, TellsLowerBoundsOfDistances) {
   for (int trial = 0; trial < test_support::affordable(80); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     const double margin = random_margin();
     const auto scene = test_support::random_contact_scene(kSize, margin, margin, random_);
     const std::span<const PlacedBody> bodies = scene->bodies();
     const std::vector<PairToCertify> to_certify = pairs_to_certify_of(*scene, random_.power_of_ten(-4.0, -3.0));
-    EXPECT_TRUE(std::is_sorted(to_certify.begin(), to_certify.end(),
-                               [](const PairToCertify& a, const PairToCertify& b) { return a.distance < b.distance; }));
     for (const PairToCertify& pair_to_certify : to_certify) {
       ASSERT_NEAR(pair_to_certify.n_W.norm(), 1.0, 1e-12);
       for (const TrianglesOfBodies& pair : test_support::triangles_of(bodies, pair_to_certify)) {

@@ -54,7 +54,7 @@ struct RandomPlanes {
       pairs.push_back(pair);
       directions_O.push_back(random.direction());
     }
-    planes.emplace(bodies_of_pairs, bodies);
+    planes.emplace().start(bodies_of_pairs, bodies);
     const Eigen::Matrix3d& R_WO = bodies[0].X_WB.linear();
     for (std::uint32_t i = 0; i < pairs.size(); ++i) {
       const bool is_last = i + 1 == pairs.size();
