@@ -68,7 +68,7 @@ std::vector<NumberedTriangle> triangles_of(const TriangleMesh& mesh, const Eigen
   triangles.reserve(mesh.triangles.size());
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh.triangles.size()); ++i) {
     // Degeneracy is decided before the pose is applied, as in the trees.
-    if (geometry::is_degenerate({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)})) continue;
+    if (geometry::is_degenerate(mesh.corners(i))) continue;
     triangles.push_back({i, {X * mesh.corner(i, 0), X * mesh.corner(i, 1), X * mesh.corner(i, 2)}});
   }
   return triangles;

@@ -27,7 +27,7 @@ constexpr double kMostBeside = 0.02;
 constexpr double kSharp_m = 1e-9;
 
 geometry::TrianglePoints points(const geometry::TriangleMesh& mesh, std::int32_t triangle) {
-  return {mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)};
+  return mesh.corners(triangle);
 }
 
 /// How far a point of the part has moved at most between two poses, metres.

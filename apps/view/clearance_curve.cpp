@@ -58,7 +58,7 @@ double ClearanceCurve::distance_of(const Pair& pair, const Eigen::Isometry3d& X_
   const Body& body = bodies_[pair.body];
   const Eigen::Isometry3d X_BV = body.X_WB.inverse(Eigen::Isometry) * X_WV;
   const auto points = [](const geometry::TriangleMesh& mesh, std::int32_t triangle) -> geometry::TrianglePoints {
-    return {mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)};
+    return mesh.corners(triangle);
   };
   const geometry::TrianglePoints of_body = points(body.body_B->tree.mesh(), pair.triangles.triangle_A);
   geometry::TrianglePoints of_part = points(part_V_.tree.mesh(), pair.triangles.triangle_B);

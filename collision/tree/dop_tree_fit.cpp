@@ -209,8 +209,7 @@ std::int64_t fit_leaves(const geometry::TriangleMesh& mesh, const TreeGrid& grid
         continue;
       }
       const std::int32_t triangle = leaf.triangle[t] < 0 ? -1 - leaf.triangle[t] : leaf.triangle[t];
-      const geometry::TrianglePoints points{mesh.corner(triangle, 0), mesh.corner(triangle, 1),
-                                            mesh.corner(triangle, 2)};
+      const geometry::TrianglePoints points = mesh.corners(triangle);
       const bool has_area = !geometry::is_degenerate(points);
       leaf.triangle[t] = has_area ? triangle : -1 - triangle;
       if (!has_area) ++degenerate;

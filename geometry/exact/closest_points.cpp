@@ -8,14 +8,14 @@
 
 #include <glissade/geometry/triangle_pair.h>
 
+#include "exact/face_corrections.h"
+
 // Every operation is that of triangle_distance.cpp, in the same order and without fused multiply-add, so
 // that every rounding is the same. There are the reasons too.
 HWY_BEFORE_NAMESPACE();
 namespace glissade::geometry::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr int kCorrections = 2;
 
 using Tag = hn::CappedTag<double, kPairsToMeasure>;
 using V = hn::Vec<Tag>;
@@ -138,8 +138,10 @@ class Measurement {
     hn::Store(from.z, Tag(), to[2].data() + first);
   }
 
-  // Whether the direction from point to point separates the triangles. The points may be any: only the differences of
-  // corners and points, and products with the direction, are rounded, by less than the uncertainty.
+  // Whether the direction from point to point separates the triangles. The points need not be the closest ones; they
+  // lie within the reach that the uncertainty is about. Differences of corners and points, the direction and the
+  // products are rounded by less than 8 units of the reach's square in all, the uncertainty is 16, and half of a
+  // distance squared of more than 4 times the uncertainty must be left.
   HWY_INLINE Mask are_apart() const {
     const Tag d;
     const Vector3 n = minus(p_b_, p_a_);
@@ -181,7 +183,7 @@ class Measurement {
     V u;
     V v;
     face_coordinates(face, negative(offset), u, v);
-    for (int i = 0; i < kCorrections; ++i) {
+    for (int i = 0; i < kFaceCorrections; ++i) {
       V more_u;
       V more_v;
       face_coordinates(face, negative(gap_at(offset, face, u, v)), more_u, more_v);

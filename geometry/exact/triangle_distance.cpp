@@ -6,6 +6,8 @@
 
 #include <glissade/geometry/triangle_pair.h>
 
+#include "exact/face_corrections.h"
+
 namespace glissade::geometry {
 namespace {
 
@@ -91,17 +93,13 @@ FaceCoordinates face_coordinates(const Face& face, const Vector3d& vector) {
   return {face.edges[2].dot(turned) / face.squared_normal, face.edges[0].dot(turned) / face.squared_normal};
 }
 
-// Steps on the remainder after the first: they remove the error that the rounded normal of a thin triangle causes. One
-// suffices for most, the second for needles a billion times as long as wide.
-constexpr int kCorrections = 2;
-
 // The vector from `point` to the nearest point of the face's plane. `inside` reports whether that point lies inside the
 // face.
 Vector3d gap_to_face(const Vector3d& point, const Face& face, bool& inside) {
   const Vector3d offset = face.corners[0] - point;
   FaceCoordinates at = face_coordinates(face, -offset);
   const auto gap = [&]() -> Vector3d { return offset + at.u * face.edges[0] - at.v * face.edges[2]; };
-  for (int i = 0; i < kCorrections; ++i) {
+  for (int i = 0; i < kFaceCorrections; ++i) {
     const FaceCoordinates correction = face_coordinates(face, -gap());
     at.u += correction.u;
     at.v += correction.v;

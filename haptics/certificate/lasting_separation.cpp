@@ -16,6 +16,10 @@ void LastingSeparations::start(const CornerMap& begin, const CornerMap& end, dou
   begin_ = begin;
   end_ = end;
   gap_ = gap;
+  clear();
+}
+
+void LastingSeparations::clear() {
   count_ = 0;
 }
 
@@ -32,10 +36,10 @@ std::span<const Separation> LastingSeparations::find() {
   if (!all_pairs_last(kEnoughPaths)) {
     geometry::ClosestPoints closest;
     geometry::find_closest_points(on_path_.begin, closest);
-    separate_by_points(closest, gap_, on_path_);
+    separate_by_points(closest, gap_, kEnoughPaths, on_path_);
     if (!all_pairs_last(0.0)) {
       geometry::find_closest_points(on_path_.end, closest);
-      separate_by_points(closest, gap_, on_path_);
+      separate_by_points(closest, gap_, 0.0, on_path_);
     }
   }
   const std::size_t count = std::exchange(count_, 0);

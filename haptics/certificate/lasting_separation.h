@@ -28,7 +28,10 @@ struct Separation {
 class LastingSeparations {
  public:
   /// Begins with no pair. The corners of the part go from `begin` to `end` in the frame of the obstacle, which stays.
+  /// `gap` in metres.
   void start(const CornerMap& begin, const CornerMap& end, double gap);
+  /// Forgets the pairs that were added.
+  void clear();
 
   std::size_t count() const { return count_; }
   bool is_full() const { return count_ == geometry::kPairsToMeasure; }
@@ -36,10 +39,11 @@ class LastingSeparations {
   void add(const geometry::TrianglePoints& obstacle_O, const geometry::TrianglePoints& part_V);
 
   /// For each pair added since the last call, in order: of a few directions the one that would keep the triangles apart
-  /// by `gap` (metres) for the most paths like this one, or else one that separates them by as much as any at both
-  /// ends. The directions are the normals of both triangles, one between both, and those of the closest points, all
-  /// these also across the motion. Those of the closest points separate the most, but where triangles slide towards
-  /// each other they serve for a short way only. Valid until the next call.
+  /// by `gap` for the most paths like this one, or else one that separates them by as much as any at both ends. The
+  /// directions are the normals of both triangles, one between both, and these across the motion. Where none serves for
+  /// this path and another one, the direction of the closest points at the beginning is tried, and where this one
+  /// fails, that at the end. They separate the most, but where triangles slide towards each other they serve for a
+  /// short way only. Valid until the next call.
   std::span<const Separation> find();
 
  private:

@@ -4,17 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include <glissade/base/assert.h>
+
 #include "certificate/leaf_in_world.h"
 
 namespace glissade::haptics {
 namespace {
 
-// Work of the proof of a pair of boxes, of leaves, of triangles that a known direction separates, of other triangles,
-// and of each stretch of a path that needs distances: in the unit of `collision::WorkMeter`: rough. Steps take 0.4 ns a
-// unit.
+// Work of the proof of a pair of boxes, of leaves, of triangles that a known direction separates or that vector code
+// looks at, of other triangles, and of each stretch of a path that needs distances: in the unit of
+// `collision::WorkMeter`: rough. Steps take 0.4 ns a unit.
 constexpr std::int64_t kWorkOfBoxes = 60;
 constexpr std::int64_t kWorkOfLeaves = 300;
-constexpr std::int64_t kWorkOfKnownDirection = 60;
+constexpr std::int64_t kWorkOfLook = 60;
 constexpr std::int64_t kWorkOfTriangles = 150;
 constexpr std::int64_t kWorkOfStretch = 1000;
 
@@ -46,13 +48,12 @@ void PathCertificate::begin_step(std::span<const geometry::Displacement> displac
   keeps_directions_ = true;
   rounding_ = certain_distance();
   most_taken_.reset();
-  obstacle_ = {};
-  part_ = {};
+  forget_bodies();
 }
 
 std::optional<PathOfBodies> PathCertificate::path_of(const BodyPair& bodies) {
   select(bodies);
-  if (obstacle_moves_) return std::nullopt;
+  if (!seeks_lasting_directions()) return std::nullopt;
   return PathOfBodies{relative_pose(*obstacle_.X_WB[0], *part_.X_WB[0]),
                       relative_pose(*obstacle_.X_WB[1], *part_.X_WB[1]), needed_, far_};
 }
@@ -63,9 +64,15 @@ void PathCertificate::begin(const BodiesMotion& motion, std::size_t first_mover,
   keeps_directions_ = false;
   rounding_ = certain_distance();
   most_taken_ = most_taken;
+  forget_bodies();
+  begin(to_certify);
+}
+
+/// Also pairs of theirs that an exception left behind.
+void PathCertificate::forget_bodies() {
   obstacle_ = {};
   part_ = {};
-  begin(to_certify);
+  separations_.clear();
 }
 
 void PathCertificate::begin(std::span<const PairToCertify> to_certify) {
@@ -113,6 +120,7 @@ void PathCertificate::prove(const PairToCertify& pair_to_certify, WorkBudget& bu
 
 /// Makes `bodies` the pair at hand.
 void PathCertificate::select(const BodyPair& bodies) {
+  GLISSADE_ASSERT(separations_.count() == 0);
   obstacle_ = moving(bodies.obstacle);
   part_ = moving(bodies.part);
   obstacle_moves_ = bodies_.moves(bodies.obstacle);
@@ -123,12 +131,6 @@ void PathCertificate::select(const BodyPair& bodies) {
   far_ = bodies_.motion(bodies.obstacle) + bodies_.motion(bodies.part) + min_clearance_ + rounding_;
   needed_ = min_clearance_ + rounding_ + bodies_.curvature(bodies.obstacle, 0, MovingBodies::kMoments) +
             bodies_.curvature(bodies.part, 0, MovingBodies::kMoments);
-  if (!seeks_lasting_directions()) return;
-  const auto map = [&](std::size_t end) -> CornerMap {
-    const Eigen::Isometry3d X_OV = relative_pose(*obstacle_.X_WB[end], *part_.X_WB[end]);
-    return {X_OV.linear(), X_OV.translation()};
-  };
-  separations_.start(map(0), map(1), needed_ + rounding_);
 }
 
 PathCertificate::MovingBody PathCertificate::moving(std::int32_t body) {
@@ -186,7 +188,7 @@ bool PathCertificate::separates(const Eigen::Vector3d& n_W, const MovingItem& it
 }
 
 /// Whether the direction n_W separates two triangles on the whole path, by one rounding more than `TriangleCertificate`
-/// demands, so that both always agree. Most pairs need no more.
+/// demands, so that both always agree. Most pairs of bodies that both move, and of hands, need no more.
 bool PathCertificate::separates(const Eigen::Vector3d& n_W, std::int32_t triangle_O, std::int32_t triangle_V) const {
   const double enough = needed_ + rounding_;
   double top = heights_of(*obstacle_.body, *obstacle_.X_WB[0], triangle_O, n_W).top;
@@ -211,16 +213,25 @@ void PathCertificate::prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_V, W
 
 void PathCertificate::prove(const Triangles& triangles, WorkBudget& budget) {
   if (seeks_lasting_directions()) {
-    budget.spend(kWorkOfTriangles);
+    budget.spend(kWorkOfLook);
+    if (separations_.count() == 0) start_separations();
     separations_.add(obstacle_.body->tree.mesh().corners(triangles.of_obstacle),
                      part_.body->tree.mesh().corners(triangles.of_part));
     waiting_[separations_.count() - 1] = triangles;
     if (separations_.is_full()) prove_waiting(budget);
   } else if (separates(triangles.n_hint, triangles.of_obstacle, triangles.of_part)) {
-    budget.spend(kWorkOfKnownDirection);
+    budget.spend(kWorkOfLook);
   } else {
     certify(triangles, budget);
   }
+}
+
+void PathCertificate::start_separations() {
+  const auto map = [&](std::size_t end) -> CornerMap {
+    const Eigen::Isometry3d X_OV = relative_pose(*obstacle_.X_WB[end], *part_.X_WB[end]);
+    return {X_OV.linear(), X_OV.translation()};
+  };
+  separations_.start(map(0), map(1), needed_ + rounding_);
 }
 
 /// Certifies the triangles that wait for vector code.

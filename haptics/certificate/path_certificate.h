@@ -67,12 +67,12 @@ class PathCertificate {
   /// of every margin, if this is given.
   void begin(const BodiesMotion& motion, std::size_t first_mover, std::span<const PairToCertify> to_certify,
              std::optional<double> most_taken);
-  /// Goes on until all pairs have been looked at or the budget is used up, at least with one pair of boxes, leaves or
-  /// triangles. Returns whether all have been.
+  /// Goes on until all pairs have been looked at or the budget is used up, at least with one pair of boxes or leaves or
+  /// up to eight of triangles. Returns whether all have been.
   bool go_on(WorkBudget& budget);
   /// The triangle pairs that could not be certified so far.
   const std::vector<UncertifiedPair>& failures() const { return failures_; }
-  /// Triangle pairs among those to certify that needed another direction than theirs, with the one that was found.
+  /// Triangle pairs among those to certify for which a direction was sought, with the one that was found.
   std::span<const SeparatedPair> separated() const { return separated_; }
 
   /// Smallest distance (metres) that is certain in spite of rounding, for the present poses of the bodies.
@@ -105,6 +105,7 @@ class PathCertificate {
     std::size_t place;       ///< among the pairs to certify, if it is itself one of these
   };
 
+  void forget_bodies();
   void select(const BodyPair& bodies);
   /// Whether directions are sought that serve for the next steps too. They are fixed to the obstacle.
   bool seeks_lasting_directions() const { return keeps_directions_ && !obstacle_moves_; }
@@ -116,6 +117,7 @@ class PathCertificate {
   bool separates(const Eigen::Vector3d& n_W, const MovingItem& item_O, const MovingItem& item_V) const;
   bool separates(const Eigen::Vector3d& n_W, std::int32_t triangle_O, std::int32_t triangle_V) const;
   void prove(const Triangles& triangles, WorkBudget& budget);
+  void start_separations();
   void prove_waiting(WorkBudget& budget);
   void certify(const Triangles& triangles, WorkBudget& budget);
   void note_direction(const Triangles& triangles, const Eigen::Vector3d& n_W);

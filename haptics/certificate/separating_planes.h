@@ -52,9 +52,11 @@ class PlanesOfBodies {
   std::vector<PlaneBlock> blocks_;
 };
 
-/// The pose of a body's part in the frame of its obstacle.
+/// The pose of a body's part in the frame of its obstacle. A pose may deviate from a rotation as far as `rigid_pose`
+/// allows, which is more than the rounding of a certificate. So its inverse is that of the matrix: then only gaps, not
+/// coordinates, are wrong by this share.
 inline Eigen::Isometry3d relative_pose(const Eigen::Isometry3d& X_WO, const Eigen::Isometry3d& X_WV) {
-  return X_WO.inverse(Eigen::Isometry) * X_WV;
+  return X_WO.inverse(Eigen::Affine) * X_WV;
 }
 
 }  // namespace glissade::haptics

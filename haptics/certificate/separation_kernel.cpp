@@ -113,15 +113,17 @@ class Separator {
     gap_at_begin_ = hn::Zero(d);
     gap_at_end_ = hn::Set(d, -std::numeric_limits<double>::infinity());
     paths_ = gap_at_end_;
+    is_open_ = hn::FirstN(d, hn::Lanes(d));
   }
 
-  /// Goes on where another one ended.
-  HWY_INLINE void resume(const PairsOnPath& pairs, std::size_t first) {
+  /// Goes on where another one ended, for pairs that have fewer than `enough` paths.
+  HWY_INLINE void resume(const PairsOnPath& pairs, std::size_t first, double enough) {
     const PairTag d;
     n_ = load(pairs.n, first);
     gap_at_begin_ = hn::Load(d, pairs.gap_at_begin.data() + first);
     gap_at_end_ = hn::Load(d, pairs.gap_at_end.data() + first);
     paths_ = hn::Load(d, pairs.paths.data() + first);
+    is_open_ = hn::Lt(paths_, hn::Set(d, enough));
   }
 
   HWY_INLINE void look(const PairVectors& n) {
@@ -168,7 +170,7 @@ class Separator {
     const PairNumbers more = hn::Sub(hn::Min(begin, end), gap_);
     const PairNumbers nearer = hn::Max(hn::Sub(begin, end), hn::Mul(hn::Set(d, kAlmostStill), gap_));
     const PairNumbers paths = hn::IfThenElse(hn::Lt(more, hn::Zero(d)), more, hn::Div(more, nearer));
-    const auto is_better = hn::Gt(paths, paths_);
+    const auto is_better = hn::And(is_open_, hn::Gt(paths, paths_));
     const PairVectors turned = turned_if(is_opposite, n);
     n_ = {hn::IfThenElse(is_better, turned.x, n_.x), hn::IfThenElse(is_better, turned.y, n_.y),
           hn::IfThenElse(is_better, turned.z, n_.z)};
@@ -185,6 +187,7 @@ class Separator {
   PairNumbers gap_at_begin_;
   PairNumbers gap_at_end_;
   PairNumbers paths_;
+  hn::Mask<PairTag> is_open_;  // pairs that may get another direction
 };
 
 HWY_INLINE void separate_some_by_normals(const geometry::TrianglesToMeasure& triangles, const CornerMap& map_at_begin,
@@ -219,13 +222,13 @@ void separate_by_normals(const geometry::TrianglesToMeasure& triangles, const Co
     separate_some_by_normals(triangles, begin, end, gap, first, pairs);
 }
 
-void separate_by_points(const geometry::ClosestPoints& points, double gap, PairsOnPath& pairs) {
+void separate_by_points(const geometry::ClosestPoints& points, double gap, double enough, PairsOnPath& pairs) {
   for (std::size_t first = 0; first < geometry::kPairsToMeasure; first += hn::Lanes(PairTag())) {
     const TrianglesThen begin{load(pairs.begin.a, first), load(pairs.begin.b, first)};
     const TrianglesThen end{load(pairs.end.a, first), load(pairs.end.b, first)};
     const PairVectors motion = load(pairs.motion, first);
     Separator separator(begin, end, motion, gap);
-    separator.resume(pairs, first);
+    separator.resume(pairs, first, enough);
     separator.look(minus(load(points.p_b, first), load(points.p_a, first)));
     separator.store_to(pairs, first);
   }
@@ -248,8 +251,8 @@ void separate_by_normals(const geometry::TrianglesToMeasure& triangles, const Co
   HWY_DYNAMIC_DISPATCH(separate_by_normals)(triangles, begin, end, gap, pairs);
 }
 
-void separate_by_points(const geometry::ClosestPoints& points, double gap, PairsOnPath& pairs) {
-  HWY_DYNAMIC_DISPATCH(separate_by_points)(points, gap, pairs);
+void separate_by_points(const geometry::ClosestPoints& points, double gap, double enough, PairsOnPath& pairs) {
+  HWY_DYNAMIC_DISPATCH(separate_by_points)(points, gap, enough, pairs);
 }
 
 }  // namespace glissade::haptics

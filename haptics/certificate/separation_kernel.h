@@ -35,7 +35,8 @@ struct alignas(64) PairsOnPath {
 void separate_by_normals(const geometry::TrianglesToMeasure& triangles, const CornerMap& begin, const CornerMap& end,
                          double gap, PairsOnPath& pairs);
 
-/// Also tries the directions from one point to the other, and these across the motion.
-void separate_by_points(const geometry::ClosestPoints& points, double gap, PairsOnPath& pairs);
+/// For pairs whose direction serves for fewer than `enough` paths, also tries the one from point to point, and this one
+/// across the motion.
+void separate_by_points(const geometry::ClosestPoints& points, double gap, double enough, PairsOnPath& pairs);
 
 }  // namespace glissade::haptics

@@ -13,14 +13,11 @@ std::uint32_t ordered(double value) {
   return (bits & kSign) != 0 ? ~bits : bits | kSign;
 }
 
-std::uint32_t place_of(std::uint64_t key) {
-  return static_cast<std::uint32_t>(key);
-}
-
 }  // namespace
 
 void NearestFirst::find_places() {
   keys_.clear();
+  keys_.reserve(distances_.size());
   for (const double distance : distances_)
     keys_.push_back(std::uint64_t{ordered(distance)} << 32U | static_cast<std::uint32_t>(keys_.size()));
   sort_keys_(keys_.data(), keys_.size(), hwy::SortAscending());

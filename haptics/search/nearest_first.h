@@ -17,17 +17,20 @@ class NearestFirst {
   template <typename Pair>
   void sort(std::vector<Pair>& pairs, std::vector<Pair>& scratch) {
     distances_.clear();
+    distances_.reserve(pairs.size());
     for (const Pair& pair : pairs)
       distances_.push_back(pair.distance);
     find_places();
     scratch.clear();
+    scratch.reserve(pairs.size());
     for (const std::uint64_t key : keys_)
-      scratch.push_back(pairs[static_cast<std::uint32_t>(key)]);
+      scratch.push_back(pairs[place_of(key)]);
     pairs.swap(scratch);
   }
 
  private:
-  /// Sets the lower halves of the keys to the places of the distances in ascending order.
+  static std::uint32_t place_of(std::uint64_t key) { return static_cast<std::uint32_t>(key); }
+  /// Sets the keys to those of the distances in ascending order.
   void find_places();
 
   std::vector<double> distances_;

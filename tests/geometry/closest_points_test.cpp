@@ -1,4 +1,5 @@
-// The vector code for distances of triangles gives the same bits as the code for one pair, with every instruction set.
+// The vector code for distances of triangles gives the same bits as the code for one pair, with every instruction set,
+// and never says of triangles that intersect that they are apart.
 
 #include <array>
 #include <cmath>

@@ -90,6 +90,18 @@ TEST(TriangleDistance, IsRightForNeedles) {
   EXPECT_NEAR(triangle_distance(needle, above).distance, 1e-3, 1e-15);
 }
 
+TEST(TriangleDistance, IsRightForNeedlesABillionTimesAsLongAsWide) {
+  // A corner comes within an attometre of the needle's face.
+  const TrianglePoints triangle{Vector3d(0x1.0ed249d38c6ap-8, 0x1.2d8c0264199b9p-2, 0x1.39408bcba20e4p-3),
+                                Vector3d(0x1.394cccc7be3d9p-4, 0x1.cd58411108b3dp-5, 0x1.ed32c9a124487p-5),
+                                Vector3d(0x1.833b3cb3f5eb7p-5, 0x1.9d13897588b14p-4, 0x1.fdaa1019cb99p-7)};
+  const TrianglePoints needle{Vector3d(-0x1.8823e0b179be4p-4, 0x1.46f6cf3faf4ddp-1, 0x1.e2a81a9017b13p-2),
+                              Vector3d(0x1.430d354f94656p-4, 0x1.8b67ea05747f4p-5, 0x1.bea3ee42ea9afp-5),
+                              Vector3d(0x1.c4ce4e9031a1p-6, 0x1.c59863b931938p-3, 0x1.6a232629af946p-3)};
+  EXPECT_GT(triangle_distance(triangle, needle).distance, 0.0);
+  EXPECT_LT(triangle_distance(triangle, needle).distance, 1e-15);
+}
+
 TEST(TriangleDistance, LooksFartherThanTheFirstSmallGap) {
   // The edge of b on the x axis passes 1e-8 above an edge of a, but a is tilted and meets it 1 m further on, less 1e-9.
   const TrianglePoints a{Vector3d(0, -1, 0), Vector3d(0, 1, 0), Vector3d(2, 0, 1.8e-8)};

@@ -80,7 +80,8 @@ TEST_P(LastingSeparation, IsAsWideAsItSaysAndNoWiderThanTheTrianglesAreApart) {
                    std::to_string(i));
       const TrianglePoints part_at_begin = mapped(pairs.begin, pairs.part[i]);
       const double at_begin = geometry::triangle_distance(pairs.obstacle[i], part_at_begin).distance;
-      const double at_end = geometry::triangle_distance(pairs.obstacle[i], mapped(pairs.end, pairs.part[i])).distance;
+      const TrianglePoints part_at_end = mapped(pairs.end, pairs.part[i]);
+      const double at_end = geometry::triangle_distance(pairs.obstacle[i], part_at_end).distance;
       if (at_begin > kGap && at_end > kGap) ++apart;
       const Separation& separation = separations[i];
       if (!(separation.least() >= kGap)) continue;
@@ -88,9 +89,11 @@ TEST_P(LastingSeparation, IsAsWideAsItSaysAndNoWiderThanTheTrianglesAreApart) {
       ASSERT_NEAR(separation.n_O.norm(), 1.0, 1e-12);
       ASSERT_LE(separation.begin, at_begin + 1e-15);
       ASSERT_LE(separation.end, at_end + 1e-15);
-      for (const Vector3d& x : part_at_begin) {
-        for (const Vector3d& y : pairs.obstacle[i])
+      for (const Vector3d& y : pairs.obstacle[i]) {
+        for (const Vector3d& x : part_at_begin)
           ASSERT_GE(separation.n_O.dot(x - y), separation.begin - 1e-15) << "from the obstacle to the part";
+        for (const Vector3d& x : part_at_end)
+          ASSERT_GE(separation.n_O.dot(x - y), separation.end - 1e-15) << "on the same side";
       }
     }
   }
@@ -121,6 +124,51 @@ TEST_P(LastingSeparation, OfCrossingEdgesIsThatOfTheClosestPoints) {
   EXPECT_NEAR(separation.n_O.z(), 1.0, 1e-12);
   EXPECT_NEAR(separation.begin, 0.01, 1e-12);
   EXPECT_NEAR(separation.end, 0.011, 1e-12);
+}
+
+// Where a part turns and nothing else serves.
+TEST_P(LastingSeparation, IsAtTimesThatOfTheClosestPointsAtTheEnd) {
+  constexpr std::uint64_t kSeed = 96;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  RandomNumbers random(kSeed);
+  const auto are_alike = [](const Vector3d& n, const Vector3d& other) { return n.cross(other).norm() < 1e-9; };
+  const auto normal = [](const TrianglePoints& t) -> Vector3d { return (t[1] - t[0]).cross(t[2] - t[0]).normalized(); };
+  int found_at_end = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const PairsOfTrial pairs(random);
+    const std::vector<Separation> separations = pairs.separations();
+    for (std::size_t i = 0; i < separations.size(); ++i) {
+      if (!(separations[i].least() >= kGap)) continue;
+      const Vector3d& n = separations[i].n_O;
+      const TrianglePoints part_at_begin = mapped(pairs.begin, pairs.part[i]);
+      const auto closest = [&](const TrianglePoints& part) -> Vector3d {
+        const geometry::TriangleDistance points = geometry::triangle_distance(pairs.obstacle[i], part);
+        return (points.p_b - points.p_a).normalized();
+      };
+      if (are_alike(n, closest(mapped(pairs.end, pairs.part[i]))) && !are_alike(n, closest(part_at_begin)) &&
+          !are_alike(n, normal(pairs.obstacle[i])) && !are_alike(n, normal(part_at_begin)))
+        ++found_at_end;
+    }
+  }
+  EXPECT_GT(found_at_end, 0);
+}
+
+// A pair's direction does not depend on the others that are looked at with it.
+TEST_P(LastingSeparation, IsThatOfThePairAlone) {
+  constexpr std::uint64_t kSeed = 95;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  RandomNumbers random(kSeed);
+  for (int trial = 0; trial < test_support::affordable(300); ++trial) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
+    const PairsOfTrial pairs(random);
+    const std::vector<Separation> found = pairs.separations();
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      PairsOfTrial alone = pairs;
+      alone.obstacle = {pairs.obstacle[i]};
+      alone.part = {pairs.part[i]};
+      ASSERT_EQ(alone.separations().front().n_O, found[i].n_O);
+    }
+  }
 }
 
 TEST_P(LastingSeparation, IsThatOfPlainCodeToTheBit) {

@@ -66,6 +66,29 @@ TEST_F(TwoTriangles, PassingThroughIsNotProvedThoughBothEndsAreFree) {
   EXPECT_TRUE(proves(at_height(0.1), {{0.5, 0.0, 0.2}, Eigen::Vector3d::Zero()}));
 }
 
+// Few enough that they wait for vector code together with nothing else of their bodies.
+TEST_F(TwoTriangles, FailuresAreToldForEachPairOfBodiesInOneCallAndInMany) {
+  obstacles_.push_back({std::make_shared<ContactBody>(one_triangle(-0.05))});
+  ContactScene scene(obstacles_, std::vector{part_}, std::vector{kFloor / kMinClearanceOfMargin});
+  scene.place(0, at_height(0.1));
+  CandidatePairs candidates(scene, kProofReach);
+  candidates.look(kProofReach, 0.0, {});
+  for (const std::int64_t work_of_call : {kUnlimitedWork, std::int64_t{1}}) {
+    std::vector<PairToCertify> to_certify;
+    PathCertificate certificate(scene);
+    WorkBudget unlimited;
+    certificate.begin_step(std::vector<geometry::Displacement>{{{0.0, 0.0, -0.2}, Eigen::Vector3d::Zero()}});
+    candidates.unproved_within(kProofReach, certificate, to_certify, unlimited);
+    certificate.begin(to_certify);
+    int calls = 1;
+    for (WorkBudget budget{work_of_call}; !certificate.go_on(budget); budget.left = work_of_call)
+      ++calls;
+    EXPECT_EQ(calls > 1, work_of_call == 1);
+    ASSERT_EQ(certificate.failures().size(), 2U);
+    EXPECT_NE(certificate.failures()[0].bodies.obstacle, certificate.failures()[1].bodies.obstacle);
+  }
+}
+
 TEST_F(TwoTriangles, TurningThroughIsNotProvedThoughBothEndsAreFree) {
   // Half a turn about x sweeps a triangle that stands beside the other through it.
   const geometry::Displacement flip{{0.0, 0.0, 0.0}, {3.0, 0.0, 0.0}};

@@ -112,14 +112,14 @@ SweptCheck::SweptCheck(const std::vector<haptics::Obstacle>& obstacles, const ge
   for (const haptics::Obstacle& obstacle : obstacles) {
     const geometry::TriangleMesh& mesh = obstacle.body->tree.mesh();
     for (std::int32_t i = 0; i < std::ssize(mesh.triangles); ++i) {
-      if (!has_area({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)})) continue;
+      if (!has_area(mesh.corners(i))) continue;
       const geometry::TrianglePoints points{obstacle.X_WO * mesh.corner(i, 0), obstacle.X_WO * mesh.corner(i, 1),
                                             obstacle.X_WO * mesh.corner(i, 2)};
       obstacles_W_.push_back({points, box_of(points, 0.0)});
     }
   }
   for (std::int32_t i = 0; i < std::ssize(part_V.triangles); ++i) {
-    const geometry::TrianglePoints points{part_V.corner(i, 0), part_V.corner(i, 1), part_V.corner(i, 2)};
+    const geometry::TrianglePoints points = part_V.corners(i);
     if (has_area(points)) part_V_.push_back(points);
   }
 }

@@ -11,7 +11,7 @@ namespace glissade::test_support {
 
 /// The corners of a triangle, in the frame of its mesh.
 inline geometry::TrianglePoints points_of(const geometry::TriangleMesh& mesh, std::int32_t triangle) {
-  return {mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)};
+  return mesh.corners(triangle);
 }
 
 /// The same in a frame in which the mesh is at X.

@@ -98,7 +98,7 @@ void spoil(geometry::TriangleMesh& mesh, RandomNumbers& random) {
 
 bool has_area(const geometry::TriangleMesh& mesh) {
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh.triangles.size()); ++i) {
-    if (!cgal_is_degenerate({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)})) return true;
+    if (!cgal_is_degenerate(mesh.corners(i))) return true;
   }
   return false;
 }
