@@ -24,8 +24,7 @@ constexpr std::int8_t kPlanesToLeave = 15;
 // hulls that are no balls, and would have to be looked at again soon.
 constexpr double kGoodGapOfSpheres = 0.005;
 
-// Radians: about. A plane between the centres that has turned by less will serve the next time too. Where the last
-// plane had turned from it by less, as between balls, it is the likely next one.
+// Radians: about. A plane between the centres that has turned by less will serve the next time too.
 constexpr double kTurnThatLasts = 0.02;
 
 // As a fraction of the radii: if hulls reach farther beyond the old plane, it has turned by some degrees, and the last
@@ -93,14 +92,8 @@ class PlaneSearch {
   // and the next query too, as long as large movements go on.
   bool centers_separate() { return spheres_are_apart() || plane_between_centers_separates(); }
 
-  // Whether the centres are the place to begin: the last plane has turned by some degrees, as far as the tests of it
-  // have told, or was about the one between the centres.
-  bool suggests_centers() const {
-    if (moved_far_) return true;
-    const Vector3d between = between_centers();
-    const double distance = between.norm();
-    return (between - distance * memory_.n_A).squaredNorm() < kTurnThatLasts * kTurnThatLasts * distance * distance;
-  }
+  // Whether the last plane has turned by some degrees, as far as the tests of it have told.
+  bool has_moved_far() const { return moved_far_; }
 
   // Tests the plane fixed to A, then the plane fixed to B. Only the other hull has to be examined.
   bool old_plane_separates() {
@@ -225,7 +218,7 @@ bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Isome
   } else if (memory.by_centers || !memory.has_plane) {
     apart = search.centers_separate() || search.old_plane_separates() || search.gjk_after_movement();
   } else {
-    apart = search.old_plane_separates() || (search.suggests_centers() && search.centers_separate()) ||
+    apart = search.old_plane_separates() || (search.has_moved_far() && search.centers_separate()) ||
             search.gjk_after_movement();
   }
   // A new plane has only the gap at which it was found; widening may enlarge it.

@@ -8,6 +8,7 @@
 #include <glissade/collision/dual_tree_traversal.h>
 
 #include "certificate/obb_access.h"
+#include "certificate/separating_planes.h"
 
 namespace glissade::haptics {
 namespace {
@@ -27,7 +28,7 @@ class PairSearch final : public collision::DualTreeVisitor {
       : bodies_(bodies),
         obstacle_(obstacle),
         part_(part),
-        X_OV_(obstacle.X_WB.inverse(Eigen::Isometry) * part.X_WB),
+        X_OV_(relative_pose(obstacle.X_WB, part.X_WB)),
         enough_(kEnough * margin),
         to_certify_(to_certify) {}
 

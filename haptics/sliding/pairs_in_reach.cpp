@@ -136,7 +136,7 @@ PairsInReach::Way PairsInReach::way_of(const BodyPair& bodies, const Displacemen
   const LinearMotion of_obstacle = linear_motion_of(shared_, bodies.obstacle, displacements);
   const Eigen::Matrix3d A_W = Eigen::Matrix3d::Identity() + of_part.A - of_obstacle.A;
   const Eigen::Vector3d t_W = of_part.t - of_obstacle.t;
-  const Eigen::Matrix3d R_OW = X_WO.linear().transpose();
+  const Eigen::Matrix3d R_OW = X_WO.linear().inverse();  // as in `relative_pose`
   const Eigen::Isometry3d X_OV = relative_pose(X_WO, X_WV);
   return {{X_OV.linear(), X_OV.translation()},
           {R_OW * A_W * X_WV.linear(), R_OW * (A_W * X_WV.translation() + t_W - X_WO.translation())},

@@ -91,7 +91,7 @@ TEST(TriangleDistance, IsRightForNeedles) {
 }
 
 TEST(TriangleDistance, IsRightForNeedlesABillionTimesAsLongAsWide) {
-  // A corner comes within an attometre of the needle's face.
+  // A corner comes as near to the needle's face as 1.3e-18.
   const TrianglePoints triangle{Vector3d(0x1.0ed249d38c6ap-8, 0x1.2d8c0264199b9p-2, 0x1.39408bcba20e4p-3),
                                 Vector3d(0x1.394cccc7be3d9p-4, 0x1.cd58411108b3dp-5, 0x1.ed32c9a124487p-5),
                                 Vector3d(0x1.833b3cb3f5eb7p-5, 0x1.9d13897588b14p-4, 0x1.fdaa1019cb99p-7)};

@@ -66,7 +66,7 @@ TEST_F(TwoTriangles, PassingThroughIsNotProvedThoughBothEndsAreFree) {
   EXPECT_TRUE(proves(at_height(0.1), {{0.5, 0.0, 0.2}, Eigen::Vector3d::Zero()}));
 }
 
-// Few enough that they wait for vector code together with nothing else of their bodies.
+// One pair for each two bodies: it waits for vector code until the bodies change or the call ends.
 TEST_F(TwoTriangles, FailuresAreToldForEachPairOfBodiesInOneCallAndInMany) {
   obstacles_.push_back({std::make_shared<ContactBody>(one_triangle(-0.05))});
   ContactScene scene(obstacles_, std::vector{part_}, std::vector{kFloor / kMinClearanceOfMargin});
