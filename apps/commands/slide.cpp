@@ -79,7 +79,7 @@ constexpr const char* kSlideFooter =
     "order of the trajectories, each as soon as it is known.\n"
     "\n"
     "Time: where finely cut curved faces lie within micrometres of each other, as in a screw thread, a call may take\n"
-    "tens of milliseconds for each simulated one, with real bolts up to seventy.\n"
+    "tens of milliseconds for each simulated one, with a real bolt seventy.\n"
     "\n"
     "All columns: docs/file_formats.md in the sources.\n"
     "\n"

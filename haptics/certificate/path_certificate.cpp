@@ -131,6 +131,7 @@ void PathCertificate::select(const BodyPair& bodies) {
   far_ = bodies_.motion(bodies.obstacle) + bodies_.motion(bodies.part) + min_clearance_ + rounding_;
   needed_ = min_clearance_ + rounding_ + bodies_.curvature(bodies.obstacle, 0, MovingBodies::kMoments) +
             bodies_.curvature(bodies.part, 0, MovingBodies::kMoments);
+  if (seeks_lasting_directions()) start_separations();
 }
 
 PathCertificate::MovingBody PathCertificate::moving(std::int32_t body) {
@@ -214,7 +215,6 @@ void PathCertificate::prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_V, W
 void PathCertificate::prove(const Triangles& triangles, WorkBudget& budget) {
   if (seeks_lasting_directions()) {
     budget.spend(kWorkOfLook);
-    if (separations_.count() == 0) start_separations();
     separations_.add(obstacle_.body->tree.mesh().corners(triangles.of_obstacle),
                      part_.body->tree.mesh().corners(triangles.of_part));
     waiting_[separations_.count() - 1] = triangles;
