@@ -2,7 +2,7 @@
 
 /// Dual-tree traversal with a user-defined cut-off. The traversal visits pairs of children: a child of a node of tree A
 /// and a child of a node of tree B. A visitor may accept such a pair as a whole, for example two flush plane patches;
-/// the traversal then skips all pairs below the accepted pair.
+/// the traversal then skips all pairs below the accepted pair, or all but selected ones.
 
 #include <cstdint>
 
@@ -28,16 +28,18 @@ class DualTreeVisitor {
   virtual bool accepts(const TreeChild& child_A, const TreeChild& child_B) = 0;
   /// Receives a triangle pair within the distance that does not lie below an accepted pair.
   virtual void visit(const ClosePair& pair) = 0;
+  /// Receives a selected triangle pair within the distance that lies below an accepted pair.
+  virtual void visit_below_accepted(const ClosePair& /*pair*/) {}
 
  protected:
   ~DualTreeVisitor() = default;
 };
 
 /// Passes to the visitor all triangle pairs at most `distance` (metres, ≥ 0) apart, except the triangle pairs below
-/// accepted pairs of children. Deterministic: the order of the triangle pairs is that of the traversal. Allocates
-/// nothing once the workspace has grown. The visitor must not query with the workspace. Throws as the queries of
-/// `dop_query.h` do.
+/// accepted pairs of children. Of these it passes the selected ones afterwards, if the selections of both trees are
+/// given. Deterministic: the order of the triangle pairs is that of the traversal. Allocates nothing once the workspace
+/// has grown. The visitor must not query with the workspace. Throws as the queries of `dop_query.h` do.
 void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                   QueryWorkspace& workspace, DualTreeVisitor& visitor);
+                   QueryWorkspace& workspace, DualTreeVisitor& visitor, const PairSelection& below_accepted = {});
 
 }  // namespace glissade::collision

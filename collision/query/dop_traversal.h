@@ -33,6 +33,7 @@ struct PromisingPair {
 struct QueryMemory {
   DopAlignment alignment;
   std::vector<OpenPair> stack;
+  std::vector<OpenPair> accepted;  ///< by the visitor of `traverse_near`
   std::vector<PromisingPair> promising;
   std::vector<DistanceFront::Entry> expired;
   std::vector<ClosePair> close_pairs;

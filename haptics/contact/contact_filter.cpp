@@ -36,7 +36,7 @@ void copy(const geometry::TriangleMesh& mesh, std::int32_t triangle, std::size_t
 
 }  // namespace
 
-void ContactFilter::look(std::span<const CandidatePair> pairs, std::span<const KnownFeatures> known) {
+void ContactFilter::look(std::span<const NearPair> pairs, std::span<const KnownFeatures> known) {
   GLISSADE_ASSERT(pairs.size() <= kMostPairs && (known.empty() || known.size() == pairs.size()));
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     gaps_[i] = 0.0;
@@ -47,7 +47,7 @@ void ContactFilter::look(std::span<const CandidatePair> pairs, std::span<const K
       gaps_beyond_[i] = known[i].left_out;
       continue;
     }
-    const CandidatePair& pair = pairs[i];
+    const NearPair& pair = pairs[i];
     features_[i] =
         owned(bodies_[static_cast<std::size_t>(pair.bodies.part)].body->topology, pair.part_triangle,
               bodies_[static_cast<std::size_t>(pair.bodies.obstacle)].body->topology, pair.obstacle_triangle);
@@ -82,7 +82,7 @@ ContactFilter::Batch& ContactFilter::batch_of(const BodyPair& bodies) {
   return batch;
 }
 
-void ContactFilter::add(Batch& batch, const CandidatePair& pair, std::size_t number) {
+void ContactFilter::add(Batch& batch, const NearPair& pair, std::size_t number) {
   copy(bodies_[static_cast<std::size_t>(pair.bodies.obstacle)].body->tree.mesh(), pair.obstacle_triangle, batch.count,
        batch.pairs.p_O);
   copy(bodies_[static_cast<std::size_t>(pair.bodies.part)].body->tree.mesh(), pair.part_triangle, batch.count,

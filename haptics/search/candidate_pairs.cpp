@@ -43,13 +43,28 @@ std::int64_t work_ahead(bool runs_ahead, std::int64_t work_of_call) {
 
 }  // namespace
 
-template <typename Pair>
-void CandidatePairs::Search::collect(const std::vector<Pair>& pairs, double reach, std::vector<Pair>& found) const {
-  found.clear();
+/// Calls `visit` with the pairs that may be within `reach` now, nearest first at the poses of the search.
+template <typename Pair, typename Visit>
+void CandidatePairs::Search::visit_within(const std::vector<Pair>& pairs, double reach, const Visit& visit) const {
   for (const Pair& pair : pairs) {
     if (pair.distance > reach + drift) return;  // as are all that follow
-    if (still_apart(pair.bodies, pair.distance, pair.n_W) <= reach) found.push_back(pair);
+    if (still_apart(pair.bodies, pair.distance, pair.n_W) <= reach) visit(pair);
   }
+}
+
+void CandidatePairs::within(double reach, std::vector<NearPair>& pairs) const {
+  pairs.clear();
+  now_.visit_within(now_.set.pairs, reach, [&](const NearPair& pair) {
+    if (pair.may_yield_contact) pairs.push_back(pair);
+  });
+}
+
+void CandidatePairs::within(double reach, std::vector<PairToCertify>& pairs) const {
+  pairs.clear();
+  now_.visit_within(now_.set.boxes, reach, [&](const PairToCertify& pair) { pairs.push_back(pair); });
+  now_.visit_within(now_.set.pairs, reach, [&](const NearPair& pair) {
+    if (pair.is_to_certify) pairs.push_back(to_certify(pair));
+  });
 }
 
 CandidatePairs::CandidatePairs(const ContactScene& scene, double greatest_radius, bool runs_ahead,
@@ -109,8 +124,8 @@ bool CandidatePairs::take_next(double reach, double ahead, std::span<const BodyP
   known_.assign(now_.set.pairs.size(), {});
   motions_of_clock_.assign(scene_.bodies().size(), {});
   place_clock();
-  gaps_of_pairs_ = gaps_at_search(now_.set.planes_of_pairs, now_.set.pairs);
-  gaps_to_certify_ = gaps_at_search(now_.set.planes, now_.set.to_certify);
+  gaps_of_contacts_ = gaps_at_search();
+  gaps_to_certify_ = gaps_of_contacts_;
   calls_served_ = std::exchange(calls_, 0);
   ++statistics_.searches;
   statistics_.reports += now_.set.report;
@@ -254,14 +269,12 @@ void CandidatePairs::place_clock() {
 }
 
 /// The pairs of a block are in the order of the search, the nearest first.
-template <typename Pair>
-CandidatePairs::GapsOfBlocks CandidatePairs::gaps_at_search(const std::vector<PlanesOfBodies>& planes,
-                                                            const std::vector<Pair>& pairs) const {
+CandidatePairs::GapsOfBlocks CandidatePairs::gaps_at_search() const {
   GapsOfBlocks gaps;
-  for (const PlanesOfBodies& of_bodies : planes) {
+  for (const PlanesOfBodies& of_bodies : now_.set.planes) {
     std::vector<double>& of_blocks = gaps.emplace_back();
     for (std::size_t slot = 0; slot < of_bodies.numbers().size(); slot += kPlanesAtOnce)
-      of_blocks.push_back(pairs[of_bodies.numbers()[slot]].distance - now_.drift);
+      of_blocks.push_back(now_.set.pairs[of_bodies.numbers()[slot]].distance - now_.drift);
   }
   return gaps;
 }
@@ -280,13 +293,13 @@ void CandidatePairs::visit_near_blocks(const std::vector<double>& gaps, double r
 
 void CandidatePairs::in_reach(double reach, std::vector<PairInReach>& pairs) {
   pairs.clear();
-  for (std::uint32_t i = 0; i < now_.set.planes_of_pairs.size(); ++i) {
-    const PlanesOfBodies& planes = now_.set.planes_of_pairs[i];
+  for (std::uint32_t i = 0; i < now_.set.planes.size(); ++i) {
+    const PlanesOfBodies& planes = now_.set.planes[i];
     const Eigen::Isometry3d X_OV =
         relative_pose(scene_.bodies()[static_cast<std::size_t>(planes.bodies().obstacle)].X_WB,
                       scene_.bodies()[static_cast<std::size_t>(planes.bodies().part)].X_WB);
     const std::span<const std::uint32_t> numbers = planes.numbers();
-    std::vector<double>& of_blocks = gaps_of_pairs_[i];
+    std::vector<double>& of_blocks = gaps_of_contacts_[i];
     visit_near_blocks(of_blocks, reach, [&](std::size_t first, std::size_t end) {
       planes.find_gaps(X_OV.linear(), X_OV.translation(), first, end, gaps_at_begin_);
       for (std::size_t block = first; block < end; ++block) {
@@ -294,10 +307,11 @@ void CandidatePairs::in_reach(double reach, std::vector<PairInReach>& pairs) {
         const std::size_t last = std::min(numbers.size(), kPlanesAtOnce * (block + 1));
         for (std::size_t slot = kPlanesAtOnce * block; slot < last; ++slot) {
           const std::uint32_t number = numbers[slot];
+          const NearPair& pair = now_.set.pairs[number];
+          if (!pair.may_yield_contact) continue;
           const double gap = std::max(static_cast<double>(gaps_at_begin_[slot]), gaps_[number] - clock_);
           least = std::min(least, gap);
           if (gap > reach) continue;
-          const CandidatePair& pair = now_.set.pairs[number];
           if (now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
           pairs.push_back({number, i, static_cast<std::uint32_t>(slot), round_down(gap)});
         }
@@ -305,7 +319,7 @@ void CandidatePairs::in_reach(double reach, std::vector<PairInReach>& pairs) {
       }
     });
   }
-  if (now_.set.planes_of_pairs.size() < 2) return;
+  if (now_.set.planes.size() < 2) return;
   std::sort(pairs.begin(), pairs.end(), [](const PairInReach& a, const PairInReach& b) { return a.number < b.number; });
 }
 
@@ -323,27 +337,26 @@ void CandidatePairs::note_gaps(std::span<const std::uint32_t> numbers, std::span
   }
 }
 
-void CandidatePairs::unproved_within(double reach, PathCertificate& certificate, std::vector<PairToCertify>& to_certify,
+void CandidatePairs::unproved_within(double reach, PathCertificate& certificate, std::vector<PairToCertify>& unproved,
                                      WorkBudget& budget) {
-  to_certify.clear();
+  unproved.clear();
   places_.clear();
-  const std::vector<PairToCertify>& pairs = now_.set.to_certify;
-  const auto add_without_planes = [&](std::span<const std::uint32_t> numbers) {
-    for (const std::uint32_t number : numbers) {
-      const PairToCertify& pair = pairs[number];
-      if (pair.distance > reach + now_.drift) return;  // as are all that follow
-      if (now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
-      to_certify.push_back(pair);
-      places_.push_back({nullptr, 0, number});
-    }
-  };
-  add_without_planes(now_.set.box_pairs);
+  now_.visit_within(now_.set.boxes, reach, [&](const PairToCertify& boxes) {
+    unproved.push_back(boxes);
+    places_.push_back({nullptr, 0, 0});
+  });
   for (std::size_t i = 0; i < now_.set.planes.size(); ++i) {
     PlanesOfBodies& planes = now_.set.planes[i];
     const std::span<const std::uint32_t> numbers = planes.numbers();
     const std::optional<PathOfBodies> known_path = certificate.path_of(planes.bodies());
     if (!known_path) {
-      add_without_planes(numbers);
+      for (const std::uint32_t number : numbers) {
+        const NearPair& pair = now_.set.pairs[number];
+        if (pair.distance > reach + now_.drift) break;  // as are all that follow
+        if (!pair.is_to_certify || now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
+        unproved.push_back(to_certify(pair));
+        places_.push_back({nullptr, 0, number});
+      }
       continue;
     }
     const PathOfBodies& path = *known_path;
@@ -360,9 +373,9 @@ void CandidatePairs::unproved_within(double reach, PathCertificate& certificate,
           least = std::min(least, at_begin);
           if (at_begin > path.far) continue;
           if (at_begin >= path.needed && static_cast<double>(gaps_at_end_[slot]) >= path.needed) continue;
-          const PairToCertify& pair = pairs[numbers[slot]];
-          if (now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
-          to_certify.push_back(pair);
+          const NearPair& pair = now_.set.pairs[numbers[slot]];
+          if (!pair.is_to_certify || now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
+          unproved.push_back(to_certify(pair));
           places_.push_back({&planes, slot, numbers[slot]});
         }
         of_blocks[block] = std::max(of_blocks[block], least + clock_);
@@ -375,9 +388,9 @@ void CandidatePairs::note_planes(std::span<const SeparatedPair> separated) {
   for (const SeparatedPair& pair : separated) {
     const PlaceOfPair& place = places_[pair.place];
     if (place.planes == nullptr) continue;
-    const PairToCertify& known = now_.set.to_certify[place.number];
+    const NearPair& known = now_.set.pairs[place.number];
     const PlacedBody& obstacle = scene_.bodies()[static_cast<std::size_t>(known.bodies.obstacle)];
-    place.planes->turn(place.slot, *obstacle.body, static_cast<std::int32_t>(known.item_O.number),
+    place.planes->turn(place.slot, *obstacle.body, known.obstacle_triangle,
                        obstacle.X_WB.linear().transpose() * pair.n_W);
   }
 }
@@ -391,10 +404,5 @@ void CandidatePairs::forget() {
   now_.is_there = false;
   next_.is_there = false;
 }
-
-template void CandidatePairs::Search::collect(const std::vector<CandidatePair>&, double,
-                                              std::vector<CandidatePair>&) const;
-template void CandidatePairs::Search::collect(const std::vector<PairToCertify>&, double,
-                                              std::vector<PairToCertify>&) const;
 
 }  // namespace glissade::haptics

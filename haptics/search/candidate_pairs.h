@@ -75,16 +75,14 @@ class CandidatePairs {
 
   /// Replaces `pairs` by the candidates that may be within `reach` (metres) of the parts' present poses, in ascending
   /// order of the distance at the poses of the search.
-  void within(double reach, std::vector<CandidatePair>& pairs) const { now_.collect(now_.set.pairs, reach, pairs); }
+  void within(double reach, std::vector<NearPair>& pairs) const;
   /// The same for the pairs to certify, which hold all triangles, with features or without, in the largest boxes that
-  /// separate.
-  void within(double reach, std::vector<PairToCertify>& to_certify) const {
-    now_.collect(now_.set.to_certify, reach, to_certify);
-  }
+  /// separate. Boxes come before triangles.
+  void within(double reach, std::vector<PairToCertify>& pairs) const;
 
   /// The same for the step that `certificate` is about, without the pairs that a known plane keeps apart on the whole
   /// path: only those within `reach` are certain to be there. Spends the work of looking at the planes.
-  void unproved_within(double reach, PathCertificate& certificate, std::vector<PairToCertify>& to_certify,
+  void unproved_within(double reach, PathCertificate& certificate, std::vector<PairToCertify>& unproved,
                        WorkBudget& budget);
   /// Takes over the directions that `certificate` found for these pairs.
   void note_planes(std::span<const SeparatedPair> separated);
@@ -92,18 +90,18 @@ class CandidatePairs {
   /// Replaces `pairs` by those candidates that may have contacts within `reach` (metres) at the present poses, as far
   /// as their planes and `note_gaps` tell, in the same order.
   void in_reach(double reach, std::vector<PairInReach>& pairs);
-  const CandidatePair& pair(std::uint32_t number) const { return now_.set.pairs[number]; }
+  const NearPair& pair(std::uint32_t number) const { return now_.set.pairs[number]; }
   /// What is known of the features of a pair within `reach` (metres).
   KnownFeatures known_features(std::uint32_t number, double reach) const;
-  /// The planes of the candidates, which may be turned.
-  std::vector<PlanesOfBodies>& planes_of_pairs() { return now_.set.planes_of_pairs; }
+  /// The planes of the pairs of triangles, which may be turned.
+  std::vector<PlanesOfBodies>& planes() { return now_.set.planes; }
   /// Notes for the pairs with these numbers that their contacts have at least these gaps (metres) at the present poses.
   void note_gaps(std::span<const std::uint32_t> numbers, std::span<const GapsOfPair> gaps);
 
   /// Number of candidate pairs.
-  std::size_t pair_count() const { return now_.set.pairs.size(); }
+  std::size_t pair_count() const { return now_.set.contact_count; }
   /// The same plus the number of pairs to certify.
-  std::size_t size() const { return now_.set.pairs.size() + now_.set.to_certify.size(); }
+  std::size_t size() const { return now_.set.contact_count + now_.set.certify_count; }
 
   /// Work of the search under way, or of the last one, so far; only with a limit of work.
   std::int64_t work_of_search() const { return thread_->work(); }
@@ -145,8 +143,8 @@ class CandidatePairs {
       const double apart = n_W.isZero(0.0) ? -v_W.norm() : n_W.dot(v_W);
       return distance + apart - of_part.turn - of_obstacle.turn;
     }
-    template <typename Pair>
-    void collect(const std::vector<Pair>& pairs, double reach, std::vector<Pair>& found) const;
+    template <typename Pair, typename Visit>
+    void visit_within(const std::vector<Pair>& pairs, double reach, const Visit& visit) const;
   };
 
   bool take_next(double reach, double ahead, std::span<const BodyPair> ignored);
@@ -188,11 +186,10 @@ class CandidatePairs {
   std::vector<PlaceOfPair> places_;
   /// For the planes of each two bodies: of each block, the least gap (metres), minus the clock as above.
   using GapsOfBlocks = std::vector<std::vector<double>>;
-  template <typename Pair>
-  GapsOfBlocks gaps_at_search(const std::vector<PlanesOfBodies>& planes, const std::vector<Pair>& pairs) const;
+  GapsOfBlocks gaps_at_search() const;
   template <typename Visit>
   void visit_near_blocks(const std::vector<double>& gaps, double reach, const Visit& visit) const;
-  GapsOfBlocks gaps_of_pairs_;
+  GapsOfBlocks gaps_of_contacts_;
   GapsOfBlocks gaps_to_certify_;
   std::vector<float> gaps_at_begin_;
   std::vector<float> gaps_at_end_;

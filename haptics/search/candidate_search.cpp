@@ -12,12 +12,8 @@ constexpr std::int64_t kWorkOfPair = 400;
 // A single thread: the other processors belong to the haptic thread and to the viewer.
 collision::PipelineOptions pipeline_options(double greatest_distance, collision::WorkMeter* meter) {
   return {
-      .query = collision::PairQuery::kClosePairs, .greatest_distance = greatest_distance, .threads = 1, .meter = meter};
-}
 
-Eigen::Vector3d direction_of(const collision::ClosePair& pair) {
-  if (pair.distance < kSharpDistance_m) return Eigen::Vector3d::Zero();
-  return (pair.p_B - pair.p_A).normalized();
+      .query = collision::PairQuery::kVerdict, .greatest_distance = greatest_distance, .threads = 1, .meter = meter};
 }
 
 /// Planes of pairs of bodies. The memory of the last search serves again.
@@ -54,8 +50,7 @@ collision::ObjectDescription description(const std::shared_ptr<const Body>& body
   return {.tree = {body, &body->tree},
           .hull = {body, &body->hull},
           .X_WO = X_WB,
-          .group = group,
-          .selection = {body, &body->features}};
+          .group = group};
 }
 
 }  // namespace
@@ -97,31 +92,38 @@ void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
   }
   const collision::FrameResult& near = pipeline_->step(request.radius);
   set.report = near.report;
-  collect_pairs(near, set.pairs);
-  find_pairs_to_certify(scene_, bodies_, request.radius, request.ignored, workspace_, set.to_certify);
+  find_pairs(near, request.radius, set);
   nearest_first_.sort(set.pairs, unsorted_pairs_);
-  nearest_first_.sort(set.to_certify, unsorted_to_certify_);
+  nearest_first_.sort(set.boxes, unsorted_boxes_);
   if (request.has_planes) find_planes(set);
 }
 
-void CandidateSearch::find_planes(CandidateSet& set) const {
-  PlanesOfSearch of_pairs(bodies_, set.planes_of_pairs);
-  for (std::uint32_t place = 0; place < set.pairs.size(); ++place)
-    of_pairs.add(place, set.pairs[place], set.pairs[place].n_W);
-  of_pairs.finish();
-  PlanesOfSearch to_certify(bodies_, set.planes);
-  set.box_pairs.clear();
-  for (std::uint32_t place = 0; place < set.to_certify.size(); ++place) {
-    const PairToCertify& pair = set.to_certify[place];
-    if (pair.item_O.kind == TreeItem::Kind::kTriangle) {
-      const TrianglesOfBodies triangles{pair.bodies, static_cast<std::int32_t>(pair.item_O.number),
-                                        static_cast<std::int32_t>(pair.item_V.number)};
-      to_certify.add(place, triangles, pair.n_W);
-    } else {
-      set.box_pairs.push_back(place);
-    }
+void CandidateSearch::find_pairs(const collision::FrameResult& near, double radius, CandidateSet& set) {
+  set.pairs.clear();
+  set.boxes.clear();
+  for (const collision::ObjectPair& objects : near.meeting) {
+    const BodyPair bodies{static_cast<std::int32_t>(objects.object_A.index),
+                          static_cast<std::int32_t>(objects.object_B.index)};
+    const std::size_t before = set.pairs.size() + set.boxes.size();
+    find_near_pairs(bodies, bodies_[objects.object_A.index], bodies_[objects.object_B.index],
+                    scene_.margin(bodies.obstacle, bodies.part), radius, workspace_, set.pairs, set.boxes);
+    const std::size_t found = set.pairs.size() + set.boxes.size() - before;
+    for (std::size_t i = 0; meter_ != nullptr && i < found; ++i)
+      meter_->spend(kWorkOfPair);  // pair by pair, so that it is done in pieces
   }
-  to_certify.finish();
+  const auto count = [&](bool NearPair::*property) {
+    return static_cast<std::size_t>(
+        std::count_if(set.pairs.begin(), set.pairs.end(), [&](const NearPair& pair) { return pair.*property; }));
+  };
+  set.contact_count = count(&NearPair::may_yield_contact);
+  set.certify_count = count(&NearPair::is_to_certify) + set.boxes.size();
+}
+
+void CandidateSearch::find_planes(CandidateSet& set) const {
+  PlanesOfSearch planes(bodies_, set.planes);
+  for (std::uint32_t place = 0; place < set.pairs.size(); ++place)
+    planes.add(place, set.pairs[place], set.pairs[place].n_W);
+  planes.finish();
 }
 
 void CandidateSearch::ignore(const std::vector<BodyPair>& bodies) {
@@ -134,21 +136,6 @@ void CandidateSearch::ignore(const std::vector<BodyPair>& bodies) {
   for (const BodyPair& pair : bodies)
     world_->disable_pair(ids(pair).first, ids(pair).second);
   ignored_ = bodies;
-}
-
-void CandidateSearch::collect_pairs(const collision::FrameResult& near, std::vector<CandidatePair>& pairs) const {
-  pairs.clear();
-  for (std::size_t i = 0; i < near.meeting.size(); ++i) {
-    const BodyPair bodies{static_cast<std::int32_t>(near.meeting[i].object_A.index),
-                          static_cast<std::int32_t>(near.meeting[i].object_B.index)};
-    const PlacedBody& obstacle = bodies_[static_cast<std::size_t>(bodies.obstacle)];
-    for (const collision::ClosePair& pair : near.close_pairs(i)) {
-      if (meter_ != nullptr) meter_->spend(kWorkOfPair);
-      pairs.push_back({{bodies, pair.triangles.triangle_A, pair.triangles.triangle_B},
-                       pair.distance,
-                       obstacle.X_WB.linear() * direction_of(pair)});
-    }
-  }
 }
 
 }  // namespace glissade::haptics

@@ -12,22 +12,15 @@
 
 #include <glissade/collision/collision_pipeline.h>
 
-#include "certificate/pairs_to_certify.h"
 #include "certificate/separating_planes.h"
 #include "scene/contact_scene.h"
 #include "search/feature_pairs.h"
+#include "search/near_pairs.h"
 #include "search/nearest_first.h"
 
 namespace glissade::haptics {
 
-/// A triangle pair that may yield a contact: at least one of the triangles owns an edge or vertex that can stop
-/// the other body (`geometry::MeshTopology`).
-struct CandidatePair : TrianglesOfBodies {
-  double distance;      ///< metres, at the poses of the request
-  Eigen::Vector3d n_W;  ///< unit, from the obstacle's closest point to the part's; zero below kSharpDistance_m
-};
-
-/// Lower bounds, metres, of the gaps of the contacts of a candidate pair, from a search for contacts.
+/// Lower bounds, metres, of the gaps of the contacts of a pair, from a search for contacts.
 struct GapsOfPair {
   double least;           ///< of all contacts
   double beyond;          ///< of those beyond the reach of the search
@@ -51,13 +44,12 @@ struct CandidateRequest {
 
 /// The answer: all pairs within the radius, nearest first.
 struct CandidateSet {
-  std::vector<CandidatePair> pairs;             ///< for contacts
-  std::vector<PlanesOfBodies> planes_of_pairs;  ///< the planes of `pairs`, by their places
-  std::vector<PairToCertify> to_certify;        ///< for path certificates
-  std::vector<std::uint32_t> box_pairs;         ///< places in `to_certify` of pairs that are not triangles, ascending
-  /// The planes of the pairs to certify that are triangles, by their places in `to_certify`.
-  std::vector<PlanesOfBodies> planes;
-  collision::FrameReport report;  ///< the work of finding `pairs` alone
+  std::vector<NearPair> pairs;
+  std::vector<PlanesOfBodies> planes;  ///< of `pairs`, by their places
+  std::vector<PairToCertify> boxes;    ///< of larger pairs to certify than triangles
+  std::size_t contact_count = 0;       ///< of the pairs that may yield contacts
+  std::size_t certify_count = 0;       ///< of those to certify, and the boxes
+  collision::FrameReport report;       ///< the work of finding out which bodies are near
 };
 
 /// Not thread-safe. Reads neither poses nor minimum clearances of the scene, so these may change during a search.
@@ -76,7 +68,7 @@ class CandidateSearch {
 
  private:
   void ignore(const std::vector<BodyPair>& bodies);
-  void collect_pairs(const collision::FrameResult& near, std::vector<CandidatePair>& pairs) const;
+  void find_pairs(const collision::FrameResult& near, double radius, CandidateSet& set);
   void find_planes(CandidateSet& set) const;
 
   const ContactScene& scene_;
@@ -90,8 +82,8 @@ class CandidateSearch {
   std::optional<collision::CollisionPipeline> pipeline_;  // of the world
   collision::QueryWorkspace workspace_;
   NearestFirst nearest_first_;
-  std::vector<CandidatePair> unsorted_pairs_;       // scratch memory
-  std::vector<PairToCertify> unsorted_to_certify_;  // the same
+  std::vector<NearPair> unsorted_pairs_;       // scratch memory
+  std::vector<PairToCertify> unsorted_boxes_;  // the same
 };
 
 }  // namespace glissade::haptics

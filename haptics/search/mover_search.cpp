@@ -54,7 +54,7 @@ template <typename Pair>
 void NearMover::add_within(double reach, std::int32_t number, std::vector<Pair>& all) {
   if (candidates_.size() == 0) return;
   std::vector<Pair>* found = nullptr;
-  if constexpr (std::is_same_v<Pair, CandidatePair>) {
+  if constexpr (std::is_same_v<Pair, NearPair>) {
     found = &pairs_;
   } else {
     found = &to_certify_;
@@ -67,7 +67,7 @@ void NearMover::add_within(double reach, std::int32_t number, std::vector<Pair>&
   }
 }
 
-template void NearMover::add_within(double, std::int32_t, std::vector<CandidatePair>&);
+template void NearMover::add_within(double, std::int32_t, std::vector<NearPair>&);
 template void NearMover::add_within(double, std::int32_t, std::vector<PairToCertify>&);
 
 MoverSearch::MoverSearch(const std::vector<Obstacle>& fixed,

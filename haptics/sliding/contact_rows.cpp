@@ -100,7 +100,7 @@ void ContactRows::find_beyond(WorkBudget& budget) {
   }
 }
 
-void ContactRows::find_contacts_of(std::span<const CandidatePair> pairs, std::span<const std::uint32_t> numbers,
+void ContactRows::find_contacts_of(std::span<const NearPair> pairs, std::span<const std::uint32_t> numbers,
                                    double reach, WorkBudget& budget) {
   const ContactScene& scene = shared_.scene;
   budget.spend(kWorkOfContacts * std::ssize(pairs));

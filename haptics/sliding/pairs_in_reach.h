@@ -34,7 +34,7 @@ class PairsInReach {
   void take_too_near(std::size_t most);
 
   /// Those that the last call took, in the order of the candidates, and what is known of them within `reach` metres.
-  std::span<const CandidatePair> taken() const { return pairs_; }
+  std::span<const NearPair> taken() const { return pairs_; }
   std::span<const std::uint32_t> numbers() const { return numbers_; }
   /// Number of pairs that have not been taken, or more.
   std::size_t left_count() const { return left_.size(); }
@@ -62,7 +62,7 @@ class PairsInReach {
 
   SimulatedParts& shared_;
   std::vector<PairInReach> left_;  // in the order of the candidates; those that were taken have no gap any more
-  std::vector<CandidatePair> pairs_;
+  std::vector<NearPair> pairs_;
   std::vector<std::uint32_t> numbers_;
   std::vector<float> gaps_;
   // Of the pairs of bodies that have planes:

@@ -47,9 +47,11 @@ class Taker final : public DualTreeVisitor {
     return true;
   }
   void visit(const ClosePair& pair) override { seen.push_back(pair); }
+  void visit_below_accepted(const ClosePair& pair) override { seen_below.push_back(pair); }
 
   std::vector<TakenPair> taken;
   std::vector<ClosePair> seen;
+  std::vector<ClosePair> seen_below;
 
  private:
   std::uint64_t sixteenths_;
@@ -142,6 +144,38 @@ TEST_F(NearVisit, ShowsEveryPairOnceOrLeavesItToWhoTookWhatHoldsIt) {
   }
   EXPECT_GT(taken, 5U);
   EXPECT_GT(seen, 50U);
+}
+
+TEST_F(NearVisit, ShowsSelectedPairsBelowWhatWasTakenOnce) {
+  std::size_t below = 0;
+  for (int trial = 0; trial < test_support::affordable(300); ++trial) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
+    const RandomPair pair(random_);
+    const double distance = pair.size * random_.power_of_ten(-3.0, 0.0);
+    const auto is_selected = [](std::int32_t triangle) { return triangle % 3 == 0; };
+    const TriangleSelection of_A(pair.tree_A, is_selected);
+    const TriangleSelection of_B(pair.tree_B, is_selected);
+    const auto some = static_cast<std::uint64_t>(random_.integer(1, 8));
+    Taker without(some);
+    traverse_near(pair.tree_A, pair.tree_B, pair.X_AB, distance, workspace_, without);
+    ASSERT_TRUE(without.seen_below.empty());
+    Taker visitor(some);
+    traverse_near(pair.tree_A, pair.tree_B, pair.X_AB, distance, workspace_, visitor, {&of_A, &of_B});
+    ASSERT_EQ(visitor.seen.size(), without.seen.size());
+    std::map<TrianglePair, int> times;
+    for (const ClosePair& close : visitor.seen)
+      ++times[close.triangles];
+    for (const ClosePair& close : visitor.seen_below) {
+      ASSERT_TRUE(is_selected(close.triangles.triangle_A) || is_selected(close.triangles.triangle_B));
+      ++times[close.triangles];
+    }
+    for (const ClosePair& near : test_support::MeshOracle(pair.A.mesh, pair.B.mesh).pairs_within(pair.X_AB, distance)) {
+      if (!is_selected(near.triangles.triangle_A) && !is_selected(near.triangles.triangle_B)) continue;
+      ASSERT_EQ(times[near.triangles], 1) << near.triangles.triangle_A << ", " << near.triangles.triangle_B;
+    }
+    below += visitor.seen_below.size();
+  }
+  EXPECT_GT(below, 20U);
 }
 
 TEST_F(NearVisit, LooksAtNothingBelowWhatWasTaken) {

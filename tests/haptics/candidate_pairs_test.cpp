@@ -43,8 +43,8 @@ void move_parts(ContactScene& scene, double most, RandomNumbers& random) {
   }
 }
 
-std::vector<CandidatePair> pairs_within(const CandidatePairs& candidates, double reach) {
-  std::vector<CandidatePair> pairs(3);  // they are replaced
+std::vector<NearPair> pairs_within(const CandidatePairs& candidates, double reach) {
+  std::vector<NearPair> pairs(3);  // they are replaced
   candidates.within(reach, pairs);
   return pairs;
 }
@@ -87,7 +87,7 @@ class SteadyMotion {
 /// A pair of triangles within `reach` that is missing, for proofs or for contacts; empty if none is.
 std::string what_is_missing(const CandidatePairs& candidates, const ContactScene& scene, double reach) {
   std::set<TrianglesOfBodies> for_contacts;
-  for (const CandidatePair& c : pairs_within(candidates, reach))
+  for (const NearPair& c : pairs_within(candidates, reach))
     for_contacts.insert({c.bodies, c.obstacle_triangle, c.part_triangle});
   std::set<TrianglesOfBodies> for_proofs;
   for (const PairToCertify& pair_to_certify : pairs_to_certify_within(candidates, reach)) {
@@ -169,10 +169,10 @@ TEST(CandidatePairs, HaveTheSameContactsWhereGapsAreNoted) {
       const double reach = random.power_of_ten(-3.5, -2.5);
       candidates.look(reach, 1e-3, {});
       std::vector<Contact> of_all;
-      const std::vector<CandidatePair> pairs = pairs_within(candidates, reach);
+      const std::vector<NearPair> pairs = pairs_within(candidates, reach);
       find_contacts(scene->bodies(), first_part, pairs, reach, kMargin, of_all);
       std::vector<PairInReach> in_reach;
-      std::vector<CandidatePair> some;
+      std::vector<NearPair> some;
       std::vector<std::uint32_t> numbers;
       std::vector<KnownFeatures> known;
       std::vector<GapsOfPair> gaps;
@@ -209,11 +209,11 @@ TEST(CandidatePairs, LeaveOutBodiesThatAreIgnored) {
   CandidatePairs candidates(scene, kGreatest);
   const std::vector<BodyPair> ignored{{1, 2}};
   candidates.look(0.5e-3, 0.0, ignored);
-  const std::vector<CandidatePair> pairs = pairs_within(candidates, 0.5e-3);
+  const std::vector<NearPair> pairs = pairs_within(candidates, 0.5e-3);
   const std::vector<PairToCertify> to_certify = pairs_to_certify_within(candidates, 0.5e-3);
   EXPECT_FALSE(pairs.empty());
   EXPECT_FALSE(to_certify.empty());
-  for (const CandidatePair& pair : pairs)
+  for (const NearPair& pair : pairs)
     EXPECT_EQ(pair.bodies.obstacle, 0);
   for (const PairToCertify& pair_to_certify : to_certify)
     EXPECT_EQ(pair_to_certify.bodies.obstacle, 0);
@@ -222,7 +222,7 @@ TEST(CandidatePairs, LeaveOutBodiesThatAreIgnored) {
 /// Everything that `candidates` has to say, bit for bit.
 std::vector<double> contents(const CandidatePairs& candidates, double reach) {
   std::vector<double> numbers;
-  for (const CandidatePair& c : pairs_within(candidates, reach)) {
+  for (const NearPair& c : pairs_within(candidates, reach)) {
     numbers.insert(numbers.end(), {1.0 * c.bodies.obstacle, 1.0 * c.obstacle_triangle, 1.0 * c.bodies.part,
                                    1.0 * c.part_triangle, c.distance, c.n_W.x(), c.n_W.y(), c.n_W.z()});
   }
@@ -342,7 +342,7 @@ TEST_P(CubeOverPlate, IsToldOfThePosesAtWhichItWasAskedFor) {
   const std::vector<PairToCertify> to_certify = pairs_to_certify_within(candidates_, 1.1 * kAhead);
   ASSERT_FALSE(to_certify.empty());
   EXPECT_NEAR(to_certify.front().distance, 0.5 * kAhead, 1e-9);
-  const std::vector<CandidatePair> pairs = pairs_within(candidates_, 1.1 * kAhead);
+  const std::vector<NearPair> pairs = pairs_within(candidates_, 1.1 * kAhead);
   ASSERT_FALSE(pairs.empty());
   EXPECT_NEAR(pairs.front().distance, 0.5 * kAhead, 1e-9);
 }

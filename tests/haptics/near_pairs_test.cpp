@@ -1,6 +1,6 @@
-// What steps have to be proved free of: nothing that is near is left out, and what is promised of each item is true.
+// What is near: nothing is left out, for contacts and for proofs, and what is promised of each pair is true.
 
-#include "certificate/pairs_to_certify.h"
+#include "search/near_pairs.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -27,12 +27,38 @@ using test_support::RandomNumbers;
 
 constexpr double kSize = 0.02;  // metres, of most bodies here
 
-std::vector<PairToCertify> pairs_to_certify_of(const ContactScene& scene, double radius,
-                                               const std::vector<BodyPair>& ignored = {}) {
-  collision::QueryWorkspace workspace;
-  std::vector<PairToCertify> to_certify(3);  // they are replaced
-  find_pairs_to_certify(scene, scene.bodies(), radius, ignored, workspace, to_certify);
-  return to_certify;
+/// What the search finds for all bodies of a scene.
+struct Found {
+  Found(const ContactScene& scene, double radius) {
+    collision::QueryWorkspace workspace;
+    const std::span<const PlacedBody> bodies = scene.bodies();
+    for (std::size_t part = scene.obstacles().size(); part < bodies.size(); ++part) {
+      for (std::size_t other = 0; other < part; ++other) {
+        const BodyPair pair{static_cast<std::int32_t>(other), static_cast<std::int32_t>(part)};
+        find_near_pairs(pair, bodies[other], bodies[part], scene.margin(pair.obstacle, pair.part), radius, workspace,
+                        pairs, boxes);
+      }
+    }
+  }
+
+  std::vector<PairToCertify> all_to_certify() const {
+    std::vector<PairToCertify> all = boxes;
+    for (const NearPair& pair : pairs) {
+      if (pair.is_to_certify) all.push_back(to_certify(pair));
+    }
+    return all;
+  }
+
+  std::vector<NearPair> pairs;
+  std::vector<PairToCertify> boxes;
+};
+
+bool can_make_contact(const ContactScene& scene, const TrianglesOfBodies& pair) {
+  const auto topology_of = [&](std::int32_t body) -> const geometry::MeshTopology& {
+    return scene.bodies()[static_cast<std::size_t>(body)].body->topology;
+  };
+  return topology_of(pair.bodies.obstacle)
+      .can_stop_each_other(pair.obstacle_triangle, topology_of(pair.bodies.part), pair.part_triangle);
 }
 
 /// How far apart n holds two triangles.
@@ -46,18 +72,18 @@ double gap_along(const Vector3d& n, const geometry::TrianglePoints& obstacle, co
   return bottom - top;
 }
 
-class PairsToCertify : public ::testing::Test {
+class NearPairs : public ::testing::Test {
  protected:
   static constexpr std::uint64_t kSeed = 41;
 
-  PairsToCertify() : random_(kSeed) { RecordProperty("seed", static_cast<int>(kSeed)); }
+  NearPairs() : random_(kSeed) { RecordProperty("seed", static_cast<int>(kSeed)); }
 
   double random_margin() { return random_.power_of_ten(-5.5, -3.7); }
 
   RandomNumbers random_;
 };
 
-TEST_F(PairsToCertify, HoldsEveryPairOfTrianglesWithinTheRadiusOnce) {
+TEST_F(NearPairs, HoldEveryPairOfTrianglesWithinTheRadiusOnceToCertify) {
   std::size_t boxes = 0;
   std::size_t triangles = 0;
   for (int trial = 0; trial < test_support::affordable(300); ++trial) {
@@ -66,7 +92,7 @@ TEST_F(PairsToCertify, HoldsEveryPairOfTrianglesWithinTheRadiusOnce) {
     const auto scene = test_support::random_contact_scene(kSize, margin, margin * random_.uniform(0.3, 2.0), random_);
     const double radius = random_.power_of_ten(-4.0, -2.0);
     std::map<TrianglesOfBodies, int> held;
-    for (const PairToCertify& pair_to_certify : pairs_to_certify_of(*scene, radius)) {
+    for (const PairToCertify& pair_to_certify : Found(*scene, radius).all_to_certify()) {
       const bool is_box = pair_to_certify.item_O.kind != TreeItem::Kind::kTriangle;
       ++(is_box ? boxes : triangles);
       for (const TrianglesOfBodies& pair : test_support::triangles_of(scene->bodies(), pair_to_certify))
@@ -82,13 +108,39 @@ TEST_F(PairsToCertify, HoldsEveryPairOfTrianglesWithinTheRadiusOnce) {
   EXPECT_GT(triangles, 50U);
 }
 
-TEST_F(PairsToCertify, TellsLowerBoundsOfDistances) {
+TEST_F(NearPairs, HoldEveryPairThatMayYieldAContactOnce) {
+  std::size_t in_boxes = 0;
+  std::size_t others = 0;
+  for (int trial = 0; trial < test_support::affordable(300); ++trial) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
+    const double margin = random_margin();
+    const auto scene = test_support::random_contact_scene(kSize, margin, margin * random_.uniform(0.3, 2.0), random_);
+    const double radius = random_.power_of_ten(-4.0, -2.0);
+    std::map<TrianglesOfBodies, int> held;
+    for (const NearPair& pair : Found(*scene, radius).pairs) {
+      ASSERT_EQ(pair.may_yield_contact, can_make_contact(*scene, pair));
+      ASSERT_TRUE(pair.may_yield_contact || pair.is_to_certify) << "of no use";
+      ++held[pair];
+      (pair.is_to_certify ? others : in_boxes) += 1;
+    }
+    for (const auto& [pair, distance] :
+         test_support::near_triangles(scene->bodies(), scene->obstacles().size(), radius)) {
+      if (!can_make_contact(*scene, pair)) continue;
+      ASSERT_EQ(held[pair], 1) << pair.bodies.obstacle << ": " << pair.obstacle_triangle << ", " << pair.bodies.part
+                               << ": " << pair.part_triangle << " at " << distance;
+    }
+  }
+  EXPECT_GT(in_boxes, 50U);
+  EXPECT_GT(others, 50U);
+}
+
+TEST_F(NearPairs, TellLowerBoundsOfDistances) {
   for (int trial = 0; trial < test_support::affordable(80); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     const double margin = random_margin();
     const auto scene = test_support::random_contact_scene(kSize, margin, margin, random_);
     const std::span<const PlacedBody> bodies = scene->bodies();
-    const std::vector<PairToCertify> to_certify = pairs_to_certify_of(*scene, random_.power_of_ten(-4.0, -3.0));
+    const std::vector<PairToCertify> to_certify = Found(*scene, random_.power_of_ten(-4.0, -3.0)).all_to_certify();
     for (const PairToCertify& pair_to_certify : to_certify) {
       ASSERT_NEAR(pair_to_certify.n_W.norm(), 1.0, 1e-12);
       for (const TrianglesOfBodies& pair : test_support::triangles_of(bodies, pair_to_certify)) {
@@ -110,26 +162,8 @@ TEST_F(PairsToCertify, TellsLowerBoundsOfDistances) {
   }
 }
 
-TEST_F(PairsToCertify, LeavesOutBodiesThatAreIgnored) {
-  int others = 0;
-  for (int trial = 0; trial < test_support::affordable(40); ++trial) {
-    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
-    const auto scene = test_support::random_contact_scene(kSize, 1e-4, 1e-4, random_);
-    const BodyPair ignored{0, static_cast<std::int32_t>(scene->body_of_mover(0))};
-    const std::vector<PairToCertify> all = pairs_to_certify_of(*scene, 1e-3);
-    const std::vector<PairToCertify> rest = pairs_to_certify_of(*scene, 1e-3, {ignored});
-    const auto of_ignored =
-        std::count_if(all.begin(), all.end(), [&](const PairToCertify& o) { return o.bodies == ignored; });
-    EXPECT_EQ(rest.size(), all.size() - static_cast<std::size_t>(of_ignored));
-    for (const PairToCertify& pair_to_certify : rest)
-      ASSERT_FALSE(pair_to_certify.bodies == ignored);
-    others += rest.empty() ? 0 : 1;
-  }
-  EXPECT_GT(others, 0);
-}
-
 /// A plate one margin above another, each cut into so many triangles.
-std::size_t pairs_of_flush_plates(std::int64_t triangles, double gap) {
+std::size_t pairs_to_certify_of_flush_plates(std::int64_t triangles, double gap) {
   constexpr double kMargin = 2e-6;
   const ContactScene scene = [&] {
     std::vector<Obstacle> obstacles{test_support::obstacle_of(geometry::make_plate({0.5, 0.5}, triangles))};
@@ -138,13 +172,13 @@ std::size_t pairs_of_flush_plates(std::int64_t triangles, double gap) {
     made.place(0, test_support::pose({0.03, 0.02, gap * kMargin}, test_support::turn(0.4, Vector3d::UnitZ())));
     return made;
   }();
-  return pairs_to_certify_of(scene, 0.5e-3).size();
+  return Found(scene, 0.5e-3).all_to_certify().size();
 }
 
-TEST_F(PairsToCertify, IsAsSmallForFinelyCutFlushPlatesAsForCoarseOnes) {
-  EXPECT_LE(pairs_of_flush_plates(20, 1.0), 16U) << "the children of the roots";
-  EXPECT_LE(pairs_of_flush_plates(5000, 1.0), 16U);
-  EXPECT_GT(pairs_of_flush_plates(5000, 0.5), 300U) << "nearer than boxes are accepted";
+TEST_F(NearPairs, AreAsFewToCertifyForFinelyCutFlushPlatesAsForCoarseOnes) {
+  EXPECT_LE(pairs_to_certify_of_flush_plates(20, 1.0), 16U) << "the children of the roots";
+  EXPECT_LE(pairs_to_certify_of_flush_plates(5000, 1.0), 16U);
+  EXPECT_GT(pairs_to_certify_of_flush_plates(5000, 0.5), 300U) << "nearer than boxes are accepted";
 }
 
 }  // namespace

@@ -1,0 +1,108 @@
+#include "search/near_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glissade/collision/dual_tree_traversal.h>
+
+#include "certificate/obb_access.h"
+#include "certificate/separating_planes.h"
+
+namespace glissade::haptics {
+namespace {
+
+/// Fraction of the margin: the gap from which on box pairs are accepted. Contacts hold parts one margin apart, and
+/// certificates need the minimum clearance only.
+constexpr double kEnough = 0.6;
+static_assert(kEnough > kMinClearanceOfMargin);
+
+/// Accepts box pairs that the plane of the flat side of either box separates.
+class PairSearch final : public collision::DualTreeVisitor {
+ public:
+  PairSearch(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
+             std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes)
+      : bodies_(bodies),
+        obstacle_(obstacle),
+        part_(part),
+        X_OV_(relative_pose(obstacle.X_WB, part.X_WB)),
+        enough_(kEnough * margin),
+        pairs_(pairs),
+        boxes_(boxes) {}
+
+  const collision::DopTree& tree_O() const { return obstacle_.body->tree; }
+  const collision::DopTree& tree_V() const { return part_.body->tree; }
+  const Eigen::Isometry3d& X_OV() const { return X_OV_; }
+
+  bool accepts(const collision::TreeChild& child_O, const collision::TreeChild& child_V) override {
+    const Obb& box_O = obb_tree_of(*obstacle_.body).box(child_O.node, child_O.child);
+    const Obb& box_V = obb_tree_of(*part_.body).box(child_V.node, child_V.child);
+    if (box_O.radius < 0.0 || box_V.radius < 0.0) return true;  // an empty box
+    const Eigen::Vector3d between_O = X_OV_ * box_V.c - box_O.c;
+    for (const Eigen::Vector3d& n_O : {box_O.axes.col(0).eval(), (X_OV_.linear() * box_V.axes.col(0)).eval()}) {
+      const double along = n_O.dot(between_O);
+      const double gap =
+          std::abs(along) - box_O.extent_along(n_O) - box_V.extent_along(X_OV_.linear().transpose() * n_O);
+      if (gap < enough_) continue;
+      boxes_.push_back({bodies_, child_of(*obstacle_.body, child_O.node, child_O.child),
+                        child_of(*part_.body, child_V.node, child_V.child), gap,
+                        obstacle_.X_WB.linear() * (along < 0.0 ? (-n_O).eval() : n_O)});
+      return true;
+    }
+    return false;
+  }
+
+  void visit(const collision::ClosePair& pair) override {
+    const bool may_yield_contact = obstacle_.body->topology.can_stop_each_other(
+        pair.triangles.triangle_A, part_.body->topology, pair.triangles.triangle_B);
+    add(pair, may_yield_contact, true);
+  }
+  void visit_below_accepted(const collision::ClosePair& pair) override { add(pair, true, false); }
+
+ private:
+  void add(const collision::ClosePair& pair, bool may_yield_contact, bool is_to_certify) {
+    const geometry::TriangleMesh& mesh_O = tree_O().mesh();
+    const geometry::TriangleMesh& mesh_V = tree_V().mesh();
+    const Eigen::Vector3d n_O = (pair.p_B - pair.p_A).normalized();
+    double top = -std::numeric_limits<double>::infinity();
+    double bottom = std::numeric_limits<double>::infinity();
+    for (int corner = 0; corner < 3; ++corner) {
+      top = std::max(top, n_O.dot(mesh_O.corner(pair.triangles.triangle_A, corner)));
+      bottom = std::min(bottom, n_O.dot(X_OV_ * mesh_V.corner(pair.triangles.triangle_B, corner)));
+    }
+    // The direction between points a few nanometres apart is ill-conditioned: it separates the triangles by less than
+    // their distance.
+    pairs_.push_back({{bodies_, pair.triangles.triangle_A, pair.triangles.triangle_B},
+                      bottom - top,
+                      obstacle_.X_WB.linear() * n_O,
+                      may_yield_contact,
+                      is_to_certify});
+  }
+
+  BodyPair bodies_;
+  const PlacedBody& obstacle_;
+  const PlacedBody& part_;
+  Eigen::Isometry3d X_OV_;
+  double enough_;  // metres
+  std::vector<NearPair>& pairs_;
+  std::vector<PairToCertify>& boxes_;
+};
+
+}  // namespace
+
+PairToCertify to_certify(const NearPair& pair) {
+  const auto item = [](std::int32_t triangle) {
+    return TreeItem{TreeItem::Kind::kTriangle, static_cast<std::uint32_t>(triangle), nullptr};
+  };
+  return {pair.bodies, item(pair.obstacle_triangle), item(pair.part_triangle), pair.distance, pair.n_W};
+}
+
+void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
+                     double radius, collision::QueryWorkspace& workspace, std::vector<NearPair>& pairs,
+                     std::vector<PairToCertify>& boxes) {
+  PairSearch search(bodies, obstacle, part, margin, pairs, boxes);
+  collision::traverse_near(search.tree_O(), search.tree_V(), search.X_OV(), radius, workspace, search,
+                           {&obstacle.body->features, &part.body->features});
+}
+
+}  // namespace glissade::haptics

@@ -1,0 +1,35 @@
+#pragma once
+
+/// The search for what is near: one traversal of the trees of two bodies finds the pairs of triangles that may yield
+/// contacts, and the pairs of boxes and triangles that a step must be certified against.
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <glissade/collision/query_types.h>
+
+#include "certificate/pairs_to_certify.h"
+#include "scene/contact_scene.h"
+
+namespace glissade::haptics {
+
+/// Two triangles within the radius of a search.
+struct NearPair : TrianglesOfBodies {
+  double distance;      ///< metres: their separation along n_W at the poses of the search
+  Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part; zero where triangles touched
+  /// At least one of them owns an edge or vertex that can stop the other (`geometry::MeshTopology`).
+  bool may_yield_contact;
+  bool is_to_certify;  ///< it lies in no pair of boxes that is to be certified
+};
+
+PairToCertify to_certify(const NearPair& pair);
+
+/// Appends the pairs of two bodies within `radius` (metres) of each other: the pairs of boxes that a plane separates,
+/// the pairs of triangles that lie in no such boxes, and of the others those that may yield contacts. So each pair of
+/// triangles within the radius lies in one pair to certify. `margin` (metres) as in `ContactScene::margin`.
+void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
+                     double radius, collision::QueryWorkspace& workspace, std::vector<NearPair>& pairs,
+                     std::vector<PairToCertify>& boxes);
+
+}  // namespace glissade::haptics
