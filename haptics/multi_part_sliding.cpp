@@ -15,6 +15,7 @@
 #include "sliding/sliding_constants.h"
 #include "sliding/starts.h"
 #include "sliding/step_finder.h"
+#include "sliding/step_forecast.h"
 #include "work/work_budget.h"
 
 namespace glissade::haptics {
@@ -92,9 +93,6 @@ class MultiPartSliding::Cycle {
   /// In units of `StepFinder::certain_distance`: bodies closer than this count as overlapping at the start.
   static constexpr double kTouching = 4.0;
 
-  /// In margins: longer steps are always followed by another one.
-  static constexpr double kShort = 0.5;
-
   enum class Progress { kNextCycle, kDone, kUsedUp };
 
   /// Begins to answer these ghosts. Returns whether there is anything to do.
@@ -108,6 +106,7 @@ class MultiPartSliding::Cycle {
     starts_.depenetrate(kSlew_m * milliseconds_);
     is_under_way_ = true;
     cycles_ = 0;
+    forecast_.begin_call(shared_.largest_margin);
     return true;
   }
 
@@ -161,31 +160,18 @@ class MultiPartSliding::Cycle {
     answered_call_ = begun_call_;
     const bool all_arrived = std::all_of(step->arrives.begin(), step->arrives.begin() + std::ssize(shared_.states),
                                          [](bool arrives) { return arrives; });
-    const bool is_done =
-        cycles_ == shared_.rules.max_cycles || all_arrived || next_length(*step) < kNotWorthIt * shared_.largest_margin;
+    forecast_.note(*step);
+    const bool is_done = cycles_ == shared_.rules.max_cycles || all_arrived || forecast_.is_next_worthless();
     double reach = step_finder_.rows().complete();
     if (is_done || budget.is_used_up()) reach = step_finder_.rows().find_ahead(budget);
     move(*step);
     radius_.note(*step);
-    lengths_before_ = step->lengths;
     for (std::size_t p = 0; p < shared_.count(); ++p) {
       HeldPartState& part = shared_.states[p];
       if (part.is_held() && starts_.overlaps().way_out_of(p) == nullptr) part.turn_target();
     }
     report(reach);
     return is_done ? Progress::kDone : Progress::kNextCycle;
-  }
-
-  /// About how long the step after this one would be, metres. Steps on the same contacts shrink by a constant factor at
-  /// the least, as those of Newton's method do. Other steps tell nothing, nor do long ones, which may meet others.
-  double next_length(const Step& step) const {
-    if (cycles_ == 1 || !step.is_plain || step.length > kShort * shared_.largest_margin) return step.length;
-    double next = 0.0;
-    for (std::size_t p = 0; p < shared_.count(); ++p) {
-      const double shrinks = step.lengths[p] < lengths_before_[p] ? step.lengths[p] / lengths_before_[p] : 1.0;
-      next += shrinks * step.lengths[p];
-    }
-    return next;
   }
 
   /// The pairs of bodies that no search looks at: those that overlap, and those that keep their distance.
@@ -245,6 +231,7 @@ class MultiPartSliding::Cycle {
   StepFinder step_finder_;
   Starts starts_;
   SearchRadius radius_;
+  StepForecast forecast_;
   std::vector<BodyPair> ignored_;
   CallStatistics statistics_;
   std::chrono::duration<double, std::milli> time_{0.0};  // since the simulation began
@@ -254,7 +241,6 @@ class MultiPartSliding::Cycle {
   bool waits_for_search_ = false;
   double milliseconds_ = 0.0;
   int cycles_ = 0;
-  std::array<double, kMaxParts> lengths_before_{};  // metres: of the step before
   std::int64_t begun_call_ = 0;
   std::int64_t answered_call_ = 0;  // whose ghosts the poses answer
 };

@@ -21,6 +21,18 @@ constexpr std::int64_t kWorkOfRow = 50;
 
 constexpr CouplingStiffness kImmovable{kUnbounded, kUnbounded};
 
+/// Metres: below the rounding of poses.
+constexpr double kNoMotion_m = 1e-15;
+
+/// A displacement without what rounding has left of a translation or rotation. From step to step it would shrink to
+/// numbers that are too small to be written and read.
+geometry::Displacement without_rounding(const geometry::Displacement& d, double lever) {
+  geometry::Displacement cleared = d;
+  if (d.v.norm() < kNoMotion_m) cleared.v.setZero();
+  if (lever * d.w.norm() < kNoMotion_m) cleared.w.setZero();
+  return cleared;
+}
+
 }  // namespace
 
 StepFinder::StepFinder(SimulatedParts& shared)
@@ -203,17 +215,18 @@ std::array<bool, kMaxParts> StepFinder::parts_that_fail() const {
 
 /// Sets the displacements of the step, and begins their certificate.
 void StepFinder::begin_certificate(const Displacements& displacements, WorkBudget& budget) {
-  step_.displacements = displacements;
+  step_.displacements = {};
   step_.length = 0.0;
   for (std::size_t p = 0; p < shared_.count(); ++p) {
-    step_.lengths[p] = geometry::motion_bound(displacements[p], shared_.states[p].lever);
+    step_.displacements[p] = without_rounding(displacements[p], shared_.states[p].lever);
+    step_.lengths[p] = geometry::motion_bound(step_.displacements[p], shared_.states[p].lever);
     step_.length += step_.lengths[p];
   }
   // Bodies farther apart than this keep their minimum clearance whatever happens on the way.
   const double concerned =
       step_.length + kMinClearanceOfMargin * shared_.largest_margin + certificate_.certain_distance();
   is_covered_ = shared_.candidates.covers(concerned);
-  certificate_.begin_step(shared_.of_parts(displacements));
+  certificate_.begin_step(shared_.of_parts(step_.displacements));
   to_certify_.clear();
   if (is_covered_) shared_.candidates.unproved_within(concerned, certificate_, to_certify_, budget);
   certificate_.begin(to_certify_);
