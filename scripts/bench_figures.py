@@ -7,7 +7,8 @@ import typing
 
 PEERS = ["fcl", "ode", "bullet", "cgal"]
 HULL_PEERS = ["libccd", "libccd-mpr", "fcl", "bullet"]
-PEER_TITLES = {"fcl": "FCL", "ode": "ODE", "bullet": "Bullet", "cgal": "CGAL", "libccd": "libccd GJK", "libccd-mpr": "libccd MPR"}
+PART_PEERS = ["fcl", "pqp"]
+PEER_TITLES = {"fcl": "FCL", "ode": "ODE", "bullet": "Bullet", "cgal": "CGAL", "pqp": "PQP's method", "libccd": "libccd GJK", "libccd-mpr": "libccd MPR"}
 
 
 def geometric_mean(values):

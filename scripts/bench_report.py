@@ -13,7 +13,7 @@ import subprocess
 import sys
 
 import bench_plots
-from bench_figures import HULL_PEERS, PEERS, PEER_TITLES, geometric_mean, read_results
+from bench_figures import HULL_PEERS, PART_PEERS, PEERS, PEER_TITLES, geometric_mean, read_results
 from bench_haptics_tables import ages, clasp, handoff, latency, passivity, sliding, tick
 from bench_tables import table, number, folded, picture
 
@@ -29,6 +29,8 @@ def machine(command, bench):
     packages = {PEER_TITLES[peer]: peer for peer in PEERS}
     if bench == "hull":
         packages = {"libccd": "ccd", "FCL": "fcl", "Bullet": "bullet"}
+    elif bench == "parts":
+        packages = {"FCL": "fcl"}
     elif bench == "handoff":
         packages = {"Boost": "boost"}
     elif bench in ("sliding", "tick", "passivity", "ages", "clasp", "latency"):
@@ -60,7 +62,7 @@ def disagreements(figures):
     found = []
     for subject in figures.subjects:
         count = figures.count_disagreements(subject)
-        if count is not None and (count > 0 or subject in PEERS):
+        if count is not None and (count > 0 or subject in PEER_TITLES):
             found.append(f"{subject} {count:.0f}")
     return "Answers that differ from Glissade's: " + ", ".join(found) + ".\n\n" if found else ""
 
@@ -130,24 +132,40 @@ PART_QUESTIONS = {"yes-no": "yes or no, Zachmann's procedure", "yes-no-0.1%": "y
                   "distance-10%": "distance, 10 % apart", "distance-coherent": "distance while sliding, coherent"}
 
 
-def parts(figures, _):
-    """Ratios to FCL by question, with the worst parts by name, then of each part."""
-    ratios = {question: {} for question in PART_QUESTIONS}
+def part_ratios(figures, peer):
+    """How many times faster than the peer, by question and then by part."""
+    ratios = {}
     for case in figures.measured_cases():
         question, part = case.split(" ", 1)
         who = "glissade-coherent" if question == "distance-coherent" else "glissade"
-        ratios[question][part] = figures.get(case, "fcl", "time") / figures.get(case, who, "time")
+        theirs = figures.get(case, peer, "time")
+        if theirs is not None:
+            ratios.setdefault(question, {})[part] = theirs / figures.get(case, who, "time")
+    return ratios
+
+
+def parts(figures, _):
+    """Ratios to each peer by question, with the worst parts by name, then of each part."""
+    ratios = {peer: part_ratios(figures, peer) for peer in PART_PEERS}
+    ratios = {peer: of_question for peer, of_question in ratios.items() if of_question}
+    questions = [question for question in PART_QUESTIONS if any(question in of_question for of_question in ratios.values())]
     rows = []
-    for question, of_part in ratios.items():
-        if of_part:
-            worst = sorted(of_part, key=of_part.get)[:3]
-            rows.append([PART_QUESTIONS[question], str(len(of_part)), f"{geometric_mean(of_part.values()):.1f}",
-                         ", ".join(f"{of_part[part]:.2g} {part}" for part in worst)])
-    text = table(["times faster than FCL", "parts and pairs", "geometric mean", "worst"], rows) + disagreements(figures)
-    ratios = {question: of_part for question, of_part in ratios.items() if of_part}
+    for question in questions:
+        cells = []
+        for of_question in ratios.values():
+            of_part = of_question[question]
+            worst = sorted(of_part, key=of_part.get)[:2]
+            cells += [f"{geometric_mean(of_part.values()):.1f}", ", ".join(f"{of_part[part]:.2g} {part}" for part in worst)]
+        rows.append([PART_QUESTIONS[question], str(len(of_part))] + cells)
+    header = ["times faster than", "parts and pairs"]
+    for peer in ratios:
+        header += [f"{PEER_TITLES[peer]}: geometric mean", "worst"]
+    text = table(header, rows) + disagreements(figures)
     names = list(dict.fromkeys(case.split(" ", 1)[1] for case in figures.measured_cases()))
-    cells = [[part] + [number(of_part.get(part)) for of_part in ratios.values()] for part in names]
-    return text + folded("Times faster than FCL, of each part", table(["two copies, or two parts"] + list(ratios), cells))
+    cells = [[part] + [" / ".join(number(of_question[question].get(part)) for of_question in ratios.values()) for question in questions]
+             for part in names]
+    title = "Times faster than " + " / ".join(PEER_TITLES[peer] for peer in ratios) + ", of each part"
+    return text + folded(title, table(["two copies, or two parts"] + questions, cells))
 
 
 def build(figures, images):

@@ -83,13 +83,13 @@ void run_parts(const BenchOptions& options, Results& results) {
       query_case.name = question.name + (" " + pair.name);
       query_case.operation = question.operation;
       query_case.poses = {poses.of(question)};
-      run_query_case(query_case, {glissade_subject(), fcl_subject()}, pass_limits(options), results);
+      run_query_case(query_case, {glissade_subject(), fcl_subject(), pqp_subject()}, pass_limits(options), results);
     }
     query_case.name = kPartsCoherentName + (" " + pair.name);
     query_case.operation = Operation::kDistance;
     query_case.poses = poses.walk();
     query_case.part_names = {"gap-0.1%", "gap-1%", "gap-10%"};
-    run_query_case(query_case, {glissade_coherent(), fcl_subject()}, pass_limits(options), results);
+    run_query_case(query_case, {glissade_coherent(), fcl_subject(), pqp_subject()}, pass_limits(options), results);
   }
 }
 

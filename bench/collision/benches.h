@@ -38,8 +38,8 @@ void run_hull(const BenchOptions& options, Results& results);
 void run_all_pairs(const BenchOptions& options, Results& results);
 
 /// Meshes of the user, two copies or pairs of a list: yes or no at Zachmann's poses and at gaps of 0.1 % and 1 % of the
-/// size, all pairs, and distances at 0.1 %, 1 % and 10 %, also while sliding. Beside FCL only. The case is the question
-/// and the name of the part. Nothing without `--mesh`.
+/// size, all pairs, and distances at 0.1 %, 1 % and 10 %, also while sliding. Beside FCL and PQP's published method
+/// only. The case is the question and the name of the part. Nothing without `--mesh`.
 void run_parts(const BenchOptions& options, Results& results);
 
 /// Time and memory of building, including a copy of the mesh. Bytes are those allocated by malloc.

@@ -61,6 +61,19 @@ if(results MATCHES "hull,[^,]+,glissade,wrong,[1-9]")
   message(FATAL_ERROR "There are wrong answers:\n${results}")
 endif()
 
+# A block with an oblique end.
+file(WRITE ${WORK_DIR}/parts/block.obj "v 0 0 0\nv 3 0 0\nv 4 1 0\nv 0 1 0\nv 0 0 1\nv 3 0 1\nv 5 1 1\nv 0 1 1\n"
+  "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n")
+execute_process(COMMAND ${BENCH} --only parts --quick --mesh ${WORK_DIR}/parts/block.obj --out ${WORK_DIR}/parts
+  RESULT_VARIABLE status ERROR_VARIABLE said)
+expect("exit code 0 of parts" status EQUAL 0)
+file(READ ${WORK_DIR}/parts/results.csv results)
+foreach(question yes-no yes-no-0.1% yes-no-1% all-pairs distance-0.1% distance-1% distance-10% distance-coherent)
+  foreach(peer fcl pqp)
+    expect("the answers of ${peer} to ${question}" results MATCHES "parts,${question} block,${peer},disagreements,0,1")
+  endforeach()
+endforeach()
+
 execute_process(COMMAND ${BENCH} --only nonsense --out ${WORK_DIR} RESULT_VARIABLE status ERROR_VARIABLE said)
 expect("exit code 2 for an unknown bench" status EQUAL 2)
 
@@ -81,3 +94,11 @@ execute_process(COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 ${SOUR
   ${WORK_DIR}/hull/results.csv ${WORK_DIR}/hull/benchmarks.md --command "smoke test" RESULT_VARIABLE status ERROR_VARIABLE said)
 expect("exit code 0 of the report on hulls" status EQUAL 0)
 expect("the plot of hulls" EXISTS ${WORK_DIR}/hull/images/bench_hull.svg)
+
+file(COPY ${SOURCE_DIR}/docs/benchmarks.md DESTINATION ${WORK_DIR}/parts)
+execute_process(COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 ${SOURCE_DIR}/scripts/bench_report.py
+  ${WORK_DIR}/parts/results.csv ${WORK_DIR}/parts/benchmarks.md --command "smoke test" RESULT_VARIABLE status ERROR_VARIABLE said)
+expect("exit code 0 of the report on parts" status EQUAL 0)
+file(READ ${WORK_DIR}/parts/benchmarks.md page)
+expect("both peers of the parts" page MATCHES "FCL: geometric mean[^\n]*PQP's method: geometric mean")
+expect("both ratios of the part" page MATCHES "[|] block [|] [0-9.]+ / [0-9.]+ [|]")

@@ -71,6 +71,8 @@ Subject fcl_subject();
 Subject ode_subject();
 Subject bullet_subject();
 Subject cgal_subject();
+/// The published method of PQP in our own implementation; not among the other libraries.
+Subject pqp_subject();
 /// All other libraries.
 std::vector<Subject> peers();
 /// The libraries that identify all intersecting pairs of triangles.
