@@ -306,13 +306,17 @@ void CandidatePairs::in_reach(double reach, std::vector<PairInReach>& pairs) {
         double least = std::numeric_limits<double>::infinity();
         const std::size_t last = std::min(numbers.size(), kPlanesAtOnce * (block + 1));
         for (std::size_t slot = kPlanesAtOnce * block; slot < last; ++slot) {
+          const auto along_plane = static_cast<double>(gaps_at_begin_[slot]);
+          if (along_plane > reach) {
+            least = std::min(least, along_plane);
+            continue;
+          }
           const std::uint32_t number = numbers[slot];
           const NearPair& pair = now_.set.pairs[number];
           if (!pair.may_yield_contact) continue;
-          const double gap = std::max(static_cast<double>(gaps_at_begin_[slot]), gaps_[number] - clock_);
+          const double gap = std::max(along_plane, gaps_[number] - clock_);
           least = std::min(least, gap);
-          if (gap > reach) continue;
-          if (now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
+          if (gap > reach || now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
           pairs.push_back({number, i, static_cast<std::uint32_t>(slot), round_down(gap)});
         }
         of_blocks[block] = std::max(of_blocks[block], least + clock_);

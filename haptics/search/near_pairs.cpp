@@ -1,8 +1,8 @@
 #include "search/near_pairs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include <glissade/collision/dual_tree_traversal.h>
 
@@ -16,6 +16,12 @@ namespace {
 /// certificates need the minimum clearance only.
 constexpr double kEnough = 0.6;
 static_assert(kEnough > kMinClearanceOfMargin);
+
+/// Down to single precision, for `NearestFirst`.
+double round_down(double distance) {
+  const auto rounded = static_cast<float>(distance);
+  return static_cast<double>(static_cast<double>(rounded) <= distance ? rounded : std::nextafter(rounded, -1e30F));
+}
 
 /// Accepts box pairs that the plane of the flat side of either box separates.
 class PairSearch final : public collision::DualTreeVisitor {
@@ -45,7 +51,7 @@ class PairSearch final : public collision::DualTreeVisitor {
           std::abs(along) - box_O.extent_along(n_O) - box_V.extent_along(X_OV_.linear().transpose() * n_O);
       if (gap < enough_) continue;
       boxes_.push_back({bodies_, child_of(*obstacle_.body, child_O.node, child_O.child),
-                        child_of(*part_.body, child_V.node, child_V.child), gap,
+                        child_of(*part_.body, child_V.node, child_V.child), round_down(gap),
                         obstacle_.X_WB.linear() * (along < 0.0 ? (-n_O).eval() : n_O)});
       return true;
     }
@@ -64,17 +70,20 @@ class PairSearch final : public collision::DualTreeVisitor {
     const geometry::TriangleMesh& mesh_O = tree_O().mesh();
     const geometry::TriangleMesh& mesh_V = tree_V().mesh();
     const Eigen::Vector3d n_O = (pair.p_B - pair.p_A).normalized();
-    double top = -std::numeric_limits<double>::infinity();
-    double bottom = std::numeric_limits<double>::infinity();
-    for (int corner = 0; corner < 3; ++corner) {
-      top = std::max(top, n_O.dot(mesh_O.corner(pair.triangles.triangle_A, corner)));
-      bottom = std::min(bottom, n_O.dot(X_OV_ * mesh_V.corner(pair.triangles.triangle_B, corner)));
-    }
+    const Eigen::Vector3d n_V = X_OV_.linear().transpose() * n_O;
+    const auto heights = [](const geometry::TriangleMesh& mesh, std::int32_t triangle, const Eigen::Vector3d& n) {
+      return std::array{n.dot(mesh.corner(triangle, 0)), n.dot(mesh.corner(triangle, 1)),
+                        n.dot(mesh.corner(triangle, 2))};
+    };
+    const std::array<double, 3> of_O = heights(mesh_O, pair.triangles.triangle_A, n_O);
+    const std::array<double, 3> of_V = heights(mesh_V, pair.triangles.triangle_B, n_V);
+    const double bottom = n_O.dot(X_OV_.translation()) + std::min({of_V[0], of_V[1], of_V[2]});
+    const double top = std::max({of_O[0], of_O[1], of_O[2]});
     // The direction between points a few nanometres apart is ill-conditioned: it separates the triangles by less than
     // their distance.
     pairs_.push_back({{bodies_, pair.triangles.triangle_A, pair.triangles.triangle_B},
-                      bottom - top,
                       obstacle_.X_WB.linear() * n_O,
+                      round_down(bottom - top),
                       may_yield_contact,
                       is_to_certify});
   }
@@ -94,7 +103,8 @@ PairToCertify to_certify(const NearPair& pair) {
   const auto item = [](std::int32_t triangle) {
     return TreeItem{TreeItem::Kind::kTriangle, static_cast<std::uint32_t>(triangle), nullptr};
   };
-  return {pair.bodies, item(pair.obstacle_triangle), item(pair.part_triangle), pair.distance, pair.n_W};
+  return {pair.bodies, item(pair.obstacle_triangle), item(pair.part_triangle), static_cast<double>(pair.distance),
+          pair.n_W};
 }
 
 void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,

@@ -12,8 +12,8 @@ namespace glissade::haptics {
 /// Not thread-safe.
 class NearestFirst {
  public:
-  /// Sorts in ascending order of the distances (not NaN); those equally near stay in their order. `scratch` may have
-  /// any content.
+  /// Sorts in ascending order of the distances (not NaN), which are to have single precision; those equally near stay
+  /// in their order. `scratch` may have any content.
   template <typename Pair>
   void sort(std::vector<Pair>& pairs, std::vector<Pair>& scratch) {
     distances_.clear();
