@@ -17,13 +17,21 @@ namespace {
 /// children.
 class NearPairs final : public PlacedVisitor {
  public:
-  NearPairs(const PlacedTrees& placed, double distance, DualTreeVisitor& visitor, std::vector<ClosePair>& pairs,
-            std::vector<OpenPair>& accepted)
-      : PlacedVisitor(placed), visitor_(visitor), collector_(placed, distance, pairs), accepted_(accepted) {}
+  /// `below_accepted` may be null.
+  NearPairs(const PlacedTrees& placed, double distance, DualTreeVisitor& visitor, const VisitSelection* below_accepted,
+            QueryMemory& memory)
+      : PlacedVisitor(placed),
+        visitor_(visitor),
+        collector_(placed, distance, memory.close_pairs),
+        below_accepted_(below_accepted),
+        accepted_(memory.accepted) {}
 
   PairMask to_open(const NodePair& nodes, PairMask near) override {
+    // To accept what is all passed to the visitor in any case would be for nothing.
+    const PairMask whole =
+        below_accepted_ == nullptr ? 0 : below_accepted_->whole_pairs_of_nodes(nodes.node_M, nodes.node_N);
     PairMask accepted = 0;
-    for (PairMask rest = near; rest != 0; rest &= rest - 1) {
+    for (PairMask rest = near & ~whole; rest != 0; rest &= rest - 1) {
       const int pair = std::countr_zero(rest);
       const TreeChild child_M{nodes.node_M, pair / kWidth};
       const TreeChild child_N{nodes.node_N, pair % kWidth};
@@ -47,6 +55,7 @@ class NearPairs final : public PlacedVisitor {
  private:
   DualTreeVisitor& visitor_;
   PairCollector<ClosePair> collector_;
+  const VisitSelection* below_accepted_;
   std::vector<OpenPair>& accepted_;
 };
 
@@ -67,8 +76,8 @@ void collect_below_accepted(const PlacedTrees& placed, double distance, const Vi
 }  // namespace
 
 void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                   QueryWorkspace& workspace, DualTreeVisitor& visitor, const PairSelection& below_accepted) {
-  const PlacedTrees placed{tree_A, tree_B, X_AB, below_accepted};
+                   QueryWorkspace& workspace, DualTreeVisitor& visitor, const PairSelection* below_accepted) {
+  const PlacedTrees placed{tree_A, tree_B, X_AB, below_accepted == nullptr ? PairSelection{} : *below_accepted};
   const VisitSelection selection = placed.visit_selection();
   QueryMemory& memory = memory_of(workspace);
   memory.counters = {};
@@ -76,12 +85,12 @@ void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Is
   DopVisit step(placed.base(), placed.other(), placed.frame, distance, memory.alignment, {}, memory.meter);
   memory.close_pairs.clear();
   memory.accepted.clear();
-  NearPairs pairs(placed, distance, visitor, memory.close_pairs, memory.accepted);
+  const bool shows_selected = placed.selection.of_A != nullptr && placed.selection.of_B != nullptr;
+  NearPairs pairs(placed, distance, visitor, shows_selected ? &selection : nullptr, memory);
   visit_every(step, memory, pairs);
   pairs.finish();
   const std::size_t others = memory.close_pairs.size();
-  if (below_accepted.of_A != nullptr && below_accepted.of_B != nullptr)
-    collect_below_accepted(placed, distance, selection, memory);
+  if (shows_selected) collect_below_accepted(placed, distance, selection, memory);
   for (std::size_t i = 0; i < others; ++i)
     visitor.visit(memory.close_pairs[i]);
   for (std::size_t i = others; i < memory.close_pairs.size(); ++i)

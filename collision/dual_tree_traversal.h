@@ -24,7 +24,7 @@ struct TreeChild {
 class DualTreeVisitor {
  public:
   /// Whether the visitor accepts two children. Called only for children whose bounding volumes may be within the
-  /// distance. The traversal skips all pairs below two accepted children.
+  /// distance, and not where all pairs below are selected. The traversal skips all pairs below two accepted children.
   virtual bool accepts(const TreeChild& child_A, const TreeChild& child_B) = 0;
   /// Receives a triangle pair within the distance that does not lie below an accepted pair.
   virtual void visit(const ClosePair& pair) = 0;
@@ -36,10 +36,10 @@ class DualTreeVisitor {
 };
 
 /// Passes to the visitor all triangle pairs at most `distance` (metres, ≥ 0) apart, except the triangle pairs below
-/// accepted pairs of children. Of these it passes the selected ones afterwards, if the selections of both trees are
-/// given. Deterministic: the order of the triangle pairs is that of the traversal. Allocates nothing once the workspace
-/// has grown. The visitor must not query with the workspace. Throws as the queries of `dop_query.h` do.
+/// accepted pairs of children. Of these it passes the selected ones afterwards, unless `below_accepted` is null or has
+/// a null selection. Deterministic: the order of the triangle pairs is that of the traversal. Allocates nothing once
+/// the workspace has grown. The visitor must not query with the workspace. Throws as the queries of `dop_query.h` do.
 void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                   QueryWorkspace& workspace, DualTreeVisitor& visitor, const PairSelection& below_accepted = {});
+                   QueryWorkspace& workspace, DualTreeVisitor& visitor, const PairSelection* below_accepted = nullptr);
 
 }  // namespace glissade::collision

@@ -130,6 +130,8 @@ class TriangleSelection {
   const Marks& selected() const { return selected_; }
   /// Of the selected and half selected triangles.
   const Marks& at_least_half() const { return at_least_half_; }
+  /// By node: bit c is set if all triangles below child c are selected or half selected.
+  const std::vector<std::uint8_t>& whole_children() const { return whole_children_; }
 
   /// Whether the selection can belong to `tree`: compares the numbers of nodes and leaves.
   bool is_of(const DopTree& tree) const;
@@ -140,6 +142,7 @@ class TriangleSelection {
  private:
   Marks selected_;
   Marks at_least_half_;
+  std::vector<std::uint8_t> whole_children_;
   std::uint64_t id_;
 };
 

@@ -43,6 +43,7 @@ class MultiPartSliding::Cycle {
   void grasp(std::size_t number, const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref) {
     step_finder_.give_up();  // the answer under way goes on with another cycle
     if (part(number).grasp(X_WG, p_Vref)) step_finder_.rows().forget_forces();
+    forecast_.forget();
     tell_reference(number);
   }
 
@@ -50,6 +51,7 @@ class MultiPartSliding::Cycle {
     step_finder_.give_up();  // the answer under way goes on with another cycle
     part(number).result.X_WG = part(number).result.X_WV;
     part(number).rest(SlidingState::kReleased);
+    forecast_.forget();
     part(number).p_Vref = part(number).part_V->p_Vref();
     tell_reference(number);
     step_finder_.rows().forget_forces();
@@ -106,7 +108,10 @@ class MultiPartSliding::Cycle {
     starts_.depenetrate(kSlew_m * milliseconds_);
     is_under_way_ = true;
     cycles_ = 0;
-    forecast_.begin_call(shared_.largest_margin);
+    metaphors_.clear();
+    for (const HeldPartState& part : shared_.states)
+      metaphors_.push_back(part.metaphor);
+    forecast_.begin_call(metaphors_, shared_.largest_margin, shared_.smallest_margin);
     return true;
   }
 
@@ -161,7 +166,7 @@ class MultiPartSliding::Cycle {
     const bool all_arrived = std::all_of(step->arrives.begin(), step->arrives.begin() + std::ssize(shared_.states),
                                          [](bool arrives) { return arrives; });
     forecast_.note(*step);
-    const bool is_done = cycles_ == shared_.rules.max_cycles || all_arrived || forecast_.is_next_worthless();
+    const bool is_done = cycles_ == shared_.rules.max_cycles || all_arrived || forecast_.is_rest_worthless();
     double reach = step_finder_.rows().complete();
     if (is_done || budget.is_used_up()) reach = step_finder_.rows().find_ahead(budget);
     move(*step);
@@ -232,6 +237,7 @@ class MultiPartSliding::Cycle {
   Starts starts_;
   SearchRadius radius_;
   StepForecast forecast_;
+  std::vector<Metaphor> metaphors_;  // of the parts
   std::vector<BodyPair> ignored_;
   CallStatistics statistics_;
   std::chrono::duration<double, std::milli> time_{0.0};  // since the simulation began

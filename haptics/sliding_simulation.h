@@ -19,8 +19,9 @@
 
 namespace glissade::haptics {
 
-/// The work of searching for contacts. Each search also collects the pairs of triangles and boxes that must provably
-/// stay apart in the next steps; `reports` does not include the work of collecting these pairs.
+/// The work of searching for contacts, and for the pairs of triangles and boxes that must provably stay apart in the
+/// next steps. The stages of `reports` find out which bodies are near; only its `total` includes the search among their
+/// triangles.
 struct SearchStatistics {
   std::int64_t searches = 0;       ///< number of searches whose answers were used
   collision::FrameReport reports;  ///< the sum of the reports of these searches

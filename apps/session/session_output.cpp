@@ -67,7 +67,8 @@ std::string stage_text(const collision::StageReport& stage, std::int64_t frames)
   return formatted("%.1f in, %.1f out, %.1f us", each(stage.in), each(stage.out), each(microseconds(stage.time)));
 }
 
-// Cost of the searches for contacts, one frame of the collision pipeline each.
+// Cost of the searches for contacts. The stages are those of the collision pipeline, which finds the bodies that are
+// near.
 void add_collision_rows(const Session& session, Rows& rows) {
   const std::int64_t frames = session.collision_frames;
   if (frames == 0) return;

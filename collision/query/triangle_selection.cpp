@@ -38,6 +38,31 @@ TriangleSelection::Marks marks_of(const DopTree& tree, const std::function<bool(
   return marks;
 }
 
+/// All children of a node, or triangles of a leaf.
+std::uint8_t all_of(const NodeHead& head) {
+  return static_cast<std::uint8_t>((1U << static_cast<unsigned>(head.child_count())) - 1U);
+}
+std::uint8_t all_of(const TriangleLeaf& leaf) {
+  return selected_of(leaf, [](std::int32_t) { return true; });
+}
+
+/// For each node, the children below which everything is marked.
+std::vector<std::uint8_t> whole_children(const DopTree& tree, const TriangleSelection::Marks& marks) {
+  std::vector<std::uint8_t> whole(marks.nodes.size());
+  for (std::size_t node = whole.size(); node-- > 0;) {
+    const NodeHead& head = nodes_of(tree)[node];
+    unsigned mask = 0;
+    for (int c = 0; c < head.child_count(); ++c) {
+      const std::uint32_t child = head.child(c);
+      const bool is_whole = head.is_leaf(c) ? marks.leaves[child] == all_of(leaves_of(tree)[child])
+                                            : whole[child] == all_of(nodes_of(tree)[child]);
+      if (is_whole) mask |= 1U << c;
+    }
+    whole[node] = static_cast<std::uint8_t>(mask);
+  }
+  return whole;
+}
+
 /// Adds the marks of `others`.
 void add(const std::vector<std::uint8_t>& others, std::vector<std::uint8_t>& marks) {
   for (std::size_t i = 0; i < marks.size(); ++i)
@@ -53,10 +78,12 @@ TriangleSelection::TriangleSelection(const DopTree& tree, const std::function<bo
   id_ = ++ids;
   selected_ = marks_of(tree, is_selected);
   at_least_half_ = selected_;
-  if (!is_half_selected) return;
-  const Marks half = marks_of(tree, is_half_selected);
-  add(half.nodes, at_least_half_.nodes);
-  add(half.leaves, at_least_half_.leaves);
+  if (is_half_selected) {
+    const Marks half = marks_of(tree, is_half_selected);
+    add(half.nodes, at_least_half_.nodes);
+    add(half.leaves, at_least_half_.leaves);
+  }
+  whole_children_ = collision::whole_children(tree, at_least_half_);
 }
 
 bool TriangleSelection::is_of(const DopTree& tree) const {

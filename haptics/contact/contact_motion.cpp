@@ -1,5 +1,6 @@
 #include "contact/contact_motion.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace glissade::haptics {
@@ -8,8 +9,11 @@ Contact carried(const Contact& contact, const Eigen::Isometry3d& part_motion_W,
                 const Eigen::Isometry3d& obstacle_motion_W) {
   const Eigen::Vector3d p_W = part_motion_W * contact.p_W;
   const Eigen::Vector3d q_W = obstacle_motion_W * contact.q_W();
+  const Eigen::Vector3d motion_W = p_W - contact.p_W - (q_W - contact.q_W());
+  const double along = contact.n_W.dot(motion_W);
   Contact moved = contact;
-  moved.gap = contact.gap + contact.n_W.dot(p_W - contact.p_W) - contact.n_W.dot(q_W - contact.q_W());
+  moved.gap = contact.gap + along;
+  moved.range = std::max(0.0, contact.range - (motion_W - along * contact.n_W).norm());
   const bool is_vertex_of_part = contact.kind == ContactKind::kVertexFace || contact.kind == ContactKind::kVertexEdge ||
                                  contact.kind == ContactKind::kVertexVertex;
   moved.p_W = is_vertex_of_part ? p_W : Eigen::Vector3d(q_W + moved.gap * contact.n_W);

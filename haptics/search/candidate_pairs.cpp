@@ -374,11 +374,15 @@ void CandidatePairs::unproved_within(double reach, PathCertificate& certificate,
         const std::size_t last = std::min(numbers.size(), kPlanesAtOnce * (block + 1));
         for (std::size_t slot = kPlanesAtOnce * block; slot < last; ++slot) {
           const auto at_begin = static_cast<double>(gaps_at_begin_[slot]);
-          least = std::min(least, at_begin);
-          if (at_begin > path.far) continue;
-          if (at_begin >= path.needed && static_cast<double>(gaps_at_end_[slot]) >= path.needed) continue;
+          if (at_begin > path.far) {
+            least = std::min(least, at_begin);
+            continue;
+          }
           const NearPair& pair = now_.set.pairs[numbers[slot]];
-          if (!pair.is_to_certify || now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
+          if (!pair.is_to_certify) continue;
+          least = std::min(least, at_begin);
+          if (at_begin >= path.needed && static_cast<double>(gaps_at_end_[slot]) >= path.needed) continue;
+          if (now_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
           unproved.push_back(to_certify(pair));
           places_.push_back({&planes, slot, numbers[slot]});
         }

@@ -98,9 +98,9 @@ class CandidatePairs {
   /// Notes for the pairs with these numbers that their contacts have at least these gaps (metres) at the present poses.
   void note_gaps(std::span<const std::uint32_t> numbers, std::span<const GapsOfPair> gaps);
 
-  /// Number of candidate pairs.
-  std::size_t pair_count() const { return now_.set.contact_count; }
-  /// The same plus the number of pairs to certify.
+  /// Number of pairs of triangles.
+  std::size_t pair_count() const { return now_.set.pairs.size(); }
+  /// Number of pairs that may yield contacts, plus that of pairs to certify.
   std::size_t size() const { return now_.set.contact_count + now_.set.certify_count; }
 
   /// Work of the search under way, or of the last one, so far; only with a limit of work.
@@ -177,11 +177,11 @@ class CandidatePairs {
   std::vector<Motion> motions_of_clock_;
   std::vector<Motion> motions_ahead_;  // scratch memory
   std::int64_t work_ = 0;
-  /// A pair in the list of the last call of `unproved_within`, among all pairs to certify.
+  /// A pair in the list of the last call of `unproved_within`.
   struct PlaceOfPair {
     PlanesOfBodies* planes;  // null: it has none
     std::size_t slot;
-    std::uint32_t number;
+    std::uint32_t number;  // of the pair of triangles
   };
   std::vector<PlaceOfPair> places_;
   /// For the planes of each two bodies: of each block, the least gap (metres), minus the clock as above.

@@ -6,13 +6,17 @@
 namespace glissade::haptics {
 namespace {
 
-/// Work of taking over and sorting a pair, in the unit of `collision::WorkMeter`: rough, and high rather than low.
-constexpr std::int64_t kWorkOfPair = 400;
+/// Of the distance of a point from the origin of its part: how far it may be from where it would be if the pose were
+/// corrected to a rigid one, as the poses of the pipeline's objects are (`geometry::rigid_pose`).
+constexpr double kDefect = 1e-4;
+
+double farthest_from_origin(const SlidingPart& part) {
+  return part.tree.center().norm() + part.tree.radius();
+}
 
 // A single thread: the other processors belong to the haptic thread and to the viewer.
 collision::PipelineOptions pipeline_options(double greatest_distance, collision::WorkMeter* meter) {
   return {
-
       .query = collision::PairQuery::kVerdict, .greatest_distance = greatest_distance, .threads = 1, .meter = meter};
 }
 
@@ -47,10 +51,7 @@ class PlanesOfSearch {
 template <typename Body>
 collision::ObjectDescription description(const std::shared_ptr<const Body>& body, const Eigen::Isometry3d& X_WB,
                                          int group) {
-  return {.tree = {body, &body->tree},
-          .hull = {body, &body->hull},
-          .X_WO = X_WB,
-          .group = group};
+  return {.tree = {body, &body->tree}, .hull = {body, &body->hull}, .X_WO = X_WB, .group = group};
 }
 
 }  // namespace
@@ -60,6 +61,8 @@ CandidateSearch::CandidateSearch(const ContactScene& scene, double greatest_radi
       meter_(meter),
       bodies_(scene.bodies().begin(), scene.bodies().end()),
       greatest_radius_(greatest_radius) {
+  for (const auto& mover : scene.movers())
+    slack_ = std::max(slack_, 2.0 * kDefect * farthest_from_origin(*mover));
   workspace_.set_meter(meter);
   start_afresh();
 }
@@ -67,7 +70,7 @@ CandidateSearch::CandidateSearch(const ContactScene& scene, double greatest_radi
 void CandidateSearch::start_afresh() {
   pipeline_.reset();
   world_.emplace(static_cast<int>(bodies_.size()));
-  pipeline_.emplace(*world_, clock_, pipeline_options(greatest_radius_, meter_));
+  pipeline_.emplace(*world_, clock_, pipeline_options(greatest_radius_ + slack_, meter_));
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     const int group = scene_.group(body);
     if (!ContactScene::can_touch(group, group)) world_->disable_groups(group, group);
@@ -83,6 +86,7 @@ void CandidateSearch::start_afresh() {
 }
 
 void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
+  const std::chrono::nanoseconds start = clock_.now();
   ignore(request.ignored);
   for (std::size_t mover = 0; mover < request.X_WB.size(); ++mover) {
     const std::size_t body = scene_.body_of_mover(mover);
@@ -90,12 +94,13 @@ void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
       throw std::invalid_argument("the pose of a part must be a rotation and translation");
     bodies_[body].X_WB = request.X_WB[mover];
   }
-  const collision::FrameResult& near = pipeline_->step(request.radius);
+  const collision::FrameResult& near = pipeline_->step(request.radius + slack_);
   set.report = near.report;
   find_pairs(near, request.radius, set);
   nearest_first_.sort(set.pairs, unsorted_pairs_);
   nearest_first_.sort(set.boxes, unsorted_boxes_);
   if (request.has_planes) find_planes(set);
+  set.report.total = clock_.now() - start;
 }
 
 void CandidateSearch::find_pairs(const collision::FrameResult& near, double radius, CandidateSet& set) {
@@ -104,12 +109,8 @@ void CandidateSearch::find_pairs(const collision::FrameResult& near, double radi
   for (const collision::ObjectPair& objects : near.meeting) {
     const BodyPair bodies{static_cast<std::int32_t>(objects.object_A.index),
                           static_cast<std::int32_t>(objects.object_B.index)};
-    const std::size_t before = set.pairs.size() + set.boxes.size();
     find_near_pairs(bodies, bodies_[objects.object_A.index], bodies_[objects.object_B.index],
-                    scene_.margin(bodies.obstacle, bodies.part), radius, workspace_, set.pairs, set.boxes);
-    const std::size_t found = set.pairs.size() + set.boxes.size() - before;
-    for (std::size_t i = 0; meter_ != nullptr && i < found; ++i)
-      meter_->spend(kWorkOfPair);  // pair by pair, so that it is done in pieces
+                    scene_.margin(bodies.obstacle, bodies.part), radius, workspace_, meter_, set.pairs, set.boxes);
   }
   const auto count = [&](bool NearPair::*property) {
     return static_cast<std::size_t>(

@@ -42,14 +42,14 @@ struct CandidateRequest {
   bool has_planes = true;               ///< the answer has them
 };
 
-/// The answer: all pairs within the radius, nearest first.
+/// The answer: what `find_near_pairs` finds, nearest first.
 struct CandidateSet {
   std::vector<NearPair> pairs;
   std::vector<PlanesOfBodies> planes;  ///< of `pairs`, by their places
   std::vector<PairToCertify> boxes;    ///< of larger pairs to certify than triangles
-  std::size_t contact_count = 0;       ///< of the pairs that may yield contacts
+  std::size_t contact_count = 0;       ///< number of the pairs that may yield contacts
   std::size_t certify_count = 0;       ///< of those to certify, and the boxes
-  collision::FrameReport report;       ///< the work of finding out which bodies are near
+  collision::FrameReport report;       ///< of finding out which bodies are near; in total, of the search
 };
 
 /// Not thread-safe. Reads neither poses nor minimum clearances of the scene, so these may change during a search.
@@ -78,6 +78,7 @@ class CandidateSearch {
   std::vector<BodyPair> ignored_;         // pairs that the world leaves out
   realtime::SteadyClock clock_;
   double greatest_radius_;
+  double slack_ = 0.0;  // metres: the pipeline corrects poses that are not quite rigid
   std::optional<collision::World> world_;
   std::optional<collision::CollisionPipeline> pipeline_;  // of the world
   collision::QueryWorkspace workspace_;

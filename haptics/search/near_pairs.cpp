@@ -17,6 +17,9 @@ namespace {
 constexpr double kEnough = 0.6;
 static_assert(kEnough > kMinClearanceOfMargin);
 
+/// Work of taking over and sorting a pair, in the unit of `collision::WorkMeter`: rough, and high rather than low.
+constexpr std::int64_t kWorkOfPair = 400;
+
 /// Down to single precision, for `NearestFirst`.
 double round_down(double distance) {
   const auto rounded = static_cast<float>(distance);
@@ -27,12 +30,13 @@ double round_down(double distance) {
 class PairSearch final : public collision::DualTreeVisitor {
  public:
   PairSearch(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
-             std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes)
+             collision::WorkMeter* meter, std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes)
       : bodies_(bodies),
         obstacle_(obstacle),
         part_(part),
         X_OV_(relative_pose(obstacle.X_WB, part.X_WB)),
         enough_(kEnough * margin),
+        meter_(meter),
         pairs_(pairs),
         boxes_(boxes) {}
 
@@ -50,6 +54,7 @@ class PairSearch final : public collision::DualTreeVisitor {
       const double gap =
           std::abs(along) - box_O.extent_along(n_O) - box_V.extent_along(X_OV_.linear().transpose() * n_O);
       if (gap < enough_) continue;
+      spend_work_of_pair();
       boxes_.push_back({bodies_, child_of(*obstacle_.body, child_O.node, child_O.child),
                         child_of(*part_.body, child_V.node, child_V.child), round_down(gap),
                         obstacle_.X_WB.linear() * (along < 0.0 ? (-n_O).eval() : n_O)});
@@ -66,7 +71,12 @@ class PairSearch final : public collision::DualTreeVisitor {
   void visit_below_accepted(const collision::ClosePair& pair) override { add(pair, true, false); }
 
  private:
+  void spend_work_of_pair() {
+    if (meter_ != nullptr) meter_->spend(kWorkOfPair);
+  }
+
   void add(const collision::ClosePair& pair, bool may_yield_contact, bool is_to_certify) {
+    spend_work_of_pair();
     const geometry::TriangleMesh& mesh_O = tree_O().mesh();
     const geometry::TriangleMesh& mesh_V = tree_V().mesh();
     const Eigen::Vector3d n_O = (pair.p_B - pair.p_A).normalized();
@@ -93,6 +103,7 @@ class PairSearch final : public collision::DualTreeVisitor {
   const PlacedBody& part_;
   Eigen::Isometry3d X_OV_;
   double enough_;  // metres
+  collision::WorkMeter* meter_;
   std::vector<NearPair>& pairs_;
   std::vector<PairToCertify>& boxes_;
 };
@@ -108,11 +119,11 @@ PairToCertify to_certify(const NearPair& pair) {
 }
 
 void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
-                     double radius, collision::QueryWorkspace& workspace, std::vector<NearPair>& pairs,
-                     std::vector<PairToCertify>& boxes) {
-  PairSearch search(bodies, obstacle, part, margin, pairs, boxes);
-  collision::traverse_near(search.tree_O(), search.tree_V(), search.X_OV(), radius, workspace, search,
-                           {&obstacle.body->features, &part.body->features});
+                     double radius, collision::QueryWorkspace& workspace, collision::WorkMeter* meter,
+                     std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes) {
+  PairSearch search(bodies, obstacle, part, margin, meter, pairs, boxes);
+  const collision::PairSelection features{&obstacle.body->features, &part.body->features};
+  collision::traverse_near(search.tree_O(), search.tree_V(), search.X_OV(), radius, workspace, search, &features);
 }
 
 }  // namespace glissade::haptics

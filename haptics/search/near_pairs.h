@@ -16,7 +16,7 @@ namespace glissade::haptics {
 
 /// Two triangles within the radius of a search.
 struct NearPair : TrianglesOfBodies {
-  Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part; zero where triangles touched
+  Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part; without meaning where triangles touched
   double distance;      ///< metres, of single precision: their separation along n_W at the poses of the search
   /// At least one of them owns an edge or vertex that can stop the other (`geometry::MeshTopology`).
   bool may_yield_contact;
@@ -28,9 +28,9 @@ PairToCertify to_certify(const NearPair& pair);
 /// Appends the pairs of two bodies within `radius` (metres) of each other: the pairs of boxes that a plane separates,
 /// with distances of single precision, the pairs of triangles that lie in no such boxes, and of the others those that
 /// may yield contacts. So each pair of triangles within the radius lies in one pair to certify. `margin` (metres) as in
-/// `ContactScene::margin`.
+/// `ContactScene::margin`. The `meter` receives the work of taking over each pair before it is done; null: nobody does.
 void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
-                     double radius, collision::QueryWorkspace& workspace, std::vector<NearPair>& pairs,
-                     std::vector<PairToCertify>& boxes);
+                     double radius, collision::QueryWorkspace& workspace, collision::WorkMeter* meter,
+                     std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes);
 
 }  // namespace glissade::haptics

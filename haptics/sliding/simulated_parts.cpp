@@ -105,12 +105,18 @@ SimulatedParts::SimulatedParts(std::vector<Obstacle> obstacles, const std::vecto
     if (!X_WV) throw std::invalid_argument("the start pose of " + parts[p].name + " is not a rotation and translation");
     scene.place(p, *X_WV);
     states.push_back(state_at_start(parts[p], *X_WV, rules));
-    largest_margin = std::max(largest_margin, states.back().margin);
+    note_margin(states.back().margin);
   }
-  for (const Obstacle& obstacle : scene.obstacles())
-    largest_margin = std::max(largest_margin, obstacle.margin.value_or(0.0));
+  for (const Obstacle& obstacle : scene.obstacles()) {
+    if (obstacle.margin) note_margin(*obstacle.margin);
+  }
   for (const RiderChain& chain : chains)
-    largest_margin = std::max(largest_margin, chain.margin);
+    note_margin(chain.margin);
+}
+
+void SimulatedParts::note_margin(double margin) {
+  largest_margin = std::max(largest_margin, margin);
+  smallest_margin = std::min(smallest_margin, margin);
 }
 
 double SimulatedParts::ghost_motion() const {

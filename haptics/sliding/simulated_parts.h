@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -40,7 +41,11 @@ struct SimulatedParts {
   CandidatePairs candidates;
   std::vector<HeldPartState> states;
   Riders riders;
-  double largest_margin = 0.0;  // metres
+  double largest_margin = 0.0;  // metres, of all bodies
+  double smallest_margin = std::numeric_limits<double>::infinity();
+
+ private:
+  void note_margin(double margin);
 };
 
 /// A displacement of all parts that is certified free of collisions, and how it came about.

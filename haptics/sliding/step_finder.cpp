@@ -21,8 +21,8 @@ constexpr std::int64_t kWorkOfRow = 50;
 
 constexpr CouplingStiffness kImmovable{kUnbounded, kUnbounded};
 
-/// Metres: below the rounding of poses.
-constexpr double kNoMotion_m = 1e-15;
+/// Metres: no pose of a part of some millimetres has bits for so short a way.
+constexpr double kNoMotion_m = 1e-18;
 
 /// A displacement without what rounding has left of a translation or rotation. From step to step it would shrink to
 /// numbers that are too small to be written and read.

@@ -1,11 +1,12 @@
 #pragma once
 
 /// Foretells whether another step in the same call is worth its cost. Steps shrink fast: on flat faces the first one
-/// already arrives at the optimum, on curved ones the next is by orders of magnitude shorter. What is left is made up
-/// for by the first step of the next call.
+/// already arrives at the optimum, on curved ones the second is by orders of magnitude shorter. What is left undone is
+/// made up for by the first step of the next call.
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "sliding/simulated_parts.h"
@@ -15,32 +16,38 @@ namespace glissade::haptics {
 /// Not thread-safe.
 class StepForecast {
  public:
-  /// Begins a call: no step has been made yet. `margin` in metres, the largest of all parts.
-  void begin_call(double margin);
+  /// Begins a call for parts that are led by these metaphors. No step has been made yet. Margins in metres.
+  void begin_call(std::span<const Metaphor> parts, double largest_margin, double smallest_margin);
 
   /// Notes a step of the call.
   void note(const Step& step);
 
-  /// Whether the step after the last one can be expected to be too short to matter.
-  bool is_next_worthless() const;
+  /// Whether what the parts would still move in this call can be expected to be too little to matter.
+  bool is_rest_worthless() const;
+
+  /// To be called when a hand takes hold or lets go: earlier calls tell nothing any more.
+  void forget() { seen_.clear(); }
 
  private:
-  /// A step and the one after it in an earlier call, metres.
-  struct Pair {
-    double length = 0.0;
-    double next = 0.0;
-    int calls = 0;  // since then
+  using Lengths = std::array<double, kMaxParts>;  // metres, of each part
+
+  /// A step of an earlier call, and the sum of those after it.
+  struct Seen {
+    Lengths step{};
+    Lengths rest{};
+    int calls = 0;  // since then; 0: nothing was seen
   };
 
-  double by_shrinking() const;
-  double by_earlier_call() const;
+  void learn();
+  double rest_by_shrinking(std::size_t p) const;
+  double rest_by_earlier_call(std::size_t p) const;
 
-  double margin_ = 0.0;
-  double first_ = 0.0;  // metres: length of the first step of the call
-  Step last_;
-  std::array<double, kMaxParts> shrinks_{};  // of each part: the last step over the one before
-  std::size_t count_ = 0;                    // of steps of the call
-  std::vector<Pair> earlier_;                // by the number of the first step of the pair
+  std::size_t count_ = 0;  // of parts
+  double least_ = 0.0;     // metres: less is never worth a step
+  Lengths most_left_{};
+  double margin_ = 0.0;  // metres
+  std::vector<Step> steps_;
+  std::vector<Seen> seen_;  // by the number of the step in its call
 };
 
 }  // namespace glissade::haptics

@@ -160,7 +160,8 @@ TEST_F(NearVisit, ShowsSelectedPairsBelowWhatWasTakenOnce) {
     traverse_near(pair.tree_A, pair.tree_B, pair.X_AB, distance, workspace_, without);
     ASSERT_TRUE(without.seen_below.empty());
     Taker visitor(some);
-    traverse_near(pair.tree_A, pair.tree_B, pair.X_AB, distance, workspace_, visitor, {&of_A, &of_B});
+    const PairSelection selection{&of_A, &of_B};
+    traverse_near(pair.tree_A, pair.tree_B, pair.X_AB, distance, workspace_, visitor, &selection);
     ASSERT_EQ(visitor.seen.size(), without.seen.size());
     std::map<TrianglePair, int> times;
     for (const ClosePair& close : visitor.seen)

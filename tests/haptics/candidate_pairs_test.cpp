@@ -358,7 +358,7 @@ TEST_P(CubeOverPlate, LeavesOutWhatHasCertainlyComeApart) {
   EXPECT_TRUE(pairs_to_certify_within(candidates_, kReach).empty());
 }
 
-// Nobody knows then which way is apart, so any way may be nearer.
+// Hardly anything is known then of which way is apart.
 TEST_P(CubeOverPlate, KeepsWhatWasTooNearToHaveADirection) {
   move(5e-3 - 0.9 * kSharpDistance_m);
   candidates_.look(kReach, kAhead, {});

@@ -36,7 +36,7 @@ struct Found {
       for (std::size_t other = 0; other < part; ++other) {
         const BodyPair pair{static_cast<std::int32_t>(other), static_cast<std::int32_t>(part)};
         find_near_pairs(pair, bodies[other], bodies[part], scene.margin(pair.obstacle, pair.part), radius, workspace,
-                        pairs, boxes);
+                        nullptr, pairs, boxes);
       }
     }
   }
@@ -140,8 +140,12 @@ TEST_F(NearPairs, TellLowerBoundsOfDistances) {
     const double margin = random_margin();
     const auto scene = test_support::random_contact_scene(kSize, margin, margin, random_);
     const std::span<const PlacedBody> bodies = scene->bodies();
-    const std::vector<PairToCertify> to_certify = Found(*scene, random_.power_of_ten(-4.0, -3.0)).all_to_certify();
-    for (const PairToCertify& pair_to_certify : to_certify) {
+    const Found found(*scene, random_.power_of_ten(-4.0, -3.0));
+    for (const NearPair& pair : found.pairs) {
+      ASSERT_LE(pair.distance, test_support::distance_of(bodies, pair) + 1e-14);
+      ASSERT_EQ(pair.distance, static_cast<double>(static_cast<float>(pair.distance)));
+    }
+    for (const PairToCertify& pair_to_certify : found.all_to_certify()) {
       ASSERT_NEAR(pair_to_certify.n_W.norm(), 1.0, 1e-12);
       for (const TrianglesOfBodies& pair : test_support::triangles_of(bodies, pair_to_certify)) {
         constexpr double kRounding = 1e-14;

@@ -19,68 +19,108 @@ Step step_of(double length, bool is_plain = true) {
   return step;
 }
 
-/// A call with steps of these lengths, and whether the next one would be worthless.
-bool next_is_worthless(StepForecast& forecast, const std::vector<double>& lengths) {
-  forecast.begin_call(kMargin);
-  for (const double length : lengths)
-    forecast.note(step_of(length));
-  return forecast.is_next_worthless();
+class StepForecasts : public ::testing::Test {
+ protected:
+  /// A call with steps of these lengths, and whether the rest would be worthless.
+  bool rest_is_worthless(const std::vector<double>& lengths) {
+    std::vector<Step> steps;
+    for (const double length : lengths)
+      steps.push_back(step_of(length));
+    return rest_is_worthless_after(steps);
+  }
+  bool rest_is_worthless_after(const std::vector<Step>& steps) {
+    forecast_.begin_call(parts_, kMargin, kMargin);
+    for (const Step& step : steps)
+      forecast_.note(step);
+    return forecast_.is_rest_worthless();
+  }
+
+  std::vector<Metaphor> parts_{Metaphor::kForceFeedback};
+  StepForecast forecast_;
+};
+
+TEST_F(StepForecasts, KnowNothingOfAFirstStepAtTheBeginning) {
+  EXPECT_FALSE(rest_is_worthless({90e-6}));
 }
 
-TEST(StepForecast, KnowsNothingOfAFirstStepAtTheBeginning) {
-  StepForecast forecast;
-  EXPECT_FALSE(next_is_worthless(forecast, {90e-6}));
+TEST_F(StepForecasts, TakeAStepToBeFollowedAsInAnEarlierCall) {
+  rest_is_worthless({90e-6, 0.5e-6, 0.01e-6});
+  EXPECT_TRUE(rest_is_worthless({95e-6}));
+  rest_is_worthless({90e-6, 5e-6, 0.01e-6});
+  EXPECT_FALSE(rest_is_worthless({95e-6}));
 }
 
-TEST(StepForecast, TakesAStepToBeFollowedAsInAnEarlierCall) {
-  StepForecast forecast;
-  next_is_worthless(forecast, {90e-6, 0.5e-6});
-  EXPECT_TRUE(next_is_worthless(forecast, {95e-6}));
-  next_is_worthless(forecast, {90e-6, 5e-6});
-  EXPECT_FALSE(next_is_worthless(forecast, {95e-6}));
+TEST_F(StepForecasts, CountAllThatFollowedAndNotTheNextStepAlone) {
+  rest_is_worthless({90e-6, 0.3e-6, 0.3e-6, 0.3e-6, 0.3e-6});
+  EXPECT_FALSE(rest_is_worthless({90e-6}));
 }
 
-TEST(StepForecast, LooksAgainAfterEightCalls) {
-  StepForecast forecast;
-  next_is_worthless(forecast, {90e-6, 0.0});
-  for (int call = 0; call < 8; ++call)
-    EXPECT_TRUE(next_is_worthless(forecast, {90e-6}));
-  EXPECT_FALSE(next_is_worthless(forecast, {90e-6}));
+TEST_F(StepForecasts, LookAgainAfterFourCalls) {
+  rest_is_worthless({90e-6, 0.0});
+  for (int call = 0; call < 4; ++call)
+    EXPECT_TRUE(rest_is_worthless({90e-6}));
+  EXPECT_FALSE(rest_is_worthless({90e-6}));
 }
 
-TEST(StepForecast, IsSilentAboutStepsOfOtherLengths) {
-  StepForecast forecast;
-  next_is_worthless(forecast, {90e-6, 0.0});
-  EXPECT_FALSE(next_is_worthless(forecast, {30e-6}));
-  EXPECT_FALSE(next_is_worthless(forecast, {200e-6}));
+TEST_F(StepForecasts, AreSilentAboutStepsOfOtherLengths) {
+  rest_is_worthless({90e-6, 0.0});
+  EXPECT_FALSE(rest_is_worthless({30e-6}));
+  EXPECT_FALSE(rest_is_worthless({200e-6}));
 }
 
-TEST(StepForecast, LeavesLessToTheNextCallWhereTheMotionIsLess) {
-  StepForecast forecast;
-  next_is_worthless(forecast, {100e-6, 0.4e-6});
-  EXPECT_TRUE(next_is_worthless(forecast, {100e-6}));
-  next_is_worthless(forecast, {2e-6, 0.4e-6});
-  EXPECT_FALSE(next_is_worthless(forecast, {2e-6})) << "a fifth of what it moved";
+TEST_F(StepForecasts, TakeWhatIsLeftToBeOfSecondOrder) {
+  rest_is_worthless({60e-6, 0.4e-6, 0.0});
+  EXPECT_TRUE(rest_is_worthless({60e-6}));
+  EXPECT_FALSE(rest_is_worthless({110e-6})) << "1.3 µm";
 }
 
-TEST(StepForecast, LeavesNoMoreThanHalfAMarginToTheNextCall) {
-  StepForecast forecast;
-  next_is_worthless(forecast, {1e-3, 1.2e-6});
-  EXPECT_FALSE(next_is_worthless(forecast, {1e-3}));
+TEST_F(StepForecasts, LeaveLessToTheNextCallWhereTheMotionIsLess) {
+  rest_is_worthless({100e-6, 0.4e-6, 0.0});
+  EXPECT_TRUE(rest_is_worthless({100e-6}));
+  rest_is_worthless({2e-6, 0.4e-6, 0.0});
+  EXPECT_FALSE(rest_is_worthless({2e-6})) << "a fifth of what it moved";
 }
 
-TEST(StepForecast, TakesShortStepsToShrinkOn) {
-  StepForecast forecast;
-  EXPECT_TRUE(next_is_worthless(forecast, {2.0e-6, 0.2e-6})) << "0.02 µm would follow";
-  EXPECT_FALSE(next_is_worthless(forecast, {0.9e-6, 0.6e-6})) << "0.4 µm would follow";
+TEST_F(StepForecasts, TakeShortStepsToShrinkOn) {
+  EXPECT_TRUE(rest_is_worthless({2.0e-6, 0.2e-6})) << "0.02 µm would follow";
+  EXPECT_FALSE(rest_is_worthless({0.9e-6, 0.6e-6})) << "1.2 µm would follow";
 }
 
-TEST(StepForecast, IsSilentAfterAStepThatWasShortened) {
-  StepForecast forecast;
-  next_is_worthless(forecast, {90e-6, 0.0});
-  forecast.begin_call(kMargin);
-  forecast.note(step_of(90e-6, false));
-  EXPECT_FALSE(forecast.is_next_worthless());
+TEST_F(StepForecasts, AreSilentAfterAStepThatWasShortened) {
+  rest_is_worthless({90e-6, 0.0});
+  EXPECT_FALSE(rest_is_worthless_after({step_of(90e-6, false)}));
+}
+
+TEST_F(StepForecasts, LearnNothingFromStepsThatWereShortened) {
+  rest_is_worthless({90e-6, 0.0});
+  rest_is_worthless_after({step_of(90e-6), step_of(0.0, false)});
+  EXPECT_FALSE(rest_is_worthless({90e-6}));
+}
+
+TEST_F(StepForecasts, OfOnePartDoNotHideAnother) {
+  parts_.push_back(parts_.front());
+  const auto both = [](double first, double second) {
+    Step step = step_of(first);
+    step.lengths[1] = second;
+    step.length += second;
+    return step;
+  };
+  rest_is_worthless_after({both(90e-6, 3e-6), both(0.0, 0.8e-6), both(0.0, 0.0)});
+  EXPECT_FALSE(rest_is_worthless_after({both(90e-6, 3e-6)})) << "a quarter of what the slow one moved";
+}
+
+TEST_F(StepForecasts, LeaveNothingThatTheIncrementalMetaphorWouldLose) {
+  parts_.front() = Metaphor::kIncremental;
+  rest_is_worthless({90e-6, 0.5e-6, 0.0});
+  EXPECT_FALSE(rest_is_worthless({90e-6}));
+}
+
+TEST_F(StepForecasts, ForgetWhatWasBeforeANewHold) {
+  rest_is_worthless({90e-6, 0.0});
+  forecast_.begin_call(parts_, kMargin, kMargin);
+  forecast_.forget();
+  forecast_.note(step_of(90e-6));
+  EXPECT_FALSE(forecast_.is_rest_worthless());
 }
 
 }  // namespace
