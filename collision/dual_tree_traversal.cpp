@@ -17,21 +17,15 @@ namespace {
 /// children.
 class NearPairs final : public PlacedVisitor {
  public:
-  /// `below_accepted` may be null.
-  NearPairs(const PlacedTrees& placed, double distance, DualTreeVisitor& visitor, const VisitSelection* below_accepted,
-            QueryMemory& memory)
+  NearPairs(const PlacedTrees& placed, double distance, DualTreeVisitor& visitor, QueryMemory& memory)
       : PlacedVisitor(placed),
         visitor_(visitor),
         collector_(placed, distance, memory.close_pairs),
-        below_accepted_(below_accepted),
         accepted_(memory.accepted) {}
 
   PairMask to_open(const NodePair& nodes, PairMask near) override {
-    // To accept what is all passed to the visitor in any case would be for nothing.
-    const PairMask whole =
-        below_accepted_ == nullptr ? 0 : below_accepted_->whole_pairs_of_nodes(nodes.node_M, nodes.node_N);
     PairMask accepted = 0;
-    for (PairMask rest = near & ~whole; rest != 0; rest &= rest - 1) {
+    for (PairMask rest = near; rest != 0; rest &= rest - 1) {
       const int pair = std::countr_zero(rest);
       const TreeChild child_M{nodes.node_M, pair / kWidth};
       const TreeChild child_N{nodes.node_N, pair % kWidth};
@@ -55,7 +49,6 @@ class NearPairs final : public PlacedVisitor {
  private:
   DualTreeVisitor& visitor_;
   PairCollector<ClosePair> collector_;
-  const VisitSelection* below_accepted_;
   std::vector<OpenPair>& accepted_;
 };
 
@@ -86,7 +79,7 @@ void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Is
   memory.close_pairs.clear();
   memory.accepted.clear();
   const bool shows_selected = placed.selection.of_A != nullptr && placed.selection.of_B != nullptr;
-  NearPairs pairs(placed, distance, visitor, shows_selected ? &selection : nullptr, memory);
+  NearPairs pairs(placed, distance, visitor, memory);
   visit_every(step, memory, pairs);
   pairs.finish();
   const std::size_t others = memory.close_pairs.size();

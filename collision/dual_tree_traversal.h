@@ -24,7 +24,7 @@ struct TreeChild {
 class DualTreeVisitor {
  public:
   /// Whether the visitor accepts two children. Called only for children whose bounding volumes may be within the
-  /// distance, and not where all pairs below are selected. The traversal skips all pairs below two accepted children.
+  /// distance. The traversal skips all pairs below two accepted children.
   virtual bool accepts(const TreeChild& child_A, const TreeChild& child_B) = 0;
   /// Receives a triangle pair within the distance that does not lie below an accepted pair.
   virtual void visit(const ClosePair& pair) = 0;

@@ -55,7 +55,7 @@ struct CoupledRow : ConstraintRow {
 
 /// The constraint of a contact, and how far it holds. The other side is an obstacle, unless another hand leads it.
 struct ContactRow : CoupledRow {
-  double range = std::numeric_limits<double>::infinity();  ///< metres: what is left of `Contact::range`
+  double range = std::numeric_limits<double>::infinity();  ///< metres: `Contact::range`
   double approach = 0.0;  ///< m/s: `Contact::approach`, by which the bound grows with the age of the set
   bool pushes = false;    ///< it has a positive force
   /// Friction on the part divided by the normal force, in world axes; perpendicular to the normal, and no longer than

@@ -166,7 +166,7 @@ class MultiPartSliding::Cycle {
     const bool all_arrived = std::all_of(step->arrives.begin(), step->arrives.begin() + std::ssize(shared_.states),
                                          [](bool arrives) { return arrives; });
     forecast_.note(*step);
-    const bool is_done = cycles_ == shared_.rules.max_cycles || all_arrived || forecast_.is_rest_worthless();
+    const bool is_done = cycles_ == shared_.rules.max_cycles || all_arrived || forecast_.is_remainder_worthless();
     double reach = step_finder_.rows().complete();
     if (is_done || budget.is_used_up()) reach = step_finder_.rows().find_ahead(budget);
     move(*step);

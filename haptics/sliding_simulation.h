@@ -21,7 +21,7 @@ namespace glissade::haptics {
 
 /// The work of searching for contacts, and for the pairs of triangles and boxes that must provably stay apart in the
 /// next steps. The stages of `reports` find out which bodies are near; only its `total` includes the search among their
-/// triangles.
+/// triangles, and the time in which a search waits for work that it may do.
 struct SearchStatistics {
   std::int64_t searches = 0;       ///< number of searches whose answers were used
   collision::FrameReport reports;  ///< the sum of the reports of these searches

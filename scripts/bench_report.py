@@ -153,16 +153,20 @@ def parts(figures, _):
     for question in questions:
         cells = []
         for of_question in ratios.values():
-            of_part = of_question[question]
+            of_part = of_question.get(question, {})
+            if not of_part:
+                cells += ["", ""]
+                continue
             worst = sorted(of_part, key=of_part.get)[:2]
             cells += [f"{geometric_mean(of_part.values()):.1f}", ", ".join(f"{of_part[part]:.2g} {part}" for part in worst)]
-        rows.append([PART_QUESTIONS[question], str(len(of_part))] + cells)
+        parts_of_question = {part for of_question in ratios.values() for part in of_question.get(question, {})}
+        rows.append([PART_QUESTIONS[question], str(len(parts_of_question))] + cells)
     header = ["times faster than", "parts and pairs"]
     for peer in ratios:
         header += [f"{PEER_TITLES[peer]}: geometric mean", "worst"]
     text = table(header, rows) + disagreements(figures)
     names = list(dict.fromkeys(case.split(" ", 1)[1] for case in figures.measured_cases()))
-    cells = [[part] + [" / ".join(number(of_question[question].get(part)) for of_question in ratios.values()) for question in questions]
+    cells = [[part] + [" / ".join(number(of_question.get(question, {}).get(part)) for of_question in ratios.values()) for question in questions]
              for part in names]
     title = "Times faster than " + " / ".join(PEER_TITLES[peer] for peer in ratios) + ", of each part"
     return text + folded(title, table(["two copies, or two parts"] + questions, cells))

@@ -22,7 +22,8 @@ constexpr int kFailed = 1;
 constexpr int kBadInput = 2;
 
 constexpr const char* kDescription =
-    "Measure Glissade's collision queries beside FCL, ODE, Bullet and CGAL, on the same poses, in one thread (except\n"
+    "Measure Glissade's collision queries beside FCL, ODE, Bullet and CGAL, on the same poses, "
+    "in one thread (except\n"
     "for the bench threads).\n"
     "\n"
     "  zachmann   two copies of an object at all distances from 0 to just apart, boolean query\n"
@@ -30,7 +31,8 @@ constexpr const char* kDescription =
     "  shells     nested spheres and stacked bumpy plates, parallel and 2 % apart, boolean query\n"
     "  coherent   one part slides along another in steps of 0.01 mm and 0.005 degrees, boolean query\n"
     "  all-pairs  all intersecting pairs of triangles of two overlapping copies of an object\n"
-    "  parts      meshes of --mesh, two copies and --pairs: yes or no, all pairs, distances, beside FCL\n"
+    "  parts      meshes of --mesh, two copies and --pairs: yes or no, all pairs, distances, beside FCL and the method "
+    "of PQP\n"
     "  build      time and memory of building\n"
     "  hull       one convex hull turns and goes round another in small steps, boolean query\n"
     "  scene      10 to 1000 objects bounce about in a box: which pairs meet, frame by frame\n"

@@ -1,4 +1,4 @@
-// The published method of PQP in our own implementation (see pqp_tree.h), in single precision and compiled for the
+// The published method of PQP in our own implementation (see pqp/tree.h), in single precision and compiled for the
 // processor of the machine: trees of oriented boxes for yes or no and all pairs, of rectangles swept by spheres for
 // distances. Like PQP, the distance begins with the two triangles that were nearest in the last query.
 

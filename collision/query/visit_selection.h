@@ -67,12 +67,6 @@ class VisitSelection {
                  of_N_->selected().leaves[leaf_N], of_N_->at_least_half().leaves[leaf_N]);
   }
 
-  /// Pairs of children below which every pair is selected: perhaps not all of them.
-  PairMask whole_pairs_of_nodes(std::uint32_t node_M, std::uint32_t node_N) const {
-    if (of_M_ == nullptr) return kAllPairs;
-    return rows_of(of_M_->whole_children()[node_M]) & columns_of(of_N_->whole_children()[node_N]);
-  }
-
   /// Numbers of the selections, 0 where there are none.
   std::array<std::uint64_t, 2> ids() const {
     return of_M_ == nullptr ? std::array<std::uint64_t, 2>{} : std::array{of_M_->id(), of_N_->id()};

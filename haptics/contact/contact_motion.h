@@ -12,8 +12,8 @@ namespace glissade::haptics {
 
 /// The contact after its part and its obstacle have moved, to first order. A motion maps the coordinates of a point in
 /// the world before the motion to those after it.
-/// The normal stays. A vertex of the part keeps its place on the part; otherwise the obstacle's point keeps its place
-/// on the obstacle.
+/// The normal stays, and the range is that which is left. A vertex of the part keeps its place on the part; otherwise
+/// the obstacle's point keeps its place on the obstacle.
 Contact carried(const Contact& contact, const Eigen::Isometry3d& part_motion_W,
                 const Eigen::Isometry3d& obstacle_motion_W = Eigen::Isometry3d::Identity());
 

@@ -50,7 +50,9 @@ void ContactProjection::update(const ContactSet& set, std::chrono::nanoseconds a
     }
     const PartAnswer& answer = set.parts[p];
     wanted_[p] = geometry::displacement_between(answer.X_WV_of_rows, parts[p].X_WG * parts[p].X_GT, answer.p_Vref);
-    moved_[p] = geometry::displacement_between(answer.X_WG, parts[p].X_WG, answer.p_Vref);
+    const geometry::Displacement step = geometry::displacement_between(answer.X_WV_of_rows, answer.X_WV, answer.p_Vref);
+    const geometry::Displacement ghost = geometry::displacement_between(answer.X_WG, parts[p].X_WG, answer.p_Vref);
+    moved_[p] = {step.v + ghost.v, step.w + ghost.w};
   }
   take_rows(set, age, dt);
   for (std::size_t p = 0; p < part_count_; ++p) {
@@ -63,7 +65,7 @@ void ContactProjection::update(const ContactSet& set, std::chrono::nanoseconds a
   }
 }
 
-// A part in contact moves across the normals as its ghost does.
+// A part in contact moves across the normals as its ghost does, after the step that the rows led to.
 void ContactProjection::take_rows(const ContactSet& set, std::chrono::nanoseconds age, double dt) noexcept {
   const double seconds =
       std::chrono::duration<double>(std::clamp<std::chrono::nanoseconds>(age, {}, kFullForce)).count();

@@ -79,7 +79,8 @@ class ContactProjection {
   std::vector<std::size_t> numbers_;
   std::array<bool, kMaxParts> acts_{};
   std::array<geometry::Displacement, kMaxParts> wanted_{};
-  std::array<geometry::Displacement, kMaxParts> moved_{};           // by the ghosts since the set
+  // Since the poses of the rows: the last step, and the ghosts since that.
+  std::array<geometry::Displacement, kMaxParts> moved_{};
   std::array<std::optional<Eigen::Isometry3d>, kMaxParts> X_WP_{};  // where the last projection put each part
   std::array<geometry::Displacement, kMaxParts> way_{};             // from there to where the present one puts it
   std::array<double, kMaxParts> pushes_{};                          // N, sums over the rows of each part

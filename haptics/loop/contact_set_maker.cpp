@@ -61,7 +61,7 @@ class SetMaker {
   void add_row(std::size_t p, const Contact& contact) {
     const ConstraintRow constraint{contact.n_W, contact.p_W - p_Wref(p), std::min(0.0, contact.margin - contact.gap)};
     ContactRow& row = set_.row_array[static_cast<std::size_t>(set_.row_count++)];
-    row = {{constraint, static_cast<std::int32_t>(p), other_of(contact)}, range_left(p, contact)};
+    row = {{constraint, static_cast<std::int32_t>(p), other_of(contact)}, contact.range};
     row.pushes = contact.force > 0.0;
     if (row.pushes) row.friction_ratio_W = contact.friction_W / contact.force;
     if (row.other < 0) {
@@ -69,21 +69,6 @@ class SetMaker {
     } else {
       row.r_other = contact.p_W - p_Wref(static_cast<std::size_t>(row.other));
     }
-  }
-
-  /// What the last step, after which the row begins, has left of the contact's range.
-  double range_left(std::size_t p, const Contact& contact) const {
-    Eigen::Vector3d moved = motion_since_rows(p, contact.p_W);
-    if (const std::int32_t other = other_of(contact); other >= 0)
-      moved -= motion_since_rows(static_cast<std::size_t>(other), contact.p_W);
-    moved -= contact.n_W.dot(moved) * contact.n_W;
-    return std::max(0.0, contact.range - moved.norm());
-  }
-
-  /// Of the point of a part that was at p_W when the contacts were found, metres.
-  Eigen::Vector3d motion_since_rows(std::size_t p, const Eigen::Vector3d& p_W) const {
-    const SlidingResult& result = sliding_.result(p);
-    return result.X_WV * (result.X_WV_of_contacts.inverse(Eigen::Isometry) * p_W) - p_W;
   }
 
   Eigen::Vector3d p_Wref(std::size_t p) const { return sliding_.result(p).X_WV_of_contacts * sliding_.p_Vref(p); }

@@ -10,6 +10,8 @@
 #include <glissade/geometry/displacement.h>
 #include <glissade/geometry/rigid_pose.h>
 
+#include "search/round_down.h"
+
 namespace glissade::haptics {
 namespace {
 
@@ -30,11 +32,6 @@ constexpr double kMostForward = 3.0;
 
 /// Work of the gap of a pair along a known direction, in the unit of `collision::WorkMeter`.
 constexpr std::int64_t kWorkOfGap = 2;
-
-float round_down(double value) {
-  const auto rounded = static_cast<float>(value);
-  return static_cast<double>(rounded) <= value ? rounded : std::nextafter(rounded, -1e30F);
-}
 
 std::int64_t work_ahead(bool runs_ahead, std::int64_t work_of_call) {
   if (!runs_ahead) return 0;

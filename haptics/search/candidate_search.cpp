@@ -96,21 +96,23 @@ void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
   }
   const collision::FrameResult& near = pipeline_->step(request.radius + slack_);
   set.report = near.report;
-  find_pairs(near, request.radius, set);
+  find_pairs(near, request, set);
   nearest_first_.sort(set.pairs, unsorted_pairs_);
   nearest_first_.sort(set.boxes, unsorted_boxes_);
   if (request.has_planes) find_planes(set);
   set.report.total = clock_.now() - start;
 }
 
-void CandidateSearch::find_pairs(const collision::FrameResult& near, double radius, CandidateSet& set) {
+void CandidateSearch::find_pairs(const collision::FrameResult& near, const CandidateRequest& request,
+                                 CandidateSet& set) {
   set.pairs.clear();
   set.boxes.clear();
   for (const collision::ObjectPair& objects : near.meeting) {
     const BodyPair bodies{static_cast<std::int32_t>(objects.object_A.index),
                           static_cast<std::int32_t>(objects.object_B.index)};
     find_near_pairs(bodies, bodies_[objects.object_A.index], bodies_[objects.object_B.index],
-                    scene_.margin(bodies.obstacle, bodies.part), radius, workspace_, meter_, set.pairs, set.boxes);
+                    scene_.margin(bodies.obstacle, bodies.part), request.radius, request.has_planes, workspace_, meter_,
+                    set.pairs, set.boxes);
   }
   const auto count = [&](bool NearPair::*property) {
     return static_cast<std::size_t>(

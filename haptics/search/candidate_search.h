@@ -68,7 +68,7 @@ class CandidateSearch {
 
  private:
   void ignore(const std::vector<BodyPair>& bodies);
-  void find_pairs(const collision::FrameResult& near, double radius, CandidateSet& set);
+  void find_pairs(const collision::FrameResult& near, const CandidateRequest& request, CandidateSet& set);
   void find_planes(CandidateSet& set) const;
 
   const ContactScene& scene_;

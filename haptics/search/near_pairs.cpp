@@ -8,6 +8,7 @@
 
 #include "certificate/obb_access.h"
 #include "certificate/separating_planes.h"
+#include "search/round_down.h"
 
 namespace glissade::haptics {
 namespace {
@@ -20,22 +21,18 @@ static_assert(kEnough > kMinClearanceOfMargin);
 /// Work of taking over and sorting a pair, in the unit of `collision::WorkMeter`: rough, and high rather than low.
 constexpr std::int64_t kWorkOfPair = 400;
 
-/// Down to single precision, for `NearestFirst`.
-double round_down(double distance) {
-  const auto rounded = static_cast<float>(distance);
-  return static_cast<double>(static_cast<double>(rounded) <= distance ? rounded : std::nextafter(rounded, -1e30F));
-}
-
 /// Accepts box pairs that the plane of the flat side of either box separates.
 class PairSearch final : public collision::DualTreeVisitor {
  public:
   PairSearch(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
-             collision::WorkMeter* meter, std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes)
+             bool in_triangles, collision::WorkMeter* meter, std::vector<NearPair>& pairs,
+             std::vector<PairToCertify>& boxes)
       : bodies_(bodies),
         obstacle_(obstacle),
         part_(part),
         X_OV_(relative_pose(obstacle.X_WB, part.X_WB)),
         enough_(kEnough * margin),
+        in_triangles_(in_triangles),
         meter_(meter),
         pairs_(pairs),
         boxes_(boxes) {}
@@ -45,6 +42,7 @@ class PairSearch final : public collision::DualTreeVisitor {
   const Eigen::Isometry3d& X_OV() const { return X_OV_; }
 
   bool accepts(const collision::TreeChild& child_O, const collision::TreeChild& child_V) override {
+    if (in_triangles_ && is_whole(*obstacle_.body, child_O) && is_whole(*part_.body, child_V)) return false;
     const Obb& box_O = obb_tree_of(*obstacle_.body).box(child_O.node, child_O.child);
     const Obb& box_V = obb_tree_of(*part_.body).box(child_V.node, child_V.child);
     if (box_O.radius < 0.0 || box_V.radius < 0.0) return true;  // an empty box
@@ -56,7 +54,7 @@ class PairSearch final : public collision::DualTreeVisitor {
       if (gap < enough_) continue;
       spend_work_of_pair();
       boxes_.push_back({bodies_, child_of(*obstacle_.body, child_O.node, child_O.child),
-                        child_of(*part_.body, child_V.node, child_V.child), round_down(gap),
+                        child_of(*part_.body, child_V.node, child_V.child), static_cast<double>(round_down(gap)),
                         obstacle_.X_WB.linear() * (along < 0.0 ? (-n_O).eval() : n_O)});
       return true;
     }
@@ -71,6 +69,11 @@ class PairSearch final : public collision::DualTreeVisitor {
   void visit_below_accepted(const collision::ClosePair& pair) override { add(pair, true, false); }
 
  private:
+  /// Whether all triangles below a child count for contacts with those that do, too.
+  static bool is_whole(const ContactBody& body, const collision::TreeChild& child) {
+    return (body.features.whole_children()[child.node] >> child.child & 1U) != 0;
+  }
+
   void spend_work_of_pair() {
     if (meter_ != nullptr) meter_->spend(kWorkOfPair);
   }
@@ -93,7 +96,7 @@ class PairSearch final : public collision::DualTreeVisitor {
     // their distance.
     pairs_.push_back({{bodies_, pair.triangles.triangle_A, pair.triangles.triangle_B},
                       obstacle_.X_WB.linear() * n_O,
-                      round_down(bottom - top),
+                      static_cast<double>(round_down(bottom - top)),
                       may_yield_contact,
                       is_to_certify});
   }
@@ -103,6 +106,7 @@ class PairSearch final : public collision::DualTreeVisitor {
   const PlacedBody& part_;
   Eigen::Isometry3d X_OV_;
   double enough_;  // metres
+  bool in_triangles_;
   collision::WorkMeter* meter_;
   std::vector<NearPair>& pairs_;
   std::vector<PairToCertify>& boxes_;
@@ -119,9 +123,9 @@ PairToCertify to_certify(const NearPair& pair) {
 }
 
 void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
-                     double radius, collision::QueryWorkspace& workspace, collision::WorkMeter* meter,
-                     std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes) {
-  PairSearch search(bodies, obstacle, part, margin, meter, pairs, boxes);
+                     double radius, bool in_triangles, collision::QueryWorkspace& workspace,
+                     collision::WorkMeter* meter, std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes) {
+  PairSearch search(bodies, obstacle, part, margin, in_triangles, meter, pairs, boxes);
   const collision::PairSelection features{&obstacle.body->features, &part.body->features};
   collision::traverse_near(search.tree_O(), search.tree_V(), search.X_OV(), radius, workspace, search, &features);
 }

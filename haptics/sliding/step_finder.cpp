@@ -21,7 +21,7 @@ constexpr std::int64_t kWorkOfRow = 50;
 
 constexpr CouplingStiffness kImmovable{kUnbounded, kUnbounded};
 
-/// Metres: no pose of a part of some millimetres has bits for so short a way.
+/// Metres: shorter than anything that matters.
 constexpr double kNoMotion_m = 1e-18;
 
 /// A displacement without what rounding has left of a translation or rotation. From step to step it would shrink to

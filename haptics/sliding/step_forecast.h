@@ -17,30 +17,32 @@ namespace glissade::haptics {
 class StepForecast {
  public:
   /// Begins a call for parts that are led by these metaphors. No step has been made yet. Margins in metres.
-  void begin_call(std::span<const Metaphor> parts, double largest_margin, double smallest_margin);
+  void begin_call(std::span<const Metaphor> metaphors, double largest_margin, double smallest_margin);
 
   /// Notes a step of the call.
   void note(const Step& step);
 
-  /// Whether what the parts would still move in this call can be expected to be too little to matter.
-  bool is_rest_worthless() const;
+  /// Whether what the parts would still move in this call can be expected to be too little to matter. There must have
+  /// been a step.
+  bool is_remainder_worthless() const;
 
-  /// To be called when a hand takes hold or lets go: earlier calls tell nothing any more.
-  void forget() { seen_.clear(); }
+  /// To be called when a hand takes hold or lets go: what was before tells nothing any more.
+  void forget();
 
  private:
   using Lengths = std::array<double, kMaxParts>;  // metres, of each part
 
-  /// A step of an earlier call, and the sum of those after it.
+  /// A step of an earlier call, and what the parts moved, or would have moved, after it.
   struct Seen {
     Lengths step{};
-    Lengths rest{};
+    Lengths remainder{};
     int calls = 0;  // since then; 0: nothing was seen
   };
 
   void learn();
-  double rest_by_shrinking(std::size_t p) const;
-  double rest_by_earlier_call(std::size_t p) const;
+  Lengths expected_remainders() const;
+  double by_shrinking(std::size_t p) const;
+  double by_earlier_call(std::size_t p) const;
 
   std::size_t count_ = 0;  // of parts
   double least_ = 0.0;     // metres: less is never worth a step

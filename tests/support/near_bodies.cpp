@@ -154,4 +154,12 @@ std::unique_ptr<haptics::ContactScene> random_contact_scene(double size, double 
   return scene;
 }
 
+bool can_make_contact(const haptics::ContactScene& scene, const haptics::TrianglesOfBodies& pair) {
+  const auto topology_of = [&](std::int32_t body) -> const geometry::MeshTopology& {
+    return scene.bodies()[static_cast<std::size_t>(body)].body->topology;
+  };
+  return topology_of(pair.bodies.obstacle)
+      .can_stop_each_other(pair.obstacle_triangle, topology_of(pair.bodies.part), pair.part_triangle);
+}
+
 }  // namespace glissade::test_support

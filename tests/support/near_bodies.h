@@ -23,6 +23,9 @@ double distance_of(std::span<const haptics::PlacedBody> bodies, const haptics::T
 std::map<haptics::TrianglesOfBodies, double> near_triangles(std::span<const haptics::PlacedBody> bodies,
                                                             std::size_t first_part, double radius);
 
+/// Whether two triangles can stop each other with the edges and vertices that they own.
+bool can_make_contact(const haptics::ContactScene& scene, const haptics::TrianglesOfBodies& pair);
+
 /// All pairs of triangles in a pair to certify.
 std::vector<haptics::TrianglesOfBodies> triangles_of(std::span<const haptics::PlacedBody> bodies,
                                                      const haptics::PairToCertify& pair_to_certify);

@@ -28,14 +28,15 @@ Matrix3d principal_axes(Points points_M) {
     const Vector3d a = points_M[i] - origin;
     const Vector3d b = points_M[i + 1] - origin;
     const Vector3d c = points_M[i + 2] - origin;
-    const double weight = 0.5 * (b - a).cross(c - a).norm();
+    const double weight = std::max(1e-100, 0.5 * (b - a).cross(c - a).norm());  // a needle's may be 0
     const Vector3d sum = a + b + c;
     first_moment += weight / 3.0 * sum;
     second_moment +=
         weight / 12.0 * (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
     area += weight;
   }
-  const Matrix3d covariance = second_moment / area - first_moment * first_moment.transpose() / (area * area);
+  const Vector3d mean = first_moment / area;
+  const Matrix3d covariance = second_moment / area - mean * mean.transpose();
   return Eigen::SelfAdjointEigenSolver<Matrix3d>(covariance).eigenvectors();
 }
 

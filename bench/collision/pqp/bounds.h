@@ -1,6 +1,6 @@
 #pragma once
 
-/// The bounding volumes of pqp_tree.h, fitted to triangles in double precision.
+/// The bounding volumes of pqp/tree.h, fitted to triangles in double precision.
 
 #include <span>
 

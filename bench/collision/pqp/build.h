@@ -1,6 +1,6 @@
 #pragma once
 
-/// Building the tree of pqp_tree.h, from the top down (Gottschalk and others 1996, section 4).
+/// Building the tree of pqp/tree.h, from the top down (Gottschalk and others 1996, section 4).
 
 #include <glissade/geometry/triangle_mesh.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Queries of two trees of pqp_tree.h by the published method of PQP, compiled for the processor of the machine. X_AB
+/// Queries of two trees of pqp/tree.h by the published method of PQP, compiled for the processor of the machine. X_AB
 /// is the pose of mesh B in the frame of mesh A. None of them allocates.
 
 #include <cstddef>

@@ -107,14 +107,18 @@ class RectanglePair {
     const Floats8 way_up = start_B * halves<1, 4>(heights_, heights_) + p_AB_[2];
     const Floats8 way_B = halves<0, 5>(p_AB_along_B_, p_AB_along_B_) - start_A * cosine_other;
 
-    const Floats8 sine_squared = 1.0F - cosine * cosine;
-    const Floats8 scale = sine_squared > Floats8{} + 1e-6F ? 1.0F / sine_squared : Floats8{};  // parallel: any point
-    const Floats8 first_on_A = clamped((way - way_B * cosine) * scale, length_A);
+    // Of the edge of B, the part across that of A: a difference of squares would lose the sine of nearly parallel
+    // edges.
+    const Floats8 cosine_up = halves<0, 5>(heights_, heights_);
+    const Floats8 sine_squared = cosine_other * cosine_other + cosine_up * cosine_up;
+    const Floats8 scale = sine_squared > Floats8{} ? 1.0F / sine_squared : Floats8{};  // parallel: any point
+    const Floats8 first_on_A =
+        clamped(way - cosine * (way_other * cosine_other + way_up * cosine_up) * scale, length_A);
     const Floats8 on_B = clamped(first_on_A * cosine - way_B, length_B);
     const Floats8 on_A = clamped(way + on_B * cosine, length_A);
     const Floats8 along = way + on_B * cosine - on_A;
     const Floats8 across = way_other + on_B * cosine_other;
-    const Floats8 up = way_up + on_B * halves<0, 5>(heights_, heights_);
+    const Floats8 up = way_up + on_B * cosine_up;
     return along * along + across * across + up * up;
   }
 
@@ -132,10 +136,10 @@ class RectanglePair {
   Floats4 p_AB_along_B_;
 };
 
-/// Distance of the volumes, at most 0 where they overlap.
+/// Distance of the volumes, 0 where they overlap.
 inline float distance_of(const Columns& X_AB, const RectangleNode& volume_A, const RectangleNode& volume_B) {
   const float squared = RectanglePair(X_AB, volume_A.sides, volume_B.sides).squared_distance();
-  return std::sqrt(squared) - volume_A.radius - volume_B.radius;
+  return std::fmax(0.0F, std::sqrt(squared) - volume_A.radius - volume_B.radius);
 }
 
 }  // namespace glissade::bench::pqp

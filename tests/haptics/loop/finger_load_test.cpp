@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 constexpr std::int32_t kHeld = 2;
 constexpr double kPartRadius_m = 0.03;
 constexpr double kArm_m = 0.06;
-constexpr double kTick_s = 1e-3;
+constexpr double kFingerTick_s = 1e-3;
 enum Joint : std::size_t { kThumb, kIndex, kWrist };
 constexpr std::array<std::size_t, 1> kMovesPart{kWrist};
 
@@ -46,7 +46,7 @@ HandAnswer pinch() {
 class LoadOnFingers : public ::testing::Test {
  protected:
   const JointValues& tick(const HandAnswer& hand, const Vector3d& f_W, std::int32_t part = kHeld) {
-    return load_.update(hand, part, {f_W, Vector3d::Zero()}, Vector3d::Zero(), kPartRadius_m, angles_, kTick_s);
+    return load_.update(hand, part, {f_W, Vector3d::Zero()}, Vector3d::Zero(), kPartRadius_m, angles_, kFingerTick_s);
   }
   JointValues settle(const HandAnswer& hand, const Vector3d& f_W, std::int32_t part = kHeld) {
     for (int ms = 0; ms < 31; ++ms)
@@ -84,7 +84,7 @@ TEST_F(LoadOnFingers, OfACoupleIsSharedByBothFingers) {
   const Wrench couple{Vector3d::Zero(), 0.12 * Vector3d::UnitZ()};  // 2 N at each
   JointValues torques{};
   for (int ms = 0; ms < 32; ++ms)
-    torques = load_.update(hand, kHeld, couple, Vector3d::Zero(), kPartRadius_m, angles_, kTick_s);
+    torques = load_.update(hand, kHeld, couple, Vector3d::Zero(), kPartRadius_m, angles_, kFingerTick_s);
   EXPECT_NEAR(torques[kThumb], -2.0 * kArm_m, 0.1 * 2.0 * kArm_m);
   EXPECT_NEAR(torques[kIndex], -2.0 * kArm_m, 0.1 * 2.0 * kArm_m);
 }
@@ -131,7 +131,7 @@ TEST_F(LoadOnFingers, GivesNoMoreEnergyThanItIsAllowed) {
     const double moved = is_opening ? -2e-4 : 2e-4;
     given_J += torques[kIndex] * moved;
     angles_[kIndex] += moved;
-    ASSERT_LE(given_J, 20e-3 + 1e-3 * kTick_s * ms + 2e-4 * device_.max_joint_torque) << ms << " ms";
+    ASSERT_LE(given_J, 20e-3 + 1e-3 * kFingerTick_s * ms + 2e-4 * device_.max_joint_torque) << ms << " ms";
   }
   EXPECT_GT(given_J, 20e-3) << "it has been tried";
 }
@@ -151,7 +151,7 @@ TEST_F(LoadOnFingers, NoRandomHandGetsMoreEnergyThanIsAllowed) {
       angles_[joint] += moved;
       hand.visible.angles[joint] = angles_[joint];
     }
-    ASSERT_LE(given_J, 20e-3 + 1e-3 * kTick_s * ms + 8e-3 * device_.max_joint_torque) << ms << " ms";
+    ASSERT_LE(given_J, 20e-3 + 1e-3 * kFingerTick_s * ms + 8e-3 * device_.max_joint_torque) << ms << " ms";
   }
 }
 

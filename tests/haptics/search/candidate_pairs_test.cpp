@@ -55,14 +55,6 @@ std::vector<PairToCertify> pairs_to_certify_within(const CandidatePairs& candida
   return to_certify;
 }
 
-bool can_make_contact(const ContactScene& scene, const TrianglesOfBodies& pair) {
-  const auto topology_of = [&](std::int32_t body) -> const geometry::MeshTopology& {
-    return scene.bodies()[static_cast<std::size_t>(body)].body->topology;
-  };
-  return topology_of(pair.bodies.obstacle)
-      .can_stop_each_other(pair.obstacle_triangle, topology_of(pair.bodies.part), pair.part_triangle);
-}
-
 /// Moves each part on and on as it has begun.
 class SteadyMotion {
  public:
@@ -99,7 +91,7 @@ std::string what_is_missing(const CandidatePairs& candidates, const ContactScene
                              std::to_string(pair.bodies.obstacle) + " and " + std::to_string(pair.part_triangle) +
                              " of body " + std::to_string(pair.bodies.part) + " at " + std::to_string(distance);
     if (!for_proofs.contains(pair)) return "for proofs: " + text;
-    if (can_make_contact(scene, pair) && !for_contacts.contains(pair)) return "for contacts: " + text;
+    if (test_support::can_make_contact(scene, pair) && !for_contacts.contains(pair)) return "for contacts: " + text;
   }
   return "";
 }

@@ -35,8 +35,8 @@ struct Found {
     for (std::size_t part = scene.obstacles().size(); part < bodies.size(); ++part) {
       for (std::size_t other = 0; other < part; ++other) {
         const BodyPair pair{static_cast<std::int32_t>(other), static_cast<std::int32_t>(part)};
-        find_near_pairs(pair, bodies[other], bodies[part], scene.margin(pair.obstacle, pair.part), radius, workspace,
-                        nullptr, pairs, boxes);
+        find_near_pairs(pair, bodies[other], bodies[part], scene.margin(pair.obstacle, pair.part), radius, true,
+                        workspace, nullptr, pairs, boxes);
       }
     }
   }
@@ -52,14 +52,6 @@ struct Found {
   std::vector<NearPair> pairs;
   std::vector<PairToCertify> boxes;
 };
-
-bool can_make_contact(const ContactScene& scene, const TrianglesOfBodies& pair) {
-  const auto topology_of = [&](std::int32_t body) -> const geometry::MeshTopology& {
-    return scene.bodies()[static_cast<std::size_t>(body)].body->topology;
-  };
-  return topology_of(pair.bodies.obstacle)
-      .can_stop_each_other(pair.obstacle_triangle, topology_of(pair.bodies.part), pair.part_triangle);
-}
 
 /// How far apart n holds two triangles.
 double gap_along(const Vector3d& n, const geometry::TrianglePoints& obstacle, const geometry::TrianglePoints& part) {
@@ -118,14 +110,14 @@ TEST_F(NearPairs, HoldEveryPairThatMayYieldAContactOnce) {
     const double radius = random_.power_of_ten(-4.0, -2.0);
     std::map<TrianglesOfBodies, int> held;
     for (const NearPair& pair : Found(*scene, radius).pairs) {
-      ASSERT_EQ(pair.may_yield_contact, can_make_contact(*scene, pair));
+      ASSERT_EQ(pair.may_yield_contact, test_support::can_make_contact(*scene, pair));
       ASSERT_TRUE(pair.may_yield_contact || pair.is_to_certify) << "of no use";
       ++held[pair];
       (pair.is_to_certify ? others : in_boxes) += 1;
     }
     for (const auto& [pair, distance] :
          test_support::near_triangles(scene->bodies(), scene->obstacles().size(), radius)) {
-      if (!can_make_contact(*scene, pair)) continue;
+      if (!test_support::can_make_contact(*scene, pair)) continue;
       ASSERT_EQ(held[pair], 1) << pair.bodies.obstacle << ": " << pair.obstacle_triangle << ", " << pair.bodies.part
                                << ": " << pair.part_triangle << " at " << distance;
     }

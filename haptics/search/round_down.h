@@ -1,0 +1,15 @@
+#pragma once
+
+/// Lower bounds in single precision.
+
+#include <cmath>
+
+namespace glissade::haptics {
+
+/// The greatest number of single precision that is not above `value`.
+inline float round_down(double value) {
+  const auto rounded = static_cast<float>(value);
+  return static_cast<double>(rounded) <= value ? rounded : std::nextafter(rounded, -1e30F);
+}
+
+}  // namespace glissade::haptics
