@@ -7,11 +7,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr CouplingStiffness kHandStiffness{1000.0, 10.0};
+constexpr CouplingStiffness kCouplingStiffness{1000.0, 10.0};
 constexpr CouplingDamping kDamping{5.0, 0.05};
 
 TEST(Coupling, PullsTheHandFromTheGhostToThePart) {
-  const Wrench wrench = spring_wrench(kHandStiffness, {Vector3d(0.0, 0.0, -2e-3), Vector3d(0.01, 0.0, 0.0)});
+  const Wrench wrench = spring_wrench(kCouplingStiffness, {Vector3d(0.0, 0.0, -2e-3), Vector3d(0.01, 0.0, 0.0)});
   EXPECT_TRUE(wrench.f.isApprox(Vector3d(0.0, 0.0, 2.0)));  // the ghost is 2 mm below the part
   EXPECT_TRUE(wrench.t.isApprox(Vector3d(-0.1, 0.0, 0.0)));
 }
