@@ -118,8 +118,7 @@ PairToCertify to_certify(const NearPair& pair) {
   const auto item = [](std::int32_t triangle) {
     return TreeItem{TreeItem::Kind::kTriangle, static_cast<std::uint32_t>(triangle), nullptr};
   };
-  return {pair.bodies, item(pair.obstacle_triangle), item(pair.part_triangle), static_cast<double>(pair.distance),
-          pair.n_W};
+  return {pair.bodies, item(pair.obstacle_triangle), item(pair.part_triangle), pair.distance, pair.n_W};
 }
 
 void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
