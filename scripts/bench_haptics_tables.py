@@ -1,5 +1,6 @@
 """The sections of the benches of sliding, haptic loop and grasping."""
 
+from bench_figures import geometric_mean
 from bench_tables import table, number
 
 METHODS = ["glissade", "glissade-paper"]
@@ -71,6 +72,28 @@ def sliding(figures, _):
     if rows:
         text += table(["rows of the projection", "active contacts", "time, µs", "µs an active contact"], rows)
     return text
+
+
+LED_REAL_TIME_MS = 2
+
+
+def led(figures, _):
+    """The whole, then each part, the slowest first."""
+    cases = [case for case in figures.cases if figures.get(case, "glissade", "tick_p99") is not None]
+    cases.sort(key=lambda case: -figures.get(case, "glissade", "tick_p99"))
+    columns = {"triangles": "triangles", "ticks": "ticks", "pushed": "with contact, %", "colliding_poses": "colliding poses", "tick_mean": "mean, ms",
+               "tick_p50": "p50, ms", "tick_p99": "p99, ms", "tick_max": "most, ms"}
+    values = {metric: [figures.get(case, "glissade", metric) for case in cases] for metric in columns}
+    within = sum(value <= LED_REAL_TIME_MS for value in values["tick_p99"])
+    text = (f"{len(cases)} parts and pairs: p99 geometric mean {number(geometric_mean(values['tick_p99']))} ms, at most {LED_REAL_TIME_MS} ms for "
+            f"{within}; p50 geometric mean {number(geometric_mean(values['tick_p50']))} ms; {sum(values['colliding_poses']):.0f} of "
+            f"{sum(values['ticks']):.0f} poses collide.\n\n")
+    values["pushed"] = [100 * value for value in values["pushed"]]
+    values["triangles"] = [f"{value:.0f}" for value in values["triangles"]]
+    values["ticks"] = [f"{value:.0f}" for value in values["ticks"]]
+    rows = [[case] + [values[metric][i] if metric in ("triangles", "ticks") else number(values[metric][i]) for metric in columns]
+            for i, case in enumerate(cases)]
+    return text + table(["two copies, or two parts"] + list(columns.values()), rows)
 
 
 TICK_METHODS = {"glissade": "this program", "last-force": "hold the last force", "penalty": "penalty force"}

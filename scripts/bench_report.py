@@ -14,7 +14,7 @@ import sys
 
 import bench_plots
 from bench_figures import HULL_PEERS, PART_PEERS, PEERS, PEER_TITLES, geometric_mean, read_results
-from bench_haptics_tables import ages, clasp, handoff, latency, passivity, sliding, tick
+from bench_haptics_tables import ages, clasp, handoff, latency, led, passivity, sliding, tick
 from bench_tables import table, number, folded, picture
 
 PHASES = ["gap-1%", "gap-0.5%", "gap-0.1%", "touching", "colliding"]
@@ -33,7 +33,7 @@ def machine(command, bench):
         packages = {"FCL": "fcl"}
     elif bench == "handoff":
         packages = {"Boost": "boost"}
-    elif bench in ("sliding", "tick", "passivity", "ages", "clasp", "latency"):
+    elif bench in ("sliding", "led", "tick", "passivity", "ages", "clasp", "latency"):
         packages = {}
     versions = [f"{title} {output_of('dpkg-query', '-W', '-f=${Version}', f'lib{package}-dev')}" for title, package in packages.items()]
     facts = [datetime.date.today().isoformat(), cpu[1] if cpu else "unknown processor", output_of("c++", "--version").splitlines()[0]]
@@ -267,7 +267,7 @@ def threads(figures, _):
 
 
 SECTIONS = {"zachmann": zachmann, "close": queries, "shells": queries, "coherent": coherent, "all-pairs": all_pairs, "parts": parts,
-            "build": build, "hull": hull, "scene": scene, "threads": threads, "sliding": sliding, "tick": tick, "passivity": passivity, "ages": ages, "clasp": clasp,
+            "build": build, "hull": hull, "scene": scene, "threads": threads, "sliding": sliding, "led": led, "tick": tick, "passivity": passivity, "ages": ages, "clasp": clasp,
             "handoff": handoff, "latency": latency}
 
 

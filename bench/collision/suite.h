@@ -31,7 +31,7 @@ struct Suite {
   std::vector<std::int64_t> thread_triangles;  ///< the same for the pairs of `threads`
   std::vector<std::int64_t> hull_vertices;     ///< numbers of corners for `hull`
   std::vector<std::filesystem::path> files;    ///< meshes of the user; a folder stands for all meshes in it
-  std::filesystem::path pairs;                 ///< a file with two of these meshes, by name, in each line; or empty
+  std::filesystem::path pairs;                 ///< a file for `user_pairs`; or empty
 };
 
 /// Names of all generated shapes, those of shapes/benchmark_shapes.h.
@@ -53,8 +53,7 @@ struct PartPair {
   std::shared_ptr<const geometry::TriangleMesh> mesh_B;  ///< the same object for two copies of one mesh
 };
 
-/// Two copies of each mesh of the user, then the pairs of `Suite::pairs`. Throws std::invalid_argument for a file that
-/// cannot be used, and for a name that none of the meshes has.
+/// Two copies of each mesh of the user, then the pairs of `Suite::pairs`. Throws as `user_meshes` and `user_pairs`.
 std::vector<PartPair> part_pairs(const Suite& suite);
 
 /// "20k", "1M", or the number itself.

@@ -49,7 +49,7 @@ void run_scenes(const SlidingBenchOptions& options, Results& results) {
     const int rounds = options.quick ? 1 : 3;
     for (int round = 0; round < rounds; ++round) {
       for (std::size_t i = 0; i < kSlidingSubjects.size(); ++i) {
-        const std::vector<double> ticks_us = tick_times(kSlidingSubjects[i], scene, ticks);
+        const std::vector<double> ticks_us = run_paced(kSlidingSubjects[i], scene, ticks).tick_us;
         for (std::size_t tick = 0; tick < ticks_us.size(); ++tick) {
           if (accounts.front().pushes[tick] != 0) times[i].push_back(ticks_us[tick]);
         }

@@ -1,9 +1,11 @@
 #pragma once
 
 /// The benchmarks of sliding contact. Each adds rows to the bench `sliding`, `run_tick` to the bench `tick`,
-/// `run_passivity` to the bench `passivity`, `run_ages` to the bench `ages`, `run_clasp` to the bench `clasp`.
+/// `run_passivity` to the bench `passivity`, `run_ages` to the bench `ages`, `run_clasp` to the bench `clasp`,
+/// `run_led` to the bench `led`.
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,12 +18,15 @@ inline constexpr const char* kTick = "tick";
 inline constexpr const char* kPassivity = "passivity";
 inline constexpr const char* kAges = "ages";
 inline constexpr const char* kClasp = "clasp";
+inline constexpr const char* kLed = "led";
 
 struct SlidingBenchOptions {
   bool quick = false;
-  std::vector<std::string> scenes;       ///< names of `sliding_scene_names`; empty: all
-  std::vector<std::string> scene_files;  ///< more scenes for `run_tick`
-  std::string meshes;                    ///< folder of more meshes for `run_ages`; empty: none
+  std::vector<std::string> scenes;                ///< names of `sliding_scene_names`; empty: all
+  std::vector<std::string> scene_files;           ///< more scenes for `run_tick`
+  std::string meshes;                             ///< folder of more meshes for `run_ages`; empty: none
+  std::vector<std::filesystem::path> led_meshes;  ///< meshes and folders of them for `run_led`
+  std::filesystem::path led_pairs;                ///< a file for `user_pairs`, of these meshes; or empty
 };
 
 /// Each scene with each method: case `SCENE`, the metrics of `SlidingAccount`, and p50 and p99 of the tick times.
@@ -67,5 +72,10 @@ void run_ages(const SlidingBenchOptions& options, Results& results);
 /// `two-hands-100-objects`, whole calls of `grasping::GraspSimulation`, with the share `both_hold`. Metrics `call_p50`,
 /// `call_p99` and `call_max`: time of the thread on a processor.
 void run_clasp(const SlidingBenchOptions& options, Results& results);
+
+/// The user's meshes in real time, two copies of each and each pair of `led_pairs`: the ghost wanders at 0.5 m/s
+/// through the obstacle. Case `PART` or `PART/PART`, metrics `ticks`, `triangles` of both, the share `pushed` of ticks
+/// in which a contact pushes, `colliding_poses`, and `tick_mean`, `tick_p50`, `tick_p99` and `tick_max` of these ticks.
+void run_led(const SlidingBenchOptions& options, Results& results);
 
 }  // namespace glissade::bench

@@ -32,6 +32,7 @@ constexpr const char* kDescription =
     "  passivity  from which stiffness a device oscillates, by theory and in simulation; energy; delays\n"
     "  ages     how old the simulation's answers are in real time, with and without a budget of work\n"
     "  clasp    a hand that closes round a ball, and two hands among 100 objects\n"
+    "  led      meshes of --mesh, two copies and --pairs: one is led through the other at 0.5 m/s\n"
     "\n"
     "Progress goes to standard error, the figures to results.csv with the columns\n"
     "bench,case,subject,metric,value,unit.";
@@ -47,7 +48,7 @@ using Part = void (*)(const SlidingBenchOptions&, Results&);
 const std::vector<std::pair<std::string, Part>> kParts{
     {"scenes", run_scenes}, {"sheets", run_sheets}, {"pegs", run_pegs},           {"nut", run_nut},
     {"solver", run_solver}, {"tick", run_tick},     {"passivity", run_passivity}, {"ages", run_ages},
-    {"clasp", run_clasp}};
+    {"clasp", run_clasp},   {"led", run_led}};
 
 int fail(int exit_code, const std::string& message) {
   std::fprintf(stderr, "haptics_bench: %s\n", message.c_str());
@@ -73,6 +74,12 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--meshes", options.meshes,
                  "Folder with more meshes for the part ages: koala/koala.obj, scallop/scallop.ply,\n"
                  "ycb_power_drill/, drivaer_body/, industreal_gear_small/ and industreal_gear_base/ likewise");
+  app.add_option("--mesh", options.led_meshes,
+                 "For the part led: a mesh (OBJ, STL, PLY, glTF), or a folder of OBJ, STL and PLY; may be repeated");
+  app.add_option(
+      "--pairs", options.led_pairs,
+      "For the part led: a file with two names of these meshes in each line, and, for a start at true size,\n"
+      "metres per unit and the place of the second in the frame of the first, in units");
   app.add_flag("--quick", options.quick, "Shorter runs, fewer trials: within two minutes");
   app.add_option("--out", folder, "Folder for results.csv, created if necessary")->capture_default_str();
   try {

@@ -26,16 +26,6 @@ double stretch(const geometry::Displacement& d, const haptics::CouplingStiffness
   return std::sqrt(d.v.squaredNorm() + k.rotational / k.translational * d.w.squaredNorm());
 }
 
-int count_collisions(const test_support::SlidingScene& scene, const std::vector<Isometry3d>& poses) {
-  std::vector<reference::PlacedMesh> placed;
-  for (const haptics::Obstacle& obstacle : scene.obstacles) {
-    placed.push_back({std::make_shared<const geometry::TriangleMesh>(obstacle.body->tree.mesh()), obstacle.X_WO});
-  }
-  const reference::GridCheck check(placed);
-  const std::vector<char> collide = check.collisions(scene.part_V->tree.mesh(), poses);
-  return static_cast<int>(std::count(collide.begin(), collide.end(), 1));
-}
-
 }  // namespace
 
 SlidingAccount account_of(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks) {
@@ -77,20 +67,32 @@ SlidingAccount account_of(const SlidingSubject& subject, const test_support::Sli
   return account;
 }
 
-std::vector<double> tick_times(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks) {
+PacedRun run_paced(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks) {
   using Clock = std::chrono::steady_clock;
   const SlidingRun run = start(subject, scene, {.rules = {.has_search_thread = true}});
-  std::vector<double> times;
+  PacedRun paced;
   Clock::time_point due = Clock::now();
   for (int tick = 1; tick <= ticks; ++tick) {
     std::this_thread::sleep_until(due);
     const Clock::time_point begin = Clock::now();
     run.sliding->advance(scene.ghost(tick));
     const Clock::time_point end = Clock::now();
-    times.push_back(std::chrono::duration<double, std::micro>(end - begin).count());
+    paced.tick_us.push_back(std::chrono::duration<double, std::micro>(end - begin).count());
+    paced.X_WV.push_back(run.sliding->result().X_WV);
+    paced.pushes.push_back(run.sliding->result().pushing > 0 ? 1 : 0);
     due = std::max(end, due + std::chrono::milliseconds(1));
   }
-  return times;
+  return paced;
+}
+
+int count_collisions(const test_support::SlidingScene& scene, const std::vector<Isometry3d>& poses_WV) {
+  std::vector<reference::PlacedMesh> placed;
+  for (const haptics::Obstacle& obstacle : scene.obstacles) {
+    placed.push_back({std::make_shared<const geometry::TriangleMesh>(obstacle.body->tree.mesh()), obstacle.X_WO});
+  }
+  const reference::GridCheck check(placed);
+  const std::vector<char> collide = check.collisions(scene.part_V->tree.mesh(), poses_WV);
+  return static_cast<int>(std::count(collide.begin(), collide.end(), 1));
 }
 
 double quantile(std::vector<double> values, double p) {

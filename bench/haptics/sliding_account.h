@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "sliding_subject.h"
 
 namespace glissade::bench {
@@ -31,9 +33,16 @@ struct SlidingAccount {
 /// Runs the first `ticks` of the scene.
 SlidingAccount account_of(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks);
 
-/// Duration of each tick in microseconds, in a run as in real time: ticks begin a millisecond apart, and a thread of
-/// its own searches ahead of need.
-std::vector<double> tick_times(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks);
+/// A run as in real time: ticks begin a millisecond apart, and a thread of its own searches ahead of need.
+struct PacedRun {
+  std::vector<double> tick_us;          ///< duration of each tick
+  std::vector<Eigen::Isometry3d> X_WV;  ///< visible pose after each tick
+  std::vector<char> pushes;             ///< of each tick: whether a contact pushes
+};
+PacedRun run_paced(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks);
+
+/// Poses of the part that collide, by `reference::GridCheck`. Runs on all processors.
+int count_collisions(const test_support::SlidingScene& scene, const std::vector<Eigen::Isometry3d>& poses_WV);
 
 /// Sorts the values. p in [0, 1].
 double quantile(std::vector<double> values, double p);

@@ -58,6 +58,25 @@ foreach(subject without-budget with-budget)
   endforeach()
 endforeach()
 
+# A block with an oblique end, beside its copy and at its true size.
+file(WRITE ${WORK_DIR}/led/block.obj "v 0 0 0\nv 3 0 0\nv 4 1 0\nv 0 1 0\nv 0 0 1\nv 3 0 1\nv 5 1 1\nv 0 1 1\n"
+  "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n")
+file(COPY_FILE ${WORK_DIR}/led/block.obj ${WORK_DIR}/led/other.obj)
+file(WRITE ${WORK_DIR}/led/pairs.txt "block other 0.01 0 0 1.2\n")
+execute_process(COMMAND ${BENCH} --quick --parts led --mesh ${WORK_DIR}/led --pairs ${WORK_DIR}/led/pairs.txt
+  --out ${WORK_DIR}/led RESULT_VARIABLE status ERROR_VARIABLE said)
+expect("exit code 0 of the parts that are led" status EQUAL 0)
+file(STRINGS ${WORK_DIR}/led/results.csv results)
+foreach(case block other block/other)
+  expect("no collision of ${case}" results MATCHES "led,${case},glissade,colliding_poses,0,1")
+  expect("the time of ${case}" results MATCHES "led,${case},glissade,tick_p99,[0-9.e+-]+,ms")
+endforeach()
+file(WRITE ${WORK_DIR}/led/pairs.txt "block other 0.01\nblock other 0.01 0\n")
+execute_process(COMMAND ${BENCH} --quick --parts led --mesh ${WORK_DIR}/led --pairs ${WORK_DIR}/led/pairs.txt
+  --out ${WORK_DIR} RESULT_VARIABLE status ERROR_VARIABLE said)
+expect("exit code 2 for a wrong line" status EQUAL 2)
+expect("its number" said MATCHES "pairs.txt:2:")
+
 file(COPY ${SOURCE_DIR}/docs/benchmarks.md DESTINATION ${WORK_DIR})
 execute_process(COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 ${SOURCE_DIR}/scripts/bench_report.py
   ${WORK_DIR}/results.csv ${WORK_DIR}/benchmarks.md --command "smoke test" RESULT_VARIABLE status ERROR_VARIABLE said)
@@ -65,10 +84,14 @@ expect("exit code 0 of the report" status EQUAL 0)
 execute_process(COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 ${SOURCE_DIR}/scripts/bench_report.py
   ${WORK_DIR}/ages/results.csv ${WORK_DIR}/benchmarks.md --command "smoke test" RESULT_VARIABLE status ERROR_VARIABLE said)
 expect("exit code 0 of the report of the ages" status EQUAL 0)
+execute_process(COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 ${SOURCE_DIR}/scripts/bench_report.py
+  ${WORK_DIR}/led/results.csv ${WORK_DIR}/benchmarks.md --command "smoke test" RESULT_VARIABLE status ERROR_VARIABLE said)
+expect("exit code 0 of the report of the parts that are led" status EQUAL 0)
 file(READ ${WORK_DIR}/benchmarks.md page)
 expect("the new section" page MATCHES "<!-- begin sliding -->\n[^\n]*smoke test.*[|] plane [|].*<!-- end sliding -->")
 expect("the stability" page MATCHES "[|] sigma.7 [|] 4000, .*<!-- end passivity -->")
 expect("the ages" page MATCHES "<!-- begin ages -->\n[^\n]*smoke test.*[|] car-door, with budget [|].*<!-- end ages -->")
+expect("the parts that are led" page MATCHES "[|] block/other [|] 24 [|].*<!-- end led -->")
 expect("the clasp" page MATCHES "[|] from-scratch [|].*<!-- end clasp -->")
 expect("the prose by hand" page MATCHES "## How it is measured")
 

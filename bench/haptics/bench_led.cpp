@@ -1,0 +1,123 @@
+// See `run_led` in benches.h.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "benches.h"
+#include "held_part.h"
+#include "pose_source.h"
+#include "sliding_account.h"
+#include "user_meshes.h"
+
+namespace glissade::bench {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using test_support::SlidingScene;
+using test_support::Waypoint;
+
+constexpr double kLedSpeed = 0.5e-3;  // metres a tick
+constexpr double kWandering = 20e-3;  // metres from the start
+constexpr double kLedTurn = 0.2;      // radians from the start
+constexpr double kExtent = 0.2;       // metres, of the larger of two meshes without a unit
+constexpr double kGap = 1e-3;         // metres between them at the start
+constexpr std::uint64_t kLedSeed = 1;
+
+// From one random point near the start to the next, at constant speed.
+std::vector<Waypoint> wander(const Isometry3d& X_WV_start, int ticks, PoseSource& source) {
+  std::vector<Waypoint> way{{0, X_WV_start}};
+  while (way.back().tick < ticks) {
+    const Vector3d away = kWandering * std::cbrt(source.uniform(0.0, 1.0)) * source.direction();
+    const Eigen::AngleAxisd turn(source.uniform(-kLedTurn, kLedTurn), source.direction());
+    const Isometry3d X_WG = pose(turn * X_WV_start.linear(), X_WV_start.translation() + away);
+    const double length = (X_WG.translation() - way.back().X_WG.translation()).norm();
+    way.push_back({way.back().tick + std::max(1, static_cast<int>(std::ceil(length / kLedSpeed))), X_WG});
+  }
+  return way;
+}
+
+Isometry3d beside(PoseSource& source) {
+  for (int tries = 0; tries < 100; ++tries) {
+    const Eigen::Matrix3d R_AB = source.rotation();
+    const Vector3d axis = source.direction();
+    if (const std::optional<double> distance = source.approach(R_AB, axis, kGap)) return pose(R_AB, *distance * axis);
+  }
+  throw std::invalid_argument("two meshes come nowhere as near as a millimetre");
+}
+
+SlidingScene led(std::string name, const geometry::TriangleMesh& mesh_A, const geometry::TriangleMesh& mesh_B,
+                 const std::optional<Isometry3d>& X_AB, int ticks) {
+  SlidingScene scene;
+  scene.name = std::move(name);
+  scene.obstacles = {test_support::obstacle_of(mesh_A)};
+  scene.part_V = test_support::part_of(mesh_B);
+  PoseSource source(scene.obstacles.front().body->tree, scene.part_V->tree, kLedSeed);
+  scene.X_WV_start = X_AB ? *X_AB : beside(source);
+  scene.ghost = test_support::led_through(wander(scene.X_WV_start, ticks, source));
+  scene.ticks = ticks;
+  return scene;
+}
+
+SlidingScene led_pair(const UserPair& pair, int ticks) {
+  const geometry::TriangleMesh& mesh_A = *pair.mesh_A.mesh;
+  const geometry::TriangleMesh& mesh_B = *pair.mesh_B.mesh;
+  const std::string name = pair.mesh_A.name + (&mesh_A == &mesh_B ? "" : "/" + pair.mesh_B.name);
+  const double scale =
+      pair.metres_per_unit.value_or(kExtent / std::max(largest_extent(mesh_A), largest_extent(mesh_B)));
+  std::optional<Isometry3d> X_AB;  // of the centres
+  if (pair.p_AB) X_AB = pose(Eigen::Matrix3d::Identity(), scale * (*pair.p_AB + center_of(mesh_B) - center_of(mesh_A)));
+  return led(name, centered(mesh_A, scale), centered(mesh_B, scale), X_AB, ticks);
+}
+
+void measure(const SlidingScene& scene, Results& results) {
+  const PacedRun run = run_paced(kSlidingSubjects.front(), scene, scene.ticks);
+  std::vector<double> pushed_us;
+  for (std::size_t i = 0; i < run.tick_us.size(); ++i) {
+    if (run.pushes[i] != 0) pushed_us.push_back(run.tick_us[i]);
+  }
+  const auto row = [&](const char* metric, double value, const char* unit) {
+    results.add({kLed, scene.name, kSlidingSubjects.front().name, metric, value, unit});
+  };
+  const std::size_t triangles =
+      scene.obstacles.front().body->tree.mesh().triangles.size() + scene.part_V->tree.mesh().triangles.size();
+  row("ticks", scene.ticks, "1");
+  row("triangles", static_cast<double>(triangles), "1");
+  row("pushed", static_cast<double>(pushed_us.size()) / scene.ticks, "1");
+  row("colliding_poses", count_collisions(scene, run.X_WV), "1");
+  if (pushed_us.empty()) return;
+  const double sum_us = std::accumulate(pushed_us.begin(), pushed_us.end(), 0.0);
+  row("tick_mean", 1e-3 * sum_us / static_cast<double>(pushed_us.size()), "ms");
+  row("tick_p50", 1e-3 * quantile(pushed_us, 0.5), "ms");
+  row("tick_p99", 1e-3 * quantile(pushed_us, 0.99), "ms");
+  row("tick_max", 1e-3 * quantile(pushed_us, 1.0), "ms");
+}
+
+}  // namespace
+
+void run_led(const SlidingBenchOptions& options, Results& results) {
+  const int ticks = options.quick ? 300 : 2000;
+  const std::vector<UserMesh> meshes = user_meshes(options.led_meshes);
+  std::vector<UserPair> pairs;
+  for (const UserMesh& mesh : meshes)
+    pairs.push_back({mesh, mesh});
+  if (!options.led_pairs.empty()) {
+    for (UserPair& pair : user_pairs(options.led_pairs, meshes))
+      pairs.push_back(std::move(pair));
+  }
+  for (const UserPair& pair : pairs) {
+    const SlidingScene scene = led_pair(pair, ticks);
+    std::fprintf(stderr, "led %s\n", scene.name.c_str());
+    measure(scene, results);
+  }
+}
+
+}  // namespace glissade::bench
