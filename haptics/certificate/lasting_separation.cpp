@@ -34,17 +34,20 @@ std::span<const Separation> LastingSeparations::find() {
   if (count_ == 0) return {};
   separate_by_normals(triangles_, begin_, end_, gap_, on_path_);
   if (!all_pairs_last(kEnoughPaths)) {
-    geometry::ClosestPoints closest;
-    geometry::find_closest_points(on_path_.begin, closest);
-    separate_by_points(closest, gap_, kEnoughPaths, on_path_);
+    geometry::ClosestPoints at_begin;
+    geometry::find_closest_points(on_path_.begin, at_begin);
+    separate_by_points(at_begin, gap_, kEnoughPaths, on_path_);
     if (!all_pairs_last(0.0)) {
-      geometry::find_closest_points(on_path_.end, closest);
-      separate_by_points(closest, gap_, 0.0, on_path_);
+      geometry::ClosestPoints at_end;
+      geometry::find_closest_points(on_path_.end, at_end);
+      separate_by_points(at_end, gap_, 0.0, on_path_);
+      if (!all_pairs_last(0.0)) separate_by_turning(at_begin, at_end, on_path_);
     }
   }
   const std::size_t count = std::exchange(count_, 0);
   for (std::size_t i = 0; i < count; ++i)
-    found_[i] = {geometry::vector_of_pair(on_path_.n, i), on_path_.gap_at_begin[i], on_path_.gap_at_end[i]};
+    found_[i] = {geometry::vector_of_pair(on_path_.n, i), on_path_.gap_at_begin[i], on_path_.gap_at_end[i],
+                 on_path_.turning[i]};
   return std::span(found_).first(count);
 }
 

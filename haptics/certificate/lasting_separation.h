@@ -20,6 +20,9 @@ struct Separation {
   Eigen::Vector3d n_O;  ///< in the axes of the obstacle; unit, or zero where none is known
   double begin;
   double end;
+  /// By how much a direction that turns separates them on the whole path, metres, if this was sought: it falls short by
+  /// the curvature of the path only. Minus infinity otherwise.
+  double turning;
 
   double least() const { return std::min(begin, end); }
 };
@@ -43,7 +46,8 @@ class LastingSeparations {
   /// directions are the normals of both triangles, one between both, and these across the motion. Where none serves for
   /// this path and another one, the direction of the closest points at the beginning is tried, and where this one
   /// fails, that at the end. They separate the most, but where triangles slide towards each other they serve for a
-  /// short way only. Valid until the next call.
+  /// short way only. Where none of these separates by `gap`, a direction that turns from the one to the other is tried:
+  /// long edges that cross turn past each other so. Valid until the next call.
   std::span<const Separation> find();
 
  private:

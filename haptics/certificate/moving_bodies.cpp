@@ -76,6 +76,13 @@ double MovingBodies::curvature(std::int32_t body, int begin, int end) const {
   return share * share * path(body).acceleration / 8.0;
 }
 
+double MovingBodies::most_curvature() const {
+  double most = 0.0;
+  for (const Path& path : paths_)
+    most = std::max(most, path.acceleration / 8.0);
+  return 2.0 * most;
+}
+
 const Eigen::Isometry3d& MovingBodies::pose(std::int32_t body, int moment) {
   if (!is_mover(body)) return scene_.bodies()[static_cast<std::size_t>(body)].X_WB;
   Path& moving = path(body);

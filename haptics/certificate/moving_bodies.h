@@ -42,6 +42,9 @@ class MovingBodies {
   /// bound of the second derivative of its path between them.
   double curvature(std::int32_t body, int begin, int end) const;
 
+  /// Bound (metres) of the sum of these for any two bodies in the whole step.
+  double most_curvature() const;
+
   /// The pose of a body at a moment.
   const Eigen::Isometry3d& pose(std::int32_t body, int moment);
   /// A triangle of a body at a moment, in world coordinates.

@@ -241,7 +241,7 @@ void PathCertificate::prove_waiting(WorkBudget& budget) {
     const Triangles& triangles = waiting_[i++];
     if (separation.least() >= needed_ + rounding_) {
       note_direction(triangles, obstacle_.X_WB[0]->linear() * separation.n_O);
-    } else {
+    } else if (!(separation.turning >= needed_ + rounding_)) {
       certify(triangles, budget);
     }
   }

@@ -57,6 +57,10 @@ class PathCertificate {
   /// Begins a step in which all parts move at once, each from its present pose along its displacement; `displacements`
   /// has one entry for each part.
   void begin_step(std::span<const geometry::Displacement> displacements);
+  /// The pose of a body at the end of this step.
+  const Eigen::Isometry3d& pose_at_end(std::int32_t body) { return bodies_.pose(body, MovingBodies::kMoments); }
+  /// Bound (metres) of the sum of the deviations of any two points from their chords in this step.
+  double curvature() const { return bodies_.most_curvature(); }
   /// The ends of this step for two bodies; none if the obstacle moves, too: the bound of the error between both ends is
   /// for directions fixed to the world, and those fixed to the obstacle may turn.
   std::optional<PathOfBodies> path_of(const BodyPair& bodies);

@@ -212,6 +212,46 @@ HWY_INLINE void separate_some_by_normals(const geometry::TrianglesToMeasure& tri
   store(end.part, pairs.end.b, first);
   store(motion, pairs.motion, first);
   separator.store_to(pairs, first);
+  hn::Store(hn::Set(d, -std::numeric_limits<double>::infinity()), d, pairs.turning.data() + first);
+}
+
+/// Twice the height of a corner along the mean direction, which the product of two linear functions has halfway besides
+/// the mean of its ends.
+HWY_INLINE PairNumbers mixed_height(const PairVectors& n_begin, const PairVectors& n_end, const PairVectors& x_begin,
+                                    const PairVectors& x_end) {
+  return hn::Add(dot(n_begin, x_end), dot(n_end, x_begin));
+}
+
+struct Heights {
+  PairNumbers bottom;
+  PairNumbers top;
+};
+HWY_INLINE Heights range_of(PairNumbers h0, PairNumbers h1, PairNumbers h2) {
+  return {hn::Min(h0, hn::Min(h1, h2)), hn::Max(h0, hn::Max(h1, h2))};
+}
+HWY_INLINE Heights heights(const PairVectors& n, const PairTriangles& t) {
+  return range_of(dot(n, t.corner[0]), dot(n, t.corner[1]), dot(n, t.corner[2]));
+}
+
+HWY_INLINE void separate_some_by_turning(const geometry::ClosestPoints& begin, const geometry::ClosestPoints& end,
+                                         std::size_t first, PairsOnPath& pairs) {
+  const PairTag d;
+  const PairTriangles obstacle = load(pairs.begin.a, first);
+  const PairTriangles part_at_begin = load(pairs.begin.b, first);
+  const PairTriangles part_at_end = load(pairs.end.b, first);
+  const PairVectors n_begin = normalized(minus(load(begin.p_b, first), load(begin.p_a, first)));
+  const PairVectors n_end = normalized(minus(load(end.p_b, first), load(end.p_a, first)));
+  const PairNumbers at_begin = hn::Sub(heights(n_begin, part_at_begin).bottom, heights(n_begin, obstacle).top);
+  const PairNumbers at_end = hn::Sub(heights(n_end, part_at_end).bottom, heights(n_end, obstacle).top);
+  PairNumbers mixed[3];
+  for (std::size_t c = 0; c < 3; ++c)
+    mixed[c] = mixed_height(n_begin, n_end, part_at_begin.corner[c], part_at_end.corner[c]);
+  const PairNumbers bottom = range_of(mixed[0], mixed[1], mixed[2]).bottom;
+  const PairNumbers between = hn::Mul(hn::Set(d, 0.5), hn::Sub(bottom, heights(plus(n_begin, n_end), obstacle).top));
+  const auto is_sought = hn::Lt(hn::Load(d, pairs.paths.data() + first), hn::Zero(d));
+  const PairNumbers least = hn::Min(between, hn::Min(at_begin, at_end));
+  hn::Store(hn::IfThenElse(is_sought, least, hn::Load(d, pairs.turning.data() + first)), d,
+            pairs.turning.data() + first);
 }
 
 }  // namespace
@@ -234,6 +274,11 @@ void separate_by_points(const geometry::ClosestPoints& points, double gap, doubl
   }
 }
 
+void separate_by_turning(const geometry::ClosestPoints& begin, const geometry::ClosestPoints& end, PairsOnPath& pairs) {
+  for (std::size_t first = 0; first < geometry::kPairsToMeasure; first += hn::Lanes(PairTag()))
+    separate_some_by_turning(begin, end, first, pairs);
+}
+
 }  // namespace glissade::haptics::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -243,6 +288,7 @@ namespace {
 
 HWY_EXPORT(separate_by_normals);
 HWY_EXPORT(separate_by_points);
+HWY_EXPORT(separate_by_turning);
 
 }  // namespace
 
@@ -253,6 +299,10 @@ void separate_by_normals(const geometry::TrianglesToMeasure& triangles, const Co
 
 void separate_by_points(const geometry::ClosestPoints& points, double gap, double enough, PairsOnPath& pairs) {
   HWY_DYNAMIC_DISPATCH(separate_by_points)(points, gap, enough, pairs);
+}
+
+void separate_by_turning(const geometry::ClosestPoints& begin, const geometry::ClosestPoints& end, PairsOnPath& pairs) {
+  HWY_DYNAMIC_DISPATCH(separate_by_turning)(begin, end, pairs);
 }
 
 }  // namespace glissade::haptics

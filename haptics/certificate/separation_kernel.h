@@ -27,7 +27,8 @@ struct alignas(64) PairsOnPath {
   geometry::VectorsOfPairs n;       ///< unit, from the obstacle to the part; zero if none was found
   NumbersOfPairs gap_at_begin;      ///< metres, along n
   NumbersOfPairs gap_at_end;
-  NumbersOfPairs paths;  ///< how many such paths n serves for; negative if it does not for this one
+  NumbersOfPairs paths;    ///< how many such paths n serves for; negative if it does not for this one
+  NumbersOfPairs turning;  ///< metres, along a direction that turns; minus infinity if none was tried
 };
 
 /// Sets all of `pairs` for triangles of the obstacle, and of the part in its own frame. n is the best of the normals of
@@ -38,5 +39,9 @@ void separate_by_normals(const geometry::TrianglesToMeasure& triangles, const Co
 /// For pairs whose direction serves for fewer than `enough` paths, also tries the one from point to point, and this one
 /// across the motion.
 void separate_by_points(const geometry::ClosestPoints& points, double gap, double enough, PairsOnPath& pairs);
+
+/// For pairs whose direction does not serve for this path, tries the one that turns evenly from the closest points at
+/// the beginning to those at the end.
+void separate_by_turning(const geometry::ClosestPoints& begin, const geometry::ClosestPoints& end, PairsOnPath& pairs);
 
 }  // namespace glissade::haptics

@@ -92,6 +92,7 @@ bool TriangleCertificate::prove_stretch(int begin, int end, const Moment& at_beg
   if (closest_end.distance < min_clearance_) return false;
   const Eigen::Vector3d n_end = direction(closest_end);
   if (separates(n_end, stretch)) return true;
+  if (separates_turning(n_begin, n_end, stretch)) return true;
   if (separates((n_begin + n_end).normalized(), stretch)) return true;
   if (separates(sharpest_direction(at_begin.obstacle, at_begin.part), stretch)) return true;
   if (separates(sharpest_direction(at_end.obstacle, at_end.part), stretch)) return true;
@@ -107,6 +108,22 @@ bool TriangleCertificate::prove_stretch(int begin, int end, const Moment& at_beg
 bool TriangleCertificate::separates(const Eigen::Vector3d& n, const Stretch& stretch) const {
   return gap_along(n, stretch.begin.obstacle, stretch.begin.part) >= stretch.needed &&
          gap_along(n, stretch.end.obstacle, stretch.end.part) >= stretch.needed;
+}
+
+/// The same for a direction that turns evenly from n_begin to n_end. Along it, the height of a corner on a straight path
+/// is the product of two linear functions, which lies above its three Bernstein coefficients.
+bool TriangleCertificate::separates_turning(const Eigen::Vector3d& n_begin, const Eigen::Vector3d& n_end,
+                                            const Stretch& stretch) const {
+  if (gap_along(n_begin, stretch.begin.obstacle, stretch.begin.part) < stretch.needed ||
+      gap_along(n_end, stretch.end.obstacle, stretch.end.part) < stretch.needed)
+    return false;
+  double top = -std::numeric_limits<double>::infinity();
+  double bottom = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < 3; ++c) {
+    top = std::max(top, n_begin.dot(stretch.end.obstacle[c]) + n_end.dot(stretch.begin.obstacle[c]));
+    bottom = std::min(bottom, n_begin.dot(stretch.end.part[c]) + n_end.dot(stretch.begin.part[c]));
+  }
+  return 0.5 * (bottom - top) >= stretch.needed;
 }
 
 TriangleCertificate::Moment TriangleCertificate::at(int moment) {

@@ -47,6 +47,7 @@ class TriangleCertificate {
 
   bool prove_stretch(int begin, int end, const Moment& at_begin, const geometry::TriangleDistance& closest);
   bool separates(const Eigen::Vector3d& n, const Stretch& stretch) const;
+  bool separates_turning(const Eigen::Vector3d& n_begin, const Eigen::Vector3d& n_end, const Stretch& stretch) const;
   Moment at(int moment);
   double needed(int begin, int end) const;
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -100,6 +101,56 @@ TEST_P(LastingSeparation, IsAsWideAsItSaysAndNoWiderThanTheTrianglesAreApart) {
   EXPECT_GT(certified, apart / 2);
 }
 
+TrianglePoints between(const TrianglePoints& begin, const TrianglePoints& end, double t) {
+  return {begin[0] + t * (end[0] - begin[0]), begin[1] + t * (end[1] - begin[1]), begin[2] + t * (end[2] - begin[2])};
+}
+
+TEST_P(LastingSeparation, OfADirectionThatTurnsHoldsAllAlongTheStraightPath) {
+  constexpr std::uint64_t kSeed = 97;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  RandomNumbers random(kSeed);
+  int sought = 0;
+  int certified = 0;
+  for (int trial = 0; trial < test_support::affordable(4000); ++trial) {
+    const PairsOfTrial pairs(random);
+    const std::vector<Separation> separations = pairs.separations();
+    for (std::size_t i = 0; i < separations.size(); ++i) {
+      SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", pair " +
+                   std::to_string(i));
+      const double turning = separations[i].turning;
+      if (separations[i].least() >= kGap) {
+        ASSERT_EQ(turning, -std::numeric_limits<double>::infinity()) << "it is sought where no other serves";
+        continue;
+      }
+      ++sought;
+      if (!(turning >= kGap)) continue;
+      ++certified;
+      const TrianglePoints begin = mapped(pairs.begin, pairs.part[i]);
+      const TrianglePoints end = mapped(pairs.end, pairs.part[i]);
+      for (int moment = 0; moment <= 20; ++moment) {
+        const TrianglePoints part = between(begin, end, 0.05 * moment);
+        ASSERT_GE(geometry::triangle_distance(pairs.obstacle[i], part).distance, turning - 1e-15) << moment;
+      }
+    }
+  }
+  EXPECT_GT(certified, sought / 1000);
+  EXPECT_GT(certified, 0);
+}
+
+// Two needles that cross, and turn past each other: along any fixed direction, an end of one goes through the other.
+TEST_P(LastingSeparation, OfNeedlesThatTurnPastEachOtherTurnsWithThem) {
+  LastingSeparations separations;
+  const auto about_y = [](double angle) {
+    return CornerMap{Eigen::AngleAxisd(angle, Vector3d::UnitY()).toRotationMatrix(), Vector3d(0.0, 0.0, 0.002)};
+  };
+  separations.start(about_y(-0.005), about_y(0.005), 1e-3);
+  separations.add({Vector3d(0.0, -1.0, 0.0), Vector3d(0.0, 1.0, 0.0), Vector3d(0.0, 1.0, -1e-4)},
+                  {Vector3d(-1.0, 0.0, 0.0), Vector3d(1.0, 0.0, 0.0), Vector3d(1.0, 0.0, 1e-4)});
+  const Separation separation = separations.find().front();
+  EXPECT_LT(separation.least(), 0.0);
+  EXPECT_GT(separation.turning, 1.9e-3);
+}
+
 // The closest points lie ahead, along the way of the triangle: a direction through them fails on the next step.
 TEST_P(LastingSeparation, OfATriangleThatSlidesOverAPlaneIsTheNormal) {
   LastingSeparations separations;
@@ -186,6 +237,7 @@ TEST_P(LastingSeparation, IsThatOfPlainCodeToTheBit) {
       ASSERT_EQ(found[i].n_O, expected[i].n_O);
       ASSERT_EQ(found[i].begin, expected[i].begin);
       ASSERT_EQ(found[i].end, expected[i].end);
+      ASSERT_EQ(found[i].turning, expected[i].turning);
     }
   }
 }

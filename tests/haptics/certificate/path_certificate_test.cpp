@@ -66,6 +66,26 @@ TEST_F(TwoTriangles, PassingThroughIsNotProvedThoughBothEndsAreFree) {
   EXPECT_TRUE(proves(at_height(0.1), {{0.5, 0.0, 0.2}, Eigen::Vector3d::Zero()}));
 }
 
+// Two needles that cross, 2 m long, and turn past each other. Bisection would need a stretch for every direction.
+TEST_F(TwoTriangles, NeedlesThatTurnPastEachOtherAreProvedInOneStretch) {
+  const auto needle = [](const Eigen::Vector3d& along, double thickness) {
+    auto mesh = std::make_shared<geometry::TriangleMesh>();
+    mesh->vertices = {-along, along, along + Eigen::Vector3d(0.0, 0.0, thickness)};
+    mesh->triangles = {{0, 1, 2}};
+    return mesh;
+  };
+  const std::vector<Obstacle> obstacles{{std::make_shared<ContactBody>(needle(Eigen::Vector3d::UnitY(), -1e-5))}};
+  ContactScene scene(obstacles, {std::make_shared<SlidingPart>(needle(Eigen::Vector3d::UnitX(), 1e-5))},
+                     std::vector{kFloor / kMinClearanceOfMargin});
+  scene.place(0, at_height(4.0 * kFloor) * Eigen::AngleAxisd(-0.002, Eigen::Vector3d::UnitY()));
+  MovingBodies bodies(scene);
+  bodies.begin_step(std::vector<geometry::Displacement>{{Eigen::Vector3d::Zero(), {0.0, 0.004, 0.0}}});
+  TriangleCertificate certificate(bodies, {{0, 1}, 0, 0}, kFloor, 1e-15);
+  Eigen::Vector3d n_start;
+  EXPECT_TRUE(certificate.prove(Eigen::Vector3d::Zero(), n_start));
+  EXPECT_LE(certificate.stretches(), 2);
+}
+
 // One pair for each two bodies: it waits for vector code until the bodies change or the call ends.
 TEST_F(TwoTriangles, FailuresAreToldForEachPairOfBodiesInOneCallAndInMany) {
   obstacles_.push_back({std::make_shared<ContactBody>(one_triangle(-0.05))});
