@@ -152,7 +152,7 @@ class MultiPartSliding::Cycle {
   /// One cycle, or the rest of one. It is the last if no more are allowed, or if another one is not worth it.
   Progress take_step(WorkBudget& budget) {
     if (!step_finder_.is_under_way()) {
-      radius_.choose(shared_, starts_.depenetration(), milliseconds_);
+      radius_.choose(shared_, starts_.depenetration(), milliseconds_, cycles_ == 0);
       find_ignored();
       if (radius_.look(shared_, ignored_)) starts_.restore_min_clearances();
       waits_for_search_ = !shared_.candidates.covers(radius_.reach_ahead());
@@ -170,7 +170,8 @@ class MultiPartSliding::Cycle {
     double reach = step_finder_.rows().complete();
     if (is_done || budget.is_used_up()) reach = step_finder_.rows().find_ahead(budget);
     move(*step);
-    radius_.note(*step);
+    radius_.note(shared_, *step);
+    radius_.look_ahead(shared_, ignored_);
     for (std::size_t p = 0; p < shared_.count(); ++p) {
       HeldPartState& part = shared_.states[p];
       if (part.is_held() && starts_.overlaps().way_out_of(p) == nullptr) part.turn_target();

@@ -30,6 +30,12 @@ constexpr double kForward = 0.6;
 /// Of the way since the parts were nearest to the poses of a search: they are expected to go on so for as long at most.
 constexpr double kMostForward = 3.0;
 
+// Shares of a step:
+/// The radius of a search at its middle: half a step is needed where it leads as expected.
+constexpr double kRadiusOfStep = 0.6;
+/// What must be left of a radius after a step for yet another one.
+constexpr double kLeftAfterStep = 0.1;
+
 /// Work of the gap of a pair along a known direction, in the unit of `collision::WorkMeter`.
 constexpr std::int64_t kWorkOfGap = 2;
 
@@ -68,6 +74,7 @@ CandidatePairs::CandidatePairs(const ContactScene& scene, double greatest_radius
                                std::int64_t work_of_call, bool has_planes)
     : scene_(scene),
       work_of_call_(work_of_call),
+      greatest_radius_(greatest_radius),
       has_planes_(has_planes),
       work_left_(work_of_call),
       thread_(runs_ahead || work_of_call != kUnlimitedWork
@@ -92,30 +99,86 @@ void CandidatePairs::begin_call() {
 }
 
 bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> ignored) {
-  const bool is_other = !now_.covers(reach);
+  if (now_.covers(reach)) return false;
   try {
-    if (is_other && !take_next(reach, ahead, ignored)) return false;
+    return take_next(reach, ahead, ignored);
+  } catch (...) {
+    forget();
+    throw;
+  }
+}
+
+bool CandidatePairs::take_ahead(double reach) {
+  if (!next_.covers(reach)) return false;
+  try {
+    return take_next(reach, 0.0, {});
+  } catch (...) {
+    forget();
+    throw;
+  }
+}
+
+bool CandidatePairs::look_along(std::span<const geometry::Displacement> way, double length, double least,
+                                std::span<const BodyPair> ignored) {
+  GLISSADE_ASSERT(length > 0.0);
+  const double share = std::min(1.0, (greatest_radius_ - least) / (kRadiusOfStep * length));
+  copy_poses(X_WB_ahead_);
+  for (std::size_t mover = 0; mover < X_WB_ahead_.size(); ++mover) {
+    const std::int32_t leader = scene_.leader(static_cast<std::int32_t>(scene_.body_of_mover(mover)));
+    if (leader == ContactScene::kStands) continue;
+    const geometry::Displacement half = way[static_cast<std::size_t>(leader)].scaled(0.5 * share);
+    X_WB_ahead_[mover] = geometry::displaced(X_WB_ahead_[mover], scene_.p_Bref(mover), half);
+  }
+  const auto are_alike = [](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+    return a.matrix() == b.matrix();
+  };
+  const bool is_requested =
+      next_.is_there && std::equal(X_WB_ahead_.begin(), X_WB_ahead_.end(), next_.request.X_WB.begin(), are_alike);
+  try {
+    if (!is_requested) {
+      if (!is_settled()) return false;  // it is of no use any more
+      next_.request.X_WB = X_WB_ahead_;
+      request(std::min(kRadiusOfStep * share * length + least, greatest_radius_), least, ignored);
+    }
+    return take();
+  } catch (...) {
+    forget();
+    throw;
+  }
+}
+
+void CandidatePairs::look_ahead(double step, double reach, double ahead, std::span<const BodyPair> ignored) {
+  GLISSADE_ASSERT(has_planes_);
+  if (!now_.is_there) return;
+  try {
     if (next_.is_there && next_.is_in_vain() && is_settled()) next_.is_there = false;
   } catch (...) {
     forget();
     throw;
   }
-  // Without planes nobody works ahead of need, and an earlier request would only be of earlier poses.
-  if (has_planes_ && !next_.is_there && now_.is_being_left())
-    ask(next_, reach, ahead, now_.request.radius - reach - now_.drift + kForward * ahead, ignored);
-  return is_other;
+  if (next_.is_there || (!now_.is_being_left() && covered_after(step) >= kLeftAfterStep * step)) return;
+  double until_needed = std::max(0.0, covered() - std::max(step, reach));
+  if (step > 0.0) until_needed = step * std::ceil(until_needed / step);  // answers are taken before a step
+  ask(std::max(kRadiusOfStep * step, reach) + ahead, ahead, until_needed + 0.5 * step + kForward * ahead, ignored);
+  next_.step = step;
 }
 
 /// Replaces the candidates by the answer of the search ahead, or of a new one. Returns false if it has to go on.
 bool CandidatePairs::take_next(double reach, double ahead, std::span<const BodyPair> ignored) {
   if (!next_.covers(reach)) {
     if (!is_settled()) return false;  // it is of no use any more
-    ask(next_, reach, ahead, kForward * ahead, ignored);
+    ask(reach + ahead, ahead, kForward * ahead, ignored);
   }
+  return take();
+}
+
+/// Replaces the candidates by the answer of the search that was requested, once it is done.
+bool CandidatePairs::take() {
   if (!is_settled()) return false;
   if (!thread_) search_.find(next_.request, next_.set);  // only now, when its answer is certainly needed
   std::swap(now_, next_);
   next_.is_there = false;
+  copy_poses(X_WB_at_taking_);
   clock_ = 0.0;
   gaps_.assign(now_.set.pairs.size(), 0.0);
   known_.assign(now_.set.pairs.size(), {});
@@ -129,22 +192,28 @@ bool CandidatePairs::take_next(double reach, double ahead, std::span<const BodyP
   return true;
 }
 
-void CandidatePairs::ask(Search& search, double reach, double ahead, double forward,
-                         std::span<const BodyPair> ignored) {
+/// Requests a search where the movers will be after `forward` more metres.
+void CandidatePairs::ask(double radius, double ahead, double forward, std::span<const BodyPair> ignored) {
+  place_ahead(forward, next_.request.X_WB);
+  request(radius, ahead, ignored);
+}
+
+/// Requests the search at the poses of `next_`.
+void CandidatePairs::request(double radius, double ahead, std::span<const BodyPair> ignored) {
   GLISSADE_ASSERT(!is_with_thread_);
-  place_ahead(forward, search.request.X_WB);
-  search.request.radius = reach + ahead;
-  search.request.has_planes = has_planes_;
-  search.request.ignored.assign(ignored.begin(), ignored.end());
-  search.ahead = ahead;
-  search.least_drift = std::numeric_limits<double>::infinity();
-  search.motions.assign(scene_.bodies().size(), {});
-  search.is_there = true;
-  follow(search);
+  next_.request.radius = radius;
+  next_.request.has_planes = has_planes_;
+  next_.request.ignored.assign(ignored.begin(), ignored.end());
+  next_.ahead = ahead;
+  next_.step = 0.0;
+  next_.least_drift = std::numeric_limits<double>::infinity();
+  next_.motions.assign(scene_.bodies().size(), {});
+  next_.is_there = true;
+  follow(next_);
   if (!thread_) return;
   is_with_thread_ = true;
   allowed_ = work_of_call_ == kUnlimitedWork ? kUnlimitedWork : std::exchange(work_left_, 0);
-  thread_->begin(search_, search.request, search.set);
+  thread_->begin(search_, next_.request, next_.set);
   if (thread_->work_ahead() == 0) thread_->wait_for_work(allowed_);
 }
 
@@ -160,16 +229,20 @@ void CandidatePairs::copy_poses(std::vector<Eigen::Isometry3d>& X_WB) const {
 void CandidatePairs::place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB) {
   copy_poses(X_WB);
   if (!has_planes_ || !now_.is_there || !(way > 0.0)) return;
-  const std::vector<Eigen::Isometry3d>& X_WB_before = now_.X_WB_nearest;
   motions_ahead_.assign(scene_.bodies().size(), {});
-  const double gone = approach_since(X_WB_before, motions_ahead_);
+  const std::vector<Eigen::Isometry3d>* before = &now_.X_WB_nearest;
+  double gone = approach_since(*before, motions_ahead_);
+  if (kMostForward * gone < way) {  // the parts are about there, and their last steps may be small corrections
+    before = &X_WB_at_taking_;
+    gone = approach_since(*before, motions_ahead_);
+  }
   if (!(gone > 0.0) || !std::isfinite(gone)) return;
   // The search refuses a pose that is not rigid. Going on from it would make it rigid.
   if (!std::all_of(X_WB.begin(), X_WB.end(), [](const auto& X) { return geometry::rigid_pose(X).has_value(); })) return;
   const double share = std::min(kMostForward, way / gone);
   for (std::size_t mover = 0; mover < X_WB.size(); ++mover) {
     const Eigen::Vector3d& p_Bref = scene_.movers()[mover]->p_Vref();
-    const geometry::Displacement d = geometry::displacement_between(X_WB_before[mover], X_WB[mover], p_Bref);
+    const geometry::Displacement d = geometry::displacement_between((*before)[mover], X_WB[mover], p_Bref);
     if (!d.is_zero()) X_WB[mover] = geometry::displaced(X_WB[mover], p_Bref, d.scaled(share));
   }
 }
@@ -220,25 +293,26 @@ bool CandidatePairs::Search::is_being_left() const {
 }
 
 bool CandidatePairs::Search::is_in_vain() const {
-  return drift > least_drift + kTurnedBack * ahead;
+  return drift > least_drift + kTurnedBack * (step + ahead);
 }
 
-/// Bound (metres) of how much nearer two bodies have come since the movers were at X_WB; infinite for a pose that is
-/// not finite: nothing is covered then, and the next search reports the pose. Sets the motions. Two bodies come nearer
-/// by their motions. Those of one unit keep their distance, or do not matter.
-double CandidatePairs::approach_since(std::span<const Eigen::Isometry3d> X_WB, std::vector<Motion>& motions) const {
+/// Bound (metres) of how much nearer two bodies come while the movers go from X_WB to the poses that `pose_of` tells of
+/// a body; infinite for a pose that is not finite: nothing is covered then, and the next search reports the pose. Sets
+/// the motions. Two bodies come nearer by their motions. Those of one unit keep their distance, or do not matter.
+template <typename PoseOf>
+double CandidatePairs::approach(std::span<const Eigen::Isometry3d> X_WB, const PoseOf& pose_of,
+                                std::vector<Motion>& motions) const {
   double farthest = 0.0;
   double farthest_of_others = 0.0;  // than the unit of the body that moved farthest
   std::optional<std::int32_t> unit;
   for (std::size_t mover = 0; mover < X_WB.size(); ++mover) {
     const std::size_t body = scene_.body_of_mover(mover);
-    if (X_WB[mover].matrix() == scene_.bodies()[body].X_WB.matrix()) {
+    if (X_WB[mover].matrix() == pose_of(body).matrix()) {
       motions[body] = {};
       continue;
     }
     const SlidingPart& part = *scene_.movers()[mover];
-    const geometry::Displacement d =
-        geometry::displacement_between(X_WB[mover], scene_.bodies()[body].X_WB, part.p_Vref());
+    const geometry::Displacement d = geometry::displacement_between(X_WB[mover], pose_of(body), part.p_Vref());
     const double all = geometry::motion_bound(d, part.radius());
     motions[body] = {d.v, all - d.v.norm()};
     if (!std::isfinite(all)) return std::numeric_limits<double>::infinity();
@@ -252,6 +326,36 @@ double CandidatePairs::approach_since(std::span<const Eigen::Isometry3d> X_WB, s
     }
   }
   return farthest + farthest_of_others;
+}
+
+/// The same as `approach` to the present poses.
+double CandidatePairs::approach_since(std::span<const Eigen::Isometry3d> X_WB, std::vector<Motion>& motions) const {
+  return approach(
+      X_WB, [&](std::size_t body) -> const Eigen::Isometry3d& { return scene_.bodies()[body].X_WB; }, motions);
+}
+
+/// The largest reach (metres) that will be covered on the next `way` metres, if the movers go on as before.
+double CandidatePairs::covered_after(double way) {
+  place_ahead(way, X_WB_ahead_);
+  motions_ahead_.assign(scene_.bodies().size(), {});
+  const std::size_t first_mover = scene_.obstacles().size();
+  const double drift = approach(
+      now_.request.X_WB, [&](std::size_t body) -> const Eigen::Isometry3d& { return X_WB_ahead_[body - first_mover]; },
+      motions_ahead_);
+  return now_.request.radius - std::max(drift, now_.drift);
+}
+
+/// On a straight path, the distance of a point from its place at the search is greatest at an end.
+double CandidatePairs::covered_on_path(PathCertificate& certificate) {
+  if (!now_.is_there) return 0.0;
+  motions_ahead_.assign(scene_.bodies().size(), {});
+  const double at_end = approach(
+      now_.request.X_WB,
+      [&](std::size_t body) -> const Eigen::Isometry3d& {
+        return certificate.pose_at_end(static_cast<std::int32_t>(body));
+      },
+      motions_ahead_);
+  return now_.request.radius - std::max(now_.drift, at_end) - certificate.curvature();
 }
 
 void CandidatePairs::advance_clock() {

@@ -6,7 +6,8 @@
 /// meanwhile without changing a bit.
 ///
 /// Parts mostly go on as they went. So a search is made at poses that the parts will reach some time after its answer
-/// is taken: it serves on the way there and beyond.
+/// is taken: it serves on the way there and beyond. A long step needs half its length as the radius, if the search is
+/// made at its middle.
 ///
 /// The work of searching in one call of the simulation can be limited. A search then goes on over several calls, and
 /// its answer can be taken in the first call up to which so much work was allowed, however early it was done.
@@ -58,6 +59,20 @@ class CandidatePairs {
   /// suffice for the search, the candidates stay, `covers(reach)` is still false, and the same call of `look` must be
   /// repeated.
   bool look(double reach, double ahead, std::span<const BodyPair> ignored);
+  /// Takes the answer of the search that `look_ahead` requested, if there is one that covers `reach` (metres), whether
+  /// or not the last one still does. As `look`.
+  bool take_ahead(double reach);
+  /// Makes every pair near the way candidates that the parts would go from their present poses: `way` has a
+  /// displacement for each part, and two bodies come nearer by at most `length` (metres) on it. A search is made at its
+  /// middle, or at that of its beginning where the greatest radius would not suffice. Within `least` (metres, at most
+  /// that radius) around the present poses, the candidates are complete afterwards. As `look`.
+  bool look_along(std::span<const geometry::Displacement> way, double length, double least,
+                  std::span<const BodyPair> ignored);
+  /// Requests the next search once the parts leave the poses of the last one. They are expected to go on as they went,
+  /// in steps of length `step` (metres): the search is made where the next one will lead halfway, and a share of it
+  /// suffices as the radius. It is at least `reach` (metres), and `ahead` (metres) more. To be called after each step;
+  /// only with planes: without them nobody works ahead of need, and an earlier request would only be of earlier poses.
+  void look_ahead(double step, double reach, double ahead, std::span<const BodyPair> ignored);
 
   /// Whether the search that `look` could not complete has had the work of several calls.
   bool is_too_large() const;
@@ -72,6 +87,10 @@ class CandidatePairs {
 
   /// Whether every pair within `reach` (metres) of the parts' present poses is certainly among the candidates.
   bool covers(double reach) const { return now_.covers(reach); }
+  /// The largest reach (metres) that is covered; not above 0 if none is.
+  double covered() const { return now_.is_there ? now_.request.radius - now_.drift : 0.0; }
+  /// The same on the whole path of the step that `certificate` has begun: other pairs do not come within this distance.
+  double covered_on_path(PathCertificate& certificate);
 
   /// Replaces `pairs` by the candidates that may be within `reach` (metres) of the parts' present poses, in ascending
   /// order of the distance at the poses of the search.
@@ -124,6 +143,7 @@ class CandidatePairs {
     CandidateSet set;
     std::vector<Motion> motions;                  // of each body
     double ahead = 0.0;                           // metres: the look-ahead
+    double step = 0.0;                            // metres: of a step at whose middle it was made; else 0
     double drift = 0.0;                           // metres: bound of how much nearer two bodies have come
     double least_drift = 0.0;                     // metres: so far
     std::vector<Eigen::Isometry3d> X_WB_nearest;  // of each mover, when the drift was least
@@ -148,11 +168,16 @@ class CandidatePairs {
   };
 
   bool take_next(double reach, double ahead, std::span<const BodyPair> ignored);
-  void ask(Search& search, double reach, double ahead, double forward, std::span<const BodyPair> ignored);
+  bool take();
+  void ask(double radius, double ahead, double forward, std::span<const BodyPair> ignored);
+  void request(double radius, double ahead, std::span<const BodyPair> ignored);
   void copy_poses(std::vector<Eigen::Isometry3d>& X_WB) const;
+  double covered_after(double way);
   void place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB);
   bool is_settled();
   double approach_since(std::span<const Eigen::Isometry3d> X_WB, std::vector<Motion>& motions) const;
+  template <typename PoseOf>
+  double approach(std::span<const Eigen::Isometry3d> X_WB, const PoseOf& pose_of, std::vector<Motion>& motions) const;
   void follow(Search& search) const;
   void advance_clock();
   void place_clock();
@@ -160,6 +185,7 @@ class CandidatePairs {
 
   const ContactScene& scene_;
   std::int64_t work_of_call_;
+  double greatest_radius_;  // metres
   bool has_planes_;
   std::int64_t work_left_;                // of this call
   std::int64_t allowed_ = 0;              // work that the thread's search may have done by now
@@ -168,6 +194,8 @@ class CandidatePairs {
   CandidateSearch search_;
   Search now_;
   Search next_;
+  std::vector<Eigen::Isometry3d> X_WB_at_taking_;  // of each mover, when the answer of the last search was taken
+  std::vector<Eigen::Isometry3d> X_WB_ahead_;      // of each mover, where it is expected
   // Of the candidates: since they are there, two bodies have come nearer by at most `clock_` (metres). No contact of a
   // pair has a gap below its entry of `gaps_` minus the clock.
   double clock_ = 0.0;

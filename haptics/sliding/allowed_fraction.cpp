@@ -32,31 +32,32 @@ double fraction_with_lag(const geometry::Displacement& previous, const geometry:
 
 }  // namespace
 
-std::array<double, kMaxParts> allowed_fractions(const SimulatedParts& shared, const Displacements& d,
-                                                const ContactRows& rows, double reach) {
-  std::array<double, kMaxParts> fractions{};
+AllowedFractions allowed_fractions(const SimulatedParts& shared, const Displacements& d, const ContactRows& rows,
+                                   double reach) {
+  AllowedFractions allowed;
   const double share = (reach - shared.largest_margin) / static_cast<double>(shared.count());
   for (std::size_t p = 0; p < shared.count(); ++p) {
     const HeldPartState& part = shared.states[p];
-    const double radius = part.part_V->radius();
-    fractions[p] = geometry::fraction_within(d[p], part.lever, share);
-    if (part.slew != kUnbounded && part.is_held()) {
-      const double by_lag = fraction_with_lag(part.previous_lag, part.lag(), d[p], radius, part.slew);
-      fractions[p] = std::min(fractions[p], by_lag);
-    }
+    double fraction = 1.0;
+    if (part.slew != kUnbounded && part.is_held())
+      fraction = fraction_with_lag(part.previous_lag, part.lag(), d[p], part.part_V->radius(), part.slew);
     const double angle = d[p].w.norm();
     const double largest_angle = std::sqrt(part.margin / part.lever);
-    if (rows.is_anything_near() && angle * fractions[p] > largest_angle) fractions[p] = largest_angle / angle;
+    if (rows.is_anything_near() && angle * fraction > largest_angle) fraction = largest_angle / angle;
+    allowed.beyond_reach[p] = fraction;
+    allowed.of_parts[p] = std::min(fraction, geometry::fraction_within(d[p], part.lever, share));
   }
   for (std::size_t pass = 1; pass < shared.count(); ++pass) {
     for (const CoupledRow& row : rows.rows()) {
       if (row.other < 0) continue;
-      double& a = fractions[static_cast<std::size_t>(row.part)];
-      double& b = fractions[static_cast<std::size_t>(row.other)];
-      a = b = std::min(a, b);
+      for (std::array<double, kMaxParts>* fractions : {&allowed.of_parts, &allowed.beyond_reach}) {
+        double& a = (*fractions)[static_cast<std::size_t>(row.part)];
+        double& b = (*fractions)[static_cast<std::size_t>(row.other)];
+        a = b = std::min(a, b);
+      }
     }
   }
-  return fractions;
+  return allowed;
 }
 
 }  // namespace glissade::haptics

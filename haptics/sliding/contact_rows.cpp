@@ -35,15 +35,16 @@ UncertifiedPair swapped(const UncertifiedPair& pair) {
 
 void ContactRows::find(double reach, double reach_ahead, WorkBudget& budget) {
   reach_ = reach;
-  reach_ahead_ = reach_ahead;
+  reach_ahead_ = std::max(reach, reach_ahead);
   looked_at_.clear();
   contacts_.clear();
   is_of_failure_.clear();
   contacts_ahead_.clear();
   rows_.clear();
-  pairs_.look(reach_ahead);
+  pairs_.look(reach_ahead_);
   budget.spend(kWorkOfCandidate * static_cast<std::int64_t>(shared_.candidates.pair_count()));
-  complete_ = pairs_.take_nearest(kReachOfRims * shared_.largest_margin, kNearestAtOnce, reach);
+  complete_ = std::min(pairs_.take_nearest(kReachOfRims * shared_.largest_margin, kNearestAtOnce, reach),
+                       shared_.candidates.covered());
   find_contacts_of_taken(budget);
 }
 
@@ -82,7 +83,7 @@ double ContactRows::find_ahead(WorkBudget& budget) {
     find_contacts_of(pairs_.taken(), pairs_.numbers(), reach_ahead_, budget);
     contacts_ahead_.insert(contacts_ahead_.end(), found_.begin(), found_.end());
   }
-  return complete;
+  return std::min(complete, shared_.candidates.covered());
 }
 
 /// Finds the contacts ahead of pairs whose contacts within reach are known. Most have no more.

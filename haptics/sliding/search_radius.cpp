@@ -9,7 +9,14 @@ namespace glissade::haptics {
 namespace {
 
 constexpr double kSmallestReach_m = 30e-6;
+constexpr double kReachOfStep = 1.1;  // in the motion of the ghosts, or of the last step
+constexpr double kMakeDo = 0.1;       // of the reach: covered candidates that suffice for the beginning of a step
+constexpr double kMakeDoAhead = 0.8;  // the same of the reach of contacts ahead
+constexpr double kMargins = 4.0;      // covered at least: contacts that touched keep their numbers up to three
 constexpr double kTicksAhead = 16.0;  // of the ghosts' motion
+constexpr double kFewSteps = 2.0;     // a look-ahead that serves for fewer is not worth its pairs, if these are many
+constexpr std::size_t kFewPairs = 500;
+constexpr double kShareAhead = 0.15;  // of a step: instead, for a step that leads elsewhere than expected
 constexpr double kLeastLookAhead_m = 45e-6;
 constexpr double kSmallestReachLimit_m = 0.2e-3;
 constexpr std::size_t kAffordablePairsAhead = 3000;
@@ -25,13 +32,15 @@ SearchRadius::SearchRadius()
       limit_by_work_(kLargestReach_m),
       limit_of_look_(kMostLookAhead_m) {}
 
-void SearchRadius::choose(const SimulatedParts& shared, double depenetration, double milliseconds) {
+void SearchRadius::choose(const SimulatedParts& shared, double depenetration, double milliseconds,
+                          bool is_first_cycle) {
   const double ghosts = shared.ghost_motion();
   double slew = 0.0;
   for (const HeldPartState& part : shared.states)
     slew = std::max(slew, part.slew);
-  double reach = 1.5 * std::max(ghosts, last_step_) + 2.0 * shared.largest_margin;
-  if (last_clipped_) reach *= 2.0;
+  const double step = kReachOfStep * std::max(ghosts, last_step_);
+  double reach = step + 2.0 * shared.largest_margin;
+  if (was_reach_short_) reach *= 2.0;
   reach = std::max(reach, depenetration + 2.0 * shared.largest_margin);
   reach_ = std::clamp(std::min(reach, slew + ghosts + 2.0 * shared.largest_margin), kSmallestReach_m, limit_);
   const double ticks_ahead = milliseconds > 0.0 ? shared.rules.contacts_ahead_ms / milliseconds : 0.0;
@@ -39,6 +48,9 @@ void SearchRadius::choose(const SimulatedParts& shared, double depenetration, do
   const double most = std::max(limit_by_work_, 2.0 * shared.largest_margin + kSmallestReach_m);
   reach_ = std::min(reach_, most);
   reach_ahead_ = std::min(reach_ahead_, most);
+  next_step_ = std::min(step, reach_);
+  reach_of_search_ = reach_ahead_ > reach_ ? reach_ahead_ : kSmallestReach_m;
+  is_first_cycle_ = is_first_cycle;
 }
 
 /// Finely tessellated surfaces that lie close together have very many pairs. A part that falls behind would look
@@ -46,32 +58,79 @@ void SearchRadius::choose(const SimulatedParts& shared, double depenetration, do
 /// must not make the answers late: their limit comes first. The look-ahead is limited only so that no search takes too
 /// many calls: half of it makes a search little cheaper, but there are twice as many.
 bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignored) {
-  const double ahead = std::min(std::max(kTicksAhead * shared.ghost_motion(), kLeastLookAhead_m), limit_of_look_);
-  const bool is_other = shared.candidates.look(reach_ahead_, ahead, ignored);
-  if (!shared.candidates.covers(reach_ahead_) && shared.candidates.is_too_large() &&
+  CandidatePairs& candidates = shared.candidates;
+  const double ahead = farther(shared);
+  const double share = reach_ahead_ > reach_ ? kMakeDoAhead * reach_ahead_ : kMakeDo * reach_;
+  const double least = std::max(share, std::min(reach_, kMargins * shared.largest_margin));
+  bool is_other = false;
+  if (!candidates.covers(reach_ahead_)) {
+    if (missed_length_ > 0.0) {
+      is_other = look_along_missed(shared, std::max(least, ahead), ignored);
+      if (is_other) make_do(candidates);
+    } else {
+      if (is_first_cycle_) is_other = candidates.take_ahead(least);
+      if (candidates.covers(least)) make_do(candidates);
+      // The steps of an answer mostly shrink.
+      const bool has_contacts_ahead = reach_ahead_ > reach_;
+      if (!is_first_cycle_ && !has_contacts_ahead)
+        reach_ahead_ = std::min(reach_ahead_, std::max(least, 2.0 * last_step_));
+    }
+  }
+  if (candidates.look(reach_ahead_, ahead, ignored)) is_other = true;
+  if (!candidates.covers(reach_ahead_) && candidates.is_too_large() &&
       std::max(limit_by_work_, limit_of_look_) > kSmallestLimitOfSearch_m) {
-    shared.candidates.cancel();
-    const double farther = std::max(reach_ahead_, ahead);
+    candidates.cancel();
+    const double wanted = std::max(reach_ahead_, ahead);
     for (double* limit : {&limit_by_work_, &limit_of_look_})
-      *limit = std::max(0.25 * std::min(*limit, farther), kSmallestLimitOfSearch_m);
+      *limit = std::max(0.25 * std::min(*limit, wanted), kSmallestLimitOfSearch_m);
   }
   if (!is_other) return false;
   const auto adapted = [&](double limit, bool is_affordable, double smallest, double largest = kLargestReach_m) {
     return std::clamp((is_affordable ? 1.25 : 0.5) * limit, smallest, largest);
   };
-  limit_ = adapted(limit_, shared.candidates.size() <= shared.rules.affordable_pairs, kSmallestReachLimit_m);
-  limit_ahead_ = adapted(limit_ahead_, shared.candidates.size() <= kAffordablePairsAhead, kSmallestLimitAhead_m);
-  const std::int64_t calls = std::clamp(shared.candidates.calls_served(), 1, kMostCallsOfSearch);
-  const std::int64_t work = shared.candidates.work();
+  limit_ = adapted(limit_, candidates.size() <= shared.rules.affordable_pairs, kSmallestReachLimit_m);
+  limit_ahead_ = adapted(limit_ahead_, candidates.size() <= kAffordablePairsAhead, kSmallestLimitAhead_m);
+  const std::int64_t calls = std::clamp(candidates.calls_served(), 1, kMostCallsOfSearch);
+  const std::int64_t work = candidates.work();
   limit_by_work_ = adapted(limit_by_work_, work / calls <= shared.affordable_search, kSmallestLimitOfSearch_m);
   limit_of_look_ = adapted(limit_of_look_, work / kMostCallsOfSearch <= shared.affordable_search,
                            kSmallestLimitOfSearch_m, kMostLookAhead_m);
   return true;
 }
 
-void SearchRadius::note(const Step& step) {
+/// The reach ahead becomes what the candidates cover.
+void SearchRadius::make_do(const CandidatePairs& candidates) {
+  reach_ahead_ = std::min(reach_ahead_, candidates.covered());
+}
+
+/// Makes the pairs near the way candidates that the last step has missed, as far as the reach.
+bool SearchRadius::look_along_missed(SimulatedParts& shared, double least, std::span<const BodyPair> ignored) const {
+  const double length = std::min(missed_length_, reach_);
+  Displacements way = missed_;
+  for (geometry::Displacement& d : way)
+    d = d.scaled(length / missed_length_);
+  return shared.candidates.look_along(shared.of_parts(way), length, least, ignored);
+}
+
+void SearchRadius::look_ahead(SimulatedParts& shared, std::span<const BodyPair> ignored) const {
+  shared.candidates.look_ahead(next_step_, reach_of_search_, farther(shared), ignored);
+}
+
+/// Metres that a search looks farther than the reach.
+double SearchRadius::farther(const SimulatedParts& shared) const {
+  const double ahead = std::min(std::max(kTicksAhead * shared.ghost_motion(), kLeastLookAhead_m), limit_of_look_);
+  const bool is_worth_it = ahead >= kFewSteps * next_step_ || shared.candidates.size() <= kFewPairs;
+  return is_worth_it ? ahead : std::min(ahead, kShareAhead * next_step_);
+}
+
+void SearchRadius::note(const SimulatedParts& shared, const Step& step) {
   last_step_ = step.length;
-  last_clipped_ = step.clipped;
+  was_reach_short_ = step.is_reach_short;
+  missed_ = step.missed;
+  missed_length_ = 0.0;
+  if (!step.is_reach_short && !step.is_uncovered) return;
+  for (std::size_t p = 0; p < shared.count(); ++p)
+    missed_length_ += geometry::motion_bound(missed_[p], shared.states[p].lever);
 }
 
 }  // namespace glissade::haptics

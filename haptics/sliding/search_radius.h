@@ -12,28 +12,44 @@ class SearchRadius {
   SearchRadius();
 
   /// Chooses the reach (metres) of the next cycle, and the farther one of the contacts ahead. `depenetration` (metres)
-  /// bounds the motion out of an obstacle in this tick; `milliseconds` as in `advance`.
-  void choose(const SimulatedParts& shared, double depenetration, double milliseconds);
+  /// bounds the motion out of an obstacle in this tick; `milliseconds` as in `advance`. The first cycle of an answer
+  /// mostly makes nearly the whole step.
+  void choose(const SimulatedParts& shared, double depenetration, double milliseconds, bool is_first_cycle);
+  /// Of the rows, metres. Candidates may cover less: a step then goes only where they cover its path.
   double reach() const { return reach_; }
-  /// Metres; at least `reach`.
+  /// Metres; the candidates cover it after `look`.
   double reach_ahead() const { return reach_ahead_; }
 
-  /// Makes every pair within the reach ahead a candidate, except pairs of `ignored` bodies. A search looks some ticks
-  /// farther. Returns whether the candidates changed. Where the work of a call does not suffice for the search, the
-  /// candidates do not cover the reach afterwards. The next call then goes on with the search if its radius is the
-  /// smallest, and otherwise begins another one with a smaller radius.
+  /// Makes pairs near the parts candidates, except pairs of `ignored` bodies, unless the last candidates still cover
+  /// the reach ahead: those along the way that the last step has missed, or in a first cycle those of the search ahead,
+  /// if there is one. Where they cover little, the reach ahead becomes what they cover; where they cover very little, a
+  /// search makes every pair within the reach ahead a candidate. A search looks some ticks farther. Returns whether the
+  /// candidates changed. Where the work of a call does not suffice for the search, the candidates do not cover the
+  /// reach ahead afterwards. The next call then goes on with the search if its radius is the smallest, and otherwise
+  /// begins another one with a smaller radius.
   bool look(SimulatedParts& shared, std::span<const BodyPair> ignored);
+  /// Requests the search for the first cycle of the next answer in time. To be called after each step.
+  void look_ahead(SimulatedParts& shared, std::span<const BodyPair> ignored) const;
 
   /// Notes the step that was taken; the next reach depends on it.
-  void note(const Step& step);
+  void note(const SimulatedParts& shared, const Step& step);
   /// Length of the last step, metres.
   double last_step() const { return last_step_; }
 
  private:
+  bool look_along_missed(SimulatedParts& shared, double least, std::span<const BodyPair> ignored) const;
+  void make_do(const CandidatePairs& candidates);
+  double farther(const SimulatedParts& shared) const;
+
   double reach_ = 0.0;
   double reach_ahead_ = 0.0;
+  bool is_first_cycle_ = false;
+  double next_step_ = 0.0;        // metres: the length that is expected of the main step of the next answer
+  double reach_of_search_ = 0.0;  // metres: the least of a search for it
   double last_step_ = 0.0;
-  bool last_clipped_ = false;
+  bool was_reach_short_ = false;  // the last step
+  Displacements missed_{};        // of the last step
+  double missed_length_ = 0.0;    // metres: by so much two bodies would have come nearer
   // Metres; they adapt to the number of pairs that searches find.
   double limit_;
   double limit_ahead_;

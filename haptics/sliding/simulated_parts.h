@@ -54,8 +54,11 @@ struct Step {
   std::array<double, kMaxParts> lengths{};  ///< their motion bounds, metres
   std::array<bool, kMaxParts> arrives{};    ///< nothing shortened or turned the displacement
   double length = 0.0;                      ///< the sum of the lengths: two bodies come nearer by at most this
-  bool clipped = false;                     ///< shortened by the reach, the slew or a missing certificate
-  bool is_plain = false;                    ///< neither clipped nor damped, by the rows of contacts alone
+  bool clipped = false;         ///< shortened by the reach, the slew, missing candidates or a missing certificate
+  bool is_reach_short = false;  ///< shortened by the reach
+  bool is_uncovered = false;    ///< shortened because the candidates might not be complete farther on
+  Displacements missed{};       ///< from its end on: what reach and candidates have cut off
+  bool is_plain = false;        ///< neither clipped nor damped, by the rows of contacts alone
 };
 
 }  // namespace glissade::haptics

@@ -97,16 +97,42 @@ void StepFinder::try_projection(WorkBudget& budget) {
       end_trial(budget);
       return;
     }
-    const std::array<double, kMaxParts> fractions = allowed_fractions(shared_, projected_, rows_, reach_);
+    const AllowedFractions allowed = allowed_fractions(shared_, projected_, rows_, reach_);
     step_ = {};
     for (std::size_t p = 0; p < shared_.count(); ++p) {
-      shortened[p] = projected_[p].scaled(fractions[p]);
-      step_.arrives[p] = fractions[p] == 1.0;
-      step_.clipped = step_.clipped || fractions[p] < 1.0;
+      const double fraction = allowed.of_parts[p];
+      shortened[p] = projected_[p].scaled(fraction);
+      step_.missed[p] = projected_[p].scaled(allowed.beyond_reach[p] - fraction);
+      step_.arrives[p] = fraction == 1.0;
+      step_.clipped = step_.clipped || fraction < 1.0;
+      step_.is_reach_short = step_.is_reach_short || fraction < allowed.beyond_reach[p];
     }
+    keep_covered(shortened);
   } while (rows_.find_violated(shortened, budget));
   ++projections_;
   begin_certificate(shortened, budget);
+}
+
+/// Shortens a step that leads where the candidates might not be complete. A step no longer than what they cover at its
+/// beginning does not. All parts take the same share, because their rows hold for all displacements together.
+void StepFinder::keep_covered(Displacements& displacements) {
+  const double needed = shared_.largest_margin + certificate_.certain_distance();
+  certificate_.begin_step(shared_.of_parts(displacements));
+  if (shared_.candidates.covered_on_path(certificate_) >= needed) return;
+  const double most = std::max(0.0, shared_.candidates.covered() - needed) / static_cast<double>(shared_.count());
+  double fraction = 1.0;
+  for (std::size_t p = 0; p < shared_.count(); ++p)
+    fraction = std::min(fraction, geometry::fraction_within(displacements[p], shared_.states[p].lever, most));
+  if (fraction == 1.0) return;
+  step_.clipped = true;
+  step_.is_uncovered = true;
+  for (std::size_t p = 0; p < shared_.count(); ++p) {
+    const geometry::Displacement whole = displacements[p];
+    displacements[p] = whole.scaled(fraction);
+    step_.missed[p].v += whole.v - displacements[p].v;
+    step_.missed[p].w += whole.w - displacements[p].w;
+    step_.arrives[p] = false;
+  }
 }
 
 /// Takes the step at hand, or begins the certificate of another one.
@@ -225,8 +251,10 @@ void StepFinder::begin_certificate(const Displacements& displacements, WorkBudge
   // Bodies farther apart than this keep their minimum clearance whatever happens on the way.
   const double concerned =
       step_.length + kMinClearanceOfMargin * shared_.largest_margin + certificate_.certain_distance();
-  is_covered_ = shared_.candidates.covers(concerned);
   certificate_.begin_step(shared_.of_parts(step_.displacements));
+  is_covered_ = shared_.candidates.covers(concerned) ||
+                shared_.candidates.covered_on_path(certificate_) >= concerned - step_.length;
+  step_.is_uncovered = step_.is_uncovered || !is_covered_;
   to_certify_.clear();
   if (is_covered_) shared_.candidates.unproved_within(concerned, certificate_, to_certify_, budget);
   certificate_.begin(to_certify_);

@@ -59,6 +59,7 @@ class StepFinder {
   bool project(const Displacements& wanted);
   void solve_friction(const Displacements& wanted);
   bool slipped(const CoupledRow& row) const;
+  void keep_covered(Displacements& displacements);
   void begin_certificate(const Displacements& displacements, WorkBudget& budget);
   std::array<bool, kMaxParts> parts_that_fail() const;
 

@@ -72,6 +72,8 @@ class SteadyMotion {
     }
   }
 
+  const std::vector<geometry::Displacement>& steps() const { return steps_; }
+
  private:
   std::vector<geometry::Displacement> steps_;
 };
@@ -192,6 +194,60 @@ TEST(CandidatePairs, HaveTheSameContactsWhereGapsAreNoted) {
   EXPECT_GT(contacts, 1000u);
 }
 
+/// All candidates, wherever they are.
+std::set<TrianglesOfBodies> all_pairs_of(const CandidatePairs& candidates, const ContactScene& scene) {
+  constexpr double kAnywhere = 1.0;
+  std::set<TrianglesOfBodies> all;
+  for (const PairToCertify& pair_to_certify : pairs_to_certify_within(candidates, kAnywhere)) {
+    for (const TrianglesOfBodies& pair : test_support::triangles_of(scene.bodies(), pair_to_certify))
+      all.insert(pair);
+  }
+  return all;
+}
+
+// Steps lead away from the poses of a search, back to them, and past them, farther than it covers all around.
+TEST(CandidatePairs, AreAllThatComesNearOnACoveredPath) {
+  constexpr std::uint64_t kSeed = 64;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  RandomNumbers random(kSeed);
+  int covered = 0;
+  int covered_farther_than_around = 0;
+  for (int trial = 0; trial < test_support::affordable(300); ++trial) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
+    const auto scene = test_support::random_contact_scene(0.02, 1e-4, 2e-4, random);
+    CandidatePairs candidates(*scene, kGreatest);
+    PathCertificate certificate(*scene);
+    candidates.look(0.0, 1e-3, {});
+    const std::set<TrianglesOfBodies> known = all_pairs_of(candidates, *scene);
+    const SteadyMotion away(*scene, 1e-3, random);
+    away.move_parts(*scene);
+    candidates.moved();
+    std::vector<geometry::Displacement> step;
+    const double share = random.uniform(-2.5, 0.5);
+    for (const geometry::Displacement& d : away.steps())
+      step.push_back(d.scaled(share));
+    certificate.begin_step(step);
+    const double near = candidates.covered_on_path(certificate);
+    if (!(near > 0.0)) continue;
+    ++covered;
+    double length = 0.0;
+    for (std::size_t p = 0; p < step.size(); ++p)
+      length += geometry::motion_bound(step[p], scene->movers()[p]->radius());
+    if (candidates.covered() - length < near - 1e-5) ++covered_farther_than_around;
+    for (const double t : {0.0, 0.3, 0.5, 0.8, 1.0}) {
+      std::vector<PlacedBody> bodies(scene->bodies().begin(), scene->bodies().end());
+      for (std::size_t p = 0; p < step.size(); ++p) {
+        PlacedBody& body = bodies[scene->body_of_mover(p)];
+        body.X_WB = geometry::displaced(body.X_WB, scene->movers()[p]->p_Vref(), step[p].scaled(t));
+      }
+      for (const auto& [pair, distance] : test_support::near_triangles(bodies, scene->obstacles().size(), near))
+        ASSERT_TRUE(known.contains(pair)) << "at " << distance << " m of " << near << ", moment " << t;
+    }
+  }
+  EXPECT_GT(covered, test_support::affordable(100));
+  EXPECT_GT(covered_farther_than_around, test_support::affordable(50));
+}
+
 TEST(CandidatePairs, LeaveOutBodiesThatAreIgnored) {
   const std::vector<Obstacle> obstacles{test_support::obstacle_of(geometry::make_plate({0.1, 0.1}, 50)),
                                         test_support::obstacle_of(geometry::make_plate({0.1, 0.1}, 50))};
@@ -250,8 +306,15 @@ TEST(CandidatePairs, AreTheSameWithAThreadOfTheirOwn) {
       ASSERT_EQ(contents(with, reach), contents(without, reach));
       renewed += is_other ? 1 : 0;
       move_parts(*scene, 1e-4, random);
-      without.moved();
-      with.moved();
+      const double length = random.power_of_ten(-5.0, -4.0);
+      for (CandidatePairs* candidates : {&without, &with}) {
+        candidates->moved();
+        candidates->look_ahead(length, reach, ahead, {});
+      }
+      if (!random.chance(0.3)) continue;
+      const bool is_taken = without.take_ahead(0.1 * reach);
+      ASSERT_EQ(with.take_ahead(0.1 * reach), is_taken);
+      ASSERT_EQ(contents(with, reach), contents(without, reach));
     }
   }
   EXPECT_GT(renewed, test_support::affordable(100));
@@ -269,6 +332,13 @@ class CubeOverPlate : public ::testing::TestWithParam<bool> {
     candidates_.moved();
   }
 
+  /// Looks, and asks for the next search where it is time.
+  bool look() {
+    const bool is_other = candidates_.look(kReach, kAhead, {});
+    candidates_.look_ahead(0.0, kReach, kAhead, {});
+    return is_other;
+  }
+
   double z_ = 0.015;
   ContactScene scene_{{test_support::obstacle_of(geometry::make_plate({0.1, 0.1}, 50))},
                       {test_support::part_of(geometry::make_box({0.02, 0.02, 0.02}, 48))},
@@ -279,11 +349,11 @@ class CubeOverPlate : public ::testing::TestWithParam<bool> {
 // The part is 0.6 of the look-ahead before the place of a search when its answer is taken, so that serves for 1.6.
 TEST_P(CubeOverPlate, TakesTheSearchThatWasAskedForAheadOfNeed) {
   move(0.0);
-  EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
+  EXPECT_TRUE(look());
   std::vector<int> taken;
   for (int step = 1; step <= 300; ++step) {
     move(0.02 * kAhead);
-    if (candidates_.look(kReach, kAhead, {})) taken.push_back(step);
+    if (look()) taken.push_back(step);
     ASSERT_TRUE(candidates_.covers(kReach));
   }
   ASSERT_GE(taken.size(), 4U);
@@ -294,12 +364,12 @@ TEST_P(CubeOverPlate, TakesTheSearchThatWasAskedForAheadOfNeed) {
 
 TEST_P(CubeOverPlate, AJumpBeyondWhatWasAskedForIsSearchedAfresh) {
   move(0.0);
-  candidates_.look(kReach, kAhead, {});
+  look();
   move(0.8 * kAhead);
-  EXPECT_FALSE(candidates_.look(kReach, kAhead, {})) << "and asks for the next one";
+  EXPECT_FALSE(look()) << "and asks for the next one";
   move(3.5 * kAhead);
   EXPECT_FALSE(candidates_.covers(kReach));
-  EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
+  EXPECT_TRUE(look());
   EXPECT_TRUE(candidates_.covers(kReach + 0.3 * kAhead)) << "from 0.6 of the look-ahead farther on";
   EXPECT_EQ(what_is_missing(candidates_, scene_, kReach), "");
   EXPECT_EQ(candidates_.statistics().searches, 2) << "a search that was not used does not count";
@@ -307,15 +377,15 @@ TEST_P(CubeOverPlate, AJumpBeyondWhatWasAskedForIsSearchedAfresh) {
 
 TEST_P(CubeOverPlate, APartThatTurnsBackIsSearchedForAgain) {
   move(0.0);
-  candidates_.look(kReach, kAhead, {});
+  look();
   for (const double way : {0.8, 0.3}) {
     move(way * kAhead);
-    candidates_.look(kReach, kAhead, {});  // the second one takes the search ahead
+    look();  // the second one takes the search ahead
   }
   ASSERT_EQ(candidates_.statistics().searches, 2);
   for (int step = 0; step < 30; ++step) {
     move(-0.1 * kAhead);
-    candidates_.look(kReach, kAhead, {});
+    look();
     ASSERT_TRUE(candidates_.covers(kReach));
     ASSERT_EQ(what_is_missing(candidates_, scene_, kReach), "");
   }
@@ -326,17 +396,53 @@ TEST_P(CubeOverPlate, APartThatTurnsBackIsSearchedForAgain) {
 // more: at half of it above the plate.
 TEST_P(CubeOverPlate, IsToldOfThePosesAtWhichItWasAskedFor) {
   move(5e-3 - 2.1 * kAhead);
-  candidates_.look(kReach, kAhead, {});
+  look();
   move(0.8 * kAhead);
-  candidates_.look(kReach, kAhead, {});  // asks for the next one
+  look();  // asks for the next one
   move(0.3 * kAhead);
-  EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
+  EXPECT_TRUE(look());
   const std::vector<PairToCertify> to_certify = pairs_to_certify_within(candidates_, 1.1 * kAhead);
   ASSERT_FALSE(to_certify.empty());
   EXPECT_NEAR(to_certify.front().distance, 0.5 * kAhead, 1e-9);
   const std::vector<NearPair> pairs = pairs_within(candidates_, 1.1 * kAhead);
   ASSERT_FALSE(pairs.empty());
   EXPECT_NEAR(pairs.front().distance, 0.5 * kAhead, 1e-9);
+}
+
+// Steps much longer than the look-ahead: each search is made at the middle of the next one, with little more than half
+// of it as the radius.
+TEST_P(CubeOverPlate, ALongStepNeedsHalfItsLengthAroundItsMiddle) {
+  constexpr double kStep = 0.5e-3;
+  constexpr double kLittle = 0.05e-3;
+  PathCertificate certificate(scene_);
+  const std::vector<geometry::Displacement> step{{{0.0, 0.0, -kStep}, Vector3d::Zero()}};
+  move(0.0);
+  candidates_.look(2.0 * kStep, kLittle, {});
+  for (int i = 0; i < 5; ++i) {
+    move(kStep);
+    candidates_.look_ahead(kStep, kLittle, kLittle, {});
+    if (i == 0) continue;  // the first search, at the beginning, serves for two steps
+    ASSERT_TRUE(candidates_.take_ahead(kLittle)) << i;
+    EXPECT_FALSE(candidates_.covers(0.5 * kStep));
+    certificate.begin_step(step);
+    EXPECT_GT(candidates_.covered_on_path(certificate), kLittle);
+    EXPECT_LT(candidates_.covered_on_path(certificate), 0.3 * kStep);
+  }
+}
+
+TEST_P(CubeOverPlate, AWayIsSearchedAtItsMiddle) {
+  constexpr double kLength = 2e-3;
+  constexpr double kLeast = 0.1e-3;
+  const std::vector<geometry::Displacement> way{{{0.0, 0.0, -kLength}, Vector3d::Zero()}};
+  PathCertificate certificate(scene_);
+  move(0.0);
+  EXPECT_TRUE(candidates_.look_along(way, kLength, kLeast, {}));
+  EXPECT_TRUE(candidates_.covers(kLeast));
+  EXPECT_FALSE(candidates_.covers(0.5 * kLength));
+  certificate.begin_step(way);
+  EXPECT_GT(candidates_.covered_on_path(certificate), kLeast);
+  move(kLength);
+  EXPECT_TRUE(candidates_.covers(kLeast));
 }
 
 TEST_P(CubeOverPlate, LeavesOutWhatHasCertainlyComeApart) {

@@ -129,7 +129,7 @@ TEST(ScriptedPart, IsToldInContactsWhereItIsNow) {
   visitor.script_X_WB = geometry::PoseTrajectory({{milliseconds(0), pose({-0.0262, 0.0, 0.0})},
                                                   {milliseconds(10), pose({-0.0252, 0.0, 0.0})},
                                                   {milliseconds(20), pose({-0.0262, 0.0, 0.0})}});
-  Sliding sliding = cube_before(visitor, 1.0);
+  Sliding sliding({wall(1.0)}, cube(0.02), pose({0.005, 0.0, 0.0}), {.rules = {.contacts_ahead_ms = 3.0}}, {visitor});
   int seen = 0;
   for (int i = 0; i < 20; ++i) {
     sliding.advance(sliding.result().X_WG);
