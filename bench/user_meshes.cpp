@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -75,8 +76,12 @@ UserPair pair_of(const std::string& line, const std::vector<UserMesh>& meshes) {
 
 std::vector<UserMesh> user_meshes(const std::vector<std::filesystem::path>& files) {
   std::vector<UserMesh> meshes;
-  for (const std::filesystem::path& file : mesh_files(files))
-    meshes.push_back({name_of_file(file), std::make_shared<const TriangleMesh>(geometry::import_mesh(file).mesh)});
+  std::set<std::string> names;
+  for (const std::filesystem::path& file : mesh_files(files)) {
+    const std::string name = name_of_file(file);
+    if (!names.insert(name).second) throw std::invalid_argument("--mesh: two meshes have the name " + name);
+    meshes.push_back({name, std::make_shared<const TriangleMesh>(geometry::import_mesh(file).mesh)});
+  }
   return meshes;
 }
 

@@ -20,7 +20,7 @@ struct UserMesh {
 };
 
 /// The meshes of all files, in the order of their paths within a folder: a folder stands for all OBJ, STL and PLY files
-/// below it. Throws std::invalid_argument for a file that cannot be used.
+/// below it. Throws std::invalid_argument for a file that cannot be used, and for two of one name.
 std::vector<UserMesh> user_meshes(const std::vector<std::filesystem::path>& files);
 
 struct UserPair {

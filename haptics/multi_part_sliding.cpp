@@ -155,7 +155,7 @@ class MultiPartSliding::Cycle {
       radius_.choose(shared_, starts_.depenetration(), milliseconds_, cycles_ == 0);
       find_ignored();
       if (radius_.look(shared_, ignored_)) starts_.restore_min_clearances();
-      waits_for_search_ = !shared_.candidates.covers(radius_.reach_ahead());
+      waits_for_search_ = !shared_.candidates.covers(radius_.needed());
       if (waits_for_search_) return Progress::kUsedUp;
       step_finder_.look(radius_.reach(), radius_.reach_ahead(), budget);
     }
@@ -166,12 +166,15 @@ class MultiPartSliding::Cycle {
     const bool all_arrived = std::all_of(step->arrives.begin(), step->arrives.begin() + std::ssize(shared_.states),
                                          [](bool arrives) { return arrives; });
     forecast_.note(*step);
-    const bool is_done = cycles_ == shared_.rules.max_cycles || all_arrived || forecast_.is_remainder_worthless();
+    // A step that lacks candidates tells nothing of those that follow.
+    const bool is_cut_off = step->is_reach_short || step->is_uncovered;
+    const bool is_done =
+        cycles_ == shared_.rules.max_cycles || all_arrived || (!is_cut_off && forecast_.is_remainder_worthless());
     double reach = step_finder_.rows().complete();
     if (is_done || budget.is_used_up()) reach = step_finder_.rows().find_ahead(budget);
     move(*step);
     radius_.note(shared_, *step);
-    radius_.look_ahead(shared_, ignored_);
+    if (is_done) radius_.prepare_next(shared_, ignored_);
     for (std::size_t p = 0; p < shared_.count(); ++p) {
       HeldPartState& part = shared_.states[p];
       if (part.is_held() && starts_.overlaps().way_out_of(p) == nullptr) part.turn_target();

@@ -25,22 +25,26 @@ using Eigen::Vector3d;
 using test_support::SlidingScene;
 using test_support::Waypoint;
 
-constexpr double kLedSpeed = 0.5e-3;  // metres a tick
-constexpr double kWandering = 20e-3;  // metres from the start
-constexpr double kLedTurn = 0.2;      // radians from the start
-constexpr double kExtent = 0.2;       // metres, of the larger of two meshes without a unit
-constexpr double kGap = 1e-3;         // metres between them at the start
+constexpr double kLedSpeed = 0.5e-3;       // metres a tick
+constexpr double kLedAngularSpeed = 5e-3;  // radians a tick, at most
+constexpr double kWandering = 20e-3;       // metres from the start
+constexpr double kLedTurn = 0.2;           // radians from the start
+constexpr double kExtent = 0.2;            // metres, of the larger of two meshes without a unit
+constexpr double kGap = 1e-3;              // metres between them at the start
 constexpr std::uint64_t kLedSeed = 1;
 
-// From one random point near the start to the next, at constant speed.
+// From one random point near the start to the next, each time at constant speed.
 std::vector<Waypoint> wander(const Isometry3d& X_WV_start, int ticks, PoseSource& source) {
   std::vector<Waypoint> way{{0, X_WV_start}};
   while (way.back().tick < ticks) {
     const Vector3d away = kWandering * std::cbrt(source.uniform(0.0, 1.0)) * source.direction();
     const Eigen::AngleAxisd turn(source.uniform(-kLedTurn, kLedTurn), source.direction());
     const Isometry3d X_WG = pose(turn * X_WV_start.linear(), X_WV_start.translation() + away);
-    const double length = (X_WG.translation() - way.back().X_WG.translation()).norm();
-    way.push_back({way.back().tick + std::max(1, static_cast<int>(std::ceil(length / kLedSpeed))), X_WG});
+    const Isometry3d& X_before = way.back().X_WG;
+    const double length = (X_WG.translation() - X_before.translation()).norm();
+    const double angle = Eigen::Quaterniond(X_before.linear()).angularDistance(Eigen::Quaterniond(X_WG.linear()));
+    const double duration = std::max({1.0, length / kLedSpeed, angle / kLedAngularSpeed});
+    way.push_back({way.back().tick + static_cast<int>(std::ceil(duration)), X_WG});
   }
   return way;
 }
@@ -67,10 +71,9 @@ SlidingScene led(std::string name, const geometry::TriangleMesh& mesh_A, const g
   return scene;
 }
 
-SlidingScene led_pair(const UserPair& pair, int ticks) {
+SlidingScene led_pair(const std::string& name, const UserPair& pair, int ticks) {
   const geometry::TriangleMesh& mesh_A = *pair.mesh_A.mesh;
   const geometry::TriangleMesh& mesh_B = *pair.mesh_B.mesh;
-  const std::string name = pair.mesh_A.name + (&mesh_A == &mesh_B ? "" : "/" + pair.mesh_B.name);
   const double scale =
       pair.metres_per_unit.value_or(kExtent / std::max(largest_extent(mesh_A), largest_extent(mesh_B)));
   std::optional<Isometry3d> X_AB;  // of the centres
@@ -106,18 +109,19 @@ void measure(const SlidingScene& scene, Results& results) {
 void run_led(const SlidingBenchOptions& options, Results& results) {
   const int ticks = options.quick ? 300 : 2000;
   const std::vector<UserMesh> meshes = user_meshes(options.led_meshes);
-  std::vector<UserPair> pairs;
+  const auto run = [&](const std::string& name, const UserPair& pair) {
+    std::fprintf(stderr, "led %s\n", name.c_str());
+    try {
+      measure(led_pair(name, pair, ticks), results);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(name + ": " + error.what());
+    }
+  };
   for (const UserMesh& mesh : meshes)
-    pairs.push_back({mesh, mesh});
-  if (!options.led_pairs.empty()) {
-    for (UserPair& pair : user_pairs(options.led_pairs, meshes))
-      pairs.push_back(std::move(pair));
-  }
-  for (const UserPair& pair : pairs) {
-    const SlidingScene scene = led_pair(pair, ticks);
-    std::fprintf(stderr, "led %s\n", scene.name.c_str());
-    measure(scene, results);
-  }
+    run(mesh.name, {mesh, mesh});
+  if (options.led_pairs.empty()) return;
+  for (const UserPair& pair : user_pairs(options.led_pairs, meshes))
+    run(pair.mesh_A.name + "/" + pair.mesh_B.name, pair);
 }
 
 }  // namespace glissade::bench

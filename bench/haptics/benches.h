@@ -76,6 +76,7 @@ void run_clasp(const SlidingBenchOptions& options, Results& results);
 /// The user's meshes in real time, two copies of each and each pair of `led_pairs`: the ghost wanders at 0.5 m/s
 /// through the obstacle. Case `PART` or `PART/PART`, metrics `ticks`, `triangles` of both, the share `pushed` of ticks
 /// in which a contact pushes, `colliding_poses`, and `tick_mean`, `tick_p50`, `tick_p99` and `tick_max` of these ticks.
+/// Throws std::invalid_argument, naming the pair, where the start collides or the two come nowhere near each other.
 void run_led(const SlidingBenchOptions& options, Results& results);
 
 }  // namespace glissade::bench

@@ -89,6 +89,7 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return fail(kBadInput, error.what());
   }
+  if (chosen.contains("led") && options.led_meshes.empty()) return fail(kBadInput, "the part led needs --mesh");
   std::filesystem::create_directories(folder);
   Results results;
   for (const auto& [name, run] : kParts) {

@@ -30,7 +30,7 @@ void LastingSeparations::add(const geometry::TrianglePoints& obstacle_O, const g
   ++count_;
 }
 
-std::span<const Separation> LastingSeparations::find() {
+std::span<const Separation> LastingSeparations::find(bool may_turn) {
   if (count_ == 0) return {};
   separate_by_normals(triangles_, begin_, end_, gap_, on_path_);
   if (!all_pairs_last(kEnoughPaths)) {
@@ -41,7 +41,7 @@ std::span<const Separation> LastingSeparations::find() {
       geometry::ClosestPoints at_end;
       geometry::find_closest_points(on_path_.end, at_end);
       separate_by_points(at_end, gap_, 0.0, on_path_);
-      if (!all_pairs_last(0.0)) separate_by_turning(at_begin, at_end, on_path_);
+      if (may_turn && !all_pairs_last(0.0)) separate_by_turning(at_begin, at_end, on_path_);
     }
   }
   const std::size_t count = std::exchange(count_, 0);

@@ -46,11 +46,14 @@ class LastingSeparations {
   /// directions are the normals of both triangles, one between both, and these across the motion. Where none serves for
   /// this path and another one, the direction of the closest points at the beginning is tried, and where this one
   /// fails, that at the end. They separate the most, but where triangles slide towards each other they serve for a
-  /// short way only. Where none of these separates by `gap`, a direction that turns from the one to the other is tried:
-  /// long edges that cross turn past each other so. Valid until the next call.
-  std::span<const Separation> find();
+  /// short way only. Valid until the next call.
+  std::span<const Separation> find() { return find(false); }
+  /// The same. Where none of these separates by `gap`, a direction that turns from the one of the closest points to the
+  /// other is tried: long edges that cross turn past each other so.
+  std::span<const Separation> find_or_turn() { return find(true); }
 
  private:
+  std::span<const Separation> find(bool may_turn);
   bool all_pairs_last(double paths) const;
 
   CornerMap begin_{};

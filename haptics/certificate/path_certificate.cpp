@@ -237,7 +237,7 @@ void PathCertificate::start_separations() {
 /// Certifies the triangles that wait for vector code.
 void PathCertificate::prove_waiting(WorkBudget& budget) {
   std::size_t i = 0;
-  for (const Separation& separation : separations_.find()) {
+  for (const Separation& separation : separations_.find_or_turn()) {
     const Triangles& triangles = waiting_[i++];
     if (separation.least() >= needed_ + rounding_) {
       note_direction(triangles, obstacle_.X_WB[0]->linear() * separation.n_O);

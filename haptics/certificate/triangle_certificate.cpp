@@ -110,8 +110,9 @@ bool TriangleCertificate::separates(const Eigen::Vector3d& n, const Stretch& str
          gap_along(n, stretch.end.obstacle, stretch.end.part) >= stretch.needed;
 }
 
-/// The same for a direction that turns evenly from n_begin to n_end. Along it, the height of a corner on a straight path
-/// is the product of two linear functions, which lies above its three Bernstein coefficients.
+/// The same for a direction that turns evenly from n_begin to n_end. Along it, the height of a corner on a straight
+/// path is the product of two linear functions, which lies between the least and the greatest of its three Bernstein
+/// coefficients.
 bool TriangleCertificate::separates_turning(const Eigen::Vector3d& n_begin, const Eigen::Vector3d& n_end,
                                             const Stretch& stretch) const {
   if (gap_along(n_begin, stretch.begin.obstacle, stretch.begin.part) < stretch.needed ||

@@ -44,6 +44,11 @@ std::int64_t work_ahead(bool runs_ahead, std::int64_t work_of_call) {
   return work_of_call > kUnlimitedWork / kCallsAhead ? kUnlimitedWork : kCallsAhead * work_of_call;
 }
 
+/// The search refuses a pose that is not rigid. Going on from it would make it rigid.
+bool are_rigid(std::span<const Eigen::Isometry3d> poses) {
+  return std::all_of(poses.begin(), poses.end(), [](const auto& X) { return geometry::rigid_pose(X).has_value(); });
+}
+
 }  // namespace
 
 /// Calls `visit` with the pairs that may be within `reach` now, nearest first at the poses of the search.
@@ -100,46 +105,62 @@ void CandidatePairs::begin_call() {
 
 bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> ignored) {
   if (now_.covers(reach)) return false;
-  try {
-    return take_next(reach, ahead, ignored);
-  } catch (...) {
-    forget();
-    throw;
+  if (!next_.covers(reach)) {
+    if (!is_settled()) return false;  // it is of no use any more
+    ask(reach + ahead, ahead, kForward * ahead, ignored);
   }
+  return take_or_forget();
 }
 
-bool CandidatePairs::take_ahead(double reach) {
+bool CandidatePairs::take_ahead(double reach, double step) {
   if (!next_.covers(reach)) return false;
-  try {
-    return take_next(reach, 0.0, {});
-  } catch (...) {
-    forget();
-    throw;
-  }
+  if (now_.covers(reach) && covered_on_way(now_, step) >= covered_on_way(next_, step)) return false;
+  return take_or_forget();
 }
 
 bool CandidatePairs::look_along(std::span<const geometry::Displacement> way, double length, double least,
                                 std::span<const BodyPair> ignored) {
   GLISSADE_ASSERT(length > 0.0);
-  const double share = std::min(1.0, (greatest_radius_ - least) / (kRadiusOfStep * length));
   copy_poses(X_WB_ahead_);
+  if (!are_rigid(X_WB_ahead_)) return false;
+  const double share = std::min(1.0, (greatest_radius_ - least) / (kRadiusOfStep * length));
   for (std::size_t mover = 0; mover < X_WB_ahead_.size(); ++mover) {
     const std::int32_t leader = scene_.leader(static_cast<std::int32_t>(scene_.body_of_mover(mover)));
     if (leader == ContactScene::kStands) continue;
     const geometry::Displacement half = way[static_cast<std::size_t>(leader)].scaled(0.5 * share);
-    X_WB_ahead_[mover] = geometry::displaced(X_WB_ahead_[mover], scene_.p_Bref(mover), half);
+    if (!half.is_zero()) X_WB_ahead_[mover] = geometry::displaced(X_WB_ahead_[mover], scene_.p_Bref(mover), half);
   }
   const auto are_alike = [](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
     return a.matrix() == b.matrix();
   };
   const bool is_requested =
       next_.is_there && std::equal(X_WB_ahead_.begin(), X_WB_ahead_.end(), next_.request.X_WB.begin(), are_alike);
+  if (!is_requested) {
+    if (!is_settled()) return false;  // it is of no use any more
+    next_.request.X_WB = X_WB_ahead_;
+    request(std::min(kRadiusOfStep * share * length + least, greatest_radius_), least, ignored);
+  }
+  return take_or_forget();
+}
+
+bool CandidatePairs::serve_for(double step) {
+  return now_.is_there && covered_on_way(now_, step) >= kLeftAfterStep * step;
+}
+
+void CandidatePairs::look_ahead(double step, double reach, double ahead, std::span<const BodyPair> ignored) {
+  GLISSADE_ASSERT(has_planes_);
+  if (!now_.is_there) return;
+  if (next_.is_there && next_.is_in_vain() && is_settled()) next_.is_there = false;
+  if (next_.is_there || (!now_.is_being_left() && serve_for(step))) return;
+  double until_needed = std::max(0.0, covered() - std::max(step, reach));
+  if (step > 0.0) until_needed = step * std::ceil(until_needed / step);  // answers are taken before a step
+  ask(std::max(kRadiusOfStep * step, reach) + ahead, ahead, until_needed + 0.5 * step + kForward * ahead, ignored);
+  next_.step = step;
+}
+
+/// Replaces the candidates by the answer of the search that was requested. Returns false if that has to go on.
+bool CandidatePairs::take_or_forget() {
   try {
-    if (!is_requested) {
-      if (!is_settled()) return false;  // it is of no use any more
-      next_.request.X_WB = X_WB_ahead_;
-      request(std::min(kRadiusOfStep * share * length + least, greatest_radius_), least, ignored);
-    }
     return take();
   } catch (...) {
     forget();
@@ -147,32 +168,6 @@ bool CandidatePairs::look_along(std::span<const geometry::Displacement> way, dou
   }
 }
 
-void CandidatePairs::look_ahead(double step, double reach, double ahead, std::span<const BodyPair> ignored) {
-  GLISSADE_ASSERT(has_planes_);
-  if (!now_.is_there) return;
-  try {
-    if (next_.is_there && next_.is_in_vain() && is_settled()) next_.is_there = false;
-  } catch (...) {
-    forget();
-    throw;
-  }
-  if (next_.is_there || (!now_.is_being_left() && covered_after(step) >= kLeftAfterStep * step)) return;
-  double until_needed = std::max(0.0, covered() - std::max(step, reach));
-  if (step > 0.0) until_needed = step * std::ceil(until_needed / step);  // answers are taken before a step
-  ask(std::max(kRadiusOfStep * step, reach) + ahead, ahead, until_needed + 0.5 * step + kForward * ahead, ignored);
-  next_.step = step;
-}
-
-/// Replaces the candidates by the answer of the search ahead, or of a new one. Returns false if it has to go on.
-bool CandidatePairs::take_next(double reach, double ahead, std::span<const BodyPair> ignored) {
-  if (!next_.covers(reach)) {
-    if (!is_settled()) return false;  // it is of no use any more
-    ask(reach + ahead, ahead, kForward * ahead, ignored);
-  }
-  return take();
-}
-
-/// Replaces the candidates by the answer of the search that was requested, once it is done.
 bool CandidatePairs::take() {
   if (!is_settled()) return false;
   if (!thread_) search_.find(next_.request, next_.set);  // only now, when its answer is certainly needed
@@ -237,8 +232,7 @@ void CandidatePairs::place_ahead(double way, std::vector<Eigen::Isometry3d>& X_W
     gone = approach_since(*before, motions_ahead_);
   }
   if (!(gone > 0.0) || !std::isfinite(gone)) return;
-  // The search refuses a pose that is not rigid. Going on from it would make it rigid.
-  if (!std::all_of(X_WB.begin(), X_WB.end(), [](const auto& X) { return geometry::rigid_pose(X).has_value(); })) return;
+  if (!are_rigid(X_WB)) return;
   const double share = std::min(kMostForward, way / gone);
   for (std::size_t mover = 0; mover < X_WB.size(); ++mover) {
     const Eigen::Vector3d& p_Bref = scene_.movers()[mover]->p_Vref();
@@ -254,6 +248,7 @@ bool CandidatePairs::is_settled() {
     if (!thread_->wait(allowed_)) return false;
   } catch (...) {
     is_with_thread_ = false;
+    forget();
     throw;
   }
   is_with_thread_ = false;
@@ -334,20 +329,20 @@ double CandidatePairs::approach_since(std::span<const Eigen::Isometry3d> X_WB, s
       X_WB, [&](std::size_t body) -> const Eigen::Isometry3d& { return scene_.bodies()[body].X_WB; }, motions);
 }
 
-/// The largest reach (metres) that will be covered on the next `way` metres, if the movers go on as before.
-double CandidatePairs::covered_after(double way) {
+/// The largest reach (metres) that `search` will cover on the next `way` metres, if the movers go on as before.
+double CandidatePairs::covered_on_way(const Search& search, double way) {
   place_ahead(way, X_WB_ahead_);
   motions_ahead_.assign(scene_.bodies().size(), {});
   const std::size_t first_mover = scene_.obstacles().size();
   const double drift = approach(
-      now_.request.X_WB, [&](std::size_t body) -> const Eigen::Isometry3d& { return X_WB_ahead_[body - first_mover]; },
-      motions_ahead_);
-  return now_.request.radius - std::max(drift, now_.drift);
+      search.request.X_WB,
+      [&](std::size_t body) -> const Eigen::Isometry3d& { return X_WB_ahead_[body - first_mover]; }, motions_ahead_);
+  return search.request.radius - std::max(drift, search.drift);
 }
 
-/// On a straight path, the distance of a point from its place at the search is greatest at an end.
+/// How far the difference of two points is from that at the search is greatest at an end, if both go straight.
 double CandidatePairs::covered_on_path(PathCertificate& certificate) {
-  if (!now_.is_there) return 0.0;
+  if (!now_.is_there) return covered();
   motions_ahead_.assign(scene_.bodies().size(), {});
   const double at_end = approach(
       now_.request.X_WB,

@@ -1,8 +1,8 @@
 #pragma once
 
 /// Pairs that the parts may reach soon, kept over several steps: one search serves until the motion of the parts has
-/// used up its look-ahead. The next search is requested ahead of need, and its answer is taken when all of the
-/// look-ahead is used up. Both moments depend on the motion alone; therefore a thread of its own may run the search
+/// used up its look-ahead. The next search is requested ahead of need, and its answer is taken when the last one covers
+/// too little. Both moments depend on the motion alone; therefore a thread of its own may run the search
 /// meanwhile without changing a bit.
 ///
 /// Parts mostly go on as they went. So a search is made at poses that the parts will reach some time after its answer
@@ -13,6 +13,7 @@
 /// its answer can be taken in the first call up to which so much work was allowed, however early it was done.
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -39,7 +40,8 @@ struct PairInReach {
 /// Not thread-safe.
 class CandidatePairs {
  public:
-  /// The scene must outlive this object. In `look`, reach + ahead must not exceed `greatest_radius` (metres). With a
+  /// The scene must outlive this object. In `look` and `look_ahead`, reach + ahead must not exceed `greatest_radius`
+  /// (metres). With a
   /// limit of work, searches have a thread of their own in any case. If `runs_ahead` is false, that thread never works
   /// at the same time as the caller's. Without planes, only `within` a reach tells of pairs,
   /// and searches are made when they are needed, at the present poses.
@@ -59,19 +61,22 @@ class CandidatePairs {
   /// suffice for the search, the candidates stay, `covers(reach)` is still false, and the same call of `look` must be
   /// repeated.
   bool look(double reach, double ahead, std::span<const BodyPair> ignored);
-  /// Takes the answer of the search that `look_ahead` requested, if there is one that covers `reach` (metres), whether
-  /// or not the last one still does. As `look`.
-  bool take_ahead(double reach);
+  /// Takes the answer of the search that `look_ahead` requested, if it covers `reach` (metres), and a farther one than
+  /// the last search on a step of length `step` (metres), if the parts go on as they went. As `look`.
+  bool take_ahead(double reach, double step);
   /// Makes every pair near the way candidates that the parts would go from their present poses: `way` has a
   /// displacement for each part, and two bodies come nearer by at most `length` (metres) on it. A search is made at its
   /// middle, or at that of its beginning where the greatest radius would not suffice. Within `least` (metres, at most
   /// that radius) around the present poses, the candidates are complete afterwards. As `look`.
   bool look_along(std::span<const geometry::Displacement> way, double length, double least,
                   std::span<const BodyPair> ignored);
+  /// Whether the candidates will cover another step of this length (metres), if the parts go on as they went.
+  bool serve_for(double step);
   /// Requests the next search once the parts leave the poses of the last one. They are expected to go on as they went,
   /// in steps of length `step` (metres): the search is made where the next one will lead halfway, and a share of it
-  /// suffices as the radius. It is at least `reach` (metres), and `ahead` (metres) more. To be called after each step;
-  /// only with planes: without them nobody works ahead of need, and an earlier request would only be of earlier poses.
+  /// suffices as the radius. It is at least `reach` (metres), and `ahead` (metres) more. To be called once or twice for
+  /// each step; only with planes: without them nobody works ahead of need, and an earlier request would only be of
+  /// earlier poses.
   void look_ahead(double step, double reach, double ahead, std::span<const BodyPair> ignored);
 
   /// Whether the search that `look` could not complete has had the work of several calls.
@@ -87,8 +92,8 @@ class CandidatePairs {
 
   /// Whether every pair within `reach` (metres) of the parts' present poses is certainly among the candidates.
   bool covers(double reach) const { return now_.covers(reach); }
-  /// The largest reach (metres) that is covered; not above 0 if none is.
-  double covered() const { return now_.is_there ? now_.request.radius - now_.drift : 0.0; }
+  /// The largest reach (metres) that is covered; negative if none is.
+  double covered() const { return now_.covered(); }
   /// The same on the whole path of the step that `certificate` has begun: other pairs do not come within this distance.
   double covered_on_path(PathCertificate& certificate);
 
@@ -149,7 +154,9 @@ class CandidatePairs {
     std::vector<Eigen::Isometry3d> X_WB_nearest;  // of each mover, when the drift was least
     bool is_there = false;                        // requested; a thread may still be working on it
 
-    bool covers(double reach) const { return is_there && reach + drift <= request.radius; }
+    /// The largest reach (metres) around the present poses within which all pairs are known.
+    double covered() const { return is_there ? request.radius - drift : -std::numeric_limits<double>::infinity(); }
+    bool covers(double reach) const { return reach <= covered(); }
     /// Whether it is time for the next search.
     bool is_being_left() const;
     /// Whether the parts go away from the poses of a search whose answer has not been taken.
@@ -172,7 +179,8 @@ class CandidatePairs {
   void ask(double radius, double ahead, double forward, std::span<const BodyPair> ignored);
   void request(double radius, double ahead, std::span<const BodyPair> ignored);
   void copy_poses(std::vector<Eigen::Isometry3d>& X_WB) const;
-  double covered_after(double way);
+  double covered_on_way(const Search& search, double way);
+  bool take_or_forget();
   void place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB);
   bool is_settled();
   double approach_since(std::span<const Eigen::Isometry3d> X_WB, std::vector<Motion>& motions) const;

@@ -35,7 +35,7 @@ UncertifiedPair swapped(const UncertifiedPair& pair) {
 
 void ContactRows::find(double reach, double reach_ahead, WorkBudget& budget) {
   reach_ = reach;
-  reach_ahead_ = std::max(reach, reach_ahead);
+  reach_ahead_ = reach_ahead;
   looked_at_.clear();
   contacts_.clear();
   is_of_failure_.clear();

@@ -49,7 +49,8 @@ void SearchRadius::choose(const SimulatedParts& shared, double depenetration, do
   reach_ = std::min(reach_, most);
   reach_ahead_ = std::min(reach_ahead_, most);
   next_step_ = std::min(step, reach_);
-  reach_of_search_ = reach_ahead_ > reach_ ? reach_ahead_ : kSmallestReach_m;
+  const bool is_cheap = shared.candidates.size() <= kFewPairs;
+  least_radius_ = reach_ahead_ > reach_ || is_cheap ? reach_ahead_ : kSmallestReach_m;
   is_first_cycle_ = is_first_cycle;
 }
 
@@ -60,27 +61,27 @@ void SearchRadius::choose(const SimulatedParts& shared, double depenetration, do
 bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignored) {
   CandidatePairs& candidates = shared.candidates;
   const double ahead = farther(shared);
-  const double share = reach_ahead_ > reach_ ? kMakeDoAhead * reach_ahead_ : kMakeDo * reach_;
+  const bool has_contacts_ahead = reach_ahead_ > reach_;
+  const double share = has_contacts_ahead ? kMakeDoAhead * reach_ahead_ : kMakeDo * reach_;
   const double least = std::max(share, std::min(reach_, kMargins * shared.largest_margin));
+  needed_ = reach_ahead_;
   bool is_other = false;
   if (!candidates.covers(reach_ahead_)) {
-    if (missed_length_ > 0.0) {
-      is_other = look_along_missed(shared, std::max(least, ahead), ignored);
-      if (is_other) make_do(candidates);
-    } else {
-      if (is_first_cycle_) is_other = candidates.take_ahead(least);
-      if (candidates.covers(least)) make_do(candidates);
-      // The steps of an answer mostly shrink.
-      const bool has_contacts_ahead = reach_ahead_ > reach_;
-      if (!is_first_cycle_ && !has_contacts_ahead)
-        reach_ahead_ = std::min(reach_ahead_, std::max(least, 2.0 * last_step_));
+    if (is_first_cycle_) is_other = candidates.take_ahead(least, next_step_);
+    const bool looks_along = missed_length_ > 0.0 && !is_other;
+    if (looks_along) is_other = look_along_missed(shared, std::max(least, ahead), ignored);
+    if (candidates.covers(least) && (is_other || !looks_along)) {
+      needed_ = least;
+    } else if (!is_first_cycle_ && !looks_along && !has_contacts_ahead) {
+      needed_ = std::min(reach_ahead_, std::max(least, 2.0 * last_step_));  // the steps of an answer mostly shrink
     }
   }
-  if (candidates.look(reach_ahead_, ahead, ignored)) is_other = true;
-  if (!candidates.covers(reach_ahead_) && candidates.is_too_large() &&
+  if (candidates.look(needed_, ahead, ignored)) is_other = true;
+  if (candidates.covers(needed_)) look_ahead(shared, ignored);
+  if (!candidates.covers(needed_) && candidates.is_too_large() &&
       std::max(limit_by_work_, limit_of_look_) > kSmallestLimitOfSearch_m) {
     candidates.cancel();
-    const double wanted = std::max(reach_ahead_, ahead);
+    const double wanted = std::max(needed_, ahead);
     for (double* limit : {&limit_by_work_, &limit_of_look_})
       *limit = std::max(0.25 * std::min(*limit, wanted), kSmallestLimitOfSearch_m);
   }
@@ -98,11 +99,6 @@ bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignore
   return true;
 }
 
-/// The reach ahead becomes what the candidates cover.
-void SearchRadius::make_do(const CandidatePairs& candidates) {
-  reach_ahead_ = std::min(reach_ahead_, candidates.covered());
-}
-
 /// Makes the pairs near the way candidates that the last step has missed, as far as the reach.
 bool SearchRadius::look_along_missed(SimulatedParts& shared, double least, std::span<const BodyPair> ignored) const {
   const double length = std::min(missed_length_, reach_);
@@ -112,8 +108,12 @@ bool SearchRadius::look_along_missed(SimulatedParts& shared, double least, std::
   return shared.candidates.look_along(shared.of_parts(way), length, least, ignored);
 }
 
+void SearchRadius::prepare_next(SimulatedParts& shared, std::span<const BodyPair> ignored) const {
+  if (!shared.candidates.serve_for(next_step_)) look_ahead(shared, ignored);
+}
+
 void SearchRadius::look_ahead(SimulatedParts& shared, std::span<const BodyPair> ignored) const {
-  shared.candidates.look_ahead(next_step_, reach_of_search_, farther(shared), ignored);
+  shared.candidates.look_ahead(next_step_, least_radius_, farther(shared), ignored);
 }
 
 /// Metres that a search looks farther than the reach.
@@ -129,8 +129,9 @@ void SearchRadius::note(const SimulatedParts& shared, const Step& step) {
   missed_ = step.missed;
   missed_length_ = 0.0;
   if (!step.is_reach_short && !step.is_uncovered) return;
+  // Not the bound of the motion, which does not grow evenly with the displacement.
   for (std::size_t p = 0; p < shared.count(); ++p)
-    missed_length_ += geometry::motion_bound(missed_[p], shared.states[p].lever);
+    missed_length_ += missed_[p].v.norm() + shared.states[p].lever * missed_[p].w.norm();
 }
 
 }  // namespace glissade::haptics

@@ -17,19 +17,23 @@ class SearchRadius {
   void choose(const SimulatedParts& shared, double depenetration, double milliseconds, bool is_first_cycle);
   /// Of the rows, metres. Candidates may cover less: a step then goes only where they cover its path.
   double reach() const { return reach_; }
-  /// Metres; the candidates cover it after `look`.
+  /// Of the contacts ahead, metres; at least `reach`. Candidates may cover less.
   double reach_ahead() const { return reach_ahead_; }
+  /// What the candidates must cover around the parts for the cycle, metres: after `look` they do, unless the work of a
+  /// call does not suffice.
+  double needed() const { return needed_; }
 
   /// Makes pairs near the parts candidates, except pairs of `ignored` bodies, unless the last candidates still cover
-  /// the reach ahead: those along the way that the last step has missed, or in a first cycle those of the search ahead,
-  /// if there is one. Where they cover little, the reach ahead becomes what they cover; where they cover very little, a
-  /// search makes every pair within the reach ahead a candidate. A search looks some ticks farther. Returns whether the
-  /// candidates changed. Where the work of a call does not suffice for the search, the candidates do not cover the
-  /// reach ahead afterwards. The next call then goes on with the search if its radius is the smallest, and otherwise
-  /// begins another one with a smaller radius.
+  /// the reach ahead: those along the way that the last step has missed, or in a first cycle those of the search ahead.
+  /// Little is needed; where the candidates do not cover it, a search makes every pair within the reach ahead a
+  /// candidate, and looks some ticks farther. Requests the next search in time. Returns whether the candidates changed.
+  /// Where the work of a call does not suffice for the search, the next call goes on with it if its radius is the
+  /// smallest, and otherwise begins another one with a smaller radius.
   bool look(SimulatedParts& shared, std::span<const BodyPair> ignored);
-  /// Requests the search for the first cycle of the next answer in time. To be called after each step.
-  void look_ahead(SimulatedParts& shared, std::span<const BodyPair> ignored) const;
+  /// Requests the search for the first cycle of the next answer now, if the candidates will not serve for it. To be
+  /// called after the last step of an answer. `look` requests other searches, so that their thread is not woken in
+  /// vain.
+  void prepare_next(SimulatedParts& shared, std::span<const BodyPair> ignored) const;
 
   /// Notes the step that was taken; the next reach depends on it.
   void note(const SimulatedParts& shared, const Step& step);
@@ -38,18 +42,19 @@ class SearchRadius {
 
  private:
   bool look_along_missed(SimulatedParts& shared, double least, std::span<const BodyPair> ignored) const;
-  void make_do(const CandidatePairs& candidates);
+  void look_ahead(SimulatedParts& shared, std::span<const BodyPair> ignored) const;
   double farther(const SimulatedParts& shared) const;
 
   double reach_ = 0.0;
   double reach_ahead_ = 0.0;
+  double needed_ = 0.0;
   bool is_first_cycle_ = false;
-  double next_step_ = 0.0;        // metres: the length that is expected of the main step of the next answer
-  double reach_of_search_ = 0.0;  // metres: the least of a search for it
+  double next_step_ = 0.0;     // metres: the length that is expected of the main step of the next answer
+  double least_radius_ = 0.0;  // metres: of the search for it, without its look-ahead
   double last_step_ = 0.0;
   bool was_reach_short_ = false;  // the last step
   Displacements missed_{};        // of the last step
-  double missed_length_ = 0.0;    // metres: by so much two bodies would have come nearer
+  double missed_length_ = 0.0;    // metres: two bodies would have come nearer by at most so much
   // Metres; they adapt to the number of pairs that searches find.
   double limit_;
   double limit_ahead_;

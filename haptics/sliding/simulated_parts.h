@@ -57,7 +57,7 @@ struct Step {
   bool clipped = false;         ///< shortened by the reach, the slew, missing candidates or a missing certificate
   bool is_reach_short = false;  ///< shortened by the reach
   bool is_uncovered = false;    ///< shortened because the candidates might not be complete farther on
-  Displacements missed{};       ///< from its end on: what reach and candidates have cut off
+  Displacements missed{};       ///< what reach and candidates have cut off its end
   bool is_plain = false;        ///< neither clipped nor damped, by the rows of contacts alone
 };
 

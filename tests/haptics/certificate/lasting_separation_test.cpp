@@ -54,7 +54,7 @@ struct PairsOfTrial {
     separations.start(begin, end, kGap);
     for (std::size_t i = 0; i < part.size(); ++i)
       separations.add(obstacle[i], part[i]);
-    const std::span<const Separation> found = separations.find();
+    const std::span<const Separation> found = separations.find_or_turn();
     return {found.begin(), found.end()};
   }
 
@@ -146,7 +146,7 @@ TEST_P(LastingSeparation, OfNeedlesThatTurnPastEachOtherTurnsWithThem) {
   separations.start(about_y(-0.005), about_y(0.005), 1e-3);
   separations.add({Vector3d(0.0, -1.0, 0.0), Vector3d(0.0, 1.0, 0.0), Vector3d(0.0, 1.0, -1e-4)},
                   {Vector3d(-1.0, 0.0, 0.0), Vector3d(1.0, 0.0, 0.0), Vector3d(1.0, 0.0, 1e-4)});
-  const Separation separation = separations.find().front();
+  const Separation separation = separations.find_or_turn().front();
   EXPECT_LT(separation.least(), 0.0);
   EXPECT_GT(separation.turning, 1.9e-3);
 }

@@ -163,5 +163,53 @@ TEST(PathCertificate, WhatIsProvedHoldsAllAlongRandomPaths) {
   EXPECT_GT(refused, kTrials / 10);
 }
 
+// Directions are fixed to the world then, or turn in it, and both triangles go past them.
+TEST(PathCertificate, WhatIsProvedOfTwoPartsHoldsAllAlongTheirPaths) {
+  constexpr unsigned kSeed = 14;
+  constexpr int kTrials = test_support::affordable(2000);
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937 generator(kSeed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto random_vector = [&] {
+    return Eigen::Vector3d(uniform(generator), uniform(generator), uniform(generator));
+  };
+  const auto random_sliver = [&] {
+    auto mesh = std::make_shared<geometry::TriangleMesh>();
+    const Eigen::Vector3d along = random_vector();
+    mesh->vertices = {-along, along, along + 0.05 * random_vector()};
+    mesh->triangles = {{0, 1, 2}};
+    return mesh;
+  };
+  int proved = 0;
+  int refused = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<std::shared_ptr<const SlidingPart>> parts;
+    std::vector<Eigen::Isometry3d> X_WV;
+    std::vector<geometry::Displacement> d;
+    for (int p = 0; p < 2; ++p) {
+      parts.push_back(std::make_shared<SlidingPart>(random_sliver()));
+      X_WV.emplace_back(Eigen::Translation3d(0.2 * random_vector()));
+      d.push_back({0.1 * random_vector(), 0.5 * random_vector()});
+    }
+    if (!prove({}, parts, X_WV, d)) {
+      ++refused;
+      continue;
+    }
+    ++proved;
+    for (int i = 0; i <= 100; ++i) {
+      std::vector<geometry::TrianglePoints> then;
+      for (std::size_t p = 0; p < 2; ++p) {
+        const Eigen::Isometry3d X = geometry::displaced(X_WV[p], parts[p]->p_Vref(), d[p].scaled(0.01 * i));
+        const geometry::TriangleMesh& mesh = parts[p]->tree.mesh();
+        then.push_back({X * mesh.corner(0, 0), X * mesh.corner(0, 1), X * mesh.corner(0, 2)});
+      }
+      ASSERT_GE(geometry::triangle_distance(then[0], then[1]).distance, 0.95 * kFloor)
+          << "trial " << trial << " at " << i << " %";
+    }
+  }
+  EXPECT_GT(proved, kTrials / 10);
+  EXPECT_GT(refused, kTrials / 10);
+}
+
 }  // namespace
 }  // namespace glissade::haptics

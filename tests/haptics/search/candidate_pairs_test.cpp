@@ -312,8 +312,8 @@ TEST(CandidatePairs, AreTheSameWithAThreadOfTheirOwn) {
         candidates->look_ahead(length, reach, ahead, {});
       }
       if (!random.chance(0.3)) continue;
-      const bool is_taken = without.take_ahead(0.1 * reach);
-      ASSERT_EQ(with.take_ahead(0.1 * reach), is_taken);
+      const bool is_taken = without.take_ahead(0.1 * reach, length);
+      ASSERT_EQ(with.take_ahead(0.1 * reach, length), is_taken);
       ASSERT_EQ(contents(with, reach), contents(without, reach));
     }
   }
@@ -422,7 +422,7 @@ TEST_P(CubeOverPlate, ALongStepNeedsHalfItsLengthAroundItsMiddle) {
     move(kStep);
     candidates_.look_ahead(kStep, kLittle, kLittle, {});
     if (i == 0) continue;  // the first search, at the beginning, serves for two steps
-    ASSERT_TRUE(candidates_.take_ahead(kLittle)) << i;
+    ASSERT_TRUE(candidates_.take_ahead(kLittle, kStep)) << i;
     EXPECT_FALSE(candidates_.covers(0.5 * kStep));
     certificate.begin_step(step);
     EXPECT_GT(candidates_.covered_on_path(certificate), kLittle);

@@ -136,6 +136,17 @@ TEST(Grasp, AtAnOffsetMovesThePartAtALimitedSpeedUnderForceFeedbackAndDoesNotPul
   EXPECT_NEAR(calls, (std::sqrt(2.0) * 0.01 + 0.1 * sliding.part().radius()) / kClosing_m, 2.0);
 }
 
+// Steps as long as the greatest reach allows, half a turn around: what a step misses is searched in parts.
+TEST(Metaphor, WithoutSpeedLimitCatchesUpWithAGhostThatTurnedRoundAndGoesOn) {
+  Sliding sliding = box_above_floor(Metaphor::kRubberBandSpring, tilted_at(0.0, 0.2));
+  for (int i = 1; i <= 60; ++i) {
+    sliding.advance(tilted_at(2e-3 * i, 0.2, 3.0));
+    ASSERT_GE(sliding.result().reach, 4.0 * sliding.margin()) << "call " << i;
+  }
+  EXPECT_LT(sliding.error().v.norm(), 1e-9);
+  EXPECT_LT(sliding.error().w.norm(), 1e-9);
+}
+
 TEST(Grasp, AtAnOffsetBehindTheFloorPullsHarderOnlyAsFastAsTheSlew) {
   Sliding sliding = box_above_floor(Metaphor::kForceFeedback, tilted_at(0.0, kRest + 1e-3));
   sliding.release();
