@@ -39,7 +39,7 @@ std::vector<Waypoint> wander(const Isometry3d& X_WV_start, int ticks, PoseSource
   while (way.back().tick < ticks) {
     const Vector3d away = kWandering * std::cbrt(source.uniform(0.0, 1.0)) * source.direction();
     const Eigen::AngleAxisd turn(source.uniform(-kLedTurn, kLedTurn), source.direction());
-    const Isometry3d X_WG = pose(turn * X_WV_start.linear(), X_WV_start.translation() + away);
+    const Isometry3d X_WG = bench::pose(turn * X_WV_start.linear(), X_WV_start.translation() + away);
     const Isometry3d& X_before = way.back().X_WG;
     const double length = (X_WG.translation() - X_before.translation()).norm();
     const double angle = Eigen::Quaterniond(X_before.linear()).angularDistance(Eigen::Quaterniond(X_WG.linear()));
@@ -53,7 +53,8 @@ Isometry3d beside(PoseSource& source) {
   for (int tries = 0; tries < 100; ++tries) {
     const Eigen::Matrix3d R_AB = source.rotation();
     const Vector3d axis = source.direction();
-    if (const std::optional<double> distance = source.approach(R_AB, axis, kGap)) return pose(R_AB, *distance * axis);
+    if (const std::optional<double> distance = source.approach(R_AB, axis, kGap))
+      return bench::pose(R_AB, *distance * axis);
   }
   throw std::invalid_argument("two meshes come nowhere as near as a millimetre");
 }
@@ -77,7 +78,8 @@ SlidingScene led_pair(const std::string& name, const UserPair& pair, int ticks) 
   const double scale =
       pair.metres_per_unit.value_or(kExtent / std::max(largest_extent(mesh_A), largest_extent(mesh_B)));
   std::optional<Isometry3d> X_AB;  // of the centres
-  if (pair.p_AB) X_AB = pose(Eigen::Matrix3d::Identity(), scale * (*pair.p_AB + center_of(mesh_B) - center_of(mesh_A)));
+  if (pair.p_AB)
+    X_AB = bench::pose(Eigen::Matrix3d::Identity(), scale * (*pair.p_AB + center_of(mesh_B) - center_of(mesh_A)));
   return led(name, centered(mesh_A, scale), centered(mesh_B, scale), X_AB, ticks);
 }
 
