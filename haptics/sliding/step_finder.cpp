@@ -113,8 +113,8 @@ void StepFinder::try_projection(WorkBudget& budget) {
   begin_certificate(shortened, budget);
 }
 
-/// Shortens a step that leads where the candidates might not be complete. A step no longer than what they cover at its
-/// beginning does not. All parts take the same share, because their rows hold for all displacements together.
+/// Shortens a step whose path the candidates do not cover. They cover every path that is no longer than their distance
+/// around its beginning. All parts take the same share, because their rows hold for all displacements together.
 void StepFinder::keep_covered(Displacements& displacements) {
   const double needed = shared_.largest_margin + certificate_.certain_distance();
   certificate_.begin_step(shared_.of_parts(displacements));
