@@ -144,7 +144,9 @@ bool CandidatePairs::look_along(std::span<const geometry::Displacement> way, dou
 }
 
 bool CandidatePairs::serve_for(double step) {
-  return now_.is_there && covered_on_way(now_, step) >= kLeftAfterStep * step;
+  if (!now_.is_there) return false;
+  const double left = kLeftAfterStep * step;
+  return now_.covers(step + left) || covered_on_way(now_, step) >= left;  // mostly, the cheap answer suffices
 }
 
 void CandidatePairs::look_ahead(double step, double reach, double ahead, std::span<const BodyPair> ignored) {
