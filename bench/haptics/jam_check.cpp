@@ -43,7 +43,7 @@ geometry::Displacement JamCheck::allowed(const Isometry3d& X_WV, const geometry:
   bodies_.place(0, X_WV);
   candidates_.clear();
   candidates_.look(reach, 0.0, {});
-  candidates_.within(reach, pairs_);
+  candidates_.pairs().within(reach, pairs_);
   find_contacts(bodies_.bodies(), bodies_.body_of_mover(0), pairs_, reach, kTolerance_m, contacts_);
   const Eigen::Vector3d p_Wref = X_WV * scene_.part_V->p_Vref();
   rows_.clear();

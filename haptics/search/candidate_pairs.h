@@ -13,7 +13,6 @@
 /// its answer can be taken in the first call up to which so much work was allowed, however early it was done.
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -22,29 +21,23 @@
 
 #include "certificate/path_certificate.h"
 #include "scene/contact_scene.h"
+#include "search/approach.h"
 #include "search/candidate_search.h"
+#include "search/known_pairs.h"
 #include "search/search_thread.h"
+#include "search/tracked_search.h"
+#include "search/way_ahead.h"
 #include "work/work_budget.h"
 
 namespace glissade::haptics {
-
-/// A candidate pair by its number, with the place of its plane: among those of its bodies, which have a place among
-/// all.
-struct PairInReach {
-  std::uint32_t number;
-  std::uint32_t planes;
-  std::uint32_t slot;
-  float gap;  ///< metres: no contact of the pair has a smaller one
-};
 
 /// Not thread-safe.
 class CandidatePairs {
  public:
   /// The scene must outlive this object. In `look` and `look_ahead`, reach + ahead must not exceed `greatest_radius`
-  /// (metres). With a
-  /// limit of work, searches have a thread of their own in any case. If `runs_ahead` is false, that thread never works
-  /// at the same time as the caller's. Without planes, only `within` a reach tells of pairs,
-  /// and searches are made when they are needed, at the present poses.
+  /// (metres). With a limit of work, searches have a thread of their own in any case. If `runs_ahead` is false, that
+  /// thread never works at the same time as the caller's. Without planes, only `KnownPairs::within` tells of pairs, and
+  /// searches are made when they are needed, at the present poses.
   CandidatePairs(const ContactScene& scene, double greatest_radius, bool runs_ahead = false,
                  std::int64_t work_of_call = kUnlimitedWork, bool has_planes = true);
   CandidatePairs(const CandidatePairs&) = delete;
@@ -91,41 +84,15 @@ class CandidatePairs {
   void clear();
 
   /// Whether every pair within `reach` (metres) of the parts' present poses is certainly among the candidates.
-  bool covers(double reach) const { return now_.covers(reach); }
+  bool covers(double reach) const { return now_.search().covers(reach); }
   /// The largest reach (metres) that is covered; negative if none is.
-  double covered() const { return now_.covered(); }
+  double covered() const { return now_.search().covered(); }
   /// The same on the whole path of the step that `certificate` has begun: other pairs do not come within this distance.
   double covered_on_path(PathCertificate& certificate);
 
-  /// Replaces `pairs` by the candidates that may be within `reach` (metres) of the parts' present poses, in ascending
-  /// order of the distance at the poses of the search.
-  void within(double reach, std::vector<NearPair>& pairs) const;
-  /// The same for the pairs to certify, which hold all triangles, with features or without, in the largest boxes that
-  /// separate. Boxes come before triangles.
-  void within(double reach, std::vector<PairToCertify>& pairs) const;
-
-  /// The same for the step that `certificate` is about, without the pairs that a known plane keeps apart on the whole
-  /// path: only those within `reach` are certain to be there. Spends the work of looking at the planes.
-  void unproved_within(double reach, PathCertificate& certificate, std::vector<PairToCertify>& unproved,
-                       WorkBudget& budget);
-  /// Takes over the directions that `certificate` found for these pairs.
-  void note_planes(std::span<const SeparatedPair> separated);
-
-  /// Replaces `pairs` by those candidates that may have contacts within `reach` (metres) at the present poses, as far
-  /// as their planes and `note_gaps` tell, in the same order.
-  void in_reach(double reach, std::vector<PairInReach>& pairs);
-  const NearPair& pair(std::uint32_t number) const { return now_.set.pairs[number]; }
-  /// What is known of the features of a pair within `reach` (metres).
-  KnownFeatures known_features(std::uint32_t number, double reach) const;
-  /// The planes of the pairs of triangles, which may be turned.
-  std::vector<PlanesOfBodies>& planes() { return now_.set.planes; }
-  /// Notes for the pairs with these numbers that their contacts have at least these gaps (metres) at the present poses.
-  void note_gaps(std::span<const std::uint32_t> numbers, std::span<const GapsOfPair> gaps);
-
-  /// Number of pairs of triangles.
-  std::size_t pair_count() const { return now_.set.pairs.size(); }
-  /// Number of pairs that may yield contacts, plus that of pairs to certify.
-  std::size_t size() const { return now_.set.contact_count + now_.set.certify_count; }
+  /// The candidates.
+  KnownPairs& pairs() { return now_; }
+  const KnownPairs& pairs() const { return now_; }
 
   /// Work of the search under way, or of the last one, so far; only with a limit of work.
   std::int64_t work_of_search() const { return thread_->work(); }
@@ -137,58 +104,13 @@ class CandidatePairs {
   const SearchStatistics& statistics() const { return statistics_; }
 
  private:
-  /// The motion of a body since a search: each point moved by v_W, with a deviation of at most `turn`.
-  struct Motion {
-    Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  // metres
-    double turn = 0.0;                              // metres
-  };
-  /// A search, and the motions of the bodies since its poses.
-  struct Search {
-    CandidateRequest request;
-    CandidateSet set;
-    std::vector<Motion> motions;                  // of each body
-    double ahead = 0.0;                           // metres: the look-ahead
-    double step = 0.0;                            // metres: of a step at whose middle it was made; else 0
-    double drift = 0.0;                           // metres: bound of how much nearer two bodies have come
-    double least_drift = 0.0;                     // metres: so far
-    std::vector<Eigen::Isometry3d> X_WB_nearest;  // of each mover, when the drift was least
-    bool is_there = false;                        // requested; a thread may still be working on it
-
-    /// The largest reach (metres) around the present poses within which all pairs are known.
-    double covered() const { return is_there ? request.radius - drift : -std::numeric_limits<double>::infinity(); }
-    bool covers(double reach) const { return reach <= covered(); }
-    /// Whether it is time for the next search.
-    bool is_being_left() const;
-    /// Whether the parts go away from the poses of a search whose answer has not been taken.
-    bool is_in_vain() const;
-    /// Lower bound (metres) of the present distance of two triangles or boxes that the unit vector n_W separated by
-    /// `distance`. If n_W is zero, that direction is unknown.
-    double still_apart(const BodyPair& bodies, double distance, const Eigen::Vector3d& n_W) const {
-      const Motion& of_obstacle = motions[static_cast<std::size_t>(bodies.obstacle)];
-      const Motion& of_part = motions[static_cast<std::size_t>(bodies.part)];
-      const Eigen::Vector3d v_W = of_part.v_W - of_obstacle.v_W;
-      const double apart = n_W.isZero(0.0) ? -v_W.norm() : n_W.dot(v_W);
-      return distance + apart - of_part.turn - of_obstacle.turn;
-    }
-    template <typename Pair, typename Visit>
-    void visit_within(const std::vector<Pair>& pairs, double reach, const Visit& visit) const;
-  };
-
-  bool take_next(double reach, double ahead, std::span<const BodyPair> ignored);
+  bool take_or_forget();
   bool take();
   void ask(double radius, double ahead, double forward, std::span<const BodyPair> ignored);
   void request(double radius, double ahead, std::span<const BodyPair> ignored);
-  void copy_poses(std::vector<Eigen::Isometry3d>& X_WB) const;
-  double covered_on_way(const Search& search, double way);
-  bool take_or_forget();
-  void place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB);
   bool is_settled();
-  double approach_since(std::span<const Eigen::Isometry3d> X_WB, std::vector<Motion>& motions) const;
-  template <typename PoseOf>
-  double approach(std::span<const Eigen::Isometry3d> X_WB, const PoseOf& pose_of, std::vector<Motion>& motions) const;
-  void follow(Search& search) const;
-  void advance_clock();
-  void place_clock();
+  void place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB);
+  double covered_on_way(const TrackedSearch& search, double way);
   void forget();
 
   const ContactScene& scene_;
@@ -200,38 +122,17 @@ class CandidatePairs {
   bool is_with_thread_ = false;           // a search, whether it is still of use or not
   std::unique_ptr<SearchThread> thread_;  // ends before the members that it uses: see the destructor
   CandidateSearch search_;
-  Search now_;
-  Search next_;
-  std::vector<Eigen::Isometry3d> X_WB_at_taking_;  // of each mover, when the answer of the last search was taken
-  std::vector<Eigen::Isometry3d> X_WB_ahead_;      // of each mover, where it is expected
-  // Of the candidates: since they are there, two bodies have come nearer by at most `clock_` (metres). No contact of a
-  // pair has a gap below its entry of `gaps_` minus the clock.
-  double clock_ = 0.0;
-  std::vector<double> gaps_;
-  std::vector<KnownFeatures> known_;              // the gaps are so, too, minus the clock
-  std::vector<Eigen::Isometry3d> X_WB_of_clock_;  // of each mover
-  std::vector<Motion> motions_of_clock_;
-  std::vector<Motion> motions_ahead_;  // scratch memory
+  KnownPairs now_;
+  TrackedSearch next_;
+  WayAhead way_ahead_;
   std::int64_t work_ = 0;
-  /// A pair in the list of the last call of `unproved_within`.
-  struct PlaceOfPair {
-    PlanesOfBodies* planes;  // null: it has none
-    std::size_t slot;
-    std::uint32_t number;  // of the pair of triangles
-  };
-  std::vector<PlaceOfPair> places_;
-  /// For the planes of each two bodies: of each block, the least gap (metres), minus the clock as above.
-  using GapsOfBlocks = std::vector<std::vector<double>>;
-  GapsOfBlocks gaps_at_search() const;
-  template <typename Visit>
-  void visit_near_blocks(const std::vector<double>& gaps, double reach, const Visit& visit) const;
-  GapsOfBlocks gaps_of_contacts_;
-  GapsOfBlocks gaps_to_certify_;
-  std::vector<float> gaps_at_begin_;
-  std::vector<float> gaps_at_end_;
   int calls_ = 0;  // since the search that found the candidates
   int calls_served_ = 0;
   SearchStatistics statistics_;
+  // Scratch memory:
+  std::vector<Eigen::Isometry3d> X_WB_;
+  std::vector<Eigen::Isometry3d> X_WB_ahead_;
+  std::vector<BoundedMotion> motions_ahead_;
 };
 
 }  // namespace glissade::haptics

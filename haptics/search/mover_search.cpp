@@ -43,23 +43,23 @@ void NearMover::place() {
 bool NearMover::look(double reach) {
   if (std::exchange(has_moved_, false)) candidates_.moved();
   if (reach * kAheadOfMover > kGreatestRadiusOfMover_m) return false;
-  const double radius = std::max(kAheadOfMover * reach, candidates_.size() == 0 ? kRadiusOfNothing_m : 0.0);
+  const double radius = std::max(kAheadOfMover * reach, candidates_.pairs().size() == 0 ? kRadiusOfNothing_m : 0.0);
   candidates_.begin_call();
   const bool is_new = candidates_.look(reach, radius - reach, {});
-  if (is_new) work_ += kWorkOfMoverSearch + kWorkOfMoverPair * static_cast<std::int64_t>(candidates_.size());
+  if (is_new) work_ += kWorkOfMoverSearch + kWorkOfMoverPair * static_cast<std::int64_t>(candidates_.pairs().size());
   return true;
 }
 
 template <typename Pair>
 void NearMover::add_within(double reach, std::int32_t number, std::vector<Pair>& all) {
-  if (candidates_.size() == 0) return;
+  if (candidates_.pairs().size() == 0) return;
   std::vector<Pair>* found = nullptr;
   if constexpr (std::is_same_v<Pair, NearPair>) {
     found = &pairs_;
   } else {
     found = &to_certify_;
   }
-  candidates_.within(reach, *found);
+  candidates_.pairs().within(reach, *found);
   for (Pair& pair : *found) {
     pair.bodies = {first_body_ + pair.bodies.obstacle, number};
     pair.n_W = X_WS_.linear() * pair.n_W;

@@ -30,7 +30,7 @@ class NearMover {
 
   /// Finds all pairs within `reach` (metres). Returns false where this is too far.
   bool look(double reach);
-  std::size_t pair_count() const { return candidates_.size(); }
+  std::size_t pair_count() const { return candidates_.pairs().size(); }
   /// Work of all searches so far, in the unit of `SlidingRules::work_budget`.
   std::int64_t work() const { return work_; }
 

@@ -42,7 +42,7 @@ void ContactRows::find(double reach, double reach_ahead, WorkBudget& budget) {
   contacts_ahead_.clear();
   rows_.clear();
   pairs_.look(reach_ahead_);
-  budget.spend(kWorkOfCandidate * static_cast<std::int64_t>(shared_.candidates.pair_count()));
+  budget.spend(kWorkOfCandidate * static_cast<std::int64_t>(shared_.candidates.pairs().pair_count()));
   complete_ = std::min(pairs_.take_nearest(kReachOfRims * shared_.largest_margin, kNearestAtOnce, reach),
                        shared_.candidates.covered());
   find_contacts_of_taken(budget);
@@ -92,7 +92,7 @@ void ContactRows::find_beyond(WorkBudget& budget) {
   candidates_.clear();
   numbers_.clear();
   for (const LookedAt& pair : looked_at_) {
-    candidates_.push_back(shared_.candidates.pair(pair.number));
+    candidates_.push_back(shared_.candidates.pairs().pair(pair.number));
     numbers_.push_back(pair.number);
   }
   find_contacts_of(candidates_, numbers_, reach_ahead_, budget);
@@ -107,9 +107,9 @@ void ContactRows::find_contacts_of(std::span<const NearPair> pairs, std::span<co
   budget.spend(kWorkOfContacts * std::ssize(pairs));
   known_.clear();
   for (const std::uint32_t number : numbers)
-    known_.push_back(shared_.candidates.known_features(number, reach));
+    known_.push_back(shared_.candidates.pairs().known_features(number, reach));
   find_contacts(scene.bodies(), scene.obstacles().size(), pairs, reach, shared_.largest_margin, found_, &gaps_, known_);
-  shared_.candidates.note_gaps(numbers, gaps_);
+  shared_.candidates.pairs().note_gaps(numbers, gaps_);
   for (Contact& contact : found_) {
     const auto body = static_cast<std::int32_t>(scene.body_of_mover(static_cast<std::size_t>(contact.part)));
     contact.margin = scene.margin(contact.obstacle, body);

@@ -35,7 +35,7 @@ LinearMotion linear_motion_of(const SimulatedParts& shared, std::int32_t body, c
 }  // namespace
 
 void PairsInReach::look(double reach) {
-  shared_.candidates.in_reach(reach, left_);
+  shared_.candidates.pairs().in_reach(reach, left_);
 }
 
 double PairsInReach::take_nearest(double gap, std::size_t count, double reach) {
@@ -97,7 +97,7 @@ void PairsInReach::find_too_near(const Displacements& displacements, double reac
   forget_taken();
   too_near_.clear();
   next_ = 0;
-  const std::vector<PlanesOfBodies>& planes = shared_.candidates.planes();
+  const std::vector<PlanesOfBodies>& planes = shared_.candidates.pairs().planes();
   double nearer = 0.0;
   for (std::size_t p = 0; p < shared_.count(); ++p)
     nearer += displacements[p].v.norm() + shared_.states[p].lever * displacements[p].w.norm();
@@ -144,15 +144,15 @@ PairsInReach::Way PairsInReach::way_of(const BodyPair& bodies, const Displacemen
 }
 
 void PairsInReach::add_separation(const PairInReach& pair) {
-  const NearPair& candidate = shared_.candidates.pair(pair.number);
+  const NearPair& candidate = shared_.candidates.pairs().pair(pair.number);
   separations_.add(body(candidate.bodies.obstacle).tree.mesh().corners(candidate.obstacle_triangle),
                    body(candidate.bodies.part).tree.mesh().corners(candidate.part_triangle));
 }
 
 void PairsInReach::turn_plane(const PairInReach& pair, const Eigen::Vector3d& n_O) {
-  const NearPair& candidate = shared_.candidates.pair(pair.number);
-  shared_.candidates.planes()[pair.planes].turn(pair.slot, body(candidate.bodies.obstacle), candidate.obstacle_triangle,
-                                                n_O);
+  const NearPair& candidate = shared_.candidates.pairs().pair(pair.number);
+  shared_.candidates.pairs().planes()[pair.planes].turn(pair.slot, body(candidate.bodies.obstacle),
+                                                        candidate.obstacle_triangle, n_O);
 }
 
 const ContactBody& PairsInReach::body(std::int32_t number) const {
@@ -165,7 +165,7 @@ void PairsInReach::begin_taking() {
 }
 
 void PairsInReach::take(const PairInReach& pair) {
-  pairs_.push_back(shared_.candidates.pair(pair.number));
+  pairs_.push_back(shared_.candidates.pairs().pair(pair.number));
   numbers_.push_back(pair.number);
 }
 

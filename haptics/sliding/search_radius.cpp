@@ -49,7 +49,7 @@ void SearchRadius::choose(const SimulatedParts& shared, double depenetration, do
   reach_ = std::min(reach_, most);
   reach_ahead_ = std::min(reach_ahead_, most);
   next_step_ = std::min(step, reach_);
-  const bool is_cheap = shared.candidates.size() <= kFewPairs;
+  const bool is_cheap = shared.candidates.pairs().size() <= kFewPairs;
   least_radius_ = reach_ahead_ > reach_ || is_cheap ? reach_ahead_ : kSmallestReach_m;
   is_first_cycle_ = is_first_cycle;
 }
@@ -89,8 +89,8 @@ bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignore
   const auto adapted = [&](double limit, bool is_affordable, double smallest, double largest = kLargestReach_m) {
     return std::clamp((is_affordable ? 1.25 : 0.5) * limit, smallest, largest);
   };
-  limit_ = adapted(limit_, candidates.size() <= shared.rules.affordable_pairs, kSmallestReachLimit_m);
-  limit_ahead_ = adapted(limit_ahead_, candidates.size() <= kAffordablePairsAhead, kSmallestLimitAhead_m);
+  limit_ = adapted(limit_, candidates.pairs().size() <= shared.rules.affordable_pairs, kSmallestReachLimit_m);
+  limit_ahead_ = adapted(limit_ahead_, candidates.pairs().size() <= kAffordablePairsAhead, kSmallestLimitAhead_m);
   const std::int64_t calls = std::clamp(candidates.calls_served(), 1, kMostCallsOfSearch);
   const std::int64_t work = candidates.work();
   limit_by_work_ = adapted(limit_by_work_, work / calls <= shared.affordable_search, kSmallestLimitOfSearch_m);
@@ -119,7 +119,7 @@ void SearchRadius::look_ahead(SimulatedParts& shared, std::span<const BodyPair> 
 /// Metres that a search looks farther than the reach.
 double SearchRadius::farther(const SimulatedParts& shared) const {
   const double ahead = std::min(std::max(kTicksAhead * shared.ghost_motion(), kLeastLookAhead_m), limit_of_look_);
-  const bool is_worth_it = ahead >= kFewSteps * next_step_ || shared.candidates.size() <= kFewPairs;
+  const bool is_worth_it = ahead >= kFewSteps * next_step_ || shared.candidates.pairs().size() <= kFewPairs;
   return is_worth_it ? ahead : std::min(ahead, kShareAhead * next_step_);
 }
 

@@ -137,7 +137,7 @@ void StepFinder::keep_covered(Displacements& displacements) {
 
 /// Takes the step at hand, or begins the certificate of another one.
 void StepFinder::conclude(bool is_certified, WorkBudget& budget) {
-  shared_.candidates.note_planes(certificate_.separated());
+  shared_.candidates.pairs().note_planes(certificate_.separated());
   if (stage_ == Stage::kProjecting) {
     if (projections_ == 1) {
       first_ = step_;
@@ -256,7 +256,7 @@ void StepFinder::begin_certificate(const Displacements& displacements, WorkBudge
                 shared_.candidates.covered_on_path(certificate_) >= concerned - step_.length;
   step_.is_uncovered = step_.is_uncovered || !is_covered_;
   to_certify_.clear();
-  if (is_covered_) shared_.candidates.unproved_within(concerned, certificate_, to_certify_, budget);
+  if (is_covered_) shared_.candidates.pairs().unproved_within(concerned, certificate_, to_certify_, budget);
   certificate_.begin(to_certify_);
 }
 

@@ -44,7 +44,7 @@ Proof prove(const ContactScene& scene, const std::vector<geometry::Displacement>
   CandidatePairs candidates(scene, radius);
   candidates.look(radius, 0.0, {});
   std::vector<PairToCertify> to_certify;
-  candidates.within(radius, to_certify);
+  candidates.pairs().within(radius, to_certify);
   const auto boxes = std::count_if(to_certify.begin(), to_certify.end(), [](const PairToCertify& pair_to_certify) {
     return pair_to_certify.item_O.kind != TreeItem::Kind::kTriangle;
   });
@@ -52,7 +52,7 @@ Proof prove(const ContactScene& scene, const std::vector<geometry::Displacement>
   WorkBudget unlimited;
   certificate.begin_step(displacements);
   std::vector<PairToCertify> unproved;
-  candidates.unproved_within(radius, certificate, unproved, unlimited);
+  candidates.pairs().unproved_within(radius, certificate, unproved, unlimited);
   certificate.begin(unproved);
   EXPECT_TRUE(certificate.go_on(unlimited));
   const std::vector<UncertifiedPair>& failures = certificate.failures();

@@ -37,7 +37,7 @@ bool prove(const std::vector<Obstacle>& obstacles, const std::vector<std::shared
   PathCertificate certificate(scene);
   WorkBudget unlimited;
   certificate.begin_step(displacements);
-  candidates.unproved_within(kProofReach, certificate, to_certify, unlimited);
+  candidates.pairs().unproved_within(kProofReach, certificate, to_certify, unlimited);
   certificate.begin(to_certify);
   EXPECT_TRUE(certificate.go_on(unlimited));
   return certificate.failures().empty();
@@ -98,7 +98,7 @@ TEST_F(TwoTriangles, FailuresAreToldForEachPairOfBodiesInOneCallAndInMany) {
     PathCertificate certificate(scene);
     WorkBudget unlimited;
     certificate.begin_step(std::vector<geometry::Displacement>{{{0.0, 0.0, -0.2}, Eigen::Vector3d::Zero()}});
-    candidates.unproved_within(kProofReach, certificate, to_certify, unlimited);
+    candidates.pairs().unproved_within(kProofReach, certificate, to_certify, unlimited);
     certificate.begin(to_certify);
     int calls = 1;
     for (WorkBudget budget{work_of_call}; !certificate.go_on(budget); budget.left = work_of_call)

@@ -47,7 +47,7 @@ class TwoBodies {
     candidates_.clear();
     candidates_.look(kSearchReach, 0.0, {});
     std::vector<NearPair> pairs;
-    candidates_.within(kSearchReach, pairs);
+    candidates_.pairs().within(kSearchReach, pairs);
     std::vector<Contact> found;
     find_contacts(scene_.bodies(), 1, pairs, kSearchReach, kSearchMargin, found);
     return found;
@@ -142,7 +142,7 @@ TEST(ContactSearch, TellsHowFarContactsBeyondItsReachAreAtLeast) {
     CandidatePairs candidates(*scene, reach_ahead);
     candidates.look(reach_ahead, 0.0, {});
     std::vector<NearPair> pairs;
-    candidates.within(reach_ahead, pairs);
+    candidates.pairs().within(reach_ahead, pairs);
     const std::size_t first_part = scene->obstacles().size();
     std::vector<Contact> within;
     std::vector<GapsOfPair> gaps;
@@ -177,7 +177,7 @@ TEST(ContactSearch, OfManyPairsFindsTheContactsOfEach) {
     CandidatePairs candidates(*scene, reach);
     candidates.look(reach, 0.0, {});
     std::vector<NearPair> pairs;
-    candidates.within(reach, pairs);
+    candidates.pairs().within(reach, pairs);
     const std::size_t first_part = scene->obstacles().size();
     std::vector<Contact> of_all;
     find_contacts(scene->bodies(), first_part, pairs, reach, kNoMargin, of_all);

@@ -2,13 +2,9 @@
 
 #include "search/candidate_pairs.h"
 
-#include <algorithm>
+#include <cmath>
 #include <cstdint>
-#include <limits>
-#include <map>
-#include <memory>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,6 +13,8 @@
 #include <glissade/geometry/displacement.h>
 #include <glissade/geometry/mesh_generators.h>
 
+#include "candidates.h"
+#include "certificate/path_certificate.h"
 #include "contact/contact_search.h"
 #include "held_part.h"
 #include "near_bodies.h"
@@ -28,7 +26,10 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::pairs_to_certify_within;
+using test_support::pairs_within;
 using test_support::RandomNumbers;
+using test_support::what_is_missing;
 
 constexpr double kGreatest = 5e-3;  // metres
 
@@ -41,18 +42,6 @@ void move_parts(ContactScene& scene, double most, RandomNumbers& random) {
                                    random.uniform(0.0, 0.5) * most / part.radius() * random.direction()};
     scene.place(p, geometry::displaced(scene.bodies()[scene.body_of_mover(p)].X_WB, part.p_Vref(), d));
   }
-}
-
-std::vector<NearPair> pairs_within(const CandidatePairs& candidates, double reach) {
-  std::vector<NearPair> pairs(3);  // they are replaced
-  candidates.within(reach, pairs);
-  return pairs;
-}
-
-std::vector<PairToCertify> pairs_to_certify_within(const CandidatePairs& candidates, double reach) {
-  std::vector<PairToCertify> to_certify(3);
-  candidates.within(reach, to_certify);
-  return to_certify;
 }
 
 /// Moves each part on and on as it has begun.
@@ -77,26 +66,6 @@ class SteadyMotion {
  private:
   std::vector<geometry::Displacement> steps_;
 };
-
-/// A pair of triangles within `reach` that is missing, for proofs or for contacts; empty if none is.
-std::string what_is_missing(const CandidatePairs& candidates, const ContactScene& scene, double reach) {
-  std::set<TrianglesOfBodies> for_contacts;
-  for (const NearPair& c : pairs_within(candidates, reach))
-    for_contacts.insert({c.bodies, c.obstacle_triangle, c.part_triangle});
-  std::set<TrianglesOfBodies> for_proofs;
-  for (const PairToCertify& pair_to_certify : pairs_to_certify_within(candidates, reach)) {
-    for (const TrianglesOfBodies& pair : test_support::triangles_of(scene.bodies(), pair_to_certify))
-      for_proofs.insert(pair);
-  }
-  for (const auto& [pair, distance] : test_support::near_triangles(scene.bodies(), scene.obstacles().size(), reach)) {
-    const std::string text = std::to_string(pair.obstacle_triangle) + " of body " +
-                             std::to_string(pair.bodies.obstacle) + " and " + std::to_string(pair.part_triangle) +
-                             " of body " + std::to_string(pair.bodies.part) + " at " + std::to_string(distance);
-    if (!for_proofs.contains(pair)) return "for proofs: " + text;
-    if (test_support::can_make_contact(scene, pair) && !for_contacts.contains(pair)) return "for contacts: " + text;
-  }
-  return "";
-}
 
 TEST(CandidatePairs, HoldEverythingWithinTheReachOverManySteps) {
   constexpr std::uint64_t kSeed = 61;
@@ -171,14 +140,14 @@ TEST(CandidatePairs, HaveTheSameContactsWhereGapsAreNoted) {
       std::vector<KnownFeatures> known;
       std::vector<GapsOfPair> gaps;
       std::vector<Contact> of_some;
-      candidates.in_reach(reach, in_reach);
+      candidates.pairs().in_reach(reach, in_reach);
       for (const PairInReach& pair : in_reach) {
-        some.push_back(candidates.pair(pair.number));
+        some.push_back(candidates.pairs().pair(pair.number));
         numbers.push_back(pair.number);
-        known.push_back(candidates.known_features(pair.number, reach));
+        known.push_back(candidates.pairs().known_features(pair.number, reach));
       }
       find_contacts(scene->bodies(), first_part, some, reach, kMargin, of_some, &gaps, known);
-      candidates.note_gaps(numbers, gaps);
+      candidates.pairs().note_gaps(numbers, gaps);
       ASSERT_EQ(numbers_of(of_some), numbers_of(of_all));
       all += pairs.size();
       looked_at += some.size();
@@ -248,6 +217,45 @@ TEST(CandidatePairs, AreAllThatComesNearOnACoveredPath) {
   EXPECT_GT(covered_farther_than_around, test_support::affordable(50));
 }
 
+/// A triangle of a hundredth of a millimetre at each of these points.
+geometry::TriangleMesh specks(const std::vector<Vector3d>& points) {
+  geometry::TriangleMesh mesh;
+  for (const Vector3d& p : points) {
+    const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+    for (const Vector3d& corner : {Vector3d(0.0, 0.0, 0.0), Vector3d(1e-5, 0.0, 0.0), Vector3d(0.0, 1e-5, 0.0)})
+      mesh.vertices.push_back(p + corner);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+// The part turns by 1 rad while its centre comes back to that of the search. Halfway, one of its specks is farther from
+// its place at the search than at either end, by 0.007 of the radius, and meets a speck that the search left out.
+TEST(CandidatePairs, MayComeNearerOnAnArcThanOnItsChord) {
+  constexpr double kRadius = 0.02;  // metres
+  constexpr double kTurn = 1.0;     // rad
+  const double chord = 2.0 * kRadius * std::sin(0.5 * kTurn);
+  const Vector3d at_search(kRadius, 0.0, 0.0);
+  const auto on_arc = [&](double t) {  // of the speck that starts at `at_search`
+    return Vector3d(kRadius * std::cos(t * kTurn), kRadius * std::sin(t * kTurn), 0.0);
+  };
+  const Vector3d begin = on_arc(1.0) - at_search;  // of the part: the start is as far from the search as the end
+  const Vector3d halfway = 0.5 * begin + on_arc(0.5);
+  const double least = 5e-5;  // beyond the rounding of 1e-5 of the specks
+  const double radius = chord + least;
+  ASSERT_GT((halfway - at_search).norm(), radius + 5e-5);
+  ContactScene scene({test_support::obstacle_of(specks({halfway}))},
+                     {test_support::part_of(specks({at_search, -at_search}))}, std::vector<double>{1e-6});
+  CandidatePairs candidates(scene, 2.0 * radius);
+  PathCertificate certificate(scene);
+  candidates.look(radius, 0.0, {});
+  ASSERT_TRUE(all_pairs_of(candidates, scene).empty());
+  scene.place(0, test_support::pose(begin));
+  candidates.moved();
+  certificate.begin_step(std::vector<geometry::Displacement>{{-begin, {0.0, 0.0, kTurn}}});
+  EXPECT_LE(candidates.covered_on_path(certificate), 0.0);
+}
+
 TEST(CandidatePairs, LeaveOutBodiesThatAreIgnored) {
   const std::vector<Obstacle> obstacles{test_support::obstacle_of(geometry::make_plate({0.1, 0.1}, 50)),
                                         test_support::obstacle_of(geometry::make_plate({0.1, 0.1}, 50))};
@@ -278,7 +286,7 @@ std::vector<double> contents(const CandidatePairs& candidates, double reach) {
     numbers.insert(numbers.end(), {1.0 * o.bodies.obstacle, 1.0 * o.bodies.part, 1.0 * o.item_O.number,
                                    1.0 * o.item_V.number, o.distance, o.n_W.x(), o.n_W.y(), o.n_W.z()});
   }
-  numbers.push_back(static_cast<double>(candidates.size()));
+  numbers.push_back(static_cast<double>(candidates.pairs().size()));
   numbers.push_back(static_cast<double>(candidates.statistics().searches));
   return numbers;
 }
@@ -319,167 +327,6 @@ TEST(CandidatePairs, AreTheSameWithAThreadOfTheirOwn) {
   }
   EXPECT_GT(renewed, test_support::affordable(100));
 }
-
-/// A cube that goes down to a plate in steps of equal length.
-class CubeOverPlate : public ::testing::TestWithParam<bool> {
- protected:
-  static constexpr double kReach = 0.1e-3;
-  static constexpr double kAhead = 1e-3;
-
-  void move(double length) {
-    z_ -= length;
-    scene_.place(0, test_support::pose({0.0, 0.0, z_}));
-    candidates_.moved();
-  }
-
-  /// Looks, and asks for the next search where it is time.
-  bool look() {
-    const bool is_other = candidates_.look(kReach, kAhead, {});
-    candidates_.look_ahead(0.0, kReach, kAhead, {});
-    return is_other;
-  }
-
-  double z_ = 0.015;
-  ContactScene scene_{{test_support::obstacle_of(geometry::make_plate({0.1, 0.1}, 50))},
-                      {test_support::part_of(geometry::make_box({0.02, 0.02, 0.02}, 48))},
-                      std::vector<double>{1e-5}};
-  CandidatePairs candidates_{scene_, kGreatest, GetParam()};
-};
-
-// The part is 0.6 of the look-ahead before the place of a search when its answer is taken, so that serves for 1.6.
-TEST_P(CubeOverPlate, TakesTheSearchThatWasAskedForAheadOfNeed) {
-  move(0.0);
-  EXPECT_TRUE(look());
-  std::vector<int> taken;
-  for (int step = 1; step <= 300; ++step) {
-    move(0.02 * kAhead);
-    if (look()) taken.push_back(step);
-    ASSERT_TRUE(candidates_.covers(kReach));
-  }
-  ASSERT_GE(taken.size(), 4U);
-  EXPECT_NEAR(taken[0], 50, 2) << "the first one, from where the cube stood, has been used up";
-  for (std::size_t i = 2; i < taken.size(); ++i)
-    EXPECT_NEAR(taken[i] - taken[i - 1], 80, 3);
-}
-
-TEST_P(CubeOverPlate, AJumpBeyondWhatWasAskedForIsSearchedAfresh) {
-  move(0.0);
-  look();
-  move(0.8 * kAhead);
-  EXPECT_FALSE(look()) << "and asks for the next one";
-  move(3.5 * kAhead);
-  EXPECT_FALSE(candidates_.covers(kReach));
-  EXPECT_TRUE(look());
-  EXPECT_TRUE(candidates_.covers(kReach + 0.3 * kAhead)) << "from 0.6 of the look-ahead farther on";
-  EXPECT_EQ(what_is_missing(candidates_, scene_, kReach), "");
-  EXPECT_EQ(candidates_.statistics().searches, 2) << "a search that was not used does not count";
-}
-
-TEST_P(CubeOverPlate, APartThatTurnsBackIsSearchedForAgain) {
-  move(0.0);
-  look();
-  for (const double way : {0.8, 0.3}) {
-    move(way * kAhead);
-    look();  // the second one takes the search ahead
-  }
-  ASSERT_EQ(candidates_.statistics().searches, 2);
-  for (int step = 0; step < 30; ++step) {
-    move(-0.1 * kAhead);
-    look();
-    ASSERT_TRUE(candidates_.covers(kReach));
-    ASSERT_EQ(what_is_missing(candidates_, scene_, kReach), "");
-  }
-  EXPECT_LE(candidates_.statistics().searches, 5);
-}
-
-// When 0.8 of the look-ahead has been used up, a search is made where the cube will be after the other 0.2 and 0.6
-// more: at half of it above the plate.
-TEST_P(CubeOverPlate, IsToldOfThePosesAtWhichItWasAskedFor) {
-  move(5e-3 - 2.1 * kAhead);
-  look();
-  move(0.8 * kAhead);
-  look();  // asks for the next one
-  move(0.3 * kAhead);
-  EXPECT_TRUE(look());
-  const std::vector<PairToCertify> to_certify = pairs_to_certify_within(candidates_, 1.1 * kAhead);
-  ASSERT_FALSE(to_certify.empty());
-  EXPECT_NEAR(to_certify.front().distance, 0.5 * kAhead, 1e-9);
-  const std::vector<NearPair> pairs = pairs_within(candidates_, 1.1 * kAhead);
-  ASSERT_FALSE(pairs.empty());
-  EXPECT_NEAR(pairs.front().distance, 0.5 * kAhead, 1e-9);
-}
-
-// Steps much longer than the look-ahead: each search is made at the middle of the next one, with little more than half
-// of it as the radius.
-TEST_P(CubeOverPlate, ALongStepNeedsHalfItsLengthAroundItsMiddle) {
-  constexpr double kStep = 0.5e-3;
-  constexpr double kLittle = 0.05e-3;
-  PathCertificate certificate(scene_);
-  const std::vector<geometry::Displacement> step{{{0.0, 0.0, -kStep}, Vector3d::Zero()}};
-  move(0.0);
-  candidates_.look(2.0 * kStep, kLittle, {});
-  for (int i = 0; i < 5; ++i) {
-    move(kStep);
-    candidates_.look_ahead(kStep, kLittle, kLittle, {});
-    if (i == 0) continue;  // the first search, at the beginning, serves for two steps
-    ASSERT_TRUE(candidates_.take_ahead(kLittle, kStep)) << i;
-    EXPECT_FALSE(candidates_.covers(0.5 * kStep));
-    certificate.begin_step(step);
-    EXPECT_GT(candidates_.covered_on_path(certificate), kLittle);
-    EXPECT_LT(candidates_.covered_on_path(certificate), 0.3 * kStep);
-  }
-}
-
-TEST_P(CubeOverPlate, AWayIsSearchedAtItsMiddle) {
-  constexpr double kLength = 2e-3;
-  constexpr double kLeast = 0.1e-3;
-  const std::vector<geometry::Displacement> way{{{0.0, 0.0, -kLength}, Vector3d::Zero()}};
-  PathCertificate certificate(scene_);
-  move(0.0);
-  EXPECT_TRUE(candidates_.look_along(way, kLength, kLeast, {}));
-  EXPECT_TRUE(candidates_.covers(kLeast));
-  EXPECT_FALSE(candidates_.covers(0.5 * kLength));
-  certificate.begin_step(way);
-  EXPECT_GT(candidates_.covered_on_path(certificate), kLeast);
-  move(kLength);
-  EXPECT_TRUE(candidates_.covers(kLeast));
-}
-
-TEST_P(CubeOverPlate, LeavesOutWhatHasCertainlyComeApart) {
-  move(4.9e-3);
-  candidates_.look(kReach, kAhead, {});
-  EXPECT_FALSE(pairs_within(candidates_, kReach).empty());
-  EXPECT_FALSE(pairs_to_certify_within(candidates_, kReach).empty());
-  move(-0.2 * kAhead);  // up again; by the length of the way alone all might still be near
-  EXPECT_TRUE(candidates_.covers(kReach));
-  EXPECT_TRUE(pairs_within(candidates_, kReach).empty());
-  EXPECT_TRUE(pairs_to_certify_within(candidates_, kReach).empty());
-}
-
-// Hardly anything is known then of which way is apart.
-TEST_P(CubeOverPlate, KeepsWhatWasTooNearToHaveADirection) {
-  move(5e-3 - 0.9 * kSharpDistance_m);
-  candidates_.look(kReach, kAhead, {});
-  move(0.8 * kSharpDistance_m);
-  EXPECT_FALSE(pairs_within(candidates_, 0.2 * kSharpDistance_m).empty());
-  EXPECT_EQ(what_is_missing(candidates_, scene_, 0.2 * kSharpDistance_m), "");
-}
-
-TEST_P(CubeOverPlate, APoseThatIsNoneIsAnErrorOfTheCaller) {
-  move(0.0);
-  candidates_.look(kReach, kAhead, {});
-  scene_.place(0, test_support::pose({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()}));
-  candidates_.moved();
-  EXPECT_THROW(candidates_.look(kReach, kAhead, {}), std::invalid_argument);
-  EXPECT_FALSE(candidates_.covers(0.0)) << "what has failed is no answer";
-  move(4.9e-3);
-  EXPECT_TRUE(candidates_.look(kReach, kAhead, {}));
-  EXPECT_EQ(what_is_missing(candidates_, scene_, kReach), "");
-  EXPECT_FALSE(pairs_within(candidates_, kReach).empty());
-}
-
-INSTANTIATE_TEST_SUITE_P(WithAndWithoutAThread, CubeOverPlate, ::testing::Bool(),
-                         [](const auto& test) { return std::string(test.param ? "WithAThread" : "WithoutAThread"); });
 
 }  // namespace
 }  // namespace glissade::haptics

@@ -116,7 +116,7 @@ TEST(WorkBudget, ASearchDoesNoMoreInACallEither) {
   }
   EXPECT_GT(calls, 10);
   EXPECT_TRUE(candidates.covers(1e-3));
-  EXPECT_EQ(candidates.size(), all.size());
+  EXPECT_EQ(candidates.pairs().size(), all.pairs().size());
 }
 
 TEST(WorkBudget, ACertificateGoesOnWhereItStopped) {
@@ -125,7 +125,7 @@ TEST(WorkBudget, ACertificateGoesOnWhereItStopped) {
   CandidatePairs candidates(scene, 5e-3);
   candidates.look(1e-3, 0.0, {});
   std::vector<PairToCertify> to_certify;
-  candidates.within(1e-3, to_certify);
+  candidates.pairs().within(1e-3, to_certify);
   const std::vector<geometry::Displacement> down{{Vector3d(0.0, 0.0, -0.5e-3), Vector3d(0.01, 0.0, 0.0)}};
   const auto failures_with = [&](std::int64_t work) {
     PathCertificate certificate(scene);
