@@ -76,6 +76,14 @@ double MovingBodies::curvature(std::int32_t body, int begin, int end) const {
   return share * share * path(body).acceleration / 8.0;
 }
 
+/// In the frame of a body that moves on at v and turns at w, a point at u from its reference point has the acceleration
+/// w × (w × u) + 2 w × v.
+double MovingBodies::curvature_seen_from(std::int32_t body, double farthest) const {
+  GLISSADE_ASSERT(motion_ == nullptr);
+  const geometry::Displacement& d = path(body).displacement;
+  return (d.w.squaredNorm() * farthest + 2.0 * d.w.norm() * d.v.norm()) / 8.0;
+}
+
 double MovingBodies::most_curvature() const {
   double most = 0.0;
   for (const Path& path : paths_)

@@ -42,7 +42,13 @@ class MovingBodies {
   /// bound of the second derivative of its path between them.
   double curvature(std::int32_t body, int begin, int end) const;
 
-  /// Bound (metres) of the sum of these for any two bodies in the whole step.
+  /// The same over the whole step for a point that stands still, in the frame of a body that follows a displacement.
+  /// The point comes no farther than `farthest` (metres) from the body's reference point.
+  double curvature_seen_from(std::int32_t body, double farthest) const;
+  /// The reference point of a mover, about which its displacement turns it, at a moment; only if it moves.
+  Eigen::Vector3d reference_point_W(std::int32_t body, int moment) { return pose(body, moment) * path(body).p_Bref; }
+
+  /// Bound (metres) of the sum of `curvature` for any two bodies in the whole step.
   double most_curvature() const;
 
   /// The pose of a body at a moment.

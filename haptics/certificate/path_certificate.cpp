@@ -215,8 +215,8 @@ void PathCertificate::prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_V, W
 void PathCertificate::prove(const Triangles& triangles, WorkBudget& budget) {
   if (seeks_lasting_directions()) {
     budget.spend(kWorkOfLook);
-    separations_.add(obstacle_.body->tree.mesh().corners(triangles.of_obstacle),
-                     part_.body->tree.mesh().corners(triangles.of_part));
+    const geometry::TrianglePoints corners_O = obstacle_.body->tree.mesh().corners(triangles.of_obstacle);
+    separations_.add(corners_O, part_.body->tree.mesh().corners(triangles.of_part), ball_.holds(corners_O));
     waiting_[separations_.count() - 1] = triangles;
     if (separations_.is_full()) prove_waiting(budget);
   } else if (separates(triangles.n_hint, triangles.of_obstacle, triangles.of_part)) {
@@ -227,11 +227,22 @@ void PathCertificate::prove(const Triangles& triangles, WorkBudget& budget) {
 }
 
 void PathCertificate::start_separations() {
-  const auto map = [&](std::size_t end) -> CornerMap {
-    const Eigen::Isometry3d X_OV = relative_pose(*obstacle_.X_WB[end], *part_.X_WB[end]);
-    return {X_OV.linear(), X_OV.translation()};
+  const Eigen::Isometry3d X_OV_begin = relative_pose(*obstacle_.X_WB[0], *part_.X_WB[0]);
+  const Eigen::Isometry3d X_OV_end = relative_pose(*obstacle_.X_WB[1], *part_.X_WB[1]);
+  ball_ = BallAboutPart::at(X_OV_begin, part_.body->tree);
+  needed_turning_ = needed_turning(ball_);
+  separations_.start({X_OV_begin.linear(), X_OV_begin.translation()}, {X_OV_end.linear(), X_OV_end.translation()},
+                     needed_ + rounding_, needed_turning_ + rounding_);
+}
+
+double PathCertificate::needed_turning(const BallAboutPart& ball) {
+  if (!bodies_.moves(part_.number)) return needed_;
+  const auto farthest_at = [&](int moment) {
+    const Eigen::Vector3d p_W = bodies_.reference_point_W(part_.number, moment);
+    return ball.farthest_from(obstacle_.X_WB[0]->inverse(Eigen::Affine) * p_W);
   };
-  separations_.start(map(0), map(1), needed_ + rounding_);
+  const double farthest = std::max(farthest_at(0), farthest_at(MovingBodies::kMoments));
+  return min_clearance_ + rounding_ + bodies_.curvature_seen_from(part_.number, farthest);
 }
 
 /// Certifies the triangles that wait for vector code.
@@ -239,8 +250,9 @@ void PathCertificate::prove_waiting(WorkBudget& budget) {
   std::size_t i = 0;
   for (const Separation& separation : separations_.find_or_turn()) {
     const Triangles& triangles = waiting_[i++];
-    if (separation.least() >= needed_ + rounding_) {
-      note_direction(triangles, obstacle_.X_WB[0]->linear() * separation.n_O);
+    const double needed = separation.turns_with_part ? needed_turning_ : needed_;
+    if (separation.least() >= needed + rounding_) {
+      note_direction(triangles, separations_.direction(separation));
     } else if (!(separation.turning >= needed_ + rounding_)) {
       certify(triangles, budget);
     }
@@ -254,11 +266,11 @@ void PathCertificate::certify(const Triangles& triangles, WorkBudget& budget) {
   const bool is_certified = certificate.prove(triangles.n_hint, n_start);
   budget.spend(kWorkOfTriangles + kWorkOfStretch * certificate.stretches());
   if (!is_certified) failures_.push_back({pair, n_start});
-  if (!n_start.isZero(0.0)) note_direction(triangles, n_start);
+  if (!n_start.isZero(0.0)) note_direction(triangles, {obstacle_.X_WB[0]->linear().transpose() * n_start, false});
 }
 
-void PathCertificate::note_direction(const Triangles& triangles, const Eigen::Vector3d& n_W) {
-  if (triangles.place != kNoPlace) separated_.push_back({triangles.place, n_W});
+void PathCertificate::note_direction(const Triangles& triangles, const FixedDirection& direction) {
+  if (triangles.place != kNoPlace) separated_.push_back({triangles.place, direction});
 }
 
 }  // namespace glissade::haptics

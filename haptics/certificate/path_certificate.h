@@ -20,6 +20,7 @@
 
 #include <glissade/geometry/displacement.h>
 
+#include "certificate/fixed_direction.h"
 #include "certificate/lasting_separation.h"
 #include "certificate/moving_bodies.h"
 #include "certificate/pairs_to_certify.h"
@@ -36,8 +37,8 @@ struct UncertifiedPair : TrianglesOfBodies {
 
 /// A triangle pair that a direction separated on the whole path, or at least at its start.
 struct SeparatedPair {
-  std::size_t place;    ///< among the pairs to certify
-  Eigen::Vector3d n_W;  ///< unit, from the obstacle to the part
+  std::size_t place;  ///< among the pairs to certify
+  FixedDirection direction;
 };
 
 /// Two bodies at both ends of a step.
@@ -61,9 +62,12 @@ class PathCertificate {
   const Eigen::Isometry3d& pose_at_end(std::int32_t body) { return bodies_.pose(body, MovingBodies::kMoments); }
   /// Bound (metres) of the sum of the deviations of any two points from their chords in this step.
   double curvature() const { return bodies_.most_curvature(); }
-  /// The ends of this step for two bodies; none if the obstacle moves, too: the bound of the error between both ends is
-  /// for directions fixed to the world, and those fixed to the obstacle may turn.
+  /// The ends of this step for two bodies; none if the obstacle moves, too: the bounds of the error between both ends
+  /// are for an obstacle that stands still.
   std::optional<PathOfBodies> path_of(const BodyPair& bodies);
+  /// `PathOfBodies::needed` of the bodies of the last call, for directions that turn with the part past the corners of
+  /// obstacles in the ball.
+  double needed_turning(const BallAboutPart& ball);
   /// Begins the certificate of all of `to_certify` for this step. `to_certify` and the poses must stay as they are
   /// until `go_on` returns true.
   void begin(std::span<const PairToCertify> to_certify);
@@ -124,7 +128,7 @@ class PathCertificate {
   void start_separations();
   void prove_waiting(WorkBudget& budget);
   void certify(const Triangles& triangles, WorkBudget& budget);
-  void note_direction(const Triangles& triangles, const Eigen::Vector3d& n_W);
+  void note_direction(const Triangles& triangles, const FixedDirection& direction);
   void prove_leaves(std::uint32_t leaf_O, std::uint32_t leaf_V, WorkBudget& budget);
 
   const ContactScene& scene_;
@@ -144,8 +148,10 @@ class PathCertificate {
   bool obstacle_moves_ = false;
   bool moves_ = false;  // either of them
   double min_clearance_ = 0.0;
-  double far_ = 0.0;     // metres: items farther apart keep the minimum clearance in any case
-  double needed_ = 0.0;  // metres of gap at both ends that keep the minimum clearance in between
+  double far_ = 0.0;             // metres: items farther apart keep the minimum clearance in any case
+  double needed_ = 0.0;          // metres of gap at both ends that keep the minimum clearance in between
+  BallAboutPart ball_{};         // at the beginning
+  double needed_turning_ = 0.0;  // metres: the same as `needed_` for directions that turn with the part in this ball
   LastingSeparations separations_;
   std::array<Triangles, geometry::kPairsToMeasure> waiting_;  // those of `separations_`
 };

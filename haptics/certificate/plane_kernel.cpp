@@ -22,13 +22,19 @@ HWY_INLINE PlaneFloats sum_of_products(PlaneFloats a0, PlaneFloats b0, PlaneFloa
 
 }  // namespace
 
-void find_plane_gaps(std::span<const PlaneBlock> blocks, const PlaneMap& map, float slack, float* gaps) {
+void find_plane_gaps(std::span<const PlaneBlock> blocks, const PlaneMaps& maps, float* gaps) {
   const PlaneTag d;
-  const auto entry = [&](std::size_t row, std::size_t column) HWY_ATTR { return hn::Set(d, map.A[row][column]); };
-  const auto along = [&](std::size_t axis) HWY_ATTR { return hn::Set(d, map.t[axis]); };
   for (const PlaneBlock& block : blocks) {
     for (std::size_t first = 0; first < kPlanesAtOnce; first += hn::Lanes(d)) {
       const auto load = [&](const NumbersOfPlanes& from) HWY_ATTR { return hn::Load(d, from.data() + first); };
+      const auto turns_with_part = hn::Gt(load(block.turns_with_part), hn::Zero(d));
+      const auto entry = [&](std::size_t row, std::size_t column) HWY_ATTR {
+        return hn::IfThenElse(turns_with_part, hn::Set(d, maps.of_obstacle.A[row][column]),
+                              hn::Set(d, maps.of_part.A[row][column]));
+      };
+      const auto along = [&](std::size_t axis) HWY_ATTR {
+        return hn::IfThenElse(turns_with_part, hn::Set(d, maps.of_obstacle.t[axis]), hn::Set(d, maps.of_part.t[axis]));
+      };
       const PlaneFloats n0 = load(block.n[0]);
       const PlaneFloats n1 = load(block.n[1]);
       const PlaneFloats n2 = load(block.n[2]);
@@ -42,7 +48,7 @@ void find_plane_gaps(std::span<const PlaneBlock> blocks, const PlaneMap& map, fl
       };
       const PlaneFloats least = hn::Min(height(0), hn::Min(height(1), height(2)));
       const PlaneFloats origin = hn::Sub(sum_of_products(n0, along(0), n1, along(1), n2, along(2)), load(block.top));
-      hn::StoreU(hn::Sub(hn::Add(least, origin), hn::Set(d, slack)), d, gaps + first);
+      hn::StoreU(hn::Sub(hn::Add(least, origin), hn::Set(d, maps.slack)), d, gaps + first);
     }
     gaps += kPlanesAtOnce;
   }
@@ -59,8 +65,8 @@ HWY_EXPORT(find_plane_gaps);
 
 }  // namespace
 
-void find_plane_gaps(std::span<const PlaneBlock> blocks, const PlaneMap& map, float slack, float* gaps) {
-  HWY_DYNAMIC_DISPATCH(find_plane_gaps)(blocks, map, slack, gaps);
+void find_plane_gaps(std::span<const PlaneBlock> blocks, const PlaneMaps& maps, float* gaps) {
+  HWY_DYNAMIC_DISPATCH(find_plane_gaps)(blocks, maps, gaps);
 }
 
 }  // namespace glissade::haptics

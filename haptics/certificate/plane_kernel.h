@@ -14,21 +14,30 @@ inline constexpr std::size_t kPlanesAtOnce = 16;
 /// A number for each of sixteen pairs.
 using NumbersOfPlanes = std::array<float, kPlanesAtOnce>;
 
-/// Sixteen pairs of triangles of two bodies. No point of the obstacle's triangle is higher than `top` along n.
+/// Sixteen pairs of triangles of two bodies. A direction is fixed to one of them. No point of this body's triangle is
+/// higher than `top` along n, which points to the other triangle.
 struct alignas(64) PlaneBlock {
-  std::array<NumbersOfPlanes, 3> n;                 ///< [axis], in the obstacle's axes; unit vectors
+  std::array<NumbersOfPlanes, 3> n;                 ///< [axis], in the axes of the body to which it is fixed; units
   NumbersOfPlanes top;                              ///< metres
-  std::array<std::array<NumbersOfPlanes, 3>, 3> x;  ///< the part's triangle, [corner][axis], metres
+  NumbersOfPlanes turns_with_part;                  ///< 1 where n is fixed to the part, 0 where to the obstacle
+  std::array<std::array<NumbersOfPlanes, 3>, 3> x;  ///< the triangle of the other body, [corner][axis], metres
 };
 
-/// Maps the coordinates x of the part's corners to those of the obstacle's frame: A x + t.
+/// Maps coordinates x in one body's frame to those in the other's: A x + t.
 struct PlaneMap {
   std::array<std::array<float, 3>, 3> A;  ///< [row][column]
   std::array<float, 3> t;                 ///< metres
 };
 
-/// Sets `gaps`, kPlanesAtOnce for each block, to the least height of the part's corners over `top`, less `slack`;
-/// metres. Thread-safe.
-void find_plane_gaps(std::span<const PlaneBlock> blocks, const PlaneMap& map, float slack, float* gaps);
+/// Where two bodies are: the part in the frame of the obstacle, and the other way round.
+struct PlaneMaps {
+  PlaneMap of_part;
+  PlaneMap of_obstacle;
+  float slack;  ///< metres: bound of the rounding of a gap
+};
+
+/// Sets `gaps`, kPlanesAtOnce for each block, to the least height of the corners x over `top`, less the slack; metres.
+/// Thread-safe.
+void find_plane_gaps(std::span<const PlaneBlock> blocks, const PlaneMaps& maps, float* gaps);
 
 }  // namespace glissade::haptics

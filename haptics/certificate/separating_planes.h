@@ -1,6 +1,6 @@
 #pragma once
 
-/// Separating planes of many pairs of triangles: for each pair a direction, fixed to the obstacle, along which the two
+/// Separating planes of many pairs of triangles: for each pair a direction, fixed to either body, along which the two
 /// triangles are apart. Where parts fit closely and slide, such as a nut on its thread, these gaps hardly change though
 /// the parts move far. So most pairs need no look of their own.
 
@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "certificate/fixed_direction.h"
 #include "certificate/plane_kernel.h"
 #include "scene/contact_scene.h"
 
@@ -23,31 +24,41 @@ class PlanesOfBodies {
   void start(const BodyPair& pair, std::span<const PlacedBody> bodies);
 
   const BodyPair& bodies() const { return pair_; }
-  /// Adds a pair with a number that its owner gives it. Where n_W is zero, the direction is unknown, and so is the gap.
-  void add(std::uint32_t number, std::int32_t obstacle_triangle, std::int32_t part_triangle, const Eigen::Vector3d& n_W,
+  /// Adds a pair with a number that its owner gives it. Its direction is n_W at the poses of `bodies`, fixed to the
+  /// obstacle. Where n_W is zero, the direction is unknown, and so is the gap.
+  void add(std::uint32_t number, const TrianglesOfBodies& pair, const Eigen::Vector3d& n_W,
            std::span<const PlacedBody> bodies);
   /// By slot: kPlanesAtOnce slots are a block.
   std::span<const std::uint32_t> numbers() const { return numbers_; }
 
   std::size_t block_count() const { return blocks_.size(); }
 
-  /// Sets the gaps (metres) of all slots in the blocks from `first` to before `end`. Each is a lower bound of the
-  /// distance of a pair if A and t are the rotation and the translation of the part in the obstacle's frame. For any
-  /// other A and t it is the least height of the part's corners over the obstacle's triangle, up to rounding. Unknown
-  /// gaps are far below zero. `gaps` gets an entry for each slot of all blocks.
-  void find_gaps(const Eigen::Matrix3d& A, const Eigen::Vector3d& t, std::size_t first, std::size_t end,
-                 std::vector<float>& gaps) const;
+  /// Where the part's points x are at A x + t in the obstacle's frame, mostly a rotation and a translation.
+  PlaneMaps maps(const Eigen::Matrix3d& A, const Eigen::Vector3d& t) const;
+  PlaneMaps maps(const Eigen::Isometry3d& X_OV) const { return maps(X_OV.linear(), X_OV.translation()); }
 
-  /// Gives the pair in a slot another direction, in the obstacle's axes; not zero.
-  void turn(std::size_t slot, const ContactBody& obstacle, std::int32_t obstacle_triangle, const Eigen::Vector3d& n_O);
+  /// Sets the gaps (metres) of all slots in the blocks from `first` to before `end`. Each is a lower bound of the
+  /// distance of a pair where the part is, up to the share by which A stretches a direction. Unknown gaps are far below
+  /// zero. `gaps` gets an entry for each slot of all blocks.
+  void find_gaps(const PlaneMaps& maps, std::size_t first, std::size_t end, std::vector<float>& gaps) const;
+
+  /// Where an obstacle's triangle must be for a direction that turns with the part.
+  const BallAboutPart& ball() const { return ball_; }
+  bool turns_with_part(std::size_t slot) const {
+    return blocks_[slot / kPlanesAtOnce].turns_with_part[slot % kPlanesAtOnce] > 0.0F;
+  }
+
+  /// Gives the pair in a slot another direction, not zero. One that would turn with the part and may not is ignored.
+  void turn(std::size_t slot, const TrianglesOfBodies& pair, const FixedDirection& direction,
+            std::span<const PlacedBody> bodies);
 
  private:
   BodyPair pair_{};
-  // Corners of the part are relative to this point, heights to this one of the obstacle.
+  // Points of the part are relative to its centre, those of the obstacle to that of the ball.
   Eigen::Vector3d c_V_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d o_O_ = Eigen::Vector3d::Zero();
-  double radius_ = 0.0;    // metres: of the part about c_V
-  double farthest_ = 0.0;  // metres: of a corner of the obstacle from o_O
+  double radius_ = 0.0;  // metres: of the part about c_V
+  BallAboutPart ball_{};
+  double farthest_ = 0.0;  // metres: of a corner of the obstacle from the centre of the ball
   std::vector<std::uint32_t> numbers_;
   std::vector<PlaneBlock> blocks_;
 };

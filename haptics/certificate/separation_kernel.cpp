@@ -103,16 +103,36 @@ HWY_INLINE PairTriangles mapped(const CornerMap& map, const PairTriangles& t) {
   return to;
 }
 
+struct Heights {
+  PairNumbers bottom;
+  PairNumbers top;
+};
+HWY_INLINE Heights range_of(PairNumbers h0, PairNumbers h1, PairNumbers h2) {
+  return {hn::Min(h0, hn::Min(h1, h2)), hn::Max(h0, hn::Max(h1, h2))};
+}
+HWY_INLINE Heights heights(const PairVectors& n, const PairTriangles& t) {
+  return range_of(dot(n, t.corner[0]), dot(n, t.corner[1]), dot(n, t.corner[2]));
+}
+
+/// How far a direction separates the triangles at both ends of a path, and for how many such paths.
+struct Lasting {
+  PairNumbers begin;
+  PairNumbers end;
+  PairNumbers paths;
+};
+
 /// Keeps the best of the directions that it is shown, for as many pairs as fit into a vector.
 class Separator {
  public:
-  HWY_INLINE Separator(const TrianglesThen& begin, const TrianglesThen& end, const PairVectors& motion, double gap)
-      : begin_(begin), end_(end), motion_(motion), gap_(hn::Set(PairTag(), gap)) {
+  HWY_INLINE Separator(const TrianglesThen& begin, const TrianglesThen& end, const PairVectors& motion,
+                       const PathOfPart& path, const PairsOnPath& pairs, std::size_t first)
+      : begin_(begin), end_(end), motion_(motion), path_(path) {
     const PairTag d;
+    may_turn_ = hn::Gt(hn::Load(d, pairs.may_turn_with_part.data() + first), hn::Zero(d));
     n_ = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-    gap_at_begin_ = hn::Zero(d);
-    gap_at_end_ = hn::Set(d, -std::numeric_limits<double>::infinity());
-    paths_ = gap_at_end_;
+    turns_ = hn::Zero(d);
+    best_ = {hn::Zero(d), hn::Set(d, -std::numeric_limits<double>::infinity()),
+             hn::Set(d, -std::numeric_limits<double>::infinity())};
     is_open_ = hn::FirstN(d, hn::Lanes(d));
   }
 
@@ -120,10 +140,10 @@ class Separator {
   HWY_INLINE void resume(const PairsOnPath& pairs, std::size_t first, double enough) {
     const PairTag d;
     n_ = load(pairs.n, first);
-    gap_at_begin_ = hn::Load(d, pairs.gap_at_begin.data() + first);
-    gap_at_end_ = hn::Load(d, pairs.gap_at_end.data() + first);
-    paths_ = hn::Load(d, pairs.paths.data() + first);
-    is_open_ = hn::Lt(paths_, hn::Set(d, enough));
+    turns_ = hn::Load(d, pairs.turns_with_part.data() + first);
+    best_ = {hn::Load(d, pairs.gap_at_begin.data() + first), hn::Load(d, pairs.gap_at_end.data() + first),
+             hn::Load(d, pairs.paths.data() + first)};
+    is_open_ = hn::Lt(best_.paths, hn::Set(d, enough));
   }
 
   HWY_INLINE void look(const PairVectors& n) {
@@ -134,75 +154,77 @@ class Separator {
   HWY_INLINE void store_to(PairsOnPath& pairs, std::size_t first) const {
     const PairTag d;
     store(n_, pairs.n, first);
-    hn::Store(gap_at_begin_, d, pairs.gap_at_begin.data() + first);
-    hn::Store(gap_at_end_, d, pairs.gap_at_end.data() + first);
-    hn::Store(paths_, d, pairs.paths.data() + first);
+    hn::Store(best_.begin, d, pairs.gap_at_begin.data() + first);
+    hn::Store(best_.end, d, pairs.gap_at_end.data() + first);
+    hn::Store(best_.paths, d, pairs.paths.data() + first);
+    hn::Store(turns_, d, pairs.turns_with_part.data() + first);
   }
 
  private:
-  /// Along a direction and its opposite.
-  struct Gaps {
-    PairNumbers along;
-    PairNumbers opposite;
-  };
-
-  HWY_INLINE static Gaps gaps_of(const PairVectors& n, const TrianglesThen& then) {
-    PairNumbers bottom[2];
-    PairNumbers top[2];
-    const PairTriangles* const triangles[2] = {&then.obstacle, &then.part};
-    for (std::size_t t = 0; t < 2; ++t) {
-      const PairNumbers h0 = dot(n, triangles[t]->corner[0]);
-      const PairNumbers h1 = dot(n, triangles[t]->corner[1]);
-      const PairNumbers h2 = dot(n, triangles[t]->corner[2]);
-      bottom[t] = hn::Min(h0, hn::Min(h1, h2));
-      top[t] = hn::Max(h0, hn::Max(h1, h2));
-    }
-    return {hn::Sub(bottom[1], top[0]), hn::Sub(bottom[0], top[1])};
+  HWY_INLINE static PairNumbers gap_along(const PairVectors& n, const TrianglesThen& then) {
+    return hn::Sub(heights(n, then.part).bottom, heights(n, then.obstacle).top);
   }
 
-  HWY_INLINE void look_along(const PairVectors& n) {
+  HWY_INLINE static Lasting lasting(PairNumbers begin, PairNumbers end, double gap) {
     const PairTag d;
-    const Gaps at_begin = gaps_of(n, begin_);
-    const Gaps at_end = gaps_of(n, end_);
-    const auto is_opposite = hn::Lt(at_begin.along, at_begin.opposite);
-    const PairNumbers begin = hn::IfThenElse(is_opposite, at_begin.opposite, at_begin.along);
-    const PairNumbers end = hn::IfThenElse(is_opposite, at_end.opposite, at_end.along);
-    const PairNumbers more = hn::Sub(hn::Min(begin, end), gap_);
-    const PairNumbers nearer = hn::Max(hn::Sub(begin, end), hn::Mul(hn::Set(d, kAlmostStill), gap_));
-    const PairNumbers paths = hn::IfThenElse(hn::Lt(more, hn::Zero(d)), more, hn::Div(more, nearer));
-    const auto is_better = hn::And(is_open_, hn::Gt(paths, paths_));
-    const PairVectors turned = turned_if(is_opposite, n);
-    n_ = {hn::IfThenElse(is_better, turned.x, n_.x), hn::IfThenElse(is_better, turned.y, n_.y),
-          hn::IfThenElse(is_better, turned.z, n_.z)};
-    gap_at_begin_ = hn::IfThenElse(is_better, begin, gap_at_begin_);
-    gap_at_end_ = hn::IfThenElse(is_better, end, gap_at_end_);
-    paths_ = hn::IfThenElse(is_better, paths, paths_);
+    const PairNumbers more = hn::Sub(hn::Min(begin, end), hn::Set(d, gap));
+    const PairNumbers nearer = hn::Max(hn::Sub(begin, end), hn::Set(d, kAlmostStill * gap));
+    return {begin, end, hn::IfThenElse(hn::Lt(more, hn::Zero(d)), more, hn::Div(more, nearer))};
+  }
+
+  /// The direction or its opposite, whichever separates the triangles farther at the beginning.
+  HWY_INLINE void look_along(const PairVectors& either) {
+    const PairTag d;
+    const Heights obstacle = heights(either, begin_.obstacle);
+    const Heights part = heights(either, begin_.part);
+    const PairNumbers along = hn::Sub(part.bottom, obstacle.top);
+    const PairNumbers opposite = hn::Sub(obstacle.bottom, part.top);
+    const auto is_opposite = hn::Lt(along, opposite);
+    const PairNumbers begin = hn::IfThenElse(is_opposite, opposite, along);
+    const PairVectors n = turned_if(is_opposite, either);
+    keep_if_better(n, lasting(begin, gap_along(n, end_), path_.gap), hn::Zero(d), is_open_);
+    if (!path_.turns) return;
+    const auto row = [&](Eigen::Index r) HWY_ATTR {
+      return dot({hn::Set(d, path_.turn(r, 0)), hn::Set(d, path_.turn(r, 1)), hn::Set(d, path_.turn(r, 2))}, n);
+    };
+    const PairVectors n_end{row(0), row(1), row(2)};
+    keep_if_better(n, lasting(begin, gap_along(n_end, end_), path_.gap_turning), hn::Set(d, 1.0),
+                   hn::And(is_open_, may_turn_));
+  }
+
+  HWY_INLINE void keep_if_better(const PairVectors& n, const Lasting& found, PairNumbers turns,
+                                 hn::Mask<PairTag> is_allowed) {
+    const auto is_better = hn::And(is_allowed, hn::Gt(found.paths, best_.paths));
+    n_ = {hn::IfThenElse(is_better, n.x, n_.x), hn::IfThenElse(is_better, n.y, n_.y),
+          hn::IfThenElse(is_better, n.z, n_.z)};
+    best_ = {hn::IfThenElse(is_better, found.begin, best_.begin), hn::IfThenElse(is_better, found.end, best_.end),
+             hn::IfThenElse(is_better, found.paths, best_.paths)};
+    turns_ = hn::IfThenElse(is_better, turns, turns_);
   }
 
   const TrianglesThen& begin_;
   const TrianglesThen& end_;
   const PairVectors& motion_;
-  PairNumbers gap_;
+  const PathOfPart& path_;
+  hn::Mask<PairTag> may_turn_;
   PairVectors n_;
-  PairNumbers gap_at_begin_;
-  PairNumbers gap_at_end_;
-  PairNumbers paths_;
+  PairNumbers turns_;
+  Lasting best_;
   hn::Mask<PairTag> is_open_;  // pairs that may get another direction
 };
 
-HWY_INLINE void separate_some_by_normals(const geometry::TrianglesToMeasure& triangles, const CornerMap& map_at_begin,
-                                         const CornerMap& map_at_end, double gap, std::size_t first,
-                                         PairsOnPath& pairs) {
+HWY_INLINE void separate_some_by_normals(const geometry::TrianglesToMeasure& triangles, const PathOfPart& path,
+                                         std::size_t first, PairsOnPath& pairs) {
   const PairTag d;
   const PairTriangles part = load(triangles.b, first);
   const PairTriangles obstacle = load(triangles.a, first);
-  const TrianglesThen begin{obstacle, mapped(map_at_begin, part)};
-  const TrianglesThen end{obstacle, mapped(map_at_end, part)};
+  const TrianglesThen begin{obstacle, mapped(path.begin, part)};
+  const TrianglesThen end{obstacle, mapped(path.end, part)};
   const PairVectors motion = normalized(minus(sum_of_corners(end.part), sum_of_corners(begin.part)));
   const PairVectors of_obstacle = normal_of(obstacle);
   PairVectors of_part = normal_of(begin.part);
   of_part = turned_if(hn::Lt(dot(of_part, of_obstacle), hn::Zero(d)), of_part);
-  Separator separator(begin, end, motion, gap);
+  Separator separator(begin, end, motion, path, pairs, first);
   separator.look(plus(of_obstacle, of_part));
   separator.look(of_obstacle);
   separator.look(of_part);
@@ -220,17 +242,6 @@ HWY_INLINE void separate_some_by_normals(const geometry::TrianglesToMeasure& tri
 HWY_INLINE PairNumbers mixed_height(const PairVectors& n_begin, const PairVectors& n_end, const PairVectors& x_begin,
                                     const PairVectors& x_end) {
   return hn::Add(dot(n_begin, x_end), dot(n_end, x_begin));
-}
-
-struct Heights {
-  PairNumbers bottom;
-  PairNumbers top;
-};
-HWY_INLINE Heights range_of(PairNumbers h0, PairNumbers h1, PairNumbers h2) {
-  return {hn::Min(h0, hn::Min(h1, h2)), hn::Max(h0, hn::Max(h1, h2))};
-}
-HWY_INLINE Heights heights(const PairVectors& n, const PairTriangles& t) {
-  return range_of(dot(n, t.corner[0]), dot(n, t.corner[1]), dot(n, t.corner[2]));
 }
 
 HWY_INLINE void separate_some_by_turning(const geometry::ClosestPoints& begin, const geometry::ClosestPoints& end,
@@ -256,18 +267,18 @@ HWY_INLINE void separate_some_by_turning(const geometry::ClosestPoints& begin, c
 
 }  // namespace
 
-void separate_by_normals(const geometry::TrianglesToMeasure& triangles, const CornerMap& begin, const CornerMap& end,
-                         double gap, PairsOnPath& pairs) {
+void separate_by_normals(const geometry::TrianglesToMeasure& triangles, const PathOfPart& path, PairsOnPath& pairs) {
   for (std::size_t first = 0; first < geometry::kPairsToMeasure; first += hn::Lanes(PairTag()))
-    separate_some_by_normals(triangles, begin, end, gap, first, pairs);
+    separate_some_by_normals(triangles, path, first, pairs);
 }
 
-void separate_by_points(const geometry::ClosestPoints& points, double gap, double enough, PairsOnPath& pairs) {
+void separate_by_points(const geometry::ClosestPoints& points, const PathOfPart& path, double enough,
+                        PairsOnPath& pairs) {
   for (std::size_t first = 0; first < geometry::kPairsToMeasure; first += hn::Lanes(PairTag())) {
     const TrianglesThen begin{load(pairs.begin.a, first), load(pairs.begin.b, first)};
     const TrianglesThen end{load(pairs.end.a, first), load(pairs.end.b, first)};
     const PairVectors motion = load(pairs.motion, first);
-    Separator separator(begin, end, motion, gap);
+    Separator separator(begin, end, motion, path, pairs, first);
     separator.resume(pairs, first, enough);
     separator.look(minus(load(points.p_b, first), load(points.p_a, first)));
     separator.store_to(pairs, first);
@@ -292,13 +303,13 @@ HWY_EXPORT(separate_by_turning);
 
 }  // namespace
 
-void separate_by_normals(const geometry::TrianglesToMeasure& triangles, const CornerMap& begin, const CornerMap& end,
-                         double gap, PairsOnPath& pairs) {
-  HWY_DYNAMIC_DISPATCH(separate_by_normals)(triangles, begin, end, gap, pairs);
+void separate_by_normals(const geometry::TrianglesToMeasure& triangles, const PathOfPart& path, PairsOnPath& pairs) {
+  HWY_DYNAMIC_DISPATCH(separate_by_normals)(triangles, path, pairs);
 }
 
-void separate_by_points(const geometry::ClosestPoints& points, double gap, double enough, PairsOnPath& pairs) {
-  HWY_DYNAMIC_DISPATCH(separate_by_points)(points, gap, enough, pairs);
+void separate_by_points(const geometry::ClosestPoints& points, const PathOfPart& path, double enough,
+                        PairsOnPath& pairs) {
+  HWY_DYNAMIC_DISPATCH(separate_by_points)(points, path, enough, pairs);
 }
 
 void separate_by_turning(const geometry::ClosestPoints& begin, const geometry::ClosestPoints& end, PairsOnPath& pairs) {

@@ -28,7 +28,7 @@ class PlanesOfSearch {
 
   /// Adds a pair with its place as the number.
   void add(std::uint32_t place, const TrianglesOfBodies& pair, const Eigen::Vector3d& n_W) {
-    planes_of(pair.bodies).add(place, pair.obstacle_triangle, pair.part_triangle, n_W, bodies_);
+    planes_of(pair.bodies).add(place, pair, n_W, bodies_);
   }
   void finish() { planes_.erase(planes_.begin() + static_cast<std::ptrdiff_t>(used_), planes_.end()); }
 

@@ -16,6 +16,9 @@ namespace {
 /// Work of the gap of a pair along a known direction, in the unit of `collision::WorkMeter`.
 constexpr std::int64_t kWorkOfGap = 2;
 
+/// So many blocks of planes fit into the fastest cache.
+constexpr std::ptrdiff_t kBlocksInCache = 16;
+
 }  // namespace
 
 void KnownPairs::within(double reach, std::vector<NearPair>& pairs) const {
@@ -68,7 +71,7 @@ void KnownPairs::visit_near_blocks(const std::vector<double>& gaps, double reach
   const auto is_near = [&](double gap) { return gap - clock_ <= reach; };
   auto first = std::find_if(gaps.begin(), gaps.end(), is_near);
   while (first != gaps.end()) {
-    const auto end = std::find_if_not(first, gaps.end(), is_near);
+    const auto end = std::find_if_not(first, first + std::min(kBlocksInCache, gaps.end() - first), is_near);
     visit(static_cast<std::size_t>(first - gaps.begin()), static_cast<std::size_t>(end - gaps.begin()));
     first = std::find_if(end, gaps.end(), is_near);
   }
@@ -78,13 +81,13 @@ void KnownPairs::in_reach(double reach, std::vector<PairInReach>& pairs) {
   pairs.clear();
   for (std::uint32_t i = 0; i < search_.set.planes.size(); ++i) {
     const PlanesOfBodies& planes = search_.set.planes[i];
-    const Eigen::Isometry3d X_OV =
-        relative_pose(scene_.bodies()[static_cast<std::size_t>(planes.bodies().obstacle)].X_WB,
-                      scene_.bodies()[static_cast<std::size_t>(planes.bodies().part)].X_WB);
+    const PlaneMaps maps =
+        planes.maps(relative_pose(scene_.bodies()[static_cast<std::size_t>(planes.bodies().obstacle)].X_WB,
+                                  scene_.bodies()[static_cast<std::size_t>(planes.bodies().part)].X_WB));
     const std::span<const std::uint32_t> numbers = planes.numbers();
     std::vector<double>& of_blocks = gaps_of_contacts_[i];
     visit_near_blocks(of_blocks, reach, [&](std::size_t first, std::size_t end) {
-      planes.find_gaps(X_OV.linear(), X_OV.translation(), first, end, gaps_at_begin_);
+      planes.find_gaps(maps, first, end, gaps_at_begin_);
       for (std::size_t block = first; block < end; ++block) {
         double least = std::numeric_limits<double>::infinity();
         const std::size_t last = std::min(numbers.size(), kPlanesAtOnce * (block + 1));
@@ -99,7 +102,7 @@ void KnownPairs::in_reach(double reach, std::vector<PairInReach>& pairs) {
           if (!pair.may_yield_contact) continue;
           const double gap = std::max(along_plane, gaps_[number] - clock_);
           least = std::min(least, gap);
-          if (gap > reach || search_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
+          if (gap > reach) continue;
           pairs.push_back({number, i, static_cast<std::uint32_t>(slot), round_down(gap)});
         }
         of_blocks[block] = std::max(of_blocks[block], least + clock_);
@@ -147,25 +150,28 @@ void KnownPairs::unproved_within(double reach, PathCertificate& certificate, std
       continue;
     }
     const PathOfBodies& path = *known_path;
+    const double needed_turning = certificate.needed_turning(planes.ball());
+    const PlaneMaps at_begin = planes.maps(path.X_OV_begin);
+    const PlaneMaps at_end = planes.maps(path.X_OV_end);
     std::vector<double>& of_blocks = gaps_to_certify_[i];
     visit_near_blocks(of_blocks, path.far, [&](std::size_t first, std::size_t end) {
-      planes.find_gaps(path.X_OV_begin.linear(), path.X_OV_begin.translation(), first, end, gaps_at_begin_);
-      planes.find_gaps(path.X_OV_end.linear(), path.X_OV_end.translation(), first, end, gaps_at_end_);
+      planes.find_gaps(at_begin, first, end, gaps_at_begin_);
+      planes.find_gaps(at_end, first, end, gaps_at_end_);
       budget.spend(2 * kWorkOfGap * static_cast<std::int64_t>(kPlanesAtOnce * (end - first)));
       for (std::size_t block = first; block < end; ++block) {
         double least = std::numeric_limits<double>::infinity();
         const std::size_t last = std::min(numbers.size(), kPlanesAtOnce * (block + 1));
         for (std::size_t slot = kPlanesAtOnce * block; slot < last; ++slot) {
-          const auto at_begin = static_cast<double>(gaps_at_begin_[slot]);
-          if (at_begin > path.far) {
-            least = std::min(least, at_begin);
+          const auto gap = static_cast<double>(gaps_at_begin_[slot]);
+          if (gap > path.far) {
+            least = std::min(least, gap);
             continue;
           }
           const NearPair& pair = search_.set.pairs[numbers[slot]];
           if (!pair.is_to_certify) continue;
-          least = std::min(least, at_begin);
-          if (at_begin >= path.needed && static_cast<double>(gaps_at_end_[slot]) >= path.needed) continue;
-          if (search_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
+          least = std::min(least, gap);
+          const double needed = planes.turns_with_part(slot) ? needed_turning : path.needed;
+          if (std::min(gap, static_cast<double>(gaps_at_end_[slot])) >= needed) continue;
           unproved.push_back(to_certify(pair));
           places_.push_back({&planes, slot, numbers[slot]});
         }
@@ -179,10 +185,7 @@ void KnownPairs::note_planes(std::span<const SeparatedPair> separated) {
   for (const SeparatedPair& pair : separated) {
     const PlaceOfPair& place = places_[pair.place];
     if (place.planes == nullptr) continue;
-    const NearPair& known = search_.set.pairs[place.number];
-    const PlacedBody& obstacle = scene_.bodies()[static_cast<std::size_t>(known.bodies.obstacle)];
-    place.planes->turn(place.slot, *obstacle.body, known.obstacle_triangle,
-                       obstacle.X_WB.linear().transpose() * pair.n_W);
+    place.planes->turn(place.slot, search_.set.pairs[place.number], pair.direction, scene_.bodies());
   }
 }
 

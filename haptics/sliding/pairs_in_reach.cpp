@@ -72,7 +72,7 @@ void PairsInReach::take_too_near(std::size_t most) {
   while (next_ < too_near_.size() && pairs_.size() < most) {
     const std::uint32_t planes = left_[too_near_[next_].place].planes;
     const Way& way = ways_[planes];
-    separations_.start(way.begin, way.end, kLasting * way.margin);
+    separations_.start(way.begin, way.end, kLasting * way.margin, kLasting * way.margin);
     for (std::size_t i = next_; i < too_near_.size() && !separations_.is_full(); ++i) {
       const PairInReach& pair = left_[too_near_[i].place];
       if (pair.planes != planes) break;
@@ -81,7 +81,7 @@ void PairsInReach::take_too_near(std::size_t most) {
     for (const Separation& separation : separations_.find()) {
       PairInReach& pair = left_[too_near_[next_].place];
       if (separation.least() >= way.margin) {
-        turn_plane(pair, separation.n_O);
+        turn_plane(pair, separations_.direction(separation));
       } else if (pairs_.size() < most) {
         take(pair);
         pair.gap = kTaken;
@@ -109,7 +109,7 @@ void PairsInReach::find_too_near(const Displacements& displacements, double reac
   if (watched_.empty()) return;
   ways_.clear();
   for (const PlanesOfBodies& of_bodies : planes)
-    ways_.push_back(way_of(of_bodies.bodies(), displacements));
+    ways_.push_back(way_of(of_bodies, displacements));
   gaps_at_end_.resize(std::max(gaps_at_end_.size(), planes.size()));
   known_blocks_.assign(planes.size(), {});
   for (const std::uint32_t place : watched_) {
@@ -118,8 +118,7 @@ void PairsInReach::find_too_near(const Displacements& displacements, double reac
     std::vector<bool>& is_known = known_blocks_[pair.planes];
     is_known.resize(planes[pair.planes].block_count());
     const Way& way = ways_[pair.planes];
-    if (!is_known[block])
-      planes[pair.planes].find_gaps(way.end.A, way.end.t, block, block + 1, gaps_at_end_[pair.planes]);
+    if (!is_known[block]) planes[pair.planes].find_gaps(way.maps_at_end, block, block + 1, gaps_at_end_[pair.planes]);
     is_known[block] = true;
     const float at_end = gaps_at_end_[pair.planes][pair.slot];
     if (static_cast<double>(at_end) < way.margin) too_near_.push_back({at_end, place});
@@ -129,7 +128,8 @@ void PairsInReach::find_too_near(const Displacements& displacements, double reac
   });
 }
 
-PairsInReach::Way PairsInReach::way_of(const BodyPair& bodies, const Displacements& displacements) const {
+PairsInReach::Way PairsInReach::way_of(const PlanesOfBodies& planes, const Displacements& displacements) const {
+  const BodyPair& bodies = planes.bodies();
   const Eigen::Isometry3d& X_WO = shared_.scene.bodies()[static_cast<std::size_t>(bodies.obstacle)].X_WB;
   const Eigen::Isometry3d& X_WV = shared_.scene.bodies()[static_cast<std::size_t>(bodies.part)].X_WB;
   const LinearMotion of_part = linear_motion_of(shared_, bodies.part, displacements);
@@ -138,21 +138,24 @@ PairsInReach::Way PairsInReach::way_of(const BodyPair& bodies, const Displacemen
   const Eigen::Vector3d t_W = of_part.t - of_obstacle.t;
   const Eigen::Matrix3d R_OW = X_WO.linear().inverse();  // as in `relative_pose`
   const Eigen::Isometry3d X_OV = relative_pose(X_WO, X_WV);
+  const CornerMap end{R_OW * A_W * X_WV.linear(), R_OW * (A_W * X_WV.translation() + t_W - X_WO.translation())};
   return {{X_OV.linear(), X_OV.translation()},
-          {R_OW * A_W * X_WV.linear(), R_OW * (A_W * X_WV.translation() + t_W - X_WO.translation())},
+          end,
+          planes.maps(end.A, end.t),
           shared_.scene.margin(bodies.obstacle, bodies.part)};
 }
 
 void PairsInReach::add_separation(const PairInReach& pair) {
   const NearPair& candidate = shared_.candidates.pairs().pair(pair.number);
-  separations_.add(body(candidate.bodies.obstacle).tree.mesh().corners(candidate.obstacle_triangle),
-                   body(candidate.bodies.part).tree.mesh().corners(candidate.part_triangle));
+  const geometry::TrianglePoints corners_O =
+      body(candidate.bodies.obstacle).tree.mesh().corners(candidate.obstacle_triangle);
+  separations_.add(corners_O, body(candidate.bodies.part).tree.mesh().corners(candidate.part_triangle),
+                   shared_.candidates.pairs().planes()[pair.planes].ball().holds(corners_O));
 }
 
-void PairsInReach::turn_plane(const PairInReach& pair, const Eigen::Vector3d& n_O) {
-  const NearPair& candidate = shared_.candidates.pairs().pair(pair.number);
-  shared_.candidates.pairs().planes()[pair.planes].turn(pair.slot, body(candidate.bodies.obstacle),
-                                                        candidate.obstacle_triangle, n_O);
+void PairsInReach::turn_plane(const PairInReach& pair, const FixedDirection& direction) {
+  shared_.candidates.pairs().planes()[pair.planes].turn(pair.slot, shared_.candidates.pairs().pair(pair.number),
+                                                        direction, shared_.scene.bodies());
 }
 
 const ContactBody& PairsInReach::body(std::int32_t number) const {

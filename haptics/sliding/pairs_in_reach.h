@@ -44,6 +44,7 @@ class PairsInReach {
   struct Way {
     CornerMap begin;
     CornerMap end;
+    PlaneMaps maps_at_end;
     double margin;
   };
 
@@ -52,9 +53,9 @@ class PairsInReach {
     std::uint32_t place;  ///< in `left_`
   };
 
-  Way way_of(const BodyPair& bodies, const Displacements& displacements) const;
+  Way way_of(const PlanesOfBodies& planes, const Displacements& displacements) const;
   void add_separation(const PairInReach& pair);
-  void turn_plane(const PairInReach& pair, const Eigen::Vector3d& n_O);
+  void turn_plane(const PairInReach& pair, const FixedDirection& direction);
   const ContactBody& body(std::int32_t number) const;
   void forget_taken();
   void begin_taking();

@@ -24,7 +24,12 @@ using Eigen::Vector3d;
 using geometry::TrianglePoints;
 using test_support::RandomNumbers;
 
-constexpr double kGap = 1e-6;  // metres
+constexpr double kGap = 1e-6;           // metres
+constexpr double kGapTurning = 1.1e-6;  // metres
+
+double gap_of(const Separation& separation) {
+  return separation.turns_with_part ? kGapTurning : kGap;
+}
 
 TrianglePoints triangle_near(const Vector3d& place, RandomNumbers& random) {
   return {place + random.point(1e-3), place + random.point(1e-3), place + random.point(1e-3)};
@@ -45,23 +50,29 @@ struct PairsOfTrial {
       : begin(random_pose(random, 1e-4)), end(random_pose(random, random.power_of_ten(-6.0, -3.0))) {
     for (int i = random.integer(1, geometry::kPairsToMeasure); i > 0; --i) {
       obstacle.push_back(triangle_near(Vector3d::Zero(), random));
+      may_turn_with_part.push_back(random.chance(0.7));
       part.push_back(triangle_near(2e-3 * random.direction(), random));
     }
   }
 
   std::vector<Separation> separations() const {
     LastingSeparations separations;
-    separations.start(begin, end, kGap);
+    separations.start(begin, end, kGap, kGapTurning);
     for (std::size_t i = 0; i < part.size(); ++i)
-      separations.add(obstacle[i], part[i]);
+      separations.add(obstacle[i], part[i], may_turn_with_part[i]);
     const std::span<const Separation> found = separations.find_or_turn();
     return {found.begin(), found.end()};
+  }
+
+  Vector3d direction_at_end(const Separation& separation) const {
+    return separation.turns_with_part ? end.A * (begin.A.transpose() * separation.n_O) : separation.n_O;
   }
 
   CornerMap begin;
   CornerMap end;
   std::vector<TrianglePoints> obstacle;
   std::vector<TrianglePoints> part;
+  std::vector<bool> may_turn_with_part;
 };
 
 class LastingSeparation : public test_support::EveryInstructionSet {};
@@ -72,6 +83,7 @@ TEST_P(LastingSeparation, IsAsWideAsItSaysAndNoWiderThanTheTrianglesAreApart) {
   RandomNumbers random(kSeed);
   int apart = 0;
   int certified = 0;
+  int turning = 0;
   for (int trial = 0; trial < test_support::affordable(1000); ++trial) {
     const PairsOfTrial pairs(random);
     const std::vector<Separation> separations = pairs.separations();
@@ -85,20 +97,25 @@ TEST_P(LastingSeparation, IsAsWideAsItSaysAndNoWiderThanTheTrianglesAreApart) {
       const double at_end = geometry::triangle_distance(pairs.obstacle[i], part_at_end).distance;
       if (at_begin > kGap && at_end > kGap) ++apart;
       const Separation& separation = separations[i];
-      if (!(separation.least() >= kGap)) continue;
+      ASSERT_TRUE(pairs.may_turn_with_part[i] || !separation.turns_with_part);
+      if (!(separation.least() >= gap_of(separation))) continue;
       ++certified;
+      turning += separation.turns_with_part ? 1 : 0;
       ASSERT_NEAR(separation.n_O.norm(), 1.0, 1e-12);
+      const Vector3d n_end = pairs.direction_at_end(separation);
       ASSERT_LE(separation.begin, at_begin + 1e-15);
       ASSERT_LE(separation.end, at_end + 1e-15);
       for (const Vector3d& y : pairs.obstacle[i]) {
         for (const Vector3d& x : part_at_begin)
           ASSERT_GE(separation.n_O.dot(x - y), separation.begin - 1e-15) << "from the obstacle to the part";
         for (const Vector3d& x : part_at_end)
-          ASSERT_GE(separation.n_O.dot(x - y), separation.end - 1e-15) << "on the same side";
+          ASSERT_GE(n_end.dot(x - y), separation.end - 1e-15) << "on the same side";
       }
     }
   }
   EXPECT_GT(certified, apart / 2);
+  EXPECT_GT(turning, certified / 20);
+  EXPECT_LT(turning, certified);
 }
 
 TrianglePoints between(const TrianglePoints& begin, const TrianglePoints& end, double t) {
@@ -118,7 +135,7 @@ TEST_P(LastingSeparation, OfADirectionThatTurnsHoldsAllAlongTheStraightPath) {
       SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", pair " +
                    std::to_string(i));
       const double turning = separations[i].turning;
-      if (separations[i].least() >= kGap) {
+      if (separations[i].least() >= gap_of(separations[i])) {
         ASSERT_EQ(turning, -std::numeric_limits<double>::infinity()) << "it is sought where no other serves";
         continue;
       }
@@ -143,21 +160,42 @@ TEST_P(LastingSeparation, OfNeedlesThatTurnPastEachOtherTurnsWithThem) {
   const auto about_y = [](double angle) {
     return CornerMap{Eigen::AngleAxisd(angle, Vector3d::UnitY()).toRotationMatrix(), Vector3d(0.0, 0.0, 0.002)};
   };
-  separations.start(about_y(-0.005), about_y(0.005), 1e-3);
+  separations.start(about_y(-0.005), about_y(0.005), 1e-3, 1e-3);
   separations.add({Vector3d(0.0, -1.0, 0.0), Vector3d(0.0, 1.0, 0.0), Vector3d(0.0, 1.0, -1e-4)},
-                  {Vector3d(-1.0, 0.0, 0.0), Vector3d(1.0, 0.0, 0.0), Vector3d(1.0, 0.0, 1e-4)});
+                  {Vector3d(-1.0, 0.0, 0.0), Vector3d(1.0, 0.0, 0.0), Vector3d(1.0, 0.0, 1e-4)}, false);
   const Separation separation = separations.find_or_turn().front();
   EXPECT_LT(separation.least(), 0.0);
   EXPECT_GT(separation.turning, 1.9e-3);
+}
+
+// A facet of a ring about a shaft: an end of it goes through any plane that stays, but its own plane keeps the shaft
+// apart wherever the ring turns.
+TEST_P(LastingSeparation, OfARingThatTurnsAboutAShaftTurnsWithTheRing) {
+  for (const bool may_turn_with_part : {true, false}) {
+    LastingSeparations separations;
+    const auto about_z = [](double angle) {
+      return CornerMap{Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix(), Vector3d::Zero()};
+    };
+    separations.start(about_z(0.0), about_z(0.02), 1e-3, 1e-3);
+    separations.add({Vector3d(-1e-3, 1.0, -1.0), Vector3d(1e-3, 1.0, -1.0), Vector3d(0.0, 1.0, 1.0)},
+                    {Vector3d(-1.0, 1.01, -1.0), Vector3d(1.0, 1.01, -1.0), Vector3d(0.0, 1.01, 1.0)},
+                    may_turn_with_part);
+    const Separation separation = separations.find().front();
+    EXPECT_EQ(separation.turns_with_part, may_turn_with_part);
+    if (!may_turn_with_part) continue;
+    EXPECT_NEAR(separation.n_O.y(), 1.0, 1e-12);
+    EXPECT_NEAR(separation.least(), 0.01, 1e-3);
+    EXPECT_NEAR(separations.direction(separation).n.y(), 1.0, 1e-12);
+  }
 }
 
 // The closest points lie ahead, along the way of the triangle: a direction through them fails on the next step.
 TEST_P(LastingSeparation, OfATriangleThatSlidesOverAPlaneIsTheNormal) {
   LastingSeparations separations;
   const CornerMap begin{Eigen::Matrix3d::Identity(), Vector3d::Zero()};
-  separations.start(begin, {begin.A, Vector3d(0.09, 0.0, 0.0)}, 1e-3);
+  separations.start(begin, {begin.A, Vector3d(0.09, 0.0, 0.0)}, 1e-3, 1e-3);
   separations.add({Vector3d(0.0, -1.0, 0.0), Vector3d(2.0, 0.0, 0.0), Vector3d(0.0, 1.0, 0.0)},
-                  {Vector3d(-1.0, -0.5, 0.01), Vector3d(-0.1, 0.0, 0.01), Vector3d(-1.0, 0.5, 0.01)});
+                  {Vector3d(-1.0, -0.5, 0.01), Vector3d(-0.1, 0.0, 0.01), Vector3d(-1.0, 0.5, 0.01)}, true);
   const Separation separation = separations.find().front();
   EXPECT_NEAR(separation.n_O.z(), 1.0, 1e-12);
   EXPECT_NEAR(separation.begin, 0.01, 1e-12);
@@ -168,9 +206,9 @@ TEST_P(LastingSeparation, OfATriangleThatSlidesOverAPlaneIsTheNormal) {
 TEST_P(LastingSeparation, OfCrossingEdgesIsThatOfTheClosestPoints) {
   LastingSeparations separations;
   const CornerMap begin{Eigen::Matrix3d::Identity(), Vector3d::Zero()};
-  separations.start(begin, {begin.A, Vector3d(0.0, 0.0, 0.001)}, 1e-3);
+  separations.start(begin, {begin.A, Vector3d(0.0, 0.0, 0.001)}, 1e-3, 1e-3);
   separations.add({Vector3d(-1.0, 0.0, 0.0), Vector3d(1.0, 0.0, 0.0), Vector3d(0.0, 0.1, -1.0)},
-                  {Vector3d(0.0, -1.0, 0.01), Vector3d(0.0, 1.0, 0.01), Vector3d(0.1, 0.0, 1.0)});
+                  {Vector3d(0.0, -1.0, 0.01), Vector3d(0.0, 1.0, 0.01), Vector3d(0.1, 0.0, 1.0)}, true);
   const Separation separation = separations.find().front();
   EXPECT_NEAR(separation.n_O.z(), 1.0, 1e-12);
   EXPECT_NEAR(separation.begin, 0.01, 1e-12);
@@ -189,7 +227,7 @@ TEST_P(LastingSeparation, IsAtTimesThatOfTheClosestPointsAtTheEnd) {
     const PairsOfTrial pairs(random);
     const std::vector<Separation> separations = pairs.separations();
     for (std::size_t i = 0; i < separations.size(); ++i) {
-      if (!(separations[i].least() >= kGap)) continue;
+      if (!(separations[i].least() >= gap_of(separations[i]))) continue;
       const Vector3d& n = separations[i].n_O;
       const TrianglePoints part_at_begin = mapped(pairs.begin, pairs.part[i]);
       const auto closest = [&](const TrianglePoints& part) -> Vector3d {
@@ -217,6 +255,7 @@ TEST_P(LastingSeparation, IsThatOfThePairAlone) {
       PairsOfTrial alone = pairs;
       alone.obstacle = {pairs.obstacle[i]};
       alone.part = {pairs.part[i]};
+      alone.may_turn_with_part = {pairs.may_turn_with_part[i]};
       ASSERT_EQ(alone.separations().front().n_O, found[i].n_O);
     }
   }
@@ -235,6 +274,7 @@ TEST_P(LastingSeparation, IsThatOfPlainCodeToTheBit) {
     collision::use_instruction_set(GetParam());
     for (std::size_t i = 0; i < found.size(); ++i) {
       ASSERT_EQ(found[i].n_O, expected[i].n_O);
+      ASSERT_EQ(found[i].turns_with_part, expected[i].turns_with_part);
       ASSERT_EQ(found[i].begin, expected[i].begin);
       ASSERT_EQ(found[i].end, expected[i].end);
       ASSERT_EQ(found[i].turning, expected[i].turning);

@@ -1,5 +1,7 @@
 #include "certificate/path_certificate.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <random>
 #include <string>
@@ -9,6 +11,7 @@
 
 #include <glissade/geometry/triangle_pair.h>
 
+#include "random_numbers.h"
 #include "sanitizers.h"
 #include "search/candidate_pairs.h"
 
@@ -121,6 +124,40 @@ TEST_F(TwoTriangles, APairThatStartsNearerThanTheFloorMayStayButHardlyApproach) 
   EXPECT_TRUE(proves(at_height(gap), {{1e-3, 0.0, 0.0}, Eigen::Vector3d::Zero()}));
   EXPECT_TRUE(proves(at_height(gap), {{0.0, 0.0, -0.04 * gap}, Eigen::Vector3d::Zero()}));
   EXPECT_FALSE(proves(at_height(gap), {{0.0, 0.0, -0.06 * gap}, Eigen::Vector3d::Zero()}));
+}
+
+// The heights over a direction that turns with the part are nowhere below the lesser one of both ends by more than what
+// is asked for in advance, and at times nearly by so much.
+TEST(PathCertificate, AsksOfADirectionThatTurnsForWhatItMayLose) {
+  constexpr std::uint64_t kSeed = 15;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  test_support::RandomNumbers random(kSeed);
+  const std::vector<Obstacle> obstacles{{std::make_shared<ContactBody>(one_triangle(0.0))}};
+  const auto part = std::make_shared<SlidingPart>(one_triangle(0.0));
+  ContactScene scene(obstacles, {part}, std::vector{kFloor / kMinClearanceOfMargin});
+  PathCertificate certificate(scene);
+  double most = 0.0;  // of what is asked for
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Eigen::Isometry3d X_WV(Eigen::Translation3d(random.point(0.1)));
+    scene.place(0, X_WV);
+    const geometry::Displacement d{random.point(0.2), random.uniform(0.0, 1.0) * random.direction()};
+    certificate.begin_step(std::vector{d});
+    ASSERT_TRUE(certificate.path_of({0, 1}));
+    const BallAboutPart ball = BallAboutPart::at(X_WV, part->tree);
+    const double asked = certificate.needed_turning(ball) - kFloor;
+    const Eigen::Vector3d y = ball.center_O + ball.radius * random.direction();
+    const Eigen::Vector3d n_V = random.direction();
+    const auto height = [&](double t) {
+      const Eigen::Isometry3d X = geometry::displaced(X_WV, part->p_Vref(), d.scaled(t));
+      return -n_V.dot(X.inverse() * y);
+    };
+    const double lesser_end = std::min(height(0.0), height(1.0));
+    for (double t = 0.05; t < 1.0; t += 0.05) {
+      ASSERT_GE(height(t), lesser_end - asked) << "trial " << trial << ", moment " << t;
+      most = std::max(most, (lesser_end - height(t)) / asked);
+    }
+  }
+  EXPECT_GT(most, 0.7);
 }
 
 // What was proved must hold at every moment of the way, by the exact predicate and by distance.

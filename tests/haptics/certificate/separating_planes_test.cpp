@@ -30,9 +30,10 @@ using test_support::RandomNumbers;
 constexpr double kSizeOfBodies = 0.02;    // metres, of the bodies
 constexpr double kRoundingOfSize = 1e-6;  // of the size
 
-/// The height of the part's triangle over the obstacle's along n_O, in double precision.
+/// The height of the part's triangle over the obstacle's along a direction, in double precision.
 double height_over(std::span<const PlacedBody> bodies, const TrianglesOfBodies& pair, const Isometry3d& X_OV,
-                   const Vector3d& n_O) {
+                   const FixedDirection& direction) {
+  const Vector3d n_O = direction.turns_with_part ? Vector3d(X_OV.linear() * direction.n) : direction.n;
   const geometry::TriangleMesh& mesh_O = bodies[static_cast<std::size_t>(pair.bodies.obstacle)].body->tree.mesh();
   const geometry::TriangleMesh& mesh_V = bodies[static_cast<std::size_t>(pair.bodies.part)].body->tree.mesh();
   double top = -std::numeric_limits<double>::infinity();
@@ -63,20 +64,19 @@ struct RandomPlanes {
     for (const auto& [pair, distance] : test_support::near_triangles(bodies, scene.obstacles().size(), 2e-3)) {
       if (pair.bodies != bodies_of_pairs) continue;
       pairs.push_back(pair);
-      directions_O.push_back(random.direction());
+      directions.push_back({random.direction(), false});
     }
     planes.emplace().start(bodies_of_pairs, bodies);
     const Eigen::Matrix3d& R_WO = bodies[0].X_WB.linear();
     for (std::uint32_t i = 0; i < pairs.size(); ++i) {
       const bool is_last = i + 1 == pairs.size();
-      planes->add(i, pairs[i].obstacle_triangle, pairs[i].part_triangle,
-                  is_last ? Vector3d(Vector3d::Zero()) : Vector3d(R_WO * directions_O[i]), bodies);
+      planes->add(i, pairs[i], is_last ? Vector3d(Vector3d::Zero()) : Vector3d(R_WO * directions[i].n), bodies);
     }
   }
 
   BodyPair bodies_of_pairs;
   std::vector<TrianglesOfBodies> pairs;
-  std::vector<Vector3d> directions_O;
+  std::vector<FixedDirection> directions;
   std::optional<PlanesOfBodies> planes;
 };
 
@@ -90,6 +90,7 @@ TEST(SeparatingPlanes, TellLowerBoundsOfDistancesWhereverThePartGoes) {
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);
   int told = 0;
+  int turning = 0;
   for (int trial = 0; trial < 40; ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     const auto scene = test_support::random_contact_scene(kSizeOfBodies, 1e-4, 2e-4, random);
@@ -102,11 +103,12 @@ TEST(SeparatingPlanes, TellLowerBoundsOfDistancesWhereverThePartGoes) {
       scene->place(mover, geometry::displaced(scene->bodies()[scene->body_of_mover(mover)].X_WB, part.p_Vref(), d));
       const Isometry3d X_OV = relative_pose_of(*scene, known.bodies_of_pairs);
       const std::size_t turned = static_cast<std::size_t>(random.integer(0, static_cast<int>(known.pairs.size()) - 1));
-      known.directions_O[turned] = random.direction();
-      known.planes->turn(turned, *scene->bodies()[0].body, known.pairs[turned].obstacle_triangle,
-                         known.directions_O[turned]);
+      const FixedDirection direction{random.direction(), random.chance(0.5)};
+      known.planes->turn(turned, known.pairs[turned], direction, scene->bodies());
+      if (known.planes->turns_with_part(turned) == direction.turns_with_part) known.directions[turned] = direction;
+      turning += known.planes->turns_with_part(turned) ? 1 : 0;
       std::vector<float> gaps;
-      known.planes->find_gaps(X_OV.linear(), X_OV.translation(), 0, known.planes->block_count(), gaps);
+      known.planes->find_gaps(known.planes->maps(X_OV), 0, known.planes->block_count(), gaps);
       for (std::size_t i = 0; i < known.pairs.size(); ++i) {
         const auto gap = static_cast<double>(gaps[i]);
         if (i + 1 == known.pairs.size() && turned != i) {
@@ -114,7 +116,7 @@ TEST(SeparatingPlanes, TellLowerBoundsOfDistancesWhereverThePartGoes) {
           continue;
         }
         ASSERT_LE(gap, test_support::distance_of(scene->bodies(), known.pairs[i]));
-        const double height = height_over(scene->bodies(), known.pairs[i], X_OV, known.directions_O[i]);
+        const double height = height_over(scene->bodies(), known.pairs[i], X_OV, known.directions[i]);
         ASSERT_LE(gap, height);
         ASSERT_GE(gap, height - 20.0 * kRoundingOfSize * kSizeOfBodies);
         told += gap > 0.0 ? 1 : 0;
@@ -122,6 +124,7 @@ TEST(SeparatingPlanes, TellLowerBoundsOfDistancesWhereverThePartGoes) {
     }
   }
   EXPECT_GT(told, 500);
+  EXPECT_GT(turning, 20);
 }
 
 TEST(SeparatingPlanes, TellTheSameBitsWithEveryInstructionSet) {
@@ -132,13 +135,15 @@ TEST(SeparatingPlanes, TellTheSameBitsWithEveryInstructionSet) {
   for (int trial = 0; trial < 20; ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     const auto scene = test_support::random_contact_scene(kSizeOfBodies, 1e-4, 2e-4, random);
-    const RandomPlanes known(*scene, random);
+    RandomPlanes known(*scene, random);
     pairs += known.pairs.size();
+    for (std::size_t i = 0; i < known.pairs.size(); i += 2)
+      known.planes->turn(i, known.pairs[i], {random.direction(), true}, scene->bodies());
     const Isometry3d X_OV = relative_pose_of(*scene, known.bodies_of_pairs);
     std::vector<float> first;
     test_support::with_every_instruction_set([&](std::string_view name) {
       std::vector<float> gaps;
-      known.planes->find_gaps(X_OV.linear(), X_OV.translation(), 0, known.planes->block_count(), gaps);
+      known.planes->find_gaps(known.planes->maps(X_OV), 0, known.planes->block_count(), gaps);
       if (first.empty()) first = gaps;
       EXPECT_EQ(gaps, first) << name;
     });
