@@ -17,6 +17,10 @@ constexpr std::int64_t kCallsAhead = 4;
 /// parts that turn back.
 constexpr double kForward = 0.6;
 
+/// A search that finds more pairs of triangles takes longer than a tick: it is requested as soon as the one before has
+/// been answered.
+constexpr std::size_t kPairsOfLongSearch = 5000;
+
 // Shares of a step:
 /// The radius of a search at its middle: half a step is needed where it leads as expected.
 constexpr double kRadiusOfStep = 0.6;
@@ -40,7 +44,7 @@ CandidatePairs::CandidatePairs(const ContactScene& scene, double greatest_radius
       thread_(runs_ahead || work_of_call != kUnlimitedWork
                   ? std::make_unique<SearchThread>(work_ahead(runs_ahead, work_of_call))
                   : nullptr),
-      search_(scene, greatest_radius, work_of_call == kUnlimitedWork ? nullptr : thread_.get()),
+      search_(scene, greatest_radius, thread_.get()),
       now_(scene),
       way_ahead_(scene) {}
 
@@ -63,8 +67,9 @@ void CandidatePairs::begin_call() {
 bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> ignored) {
   if (covers(reach)) return false;
   if (!next_.covers(reach)) {
-    if (!is_settled()) return false;  // it is of no use any more
-    ask(reach + ahead, ahead, kForward * ahead, ignored);
+    if (!give_up_search()) return false;  // it is of no use any more
+    place_ahead(kForward * ahead, next_.request.X_WB);
+    request(reach + ahead, ahead, ignored);
   }
   return take_or_forget();
 }
@@ -88,7 +93,7 @@ bool CandidatePairs::look_along(std::span<const geometry::Displacement> way, dou
   const bool is_requested =
       next_.is_there && std::equal(X_WB_ahead_.begin(), X_WB_ahead_.end(), next_.request.X_WB.begin(), are_alike);
   if (!is_requested) {
-    if (!is_settled()) return false;  // it is of no use any more
+    if (!give_up_search()) return false;  // it is of no use any more
     next_.request.X_WB = X_WB_ahead_;
     request(std::min(kRadiusOfStep * share * length + least, greatest_radius_), least, ignored);
   }
@@ -104,11 +109,20 @@ bool CandidatePairs::serve_for(double step) {
 void CandidatePairs::look_ahead(double step, double reach, double ahead, std::span<const BodyPair> ignored) {
   GLISSADE_ASSERT(has_planes_);
   if (!now_.search().is_there) return;
-  if (next_.is_there && next_.is_in_vain() && is_settled()) next_.is_there = false;
-  if (next_.is_there || (!now_.search().is_being_left() && serve_for(step))) return;
+  if (next_.is_there && next_.is_in_vain() && give_up_search()) next_.is_there = false;
+  if (next_.is_there) return;
+  const bool is_time = now_.search().is_being_left() || !serve_for(step);
+  if (!is_time && now_.pair_count() <= kPairsOfLongSearch) return;
   double until_needed = std::max(0.0, covered() - std::max(step, reach));
+  if (!is_time) until_needed += 2.0 * now_.search().drift;  // as a rule, the parts have not yet passed its poses
   if (step > 0.0) until_needed = step * std::ceil(until_needed / step);  // answers are taken before a step
-  ask(std::max(kRadiusOfStep * step, reach) + ahead, ahead, until_needed + 0.5 * step + kForward * ahead, ignored);
+  const double forward = until_needed + 0.5 * step + kForward * ahead;
+  if (is_time) {
+    place_ahead(forward, next_.request.X_WB);
+  } else if (!way_ahead_.follow_far(forward, next_.request.X_WB)) {
+    return;
+  }
+  request(std::max(kRadiusOfStep * step, reach) + ahead, ahead, ignored);
   next_.step = step;
 }
 
@@ -132,12 +146,6 @@ bool CandidatePairs::take() {
   ++statistics_.searches;
   statistics_.reports += now_.search().set.report;
   return true;
-}
-
-/// Requests a search where the movers will be after `forward` more metres.
-void CandidatePairs::ask(double radius, double ahead, double forward, std::span<const BodyPair> ignored) {
-  place_ahead(forward, next_.request.X_WB);
-  request(radius, ahead, ignored);
 }
 
 /// Requests the search at the poses of `next_`.
@@ -174,6 +182,13 @@ bool CandidatePairs::is_settled() {
   work_ = thread_->work();
   work_left_ = std::min(work_of_call_, allowed_ - work_);
   return true;
+}
+
+/// Ends a search that is of no use any more. Returns false if it has to go on: where work is limited, what a call may
+/// do must not depend on how fast the thread is.
+bool CandidatePairs::give_up_search() {
+  if (is_with_thread_ && work_of_call_ == kUnlimitedWork && !thread_->is_idle()) cancel();
+  return is_settled();
 }
 
 bool CandidatePairs::is_too_large() const {

@@ -65,11 +65,11 @@ class CandidatePairs {
                   std::span<const BodyPair> ignored);
   /// Whether the candidates will cover another step of this length (metres), if the parts go on as they went.
   bool serve_for(double step);
-  /// Requests the next search once the parts leave the poses of the last one. They are expected to go on as they went,
-  /// in steps of length `step` (metres): the search is made where the next one will lead halfway, and a share of it
-  /// suffices as the radius. It is at least `reach` (metres), and `ahead` (metres) more. To be called once or twice for
-  /// each step; only with planes: without them nobody works ahead of need, and an earlier request would only be of
-  /// earlier poses.
+  /// Requests the next search once the parts leave the poses of the last one, or at once if that found very many pairs.
+  /// They are expected to go on as they went, in steps of length `step` (metres): the search is made where the next one
+  /// will lead halfway, and a share of it suffices as the radius. It is at least `reach` (metres), and `ahead` (metres)
+  /// more. To be called once or twice for each step; only with planes: without them nobody works ahead of need, and an
+  /// earlier request would only be of earlier poses.
   void look_ahead(double step, double reach, double ahead, std::span<const BodyPair> ignored);
 
   /// Whether the search that `look` could not complete has had the work of several calls.
@@ -106,9 +106,9 @@ class CandidatePairs {
  private:
   bool take_or_forget();
   bool take();
-  void ask(double radius, double ahead, double forward, std::span<const BodyPair> ignored);
   void request(double radius, double ahead, std::span<const BodyPair> ignored);
   bool is_settled();
+  bool give_up_search();
   void place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB);
   double covered_on_way(const TrackedSearch& search, double way);
   void forget();

@@ -50,6 +50,11 @@ bool SearchThread::wait(std::int64_t allowed) {
   return true;
 }
 
+bool SearchThread::is_idle() {
+  const std::lock_guard lock(mutex_);
+  return is_done();
+}
+
 void SearchThread::cancel() {
   std::unique_lock lock(mutex_);
   is_cancelled_ = true;
@@ -61,7 +66,8 @@ void SearchThread::cancel() {
 }
 
 void SearchThread::spend(std::int64_t work) {
-  const std::int64_t done = work_.fetch_add(work) + work;
+  const std::int64_t done = work_.load(std::memory_order_relaxed) + work;
+  work_.store(done, std::memory_order_relaxed);  // only this thread writes while it searches
   if (done <= lock_at_) return;
   std::unique_lock lock(mutex_);
   changed_.notify_all();

@@ -41,6 +41,8 @@ class SearchThread final : public collision::WorkMeter {
   bool wait(std::int64_t allowed = kUnlimitedWork);
 
   std::int64_t work_ahead() const { return work_ahead_; }
+  /// Whether no search is under way. `wait` tells of its exception.
+  bool is_idle();
   /// Ends a search that is under way without an answer.
   void cancel();
 

@@ -17,20 +17,28 @@ void WayAhead::follow(std::span<const Eigen::Isometry3d> X_WB_nearest, double wa
                       std::vector<Eigen::Isometry3d>& X_WB) {
   copy_mover_poses(scene_, X_WB);
   if (!(way > 0.0)) return;
-  std::span<const Eigen::Isometry3d> before = X_WB_nearest;
-  double gone = approach(scene_, before, X_WB, motions_);
-  if (kMostForward * gone < way) {  // the parts are about there, and their last steps may be small corrections
-    before = X_WB_at_taking_;
-    gone = approach(scene_, before, X_WB, motions_);
-  }
-  if (!(gone > 0.0) || !std::isfinite(gone)) return;
-  if (!are_rigid(X_WB)) return;
+  // If the parts are about there, their last steps may be small corrections.
+  const bool is_far_enough = !(kMostForward * approach(scene_, X_WB_nearest, X_WB, motions_) < way);
+  go_on(is_far_enough ? X_WB_nearest : X_WB_at_taking_, way, X_WB);
+}
+
+bool WayAhead::follow_far(double way, std::vector<Eigen::Isometry3d>& X_WB) {
+  copy_mover_poses(scene_, X_WB);
+  return go_on(X_WB_at_last_taking_, way, X_WB);
+}
+
+/// The movers, at X_WB now, were at `X_WB_before`.
+bool WayAhead::go_on(std::span<const Eigen::Isometry3d> X_WB_before, double way, std::vector<Eigen::Isometry3d>& X_WB) {
+  const double gone = approach(scene_, X_WB_before, X_WB, motions_);
+  if (!(gone > 0.0) || !std::isfinite(gone)) return false;
+  if (!are_rigid(X_WB)) return false;
   const double share = std::min(kMostForward, way / gone);
   for (std::size_t mover = 0; mover < X_WB.size(); ++mover) {
     const Eigen::Vector3d& p_Bref = scene_.movers()[mover]->p_Vref();
-    const geometry::Displacement d = geometry::displacement_between(before[mover], X_WB[mover], p_Bref);
+    const geometry::Displacement d = geometry::displacement_between(X_WB_before[mover], X_WB[mover], p_Bref);
     if (!d.is_zero()) X_WB[mover] = geometry::displaced(X_WB[mover], p_Bref, d.scaled(share));
   }
+  return true;
 }
 
 void displace_movers(const ContactScene& scene, std::span<const geometry::Displacement> way, double share,

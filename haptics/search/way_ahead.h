@@ -21,16 +21,26 @@ class WayAhead {
   explicit WayAhead(const ContactScene& scene) : scene_(scene) {}
 
   /// To be called when the answer of a search has been taken, with the present poses of the movers.
-  void begin(std::span<const Eigen::Isometry3d> X_WB) { X_WB_at_taking_.assign(X_WB.begin(), X_WB.end()); }
+  void begin(std::span<const Eigen::Isometry3d> X_WB) {
+    X_WB_at_last_taking_.swap(X_WB_at_taking_);
+    X_WB_at_taking_.assign(X_WB.begin(), X_WB.end());
+    if (X_WB_at_last_taking_.empty()) X_WB_at_last_taking_ = X_WB_at_taking_;
+  }
 
   /// Replaces `X_WB` by the poses of the movers after `way` more metres: they go on as since they were at
   /// `X_WB_nearest`, where they were nearest to the poses of the last search. Poses that a search refuses, and those of
   /// movers that have gone nowhere, are the present ones.
   void follow(std::span<const Eigen::Isometry3d> X_WB_nearest, double way, std::vector<Eigen::Isometry3d>& X_WB);
+  /// The same: they go on as since the answer before the last one was taken. So their way can be told as soon as an
+  /// answer has been taken. Returns false if they have gone nowhere since.
+  bool follow_far(double way, std::vector<Eigen::Isometry3d>& X_WB);
 
  private:
+  bool go_on(std::span<const Eigen::Isometry3d> X_WB_before, double way, std::vector<Eigen::Isometry3d>& X_WB);
+
   const ContactScene& scene_;
   std::vector<Eigen::Isometry3d> X_WB_at_taking_;
+  std::vector<Eigen::Isometry3d> X_WB_at_last_taking_;
   std::vector<BoundedMotion> motions_;  // scratch memory
 };
 

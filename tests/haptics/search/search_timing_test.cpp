@@ -183,6 +183,80 @@ TEST_P(CubeOverPlate, APoseThatIsNoneIsAnErrorOfTheCaller) {
   EXPECT_FALSE(pairs_within(candidates_, kReach).empty());
 }
 
+/// A finely cut ball that goes past another one: each search finds very many pairs.
+class BallPastBall : public ::testing::TestWithParam<bool> {
+ protected:
+  static constexpr double kReach = 0.1e-3;
+  static constexpr double kAhead = 2e-3;
+
+  void move(double length) {
+    x_ += length;
+    scene_.place(0, test_support::pose({x_, 0.0, 0.0402}));
+    candidates_.moved();
+  }
+
+  /// Returns whether the candidates are others.
+  bool look() {
+    const bool is_other = candidates_.look(kReach, kAhead, {});
+    candidates_.look_ahead(0.0, kReach, kAhead, {});
+    return is_other;
+  }
+
+  double place_of_search() const { return candidates_.pairs().search().request.X_WB[0].translation().x(); }
+
+  double x_ = -6e-3;
+  ContactScene scene_{{test_support::obstacle_of(geometry::make_sphere(0.02, 12000))},
+                      {test_support::part_of(geometry::make_sphere(0.02, 12000))},
+                      std::vector<double>{1e-5}};
+  CandidatePairs candidates_{scene_, 5e-3, GetParam()};
+};
+
+TEST_P(BallPastBall, TakesSearchesThatServeAsLongAsThoseThatAreAskedForLate) {
+  move(0.0);
+  EXPECT_TRUE(look());
+  std::vector<int> taken;
+  for (int step = 1; step <= 120; ++step) {
+    move(0.05 * kAhead);
+    if (look()) taken.push_back(step);
+    ASSERT_TRUE(candidates_.covers(kReach));
+    ASSERT_GT(candidates_.pairs().pair_count(), 5000U);
+  }
+  ASSERT_GE(taken.size(), 3U);
+  for (std::size_t i = 2; i < taken.size(); ++i)
+    EXPECT_NEAR(taken[i] - taken[i - 1], 32, 2);
+}
+
+// A late request would be for 0.6 of the look-ahead beyond the place to which the ball jumps.
+TEST_P(BallPastBall, AsksForTheNextSearchAsSoonAsTheLastOneIsTaken) {
+  move(0.0);
+  look();
+  for (int taken = 0; taken < 2;) {
+    move(0.05 * kAhead);
+    taken += look() ? 1 : 0;
+  }
+  const double at_taking = x_;
+  move(1.9 * kAhead);
+  EXPECT_FALSE(candidates_.covers(kReach));
+  EXPECT_TRUE(look());
+  EXPECT_NEAR(place_of_search(), at_taking + 2.2 * kAhead, 0.15 * kAhead);
+}
+
+TEST_P(BallPastBall, IsSearchedForAfreshWhereItTurnsBack) {
+  move(0.0);
+  look();
+  for (int taken = 0; taken < 2;) {
+    move(0.05 * kAhead);
+    taken += look() ? 1 : 0;
+  }
+  move(-3.0 * kAhead);  // before the search that was asked for can be done
+  EXPECT_TRUE(look());
+  EXPECT_TRUE(candidates_.covers(kReach));
+  EXPECT_LT(place_of_search(), x_ + 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutAThread, BallPastBall, ::testing::Bool(),
+                         [](const auto& test) { return std::string(test.param ? "WithAThread" : "WithoutAThread"); });
+
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutAThread, CubeOverPlate, ::testing::Bool(),
                          [](const auto& test) { return std::string(test.param ? "WithAThread" : "WithoutAThread"); });
 
