@@ -23,8 +23,10 @@ namespace glissade::haptics {
 /// next steps. The stages of `reports` find out which bodies are near; only its `total` includes the search among their
 /// triangles, and the time in which a search waits for work that it may do.
 struct SearchStatistics {
-  std::int64_t searches = 0;       ///< number of searches whose answers were used
-  collision::FrameReport reports;  ///< the sum of the reports of these searches
+  std::int64_t searches = 0;  ///< number of searches whose answers were used
+  /// The sum of the reports of these searches. Times and stages are not the same in each run with a search thread: what
+  /// a search remembers of earlier ones depends on which of these it has had to give up.
+  collision::FrameReport reports;
 };
 
 /// The calls of a simulation and their work.

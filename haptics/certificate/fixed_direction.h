@@ -5,7 +5,6 @@
 /// turn with the body to which they belong.
 
 #include <algorithm>
-#include <cstddef>
 
 #include <Eigen/Geometry>
 
@@ -20,8 +19,8 @@ struct FixedDirection {
   bool turns_with_part = false;  ///< it is fixed to the part; otherwise to the obstacle
 };
 
-/// A ball about the part. Only past the corners of an obstacle's triangle in there, a direction may turn with the part:
-/// far corners it would pass too fast.
+/// A ball about the part. A direction turns with the part only if the corners of the obstacle's triangle are in there:
+/// what it may lose between the ends of a step grows with their distance.
 struct BallAboutPart {
   Eigen::Vector3d center_O;  ///< in the frame of the obstacle
   double radius;             ///< metres

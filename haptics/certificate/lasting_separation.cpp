@@ -10,11 +10,14 @@ namespace {
 /// A direction that serves for so many more paths is good enough.
 constexpr double kEnoughPaths = 1.0;
 
+/// What rounding leaves of a rotation that is none, rad.
+constexpr double kNoTurn = 1e-13;
+
 }  // namespace
 
 void LastingSeparations::start(const CornerMap& begin, const CornerMap& end, double gap, double gap_turning) {
   path_ = {.begin = begin, .end = end, .gap = gap, .gap_turning = gap_turning};
-  path_.turns = begin.A != end.A;
+  path_.turns = (end.A - begin.A).norm() > kNoTurn;
   if (path_.turns) path_.turn = end.A.inverse().transpose() * begin.A.transpose();
   clear();
 }

@@ -70,7 +70,7 @@ class LastingSeparations {
   PathOfPart path_{};
   std::size_t count_ = 0;
   geometry::TrianglesToMeasure triangles_{};
-  PairsOnPath on_path_;
+  PairsOnPath on_path_{};
   std::array<Separation, geometry::kPairsToMeasure> found_;
 };
 

@@ -51,11 +51,14 @@ void PathCertificate::begin_step(std::span<const geometry::Displacement> displac
   forget_bodies();
 }
 
-std::optional<PathOfBodies> PathCertificate::path_of(const BodyPair& bodies) {
+std::optional<PathOfBodies> PathCertificate::path_of(const BodyPair& bodies, const BallAboutPart& ball) {
   select(bodies);
   if (!seeks_lasting_directions()) return std::nullopt;
-  return PathOfBodies{relative_pose(*obstacle_.X_WB[0], *part_.X_WB[0]),
-                      relative_pose(*obstacle_.X_WB[1], *part_.X_WB[1]), needed_, far_};
+  return PathOfBodies{.X_OV_begin = relative_pose(*obstacle_.X_WB[0], *part_.X_WB[0]),
+                      .X_OV_end = relative_pose(*obstacle_.X_WB[1], *part_.X_WB[1]),
+                      .needed = needed_,
+                      .needed_turning = needed_turning(ball),
+                      .far = far_};
 }
 
 void PathCertificate::begin(const BodiesMotion& motion, std::size_t first_mover,
@@ -235,6 +238,8 @@ void PathCertificate::start_separations() {
                      needed_ + rounding_, needed_turning_ + rounding_);
 }
 
+/// `PathOfBodies::needed_turning` of the bodies at hand. The reference point goes straight, so it is farthest from a
+/// corner at an end.
 double PathCertificate::needed_turning(const BallAboutPart& ball) {
   if (!bodies_.moves(part_.number)) return needed_;
   const auto farthest_at = [&](int moment) {

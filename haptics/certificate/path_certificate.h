@@ -46,7 +46,8 @@ struct PathOfBodies {
   Eigen::Isometry3d X_OV_begin;  ///< the part in the frame of the obstacle
   Eigen::Isometry3d X_OV_end;
   double needed;  ///< metres: a pair that a direction fixed to the obstacle separates so far at both ends is certified
-  double far;     ///< metres: a pair that is farther apart at the beginning is certified
+  double needed_turning;  ///< metres: the same for a direction that turns with the part, past corners in the ball
+  double far;             ///< metres: a pair that is farther apart at the beginning is certified
 };
 
 /// Not thread-safe.
@@ -64,10 +65,7 @@ class PathCertificate {
   double curvature() const { return bodies_.most_curvature(); }
   /// The ends of this step for two bodies; none if the obstacle moves, too: the bounds of the error between both ends
   /// are for an obstacle that stands still.
-  std::optional<PathOfBodies> path_of(const BodyPair& bodies);
-  /// `PathOfBodies::needed` of the bodies of the last call, for directions that turn with the part past the corners of
-  /// obstacles in the ball.
-  double needed_turning(const BallAboutPart& ball);
+  std::optional<PathOfBodies> path_of(const BodyPair& bodies, const BallAboutPart& ball);
   /// Begins the certificate of all of `to_certify` for this step. `to_certify` and the poses must stay as they are
   /// until `go_on` returns true.
   void begin(std::span<const PairToCertify> to_certify);
@@ -115,7 +113,7 @@ class PathCertificate {
 
   void forget_bodies();
   void select(const BodyPair& bodies);
-  /// Whether directions are sought that serve for the next steps too. They are fixed to the obstacle.
+  /// Whether directions are sought that serve for the next steps too. They are fixed to either body.
   bool seeks_lasting_directions() const { return keeps_directions_ && !obstacle_moves_; }
   MovingBody moving(std::int32_t body);
   static MovingItem moving(const TreeItem& item, const MovingBody& body);
@@ -126,6 +124,7 @@ class PathCertificate {
   bool separates(const Eigen::Vector3d& n_W, std::int32_t triangle_O, std::int32_t triangle_V) const;
   void prove(const Triangles& triangles, WorkBudget& budget);
   void start_separations();
+  double needed_turning(const BallAboutPart& ball);
   void prove_waiting(WorkBudget& budget);
   void certify(const Triangles& triangles, WorkBudget& budget);
   void note_direction(const Triangles& triangles, const FixedDirection& direction);

@@ -67,7 +67,7 @@ void CandidatePairs::begin_call() {
 bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> ignored) {
   if (covers(reach)) return false;
   if (!next_.covers(reach)) {
-    if (!give_up_search()) return false;  // it is of no use any more
+    give_up_search();
     place_ahead(kForward * ahead, next_.request.X_WB);
     request(reach + ahead, ahead, ignored);
   }
@@ -93,7 +93,7 @@ bool CandidatePairs::look_along(std::span<const geometry::Displacement> way, dou
   const bool is_requested =
       next_.is_there && std::equal(X_WB_ahead_.begin(), X_WB_ahead_.end(), next_.request.X_WB.begin(), are_alike);
   if (!is_requested) {
-    if (!give_up_search()) return false;  // it is of no use any more
+    give_up_search();
     next_.request.X_WB = X_WB_ahead_;
     request(std::min(kRadiusOfStep * share * length + least, greatest_radius_), least, ignored);
   }
@@ -109,12 +109,12 @@ bool CandidatePairs::serve_for(double step) {
 void CandidatePairs::look_ahead(double step, double reach, double ahead, std::span<const BodyPair> ignored) {
   GLISSADE_ASSERT(has_planes_);
   if (!now_.search().is_there) return;
-  if (next_.is_there && next_.is_in_vain() && give_up_search()) next_.is_there = false;
+  if (next_.is_there && next_.is_in_vain()) give_up_search();
   if (next_.is_there) return;
   const bool is_time = now_.search().is_being_left() || !serve_for(step);
   if (!is_time && now_.pair_count() <= kPairsOfLongSearch) return;
   double until_needed = std::max(0.0, covered() - std::max(step, reach));
-  if (!is_time) until_needed += 2.0 * now_.search().drift;  // as a rule, the parts have not yet passed its poses
+  if (!is_time && now_.search().is_approached()) until_needed += 2.0 * now_.search().drift;
   if (step > 0.0) until_needed = step * std::ceil(until_needed / step);  // answers are taken before a step
   const double forward = until_needed + 0.5 * step + kForward * ahead;
   if (is_time) {
@@ -184,11 +184,12 @@ bool CandidatePairs::is_settled() {
   return true;
 }
 
-/// Ends a search that is of no use any more. Returns false if it has to go on: where work is limited, what a call may
-/// do must not depend on how fast the thread is.
-bool CandidatePairs::give_up_search() {
-  if (is_with_thread_ && work_of_call_ == kUnlimitedWork && !thread_->is_idle()) cancel();
-  return is_settled();
+/// Ends a search that is of no use any more. Where work is limited, what is left of it for this call must not depend on
+/// how fast the thread is.
+void CandidatePairs::give_up_search() {
+  if (is_with_thread_ && work_of_call_ != kUnlimitedWork)
+    work_left_ = thread_->is_done_within(allowed_) ? std::min(work_of_call_, allowed_ - thread_->work()) : 0;
+  cancel();
 }
 
 bool CandidatePairs::is_too_large() const {
@@ -196,10 +197,9 @@ bool CandidatePairs::is_too_large() const {
 }
 
 void CandidatePairs::cancel() {
-  if (is_with_thread_) thread_->cancel();
+  if (is_with_thread_ && thread_->cancel()) search_.start_afresh();
   is_with_thread_ = false;
   next_.is_there = false;
-  search_.start_afresh();
 }
 
 void CandidatePairs::moved() {
@@ -232,7 +232,7 @@ double CandidatePairs::covered_on_path(PathCertificate& certificate) {
   return now_.search().covered_up_to(drift_at_end) - certificate.curvature();
 }
 
-/// Also discards the answer of a search under way, which the thread completes all the same.
+/// Also discards the answer of a search under way; the next request ends it.
 void CandidatePairs::clear() {
   forget();
 }
@@ -240,6 +240,7 @@ void CandidatePairs::clear() {
 void CandidatePairs::forget() {
   now_.forget();
   next_.is_there = false;
+  way_ahead_.forget();
 }
 
 }  // namespace glissade::haptics

@@ -138,7 +138,7 @@ void KnownPairs::unproved_within(double reach, PathCertificate& certificate, std
   for (std::size_t i = 0; i < search_.set.planes.size(); ++i) {
     PlanesOfBodies& planes = search_.set.planes[i];
     const std::span<const std::uint32_t> numbers = planes.numbers();
-    const std::optional<PathOfBodies> known_path = certificate.path_of(planes.bodies());
+    const std::optional<PathOfBodies> known_path = certificate.path_of(planes.bodies(), planes.ball());
     if (!known_path) {
       for (const std::uint32_t number : numbers) {
         const NearPair& pair = search_.set.pairs[number];
@@ -150,7 +150,6 @@ void KnownPairs::unproved_within(double reach, PathCertificate& certificate, std
       continue;
     }
     const PathOfBodies& path = *known_path;
-    const double needed_turning = certificate.needed_turning(planes.ball());
     const PlaneMaps at_begin = planes.maps(path.X_OV_begin);
     const PlaneMaps at_end = planes.maps(path.X_OV_end);
     std::vector<double>& of_blocks = gaps_to_certify_[i];
@@ -170,7 +169,7 @@ void KnownPairs::unproved_within(double reach, PathCertificate& certificate, std
           const NearPair& pair = search_.set.pairs[numbers[slot]];
           if (!pair.is_to_certify) continue;
           least = std::min(least, gap);
-          const double needed = planes.turns_with_part(slot) ? needed_turning : path.needed;
+          const double needed = planes.turns_with_part(slot) ? path.needed_turning : path.needed;
           if (std::min(gap, static_cast<double>(gaps_at_end_[slot])) >= needed) continue;
           unproved.push_back(to_certify(pair));
           places_.push_back({&planes, slot, numbers[slot]});

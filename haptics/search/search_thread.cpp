@@ -43,26 +43,28 @@ void SearchThread::wait_for_work(std::int64_t allowed) {
 }
 
 bool SearchThread::wait(std::int64_t allowed) {
-  wait_for_work(allowed);
+  if (!is_done_within(allowed)) return false;
   const std::lock_guard lock(mutex_);
-  if (!is_done() || work_ > allowed) return false;
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
   return true;
 }
 
-bool SearchThread::is_idle() {
+bool SearchThread::is_done_within(std::int64_t allowed) {
+  wait_for_work(allowed);
   const std::lock_guard lock(mutex_);
-  return is_done();
+  return is_done() && work_ <= allowed;
 }
 
-void SearchThread::cancel() {
+bool SearchThread::cancel() {
   std::unique_lock lock(mutex_);
+  const bool ends_early = !is_done() || error_;
   is_cancelled_ = true;
   lock_at_ = -1;
   changed_.notify_all();
   changed_.wait(lock, [this] { return is_done(); });
   is_cancelled_ = false;
   error_ = nullptr;
+  return ends_early;
 }
 
 void SearchThread::spend(std::int64_t work) {

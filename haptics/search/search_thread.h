@@ -28,8 +28,8 @@ class SearchThread final : public collision::WorkMeter {
   /// Waits for a search that is under way.
   ~SearchThread() = default;
 
-  /// Starts a search. The search before must be done: `wait` has returned true. The three objects must not be used
-  /// until `wait` returns true again. The search must have this object as its meter.
+  /// Starts a search. The search before must be done or cancelled: `wait` has returned true, or `cancel` has been
+  /// called. The three objects must not be used until this is so again. The search must have this object as its meter.
   void begin(CandidateSearch& search, const CandidateRequest& request, CandidateSet& set);
 
   /// Allows the search to have done so much work since its beginning. Does not wait.
@@ -39,12 +39,13 @@ class SearchThread final : public collision::WorkMeter {
   /// The same; returns whether the search is done and has done no more. So the answer does not depend on how fast the
   /// thread is. Rethrows the exception of the search.
   bool wait(std::int64_t allowed = kUnlimitedWork);
+  /// The same without the exception.
+  bool is_done_within(std::int64_t allowed);
 
   std::int64_t work_ahead() const { return work_ahead_; }
-  /// Whether no search is under way. `wait` tells of its exception.
-  bool is_idle();
-  /// Ends a search that is under way without an answer.
-  void cancel();
+  /// Ends a search that is under way at its next call of `spend`, without an answer. Forgets its exception. Returns
+  /// whether it was under way or had failed: it must start afresh then.
+  bool cancel();
 
   /// Work of the search that `wait` has last waited for, so far.
   std::int64_t work() const { return work_.load(std::memory_order_relaxed); }
@@ -60,7 +61,7 @@ class SearchThread final : public collision::WorkMeter {
   };
 
   void run(const std::stop_token& stop);
-  bool is_done() const { return job_.search == nullptr; }
+  bool is_done() const { return job_.search == nullptr; }  // under the lock
   std::int64_t at_most_ahead() const;
 
   struct Cancelled : std::exception {};

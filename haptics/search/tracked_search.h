@@ -38,6 +38,8 @@ struct TrackedSearch {
   double covered_up_to(double drift_at_end) const {
     return is_there ? request.radius - std::max(drift, drift_at_end) : covered();
   }
+  /// Whether the parts still come nearer to its poses, as far as its answer has been taken ahead of them.
+  bool is_approached() const { return drift <= least_drift; }
   /// Whether it is time for the next search.
   bool is_being_left() const;
   /// Whether the parts go away from the poses of a search whose answer has not been taken.

@@ -8,7 +8,7 @@
 namespace glissade::haptics {
 namespace {
 
-/// Of the way since the parts were nearest to the poses of a search: they are expected to go on so for as long at most.
+/// Of the way that they have gone so far: the parts are expected to go on so for as long at most.
 constexpr double kMostForward = 3.0;
 
 }  // namespace
@@ -24,7 +24,7 @@ void WayAhead::follow(std::span<const Eigen::Isometry3d> X_WB_nearest, double wa
 
 bool WayAhead::follow_far(double way, std::vector<Eigen::Isometry3d>& X_WB) {
   copy_mover_poses(scene_, X_WB);
-  return go_on(X_WB_at_last_taking_, way, X_WB);
+  return go_on(X_WB_at_taking_before_, way, X_WB);
 }
 
 /// The movers, at X_WB now, were at `X_WB_before`.

@@ -22,9 +22,14 @@ class WayAhead {
 
   /// To be called when the answer of a search has been taken, with the present poses of the movers.
   void begin(std::span<const Eigen::Isometry3d> X_WB) {
-    X_WB_at_last_taking_.swap(X_WB_at_taking_);
+    X_WB_at_taking_before_.swap(X_WB_at_taking_);
     X_WB_at_taking_.assign(X_WB.begin(), X_WB.end());
-    if (X_WB_at_last_taking_.empty()) X_WB_at_last_taking_ = X_WB_at_taking_;
+    if (X_WB_at_taking_before_.empty()) X_WB_at_taking_before_ = X_WB_at_taking_;
+  }
+  /// To be called where the movers have not gone from there, but jumped.
+  void forget() {
+    X_WB_at_taking_.clear();
+    X_WB_at_taking_before_.clear();
   }
 
   /// Replaces `X_WB` by the poses of the movers after `way` more metres: they go on as since they were at
@@ -32,7 +37,7 @@ class WayAhead {
   /// movers that have gone nowhere, are the present ones.
   void follow(std::span<const Eigen::Isometry3d> X_WB_nearest, double way, std::vector<Eigen::Isometry3d>& X_WB);
   /// The same: they go on as since the answer before the last one was taken. So their way can be told as soon as an
-  /// answer has been taken. Returns false if they have gone nowhere since.
+  /// answer has been taken. Returns false for poses that a search refuses, and where the movers have gone nowhere.
   bool follow_far(double way, std::vector<Eigen::Isometry3d>& X_WB);
 
  private:
@@ -40,7 +45,7 @@ class WayAhead {
 
   const ContactScene& scene_;
   std::vector<Eigen::Isometry3d> X_WB_at_taking_;
-  std::vector<Eigen::Isometry3d> X_WB_at_last_taking_;
+  std::vector<Eigen::Isometry3d> X_WB_at_taking_before_;
   std::vector<BoundedMotion> motions_;  // scratch memory
 };
 

@@ -257,6 +257,7 @@ TEST_P(LastingSeparation, IsThatOfThePairAlone) {
       alone.part = {pairs.part[i]};
       alone.may_turn_with_part = {pairs.may_turn_with_part[i]};
       ASSERT_EQ(alone.separations().front().n_O, found[i].n_O);
+      ASSERT_EQ(alone.separations().front().turns_with_part, found[i].turns_with_part);
     }
   }
 }

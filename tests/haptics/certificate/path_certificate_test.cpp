@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -89,6 +90,28 @@ TEST_F(TwoTriangles, NeedlesThatTurnPastEachOtherAreProvedInOneStretch) {
   EXPECT_LE(certificate.stretches(), 2);
 }
 
+// The part turns in its plane, so that its normal stays, too, but what that may lose between the ends is not known.
+TEST_F(TwoTriangles, APlaneThatTurnsWithThePartMustSeparateFartherThanOneThatStays) {
+  ContactScene scene(obstacles_, std::vector{part_}, std::vector{kFloor / kMinClearanceOfMargin});
+  const std::vector<geometry::Displacement> turn{{Eigen::Vector3d::Zero(), {0.0, 0.0, 0.1}}};
+  PathCertificate certificate(scene);
+  certificate.begin_step(turn);
+  const PathOfBodies path = certificate.path_of({0, 1}, BallAboutPart::at(at_height(0.0), part_->tree)).value();
+  ASSERT_GT(path.needed_turning, 1.5 * path.needed);
+  scene.place(0, at_height(0.5 * (path.needed + path.needed_turning)));
+  CandidatePairs candidates(scene, kProofReach);
+  candidates.look(kProofReach, 0.0, {});
+  for (const bool turns_with_part : {false, true}) {
+    candidates.pairs().planes().front().turn(0, candidates.pairs().pair(0), {Eigen::Vector3d::UnitZ(), turns_with_part},
+                                             scene.bodies());
+    WorkBudget unlimited;
+    std::vector<PairToCertify> unproved;
+    certificate.begin_step(turn);
+    candidates.pairs().unproved_within(kProofReach, certificate, unproved, unlimited);
+    EXPECT_EQ(unproved.size(), turns_with_part ? 1U : 0U);
+  }
+}
+
 // One pair for each two bodies: it waits for vector code until the bodies change or the call ends.
 TEST_F(TwoTriangles, FailuresAreToldForEachPairOfBodiesInOneCallAndInMany) {
   obstacles_.push_back({std::make_shared<ContactBody>(one_triangle(-0.05))});
@@ -132,24 +155,29 @@ TEST(PathCertificate, AsksOfADirectionThatTurnsForWhatItMayLose) {
   constexpr std::uint64_t kSeed = 15;
   RecordProperty("seed", static_cast<int>(kSeed));
   test_support::RandomNumbers random(kSeed);
-  const std::vector<Obstacle> obstacles{{std::make_shared<ContactBody>(one_triangle(0.0))}};
+  Eigen::Isometry3d X_WO(Eigen::AngleAxisd(0.8, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()));
+  X_WO.translation() = Eigen::Vector3d(0.3, -0.5, 0.2);
+  const std::vector<Obstacle> obstacles{{std::make_shared<ContactBody>(one_triangle(0.0)), X_WO}};
   const auto part = std::make_shared<SlidingPart>(one_triangle(0.0));
   ContactScene scene(obstacles, {part}, std::vector{kFloor / kMinClearanceOfMargin});
+  scene.set_p_Vref(0, Eigen::Vector3d(0.7, 0.2, -0.4));
   PathCertificate certificate(scene);
   double most = 0.0;  // of what is asked for
   for (int trial = 0; trial < 2000; ++trial) {
-    const Eigen::Isometry3d X_WV(Eigen::Translation3d(random.point(0.1)));
+    const Eigen::Isometry3d X_WV(Eigen::Translation3d(random.point(0.1)) *
+                                 Eigen::AngleAxisd(random.uniform(0.0, 3.0), random.direction()));
     scene.place(0, X_WV);
     const geometry::Displacement d{random.point(0.2), random.uniform(0.0, 1.0) * random.direction()};
     certificate.begin_step(std::vector{d});
-    ASSERT_TRUE(certificate.path_of({0, 1}));
-    const BallAboutPart ball = BallAboutPart::at(X_WV, part->tree);
-    const double asked = certificate.needed_turning(ball) - kFloor;
-    const Eigen::Vector3d y = ball.center_O + ball.radius * random.direction();
+    const BallAboutPart ball = BallAboutPart::at(X_WO.inverse() * X_WV, part->tree);
+    const std::optional<PathOfBodies> path = certificate.path_of({0, 1}, ball);
+    ASSERT_TRUE(path);
+    const double asked = path->needed_turning - kFloor;
+    const Eigen::Vector3d y_W = X_WO * (ball.center_O + ball.radius * random.direction());
     const Eigen::Vector3d n_V = random.direction();
     const auto height = [&](double t) {
-      const Eigen::Isometry3d X = geometry::displaced(X_WV, part->p_Vref(), d.scaled(t));
-      return -n_V.dot(X.inverse() * y);
+      const Eigen::Isometry3d X = geometry::displaced(X_WV, scene.p_Vref(0), d.scaled(t));
+      return -n_V.dot(X.inverse() * y_W);
     };
     const double lesser_end = std::min(height(0.0), height(1.0));
     for (double t = 0.05; t < 1.0; t += 0.05) {

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -226,6 +228,41 @@ TEST(SearchThread, RunsAheadByNoMoreWorkThanItMay) {
   }
   EXPECT_TRUE(thread.wait());
   EXPECT_GT(thread.work(), 30'000 + 2 * kAhead) << "otherwise the bound says nothing";
+  EXPECT_FALSE(found.pairs.empty());
+}
+
+TEST(SearchThread, EndsASearchInVainWhereItIs) {
+  const ContactScene scene = crowded_scene();
+  SearchThread thread;
+  CandidateSearch search(scene, 5e-3, &thread);
+  const CandidateRequest request{.X_WB = {scene.bodies().back().X_WB}, .radius = 5e-3, .ignored = {}};
+  CandidateSet found;
+  thread.begin(search, request, found);
+  EXPECT_TRUE(thread.wait());
+  const std::size_t pairs = found.pairs.size();
+  const std::int64_t work = thread.work();
+  EXPECT_FALSE(thread.cancel()) << "it was done";
+  thread.begin(search, request, found);
+  EXPECT_TRUE(thread.cancel());
+  EXPECT_LT(thread.work(), work / 2);
+  search.start_afresh();
+  thread.begin(search, request, found);
+  EXPECT_TRUE(thread.wait());
+  EXPECT_EQ(found.pairs.size(), pairs);
+}
+
+TEST(SearchThread, ForgetsTheFailureOfASearchInVain) {
+  const ContactScene scene = crowded_scene();
+  SearchThread thread;
+  CandidateSearch search(scene, 5e-3, &thread);
+  CandidateRequest request{.X_WB = {pose({0.0, 0.0, std::nan("")})}, .radius = 2e-3, .ignored = {}};
+  CandidateSet found;
+  thread.begin(search, request, found);
+  EXPECT_TRUE(thread.cancel()) << "whether it has failed already or not";
+  search.start_afresh();
+  request.X_WB = {scene.bodies().back().X_WB};
+  thread.begin(search, request, found);
+  EXPECT_TRUE(thread.wait());
   EXPECT_FALSE(found.pairs.empty());
 }
 
