@@ -67,7 +67,7 @@ void CandidatePairs::begin_call() {
 bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> ignored) {
   if (covers(reach)) return false;
   if (!next_.covers(reach)) {
-    give_up_search();
+    if (!give_up_search()) return false;
     place_ahead(kForward * ahead, next_.request.X_WB);
     request(reach + ahead, ahead, ignored);
   }
@@ -93,7 +93,7 @@ bool CandidatePairs::look_along(std::span<const geometry::Displacement> way, dou
   const bool is_requested =
       next_.is_there && std::equal(X_WB_ahead_.begin(), X_WB_ahead_.end(), next_.request.X_WB.begin(), are_alike);
   if (!is_requested) {
-    give_up_search();
+    if (!give_up_search()) return false;
     next_.request.X_WB = X_WB_ahead_;
     request(std::min(kRadiusOfStep * share * length + least, greatest_radius_), least, ignored);
   }
@@ -109,7 +109,7 @@ bool CandidatePairs::serve_for(double step) {
 void CandidatePairs::look_ahead(double step, double reach, double ahead, std::span<const BodyPair> ignored) {
   GLISSADE_ASSERT(has_planes_);
   if (!now_.search().is_there) return;
-  if (next_.is_there && next_.is_in_vain()) give_up_search();
+  if (next_.is_there && next_.is_in_vain() && give_up_search()) next_.is_there = false;
   if (next_.is_there) return;
   const bool is_time = now_.search().is_being_left() || !serve_for(step);
   if (!is_time && now_.pair_count() <= kPairsOfLongSearch) return;
@@ -184,12 +184,12 @@ bool CandidatePairs::is_settled() {
   return true;
 }
 
-/// Ends a search that is of no use any more. Where work is limited, what is left of it for this call must not depend on
-/// how fast the thread is.
-void CandidatePairs::give_up_search() {
-  if (is_with_thread_ && work_of_call_ != kUnlimitedWork)
-    work_left_ = thread_->is_done_within(allowed_) ? std::min(work_of_call_, allowed_ - thread_->work()) : 0;
+/// Ends a search that is of no use any more. Returns false if it has to go on: where work is limited, what is left of it
+/// must not depend on how fast the thread is, and a search must be done at some time, however little a call may do.
+bool CandidatePairs::give_up_search() {
+  if (work_of_call_ != kUnlimitedWork) return is_settled();
   cancel();
+  return true;
 }
 
 bool CandidatePairs::is_too_large() const {

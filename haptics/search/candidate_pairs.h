@@ -108,7 +108,7 @@ class CandidatePairs {
   bool take();
   void request(double radius, double ahead, std::span<const BodyPair> ignored);
   bool is_settled();
-  void give_up_search();
+  bool give_up_search();
   void place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB);
   double covered_on_way(const TrackedSearch& search, double way);
   void forget();

@@ -43,16 +43,11 @@ void SearchThread::wait_for_work(std::int64_t allowed) {
 }
 
 bool SearchThread::wait(std::int64_t allowed) {
-  if (!is_done_within(allowed)) return false;
-  const std::lock_guard lock(mutex_);
-  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
-  return true;
-}
-
-bool SearchThread::is_done_within(std::int64_t allowed) {
   wait_for_work(allowed);
   const std::lock_guard lock(mutex_);
-  return is_done() && work_ <= allowed;
+  if (!is_done() || work_ > allowed) return false;
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+  return true;
 }
 
 bool SearchThread::cancel() {

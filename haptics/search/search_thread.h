@@ -39,8 +39,6 @@ class SearchThread final : public collision::WorkMeter {
   /// The same; returns whether the search is done and has done no more. So the answer does not depend on how fast the
   /// thread is. Rethrows the exception of the search.
   bool wait(std::int64_t allowed = kUnlimitedWork);
-  /// The same without the exception.
-  bool is_done_within(std::int64_t allowed);
 
   std::int64_t work_ahead() const { return work_ahead_; }
   /// Ends a search that is under way at its next call of `spend`, without an answer. Forgets its exception. Returns
