@@ -184,8 +184,8 @@ bool CandidatePairs::is_settled() {
   return true;
 }
 
-/// Ends a search that is of no use any more. Returns false if it has to go on: where work is limited, what is left of it
-/// must not depend on how fast the thread is, and a search must be done at some time, however little a call may do.
+/// Ends a search that is of no use any more. Returns false if it has to go on: where work is limited, what is left of
+/// it must not depend on how fast the thread is, and a search must be done at some time, however little a call may do.
 bool CandidatePairs::give_up_search() {
   if (work_of_call_ != kUnlimitedWork) return is_settled();
   cancel();
