@@ -128,7 +128,7 @@ TEST_P(LastingSeparation, OfADirectionThatTurnsHoldsAllAlongTheStraightPath) {
   RandomNumbers random(kSeed);
   int sought = 0;
   int certified = 0;
-  for (int trial = 0; trial < test_support::affordable(4000); ++trial) {
+  for (int trial = 0; trial < 4000; ++trial) {
     const PairsOfTrial pairs(random);
     const std::vector<Separation> separations = pairs.separations();
     for (std::size_t i = 0; i < separations.size(); ++i) {
