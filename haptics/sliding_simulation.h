@@ -24,8 +24,8 @@ namespace glissade::haptics {
 /// triangles, and the time in which a search waits for work that it may do.
 struct SearchStatistics {
   std::int64_t searches = 0;  ///< number of searches whose answers were used
-  /// The sum of the reports of these searches. Times and stages are not the same in each run with a search thread: what
-  /// a search remembers of earlier ones depends on which of these it has had to give up.
+  /// The sum of the reports of these searches. With a search thread, times and stages differ from run to run: the
+  /// pipeline starts afresh after a search that was ended early, and then remembers nothing.
   collision::FrameReport reports;
 };
 

@@ -10,7 +10,7 @@ namespace {
 /// A direction that serves for so many more paths is good enough.
 constexpr double kEnoughPaths = 1.0;
 
-/// What rounding leaves of a rotation that is none, rad.
+/// A rotation by no more than this, in rad, is rounding: the part does not turn.
 constexpr double kNoTurn = 1e-13;
 
 }  // namespace

@@ -149,8 +149,8 @@ TEST_F(TwoTriangles, APairThatStartsNearerThanTheFloorMayStayButHardlyApproach) 
   EXPECT_FALSE(proves(at_height(gap), {{0.0, 0.0, -0.06 * gap}, Eigen::Vector3d::Zero()}));
 }
 
-// The heights over a direction that turns with the part are nowhere below the lesser one of both ends by more than what
-// is asked for in advance, and at times nearly by so much.
+// Between the ends of a step, a height along a direction that turns falls below the lesser end by at most what the
+// certificate asks for in advance. Some heights fall by most of it.
 TEST(PathCertificate, AsksOfADirectionThatTurnsForWhatItMayLose) {
   constexpr std::uint64_t kSeed = 15;
   RecordProperty("seed", static_cast<int>(kSeed));

@@ -248,7 +248,7 @@ TEST_P(BallPastBall, IsSearchedForAfreshWhereItTurnsBack) {
     move(0.05 * kAhead);
     taken += look() ? 1 : 0;
   }
-  move(-3.0 * kAhead);  // before the search that was asked for can be done
+  move(-3.0 * kAhead);  // the search that was asked for is ended, wherever it is
   EXPECT_TRUE(look());
   EXPECT_TRUE(candidates_.covers(kReach));
   EXPECT_LT(place_of_search(), x_ + 1e-9);
