@@ -20,6 +20,17 @@ HWY_INLINE PlaneFloats sum_of_products(PlaneFloats a0, PlaneFloats b0, PlaneFloa
   return hn::Add(hn::Add(hn::Mul(a0, b0), hn::Mul(a1, b1)), hn::Mul(a2, b2));
 }
 
+// A difference of two numbers, times this, is not above the exact one where that is positive.
+constexpr float kLessRounding = 1.0F - 1e-6F;
+
+// The bits of a mask for the pairs from `first` on.
+HWY_INLINE PairsOfBlock bits_of(hn::Mask<PlaneTag> mask, std::size_t first) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(PlaneTag(), mask, bytes);
+  const auto bits = static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8U;
+  return static_cast<PairsOfBlock>(bits << first);
+}
+
 }  // namespace
 
 void find_plane_gaps(std::span<const PlaneBlock> blocks, const PlaneMaps& maps, float* gaps) {
@@ -54,6 +65,43 @@ void find_plane_gaps(std::span<const PlaneBlock> blocks, const PlaneMaps& maps, 
   }
 }
 
+void raise_gaps(std::span<const float> known, float clock, float* gaps, float* least) {
+  const PlaneTag d;
+  for (std::size_t i = 0; i < known.size(); i += kPlanesAtOnce) {
+    PlaneFloats least_of_block = hn::Inf(d);
+    for (std::size_t first = i; first < i + kPlanesAtOnce; first += hn::Lanes(d)) {
+      const auto still_known =
+          hn::Mul(hn::Sub(hn::LoadU(d, known.data() + first), hn::Set(d, clock)), hn::Set(d, kLessRounding));
+      const auto gap = hn::Max(hn::LoadU(d, gaps + first), still_known);
+      least_of_block = hn::Min(least_of_block, gap);
+      hn::StoreU(gap, d, gaps + first);
+    }
+    *least++ = hn::GetLane(hn::MinOfLanes(d, least_of_block));
+  }
+}
+
+PairsOfBlock find_pairs_within(float limit, const float* gaps) {
+  const PlaneTag d;
+  PairsOfBlock pairs = 0;
+  for (std::size_t first = 0; first < kPlanesAtOnce; first += hn::Lanes(d))
+    pairs |= bits_of(hn::Le(hn::LoadU(d, gaps + first), hn::Set(d, limit)), first);
+  return pairs;
+}
+
+PairsOfBlock find_unproved(const PlaneBlock& block, const NeededGaps& needed, const float* gaps_at_begin,
+                           const float* gaps_at_end) {
+  const PlaneTag d;
+  PairsOfBlock pairs = 0;
+  for (std::size_t first = 0; first < kPlanesAtOnce; first += hn::Lanes(d)) {
+    const auto turns_with_part = hn::Gt(hn::Load(d, block.turns_with_part.data() + first), hn::Zero(d));
+    const auto enough = hn::IfThenElse(turns_with_part, hn::Set(d, needed.turning), hn::Set(d, needed.fixed));
+    const auto at_begin = hn::LoadU(d, gaps_at_begin + first);
+    const auto least = hn::Min(at_begin, hn::LoadU(d, gaps_at_end + first));
+    pairs |= bits_of(hn::And(hn::Lt(least, enough), hn::Le(at_begin, hn::Set(d, needed.far))), first);
+  }
+  return pairs;
+}
+
 }  // namespace glissade::haptics::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -62,11 +110,24 @@ namespace glissade::haptics {
 namespace {
 
 HWY_EXPORT(find_plane_gaps);
+HWY_EXPORT(raise_gaps);
+HWY_EXPORT(find_pairs_within);
+HWY_EXPORT(find_unproved);
 
 }  // namespace
 
 void find_plane_gaps(std::span<const PlaneBlock> blocks, const PlaneMaps& maps, float* gaps) {
   HWY_DYNAMIC_DISPATCH(find_plane_gaps)(blocks, maps, gaps);
+}
+void raise_gaps(std::span<const float> known, float clock, float* gaps, float* least) {
+  HWY_DYNAMIC_DISPATCH(raise_gaps)(known, clock, gaps, least);
+}
+PairsOfBlock find_pairs_within(float limit, const float* gaps) {
+  return HWY_DYNAMIC_DISPATCH(find_pairs_within)(limit, gaps);
+}
+PairsOfBlock find_unproved(const PlaneBlock& block, const NeededGaps& needed, const float* gaps_at_begin,
+                           const float* gaps_at_end) {
+  return HWY_DYNAMIC_DISPATCH(find_unproved)(block, needed, gaps_at_begin, gaps_at_end);
 }
 
 }  // namespace glissade::haptics

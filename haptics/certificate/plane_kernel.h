@@ -1,10 +1,11 @@
 #pragma once
 
-/// The vector code of separating planes: how far many pairs of triangles are apart, each along a direction of its own.
-/// Single precision, with slack for its rounding.
+/// The vector code of separating planes: how far many pairs of triangles are apart, each along a direction of its own,
+/// and which of them are not far enough. Single precision, with slack for its rounding.
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace glissade::haptics {
@@ -36,8 +37,31 @@ struct PlaneMaps {
   float slack;  ///< metres: bound of the rounding of a gap
 };
 
-/// Sets `gaps`, kPlanesAtOnce for each block, to the least height of the corners x over `top`, less the slack; metres.
-/// Thread-safe.
+/// Some pairs of a block: a bit for each, the first one lowest.
+using PairsOfBlock = std::uint16_t;
+
+/// What gaps must be, metres.
+struct NeededGaps {
+  float fixed;    ///< along directions that are fixed to the obstacle
+  float turning;  ///< along those that turn with the part
+  float far;      ///< pairs with greater gaps at the beginning need nothing at the end
+};
+
+// Of the following functions, those for many blocks take kPlanesAtOnce gaps of each, one block after the other. All are
+// thread-safe.
+
+/// Sets the gaps (metres) to the least heights of the corners x over `top`, less the slack.
 void find_plane_gaps(std::span<const PlaneBlock> blocks, const PlaneMaps& maps, float* gaps);
+
+/// Raises each gap to what else is known of it, which is its `known` less `clock` (both may be infinite, metres). Sets
+/// `least` to the least gap of each block.
+void raise_gaps(std::span<const float> known, float clock, float* gaps, float* least);
+
+/// The pairs of a block whose gaps are at most `limit`.
+PairsOfBlock find_pairs_within(float limit, const float* gaps);
+
+/// The pairs of a block whose gap is less than needed at either end of a path, and not far at the beginning.
+PairsOfBlock find_unproved(const PlaneBlock& block, const NeededGaps& needed, const float* gaps_at_begin,
+                           const float* gaps_at_end);
 
 }  // namespace glissade::haptics

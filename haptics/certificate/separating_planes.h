@@ -32,6 +32,7 @@ class PlanesOfBodies {
   std::span<const std::uint32_t> numbers() const { return numbers_; }
 
   std::size_t block_count() const { return blocks_.size(); }
+  const PlaneBlock& block(std::size_t number) const { return blocks_[number]; }
 
   /// Where the part's points x are at A x + t in the obstacle's frame, mostly a rotation and a translation.
   PlaneMaps maps(const Eigen::Matrix3d& A, const Eigen::Vector3d& t) const;

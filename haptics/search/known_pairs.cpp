@@ -1,13 +1,14 @@
 #include "search/known_pairs.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include <glissade/base/assert.h>
 
+#include "search/blocks_of_pairs.h"
 #include "search/round_down.h"
 
 namespace glissade::haptics {
@@ -16,8 +17,14 @@ namespace {
 /// Work of the gap of a pair along a known direction, in the unit of `collision::WorkMeter`.
 constexpr std::int64_t kWorkOfGap = 2;
 
-/// So many blocks of planes fit into the fastest cache.
-constexpr std::ptrdiff_t kBlocksInCache = 16;
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+
+/// Of a pair of boxes, and of triangles whose planes are of no use.
+constexpr std::uint32_t kNoPlanes = std::numeric_limits<std::uint32_t>::max();
+
+std::span<const float> pairs_of_blocks(const std::vector<float>& of_slots, std::size_t first, std::size_t end) {
+  return std::span(of_slots).subspan(kPlanesAtOnce * first, kPlanesAtOnce * (end - first));
+}
 
 }  // namespace
 
@@ -41,10 +48,25 @@ void KnownPairs::take(TrackedSearch& next, std::span<const Eigen::Isometry3d> X_
   next.is_there = false;
   clock_ = 0.0;
   X_WB_of_clock_.assign(X_WB.begin(), X_WB.end());
-  gaps_.assign(search_.set.pairs.size(), 0.0);
   known_.assign(search_.set.pairs.size(), {});
-  gaps_of_contacts_ = gaps_at_search();
-  gaps_to_certify_ = gaps_of_contacts_;
+  of_bodies_.resize(search_.set.planes.size());
+  for (std::size_t i = 0; i < of_bodies_.size(); ++i)
+    take_pairs_of(search_.set.planes[i], of_bodies_[i]);
+}
+
+/// The pairs of a block are in the order of the search, the nearest first.
+void KnownPairs::take_pairs_of(const PlanesOfBodies& planes, OfBodies& known) const {
+  const auto unless = [](bool is_asked_for) { return is_asked_for ? -kInfinite : kInfinite; };
+  known.contacts.assign(kPlanesAtOnce * planes.block_count(), kInfinite);
+  known.to_certify.assign(kPlanesAtOnce * planes.block_count(), kInfinite);
+  known.blocks_of_contacts.clear();
+  for (std::size_t slot = 0; slot < planes.numbers().size(); ++slot) {
+    const NearPair& pair = search_.set.pairs[planes.numbers()[slot]];
+    known.contacts[slot] = unless(pair.may_yield_contact);
+    known.to_certify[slot] = unless(pair.is_to_certify);
+    if (slot % kPlanesAtOnce == 0) known.blocks_of_contacts.push_back(pair.distance - search_.drift);
+  }
+  known.blocks_to_certify = known.blocks_of_contacts;
 }
 
 void KnownPairs::moved(std::span<const Eigen::Isometry3d> X_WB) {
@@ -54,63 +76,35 @@ void KnownPairs::moved(std::span<const Eigen::Isometry3d> X_WB) {
   X_WB_of_clock_.assign(X_WB.begin(), X_WB.end());
 }
 
-/// The pairs of a block are in the order of the search, the nearest first.
-KnownPairs::GapsOfBlocks KnownPairs::gaps_at_search() const {
-  GapsOfBlocks gaps;
-  for (const PlanesOfBodies& of_bodies : search_.set.planes) {
-    std::vector<double>& of_blocks = gaps.emplace_back();
-    for (std::size_t slot = 0; slot < of_bodies.numbers().size(); slot += kPlanesAtOnce)
-      of_blocks.push_back(search_.set.pairs[of_bodies.numbers()[slot]].distance - search_.drift);
-  }
-  return gaps;
-}
-
-/// Visits the runs of blocks that may have gaps up to `reach`, by their beginnings and ends.
-template <typename Visit>
-void KnownPairs::visit_near_blocks(const std::vector<double>& gaps, double reach, const Visit& visit) const {
-  const auto is_near = [&](double gap) { return gap - clock_ <= reach; };
-  auto first = std::find_if(gaps.begin(), gaps.end(), is_near);
-  while (first != gaps.end()) {
-    const auto end = std::find_if_not(first, first + std::min(kBlocksInCache, gaps.end() - first), is_near);
-    visit(static_cast<std::size_t>(first - gaps.begin()), static_cast<std::size_t>(end - gaps.begin()));
-    first = std::find_if(end, gaps.end(), is_near);
-  }
-}
-
-void KnownPairs::in_reach(double reach, std::vector<PairInReach>& pairs) {
-  pairs.clear();
-  for (std::uint32_t i = 0; i < search_.set.planes.size(); ++i) {
+std::size_t KnownPairs::find_gaps(double reach, std::vector<GapsBySlot>& gaps) {
+  std::size_t count = 0;
+  const float clock = round_up(clock_);
+  gaps.resize(search_.set.planes.size());
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
     const PlanesOfBodies& planes = search_.set.planes[i];
     const PlaneMaps maps =
         planes.maps(relative_pose(scene_.bodies()[static_cast<std::size_t>(planes.bodies().obstacle)].X_WB,
                                   scene_.bodies()[static_cast<std::size_t>(planes.bodies().part)].X_WB));
-    const std::span<const std::uint32_t> numbers = planes.numbers();
-    std::vector<double>& of_blocks = gaps_of_contacts_[i];
-    visit_near_blocks(of_blocks, reach, [&](std::size_t first, std::size_t end) {
-      planes.find_gaps(maps, first, end, gaps_at_begin_);
+    OfBodies& known = of_bodies_[i];
+    std::vector<float>& of_slots = gaps[i].gaps;
+    std::vector<float>& of_blocks = gaps[i].of_blocks;
+    of_slots.resize(kPlanesAtOnce * planes.block_count());
+    of_blocks.assign(planes.block_count(), kInfinite);
+    const auto is_near = [&](double gap) { return gap - clock_ <= reach; };
+    visit_runs_of_blocks(known.blocks_of_contacts, is_near, [&](std::size_t first, std::size_t end) {
+      planes.find_gaps(maps, first, end, of_slots);
+      raise_gaps(pairs_of_blocks(known.contacts, first, end), clock, of_slots.data() + kPlanesAtOnce * first,
+                 of_blocks.data() + first);
       for (std::size_t block = first; block < end; ++block) {
-        double least = std::numeric_limits<double>::infinity();
-        const std::size_t last = std::min(numbers.size(), kPlanesAtOnce * (block + 1));
-        for (std::size_t slot = kPlanesAtOnce * block; slot < last; ++slot) {
-          const auto along_plane = static_cast<double>(gaps_at_begin_[slot]);
-          if (along_plane > reach) {
-            least = std::min(least, along_plane);
-            continue;
-          }
-          const std::uint32_t number = numbers[slot];
-          const NearPair& pair = search_.set.pairs[number];
-          if (!pair.may_yield_contact) continue;
-          const double gap = std::max(along_plane, gaps_[number] - clock_);
-          least = std::min(least, gap);
-          if (gap > reach) continue;
-          pairs.push_back({number, i, static_cast<std::uint32_t>(slot), round_down(gap)});
-        }
-        of_blocks[block] = std::max(of_blocks[block], least + clock_);
+        known.blocks_of_contacts[block] =
+            std::max(known.blocks_of_contacts[block], static_cast<double>(of_blocks[block]) + clock_);
+        if (static_cast<double>(of_blocks[block]) > reach) continue;
+        const PairsOfBlock pairs = find_pairs_within(round_down(reach), of_slots.data() + kPlanesAtOnce * block);
+        count += static_cast<std::size_t>(std::popcount(pairs));
       }
     });
   }
-  if (search_.set.planes.size() < 2) return;
-  std::sort(pairs.begin(), pairs.end(), [](const PairInReach& a, const PairInReach& b) { return a.number < b.number; });
+  return count;
 }
 
 KnownFeatures KnownPairs::known_features(std::uint32_t number, double reach) const {
@@ -118,12 +112,12 @@ KnownFeatures KnownPairs::known_features(std::uint32_t number, double reach) con
   return known.left_out > reach + clock_ ? KnownFeatures{known.features, known.left_out - clock_} : KnownFeatures{};
 }
 
-void KnownPairs::note_gaps(std::span<const std::uint32_t> numbers, std::span<const GapsOfPair> gaps) {
-  GLISSADE_ASSERT(numbers.size() == gaps.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    double& gap = gaps_[numbers[i]];
-    gap = std::max(gap, gaps[i].least + clock_);
-    if (gaps[i].left_out > 0.0) known_[numbers[i]] = {gaps[i].features, gaps[i].left_out + clock_};
+void KnownPairs::note_gaps(std::span<const PlaceOfPair> pairs, std::span<const GapsOfPair> gaps) {
+  GLISSADE_ASSERT(pairs.size() == gaps.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    float& gap = of_bodies_[pairs[i].planes].contacts[pairs[i].slot];
+    gap = std::max(gap, round_down(gaps[i].least + clock_));
+    if (gaps[i].left_out > 0.0) known_[pairs[i].number] = {gaps[i].features, gaps[i].left_out + clock_};
   }
 }
 
@@ -133,58 +127,60 @@ void KnownPairs::unproved_within(double reach, PathCertificate& certificate, std
   places_.clear();
   search_.visit_within(search_.set.boxes, reach, [&](const PairToCertify& boxes) {
     unproved.push_back(boxes);
-    places_.push_back({nullptr, 0, 0});
+    places_.push_back({.number = 0, .planes = kNoPlanes, .slot = 0});
   });
-  for (std::size_t i = 0; i < search_.set.planes.size(); ++i) {
-    PlanesOfBodies& planes = search_.set.planes[i];
-    const std::span<const std::uint32_t> numbers = planes.numbers();
-    const std::optional<PathOfBodies> known_path = certificate.path_of(planes.bodies(), planes.ball());
-    if (!known_path) {
-      for (const std::uint32_t number : numbers) {
-        const NearPair& pair = search_.set.pairs[number];
-        if (pair.distance > reach + search_.drift) break;  // as are all that follow
-        if (!pair.is_to_certify || search_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
-        unproved.push_back(to_certify(pair));
-        places_.push_back({nullptr, 0, number});
-      }
+  for (std::uint32_t i = 0; i < search_.set.planes.size(); ++i) {
+    const PlanesOfBodies& planes = search_.set.planes[i];
+    if (const std::optional<PathOfBodies> path = certificate.path_of(planes.bodies(), planes.ball())) {
+      add_unproved(*path, i, unproved, budget);
       continue;
     }
-    const PathOfBodies& path = *known_path;
-    const PlaneMaps at_begin = planes.maps(path.X_OV_begin);
-    const PlaneMaps at_end = planes.maps(path.X_OV_end);
-    std::vector<double>& of_blocks = gaps_to_certify_[i];
-    visit_near_blocks(of_blocks, path.far, [&](std::size_t first, std::size_t end) {
-      planes.find_gaps(at_begin, first, end, gaps_at_begin_);
-      planes.find_gaps(at_end, first, end, gaps_at_end_);
-      budget.spend(2 * kWorkOfGap * static_cast<std::int64_t>(kPlanesAtOnce * (end - first)));
-      for (std::size_t block = first; block < end; ++block) {
-        double least = std::numeric_limits<double>::infinity();
-        const std::size_t last = std::min(numbers.size(), kPlanesAtOnce * (block + 1));
-        for (std::size_t slot = kPlanesAtOnce * block; slot < last; ++slot) {
-          const auto gap = static_cast<double>(gaps_at_begin_[slot]);
-          if (gap > path.far) {
-            least = std::min(least, gap);
-            continue;
-          }
-          const NearPair& pair = search_.set.pairs[numbers[slot]];
-          if (!pair.is_to_certify) continue;
-          least = std::min(least, gap);
-          const double needed = planes.turns_with_part(slot) ? path.needed_turning : path.needed;
-          if (std::min(gap, static_cast<double>(gaps_at_end_[slot])) >= needed) continue;
-          unproved.push_back(to_certify(pair));
-          places_.push_back({&planes, slot, numbers[slot]});
-        }
-        of_blocks[block] = std::max(of_blocks[block], least + clock_);
-      }
-    });
+    for (const std::uint32_t number : planes.numbers()) {
+      const NearPair& pair = search_.set.pairs[number];
+      if (pair.distance > reach + search_.drift) break;  // as are all that follow
+      if (!pair.is_to_certify || search_.still_apart(pair.bodies, pair.distance, pair.n_W) > reach) continue;
+      unproved.push_back(to_certify(pair));
+      places_.push_back({.number = number, .planes = kNoPlanes, .slot = 0});
+    }
   }
+}
+
+/// Adds the pairs of two bodies whose planes do not keep them apart on this path.
+void KnownPairs::add_unproved(const PathOfBodies& path, std::uint32_t number_of_planes,
+                              std::vector<PairToCertify>& unproved, WorkBudget& budget) {
+  const PlanesOfBodies& planes = search_.set.planes[number_of_planes];
+  OfBodies& known = of_bodies_[number_of_planes];
+  const PlaneMaps at_begin = planes.maps(path.X_OV_begin);
+  const PlaneMaps at_end = planes.maps(path.X_OV_end);
+  const NeededGaps needed{round_up(path.needed), round_up(path.needed_turning), round_down(path.far)};
+  least_gaps_.resize(planes.block_count());
+  const auto is_near = [&](double gap) { return gap - clock_ <= path.far; };
+  visit_runs_of_blocks(known.blocks_to_certify, is_near, [&](std::size_t first, std::size_t end) {
+    planes.find_gaps(at_begin, first, end, gaps_at_begin_);
+    planes.find_gaps(at_end, first, end, gaps_at_end_);
+    raise_gaps(pairs_of_blocks(known.to_certify, first, end), 0.0F, gaps_at_begin_.data() + kPlanesAtOnce * first,
+               least_gaps_.data() + first);
+    budget.spend(2 * kWorkOfGap * static_cast<std::int64_t>(kPlanesAtOnce * (end - first)));
+    for (std::size_t block = first; block < end; ++block) {
+      known.blocks_to_certify[block] =
+          std::max(known.blocks_to_certify[block], static_cast<double>(least_gaps_[block]) + clock_);
+      const std::size_t slot = kPlanesAtOnce * block;
+      PairsOfBlock pairs =
+          find_unproved(planes.block(block), needed, gaps_at_begin_.data() + slot, gaps_at_end_.data() + slot);
+      for_each_pair(block, pairs, [&](std::size_t of_pair) {
+        const std::uint32_t number = planes.numbers()[of_pair];
+        unproved.push_back(to_certify(search_.set.pairs[number]));
+        places_.push_back({number, number_of_planes, static_cast<std::uint32_t>(of_pair)});
+      });
+    }
+  });
 }
 
 void KnownPairs::note_planes(std::span<const SeparatedPair> separated) {
   for (const SeparatedPair& pair : separated) {
     const PlaceOfPair& place = places_[pair.place];
-    if (place.planes == nullptr) continue;
-    place.planes->turn(place.slot, search_.set.pairs[place.number], pair.direction, scene_.bodies());
+    if (place.planes == kNoPlanes) continue;
+    search_.set.planes[place.planes].turn(place.slot, search_.set.pairs[place.number], pair.direction, scene_.bodies());
   }
 }
 

@@ -22,11 +22,17 @@ namespace glissade::haptics {
 
 /// A candidate pair by its number, with the place of its plane: among those of its bodies, which have a place among
 /// all.
-struct PairInReach {
+struct PlaceOfPair {
   std::uint32_t number;
   std::uint32_t planes;
   std::uint32_t slot;
-  float gap;  ///< metres: no contact of the pair has a smaller one
+};
+
+/// What is known of the pairs of two bodies, by the slots of their planes.
+struct GapsBySlot {
+  std::vector<float> gaps;  ///< metres: no contact of the pair has a smaller one; infinite if it has none
+  std::vector<float>
+      of_blocks;  ///< the least of each block, or a lower bound; where it is infinite, `gaps` are not set
 };
 
 /// Distances and gaps are those at the present poses of the scene's movers, wherever these have been placed since the
@@ -60,16 +66,16 @@ class KnownPairs {
   /// Takes over the directions that `certificate` found for these pairs.
   void note_planes(std::span<const SeparatedPair> separated);
 
-  /// Replaces `pairs` by those candidates that may have contacts within `reach` (metres), as far as their planes and
-  /// `note_gaps` tell, in the same order.
-  void in_reach(double reach, std::vector<PairInReach>& pairs);
+  /// Sets the gaps of those candidates that may have contacts within `reach` (metres), as far as their planes and
+  /// `note_gaps` tell, and of others; an entry for each of `planes`. Returns the number of those within reach.
+  std::size_t find_gaps(double reach, std::vector<GapsBySlot>& gaps);
   const NearPair& pair(std::uint32_t number) const { return search_.set.pairs[number]; }
   /// What is known of the features of a pair within `reach` (metres).
   KnownFeatures known_features(std::uint32_t number, double reach) const;
   /// The planes of the pairs of triangles, which may be turned.
   std::vector<PlanesOfBodies>& planes() { return search_.set.planes; }
-  /// Notes for the pairs with these numbers that their contacts have at least these gaps (metres).
-  void note_gaps(std::span<const std::uint32_t> numbers, std::span<const GapsOfPair> gaps);
+  /// Notes for the pairs at these places that their contacts have at least these gaps (metres).
+  void note_gaps(std::span<const PlaceOfPair> pairs, std::span<const GapsOfPair> gaps);
 
   /// Number of pairs of triangles.
   std::size_t pair_count() const { return search_.set.pairs.size(); }
@@ -77,33 +83,33 @@ class KnownPairs {
   std::size_t size() const { return search_.set.contact_count + search_.set.certify_count; }
 
  private:
-  /// A pair in the list of the last call of `unproved_within`.
-  struct PlaceOfPair {
-    PlanesOfBodies* planes;  // null: it has none
-    std::size_t slot;
-    std::uint32_t number;  // of the pair of triangles
+  /// For the pairs of two bodies with planes: gaps, metres, minus the clock as below.
+  struct OfBodies {
+    // By slot: of contacts; infinite where the pair has none.
+    std::vector<float> contacts;
+    // By slot: infinite where the pair is not to be certified, minus infinity where it is.
+    std::vector<float> to_certify;
+    // The least of each block.
+    std::vector<double> blocks_of_contacts;
+    std::vector<double> blocks_to_certify;
   };
-  /// For the planes of each two bodies: of each block, the least gap (metres), minus the clock as below.
-  using GapsOfBlocks = std::vector<std::vector<double>>;
 
-  GapsOfBlocks gaps_at_search() const;
-  template <typename Visit>
-  void visit_near_blocks(const std::vector<double>& gaps, double reach, const Visit& visit) const;
+  void take_pairs_of(const PlanesOfBodies& planes, OfBodies& known) const;
+  void add_unproved(const PathOfBodies& path, std::uint32_t planes, std::vector<PairToCertify>& unproved,
+                    WorkBudget& budget);
 
   const ContactScene& scene_;
   TrackedSearch search_;
-  // Since the answer was taken, two bodies have come nearer by at most `clock_` (metres). No contact of a pair has a
-  // gap below its entry of `gaps_` minus the clock.
+  // Since the answer was taken, two bodies have come nearer by at most `clock_` (metres).
   double clock_ = 0.0;
-  std::vector<double> gaps_;
-  std::vector<KnownFeatures> known_;              // the gaps are so, too, minus the clock
+  std::vector<OfBodies> of_bodies_;
+  std::vector<KnownFeatures> known_;              // by number; their gaps are so, too, minus the clock
   std::vector<Eigen::Isometry3d> X_WB_of_clock_;  // of each mover
   std::vector<BoundedMotion> motions_of_clock_;
-  std::vector<PlaceOfPair> places_;
-  GapsOfBlocks gaps_of_contacts_;
-  GapsOfBlocks gaps_to_certify_;
+  std::vector<PlaceOfPair> places_;  // of the pairs in the list of the last call of `unproved_within`
   std::vector<float> gaps_at_begin_;
   std::vector<float> gaps_at_end_;
+  std::vector<float> least_gaps_;  // of blocks
 };
 
 }  // namespace glissade::haptics

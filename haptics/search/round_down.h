@@ -1,6 +1,6 @@
 #pragma once
 
-/// Lower bounds in single precision.
+/// Bounds in single precision.
 
 #include <cmath>
 
@@ -10,6 +10,11 @@ namespace glissade::haptics {
 inline float round_down(double value) {
   const auto rounded = static_cast<float>(value);
   return static_cast<double>(rounded) <= value ? rounded : std::nextafter(rounded, -1e30F);
+}
+
+/// The least number of single precision that is not below `value`.
+inline float round_up(double value) {
+  return -round_down(-value);
 }
 
 }  // namespace glissade::haptics

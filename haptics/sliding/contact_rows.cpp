@@ -66,9 +66,9 @@ bool ContactRows::find_violated(const Displacements& displacements, WorkBudget& 
 
 /// Finds the contacts within reach of the pairs that were taken, with their rows.
 void ContactRows::find_contacts_of_taken(WorkBudget& budget) {
-  find_contacts_of(pairs_.taken(), pairs_.numbers(), reach_, budget);
+  find_contacts_of(pairs_.taken(), pairs_.places(), reach_, budget);
   for (std::size_t i = 0; i < gaps_.size(); ++i)
-    looked_at_.push_back({pairs_.numbers()[i], gaps_[i].beyond});
+    looked_at_.push_back({pairs_.places()[i], gaps_[i].beyond});
   for (const Contact& contact : found_) {
     // A contact closer than its margin demands part of it back.
     const double missing = contact.margin - contact.gap;
@@ -80,7 +80,7 @@ double ContactRows::find_ahead(WorkBudget& budget) {
   if (reach_ahead_ > reach_) find_beyond(budget);
   const double complete = pairs_.take_nearest(kReachOfTouching * shared_.largest_margin, kNearestAhead, reach_ahead_);
   if (!pairs_.taken().empty()) {
-    find_contacts_of(pairs_.taken(), pairs_.numbers(), reach_ahead_, budget);
+    find_contacts_of(pairs_.taken(), pairs_.places(), reach_ahead_, budget);
     contacts_ahead_.insert(contacts_ahead_.end(), found_.begin(), found_.end());
   }
   return std::min(complete, shared_.candidates.covered());
@@ -90,26 +90,26 @@ double ContactRows::find_ahead(WorkBudget& budget) {
 void ContactRows::find_beyond(WorkBudget& budget) {
   std::erase_if(looked_at_, [&](const LookedAt& pair) { return pair.beyond > reach_ahead_; });
   candidates_.clear();
-  numbers_.clear();
+  places_.clear();
   for (const LookedAt& pair : looked_at_) {
-    candidates_.push_back(shared_.candidates.pairs().pair(pair.number));
-    numbers_.push_back(pair.number);
+    candidates_.push_back(shared_.candidates.pairs().pair(pair.pair.number));
+    places_.push_back(pair.pair);
   }
-  find_contacts_of(candidates_, numbers_, reach_ahead_, budget);
+  find_contacts_of(candidates_, places_, reach_ahead_, budget);
   for (const Contact& contact : found_) {
     if (contact.gap > reach_) contacts_ahead_.push_back(contact);
   }
 }
 
-void ContactRows::find_contacts_of(std::span<const NearPair> pairs, std::span<const std::uint32_t> numbers,
-                                   double reach, WorkBudget& budget) {
+void ContactRows::find_contacts_of(std::span<const NearPair> pairs, std::span<const PlaceOfPair> places, double reach,
+                                   WorkBudget& budget) {
   const ContactScene& scene = shared_.scene;
   budget.spend(kWorkOfContacts * std::ssize(pairs));
   known_.clear();
-  for (const std::uint32_t number : numbers)
-    known_.push_back(shared_.candidates.pairs().known_features(number, reach));
+  for (const PlaceOfPair& pair : places)
+    known_.push_back(shared_.candidates.pairs().known_features(pair.number, reach));
   find_contacts(scene.bodies(), scene.obstacles().size(), pairs, reach, shared_.largest_margin, found_, &gaps_, known_);
-  shared_.candidates.pairs().note_gaps(numbers, gaps_);
+  shared_.candidates.pairs().note_gaps(places, gaps_);
   for (Contact& contact : found_) {
     const auto body = static_cast<std::int32_t>(scene.body_of_mover(static_cast<std::size_t>(contact.part)));
     contact.margin = scene.margin(contact.obstacle, body);

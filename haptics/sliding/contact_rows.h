@@ -62,7 +62,7 @@ class ContactRows {
 
  private:
   void find_contacts_of_taken(WorkBudget& budget);
-  void find_contacts_of(std::span<const NearPair> pairs, std::span<const std::uint32_t> numbers, double reach,
+  void find_contacts_of(std::span<const NearPair> pairs, std::span<const PlaceOfPair> places, double reach,
                         WorkBudget& budget);
   void find_beyond(WorkBudget& budget);
   void keep_contacts(const std::function<bool(std::size_t row)>& is_kept);
@@ -70,7 +70,7 @@ class ContactRows {
 
   /// A pair that was looked at.
   struct LookedAt {
-    std::uint32_t number;
+    PlaceOfPair pair;
     double beyond;  // metres: no contact beyond the reach has a smaller gap
   };
 
@@ -81,7 +81,7 @@ class ContactRows {
   PairsInReach pairs_;
   std::vector<LookedAt> looked_at_;
   std::vector<NearPair> candidates_;  // that a search for contacts is about
-  std::vector<std::uint32_t> numbers_;
+  std::vector<PlaceOfPair> places_;
   std::vector<KnownFeatures> known_;
   std::vector<GapsOfPair> gaps_;
   std::vector<Contact> found_;           // of the last search for contacts

@@ -1,8 +1,10 @@
 #include "sliding/pairs_in_reach.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
+
+#include "search/blocks_of_pairs.h"
+#include "search/round_down.h"
 
 namespace glissade::haptics {
 namespace {
@@ -34,98 +36,107 @@ LinearMotion linear_motion_of(const SimulatedParts& shared, std::int32_t body, c
 
 }  // namespace
 
+/// Visits the pairs that have not been taken and whose gaps are at most `gap` (metres), those of two bodies together.
+template <typename Visit>
+void PairsInReach::visit_within(double gap, const Visit& visit) const {
+  const float most = round_down(gap);
+  for (std::uint32_t i = 0; i < left_.size(); ++i) {
+    const std::vector<float>& of_blocks = left_[i].of_blocks;
+    for (std::size_t block = 0; block < of_blocks.size(); ++block) {
+      if (of_blocks[block] > most) continue;
+      const PairsOfBlock pairs = find_pairs_within(most, left_[i].gaps.data() + kPlanesAtOnce * block);
+      for_each_pair(block, pairs, [&](std::size_t slot) {
+        const std::uint32_t number = shared_.candidates.pairs().planes()[i].numbers()[slot];
+        visit(PlaceOfPair{number, i, static_cast<std::uint32_t>(slot)});
+      });
+    }
+  }
+}
+
 void PairsInReach::look(double reach) {
-  shared_.candidates.pairs().in_reach(reach, left_);
+  left_count_ = shared_.candidates.pairs().find_gaps(reach, left_);
 }
 
 double PairsInReach::take_nearest(double gap, std::size_t count, double reach) {
-  forget_taken();
-  double most = reach;
-  if (left_.size() > count) {
-    const auto nearer = std::count_if(left_.begin(), left_.end(),
-                                      [&](const PairInReach& pair) { return static_cast<double>(pair.gap) <= gap; });
-    most = gap;
-    if (static_cast<std::size_t>(nearer) < count) {
-      gaps_.clear();
-      for (const PairInReach& pair : left_)
-        gaps_.push_back(pair.gap);
-      std::nth_element(gaps_.begin(), gaps_.begin() + static_cast<std::ptrdiff_t>(count), gaps_.end());
-      most = static_cast<double>(gaps_[count]);
-    }
-    most = std::min(most, reach);
-  }
+  const double most = distance_of_nearest(gap, count, reach);
   begin_taking();
-  for (PairInReach& pair : left_) {
-    if (!(static_cast<double>(pair.gap) <= most)) continue;
-    take(pair);
-    pair.gap = kTaken;
+  visit_within(most, [&](const PlaceOfPair& pair) { places_.push_back(pair); });
+  if (left_.size() > 1) {
+    std::sort(places_.begin(), places_.end(),
+              [](const PlaceOfPair& a, const PlaceOfPair& b) { return a.number < b.number; });
   }
+  for (const PlaceOfPair& pair : places_)
+    take(pair);
   return most;
 }
 
-void PairsInReach::forget_taken() {
-  std::erase_if(left_, [](const PairInReach& pair) { return pair.gap == kTaken; });
-}
-
-void PairsInReach::take_too_near(std::size_t most) {
-  begin_taking();
-  while (next_ < too_near_.size() && pairs_.size() < most) {
-    const std::uint32_t planes = left_[too_near_[next_].place].planes;
-    const Way& way = ways_[planes];
-    separations_.start(way.begin, way.end, kLasting * way.margin, kLasting * way.margin);
-    for (std::size_t i = next_; i < too_near_.size() && !separations_.is_full(); ++i) {
-      const PairInReach& pair = left_[too_near_[i].place];
-      if (pair.planes != planes) break;
-      add_separation(pair);
-    }
-    for (const Separation& separation : separations_.find()) {
-      PairInReach& pair = left_[too_near_[next_].place];
-      if (separation.least() >= way.margin) {
-        turn_plane(pair, separations_.direction(separation));
-      } else if (pairs_.size() < most) {
-        take(pair);
-        pair.gap = kTaken;
-      } else {
-        return;
-      }
-      ++next_;
-    }
-  }
+/// The distance within which there are all pairs within `gap`, and `count` in all; at most `reach`.
+double PairsInReach::distance_of_nearest(double gap, std::size_t count, double reach) {
+  if (left_count_ <= count) return reach;
+  std::size_t nearer = 0;
+  visit_within(gap, [&](const PlaceOfPair&) { ++nearer; });
+  if (nearer >= count) return std::min(gap, reach);
+  gaps_.clear();
+  visit_within(reach, [&](const PlaceOfPair& pair) { gaps_.push_back(gap_of(pair)); });
+  if (gaps_.size() <= count) return reach;
+  std::nth_element(gaps_.begin(), gaps_.begin() + static_cast<std::ptrdiff_t>(count), gaps_.end());
+  return static_cast<double>(gaps_[count]);
 }
 
 void PairsInReach::find_too_near(const Displacements& displacements, double reach) {
-  forget_taken();
   too_near_.clear();
   next_ = 0;
   const std::vector<PlanesOfBodies>& planes = shared_.candidates.pairs().planes();
   double nearer = 0.0;
   for (std::size_t p = 0; p < shared_.count(); ++p)
     nearer += displacements[p].v.norm() + shared_.states[p].lever * displacements[p].w.norm();
-  reach = std::min(reach, nearer + shared_.largest_margin);
-  watched_.clear();
-  for (std::uint32_t place = 0; place < left_.size(); ++place) {
-    if (static_cast<double>(left_[place].gap) <= reach) watched_.push_back(place);
-  }
-  if (watched_.empty()) return;
+  const float most = round_down(std::min(reach, nearer + shared_.largest_margin));
   ways_.clear();
-  for (const PlanesOfBodies& of_bodies : planes)
-    ways_.push_back(way_of(of_bodies, displacements));
-  gaps_at_end_.resize(std::max(gaps_at_end_.size(), planes.size()));
-  known_blocks_.assign(planes.size(), {});
-  for (const std::uint32_t place : watched_) {
-    const PairInReach& pair = left_[place];
-    const std::size_t block = pair.slot / kPlanesAtOnce;
-    std::vector<bool>& is_known = known_blocks_[pair.planes];
-    is_known.resize(planes[pair.planes].block_count());
-    const Way& way = ways_[pair.planes];
-    if (!is_known[block]) planes[pair.planes].find_gaps(way.maps_at_end, block, block + 1, gaps_at_end_[pair.planes]);
-    is_known[block] = true;
-    const float at_end = gaps_at_end_[pair.planes][pair.slot];
-    if (static_cast<double>(at_end) < way.margin) too_near_.push_back({at_end, place});
+  for (std::uint32_t i = 0; i < left_.size(); ++i) {
+    const Way& way = ways_.emplace_back(way_of(planes[i], displacements));
+    const std::vector<float>& gaps = left_[i].gaps;
+    const auto is_near = [&](float gap) { return gap <= most; };
+    visit_runs_of_blocks(left_[i].of_blocks, is_near, [&](std::size_t first, std::size_t end) {
+      planes[i].find_gaps(way.maps_at_end, first, end, gaps_at_end_);
+      for (std::size_t block = first; block < end; ++block) {
+        const std::size_t of_block = kPlanesAtOnce * block;
+        const PairsOfBlock pairs = find_pairs_within(most, gaps.data() + of_block) &
+                                   find_pairs_within(round_down(way.margin), gaps_at_end_.data() + of_block);
+        for_each_pair(block, pairs, [&](std::size_t slot) {
+          too_near_.push_back({gaps_at_end_[slot], {planes[i].numbers()[slot], i, static_cast<std::uint32_t>(slot)}});
+        });
+      }
+    });
   }
   std::sort(too_near_.begin(), too_near_.end(), [](const TooNear& a, const TooNear& b) {
-    return a.gap_at_end != b.gap_at_end ? a.gap_at_end < b.gap_at_end : a.place < b.place;
+    return a.gap_at_end != b.gap_at_end ? a.gap_at_end < b.gap_at_end : a.pair.number < b.pair.number;
   });
+}
+
+void PairsInReach::take_too_near(std::size_t most) {
+  begin_taking();
+  while (next_ < too_near_.size() && pairs_.size() < most) {
+    const std::uint32_t planes = too_near_[next_].pair.planes;
+    const Way& way = ways_[planes];
+    separations_.start(way.begin, way.end, kLasting * way.margin, kLasting * way.margin);
+    for (std::size_t i = next_; i < too_near_.size() && !separations_.is_full(); ++i) {
+      const PlaceOfPair& pair = too_near_[i].pair;
+      if (pair.planes != planes) break;
+      add_separation(pair);
+    }
+    for (const Separation& separation : separations_.find()) {
+      const PlaceOfPair& pair = too_near_[next_].pair;
+      if (separation.least() >= way.margin) {
+        turn_plane(pair, separations_.direction(separation));
+      } else if (pairs_.size() < most) {
+        places_.push_back(pair);
+        take(pair);
+      } else {
+        return;
+      }
+      ++next_;
+    }
+  }
 }
 
 PairsInReach::Way PairsInReach::way_of(const PlanesOfBodies& planes, const Displacements& displacements) const {
@@ -145,7 +156,7 @@ PairsInReach::Way PairsInReach::way_of(const PlanesOfBodies& planes, const Displ
           shared_.scene.margin(bodies.obstacle, bodies.part)};
 }
 
-void PairsInReach::add_separation(const PairInReach& pair) {
+void PairsInReach::add_separation(const PlaceOfPair& pair) {
   const NearPair& candidate = shared_.candidates.pairs().pair(pair.number);
   const geometry::TrianglePoints corners_O =
       body(candidate.bodies.obstacle).tree.mesh().corners(candidate.obstacle_triangle);
@@ -153,7 +164,7 @@ void PairsInReach::add_separation(const PairInReach& pair) {
                    shared_.candidates.pairs().planes()[pair.planes].ball().holds(corners_O));
 }
 
-void PairsInReach::turn_plane(const PairInReach& pair, const FixedDirection& direction) {
+void PairsInReach::turn_plane(const PlaceOfPair& pair, const FixedDirection& direction) {
   shared_.candidates.pairs().planes()[pair.planes].turn(pair.slot, shared_.candidates.pairs().pair(pair.number),
                                                         direction, shared_.scene.bodies());
 }
@@ -164,12 +175,13 @@ const ContactBody& PairsInReach::body(std::int32_t number) const {
 
 void PairsInReach::begin_taking() {
   pairs_.clear();
-  numbers_.clear();
+  places_.clear();
 }
 
-void PairsInReach::take(const PairInReach& pair) {
+void PairsInReach::take(const PlaceOfPair& pair) {
   pairs_.push_back(shared_.candidates.pairs().pair(pair.number));
-  numbers_.push_back(pair.number);
+  gap_of(pair) = kTaken;
+  --left_count_;
 }
 
 }  // namespace glissade::haptics

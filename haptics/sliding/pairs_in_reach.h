@@ -35,9 +35,9 @@ class PairsInReach {
 
   /// Those that the last call took, in the order of the candidates, and what is known of them within `reach` metres.
   std::span<const NearPair> taken() const { return pairs_; }
-  std::span<const std::uint32_t> numbers() const { return numbers_; }
-  /// Number of pairs that have not been taken, or more.
-  std::size_t left_count() const { return left_.size(); }
+  std::span<const PlaceOfPair> places() const { return places_; }
+  /// Number of pairs that have not been taken.
+  std::size_t left_count() const { return left_count_; }
 
  private:
   /// Where the corners of the part of two bodies are, to first order, in the frame of the obstacle.
@@ -49,29 +49,31 @@ class PairsInReach {
   };
 
   struct TooNear {
-    float gap_at_end;     ///< metres
-    std::uint32_t place;  ///< in `left_`
+    float gap_at_end;  ///< metres
+    PlaceOfPair pair;
   };
 
+  template <typename Visit>
+  void visit_within(double gap, const Visit& visit) const;
+  double distance_of_nearest(double gap, std::size_t count, double reach);
+  float& gap_of(const PlaceOfPair& pair) { return left_[pair.planes].gaps[pair.slot]; }
   Way way_of(const PlanesOfBodies& planes, const Displacements& displacements) const;
-  void add_separation(const PairInReach& pair);
-  void turn_plane(const PairInReach& pair, const FixedDirection& direction);
+  void add_separation(const PlaceOfPair& pair);
+  void turn_plane(const PlaceOfPair& pair, const FixedDirection& direction);
   const ContactBody& body(std::int32_t number) const;
-  void forget_taken();
   void begin_taking();
-  void take(const PairInReach& pair);
+  void take(const PlaceOfPair& pair);
 
   SimulatedParts& shared_;
-  std::vector<PairInReach> left_;  // in the order of the candidates; those that were taken have no gap any more
+  std::vector<GapsBySlot> left_;  // those of pairs that were taken are infinite
+  std::size_t left_count_ = 0;
   std::vector<NearPair> pairs_;
-  std::vector<std::uint32_t> numbers_;
+  std::vector<PlaceOfPair> places_;
   std::vector<float> gaps_;
   // Of the pairs of bodies that have planes:
   std::vector<Way> ways_;
   LastingSeparations separations_;
-  std::vector<std::vector<float>> gaps_at_end_;
-  std::vector<std::vector<bool>> known_blocks_;  // those whose gaps at the end are there
-  std::vector<std::uint32_t> watched_;           // places in `left_`
+  std::vector<float> gaps_at_end_;
   std::vector<TooNear> too_near_;
   std::size_t next_ = 0;  // of `too_near_`
 };

@@ -112,6 +112,22 @@ std::vector<double> numbers_of(const std::vector<Contact>& contacts) {
   return numbers;
 }
 
+/// The pairs with gaps up to `reach` (metres), in the order of the search.
+std::vector<PlaceOfPair> places_within(double reach, const std::vector<GapsBySlot>& gaps,
+                                       const std::vector<PlanesOfBodies>& planes) {
+  std::vector<PlaceOfPair> places;
+  for (std::uint32_t i = 0; i < planes.size(); ++i) {
+    for (std::uint32_t slot = 0; slot < planes[i].numbers().size(); ++slot) {
+      if (static_cast<double>(gaps[i].of_blocks[slot / kPlanesAtOnce]) > reach) continue;
+      if (static_cast<double>(gaps[i].gaps[slot]) > reach) continue;
+      places.push_back({planes[i].numbers()[slot], i, slot});
+    }
+  }
+  std::sort(places.begin(), places.end(),
+            [](const PlaceOfPair& a, const PlaceOfPair& b) { return a.number < b.number; });
+  return places;
+}
+
 // Pairs whose contacts are known to have greater gaps are not looked at again before the parts have come nearer.
 TEST(CandidatePairs, HaveTheSameContactsWhereGapsAreNoted) {
   constexpr std::uint64_t kSeed = 63;
@@ -134,20 +150,21 @@ TEST(CandidatePairs, HaveTheSameContactsWhereGapsAreNoted) {
       std::vector<Contact> of_all;
       const std::vector<NearPair> pairs = pairs_within(candidates, reach);
       find_contacts(scene->bodies(), first_part, pairs, reach, kMargin, of_all);
-      std::vector<PairInReach> in_reach;
+      std::vector<GapsBySlot> in_reach;
       std::vector<NearPair> some;
-      std::vector<std::uint32_t> numbers;
+      std::vector<PlaceOfPair> places;
       std::vector<KnownFeatures> known;
       std::vector<GapsOfPair> gaps;
       std::vector<Contact> of_some;
-      candidates.pairs().in_reach(reach, in_reach);
-      for (const PairInReach& pair : in_reach) {
+      const std::size_t count = candidates.pairs().find_gaps(reach, in_reach);
+      places = places_within(reach, in_reach, candidates.pairs().planes());
+      ASSERT_EQ(places.size(), count);
+      for (const PlaceOfPair& pair : places) {
         some.push_back(candidates.pairs().pair(pair.number));
-        numbers.push_back(pair.number);
         known.push_back(candidates.pairs().known_features(pair.number, reach));
       }
       find_contacts(scene->bodies(), first_part, some, reach, kMargin, of_some, &gaps, known);
-      candidates.pairs().note_gaps(numbers, gaps);
+      candidates.pairs().note_gaps(places, gaps);
       ASSERT_EQ(numbers_of(of_some), numbers_of(of_all));
       all += pairs.size();
       looked_at += some.size();
