@@ -18,7 +18,7 @@ constexpr std::int64_t kCallsAhead = 4;
 constexpr double kForward = 0.6;
 
 /// A search that finds more pairs of triangles takes longer than a tick: it is requested as soon as the one before has
-/// been answered.
+/// been answered. Where so many are near, parts fit closely.
 constexpr std::size_t kPairsOfLongSearch = 5000;
 
 // Shares of a step:
@@ -153,6 +153,7 @@ void CandidatePairs::request(double radius, double ahead, std::span<const BodyPa
   GLISSADE_ASSERT(!is_with_thread_);
   next_.request.radius = radius;
   next_.request.has_planes = has_planes_;
+  next_.request.fit_closely = has_planes_ && now_.pair_count() > kPairsOfLongSearch;
   next_.request.ignored.assign(ignored.begin(), ignored.end());
   next_.ahead = ahead;
   next_.step = 0.0;

@@ -107,12 +107,14 @@ void CandidateSearch::find_pairs(const collision::FrameResult& near, const Candi
                                  CandidateSet& set) {
   set.pairs.clear();
   set.boxes.clear();
+  BoxPairs sought = request.has_planes ? BoxPairs::kNotOfContactsOnly : BoxPairs::kAll;
+  if (request.fit_closely) sought = BoxPairs::kNotOfContacts;
   for (const collision::ObjectPair& objects : near.meeting) {
     const BodyPair bodies{static_cast<std::int32_t>(objects.object_A.index),
                           static_cast<std::int32_t>(objects.object_B.index)};
     find_near_pairs(bodies, bodies_[objects.object_A.index], bodies_[objects.object_B.index],
-                    scene_.margin(bodies.obstacle, bodies.part), request.radius, request.has_planes, workspace_, meter_,
-                    set.pairs, set.boxes);
+                    scene_.margin(bodies.obstacle, bodies.part), request.radius, sought, workspace_, meter_, set.pairs,
+                    set.boxes);
   }
   const auto count = [&](bool NearPair::*property) {
     return static_cast<std::size_t>(

@@ -40,6 +40,9 @@ struct CandidateRequest {
   double radius = 0.0;                  ///< metres
   std::vector<BodyPair> ignored;        ///< in ascending order
   bool has_planes = true;               ///< the answer has them
+  /// Curved parts slide past each other so closely that planes of boxes do not last, but those of triangles do. So
+  /// boxes are sought only where they save many triangles.
+  bool fit_closely = false;
 };
 
 /// The answer: what `find_near_pairs` finds, nearest first.

@@ -24,15 +24,14 @@ constexpr std::int64_t kWorkOfPair = 400;
 /// Accepts box pairs that the plane of the flat side of either box separates.
 class PairSearch final : public collision::DualTreeVisitor {
  public:
-  PairSearch(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
-             bool in_triangles, collision::WorkMeter* meter, std::vector<NearPair>& pairs,
-             std::vector<PairToCertify>& boxes)
+  PairSearch(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin, BoxPairs sought,
+             collision::WorkMeter* meter, std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes)
       : bodies_(bodies),
         obstacle_(obstacle),
         part_(part),
         X_OV_(relative_pose(obstacle.X_WB, part.X_WB)),
         enough_(kEnough * margin),
-        in_triangles_(in_triangles),
+        sought_(sought),
         meter_(meter),
         pairs_(pairs),
         boxes_(boxes) {}
@@ -42,7 +41,7 @@ class PairSearch final : public collision::DualTreeVisitor {
   const Eigen::Isometry3d& X_OV() const { return X_OV_; }
 
   bool accepts(const collision::TreeChild& child_O, const collision::TreeChild& child_V) override {
-    if (in_triangles_ && is_whole(*obstacle_.body, child_O) && is_whole(*part_.body, child_V)) return false;
+    if (!is_sought(child_O, child_V)) return false;
     const Obb& box_O = obb_tree_of(*obstacle_.body).box(child_O.node, child_O.child);
     const Obb& box_V = obb_tree_of(*part_.body).box(child_V.node, child_V.child);
     if (box_O.radius < 0.0 || box_V.radius < 0.0) return true;  // an empty box
@@ -69,9 +68,31 @@ class PairSearch final : public collision::DualTreeVisitor {
   void visit_below_accepted(const collision::ClosePair& pair) override { add(pair, true, false); }
 
  private:
-  /// Whether all triangles below a child count for contacts with those that do, too.
-  static bool is_whole(const ContactBody& body, const collision::TreeChild& child) {
-    return (body.features.whole_children()[child.node] >> child.child & 1U) != 0;
+  /// Marks of nodes: those of their children below which all, or some, triangles count for contacts with others that
+  /// do, too.
+  static const std::vector<std::uint8_t>& marks_of_whole(const ContactBody& body) {
+    return body.features.whole_children();
+  }
+  static const std::vector<std::uint8_t>& marks_of_any(const ContactBody& body) {
+    return body.features.at_least_half().nodes;
+  }
+  static bool is_marked(const std::vector<std::uint8_t>& marks, const collision::TreeChild& child) {
+    return (marks[child.node] >> child.child & 1U) != 0;
+  }
+
+  bool is_sought(const collision::TreeChild& child_O, const collision::TreeChild& child_V) const {
+    const auto are_marked = [&](const auto& marks_of) {
+      return is_marked(marks_of(*obstacle_.body), child_O) && is_marked(marks_of(*part_.body), child_V);
+    };
+    switch (sought_) {
+      case BoxPairs::kAll:
+        return true;
+      case BoxPairs::kNotOfContactsOnly:
+        return !are_marked(marks_of_whole);
+      case BoxPairs::kNotOfContacts:
+        return !are_marked(marks_of_any);
+    }
+    return true;
   }
 
   void spend_work_of_pair() {
@@ -106,7 +127,7 @@ class PairSearch final : public collision::DualTreeVisitor {
   const PlacedBody& part_;
   Eigen::Isometry3d X_OV_;
   double enough_;  // metres
-  bool in_triangles_;
+  BoxPairs sought_;
   collision::WorkMeter* meter_;
   std::vector<NearPair>& pairs_;
   std::vector<PairToCertify>& boxes_;
@@ -122,9 +143,9 @@ PairToCertify to_certify(const NearPair& pair) {
 }
 
 void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
-                     double radius, bool in_triangles, collision::QueryWorkspace& workspace,
-                     collision::WorkMeter* meter, std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes) {
-  PairSearch search(bodies, obstacle, part, margin, in_triangles, meter, pairs, boxes);
+                     double radius, BoxPairs sought, collision::QueryWorkspace& workspace, collision::WorkMeter* meter,
+                     std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes) {
+  PairSearch search(bodies, obstacle, part, margin, sought, meter, pairs, boxes);
   const collision::PairSelection features{&obstacle.body->features, &part.body->features};
   collision::traverse_near(search.tree_O(), search.tree_V(), search.X_OV(), radius, workspace, search, &features);
 }

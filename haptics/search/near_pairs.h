@@ -25,14 +25,20 @@ struct NearPair : TrianglesOfBodies {
 
 PairToCertify to_certify(const NearPair& pair);
 
+/// Which pairs of boxes a search is to find.
+enum class BoxPairs {
+  kAll,
+  kNotOfContactsOnly,  ///< not where all triangles of both may yield contacts: their pairs are found in any case
+  kNotOfContacts       ///< not where both have triangles that may yield contacts
+};
+
 /// Appends the pairs of two bodies within `radius` (metres) of each other: the pairs of boxes that a plane separates,
 /// with distances of single precision, the pairs of triangles that lie in no such boxes, and of the others those that
 /// may yield contacts. So each pair of triangles within the radius lies in one pair to certify. `margin` (metres) as in
-/// `ContactScene::margin`. `in_triangles`: where all triangles of two boxes may yield contacts, so that their pairs are
-/// found in any case, these are to be certified instead of the boxes. The `meter` receives the work of taking over each
-/// pair before it is done; null: nobody does.
+/// `ContactScene::margin`. Only those pairs of boxes count that are `sought`; of the others, the triangles do. The
+/// `meter` receives the work of taking over each pair before it is done; null: nobody does.
 void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
-                     double radius, bool in_triangles, collision::QueryWorkspace& workspace,
-                     collision::WorkMeter* meter, std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes);
+                     double radius, BoxPairs sought, collision::QueryWorkspace& workspace, collision::WorkMeter* meter,
+                     std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes);
 
 }  // namespace glissade::haptics

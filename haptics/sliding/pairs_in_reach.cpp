@@ -91,11 +91,12 @@ void PairsInReach::find_too_near(const Displacements& displacements, double reac
   for (std::size_t p = 0; p < shared_.count(); ++p)
     nearer += displacements[p].v.norm() + shared_.states[p].lever * displacements[p].w.norm();
   const float most = round_down(std::min(reach, nearer + shared_.largest_margin));
-  ways_.clear();
+  const auto is_near = [&](float gap) { return gap <= most; };
+  ways_.resize(left_.size());
   for (std::uint32_t i = 0; i < left_.size(); ++i) {
-    const Way& way = ways_.emplace_back(way_of(planes[i], displacements));
+    if (std::none_of(left_[i].of_blocks.begin(), left_[i].of_blocks.end(), is_near)) continue;
+    const Way& way = ways_[i] = way_of(planes[i], displacements);
     const std::vector<float>& gaps = left_[i].gaps;
-    const auto is_near = [&](float gap) { return gap <= most; };
     visit_runs_of_blocks(left_[i].of_blocks, is_near, [&](std::size_t first, std::size_t end) {
       planes[i].find_gaps(way.maps_at_end, first, end, gaps_at_end_);
       for (std::size_t block = first; block < end; ++block) {

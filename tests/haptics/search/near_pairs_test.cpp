@@ -3,6 +3,7 @@
 #include "search/near_pairs.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -27,15 +28,17 @@ using test_support::RandomNumbers;
 
 constexpr double kSize = 0.02;  // metres, of most bodies here
 
+constexpr std::array kAllBoxPairs{BoxPairs::kAll, BoxPairs::kNotOfContactsOnly, BoxPairs::kNotOfContacts};
+
 /// What the search finds for all bodies of a scene.
 struct Found {
-  Found(const ContactScene& scene, double radius) {
+  Found(const ContactScene& scene, double radius, BoxPairs sought = BoxPairs::kNotOfContactsOnly) {
     collision::QueryWorkspace workspace;
     const std::span<const PlacedBody> bodies = scene.bodies();
     for (std::size_t part = scene.obstacles().size(); part < bodies.size(); ++part) {
       for (std::size_t other = 0; other < part; ++other) {
         const BodyPair pair{static_cast<std::int32_t>(other), static_cast<std::int32_t>(part)};
-        find_near_pairs(pair, bodies[other], bodies[part], scene.margin(pair.obstacle, pair.part), radius, true,
+        find_near_pairs(pair, bodies[other], bodies[part], scene.margin(pair.obstacle, pair.part), radius, sought,
                         workspace, nullptr, pairs, boxes);
       }
     }
@@ -76,17 +79,18 @@ class NearPairs : public ::testing::Test {
 };
 
 TEST_F(NearPairs, HoldEveryPairOfTrianglesWithinTheRadiusOnceToCertify) {
-  std::size_t boxes = 0;
-  std::size_t triangles = 0;
+  std::map<BoxPairs, std::size_t> boxes;
+  std::map<BoxPairs, std::size_t> triangles;
   for (int trial = 0; trial < test_support::affordable(300); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     const double margin = random_margin();
     const auto scene = test_support::random_contact_scene(kSize, margin, margin * random_.uniform(0.3, 2.0), random_);
     const double radius = random_.power_of_ten(-4.0, -2.0);
+    const BoxPairs sought = kAllBoxPairs[static_cast<std::size_t>(trial) % kAllBoxPairs.size()];
     std::map<TrianglesOfBodies, int> held;
-    for (const PairToCertify& pair_to_certify : Found(*scene, radius).all_to_certify()) {
+    for (const PairToCertify& pair_to_certify : Found(*scene, radius, sought).all_to_certify()) {
       const bool is_box = pair_to_certify.item_O.kind != TreeItem::Kind::kTriangle;
-      ++(is_box ? boxes : triangles);
+      ++(is_box ? boxes : triangles)[sought];
       for (const TrianglesOfBodies& pair : test_support::triangles_of(scene->bodies(), pair_to_certify))
         ++held[pair];
     }
@@ -96,8 +100,26 @@ TEST_F(NearPairs, HoldEveryPairOfTrianglesWithinTheRadiusOnceToCertify) {
                                << ": " << pair.part_triangle << " at " << distance;
     }
   }
-  EXPECT_GT(boxes, 50U);
-  EXPECT_GT(triangles, 50U);
+  for (const BoxPairs sought : kAllBoxPairs) {
+    EXPECT_GT(boxes[sought], 20U);
+    EXPECT_GT(triangles[sought], 20U);
+  }
+}
+
+// Where parts fit closely, planes of triangles last longer than those of boxes. But the triangles of plates that lie on
+// each other yield no contacts, and are too many.
+TEST_F(NearPairs, AreInNoBoxesWhereBothYieldContactsIfTheseAreNotSought) {
+  const auto scene = [](const geometry::TriangleMesh& obstacle, const geometry::TriangleMesh& part, double gap) {
+    ContactScene made({test_support::obstacle_of(obstacle)}, {test_support::part_of(part)}, std::vector<double>{2e-6});
+    made.place(0, test_support::pose({0.0, 0.0, gap}, Eigen::Quaterniond::Identity()));
+    return made;
+  };
+  const ContactScene balls = scene(geometry::make_sphere(0.03, 2000), geometry::make_sphere(0.02, 2000), 0.0501);
+  EXPECT_FALSE(Found(balls, 1e-3, BoxPairs::kAll).boxes.empty());
+  EXPECT_TRUE(Found(balls, 1e-3, BoxPairs::kNotOfContacts).boxes.empty());
+  const ContactScene plates =
+      scene(geometry::make_plate({0.1, 0.1}, 5000), geometry::make_plate({0.06, 0.06}, 5000), 2e-6);
+  EXPECT_FALSE(Found(plates, 1e-3, BoxPairs::kNotOfContacts).boxes.empty());
 }
 
 TEST_F(NearPairs, HoldEveryPairThatMayYieldAContactOnce) {
