@@ -43,12 +43,12 @@ void ContactFilter::look(std::span<const NearPair> pairs, std::span<const KnownF
     gaps_left_out_[i] = 0.0;
     was_looked_at_[i] = !known.empty() && known[i].features != 0;
     if (was_looked_at_[i]) {
-      features_[i] = known[i].features;
+      features_[i] = nearest_[i] = known[i].features;
       gaps_beyond_[i] = known[i].left_out;
       continue;
     }
     const NearPair& pair = pairs[i];
-    features_[i] =
+    features_[i] = nearest_[i] =
         owned(bodies_[static_cast<std::size_t>(pair.bodies.part)].body->topology, pair.part_triangle,
               bodies_[static_cast<std::size_t>(pair.bodies.obstacle)].body->topology, pair.obstacle_triangle);
     gaps_beyond_[i] = std::numeric_limits<double>::infinity();
@@ -95,10 +95,11 @@ void ContactFilter::add(Batch& batch, const NearPair& pair, std::size_t number) 
 /// Leaves out what cannot be in contact, and empties the batch.
 void ContactFilter::complete(Batch& batch) {
   if (batch.count >= kFewOfBodies) {
-    leave_out_impossible(batch.pairs, batch.X_OV, {reach_, past_end_, batch.coordinates}, batch.possible);
+    leave_out_impossible(batch.pairs, batch.X_OV, {reach_, past_end_, margin_, batch.coordinates}, batch.possible);
     for (std::size_t i = 0; i < batch.count; ++i) {
       was_looked_at_[batch.numbers[i]] = true;
       features_[batch.numbers[i]] = batch.possible.features[i];
+      nearest_[batch.numbers[i]] = batch.possible.nearest[i];
       gaps_[batch.numbers[i]] = static_cast<double>(batch.possible.gaps[i]) - past_end_;
       gaps_beyond_[batch.numbers[i]] = static_cast<double>(batch.possible.gaps_beyond[i]) - past_end_;
       gaps_left_out_[batch.numbers[i]] = static_cast<double>(batch.possible.gaps_left_out[i]) - past_end_;

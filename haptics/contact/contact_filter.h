@@ -18,16 +18,18 @@ class ContactFilter {
  public:
   static constexpr std::size_t kMostPairs = 256;
 
-  /// Contacts have gaps up to `reach`, and may miss the end of an edge by `past_end` (metres). The bodies must stay
-  /// where they are.
-  ContactFilter(std::span<const PlacedBody> bodies, double reach, double past_end)
-      : bodies_(bodies), reach_(reach), past_end_(past_end) {}
+  /// Contacts have gaps up to `reach`, may miss the end of an edge by `past_end`, and are nearest among neighboring
+  /// features within `margin` (metres). The bodies must stay where they are.
+  ContactFilter(std::span<const PlacedBody> bodies, double reach, double past_end, double margin)
+      : bodies_(bodies), reach_(reach), past_end_(past_end), margin_(margin) {}
 
   /// Looks at up to kMostPairs pairs, which replace those of the last call, and of which `known` tells what is known,
   /// or is empty.
   void look(std::span<const NearPair> pairs, std::span<const KnownFeatures> known);
   /// The features of a pair that its triangles own and that may be in contact.
   FeaturePairs features(std::size_t pair) const { return features_[pair]; }
+  /// Those of them that may be nearest where the bodies are now.
+  FeaturePairs nearest(std::size_t pair) const { return nearest_[pair]; }
   /// Whether the vector code looked at the pair: without it, nothing is left out.
   bool was_looked_at(std::size_t pair) const { return was_looked_at_[pair]; }
   /// Metres: a certain lower bound of the gaps of all contacts that the pair can have, however far its bodies are; not
@@ -57,9 +59,11 @@ class ContactFilter {
   std::span<const PlacedBody> bodies_;
   double reach_;
   double past_end_;
+  double margin_;
   std::vector<Batch> batches_;  // one for each pair of bodies so far
   std::size_t last_ = 0;        // the batch of the last pair
   std::array<FeaturePairs, kMostPairs> features_;
+  std::array<FeaturePairs, kMostPairs> nearest_;
   std::array<bool, kMostPairs> was_looked_at_;
   std::array<double, kMostPairs> gaps_;
   std::array<double, kMostPairs> gaps_beyond_;

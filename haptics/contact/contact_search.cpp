@@ -293,14 +293,14 @@ void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part, s
   contacts.clear();
   if (gaps != nullptr) gaps->clear();
   ContactSearch search(bodies, first_part, reach, margin, contacts, gaps);
-  ContactFilter filter(bodies, reach, kPastEnd * margin);
+  ContactFilter filter(bodies, reach, kPastEnd * margin, margin);
   for (std::size_t first = 0; first < candidates.size(); first += ContactFilter::kMostPairs) {
     const auto pairs = candidates.subspan(first, std::min(ContactFilter::kMostPairs, candidates.size() - first));
     filter.look(pairs, known.empty() ? known : known.subspan(first, pairs.size()));
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (gaps != nullptr)
         gaps->push_back({filter.gap(i), filter.gap_beyond(i), filter.gap_left_out(i), filter.features(i)});
-      if (filter.features(i) != 0) search.search(pairs[i], first + i, filter.features(i), filter.was_looked_at(i));
+      if (filter.nearest(i) != 0) search.search(pairs[i], first + i, filter.nearest(i), filter.was_looked_at(i));
     }
   }
   search.search_waiting();

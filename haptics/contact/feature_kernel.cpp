@@ -23,6 +23,9 @@ constexpr float kLeastSquare = 1e-30F;
 // product of that with the difference of two corners by 1024 · 2^-24 |e|, or twice that for the other end of d; the
 // same with d and e exchanged.
 constexpr float kSlackOfEnds = 2e-4F;
+// The length of a vector is less than 3.5, so that its product with c errs by less than 250 · 2^-24. Divided by the
+// length of c, which errs as much, it errs by less than 500 · 2^-24 over that length.
+constexpr float kSlackOfNormal = 5e-5F;
 constexpr float kFarAway = 1e30F;
 
 using Tag = hn::CappedTag<float, kTrianglePairs>;
@@ -55,6 +58,7 @@ struct alignas(64) ScaledPairs {
   float part[3][3][kTrianglePairs];
   float reach[kTrianglePairs];
   float past_end[kTrianglePairs];
+  float margin[kTrianglePairs];
   float size[kTrianglePairs];  // metres
 };
 
@@ -95,6 +99,7 @@ HWY_INLINE void scale(const TrianglePairs& pairs, const RelativePose& X_OV, cons
     };
     store(in_sizes(reach.reach + reach.past_end), scaled.reach);
     store(in_sizes(reach.past_end), scaled.past_end);
+    store(in_sizes(reach.margin), scaled.margin);
     store(hn::IfThenElseZero(is_known, size), scaled.size);
   }
 }
@@ -151,6 +156,7 @@ HWY_INLINE void find_gaps(const Triangle& t, const Vector3 (&points)[3], V (&gap
 struct EdgePair {
   V gap;      // a lower bound of their distance
   V outside;  // one of the closest points of their lines lies at least so far outside its edge; 0: that is not certain
+  V nearer;   // the opposite corner of either triangle is nearer by at least so much along the normal; 0: the same
 };
 
 // How far the interval from h to h + rise lies on one side of 0; negative if 0 is inside.
@@ -159,9 +165,21 @@ HWY_INLINE V beyond_zero(V h, V rise) {
   return hn::Max(hn::Min(h, other), hn::Neg(hn::Max(h, other)));
 }
 
-// Edges d and e, whose first corners differ by `between` (from e to d).
-HWY_INLINE EdgePair look_at_edges(const Vector3& d, V inverse_d, const Vector3& e, V inverse_e,
-                                  const Vector3& between) {
+// An edge, from its first corner.
+struct Edge {
+  Vector3 along;
+  Vector3 to_opposite;  // corner of its triangle
+  V inverse_length;
+};
+
+HWY_INLINE Edge edge_of(const Triangle& t, std::size_t i) {
+  return {t.edge[i], minus(t.corner[(i + 2) % 3], t.corner[i]), inverse_root(dot(t.edge[i], t.edge[i]))};
+}
+
+// Edges of the part and the obstacle, whose first corners differ by `between` (from the obstacle to the part).
+HWY_INLINE EdgePair look_at_edges(const Edge& of_part, const Edge& of_obstacle, const Vector3& between) {
+  const Vector3& d = of_part.along;
+  const Vector3& e = of_obstacle.along;
   const Tag tag;
   const V zero = hn::Zero(tag);
   const Vector3 c = cross(d, e);
@@ -174,11 +192,20 @@ HWY_INLINE EdgePair look_at_edges(const Vector3& d, V inverse_d, const Vector3& 
   // The plane through e along c has both ends of d on one side, or that through d those of e.
   const Vector3 u = cross(e, c);
   const Vector3 v = cross(d, c);
-  const V across_e = hn::Mul(beyond_zero(dot(u, between), dot(u, d)), inverse_e);
-  const V across_d = hn::Mul(beyond_zero(hn::Neg(dot(v, between)), dot(v, e)), inverse_d);
+  const V across_e = hn::Mul(beyond_zero(dot(u, between), dot(u, d)), of_obstacle.inverse_length);
+  const V across_d = hn::Mul(beyond_zero(hn::Neg(dot(v, between)), dot(v, e)), of_part.inverse_length);
   const V across = hn::Sub(hn::Max(across_d, across_e), hn::Set(tag, kSlackOfEnds));
   const V outside = not_negative(hn::Mul(across, inverse_c));
-  return {hn::Max(outside, hn::Sub(hn::Mul(along_c, inverse_c), hn::Set(tag, kSlack))), outside};
+  // The normal is c or its opposite, as far as it is certain on which side the part is.
+  const V slack = hn::Add(hn::Mul(hn::Set(tag, kSlackOfNormal), inverse_c), hn::Set(tag, kSlack));
+  const V side = hn::Mul(h, inverse_c);
+  const V below_part = hn::Neg(dot(c, of_part.to_opposite));
+  const V above_obstacle = dot(c, of_obstacle.to_opposite);
+  const V along_normal = hn::Mul(hn::IfThenElse(hn::Lt(h, zero), hn::Max(hn::Neg(below_part), hn::Neg(above_obstacle)),
+                                                hn::Max(below_part, above_obstacle)),
+                                 inverse_c);
+  const V nearer = hn::IfThenElseZero(hn::Gt(hn::Abs(side), slack), not_negative(hn::Sub(along_normal, slack)));
+  return {hn::Max(outside, hn::Sub(hn::Mul(along_c, inverse_c), hn::Set(tag, kSlack))), outside, nearer};
 }
 
 // The features of as many pairs as fit into a vector.
@@ -189,9 +216,11 @@ class Look {
         part_(load(scaled.part, first)),
         reach_(hn::Load(Tag(), scaled.reach + first)),
         past_end_(hn::Load(Tag(), scaled.past_end + first)),
+        margin_(hn::Load(Tag(), scaled.margin + first)),
         size_(hn::Load(Tag(), scaled.size + first)),
         counting_(hn::Load(Bits(), possible.features.data() + first)),
         left_(counting_),
+        not_nearest_(hn::Zero(Bits())),
         least_(hn::Set(Tag(), kFarAway)),
         least_beyond_(least_),
         least_left_out_(least_) {}
@@ -207,21 +236,24 @@ class Look {
   }
 
   HWY_INLINE void at_edges() {
-    V inverse_e[3];
+    Edge of_obstacle[3];
     for (std::size_t j = 0; j < 3; ++j)
-      inverse_e[j] = inverse_root(dot(obstacle_.edge[j], obstacle_.edge[j]));
-    for (int i = 0; i < 3; ++i) {
-      const V inverse_d = inverse_root(dot(part_.edge[i], part_.edge[i]));
-      for (int j = 0; j < 3; ++j) {
-        const EdgePair pair = look_at_edges(part_.edge[i], inverse_d, obstacle_.edge[j], inverse_e[j],
-                                            minus(part_.corner[i], obstacle_.corner[j]));
-        note(with_edges(i, j), pair.gap, hn::Gt(pair.outside, past_end_));
+      of_obstacle[j] = edge_of(obstacle_, j);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Edge of_part = edge_of(part_, i);
+      for (std::size_t j = 0; j < 3; ++j) {
+        const EdgePair pair = look_at_edges(of_part, of_obstacle[j], minus(part_.corner[i], obstacle_.corner[j]));
+        const FeaturePairs feature = with_edges(static_cast<int>(i), static_cast<int>(j));
+        note(feature, pair.gap, hn::Gt(pair.outside, past_end_));
+        const auto is_not_nearest = hn::RebindMask(Bits(), hn::Gt(pair.nearer, margin_));
+        not_nearest_ = hn::Or(not_nearest_, hn::IfThenElseZero(is_not_nearest, hn::Set(Bits(), feature)));
       }
     }
   }
 
   HWY_INLINE void store(PossibleContacts& possible, std::size_t first) const {
     hn::Store(left_, Bits(), possible.features.data() + first);
+    hn::Store(hn::AndNot(not_nearest_, left_), Bits(), possible.nearest.data() + first);
     hn::Store(hn::Mul(least_, size_), Tag(), possible.gaps.data() + first);
     hn::Store(hn::Mul(least_beyond_, size_), Tag(), possible.gaps_beyond.data() + first);
     hn::Store(hn::Mul(least_left_out_, size_), Tag(), possible.gaps_left_out.data() + first);
@@ -250,9 +282,11 @@ class Look {
   Triangle part_;
   V reach_;
   V past_end_;
+  V margin_;
   V size_;
   hn::Vec<Bits> counting_;
   hn::Vec<Bits> left_;
+  hn::Vec<Bits> not_nearest_;
   V least_;
   V least_beyond_;
   V least_left_out_;

@@ -44,6 +44,7 @@ struct RelativePose {
 struct ContactReach {
   double reach;        ///< the largest gap
   double past_end;     ///< the length by which the ends of edges may be missed
+  double margin;       ///< by which corners of the triangles of two edges may be nearer than these, along their normal
   double coordinates;  ///< bound of all coordinates in O: nothing is left out of triangles as small as its rounding
 };
 
@@ -52,6 +53,8 @@ struct alignas(64) PossibleContacts {
   /// Features that count; then those of them that may be in contact: within reach and, for two edges, with the closest
   /// points of their lines inside both.
   std::array<FeaturePairs, kTrianglePairs> features;
+  /// Those of them that may be so at the present poses: without edges of which another corner of a triangle is nearer.
+  std::array<FeaturePairs, kTrianglePairs> nearest;
   /// Metres, not negative: a certain lower bound of the distances of all features that counted.
   std::array<float, kTrianglePairs> gaps;
   /// The same of those features that were left out because they are beyond reach, and of all that were left out.

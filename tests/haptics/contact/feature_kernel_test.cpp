@@ -65,6 +65,20 @@ FeaturePair features_of(const TrianglePoints& obstacle, const TrianglePoints& pa
   return {};
 }
 
+/// By how much another corner of either triangle is nearer than edges i and j along their normal, metres; of features
+/// with a corner, 0.
+double nearer_corner(const TrianglePoints& obstacle, const TrianglePoints& part, FeaturePairs feature) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (feature != with_edges(static_cast<int>(i), static_cast<int>(j))) continue;
+      Vector3d n = (part[(i + 1) % 3] - part[i]).cross(obstacle[(j + 1) % 3] - obstacle[j]).normalized();
+      if (n.dot(part[i] - obstacle[j]) < 0.0) n = -n;
+      return std::max(-n.dot(part[(i + 2) % 3] - part[i]), n.dot(obstacle[(j + 2) % 3] - obstacle[j]));
+    }
+  }
+  return 0.0;
+}
+
 /// Sixteen random pairs of triangles near each other, somewhere, of one size.
 class SixteenPairs {
  public:
@@ -96,14 +110,14 @@ class SixteenPairs {
     return t;
   }
 
-  void leave_out_impossible(double reach, double past_end, PossibleContacts& possible) const {
+  void leave_out_impossible(double reach, double past_end, double margin, PossibleContacts& possible) const {
     RelativePose pose;
     for (Eigen::Index row = 0; row < 3; ++row) {
       for (Eigen::Index column = 0; column < 3; ++column)
         pose.R_OV[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] = X_OV_.linear()(row, column);
       pose.p_OV[static_cast<std::size_t>(row)] = X_OV_.translation()[row];
     }
-    haptics::leave_out_impossible(pairs_, pose, {reach, past_end, coordinates_}, possible);
+    haptics::leave_out_impossible(pairs_, pose, {reach, past_end, margin, coordinates_}, possible);
   }
 
  private:
@@ -129,18 +143,22 @@ TEST_P(FeatureKernel, LeavesOutNearlyAllThatIsNoContactAndNothingElse) {
   std::int64_t left_out = 0;
   std::int64_t impossible = 0;
   std::int64_t possible_ones = 0;
+  std::int64_t not_nearest = 0;
+  std::int64_t with_nearer_corner = 0;
   for (int trial = 0; trial < test_support::affordable(2000); ++trial) {
     SCOPED_TRACE("trial " + std::to_string(trial));
     const SixteenPairs pairs(random);
     const double reach = pairs.size() * random.power_of_ten(-3.0, 0.0);
     const double past_end = random.chance(0.5) ? 0.0 : reach * random.uniform(0.0, 0.5);
+    const double margin = pairs.size() * random.power_of_ten(-3.0, 0.0);
     PossibleContacts possible;
     for (FeaturePairs& features : possible.features)
       features = static_cast<FeaturePairs>(random.integer(0, static_cast<int>(kAllFeaturePairs)));
     const PossibleContacts asked = possible;
-    pairs.leave_out_impossible(reach, past_end, possible);
+    pairs.leave_out_impossible(reach, past_end, margin, possible);
     for (std::size_t pair = 0; pair < kTrianglePairs; ++pair) {
       ASSERT_EQ(possible.features[pair] & ~asked.features[pair], 0U);
+      ASSERT_EQ(possible.nearest[pair] & ~possible.features[pair], 0U);
       double least = std::numeric_limits<double>::infinity();
       double least_left_out = least;
       for (FeaturePairs bit = 1; bit <= kAllFeaturePairs; bit <<= 1) {
@@ -149,6 +167,11 @@ TEST_P(FeatureKernel, LeavesOutNearlyAllThatIsNoContactAndNothingElse) {
         least = std::min(least, true_one.distance);
         const bool is_impossible = true_one.distance > reach + past_end || true_one.outside > past_end;
         const bool is_left_out = (possible.features[pair] & bit) == 0;
+        const bool is_not_nearest = !is_left_out && (possible.nearest[pair] & bit) == 0;
+        const bool has_nearer_corner = nearer_corner(pairs.obstacle(pair), pairs.part(pair), bit) > margin;
+        ASSERT_TRUE(has_nearer_corner || !is_not_nearest) << "feature " << bit << ", margin " << margin;
+        not_nearest += is_not_nearest ? 1 : 0;
+        with_nearer_corner += !is_left_out && has_nearer_corner ? 1 : 0;
         if (is_left_out) least_left_out = std::min(least_left_out, true_one.distance);
         ASSERT_TRUE(is_impossible || !is_left_out) << "feature " << bit << " at " << true_one.distance << ", "
                                                    << true_one.outside << " of reach " << reach << ", " << past_end;
@@ -163,6 +186,7 @@ TEST_P(FeatureKernel, LeavesOutNearlyAllThatIsNoContactAndNothingElse) {
     }
   }
   EXPECT_GT(static_cast<double>(left_out), 0.9 * static_cast<double>(impossible));
+  EXPECT_GT(static_cast<double>(not_nearest), 0.9 * static_cast<double>(with_nearer_corner));
   EXPECT_GT(possible_ones, test_support::affordable(1000));
 }
 
@@ -178,7 +202,7 @@ TEST_P(FeatureKernel, OfTrianglesThatAreNoTrianglesNothingIsCertain) {
       pairs.p_V[c][0][pair] = 1.0 + (pair % 4 < 2 ? 0.0 : 3e-13);
   }
   const RelativePose still{{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}}, {0.0, 0.0, 0.0}};
-  haptics::leave_out_impossible(pairs, still, {1e-14, 0.0, 2.0}, possible);
+  haptics::leave_out_impossible(pairs, still, {1e-14, 0.0, 0.0, 2.0}, possible);
   for (std::size_t pair = 0; pair < kTrianglePairs; ++pair) {
     EXPECT_EQ(possible.features[pair], kAllFeaturePairs) << "pair " << pair;
     EXPECT_EQ(possible.gaps[pair], 0.0F) << "pair " << pair;
