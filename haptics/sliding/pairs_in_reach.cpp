@@ -1,6 +1,7 @@
 #include "sliding/pairs_in_reach.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "search/blocks_of_pairs.h"
@@ -36,21 +37,29 @@ LinearMotion linear_motion_of(const SimulatedParts& shared, std::int32_t body, c
 
 }  // namespace
 
-/// Visits the pairs that have not been taken and whose gaps are at most `gap` (metres), those of two bodies together.
+/// Visits the blocks with pairs that have not been taken and whose gaps are at most `gap` (metres): the number of their
+/// planes, their own, and these pairs.
 template <typename Visit>
-void PairsInReach::visit_within(double gap, const Visit& visit) const {
+void PairsInReach::visit_blocks_within(double gap, const Visit& visit) const {
   const float most = round_down(gap);
   for (std::uint32_t i = 0; i < left_.size(); ++i) {
     const std::vector<float>& of_blocks = left_[i].of_blocks;
     for (std::size_t block = 0; block < of_blocks.size(); ++block) {
       if (of_blocks[block] > most) continue;
-      const PairsOfBlock pairs = find_pairs_within(most, left_[i].gaps.data() + kPlanesAtOnce * block);
-      for_each_pair(block, pairs, [&](std::size_t slot) {
-        const std::uint32_t number = shared_.candidates.pairs().planes()[i].numbers()[slot];
-        visit(PlaceOfPair{number, i, static_cast<std::uint32_t>(slot)});
-      });
+      visit(i, block, find_pairs_within(most, left_[i].gaps.data() + kPlanesAtOnce * block));
     }
   }
+}
+
+/// Visits the pairs of these blocks, those of two bodies together.
+template <typename Visit>
+void PairsInReach::visit_within(double gap, const Visit& visit) const {
+  visit_blocks_within(gap, [&](std::uint32_t i, std::size_t block, PairsOfBlock pairs) {
+    for_each_pair(block, pairs, [&](std::size_t slot) {
+      const std::uint32_t number = shared_.candidates.pairs().planes()[i].numbers()[slot];
+      visit(PlaceOfPair{number, i, static_cast<std::uint32_t>(slot)});
+    });
+  });
 }
 
 void PairsInReach::look(double reach) {
@@ -74,7 +83,9 @@ double PairsInReach::take_nearest(double gap, std::size_t count, double reach) {
 double PairsInReach::distance_of_nearest(double gap, std::size_t count, double reach) {
   if (left_count_ <= count) return reach;
   std::size_t nearer = 0;
-  visit_within(gap, [&](const PlaceOfPair&) { ++nearer; });
+  visit_blocks_within(gap, [&](std::uint32_t, std::size_t, PairsOfBlock pairs) {
+    nearer += static_cast<std::size_t>(std::popcount(pairs));
+  });
   if (nearer >= count) return std::min(gap, reach);
   gaps_.clear();
   visit_within(reach, [&](const PlaceOfPair& pair) { gaps_.push_back(gap_of(pair)); });

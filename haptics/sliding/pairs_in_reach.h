@@ -54,6 +54,8 @@ class PairsInReach {
   };
 
   template <typename Visit>
+  void visit_blocks_within(double gap, const Visit& visit) const;
+  template <typename Visit>
   void visit_within(double gap, const Visit& visit) const;
   double distance_of_nearest(double gap, std::size_t count, double reach);
   float& gap_of(const PlaceOfPair& pair) { return left_[pair.planes].gaps[pair.slot]; }
