@@ -14,14 +14,16 @@ constexpr std::size_t kFewOfBodies = 4;
 /// The pairs of features that may count at all: an edge or vertex does for the triangle that owns it.
 FeaturePairs owned(const geometry::MeshTopology& of_part, std::int32_t part_triangle,
                    const geometry::MeshTopology& of_obstacle, std::int32_t obstacle_triangle) {
+  const auto bit = [](bool is_owned, int number) { return static_cast<FeaturePairs>(is_owned) << number; };
+  FeaturePairs edges_of_obstacle = 0;
+  for (int j = 0; j < 3; ++j)
+    edges_of_obstacle |= bit(of_obstacle.owns_edge(obstacle_triangle, j), kFirstEdges + j);
   FeaturePairs features = 0;
   for (int i = 0; i < 3; ++i) {
-    if (of_part.owns_corner(part_triangle, i)) features |= with_part_corner(i);
-    if (of_obstacle.owns_corner(obstacle_triangle, i)) features |= with_obstacle_corner(i);
-    if (!of_part.owns_edge(part_triangle, i)) continue;
-    for (int j = 0; j < 3; ++j) {
-      if (of_obstacle.owns_edge(obstacle_triangle, j)) features |= with_edges(i, j);
-    }
+    FeaturePairs with_i = bit(of_part.owns_corner(part_triangle, i), kPartCorner) |
+                          bit(of_obstacle.owns_corner(obstacle_triangle, i), kObstacleCorner);
+    with_i |= of_part.owns_edge(part_triangle, i) ? edges_of_obstacle : 0;
+    features |= with_i << (kBitsOfFeature * i);
   }
   return features;
 }

@@ -81,10 +81,13 @@ class ContactSearch {
       note_beyond(number);
       return;
     }
-    for (int i = 0; i < 3; ++i) {
-      if ((features & with_part_corner(i)) != 0) corners_.add(waiting.part, i, waiting.obstacle, false);
-      if ((features & with_obstacle_corner(i)) != 0) corners_.add(waiting.obstacle, i, waiting.part, true);
-    }
+    for_each_feature_pair(features & kAllCorners, [&](int i, int with) {
+      if (with == kPartCorner) {
+        corners_.add(waiting.part, i, waiting.obstacle, false);
+      } else {
+        corners_.add(waiting.obstacle, i, waiting.part, true);
+      }
+    });
     ++waiting_count_;
   }
 
@@ -97,11 +100,15 @@ class ContactSearch {
       pair_ = &pair;
       part_ = &pair.part;
       obstacle_ = &pair.obstacle;
-      for (int i = 0; i < 3; ++i) {
-        if ((pair.features & with_part_corner(i)) != 0) search_part_corner(i, over, corner++);
-        if ((pair.features & with_obstacle_corner(i)) != 0) search_obstacle_corner(i, over, corner++);
-        search_part_edge(i, pair.features);
-      }
+      for_each_feature_pair(pair.features, [&](int i, int with) {
+        if (with == kPartCorner) {
+          search_part_corner(i, over, corner++);
+        } else if (with == kObstacleCorner) {
+          search_obstacle_corner(i, over, corner++);
+        } else {
+          search_edges(i, with - kFirstEdges);
+        }
+      });
     }
     waiting_count_ = 0;
   }
@@ -125,8 +132,6 @@ class ContactSearch {
   }
 
  private:
-  static constexpr FeaturePairs kAllCorners = 0x3f;
-
   /// A pair that waits until there are enough corners to look at.
   struct WaitingPair {
     BodyPair bodies;
@@ -220,23 +225,20 @@ class ContactSearch {
     }
   }
 
-  void search_part_edge(int i, FeaturePairs features) {
-    for (int j = 0; j < 3; ++j) {
-      if ((features & with_edges(i, j)) == 0) continue;
-      SegmentPoints closest;
-      if (!closest_points_of_lines(part_->corner(i), part_->corner((i + 1) % 3), obstacle_->corner(j),
-                                   obstacle_->corner((j + 1) % 3), closest) ||
-          !part_->is_on_edge(i, closest.along_p, kPastEnd * margin_) ||
-          !obstacle_->is_on_edge(j, closest.along_q, kPastEnd * margin_)) {
-        continue;
-      }
-      Eigen::Vector3d n;
-      const double gap = gap_and_normal(closest.q, closest.p, n);
-      if (gap < 0.0 || !part_->edge_is_nearest(i, n, margin_) || !obstacle_->edge_is_nearest(j, n, margin_)) continue;
-      if (gap <= (kNearRims + kAsNear) * margin_) crossings_.push_back(contacts_.size());
-      add(ContactKind::kEdgeEdge, part_->edge(i), obstacle_->edge(j), n, closest.p, gap,
-          std::min(part_->distance_to_ends(i, closest.along_p), obstacle_->distance_to_ends(j, closest.along_q)));
+  void search_edges(int i, int j) {
+    SegmentPoints closest;
+    if (!closest_points_of_lines(part_->corner(i), part_->corner((i + 1) % 3), obstacle_->corner(j),
+                                 obstacle_->corner((j + 1) % 3), closest) ||
+        !part_->is_on_edge(i, closest.along_p, kPastEnd * margin_) ||
+        !obstacle_->is_on_edge(j, closest.along_q, kPastEnd * margin_)) {
+      return;
     }
+    Eigen::Vector3d n;
+    const double gap = gap_and_normal(closest.q, closest.p, n);
+    if (gap < 0.0 || !part_->edge_is_nearest(i, n, margin_) || !obstacle_->edge_is_nearest(j, n, margin_)) return;
+    if (gap <= (kNearRims + kAsNear) * margin_) crossings_.push_back(contacts_.size());
+    add(ContactKind::kEdgeEdge, part_->edge(i), obstacle_->edge(j), n, closest.p, gap,
+        std::min(part_->distance_to_ends(i, closest.along_p), obstacle_->distance_to_ends(j, closest.along_q)));
   }
 
   /// The gap between a point of the obstacle and one of the part, −1 where it is out of reach or has no direction.

@@ -4,6 +4,7 @@
 /// with slack for its rounding: what it leaves out is certainly no contact.
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -11,19 +12,37 @@
 
 namespace glissade::haptics {
 
+// Five bits for each number i of a corner or edge, in the order in which contacts are searched for.
+inline constexpr int kBitsOfFeature = 5;
+inline constexpr int kPartCorner = 0;
+inline constexpr int kObstacleCorner = 1;
+inline constexpr int kFirstEdges = 2;
+
 /// Corner i of the part's triangle with the obstacle's triangle.
 constexpr FeaturePairs with_part_corner(int i) {
-  return 1U << i;
+  return 1U << (kBitsOfFeature * i + kPartCorner);
 }
 /// Corner i of the obstacle's triangle with the part's triangle.
 constexpr FeaturePairs with_obstacle_corner(int i) {
-  return 8U << i;
+  return 1U << (kBitsOfFeature * i + kObstacleCorner);
 }
 /// Edge i of the part's triangle with edge j of the obstacle's.
 constexpr FeaturePairs with_edges(int i, int j) {
-  return 64U << (3 * i + j);
+  return 1U << (kBitsOfFeature * i + kFirstEdges + j);
 }
+inline constexpr FeaturePairs kAllCorners = with_part_corner(0) | with_part_corner(1) | with_part_corner(2) |
+                                            with_obstacle_corner(0) | with_obstacle_corner(1) | with_obstacle_corner(2);
 inline constexpr FeaturePairs kAllFeaturePairs = 0x7fff;
+
+/// Calls `visit` with i and what is with it for each of these pairs: kPartCorner, kObstacleCorner, or kFirstEdges + j.
+/// Few are set in most cases, and it would be hard to predict which.
+template <typename Visit>
+void for_each_feature_pair(FeaturePairs features, const Visit& visit) {
+  for (; features != 0; features &= features - 1) {
+    const int bit = std::countr_zero(features);
+    visit(bit / kBitsOfFeature, bit % kBitsOfFeature);
+  }
+}
 
 inline constexpr std::size_t kTrianglePairs = 16;
 
