@@ -184,7 +184,7 @@ class CertifiedBodies::State {
   ContactScene scene_;
   PathCertificate certificate_;
   std::int64_t work_ = 0;  // of contacts and certificates
-  std::vector<NearPair> pairs_;
+  std::vector<TrianglesOfBodies> pairs_;
   std::vector<Contact> contacts_of_mover_;
   std::vector<PairToCertify> to_certify_;
   collision::QueryWorkspace workspace_;

@@ -36,7 +36,7 @@ class JamCheck {
   const test_support::SlidingScene& scene_;
   haptics::ContactScene bodies_;
   haptics::CandidatePairs candidates_;
-  std::vector<haptics::NearPair> pairs_;
+  std::vector<haptics::TrianglesOfBodies> pairs_;
   std::vector<haptics::Contact> contacts_;
   std::vector<haptics::ConstraintRow> rows_;
   haptics::ProjectionSolver solver_;

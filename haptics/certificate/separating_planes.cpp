@@ -33,6 +33,7 @@ void PlanesOfBodies::start(const BodyPair& pair, std::span<const PlacedBody> bod
   pair_ = pair;
   farthest_ = 0.0;
   numbers_.clear();
+  triangles_.clear();
   blocks_.clear();
   const PlacedBody& obstacle = bodies[static_cast<std::size_t>(pair.obstacle)];
   const PlacedBody& part = bodies[static_cast<std::size_t>(pair.part)];
@@ -45,14 +46,15 @@ void PlanesOfBodies::add(std::uint32_t number, const TrianglesOfBodies& pair, co
                          std::span<const PlacedBody> bodies) {
   const std::size_t slot = numbers_.size();
   numbers_.push_back(number);
+  triangles_.push_back({pair.obstacle_triangle, pair.part_triangle});
   if (slot % kPlanesAtOnce == 0) blocks_.push_back({});
   blocks_.back().top[slot % kPlanesAtOnce] = kUnknownTop;
   const Eigen::Matrix3d& R_WO = bodies[static_cast<std::size_t>(pair_.obstacle)].X_WB.linear();
-  if (!n_W.isZero(0.0)) turn(slot, pair, {R_WO.transpose() * n_W, false}, bodies);
+  if (!n_W.isZero(0.0)) turn(slot, {R_WO.transpose() * n_W, false}, bodies);
 }
 
-void PlanesOfBodies::turn(std::size_t slot, const TrianglesOfBodies& pair, const FixedDirection& direction,
-                          std::span<const PlacedBody> bodies) {
+void PlanesOfBodies::turn(std::size_t slot, const FixedDirection& direction, std::span<const PlacedBody> bodies) {
+  const TrianglesOfBodies pair = triangles(slot);
   geometry::TrianglePoints y =
       bodies[static_cast<std::size_t>(pair_.obstacle)].body->tree.mesh().corners(pair.obstacle_triangle);
   geometry::TrianglePoints x =

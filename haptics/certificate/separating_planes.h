@@ -4,6 +4,7 @@
 /// triangles are apart. Where parts fit closely and slide, such as a nut on its thread, these gaps hardly change though
 /// the parts move far. So most pairs need no look of their own.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,6 +31,7 @@ class PlanesOfBodies {
            std::span<const PlacedBody> bodies);
   /// By slot: kPlanesAtOnce slots are a block.
   std::span<const std::uint32_t> numbers() const { return numbers_; }
+  TrianglesOfBodies triangles(std::size_t slot) const { return {pair_, triangles_[slot][0], triangles_[slot][1]}; }
 
   std::size_t block_count() const { return blocks_.size(); }
   const PlaneBlock& block(std::size_t number) const { return blocks_[number]; }
@@ -50,8 +52,7 @@ class PlanesOfBodies {
   }
 
   /// Gives the pair in a slot another direction, not zero. One that would turn with the part and may not is ignored.
-  void turn(std::size_t slot, const TrianglesOfBodies& pair, const FixedDirection& direction,
-            std::span<const PlacedBody> bodies);
+  void turn(std::size_t slot, const FixedDirection& direction, std::span<const PlacedBody> bodies);
 
  private:
   BodyPair pair_{};
@@ -61,6 +62,7 @@ class PlanesOfBodies {
   BallAboutPart ball_{};
   double farthest_ = 0.0;  // metres: of a corner of the obstacle from the centre of the ball
   std::vector<std::uint32_t> numbers_;
+  std::vector<std::array<std::int32_t, 2>> triangles_;  // of the obstacle and the part
   std::vector<PlaneBlock> blocks_;
 };
 

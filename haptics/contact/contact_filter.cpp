@@ -38,7 +38,7 @@ void copy(const geometry::TriangleMesh& mesh, std::int32_t triangle, std::size_t
 
 }  // namespace
 
-void ContactFilter::look(std::span<const NearPair> pairs, std::span<const KnownFeatures> known) {
+void ContactFilter::look(std::span<const TrianglesOfBodies> pairs, std::span<const KnownFeatures> known) {
   GLISSADE_ASSERT(pairs.size() <= kMostPairs && (known.empty() || known.size() == pairs.size()));
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     gaps_[i] = 0.0;
@@ -49,7 +49,7 @@ void ContactFilter::look(std::span<const NearPair> pairs, std::span<const KnownF
       gaps_beyond_[i] = known[i].left_out;
       continue;
     }
-    const NearPair& pair = pairs[i];
+    const TrianglesOfBodies& pair = pairs[i];
     features_[i] = nearest_[i] =
         owned(bodies_[static_cast<std::size_t>(pair.bodies.part)].body->topology, pair.part_triangle,
               bodies_[static_cast<std::size_t>(pair.bodies.obstacle)].body->topology, pair.obstacle_triangle);
@@ -84,7 +84,7 @@ ContactFilter::Batch& ContactFilter::batch_of(const BodyPair& bodies) {
   return batch;
 }
 
-void ContactFilter::add(Batch& batch, const NearPair& pair, std::size_t number) {
+void ContactFilter::add(Batch& batch, const TrianglesOfBodies& pair, std::size_t number) {
   copy(bodies_[static_cast<std::size_t>(pair.bodies.obstacle)].body->tree.mesh(), pair.obstacle_triangle, batch.count,
        batch.pairs.p_O);
   copy(bodies_[static_cast<std::size_t>(pair.bodies.part)].body->tree.mesh(), pair.part_triangle, batch.count,

@@ -25,7 +25,7 @@ class ContactFilter {
 
   /// Looks at up to kMostPairs pairs, which replace those of the last call, and of which `known` tells what is known,
   /// or is empty.
-  void look(std::span<const NearPair> pairs, std::span<const KnownFeatures> known);
+  void look(std::span<const TrianglesOfBodies> pairs, std::span<const KnownFeatures> known);
   /// The features of a pair that its triangles own and that may be in contact.
   FeaturePairs features(std::size_t pair) const { return features_[pair]; }
   /// Those of them that may be nearest where the bodies are now.
@@ -53,7 +53,7 @@ class ContactFilter {
   };
 
   Batch& batch_of(const BodyPair& bodies);
-  void add(Batch& batch, const NearPair& pair, std::size_t number);
+  void add(Batch& batch, const TrianglesOfBodies& pair, std::size_t number);
   void complete(Batch& batch);
 
   std::span<const PlacedBody> bodies_;

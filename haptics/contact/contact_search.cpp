@@ -68,7 +68,7 @@ class ContactSearch {
 
   /// Looks at these features of a pair, now or later, in the order of the calls. `is_near`: the pair is known to be
   /// near at the present poses, and not only at those of a search some steps ago.
-  void search(const NearPair& pair, std::size_t number, FeaturePairs features, bool is_near) {
+  void search(const TrianglesOfBodies& pair, std::size_t number, FeaturePairs features, bool is_near) {
     const auto corners = static_cast<std::size_t>(std::popcount(features & kAllCorners));
     if (waiting_count_ == waiting_.size() || corners_.count() + corners > kCornersAtOnce) search_waiting();
     WaitingPair& waiting = waiting_[waiting_count_];
@@ -289,8 +289,9 @@ class ContactSearch {
 
 }  // namespace
 
-void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part, std::span<const NearPair> candidates,
-                   double reach, double margin, std::vector<Contact>& contacts, std::vector<GapsOfPair>* gaps,
+void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part,
+                   std::span<const TrianglesOfBodies> candidates, double reach, double margin,
+                   std::vector<Contact>& contacts, std::vector<GapsOfPair>* gaps,
                    std::span<const KnownFeatures> known) {
   contacts.clear();
   if (gaps != nullptr) gaps->clear();

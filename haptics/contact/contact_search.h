@@ -28,8 +28,9 @@ namespace glissade::haptics {
 /// `gaps`, if not null, receives what is known then of the contacts of each candidate, as long as its bodies do not
 /// come nearer. Where they do, these bounds decrease by as much. `known`, if not empty, is what is known before; it
 /// must hold within `reach`.
-void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part, std::span<const NearPair> candidates,
-                   double reach, double margin, std::vector<Contact>& contacts, std::vector<GapsOfPair>* gaps = nullptr,
+void find_contacts(std::span<const PlacedBody> bodies, std::size_t first_part,
+                   std::span<const TrianglesOfBodies> candidates, double reach, double margin,
+                   std::vector<Contact>& contacts, std::vector<GapsOfPair>* gaps = nullptr,
                    std::span<const KnownFeatures> known = {});
 
 }  // namespace glissade::haptics

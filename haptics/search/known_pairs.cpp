@@ -28,7 +28,7 @@ std::span<const float> pairs_of_blocks(const std::vector<float>& of_slots, std::
 
 }  // namespace
 
-void KnownPairs::within(double reach, std::vector<NearPair>& pairs) const {
+void KnownPairs::within(double reach, std::vector<TrianglesOfBodies>& pairs) const {
   pairs.clear();
   search_.visit_within(search_.set.pairs, reach, [&](const NearPair& pair) {
     if (pair.may_yield_contact) pairs.push_back(pair);
@@ -180,7 +180,7 @@ void KnownPairs::note_planes(std::span<const SeparatedPair> separated) {
   for (const SeparatedPair& pair : separated) {
     const PlaceOfPair& place = places_[pair.place];
     if (place.planes == kNoPlanes) continue;
-    search_.set.planes[place.planes].turn(place.slot, search_.set.pairs[place.number], pair.direction, scene_.bodies());
+    search_.set.planes[place.planes].turn(place.slot, pair.direction, scene_.bodies());
   }
 }
 

@@ -54,7 +54,7 @@ class KnownPairs {
 
   /// Replaces `pairs` by the candidates that may be within `reach` (metres), in ascending order of the distance at the
   /// poses of the search.
-  void within(double reach, std::vector<NearPair>& pairs) const;
+  void within(double reach, std::vector<TrianglesOfBodies>& pairs) const;
   /// The same for the pairs to certify, which hold all triangles, with features or without, in the largest boxes that
   /// separate. Boxes come before triangles.
   void within(double reach, std::vector<PairToCertify>& pairs) const;
@@ -69,7 +69,9 @@ class KnownPairs {
   /// Sets the gaps of those candidates that may have contacts within `reach` (metres), as far as their planes and
   /// `note_gaps` tell, and of others; an entry for each of `planes`. Returns the number of those within reach.
   std::size_t find_gaps(double reach, std::vector<GapsBySlot>& gaps);
-  const NearPair& pair(std::uint32_t number) const { return search_.set.pairs[number]; }
+  TrianglesOfBodies triangles(const PlaceOfPair& pair) const {
+    return search_.set.planes[pair.planes].triangles(pair.slot);
+  }
   /// What is known of the features of a pair within `reach` (metres).
   KnownFeatures known_features(std::uint32_t number, double reach) const;
   /// The planes of the pairs of triangles, which may be turned.

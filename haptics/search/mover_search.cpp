@@ -54,7 +54,7 @@ template <typename Pair>
 void NearMover::add_within(double reach, std::int32_t number, std::vector<Pair>& all) {
   if (candidates_.pairs().size() == 0) return;
   std::vector<Pair>* found = nullptr;
-  if constexpr (std::is_same_v<Pair, NearPair>) {
+  if constexpr (std::is_same_v<Pair, TrianglesOfBodies>) {
     found = &pairs_;
   } else {
     found = &to_certify_;
@@ -62,12 +62,12 @@ void NearMover::add_within(double reach, std::int32_t number, std::vector<Pair>&
   candidates_.pairs().within(reach, *found);
   for (Pair& pair : *found) {
     pair.bodies = {first_body_ + pair.bodies.obstacle, number};
-    pair.n_W = X_WS_.linear() * pair.n_W;
+    if constexpr (std::is_same_v<Pair, PairToCertify>) pair.n_W = X_WS_.linear() * pair.n_W;
     all.push_back(pair);
   }
 }
 
-template void NearMover::add_within(double, std::int32_t, std::vector<NearPair>&);
+template void NearMover::add_within(double, std::int32_t, std::vector<TrianglesOfBodies>&);
 template void NearMover::add_within(double, std::int32_t, std::vector<PairToCertify>&);
 
 MoverSearch::MoverSearch(const std::vector<Obstacle>& fixed,

@@ -48,7 +48,7 @@ class NearMover {
   CandidatePairs candidates_;
   bool has_moved_ = false;
   std::int64_t work_ = 0;
-  std::vector<NearPair> pairs_;
+  std::vector<TrianglesOfBodies> pairs_;
   std::vector<PairToCertify> to_certify_;
 };
 

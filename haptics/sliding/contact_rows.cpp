@@ -92,7 +92,7 @@ void ContactRows::find_beyond(WorkBudget& budget) {
   candidates_.clear();
   places_.clear();
   for (const LookedAt& pair : looked_at_) {
-    candidates_.push_back(shared_.candidates.pairs().pair(pair.pair.number));
+    candidates_.push_back(shared_.candidates.pairs().triangles(pair.pair));
     places_.push_back(pair.pair);
   }
   find_contacts_of(candidates_, places_, reach_ahead_, budget);
@@ -101,8 +101,8 @@ void ContactRows::find_beyond(WorkBudget& budget) {
   }
 }
 
-void ContactRows::find_contacts_of(std::span<const NearPair> pairs, std::span<const PlaceOfPair> places, double reach,
-                                   WorkBudget& budget) {
+void ContactRows::find_contacts_of(std::span<const TrianglesOfBodies> pairs, std::span<const PlaceOfPair> places,
+                                   double reach, WorkBudget& budget) {
   const ContactScene& scene = shared_.scene;
   budget.spend(kWorkOfContacts * std::ssize(pairs));
   known_.clear();

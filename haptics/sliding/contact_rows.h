@@ -62,7 +62,7 @@ class ContactRows {
 
  private:
   void find_contacts_of_taken(WorkBudget& budget);
-  void find_contacts_of(std::span<const NearPair> pairs, std::span<const PlaceOfPair> places, double reach,
+  void find_contacts_of(std::span<const TrianglesOfBodies> pairs, std::span<const PlaceOfPair> places, double reach,
                         WorkBudget& budget);
   void find_beyond(WorkBudget& budget);
   void keep_contacts(const std::function<bool(std::size_t row)>& is_kept);
@@ -80,7 +80,7 @@ class ContactRows {
   double complete_ = 0.0;     // metres
   PairsInReach pairs_;
   std::vector<LookedAt> looked_at_;
-  std::vector<NearPair> candidates_;  // that a search for contacts is about
+  std::vector<TrianglesOfBodies> candidates_;  // that a search for contacts is about
   std::vector<PlaceOfPair> places_;
   std::vector<KnownFeatures> known_;
   std::vector<GapsOfPair> gaps_;

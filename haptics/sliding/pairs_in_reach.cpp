@@ -79,16 +79,23 @@ double PairsInReach::take_nearest(double gap, std::size_t count, double reach) {
   return most;
 }
 
+std::size_t PairsInReach::count_within(double gap) const {
+  std::size_t count = 0;
+  visit_blocks_within(gap, [&](std::uint32_t, std::size_t, PairsOfBlock pairs) {
+    count += static_cast<std::size_t>(std::popcount(pairs));
+  });
+  return count;
+}
+
 /// The distance within which there are all pairs within `gap`, and `count` in all; at most `reach`.
 double PairsInReach::distance_of_nearest(double gap, std::size_t count, double reach) {
   if (left_count_ <= count) return reach;
-  std::size_t nearer = 0;
-  visit_blocks_within(gap, [&](std::uint32_t, std::size_t, PairsOfBlock pairs) {
-    nearer += static_cast<std::size_t>(std::popcount(pairs));
-  });
-  if (nearer >= count) return std::min(gap, reach);
+  if (count_within(gap) >= count) return std::min(gap, reach);
+  double within = std::min(2.0 * gap, reach);
+  while (within < reach && count_within(within) <= count)
+    within = std::min(2.0 * within, reach);
   gaps_.clear();
-  visit_within(reach, [&](const PlaceOfPair& pair) { gaps_.push_back(gap_of(pair)); });
+  visit_within(within, [&](const PlaceOfPair& pair) { gaps_.push_back(gap_of(pair)); });
   if (gaps_.size() <= count) return reach;
   std::nth_element(gaps_.begin(), gaps_.begin() + static_cast<std::ptrdiff_t>(count), gaps_.end());
   return static_cast<double>(gaps_[count]);
@@ -169,7 +176,7 @@ PairsInReach::Way PairsInReach::way_of(const PlanesOfBodies& planes, const Displ
 }
 
 void PairsInReach::add_separation(const PlaceOfPair& pair) {
-  const NearPair& candidate = shared_.candidates.pairs().pair(pair.number);
+  const TrianglesOfBodies candidate = shared_.candidates.pairs().triangles(pair);
   const geometry::TrianglePoints corners_O =
       body(candidate.bodies.obstacle).tree.mesh().corners(candidate.obstacle_triangle);
   separations_.add(corners_O, body(candidate.bodies.part).tree.mesh().corners(candidate.part_triangle),
@@ -177,8 +184,7 @@ void PairsInReach::add_separation(const PlaceOfPair& pair) {
 }
 
 void PairsInReach::turn_plane(const PlaceOfPair& pair, const FixedDirection& direction) {
-  shared_.candidates.pairs().planes()[pair.planes].turn(pair.slot, shared_.candidates.pairs().pair(pair.number),
-                                                        direction, shared_.scene.bodies());
+  shared_.candidates.pairs().planes()[pair.planes].turn(pair.slot, direction, shared_.scene.bodies());
 }
 
 const ContactBody& PairsInReach::body(std::int32_t number) const {
@@ -191,7 +197,7 @@ void PairsInReach::begin_taking() {
 }
 
 void PairsInReach::take(const PlaceOfPair& pair) {
-  pairs_.push_back(shared_.candidates.pairs().pair(pair.number));
+  pairs_.push_back(shared_.candidates.pairs().triangles(pair));
   gap_of(pair) = kTaken;
   --left_count_;
 }

@@ -34,7 +34,7 @@ class PairsInReach {
   void take_too_near(std::size_t most);
 
   /// Those that the last call took, in the order of the candidates, and what is known of them within `reach` metres.
-  std::span<const NearPair> taken() const { return pairs_; }
+  std::span<const TrianglesOfBodies> taken() const { return pairs_; }
   std::span<const PlaceOfPair> places() const { return places_; }
   /// Number of pairs that have not been taken.
   std::size_t left_count() const { return left_count_; }
@@ -57,6 +57,7 @@ class PairsInReach {
   void visit_blocks_within(double gap, const Visit& visit) const;
   template <typename Visit>
   void visit_within(double gap, const Visit& visit) const;
+  std::size_t count_within(double gap) const;
   double distance_of_nearest(double gap, std::size_t count, double reach);
   float& gap_of(const PlaceOfPair& pair) { return left_[pair.planes].gaps[pair.slot]; }
   Way way_of(const PlanesOfBodies& planes, const Displacements& displacements) const;
@@ -69,7 +70,7 @@ class PairsInReach {
   SimulatedParts& shared_;
   std::vector<GapsBySlot> left_;  // those of pairs that were taken are infinite
   std::size_t left_count_ = 0;
-  std::vector<NearPair> pairs_;
+  std::vector<TrianglesOfBodies> pairs_;
   std::vector<PlaceOfPair> places_;
   std::vector<float> gaps_;
   // Of the pairs of bodies that have planes:

@@ -6,12 +6,11 @@
 
 namespace glissade::test_support {
 
-using haptics::NearPair;
 using haptics::PairToCertify;
 using haptics::TrianglesOfBodies;
 
-std::vector<NearPair> pairs_within(const haptics::CandidatePairs& candidates, double reach) {
-  std::vector<NearPair> pairs(3);  // they are replaced
+std::vector<TrianglesOfBodies> pairs_within(const haptics::CandidatePairs& candidates, double reach) {
+  std::vector<TrianglesOfBodies> pairs(3);  // they are replaced
   candidates.pairs().within(reach, pairs);
   return pairs;
 }
@@ -25,7 +24,7 @@ std::vector<PairToCertify> pairs_to_certify_within(const haptics::CandidatePairs
 std::string what_is_missing(const haptics::CandidatePairs& candidates, const haptics::ContactScene& scene,
                             double reach) {
   std::set<TrianglesOfBodies> for_contacts;
-  for (const NearPair& c : pairs_within(candidates, reach))
+  for (const TrianglesOfBodies& c : pairs_within(candidates, reach))
     for_contacts.insert({c.bodies, c.obstacle_triangle, c.part_triangle});
   std::set<TrianglesOfBodies> for_proofs;
   for (const PairToCertify& pair_to_certify : pairs_to_certify_within(candidates, reach)) {

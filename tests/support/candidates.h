@@ -9,7 +9,7 @@
 
 namespace glissade::test_support {
 
-std::vector<haptics::NearPair> pairs_within(const haptics::CandidatePairs& candidates, double reach);
+std::vector<haptics::TrianglesOfBodies> pairs_within(const haptics::CandidatePairs& candidates, double reach);
 std::vector<haptics::PairToCertify> pairs_to_certify_within(const haptics::CandidatePairs& candidates, double reach);
 
 /// A pair of triangles within `reach` (metres) that is missing, for proofs or for contacts; empty if none is.

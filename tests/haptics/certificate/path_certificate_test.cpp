@@ -102,8 +102,7 @@ TEST_F(TwoTriangles, APlaneThatTurnsWithThePartMustSeparateFartherThanOneThatSta
   CandidatePairs candidates(scene, kProofReach);
   candidates.look(kProofReach, 0.0, {});
   for (const bool turns_with_part : {false, true}) {
-    candidates.pairs().planes().front().turn(0, candidates.pairs().pair(0), {Eigen::Vector3d::UnitZ(), turns_with_part},
-                                             scene.bodies());
+    candidates.pairs().planes().front().turn(0, {Eigen::Vector3d::UnitZ(), turns_with_part}, scene.bodies());
     WorkBudget unlimited;
     std::vector<PairToCertify> unproved;
     certificate.begin_step(turn);

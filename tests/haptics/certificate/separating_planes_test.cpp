@@ -104,7 +104,7 @@ TEST(SeparatingPlanes, TellLowerBoundsOfDistancesWhereverThePartGoes) {
       const Isometry3d X_OV = relative_pose_of(*scene, known.bodies_of_pairs);
       const std::size_t turned = static_cast<std::size_t>(random.integer(0, static_cast<int>(known.pairs.size()) - 1));
       const FixedDirection direction{random.direction(), random.chance(0.5)};
-      known.planes->turn(turned, known.pairs[turned], direction, scene->bodies());
+      known.planes->turn(turned, direction, scene->bodies());
       if (known.planes->turns_with_part(turned) == direction.turns_with_part) known.directions[turned] = direction;
       turning += known.planes->turns_with_part(turned) ? 1 : 0;
       std::vector<float> gaps;
@@ -138,7 +138,7 @@ TEST(SeparatingPlanes, TellTheSameBitsWithEveryInstructionSet) {
     RandomPlanes known(*scene, random);
     pairs += known.pairs.size();
     for (std::size_t i = 0; i < known.pairs.size(); i += 2)
-      known.planes->turn(i, known.pairs[i], {random.direction(), true}, scene->bodies());
+      known.planes->turn(i, {random.direction(), true}, scene->bodies());
     const Isometry3d X_OV = relative_pose_of(*scene, known.bodies_of_pairs);
     std::vector<float> first;
     test_support::with_every_instruction_set([&](std::string_view name) {

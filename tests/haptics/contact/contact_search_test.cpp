@@ -46,7 +46,7 @@ class TwoBodies {
     scene_.place(0, X_WV);
     candidates_.clear();
     candidates_.look(kSearchReach, 0.0, {});
-    std::vector<NearPair> pairs;
+    std::vector<TrianglesOfBodies> pairs;
     candidates_.pairs().within(kSearchReach, pairs);
     std::vector<Contact> found;
     find_contacts(scene_.bodies(), 1, pairs, kSearchReach, kSearchMargin, found);
@@ -141,7 +141,7 @@ TEST(ContactSearch, TellsHowFarContactsBeyondItsReachAreAtLeast) {
     const double reach_ahead = 1.5 * reach;
     CandidatePairs candidates(*scene, reach_ahead);
     candidates.look(reach_ahead, 0.0, {});
-    std::vector<NearPair> pairs;
+    std::vector<TrianglesOfBodies> pairs;
     candidates.pairs().within(reach_ahead, pairs);
     const std::size_t first_part = scene->obstacles().size();
     std::vector<Contact> within;
@@ -176,13 +176,13 @@ TEST(ContactSearch, OfManyPairsFindsTheContactsOfEach) {
     const double reach = random.power_of_ten(-3.5, -2.5);
     CandidatePairs candidates(*scene, reach);
     candidates.look(reach, 0.0, {});
-    std::vector<NearPair> pairs;
+    std::vector<TrianglesOfBodies> pairs;
     candidates.pairs().within(reach, pairs);
     const std::size_t first_part = scene->obstacles().size();
     std::vector<Contact> of_all;
     find_contacts(scene->bodies(), first_part, pairs, reach, kNoMargin, of_all);
     std::size_t i = 0;
-    for (const NearPair& pair : pairs) {
+    for (const TrianglesOfBodies& pair : pairs) {
       std::vector<Contact> of_one;
       find_contacts(scene->bodies(), first_part, {&pair, 1}, reach, kNoMargin, of_one);
       for (const Contact& contact : of_one) {

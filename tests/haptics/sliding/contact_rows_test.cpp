@@ -44,7 +44,7 @@ SimulatedParts close_fit(RandomNumbers& random) {
 
 /// All contacts within reach, from all candidates.
 std::vector<Contact> all_contacts(const SimulatedParts& shared) {
-  std::vector<NearPair> pairs;
+  std::vector<TrianglesOfBodies> pairs;
   shared.candidates.pairs().within(kReachOfRows, pairs);
   std::vector<Contact> contacts;
   find_contacts(shared.scene.bodies(), shared.scene.obstacles().size(), pairs, kReachOfRows, shared.largest_margin,
