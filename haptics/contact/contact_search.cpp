@@ -147,6 +147,13 @@ class ContactSearch {
     std::int32_t edge;
   };
 
+  /// A near contact of two edges.
+  struct Crossing {
+    std::size_t contact;
+    std::int32_t part_edge;
+    std::int32_t obstacle_edge;
+  };
+
   /// Notes that the contact added next is near the rim `edge`; −1 means no rim.
   void note_rim(std::int32_t edge) {
     if (edge >= 0) rims_.push_back({contacts_.size(), edge});
@@ -157,11 +164,11 @@ class ContactSearch {
     const auto body = static_cast<std::size_t>(is_part_vertex ? contact.part + first_part_ : contact.obstacle);
     const geometry::MeshTopology& topology = bodies_[body].body->topology;
     const std::int32_t vertex = is_part_vertex ? contact.part_feature : contact.obstacle_feature;
-    return std::any_of(crossings_.begin(), crossings_.end(), [&](std::size_t i) {
-      const Contact& other = contacts_[i];
+    return std::any_of(crossings_.begin(), crossings_.end(), [&](const Crossing& of_edges) {
+      if ((is_part_vertex ? of_edges.obstacle_edge : of_edges.part_edge) != edge) return false;
+      const Contact& other = contacts_[of_edges.contact];
       if (other.part != contact.part || other.obstacle != contact.obstacle ||
-          other.gap > contact.gap + kAsNear * margin_ ||
-          (is_part_vertex ? other.obstacle_feature : other.part_feature) != edge) {
+          other.gap > contact.gap + kAsNear * margin_) {
         return false;
       }
       const std::int32_t crossing = is_part_vertex ? other.part_feature : other.obstacle_feature;
@@ -236,7 +243,8 @@ class ContactSearch {
     Eigen::Vector3d n;
     const double gap = gap_and_normal(closest.q, closest.p, n);
     if (gap < 0.0 || !part_->edge_is_nearest(i, n, margin_) || !obstacle_->edge_is_nearest(j, n, margin_)) return;
-    if (gap <= (kNearRims + kAsNear) * margin_) crossings_.push_back(contacts_.size());
+    if (gap <= (kNearRims + kAsNear) * margin_)
+      crossings_.push_back({contacts_.size(), part_->edge(i), obstacle_->edge(j)});
     add(ContactKind::kEdgeEdge, part_->edge(i), obstacle_->edge(j), n, closest.p, gap,
         std::min(part_->distance_to_ends(i, closest.along_p), obstacle_->distance_to_ends(j, closest.along_q)));
   }
@@ -283,8 +291,8 @@ class ContactSearch {
   double margin_;
   std::vector<Contact>& contacts_;
   std::vector<GapsOfPair>* gaps_;
-  std::vector<AtRim> rims_;             // ascending
-  std::vector<std::size_t> crossings_;  // near contacts of two edges
+  std::vector<AtRim> rims_;  // ascending
+  std::vector<Crossing> crossings_;
 };
 
 }  // namespace
