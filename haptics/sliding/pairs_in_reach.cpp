@@ -4,6 +4,8 @@
 #include <bit>
 #include <limits>
 
+#include <glissade/base/assert.h>
+
 #include "search/blocks_of_pairs.h"
 #include "search/round_down.h"
 
@@ -89,6 +91,7 @@ std::size_t PairsInReach::count_within(double gap) const {
 
 /// The distance within which there are all pairs within `gap`, and `count` in all; at most `reach`.
 double PairsInReach::distance_of_nearest(double gap, std::size_t count, double reach) {
+  GLISSADE_ASSERT(gap > 0.0);
   if (left_count_ <= count) return reach;
   if (count_within(gap) >= count) return std::min(gap, reach);
   double within = std::min(2.0 * gap, reach);

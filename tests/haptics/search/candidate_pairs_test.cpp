@@ -2,6 +2,7 @@
 
 #include "search/candidate_pairs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <set>
@@ -290,6 +291,23 @@ TEST(CandidatePairs, LeaveOutBodiesThatAreIgnored) {
     EXPECT_EQ(pair.bodies.obstacle, 0);
   for (const PairToCertify& pair_to_certify : to_certify)
     EXPECT_EQ(pair_to_certify.bodies.obstacle, 0);
+}
+
+TEST(CandidatePairs, AreAllTrianglesWhereVeryManyWereNear) {
+  constexpr double kNear = 0.3e-3;
+  ContactScene ball_in_socket({test_support::obstacle_of(geometry::make_sphere(0.0201, 4000))},
+                              {test_support::part_of(geometry::make_sphere(0.02, 4000))}, std::vector<double>{1e-6});
+  CandidatePairs candidates(ball_in_socket, kGreatest);
+  const auto count_boxes = [&] {
+    candidates.look(kNear, 0.0, {});
+    const std::vector<PairToCertify> to_certify = pairs_to_certify_within(candidates, kNear);
+    return std::count_if(to_certify.begin(), to_certify.end(),
+                         [](const PairToCertify& pair) { return pair.item_O.kind != TreeItem::Kind::kTriangle; });
+  };
+  EXPECT_GT(count_boxes(), 100);
+  candidates.clear();
+  EXPECT_EQ(count_boxes(), 0);
+  EXPECT_GT(candidates.pairs().pair_count(), 5000U);
 }
 
 /// Everything that `candidates` has to say, bit for bit.
