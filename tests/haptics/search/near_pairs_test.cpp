@@ -81,28 +81,31 @@ class NearPairs : public ::testing::Test {
 TEST_F(NearPairs, HoldEveryPairOfTrianglesWithinTheRadiusOnceToCertify) {
   std::map<BoxPairs, std::size_t> boxes;
   std::map<BoxPairs, std::size_t> triangles;
-  for (int trial = 0; trial < test_support::affordable(300); ++trial) {
+  const int trials = std::max(60, test_support::affordable(300));  // few hold boxes of every kind
+  for (int trial = 0; trial < trials; ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     const double margin = random_margin();
     const auto scene = test_support::random_contact_scene(kSize, margin, margin * random_.uniform(0.3, 2.0), random_);
     const double radius = random_.power_of_ten(-4.0, -2.0);
-    const BoxPairs sought = kAllBoxPairs[static_cast<std::size_t>(trial) % kAllBoxPairs.size()];
-    std::map<TrianglesOfBodies, int> held;
-    for (const PairToCertify& pair_to_certify : Found(*scene, radius, sought).all_to_certify()) {
-      const bool is_box = pair_to_certify.item_O.kind != TreeItem::Kind::kTriangle;
-      ++(is_box ? boxes : triangles)[sought];
-      for (const TrianglesOfBodies& pair : test_support::triangles_of(scene->bodies(), pair_to_certify))
-        ++held[pair];
-    }
-    for (const auto& [pair, distance] :
-         test_support::near_triangles(scene->bodies(), scene->obstacles().size(), radius)) {
-      ASSERT_EQ(held[pair], 1) << pair.bodies.obstacle << ": " << pair.obstacle_triangle << ", " << pair.bodies.part
-                               << ": " << pair.part_triangle << " at " << distance;
+    const std::map<TrianglesOfBodies, double> near =
+        test_support::near_triangles(scene->bodies(), scene->obstacles().size(), radius);
+    for (const BoxPairs sought : kAllBoxPairs) {
+      std::map<TrianglesOfBodies, int> held;
+      for (const PairToCertify& pair_to_certify : Found(*scene, radius, sought).all_to_certify()) {
+        const bool is_box = pair_to_certify.item_O.kind != TreeItem::Kind::kTriangle;
+        ++(is_box ? boxes : triangles)[sought];
+        for (const TrianglesOfBodies& pair : test_support::triangles_of(scene->bodies(), pair_to_certify))
+          ++held[pair];
+      }
+      for (const auto& [pair, distance] : near) {
+        ASSERT_EQ(held[pair], 1) << pair.bodies.obstacle << ": " << pair.obstacle_triangle << ", " << pair.bodies.part
+                                 << ": " << pair.part_triangle << " at " << distance;
+      }
     }
   }
   for (const BoxPairs sought : kAllBoxPairs) {
-    EXPECT_GT(boxes[sought], 20U);
-    EXPECT_GT(triangles[sought], 20U);
+    EXPECT_GT(boxes[sought], 3U);
+    EXPECT_GT(triangles[sought], 50U);
   }
 }
 
