@@ -53,7 +53,7 @@ struct NeededGaps {
 /// Sets the gaps (metres) to the least heights of the corners x over `top`, less the slack.
 void find_plane_gaps(std::span<const PlaneBlock> blocks, const PlaneMaps& maps, float* gaps);
 
-/// Raises each gap to what else is known of it, which is its `known` less `clock` (both may be infinite, metres). Sets
+/// Raises each gap to what else is known of it, which is its `known` less `clock` (metres; the clock is finite). Sets
 /// `least` to the least gap of each block.
 void raise_gaps(std::span<const float> known, float clock, float* gaps, float* least);
 

@@ -23,9 +23,9 @@ namespace glissade::haptics {
 /// Lower bounds, metres, of the gaps of the contacts of a pair, from a search for contacts.
 struct GapsOfPair {
   double least;           ///< of all contacts
-  double beyond;          ///< of those beyond the reach of the search
+  double beyond;          ///< of those beyond the reach of the search, at its poses only
   double left_out;        ///< of those with other features than `features`; 0: nothing is known
-  FeaturePairs features;  ///< those at which the search looked closely
+  FeaturePairs features;  ///< those that may be in contact within the reach, at these poses or others
 };
 
 /// The features of a pair that may be in contact, if `features` is not 0; otherwise nothing is known.
