@@ -97,7 +97,9 @@ PairsOfBlock find_unproved(const PlaneBlock& block, const NeededGaps& needed, co
     const auto enough = hn::IfThenElse(turns_with_part, hn::Set(d, needed.turning), hn::Set(d, needed.fixed));
     const auto at_begin = hn::LoadU(d, gaps_at_begin + first);
     const auto least = hn::Min(at_begin, hn::LoadU(d, gaps_at_end + first));
-    pairs |= bits_of(hn::And(hn::Lt(least, enough), hn::Le(at_begin, hn::Set(d, needed.far))), first);
+    // So that what is no number proves nothing.
+    const auto is_proved = hn::Or(hn::Ge(least, enough), hn::Gt(at_begin, hn::Set(d, needed.far)));
+    pairs |= bits_of(hn::Not(is_proved), first);
   }
   return pairs;
 }
