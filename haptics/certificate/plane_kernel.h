@@ -1,7 +1,7 @@
 #pragma once
 
-/// The vector code of separating planes: how far many pairs of triangles are apart, each along a direction of its own,
-/// and which of them are not far enough. Single precision, with slack for its rounding.
+/// The vector code of separating planes. It computes how far many pairs of triangles are apart, each along a direction
+/// of its own, and finds the pairs whose gaps are too small. It uses single precision; slack covers the rounding.
 
 #include <array>
 #include <cstddef>

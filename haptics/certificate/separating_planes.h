@@ -47,9 +47,6 @@ class PlanesOfBodies {
 
   /// Where an obstacle's triangle must be for a direction that turns with the part.
   const BallAboutPart& ball() const { return ball_; }
-  bool turns_with_part(std::size_t slot) const {
-    return blocks_[slot / kPlanesAtOnce].turns_with_part[slot % kPlanesAtOnce] > 0.0F;
-  }
 
   /// Gives the pair in a slot another direction, not zero. One that would turn with the part and may not is ignored.
   void turn(std::size_t slot, const FixedDirection& direction, std::span<const PlacedBody> bodies);

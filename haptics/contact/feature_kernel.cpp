@@ -156,7 +156,7 @@ HWY_INLINE void find_gaps(const Triangle& t, const Vector3 (&points)[3], V (&gap
 struct EdgePair {
   V gap;      // a lower bound of their distance
   V outside;  // one of the closest points of their lines lies at least so far outside its edge; 0: that is not certain
-  V nearer;   // the opposite corner of either triangle is nearer by at least so much along the normal; 0: the same
+  V nearer;   // the opposite corner of one of the triangles is nearer by at least so much along the normal; 0: as above
 };
 
 // How far the interval from h to h + rise lies on one side of 0; negative if 0 is inside.

@@ -18,7 +18,7 @@ constexpr std::int64_t kCallsAhead = 4;
 constexpr double kForward = 0.6;
 
 /// A search that finds more pairs of triangles takes longer than a tick: it is requested as soon as the one before has
-/// been answered. Where so many are near, parts fit closely.
+/// been answered. Where so many are near, parts mostly fit closely.
 constexpr std::size_t kPairsOfLongSearch = 5000;
 
 // Shares of a step:

@@ -40,8 +40,8 @@ struct CandidateRequest {
   double radius = 0.0;                  ///< metres
   std::vector<BodyPair> ignored;        ///< in ascending order
   bool has_planes = true;               ///< the answer has them
-  /// Curved parts slide past each other so closely that planes of boxes do not last, but those of triangles do. So
-  /// boxes are sought only where they save many triangles.
+  /// The search finds no pairs of boxes that both hold triangles with features. Where curved parts fit closely, the
+  /// planes of such boxes fail within a few steps, and the planes of their triangles last longer.
   bool fit_closely = false;
 };
 

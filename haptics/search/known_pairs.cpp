@@ -165,7 +165,7 @@ void KnownPairs::add_unproved(const PathOfBodies& path, std::uint32_t number_of_
       known.blocks_to_certify[block] =
           std::max(known.blocks_to_certify[block], static_cast<double>(least_gaps_[block]) + clock_);
       const std::size_t slot = kPlanesAtOnce * block;
-      PairsOfBlock pairs =
+      const PairsOfBlock pairs =
           find_unproved(planes.block(block), needed, gaps_at_begin_.data() + slot, gaps_at_end_.data() + slot);
       for_each_pair(block, pairs, [&](std::size_t of_pair) {
         const std::uint32_t number = planes.numbers()[of_pair];

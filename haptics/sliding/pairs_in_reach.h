@@ -33,7 +33,7 @@ class PairsInReach {
   /// another plane that keeps it apart, it gets this one instead.
   void take_too_near(std::size_t most);
 
-  /// Those that the last call took, in the order of the candidates, and what is known of them within `reach` metres.
+  /// Those that the last call took, in the order of the candidates: their triangles and their places.
   std::span<const TrianglesOfBodies> taken() const { return pairs_; }
   std::span<const PlaceOfPair> places() const { return places_; }
   /// Number of pairs that have not been taken.

@@ -156,7 +156,7 @@ TEST(PathCertificate, WhatPlanesOfEarlierStepsProveHoldsAllAlong) {
       std::size_t turning = 0;
       for (const PlanesOfBodies& planes : candidates.pairs().planes()) {
         for (std::size_t slot = 0; slot < planes.numbers().size(); ++slot)
-          turning += planes.turns_with_part(slot) ? 1U : 0U;
+          turning += planes.block(slot / kPlanesAtOnce).turns_with_part[slot % kPlanesAtOnce] > 0.0F ? 1U : 0U;
       }
       certificate.begin(unproved);
       ASSERT_TRUE(certificate.go_on(unlimited));

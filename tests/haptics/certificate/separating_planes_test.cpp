@@ -74,6 +74,10 @@ struct RandomPlanes {
     }
   }
 
+  bool turns_with_part(std::size_t slot) const {
+    return planes->block(slot / kPlanesAtOnce).turns_with_part[slot % kPlanesAtOnce] > 0.0F;
+  }
+
   BodyPair bodies_of_pairs;
   std::vector<TrianglesOfBodies> pairs;
   std::vector<FixedDirection> directions;
@@ -105,8 +109,8 @@ TEST(SeparatingPlanes, TellLowerBoundsOfDistancesWhereverThePartGoes) {
       const std::size_t turned = static_cast<std::size_t>(random.integer(0, static_cast<int>(known.pairs.size()) - 1));
       const FixedDirection direction{random.direction(), random.chance(0.5)};
       known.planes->turn(turned, direction, scene->bodies());
-      if (known.planes->turns_with_part(turned) == direction.turns_with_part) known.directions[turned] = direction;
-      turning += known.planes->turns_with_part(turned) ? 1 : 0;
+      if (known.turns_with_part(turned) == direction.turns_with_part) known.directions[turned] = direction;
+      turning += known.turns_with_part(turned) ? 1 : 0;
       std::vector<float> gaps;
       known.planes->find_gaps(known.planes->maps(X_OV), 0, known.planes->block_count(), gaps);
       for (std::size_t i = 0; i < known.pairs.size(); ++i) {

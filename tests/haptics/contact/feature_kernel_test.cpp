@@ -205,6 +205,7 @@ TEST_P(FeatureKernel, OfTrianglesThatAreNoTrianglesNothingIsCertain) {
   haptics::leave_out_impossible(pairs, still, {1e-14, 0.0, 0.0, 2.0}, possible);
   for (std::size_t pair = 0; pair < kTrianglePairs; ++pair) {
     EXPECT_EQ(possible.features[pair], kAllFeaturePairs) << "pair " << pair;
+    EXPECT_EQ(possible.nearest[pair], kAllFeaturePairs) << "pair " << pair;
     EXPECT_EQ(possible.gaps[pair], 0.0F) << "pair " << pair;
   }
 }
