@@ -31,6 +31,8 @@ void StepForecast::begin_call(std::span<const Metaphor> metaphors, double larges
   count_ = metaphors.size();
   margin_ = largest_margin;
   least_ = kNotWorthIt * largest_margin;
+  aims_stay_ = std::none_of(metaphors.begin(), metaphors.end(),
+                            [](Metaphor metaphor) { return metaphor == Metaphor::kRubberBand; });
   // The target of the incremental metaphor starts from where the part is: nothing would be made up for.
   for (std::size_t p = 0; p < count_; ++p)
     most_left_[p] = metaphors[p] == Metaphor::kIncremental ? 0.0 : std::min(kLeftOfMargin * smallest_margin, kLeft_m);
@@ -42,7 +44,7 @@ void StepForecast::learn() {
     seen_.clear();
     return;
   }
-  const bool is_whole = steps_.size() > 1 && is_remainder_worthless();
+  const bool is_whole = steps_.size() > 1 && !gets_nowhere() && is_remainder_worthless();
   Lengths remainder = is_whole ? expected_remainders() : Lengths{};
   for (Seen& seen : seen_)
     seen.calls += seen.calls > 0 && seen.calls <= kTrustedCalls ? 1 : 0;
@@ -68,12 +70,22 @@ bool StepForecast::is_remainder_worthless() const {
   GLISSADE_ASSERT(!steps_.empty());
   if (steps_.back().length < least_) return true;
   if (!steps_.back().is_plain) return false;
+  if (gets_nowhere()) return true;
   const Lengths remainder = expected_remainders();
   for (std::size_t p = 0; p < count_; ++p) {
     const double enough = std::max(least_, std::min(kLeftOfMotion * steps_.front().lengths[p], most_left_[p]));
     if (!(remainder[p] < enough)) return false;
   }
   return true;
+}
+
+/// Whether the last two steps together have brought the parts no nearer to where they aim. Contacts that bend may lead
+/// them in a circle of three steps for as long as a call lasts.
+bool StepForecast::gets_nowhere() const {
+  if (!aims_stay_ || steps_.size() < 3) return false;
+  const auto last = steps_.end() - 3;
+  return std::all_of(last, steps_.end(), [](const Step& step) { return step.is_plain; }) &&
+         steps_.back().energy_after >= last->energy_after;
 }
 
 StepForecast::Lengths StepForecast::expected_remainders() const {

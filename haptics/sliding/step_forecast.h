@@ -40,12 +40,14 @@ class StepForecast {
   };
 
   void learn();
+  bool gets_nowhere() const;
   Lengths expected_remainders() const;
   double by_shrinking(std::size_t p) const;
   double by_earlier_call(std::size_t p) const;
 
   std::size_t count_ = 0;  // of parts
   double least_ = 0.0;     // metres: less is never worth a step
+  bool aims_stay_ = true;  // during a call
   Lengths most_left_{};
   double margin_ = 0.0;  // metres
   std::vector<Step> steps_;

@@ -16,6 +16,7 @@ Step step_of(double length, bool is_plain = true) {
   step.length = length;
   step.lengths[0] = length;
   step.is_plain = is_plain;
+  step.energy_after = length;  // joules: any that falls as steps shrink
   return step;
 }
 
@@ -119,6 +120,38 @@ TEST_F(StepForecasts, ForgetWhatWasBeforeANewHold) {
   remainder_is_worthless({90e-6, 0.0});
   forecast_.forget();
   EXPECT_FALSE(remainder_is_worthless({90e-6}));
+}
+
+/// A call whose steps leave so much energy in the springs.
+std::vector<Step> steps_with_energies(const std::vector<double>& energies) {
+  std::vector<Step> steps;
+  for (const double energy : energies) {
+    steps.push_back(step_of(5e-6));
+    steps.back().energy_after = energy;
+  }
+  return steps;
+}
+
+// Contacts that bend may lead a part in a circle.
+TEST_F(StepForecasts, EndACallWhoseStepsGetNowhere) {
+  EXPECT_FALSE(remainder_is_worthless_after(steps_with_energies({3e-3, 2e-3, 2.5e-3})));
+  EXPECT_TRUE(remainder_is_worthless_after(steps_with_energies({3e-3, 2e-3, 2.5e-3, 2e-3})));
+  EXPECT_FALSE(remainder_is_worthless_after(steps_with_energies({3e-3, 4e-3}))) << "a contact got its margin back";
+}
+
+TEST_F(StepForecasts, LearnNothingFromSuchACall) {
+  remainder_is_worthless_after(steps_with_energies({3e-3, 3e-3, 3e-3}));
+  EXPECT_FALSE(remainder_is_worthless({5e-6}));
+}
+
+TEST_F(StepForecasts, LetStepsGoOnThatWereShortenedOrAimElsewhere) {
+  std::vector<Step> steps = steps_with_energies({2e-3, 2e-3, 2e-3});
+  steps.front().is_plain = false;
+  EXPECT_FALSE(remainder_is_worthless_after(steps));
+  steps.front().is_plain = true;
+  EXPECT_TRUE(remainder_is_worthless_after(steps));
+  parts_ = {Metaphor::kRubberBand};
+  EXPECT_FALSE(remainder_is_worthless_after(steps));
 }
 
 }  // namespace
