@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -13,15 +14,80 @@
 namespace glissade::collision {
 namespace {
 
-/// Asks the visitor which pairs of children to open, and collects the pairs of triangles, and the accepted pairs of
-/// children.
-class NearPairs final : public PlacedVisitor {
+/// Passes pairs of triangles on. Those that no direction separates far enough are measured.
+class TrianglesToVisitor : public PlacedVisitor {
  public:
-  NearPairs(const PlacedTrees& placed, double distance, DualTreeVisitor& visitor, QueryMemory& memory)
-      : PlacedVisitor(placed),
-        visitor_(visitor),
-        collector_(placed, distance, memory.close_pairs),
-        accepted_(memory.accepted) {}
+  TrianglesToVisitor(const PlacedTrees& placed, const NearDistances& distances)
+      : PlacedVisitor(placed), distances_(distances), metres_per_radius_(placed.frame.in_metres(1.0)) {}
+
+  bool asks_for_directions() const override { return true; }
+  PairMask to_measure(std::uint32_t leaf_M, std::uint32_t leaf_N, PairMask pairs, const LeafPair& leaves) override {
+    PairMask near = 0;
+    for (PairMask rest = pairs; rest != 0; rest &= rest - 1) {
+      const int pair = std::countr_zero(rest);
+      const double gap = metres_per_radius_ * static_cast<double>(leaves.gaps.gap[static_cast<std::size_t>(pair)]);
+      if (gap < distances_.exact_below) {
+        near |= 1U << pair;
+      } else {
+        pass({placed_.triangles(leaf_M, leaf_N, pair), direction_A(pair, leaves), gap, separator(pair, leaves)});
+      }
+    }
+    return near;
+  }
+  PairOutcome visit(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) override {
+    constexpr double kNotYet = -1.0;
+    if (waiting_.add(placed_.triangles(leaf_M, leaf_N, pair))) finish();
+    return {false, kNotYet};
+  }
+  PairOutcome found(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) override {
+    pass({placed_.triangles(leaf_M, leaf_N, pair), Eigen::Vector3d::Zero(), 0.0, Separator::kOther});
+    return {false, 0.0};
+  }
+  void finish() {
+    for (const ClosePair& close : waiting_.measure(placed_)) {
+      if (close.distance <= distances_.within) pass(measured(close));
+    }
+  }
+
+ protected:
+  ~TrianglesToVisitor() = default;
+  virtual void pass(const NearTriangles& pair) = 0;
+
+ private:
+  Eigen::Vector3d direction_A(int pair, const LeafPair& leaves) const {
+    const auto& n = leaves.directions.n;
+    const auto i = static_cast<std::size_t>(pair);
+    Eigen::Vector3d n_M = Eigen::Vector3f(n[0][i], n[1][i], n[2][i]).cast<double>();
+    n_M *= 1.0 / n_M.norm();
+    return placed_.frame.base_is_A ? n_M : (-(placed_.X_AB.linear() * n_M)).eval();
+  }
+  Separator separator(int pair, const LeafPair& leaves) const {
+    if ((leaves.by_edges >> pair & 1U) != 0) return Separator::kOther;
+    return ((leaves.by_N >> pair & 1U) != 0) == placed_.frame.base_is_A ? Separator::kPlaneOfB : Separator::kPlaneOfA;
+  }
+  /// The direction between points a few nanometres apart is ill-conditioned: it separates the triangles by less than
+  /// their distance.
+  NearTriangles measured(const ClosePair& close) const {
+    const Eigen::Vector3d n_A = (close.p_B - close.p_A).normalized();
+    const auto heights = [&](const geometry::TrianglePoints& points) {
+      return std::minmax({n_A.dot(points[0]), n_A.dot(points[1]), n_A.dot(points[2])});
+    };
+    const double gap =
+        heights(placed_.points_B(close.triangles)).first - heights(placed_.points_A(close.triangles)).second;
+    return {close.triangles, n_A, std::max(gap, 0.0), Separator::kOther};
+  }
+
+  NearDistances distances_;
+  double metres_per_radius_;
+  WaitingPairs waiting_;
+};
+
+/// Asks the visitor which pairs of children to open, and collects those that it accepts.
+class NearPairs final : public TrianglesToVisitor {
+ public:
+  NearPairs(const PlacedTrees& placed, const NearDistances& distances, DualTreeVisitor& visitor,
+            std::vector<OpenPair>& accepted)
+      : TrianglesToVisitor(placed, distances), visitor_(visitor), accepted_(accepted) {}
 
   PairMask to_open(const NodePair& nodes, PairMask near) override {
     PairMask accepted = 0;
@@ -35,59 +101,57 @@ class NearPairs final : public PlacedVisitor {
     if (accepted != 0) accepted_.push_back({nodes, accepted, {}});
     return near & ~accepted;
   }
-  PairOutcome visit(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) override {
-    return collector_.visit(leaf_M, leaf_N, pair);
-  }
-  bool visit_each(std::uint32_t leaf_M, std::uint32_t leaf_N, PairMask pairs) override {
-    return collector_.visit_each(leaf_M, leaf_N, pairs);
-  }
-  PairOutcome found(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) override {
-    return collector_.found(leaf_M, leaf_N, pair);
-  }
-  void finish() { collector_.finish(); }
 
  private:
+  void pass(const NearTriangles& pair) override { visitor_.visit(pair); }
+
   DualTreeVisitor& visitor_;
-  PairCollector<ClosePair> collector_;
   std::vector<OpenPair>& accepted_;
 };
 
-/// Appends the selected pairs of triangles below accepted pairs of children.
-void collect_below_accepted(const PlacedTrees& placed, double distance, const VisitSelection& selection,
-                            QueryMemory& memory) {
+class PairsBelowAccepted final : public TrianglesToVisitor {
+ public:
+  PairsBelowAccepted(const PlacedTrees& placed, const NearDistances& distances, DualTreeVisitor& visitor)
+      : TrianglesToVisitor(placed, distances), visitor_(visitor) {}
+
+ private:
+  void pass(const NearTriangles& pair) override { visitor_.visit_below_accepted(pair); }
+
+  DualTreeVisitor& visitor_;
+};
+
+/// Passes on the selected pairs of triangles below accepted pairs of children.
+void visit_below_accepted(const PlacedTrees& placed, const NearDistances& distances, const VisitSelection& selection,
+                          QueryMemory& memory, DualTreeVisitor& visitor) {
   memory.stack.clear();
   for (OpenPair& open : memory.accepted) {
     open.near &= selection.pairs_of_nodes(open.nodes.node_M, open.nodes.node_N);
     if (open.near != 0) memory.stack.push_back(open);
   }
-  DopVisit step(placed.base(), placed.other(), placed.frame, distance, memory.alignment, selection, memory.meter);
-  PairCollector<ClosePair> collector(placed, distance, memory.close_pairs);
-  continue_all(step, memory, collector, std::numeric_limits<std::int64_t>::max());
-  collector.finish();
+  DopVisit step(placed.base(), placed.other(), placed.frame, distances.within, memory.alignment, selection,
+                memory.meter);
+  PairsBelowAccepted pairs(placed, distances, visitor);
+  continue_all(step, memory, pairs, std::numeric_limits<std::int64_t>::max());
+  pairs.finish();
 }
 
 }  // namespace
 
-void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                   QueryWorkspace& workspace, DualTreeVisitor& visitor, const PairSelection* below_accepted) {
+void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                   const NearDistances& distances, QueryWorkspace& workspace, DualTreeVisitor& visitor,
+                   const PairSelection* below_accepted) {
   const PlacedTrees placed{tree_A, tree_B, X_AB, below_accepted == nullptr ? PairSelection{} : *below_accepted};
   const VisitSelection selection = placed.visit_selection();
   QueryMemory& memory = memory_of(workspace);
   memory.counters = {};
-  if (placed.frame.spheres_apart(distance)) return;
-  DopVisit step(placed.base(), placed.other(), placed.frame, distance, memory.alignment, {}, memory.meter);
-  memory.close_pairs.clear();
+  if (placed.frame.spheres_apart(distances.within)) return;
+  DopVisit step(placed.base(), placed.other(), placed.frame, distances.within, memory.alignment, {}, memory.meter);
   memory.accepted.clear();
-  const bool shows_selected = placed.selection.of_A != nullptr && placed.selection.of_B != nullptr;
-  NearPairs pairs(placed, distance, visitor, memory);
+  NearPairs pairs(placed, distances, visitor, memory.accepted);
   visit_every(step, memory, pairs);
   pairs.finish();
-  const std::size_t others = memory.close_pairs.size();
-  if (shows_selected) collect_below_accepted(placed, distance, selection, memory);
-  for (std::size_t i = 0; i < others; ++i)
-    visitor.visit(memory.close_pairs[i]);
-  for (std::size_t i = others; i < memory.close_pairs.size(); ++i)
-    visitor.visit_below_accepted(memory.close_pairs[i]);
+  const bool shows_selected = placed.selection.of_A != nullptr && placed.selection.of_B != nullptr;
+  if (shows_selected) visit_below_accepted(placed, distances, selection, memory, visitor);
 }
 
 }  // namespace glissade::collision

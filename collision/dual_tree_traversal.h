@@ -20,26 +20,48 @@ struct TreeChild {
   int child;
 };
 
-/// Receives the pairs of children in the order of the traversal, and then the pairs of triangles.
+/// What separates two triangles: a direction perpendicular to one of them, or another one.
+enum class Separator : std::uint8_t { kPlaneOfA, kPlaneOfB, kOther };
+
+/// Two triangles, and how far a direction separates them.
+struct NearTriangles {
+  TrianglePair triangles;
+  Eigen::Vector3d n_A;  ///< unit, from A to B, in the frame of A; zero where they touch
+  double gap;           ///< metres, ≥ 0: they are at least so far apart along n_A
+  Separator separator;  ///< of n_A
+};
+
+/// Receives the pairs of children, and the pairs of triangles.
 class DualTreeVisitor {
  public:
   /// Whether the visitor accepts two children. Called only for children whose bounding volumes may be within the
   /// distance. The traversal skips all pairs below two accepted children.
   virtual bool accepts(const TreeChild& child_A, const TreeChild& child_B) = 0;
-  /// Receives a triangle pair within the distance that does not lie below an accepted pair.
-  virtual void visit(const ClosePair& pair) = 0;
-  /// Receives a selected triangle pair within the distance that lies below an accepted pair.
-  virtual void visit_below_accepted(const ClosePair& /*pair*/) {}
+  /// Receives a triangle pair that does not lie below an accepted pair.
+  virtual void visit(const NearTriangles& pair) = 0;
+  /// Receives a selected triangle pair that lies below an accepted pair.
+  virtual void visit_below_accepted(const NearTriangles& /*pair*/) {}
 
  protected:
   ~DualTreeVisitor() = default;
 };
 
-/// Passes to the visitor all triangle pairs at most `distance` (metres, ≥ 0) apart, except the triangle pairs below
-/// accepted pairs of children. Of these it passes the selected ones afterwards, unless `below_accepted` is null or has
-/// a null selection. Deterministic: the order of the triangle pairs is that of the traversal. Allocates nothing once
-/// the workspace has grown. The visitor must not query with the workspace. Throws as the queries of `dop_query.h` do.
-void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                   QueryWorkspace& workspace, DualTreeVisitor& visitor, const PairSelection* below_accepted = nullptr);
+/// Distances of a traversal, metres, ≥ 0.
+struct NearDistances {
+  double within;       ///< triangle pairs that are farther apart are of no interest
+  double exact_below;  ///< so far or farther apart along one of a few directions, a triangle pair is not measured
+};
+
+/// Passes to the visitor all triangle pairs at most `distances.within` apart, except the triangle pairs below accepted
+/// pairs of children. Of these it passes the selected ones afterwards, unless `below_accepted` is null or has a null
+/// selection. A pair that the normal of a triangle, a direction across edges of both, or one across an edge in the
+/// plane of its triangle separates by `distances.exact_below` has the best of these directions, in single precision,
+/// and its gap; it may be a little farther apart than `distances.within`. The others are measured, which takes several
+/// times as long: their direction is that of the closest points. Deterministic, also in the order. Allocates nothing
+/// once the workspace has grown. The visitor must not query with the workspace. Throws as the queries of `dop_query.h`
+/// do.
+void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                   const NearDistances& distances, QueryWorkspace& workspace, DualTreeVisitor& visitor,
+                   const PairSelection* below_accepted = nullptr);
 
 }  // namespace glissade::collision

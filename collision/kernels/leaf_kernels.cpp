@@ -157,21 +157,24 @@ PairMask test(const LeafFrame& frame, float distance, LeafPair& leaves) {
   const hn::CappedTag<float, kPairs> d;
   using V = hn::Vec<decltype(d)>;
   PairMask mask = 0;
+  PairMask by_N = 0;
   for (std::size_t first = 0; first < kPairs; first += hn::Lanes(d)) {
     const auto normal_M = [&](std::size_t axis) HWY_ATTR { return of_M(d, p.normal[axis].data(), first); };
     const auto normal_N = [&](std::size_t axis) HWY_ATTR { return of_N(d, q.normal[axis].data()); };
     const auto corner_M = [&](std::size_t axis, std::size_t c)
                               HWY_ATTR { return of_M(d, p.corner[axis][c].data(), first); };
     const auto corner_N = [&](std::size_t axis, std::size_t c) HWY_ATTR { return of_N(d, q.corner[axis][c].data()); };
-    const V along_M = gap_along(d, normal_M, of_M(d, p.low.data(), first), of_M(d, p.high.data(), first), corner_N);
-    const V along_N = gap_along(d, normal_N, of_N(d, q.low.data()), of_N(d, q.high.data()), corner_M);
-    const V gap = hn::Sub(hn::Max(hn::Mul(along_M, of_M(d, p.inverse_length.data(), first)),
-                                  hn::Mul(along_N, of_N(d, q.inverse_length.data()))),
-                          hn::Set(d, frame.uncertainty));
+    const V along_M =
+        hn::Mul(gap_along(d, normal_M, of_M(d, p.low.data(), first), of_M(d, p.high.data(), first), corner_N),
+                of_M(d, p.inverse_length.data(), first));
+    const V along_N = hn::Mul(gap_along(d, normal_N, of_N(d, q.low.data()), of_N(d, q.high.data()), corner_M),
+                              of_N(d, q.inverse_length.data()));
+    const V gap = hn::Sub(hn::Max(along_M, along_N), hn::Set(d, frame.uncertainty));
     hn::Store(gap, d, leaves.gaps.gap.data() + first);
     mask |= bits_of(d, hn::Not(hn::Gt(gap, hn::Set(d, distance)))) << first;
+    by_N |= bits_of(d, hn::Gt(along_N, along_M)) << first;
   }
-
+  leaves.by_N = by_N;
   return mask & leaves.present();
 }
 
@@ -218,7 +221,8 @@ float least_gap(const LeafPair& leaves, PairMask pairs) {
 }
 
 const LeafKernels& leaf_kernels_of_target() {
-  static constexpr LeafKernels kKernels = {prepare_M, prepare_N, leaf_gap, test, along, cross, edges, least_gap};
+  static constexpr LeafKernels kKernels = {
+      prepare_M, prepare_N, leaf_gap, test, along, cross, edges, edges_and_directions, least_gap};
   return kKernels;
 }
 

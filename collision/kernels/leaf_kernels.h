@@ -36,6 +36,9 @@ struct LeafKernels {
   /// farther apart than `distance` (radii of M).
   PairMask (*edges)(const LeafFrame& frame, float distance, PairMask pairs, LeafPair& leaves);
 
+  /// The same, and sets their directions.
+  PairMask (*edges_and_directions)(const LeafFrame& frame, float distance, PairMask pairs, LeafPair& leaves);
+
   /// The least gap of the pairs in the mask; 1e30 if the mask is empty.
   float (*least_gap)(const LeafPair& leaves, PairMask pairs);
 };

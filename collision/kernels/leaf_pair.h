@@ -15,6 +15,11 @@ struct alignas(64) TriangleGaps {
   std::array<float, kWidth * kWidth> gap;
 };
 
+/// For each pair of triangles, a direction of any length along which it has its gap, in the frame of M.
+struct alignas(64) TriangleDirections {
+  std::array<std::array<float, kWidth * kWidth>, 3> n;  ///< [axis]
+};
+
 /// Four triangles in the frame of M, with their extents along their own normals.
 struct alignas(64) LeafTriangles {
   using Four = std::array<float, kWidth>;
@@ -30,9 +35,12 @@ struct alignas(64) LeafTriangles {
 struct LeafPair {
   LeafTriangles p;
   LeafTriangles q;
-  TriangleGaps gaps;       ///< set by `LeafKernels::test`
-  PairMask present_M = 0;  ///< pairs whose triangle of M exists and has an area
-  PairMask present_N = 0;  ///< the same for the triangle of N
+  TriangleGaps gaps;  ///< set by `LeafKernels::test`
+  PairMask by_N = 0;  ///< the same: pairs whose gap is along the normal of the triangle of N, not of that of M
+  TriangleDirections directions;  ///< set by `LeafKernels::edges_and_directions`
+  PairMask by_edges = 0;          ///< the same: pairs whose direction is no normal
+  PairMask present_M = 0;         ///< pairs whose triangle of M exists and has an area
+  PairMask present_N = 0;         ///< the same for the triangle of N
 
   PairMask present() const { return present_M & present_N; }
 };

@@ -39,6 +39,9 @@ struct QueryFrame {
   /// std::invalid_argument if `tolerance` is negative or not a number.
   bool spheres_apart(double tolerance) const;
 
+  /// A lower bound, in metres in the frame of A, of a gap in radii of M.
+  double in_metres(double gap) const { return gap * base_radius / (1.0 + 2.0 * rotation_defect) * (1.0 - 1e-12); }
+
   /// An upper bound, in radii of M, of a distance in the frame of M that is `distance` metres in the frame of A.
   double in_base_radii(double distance) const {
     return distance / base_radius * (1.0 + 2.0 * rotation_defect) * (1.0 + 1e-12);

@@ -110,7 +110,11 @@ class Traversal {
       if (visitor_.found(leaf_M, leaf_N, std::countr_zero(rest)).stop) return true;
     }
     near &= ~certain.intersect;
-    if (near != 0 && step_.has_distance()) near = step_.edges(leaves_, near);
+    if (near != 0 && step_.has_distance()) {
+      near = visitor_.asks_for_directions()
+                 ? visitor_.to_measure(leaf_M, leaf_N, step_.edges_and_directions(leaves_, near), leaves_)
+                 : step_.edges(leaves_, near);
+    }
     return visitor_.visit_each(leaf_M, leaf_N, near);
   }
 

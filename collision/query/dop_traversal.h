@@ -36,7 +36,6 @@ struct QueryMemory {
   std::vector<OpenPair> accepted;  ///< by the visitor of `traverse_near`
   std::vector<PromisingPair> promising;
   std::vector<DistanceFront::Entry> expired;
-  std::vector<ClosePair> close_pairs;
   std::vector<std::uint64_t> places;  ///< sort keys of triangle pairs
   hwy::Sorter sort_places;
   QueryCounters counters;

@@ -173,6 +173,12 @@ PairMask DopVisit::edges(LeafPair& leaves, PairMask pairs) const {
   return near;
 }
 
+PairMask DopVisit::edges_and_directions(LeafPair& leaves, PairMask pairs) const {
+  const PairMask near = leaf_kernels_.edges_and_directions(*leaf_frame_, distance_, pairs, leaves);
+  spend(kWorkOfTriangles * std::popcount(near));
+  return near;
+}
+
 double DopVisit::least_gap(const LeafPair& leaves, PairMask pairs) const {
   return static_cast<double>(leaf_kernels_.least_gap(leaves, pairs));
 }

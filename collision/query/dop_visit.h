@@ -106,6 +106,9 @@ class DopVisit {
   /// their gaps. These pairs are then tested exactly, which counts as work here.
   PairMask edges(LeafPair& leaves, PairMask pairs) const;
 
+  /// The same, and sets their directions.
+  PairMask edges_and_directions(LeafPair& leaves, PairMask pairs) const;
+
   /// The least known gap of the triangle pairs in the mask, in radii of the base; 1e30 for an empty mask.
   double least_gap(const LeafPair& leaves, PairMask pairs) const;
 

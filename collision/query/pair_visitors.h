@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glissade/collision/query_types.h>
@@ -62,6 +63,24 @@ class AnyPair final : public PlacedVisitor {
   double tolerance_;
 };
 
+/// Triangle pairs to be measured at once in vector code.
+class WaitingPairs {
+ public:
+  /// Adds a pair. Returns whether there is no room for another one.
+  bool add(const TrianglePair& triangles) {
+    waiting_[count_++] = triangles;
+    return count_ == waiting_.size();
+  }
+  /// Measures the pairs added since the last call. Where they intersect, the distance is 0 and no points are set. Valid
+  /// until the next call.
+  std::span<const ClosePair> measure(const PlacedTrees& placed);
+
+ private:
+  std::array<TrianglePair, geometry::kPairsToMeasure> waiting_;
+  std::array<ClosePair, geometry::kPairsToMeasure> measured_;
+  std::size_t count_ = 0;
+};
+
 /// Collects every pair within the tolerance, as triangle indices or with closest points. All are there once `finish` is
 /// called; their order is arbitrary.
 template <typename Pair>
@@ -87,8 +106,7 @@ class PairCollector final : public PlacedVisitor {
 
   double tolerance_;
   std::vector<Pair>& pairs_;
-  std::array<TrianglePair, geometry::kPairsToMeasure> waiting_;  // to be measured at once
-  std::size_t waiting_count_ = 0;
+  WaitingPairs waiting_;
 };
 
 template <>
@@ -111,13 +129,20 @@ inline PairOutcome PairCollector<ClosePair>::note(const TrianglePair& triangles,
 }
 
 template <>
-void PairCollector<ClosePair>::measure_waiting();
+inline void PairCollector<ClosePair>::measure_waiting() {
+  for (const ClosePair& close : waiting_.measure(placed_)) {
+    if (close.distance == 0.0) {
+      note(close.triangles, true);
+    } else if (close.distance <= tolerance_) {
+      pairs_.push_back(close);
+    }
+  }
+}
 
 template <>
 inline bool PairCollector<ClosePair>::visit_each(std::uint32_t leaf_M, std::uint32_t leaf_N, PairMask pairs) {
   for (; pairs != 0; pairs &= pairs - 1) {
-    waiting_[waiting_count_++] = placed_.triangles(leaf_M, leaf_N, std::countr_zero(pairs));
-    if (waiting_count_ == geometry::kPairsToMeasure) measure_waiting();
+    if (waiting_.add(placed_.triangles(leaf_M, leaf_N, std::countr_zero(pairs)))) measure_waiting();
   }
   return false;
 }

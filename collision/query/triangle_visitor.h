@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "kernels/child_pairs.h"
+#include "kernels/leaf_pair.h"
 
 namespace glissade::collision {
 
@@ -23,6 +24,13 @@ class TriangleVisitor {
   /// The pairs of children to open, out of `near`, the pairs that may be near. By default all of them. Called only for
   /// Goal::kEveryPair.
   virtual PairMask to_open(const NodePair& /*nodes*/, PairMask near) { return near; }
+  /// Whether it needs the directions of gaps.
+  virtual bool asks_for_directions() const { return false; }
+  /// The pairs of a mask, which have gaps and directions, that are to be tested; by default all of them.
+  virtual PairMask to_measure(std::uint32_t /*leaf_M*/, std::uint32_t /*leaf_N*/, PairMask pairs,
+                              const LeafPair& /*leaves*/) {
+    return pairs;
+  }
   /// Tests a triangle pair.
   virtual PairOutcome visit(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) = 0;
   /// Tests the pairs in the mask, now or later. Returns whether the query is answered.

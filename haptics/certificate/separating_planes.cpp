@@ -31,7 +31,7 @@ PlaneMap map_of(const Eigen::Matrix3d& A, const Eigen::Vector3d& t) {
 
 void PlanesOfBodies::start(const BodyPair& pair, std::span<const PlacedBody> bodies) {
   pair_ = pair;
-  farthest_ = 0.0;
+  farthest_squared_ = 0.0;
   numbers_.clear();
   triangles_.clear();
   blocks_.clear();
@@ -43,34 +43,39 @@ void PlanesOfBodies::start(const BodyPair& pair, std::span<const PlacedBody> bod
 }
 
 void PlanesOfBodies::add(std::uint32_t number, const TrianglesOfBodies& pair, const Eigen::Vector3d& n_W,
-                         std::span<const PlacedBody> bodies) {
+                         bool turns_with_part, std::span<const PlacedBody> bodies) {
   const std::size_t slot = numbers_.size();
   numbers_.push_back(number);
   triangles_.push_back({pair.obstacle_triangle, pair.part_triangle});
   if (slot % kPlanesAtOnce == 0) blocks_.push_back({});
   blocks_.back().top[slot % kPlanesAtOnce] = kUnknownTop;
-  const Eigen::Matrix3d& R_WO = bodies[static_cast<std::size_t>(pair_.obstacle)].X_WB.linear();
-  if (!n_W.isZero(0.0)) turn(slot, {R_WO.transpose() * n_W, false}, bodies);
+  if (n_W.isZero(0.0)) return;
+  const auto fixed_to = [&](std::int32_t body) -> Eigen::Vector3d {
+    return bodies[static_cast<std::size_t>(body)].X_WB.linear().transpose() * n_W;
+  };
+  if (turns_with_part && turn(slot, {fixed_to(pair_.part), true}, bodies)) return;
+  turn(slot, {fixed_to(pair_.obstacle), false}, bodies);
 }
 
-void PlanesOfBodies::turn(std::size_t slot, const FixedDirection& direction, std::span<const PlacedBody> bodies) {
+bool PlanesOfBodies::turn(std::size_t slot, const FixedDirection& direction, std::span<const PlacedBody> bodies) {
   const TrianglesOfBodies pair = triangles(slot);
   geometry::TrianglePoints y =
       bodies[static_cast<std::size_t>(pair_.obstacle)].body->tree.mesh().corners(pair.obstacle_triangle);
   geometry::TrianglePoints x =
       bodies[static_cast<std::size_t>(pair_.part)].body->tree.mesh().corners(pair.part_triangle);
-  if (direction.turns_with_part && !ball_.holds(y)) return;
+  double farthest_squared = 0.0;
   for (std::size_t c = 0; c < 3; ++c) {
     y[c] -= ball_.center_O;
     x[c] -= c_V_;
-    farthest_ = std::max(farthest_, y[c].norm());
+    farthest_squared = std::max(farthest_squared, y[c].squaredNorm());
   }
+  if (direction.turns_with_part && farthest_squared > ball_.radius * ball_.radius) return false;
+  farthest_squared_ = std::max(farthest_squared_, farthest_squared);
   const geometry::TrianglePoints& own = direction.turns_with_part ? x : y;
   const geometry::TrianglePoints& other = direction.turns_with_part ? y : x;
   const Eigen::Vector3f n = (direction.turns_with_part ? -direction.n : direction.n).cast<float>();
-  double top = -std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3d& corner : own)
-    top = std::max(top, n.cast<double>().dot(corner));
+  const Eigen::Vector3d rounded = n.cast<double>();
+  const double top = std::max({rounded.dot(own[0]), rounded.dot(own[1]), rounded.dot(own[2])});
   PlaneBlock& block = blocks_[slot / kPlanesAtOnce];
   const std::size_t lane = slot % kPlanesAtOnce;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -81,13 +86,14 @@ void PlanesOfBodies::turn(std::size_t slot, const FixedDirection& direction, std
   }
   block.top[lane] = static_cast<float>(top);
   block.turns_with_part[lane] = direction.turns_with_part ? 1.0F : 0.0F;
+  return true;
 }
 
 PlaneMaps PlanesOfBodies::maps(const Eigen::Matrix3d& A, const Eigen::Vector3d& t) const {
   const Eigen::Vector3d from_center = A * c_V_ + t - ball_.center_O;
   const Eigen::Matrix3d back = A.inverse();
   return {map_of(A, from_center), map_of(back, -(back * from_center)),
-          static_cast<float>(kSlackOfGap * (radius_ + from_center.norm() + farthest_))};
+          static_cast<float>(kSlackOfGap * (radius_ + from_center.norm() + std::sqrt(farthest_squared_)))};
 }
 
 void PlanesOfBodies::find_gaps(const PlaneMaps& maps, std::size_t first, std::size_t end,

@@ -26,8 +26,9 @@ class PlanesOfBodies {
 
   const BodyPair& bodies() const { return pair_; }
   /// Adds a pair with a number that its owner gives it. Its direction is n_W at the poses of `bodies`, fixed to the
-  /// obstacle. Where n_W is zero, the direction is unknown, and so is the gap.
-  void add(std::uint32_t number, const TrianglesOfBodies& pair, const Eigen::Vector3d& n_W,
+  /// part if it is to turn with it and may, otherwise to the obstacle. Where n_W is zero, the direction is unknown, and
+  /// so is the gap.
+  void add(std::uint32_t number, const TrianglesOfBodies& pair, const Eigen::Vector3d& n_W, bool turns_with_part,
            std::span<const PlacedBody> bodies);
   /// By slot: kPlanesAtOnce slots are a block.
   std::span<const std::uint32_t> numbers() const { return numbers_; }
@@ -48,8 +49,9 @@ class PlanesOfBodies {
   /// Where an obstacle's triangle must be for a direction that turns with the part.
   const BallAboutPart& ball() const { return ball_; }
 
-  /// Gives the pair in a slot another direction, not zero. One that would turn with the part and may not is ignored.
-  void turn(std::size_t slot, const FixedDirection& direction, std::span<const PlacedBody> bodies);
+  /// Gives the pair in a slot another direction, not zero. Returns false for one that would turn with the part and may
+  /// not, which changes nothing.
+  bool turn(std::size_t slot, const FixedDirection& direction, std::span<const PlacedBody> bodies);
 
  private:
   BodyPair pair_{};
@@ -57,7 +59,7 @@ class PlanesOfBodies {
   Eigen::Vector3d c_V_ = Eigen::Vector3d::Zero();
   double radius_ = 0.0;  // metres: of the part about c_V
   BallAboutPart ball_{};
-  double farthest_ = 0.0;  // metres: of a corner of the obstacle from the centre of the ball
+  double farthest_squared_ = 0.0;  // m²: of a corner of the obstacle from the centre of the ball
   std::vector<std::uint32_t> numbers_;
   std::vector<std::array<std::int32_t, 2>> triangles_;  // of the obstacle and the part
   std::vector<PlaneBlock> blocks_;

@@ -69,6 +69,7 @@ bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> 
   if (!next_.covers(reach)) {
     if (!give_up_search()) return false;
     place_ahead(kForward * ahead, next_.request.X_WB);
+    next_.request.first_step.forget();
     request(reach + ahead, ahead, ignored);
   }
   return take_or_forget();
@@ -95,6 +96,7 @@ bool CandidatePairs::look_along(std::span<const geometry::Displacement> way, dou
   if (!is_requested) {
     if (!give_up_search()) return false;
     next_.request.X_WB = X_WB_ahead_;
+    next_.request.first_step.forget();
     request(std::min(kRadiusOfStep * share * length + least, greatest_radius_), least, ignored);
   }
   return take_or_forget();
@@ -116,11 +118,16 @@ void CandidatePairs::look_ahead(double step, double reach, double ahead, std::sp
   double until_needed = std::max(0.0, covered() - std::max(step, reach));
   if (!is_time && now_.search().is_approached()) until_needed += 2.0 * now_.search().drift;
   if (step > 0.0) until_needed = step * std::ceil(until_needed / step);  // answers are taken before a step
-  const double forward = until_needed + 0.5 * step + kForward * ahead;
-  if (is_time) {
-    place_ahead(forward, next_.request.X_WB);
-  } else if (!way_ahead_.follow_far(forward, next_.request.X_WB)) {
-    return;
+  const auto place = [&](double way, std::vector<Eigen::Isometry3d>& X_WB) {
+    if (!is_time) return way_ahead_.follow_far(way, X_WB);
+    place_ahead(way, X_WB);
+    return true;
+  };
+  if (!place(until_needed + 0.5 * step + kForward * ahead, next_.request.X_WB)) return;
+  next_.request.first_step.forget();
+  if (step > 0.0) {
+    place(until_needed, next_.request.first_step.X_WB_begin);
+    place(until_needed + step, next_.request.first_step.X_WB_end);
   }
   request(std::max(kRadiusOfStep * step, reach) + ahead, ahead, ignored);
   next_.step = step;

@@ -27,8 +27,8 @@ class PlanesOfSearch {
       : bodies_(bodies), planes_(planes) {}
 
   /// Adds a pair with its place as the number.
-  void add(std::uint32_t place, const TrianglesOfBodies& pair, const Eigen::Vector3d& n_W) {
-    planes_of(pair.bodies).add(place, pair, n_W, bodies_);
+  void add(std::uint32_t place, const NearPair& pair) {
+    planes_of(pair.bodies).add(place, pair, pair.n_W, pair.turns_with_part, bodies_);
   }
   void finish() { planes_.erase(planes_.begin() + static_cast<std::ptrdiff_t>(used_), planes_.end()); }
 
@@ -60,7 +60,8 @@ CandidateSearch::CandidateSearch(const ContactScene& scene, double greatest_radi
     : scene_(scene),
       meter_(meter),
       bodies_(scene.bodies().begin(), scene.bodies().end()),
-      greatest_radius_(greatest_radius) {
+      greatest_radius_(greatest_radius),
+      lasting_planes_(scene, meter) {
   for (const auto& mover : scene.movers())
     slack_ = std::max(slack_, 2.0 * kDefect * farthest_from_origin(*mover));
   workspace_.set_meter(meter);
@@ -100,6 +101,8 @@ void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
   nearest_first_.sort(set.pairs, unsorted_pairs_);
   nearest_first_.sort(set.boxes, unsorted_boxes_);
   if (request.has_planes) find_planes(set);
+  if (request.has_planes && request.first_step.is_known())
+    lasting_planes_.turn(request.first_step, bodies_, set.planes);
   set.report.total = clock_.now() - start;
 }
 
@@ -127,7 +130,7 @@ void CandidateSearch::find_pairs(const collision::FrameResult& near, const Candi
 void CandidateSearch::find_planes(CandidateSet& set) const {
   PlanesOfSearch planes(bodies_, set.planes);
   for (std::uint32_t place = 0; place < set.pairs.size(); ++place)
-    planes.add(place, set.pairs[place], set.pairs[place].n_W);
+    planes.add(place, set.pairs[place]);
   planes.finish();
 }
 

@@ -15,6 +15,7 @@
 #include "certificate/separating_planes.h"
 #include "scene/contact_scene.h"
 #include "search/feature_pairs.h"
+#include "search/lasting_planes.h"
 #include "search/near_pairs.h"
 #include "search/nearest_first.h"
 
@@ -40,6 +41,7 @@ struct CandidateRequest {
   double radius = 0.0;                  ///< metres
   std::vector<BodyPair> ignored;        ///< in ascending order
   bool has_planes = true;               ///< the answer has them
+  ExpectedStep first_step;              ///< in which the answer is needed; may be unknown
   /// The search finds no pairs of boxes that both hold triangles with features. Where curved parts fit closely, the
   /// planes of such boxes fail within a few steps, and the planes of their triangles last longer.
   bool fit_closely = false;
@@ -85,6 +87,7 @@ class CandidateSearch {
   std::optional<collision::World> world_;
   std::optional<collision::CollisionPipeline> pipeline_;  // of the world
   collision::QueryWorkspace workspace_;
+  LastingPlanes lasting_planes_;
   NearestFirst nearest_first_;
   std::vector<NearPair> unsorted_pairs_;       // scratch memory
   std::vector<PairToCertify> unsorted_boxes_;  // the same

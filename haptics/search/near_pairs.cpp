@@ -60,12 +60,12 @@ class PairSearch final : public collision::DualTreeVisitor {
     return false;
   }
 
-  void visit(const collision::ClosePair& pair) override {
+  void visit(const collision::NearTriangles& pair) override {
     const bool may_yield_contact = obstacle_.body->topology.can_stop_each_other(
         pair.triangles.triangle_A, part_.body->topology, pair.triangles.triangle_B);
     add(pair, may_yield_contact, true);
   }
-  void visit_below_accepted(const collision::ClosePair& pair) override { add(pair, true, false); }
+  void visit_below_accepted(const collision::NearTriangles& pair) override { add(pair, true, false); }
 
  private:
   /// Marks of nodes: those of their children below which all, or some, triangles count for contacts with others that
@@ -99,25 +99,12 @@ class PairSearch final : public collision::DualTreeVisitor {
     if (meter_ != nullptr) meter_->spend(kWorkOfPair);
   }
 
-  void add(const collision::ClosePair& pair, bool may_yield_contact, bool is_to_certify) {
+  void add(const collision::NearTriangles& pair, bool may_yield_contact, bool is_to_certify) {
     spend_work_of_pair();
-    const geometry::TriangleMesh& mesh_O = tree_O().mesh();
-    const geometry::TriangleMesh& mesh_V = tree_V().mesh();
-    const Eigen::Vector3d n_O = (pair.p_B - pair.p_A).normalized();
-    const Eigen::Vector3d n_V = X_OV_.linear().transpose() * n_O;
-    const auto heights = [](const geometry::TriangleMesh& mesh, std::int32_t triangle, const Eigen::Vector3d& n) {
-      return std::array{n.dot(mesh.corner(triangle, 0)), n.dot(mesh.corner(triangle, 1)),
-                        n.dot(mesh.corner(triangle, 2))};
-    };
-    const std::array<double, 3> of_O = heights(mesh_O, pair.triangles.triangle_A, n_O);
-    const std::array<double, 3> of_V = heights(mesh_V, pair.triangles.triangle_B, n_V);
-    const double bottom = n_O.dot(X_OV_.translation()) + std::min({of_V[0], of_V[1], of_V[2]});
-    const double top = std::max({of_O[0], of_O[1], of_O[2]});
-    // The direction between points a few nanometres apart is ill-conditioned: it separates the triangles by less than
-    // their distance.
     pairs_.push_back({{bodies_, pair.triangles.triangle_A, pair.triangles.triangle_B},
-                      obstacle_.X_WB.linear() * n_O,
-                      static_cast<double>(round_down(bottom - top)),
+                      obstacle_.X_WB.linear() * pair.n_A,
+                      static_cast<double>(round_down(pair.gap)),
+                      pair.separator == collision::Separator::kPlaneOfB,
                       may_yield_contact,
                       is_to_certify});
   }
@@ -147,7 +134,8 @@ void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const P
                      std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes) {
   PairSearch search(bodies, obstacle, part, margin, sought, meter, pairs, boxes);
   const collision::PairSelection features{&obstacle.body->features, &part.body->features};
-  collision::traverse_near(search.tree_O(), search.tree_V(), search.X_OV(), radius, workspace, search, &features);
+  collision::traverse_near(search.tree_O(), search.tree_V(), search.X_OV(),
+                           {.within = radius, .exact_below = kEnough * margin}, workspace, search, &features);
 }
 
 }  // namespace glissade::haptics

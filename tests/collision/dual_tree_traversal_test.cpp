@@ -46,12 +46,12 @@ class Taker final : public DualTreeVisitor {
     taken.push_back({child_A, child_B});
     return true;
   }
-  void visit(const ClosePair& pair) override { seen.push_back(pair); }
-  void visit_below_accepted(const ClosePair& pair) override { seen_below.push_back(pair); }
+  void visit(const NearTriangles& pair) override { seen.push_back(pair); }
+  void visit_below_accepted(const NearTriangles& pair) override { seen_below.push_back(pair); }
 
   std::vector<TakenPair> taken;
-  std::vector<ClosePair> seen;
-  std::vector<ClosePair> seen_below;
+  std::vector<NearTriangles> seen;
+  std::vector<NearTriangles> seen_below;
 
  private:
   std::uint64_t sixteenths_;
@@ -79,8 +79,8 @@ struct RandomPair {
 /// How often each pair of triangles was seen, or is below what was taken.
 std::map<TrianglePair, int> times_answered(const RandomPair& pair, const Taker& visitor) {
   std::map<TrianglePair, int> times;
-  for (const ClosePair& close : visitor.seen)
-    ++times[close.triangles];
+  for (const NearTriangles& near : visitor.seen)
+    ++times[near.triangles];
   for (const TakenPair& taken : visitor.taken) {
     for (const std::int32_t a : triangles_below(pair.tree_A, taken.child_A.node, taken.child_A.child)) {
       for (const std::int32_t b : triangles_below(pair.tree_B, taken.child_B.node, taken.child_B.child))
@@ -96,32 +96,70 @@ class NearVisit : public ::testing::Test {
 
   NearVisit() : random_(kSeed) { RecordProperty("seed", static_cast<int>(kSeed)); }
 
+  /// In some trials all pairs are measured, in some only those that nothing separates.
+  NearDistances random_distances(double within) {
+    return {.within = within, .exact_below = within * std::clamp(random_.uniform(-0.2, 1.2), 0.0, 1.0)};
+  }
+
   RandomNumbers random_;
   QueryWorkspace workspace_;
 };
 
+/// How far n_A holds two triangles apart.
+double gap_along(const Vector3d& n_A, const geometry::TrianglePoints& of_A, const geometry::TrianglePoints& of_B) {
+  const auto heights = [&](const geometry::TrianglePoints& points) {
+    return std::minmax({n_A.dot(points[0]), n_A.dot(points[1]), n_A.dot(points[2])});
+  };
+  return heights(of_B).first - heights(of_A).second;
+}
+
 TEST_F(NearVisit, OfOneWhoTakesNothingShowsThePairsWithinTheDistance) {
-  std::size_t pairs = 0;
+  std::size_t measured = 0;
+  std::map<Separator, int> separated;
   for (int trial = 0; trial < test_support::affordable(300); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     const RandomPair pair(random_);
-    const double distance = random_.chance(0.2) ? 0.0 : pair.size * random_.power_of_ten(-3.0, 0.0);
+    const NearDistances distances =
+        random_distances(random_.chance(0.2) ? 0.0 : pair.size * random_.power_of_ten(-3.0, 0.0));
     Taker visitor(0);
-    traverse_near(pair.tree_A, pair.tree_B, pair.X_AB, distance, workspace_, visitor);
-    std::sort(visitor.seen.begin(), visitor.seen.end(),
-              [](const ClosePair& a, const ClosePair& b) { return a.triangles < b.triangles; });
-    const std::vector<ClosePair> expected =
-        test_support::MeshOracle(pair.A.mesh, pair.B.mesh).pairs_within(pair.X_AB, distance);
-    ASSERT_EQ(visitor.seen.size(), expected.size());
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-      ASSERT_EQ(visitor.seen[i].triangles, expected[i].triangles);
-      ASSERT_EQ(visitor.seen[i].distance, expected[i].distance);
-      ASSERT_EQ(visitor.seen[i].p_A, expected[i].p_A);
-      ASSERT_EQ(visitor.seen[i].p_B, expected[i].p_B);
+    traverse_near(pair.tree_A, pair.tree_B, pair.X_AB, distances, workspace_, visitor);
+    const test_support::MeshOracle oracle(pair.A.mesh, pair.B.mesh);
+    std::map<TrianglePair, double> missing;
+    for (const ClosePair& close : oracle.pairs_within(pair.X_AB, distances.within))
+      missing[close.triangles] = close.distance;
+    for (const NearTriangles& near : visitor.seen) {
+      const geometry::TrianglePoints of_A = oracle.points_A(near.triangles.triangle_A);
+      const geometry::TrianglePoints of_B = oracle.points_B(near.triangles.triangle_B, pair.X_AB);
+      const double rounding = 1e-12 * (oracle.radius_A() + oracle.radius_B() + pair.X_AB.translation().norm());
+      const bool was_missing = missing.erase(near.triangles) == 1;
+      ASSERT_LE(near.gap, distances.within * (1.0 + 1e-6));
+      ASSERT_GE(near.gap, 0.0);
+      ASSERT_LE(near.gap, geometry::triangle_distance(of_A, of_B).distance + rounding);
+      if (near.n_A.isZero(0.0)) {
+        ASSERT_TRUE(geometry::triangles_intersect(of_A, of_B));
+        continue;
+      }
+      ASSERT_NEAR(near.n_A.norm(), 1.0, 1e-12);
+      ASSERT_GE(gap_along(near.n_A, of_A, of_B), near.gap - rounding) << "from A to B";
+      if (near.gap < 0.99 * distances.exact_below) {
+        ASSERT_TRUE(was_missing) << "or seen twice";
+        ASSERT_EQ(near.separator, Separator::kOther);
+        ASSERT_NEAR(near.gap, geometry::triangle_distance(of_A, of_B).distance, 1e-6 * pair.size);
+        ++measured;
+        continue;
+      }
+      ++separated[near.separator];
+      if (near.separator == Separator::kOther) continue;
+      const geometry::TrianglePoints& own = near.separator == Separator::kPlaneOfA ? of_A : of_B;
+      for (std::size_t c = 1; c < 3; ++c)
+        ASSERT_NEAR(near.n_A.dot(own[c] - own[0]), 0.0, 1e-4 * pair.size) << "it is the normal";
     }
-    pairs += expected.size();
+    ASSERT_TRUE(missing.empty()) << missing.begin()->first.triangle_A << ", " << missing.begin()->first.triangle_B
+                                 << " at " << missing.begin()->second;
   }
-  EXPECT_GT(pairs, 100U);
+  EXPECT_GT(measured, 30U);
+  for (const Separator separator : {Separator::kPlaneOfA, Separator::kPlaneOfB, Separator::kOther})
+    EXPECT_GT(separated[separator], 10);
 }
 
 TEST_F(NearVisit, ShowsEveryPairOnceOrLeavesItToWhoTookWhatHoldsIt) {
@@ -132,7 +170,7 @@ TEST_F(NearVisit, ShowsEveryPairOnceOrLeavesItToWhoTookWhatHoldsIt) {
     const RandomPair pair(random_);
     const double distance = pair.size * random_.power_of_ten(-3.0, 0.0);
     Taker visitor(static_cast<std::uint64_t>(random_.integer(1, 8)));
-    traverse_near(pair.tree_A, pair.tree_B, pair.X_AB, distance, workspace_, visitor);
+    traverse_near(pair.tree_A, pair.tree_B, pair.X_AB, random_distances(distance), workspace_, visitor);
     const std::map<TrianglePair, int> times = times_answered(pair, visitor);
     for (const ClosePair& near : test_support::MeshOracle(pair.A.mesh, pair.B.mesh).pairs_within(pair.X_AB, distance)) {
       const auto found = times.find(near.triangles);
@@ -156,19 +194,20 @@ TEST_F(NearVisit, ShowsSelectedPairsBelowWhatWasTakenOnce) {
     const TriangleSelection of_A(pair.tree_A, is_selected);
     const TriangleSelection of_B(pair.tree_B, is_selected);
     const auto some = static_cast<std::uint64_t>(random_.integer(1, 8));
+    const NearDistances distances = random_distances(distance);
     Taker without(some);
-    traverse_near(pair.tree_A, pair.tree_B, pair.X_AB, distance, workspace_, without);
+    traverse_near(pair.tree_A, pair.tree_B, pair.X_AB, distances, workspace_, without);
     ASSERT_TRUE(without.seen_below.empty());
     Taker visitor(some);
     const PairSelection selection{&of_A, &of_B};
-    traverse_near(pair.tree_A, pair.tree_B, pair.X_AB, distance, workspace_, visitor, &selection);
+    traverse_near(pair.tree_A, pair.tree_B, pair.X_AB, distances, workspace_, visitor, &selection);
     ASSERT_EQ(visitor.seen.size(), without.seen.size());
     std::map<TrianglePair, int> times;
-    for (const ClosePair& close : visitor.seen)
-      ++times[close.triangles];
-    for (const ClosePair& close : visitor.seen_below) {
-      ASSERT_TRUE(is_selected(close.triangles.triangle_A) || is_selected(close.triangles.triangle_B));
-      ++times[close.triangles];
+    for (const NearTriangles& near : visitor.seen)
+      ++times[near.triangles];
+    for (const NearTriangles& near : visitor.seen_below) {
+      ASSERT_TRUE(is_selected(near.triangles.triangle_A) || is_selected(near.triangles.triangle_B));
+      ++times[near.triangles];
     }
     for (const ClosePair& near : test_support::MeshOracle(pair.A.mesh, pair.B.mesh).pairs_within(pair.X_AB, distance)) {
       if (!is_selected(near.triangles.triangle_A) && !is_selected(near.triangles.triangle_B)) continue;
@@ -182,7 +221,7 @@ TEST_F(NearVisit, ShowsSelectedPairsBelowWhatWasTakenOnce) {
 TEST_F(NearVisit, LooksAtNothingBelowWhatWasTaken) {
   const DopTree plate(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({1.0, 1.0}, 2000)));
   Taker all(16);
-  traverse_near(plate, plate, Isometry3d(Eigen::Translation3d(0.0, 0.0, 1e-3)), 2e-3, workspace_, all);
+  traverse_near(plate, plate, Isometry3d(Eigen::Translation3d(0.0, 0.0, 1e-3)), {2e-3, 2e-3}, workspace_, all);
   EXPECT_TRUE(all.seen.empty());
   EXPECT_LE(all.taken.size(), 16U) << "the children of the roots";
   EXPECT_EQ(workspace_.counters().triangle_tests, 0);
@@ -191,7 +230,7 @@ TEST_F(NearVisit, LooksAtNothingBelowWhatWasTaken) {
 TEST_F(NearVisit, OfBodiesThatAreFarAsksNothing) {
   const DopTree plate(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({1.0, 1.0}, 200)));
   Taker visitor(8);
-  traverse_near(plate, plate, Isometry3d(Eigen::Translation3d(0.0, 0.0, 3.0)), 0.5, workspace_, visitor);
+  traverse_near(plate, plate, Isometry3d(Eigen::Translation3d(0.0, 0.0, 3.0)), {0.5, 0.5}, workspace_, visitor);
   EXPECT_TRUE(visitor.taken.empty());
   EXPECT_TRUE(visitor.seen.empty());
 }
@@ -204,15 +243,15 @@ TEST_F(NearVisit, AllocatesNothingOnceTheWorkspaceHasGrown) {
     bool accepts(const TreeChild& child_A, const TreeChild& child_B) override {
       return (child_A.node + child_B.node + static_cast<std::uint32_t>(child_A.child)) % 7 == 6;
     }
-    void visit(const ClosePair& /*pair*/) override { ++seen; }
+    void visit(const NearTriangles& /*pair*/) override { ++seen; }
     int seen = 0;
   } counter;
   const DopTree sphere(std::make_shared<geometry::TriangleMesh>(geometry::make_sphere(1.0, 3000)));
   const Isometry3d X_AB(Eigen::Translation3d(1.9, 0.1, 0.2));
-  traverse_near(sphere, sphere, X_AB, 0.01, workspace_, counter);
+  traverse_near(sphere, sphere, X_AB, {0.01, 0.005}, workspace_, counter);
   EXPECT_GT(counter.seen, 0);
   const std::int64_t before = test_support::allocations_of_this_thread();
-  traverse_near(sphere, sphere, X_AB, 0.01, workspace_, counter);
+  traverse_near(sphere, sphere, X_AB, {0.01, 0.005}, workspace_, counter);
   EXPECT_EQ(test_support::allocations_of_this_thread() - before, 0);
 }
 

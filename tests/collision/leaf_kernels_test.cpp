@@ -97,6 +97,57 @@ TEST_P(LeafKernelsTest, NormalsAndEdgesSeparateOnlyWhatIsFurtherApart) {
   }
 }
 
+/// How far a direction holds two triangles apart, all in the frame of the base.
+double gap_along(const Vector3d& n, const LeafTriangles& p, std::size_t of_p, const LeafTriangles& q,
+                 std::size_t of_q) {
+  const auto height = [&](const LeafTriangles& leaf, std::size_t triangle, std::size_t c) {
+    return n.dot(Vector3d(leaf.corner[0][c][triangle], leaf.corner[1][c][triangle], leaf.corner[2][c][triangle]));
+  };
+  return std::min({height(q, of_q, 0), height(q, of_q, 1), height(q, of_q, 2)}) -
+         std::max({height(p, of_p, 0), height(p, of_p, 1), height(p, of_p, 2)});
+}
+
+TEST_P(LeafKernelsTest, DirectionsSeparateTrianglesByTheirGaps) {
+  int by_normals_of_M = 0;
+  int by_normals_of_N = 0;
+  int by_edges = 0;
+  for (const Setting& s : kSettings) {
+    for_all_leaves(s, [&](const Visit& visit) {
+      constexpr float kFar = 0.3F;
+      const PairMask near = leaf_kernels().test(visit.frame, kFar, visit.leaves);
+      const TriangleGaps along_normals = visit.leaves.gaps;
+      const PairMask nearer = leaf_kernels().edges(visit.frame, kFar, near, visit.leaves);
+      const TriangleGaps expected = visit.leaves.gaps;
+      visit.leaves.gaps = along_normals;
+      ASSERT_EQ(leaf_kernels().edges_and_directions(visit.frame, kFar, near, visit.leaves), nearer);
+      ASSERT_EQ(visit.leaves.gaps.gap, expected.gap);
+      for (std::size_t pair = 0; pair < 16; ++pair) {
+        const auto gap = static_cast<double>(expected.gap[pair]);
+        if (!has(nearer, pair) || !(gap > 0.0)) continue;
+        const auto& components = visit.leaves.directions.n;
+        const Vector3d n = Vector3d(components[0][pair], components[1][pair], components[2][pair]).normalized();
+        const LeafTriangles& p = visit.leaves.p;
+        const LeafTriangles& q = visit.leaves.q;
+        ASSERT_GE(gap_along(n, p, pair / kWidth, q, pair % kWidth), gap) << "from M to N";
+        ASSERT_EQ(has(visit.leaves.by_edges, pair), gap > static_cast<double>(along_normals.gap[pair]));
+        if (has(visit.leaves.by_edges, pair)) {
+          ++by_edges;
+          continue;
+        }
+        const bool by_N = has(visit.leaves.by_N, pair);
+        const LeafTriangles& own = by_N ? q : p;
+        const std::size_t triangle = by_N ? pair % kWidth : pair / kWidth;
+        const Vector3d normal(own.normal[0][triangle], own.normal[1][triangle], own.normal[2][triangle]);
+        ASSERT_GT(std::abs(n.dot(normal.normalized())), 1.0 - 1e-6);
+        ++(by_N ? by_normals_of_N : by_normals_of_M);
+      }
+    });
+  }
+  EXPECT_GT(by_normals_of_M, 20);
+  EXPECT_GT(by_normals_of_N, 20);
+  EXPECT_GT(by_edges, 20);
+}
+
 // All normals and cross products of edges are perpendicular to the plane, where there is no gap.
 TEST_P(LeafKernelsTest, TrianglesBesideEachOtherInOnePlaneAreSeparatedByTheirDistance) {
   const geometry::TriangleMesh below{{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.3, -1.0, 0.0}}, {{0, 1, 2}}};

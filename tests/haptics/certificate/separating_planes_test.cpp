@@ -70,7 +70,7 @@ struct RandomPlanes {
     const Eigen::Matrix3d& R_WO = bodies[0].X_WB.linear();
     for (std::uint32_t i = 0; i < pairs.size(); ++i) {
       const bool is_last = i + 1 == pairs.size();
-      planes->add(i, pairs[i], is_last ? Vector3d(Vector3d::Zero()) : Vector3d(R_WO * directions[i].n), bodies);
+      planes->add(i, pairs[i], is_last ? Vector3d(Vector3d::Zero()) : Vector3d(R_WO * directions[i].n), false, bodies);
     }
   }
 

@@ -152,10 +152,11 @@ TEST_F(NearPairs, HoldEveryPairThatMayYieldAContactOnce) {
 }
 
 TEST_F(NearPairs, TellLowerBoundsOfDistances) {
+  int measured = 0;
   for (int trial = 0; trial < test_support::affordable(80); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     const double margin = random_margin();
-    const auto scene = test_support::random_contact_scene(kSize, margin, margin, random_);
+    const auto scene = test_support::random_contact_scene(kSize, margin, margin * random_.uniform(0.1, 1.0), random_);
     const std::span<const PlacedBody> bodies = scene->bodies();
     const Found found(*scene, random_.power_of_ten(-4.0, -3.0));
     for (const NearPair& pair : found.pairs) {
@@ -175,12 +176,33 @@ TEST_F(NearPairs, TellLowerBoundsOfDistances) {
             pair_to_certify.distance - kRounding)
             << "from the obstacle to the part";
         // A direction between points a micrometre apart is good to 1e-10.
-        if (pair_to_certify.item_O.kind == TreeItem::Kind::kTriangle) {
-          ASSERT_NEAR(distance, pair_to_certify.distance, 1e-10);
+        if (pair_to_certify.item_O.kind == TreeItem::Kind::kTriangle && pair_to_certify.distance < 0.5 * margin) {
+          ASSERT_NEAR(distance, pair_to_certify.distance, 1e-10) << "measured";
+          ++measured;
         }
       }
     }
   }
+  EXPECT_GT(measured, 5);
+}
+
+// The planes of triangles are fixed to the body of the triangle.
+TEST_F(NearPairs, HaveNormalsOfThePartWhereTheseTurnWithIt) {
+  int turning = 0;
+  for (int trial = 0; trial < test_support::affordable(80); ++trial) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
+    const double margin = random_margin();
+    const auto scene = test_support::random_contact_scene(kSize, margin, margin, random_);
+    for (const NearPair& pair : Found(*scene, random_.power_of_ten(-4.0, -3.0)).pairs) {
+      if (!pair.turns_with_part) continue;
+      const geometry::TrianglePoints x_W =
+          scene->bodies()[static_cast<std::size_t>(pair.bodies.part)].triangle_W(pair.part_triangle);
+      for (std::size_t c = 1; c < 3; ++c)
+        ASSERT_NEAR(pair.n_W.dot(x_W[c] - x_W[0]), 0.0, 1e-5 * kSize);
+      ++turning;
+    }
+  }
+  EXPECT_GT(turning, 5);
 }
 
 /// A plate one margin above another, each cut into so many triangles.
