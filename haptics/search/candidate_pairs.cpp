@@ -69,7 +69,6 @@ bool CandidatePairs::look(double reach, double ahead, std::span<const BodyPair> 
   if (!next_.covers(reach)) {
     if (!give_up_search()) return false;
     place_ahead(kForward * ahead, next_.request.X_WB);
-    next_.request.first_step.forget();
     request(reach + ahead, ahead, ignored);
   }
   return take_or_forget();
@@ -96,7 +95,6 @@ bool CandidatePairs::look_along(std::span<const geometry::Displacement> way, dou
   if (!is_requested) {
     if (!give_up_search()) return false;
     next_.request.X_WB = X_WB_ahead_;
-    next_.request.first_step.forget();
     request(std::min(kRadiusOfStep * share * length + least, greatest_radius_), least, ignored);
   }
   return take_or_forget();
@@ -114,7 +112,7 @@ void CandidatePairs::look_ahead(double step, double reach, double ahead, std::sp
   if (next_.is_there && next_.is_in_vain() && give_up_search()) next_.is_there = false;
   if (next_.is_there) return;
   const bool is_time = now_.search().is_being_left() || !serve_for(step);
-  if (!is_time && now_.pair_count() <= kPairsOfLongSearch) return;
+  if (!is_time && !fits_closely()) return;
   double until_needed = std::max(0.0, covered() - std::max(step, reach));
   if (!is_time && now_.search().is_approached()) until_needed += 2.0 * now_.search().drift;
   if (step > 0.0) until_needed = step * std::ceil(until_needed / step);  // answers are taken before a step
@@ -124,12 +122,12 @@ void CandidatePairs::look_ahead(double step, double reach, double ahead, std::sp
     return true;
   };
   if (!place(until_needed + 0.5 * step + kForward * ahead, next_.request.X_WB)) return;
-  next_.request.first_step.forget();
-  if (step > 0.0) {
-    place(until_needed, next_.request.first_step.X_WB_begin);
-    place(until_needed + step, next_.request.first_step.X_WB_end);
+  first_step_.forget();
+  if (fits_closely() && step > 0.0) {
+    place(until_needed, first_step_.X_WB_begin);
+    place(until_needed + step, first_step_.X_WB_end);
   }
-  request(std::max(kRadiusOfStep * step, reach) + ahead, ahead, ignored);
+  request(std::max(kRadiusOfStep * step, reach) + ahead, ahead, ignored, first_step_);
   next_.step = step;
 }
 
@@ -156,11 +154,13 @@ bool CandidatePairs::take() {
 }
 
 /// Requests the search at the poses of `next_`.
-void CandidatePairs::request(double radius, double ahead, std::span<const BodyPair> ignored) {
+void CandidatePairs::request(double radius, double ahead, std::span<const BodyPair> ignored,
+                             const ExpectedStep& first_step) {
   GLISSADE_ASSERT(!is_with_thread_);
   next_.request.radius = radius;
   next_.request.has_planes = has_planes_;
-  next_.request.fit_closely = has_planes_ && now_.pair_count() > kPairsOfLongSearch;
+  next_.request.fit_closely = fits_closely();
+  next_.request.first_step = first_step;
   next_.request.ignored.assign(ignored.begin(), ignored.end());
   next_.ahead = ahead;
   next_.step = 0.0;
@@ -198,6 +198,11 @@ bool CandidatePairs::give_up_search() {
   if (work_of_call_ != kUnlimitedWork) return is_settled();
   cancel();
   return true;
+}
+
+/// Whether the last search found so many pairs.
+bool CandidatePairs::fits_closely() const {
+  return has_planes_ && now_.pair_count() > kPairsOfLongSearch;
 }
 
 bool CandidatePairs::is_too_large() const {

@@ -106,7 +106,8 @@ class CandidatePairs {
  private:
   bool take_or_forget();
   bool take();
-  void request(double radius, double ahead, std::span<const BodyPair> ignored);
+  void request(double radius, double ahead, std::span<const BodyPair> ignored, const ExpectedStep& first_step = {});
+  bool fits_closely() const;
   bool is_settled();
   bool give_up_search();
   void place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB);
@@ -125,6 +126,7 @@ class CandidatePairs {
   KnownPairs now_;
   TrackedSearch next_;
   WayAhead way_ahead_;
+  ExpectedStep first_step_;  // scratch memory
   std::int64_t work_ = 0;
   int calls_ = 0;  // since the search that found the candidates
   int calls_served_ = 0;
