@@ -2,6 +2,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include <glissade/collision/dual_tree_traversal.h>
@@ -40,7 +41,7 @@ class TrianglesToVisitor : public PlacedVisitor {
     return {false, kNotYet};
   }
   PairOutcome found(std::uint32_t leaf_M, std::uint32_t leaf_N, int pair) override {
-    pass({placed_.triangles(leaf_M, leaf_N, pair), Eigen::Vector3d::Zero(), 0.0, Separator::kOther});
+    pass(touching(placed_.triangles(leaf_M, leaf_N, pair)));
     return {false, 0.0};
   }
   void finish() {
@@ -57,16 +58,21 @@ class TrianglesToVisitor : public PlacedVisitor {
   Eigen::Vector3d direction_A(int pair, const LeafPair& leaves) const {
     const auto& n = leaves.directions.n;
     const auto i = static_cast<std::size_t>(pair);
-    Eigen::Vector3d n_M = Eigen::Vector3f(n[0][i], n[1][i], n[2][i]).cast<double>();
-    n_M *= 1.0 / n_M.norm();
-    return placed_.frame.base_is_A ? n_M : (-(placed_.X_AB.linear() * n_M)).eval();
+    const Eigen::Vector3d n_M = Eigen::Vector3f(n[0][i], n[1][i], n[2][i]).cast<double>();
+    Eigen::Vector3d n_A = n_M;
+    if (!placed_.frame.base_is_A) n_A = -(placed_.X_AB.linear() * n_M);
+    n_A *= 1.0 / n_A.norm();
+    return n_A;
   }
   Separator separator(int pair, const LeafPair& leaves) const {
     if ((leaves.by_edges >> pair & 1U) != 0) return Separator::kOther;
     return ((leaves.by_N >> pair & 1U) != 0) == placed_.frame.base_is_A ? Separator::kPlaneOfB : Separator::kPlaneOfA;
   }
+  static NearTriangles touching(const TrianglePair& triangles) {
+    return {triangles, Eigen::Vector3d::Zero(), 0.0, Separator::kOther};
+  }
   /// The direction between points a few nanometres apart is ill-conditioned: it separates the triangles by less than
-  /// their distance.
+  /// their distance, or not at all.
   NearTriangles measured(const ClosePair& close) const {
     const Eigen::Vector3d n_A = (close.p_B - close.p_A).normalized();
     const auto heights = [&](const geometry::TrianglePoints& points) {
@@ -74,7 +80,8 @@ class TrianglesToVisitor : public PlacedVisitor {
     };
     const double gap =
         heights(placed_.points_B(close.triangles)).first - heights(placed_.points_A(close.triangles)).second;
-    return {close.triangles, n_A, std::max(gap, 0.0), Separator::kOther};
+    if (close.distance == 0.0 || !(gap > 0.0)) return touching(close.triangles);
+    return {close.triangles, n_A, gap, Separator::kOther};
   }
 
   NearDistances distances_;
@@ -140,6 +147,8 @@ void visit_below_accepted(const PlacedTrees& placed, const NearDistances& distan
 void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                    const NearDistances& distances, QueryWorkspace& workspace, DualTreeVisitor& visitor,
                    const PairSelection* below_accepted) {
+  if (!(distances.exact_below >= 0.0))
+    throw std::invalid_argument("the distance below which pairs are measured must not be negative");
   const PlacedTrees placed{tree_A, tree_B, X_AB, below_accepted == nullptr ? PairSelection{} : *below_accepted};
   const VisitSelection selection = placed.visit_selection();
   QueryMemory& memory = memory_of(workspace);

@@ -26,7 +26,7 @@ enum class Separator : std::uint8_t { kPlaneOfA, kPlaneOfB, kOther };
 /// Two triangles, and how far a direction separates them.
 struct NearTriangles {
   TrianglePair triangles;
-  Eigen::Vector3d n_A;  ///< unit, from A to B, in the frame of A; zero where they touch
+  Eigen::Vector3d n_A;  ///< unit, from A to B, in the frame of A; zero where nothing is known to separate them
   double gap;           ///< metres, ≥ 0: they are at least so far apart along n_A
   Separator separator;  ///< of n_A
 };
@@ -54,12 +54,12 @@ struct NearDistances {
 
 /// Passes to the visitor all triangle pairs at most `distances.within` apart, except the triangle pairs below accepted
 /// pairs of children. Of these it passes the selected ones afterwards, unless `below_accepted` is null or has a null
-/// selection. A pair that the normal of a triangle, a direction across edges of both, or one across an edge in the
-/// plane of its triangle separates by `distances.exact_below` has the best of these directions, in single precision,
-/// and its gap; it may be a little farther apart than `distances.within`. The others are measured, which takes several
-/// times as long: their direction is that of the closest points. Deterministic, also in the order. Allocates nothing
-/// once the workspace has grown. The visitor must not query with the workspace. Throws as the queries of `dop_query.h`
-/// do.
+/// selection. It tries the normals of both triangles, cross products of their edges, and directions across an edge in
+/// the plane of its triangle. A pair that one of these separates by `distances.exact_below` has the best of them, in
+/// single precision, and may be a little farther apart than `distances.within`. The others are measured, which takes
+/// several times as long: their direction is that of the closest points. Deterministic, also in the order. Allocates
+/// nothing once the workspace has grown. The visitor must not query with the workspace. Throws std::invalid_argument
+/// for distances that are negative or not numbers, and otherwise as the queries of `dop_query.h` do.
 void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                    const NearDistances& distances, QueryWorkspace& workspace, DualTreeVisitor& visitor,
                    const PairSelection* below_accepted = nullptr);

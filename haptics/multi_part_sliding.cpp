@@ -108,10 +108,10 @@ class MultiPartSliding::Cycle {
     starts_.depenetrate(kSlew_m * milliseconds_);
     is_under_way_ = true;
     cycles_ = 0;
-    metaphors_.clear();
+    parts_to_forecast_.clear();
     for (const HeldPartState& part : shared_.states)
-      metaphors_.push_back(part.metaphor);
-    forecast_.begin_call(metaphors_, shared_.largest_margin, shared_.smallest_margin);
+      parts_to_forecast_.push_back({part.metaphor, part.lever});
+    forecast_.begin_call(parts_to_forecast_, shared_.largest_margin, shared_.smallest_margin);
     return true;
   }
 
@@ -241,7 +241,7 @@ class MultiPartSliding::Cycle {
   Starts starts_;
   SearchRadius radius_;
   StepForecast forecast_;
-  std::vector<Metaphor> metaphors_;  // of the parts
+  std::vector<PartToForecast> parts_to_forecast_;  // scratch memory
   std::vector<BodyPair> ignored_;
   CallStatistics statistics_;
   std::chrono::duration<double, std::milli> time_{0.0};  // since the simulation began

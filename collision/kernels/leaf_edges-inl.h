@@ -74,7 +74,7 @@ struct GreatestGap {
   }
 };
 
-// Those of `edges` and `edges_and_directions`.
+// `LeafKernels::edges`, and with directions `LeafKernels::edges_and_directions`.
 template <bool kKeepsDirections>
 HWY_INLINE PairMask raise_gaps(const LeafFrame& frame, float distance, PairMask pairs, LeafPair& leaves) {
   const hn::CappedTag<float, kPairs> d;

@@ -36,7 +36,7 @@ struct LeafKernels {
   /// farther apart than `distance` (radii of M).
   PairMask (*edges)(const LeafFrame& frame, float distance, PairMask pairs, LeafPair& leaves);
 
-  /// The same, and sets their directions.
+  /// The same, and sets the directions of the pairs that it returns.
   PairMask (*edges_and_directions)(const LeafFrame& frame, float distance, PairMask pairs, LeafPair& leaves);
 
   /// The least gap of the pairs in the mask; 1e30 if the mask is empty.

@@ -37,10 +37,11 @@ struct LeafPair {
   LeafTriangles q;
   TriangleGaps gaps;  ///< set by `LeafKernels::test`
   PairMask by_N = 0;  ///< the same: pairs whose gap is along the normal of the triangle of N, not of that of M
-  TriangleDirections directions;  ///< set by `LeafKernels::edges_and_directions`
-  PairMask by_edges = 0;          ///< the same: pairs whose direction is no normal
-  PairMask present_M = 0;         ///< pairs whose triangle of M exists and has an area
-  PairMask present_N = 0;         ///< the same for the triangle of N
+  // Set by `LeafKernels::edges_and_directions` for the pairs that it returns:
+  TriangleDirections directions;
+  PairMask by_edges = 0;   ///< pairs whose direction is not a normal
+  PairMask present_M = 0;  ///< pairs whose triangle of M exists and has an area
+  PairMask present_N = 0;  ///< the same for the triangle of N
 
   PairMask present() const { return present_M & present_N; }
 };

@@ -111,9 +111,12 @@ class Traversal {
     }
     near &= ~certain.intersect;
     if (near != 0 && step_.has_distance()) {
-      near = visitor_.asks_for_directions()
-                 ? visitor_.to_measure(leaf_M, leaf_N, step_.edges_and_directions(leaves_, near), leaves_)
-                 : step_.edges(leaves_, near);
+      if (visitor_.asks_for_directions()) {
+        near = visitor_.to_measure(leaf_M, leaf_N, step_.edges_and_directions(leaves_, near), leaves_);
+        step_.spend_on_tests(near);
+      } else {
+        near = step_.edges(leaves_, near);
+      }
     }
     return visitor_.visit_each(leaf_M, leaf_N, near);
   }

@@ -14,10 +14,11 @@
 namespace glissade::collision {
 namespace {
 
-// Work of a pair of nodes, of leaves, and of the distance of a triangle pair: about nanoseconds, rather more than
-// less: memory that grows and pairs that are sorted take their time too.
+// Work of a pair of nodes, of leaves, of the directions of its triangle pairs, and of the distance of one: about
+// nanoseconds, rather more than less: memory that grows and pairs that are sorted take their time too.
 constexpr std::int64_t kWorkOfNodes = 100;
 constexpr std::int64_t kWorkOfLeaves = 100;
+constexpr std::int64_t kWorkOfDirections = 500;
 constexpr std::int64_t kWorkOfTriangles = 500;
 
 // All pairs of a child of M in one set and a child of N in the other.
@@ -169,14 +170,17 @@ CertainPairs DopVisit::cross(const LeafPair& leaves) const {
 
 PairMask DopVisit::edges(LeafPair& leaves, PairMask pairs) const {
   const PairMask near = leaf_kernels_.edges(*leaf_frame_, distance_, pairs, leaves);
-  spend(kWorkOfTriangles * std::popcount(near));
+  spend_on_tests(near);
   return near;
 }
 
 PairMask DopVisit::edges_and_directions(LeafPair& leaves, PairMask pairs) const {
-  const PairMask near = leaf_kernels_.edges_and_directions(*leaf_frame_, distance_, pairs, leaves);
-  spend(kWorkOfTriangles * std::popcount(near));
-  return near;
+  spend(kWorkOfDirections);
+  return leaf_kernels_.edges_and_directions(*leaf_frame_, distance_, pairs, leaves);
+}
+
+void DopVisit::spend_on_tests(PairMask pairs) const {
+  spend(kWorkOfTriangles * std::popcount(pairs));
 }
 
 double DopVisit::least_gap(const LeafPair& leaves, PairMask pairs) const {

@@ -106,8 +106,10 @@ class DopVisit {
   /// their gaps. These pairs are then tested exactly, which counts as work here.
   PairMask edges(LeafPair& leaves, PairMask pairs) const;
 
-  /// The same, and sets their directions.
+  /// The same, and sets the directions of the pairs that it returns. Those of them that are tested exactly all the same
+  /// count with `spend_on_tests`.
   PairMask edges_and_directions(LeafPair& leaves, PairMask pairs) const;
+  void spend_on_tests(PairMask pairs) const;
 
   /// The least known gap of the triangle pairs in the mask, in radii of the base; 1e30 for an empty mask.
   double least_gap(const LeafPair& leaves, PairMask pairs) const;

@@ -123,7 +123,7 @@ void CandidatePairs::look_ahead(double step, double reach, double ahead, std::sp
   };
   if (!place(until_needed + 0.5 * step + kForward * ahead, next_.request.X_WB)) return;
   first_step_.forget();
-  if (fits_closely() && step > 0.0) {
+  if (fits_closely()) {
     place(until_needed, first_step_.X_WB_begin);
     place(until_needed + step, first_step_.X_WB_end);
   }

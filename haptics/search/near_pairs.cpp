@@ -1,7 +1,5 @@
 #include "search/near_pairs.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <glissade/collision/dual_tree_traversal.h>
@@ -13,8 +11,8 @@
 namespace glissade::haptics {
 namespace {
 
-/// Fraction of the margin: the gap from which on box pairs are accepted. Contacts hold parts one margin apart, and
-/// certificates need the minimum clearance only.
+/// Fraction of the margin: the gap from which on box pairs are accepted, and triangle pairs are not measured. Contacts
+/// hold parts one margin apart, and certificates need the minimum clearance only.
 constexpr double kEnough = 0.6;
 static_assert(kEnough > kMinClearanceOfMargin);
 
@@ -39,6 +37,7 @@ class PairSearch final : public collision::DualTreeVisitor {
   const collision::DopTree& tree_O() const { return obstacle_.body->tree; }
   const collision::DopTree& tree_V() const { return part_.body->tree; }
   const Eigen::Isometry3d& X_OV() const { return X_OV_; }
+  double enough() const { return enough_; }
 
   bool accepts(const collision::TreeChild& child_O, const collision::TreeChild& child_V) override {
     if (!is_sought(child_O, child_V)) return false;
@@ -135,7 +134,7 @@ void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const P
   PairSearch search(bodies, obstacle, part, margin, sought, meter, pairs, boxes);
   const collision::PairSelection features{&obstacle.body->features, &part.body->features};
   collision::traverse_near(search.tree_O(), search.tree_V(), search.X_OV(),
-                           {.within = radius, .exact_below = kEnough * margin}, workspace, search, &features);
+                           {.within = radius, .exact_below = search.enough()}, workspace, search, &features);
 }
 
 }  // namespace glissade::haptics

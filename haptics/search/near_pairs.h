@@ -14,9 +14,9 @@
 
 namespace glissade::haptics {
 
-/// Two triangles within the radius of a search.
+/// Two triangles within the radius of a search, or a little farther apart.
 struct NearPair : TrianglesOfBodies {
-  Eigen::Vector3d n_W;   ///< unit, from the obstacle to the part; without meaning where triangles touched
+  Eigen::Vector3d n_W;   ///< unit, from the obstacle to the part; zero where triangles touched
   double distance;       ///< metres, of single precision: their separation along n_W at the poses of the search
   bool turns_with_part;  ///< n_W is the normal of the part's triangle
   /// At least one of them owns an edge or vertex that can stop the other (`geometry::MeshTopology`).

@@ -59,7 +59,6 @@ struct Step {
   bool is_uncovered = false;    ///< shortened because the candidates might not be complete farther on
   Displacements missed{};       ///< what reach and candidates have cut off its end
   bool is_plain = false;        ///< neither clipped nor damped, by the rows of contacts alone
-  double energy_after = 0.0;    ///< joules: of the springs between the parts and the poses at which they aim
 };
 
 }  // namespace glissade::haptics

@@ -211,7 +211,7 @@ void StepFinder::end_trial(WorkBudget& budget) {
   stage_ = Stage::kDone;
 }
 
-/// Notes the energy of the springs after the step. Returns whether it is more than is allowed.
+/// Whether the springs hold more energy after the step than is allowed.
 bool StepFinder::gains_energy() {
   const std::vector<HeldPartState>& parts = shared_.states;
   bool all_arrive = true;
@@ -223,8 +223,7 @@ bool StepFinder::gains_energy() {
     remaining[p] = geometry::displacement_between(
         geometry::displaced(parts[p].result.X_WV, p_Vref, step_.displacements[p]), parts[p].X_WS, p_Vref);
   }
-  step_.energy_after = energy(parts, remaining);
-  return !all_arrive && step_.energy_after > most_energy_;
+  return !all_arrive && energy(parts, remaining) > most_energy_;
 }
 
 /// The parts of the pairs that could not be certified; all parts if the candidates did not even cover the step.

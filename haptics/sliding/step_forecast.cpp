@@ -1,6 +1,7 @@
 #include "sliding/step_forecast.h"
 
 #include <algorithm>
+#include <span>
 
 #include <glissade/base/assert.h>
 
@@ -19,23 +20,27 @@ constexpr double kLeftOfMotion = 0.02;
 constexpr double kLeftOfMargin = 0.5;
 constexpr double kLeft_m = 1e-6;
 
+/// Of the way of three steps: parts that come back as near as this to where they were go in a circle.
+constexpr double kOpenOfCircle = 0.02;
+
 /// An earlier call tells of steps that are alike to a factor of this, and for so many calls.
 constexpr double kAlike = 2.0;
 constexpr int kTrustedCalls = 4;
 
 }  // namespace
 
-void StepForecast::begin_call(std::span<const Metaphor> metaphors, double largest_margin, double smallest_margin) {
+void StepForecast::begin_call(std::span<const PartToForecast> parts, double largest_margin, double smallest_margin) {
   learn();
   steps_.clear();
-  count_ = metaphors.size();
+  count_ = parts.size();
   margin_ = largest_margin;
   least_ = kNotWorthIt * largest_margin;
-  aims_stay_ = std::none_of(metaphors.begin(), metaphors.end(),
-                            [](Metaphor metaphor) { return metaphor == Metaphor::kRubberBand; });
-  // The target of the incremental metaphor starts from where the part is: nothing would be made up for.
-  for (std::size_t p = 0; p < count_; ++p)
-    most_left_[p] = metaphors[p] == Metaphor::kIncremental ? 0.0 : std::min(kLeftOfMargin * smallest_margin, kLeft_m);
+  for (std::size_t p = 0; p < count_; ++p) {
+    // The target of the incremental metaphor starts from where the part is: nothing would be made up for.
+    const bool makes_up = parts[p].metaphor != Metaphor::kIncremental;
+    most_left_[p] = makes_up ? std::min(kLeftOfMargin * smallest_margin, kLeft_m) : 0.0;
+    levers_[p] = parts[p].lever;
+  }
 }
 
 /// Learns from the last call, if it ended because its remainder was worthless, and nothing shortened or damped a step.
@@ -44,7 +49,8 @@ void StepForecast::learn() {
     seen_.clear();
     return;
   }
-  const bool is_whole = steps_.size() > 1 && !gets_nowhere() && is_remainder_worthless();
+  const bool shrinks = steps_.size() > 1 && (steps_.back().length < least_ || !goes_in_circle());
+  const bool is_whole = shrinks && is_remainder_worthless();
   Lengths remainder = is_whole ? expected_remainders() : Lengths{};
   for (Seen& seen : seen_)
     seen.calls += seen.calls > 0 && seen.calls <= kTrustedCalls ? 1 : 0;
@@ -70,7 +76,7 @@ bool StepForecast::is_remainder_worthless() const {
   GLISSADE_ASSERT(!steps_.empty());
   if (steps_.back().length < least_) return true;
   if (!steps_.back().is_plain) return false;
-  if (gets_nowhere()) return true;
+  if (goes_in_circle()) return true;
   const Lengths remainder = expected_remainders();
   for (std::size_t p = 0; p < count_; ++p) {
     const double enough = std::max(least_, std::min(kLeftOfMotion * steps_.front().lengths[p], most_left_[p]));
@@ -79,13 +85,25 @@ bool StepForecast::is_remainder_worthless() const {
   return true;
 }
 
-/// Whether the last two steps together have brought the parts no nearer to where they aim. Contacts that bend may lead
-/// them in a circle of three steps for as long as a call lasts.
-bool StepForecast::gets_nowhere() const {
-  if (!aims_stay_ || steps_.size() < 3) return false;
-  const auto last = steps_.end() - 3;
-  return std::all_of(last, steps_.end(), [](const Step& step) { return step.is_plain; }) &&
-         steps_.back().energy_after >= last->energy_after;
+/// Whether the last three steps have led each part back to where it was before them. Contacts that bend may lead parts
+/// in such a circle for as long as a call lasts. Parts that close in on their optimum from all sides come back less
+/// exactly.
+bool StepForecast::goes_in_circle() const {
+  constexpr std::size_t kStepsOfCircle = 3;
+  if (steps_.size() < kStepsOfCircle) return false;
+  const auto last = std::span(steps_).last(kStepsOfCircle);
+  if (!std::all_of(last.begin(), last.end(), [](const Step& step) { return step.is_plain; })) return false;
+  for (std::size_t p = 0; p < count_; ++p) {
+    geometry::Displacement sum;
+    double way = 0.0;
+    for (const Step& step : last) {
+      sum.v += step.displacements[p].v;
+      sum.w += step.displacements[p].w;
+      way += step.lengths[p];
+    }
+    if (geometry::motion_bound(sum, levers_[p]) > kOpenOfCircle * way) return false;
+  }
+  return true;
 }
 
 StepForecast::Lengths StepForecast::expected_remainders() const {

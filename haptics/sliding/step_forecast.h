@@ -13,11 +13,17 @@
 
 namespace glissade::haptics {
 
+/// What a forecast needs to know of a part.
+struct PartToForecast {
+  Metaphor metaphor;
+  double lever;  ///< metres, as in `HeldPartState`
+};
+
 /// Not thread-safe.
 class StepForecast {
  public:
-  /// Begins a call for parts that are led by these metaphors. No step has been made yet. Margins in metres.
-  void begin_call(std::span<const Metaphor> metaphors, double largest_margin, double smallest_margin);
+  /// Begins a call for these parts. No step has been made yet. Margins in metres.
+  void begin_call(std::span<const PartToForecast> parts, double largest_margin, double smallest_margin);
 
   /// Notes a step of the call.
   void note(const Step& step);
@@ -40,16 +46,16 @@ class StepForecast {
   };
 
   void learn();
-  bool gets_nowhere() const;
+  bool goes_in_circle() const;
   Lengths expected_remainders() const;
   double by_shrinking(std::size_t p) const;
   double by_earlier_call(std::size_t p) const;
 
   std::size_t count_ = 0;  // of parts
   double least_ = 0.0;     // metres: less is never worth a step
-  bool aims_stay_ = true;  // during a call
   Lengths most_left_{};
   double margin_ = 0.0;  // metres
+  Lengths levers_{};     // of the parts
   std::vector<Step> steps_;
   std::vector<Seen> seen_;  // by the number of the step in its call
 };

@@ -1,9 +1,11 @@
 // Visits of what is near, for those who take on more than triangles, against plain loops.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -216,6 +218,48 @@ TEST_F(NearVisit, ShowsSelectedPairsBelowWhatWasTakenOnce) {
     below += visitor.seen_below.size();
   }
   EXPECT_GT(below, 20U);
+}
+
+// One pair alone is measured by scalar code, many by vector code.
+TEST_F(NearVisit, TellsNoDirectionOfTrianglesThatCross) {
+  const geometry::TriangleMesh lying{{{-1.0, -1.0, 0.0}, {1.0, -1.0, 0.0}, {0.1, 1.3, 0.0}}, {{0, 1, 2}}};
+  const geometry::TriangleMesh standing{{{0.1, -0.3, -0.7}, {0.2, -0.2, 0.9}, {0.3, 0.4, 0.8}}, {{0, 1, 2}}};
+  for (const int copies : {1, 4}) {
+    const std::vector<geometry::TriangleMesh> many(static_cast<std::size_t>(copies), standing);
+    const DopTree tree_A(std::make_shared<geometry::TriangleMesh>(lying));
+    const DopTree tree_B(std::make_shared<geometry::TriangleMesh>(geometry::merge(many)));
+    Taker visitor(0);
+    traverse_near(tree_A, tree_B, Isometry3d::Identity(), {0.1, 0.1}, workspace_, visitor);
+    ASSERT_EQ(visitor.seen.size(), static_cast<std::size_t>(copies));
+    for (const NearTriangles& near : visitor.seen) {
+      EXPECT_EQ(near.n_A, Vector3d(Vector3d::Zero()));
+      EXPECT_EQ(near.gap, 0.0);
+    }
+  }
+}
+
+TEST_F(NearVisit, HasUnitDirectionsAtPosesThatAreNotQuiteRigid) {
+  const DopTree large(std::make_shared<geometry::TriangleMesh>(geometry::make_sphere(1.0, 500)));
+  const DopTree small(std::make_shared<geometry::TriangleMesh>(geometry::make_sphere(0.5, 500)));
+  Isometry3d X_AB(Eigen::Translation3d(1.52, 0.1, 0.0) * Eigen::AngleAxisd(0.3, Vector3d::UnitZ()));
+  X_AB.linear()(0, 1) += 2e-4;
+  for (const bool is_large_first : {true, false}) {
+    Taker visitor(0);
+    traverse_near(is_large_first ? large : small, is_large_first ? small : large, X_AB, {0.1, 0.01}, workspace_,
+                  visitor);
+    ASSERT_FALSE(visitor.seen.empty());
+    for (const NearTriangles& near : visitor.seen)
+      ASSERT_NEAR(near.n_A.norm(), 1.0, 1e-12);
+  }
+}
+
+TEST_F(NearVisit, RefusesDistancesThatAreNone) {
+  const DopTree plate(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({1.0, 1.0}, 20)));
+  Taker visitor(0);
+  for (const NearDistances& distances : {NearDistances{-1.0, 0.1}, NearDistances{0.1, -1.0}, NearDistances{0.1, NAN}}) {
+    EXPECT_THROW(traverse_near(plate, plate, Isometry3d::Identity(), distances, workspace_, visitor),
+                 std::invalid_argument);
+  }
 }
 
 TEST_F(NearVisit, LooksAtNothingBelowWhatWasTaken) {

@@ -87,7 +87,7 @@ void add_leaves(const PlacedTrees& placed, Bits& bits) {
       const CertainPairs certain = leaf_kernels().cross(frame, leaves);
       const PairMask nearer = leaf_kernels().edges(frame, 0.05F, near & 0x2b5d, leaves);
       const PairMask with_directions = leaf_kernels().edges_and_directions(frame, 0.05F, near & 0x6a3c, leaves);
-      bits.insert(bits.end(), {with_directions, leaves.by_edges & with_directions});
+      bits.insert(bits.end(), {with_directions, leaves.by_edges & with_directions, leaves.by_N & near});
       for (PairMask rest = with_directions; rest != 0; rest &= rest - 1) {
         for (const auto& components : leaves.directions.n)
           add(components[static_cast<std::size_t>(std::countr_zero(rest))], bits);

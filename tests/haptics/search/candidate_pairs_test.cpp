@@ -310,6 +310,42 @@ TEST(CandidatePairs, AreAllTrianglesWhereVeryManyWereNear) {
   EXPECT_GT(candidates.pairs().pair_count(), 5000U);
 }
 
+// The planes of a search that finds very many pairs are made to last for the step in which its answer is first needed.
+TEST(CandidatePairs, AreFoundForAStepThatIsExpectedWhereVeryManyWereNear) {
+  constexpr double kReach = 0.1e-3;
+  constexpr double kAhead = 0.2e-3;
+  ContactScene ball_in_socket({test_support::obstacle_of(geometry::make_sphere(0.0201, 4000))},
+                              {test_support::part_of(geometry::make_sphere(0.02, 4000))}, std::vector<double>{1e-6});
+  CandidatePairs candidates(ball_in_socket, kGreatest);
+  const geometry::Displacement turn{Vector3d::Zero(), Vector3d(2e-3, 1e-3, 0.0)};
+  const double step = geometry::motion_bound(turn, ball_in_socket.movers()[0]->radius());
+  const std::size_t ball = ball_in_socket.body_of_mover(0);
+  int expected = 0;
+  for (int tick = 0; tick < 40; ++tick) {
+    const bool is_other = candidates.take_ahead(kReach, step) || candidates.look(kReach, kAhead, {});
+    const ExpectedStep& first_step = candidates.pairs().search().request.first_step;
+    const Isometry3d& X_WV = ball_in_socket.bodies()[ball].X_WB;
+    if (is_other && first_step.is_known()) {
+      ++expected;
+      const Isometry3d X_after = geometry::displaced(X_WV, ball_in_socket.movers()[0]->p_Vref(), turn);
+      EXPECT_LT((first_step.X_WB_begin.front().matrix() - X_WV.matrix()).norm(), 3.0 * turn.w.norm());
+      EXPECT_LT((first_step.X_WB_end.front().matrix() - X_after.matrix()).norm(), 3.0 * turn.w.norm());
+      EXPECT_NEAR(
+          Eigen::AngleAxisd(first_step.X_WB_begin.front().linear().transpose() * first_step.X_WB_end.front().linear())
+              .angle(),
+          turn.w.norm(), 0.1 * turn.w.norm());
+    }
+    candidates.look_ahead(step, kReach, kAhead, {});
+    ball_in_socket.place(0, geometry::displaced(X_WV, ball_in_socket.movers()[0]->p_Vref(), turn));
+    candidates.moved();
+  }
+  ASSERT_GT(candidates.pairs().pair_count(), 5000U);
+  EXPECT_GT(expected, 3);
+  candidates.clear();
+  candidates.look(kReach, kAhead, {});
+  EXPECT_FALSE(candidates.pairs().search().request.first_step.is_known()) << "no step is expected";
+}
+
 /// Everything that `candidates` has to say, bit for bit.
 std::vector<double> contents(const CandidatePairs& candidates, double reach) {
   std::vector<double> numbers;

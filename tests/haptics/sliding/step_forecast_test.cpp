@@ -2,6 +2,7 @@
 
 #include "sliding/step_forecast.h"
 
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ Step step_of(double length, bool is_plain = true) {
   step.length = length;
   step.lengths[0] = length;
   step.is_plain = is_plain;
-  step.energy_after = length;  // joules: any that falls as steps shrink
+  step.displacements[0].v.x() = length;
   return step;
 }
 
@@ -36,7 +37,8 @@ class StepForecasts : public ::testing::Test {
     return forecast_.is_remainder_worthless();
   }
 
-  std::vector<Metaphor> parts_{Metaphor::kForceFeedback};
+  static constexpr double kLever = 0.01;  // metres
+  std::vector<PartToForecast> parts_{{Metaphor::kForceFeedback, kLever}};
   StepForecast forecast_;
 };
 
@@ -111,7 +113,7 @@ TEST_F(StepForecasts, OfOnePartDoNotHideAnother) {
 }
 
 TEST_F(StepForecasts, LeaveNoMoreThanAtRestWhereItWouldNotBeMadeUpFor) {
-  parts_.front() = Metaphor::kIncremental;
+  parts_.front().metaphor = Metaphor::kIncremental;
   remainder_is_worthless({90e-6, 0.5e-6, 0.0});
   EXPECT_FALSE(remainder_is_worthless({90e-6}));
 }
@@ -122,35 +124,55 @@ TEST_F(StepForecasts, ForgetWhatWasBeforeANewHold) {
   EXPECT_FALSE(remainder_is_worthless({90e-6}));
 }
 
-/// A call whose steps leave so much energy in the springs.
-std::vector<Step> steps_with_energies(const std::vector<double>& energies) {
-  std::vector<Step> steps;
-  for (const double energy : energies) {
-    steps.push_back(step_of(5e-6));
-    steps.back().energy_after = energy;
-  }
-  return steps;
+/// A step of a part by (x, y) and a turn about z, metres and rad.
+Step step_by(double x, double y, double turn = 0.0) {
+  Step step;
+  step.displacements[0] = {{x, y, 0.0}, {0.0, 0.0, turn}};
+  step.lengths[0] = step.length = std::hypot(x, y) + 0.01 * std::abs(turn);
+  step.is_plain = true;
+  return step;
 }
 
 // Contacts that bend may lead a part in a circle.
-TEST_F(StepForecasts, EndACallWhoseStepsGetNowhere) {
-  EXPECT_FALSE(remainder_is_worthless_after(steps_with_energies({3e-3, 2e-3, 2.5e-3})));
-  EXPECT_TRUE(remainder_is_worthless_after(steps_with_energies({3e-3, 2e-3, 2.5e-3, 2e-3})));
-  EXPECT_FALSE(remainder_is_worthless_after(steps_with_energies({3e-3, 4e-3}))) << "a contact got its margin back";
+TEST_F(StepForecasts, EndACallWhoseStepsLeadBackToWhereTheyWere) {
+  const Step first = step_by(80e-6, 0.0);
+  const std::vector<Step> circle{first, step_by(4e-6, 0.0, 4e-4), step_by(-1e-6, 2e-6, -1e-4),
+                                 step_by(-2.98e-6, -2.02e-6, -2.98e-4)};
+  EXPECT_TRUE(remainder_is_worthless_after(circle));
+  EXPECT_FALSE(remainder_is_worthless_after({circle[0], circle[1], circle[2]})) << "not yet";
+  std::vector<Step> turning_on = circle;
+  turning_on[3].displacements[0].w.z() = 1e-4;
+  EXPECT_FALSE(remainder_is_worthless_after(turning_on));
+  std::vector<Step> shortened = circle;
+  shortened[2].is_plain = false;
+  EXPECT_FALSE(remainder_is_worthless_after(shortened));
 }
 
-TEST_F(StepForecasts, LearnNothingFromSuchACall) {
-  remainder_is_worthless_after(steps_with_energies({3e-3, 3e-3, 3e-3}));
+TEST_F(StepForecasts, LetAPartCloseInOnItsOptimum) {
+  EXPECT_FALSE(remainder_is_worthless_after({step_by(100e-6, 0.0), step_by(-80e-6, 0.0), step_by(64e-6, 0.0)}))
+      << "to and fro";
+  constexpr double kThird = 2.0943951;  // rad
+  std::vector<Step> spiral;
+  for (int i = 0; i < 6; ++i) {
+    const double length = 100e-6 * std::pow(0.9, i);
+    spiral.push_back(step_by(length * std::cos(i * kThird), length * std::sin(i * kThird)));
+  }
+  EXPECT_FALSE(remainder_is_worthless_after(spiral));
+}
+
+TEST_F(StepForecasts, LearnNothingFromACircle) {
+  remainder_is_worthless_after({step_by(5e-6, 0.0), step_by(-2e-6, 0.0), step_by(-3e-6, 0.0)});
   EXPECT_FALSE(remainder_is_worthless({5e-6}));
 }
 
-TEST_F(StepForecasts, LetStepsGoOnThatWereShortenedOrAimElsewhere) {
-  std::vector<Step> steps = steps_with_energies({2e-3, 2e-3, 2e-3});
-  steps.front().is_plain = false;
-  EXPECT_FALSE(remainder_is_worthless_after(steps));
-  steps.front().is_plain = true;
-  EXPECT_TRUE(remainder_is_worthless_after(steps));
-  parts_ = {Metaphor::kRubberBand};
+TEST_F(StepForecasts, EndACallOfSeveralPartsWhenAllGoInCircles) {
+  parts_.push_back(parts_.front());
+  std::vector<Step> steps{step_by(4e-6, 0.0), step_by(-1e-6, 2e-6), step_by(-3e-6, -2e-6)};
+  EXPECT_TRUE(remainder_is_worthless_after(steps)) << "the other one stands still";
+  for (Step& step : steps) {
+    step.displacements[1].v.x() = 10e-6;
+    step.lengths[1] = 10e-6;
+  }
   EXPECT_FALSE(remainder_is_worthless_after(steps));
 }
 
