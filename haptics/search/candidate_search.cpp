@@ -116,7 +116,8 @@ void CandidateSearch::find_pairs(const collision::FrameResult& near, const Candi
     const BodyPair bodies{static_cast<std::int32_t>(objects.object_A.index),
                           static_cast<std::int32_t>(objects.object_B.index)};
     find_near_pairs(bodies, bodies_[objects.object_A.index], bodies_[objects.object_B.index],
-                    scene_.margin(bodies.obstacle, bodies.part), request.radius, sought, workspace_, meter_, set.pairs,
+                    scene_.margin(bodies.obstacle, bodies.part), request.radius, sought,
+                    request.has_planes ? MeasuredPairs::kNearOnly : MeasuredPairs::kAll, workspace_, meter_, set.pairs,
                     set.boxes);
   }
   const auto count = [&](bool NearPair::*property) {

@@ -1,6 +1,7 @@
 #include "search/near_pairs.h"
 
 #include <cmath>
+#include <limits>
 
 #include <glissade/collision/dual_tree_traversal.h>
 
@@ -15,6 +16,8 @@ namespace {
 /// hold parts one margin apart, and certificates need the minimum clearance only.
 constexpr double kEnough = 0.6;
 static_assert(kEnough > kMinClearanceOfMargin);
+
+constexpr double kAllDistances = std::numeric_limits<double>::infinity();
 
 /// Work of taking over and sorting a pair, in the unit of `collision::WorkMeter`: rough, and high rather than low.
 constexpr std::int64_t kWorkOfPair = 400;
@@ -129,12 +132,14 @@ PairToCertify to_certify(const NearPair& pair) {
 }
 
 void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
-                     double radius, BoxPairs sought, collision::QueryWorkspace& workspace, collision::WorkMeter* meter,
-                     std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes) {
+                     double radius, BoxPairs sought, MeasuredPairs measured, collision::QueryWorkspace& workspace,
+                     collision::WorkMeter* meter, std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes) {
   PairSearch search(bodies, obstacle, part, margin, sought, meter, pairs, boxes);
   const collision::PairSelection features{&obstacle.body->features, &part.body->features};
-  collision::traverse_near(search.tree_O(), search.tree_V(), search.X_OV(),
-                           {.within = radius, .exact_below = search.enough()}, workspace, search, &features);
+  collision::traverse_near(
+      search.tree_O(), search.tree_V(), search.X_OV(),
+      {.within = radius, .exact_below = measured == MeasuredPairs::kAll ? kAllDistances : search.enough()}, workspace,
+      search, &features);
 }
 
 }  // namespace glissade::haptics

@@ -33,13 +33,20 @@ enum class BoxPairs {
   kNotOfContacts       ///< not where both have triangles that may yield contacts
 };
 
+/// Which pairs of triangles a search measures. The others have the best direction of a few, and no distance but along
+/// it.
+enum class MeasuredPairs {
+  kAll,      ///< where nothing but the distance along one direction will be known of a pair
+  kNearOnly  ///< those that no such direction separates by more than half a margin or so: planes will be turned
+};
+
 /// Appends the pairs of two bodies within `radius` (metres) of each other: the pairs of boxes that a plane separates,
 /// with distances of single precision, the pairs of triangles that lie in no such boxes, and of the others those that
 /// may yield contacts. So each pair of triangles within the radius lies in one pair to certify. `margin` (metres) as in
 /// `ContactScene::margin`. Only those pairs of boxes count that are `sought`; of the others, the triangles do. The
 /// `meter` receives the work of taking over each pair before it is done; null: nobody does.
 void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
-                     double radius, BoxPairs sought, collision::QueryWorkspace& workspace, collision::WorkMeter* meter,
-                     std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes);
+                     double radius, BoxPairs sought, MeasuredPairs measured, collision::QueryWorkspace& workspace,
+                     collision::WorkMeter* meter, std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes);
 
 }  // namespace glissade::haptics

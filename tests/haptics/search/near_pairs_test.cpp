@@ -39,7 +39,7 @@ struct Found {
       for (std::size_t other = 0; other < part; ++other) {
         const BodyPair pair{static_cast<std::int32_t>(other), static_cast<std::int32_t>(part)};
         find_near_pairs(pair, bodies[other], bodies[part], scene.margin(pair.obstacle, pair.part), radius, sought,
-                        workspace, nullptr, pairs, boxes);
+                        MeasuredPairs::kNearOnly, workspace, nullptr, pairs, boxes);
       }
     }
   }
