@@ -1,8 +1,8 @@
 // Visits of what is near, for those who take on more than triangles, against plain loops.
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -256,7 +256,8 @@ TEST_F(NearVisit, HasUnitDirectionsAtPosesThatAreNotQuiteRigid) {
 TEST_F(NearVisit, RefusesDistancesThatAreNone) {
   const DopTree plate(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({1.0, 1.0}, 20)));
   Taker visitor(0);
-  for (const NearDistances& distances : {NearDistances{-1.0, 0.1}, NearDistances{0.1, -1.0}, NearDistances{0.1, NAN}}) {
+  for (const NearDistances& distances : {NearDistances{-1.0, 0.1}, NearDistances{0.1, -1.0},
+                                         NearDistances{0.1, std::numeric_limits<double>::quiet_NaN()}}) {
     EXPECT_THROW(traverse_near(plate, plate, Isometry3d::Identity(), distances, workspace_, visitor),
                  std::invalid_argument);
   }

@@ -101,7 +101,8 @@ TEST_P(LeafKernelsTest, NormalsAndEdgesSeparateOnlyWhatIsFurtherApart) {
 double gap_along(const Vector3d& n, const LeafTriangles& p, std::size_t of_p, const LeafTriangles& q,
                  std::size_t of_q) {
   const auto height = [&](const LeafTriangles& leaf, std::size_t triangle, std::size_t c) {
-    return n.dot(Vector3d(leaf.corner[0][c][triangle], leaf.corner[1][c][triangle], leaf.corner[2][c][triangle]));
+    return n.dot(Eigen::Vector3f(leaf.corner[0][c][triangle], leaf.corner[1][c][triangle], leaf.corner[2][c][triangle])
+                     .cast<double>());
   };
   return std::min({height(q, of_q, 0), height(q, of_q, 1), height(q, of_q, 2)}) -
          std::max({height(p, of_p, 0), height(p, of_p, 1), height(p, of_p, 2)});
@@ -125,7 +126,8 @@ TEST_P(LeafKernelsTest, DirectionsSeparateTrianglesByTheirGaps) {
         const auto gap = static_cast<double>(expected.gap[pair]);
         if (!has(nearer, pair) || !(gap > 0.0)) continue;
         const auto& components = visit.leaves.directions.n;
-        const Vector3d n = Vector3d(components[0][pair], components[1][pair], components[2][pair]).normalized();
+        const Vector3d n =
+            Eigen::Vector3f(components[0][pair], components[1][pair], components[2][pair]).cast<double>().normalized();
         const LeafTriangles& p = visit.leaves.p;
         const LeafTriangles& q = visit.leaves.q;
         ASSERT_GE(gap_along(n, p, pair / kWidth, q, pair % kWidth), gap) << "from M to N";
@@ -137,8 +139,8 @@ TEST_P(LeafKernelsTest, DirectionsSeparateTrianglesByTheirGaps) {
         const bool by_N = has(visit.leaves.by_N, pair);
         const LeafTriangles& own = by_N ? q : p;
         const std::size_t triangle = by_N ? pair % kWidth : pair / kWidth;
-        const Vector3d normal(own.normal[0][triangle], own.normal[1][triangle], own.normal[2][triangle]);
-        ASSERT_GT(std::abs(n.dot(normal.normalized())), 1.0 - 1e-6);
+        const Eigen::Vector3f normal(own.normal[0][triangle], own.normal[1][triangle], own.normal[2][triangle]);
+        ASSERT_GT(std::abs(n.dot(normal.cast<double>().normalized())), 1.0 - 1e-6);
         ++(by_N ? by_normals_of_N : by_normals_of_M);
       }
     });

@@ -21,14 +21,14 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 // Metres:
-constexpr double kMargin = 2e-6;
+constexpr double kMarginOfBall = 2e-6;
 constexpr double kBall = 0.02;
 constexpr double kSocket = 0.02003;
 
 ContactScene ball_in_socket() {
   return {{test_support::obstacle_of(geometry::make_sphere(kSocket, 3000))},
           {test_support::part_of(geometry::make_sphere(kBall, 3000))},
-          std::vector<double>{kMargin}};
+          std::vector<double>{kMarginOfBall}};
 }
 
 CandidateRequest request_at(const Isometry3d& X_WV) {
@@ -75,7 +75,7 @@ struct PairsOfInterest {
     return std::count_if(gaps.begin(), gaps.end(), [](float gap) { return gap < kOfInterest; });
   }
 
-  static constexpr float kOfInterest = 2.5F * static_cast<float>(kMargin);
+  static constexpr float kOfInterest = 2.5F * static_cast<float>(kMarginOfBall);
   static constexpr float kRounding = 1e-7F;
   std::ptrdiff_t of_planes_of_search = 0;
   std::ptrdiff_t of_lasting_planes = 0;
@@ -98,7 +98,7 @@ TEST(LastingPlanes, AreThoseOfTheMotionOfBothBodies) {
   const ContactScene scene({},
                            {test_support::part_of(geometry::make_sphere(kSocket, 3000)),
                             test_support::part_of(geometry::make_sphere(kBall, 3000))},
-                           std::vector<double>{kMargin, kMargin});
+                           std::vector<double>{kMarginOfBall, kMarginOfBall});
   const Isometry3d X_still = Isometry3d::Identity();
   CandidateRequest request = request_at(X_still);
   request.X_WB.push_back(kAside);
