@@ -13,7 +13,8 @@ constexpr float kUnknownTop = 1e30F;
 
 /// Of a gap, in the greatest lengths that it is made of. With u = 2^-24: the products n_j A_jk x_k have four factors
 /// that are rounded and pass two sums of three each, so all together they err by less than 8 √3 u times the length of
-/// x; n·t by 4 u |t|, the heights of the other triangle by 3 u. The rest is for the length of n and the last sums.
+/// x; n·t by 4 u |t|, the height of the other triangle, which is computed from n before that is rounded, by u. The rest
+/// is for the length of n and the last sums.
 constexpr double kSlackOfGap = 32.0 / (1 << 24);
 
 PlaneMap map_of(const Eigen::Matrix3d& A, const Eigen::Vector3d& t) {
@@ -72,14 +73,13 @@ bool PlanesOfBodies::turn(std::size_t slot, const FixedDirection& direction, std
   farthest_squared_ = std::max(farthest_squared_, farthest_squared);
   const geometry::TrianglePoints& own = direction.turns_with_part ? x : y;
   const geometry::TrianglePoints& other = direction.turns_with_part ? y : x;
-  const Eigen::Vector3f n = (direction.turns_with_part ? -direction.n : direction.n).cast<float>();
-  const Eigen::Vector3d rounded = n.cast<double>();
-  const double top = std::max({rounded.dot(own[0]), rounded.dot(own[1]), rounded.dot(own[2])});
+  const Eigen::Vector3d n = direction.turns_with_part ? Eigen::Vector3d(-direction.n) : direction.n;
+  const double top = std::max({n.dot(own[0]), n.dot(own[1]), n.dot(own[2])});
   PlaneBlock& block = blocks_[slot / kPlanesAtOnce];
   const std::size_t lane = slot % kPlanesAtOnce;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
-    block.n[axis][lane] = n[i];
+    block.n[axis][lane] = static_cast<float>(n[i]);
     for (std::size_t c = 0; c < 3; ++c)
       block.x[c][axis][lane] = static_cast<float>(other[c][i]);
   }
