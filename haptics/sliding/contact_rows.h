@@ -47,6 +47,8 @@ class ContactRows {
   void allow_standing_still();
 
   std::span<const CoupledRow> rows() const { return rows_; }
+  /// The contacts with rows, one for each.
+  std::span<const Contact> contacts() const { return contacts_; }
   /// The contacts with rows and, after them, those ahead. From then on, until the next call of `find`, no function may
   /// be called that uses contacts.
   std::vector<Contact>& all_contacts();

@@ -36,7 +36,7 @@ geometry::Displacement without_rounding(const geometry::Displacement& d, double 
 }  // namespace
 
 StepFinder::StepFinder(SimulatedParts& shared)
-    : shared_(shared), rows_(shared), certificate_(shared.scene), grips_(shared.count()) {}
+    : shared_(shared), rows_(shared), turned_rows_(shared), certificate_(shared.scene), grips_(shared.count()) {}
 
 void StepFinder::look(double reach, double reach_ahead, WorkBudget& budget) {
   reach_ = reach;
@@ -91,26 +91,81 @@ void StepFinder::begin_trial(WorkBudget& budget) {
 void StepFinder::try_projection(WorkBudget& budget) {
   Displacements shortened;
   do {
-    budget.spend(kWorkOfProjection + kWorkOfRow * std::ssize(rows_.rows()));
+    const std::int64_t work = kWorkOfProjection + kWorkOfRow * std::ssize(rows_.rows());
+    budget.spend(work);
     if (!project(damped_)) {
       step_ = {.clipped = true};
       end_trial(budget);
       return;
     }
-    const AllowedFractions allowed = allowed_fractions(shared_, projected_, rows_, reach_);
-    step_ = {};
-    for (std::size_t p = 0; p < shared_.count(); ++p) {
-      const double fraction = allowed.of_parts[p];
-      shortened[p] = projected_[p].scaled(fraction);
-      step_.missed[p] = projected_[p].scaled(allowed.beyond_reach[p] - fraction);
-      step_.arrives[p] = fraction == 1.0;
-      step_.clipped = step_.clipped || fraction < 1.0;
-      step_.is_reach_short = step_.is_reach_short || fraction < allowed.beyond_reach[p];
+    shortened = shorten();
+    if (is_worth_another(shortened)) {
+      budget.spend(work);
+      project_again();
+      shortened = shorten();
     }
-    keep_covered(shortened);
   } while (rows_.find_violated(shortened, budget));
   ++projections_;
   begin_certificate(shortened, budget);
+}
+
+/// The projected displacements, as far as they may lead. Begins the step with what is known of it then.
+Displacements StepFinder::shorten() {
+  Displacements shortened;
+  const AllowedFractions allowed = allowed_fractions(shared_, projected_, rows_, reach_);
+  step_ = {};
+  for (std::size_t p = 0; p < shared_.count(); ++p) {
+    const double fraction = allowed.of_parts[p];
+    shortened[p] = projected_[p].scaled(fraction);
+    step_.missed[p] = projected_[p].scaled(allowed.beyond_reach[p] - fraction);
+    step_.arrives[p] = fraction == 1.0;
+    step_.clipped = step_.clipped || fraction < 1.0;
+    step_.is_reach_short = step_.is_reach_short || fraction < allowed.beyond_reach[p];
+  }
+  keep_covered(shortened);
+  return shortened;
+}
+
+/// Whether the projected displacements turn the contacts so far that another projection would change them by as much as
+/// a step that counts: the forces turn with the contacts, and gaps change to second order.
+bool StepFinder::is_worth_another(const Displacements& displacements) const {
+  if (step_.clipped || damping_ > 0.0 || forces_.empty() || shared_.rules.friction.is_on()) return false;
+  double change = 0.0;
+  for (std::size_t p = 0; p < shared_.count(); ++p) {
+    const geometry::Displacement& d = displacements[p];
+    const double lever = shared_.states[p].lever;
+    const geometry::Displacement left{wanted_[p].v - d.v, wanted_[p].w - d.w};
+    change += d.w.norm() * (geometry::motion_bound(left, lever) + geometry::motion_bound(d, lever));
+  }
+  return change > kNotWorthIt * shared_.largest_margin;
+}
+
+/// Projects what is left after the projected displacements on the rows as they are there, and adds it to them. Where
+/// the solver finds no solution, nothing changes.
+void StepFinder::project_again() {
+  const std::vector<HeldPartState>& parts = shared_.states;
+  Displacements left;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (!parts[p].is_held()) continue;
+    const Eigen::Vector3d& p_Vref = parts[p].p_Vref;
+    left[p] = geometry::displacement_between(geometry::displaced(parts[p].result.X_WV, p_Vref, projected_[p]),
+                                             parts[p].X_WS, p_Vref);
+  }
+  const CoupledProjection projection =
+      solver_.project(shared_.of_parts(left), grips_, turned_rows_.find(projected_, rows_.rows(), rows_.contacts()));
+  if (projection.status != ProjectionStatus::kSolved) return;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const Eigen::Isometry3d& X_WV = parts[p].result.X_WV;
+    const Eigen::Vector3d& p_Vref = parts[p].p_Vref;
+    const Eigen::Isometry3d X_WV_to =
+        geometry::displaced(geometry::displaced(X_WV, p_Vref, projected_[p]), p_Vref, projection.displacements[p]);
+    projected_[p] = geometry::displacement_between(X_WV, X_WV_to, p_Vref);
+  }
+  forces_.clear();
+  for (int i = 0; i < projection.active_count; ++i) {
+    const auto slot = static_cast<std::size_t>(i);
+    forces_.push_back({projection.active[slot], projection.force[slot]});
+  }
 }
 
 /// Shortens a step whose path the candidates do not cover. They cover every path that is no longer than their distance

@@ -14,6 +14,7 @@
 #include "certificate/path_certificate.h"
 #include "sliding/contact_rows.h"
 #include "sliding/simulated_parts.h"
+#include "sliding/turned_rows.h"
 #include "solver/friction.h"
 #include "solver/projection.h"
 #include "work/work_budget.h"
@@ -57,6 +58,9 @@ class StepFinder {
   void note_arrivals();
   bool gains_energy();
   bool project(const Displacements& wanted);
+  bool is_worth_another(const Displacements& displacements) const;
+  void project_again();
+  Displacements shorten();
   void solve_friction(const Displacements& wanted);
   bool slipped(const CoupledRow& row) const;
   void keep_covered(Displacements& displacements);
@@ -65,6 +69,7 @@ class StepFinder {
 
   SimulatedParts& shared_;
   ContactRows rows_;
+  TurnedRows turned_rows_;
   PathCertificate certificate_;
   double reach_ = 0.0;  // metres
 
