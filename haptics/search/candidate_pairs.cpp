@@ -158,8 +158,7 @@ void CandidatePairs::request(double radius, double ahead, std::span<const BodyPa
                              const ExpectedStep& first_step) {
   GLISSADE_ASSERT(!is_with_thread_);
   next_.request.radius = radius;
-  next_.request.has_planes = has_planes_;
-  next_.request.fit_closely = fits_closely();
+  next_.request.sought = sought();
   next_.request.first_step = first_step;
   next_.request.ignored.assign(ignored.begin(), ignored.end());
   next_.ahead = ahead;
@@ -203,6 +202,11 @@ bool CandidatePairs::give_up_search() {
 /// Whether the last search found so many pairs.
 bool CandidatePairs::fits_closely() const {
   return has_planes_ && now_.pair_count() > kPairsOfLongSearch;
+}
+
+SoughtPairs CandidatePairs::sought() const {
+  if (!has_planes_) return SoughtPairs::kWithDistances;
+  return fits_closely() ? SoughtPairs::kWithPlanesInCloseFit : SoughtPairs::kWithPlanes;
 }
 
 bool CandidatePairs::is_too_large() const {

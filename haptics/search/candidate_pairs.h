@@ -108,6 +108,7 @@ class CandidatePairs {
   bool take();
   void request(double radius, double ahead, std::span<const BodyPair> ignored, const ExpectedStep& first_step = {});
   bool fits_closely() const;
+  SoughtPairs sought() const;
   bool is_settled();
   bool give_up_search();
   void place_ahead(double way, std::vector<Eigen::Isometry3d>& X_WB);

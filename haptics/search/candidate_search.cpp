@@ -100,9 +100,10 @@ void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
   find_pairs(near, request, set);
   nearest_first_.sort(set.pairs, unsorted_pairs_);
   nearest_first_.sort(set.boxes, unsorted_boxes_);
-  if (request.has_planes) find_planes(set);
-  if (request.has_planes && request.first_step.is_known())
-    lasting_planes_.turn(request.first_step, bodies_, set.planes);
+  if (request.sought != SoughtPairs::kWithDistances) {
+    find_planes(set);
+    if (request.first_step.is_known()) lasting_planes_.turn(request.first_step, bodies_, set.planes);
+  }
   set.report.total = clock_.now() - start;
 }
 
@@ -110,15 +111,12 @@ void CandidateSearch::find_pairs(const collision::FrameResult& near, const Candi
                                  CandidateSet& set) {
   set.pairs.clear();
   set.boxes.clear();
-  BoxPairs sought = request.has_planes ? BoxPairs::kNotOfContactsOnly : BoxPairs::kAll;
-  if (request.fit_closely) sought = BoxPairs::kNotOfContacts;
   for (const collision::ObjectPair& objects : near.meeting) {
     const BodyPair bodies{static_cast<std::int32_t>(objects.object_A.index),
                           static_cast<std::int32_t>(objects.object_B.index)};
     find_near_pairs(bodies, bodies_[objects.object_A.index], bodies_[objects.object_B.index],
-                    scene_.margin(bodies.obstacle, bodies.part), request.radius, sought,
-                    request.has_planes ? MeasuredPairs::kNearOnly : MeasuredPairs::kAll, workspace_, meter_, set.pairs,
-                    set.boxes);
+                    scene_.margin(bodies.obstacle, bodies.part), request.radius, request.sought, workspace_, meter_,
+                    set.pairs, set.boxes);
   }
   const auto count = [&](bool NearPair::*property) {
     return static_cast<std::size_t>(

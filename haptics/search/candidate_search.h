@@ -40,17 +40,14 @@ struct CandidateRequest {
   std::vector<Eigen::Isometry3d> X_WB;  ///< one for each mover
   double radius = 0.0;                  ///< metres
   std::vector<BodyPair> ignored;        ///< in ascending order
-  bool has_planes = true;               ///< the answer has them
-  ExpectedStep first_step;              ///< in which the answer is needed; may be unknown
-  /// The search finds no pairs of boxes that both hold triangles with features. Where curved parts fit closely, the
-  /// planes of such boxes fail within a few steps, and the planes of their triangles last longer.
-  bool fit_closely = false;
+  SoughtPairs sought = SoughtPairs::kWithPlanes;
+  ExpectedStep first_step;  ///< in which the answer is needed; may be unknown
 };
 
 /// The answer: what `find_near_pairs` finds, nearest first.
 struct CandidateSet {
   std::vector<NearPair> pairs;
-  std::vector<PlanesOfBodies> planes;  ///< of `pairs`, by their places
+  std::vector<PlanesOfBodies> planes;  ///< of `pairs`, by their places; none of them where distances are sought
   std::vector<PairToCertify> boxes;    ///< of larger pairs to certify than triangles
   std::size_t contact_count = 0;       ///< number of the pairs that may yield contacts
   std::size_t certify_count = 0;       ///< of those to certify, and the boxes

@@ -25,8 +25,9 @@ constexpr std::int64_t kWorkOfPair = 400;
 /// Accepts box pairs that the plane of the flat side of either box separates.
 class PairSearch final : public collision::DualTreeVisitor {
  public:
-  PairSearch(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin, BoxPairs sought,
-             collision::WorkMeter* meter, std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes)
+  PairSearch(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
+             SoughtPairs sought, collision::WorkMeter* meter, std::vector<NearPair>& pairs,
+             std::vector<PairToCertify>& boxes)
       : bodies_(bodies),
         obstacle_(obstacle),
         part_(part),
@@ -87,11 +88,11 @@ class PairSearch final : public collision::DualTreeVisitor {
       return is_marked(marks_of(*obstacle_.body), child_O) && is_marked(marks_of(*part_.body), child_V);
     };
     switch (sought_) {
-      case BoxPairs::kAll:
+      case SoughtPairs::kWithDistances:
         return true;
-      case BoxPairs::kNotOfContactsOnly:
+      case SoughtPairs::kWithPlanes:
         return !are_marked(marks_of_whole);
-      case BoxPairs::kNotOfContacts:
+      case SoughtPairs::kWithPlanesInCloseFit:
         return !are_marked(marks_of_any);
     }
     return true;
@@ -116,7 +117,7 @@ class PairSearch final : public collision::DualTreeVisitor {
   const PlacedBody& part_;
   Eigen::Isometry3d X_OV_;
   double enough_;  // metres
-  BoxPairs sought_;
+  SoughtPairs sought_;
   collision::WorkMeter* meter_;
   std::vector<NearPair>& pairs_;
   std::vector<PairToCertify>& boxes_;
@@ -132,14 +133,14 @@ PairToCertify to_certify(const NearPair& pair) {
 }
 
 void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
-                     double radius, BoxPairs sought, MeasuredPairs measured, collision::QueryWorkspace& workspace,
+                     double radius, SoughtPairs sought, collision::QueryWorkspace& workspace,
                      collision::WorkMeter* meter, std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes) {
   PairSearch search(bodies, obstacle, part, margin, sought, meter, pairs, boxes);
   const collision::PairSelection features{&obstacle.body->features, &part.body->features};
   collision::traverse_near(
       search.tree_O(), search.tree_V(), search.X_OV(),
-      {.within = radius, .exact_below = measured == MeasuredPairs::kAll ? kAllDistances : search.enough()}, workspace,
-      search, &features);
+      {.within = radius, .exact_below = sought == SoughtPairs::kWithDistances ? kAllDistances : search.enough()},
+      workspace, search, &features);
 }
 
 }  // namespace glissade::haptics

@@ -26,18 +26,18 @@ struct NearPair : TrianglesOfBodies {
 
 PairToCertify to_certify(const NearPair& pair);
 
-/// Which pairs of boxes a search is to find.
-enum class BoxPairs {
-  kAll,
-  kNotOfContactsOnly,  ///< not where all triangles of both may yield contacts: their pairs are found in any case
-  kNotOfContacts       ///< not where both have triangles that may yield contacts
-};
-
-/// Which pairs of triangles a search measures. The others have the best direction of a few, and no distance but along
-/// it.
-enum class MeasuredPairs {
-  kAll,      ///< where nothing but the distance along one direction will be known of a pair
-  kNearOnly  ///< those that no such direction separates by more than half a margin or so: planes will be turned
+/// What a search is for: this decides which pairs of boxes it finds, and which pairs of triangles it measures. Those
+/// that are not measured have the best direction of a few, and no distance but along it.
+enum class SoughtPairs {
+  /// Distances that nothing improves later: all pairs of boxes, and all pairs of triangles measured.
+  kWithDistances,
+  /// Planes that will be turned: only pairs of triangles are measured that no direction of the few separates by half a
+  /// margin or so. Boxes whose triangles all may yield contacts are left out: their pairs are found in any case.
+  kWithPlanes,
+  /// The same where curved parts fit closely: the planes of boxes fail there within a few steps, those of triangles
+  /// last
+  /// longer. Boxes are left out as soon as both have triangles that may yield contacts.
+  kWithPlanesInCloseFit
 };
 
 /// Appends the pairs of two bodies within `radius` (metres) of each other: the pairs of boxes that a plane separates,
@@ -46,7 +46,7 @@ enum class MeasuredPairs {
 /// `ContactScene::margin`. Only those pairs of boxes count that are `sought`; of the others, the triangles do. The
 /// `meter` receives the work of taking over each pair before it is done; null: nobody does.
 void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
-                     double radius, BoxPairs sought, MeasuredPairs measured, collision::QueryWorkspace& workspace,
+                     double radius, SoughtPairs sought, collision::QueryWorkspace& workspace,
                      collision::WorkMeter* meter, std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes);
 
 }  // namespace glissade::haptics

@@ -35,7 +35,7 @@ CandidateRequest request_at(const Isometry3d& X_WV) {
   CandidateRequest request;
   request.X_WB = {X_WV};
   request.radius = 0.3e-3;
-  request.fit_closely = true;
+  request.sought = SoughtPairs::kWithPlanesInCloseFit;
   return request;
 }
 

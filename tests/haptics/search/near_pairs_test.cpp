@@ -28,18 +28,19 @@ using test_support::RandomNumbers;
 
 constexpr double kSize = 0.02;  // metres, of most bodies here
 
-constexpr std::array kAllBoxPairs{BoxPairs::kAll, BoxPairs::kNotOfContactsOnly, BoxPairs::kNotOfContacts};
+constexpr std::array kAllKinds{SoughtPairs::kWithDistances, SoughtPairs::kWithPlanes,
+                               SoughtPairs::kWithPlanesInCloseFit};
 
 /// What the search finds for all bodies of a scene.
 struct Found {
-  Found(const ContactScene& scene, double radius, BoxPairs sought = BoxPairs::kNotOfContactsOnly) {
+  Found(const ContactScene& scene, double radius, SoughtPairs sought = SoughtPairs::kWithPlanes) {
     collision::QueryWorkspace workspace;
     const std::span<const PlacedBody> bodies = scene.bodies();
     for (std::size_t part = scene.obstacles().size(); part < bodies.size(); ++part) {
       for (std::size_t other = 0; other < part; ++other) {
         const BodyPair pair{static_cast<std::int32_t>(other), static_cast<std::int32_t>(part)};
         find_near_pairs(pair, bodies[other], bodies[part], scene.margin(pair.obstacle, pair.part), radius, sought,
-                        MeasuredPairs::kNearOnly, workspace, nullptr, pairs, boxes);
+                        workspace, nullptr, pairs, boxes);
       }
     }
   }
@@ -79,8 +80,8 @@ class NearPairs : public ::testing::Test {
 };
 
 TEST_F(NearPairs, HoldEveryPairOfTrianglesWithinTheRadiusOnceToCertify) {
-  std::map<BoxPairs, std::size_t> boxes;
-  std::map<BoxPairs, std::size_t> triangles;
+  std::map<SoughtPairs, std::size_t> boxes;
+  std::map<SoughtPairs, std::size_t> triangles;
   const int trials = std::max(60, test_support::affordable(300));  // few hold boxes of every kind
   for (int trial = 0; trial < trials; ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
@@ -89,7 +90,7 @@ TEST_F(NearPairs, HoldEveryPairOfTrianglesWithinTheRadiusOnceToCertify) {
     const double radius = random_.power_of_ten(-4.0, -2.0);
     const std::map<TrianglesOfBodies, double> near =
         test_support::near_triangles(scene->bodies(), scene->obstacles().size(), radius);
-    for (const BoxPairs sought : kAllBoxPairs) {
+    for (const SoughtPairs sought : kAllKinds) {
       std::map<TrianglesOfBodies, int> held;
       for (const PairToCertify& pair_to_certify : Found(*scene, radius, sought).all_to_certify()) {
         const bool is_box = pair_to_certify.item_O.kind != TreeItem::Kind::kTriangle;
@@ -103,7 +104,7 @@ TEST_F(NearPairs, HoldEveryPairOfTrianglesWithinTheRadiusOnceToCertify) {
       }
     }
   }
-  for (const BoxPairs sought : kAllBoxPairs) {
+  for (const SoughtPairs sought : kAllKinds) {
     EXPECT_GT(boxes[sought], 3U);
     EXPECT_GT(triangles[sought], 50U);
   }
@@ -118,11 +119,11 @@ TEST_F(NearPairs, AreInNoBoxesWhereBothYieldContactsIfTheseAreNotSought) {
     return made;
   };
   const ContactScene balls = scene(geometry::make_sphere(0.03, 2000), geometry::make_sphere(0.02, 2000), 0.0501);
-  EXPECT_FALSE(Found(balls, 1e-3, BoxPairs::kAll).boxes.empty());
-  EXPECT_TRUE(Found(balls, 1e-3, BoxPairs::kNotOfContacts).boxes.empty());
+  EXPECT_FALSE(Found(balls, 1e-3, SoughtPairs::kWithDistances).boxes.empty());
+  EXPECT_TRUE(Found(balls, 1e-3, SoughtPairs::kWithPlanesInCloseFit).boxes.empty());
   const ContactScene plates =
       scene(geometry::make_plate({0.1, 0.1}, 5000), geometry::make_plate({0.06, 0.06}, 5000), 2e-6);
-  EXPECT_FALSE(Found(plates, 1e-3, BoxPairs::kNotOfContacts).boxes.empty());
+  EXPECT_FALSE(Found(plates, 1e-3, SoughtPairs::kWithPlanesInCloseFit).boxes.empty());
 }
 
 TEST_F(NearPairs, HoldEveryPairThatMayYieldAContactOnce) {
@@ -184,6 +185,21 @@ TEST_F(NearPairs, TellLowerBoundsOfDistances) {
     }
   }
   EXPECT_GT(measured, 0);
+}
+
+// Hands see as far as these distances tell them.
+TEST_F(NearPairs, AreAllMeasuredWhereDistancesAreSought) {
+  int measured = 0;
+  for (int trial = 0; trial < test_support::affordable(80); ++trial) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
+    const double margin = random_margin();
+    const auto scene = test_support::random_contact_scene(kSize, margin, margin, random_);
+    for (const NearPair& pair : Found(*scene, 1e-3, SoughtPairs::kWithDistances).pairs) {
+      ASSERT_NEAR(test_support::distance_of(scene->bodies(), pair), pair.distance, 1e-10);
+      ++measured;
+    }
+  }
+  EXPECT_GT(measured, 50);
 }
 
 // The planes of triangles are fixed to the body of the triangle.
