@@ -94,6 +94,9 @@ class MultiPartSliding::Cycle {
  private:
   /// In units of `StepFinder::certain_distance`: bodies closer than this count as overlapping at the start.
   static constexpr double kTouching = 4.0;
+  /// In the reach of this call: what is found at its end serves for the next one, whose ghosts may move a little
+  /// faster.
+  static constexpr double kReachOfNextCall = 1.05;
 
   enum class Progress { kNextCycle, kDone, kUsedUp };
 
@@ -168,19 +171,44 @@ class MultiPartSliding::Cycle {
     forecast_.note(*step);
     // A step that lacks candidates tells nothing of those that follow.
     const bool is_cut_off = step->is_reach_short || step->is_uncovered;
-    const bool is_done =
+    bool is_done =
         cycles_ == shared_.rules.max_cycles || all_arrived || (!is_cut_off && forecast_.is_remainder_worthless());
+    const bool looks_again = is_done && !budget.is_used_up() && is_elsewhere(*step);
     double reach = step_finder_.rows().complete();
-    if (is_done || budget.is_used_up()) reach = step_finder_.rows().find_ahead(budget);
+    if (!looks_again && (is_done || budget.is_used_up())) reach = step_finder_.rows().find_ahead(budget);
     move(*step);
     radius_.note(shared_, *step);
+    if (looks_again) {
+      const StepForecast::Lengths left = look_where_it_led(budget);
+      // The forecast was wrong where a contact begins or ends.
+      is_done = cycles_ == shared_.rules.max_cycles || forecast_.goes_in_circle() || forecast_.is_worthless(left);
+      reach = is_done ? step_finder_.rows().find_ahead(budget) : step_finder_.rows().complete();
+    }
     if (is_done) radius_.prepare_next(shared_, ignored_);
     for (std::size_t p = 0; p < shared_.count(); ++p) {
       HeldPartState& part = shared_.states[p];
       if (part.is_held() && starts_.overlaps().way_out_of(p) == nullptr) part.turn_target();
     }
+    if (shared_.count() > 1 && !looks_again) reach = std::max(0.0, reach - radius_.last_step());
     report(reach);
     return is_done ? Progress::kDone : Progress::kNextCycle;
+  }
+
+  /// Whether the step has led pushed parts so far that the contacts at its beginning tell little of those at its end.
+  bool is_elsewhere(const Step& step) const {
+    return !step_finder_.forces().empty() && step.length > kNotWorthIt * shared_.largest_margin;
+  }
+
+  /// Finds the contacts where the last step has led, with their forces: the hand feels these until the next answer, and
+  /// the next step begins with them. Returns how far the parts would still go.
+  StepForecast::Lengths look_where_it_led(WorkBudget& budget) {
+    radius_.choose(shared_, starts_.depenetration(), milliseconds_, true);
+    step_finder_.look(kReachOfNextCall * radius_.reach(), kReachOfNextCall * radius_.reach_ahead(), budget);
+    const StepForecast::Lengths left = step_finder_.find_forces(budget);
+    step_finder_.rows().take_forces(step_finder_.forces());
+    for (HeldPartState& part : shared_.states)
+      part.result.X_WV_of_contacts = part.result.X_WV;
+    return left;
   }
 
   /// The pairs of bodies that no search looks at: those that overlap, and those that keep their distance.
@@ -209,7 +237,7 @@ class MultiPartSliding::Cycle {
     step_finder_.rows().take_forces(step_finder_.forces());
     for (std::size_t p = 0; p < shared_.count(); ++p) {
       HeldPartState& part = shared_.states[p];
-      part.result.X_WV_of_contacts = part.result.X_WV;
+      part.result.X_WV_before_step = part.result.X_WV_of_contacts = part.result.X_WV;
       if (!part.is_held()) continue;
       // An arrival copies the pose at which the part aimed, so that the coupling wrench is zero and not merely small.
       // Standing still keeps every bit.
@@ -230,7 +258,6 @@ class MultiPartSliding::Cycle {
   /// where the step has led.
   void report(double reach) {
     report_contacts(shared_, starts_.overlaps(), step_finder_.rows().all_contacts(), milliseconds_);
-    if (shared_.count() > 1) reach = std::max(0.0, reach - radius_.last_step());
     for (HeldPartState& part : shared_.states) {
       if (part.is_held()) part.end_cycle(cycles_, reach);
     }

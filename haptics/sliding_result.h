@@ -90,10 +90,13 @@ struct SlidingResult {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< the ghost
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< the target
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part
+  /// The same before the last step: the only one whose way a caller can know. Not set by the paper's method.
+  Eigen::Isometry3d X_WV_before_step = Eigen::Isometry3d::Identity();
   SlidingState state = SlidingState::kFree;
-  /// The contacts of the last cycle, and the pose of the part for which they are given: the pose before the last step.
-  /// For the paper's method and with several parts, that pose is X_WV; with several parts, each contact has then been
-  /// moved along with the last step of its two bodies. A contact pushes if its force is positive.
+  /// The contacts of the last cycle, and the pose of the part for which they are given: the visible pose, or the
+  /// one before the last step, if that step was short, no contact pushed, or the work of the call was used up.
+  /// For the paper's method and with several parts, that pose is always X_WV; with several parts, contacts from before
+  /// the last step have been moved along with it. A contact pushes if its force is positive.
   std::vector<Contact> contacts;
   Eigen::Isometry3d X_WV_of_contacts = Eigen::Isometry3d::Identity();
   /// Metres: with the part at X_WV_of_contacts, `contacts` has every contact with a gap smaller than this. The paper's

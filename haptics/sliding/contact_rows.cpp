@@ -1,6 +1,7 @@
 #include "sliding/contact_rows.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "contact/contact_motion.h"
 #include "contact/contact_search.h"
@@ -33,7 +34,35 @@ UncertifiedPair swapped(const UncertifiedPair& pair) {
 
 }  // namespace
 
+bool ContactRows::Situation::operator==(const Situation& other) const {
+  const auto are_alike = [](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+    return a.matrix() == b.matrix();
+  };
+  return searches == other.searches && is_held == other.is_held && p_Vref == other.p_Vref &&
+         std::equal(X_WB.begin(), X_WB.end(), other.X_WB.begin(), other.X_WB.end(), are_alike);
+}
+
+void ContactRows::note_situation() {
+  situation_.searches = shared_.candidates.statistics().searches;
+  situation_.X_WB.clear();
+  for (std::size_t mover = 0; mover < shared_.scene.movers().size(); ++mover)
+    situation_.X_WB.push_back(shared_.scene.bodies()[shared_.scene.body_of_mover(mover)].X_WB);
+  situation_.p_Vref.clear();
+  situation_.is_held.clear();
+  for (const HeldPartState& part : shared_.states) {
+    situation_.p_Vref.push_back(part.p_Vref);
+    situation_.is_held.push_back(part.is_held() ? 1 : 0);
+  }
+}
+
 void ContactRows::find(double reach, double reach_ahead, WorkBudget& budget) {
+  note_situation();
+  if (may_be_kept_ && reach <= reach_ && reach_ahead <= reach_ahead_ && situation_ == found_in_) {
+    contacts_ahead_.clear();
+    return;
+  }
+  std::swap(situation_, found_in_);
+  may_be_kept_ = true;
   reach_ = reach;
   reach_ahead_ = reach_ahead;
   looked_at_.clear();
@@ -124,9 +153,9 @@ void ContactRows::find_contacts_of(std::span<const TrianglesOfBodies> pairs, std
 
 std::vector<Contact>& ContactRows::all_contacts() {
   keep_contacts([&](std::size_t row) { return !is_of_failure_[row] || contacts_[row].force > 0.0; });
-  contacts_.insert(contacts_.end(), contacts_ahead_.begin(), contacts_ahead_.end());
-  contacts_ahead_.clear();
-  return contacts_;
+  all_contacts_ = contacts_;
+  all_contacts_.insert(all_contacts_.end(), contacts_ahead_.begin(), contacts_ahead_.end());
+  return all_contacts_;
 }
 
 void ContactRows::keep_contacts_only() {
@@ -136,6 +165,7 @@ void ContactRows::keep_contacts_only() {
 /// Drops all other rows and their contacts.
 void ContactRows::keep_contacts(const std::function<bool(std::size_t row)>& is_kept) {
   if (std::find(is_of_failure_.begin(), is_of_failure_.end(), true) == is_of_failure_.end()) return;
+  may_be_kept_ = false;
   std::size_t kept = 0;
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     if (!is_kept(row)) continue;
@@ -199,12 +229,17 @@ void ContactRows::add_failures(std::span<const UncertifiedPair> failures) {
 }
 
 void ContactRows::allow_standing_still() {
+  may_be_kept_ = false;
   for (CoupledRow& row : rows_)
     row.bound = std::min(row.bound, 0.0);
 }
 
 void ContactRows::take_forces(std::span<const RowForce> forces) {
   pushed_.clear();
+  for (Contact& contact : contacts_) {
+    contact.force = 0.0;
+    contact.friction_W.setZero();
+  }
   for (const RowForce& force : forces) {
     Contact& contact = contacts_[static_cast<std::size_t>(force.row)];
     contact.force = force.normal;

@@ -26,7 +26,8 @@ class ContactRows {
   explicit ContactRows(SimulatedParts& shared) : shared_(shared), pairs_(shared) {}
 
   /// Looks for contacts within `reach` (metres) at the present poses, or within `reach_ahead` later, and finds the
-  /// nearest, with a row for each of those within `reach`. Replaces all contacts and rows.
+  /// nearest, with a row for each of those within `reach`. Replaces all contacts and rows, unless those that it has are
+  /// of the same poses and candidates and reach as far.
   void find(double reach, double reach_ahead, WorkBudget& budget);
   /// Finds contacts within `reach` that displacements of the parts would bring nearer than their margin, and their
   /// rows. Returns false if there is no such row: those that are still missing are not needed.
@@ -49,8 +50,8 @@ class ContactRows {
   std::span<const CoupledRow> rows() const { return rows_; }
   /// The contacts with rows, one for each.
   std::span<const Contact> contacts() const { return contacts_; }
-  /// The contacts with rows and, after them, those ahead. From then on, until the next call of `find`, no function may
-  /// be called that uses contacts.
+  /// The contacts with rows and, after them, those ahead; to be taken away. Rows of failed certificates are dropped
+  /// unless they push.
   std::vector<Contact>& all_contacts();
 
   /// Notes the forces of the step that is taken at the contacts. A row of a failed certificate that pushes becomes a
@@ -63,6 +64,17 @@ class ContactRows {
   void forget_forces() { pushed_.clear(); }
 
  private:
+  /// On what contacts and rows depend, besides their reach.
+  struct Situation {
+    std::vector<Eigen::Isometry3d> X_WB;  ///< of the movers
+    std::vector<Eigen::Vector3d> p_Vref;  ///< of the parts
+    std::vector<char> is_held;            ///< the same
+    std::int64_t searches = -1;           ///< for candidates, so far
+
+    bool operator==(const Situation& other) const;
+  };
+
+  void note_situation();
   void find_contacts_of_taken(WorkBudget& budget);
   void find_contacts_of(std::span<const TrianglesOfBodies> pairs, std::span<const PlaceOfPair> places, double reach,
                         WorkBudget& budget);
@@ -80,6 +92,9 @@ class ContactRows {
   double reach_ = 0.0;        // metres
   double reach_ahead_ = 0.0;  // metres
   double complete_ = 0.0;     // metres
+  bool may_be_kept_ = false;  // contacts and rows are as they were found
+  Situation situation_;
+  Situation found_in_;  // contacts and rows
   PairsInReach pairs_;
   std::vector<LookedAt> looked_at_;
   std::vector<TrianglesOfBodies> candidates_;  // that a search for contacts is about
@@ -90,6 +105,7 @@ class ContactRows {
   std::vector<Contact> contacts_;        // one for each row
   std::vector<bool> is_of_failure_;      // of each row: it comes from a failed certificate
   std::vector<Contact> contacts_ahead_;  // without a row
+  std::vector<Contact> all_contacts_;
   std::vector<CoupledRow> rows_;
   std::vector<Contact> pushed_;  // the contacts that pushed in the last step; with friction only
 };

@@ -83,6 +83,7 @@ HeldPartState state_at_start(const HeldPart& held, const Eigen::Isometry3d& X_WV
   state.result.X_WT = X_WV;
   state.result.X_WV = X_WV;
   state.result.X_WV_of_contacts = X_WV;
+  state.result.X_WV_before_step = X_WV;
   state.X_WS = X_WV;
   state.X_WV_before = X_WV;
   return state;

@@ -52,7 +52,23 @@ std::optional<Step> StepFinder::find(WorkBudget& budget) {
   return step_;
 }
 
-void StepFinder::begin(WorkBudget& budget) {
+std::array<double, kMaxParts> StepFinder::find_forces(WorkBudget& budget) {
+  aim();
+  rows_.keep_contacts_only();
+  Displacements left;
+  do {
+    budget.spend(kWorkOfProjection + kWorkOfRow * std::ssize(rows_.rows()));
+    if (!project(wanted_)) return {};
+    left = shorten();
+  } while (rows_.find_violated(left, budget));
+  std::array<double, kMaxParts> lengths{};
+  for (std::size_t p = 0; p < shared_.count(); ++p)
+    lengths[p] = geometry::motion_bound(left[p], shared_.states[p].lever);
+  return lengths;
+}
+
+/// Sets the wanted displacements.
+void StepFinder::aim() {
   const std::vector<HeldPartState>& parts = shared_.states;
   wanted_ = {};
   for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -60,6 +76,11 @@ void StepFinder::begin(WorkBudget& budget) {
     if (!parts[p].is_held()) continue;
     wanted_[p] = geometry::displacement_between(parts[p].result.X_WV, parts[p].X_WS, parts[p].p_Vref);
   }
+}
+
+void StepFinder::begin(WorkBudget& budget) {
+  aim();
+  const std::vector<HeldPartState>& parts = shared_.states;
   // A step that gains more energy than this has passed a bend of the contact that the linear rows do not describe. It
   // is repeated with damping. So is a step of a part that finds no rest if it gains any, or the part would go in a
   // circle of steps that give it margin back and steps that take it.
@@ -91,6 +112,7 @@ void StepFinder::begin_trial(WorkBudget& budget) {
 void StepFinder::try_projection(WorkBudget& budget) {
   Displacements shortened;
   do {
+    is_first_order_ = false;
     const std::int64_t work = kWorkOfProjection + kWorkOfRow * std::ssize(rows_.rows());
     budget.spend(work);
     if (!project(damped_)) {
@@ -101,7 +123,7 @@ void StepFinder::try_projection(WorkBudget& budget) {
     shortened = shorten();
     if (is_worth_another(shortened)) {
       budget.spend(work);
-      project_again();
+      is_first_order_ = !project_again();
       shortened = shorten();
     }
   } while (rows_.find_violated(shortened, budget));
@@ -140,21 +162,23 @@ bool StepFinder::is_worth_another(const Displacements& displacements) const {
   return change > kNotWorthIt * shared_.largest_margin;
 }
 
-/// Projects what is left after the projected displacements on the rows as they are there, and adds it to them. Where
-/// the solver finds no solution, nothing changes.
-void StepFinder::project_again() {
+/// Projects what is left after the projected displacements on the rows as they are there, and adds it to them. Returns
+/// false if the solver finds no solution; then nothing changes.
+bool StepFinder::project_again() {
   const std::vector<HeldPartState>& parts = shared_.states;
   Displacements left;
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (!parts[p].is_held()) continue;
+    if (projected_[p].is_zero()) left[p] = wanted_[p];  // to the bit: a part that stands is not to move by a rounding
+    if (!parts[p].is_held() || projected_[p].is_zero()) continue;
     const Eigen::Vector3d& p_Vref = parts[p].p_Vref;
     left[p] = geometry::displacement_between(geometry::displaced(parts[p].result.X_WV, p_Vref, projected_[p]),
                                              parts[p].X_WS, p_Vref);
   }
   const CoupledProjection projection =
       solver_.project(shared_.of_parts(left), grips_, turned_rows_.find(projected_, rows_.rows(), rows_.contacts()));
-  if (projection.status != ProjectionStatus::kSolved) return;
+  if (projection.status != ProjectionStatus::kSolved) return false;
   for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (projection.displacements[p].is_zero()) continue;
     const Eigen::Isometry3d& X_WV = parts[p].result.X_WV;
     const Eigen::Vector3d& p_Vref = parts[p].p_Vref;
     const Eigen::Isometry3d X_WV_to =
@@ -166,6 +190,7 @@ void StepFinder::project_again() {
     const auto slot = static_cast<std::size_t>(i);
     forces_.push_back({projection.active[slot], projection.force[slot]});
   }
+  return true;
 }
 
 /// Shortens a step whose path the candidates do not cover. They cover every path that is no longer than their distance
@@ -251,7 +276,7 @@ void StepFinder::note_arrivals() {
 /// Takes the step, or begins again with more damping.
 void StepFinder::end_trial(WorkBudget& budget) {
   if (!gains_energy()) {
-    step_.is_plain = !step_.clipped && damping_ == 0.0 && projections_ == 1;
+    step_.is_plain = !step_.clipped && damping_ == 0.0 && projections_ == 1 && !is_first_order_;
     damping_ = damping_ < 0.1 ? 0.0 : 0.25 * damping_;
     stage_ = Stage::kDone;
     return;

@@ -35,6 +35,9 @@ class StepFinder {
   /// Nothing if the budget was used up before: then the next call goes on, for which parts and candidates must be as
   /// they are now.
   std::optional<Step> find(WorkBudget& budget);
+  /// Finds the forces of the contacts where the parts are now, without a step. `look` must have been called there.
+  /// Returns the motion bounds (metres) of the displacements that another step would aim at.
+  std::array<double, kMaxParts> find_forces(WorkBudget& budget);
   /// Whether `find` has to go on.
   bool is_under_way() const { return stage_ != Stage::kDone; }
   /// Gives the step up on which `find` had to go on.
@@ -50,6 +53,7 @@ class StepFinder {
   enum class Stage { kProjecting, kHalving, kDone };
 
   void begin(WorkBudget& budget);
+  void aim();
   void begin_trial(WorkBudget& budget);
   void try_projection(WorkBudget& budget);
   void conclude(bool is_certified, WorkBudget& budget);
@@ -59,7 +63,7 @@ class StepFinder {
   bool gains_energy();
   bool project(const Displacements& wanted);
   bool is_worth_another(const Displacements& displacements) const;
-  void project_again();
+  bool project_again();
   Displacements shorten();
   void solve_friction(const Displacements& wanted);
   bool slipped(const CoupledRow& row) const;
@@ -90,9 +94,10 @@ class StepFinder {
   double most_energy_ = 0.0;
   Displacements wanted_;
   Displacements damped_;
-  Step step_;                // its certificate is under way
-  Step first_;               // on the contacts alone
-  bool is_covered_ = false;  // by the candidates: otherwise no certificate is possible
+  Step step_;                    // its certificate is under way
+  Step first_;                   // on the contacts alone
+  bool is_first_order_ = false;  // the second projection that it needs has no solution
+  bool is_covered_ = false;      // by the candidates: otherwise no certificate is possible
 };
 
 }  // namespace glissade::haptics

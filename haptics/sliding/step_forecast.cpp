@@ -76,8 +76,10 @@ bool StepForecast::is_remainder_worthless() const {
   GLISSADE_ASSERT(!steps_.empty());
   if (steps_.back().length < least_) return true;
   if (!steps_.back().is_plain) return false;
-  if (goes_in_circle()) return true;
-  const Lengths remainder = expected_remainders();
+  return goes_in_circle() || is_worthless(expected_remainders());
+}
+
+bool StepForecast::is_worthless(const Lengths& remainder) const {
   for (std::size_t p = 0; p < count_; ++p) {
     const double enough = std::max(least_, std::min(kLeftOfMotion * steps_.front().lengths[p], most_left_[p]));
     if (!(remainder[p] < enough)) return false;
@@ -85,9 +87,6 @@ bool StepForecast::is_remainder_worthless() const {
   return true;
 }
 
-/// Whether the last three steps have led each part back to where it was before them. Contacts that bend may lead parts
-/// in such a circle for as long as a call lasts. Parts that close in on their optimum from all sides come back less
-/// exactly.
 bool StepForecast::goes_in_circle() const {
   constexpr std::size_t kStepsOfCircle = 3;
   if (steps_.size() < kStepsOfCircle) return false;

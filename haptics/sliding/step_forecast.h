@@ -22,6 +22,8 @@ struct PartToForecast {
 /// Not thread-safe.
 class StepForecast {
  public:
+  using Lengths = std::array<double, kMaxParts>;  ///< metres, of each part
+
   /// Begins a call for these parts. No step has been made yet. Margins in metres.
   void begin_call(std::span<const PartToForecast> parts, double largest_margin, double smallest_margin);
 
@@ -31,13 +33,17 @@ class StepForecast {
   /// Whether what the parts would still move in this call can be expected to be too little to matter. There must have
   /// been a step.
   bool is_remainder_worthless() const;
+  /// The same of a remainder that is known.
+  bool is_worthless(const Lengths& remainder) const;
+  /// Whether the last three steps have led each part back to where it was before them. Contacts that bend may lead
+  /// parts in such a circle for as long as a call lasts. Parts that close in on their optimum from all sides come back
+  /// less exactly.
+  bool goes_in_circle() const;
 
   /// To be called when a hand takes hold or lets go: what was before tells nothing any more.
   void forget();
 
  private:
-  using Lengths = std::array<double, kMaxParts>;  // metres, of each part
-
   /// A step of an earlier call, and what the parts moved, or would have moved, after it.
   struct Seen {
     Lengths step{};
@@ -46,7 +52,6 @@ class StepForecast {
   };
 
   void learn();
-  bool goes_in_circle() const;
   Lengths expected_remainders() const;
   double by_shrinking(std::size_t p) const;
   double by_earlier_call(std::size_t p) const;

@@ -187,7 +187,7 @@ class TortureRun {
     fault("the visible part collides");
   }
 
-  // A call with one cycle is one motion; a call with two cycles is two motions, with X_WV_of_contacts in between. With
+  // A call with one cycle is one motion; a call with two cycles is two motions, with X_WV_before_step in between. With
   // more cycles, only the motion of the last one is known.
   void check_path(const Isometry3d& X_WV_previous, const SlidingResult& result) {
     const bool known = result.cycles <= 2;
@@ -199,8 +199,8 @@ class TortureRun {
       ++counts_.unproved_paths;
       fault(*what);
     };
-    if (known) check(X_WV_previous, result.X_WV_of_contacts);
-    check(result.X_WV_of_contacts, result.X_WV);
+    if (known) check(X_WV_previous, result.X_WV_before_step);
+    check(result.X_WV_before_step, result.X_WV);
   }
 
   // A part that starts nearer than the minimum clearance keeps 95 % of its initial distance.
