@@ -58,7 +58,7 @@ void ContactRows::note_situation() {
 void ContactRows::find(double reach, double reach_ahead, WorkBudget& budget) {
   note_situation();
   if (may_be_kept_ && reach <= reach_ && reach_ahead <= reach_ahead_ && situation_ == found_in_) {
-    contacts_ahead_.clear();
+    add_rows_of_ahead();
     return;
   }
   std::swap(situation_, found_in_);
@@ -98,11 +98,16 @@ void ContactRows::find_contacts_of_taken(WorkBudget& budget) {
   find_contacts_of(pairs_.taken(), pairs_.places(), reach_, budget);
   for (std::size_t i = 0; i < gaps_.size(); ++i)
     looked_at_.push_back({pairs_.places()[i], gaps_[i].beyond});
-  for (const Contact& contact : found_) {
-    // A contact closer than its margin demands part of it back.
-    const double missing = contact.margin - contact.gap;
-    add(contact, missing > 0.0 ? 0.7 * missing : missing);
+  for (const Contact& contact : found_)
+    add(contact);
+}
+
+/// Gives a row to those contacts ahead that are within reach: their pairs count as looked at.
+void ContactRows::add_rows_of_ahead() {
+  for (const Contact& contact : contacts_ahead_) {
+    if (contact.gap <= reach_) add(contact);
   }
+  contacts_ahead_.clear();
 }
 
 double ContactRows::find_ahead(WorkBudget& budget) {
@@ -111,6 +116,9 @@ double ContactRows::find_ahead(WorkBudget& budget) {
   if (!pairs_.taken().empty()) {
     find_contacts_of(pairs_.taken(), pairs_.places(), reach_ahead_, budget);
     contacts_ahead_.insert(contacts_ahead_.end(), found_.begin(), found_.end());
+    // Those beyond the reach are to be found again if the rows are kept.
+    for (const PlaceOfPair& place : pairs_.places())
+      looked_at_.push_back({place, 0.0});
   }
   return std::min(complete, shared_.candidates.covered());
 }
@@ -176,6 +184,12 @@ void ContactRows::keep_contacts(const std::function<bool(std::size_t row)>& is_k
   rows_.resize(kept);
   contacts_.erase(contacts_.begin() + static_cast<std::ptrdiff_t>(kept), contacts_.end());
   is_of_failure_.resize(kept);
+}
+
+/// A contact closer than its margin demands part of it back.
+void ContactRows::add(const Contact& contact) {
+  const double missing = contact.margin - contact.gap;
+  add(contact, missing > 0.0 ? 0.7 * missing : missing);
 }
 
 void ContactRows::add(const Contact& contact, double bound, bool is_of_failure) {

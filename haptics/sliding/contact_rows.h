@@ -80,6 +80,8 @@ class ContactRows {
                         WorkBudget& budget);
   void find_beyond(WorkBudget& budget);
   void keep_contacts(const std::function<bool(std::size_t row)>& is_kept);
+  void add_rows_of_ahead();
+  void add(const Contact& contact);
   void add(const Contact& contact, double bound, bool is_of_failure = false);
 
   /// A pair that was looked at.
