@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "certificate/path_certificate.h"
 #include "contact/contact_search.h"
 #include "search/candidate_pairs.h"
