@@ -13,8 +13,8 @@ constexpr float kUnknownTop = 1e30F;
 
 /// Of a gap along n as it was before it was rounded, in the greatest lengths that it is made of. With u = 2^-24: the
 /// products n_j A_jk x_k have four factors that are rounded and pass two sums of three each, so all together they err
-/// by less than 8 √3 u times the length of x; n·t by 4 u |t|, the height of the other triangle by u. The rest is for
-/// the length of n, for those who take the rounded n for exact, and for the last sums.
+/// by less than 8 √3 u times the length of x; n·t by 4 u |t|, the height of the other triangle by u. The rest covers
+/// the length of n and the last sums. It also covers the rounding of n, because certificates use the rounded n.
 constexpr double kSlackOfGap = 32.0 / (1 << 24);
 
 PlaneMap map_of(const Eigen::Matrix3d& A, const Eigen::Vector3d& t) {

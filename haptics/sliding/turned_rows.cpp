@@ -33,8 +33,8 @@ Eigen::Vector3d direction_W(const PlacedBody& body, std::int32_t edge) {
          (vertices[static_cast<std::size_t>(ends[1])] - vertices[static_cast<std::size_t>(ends[0])]).normalized();
 }
 
-/// The features of a contact that have moved: the normal, and by how much the contact point lies farther along the
-/// part's edge than the point that it was.
+/// A contact whose features have moved: its normal, and the way from the point of the part that was the contact point
+/// to the one that is, along the part's face or edge.
 struct Turned {
   Eigen::Vector3d n_W;
   Eigen::Vector3d along_W = Eigen::Vector3d::Zero();

@@ -18,7 +18,6 @@
 #include "held_part.h"
 #include "poses.h"
 #include "random_numbers.h"
-#include "sanitizers.h"
 #include "sliding/contact_rows.h"
 
 namespace glissade::haptics {
