@@ -159,7 +159,7 @@ class MultiPartSliding::Cycle {
       find_ignored();
       if (radius_.look(shared_, ignored_)) starts_.restore_min_clearances();
       waits_for_search_ = !shared_.candidates.covers(radius_.needed());
-      if (waits_for_search_) return Progress::kUsedUp;
+      if (waits_for_search_) return shared_.rules.work_budget ? Progress::kUsedUp : Progress::kNextCycle;
       step_finder_.look(radius_.reach(), radius_.reach_ahead(), budget);
     }
     const std::optional<Step> step = step_finder_.find(budget);
@@ -182,7 +182,7 @@ class MultiPartSliding::Cycle {
       const StepForecast::Lengths left = look_where_it_led(budget);
       // The forecast was wrong where a contact begins or ends.
       is_done = cycles_ == shared_.rules.max_cycles || forecast_.goes_in_circle() || forecast_.is_worthless(left);
-      reach = is_done ? step_finder_.rows().find_ahead(budget) : step_finder_.rows().complete();
+      reach = is_done || budget.is_used_up() ? step_finder_.rows().find_ahead(budget) : step_finder_.rows().complete();
     }
     if (is_done) radius_.prepare_next(shared_, ignored_);
     for (std::size_t p = 0; p < shared_.count(); ++p) {

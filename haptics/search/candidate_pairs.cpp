@@ -21,6 +21,9 @@ constexpr double kForward = 0.6;
 /// been answered. Where so many are near, parts mostly fit closely.
 constexpr std::size_t kPairsOfLongSearch = 5000;
 
+/// These take 0.4 GB; there is the memory of two searches.
+constexpr std::size_t kMostPairs = 2'000'000;
+
 // Shares of a step:
 /// The radius of a search at its middle: half a step is needed where it leads as expected.
 constexpr double kRadiusOfStep = 0.6;
@@ -41,6 +44,7 @@ CandidatePairs::CandidatePairs(const ContactScene& scene, double greatest_radius
       greatest_radius_(greatest_radius),
       has_planes_(has_planes),
       work_left_(work_of_call),
+      most_pairs_(has_planes ? kMostPairs : std::numeric_limits<std::size_t>::max()),
       thread_(runs_ahead || work_of_call != kUnlimitedWork
                   ? std::make_unique<SearchThread>(work_ahead(runs_ahead, work_of_call))
                   : nullptr),
@@ -144,6 +148,11 @@ bool CandidatePairs::take_or_forget() {
 bool CandidatePairs::take() {
   if (!is_settled()) return false;
   if (!thread_) search_.find(next_.request, next_.set);  // only now, when its answer is certainly needed
+  found_too_many_ = next_.set.has_too_many;
+  if (found_too_many_) {
+    next_.is_there = false;
+    return false;
+  }
   copy_mover_poses(scene_, X_WB_);
   now_.take(next_, X_WB_);
   way_ahead_.begin(X_WB_);
@@ -157,8 +166,8 @@ bool CandidatePairs::take() {
 void CandidatePairs::request(double radius, double ahead, std::span<const BodyPair> ignored,
                              const ExpectedStep& first_step) {
   GLISSADE_ASSERT(!is_with_thread_);
-  next_.request.radius = radius;
-  next_.request.sought = sought();
+  found_too_many_ = false;
+  next_.request.range = {.radius = radius, .sought = sought(), .most_pairs = most_pairs_};
   next_.request.first_step = first_step;
   next_.request.ignored.assign(ignored.begin(), ignored.end());
   next_.ahead = ahead;
@@ -210,12 +219,22 @@ SoughtPairs CandidatePairs::sought() const {
 }
 
 bool CandidatePairs::is_too_large() const {
-  return is_with_thread_ && allowed_ > kCallsAhead * work_of_call_;
+  return found_too_many_ || (is_with_thread_ && allowed_ > kCallsAhead * work_of_call_);
+}
+
+void CandidatePairs::allow_twice_as_many() {
+  most_pairs_ *= 2;
+  found_too_many_ = false;
+}
+
+bool CandidatePairs::are_many() const {
+  return now_.pair_count() > most_pairs_ / 2;
 }
 
 void CandidatePairs::cancel() {
   if (is_with_thread_ && thread_->cancel()) search_.start_afresh();
   is_with_thread_ = false;
+  found_too_many_ = false;
   next_.is_there = false;
 }
 

@@ -11,6 +11,8 @@
 ///
 /// The work of searching in one call of the simulation can be limited. A search then goes on over several calls, and
 /// its answer can be taken in the first call up to which so much work was allowed, however early it was done.
+///
+/// With planes, the memory of a search is limited, too: one that finds too many pairs ends without an answer.
 
 #include <cstdint>
 #include <memory>
@@ -52,7 +54,8 @@ class CandidatePairs {
   /// changed. `ignored` must be the same in all calls until `clear`. Exceptions of a search (no memory, or a pose that
   /// `geometry::rigid_pose` rejects) reach the caller; nothing is covered then. Where the work of this call does not
   /// suffice for the search, the candidates stay, `covers(reach)` is still false, and the same call of `look` must be
-  /// repeated.
+  /// repeated. Where the search finds too many pairs, the candidates stay, and `found_too_many` tells so: the next one
+  /// must be for a smaller radius, or be allowed more pairs.
   bool look(double reach, double ahead, std::span<const BodyPair> ignored);
   /// Takes the answer of the search that `look_ahead` requested, if it covers `reach` (metres), and a farther one than
   /// the last search on a step of length `step` (metres), if the parts go on as they went. As `look`.
@@ -72,10 +75,16 @@ class CandidatePairs {
   /// earlier request would only be of earlier poses.
   void look_ahead(double step, double reach, double ahead, std::span<const BodyPair> ignored);
 
-  /// Whether the search that `look` could not complete has had the work of several calls.
+  /// Whether the last search has ended because it found too many pairs.
+  bool found_too_many() const { return found_too_many_; }
+  /// Whether it has, or the one that `look` could not complete has had the work of several calls.
   bool is_too_large() const;
   /// Gives up the search that `look` could not complete. The next one begins afresh, and can be for a smaller radius.
   void cancel();
+  /// To be called where a search finds too many pairs within the smallest radius.
+  void allow_twice_as_many();
+  /// Whether the candidates are more than half as many as they may be.
+  bool are_many() const;
 
   /// To be called when movers have been placed at other poses.
   void moved();
@@ -119,7 +128,9 @@ class CandidatePairs {
   std::int64_t work_of_call_;
   double greatest_radius_;  // metres
   bool has_planes_;
-  std::int64_t work_left_;                // of this call
+  std::int64_t work_left_;  // of this call
+  std::size_t most_pairs_;
+  bool found_too_many_ = false;
   std::int64_t allowed_ = 0;              // work that the thread's search may have done by now
   bool is_with_thread_ = false;           // a search, whether it is still of use or not
   std::unique_ptr<SearchThread> thread_;  // ends before the members that it uses: see the destructor

@@ -95,12 +95,17 @@ void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
       throw std::invalid_argument("the pose of a part must be a rotation and translation");
     bodies_[body].X_WB = request.X_WB[mover];
   }
-  const collision::FrameResult& near = pipeline_->step(request.radius + slack_);
+  const collision::FrameResult& near = pipeline_->step(request.range.radius + slack_);
   set.report = near.report;
-  find_pairs(near, request, set);
+  try {
+    find_pairs(near, request, set);
+  } catch (const TooManyPairs&) {
+    set = {.has_too_many = true};
+    return;
+  }
   nearest_first_.sort(set.pairs, unsorted_pairs_);
   nearest_first_.sort(set.boxes, unsorted_boxes_);
-  if (request.sought != SoughtPairs::kWithDistances) {
+  if (request.range.sought != SoughtPairs::kWithDistances) {
     find_planes(set);
     if (request.first_step.is_known()) lasting_planes_.turn(request.first_step, bodies_, set.planes);
   }
@@ -109,14 +114,15 @@ void CandidateSearch::find(const CandidateRequest& request, CandidateSet& set) {
 
 void CandidateSearch::find_pairs(const collision::FrameResult& near, const CandidateRequest& request,
                                  CandidateSet& set) {
+  set.has_too_many = false;
   set.pairs.clear();
   set.boxes.clear();
   for (const collision::ObjectPair& objects : near.meeting) {
     const BodyPair bodies{static_cast<std::int32_t>(objects.object_A.index),
                           static_cast<std::int32_t>(objects.object_B.index)};
     find_near_pairs(bodies, bodies_[objects.object_A.index], bodies_[objects.object_B.index],
-                    scene_.margin(bodies.obstacle, bodies.part), request.radius, request.sought, workspace_, meter_,
-                    set.pairs, set.boxes);
+                    scene_.margin(bodies.obstacle, bodies.part), request.range, workspace_, meter_, set.pairs,
+                    set.boxes);
   }
   const auto count = [&](bool NearPair::*property) {
     return static_cast<std::size_t>(

@@ -35,17 +35,17 @@ struct KnownFeatures {
   double left_out = 0.0;  ///< metres: no contact with other features has a smaller gap
 };
 
-/// Poses of the movers, radius, and body pairs to leave out.
+/// Poses of the movers, range, and body pairs to leave out.
 struct CandidateRequest {
   std::vector<Eigen::Isometry3d> X_WB;  ///< one for each mover
-  double radius = 0.0;                  ///< metres
-  std::vector<BodyPair> ignored;        ///< in ascending order
-  SoughtPairs sought = SoughtPairs::kWithPlanes;
-  ExpectedStep first_step;  ///< in which the answer is needed; may be unknown
+  SearchRange range{};
+  std::vector<BodyPair> ignored;  ///< in ascending order
+  ExpectedStep first_step;        ///< in which the answer is needed; may be unknown
 };
 
 /// The answer: what `find_near_pairs` finds, nearest first.
 struct CandidateSet {
+  bool has_too_many = false;  ///< pairs for the range of the request: nothing else is set then
   std::vector<NearPair> pairs;
   std::vector<PlanesOfBodies> planes;  ///< of `pairs`, by their places; none of them where distances are sought
   std::vector<PairToCertify> boxes;    ///< of larger pairs to certify than triangles

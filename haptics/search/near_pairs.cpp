@@ -26,14 +26,14 @@ constexpr std::int64_t kWorkOfPair = 400;
 class PairSearch final : public collision::DualTreeVisitor {
  public:
   PairSearch(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
-             SoughtPairs sought, collision::WorkMeter* meter, std::vector<NearPair>& pairs,
+             const SearchRange& range, collision::WorkMeter* meter, std::vector<NearPair>& pairs,
              std::vector<PairToCertify>& boxes)
       : bodies_(bodies),
         obstacle_(obstacle),
         part_(part),
         X_OV_(relative_pose(obstacle.X_WB, part.X_WB)),
         enough_(kEnough * margin),
-        sought_(sought),
+        range_(range),
         meter_(meter),
         pairs_(pairs),
         boxes_(boxes) {}
@@ -54,7 +54,7 @@ class PairSearch final : public collision::DualTreeVisitor {
       const double gap =
           std::abs(along) - box_O.extent_along(n_O) - box_V.extent_along(X_OV_.linear().transpose() * n_O);
       if (gap < enough_) continue;
-      spend_work_of_pair();
+      begin_pair();
       boxes_.push_back({bodies_, child_of(*obstacle_.body, child_O.node, child_O.child),
                         child_of(*part_.body, child_V.node, child_V.child), static_cast<double>(round_down(gap)),
                         obstacle_.X_WB.linear() * (along < 0.0 ? (-n_O).eval() : n_O)});
@@ -87,7 +87,7 @@ class PairSearch final : public collision::DualTreeVisitor {
     const auto are_marked = [&](const auto& marks_of) {
       return is_marked(marks_of(*obstacle_.body), child_O) && is_marked(marks_of(*part_.body), child_V);
     };
-    switch (sought_) {
+    switch (range_.sought) {
       case SoughtPairs::kWithDistances:
         return true;
       case SoughtPairs::kWithPlanes:
@@ -98,12 +98,13 @@ class PairSearch final : public collision::DualTreeVisitor {
     return true;
   }
 
-  void spend_work_of_pair() {
+  void begin_pair() {
+    if (pairs_.size() + boxes_.size() >= range_.most_pairs) throw TooManyPairs{};
     if (meter_ != nullptr) meter_->spend(kWorkOfPair);
   }
 
   void add(const collision::NearTriangles& pair, bool may_yield_contact, bool is_to_certify) {
-    spend_work_of_pair();
+    begin_pair();
     pairs_.push_back({{bodies_, pair.triangles.triangle_A, pair.triangles.triangle_B},
                       obstacle_.X_WB.linear() * pair.n_A,
                       static_cast<double>(round_down(pair.gap)),
@@ -117,7 +118,7 @@ class PairSearch final : public collision::DualTreeVisitor {
   const PlacedBody& part_;
   Eigen::Isometry3d X_OV_;
   double enough_;  // metres
-  SoughtPairs sought_;
+  const SearchRange& range_;
   collision::WorkMeter* meter_;
   std::vector<NearPair>& pairs_;
   std::vector<PairToCertify>& boxes_;
@@ -133,13 +134,14 @@ PairToCertify to_certify(const NearPair& pair) {
 }
 
 void find_near_pairs(const BodyPair& bodies, const PlacedBody& obstacle, const PlacedBody& part, double margin,
-                     double radius, SoughtPairs sought, collision::QueryWorkspace& workspace,
-                     collision::WorkMeter* meter, std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes) {
-  PairSearch search(bodies, obstacle, part, margin, sought, meter, pairs, boxes);
+                     const SearchRange& range, collision::QueryWorkspace& workspace, collision::WorkMeter* meter,
+                     std::vector<NearPair>& pairs, std::vector<PairToCertify>& boxes) {
+  PairSearch search(bodies, obstacle, part, margin, range, meter, pairs, boxes);
   const collision::PairSelection features{&obstacle.body->features, &part.body->features};
   collision::traverse_near(
       search.tree_O(), search.tree_V(), search.X_OV(),
-      {.within = radius, .exact_below = sought == SoughtPairs::kWithDistances ? kAllDistances : search.enough()},
+      {.within = range.radius,
+       .exact_below = range.sought == SoughtPairs::kWithDistances ? kAllDistances : search.enough()},
       workspace, search, &features);
 }
 

@@ -31,12 +31,12 @@ struct TrackedSearch {
   void follow(const ContactScene& scene, std::span<const Eigen::Isometry3d> X_WB);
 
   /// The largest reach (metres) around the present poses within which all pairs are known.
-  double covered() const { return is_there ? request.radius - drift : -std::numeric_limits<double>::infinity(); }
+  double covered() const { return is_there ? request.range.radius - drift : -std::numeric_limits<double>::infinity(); }
   bool covers(double reach) const { return reach <= covered(); }
   /// The same on straight ways of all points from there to where the drift is `drift_at_end` (metres): how far the
   /// difference of two points is from that at the search is greatest at an end.
   double covered_up_to(double drift_at_end) const {
-    return is_there ? request.radius - std::max(drift, drift_at_end) : covered();
+    return is_there ? request.range.radius - std::max(drift, drift_at_end) : covered();
   }
   /// Whether the parts still come nearer to its poses, as far as its answer has been taken ahead of them.
   bool is_approached() const { return drift <= least_drift; }

@@ -68,8 +68,12 @@ bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignore
   bool is_other = false;
   if (!candidates.covers(reach_ahead_)) {
     if (is_first_cycle_) is_other = candidates.take_ahead(least, next_step_);
-    const bool looks_along = missed_length_ > 0.0 && !is_other;
+    const bool looks_along = missed_length_ > 0.0 && !is_other && !candidates.found_too_many();
     if (looks_along) is_other = look_along_missed(shared, std::max(least, ahead), ignored);
+    if (candidates.found_too_many()) {
+      shrink(candidates, std::max(needed_, ahead));
+      return false;
+    }
     if (candidates.covers(least) && (is_other || !looks_along)) {
       needed_ = least;
     } else if (!is_first_cycle_ && !looks_along && !has_contacts_ahead) {
@@ -78,13 +82,7 @@ bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignore
   }
   if (candidates.look(needed_, ahead, ignored)) is_other = true;
   if (candidates.covers(needed_)) look_ahead(shared, ignored);
-  if (!candidates.covers(needed_) && candidates.is_too_large() &&
-      std::max(limit_by_work_, limit_of_look_) > kSmallestLimitOfSearch_m) {
-    candidates.cancel();
-    const double wanted = std::max(needed_, ahead);
-    for (double* limit : {&limit_by_work_, &limit_of_look_})
-      *limit = std::max(0.25 * std::min(*limit, wanted), kSmallestLimitOfSearch_m);
-  }
+  if (!candidates.covers(needed_) && candidates.is_too_large()) shrink(candidates, std::max(needed_, ahead));
   if (!is_other) return false;
   const auto adapted = [&](double limit, bool is_affordable, double smallest, double largest = kLargestReach_m) {
     return std::clamp((is_affordable ? 1.25 : 0.5) * limit, smallest, largest);
@@ -93,10 +91,25 @@ bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignore
   limit_ahead_ = adapted(limit_ahead_, candidates.pairs().size() <= kAffordablePairsAhead, kSmallestLimitAhead_m);
   const std::int64_t calls = std::clamp(candidates.calls_served(), 1, kMostCallsOfSearch);
   const std::int64_t work = candidates.work();
-  limit_by_work_ = adapted(limit_by_work_, work / calls <= shared.affordable_search, kSmallestLimitOfSearch_m);
-  limit_of_look_ = adapted(limit_of_look_, work / kMostCallsOfSearch <= shared.affordable_search,
-                           kSmallestLimitOfSearch_m, kMostLookAhead_m);
+  const auto is_affordable = [&](std::int64_t share_of_work) {
+    return share_of_work <= shared.affordable_search && !candidates.are_many();
+  };
+  limit_by_work_ = adapted(limit_by_work_, is_affordable(work / calls), kSmallestLimitOfSearch_m);
+  limit_of_look_ =
+      adapted(limit_of_look_, is_affordable(work / kMostCallsOfSearch), kSmallestLimitOfSearch_m, kMostLookAhead_m);
   return true;
+}
+
+/// After a search within `wanted` (metres) that was too large: gives it up, and makes the next one smaller. The smallest
+/// one goes on over more calls, or begins again with more memory.
+void SearchRadius::shrink(CandidatePairs& candidates, double wanted) {
+  if (std::max(limit_by_work_, limit_of_look_) > kSmallestLimitOfSearch_m) {
+    candidates.cancel();
+    for (double* limit : {&limit_by_work_, &limit_of_look_})
+      *limit = std::max(0.25 * std::min(*limit, wanted), kSmallestLimitOfSearch_m);
+  } else if (candidates.found_too_many()) {
+    candidates.allow_twice_as_many();
+  }
 }
 
 /// Makes the pairs near the way candidates that the last step has missed, as far as the reach.

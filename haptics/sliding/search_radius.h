@@ -28,7 +28,8 @@ class SearchRadius {
   /// Little is needed; where the candidates do not cover it, a search makes every pair within the reach ahead a
   /// candidate, and looks some ticks farther. Requests the next search in time. Returns whether the candidates changed.
   /// Where the work of a call does not suffice for the search, the next call goes on with it if its radius is the
-  /// smallest, and otherwise begins another one with a smaller radius.
+  /// smallest, and otherwise begins another one with a smaller radius. Where a search finds too many pairs, `needed` is
+  /// not covered either: after the next `choose` the reach is shorter, or more pairs are allowed.
   bool look(SimulatedParts& shared, std::span<const BodyPair> ignored);
   /// Requests the search for the first cycle of the next answer now, if the candidates will not serve for it. To be
   /// called after the last step of an answer. `look` requests other searches, so that their thread is not woken in
@@ -44,6 +45,7 @@ class SearchRadius {
   bool look_along_missed(SimulatedParts& shared, double least, std::span<const BodyPair> ignored) const;
   void look_ahead(SimulatedParts& shared, std::span<const BodyPair> ignored) const;
   double farther(const SimulatedParts& shared) const;
+  void shrink(CandidatePairs& candidates, double wanted);
 
   double reach_ = 0.0;
   double reach_ahead_ = 0.0;

@@ -185,12 +185,16 @@ bool StepFinder::project_again() {
         geometry::displaced(geometry::displaced(X_WV, p_Vref, projected_[p]), p_Vref, projection.displacements[p]);
     projected_[p] = geometry::displacement_between(X_WV, X_WV_to, p_Vref);
   }
+  set_forces(projection);
+  return true;
+}
+
+void StepFinder::set_forces(const CoupledProjection& projection) {
   forces_.clear();
   for (int i = 0; i < projection.active_count; ++i) {
     const auto slot = static_cast<std::size_t>(i);
     forces_.push_back({projection.active[slot], projection.force[slot]});
   }
-  return true;
 }
 
 /// Shortens a step whose path the candidates do not cover. They cover every path that is no longer than their distance
@@ -355,12 +359,7 @@ bool StepFinder::project(const Displacements& wanted) {
   projected_ = projection.displacements;
   const bool rubs = shared_.rules.friction.is_on() && projection.active_count > 0;
   if (rubs) rows_.recall_forces(forces_);
-  if (forces_.empty()) {
-    for (int i = 0; i < projection.active_count; ++i) {
-      const auto slot = static_cast<std::size_t>(i);
-      forces_.push_back({projection.active[slot], projection.force[slot]});
-    }
-  }
+  if (forces_.empty()) set_forces(projection);
   if (rubs) solve_friction(wanted);
   return true;
 }

@@ -64,6 +64,7 @@ class StepFinder {
   bool project(const Displacements& wanted);
   bool is_worth_another(const Displacements& displacements) const;
   bool project_again();
+  void set_forces(const CoupledProjection& projection);
   Displacements shorten();
   void solve_friction(const Displacements& wanted);
   bool slipped(const CoupledRow& row) const;

@@ -310,6 +310,26 @@ TEST(CandidatePairs, AreAllTrianglesWhereVeryManyWereNear) {
   EXPECT_GT(candidates.pairs().pair_count(), 5000U);
 }
 
+TEST(CandidatePairs, StayWhereASearchFindsTooMany) {
+  ContactScene ball_in_socket({test_support::obstacle_of(geometry::make_sphere(0.0101, 20'000))},
+                              {test_support::part_of(geometry::make_sphere(0.01, 20'000))}, std::vector<double>{1e-6});
+  for (const bool has_thread : {false, true}) {
+    CandidatePairs candidates(ball_in_socket, kGreatest, has_thread);
+    ASSERT_TRUE(candidates.look(0.11e-3, 0.0, {}));
+    const std::size_t few = candidates.pairs().size();
+    ASSERT_GT(few, 10'000U);
+    EXPECT_FALSE(candidates.look(2e-3, 0.0, {}));
+    EXPECT_TRUE(candidates.found_too_many());
+    EXPECT_TRUE(candidates.is_too_large());
+    EXPECT_EQ(candidates.pairs().size(), few);
+    EXPECT_NEAR(candidates.covered(), 0.11e-3, 1e-9);
+    candidates.cancel();
+    EXPECT_TRUE(candidates.look(0.2e-3, 0.0, {}));
+    EXPECT_FALSE(candidates.is_too_large());
+    EXPECT_GT(candidates.pairs().size(), few);
+  }
+}
+
 // The planes of a search that finds very many pairs are made to last for the step in which its answer is first needed.
 TEST(CandidatePairs, AreFoundForAStepThatIsExpectedWhereVeryManyWereNear) {
   constexpr double kReach = 0.1e-3;

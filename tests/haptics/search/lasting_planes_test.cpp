@@ -34,8 +34,8 @@ ContactScene ball_in_socket() {
 CandidateRequest request_at(const Isometry3d& X_WV) {
   CandidateRequest request;
   request.X_WB = {X_WV};
-  request.radius = 0.3e-3;
-  request.sought = SoughtPairs::kWithPlanesInCloseFit;
+  request.range.radius = 0.3e-3;
+  request.range.sought = SoughtPairs::kWithPlanesInCloseFit;
   return request;
 }
 

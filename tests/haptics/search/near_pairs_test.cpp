@@ -33,14 +33,16 @@ constexpr std::array kAllKinds{SoughtPairs::kWithDistances, SoughtPairs::kWithPl
 
 /// What the search finds for all bodies of a scene.
 struct Found {
-  Found(const ContactScene& scene, double radius, SoughtPairs sought = SoughtPairs::kWithPlanes) {
+  Found(const ContactScene& scene, double radius, SoughtPairs sought = SoughtPairs::kWithPlanes)
+      : Found(scene, SearchRange{.radius = radius, .sought = sought}) {}
+  Found(const ContactScene& scene, const SearchRange& range) {
     collision::QueryWorkspace workspace;
     const std::span<const PlacedBody> bodies = scene.bodies();
     for (std::size_t part = scene.obstacles().size(); part < bodies.size(); ++part) {
       for (std::size_t other = 0; other < part; ++other) {
         const BodyPair pair{static_cast<std::int32_t>(other), static_cast<std::int32_t>(part)};
-        find_near_pairs(pair, bodies[other], bodies[part], scene.margin(pair.obstacle, pair.part), radius, sought,
-                        workspace, nullptr, pairs, boxes);
+        find_near_pairs(pair, bodies[other], bodies[part], scene.margin(pair.obstacle, pair.part), range, workspace,
+                        nullptr, pairs, boxes);
       }
     }
   }
@@ -124,6 +126,23 @@ TEST_F(NearPairs, AreInNoBoxesWhereBothYieldContactsIfTheseAreNotSought) {
   const ContactScene plates =
       scene(geometry::make_plate({0.1, 0.1}, 5000), geometry::make_plate({0.06, 0.06}, 5000), 2e-6);
   EXPECT_FALSE(Found(plates, 1e-3, SoughtPairs::kWithPlanesInCloseFit).boxes.empty());
+}
+
+TEST_F(NearPairs, AreAllOfThemOrTooMany) {
+  ContactScene scene({test_support::obstacle_of(geometry::make_sphere(0.03, 500))},
+                     {test_support::part_of(geometry::make_sphere(0.02, 500))}, std::vector<double>{2e-6});
+  scene.place(0, test_support::pose({0.0, 0.0, 0.0501}));
+  for (const SoughtPairs sought : kAllKinds) {
+    SearchRange range{.radius = 2e-3, .sought = sought};
+    const Found all(scene, range);
+    range.most_pairs = all.pairs.size() + all.boxes.size();
+    ASSERT_GT(range.most_pairs, 1U);
+    const Found as_many_as_allowed(scene, range);
+    EXPECT_EQ(as_many_as_allowed.pairs.size(), all.pairs.size());
+    EXPECT_EQ(as_many_as_allowed.boxes.size(), all.boxes.size());
+    --range.most_pairs;
+    EXPECT_THROW(Found(scene, range), TooManyPairs);
+  }
 }
 
 TEST_F(NearPairs, HoldEveryPairThatMayYieldAContactOnce) {

@@ -213,7 +213,7 @@ TEST(SearchThread, RunsAheadByNoMoreWorkThanItMay) {
   const ContactScene scene = crowded_scene();
   SearchThread thread(kAhead);
   CandidateSearch search(scene, 5e-3, &thread);
-  const CandidateRequest request{.X_WB = {scene.bodies().back().X_WB}, .radius = 2e-3, .ignored = {}};
+  const CandidateRequest request{.X_WB = {scene.bodies().back().X_WB}, .range = {.radius = 2e-3}, .ignored = {}};
   CandidateSet found;
   thread.begin(search, request, found);
   for (const std::int64_t allowed : {0, 10'000, 30'000}) {
@@ -235,7 +235,7 @@ TEST(SearchThread, EndsASearchInVainWhereItIs) {
   const ContactScene scene = crowded_scene();
   SearchThread thread;
   CandidateSearch search(scene, 5e-3, &thread);
-  const CandidateRequest request{.X_WB = {scene.bodies().back().X_WB}, .radius = 5e-3, .ignored = {}};
+  const CandidateRequest request{.X_WB = {scene.bodies().back().X_WB}, .range = {.radius = 5e-3}, .ignored = {}};
   CandidateSet found;
   thread.begin(search, request, found);
   EXPECT_TRUE(thread.wait());
@@ -255,7 +255,7 @@ TEST(SearchThread, ForgetsTheFailureOfASearchInVain) {
   const ContactScene scene = crowded_scene();
   SearchThread thread;
   CandidateSearch search(scene, 5e-3, &thread);
-  CandidateRequest request{.X_WB = {pose({0.0, 0.0, std::nan("")})}, .radius = 2e-3, .ignored = {}};
+  CandidateRequest request{.X_WB = {pose({0.0, 0.0, std::nan("")})}, .range = {.radius = 2e-3}, .ignored = {}};
   CandidateSet found;
   thread.begin(search, request, found);
   EXPECT_TRUE(thread.cancel()) << "whether it has failed already or not";

@@ -73,6 +73,22 @@ TEST(WorkBudget, WithoutOneNoCallEndsEarly) {
   EXPECT_GT(sliding.call_statistics().calls, 0);
 }
 
+// The first search would find more pairs than its memory may hold; a call without a budget looks less far at once.
+TEST(WorkBudget, WithoutOneACallEndsWhereVeryManyPairsAreNear) {
+  const Isometry3d X_WG = pose({1.5e-3, 0.0, 0.0});
+  std::vector<Isometry3d> X_WV;
+  for (const bool has_search_thread : {false, true}) {
+    Sliding ball_in_socket({test_support::obstacle_of(geometry::make_sphere(0.0101, 20'000))},
+                           test_support::part_of(geometry::make_sphere(0.01, 20'000)), Isometry3d::Identity(),
+                           {.rules = {.max_cycles = 1, .has_search_thread = has_search_thread}});
+    EXPECT_FALSE(ball_in_socket.advance(X_WG).ended_early);
+    EXPECT_GT(ball_in_socket.result().X_WV.translation().x(), 10e-6);
+    EXPECT_LT(ball_in_socket.result().X_WV.translation().x(), 100e-6);
+    X_WV.push_back(ball_in_socket.result().X_WV);
+  }
+  EXPECT_EQ(X_WV[0].matrix(), X_WV[1].matrix());
+}
+
 TEST(WorkBudget, ThePartGetsToTheSamePlaceInMoreCalls) {
   Sliding unlimited = ball_on_block(std::nullopt);
   lead_to_goal(unlimited, 1000);
