@@ -318,7 +318,7 @@ TEST(CandidatePairs, StayWhereASearchFindsTooMany) {
     ASSERT_TRUE(candidates.look(0.11e-3, 0.0, {}));
     const std::size_t few = candidates.pairs().size();
     ASSERT_GT(few, 10'000U);
-    EXPECT_FALSE(candidates.look(2e-3, 0.0, {}));
+    EXPECT_FALSE(candidates.look(0.85e-3, 0.0, {}));
     EXPECT_TRUE(candidates.found_too_many());
     EXPECT_TRUE(candidates.is_too_large());
     EXPECT_EQ(candidates.pairs().size(), few);
@@ -327,6 +327,11 @@ TEST(CandidatePairs, StayWhereASearchFindsTooMany) {
     EXPECT_TRUE(candidates.look(0.2e-3, 0.0, {}));
     EXPECT_FALSE(candidates.is_too_large());
     EXPECT_GT(candidates.pairs().size(), few);
+    EXPECT_FALSE(candidates.are_many());
+    EXPECT_FALSE(candidates.look(0.85e-3, 0.0, {}));
+    candidates.allow_twice_as_many();
+    EXPECT_TRUE(candidates.look(0.85e-3, 0.0, {}));
+    EXPECT_TRUE(candidates.are_many());
   }
 }
 
