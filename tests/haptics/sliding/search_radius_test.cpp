@@ -21,8 +21,8 @@ constexpr double kFast_m = 2e-3;  // in a tick
 class SearchRadiusInSocket : public ::testing::TestWithParam<std::optional<std::int64_t>> {
  protected:
   SearchRadiusInSocket()
-      : shared_({test_support::obstacle_of(geometry::make_sphere(0.0101, 20'000))},
-                {{.part_V = test_support::part_of(geometry::make_sphere(0.01, 20'000))}}, {},
+      : shared_({test_support::obstacle_of(geometry::make_sphere(0.0101, 14'000))},
+                {{.part_V = test_support::part_of(geometry::make_sphere(0.01, 14'000))}}, {},
                 {.work_budget = GetParam()}) {
     shared_.states.front().slew = kFast_m;
   }

@@ -78,8 +78,8 @@ TEST(WorkBudget, WithoutOneACallEndsWhereVeryManyPairsAreNear) {
   const Isometry3d X_WG = pose({1.5e-3, 0.0, 0.0});
   std::vector<Isometry3d> X_WV;
   for (const bool has_search_thread : {false, true}) {
-    Sliding ball_in_socket({test_support::obstacle_of(geometry::make_sphere(0.0101, 20'000))},
-                           test_support::part_of(geometry::make_sphere(0.01, 20'000)), Isometry3d::Identity(),
+    Sliding ball_in_socket({test_support::obstacle_of(geometry::make_sphere(0.0101, 14'000))},
+                           test_support::part_of(geometry::make_sphere(0.01, 14'000)), Isometry3d::Identity(),
                            {.rules = {.max_cycles = 1, .has_search_thread = has_search_thread}});
     EXPECT_FALSE(ball_in_socket.advance(X_WG).ended_early);
     EXPECT_GT(ball_in_socket.result().X_WV.translation().x(), 10e-6);
