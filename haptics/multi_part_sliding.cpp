@@ -159,7 +159,7 @@ class MultiPartSliding::Cycle {
       find_ignored();
       if (radius_.look(shared_, ignored_)) starts_.restore_min_clearances();
       waits_for_search_ = !shared_.candidates.covers(radius_.needed());
-      if (waits_for_search_) return shared_.rules.work_budget ? Progress::kUsedUp : Progress::kNextCycle;
+      if (waits_for_search_) return waits_for_next_call() ? Progress::kUsedUp : Progress::kNextCycle;
       step_finder_.look(radius_.reach(), radius_.reach_ahead(), budget);
     }
     const std::optional<Step> step = step_finder_.find(budget);
@@ -193,6 +193,9 @@ class MultiPartSliding::Cycle {
     report(reach);
     return is_done ? Progress::kDone : Progress::kNextCycle;
   }
+
+  /// Without a budget, a search that was too large is followed by a smaller one at once.
+  bool waits_for_next_call() const { return shared_.rules.work_budget || !radius_.has_shrunk(); }
 
   /// Whether the step has led pushed parts so far that the contacts at its beginning tell little of those at its end.
   bool is_elsewhere(const Step& step) const {

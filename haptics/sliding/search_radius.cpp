@@ -65,6 +65,7 @@ bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignore
   const double share = has_contacts_ahead ? kMakeDoAhead * reach_ahead_ : kMakeDo * reach_;
   const double least = std::max(share, std::min(reach_, kMargins * shared.largest_margin));
   needed_ = reach_ahead_;
+  has_shrunk_ = false;
   bool is_other = false;
   if (!candidates.covers(reach_ahead_)) {
     if (is_first_cycle_) is_other = candidates.take_ahead(least, next_step_);
@@ -100,15 +101,17 @@ bool SearchRadius::look(SimulatedParts& shared, std::span<const BodyPair> ignore
   return true;
 }
 
-/// After a search within `wanted` (metres) that was too large: gives it up, and makes the next one smaller. The smallest
-/// one goes on over more calls, or begins again with more memory.
+/// After a search within `wanted` (metres) that was too large: gives it up, and makes the next one smaller. The
+/// smallest one goes on over more calls, or begins again with more memory.
 void SearchRadius::shrink(CandidatePairs& candidates, double wanted) {
   if (std::max(limit_by_work_, limit_of_look_) > kSmallestLimitOfSearch_m) {
     candidates.cancel();
     for (double* limit : {&limit_by_work_, &limit_of_look_})
       *limit = std::max(0.25 * std::min(*limit, wanted), kSmallestLimitOfSearch_m);
+    has_shrunk_ = true;
   } else if (candidates.found_too_many()) {
     candidates.allow_twice_as_many();
+    has_shrunk_ = true;
   }
 }
 

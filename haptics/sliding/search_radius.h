@@ -31,6 +31,8 @@ class SearchRadius {
   /// smallest, and otherwise begins another one with a smaller radius. Where a search finds too many pairs, `needed` is
   /// not covered either: after the next `choose` the reach is shorter, or more pairs are allowed.
   bool look(SimulatedParts& shared, std::span<const BodyPair> ignored);
+  /// Whether the last `look` has found a search too large, so that the next one is smaller or may have more pairs.
+  bool has_shrunk() const { return has_shrunk_; }
   /// Requests the search for the first cycle of the next answer now, if the candidates will not serve for it. To be
   /// called after the last step of an answer. `look` requests other searches, so that their thread is not woken in
   /// vain.
@@ -51,6 +53,7 @@ class SearchRadius {
   double reach_ahead_ = 0.0;
   double needed_ = 0.0;
   bool is_first_cycle_ = false;
+  bool has_shrunk_ = false;
   double next_step_ = 0.0;     // metres: the length that is expected of the main step of the next answer
   double least_radius_ = 0.0;  // metres: of the search for it, without its look-ahead
   double last_step_ = 0.0;

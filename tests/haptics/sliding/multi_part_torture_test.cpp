@@ -1,8 +1,9 @@
-// One or two parts in random hands among obstacles, close to each other and to these: they push each other about,
-// slide, are let go and taken again. Never is anything inside anything, where they are seen, nor, in calls of one
-// cycle, on the way there; and the lag of a part under force feedback never jumps.
+// One or two parts in random hands among obstacles, close to each other and to these, or the last one on a random
+// script: they push each other about, slide, are let go and taken again. Never is anything inside anything, where they
+// are seen, nor, in calls of one cycle, on the way there; and the lag of a part under force feedback never jumps.
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -28,6 +29,7 @@ using test_support::RandomNumbers;
 
 constexpr int kTrials = test_support::kSanitized ? 40 : 200;
 constexpr int kTicks = 150;
+constexpr int kLongestTick_ms = 3;
 constexpr double kMargin_m = 5e-6;
 
 /// A hand that goes for some body, turns, rests, or lets go, for some ticks each.
@@ -170,6 +172,18 @@ SlidingRules random_rules(RandomNumbers& random) {
   return rules;
 }
 
+/// From one random place near X_WB to the next, as long as a trial lasts.
+PartScript random_script(const Isometry3d& X_WB, double size, RandomNumbers& random) {
+  std::vector<geometry::TimedPose> rows{{std::chrono::milliseconds(0), X_WB}};
+  while (rows.back().time < std::chrono::milliseconds(kLongestTick_ms * kTicks)) {
+    Isometry3d X_WS = X_WB;
+    X_WS.translation() += random.uniform(0.0, 1.0) * size * random.direction();
+    X_WS.rotate(Eigen::AngleAxisd(random.uniform(0.0, 0.5), random.direction()));
+    rows.push_back({rows.back().time + std::chrono::milliseconds(random.integer(10, 100)), X_WS});
+  }
+  return {.X_WB = geometry::PoseTrajectory(rows)};
+}
+
 std::vector<HeldPart> random_held_parts(const ContactScene& scene, RandomNumbers& random) {
   std::vector<HeldPart> parts;
   for (std::size_t p = 0; p < scene.movers().size(); ++p) {
@@ -188,13 +202,14 @@ struct TortureEvents {
   int paths = 0;
 };
 
-/// The parts of a scene, each in a random hand.
+/// The parts of a scene, each in a random hand, or on a script.
 class TortureTrial {
  public:
-  TortureTrial(const ContactScene& scene, double size, RandomNumbers& random, TortureEvents& events)
+  TortureTrial(const ContactScene& scene, std::vector<HeldPart> parts, double size, RandomNumbers& random,
+               TortureEvents& events)
       : random_(random),
         events_(events),
-        parts_(random_held_parts(scene, random)),
+        parts_(std::move(parts)),
         rules_(random_rules(random)),
         obstacles_(static_cast<std::int32_t>(scene.obstacles().size())),
         sliding_({scene.obstacles().begin(), scene.obstacles().end()}, parts_, rules_) {
@@ -205,7 +220,8 @@ class TortureTrial {
   /// Ends at the first fatal failure.
   void tick() {
     const std::vector<PlacedBody> before = placed_bodies(sliding_);
-    const double milliseconds = random_.chance(0.1) ? 3.0 : 1.0;
+    const double milliseconds = random_.chance(0.1) ? kLongestTick_ms : 1.0;
+    time_ += std::chrono::duration<double, std::milli>(milliseconds);
     allowed_ = kSlew_m * milliseconds;
     lags_.clear();
     X_WG_.clear();
@@ -222,8 +238,21 @@ class TortureTrial {
   }
 
  private:
-  /// Moves the hand of a part, which may let go of it or take it again.
+  /// Moves the hand of a part, which may let go of it or take it again, or its script.
   void lead(std::size_t p, const std::vector<PlacedBody>& before) {
+    if (parts_[p].script) {
+      X_WG_.push_back(parts_[p].script->pose_at(time_));
+    } else {
+      lead_by_hand(p, before);
+    }
+    lags_.push_back(lag_of(sliding_, p));
+    if (sliding_.result(p).state == SlidingState::kReleased) return;
+    const geometry::Displacement of_ghost =
+        geometry::displacement_between(sliding_.result(p).X_WG, X_WG_[p], sliding_.part(p).p_Vref());
+    allowed_ += geometry::motion_bound(of_ghost, sliding_.part(p).radius());
+  }
+
+  void lead_by_hand(std::size_t p, const std::vector<PlacedBody>& before) {
     Hand& hand = hands_[p];
     if (hand.is_done()) {
       const auto body = static_cast<std::size_t>(random_.integer(0, static_cast<int>(before.size()) - 1));
@@ -237,10 +266,6 @@ class TortureTrial {
       events_.grasps_at_an_offset += parts_[p].metaphor == Metaphor::kForceFeedback && offset > kSlew_m ? 1 : 0;
       sliding_.grasp(p, X_WG_[p]);
     }
-    lags_.push_back(lag_of(sliding_, p));
-    const geometry::Displacement of_ghost =
-        geometry::displacement_between(sliding_.result(p).X_WG, X_WG_[p], sliding_.part(p).p_Vref());
-    if (hand.holds()) allowed_ += geometry::motion_bound(of_ghost, sliding_.part(p).radius());
   }
 
   void check(std::size_t p, const std::vector<PlacedBody>& before) {
@@ -258,7 +283,7 @@ class TortureTrial {
 
   RandomNumbers& random_;
   TortureEvents& events_;
-  std::vector<HeldPart> parts_;  // drawn before the rules
+  std::vector<HeldPart> parts_;
   SlidingRules rules_;
   std::int32_t obstacles_;
   MultiPartSliding sliding_;
@@ -266,6 +291,7 @@ class TortureTrial {
   std::vector<Isometry3d> X_WG_;  // in this tick
   std::vector<Vector3d> lags_;    // before it
   double allowed_ = 0.0;          // metres that a lag may change by in this tick
+  std::chrono::duration<double, std::milli> time_{0.0};
 };
 
 TEST(MultiPartTorture, NothingIsEverInsideAnything) {
@@ -276,7 +302,8 @@ TEST(MultiPartTorture, NothingIsEverInsideAnything) {
   for (int trial = 0; trial < kTrials; ++trial) {
     const double size = random.power_of_ten(-2.5, 0.0);
     const auto scene = test_support::random_contact_scene(size, kMargin_m, 2.0 * kMargin_m, random);
-    TortureTrial torture(*scene, size, random, events);
+    std::vector<HeldPart> parts = random_held_parts(*scene, random);
+    TortureTrial torture(*scene, std::move(parts), size, random, events);
     for (int tick = 0; tick < kTicks; ++tick) {
       SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", tick " +
                    std::to_string(tick) + ", parts of " + std::to_string(size) + " m");
@@ -291,6 +318,34 @@ TEST(MultiPartTorture, NothingIsEverInsideAnything) {
   // So few, for the forty trials that sanitizers afford.
   EXPECT_GT(events.pushed_by_each_other, 20);
   EXPECT_GT(events.grasps_at_an_offset, 0);
+}
+
+TEST(MultiPartTorture, NothingIsEverInsideAPartOnAScript) {
+  constexpr std::uint64_t kSeed = 73;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  RandomNumbers random(kSeed);
+  TortureEvents events;
+  int scripted = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const double size = random.power_of_ten(-2.5, 0.0);
+    const auto scene = test_support::random_contact_scene(size, kMargin_m, 2.0 * kMargin_m, random);
+    std::vector<HeldPart> parts = random_held_parts(*scene, random);
+    if (parts.size() < 2) continue;
+    ++scripted;
+    parts.back().script = random_script(parts.back().X_WV_start, size, random);
+    if (random.chance(0.5)) parts.back().stiffness = CouplingStiffness{1e6, 1e6 * size * size};  // pushes harder
+    TortureTrial torture(*scene, std::move(parts), size, random, events);
+    for (int tick = 0; tick < kTicks; ++tick) {
+      SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", tick " +
+                   std::to_string(tick) + ", parts of " + std::to_string(size) + " m");
+      torture.tick();
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(scripted, kTrials / 5);
+  EXPECT_GT(events.paths, 100);
+  RecordProperty("pushed_by_each_other", events.pushed_by_each_other);
+  EXPECT_GT(events.pushed_by_each_other, 20);
 }
 
 }  // namespace
