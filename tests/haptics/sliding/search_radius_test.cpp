@@ -11,6 +11,7 @@
 #include <glissade/geometry/mesh_generators.h>
 
 #include "held_part.h"
+#include "sanitizers.h"
 
 namespace glissade::haptics {
 namespace {
@@ -25,6 +26,9 @@ class SearchRadiusInSocket : public ::testing::TestWithParam<std::optional<std::
                 {{.part_V = test_support::part_of(geometry::make_sphere(0.01, 14'000))}}, {},
                 {.work_budget = GetParam()}) {
     shared_.states.front().slew = kFast_m;
+  }
+  void SetUp() override {
+    if (test_support::kSanitized) GTEST_SKIP() << "millions of pairs take minutes; near_pairs_test has the limit";
   }
 
   /// Looks until the candidates cover what a cycle needs. Returns the reach of each look.
