@@ -218,7 +218,15 @@ class TortureTrial {
   }
 
   /// Ends at the first fatal failure.
-  void tick() {
+  void run() {
+    for (int tick = 0; tick < kTicks && !testing::Test::HasFatalFailure(); ++tick) {
+      SCOPED_TRACE("tick " + std::to_string(tick));
+      advance();
+    }
+  }
+
+ private:
+  void advance() {
     const std::vector<PlacedBody> before = placed_bodies(sliding_);
     const double milliseconds = random_.chance(0.1) ? kLongestTick_ms : 1.0;
     time_ += std::chrono::duration<double, std::milli>(milliseconds);
@@ -237,7 +245,6 @@ class TortureTrial {
       check(p, before);
   }
 
- private:
   /// Moves the hand of a part, which may let go of it or take it again, or its script.
   void lead(std::size_t p, const std::vector<PlacedBody>& before) {
     if (parts_[p].script) {
@@ -304,12 +311,10 @@ TEST(MultiPartTorture, NothingIsEverInsideAnything) {
     const auto scene = test_support::random_contact_scene(size, kMargin_m, 2.0 * kMargin_m, random);
     std::vector<HeldPart> parts = random_held_parts(*scene, random);
     TortureTrial torture(*scene, std::move(parts), size, random, events);
-    for (int tick = 0; tick < kTicks; ++tick) {
-      SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", tick " +
-                   std::to_string(tick) + ", parts of " + std::to_string(size) + " m");
-      torture.tick();
-      if (HasFatalFailure()) return;
-    }
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", parts of " +
+                 std::to_string(size) + " m");
+    torture.run();
+    if (HasFatalFailure()) return;
   }
   EXPECT_GT(events.moved, 100);
   EXPECT_GT(events.paths, 100);
@@ -335,12 +340,10 @@ TEST(MultiPartTorture, NothingIsEverInsideAPartOnAScript) {
     parts.back().script = random_script(parts.back().X_WV_start, size, random);
     if (random.chance(0.5)) parts.back().stiffness = CouplingStiffness{1e6, 1e6 * size * size};  // pushes harder
     TortureTrial torture(*scene, std::move(parts), size, random, events);
-    for (int tick = 0; tick < kTicks; ++tick) {
-      SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", tick " +
-                   std::to_string(tick) + ", parts of " + std::to_string(size) + " m");
-      torture.tick();
-      if (HasFatalFailure()) return;
-    }
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial) + ", parts of " +
+                 std::to_string(size) + " m");
+    torture.run();
+    if (HasFatalFailure()) return;
   }
   EXPECT_GT(scripted, kTrials / 5);
   EXPECT_GT(events.paths, 100);
