@@ -98,7 +98,8 @@ struct SlidingRules {
   double contacts_ahead_ms = 0.0;
   /// Work of a search: where a search finds more pairs of triangles than this, the next ones look half as far, though
   /// not less than 0.2 mm, and steps are shorter. Answers then come sooner, and a fast part falls behind. At least 1.
-  /// A search that finds more than two million pairs is given up for one that looks much less far.
+  /// A search that finds more than two million pairs, of triangles and of boxes, is given up for one that looks much
+  /// less far; the smallest one for one that may find twice as many.
   std::size_t affordable_pairs = 30'000;
   /// Work of one call: searches may take so much, and cycles as much again. Where searches take more than half of it
   /// on average, the reach becomes shorter. The unit is about a nanosecond of an ordinary processor, but it counts

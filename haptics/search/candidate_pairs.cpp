@@ -21,9 +21,6 @@ constexpr double kForward = 0.6;
 /// been answered. Where so many are near, parts mostly fit closely.
 constexpr std::size_t kPairsOfLongSearch = 5000;
 
-/// These take 0.4 GB; there is the memory of two searches.
-constexpr std::size_t kMostPairs = 2'000'000;
-
 // Shares of a step:
 /// The radius of a search at its middle: half a step is needed where it leads as expected.
 constexpr double kRadiusOfStep = 0.6;
@@ -38,13 +35,13 @@ std::int64_t work_ahead(bool runs_ahead, std::int64_t work_of_call) {
 }  // namespace
 
 CandidatePairs::CandidatePairs(const ContactScene& scene, double greatest_radius, bool runs_ahead,
-                               std::int64_t work_of_call, bool has_planes)
+                               std::int64_t work_of_call, bool has_planes, std::size_t most_pairs)
     : scene_(scene),
       work_of_call_(work_of_call),
       greatest_radius_(greatest_radius),
       has_planes_(has_planes),
       work_left_(work_of_call),
-      most_pairs_(has_planes ? kMostPairs : std::numeric_limits<std::size_t>::max()),
+      most_pairs_(has_planes ? most_pairs : std::numeric_limits<std::size_t>::max()),
       thread_(runs_ahead || work_of_call != kUnlimitedWork
                   ? std::make_unique<SearchThread>(work_ahead(runs_ahead, work_of_call))
                   : nullptr),
@@ -228,7 +225,7 @@ void CandidatePairs::allow_twice_as_many() {
 }
 
 bool CandidatePairs::are_many() const {
-  return now_.pair_count() > most_pairs_ / 2;
+  return now_.search().set.pairs.size() + now_.search().set.boxes.size() > most_pairs_ / 2;
 }
 
 void CandidatePairs::cancel() {

@@ -12,8 +12,10 @@
 /// The work of searching in one call of the simulation can be limited. A search then goes on over several calls, and
 /// its answer can be taken in the first call up to which so much work was allowed, however early it was done.
 ///
-/// With planes, the memory of a search is limited, too: one that finds too many pairs ends without an answer.
+/// With planes, the memory of a search is limited, too: one that finds too many pairs, of triangles and of boxes, ends
+/// without an answer.
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -33,15 +35,19 @@
 
 namespace glissade::haptics {
 
+/// These take 0.4 GB; there is the memory of two searches.
+inline constexpr std::size_t kMostPairs = 2'000'000;
+
 /// Not thread-safe.
 class CandidatePairs {
  public:
   /// The scene must outlive this object. In `look` and `look_ahead`, reach + ahead must not exceed `greatest_radius`
   /// (metres). With a limit of work, searches have a thread of their own in any case. If `runs_ahead` is false, that
   /// thread never works at the same time as the caller's. Without planes, only `KnownPairs::within` tells of pairs, and
-  /// searches are made when they are needed, at the present poses.
+  /// searches are made when they are needed, at the present poses; their pairs are not limited to `most_pairs`.
   CandidatePairs(const ContactScene& scene, double greatest_radius, bool runs_ahead = false,
-                 std::int64_t work_of_call = kUnlimitedWork, bool has_planes = true);
+                 std::int64_t work_of_call = kUnlimitedWork, bool has_planes = true,
+                 std::size_t most_pairs = kMostPairs);
   CandidatePairs(const CandidatePairs&) = delete;
   CandidatePairs& operator=(const CandidatePairs&) = delete;
   ~CandidatePairs();

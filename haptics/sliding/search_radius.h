@@ -20,7 +20,7 @@ class SearchRadius {
   /// Of the contacts ahead, metres; at least `reach`. Candidates may cover less.
   double reach_ahead() const { return reach_ahead_; }
   /// What the candidates must cover around the parts for the cycle, metres: after `look` they do, unless the work of a
-  /// call does not suffice.
+  /// call does not suffice or a search finds too many pairs.
   double needed() const { return needed_; }
 
   /// Makes pairs near the parts candidates, except pairs of `ignored` bodies, unless the last candidates still cover
