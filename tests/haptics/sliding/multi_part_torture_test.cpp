@@ -27,7 +27,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using test_support::RandomNumbers;
 
-constexpr int kTrials = test_support::kSanitized ? 15 : 200;
+constexpr int kTrials = test_support::kSanitized ? 40 : 200;
 constexpr int kTicks = 150;
 constexpr int kLongestTick_ms = 3;
 constexpr double kMargin_m = 5e-6;
@@ -320,8 +320,9 @@ TEST(MultiPartTorture, NothingIsEverInsideAnything) {
   EXPECT_GT(events.paths, 100);
   RecordProperty("pushed_by_each_other", events.pushed_by_each_other);
   RecordProperty("grasps_at_an_offset", events.grasps_at_an_offset);
-  EXPECT_GT(events.pushed_by_each_other, kTrials / 10);
-  if (!test_support::kSanitized) EXPECT_GT(events.grasps_at_an_offset, 0) << "rare";
+  // So few, for the forty trials that sanitizers afford.
+  EXPECT_GT(events.pushed_by_each_other, 20);
+  EXPECT_GT(events.grasps_at_an_offset, 0);
 }
 
 TEST(MultiPartTorture, NothingIsEverInsideAPartOnAScript) {
