@@ -20,6 +20,7 @@
 #include "held_part.h"
 #include "near_bodies.h"
 #include "poses.h"
+#include "sanitizers.h"
 
 namespace glissade::haptics {
 namespace {
