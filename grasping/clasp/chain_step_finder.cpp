@@ -39,8 +39,7 @@ double greatest_radius(const KinematicChain& chain, std::span<const std::size_t>
 
 ChainStepFinder::ChainStepFinder(const KinematicChain& chain, std::span<const std::size_t> movers,
                                  haptics::CertifiedBodies& bodies, double touching)
-    : chain_(chain),
-      movers_(movers),
+    : movers_(movers),
       bodies_(bodies),
       sight_(movers.size(), bodies.greatest_margin() + touching),
       motion_(chain, movers),

@@ -55,7 +55,6 @@ class ChainStepFinder {
   void find_shares();
   bool find_slide();
 
-  const KinematicChain& chain_;
   std::span<const std::size_t> movers_;
   haptics::CertifiedBodies& bodies_;
   Sight sight_;

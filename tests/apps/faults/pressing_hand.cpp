@@ -28,10 +28,10 @@ std::string scene_of(const PressingHandOptions& options) {
          options.more_objects;
 }
 
-void wait_until(const std::function<bool()>& holds) {
+void wait_until(const std::string& what, const std::function<bool()>& holds) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   while (!holds()) {
-    if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("waited too long");
+    if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("waited too long until " + what);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 }
@@ -78,8 +78,11 @@ PressingHand::PressingHand(const PressingHandOptions& options) : options_(option
   folder_.write("scene.yaml", scene_of(options));
   glove_ = start_glove(0.0, folder_.path("record.csv"));
   server_ = start_server();
-  wait_until([this] { return server_->standard_error().find("holds") != std::string::npos; });
-  std::this_thread::sleep_for(std::chrono::milliseconds(800));  // the hand reaches the plate after 0.3 s
+  wait_until("the server holds the glove",
+             [this] { return server_->standard_error().find("holds") != std::string::npos; });
+  // No fixed time would do: any process may wait for a processor, and the force fades then.
+  wait_until("the hand presses", [this] { return relay_.force() > kPressing_N; });
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));  // until it rests
 }
 
 std::unique_ptr<Process> PressingHand::start_server() const {

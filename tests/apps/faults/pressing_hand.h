@@ -36,6 +36,9 @@ class GloveRecord {
   std::vector<GlovePeriod> periods_;
 };
 
+/// A hand presses with more than this force.
+inline constexpr double kPressing_N = 5.0;
+
 /// The greatest force of these periods.
 double greatest_force(const std::vector<GlovePeriod>& periods);
 /// The greatest force along the plate.

@@ -16,12 +16,12 @@
 #include <glissade/devices/simulated_glove.h>
 
 #include "pressing_hand.h"
+#include "stall_meter.h"
 
 namespace glissade::test_support {
 
 /// Far longer than the deadlines of the envelope, because any process may wait for a processor.
 inline constexpr std::chrono::milliseconds kGenerous{150};
-inline constexpr double kPressing_N = 5.0;
 
 class PressingHandTest : public testing::Test {
  protected:
@@ -29,6 +29,12 @@ class PressingHandTest : public testing::Test {
     ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
     hand_ = std::make_unique<PressingHand>(options());
     begin_ = monotonic_now();
+  }
+
+  /// For `run_where_quiet`.
+  void TearDown() override {
+    RecordProperty("stall_us",
+                   static_cast<int>(std::chrono::duration_cast<std::chrono::microseconds>(stalls_.longest()).count()));
   }
 
   virtual PressingHandOptions options() const { return {}; }
@@ -127,6 +133,7 @@ class PressingHandTest : public testing::Test {
   std::chrono::nanoseconds begin() const { return begin_; }
 
  private:
+  StallMeter stalls_;
   std::unique_ptr<PressingHand> hand_;
   std::chrono::nanoseconds begin_{0};
   std::chrono::nanoseconds end_{0};

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <Eigen/Core>
+
 namespace glissade::test_support {
 
 using std::chrono::nanoseconds;
@@ -42,9 +44,16 @@ void Relay::pass(const Bytes& message, std::mt19937& /*random*/, const Send& sen
   send(message, nanoseconds(0));
 }
 
+double Relay::force() const {
+  const std::lock_guard lock(mutex_);
+  return last_state_.reasons == 0 ? Eigen::Map<const Eigen::Vector3d>(last_command_.force_H_W_N).norm() : 0.0;
+}
+
 void Relay::take(bool is_state, std::span<const std::uint8_t> message) {
   const std::lock_guard lock(mutex_);
   const nanoseconds now = monotonic_now();
+  const int size = static_cast<int>(message.size());
+  is_state ? last_state_.decode(message.data(), 0, size) : last_command_.decode(message.data(), 0, size);
   const Rule& rule = is_state ? states_ : commands_;
   rule(Bytes(message.begin(), message.end()), random_, [&](Bytes result, nanoseconds delay) {
     delayed_.push({now + delay, is_state, std::move(result)});

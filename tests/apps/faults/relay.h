@@ -49,6 +49,9 @@ class Relay {
 
   static void pass(const Bytes& message, std::mt19937& random, const Send& send);
 
+  /// The force (N) of the last command to come; zero if the last state says that the glove has reduced one.
+  double force() const;
+
   /// A rule that changes a field of each message of the type.
   template <typename Message>
   static Rule changed(std::function<void(Message&)> change) {
@@ -75,11 +78,13 @@ class Relay {
 
   devices::LcmBus server_;
   devices::LcmBus glove_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::mt19937 random_{7};
   Rule states_ = pass;
   Rule commands_ = pass;
+  glissade::glove_state_t last_state_{};
+  glissade::glove_command_t last_command_{};
   std::priority_queue<Delayed, std::vector<Delayed>, std::greater<>> delayed_;
   bool should_end_ = false;
   std::thread thread_;

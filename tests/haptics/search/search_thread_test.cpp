@@ -232,8 +232,9 @@ TEST(SearchThread, RunsAheadByNoMoreWorkThanItMay) {
 }
 
 TEST(SearchThread, EndsASearchInVainWhereItIs) {
+  constexpr std::int64_t kAhead = 20'000;
   const ContactScene scene = crowded_scene();
-  SearchThread thread;
+  SearchThread thread(kAhead);
   CandidateSearch search(scene, 5e-3, &thread);
   const CandidateRequest request{.X_WB = {scene.bodies().back().X_WB}, .range = {.radius = 5e-3}, .ignored = {}};
   CandidateSet found;
@@ -241,14 +242,38 @@ TEST(SearchThread, EndsASearchInVainWhereItIs) {
   EXPECT_TRUE(thread.wait());
   const std::size_t pairs = found.pairs.size();
   const std::int64_t work = thread.work();
+  EXPECT_GT(work, 4 * kAhead) << "otherwise nothing is left to do below";
   EXPECT_FALSE(thread.cancel()) << "it was done";
   thread.begin(search, request, found);
+  wait_for_more_work(thread, kAhead);  // it goes on only as far as this
   EXPECT_TRUE(thread.cancel());
   EXPECT_LT(thread.work(), work / 2);
   search.start_afresh();
   thread.begin(search, request, found);
   EXPECT_TRUE(thread.wait());
   EXPECT_EQ(found.pairs.size(), pairs);
+}
+
+TEST(SearchThread, EndsASearchThatRuns) {
+  const ContactScene scene = crowded_scene();
+  SearchThread thread;
+  CandidateSearch search(scene, 5e-3, &thread);
+  const CandidateRequest request{.X_WB = {scene.bodies().back().X_WB}, .range = {.radius = 5e-3}, .ignored = {}};
+  CandidateSet found;
+  thread.begin(search, request, found);
+  EXPECT_TRUE(thread.wait());
+  const std::int64_t work = thread.work();
+  // Any thread may wait for a processor; then the search may be done before it is cancelled.
+  const auto ends_early = [&] {
+    thread.begin(search, request, found);
+    const bool is_early = thread.cancel();
+    if (is_early) search.start_afresh();
+    return is_early && thread.work() < work / 2;
+  };
+  int attempts = 1;
+  while (!ends_early() && attempts < 100)
+    ++attempts;
+  EXPECT_LT(attempts, 100);
 }
 
 TEST(SearchThread, ForgetsTheFailureOfASearchInVain) {
