@@ -310,12 +310,6 @@ TEST(CandidatePairs, AreAllTrianglesWhereVeryManyWereNear) {
   EXPECT_GT(candidates.pairs().pair_count(), 5000U);
 }
 
-/// As limited: of triangles and of boxes.
-std::size_t pairs_held(const CandidatePairs& candidates) {
-  const CandidateSet& set = candidates.pairs().search().set;
-  return set.pairs.size() + set.boxes.size();
-}
-
 TEST(CandidatePairs, StayWhereASearchFindsTooMany) {
   constexpr double kRadius = 0.11e-3;
   constexpr double kLarger = 0.3e-3;
@@ -325,7 +319,7 @@ TEST(CandidatePairs, StayWhereASearchFindsTooMany) {
   const auto pairs_within_radius = [&](double radius) {
     CandidatePairs candidates(ball_in_socket, kGreatest);
     candidates.look(radius, 0.0, {});
-    return pairs_held(candidates);
+    return candidates.pairs().search().set.count();
   };
   const std::size_t few = pairs_within_radius(kRadius);
   const std::size_t most_pairs = 2 * pairs_within_radius(kTooLarge) / 3;
@@ -336,18 +330,36 @@ TEST(CandidatePairs, StayWhereASearchFindsTooMany) {
     EXPECT_FALSE(candidates.look(kTooLarge, 0.0, {}));
     EXPECT_TRUE(candidates.found_too_many());
     EXPECT_TRUE(candidates.is_too_large());
-    EXPECT_EQ(pairs_held(candidates), few);
+    EXPECT_EQ(candidates.pairs().search().set.count(), few);
     EXPECT_NEAR(candidates.covered(), kRadius, 1e-9);
     candidates.cancel();
     EXPECT_TRUE(candidates.look(kLarger, 0.0, {}));
     EXPECT_FALSE(candidates.is_too_large());
-    EXPECT_GT(pairs_held(candidates), few);
+    EXPECT_GT(candidates.pairs().search().set.count(), few);
     EXPECT_FALSE(candidates.are_many());
     EXPECT_FALSE(candidates.look(kTooLarge, 0.0, {}));
     candidates.allow_twice_as_many();
     EXPECT_TRUE(candidates.look(kTooLarge, 0.0, {}));
     EXPECT_TRUE(candidates.are_many());
   }
+}
+
+TEST(CandidatePairs, AreManyIfMoreThanHalfAsManyAsAllowed) {
+  constexpr double kRadius = 0.3e-3;
+  ContactScene ball_in_socket({test_support::obstacle_of(geometry::make_sphere(0.0101, 4000))},
+                              {test_support::part_of(geometry::make_sphere(0.01, 4000))}, std::vector<double>{1e-6});
+  CandidatePairs candidates(ball_in_socket, kGreatest);
+  candidates.look(kRadius, 0.0, {});
+  const CandidateSet& set = candidates.pairs().search().set;
+  ASSERT_GT(set.pairs.size(), 2U);
+  ASSERT_GT(set.boxes.size(), 2U);
+  const auto are_many = [&](std::size_t most_pairs) {
+    CandidatePairs limited(ball_in_socket, kGreatest, false, kUnlimitedWork, true, most_pairs);
+    limited.look(kRadius, 0.0, {});
+    return limited.are_many();
+  };
+  EXPECT_TRUE(are_many(2 * set.count() - 2));
+  EXPECT_FALSE(are_many(2 * set.count()));
 }
 
 // The planes of a search that finds very many pairs are made to last for the step in which its answer is first needed.
